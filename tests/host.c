@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "host.h"
 
-#include "../core/engine/value/tables.h"
-#include "../core/engine/value/unit.h"
+#include <flankfilm/engine.h>
 
 #include <ctype.h>
 #include <dlfcn.h>
@@ -50,7 +49,7 @@ struct stage {
     uint64_t wanted; /* by the last evaluate */
     int stop_at, progress_calls;
     char why[1024], why_item[128];
-    fe_tables tables;
+    ff_tables tables;
 };
 
 static void die(const char *format, ...)
@@ -157,7 +156,7 @@ static ff_status tell_table(stage *s, ff_status status)
         die("%s: a table that cannot be, or that it has not read", s->model->id);
     if (status == FF_OK)
         return status;
-    fe_tables_print(&s->tables, why, sizeof why);
+    ff_tables_print(&s->tables, why, sizeof why);
     return host_fail(s, status, s->tables.item, why);
 }
 
@@ -165,14 +164,14 @@ static ff_status table_read(void *ctx, const char *item, const char *path, const
                             size_t count, size_t stride, const ff_table **table)
 {
     stage *s = ctx;
-    return tell_table(s, fe_tables_read(&s->tables, item, path, rows, count, stride, table));
+    return tell_table(s, ff_tables_read(&s->tables, item, path, rows, count, stride, table));
 }
 
 static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t column,
                             const char *text)
 {
     stage *s = ctx;
-    return tell_table(s, fe_tables_fail(&s->tables, table, row, column, text));
+    return tell_table(s, ff_tables_fail(&s->tables, table, row, column, text));
 }
 
 static const void *host_extension(void *ctx, const char *id)
@@ -249,7 +248,7 @@ void stage_close(stage *s)
         return;
     if (s->model->destroy)
         s->model->destroy(s->self);
-    fe_tables_free(&s->tables);
+    ff_tables_free(&s->tables);
     for (size_t i = 0; i < MAX_ROWS; i++) {
         free(s->settings[i].text);
         free(s->settings[i].reals);
@@ -311,11 +310,11 @@ static int choice_rank(const char *choices, const char *word)
 
 static double quantity(const stage *s, const ff_param *row, const char *text)
 {
-    fe_unit unit;
+    ff_unit unit;
     char why[256];
     double si = 0;
-    if (!fe_unit_parse(row->unit, &unit, why, sizeof why) ||
-        !fe_quantity_parse(text, &unit, row->unit, &si, why, sizeof why))
+    if (!ff_unit_parse(row->unit, &unit, why, sizeof why) ||
+        !ff_quantity_parse(text, &unit, row->unit, &si, why, sizeof why))
         die("%s.%s = %s: %s", s->model->id, row->name, text, why);
     return si;
 }

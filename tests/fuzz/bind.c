@@ -1,29 +1,29 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Binding: a document becomes a pipeline of the toy models of tests/bad, and runs if it is legal.
  */
-#include "fuzz.h"
+#include <flankfilm/engine.h>
 
-#include "../../core/engine/pipeline/pipeline.h"
+#include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static fe_library *library; /* models stay loaded */
+    static ff_library *library; /* models stay loaded */
     const char *toys = getenv("FLANKFILM_FUZZ_TOYS");
     must(toys != NULL);
     if (!library)
-        library = fe_library_new(&toys, 1);
+        library = ff_library_new(&toys, 1);
     char *text = fuzz_text(data, size);
-    fe_report *report = fe_report_new();
-    fe_tree *tree = fe_tree_parse("fuzz.yaml", "/nonexistent", text, report);
-    fe_pipeline *pipeline = fe_pipeline_build(tree, library, size % 2, report);
-    if (pipeline && fe_report_errors(report) == 0)
-        must(fe_pipeline_run(pipeline, NULL, report) == (fe_report_errors(report) == 0));
+    ff_report *report = ff_report_new();
+    ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
+    ff_pipeline *pipeline = ff_pipeline_build(tree, library, size % 2, report);
+    if (pipeline && ff_report_errors(report) == 0)
+        must(ff_pipeline_run(pipeline, NULL, report) == (ff_report_errors(report) == 0));
     else
-        must(fe_report_errors(report) > 0);
+        must(ff_report_errors(report) > 0);
     fuzz_print(report);
-    fe_pipeline_free(pipeline);
-    fe_report_free(report);
-    fe_tree_free(tree);
+    ff_pipeline_free(pipeline);
+    ff_report_free(report);
+    ff_tree_free(tree);
     free(text);
     return 0;
 }

@@ -4,9 +4,10 @@
  * check, and what passes can be described and given values. Structs and strings lie in memory of
  * their exact size, so that a sanitizer sees a read past what they state.
  */
+#include <flankfilm/engine.h>
+
 #include "fuzz.h"
 
-#include "../../core/engine/plugin/param.h"
 #include "../../core/engine/plugin/private.h"
 
 #include <math.h>
@@ -188,25 +189,25 @@ static const ff_model *make(maker *m)
 }
 
 /* The rest of the input, as a list of what a user writes for the parameters in turn. */
-static void give_values(const fe_loaded *loaded, maker *m)
+static void give_values(const ff_loaded *loaded, maker *m)
 {
     char *rest = fuzz_text(m->at, (size_t)(m->end - m->at));
-    fe_report *report = fe_report_new();
-    fe_tree *tree = fe_tree_parse("values", "/nonexistent", rest, report);
-    const fe_node *root = fe_tree_root(tree);
+    ff_report *report = ff_report_new();
+    ff_tree *tree = ff_tree_parse("values", "/nonexistent", rest, report);
+    const ff_node *root = ff_tree_root(tree);
     size_t params = loaded->model->param_count;
     for (size_t i = 0; params && root && i < root->count; i++) {
         const ff_param *row = ff_model_param(loaded->model, i % params);
-        const fe_unit *unit = &loaded->param_units[i % params];
+        const ff_unit *unit = &loaded->param_units[i % params];
         ff_value value;
-        if (fe_param_read(row, unit, row->name, root->items[i], &value, report)) {
+        if (ff_param_read(row, unit, row->name, root->items[i], &value, report)) {
             must(isfinite(value.real));
-            fe_value_clear(&value);
+            ff_value_clear(&value);
         }
     }
     fuzz_print(report);
-    fe_report_free(report);
-    fe_tree_free(tree);
+    ff_report_free(report);
+    ff_tree_free(tree);
     free(rest);
 }
 
@@ -216,7 +217,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     fe_arena memory = {NULL};
     char why[1024] = "";
     m = (maker){.at = data, .end = data + size};
-    fe_loaded loaded = {.model = make(&m), .path = "fuzz.so"};
+    ff_loaded loaded = {.model = make(&m), .path = "fuzz.so"};
     if (fe_model_check(&loaded, "kind/model", &memory, why, sizeof why))
         give_values(&loaded, &m);
     else

@@ -4,7 +4,7 @@
 #ifndef FUZZ_H
 #define FUZZ_H
 
-#include "../../core/engine/value/report.h"
+#include <flankfilm/engine.h>
 
 #include <stddef.h>
 #include <stdint.h>
@@ -32,13 +32,13 @@ static inline char *fuzz_text(const uint8_t *data, size_t size)
 }
 
 /* Printing walks the places of all messages. */
-static inline void fuzz_print(const fe_report *report)
+static inline void fuzz_print(const ff_report *report)
 {
     static FILE *nowhere;
     if (!nowhere)
         nowhere = fopen("/dev/null", "w");
-    if (nowhere && fe_report_count(report))
-        fe_report_print(report, nowhere, false);
+    if (nowhere && ff_report_count(report))
+        ff_report_print(report, nowhere, false);
 }
 
 #endif

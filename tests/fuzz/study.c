@@ -1,36 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Studies: a document with `study:`, and some of its cases laid over the toy models of tests/bad.
  */
+#include <flankfilm/engine.h>
+
 #include "fuzz.h"
 
-#include "../../core/engine/pipeline/pipeline.h"
 #include "../../core/program/study/study.h"
 
-static void lay(const study_definition *study, size_t index, const char *text, fe_library *library)
+static void lay(const study_definition *study, size_t index, const char *text, ff_library *library)
 {
-    fe_report *report = fe_report_new();
-    fe_tree *tree = fe_tree_parse("fuzz.yaml", "/nonexistent", text, report);
+    ff_report *report = ff_report_new();
+    ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
     study_overlay(study, index, NULL, 0, tree, report);
-    fe_pipeline_free(fe_pipeline_build(tree, library, true, report));
+    ff_pipeline_free(ff_pipeline_build(tree, library, true, report));
     fuzz_print(report);
-    fe_report_free(report);
-    fe_tree_free(tree);
+    ff_report_free(report);
+    ff_tree_free(tree);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static fe_library *library; /* models stay loaded */
+    static ff_library *library; /* models stay loaded */
     const char *toys = getenv("FLANKFILM_FUZZ_TOYS");
     must(toys != NULL);
     if (!library)
-        library = fe_library_new(&toys, 1);
+        library = ff_library_new(&toys, 1);
     char *text = fuzz_text(data, size);
-    fe_report *report = fe_report_new();
-    fe_tree *tree = fe_tree_parse("fuzz.yaml", "/nonexistent", text, report);
-    const fe_node *node = fe_node_get(fe_tree_root(tree), "study");
+    ff_report *report = ff_report_new();
+    ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
+    const ff_node *node = ff_node_get(ff_tree_root(tree), "study");
     study_definition *study = node ? study_read(node, report) : NULL;
-    bool good = study && fe_report_errors(report) == 0;
-    must(!node || good || fe_report_errors(report) > 0);
+    bool good = study && ff_report_errors(report) == 0;
+    must(!node || good || ff_report_errors(report) > 0);
     size_t chains = good ? study_chains(study) : 0;
     must(!good || chains * study_chain_length(study) == study->count);
     for (size_t i = 0; i < chains && i < 3; i++) {
@@ -40,8 +41,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     fuzz_print(report);
     study_free(study);
-    fe_report_free(report);
-    fe_tree_free(tree);
+    ff_report_free(report);
+    ff_tree_free(tree);
     free(text);
     return 0;
 }

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The reader of tables. What is accepted is finite, inside its limits, and stands where it is said
    to stand. */
-#include "fuzz.h"
+#include <flankfilm/engine.h>
 
-#include "../../core/engine/value/columns.h"
+#include "fuzz.h"
 
 #include <math.h>
 #include <sys/mman.h>
@@ -35,10 +35,10 @@ static const ff_param rows[] = {
 };
 enum { TIME, ANGLE, LENGTH, GEAR, COLUMNS };
 
-static void check_cell(const fe_columns *c, size_t row, size_t column)
+static void check_cell(const ff_columns *c, size_t row, size_t column)
 {
     double value = c->table.columns[column][row];
-    fe_place place = fe_columns_place(c, row, column);
+    ff_place place = ff_columns_place(c, row, column);
     must(isfinite(value));
     must(place.line == c->table.lines[row] && place.column >= 1 && place.width >= 1);
     must(column != TIME || row == 0 || value >= c->table.columns[TIME][row - 1]);
@@ -52,19 +52,19 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     int file = memfd_create("table", 0);
     must(file >= 0 && (!size || write(file, data, size) == (ssize_t)size));
     snprintf(path, sizeof path, "/proc/self/fd/%d", file);
-    fe_report *report = fe_report_new();
-    fe_columns c;
-    bool good = fe_columns_read(&c, path, rows, COLUMNS, sizeof *rows, report);
+    ff_report *report = ff_report_new();
+    ff_columns c;
+    bool good = ff_columns_read(&c, path, rows, COLUMNS, sizeof *rows, report);
     close(file);
-    must(good == (fe_report_errors(report) == 0));
+    must(good == (ff_report_errors(report) == 0));
     must(!good || (c.table.row_count > 0 && c.table.columns[TIME]));
     for (size_t k = 0; good && k < COLUMNS; k++)
         for (size_t i = 0; c.values[k] && i < c.rows; i++)
             check_cell(&c, i, k);
     for (size_t i = 0; i < COLUMNS + 2; i++) /* whatever was read so far */
-        fe_columns_place(&c, c.rows - i, i);
-    fe_columns_free(&c);
+        ff_columns_place(&c, c.rows - i, i);
+    ff_columns_free(&c);
     fuzz_print(report);
-    fe_report_free(report);
+    ff_report_free(report);
     return 0;
 }

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* The arrays that a stage takes and gives: their dimensions agree, and their numbers are finite. */
 #include "build.h"
 
@@ -17,8 +17,8 @@ typedef struct lengths {
 } lengths;
 
 /* Records the lengths of one array; false, with a clause in why, when a dimension has two. */
-static bool enter_lengths(lengths *all, const char *row, const fe_dims *dims,
-                          const fe_result *given, char *why, size_t why_size)
+static bool enter_lengths(lengths *all, const char *row, const ff_dims *dims,
+                          const ff_result *given, char *why, size_t why_size)
 {
     for (uint32_t i = 0; i < given->rank; i++) {
         const char *dim = dims->name[i + dims->rank - given->rank];
@@ -41,26 +41,26 @@ static bool enter_lengths(lengths *all, const char *row, const fe_dims *dims,
     return true;
 }
 
-static bool check_input(const fe_pipeline *pipeline, const fe_stage *stage, size_t input,
-                        const fe_result *given, lengths *all, fe_report *report)
+static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size_t input,
+                        const ff_result *given, lengths *all, ff_report *report)
 {
     const ff_port *row = ff_model_input(stage->loaded->model, input);
-    const fe_dims *dims = &stage->loaded->input_dims[input];
-    const fe_wire *wire = fe_input_wire(stage, input);
+    const ff_dims *dims = &stage->loaded->input_dims[input];
+    const ff_wire *wire = fe_input_wire(stage, input);
     char why[256];
     if (given->rank > dims->rank || given->rank + dims->first_optional < dims->rank)
-        return fe_error(report, FE_EXIT_INPUT, wire->place, NULL,
+        return ff_error(report, FF_FAULT_INPUT, wire->place, NULL,
                         "%s.%s: %s gives \"%s\" with %u dimensions, but %s takes it along \"%s\"",
                         stage->name, row->name, pipeline->stages[wire->stage].name,
                         given->row->name, given->rank, stage->use, row->dims);
     return enter_lengths(all, row->name, dims, given, why, sizeof why) ||
-           fe_error(report, FE_EXIT_INPUT, wire->place,
+           ff_error(report, FF_FAULT_INPUT, wire->place,
                     "the stages that feed these wires must belong together", "%s.%s: %s",
                     stage->name, wire->name, why);
 }
 
-bool fe_gather_inputs(const fe_pipeline *pipeline, const fe_stage *stage, ff_array *in,
-                      fe_report *report)
+bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
+                      ff_report *report)
 {
     lengths all = {.count = 0};
     bool good = true;
@@ -68,7 +68,7 @@ bool fe_gather_inputs(const fe_pipeline *pipeline, const fe_stage *stage, ff_arr
         if (stage->wires[i].stage >= 0 && !pipeline->stages[stage->wires[i].stage].ran)
             return false;
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
-        const fe_result *given = fe_feeding_result(pipeline, stage, i);
+        const ff_result *given = ff_feeding_result(pipeline, stage, i);
         if (!given || !given->data)
             continue;
         good = check_input(pipeline, stage, i, given, &all, report) && good;
@@ -79,9 +79,9 @@ bool fe_gather_inputs(const fe_pipeline *pipeline, const fe_stage *stage, ff_arr
 }
 
 /* Whether an output cannot be used; `why` completes 'the plugin ...'. */
-static bool is_faulty(const fe_stage *stage, size_t output, lengths *all, char *why, size_t size)
+static bool is_faulty(const ff_stage *stage, size_t output, lengths *all, char *why, size_t size)
 {
-    const fe_result *result = &stage->results[output];
+    const ff_result *result = &stage->results[output];
     const char *name = result->row->name;
     char clash[256];
     if (!result->data) {
@@ -103,7 +103,7 @@ static bool is_faulty(const fe_stage *stage, size_t output, lengths *all, char *
     return false;
 }
 
-bool fe_check_results(const fe_stage *stage, fe_report *report)
+bool fe_check_results(const ff_stage *stage, ff_report *report)
 {
     lengths all = {.count = 0};
     char why[320];

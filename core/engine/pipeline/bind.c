@@ -1,8 +1,8 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Reads the parameters of a stage from the file, by the table of its model. */
-#include "build.h"
+#include <flankfilm/engine.h>
 
-#include "../plugin/param.h"
+#include "build.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,8 +11,8 @@
 /* The table of one model and the settings of one stage. */
 typedef struct binding {
     fe_build *b;
-    fe_stage *stage;
-    const fe_loaded *loaded;
+    ff_stage *stage;
+    const ff_loaded *loaded;
     const char *id;
     bool chosen; /* it is the stage's model; else another one under `with` */
     fe_setting *settings;
@@ -59,20 +59,20 @@ static const char *nearest_key(binding *k, const char *path)
 /* Another model under `with` that has this parameter, or NULL. */
 static const char *other_owner(const binding *k, const char *path)
 {
-    const fe_node *with = fe_node_get(k->stage->node, "with");
+    const ff_node *with = ff_node_get(k->stage->node, "with");
     const char *owner = NULL;
-    fe_report *captured = fe_report_new();
-    for (size_t i = 0; with && with->kind == FE_MAP && i < with->count && !owner; i++) {
-        const fe_loaded *other =
-            fe_library_load(k->b->library, with->keys[i], FE_NOWHERE, captured);
+    ff_report *captured = ff_report_new();
+    for (size_t i = 0; with && with->kind == FF_MAP && i < with->count && !owner; i++) {
+        const ff_loaded *other =
+            ff_library_load(k->b->library, with->keys[i], FF_NOWHERE, captured);
         if (other && other != k->loaded && ff_model_find_param(other->model, path) >= 0)
             owner = with->keys[i];
     }
-    fe_report_free(captured);
+    ff_report_free(captured);
     return owner;
 }
 
-static void refuse_key(binding *k, const char *path, fe_place place)
+static void refuse_key(binding *k, const char *path, ff_place place)
 {
     const char *owner = other_owner(k, path), *hint = NULL, *advice = "";
     if (ff_model_find_param(k->loaded->model, path) >= 0)
@@ -85,18 +85,18 @@ static void refuse_key(binding *k, const char *path, fe_place place)
                                  owner, path);
     else
         advice = nearest_key(k, path);
-    fe_error(k->b->report, FE_EXIT_INPUT, place, hint, "%s: unknown key \"%.80s\"%s%s%s",
+    ff_error(k->b->report, FF_FAULT_INPUT, place, hint, "%s: unknown key \"%.80s\"%s%s%s",
              k->stage->name, path, *advice ? "" : " for ", *advice ? "" : k->id, advice);
 }
 
 /* `prefix` is "" or "atlas."; `own`: the map is the stage's own, which has `use` and `with`, too. A
    key with a dot is refused, since a dot stands for a map within a map. */
-static void check_keys(binding *k, const fe_node *map, const char *prefix, bool own)
+static void check_keys(binding *k, const ff_node *map, const char *prefix, bool own)
 {
     const ff_model *model = k->loaded->model;
     for (size_t i = 0; i < map->count; i++) {
         const char *key = map->keys[i];
-        const fe_node *value = map->items[i];
+        const ff_node *value = map->items[i];
         const char *path = fe_pipeline_print(k->b->pipeline, "%s%s", prefix, key);
         bool plain = !strchr(key, '.');
         if (!strncmp(key, "x-", 2) || (own && (!strcmp(key, "use") || !strcmp(key, "with"))))
@@ -105,7 +105,7 @@ static void check_keys(binding *k, const fe_node *map, const char *prefix, bool 
             continue;
         if (!plain || !is_map(model, path))
             refuse_key(k, path, map->key_places[i]);
-        else if (value->kind != FE_MAP)
+        else if (value->kind != FF_MAP)
             fe_expected(k->b, value,
                         fe_pipeline_print(k->b->pipeline, "%s.%s", k->stage->name, path), "a map");
         else
@@ -140,7 +140,7 @@ static void settle_group(binding *k, const ff_param *row)
         if (setting->priority < latest)
             setting->node = NULL;
         if (setting->node && given)
-            fe_error(k->b->report, FE_EXIT_INPUT, setting->node->place, NULL,
+            ff_error(k->b->report, FF_FAULT_INPUT, setting->node->place, NULL,
                      "%s: only one of \"%s\" and \"%s\" may be given", k->stage->name, given,
                      member->name);
         else if (setting->node)
@@ -149,7 +149,7 @@ static void settle_group(binding *k, const ff_param *row)
     for (size_t i = 0; given && i < model->param_count; i++)
         k->settings[i].displaced |= same_group(row, ff_model_param(model, i));
     if (required && !preset && !given)
-        fe_error(k->b->report, FE_EXIT_INPUT, k->stage->place, NULL,
+        ff_error(k->b->report, FF_FAULT_INPUT, k->stage->place, NULL,
                  "%s (%s): one of %s must be given", k->stage->name, k->id, names);
 }
 
@@ -164,25 +164,25 @@ static void settle_row(binding *k, size_t index)
     if (row->group || !(row->flags & FF_REQUIRED) || k->settings[index].node)
         return;
     char wanted[640];
-    fe_param_expectation(row, wanted, sizeof wanted);
-    fe_error(k->b->report, FE_EXIT_INPUT, k->stage->place,
+    ff_param_expectation(row, wanted, sizeof wanted);
+    ff_error(k->b->report, FF_FAULT_INPUT, k->stage->place,
              fe_pipeline_print(k->b->pipeline, "%s: %s", row->name, wanted),
              "%s (%s): \"%s\" is missing: %s", k->stage->name, k->id, row->name, row->doc);
 }
 
-static fe_bound bind_row(binding *k, size_t index)
+static ff_bound bind_row(binding *k, size_t index)
 {
     const ff_param *row = ff_model_param(k->loaded->model, index);
-    const fe_unit *unit = &k->loaded->param_units[index];
-    const fe_node *node = k->settings[index].node;
-    fe_bound bound = {.row = row};
+    const ff_unit *unit = &k->loaded->param_units[index];
+    const ff_node *node = k->settings[index].node;
+    ff_bound bound = {.row = row};
     char name[192];
     snprintf(name, sizeof name, "%s.%s", k->stage->name, row->name);
     if (node) {
         bound.place = node->place;
-        bound.present = fe_param_read(row, unit, name, node, &bound.value, k->b->report);
+        bound.present = ff_param_read(row, unit, name, node, &bound.value, k->b->report);
     } else if (row->preset && !k->settings[index].displaced) {
-        bound.present = fe_param_read_preset(row, unit, name, &bound.value, k->b->report);
+        bound.present = ff_param_read_preset(row, unit, name, &bound.value, k->b->report);
     }
     return bound;
 }
@@ -192,11 +192,11 @@ static fe_bound bind_row(binding *k, size_t index)
 static void bind_model(binding *k)
 {
     const ff_model *model = k->loaded->model;
-    const fe_node *set = fe_model_set(k->stage, k->id);
+    const ff_node *set = fe_model_set(k->stage, k->id);
     k->settings = fe_alloc(model->param_count * sizeof *k->settings);
     if (k->chosen && !k->stage->instance->candidate) /* its stage has checked them */
         check_keys(k, k->stage->node, "", true);
-    if (set && set->kind == FE_MAP)
+    if (set && set->kind == FF_MAP)
         check_keys(k, set, "", false);
     for (size_t i = 0; i < model->param_count; i++)
         k->settings[i] = fe_find_setting(k->stage, k->id, ff_model_param(model, i)->name);
@@ -206,44 +206,44 @@ static void bind_model(binding *k)
         if (k->chosen) {
             k->stage->params[i] = bind_row(k, i);
         } else if ((k->settings[i].node = fe_find_node(set, ff_model_param(model, i)->name))) {
-            fe_bound unused = bind_row(k, i);
-            fe_value_clear(&unused.value);
+            ff_bound unused = bind_row(k, i);
+            ff_value_clear(&unused.value);
         }
     }
     fe_free(k->settings);
 }
 
 /* Checks the form of `with` and, when everything is checked, the sets of the other models. */
-static void check_sets(fe_build *b, fe_stage *stage)
+static void check_sets(fe_build *b, ff_stage *stage)
 {
-    const fe_node *with = fe_node_get(stage->node, "with");
-    if (with && with->kind != FE_MAP)
+    const ff_node *with = ff_node_get(stage->node, "with");
+    if (with && with->kind != FF_MAP)
         fe_expected(b, with, fe_pipeline_print(b->pipeline, "%s.with", stage->name),
                     "a map from models to their parameters");
-    for (size_t i = 0; with && with->kind == FE_MAP && i < with->count; i++) {
+    for (size_t i = 0; with && with->kind == FF_MAP && i < with->count; i++) {
         const char *id = with->keys[i];
         if (!strncmp(id, "x-", 2))
             continue;
-        if (with->items[i]->kind != FE_MAP) {
+        if (with->items[i]->kind != FF_MAP) {
             fe_expected(b, with->items[i],
                         fe_pipeline_print(b->pipeline, "%s.with.%s", stage->name, id),
                         "a map of parameters");
         } else if (b->everything && strcmp(id, stage->use) != 0) {
             binding k = {.b = b, .stage = stage, .id = id};
-            k.loaded = fe_library_load(b->library, id, with->key_places[i], b->report);
+            k.loaded = ff_library_load(b->library, id, with->key_places[i], b->report);
             if (k.loaded)
                 bind_model(&k);
         }
     }
 }
 
-void fe_bind_stage(fe_build *b, fe_stage *stage)
+void fe_bind_stage(fe_build *b, ff_stage *stage)
 {
-    size_t count = stage->loaded->model->param_count, errors = fe_report_errors(b->report);
+    size_t count = stage->loaded->model->param_count, errors = ff_report_errors(b->report);
     binding k = {.b = b, .stage = stage, .loaded = stage->loaded, .id = stage->use, .chosen = true};
     stage->params = fe_arena_alloc(&b->pipeline->memory->arena, count * sizeof *stage->params);
     bind_model(&k);
-    if (fe_report_errors(b->report) > errors)
+    if (ff_report_errors(b->report) > errors)
         stage->instance->broken = true;
     if (!stage->instance->candidate)
         check_sets(b, stage);

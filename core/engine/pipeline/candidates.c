@@ -1,29 +1,29 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /*
  * Stages that choose their model. Such a stage stands in the file, and in the graph, as one with
  * the parameters, inputs and outputs of all its candidates, by name; each candidate is a stage of
  * its own beside it, that is linked, bound and opened like any other. A candidate that cannot be
  * is left out with its reason; what the file says wrongly of one stays an error.
  */
-#include "build.h"
+#include <flankfilm/engine.h>
 
-#include "../plugin/param.h"
+#include "build.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static void hand_on(const fe_message *m, fe_report *report)
+static void hand_on(const ff_message *m, ff_report *report)
 {
-    if (m->severity == FE_ERROR)
-        fe_error(report, m->exit_code, m->place, m->hint, "%s", m->text);
+    if (m->severity == FF_ERROR)
+        ff_error(report, m->fault, m->place, m->hint, "%s", m->text);
     else
-        fe_warn(report, m->place, "%s", m->text);
+        ff_warn(report, m->place, "%s", m->text);
 }
 
 /* Whether a candidate is left. When there is none, `why` (or NULL) is reported. */
-static bool some_fit(fe_build *b, fe_stage *stage, const fe_message *why)
+static bool some_fit(fe_build *b, ff_stage *stage, const ff_message *why)
 {
-    const fe_choice *choice = stage->choice;
+    const ff_choice *choice = stage->choice;
     for (size_t i = 0; i < choice->count; i++)
         if (choice->candidates[i].fits)
             return true;
@@ -34,10 +34,10 @@ static bool some_fit(fe_build *b, fe_stage *stage, const fe_message *why)
 }
 
 /* Adds the wires of a candidate, so that all stages that feed it run first. */
-static void add_wires(fe_stage *stage, const fe_candidate *c)
+static void add_wires(ff_stage *stage, const ff_candidate *c)
 {
     for (size_t i = 0; i < c->stage->wire_count; i++) {
-        fe_wire wire = c->stage->wires[i];
+        ff_wire wire = c->stage->wires[i];
         size_t k = 0;
         if (!c->fits)
             wire.stage = -1;
@@ -51,35 +51,35 @@ static void add_wires(fe_stage *stage, const fe_candidate *c)
     }
 }
 
-static void link_candidates(fe_build *b, fe_stage *stage)
+static void link_candidates(fe_build *b, ff_stage *stage)
 {
-    fe_choice *choice = stage->choice;
+    ff_choice *choice = stage->choice;
     size_t most = 1;
-    fe_report **captured = fe_alloc(choice->count * sizeof(fe_report *)), *first = NULL;
+    ff_report **captured = fe_alloc(choice->count * sizeof(ff_report *)), *first = NULL;
     for (size_t i = 0; i < choice->count; i++) {
-        fe_candidate *c = &choice->candidates[i];
+        ff_candidate *c = &choice->candidates[i];
         fe_build capturing = *b;
-        capturing.report = captured[i] = fe_report_new();
+        capturing.report = captured[i] = ff_report_new();
         if (!c->fits)
             continue;
         fe_link_stage(&capturing, c->stage);
         most += c->stage->wire_count;
         if (!c->stage->instance->broken)
             continue;
-        const fe_message *why = fe_report_first(captured[i]);
+        const ff_message *why = ff_report_first(captured[i]);
         first = first ? first : captured[i];
         fe_leave_out(b->pipeline, c, why ? why->text : "its wires cannot be connected");
     }
     stage->wires = fe_arena_alloc(&b->pipeline->memory->arena, most * sizeof *stage->wires);
     for (size_t i = 0; i < choice->count; i++)
         add_wires(stage, &choice->candidates[i]);
-    some_fit(b, stage, first ? fe_report_first(first) : NULL);
+    some_fit(b, stage, first ? ff_report_first(first) : NULL);
     for (size_t i = 0; i < choice->count; i++)
-        fe_report_free(captured[i]);
+        ff_report_free(captured[i]);
     fe_free(captured);
 }
 
-void fe_link_from(fe_build *b, fe_stage *stage)
+void fe_link_from(fe_build *b, ff_stage *stage)
 {
     if (stage->wires || !fe_load_stage(b, stage))
         return;
@@ -92,22 +92,22 @@ void fe_link_from(fe_build *b, fe_stage *stage)
             fe_link_from(b, &b->pipeline->stages[stage->wires[i].stage]);
 }
 
-static bool is_about_stage(const fe_message *m, const fe_stage *stage)
+static bool is_about_stage(const ff_message *m, const ff_stage *stage)
 {
     return m->place.source == stage->place.source && m->place.line == stage->place.line &&
            m->place.column == stage->place.column;
 }
 
 /* A missing parameter leaves the candidate out; a wrong one in the file is an error. */
-static const fe_message *bind_candidate(fe_build *b, fe_candidate *c, fe_report *captured)
+static const ff_message *bind_candidate(fe_build *b, ff_candidate *c, ff_report *captured)
 {
     fe_build capturing = *b;
-    const fe_message *missing = NULL;
+    const ff_message *missing = NULL;
     capturing.report = captured;
     fe_bind_stage(&capturing, c->stage);
-    for (size_t i = 0; i < fe_report_count(captured); i++) {
-        const fe_message *m = fe_report_at(captured, i);
-        if (m->severity == FE_ERROR && is_about_stage(m, c->stage))
+    for (size_t i = 0; i < ff_report_count(captured); i++) {
+        const ff_message *m = ff_report_at(captured, i);
+        if (m->severity == FF_ERROR && is_about_stage(m, c->stage))
             missing = missing ? missing : m;
         else
             hand_on(m, b->report);
@@ -118,12 +118,12 @@ static const fe_message *bind_candidate(fe_build *b, fe_candidate *c, fe_report 
 }
 
 /* Leaves out all but the model that `only` names. */
-static void keep_only(fe_build *b, fe_stage *stage)
+static void keep_only(fe_build *b, ff_stage *stage)
 {
-    const fe_bound *only = &stage->params[FE_ONLY];
-    fe_choice *choice = stage->choice;
+    const ff_bound *only = &stage->params[FE_ONLY];
+    ff_choice *choice = stage->choice;
     const char **names = fe_alloc((choice->count + 1) * sizeof *names);
-    const fe_candidate *found = NULL;
+    const ff_candidate *found = NULL;
     for (size_t i = 0; i < choice->count; i++) {
         names[i] = choice->candidates[i].stage->use;
         if (!strcmp(names[i], only->value.text))
@@ -131,8 +131,8 @@ static void keep_only(fe_build *b, fe_stage *stage)
     }
     if (!found || !found->fits) {
         stage->instance->broken = true;
-        fe_error(
-            b->report, FE_EXIT_INPUT, only->place, NULL, "%s.only: %s cannot choose \"%.80s\"%s%s",
+        ff_error(
+            b->report, FF_FAULT_INPUT, only->place, NULL, "%s.only: %s cannot choose \"%.80s\"%s%s",
             stage->name, stage->use, only->value.text, found ? ": " : "",
             found ? found->reason : fe_did_you_mean(b, only->value.text, names, choice->count));
     }
@@ -143,7 +143,7 @@ static void keep_only(fe_build *b, fe_stage *stage)
 }
 
 /* Lets the model propose other values for its numerical settings than the file gives. */
-static void free_settings(fe_stage *stage)
+static void free_settings(ff_stage *stage)
 {
     for (size_t i = 0; i < stage->loaded->model->param_count; i++)
         if (stage->params[i].row->flags & FF_TUNABLE)
@@ -154,17 +154,17 @@ static void free_settings(fe_stage *stage)
    stay below twice the accuracy. */
 static const double share_of_law = 0.25;
 
-void fe_bind_candidates(fe_build *b, fe_stage *stage)
+void fe_bind_candidates(fe_build *b, ff_stage *stage)
 {
-    fe_choice *choice = stage->choice;
-    fe_bound *accuracy = &stage->params[FE_ACCURACY];
-    fe_report *captured = NULL;
-    const fe_message *missing = NULL;
+    ff_choice *choice = stage->choice;
+    ff_bound *accuracy = &stage->params[FE_ACCURACY];
+    ff_report *captured = NULL;
+    const ff_message *missing = NULL;
     bool shared = !accuracy->place.source;
     if (b->accuracy && shared) {
-        fe_value_clear(&accuracy->value);
+        ff_value_clear(&accuracy->value);
         accuracy->place = b->accuracy->place;
-        accuracy->present = fe_param_read(accuracy->row, &stage->loaded->param_units[FE_ACCURACY],
+        accuracy->present = ff_param_read(accuracy->row, &stage->loaded->param_units[FE_ACCURACY],
                                           "accuracy", b->accuracy, &accuracy->value, b->report);
     }
     stage->instance->broken = stage->instance->broken || !accuracy->present;
@@ -177,58 +177,58 @@ void fe_bind_candidates(fe_build *b, fe_stage *stage)
     for (size_t i = 0; i < choice->count && !stage->instance->broken; i++) {
         if (!choice->candidates[i].fits)
             continue;
-        fe_report *own = fe_report_new();
-        const fe_message *lacks = bind_candidate(b, &choice->candidates[i], own);
+        ff_report *own = ff_report_new();
+        const ff_message *lacks = bind_candidate(b, &choice->candidates[i], own);
         if (choice->refine && choice->candidates[i].fits)
             free_settings(choice->candidates[i].stage);
         if (lacks && !missing) {
-            fe_report_free(captured);
+            ff_report_free(captured);
             captured = own;
             missing = lacks;
         } else {
-            fe_report_free(own);
+            ff_report_free(own);
         }
     }
     some_fit(b, stage, missing);
-    fe_report_free(captured);
+    ff_report_free(captured);
 }
 
-void fe_open_candidates(fe_build *b, fe_stage *stage)
+void fe_open_candidates(fe_build *b, ff_stage *stage)
 {
-    fe_choice *choice = stage->choice;
-    fe_report *captured = NULL;
+    ff_choice *choice = stage->choice;
+    ff_report *captured = NULL;
     for (size_t i = 0; i < choice->count; i++) {
-        fe_candidate *c = &choice->candidates[i];
+        ff_candidate *c = &choice->candidates[i];
         fe_build capturing = *b;
         if (!c->fits)
             continue;
-        capturing.report = fe_report_new();
+        capturing.report = ff_report_new();
         fe_open_instance(&capturing, c->stage);
-        const fe_message *why = fe_report_first(capturing.report);
+        const ff_message *why = ff_report_first(capturing.report);
         if (!c->stage->instance->alive)
             fe_leave_out(b->pipeline, c, why ? why->text : "it cannot be set up");
-        for (size_t k = 0; c->fits && k < fe_report_count(capturing.report); k++)
-            hand_on(fe_report_at(capturing.report, k), b->report);
+        for (size_t k = 0; c->fits && k < ff_report_count(capturing.report); k++)
+            hand_on(ff_report_at(capturing.report, k), b->report);
         if (c->fits || captured) {
-            fe_report_free(capturing.report);
+            ff_report_free(capturing.report);
         } else {
             captured = capturing.report;
         }
     }
-    if (some_fit(b, stage, captured ? fe_report_first(captured) : NULL) && choice->serves)
+    if (some_fit(b, stage, captured ? ff_report_first(captured) : NULL) && choice->serves)
         fe_find_reference(b, stage);
     stage->instance->alive = !stage->instance->broken;
-    fe_report_free(captured);
+    ff_report_free(captured);
 }
 
-void fe_free_candidates(fe_stage *stage)
+void fe_free_candidates(ff_stage *stage)
 {
     for (size_t i = 0; stage->choice && i < stage->choice->count; i++) {
-        fe_stage *candidate = stage->choice->candidates[i].stage;
+        ff_stage *candidate = stage->choice->candidates[i].stage;
         if (!candidate->loaded)
             continue;
         for (size_t k = 0; candidate->params && k < candidate->loaded->model->param_count; k++)
-            fe_value_clear(&candidate->params[k].value);
+            ff_value_clear(&candidate->params[k].value);
         fe_forget_results(candidate);
     }
 }

@@ -1,26 +1,25 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /*
  * The choice of a model: each candidate looks at what feeds it and says how large an error it would
  * make, and at what cost; the cheapest one within the accuracy asked for becomes the stage's.
  */
-#include "build.h"
+#include <flankfilm/engine.h>
 
-#include "../plugin/clean.h"
-#include "../plugin/param.h"
+#include "build.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-static const fe_message *last_error(const fe_report *report)
+static const ff_message *last_error(const ff_report *report)
 {
-    for (size_t i = fe_report_count(report); i-- > 0;)
-        if (fe_report_at(report, i)->severity == FE_ERROR)
-            return fe_report_at(report, i);
+    for (size_t i = ff_report_count(report); i-- > 0;)
+        if (ff_report_at(report, i)->severity == FF_ERROR)
+            return ff_report_at(report, i);
     return NULL;
 }
 
-static char *print_proposals(fe_pipeline *pipeline, const ff_assessment *a)
+static char *print_proposals(ff_pipeline *pipeline, const ff_assessment *a)
 {
     char *text = fe_pipeline_print(pipeline, "%s", "");
     for (size_t i = 0; i < a->proposal_count; i++)
@@ -30,7 +29,7 @@ static char *print_proposals(fe_pipeline *pipeline, const ff_assessment *a)
 }
 
 /* Sets parameters that the user left open to the proposed values. */
-static bool take_proposals(fe_stage *stage, const ff_assessment *a, fe_report *report)
+static bool take_proposals(ff_stage *stage, const ff_assessment *a, ff_report *report)
 {
     const ff_model *model = stage->loaded->model;
     for (size_t i = 0; i < a->proposal_count; i++) {
@@ -40,14 +39,14 @@ static bool take_proposals(fe_stage *stage, const ff_assessment *a, fe_report *r
         if (index < 0 || !(ff_model_param(model, (size_t)index)->flags & FF_TUNABLE))
             return fe_plugin_fault(
                 stage, report, "proposes a value for something that is not a tunable parameter");
-        fe_bound *bound = &stage->params[index];
+        ff_bound *bound = &stage->params[index];
         if (bound->value.given)
             continue;
         ff_param row = *bound->row;
         row.preset = p->value;
         snprintf(name, sizeof name, "%s.%s", stage->name, row.name);
-        fe_value_clear(&bound->value);
-        bound->present = bound->proposed = fe_param_read_preset(
+        ff_value_clear(&bound->value);
+        bound->present = bound->proposed = ff_param_read_preset(
             &row, &stage->loaded->param_units[index], name, &bound->value, report);
         if (!bound->present)
             return fe_plugin_fault(stage, report, "proposes a value that its own table refuses");
@@ -55,8 +54,8 @@ static bool take_proposals(fe_stage *stage, const ff_assessment *a, fe_report *r
     return true;
 }
 
-static bool note_assessment(fe_pipeline *pipeline, fe_candidate *c, const ff_assessment *a,
-                            fe_report *report)
+static bool note_assessment(ff_pipeline *pipeline, ff_candidate *c, const ff_assessment *a,
+                            ff_report *report)
 {
     char clean[600];
     if (a->applies < FF_APPLIES_NOT || a->applies > FF_AMBIGUOUS || !(a->error >= 0) ||
@@ -64,7 +63,7 @@ static bool note_assessment(fe_pipeline *pipeline, fe_candidate *c, const ff_ass
         return fe_plugin_fault(c->stage, report, "gave no usable numbers in assess");
     if (!take_proposals(c->stage, a, report))
         return false;
-    fe_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
+    ff_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
     c->assessed = true;
     c->applies = isfinite(a->error) || a->applies != FF_APPLIES ? a->applies : FF_APPLIES_NOT;
     c->error = a->error;
@@ -74,11 +73,11 @@ static bool note_assessment(fe_pipeline *pipeline, fe_candidate *c, const ff_ass
     return true;
 }
 
-static void assess(fe_pipeline *pipeline, const fe_stage *stage, fe_candidate *c)
+static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_candidate *c)
 {
     const ff_model *model = c->stage->loaded->model;
     const char *lacks = fe_pass_requests(stage, c->stage);
-    fe_report *captured = fe_report_new();
+    ff_report *captured = ff_report_new();
     if (lacks) {
         fe_leave_out(
             pipeline, c,
@@ -100,10 +99,10 @@ static void assess(fe_pipeline *pipeline, const fe_stage *stage, fe_candidate *c
                                               : "its inputs do not fit together");
         fe_free(in);
     }
-    fe_report_free(captured);
+    ff_report_free(captured);
 }
 
-static bool is_better(const fe_candidate *c, const fe_candidate *than, double accuracy)
+static bool is_better(const ff_candidate *c, const ff_candidate *than, double accuracy)
 {
     if (!c->fits || c->applies != FF_APPLIES)
         return false;
@@ -116,16 +115,16 @@ static bool is_better(const fe_candidate *c, const fe_candidate *than, double ac
 }
 
 /* The cheapest candidate within the accuracy, else the most exact one. NULL: none applies. */
-static fe_candidate *best_of(const fe_choice *choice)
+static ff_candidate *best_of(const ff_choice *choice)
 {
-    fe_candidate *best = NULL;
+    ff_candidate *best = NULL;
     for (size_t i = 0; i < choice->count; i++)
         if (is_better(&choice->candidates[i], best, choice->accuracy))
             best = &choice->candidates[i];
     return best;
 }
 
-static const fe_candidate *ambiguous(const fe_choice *choice)
+static const ff_candidate *ambiguous(const ff_choice *choice)
 {
     for (size_t i = 0; i < choice->count; i++)
         if (choice->candidates[i].fits && choice->candidates[i].applies == FF_AMBIGUOUS)
@@ -134,7 +133,7 @@ static const fe_candidate *ambiguous(const fe_choice *choice)
 }
 
 /* What could be asked for instead. */
-static const char *within_reach(fe_pipeline *pipeline, const fe_candidate *best)
+static const char *within_reach(ff_pipeline *pipeline, const ff_candidate *best)
 {
     const char *list = "";
     size_t count = 0;
@@ -149,34 +148,34 @@ static const char *within_reach(fe_pipeline *pipeline, const fe_candidate *best)
                              100 * fmin(best->error * 1.05, 1), list, count > 1 ? " together" : "");
 }
 
-static bool refuse(fe_pipeline *pipeline, const fe_stage *stage, const fe_candidate *best,
-                   fe_report *report)
+static bool refuse(ff_pipeline *pipeline, const ff_stage *stage, const ff_candidate *best,
+                   ff_report *report)
 {
-    const fe_choice *choice = stage->choice;
-    const fe_candidate *doubt = ambiguous(choice);
+    const ff_choice *choice = stage->choice;
+    const ff_candidate *doubt = ambiguous(choice);
     const char *list = "";
     if (doubt)
-        return fe_error(report, FE_EXIT_FAILED, stage->use_place,
+        return ff_error(report, FF_FAULT_RUN, stage->use_place,
                         "name the model yourself to get one of the answers",
                         "%s: the scene has several answers, says %s: %s", stage->name,
                         doubt->stage->use, doubt->reason);
     if (best)
-        return fe_error(report, FE_EXIT_FAILED, stage->use_place, within_reach(pipeline, best),
+        return ff_error(report, FF_FAULT_RUN, stage->use_place, within_reach(pipeline, best),
                         "%s: no model promises %.3g %%; the best is %s with %.3g %%: %s",
                         stage->name, 100 * choice->accuracy, best->stage->use, 100 * best->error,
                         best->reason);
     for (size_t i = 0; i < choice->count; i++)
         list = fe_pipeline_print(pipeline, "%.3000s%s%s: %s", list, *list ? "; " : "",
                                  choice->candidates[i].stage->use, choice->candidates[i].reason);
-    return fe_error(report, FE_EXIT_FAILED, stage->use_place, NULL,
-                    "%s: no model of %s applies (%s)", stage->name, choice->use, list);
+    return ff_error(report, FF_FAULT_RUN, stage->use_place, NULL, "%s: no model of %s applies (%s)",
+                    stage->name, choice->use, list);
 }
 
 /* Swaps the stage and the candidate: the candidate is left with the tables of the choice and frees
    them. */
-static void adopt(fe_stage *stage, fe_stage *candidate)
+static void adopt(ff_stage *stage, ff_stage *candidate)
 {
-    fe_stage was = *stage;
+    ff_stage was = *stage;
     stage->use = candidate->use;
     stage->loaded = candidate->loaded;
     stage->params = candidate->params;
@@ -194,17 +193,17 @@ static void adopt(fe_stage *stage, fe_stage *candidate)
     candidate->instance->stage = candidate;
 }
 
-static void assess_all(fe_pipeline *pipeline, fe_stage *stage)
+static void assess_all(ff_pipeline *pipeline, ff_stage *stage)
 {
     for (size_t i = 0; i < stage->choice->count; i++)
         if (stage->choice->candidates[i].fits)
             assess(pipeline, stage, &stage->choice->candidates[i]);
 }
 
-static bool settle(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
+static bool settle(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
-    fe_choice *choice = stage->choice;
-    fe_candidate *best = best_of(choice);
+    ff_choice *choice = stage->choice;
+    ff_candidate *best = best_of(choice);
     if (!best || ambiguous(choice) || (best->error > choice->accuracy && !choice->refine))
         return refuse(pipeline, stage, best, report);
     if (*best->proposals && !fe_reopen(pipeline, best->stage, report))
@@ -214,7 +213,7 @@ static bool settle(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
     return true;
 }
 
-bool fe_choose(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
+bool fe_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
     if (stage->choice->chosen || stage->choice->serves)
         return true; /* the stages that use a law choose it */
@@ -225,18 +224,18 @@ bool fe_choose(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
     return settle(pipeline, stage, report);
 }
 
-static bool is_open(const fe_stage *law)
+static bool is_open(const ff_stage *law)
 {
     return law->needed && law->choice && law->choice->serves && !law->choice->chosen &&
            law->instance->alive;
 }
 
 /* Judges all laws before choosing one, so that each is compared with the references alone. */
-bool fe_choose_laws(fe_pipeline *pipeline, fe_report *report)
+bool fe_choose_laws(ff_pipeline *pipeline, ff_report *report)
 {
     bool good = true;
     for (size_t i = 0; i < pipeline->count && good; i++) {
-        fe_stage *law = &pipeline->stages[i];
+        ff_stage *law = &pipeline->stages[i];
         if (!is_open(law))
             continue;
         assess_all(pipeline, law);
@@ -245,7 +244,7 @@ bool fe_choose_laws(fe_pipeline *pipeline, fe_report *report)
     if (!good)
         return false;
     for (size_t i = 0; i < pipeline->count; i++) {
-        fe_stage *law = &pipeline->stages[i];
+        ff_stage *law = &pipeline->stages[i];
         if (!is_open(law))
             continue;
         good = settle(pipeline, law, report) && good;
@@ -255,12 +254,12 @@ bool fe_choose_laws(fe_pipeline *pipeline, fe_report *report)
     return good && fe_rewire_judges(pipeline, report);
 }
 
-void fe_note_choice(fe_stage *stage)
+void fe_note_choice(ff_stage *stage)
 {
-    const fe_choice *choice = stage->choice;
-    const fe_candidate *c = choice->chosen;
+    const ff_choice *choice = stage->choice;
+    const ff_candidate *c = choice->chosen;
     char text[400];
     snprintf(text, sizeof text, "%s: %s", choice->count > 1 ? "the cheapest that fits" : "assessed",
              c->reason);
-    fe_add_quality(stage, "promised_error", c->error, choice->accuracy, FF_GOOD, text);
+    ff_add_quality(stage, "promised_error", c->error, choice->accuracy, FF_GOOD, text);
 }

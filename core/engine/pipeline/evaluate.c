@@ -1,17 +1,17 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Runs each needed stage once, in order, for the outputs that other stages and the user want. */
 #include "build.h"
 
 #include <stdlib.h>
 #include <time.h>
 
-static bool check_quality(const fe_stage *stage, fe_report *report)
+static bool check_quality(const ff_stage *stage, ff_report *report)
 {
     bool good = true;
     for (size_t i = 0; i < stage->quality_count; i++) {
-        const fe_quality *line = &stage->quality[i];
+        const ff_quality *line = &stage->quality[i];
         if (line->verdict == FF_BAD)
-            good = fe_error(report, FE_EXIT_FAILED, stage->place, NULL,
+            good = ff_error(report, FF_FAULT_RUN, stage->place, NULL,
                             "%s: its result cannot be trusted: %s is %.3g, held to %.3g%s%s",
                             stage->name, line->name, line->value, line->limit,
                             line->text ? ": " : "", line->text ? line->text : "");
@@ -31,7 +31,7 @@ static double seconds_of(clockid_t clock)
  * requested by name (but as one of "film.*") and no required input needs it. True when it was
  * dropped.
  */
-static bool drop_refused(fe_stage *stage)
+static bool drop_refused(ff_stage *stage)
 {
     const fe_instance *instance = stage->instance;
     int output = ff_model_find_output(stage->loaded->model, instance->item);
@@ -43,8 +43,8 @@ static bool drop_refused(fe_stage *stage)
 }
 
 /* False after an error. */
-static bool evaluate(const fe_pipeline *pipeline, fe_stage *stage, const ff_array *in,
-                     fe_report *report)
+static bool evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
+                     ff_report *report)
 {
     fe_instance *instance = stage->instance;
     bool good, again;
@@ -70,14 +70,14 @@ static bool evaluate(const fe_pipeline *pipeline, fe_stage *stage, const ff_arra
 
 /* Evaluates the stage, or takes over the results of an earlier run. A stage that is needed for its
    service alone computes nothing. */
-static bool obtain(const fe_pipeline *pipeline, fe_stage *stage, const ff_array *in,
-                   fe_report *report)
+static bool obtain(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
+                   ff_report *report)
 {
-    const fe_watch *watch = stage->instance->watch;
+    const ff_observer *watch = stage->instance->watch;
     fe_forget_results(stage);
     if (!fe_wants_any(stage))
         return true;
-    if (pipeline->chained && fe_stage_has_state(stage)) /* the result depends on the chain so far */
+    if (pipeline->chained && ff_stage_has_state(stage)) /* the result depends on the chain so far */
         return (stage->ran = evaluate(pipeline, stage, in, report));
     if (watch && watch->recall && watch->recall(watch->ctx, pipeline, stage)) {
         stage->reused = true;
@@ -89,7 +89,7 @@ static bool obtain(const fe_pipeline *pipeline, fe_stage *stage, const ff_array 
     return stage->ran;
 }
 
-static bool run_stage(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
+static bool run_stage(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
     if (!stage->instance->alive || (stage->choice && !fe_choose(pipeline, stage, report)))
         return false;
@@ -106,12 +106,12 @@ static bool run_stage(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
 }
 
 /* True for each stage that feeds a choice, directly or through others. */
-static bool *mark_feeding(const fe_pipeline *pipeline)
+static bool *mark_feeding(const ff_pipeline *pipeline)
 {
     bool *feeds = fe_alloc(pipeline->count * sizeof *feeds);
     for (size_t i = pipeline->count; i-- > 0;) {
         size_t at = pipeline->order[i];
-        const fe_stage *stage = &pipeline->stages[at];
+        const ff_stage *stage = &pipeline->stages[at];
         for (size_t k = 0; stage->needed && k < stage->wire_count; k++)
             if (stage->wires[k].stage >= 0 &&
                 (stage->choice || feeds[at] || fe_is_judge(pipeline, stage)))
@@ -120,7 +120,7 @@ static bool *mark_feeding(const fe_pipeline *pipeline)
     return feeds;
 }
 
-static void begin_run(fe_pipeline *pipeline)
+static void begin_run(ff_pipeline *pipeline)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
         pipeline->stages[i].ran = pipeline->stages[i].reused = false;
@@ -130,12 +130,13 @@ static void begin_run(fe_pipeline *pipeline)
 }
 
 /* Runs the stages that `feeds` marks, and makes the choices; NULL: runs all stages. */
-static bool run(fe_pipeline *pipeline, const bool *feeds, const fe_watch *watch, fe_report *report)
+static bool run(ff_pipeline *pipeline, const bool *feeds, const ff_observer *watch,
+                ff_report *report)
 {
     bool good = true, judged = false, lawful = true;
     begin_run(pipeline);
     for (size_t i = 0; i < pipeline->count; i++) {
-        fe_stage *stage = &pipeline->stages[pipeline->order[i]];
+        ff_stage *stage = &pipeline->stages[pipeline->order[i]];
         bool whole = !feeds || feeds[pipeline->order[i]];
         bool judge = stage->needed && fe_is_judge(pipeline, stage);
         if (judge && !judged)
@@ -155,12 +156,12 @@ static bool run(fe_pipeline *pipeline, const bool *feeds, const fe_watch *watch,
     return judged ? good : fe_choose_laws(pipeline, report) && good;
 }
 
-bool fe_pipeline_run(fe_pipeline *pipeline, const fe_watch *watch, fe_report *report)
+bool ff_pipeline_run(ff_pipeline *pipeline, const ff_observer *watch, ff_report *report)
 {
     return run(pipeline, NULL, watch, report);
 }
 
-bool fe_pipeline_choose(fe_pipeline *pipeline, const fe_watch *watch, fe_report *report)
+bool ff_pipeline_choose(ff_pipeline *pipeline, const ff_observer *watch, ff_report *report)
 {
     bool *feeds = mark_feeding(pipeline);
     bool good = run(pipeline, feeds, watch, report);

@@ -1,8 +1,8 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* The functions of the host that a model may call. */
-#include "build.h"
+#include <flankfilm/engine.h>
 
-#include "../plugin/clean.h"
+#include "build.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -28,8 +28,8 @@ static ff_status host_fail(void *ctx, ff_status status, const char *item, const 
 {
     fe_instance *instance = ctx;
     fe_tables_forget(&instance->tables);
-    fe_clean_text(instance->item, sizeof instance->item, item ? item : "");
-    fe_clean_text(instance->text, sizeof instance->text, text ? text : "");
+    ff_clean_text(instance->item, sizeof instance->item, item ? item : "");
+    ff_clean_text(instance->text, sizeof instance->text, text ? text : "");
     return status;
 }
 
@@ -38,11 +38,11 @@ static void host_log(void *ctx, int32_t level, const char *text)
 {
     fe_instance *instance = ctx;
     char clean[512];
-    fe_clean_text(clean, sizeof clean, text ? text : "");
-    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    ff_clean_text(clean, sizeof clean, text ? text : "");
+    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
     if (instance->watch && instance->watch->log)
         instance->watch->log(instance->watch->ctx, instance->stage, level, clean);
-    fe_guard_leave(mark);
+    ff_guard_leave(mark);
 }
 
 static int32_t host_progress(void *ctx, double fraction)
@@ -50,10 +50,10 @@ static int32_t host_progress(void *ctx, double fraction)
     fe_instance *instance = ctx;
     int stop = 0;
     double share = fraction > 0 ? fmin(fraction, 1) : 0; /* NaN: 0 */
-    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
     if (instance->watch && instance->watch->progress)
         stop = instance->watch->progress(instance->watch->ctx, instance->stage, share);
-    fe_guard_leave(mark);
+    ff_guard_leave(mark);
     return stop;
 }
 
@@ -61,15 +61,15 @@ static int32_t host_progress(void *ctx, double fraction)
    thread of its own: without memory, the call into the plugin is left when it returns. */
 static ff_status protect(fe_instance *instance, void (*function)(void *ctx), void *ctx)
 {
-    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
     ff_status status = fe_protected(instance->heap, function, ctx);
-    fe_guard_leave(mark);
+    ff_guard_leave(mark);
     instance->no_memory = instance->no_memory || status == FF_NOMEM;
     return status;
 }
 
 typedef struct table_call {
-    fe_tables *tables;
+    ff_tables *tables;
     const char *item, *text; /* the path, or what is wrong */
     const ff_param *rows;
     size_t count, stride;
@@ -81,7 +81,7 @@ typedef struct table_call {
 static void read_table(void *ctx)
 {
     table_call *call = ctx;
-    call->status = fe_tables_read(call->tables, call->item, call->text, call->rows, call->count,
+    call->status = ff_tables_read(call->tables, call->item, call->text, call->rows, call->count,
                                   call->stride, &call->table);
 }
 
@@ -103,7 +103,7 @@ static ff_status table_read(void *ctx, const char *item, const char *path, const
 static void fail_table(void *ctx)
 {
     table_call *call = ctx;
-    call->status = fe_tables_fail(call->tables, call->table, call->row, call->column, call->text);
+    call->status = ff_tables_fail(call->tables, call->table, call->row, call->column, call->text);
 }
 
 static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t column,
@@ -111,7 +111,7 @@ static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t
 {
     fe_instance *instance = ctx;
     char clean[512];
-    fe_clean_text(clean, sizeof clean, text ? text : "");
+    ff_clean_text(clean, sizeof clean, text ? text : "");
     table_call call = {
         .tables = &instance->tables, .text = clean, .table = table, .row = row, .column = column};
     ff_status status = protect(instance, fail_table, &call);
@@ -155,7 +155,7 @@ static bool has_room(uint32_t rank, const size_t *shape)
     return product <= most;
 }
 
-double *fe_result_fill(fe_result *result, uint32_t rank, const size_t *shape)
+double *ff_result_fill(ff_result *result, uint32_t rank, const size_t *shape)
 {
     size_t count = 1;
     for (uint32_t i = 0; i < rank; i++)
@@ -166,7 +166,7 @@ double *fe_result_fill(fe_result *result, uint32_t rank, const size_t *shape)
 }
 
 typedef struct output_call {
-    fe_result *result;
+    ff_result *result;
     uint32_t rank;
     const size_t *shape;
 } output_call;
@@ -174,20 +174,20 @@ typedef struct output_call {
 static void fill_result(void *ctx)
 {
     const output_call *call = ctx;
-    fe_result_fill(call->result, call->rank, call->shape);
+    ff_result_fill(call->result, call->rank, call->shape);
 }
 
 static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_t *shape)
 {
     fe_instance *instance = ctx;
-    const fe_loaded *loaded = instance->stage->loaded;
+    const ff_loaded *loaded = instance->stage->loaded;
     if (!instance->evaluating || index >= loaded->model->output_count) {
         breach(instance, "asked for memory of output row %u %s", index,
                instance->evaluating ? "which it does not have" : "outside of evaluate");
         return NULL;
     }
-    fe_result *result = &instance->stage->results[index];
-    const fe_dims *dims = &loaded->output_dims[index];
+    ff_result *result = &instance->stage->results[index];
+    const ff_dims *dims = &loaded->output_dims[index];
     const char *name = result->row->name;
     output_call call = {result, rank, shape};
     if (result->row->service)
@@ -209,15 +209,15 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
 static char *clean_copy(const char *text)
 {
     char clean[512];
-    fe_clean_text(clean, sizeof clean, text);
+    ff_clean_text(clean, sizeof clean, text);
     return fe_print_text("%s", clean);
 }
 
-void fe_add_quality(fe_stage *stage, const char *name, double value, double limit, int verdict,
+void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
                     const char *text)
 {
     stage->quality = fe_resize(stage->quality, (stage->quality_count + 1) * sizeof *stage->quality);
-    fe_quality line = {.name = clean_copy(name),
+    ff_quality line = {.name = clean_copy(name),
                        .value = value,
                        .limit = limit,
                        .verdict = verdict,
@@ -226,7 +226,7 @@ void fe_add_quality(fe_stage *stage, const char *name, double value, double limi
 }
 
 typedef struct quality_call {
-    fe_stage *stage;
+    ff_stage *stage;
     const char *name, *text;
     double value, limit;
     int verdict;
@@ -235,14 +235,14 @@ typedef struct quality_call {
 static void add_quality(void *ctx)
 {
     const quality_call *call = ctx;
-    fe_add_quality(call->stage, call->name, call->value, call->limit, call->verdict, call->text);
+    ff_add_quality(call->stage, call->name, call->value, call->limit, call->verdict, call->text);
 }
 
 static void host_quality(void *ctx, const char *name, double value, double limit, int32_t verdict,
                          const char *text)
 {
     fe_instance *instance = ctx;
-    fe_stage *stage = instance->stage;
+    ff_stage *stage = instance->stage;
     if (!name || !name[0] || verdict < FF_GOOD || verdict > FF_BAD) {
         breach(instance, "gave a quality line without a name or with the unknown verdict %d",
                verdict);
@@ -273,7 +273,7 @@ void fe_host_init(fe_instance *instance)
     };
 }
 
-void fe_forget_results(fe_stage *stage)
+void fe_forget_results(ff_stage *stage)
 {
     for (size_t i = 0; stage->results && i < stage->loaded->model->output_count; i++) {
         fe_free(stage->results[i].data);

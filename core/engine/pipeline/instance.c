@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* The life of a model's object: create, set, wire, ready; destroy. */
 #include "build.h"
 
@@ -9,19 +9,19 @@
 static void destroy(void *of)
 {
     fe_instance *instance = of;
-    const fe_stage *stage = instance->stage;
+    const ff_stage *stage = instance->stage;
     const ff_model *model = stage->loaded->model;
     if (instance->created && model->destroy) {
         fe_serial_enter(model);
-        fe_guard_mark mark = fe_guard_enter(stage->loaded->path, stage->name, "destroy");
+        ff_guard_mark mark = ff_guard_enter(stage->loaded->path, stage->name, "destroy");
         model->destroy(instance->self);
-        fe_guard_leave(mark);
+        ff_guard_leave(mark);
         fe_serial_leave(model);
     }
     instance->created = instance->alive = false;
 }
 
-static bool create(fe_stage *stage, fe_report *report)
+static bool create(ff_stage *stage, ff_report *report)
 {
     fe_instance *instance = stage->instance;
     fe_host_init(instance);
@@ -32,13 +32,13 @@ static bool create(fe_stage *stage, fe_report *report)
     return fe_call_end(&call, status, report);
 }
 
-static bool set(fe_stage *stage, fe_report *report)
+static bool set(ff_stage *stage, ff_report *report)
 {
     const ff_model *model = stage->loaded->model;
     fe_instance *instance = stage->instance;
     bool good = true;
     for (size_t i = 0; i < model->param_count; i++) {
-        const fe_bound *param = &stage->params[i];
+        const ff_bound *param = &stage->params[i];
         if (!param->present)
             continue;
         fe_call call = fe_call_begin(stage, "set");
@@ -50,7 +50,7 @@ static bool set(fe_stage *stage, fe_report *report)
     return good;
 }
 
-const void *fe_fetch_service(fe_stage *stage, uint32_t output, fe_report *report)
+const void *fe_fetch_service(ff_stage *stage, uint32_t output, ff_report *report)
 {
     const ff_model *model = stage->loaded->model;
     char what[200];
@@ -64,28 +64,28 @@ const void *fe_fetch_service(fe_stage *stage, uint32_t output, fe_report *report
     return NULL;
 }
 
-static const void *service_of(fe_stage *from, const ff_port *input, fe_report *report)
+static const void *service_of(ff_stage *from, const ff_port *input, ff_report *report)
 {
     uint32_t output = (uint32_t)fe_find_offer(from->loaded, input);
     return from->instance->alive ? fe_fetch_service(from, output, report) : NULL;
 }
 
 /* The stage that serves until the choice is made. */
-static fe_stage *serving(fe_stage *stage)
+static ff_stage *serving(ff_stage *stage)
 {
-    const fe_choice *choice = stage->choice;
+    const ff_choice *choice = stage->choice;
     return choice && !choice->chosen && choice->reference ? choice->reference->stage : stage;
 }
 
-static bool wire(fe_build *b, fe_stage *stage)
+static bool wire(fe_build *b, ff_stage *stage)
 {
-    const fe_pipeline *pipeline = b->pipeline;
+    const ff_pipeline *pipeline = b->pipeline;
     const ff_model *model = stage->loaded->model;
     bool good = true;
     for (size_t i = 0; i < model->input_count && good; i++) {
         const ff_port *row = ff_model_input(model, i);
-        const fe_wire *wire = fe_input_wire(stage, i);
-        fe_stage *from = wire->stage < 0 ? NULL : serving(&pipeline->stages[wire->stage]);
+        const ff_wire *wire = fe_input_wire(stage, i);
+        ff_stage *from = wire->stage < 0 ? NULL : serving(&pipeline->stages[wire->stage]);
         int output = from ? fe_find_offer(from->loaded, row) : -1;
         const void *service = NULL;
         if (output < 0)
@@ -101,7 +101,7 @@ static bool wire(fe_build *b, fe_stage *stage)
     return good;
 }
 
-static bool ready(fe_stage *stage, fe_report *report)
+static bool ready(ff_stage *stage, ff_report *report)
 {
     if (!stage->loaded->model->ready)
         return true;
@@ -109,23 +109,23 @@ static bool ready(fe_stage *stage, fe_report *report)
     return fe_call_end(&call, stage->loaded->model->ready(stage->instance->self), report);
 }
 
-void fe_open_instance(fe_build *b, fe_stage *stage)
+void fe_open_instance(fe_build *b, ff_stage *stage)
 {
     stage->instance->alive = create(stage, b->report) && set(stage, b->report) && wire(b, stage) &&
                              ready(stage, b->report);
 }
 
-void fe_close_instance(fe_stage *stage)
+void fe_close_instance(ff_stage *stage)
 {
     fe_instance *instance = stage->instance;
     for (size_t i = 0; stage->choice && i < stage->choice->count; i++)
         fe_close_instance(stage->choice->candidates[i].stage);
     fe_resource_remove(&instance->open);
     destroy(instance);
-    fe_tables_free(&instance->tables);
+    ff_tables_free(&instance->tables);
 }
 
-bool fe_reopen(fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
+bool fe_reopen(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
     fe_build b = {.pipeline = pipeline, .library = pipeline->memory->library, .report = report};
     fe_close_instance(stage);

@@ -1,18 +1,18 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /*
  * The choice of a law. A law does not know the operating conditions, but the stages that use it do:
  * they judge each candidate by how it would change their results against a reference law, which
  * serves all stages until then. A stage that cannot judge keeps the reference.
  */
-#include "build.h"
+#include <flankfilm/engine.h>
 
-#include "../plugin/clean.h"
+#include "build.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const fe_candidate *find_candidate(const fe_choice *choice, const char *model)
+static const ff_candidate *find_candidate(const ff_choice *choice, const char *model)
 {
     for (size_t i = 0; i < choice->count; i++)
         if (!strcmp(choice->candidates[i].stage->use, model))
@@ -20,29 +20,29 @@ static const fe_candidate *find_candidate(const fe_choice *choice, const char *m
     return NULL;
 }
 
-static bool refuse_reference(fe_build *b, fe_stage *stage, const fe_bound *written)
+static bool refuse_reference(fe_build *b, ff_stage *stage, const ff_bound *written)
 {
-    const fe_choice *choice = stage->choice;
-    const fe_candidate *c = find_candidate(choice, written->value.text);
+    const ff_choice *choice = stage->choice;
+    const ff_candidate *c = find_candidate(choice, written->value.text);
     const char **ids = fe_alloc(choice->count * sizeof *ids);
     for (size_t i = 0; i < choice->count; i++)
         ids[i] = choice->candidates[i].stage->use;
     const char *advice = fe_did_you_mean(b, written->value.text, ids, choice->count);
     fe_free(ids);
-    return fe_error(b->report, FE_EXIT_INPUT, written->place, NULL,
+    return ff_error(b->report, FF_FAULT_INPUT, written->place, NULL,
                     "%s.reference: \"%.80s\" is not a candidate%s%s%s", stage->name,
                     written->value.text, c ? ": " : "", c ? c->reason : "", advice);
 }
 
 /* The first set under `with` whose law fits, or the only law that does; NULL: several do. */
-static const fe_candidate *first_of(const fe_stage *stage)
+static const ff_candidate *first_of(const ff_stage *stage)
 {
-    const fe_choice *choice = stage->choice;
-    const fe_node *with = fe_node_get(stage->node, "with");
-    const fe_candidate *only = NULL;
+    const ff_choice *choice = stage->choice;
+    const ff_node *with = ff_node_get(stage->node, "with");
+    const ff_candidate *only = NULL;
     size_t count = 0;
-    for (size_t i = 0; with && with->kind == FE_MAP && i < with->count; i++) {
-        const fe_candidate *c = find_candidate(choice, with->keys[i]);
+    for (size_t i = 0; with && with->kind == FF_MAP && i < with->count; i++) {
+        const ff_candidate *c = find_candidate(choice, with->keys[i]);
         if (c && c->fits)
             return c;
     }
@@ -53,14 +53,14 @@ static const fe_candidate *first_of(const fe_stage *stage)
     return count == 1 ? only : NULL;
 }
 
-void fe_find_reference(fe_build *b, fe_stage *stage)
+void fe_find_reference(fe_build *b, ff_stage *stage)
 {
-    fe_choice *choice = stage->choice;
+    ff_choice *choice = stage->choice;
     int index = ff_model_find_param(stage->loaded->model, "reference");
-    const fe_bound *written = &stage->params[index];
+    const ff_bound *written = &stage->params[index];
     const char *names = "";
     if (written->present && written->value.text) {
-        const fe_candidate *c = find_candidate(choice, written->value.text);
+        const ff_candidate *c = find_candidate(choice, written->value.text);
         choice->reference = c && c->fits ? c : NULL;
         stage->instance->broken |= !choice->reference && !refuse_reference(b, stage, written);
         return;
@@ -72,34 +72,34 @@ void fe_find_reference(fe_build *b, fe_stage *stage)
         if (choice->candidates[i].fits)
             names = fe_join(b->pipeline, names, choice->candidates[i].stage->use);
     stage->instance->broken = true;
-    fe_error(b->report, FE_EXIT_INPUT, stage->use_place,
+    ff_error(b->report, FF_FAULT_INPUT, stage->use_place,
              "write \"reference: MODEL\", or a set of parameters for each law under \"with\", the "
              "most exact first",
              "%s: which law is the one that the others are held against? These could be: %s",
              stage->name, names);
 }
 
-static bool can_judge(const fe_stage *stage)
+static bool can_judge(const ff_stage *stage)
 {
     const ff_model *model = stage->loaded ? stage->loaded->model : NULL;
     return model && FF_HAS(model, judge) && model->judge;
 }
 
 /* The stage itself, or its first candidate that gives what is needed; NULL: none can judge. */
-static fe_stage *judging(fe_stage *stage)
+static ff_stage *judging(ff_stage *stage)
 {
-    const fe_choice *choice = stage->choice;
+    const ff_choice *choice = stage->choice;
     if (!choice || choice->chosen)
         return can_judge(stage) ? stage : NULL;
     for (size_t i = 0; i < choice->count; i++) {
-        const fe_candidate *c = &choice->candidates[i];
+        const ff_candidate *c = &choice->candidates[i];
         if (c->fits && can_judge(c->stage) && !fe_pass_requests(stage, c->stage))
             return c->stage;
     }
     return NULL;
 }
 
-static bool takes(const fe_pipeline *pipeline, const fe_stage *stage, const fe_stage *law)
+static bool takes(const ff_pipeline *pipeline, const ff_stage *stage, const ff_stage *law)
 {
     for (size_t i = 0; i < stage->wire_count; i++)
         if (stage->wires[i].stage == law - pipeline->stages)
@@ -107,21 +107,21 @@ static bool takes(const fe_pipeline *pipeline, const fe_stage *stage, const fe_s
     return false;
 }
 
-bool fe_is_judge(const fe_pipeline *pipeline, const fe_stage *stage)
+bool fe_is_judge(const ff_pipeline *pipeline, const ff_stage *stage)
 {
     bool can = can_judge(stage);
     for (size_t i = 0; stage->choice && i < stage->choice->count; i++)
         can = can ||
               (stage->choice->candidates[i].fits && can_judge(stage->choice->candidates[i].stage));
     for (size_t i = 0; can && stage->needed && i < pipeline->count; i++) {
-        const fe_choice *choice = pipeline->stages[i].choice;
+        const ff_choice *choice = pipeline->stages[i].choice;
         if (choice && choice->serves && takes(pipeline, stage, &pipeline->stages[i]))
             return true;
     }
     return false;
 }
 
-static int law_input(const fe_pipeline *pipeline, const fe_stage *judge, const fe_stage *law)
+static int law_input(const ff_pipeline *pipeline, const ff_stage *judge, const ff_stage *law)
 {
     for (size_t i = 0; i < judge->loaded->model->input_count; i++)
         if (ff_model_input(judge->loaded->model, i)->service &&
@@ -130,15 +130,15 @@ static int law_input(const fe_pipeline *pipeline, const fe_stage *judge, const f
     return -1;
 }
 
-static const void *table_of(const fe_stage *candidate, const ff_port *input)
+static const void *table_of(const ff_stage *candidate, const ff_port *input)
 {
     int output = fe_find_offer(candidate->loaded, input);
     return candidate->loaded->model->service(candidate->instance->self, (uint32_t)output);
 }
 
 /* Adds a verdict on a candidate: the largest error of all judges counts, with its reason. */
-static bool note_verdict(fe_pipeline *pipeline, fe_candidate *c, const fe_stage *judge,
-                         const ff_assessment *a, fe_report *report)
+static bool note_verdict(ff_pipeline *pipeline, ff_candidate *c, const ff_stage *judge,
+                         const ff_assessment *a, ff_report *report)
 {
     char clean[600];
     if (a->applies < FF_APPLIES_NOT || a->applies > FF_AMBIGUOUS || !(a->error >= 0))
@@ -148,7 +148,7 @@ static bool note_verdict(fe_pipeline *pipeline, fe_candidate *c, const fe_stage 
                                        : c->applies == FF_APPLIES;
     if (c->verdict && !worse)
         return true;
-    fe_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
+    ff_clean_text(clean, sizeof clean, a->reason ? a->reason : "");
     c->error += fmax(a->error - c->judged, 0);
     c->judged = fmax(a->error, c->judged);
     c->applies = applies == FF_APPLIES ? c->applies : applies;
@@ -156,17 +156,17 @@ static bool note_verdict(fe_pipeline *pipeline, fe_candidate *c, const fe_stage 
     return true;
 }
 
-static void dismiss(fe_pipeline *pipeline, fe_candidate *c, const char *reason)
+static void dismiss(ff_pipeline *pipeline, ff_candidate *c, const char *reason)
 {
     c->assessed = false;
     fe_leave_out(pipeline, c, reason);
 }
 
-static void judge_one(fe_pipeline *pipeline, fe_candidate *c, fe_stage *judge, int input,
+static void judge_one(ff_pipeline *pipeline, ff_candidate *c, ff_stage *judge, int input,
                       const ff_array *in)
 {
     const ff_model *model = judge->loaded->model;
-    fe_report *captured = fe_report_new();
+    ff_report *captured = ff_report_new();
     ff_assessment a = {.size = sizeof a};
     fe_call call = fe_call_begin(judge, "judge");
     ff_status status =
@@ -174,25 +174,25 @@ static void judge_one(fe_pipeline *pipeline, fe_candidate *c, fe_stage *judge, i
                      table_of(c->stage, ff_model_input(model, (size_t)input)), in, &a);
     if (!fe_call_end(&call, status, captured) || !note_verdict(pipeline, c, judge, &a, captured))
         dismiss(pipeline, c,
-                fe_report_first(captured) ? fe_report_first(captured)->text : "the judge gave up");
-    fe_report_free(captured);
+                ff_report_first(captured) ? ff_report_first(captured)->text : "the judge gave up");
+    ff_report_free(captured);
 }
 
 /* False when what feeds the judge waits for another one. */
-static bool ask(fe_pipeline *pipeline, fe_stage *law, fe_stage *judge, fe_report *report)
+static bool ask(ff_pipeline *pipeline, ff_stage *law, ff_stage *judge, ff_report *report)
 {
-    fe_choice *choice = law->choice;
+    ff_choice *choice = law->choice;
     int input = law_input(pipeline, judge, law);
     if (input < 0)
         return true;
     for (size_t i = 0; i < judge->wire_count; i++) {
-        const fe_stage *from =
+        const ff_stage *from =
             judge->wires[i].stage < 0 ? NULL : &pipeline->stages[judge->wires[i].stage];
         if (!from || from->ran)
             continue;
-        return fe_report_errors(report) > 0
+        return ff_report_errors(report) > 0
                    ? false
-                   : fe_error(report, FE_EXIT_INPUT, law->use_place, "name the law yourself",
+                   : ff_error(report, FF_FAULT_INPUT, law->use_place, "name the law yourself",
                               "%s: %s would have to judge the law, too, but waits for %s, which "
                               "needs it",
                               law->name, judge->name, from->name);
@@ -206,13 +206,13 @@ static bool ask(fe_pipeline *pipeline, fe_stage *law, fe_stage *judge, fe_report
     return good;
 }
 
-bool fe_ask_judges(fe_pipeline *pipeline, fe_stage *law, fe_report *report)
+bool fe_ask_judges(ff_pipeline *pipeline, ff_stage *law, ff_report *report)
 {
-    fe_choice *choice = law->choice;
+    ff_choice *choice = law->choice;
     size_t judges = 0;
     for (size_t i = 0; i < pipeline->count; i++) {
-        fe_stage *stage = &pipeline->stages[i];
-        fe_stage *judge = stage->needed && takes(pipeline, stage, law) ? judging(stage) : NULL;
+        ff_stage *stage = &pipeline->stages[i];
+        ff_stage *judge = stage->needed && takes(pipeline, stage, law) ? judging(stage) : NULL;
         if (!judge || !judge->instance->alive)
             continue;
         judges++;
@@ -220,7 +220,7 @@ bool fe_ask_judges(fe_pipeline *pipeline, fe_stage *law, fe_report *report)
             return false;
     }
     for (size_t i = 0; i < choice->count; i++) {
-        fe_candidate *c = &choice->candidates[i];
+        ff_candidate *c = &choice->candidates[i];
         if (c->fits && c == choice->reference)
             c->reason = fe_pipeline_print(
                 pipeline, "the reference%s%s%s",
@@ -234,23 +234,23 @@ bool fe_ask_judges(fe_pipeline *pipeline, fe_stage *law, fe_report *report)
     return true;
 }
 
-static bool was_swapped(const fe_pipeline *pipeline, const fe_stage *judge)
+static bool was_swapped(const ff_pipeline *pipeline, const ff_stage *judge)
 {
     for (size_t i = 0; i < judge->wire_count; i++) {
         int from = judge->wires[i].stage;
-        const fe_choice *choice = from < 0 ? NULL : pipeline->stages[from].choice;
+        const ff_choice *choice = from < 0 ? NULL : pipeline->stages[from].choice;
         if (choice && choice->serves && choice->chosen != choice->reference)
             return true;
     }
     return false;
 }
 
-bool fe_rewire_judges(fe_pipeline *pipeline, fe_report *report)
+bool fe_rewire_judges(ff_pipeline *pipeline, ff_report *report)
 {
     bool good = true;
     for (size_t i = 0; i < pipeline->count; i++) {
-        fe_stage *stage = &pipeline->stages[i];
-        fe_choice *choice = stage->choice;
+        ff_stage *stage = &pipeline->stages[i];
+        ff_choice *choice = stage->choice;
         if (!stage->needed || !stage->instance->alive || !was_swapped(pipeline, stage) ||
             !judging(stage))
             continue;

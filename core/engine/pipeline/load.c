@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /*
  * The model of a stage. A stage that chooses its model stands in the file, and in the graph, as one
  * with the parameters, inputs and outputs of all its candidates, by name; each candidate is a stage
@@ -38,37 +38,37 @@ static const ff_param own_rows[FE_OWN_ROWS] = {
                    .type = FF_BOOL},
 };
 
-bool fe_names_kind_only(const char *use)
+bool ff_names_kind_only(const char *use)
 {
     size_t length = strlen(use), ending = sizeof auto_ending - 1;
     return length > ending && !strcmp(use + length - ending, auto_ending);
 }
 
-static bool is_choosing(fe_build *b, const fe_stage *stage)
+static bool is_choosing(fe_build *b, const ff_stage *stage)
 {
     if (stage->instance->candidate)
         return false;
-    if (fe_names_kind_only(stage->use))
+    if (ff_names_kind_only(stage->use))
         return true;
-    if (!fe_node_get(stage->node, own_rows[FE_ACCURACY].name))
+    if (!ff_node_get(stage->node, own_rows[FE_ACCURACY].name))
         return false;
-    fe_report *captured = fe_report_new();
-    const fe_loaded *loaded = fe_library_load(b->library, stage->use, FE_NOWHERE, captured);
-    fe_report_free(captured);
+    ff_report *captured = ff_report_new();
+    const ff_loaded *loaded = ff_library_load(b->library, stage->use, FF_NOWHERE, captured);
+    ff_report_free(captured);
     return loaded && ff_model_find_param(loaded->model, own_rows[FE_ACCURACY].name) < 0;
 }
 
-void fe_leave_out(fe_pipeline *pipeline, fe_candidate *c, const char *reason)
+void fe_leave_out(ff_pipeline *pipeline, ff_candidate *c, const char *reason)
 {
     c->fits = false;
     c->reason = fe_pipeline_print(pipeline, "%s", reason);
 }
 
-static fe_stage *new_stage(fe_build *b, const fe_stage *like, const char *id)
+static ff_stage *new_stage(fe_build *b, const ff_stage *like, const char *id)
 {
     fe_arena *arena = &b->pipeline->memory->arena;
-    fe_stage *stage = fe_arena_alloc(arena, sizeof *stage);
-    *stage = (fe_stage){.name = like->name,
+    ff_stage *stage = fe_arena_alloc(arena, sizeof *stage);
+    *stage = (ff_stage){.name = like->name,
                         .place = like->place,
                         .use = id,
                         .use_place = like->use_place,
@@ -81,7 +81,7 @@ static fe_stage *new_stage(fe_build *b, const fe_stage *like, const char *id)
     return stage;
 }
 
-static bool same_dims(const fe_dims *a, const fe_dims *b)
+static bool same_dims(const ff_dims *a, const ff_dims *b)
 {
     bool same = a->rank == b->rank && a->first_optional == b->first_optional;
     for (uint32_t i = 0; same && i < a->rank; i++)
@@ -93,7 +93,7 @@ static bool same_dims(const fe_dims *a, const fe_dims *b)
 typedef struct tables {
     fe_arena *arena;
     ff_model *model;
-    fe_loaded *loaded;
+    ff_loaded *loaded;
     ff_param *params;
     ff_port *inputs, *outputs;
 } tables;
@@ -106,7 +106,7 @@ static void *longer(const tables *t, const void *old, size_t count, size_t size)
     return rows;
 }
 
-static void add_param(tables *t, const ff_param *row, const fe_unit *unit)
+static void add_param(tables *t, const ff_param *row, const ff_unit *unit)
 {
     size_t n = t->model->param_count++;
     t->params = longer(t, t->params, n, sizeof *t->params);
@@ -115,7 +115,7 @@ static void add_param(tables *t, const ff_param *row, const fe_unit *unit)
     t->loaded->param_units[n] = *unit;
 }
 
-static void add_params(tables *t, const fe_loaded *from)
+static void add_params(tables *t, const ff_loaded *from)
 {
     for (size_t i = 0; i < from->model->param_count; i++) {
         ff_param row = *ff_model_param(from->model, i);
@@ -127,7 +127,7 @@ static void add_params(tables *t, const fe_loaded *from)
     }
 }
 
-static void add_inputs(tables *t, const fe_loaded *from)
+static void add_inputs(tables *t, const ff_loaded *from)
 {
     for (size_t i = 0; i < from->model->input_count; i++) {
         const ff_port *row = ff_model_input(from->model, i);
@@ -139,8 +139,8 @@ static void add_inputs(tables *t, const fe_loaded *from)
         }
         t->model->input_count++;
         t->model->inputs = t->inputs = longer(t, t->inputs, n, sizeof *row);
-        t->loaded->input_units = longer(t, t->loaded->input_units, n, sizeof(fe_unit));
-        t->loaded->input_dims = longer(t, t->loaded->input_dims, n, sizeof(fe_dims));
+        t->loaded->input_units = longer(t, t->loaded->input_units, n, sizeof(ff_unit));
+        t->loaded->input_dims = longer(t, t->loaded->input_dims, n, sizeof(ff_dims));
         t->inputs[n] = *row;
         t->loaded->input_units[n] = from->input_units[i];
         t->loaded->input_dims[n] = from->input_dims[i];
@@ -149,7 +149,7 @@ static void add_inputs(tables *t, const fe_loaded *from)
 
 /* The name of an output that the tables have with another unit or dimensions; NULL: there is none.
  */
-static const char *clash(const tables *t, const fe_loaded *from)
+static const char *clash(const tables *t, const ff_loaded *from)
 {
     for (size_t i = 0; i < from->model->output_count; i++) {
         const ff_port *row = ff_model_output(from->model, i);
@@ -157,14 +157,14 @@ static const char *clash(const tables *t, const fe_loaded *from)
         if (known >= 0 &&
             (!row->service != !t->outputs[known].service ||
              (row->service && strcmp(row->service, t->outputs[known].service) != 0) ||
-             !fe_unit_same_dimension(&t->loaded->output_units[known], &from->output_units[i]) ||
+             !ff_unit_same_dimension(&t->loaded->output_units[known], &from->output_units[i]) ||
              !same_dims(&t->loaded->output_dims[known], &from->output_dims[i])))
             return row->name;
     }
     return NULL;
 }
 
-static void add_outputs(tables *t, const fe_loaded *from)
+static void add_outputs(tables *t, const ff_loaded *from)
 {
     for (size_t i = 0; i < from->model->output_count; i++) {
         const ff_port *row = ff_model_output(from->model, i);
@@ -173,18 +173,18 @@ static void add_outputs(tables *t, const fe_loaded *from)
             continue;
         t->model->output_count++;
         t->model->outputs = t->outputs = longer(t, t->outputs, n, sizeof *row);
-        t->loaded->output_units = longer(t, t->loaded->output_units, n, sizeof(fe_unit));
-        t->loaded->output_dims = longer(t, t->loaded->output_dims, n, sizeof(fe_dims));
+        t->loaded->output_units = longer(t, t->loaded->output_units, n, sizeof(ff_unit));
+        t->loaded->output_dims = longer(t, t->loaded->output_dims, n, sizeof(ff_dims));
         t->outputs[n] = *row;
         t->loaded->output_units[n] = from->output_units[i];
         t->loaded->output_dims[n] = from->output_dims[i];
     }
 }
 
-static tables begin_tables(fe_build *b, fe_stage *stage)
+static tables begin_tables(fe_build *b, ff_stage *stage)
 {
     tables t = {.arena = &b->pipeline->memory->arena};
-    fe_unit unit;
+    ff_unit unit;
     char why[64];
     t.model = fe_arena_alloc(t.arena, sizeof *t.model);
     t.loaded = fe_arena_alloc(t.arena, sizeof *t.loaded);
@@ -202,16 +202,16 @@ static tables begin_tables(fe_build *b, fe_stage *stage)
                           .input_stride = sizeof(ff_port),
                           .output_stride = sizeof(ff_port)};
     for (size_t i = 0; i < FE_OWN_ROWS; i++) {
-        fe_unit_parse(own_rows[i].unit, &unit, why, sizeof why);
+        ff_unit_parse(own_rows[i].unit, &unit, why, sizeof why);
         add_param(&t, &own_rows[i], &unit);
     }
     t.model->params = t.params;
     return t;
 }
 
-static bool load_model(fe_build *b, fe_stage *stage)
+static bool load_model(fe_build *b, ff_stage *stage)
 {
-    stage->loaded = fe_library_load(b->library, stage->use, stage->use_place, b->report);
+    stage->loaded = ff_library_load(b->library, stage->use, stage->use_place, b->report);
     if (!stage->loaded)
         return false;
     const ff_model *model = stage->loaded->model;
@@ -223,16 +223,16 @@ static bool load_model(fe_build *b, fe_stage *stage)
 }
 
 /* Adds the model `id` and its tables; false when it is left out. */
-static bool add_candidate(fe_build *b, fe_stage *stage, const char *id, tables *t)
+static bool add_candidate(fe_build *b, ff_stage *stage, const char *id, tables *t)
 {
-    fe_choice *choice = stage->choice;
+    ff_choice *choice = stage->choice;
     fe_build capturing = *b;
-    capturing.report = fe_report_new();
-    fe_candidate *c = &choice->candidates[choice->count++];
+    capturing.report = ff_report_new();
+    ff_candidate *c = &choice->candidates[choice->count++];
     const char *other = NULL;
-    *c = (fe_candidate){.stage = new_stage(b, stage, id), .fits = true, .proposals = ""};
+    *c = (ff_candidate){.stage = new_stage(b, stage, id), .fits = true, .proposals = ""};
     if (!load_model(&capturing, c->stage))
-        fe_leave_out(b->pipeline, c, fe_report_first(capturing.report)->text);
+        fe_leave_out(b->pipeline, c, ff_report_first(capturing.report)->text);
     else if (!FF_HAS(c->stage->loaded->model, assess) || !c->stage->loaded->model->assess)
         fe_leave_out(b->pipeline, c, "it does not assess itself");
     else if ((other = clash(t, c->stage->loaded)))
@@ -240,7 +240,7 @@ static bool add_candidate(fe_build *b, fe_stage *stage, const char *id, tables *
                      fe_pipeline_print(b->pipeline,
                                        "its output \"%s\" is not in the form that others give",
                                        other));
-    fe_report_free(capturing.report);
+    ff_report_free(capturing.report);
     if (!c->fits)
         return false;
     add_params(t, c->stage->loaded);
@@ -249,12 +249,12 @@ static bool add_candidate(fe_build *b, fe_stage *stage, const char *id, tables *
     return true;
 }
 
-static bool load_candidates(fe_build *b, fe_stage *stage)
+static bool load_candidates(fe_build *b, ff_stage *stage)
 {
     fe_arena *arena = &b->pipeline->memory->arena;
     size_t count, kind = strcspn(stage->use, "/") + 1;
-    const char *const *ids = fe_library_ids(b->library, &count);
-    bool all = fe_names_kind_only(stage->use), some = false;
+    const char *const *ids = ff_library_ids(b->library, &count);
+    bool all = ff_names_kind_only(stage->use), some = false;
     if (stage->instance->broken)
         return false;
     tables t = begin_tables(b, stage);
@@ -270,7 +270,7 @@ static bool load_candidates(fe_build *b, fe_stage *stage)
     if (!some) {
         stage->instance->broken = true;
         stage->choice = NULL;
-        return fe_error(b->report, FE_EXIT_INPUT, stage->use_place, NULL,
+        return ff_error(b->report, FF_FAULT_INPUT, stage->use_place, NULL,
                         all ? "%s: no installed model of the kind %.*s can say how well it would do"
                             : "%s: %.*s cannot say how well it would do: no accuracy can be asked "
                               "of it",
@@ -279,7 +279,7 @@ static bool load_candidates(fe_build *b, fe_stage *stage)
     for (size_t i = 0; i < t.model->output_count; i++)
         stage->choice->serves = stage->choice->serves || t.outputs[i].service;
     if (stage->choice->serves && ff_model_find_param(t.model, reference_row.name) < 0)
-        add_param(&t, &reference_row, &(fe_unit){0});
+        add_param(&t, &reference_row, &(ff_unit){0});
     t.model->params = t.params;
     stage->loaded = t.loaded;
     stage->results = fe_arena_alloc(arena, t.model->output_count * sizeof *stage->results);
@@ -288,7 +288,7 @@ static bool load_candidates(fe_build *b, fe_stage *stage)
     return true;
 }
 
-bool fe_load_stage(fe_build *b, fe_stage *stage)
+bool fe_load_stage(fe_build *b, ff_stage *stage)
 {
     if (stage->loaded || !stage->use)
         return stage->loaded != NULL;

@@ -1,13 +1,17 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Texts that live as long as the pipeline, and what several messages have in common. */
+#include <flankfilm/engine.h>
+
 #include "build.h"
+
+#include "../value/tree.h"
 
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-char *fe_pipeline_print(fe_pipeline *pipeline, const char *format, ...)
+char *fe_pipeline_print(ff_pipeline *pipeline, const char *format, ...)
 {
     va_list args;
     va_start(args, format);
@@ -18,26 +22,26 @@ char *fe_pipeline_print(fe_pipeline *pipeline, const char *format, ...)
     return kept;
 }
 
-const char *fe_join(fe_pipeline *pipeline, const char *list, const char *word)
+const char *fe_join(ff_pipeline *pipeline, const char *list, const char *word)
 {
     return fe_pipeline_print(pipeline, "%s%s%s", list, *list ? ", " : "", word);
 }
 
 const char *fe_did_you_mean(fe_build *b, const char *word, const char *const *words, size_t count)
 {
-    const char *near = fe_nearest(word, words, count);
+    const char *near = ff_nearest(word, words, count);
     return near && strcmp(near, word) != 0
                ? fe_pipeline_print(b->pipeline, "; did you mean \"%s\"?", near)
                : "";
 }
 
-const char *fe_found(const fe_node *node)
+const char *fe_found(const ff_node *node)
 {
-    return node->kind == FE_SCALAR && !node->text[0] ? "nothing" : fe_kind_name(node->kind);
+    return node->kind == FF_SCALAR && !node->text[0] ? "nothing" : fe_kind_name(node->kind);
 }
 
-bool fe_expected(fe_build *b, const fe_node *node, const char *where, const char *what)
+bool fe_expected(fe_build *b, const ff_node *node, const char *where, const char *what)
 {
-    return fe_error(b->report, FE_EXIT_INPUT, node->place, NULL, "%s: expected %s, found %s", where,
-                    what, fe_found(node));
+    return ff_error(b->report, FF_FAULT_INPUT, node->place, NULL, "%s: expected %s, found %s",
+                    where, what, fe_found(node));
 }

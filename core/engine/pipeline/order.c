@@ -1,10 +1,10 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Which stages run, why, and in which order. */
 #include "build.h"
 
 #include <stdlib.h>
 
-static void say_why(fe_pipeline *pipeline, fe_stage *stage)
+static void say_why(ff_pipeline *pipeline, ff_stage *stage)
 {
     const char *first = "", *fed = "";
     size_t requested = 0;
@@ -12,7 +12,7 @@ static void say_why(fe_pipeline *pipeline, fe_stage *stage)
         if (stage->results[i].requested && requested++ == 0)
             first = stage->results[i].row->name;
     for (size_t i = 0; i < pipeline->count; i++) {
-        const fe_stage *other = &pipeline->stages[i];
+        const ff_stage *other = &pipeline->stages[i];
         bool feeds = false;
         for (size_t k = 0; other->needed && k < other->wire_count; k++)
             feeds = feeds || other->wires[k].stage == stage - pipeline->stages;
@@ -31,7 +31,7 @@ static void say_why(fe_pipeline *pipeline, fe_stage *stage)
 }
 
 /* Marks a stage as needed, its inputs as wanted, and the stages behind them as needed. */
-static void mark(fe_pipeline *pipeline, fe_stage *stage)
+static void mark(ff_pipeline *pipeline, ff_stage *stage)
 {
     if (stage->needed)
         return;
@@ -40,7 +40,7 @@ static void mark(fe_pipeline *pipeline, fe_stage *stage)
         if (stage->wires[i].stage >= 0)
             mark(pipeline, &pipeline->stages[stage->wires[i].stage]);
     for (size_t i = 0; stage->loaded && i < stage->loaded->model->input_count; i++) {
-        fe_result *result = fe_feeding_result(pipeline, stage, i);
+        ff_result *result = ff_feeding_result(pipeline, stage, i);
         if (!result)
             continue;
         result->wanted = true;
@@ -49,10 +49,10 @@ static void mark(fe_pipeline *pipeline, fe_stage *stage)
     }
 }
 
-void fe_mark_needed(fe_pipeline *pipeline)
+void fe_mark_needed(ff_pipeline *pipeline)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
-        fe_stage *stage = &pipeline->stages[i];
+        ff_stage *stage = &pipeline->stages[i];
         for (size_t k = 0; stage->loaded && k < stage->loaded->model->output_count; k++) {
             if (!stage->results[k].requested)
                 continue;
@@ -65,30 +65,30 @@ void fe_mark_needed(fe_pipeline *pipeline)
             say_why(pipeline, &pipeline->stages[i]);
 }
 
-static void report_cycle(fe_build *b, const fe_stage *first, fe_place place)
+static void report_cycle(fe_build *b, const ff_stage *first, ff_place place)
 {
     const char *text = "";
-    const fe_stage *stage = first;
+    const ff_stage *stage = first;
     do {
         stage->instance->broken = true;
         text = fe_pipeline_print(b->pipeline, "%.400s%s -> ", text, stage->name);
         stage = stage->instance->entering;
     } while (stage != first);
-    fe_error(b->report, FE_EXIT_INPUT, place,
+    ff_error(b->report, FF_FAULT_INPUT, place,
              "each arrow reads \"needs\"; break the circle by another stage on one of the wires",
              "pipeline: the stages wait for each other: %s%s", text, first->name);
 }
 
 /* Sorts depth first: a stage comes after those that feed it. */
-static void visit(fe_build *b, fe_stage *stage, size_t *sorted)
+static void visit(fe_build *b, ff_stage *stage, size_t *sorted)
 {
-    fe_pipeline *pipeline = b->pipeline;
+    ff_pipeline *pipeline = b->pipeline;
     stage->instance->sorting = FE_ENTERED;
     for (size_t i = 0; i < stage->wire_count; i++) {
-        const fe_wire *wire = &stage->wires[i];
+        const ff_wire *wire = &stage->wires[i];
         if (wire->stage < 0)
             continue;
-        fe_stage *from = &pipeline->stages[wire->stage];
+        ff_stage *from = &pipeline->stages[wire->stage];
         stage->instance->entering = from;
         if (from->instance->sorting == FE_ENTERED)
             report_cycle(b, from, wire->place);
@@ -101,13 +101,13 @@ static void visit(fe_build *b, fe_stage *stage, size_t *sorted)
 
 /* Moves the stages that judge laws to the end, with those that they feed: so all judges have their
    inputs before the first of them runs. */
-static void put_judges_last(fe_pipeline *pipeline)
+static void put_judges_last(ff_pipeline *pipeline)
 {
     size_t *order = fe_alloc(2 * pipeline->count * sizeof *order), first = 0, last = 0;
     bool *late = fe_alloc(pipeline->count * sizeof *late);
     for (size_t i = 0; i < pipeline->count; i++) {
         size_t at = pipeline->order[i];
-        const fe_stage *stage = &pipeline->stages[at];
+        const ff_stage *stage = &pipeline->stages[at];
         late[at] = fe_is_judge(pipeline, stage);
         for (size_t k = 0; k < stage->wire_count; k++)
             late[at] = late[at] || (stage->wires[k].stage >= 0 && late[stage->wires[k].stage]);

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Which wire an input is on, which output feeds it, and which outputs are wanted. */
 #include "build.h"
 
@@ -15,7 +15,7 @@ const char *fe_output_name(const ff_port *input)
     return strchr(input->name, '.') + 1;
 }
 
-const fe_wire *fe_input_wire(const fe_stage *stage, size_t input)
+const ff_wire *fe_input_wire(const ff_stage *stage, size_t input)
 {
     const ff_port *row = ff_model_input(stage->loaded->model, input);
     size_t i = 0;
@@ -24,7 +24,7 @@ const fe_wire *fe_input_wire(const fe_stage *stage, size_t input)
     return &stage->wires[i];
 }
 
-int fe_find_offer(const fe_loaded *from, const ff_port *input)
+int fe_find_offer(const ff_loaded *from, const ff_port *input)
 {
     for (size_t i = 0; i < from->model->output_count; i++) {
         const ff_port *row = ff_model_output(from->model, i);
@@ -36,25 +36,25 @@ int fe_find_offer(const fe_loaded *from, const ff_port *input)
     return -1;
 }
 
-fe_result *fe_feeding_result(const fe_pipeline *pipeline, const fe_stage *stage, size_t input)
+ff_result *ff_feeding_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t input)
 {
     const ff_port *row = ff_model_input(stage->loaded->model, input);
-    const fe_wire *wire = stage->wire_count ? fe_input_wire(stage, input) : NULL;
+    const ff_wire *wire = stage->wire_count ? fe_input_wire(stage, input) : NULL;
     if (row->service || !wire || wire->stage < 0 || !pipeline->stages[wire->stage].loaded)
         return NULL;
-    const fe_stage *from = &pipeline->stages[wire->stage];
+    const ff_stage *from = &pipeline->stages[wire->stage];
     int output = fe_find_offer(from->loaded, row);
     return output < 0 ? NULL : &from->results[output];
 }
 
-const char *fe_result_dim(const fe_stage *stage, size_t output, uint32_t axis)
+const char *ff_result_dim(const ff_stage *stage, size_t output, uint32_t axis)
 {
-    const fe_dims *dims = &stage->loaded->output_dims[output];
+    const ff_dims *dims = &stage->loaded->output_dims[output];
     uint32_t absent = dims->first_optional && stage->results[output].rank < dims->rank;
     return axis + absent < dims->rank ? dims->name[axis + absent] : "";
 }
 
-uint64_t fe_wanted_of(const fe_stage *stage)
+uint64_t fe_wanted_of(const ff_stage *stage)
 {
     uint64_t wanted = 0;
     for (size_t i = 0; i < stage->loaded->model->output_count && i < 64; i++)
@@ -62,7 +62,7 @@ uint64_t fe_wanted_of(const fe_stage *stage)
     return wanted;
 }
 
-bool fe_wants_any(const fe_stage *stage)
+bool fe_wants_any(const ff_stage *stage)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++)
         if (stage->results[i].wanted)
@@ -70,10 +70,10 @@ bool fe_wants_any(const fe_stage *stage)
     return false;
 }
 
-const char *fe_pass_requests(const fe_stage *from, fe_stage *to)
+const char *fe_pass_requests(const ff_stage *from, ff_stage *to)
 {
     for (size_t i = 0; i < from->loaded->model->output_count; i++) {
-        const fe_result *result = &from->results[i];
+        const ff_result *result = &from->results[i];
         int output = ff_model_find_output(to->loaded->model, result->row->name);
         if (output < 0 && result->required)
             return result->row->name;

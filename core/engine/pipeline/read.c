@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Reads the top of a file and the names and models of its stages. */
 #include "build.h"
 
@@ -7,26 +7,31 @@
 
 enum { MOST_STAGES = 1000, LONGEST_NAME = 64 };
 
-const char *const fe_pipeline_top_keys[] = {"format",  "title", "include",  "pipeline",
-                                            "outputs", "study", "accuracy", NULL};
-enum { TOP_KEYS = sizeof fe_pipeline_top_keys / sizeof fe_pipeline_top_keys[0] - 1 };
+static const char *const top_keys[] = {"format",  "title", "include",  "pipeline",
+                                       "outputs", "study", "accuracy", NULL};
+enum { TOP_KEYS = sizeof top_keys / sizeof top_keys[0] - 1 };
 
-fe_stage *fe_find_stage(fe_build *b, const char *name, fe_place place, const char *where)
+const char *const *ff_file_keys(void)
 {
-    fe_pipeline *pipeline = b->pipeline;
+    return top_keys;
+}
+
+ff_stage *fe_find_stage(fe_build *b, const char *name, ff_place place, const char *where)
+{
+    ff_pipeline *pipeline = b->pipeline;
     for (size_t i = 0; i < pipeline->count; i++)
         if (!strcmp(pipeline->stages[i].name, name))
             return &pipeline->stages[i];
     const char **names = fe_alloc(pipeline->count * sizeof *names);
     for (size_t i = 0; i < pipeline->count; i++)
         names[i] = pipeline->stages[i].name;
-    fe_error(b->report, FE_EXIT_INPUT, place, NULL, "%s: there is no stage \"%.80s\"%s", where,
+    ff_error(b->report, FF_FAULT_INPUT, place, NULL, "%s: there is no stage \"%.80s\"%s", where,
              name, fe_did_you_mean(b, name, names, pipeline->count));
     fe_free(names);
     return NULL;
 }
 
-fe_stage *fe_stage_of(const fe_pipeline *pipeline, const char *path, const char **name)
+ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char **name)
 {
     size_t length = strcspn(path, ".");
     *name = path[length] ? path + length + 1 : "";
@@ -37,99 +42,98 @@ fe_stage *fe_stage_of(const fe_pipeline *pipeline, const char *path, const char 
     return NULL;
 }
 
-static void check_top_keys(fe_build *b, const fe_node *root)
+static void check_top_keys(fe_build *b, const ff_node *root)
 {
     for (size_t i = 0; i < root->count; i++) {
         const char *key = root->keys[i];
-        const char *near = fe_nearest(key, fe_pipeline_top_keys, TOP_KEYS);
+        const char *near = ff_nearest(key, top_keys, TOP_KEYS);
         if (!strncmp(key, "x-", 2) || (near && !strcmp(near, key)))
             continue;
-        fe_error(b->report, FE_EXIT_INPUT, root->key_places[i],
+        ff_error(b->report, FF_FAULT_INPUT, root->key_places[i],
                  "keys of your own begin with \"x-\"; stages belong under \"pipeline\"",
-                 "unknown key \"%.80s\"%s", key,
-                 fe_did_you_mean(b, key, fe_pipeline_top_keys, TOP_KEYS));
+                 "unknown key \"%.80s\"%s", key, fe_did_you_mean(b, key, top_keys, TOP_KEYS));
     }
 }
 
-static void check_format(fe_build *b, const fe_node *root)
+static void check_format(fe_build *b, const ff_node *root)
 {
-    const fe_node *format = fe_node_get(root, "format");
+    const ff_node *format = ff_node_get(root, "format");
     if (!format)
-        fe_error(b->report, FE_EXIT_INPUT, root->place, "write the line \"format: 1\" at its top",
+        ff_error(b->report, FF_FAULT_INPUT, root->place, "write the line \"format: 1\" at its top",
                  "the file does not state its format");
-    else if (format->kind != FE_SCALAR)
+    else if (format->kind != FF_SCALAR)
         fe_expected(b, format, "format", "1");
     else if (strcmp(format->text, "1") != 0)
-        fe_error(b->report, FE_EXIT_INPUT, format->place, NULL,
+        ff_error(b->report, FF_FAULT_INPUT, format->place, NULL,
                  "format: expected 1, the only one that this version reads, found \"%.40s\"",
                  format->text);
 }
 
-static void read_title(fe_build *b, const fe_node *root)
+static void read_title(fe_build *b, const ff_node *root)
 {
-    const fe_node *title = fe_node_get(root, "title");
-    if (title && title->kind != FE_SCALAR)
+    const ff_node *title = ff_node_get(root, "title");
+    if (title && title->kind != FF_SCALAR)
         fe_expected(b, title, "title", "a text");
     else if (title)
         b->pipeline->title = fe_pipeline_print(b->pipeline, "%s", title->text);
 }
 
-static bool check_name(fe_build *b, const char *name, fe_place place)
+static bool check_name(fe_build *b, const char *name, ff_place place)
 {
     static const char digits[] = "0123456789-";
     static const char letters[] = "0123456789-"
                                   "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
     size_t length = strlen(name);
     if (!strcmp(name, "none"))
-        return fe_error(b->report, FE_EXIT_INPUT, place, NULL,
+        return ff_error(b->report, FF_FAULT_INPUT, place, NULL,
                         "a stage cannot be called \"none\": the word leaves a wire unconnected");
     if (length > 0 && length < LONGEST_NAME && !strchr(digits, name[0]) &&
         strspn(name, letters) == length)
         return true;
-    return fe_error(
-        b->report, FE_EXIT_INPUT, place, NULL,
+    return ff_error(
+        b->report, FF_FAULT_INPUT, place, NULL,
         "\"%.80s\" is not a name for a stage: a letter, then letters, digits, \"_\" and "
         "\"-\", fewer than %d",
         name, LONGEST_NAME);
 }
 
 /* Suggests the stage whose name was perhaps mistyped. */
-static const char *meant(fe_build *b, const fe_stage *stage, const fe_node *map)
+static const char *meant(fe_build *b, const ff_stage *stage, const ff_node *map)
 {
     const char **others = fe_alloc(map->count * sizeof *others);
     size_t count = 0;
     for (size_t i = 0; i < map->count; i++)
-        if (fe_node_get(map->items[i], "use"))
+        if (ff_node_get(map->items[i], "use"))
             others[count++] = map->keys[i];
     const char *text = fe_did_you_mean(b, stage->name, others, count);
     fe_free(others);
     return text;
 }
 
-static void read_use(fe_build *b, fe_stage *stage, const fe_node *map)
+static void read_use(fe_build *b, ff_stage *stage, const ff_node *map)
 {
-    const fe_node *use = fe_node_get(stage->node, "use");
+    const ff_node *use = ff_node_get(stage->node, "use");
     stage->use_place = use ? use->place : stage->place;
-    if (stage->node->kind != FE_MAP)
-        fe_error(b->report, FE_EXIT_INPUT, stage->node->place,
+    if (stage->node->kind != FF_MAP)
+        ff_error(b->report, FF_FAULT_INPUT, stage->node->place,
                  "write for example NAME: {use: KIND/MODEL}",
                  "%s: expected a map that says which model it uses, found %s", stage->name,
                  fe_found(stage->node));
     else if (!use)
-        fe_error(b->report, FE_EXIT_INPUT, stage->place, "add use: KIND/MODEL",
+        ff_error(b->report, FF_FAULT_INPUT, stage->place, "add use: KIND/MODEL",
                  "%s: the stage does not say which model it uses%s", stage->name,
                  meant(b, stage, map));
-    else if (use->kind != FE_SCALAR || !use->text[0])
+    else if (use->kind != FF_SCALAR || !use->text[0])
         fe_expected(b, use, fe_pipeline_print(b->pipeline, "%s.use", stage->name),
                     "a model such as KIND/MODEL");
     else
         stage->use = use->text;
 }
 
-static void read_stage(fe_build *b, const fe_node *map, size_t index)
+static void read_stage(fe_build *b, const ff_node *map, size_t index)
 {
-    fe_pipeline *pipeline = b->pipeline;
-    fe_stage *stage = &pipeline->stages[pipeline->count++];
+    ff_pipeline *pipeline = b->pipeline;
+    ff_stage *stage = &pipeline->stages[pipeline->count++];
     stage->name = fe_pipeline_print(pipeline, "%s", map->keys[index]);
     stage->place = map->key_places[index];
     stage->node = map->items[index];
@@ -138,28 +142,28 @@ static void read_stage(fe_build *b, const fe_node *map, size_t index)
     read_use(b, stage, map);
 }
 
-bool fe_read_stages(fe_build *b, const fe_node *root)
+bool fe_read_stages(fe_build *b, const ff_node *root)
 {
-    fe_pipeline *pipeline = b->pipeline;
+    ff_pipeline *pipeline = b->pipeline;
     fe_arena *arena = &pipeline->memory->arena;
-    const fe_node *map = fe_node_get(root, "pipeline");
+    const ff_node *map = ff_node_get(root, "pipeline");
     check_top_keys(b, root);
     check_format(b, root);
     read_title(b, root);
     if (!map)
-        return fe_error(b->report, FE_EXIT_INPUT, root->place, NULL,
+        return ff_error(b->report, FF_FAULT_INPUT, root->place, NULL,
                         "the file has no \"pipeline\": a map from names to stages");
-    if (map->kind != FE_MAP)
+    if (map->kind != FF_MAP)
         return fe_expected(b, map, "pipeline", "a map from names to stages");
     if (map->count > MOST_STAGES)
-        return fe_error(b->report, FE_EXIT_INPUT, map->place, NULL,
+        return ff_error(b->report, FF_FAULT_INPUT, map->place, NULL,
                         "pipeline: %zu stages; at most %d are possible", map->count, MOST_STAGES);
     pipeline->stages = fe_arena_alloc(arena, map->count * sizeof *pipeline->stages);
     pipeline->order = fe_arena_alloc(arena, map->count * sizeof *pipeline->order);
     for (size_t i = 0; i < map->count; i++)
         if (strncmp(map->keys[i], "x-", 2) != 0 && check_name(b, map->keys[i], map->key_places[i]))
             read_stage(b, map, i);
-    if (pipeline->count == 0 && fe_report_errors(b->report) == 0)
-        fe_error(b->report, FE_EXIT_INPUT, map->place, NULL, "pipeline: it has no stages");
+    if (pipeline->count == 0 && ff_report_errors(b->report) == 0)
+        ff_error(b->report, FF_FAULT_INPUT, map->place, NULL, "pipeline: it has no stages");
     return pipeline->count > 0;
 }

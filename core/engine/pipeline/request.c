@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Reads which outputs the file requests. */
 #include "build.h"
 
@@ -6,12 +6,12 @@
 #include <string.h>
 
 /* Requests all scalars and series of the stage; false when it has none. */
-static bool request_all(fe_stage *stage)
+static bool request_all(ff_stage *stage)
 {
     bool some = false;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const fe_dims *dims = &stage->loaded->output_dims[i];
-        fe_result *result = &stage->results[i];
+        const ff_dims *dims = &stage->loaded->output_dims[i];
+        ff_result *result = &stage->results[i];
         bool field = dims->rank - dims->first_optional > 1;
         result->requested = result->requested || (!field && !result->row->service);
         some = some || result->requested;
@@ -19,12 +19,12 @@ static bool request_all(fe_stage *stage)
     return some;
 }
 
-static void request_one(fe_build *b, fe_stage *stage, const char *name, fe_place place)
+static void request_one(fe_build *b, ff_stage *stage, const char *name, ff_place place)
 {
     const ff_model *model = stage->loaded->model;
     int output = ff_model_find_output(model, name);
     if (output >= 0 && stage->results[output].row->service) {
-        fe_error(b->report, FE_EXIT_INPUT, place, NULL,
+        ff_error(b->report, FF_FAULT_INPUT, place, NULL,
                  "outputs: \"%s\" of %s is a service for other stages; it has no values", name,
                  stage->name);
     } else if (output >= 0) {
@@ -34,25 +34,25 @@ static void request_one(fe_build *b, fe_stage *stage, const char *name, fe_place
         const char **names = fe_alloc(model->output_count * sizeof *names);
         for (size_t i = 0; i < model->output_count; i++)
             names[i] = stage->results[i].row->name;
-        fe_error(b->report, FE_EXIT_INPUT, place, NULL,
+        ff_error(b->report, FF_FAULT_INPUT, place, NULL,
                  "outputs: %s (%s) has no output \"%.80s\"%s", stage->name, stage->use, name,
                  fe_did_you_mean(b, name, names, model->output_count));
         fe_free(names);
     }
 }
 
-static void read_request(fe_build *b, const fe_node *item)
+static void read_request(fe_build *b, const ff_node *item)
 {
-    if (item->kind != FE_SCALAR || !item->text[0]) {
+    if (item->kind != FF_SCALAR || !item->text[0]) {
         fe_expected(b, item, "outputs", "STAGE.OUTPUT or STAGE.*");
         return;
     }
     size_t length = strcspn(item->text, ".");
     const char *word = fe_pipeline_print(b->pipeline, "%.*s", (int)length, item->text);
     const char *name = item->text[length] ? item->text + length + 1 : "";
-    fe_stage *stage = fe_find_stage(b, word, item->place, "outputs");
+    ff_stage *stage = fe_find_stage(b, word, item->place, "outputs");
     if (stage && !*name)
-        fe_error(b->report, FE_EXIT_INPUT, item->place, NULL,
+        ff_error(b->report, FF_FAULT_INPUT, item->place, NULL,
                  "outputs: \"%s\" is a stage; write %s.OUTPUT, or %s.* for its scalars and series",
                  word, word, word);
     if (!stage || !*name || !fe_load_stage(b, stage))
@@ -60,7 +60,7 @@ static void read_request(fe_build *b, const fe_node *item)
     if (strcmp(name, "*") != 0)
         request_one(b, stage, name, item->place);
     else if (!request_all(stage))
-        fe_error(b->report, FE_EXIT_INPUT, item->place, NULL,
+        ff_error(b->report, FF_FAULT_INPUT, item->place, NULL,
                  "outputs: %s (%s) has no scalars and no series", stage->name, stage->use);
     fe_link_from(b, stage);
 }
@@ -68,33 +68,33 @@ static void read_request(fe_build *b, const fe_node *item)
 /* Without a list, the outputs of stages that feed no other are requested. */
 static void request_default(fe_build *b)
 {
-    fe_pipeline *pipeline = b->pipeline;
+    ff_pipeline *pipeline = b->pipeline;
     bool *feeds = fe_alloc(pipeline->count * sizeof *feeds);
     for (size_t i = 0; i < pipeline->count; i++) {
-        const fe_stage *stage = &pipeline->stages[i];
+        const ff_stage *stage = &pipeline->stages[i];
         fe_link_from(b, &pipeline->stages[i]);
         for (size_t k = 0; k < stage->wire_count; k++)
             if (stage->wires[k].stage >= 0)
                 feeds[stage->wires[k].stage] = true;
     }
     for (size_t i = 0; i < pipeline->count; i++) {
-        fe_stage *stage = &pipeline->stages[i];
+        ff_stage *stage = &pipeline->stages[i];
         if (!feeds[i] && stage->loaded && request_all(stage))
             stage->why = fe_pipeline_print(pipeline, "feeds no other stage");
     }
     fe_free(feeds);
 }
 
-void fe_request_outputs(fe_build *b, const fe_node *outputs)
+void fe_request_outputs(fe_build *b, const ff_node *outputs)
 {
     if (!outputs)
         request_default(b);
-    else if (outputs->kind == FE_MAP || (outputs->kind == FE_SCALAR && !outputs->text[0]))
+    else if (outputs->kind == FF_MAP || (outputs->kind == FF_SCALAR && !outputs->text[0]))
         fe_expected(b, outputs, "outputs", "a list such as [STAGE.OUTPUT, STAGE.*]");
-    else if (outputs->kind == FE_SCALAR)
+    else if (outputs->kind == FF_SCALAR)
         read_request(b, outputs);
     else if (outputs->count == 0)
-        fe_error(b->report, FE_EXIT_INPUT, outputs->place,
+        ff_error(b->report, FF_FAULT_INPUT, outputs->place,
                  "leave \"outputs\" away to get the scalars and series of the last stages",
                  "outputs: the list is empty, so that nothing would run");
     else

@@ -1,17 +1,17 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Finds the setting of a parameter or a wire in the file. */
 #include "build.h"
 
 #include <stdio.h>
 #include <string.h>
 
-const fe_node *fe_find_node(const fe_node *map, const char *path)
+const ff_node *fe_find_node(const ff_node *map, const char *path)
 {
     char word[96];
     while (map) {
         size_t length = strcspn(path, ".");
         snprintf(word, sizeof word, "%.*s", (int)length, path);
-        map = fe_node_get(map, word);
+        map = ff_node_get(map, word);
         if (!path[length])
             return map;
         path += length + 1;
@@ -19,16 +19,16 @@ const fe_node *fe_find_node(const fe_node *map, const char *path)
     return NULL;
 }
 
-const fe_node *fe_model_set(const fe_stage *stage, const char *model)
+const ff_node *fe_model_set(const ff_stage *stage, const char *model)
 {
-    const fe_node *with = fe_node_get(stage->node, "with");
-    return with ? fe_node_get(with, model) : NULL;
+    const ff_node *with = ff_node_get(stage->node, "with");
+    return with ? ff_node_get(with, model) : NULL;
 }
 
-fe_setting fe_find_setting(const fe_stage *stage, const char *model, const char *path)
+fe_setting fe_find_setting(const ff_stage *stage, const char *model, const char *path)
 {
-    const fe_node *own = fe_find_node(stage->node, path);
-    const fe_node *set = fe_find_node(fe_model_set(stage, model), path);
+    const ff_node *own = fe_find_node(stage->node, path);
+    const ff_node *set = fe_find_node(fe_model_set(stage, model), path);
     fe_setting setting = {.node = own, .priority = own ? 2 * (uint64_t)own->rank + 1 : 0};
     if (set && (!own || 2 * (uint64_t)set->rank > setting.priority))
         setting = (fe_setting){.node = set, .priority = 2 * (uint64_t)set->rank};

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* The state that a stage hands to the next case of a chain, which starts from it. */
 #include "build.h"
 
@@ -8,12 +8,12 @@
 
 enum { MOST_BYTES = 1 << 20 };
 
-bool fe_stage_has_state(const fe_stage *stage)
+bool ff_stage_has_state(const ff_stage *stage)
 {
     return stage->needed && FF_HAS(stage->loaded->model, carry) && stage->loaded->model->carry;
 }
 
-void fe_stage_set_state(fe_stage *stage, const void *bytes, size_t size)
+void ff_stage_set_state(ff_stage *stage, const void *bytes, size_t size)
 {
     void *copy = size ? fe_alloc(size) : NULL;
     if (size)
@@ -23,26 +23,26 @@ void fe_stage_set_state(fe_stage *stage, const void *bytes, size_t size)
     stage->state_size = size;
 }
 
-static bool call(const fe_stage *stage, const ff_state_bytes *from, ff_state_bytes *to,
-                 fe_report *report)
+static bool call(const ff_stage *stage, const ff_state_bytes *from, ff_state_bytes *to,
+                 ff_report *report)
 {
     fe_call call = fe_call_begin(stage, "carry");
     ff_status status = stage->loaded->model->carry(stage->instance->self, from, to);
     return fe_call_end(&call, status, report);
 }
 
-bool fe_restore_state(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
+bool fe_restore_state(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
     const ff_state_bytes from = {sizeof from, stage->state, stage->state_size};
-    return !pipeline->chained || !fe_stage_has_state(stage) || !stage->state ||
+    return !pipeline->chained || !ff_stage_has_state(stage) || !stage->state ||
            call(stage, &from, NULL, report);
 }
 
-bool fe_save_state(const fe_pipeline *pipeline, fe_stage *stage, fe_report *report)
+bool fe_save_state(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
     ff_state_bytes to = {.size = sizeof to};
     char what[96];
-    if (!pipeline->chained || !fe_stage_has_state(stage))
+    if (!pipeline->chained || !ff_stage_has_state(stage))
         return true;
     if (!call(stage, NULL, &to, report))
         return false;
@@ -52,6 +52,6 @@ bool fe_save_state(const fe_pipeline *pipeline, fe_stage *stage, fe_report *repo
         return fe_plugin_fault(stage, report, what);
     }
     if (to.count) /* else the state that it was given is handed on */
-        fe_stage_set_state(stage, to.bytes, to.count);
+        ff_stage_set_state(stage, to.bytes, to.count);
     return true;
 }

@@ -1,5 +1,7 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Finds which stage feeds which inputs. */
+#include <flankfilm/engine.h>
+
 #include "build.h"
 
 #include "../plugin/param.h"
@@ -9,10 +11,10 @@
 
 /* Compares names from the last one on. An optional first dimension may be absent on either side:
    the run checks that. */
-static bool dims_agree(const fe_dims *given, const fe_dims *taken)
+static bool dims_agree(const ff_dims *given, const ff_dims *taken)
 {
-    const fe_dims *longer = given->rank > taken->rank ? given : taken;
-    const fe_dims *shorter = longer == given ? taken : given;
+    const ff_dims *longer = given->rank > taken->rank ? given : taken;
+    const ff_dims *shorter = longer == given ? taken : given;
     if (longer->rank - shorter->rank > (longer->first_optional ? 1 : 0))
         return false;
     for (uint32_t i = 1; i <= shorter->rank; i++)
@@ -22,12 +24,12 @@ static bool dims_agree(const fe_dims *given, const fe_dims *taken)
 }
 
 /* Why output `output` of `from` cannot feed a data row; NULL: it can. */
-static const char *row_misfit(fe_build *b, const fe_loaded *to, size_t input, const fe_loaded *from,
+static const char *row_misfit(fe_build *b, const ff_loaded *to, size_t input, const ff_loaded *from,
                               size_t output)
 {
     const ff_port *taken = ff_model_input(to->model, input);
     const ff_port *given = ff_model_output(from->model, output);
-    if (!fe_unit_same_dimension(&from->output_units[output], &to->input_units[input]))
+    if (!ff_unit_same_dimension(&from->output_units[output], &to->input_units[input]))
         return fe_pipeline_print(b->pipeline, "gives \"%s\" in \"%s\", not in \"%s\"", given->name,
                                  given->unit, taken->unit);
     if (!dims_agree(&from->output_dims[output], &to->input_dims[input]))
@@ -38,8 +40,8 @@ static const char *row_misfit(fe_build *b, const fe_loaded *to, size_t input, co
 
 /* Why `from` cannot feed a wire, to complete 'the stage ...'; NULL: it offers all that the wire
    requires, and at least one output. */
-static const char *misfit(fe_build *b, const fe_stage *stage, const fe_wire *wire,
-                          const fe_loaded *from)
+static const char *misfit(fe_build *b, const ff_stage *stage, const ff_wire *wire,
+                          const ff_loaded *from)
 {
     const char *why = NULL;
     bool feeds = false;
@@ -60,7 +62,7 @@ static const char *misfit(fe_build *b, const fe_stage *stage, const fe_wire *wir
 }
 
 /* Lists what the wire must carry: "time, load_per_width" or a service's id; "": nothing. */
-static const char *wire_needs(fe_build *b, const fe_stage *stage, const fe_wire *wire)
+static const char *wire_needs(fe_build *b, const ff_stage *stage, const ff_wire *wire)
 {
     const char *needs = "";
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
@@ -79,34 +81,34 @@ static bool is_of_kind(const char *id, const char *kinds)
 }
 
 /* Connects a wire that the file gives; false when it stays without the stage that it needs. */
-static bool link_written(fe_build *b, const fe_stage *stage, fe_wire *wire, const fe_node *node)
+static bool link_written(fe_build *b, const ff_stage *stage, ff_wire *wire, const ff_node *node)
 {
     const char *path = fe_pipeline_print(b->pipeline, "%s.%s", stage->name, wire->name);
     wire->place = node->place;
-    if (node->kind != FE_SCALAR || !node->text[0])
+    if (node->kind != FF_SCALAR || !node->text[0])
         return fe_expected(b, node, path, "the name of a stage");
     if (!strcmp(node->text, "none"))
         return !*wire_needs(b, stage, wire) ||
-               fe_error(b->report, FE_EXIT_INPUT, node->place, NULL,
+               ff_error(b->report, FF_FAULT_INPUT, node->place, NULL,
                         "%s: \"none\" is not possible, since %s cannot do without it", path,
                         stage->use);
-    fe_stage *from = fe_find_stage(b, node->text, node->place, path);
+    ff_stage *from = fe_find_stage(b, node->text, node->place, path);
     if (!from)
         return false;
     wire->stage = (int)(from - b->pipeline->stages);
     if (!fe_load_stage(b, from))
         return false;
     const char *why = misfit(b, stage, wire, from->loaded);
-    return !why || fe_error(b->report, FE_EXIT_INPUT, node->place, NULL,
+    return !why || ff_error(b->report, FF_FAULT_INPUT, node->place, NULL,
                             "%s: the stage \"%s\" (%s) %s", path, from->name, from->use, why);
 }
 
-static bool refuse_none(fe_build *b, const fe_stage *stage, const fe_wire *wire, const char *kinds,
+static bool refuse_none(fe_build *b, const ff_stage *stage, const ff_wire *wire, const char *kinds,
                         const char *why_not)
 {
     const char *needs = wire_needs(b, stage, wire), *installed = "";
     size_t count;
-    const char *const *ids = fe_library_ids(b->library, &count);
+    const char *const *ids = ff_library_ids(b->library, &count);
     if (!*needs)
         return true;
     for (size_t i = 0; i < count; i++)
@@ -117,13 +119,13 @@ static bool refuse_none(fe_build *b, const fe_stage *stage, const fe_wire *wire,
                            : "no model of that kind is installed";
     if (!why_not)
         why_not = fe_pipeline_print(b->pipeline, "no stage is of the kind %s", kinds);
-    return fe_error(b->report, FE_EXIT_INPUT, stage->place, hint,
+    return ff_error(b->report, FF_FAULT_INPUT, stage->place, hint,
                     "%s: nothing feeds its wire \"%s\" (%s): %s", stage->name, wire->name, needs,
                     why_not);
 }
 
 /* Connects the only stage of the wire's kinds that can feed it; false after an error. */
-static bool link_automatic(fe_build *b, const fe_stage *stage, fe_wire *wire, const char *kinds)
+static bool link_automatic(fe_build *b, const ff_stage *stage, ff_wire *wire, const char *kinds)
 {
     const char *fitting = "", *why_not = NULL;
     size_t count = 0;
@@ -131,7 +133,7 @@ static bool link_automatic(fe_build *b, const fe_stage *stage, fe_wire *wire, co
     wire->automatic = true;
     wire->place = stage->place;
     for (size_t i = 0; i < b->pipeline->count; i++) {
-        fe_stage *from = &b->pipeline->stages[i];
+        ff_stage *from = &b->pipeline->stages[i];
         if (from == stage || !from->use || !is_of_kind(from->use, kinds))
             continue;
         known = fe_load_stage(b, from) && known;
@@ -151,7 +153,7 @@ static bool link_automatic(fe_build *b, const fe_stage *stage, fe_wire *wire, co
         return true;
     wire->stage = -1;
     return known &&
-           fe_error(b->report, FE_EXIT_INPUT, stage->place,
+           ff_error(b->report, FF_FAULT_INPUT, stage->place,
                     fe_pipeline_print(b->pipeline,
                                       "add the line \"%s: %.*s\" to %s, or name another "
                                       "of them",
@@ -160,7 +162,7 @@ static bool link_automatic(fe_build *b, const fe_stage *stage, fe_wire *wire, co
                     fitting);
 }
 
-void fe_link_stage(fe_build *b, fe_stage *stage)
+void fe_link_stage(fe_build *b, ff_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     stage->wires =
@@ -172,10 +174,10 @@ void fe_link_stage(fe_build *b, fe_stage *stage)
             known++;
         if (known < stage->wire_count)
             continue;
-        fe_wire *wire = &stage->wires[stage->wire_count++];
+        ff_wire *wire = &stage->wires[stage->wire_count++];
         snprintf(wire->name, sizeof wire->name, "%.*s", (int)strcspn(row->name, "."), row->name);
         wire->stage = -1;
-        const fe_node *node = fe_find_setting(stage, stage->use, wire->name).node;
+        const ff_node *node = fe_find_setting(stage, stage->use, wire->name).node;
         bool good = node ? link_written(b, stage, wire, node)
                          : link_automatic(b, stage, wire, row->from ? row->from : wire->name);
         stage->instance->broken = stage->instance->broken || !good;

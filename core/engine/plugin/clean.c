@@ -1,5 +1,7 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 #include "clean.h"
+
+#include <flankfilm/engine.h>
 
 #include "../value/text.h"
 
@@ -10,7 +12,7 @@ static bool is_clean(uint32_t c)
     return c >= 0x20 && c != 0x7f && c != FE_NO_CHAR;
 }
 
-void fe_clean_text(char *out, size_t size, const char *text)
+void ff_clean_text(char *out, size_t size, const char *text)
 {
     const char *end = text + strlen(text);
     uint32_t c;

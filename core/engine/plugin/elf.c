@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /*
  * dlopen maps a file, and reading behind the end of a truncated one ends the program with a bus
  * error. So the extent that the file states is compared with its size first.

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Finds the model of an id among those that a shared object exports. */
 #include "private.h"
 

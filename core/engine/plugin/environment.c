@@ -1,5 +1,5 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "environment.h"
+/* SPDX-License-Identifier: MIT */
+#include <flankfilm/engine.h>
 
 #include <float.h>
 #include <locale.h>
@@ -7,13 +7,13 @@
 #include <string.h>
 
 /* Finds out by computing, which needs no knowledge of the control registers of the processor. */
-static fe_arithmetic arithmetic(void)
+static ff_arithmetic arithmetic(void)
 {
     volatile double smallest = DBL_MIN, subnormal = DBL_TRUE_MIN;
     volatile long double one = 1;
     volatile double half = smallest / 2, twice = subnormal * 0x1p60;
     volatile long double next = one + LDBL_EPSILON;
-    return (fe_arithmetic){
+    return (ff_arithmetic){
         .rounding = fegetround(),
         .traps = fegetexcept(),
         .flushes = half == 0,
@@ -22,7 +22,7 @@ static fe_arithmetic arithmetic(void)
     };
 }
 
-void fe_environment_keep(fe_environment *environment)
+void ff_environment_keep(ff_environment *environment)
 {
     fegetenv(&environment->floating);
     environment->arithmetic = arithmetic();
@@ -33,9 +33,9 @@ void fe_environment_keep(fe_environment *environment)
         environment->locale[0] = 0;
 }
 
-const char *fe_environment_restore(const fe_environment *environment)
+const char *ff_environment_restore(const ff_environment *environment)
 {
-    const fe_arithmetic was = environment->arithmetic, is = arithmetic();
+    const ff_arithmetic was = environment->arithmetic, is = arithmetic();
     const char *changed = NULL;
     if (environment->locale[0] && strcmp(environment->locale, setlocale(LC_ALL, NULL)) != 0) {
         setlocale(LC_ALL, environment->locale);

@@ -1,10 +1,7 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "library.h"
+/* SPDX-License-Identifier: MIT */
+#include <flankfilm/engine.h>
 
 #include "../value/memory.h"
-#include "clean.h"
-#include "environment.h"
-#include "guard.h"
 #include "private.h"
 
 #include <dlfcn.h>
@@ -14,25 +11,25 @@
 #include <string.h>
 #include <unistd.h>
 
-struct fe_library {
+struct ff_library {
     fe_heap *heap;
     fe_arena memory; /* of the models */
     fe_search_path search;
-    fe_loaded **models;
+    ff_loaded **models;
     size_t count;
     char **ids;
     size_t id_count;
 };
 
-fe_library *fe_library_new(const char *const *directories, size_t count)
+ff_library *ff_library_new(const char *const *directories, size_t count)
 {
-    fe_library *library = fe_alloc(sizeof *library);
+    ff_library *library = fe_alloc(sizeof *library);
     library->heap = fe_heap_in_use();
     fe_search_path_new(&library->search, directories, count);
     return library;
 }
 
-void fe_library_free(fe_library *library)
+void ff_library_free(ff_library *library)
 {
     if (!library)
         return;
@@ -45,7 +42,7 @@ void fe_library_free(fe_library *library)
     fe_free(library);
 }
 
-const char *const *fe_library_ids(fe_library *library, size_t *count)
+const char *const *ff_library_ids(ff_library *library, size_t *count)
 {
     fe_heap *before = fe_heap_use(library->heap);
     if (!library->ids)
@@ -55,7 +52,7 @@ const char *const *fe_library_ids(fe_library *library, size_t *count)
     return (const char *const *)library->ids;
 }
 
-char *fe_library_file(const fe_library *library, const char *name)
+char *ff_library_file(const ff_library *library, const char *name)
 {
     for (size_t i = 0; i < library->search.count; i++) {
         char *path = fe_print_text("%s/%s", library->search.directories[i], name);
@@ -86,7 +83,7 @@ static bool lacked_memory(const char *words)
  * RTLD_LOCAL keeps one plugin's names from another's; the object stays for good, since unloading
  * breaks what it registered; RTLD_DEEPBIND would give it an allocator of its own.
  */
-static bool open_object(const char *id, fe_loaded *loaded, fe_arena *memory, char *why,
+static bool open_object(const char *id, ff_loaded *loaded, fe_arena *memory, char *why,
                         size_t why_size)
 {
     if (!fe_elf_check(loaded->path, why, why_size))
@@ -105,9 +102,9 @@ static bool open_object(const char *id, fe_loaded *loaded, fe_arena *memory, cha
 
 /* A model that is being loaded. */
 typedef struct loading {
-    fe_library *library;
+    ff_library *library;
     const char *id;
-    fe_loaded *loaded;
+    ff_loaded *loaded;
     bool good;
     char why[1024]; /* it is not */
 } loading;
@@ -119,63 +116,63 @@ static void load(void *ctx)
 }
 
 /* NULL after an error. */
-static fe_loaded *load_model(fe_library *library, const char *id, const char *path, fe_place place,
-                             fe_report *report)
+static ff_loaded *load_model(ff_library *library, const char *id, const char *path, ff_place place,
+                             ff_report *report)
 {
     char clean[1024];
-    fe_environment environment;
-    fe_loaded *loaded = fe_arena_alloc(&library->memory, sizeof *loaded);
+    ff_environment environment;
+    ff_loaded *loaded = fe_arena_alloc(&library->memory, sizeof *loaded);
     loading l = {.library = library, .id = id, .loaded = loaded};
     loaded->path = fe_arena_text(&library->memory, path, strlen(path));
-    fe_environment_keep(&environment);
-    fe_guard_mark previous = fe_guard_enter(loaded->path, NULL, "load");
+    ff_environment_keep(&environment);
+    ff_guard_mark previous = ff_guard_enter(loaded->path, NULL, "load");
     ff_status status = fe_protected(library->heap, load, &l);
-    fe_guard_leave(previous);
-    const char *changed = fe_environment_restore(&environment);
+    ff_guard_leave(previous);
+    const char *changed = ff_environment_restore(&environment);
     if (status == FF_NOMEM)
         fe_out_of_memory();
     if (changed)
-        fe_warn(report, place, "the plugin %s %s when it was loaded; this was set back", path,
+        ff_warn(report, place, "the plugin %s %s when it was loaded; this was set back", path,
                 changed);
     if (l.good)
         return loaded;
-    fe_clean_text(clean, sizeof clean, l.why);
-    fe_error(report, FE_EXIT_PLUGIN, place, NULL, "the plugin %s %s", path, clean);
+    ff_clean_text(clean, sizeof clean, l.why);
+    ff_error(report, FF_FAULT_PLUGIN, place, NULL, "the plugin %s %s", path, clean);
     return NULL;
 }
 
 /* The model with the nearest id, or of that name in any kind; NULL: there is none. */
-static const char *meant(fe_library *library, const char *id)
+static const char *meant(ff_library *library, const char *id)
 {
     size_t count;
-    const char *const *ids = fe_library_ids(library, &count);
-    const char *near = fe_nearest(id, ids, count);
+    const char *const *ids = ff_library_ids(library, &count);
+    const char *near = ff_nearest(id, ids, count);
     for (size_t i = 0; i < count && !near; i++)
         if (!strcmp(strchr(ids[i], '/') + 1, id))
             near = ids[i];
     return near;
 }
 
-static void report_absence(fe_library *library, const char *id, const char *tried, fe_place place,
-                           fe_report *report)
+static void report_absence(ff_library *library, const char *id, const char *tried, ff_place place,
+                           ff_report *report)
 {
     const char *near = meant(library, id);
     char *hint =
         fe_print_text("looked for %s; --plugin-path and FLANKFILM_PLUGIN_PATH add directories",
                       tried[0] ? tried : "it in no directory at all");
-    fe_error(report, near ? FE_EXIT_INPUT : FE_EXIT_PLUGIN, place, hint,
+    ff_error(report, near ? FF_FAULT_INPUT : FF_FAULT_PLUGIN, place, hint,
              "there is no model \"%s\"%s%s%s", id, near ? "; did you mean \"" : "",
              near ? near : "", near ? "\"?" : "");
     fe_free(hint);
 }
 
-const fe_loaded *fe_library_load(fe_library *library, const char *id, fe_place place,
-                                 fe_report *report)
+const ff_loaded *ff_library_load(ff_library *library, const char *id, ff_place place,
+                                 ff_report *report)
 {
     char *tried;
     if (!fe_id_is_legal(id)) {
         const char *near = meant(library, id);
-        fe_error(report, FE_EXIT_INPUT, place, NULL,
+        ff_error(report, FF_FAULT_INPUT, place, NULL,
                  "\"%.100s\" does not name a model: a model is written kind/name, in lower-case "
                  "letters, "
                  "digits and hyphens%s%s%s",
@@ -187,7 +184,7 @@ const fe_loaded *fe_library_load(fe_library *library, const char *id, fe_place p
             return library->models[i];
     fe_heap *before = fe_heap_use(library->heap);
     char *path = fe_search_path_find(&library->search, id, &tried);
-    fe_loaded *loaded = path ? load_model(library, id, path, place, report) : NULL;
+    ff_loaded *loaded = path ? load_model(library, id, path, place, report) : NULL;
     if (!path)
         report_absence(library, id, tried, place, report);
     fe_free(tried);

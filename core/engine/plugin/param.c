@@ -1,8 +1,12 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 #include "param.h"
+
+#include <flankfilm/engine.h>
 
 #include "../value/limits.h"
 #include "../value/memory.h"
+#include "../value/tree.h"
+#include "../value/unit.h"
 
 #include <errno.h>
 #include <math.h>
@@ -16,9 +20,9 @@
 /* The parameter that is being read. */
 typedef struct reading {
     const ff_param *row;
-    const fe_unit *unit;
+    const ff_unit *unit;
     const char *name;
-    fe_report *report;
+    ff_report *report;
 } reading;
 
 int fe_word_find(const char *words, const char *word)
@@ -43,7 +47,7 @@ static void print_words(const char *words, char *out, size_t size)
         used += (size_t)snprintf(out + used, size - used, "%s\"%s\"", i ? ", " : "", word);
 }
 
-void fe_param_expectation(const ff_param *row, char *out, size_t size)
+void ff_param_expectation(const ff_param *row, char *out, size_t size)
 {
     static const char *const plain[] = {[FF_REAL] = "a number",
                                         [FF_INT] = "a whole number",
@@ -68,7 +72,7 @@ void fe_param_expectation(const ff_param *row, char *out, size_t size)
 }
 
 /* Reports an error about the parameter at the node; hint may be NULL. */
-__attribute__((format(printf, 4, 5))) static bool refuse(const reading *r, const fe_node *node,
+__attribute__((format(printf, 4, 5))) static bool refuse(const reading *r, const ff_node *node,
                                                          const char *hint, const char *format, ...)
 {
     char text[1024];
@@ -76,37 +80,37 @@ __attribute__((format(printf, 4, 5))) static bool refuse(const reading *r, const
     va_start(args, format);
     vsnprintf(text, sizeof text, format, args);
     va_end(args);
-    return fe_error(r->report, FE_EXIT_INPUT, node->place, hint, "%s: %s", r->name, text);
+    return ff_error(r->report, FF_FAULT_INPUT, node->place, hint, "%s: %s", r->name, text);
 }
 
 /* Reports "expected ..., found a list" for a node of the wrong kind or an unknown word. */
-static bool refuse_kind(const reading *r, const fe_node *node)
+static bool refuse_kind(const reading *r, const ff_node *node)
 {
     enum { MOST = 32 };
     char wanted[640], hint[128], words[MOST][64];
     const char *list[MOST];
     size_t count = 0;
-    fe_param_expectation(r->row, wanted, sizeof wanted);
-    if (node->kind != FE_SCALAR || !node->text[0])
+    ff_param_expectation(r->row, wanted, sizeof wanted);
+    if (node->kind != FF_SCALAR || !node->text[0])
         return refuse(r, node, NULL, "expected %s, found %s", wanted,
-                      node->kind == FE_SCALAR ? "nothing" : fe_kind_name(node->kind));
+                      node->kind == FF_SCALAR ? "nothing" : fe_kind_name(node->kind));
     while (count < MOST && ff_word_at(r->row->choices, count, words[count], sizeof words[0])) {
         list[count] = words[count];
         count++;
     }
-    const char *near = fe_nearest(node->text, list, count);
+    const char *near = ff_nearest(node->text, list, count);
     snprintf(hint, sizeof hint, "did you mean \"%s\"?", near ? near : "");
     return refuse(r, node, near ? hint : NULL, "expected %s, found \"%.80s\"", wanted, node->text);
 }
 
 static void print(const reading *r, double si, char out[80])
 {
-    fe_quantity_print(si, r->unit, r->row->unit, out, 80);
+    ff_quantity_print(si, r->unit, r->row->unit, out, 80);
 }
 
 /* Refuses a value outside the physical limits, sets one within rounding of a closed limit to it,
    and warns outside the calibrated range. */
-static bool check_range(const reading *r, const fe_node *node, double *si)
+static bool check_range(const reading *r, const ff_node *node, double *si)
 {
     const ff_param *row = r->row;
     char value[80], limit[80], wanted[100];
@@ -118,42 +122,42 @@ static bool check_range(const reading *r, const fe_node *node, double *si)
     if (row->low < row->high) {
         bool under = fe_unit_compare(r->unit, *si, row->low) < 0;
         bool over = fe_unit_compare(r->unit, *si, row->high) > 0;
-        print(r, fe_unit_to_si(r->unit, under ? row->low : row->high), limit);
+        print(r, ff_unit_to_si(r->unit, under ? row->low : row->high), limit);
         if (under || over)
-            fe_warn(r->report, node->place,
+            ff_warn(r->report, node->place,
                     "%s: %s is outside the calibrated range, which %s at %s", r->name, value,
                     under ? "begins" : "ends", limit);
     }
     return true;
 }
 
-static bool read_real(const reading *r, const fe_node *node, double *si)
+static bool read_real(const reading *r, const ff_node *node, double *si)
 {
     char why[512];
-    if (node->kind != FE_SCALAR || !node->text[0])
+    if (node->kind != FF_SCALAR || !node->text[0])
         return refuse_kind(r, node);
-    if (!fe_quantity_parse(node->text, r->unit, r->row->unit, si, why, sizeof why))
+    if (!ff_quantity_parse(node->text, r->unit, r->row->unit, si, why, sizeof why))
         return refuse(r, node, NULL, "%s", why);
     return check_range(r, node, si);
 }
 
-static bool read_integer(const reading *r, const fe_node *node, int64_t *integer)
+static bool read_integer(const reading *r, const ff_node *node, int64_t *integer)
 {
     char why[512];
-    if (!fe_integer_parse(node->text, integer, why, sizeof why))
+    if (!ff_integer_parse(node->text, integer, why, sizeof why))
         return refuse(r, node, NULL, "%s", why);
     double number = (double)*integer;
     return check_range(r, node, &number);
 }
 
-static bool read_boolean(const reading *r, const fe_node *node, ff_value *value)
+static bool read_boolean(const reading *r, const ff_node *node, ff_value *value)
 {
     static const char yes[] = "true|True|TRUE", no[] = "false|False|FALSE";
     value->integer = fe_word_find(yes, node->text) >= 0;
     return value->integer || fe_word_find(no, node->text) >= 0 || refuse_kind(r, node);
 }
 
-static bool check_length(const reading *r, const fe_node *node, size_t count)
+static bool check_length(const reading *r, const ff_node *node, size_t count)
 {
     uint32_t least = r->row->min_count, most = r->row->max_count;
     char wanted[64];
@@ -168,11 +172,11 @@ static bool check_length(const reading *r, const fe_node *node, size_t count)
     return refuse(r, node, NULL, "expected %s numbers, found %zu", wanted, count);
 }
 
-static bool read_reals(const reading *r, const fe_node *node, ff_value *value)
+static bool read_reals(const reading *r, const ff_node *node, ff_value *value)
 {
-    bool list = node->kind == FE_SEQUENCE, good = true;
+    bool list = node->kind == FF_SEQUENCE, good = true;
     size_t count = list ? node->count : 1;
-    if (!list && (node->kind == FE_MAP || !node->text[0]))
+    if (!list && (node->kind == FF_MAP || !node->text[0]))
         return refuse_kind(r, node);
     if (!check_length(r, node, count))
         return false;
@@ -180,7 +184,7 @@ static bool read_reals(const reading *r, const fe_node *node, ff_value *value)
     value->reals = reals;
     value->count = count;
     for (size_t i = 0; i < count; i++) {
-        const fe_node *item = list ? node->items[i] : node;
+        const ff_node *item = list ? node->items[i] : node;
         if (!read_real(r, item, &reals[i]))
             good = false;
         else if ((r->row->flags & FF_WHOLE) && reals[i] != floor(reals[i]))
@@ -194,9 +198,9 @@ static bool read_reals(const reading *r, const fe_node *node, ff_value *value)
 }
 
 /* A relative path is relative to the directory of the text that gives it. */
-static bool read_file(const reading *r, const fe_node *node, ff_value *value)
+static bool read_file(const reading *r, const ff_node *node, ff_value *value)
 {
-    const fe_source *source = node->place.source;
+    const ff_source *source = node->place.source;
     bool beside = node->text[0] != '/' && source && source->directory;
     struct stat status;
     char *path =
@@ -209,12 +213,12 @@ static bool read_file(const reading *r, const fe_node *node, ff_value *value)
            refuse(r, node, NULL, "the file \"%s\" cannot be read: %s", path, fe_errno_text());
 }
 
-static bool read_scalar(const reading *r, const fe_node *node, ff_value *value)
+static bool read_scalar(const reading *r, const ff_node *node, ff_value *value)
 {
     const ff_param *row = r->row;
     double ignored;
     const char *end;
-    if (node->kind != FE_SCALAR || (!node->text[0] && !(row->type == FF_TEXT && node->quoted)))
+    if (node->kind != FF_SCALAR || (!node->text[0] && !(row->type == FF_TEXT && node->quoted)))
         return refuse_kind(r, node);
     int rank = fe_word_find(row->choices, node->text);
     if (rank >= 0 || row->type == FF_TEXT) {
@@ -222,7 +226,7 @@ static bool read_scalar(const reading *r, const fe_node *node, ff_value *value)
         value->text = fe_copy_text(node->text, strlen(node->text));
         return true;
     }
-    if (row->choices && !fe_number_parse(node->text, &ignored, &end))
+    if (row->choices && !ff_number_parse(node->text, &ignored, &end))
         return refuse_kind(r, node); /* names the words, too */
     switch (row->type) {
     case FF_REAL:
@@ -238,41 +242,41 @@ static bool read_scalar(const reading *r, const fe_node *node, ff_value *value)
     }
 }
 
-bool fe_param_read(const ff_param *row, const fe_unit *unit, const char *name, const fe_node *node,
-                   ff_value *value, fe_report *report)
+bool ff_param_read(const ff_param *row, const ff_unit *unit, const char *name, const ff_node *node,
+                   ff_value *value, ff_report *report)
 {
     reading r = {.row = row, .unit = unit, .name = name, .report = report};
     *value = (ff_value){.size = sizeof *value, .given = 1};
     if (row->type == FF_REALS ? read_reals(&r, node, value) : read_scalar(&r, node, value))
         return true;
-    fe_value_clear(value);
+    ff_value_clear(value);
     return false;
 }
 
-bool fe_param_read_preset(const ff_param *row, const fe_unit *unit, const char *name,
-                          ff_value *value, fe_report *report)
+bool ff_param_read_preset(const ff_param *row, const ff_unit *unit, const char *name,
+                          ff_value *value, ff_report *report)
 {
     enum { MOST = 64 };
-    fe_node items[MOST], *list[MOST];
-    fe_node node = {.kind = FE_SCALAR, .quoted = true, .items = list};
+    ff_node items[MOST], *list[MOST];
+    ff_node node = {.kind = FF_SCALAR, .quoted = true, .items = list};
     char *text = fe_print_text("%s", row->preset), *rest = NULL;
     node.text = text;
     if (row->type == FF_REALS && text[0] == '[') { /* "[20 mm, 21 mm]" */
-        node.kind = FE_SEQUENCE;
+        node.kind = FF_SEQUENCE;
         for (char *item = strtok_r(text, "[],", &rest); item && node.count < MOST;
              item = strtok_r(NULL, "[],", &rest)) {
-            items[node.count] = (fe_node){.kind = FE_SCALAR, .text = item};
+            items[node.count] = (ff_node){.kind = FF_SCALAR, .text = item};
             list[node.count] = &items[node.count];
             node.count++;
         }
     }
-    bool good = fe_param_read(row, unit, name, &node, value, report);
+    bool good = ff_param_read(row, unit, name, &node, value, report);
     value->given = 0;
     fe_free(text);
     return good;
 }
 
-void fe_value_clear(ff_value *value)
+void ff_value_clear(ff_value *value)
 {
     fe_free((void *)(uintptr_t)value->text);
     fe_free((void *)(uintptr_t)value->reals);

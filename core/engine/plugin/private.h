@@ -1,10 +1,11 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Shared by the files of core/engine/plugin alone. */
 #ifndef FE_PLUGIN_PRIVATE_H
 #define FE_PLUGIN_PRIVATE_H
 
+#include <flankfilm/engine.h>
+
 #include "../value/memory.h"
-#include "library.h"
 
 #include <stdbool.h>
 
@@ -20,7 +21,7 @@ bool fe_entry_find(void *object, const char *id, const ff_model **model, char *w
 /* Checks the descriptor of loaded->model, calling none of its functions, and reads the units and
    dimensions of its rows. A descriptor or rows of an older version are replaced by copies of
    today's length. On failure, `why` is a clause that completes 'the plugin x.so ...'. */
-bool fe_model_check(fe_loaded *loaded, const char *id, fe_arena *memory, char *why,
+bool fe_model_check(ff_loaded *loaded, const char *id, fe_arena *memory, char *why,
                     size_t why_size);
 
 /* Whether it is "kind/name" of lower-case letters, digits and hyphens, which can be part of a path.

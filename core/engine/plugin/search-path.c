@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* The directories in which plugins are looked for. */
 #include "../value/home.h"
 #include "private.h"

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /*
  * Models that say FF_SERIAL run one call at a time in the process, whichever engine makes it. One
  * lock serves them all: such models often share what cannot be shared, a library or a common block,

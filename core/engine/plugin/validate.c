@@ -1,5 +1,7 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Checks a descriptor before anything else uses it. */
+#include <flankfilm/engine.h>
+
 #include "../value/memory.h"
 #include "clean.h"
 #include "param.h"
@@ -196,7 +198,7 @@ static bool check_words(const checking *c, const ff_param *row)
         const char *end;
         size_t length = strlen(word);
         if (length == 0 || length >= LONGEST_NAME || !fe_text_is_clean(word) ||
-            strpbrk(word, " \"'[]{},:#") || fe_number_parse(word, &number, &end))
+            strpbrk(word, " \"'[]{},:#") || ff_number_parse(word, &number, &end))
             return fault(c, "has the choice \"%s\" for the parameter \"%s\", which is not a word",
                          word, c->name);
         if (fe_word_find(row->choices, word) != (int)i)
@@ -234,32 +236,32 @@ static bool check_param_row(const checking *c, const ff_param *row)
     return check_claims(c, claims, sizeof claims / sizeof *claims) && check_words(c, row);
 }
 
-static bool check_preset(const checking *c, const ff_param *row, const fe_unit *unit)
+static bool check_preset(const checking *c, const ff_param *row, const ff_unit *unit)
 {
     if (!row->preset)
         return true;
-    fe_report *report = fe_report_new();
+    ff_report *report = ff_report_new();
     ff_value value;
-    bool good = fe_param_read_preset(row, unit, row->name, &value, report);
-    fe_value_clear(&value);
+    bool good = ff_param_read_preset(row, unit, row->name, &value, report);
+    ff_value_clear(&value);
     if (!good)
         fault(c, "has an impossible preset \"%.60s\": %s", row->preset,
-              fe_report_at(report, 0)->text);
-    fe_report_free(report);
+              ff_report_at(report, 0)->text);
+    ff_report_free(report);
     return good;
 }
 
-static bool check_unit(const checking *c, const char *text, fe_unit *unit)
+static bool check_unit(const checking *c, const char *text, ff_unit *unit)
 {
     char clause[256];
     if (!text)
         return fault(c, "has no unit for the %s \"%s\"", c->what, c->name);
-    return fe_unit_parse(text, unit, clause, sizeof clause) ||
+    return ff_unit_parse(text, unit, clause, sizeof clause) ||
            fault(c, "has a bad unit for the %s \"%s\": the unit \"%.40s\" %s", c->what, c->name,
                  text, clause);
 }
 
-static bool check_param(checking *c, size_t index, fe_unit *unit)
+static bool check_param(checking *c, size_t index, ff_unit *unit)
 {
     const ff_param *row = ff_model_param(c->model, index);
     c->what = "parameter";
@@ -280,11 +282,11 @@ static bool check_param(checking *c, size_t index, fe_unit *unit)
 }
 
 /* Reads "", "station", "engagement? station"; NULL, or what is wrong. */
-static const char *read_dims(const char *text, fe_dims *dims)
+static const char *read_dims(const char *text, ff_dims *dims)
 {
     for (const char *at = text; *at;) {
         size_t length = strcspn(at, " "), word = length;
-        if (dims->rank == FE_MAX_RANK)
+        if (dims->rank == FF_MAX_RANK)
             return "names more than 4 dimensions";
         if (word > 1 && at[word - 1] == '?') {
             if (dims->rank > 0)
@@ -300,7 +302,7 @@ static const char *read_dims(const char *text, fe_dims *dims)
     return NULL;
 }
 
-static bool check_port(const checking *c, const ff_port *row, fe_unit *unit, fe_dims *dims)
+static bool check_port(const checking *c, const ff_port *row, ff_unit *unit, ff_dims *dims)
 {
     bool plain = (!row->unit || !row->unit[0]) && (!row->dims || !row->dims[0]);
     const claim claims[] = {
@@ -316,7 +318,7 @@ static bool check_port(const checking *c, const ff_port *row, fe_unit *unit, fe_
         return true;
     if (!check_unit(c, row->unit, unit))
         return false;
-    if (!fe_unit_is_si(unit))
+    if (!ff_unit_is_si(unit))
         return fault(c, "has the unit \"%s\" for the %s \"%s\", which is not coherent SI",
                      row->unit, c->what, c->name);
     const char *wrong = read_dims(row->dims, dims);
@@ -325,7 +327,7 @@ static bool check_port(const checking *c, const ff_port *row, fe_unit *unit, fe_
 }
 
 /* A wire cannot have the name of a parameter, and its rows come from one stage. */
-static bool check_input(checking *c, size_t index, fe_unit *unit, fe_dims *dims)
+static bool check_input(checking *c, size_t index, ff_unit *unit, ff_dims *dims)
 {
     enum { LONGEST_WIRE = 47 };
     const ff_port *row = ff_model_input(c->model, index);
@@ -355,7 +357,7 @@ static bool check_input(checking *c, size_t index, fe_unit *unit, fe_dims *dims)
     return check_port(c, row, unit, dims);
 }
 
-static bool check_output(checking *c, size_t index, fe_unit *unit, fe_dims *dims)
+static bool check_output(checking *c, size_t index, ff_unit *unit, ff_dims *dims)
 {
     const ff_port *row = ff_model_output(c->model, index);
     c->what = "output";
@@ -372,7 +374,7 @@ static bool check_output(checking *c, size_t index, fe_unit *unit, fe_dims *dims
 static bool check_column(checking *c, size_t index)
 {
     const ff_param *row = ff_model_column(c->model, index);
-    fe_unit unit;
+    ff_unit unit;
     c->what = "column";
     c->name = row->name ? row->name : "";
     if (count_names(c->name) != 1)
@@ -409,7 +411,7 @@ static const ff_model *complete(const ff_model *model, fe_arena *memory)
     return whole;
 }
 
-bool fe_model_check(fe_loaded *loaded, const char *id, fe_arena *memory, char *why, size_t why_size)
+bool fe_model_check(ff_loaded *loaded, const char *id, fe_arena *memory, char *why, size_t why_size)
 {
     checking c = {.model = loaded->model, .why = why, .why_size = why_size};
     if (!check_version(&c) || !check_tables(&c))
@@ -417,11 +419,11 @@ bool fe_model_check(fe_loaded *loaded, const char *id, fe_arena *memory, char *w
     const ff_model *model = c.model = loaded->model = complete(loaded->model, memory);
     if (!check_model(&c, id))
         return false;
-    loaded->param_units = fe_arena_alloc(memory, model->param_count * sizeof(fe_unit));
-    loaded->input_units = fe_arena_alloc(memory, model->input_count * sizeof(fe_unit));
-    loaded->output_units = fe_arena_alloc(memory, model->output_count * sizeof(fe_unit));
-    loaded->input_dims = fe_arena_alloc(memory, model->input_count * sizeof(fe_dims));
-    loaded->output_dims = fe_arena_alloc(memory, model->output_count * sizeof(fe_dims));
+    loaded->param_units = fe_arena_alloc(memory, model->param_count * sizeof(ff_unit));
+    loaded->input_units = fe_arena_alloc(memory, model->input_count * sizeof(ff_unit));
+    loaded->output_units = fe_arena_alloc(memory, model->output_count * sizeof(ff_unit));
+    loaded->input_dims = fe_arena_alloc(memory, model->input_count * sizeof(ff_dims));
+    loaded->output_dims = fe_arena_alloc(memory, model->output_count * sizeof(ff_dims));
     bool good = true;
     for (size_t i = 0; i < model->param_count && good; i++)
         good = check_param(&c, i, &loaded->param_units[i]);

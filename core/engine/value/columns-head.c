@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* The header of a table: names and units of its columns, and whether required ones are missing. */
 #include "columns-read.h"
 
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static int find(const fe_columns *c, fe_field name)
+static int find(const ff_columns *c, fe_field name)
 {
     size_t length = (size_t)(name.end - name.at);
     for (size_t k = 0; k < c->count; k++)
@@ -17,16 +17,16 @@ static int find(const fe_columns *c, fe_field name)
 }
 
 /* "time [s]", as a header names the column. */
-static void print_head(const fe_columns *c, size_t k, char *out, size_t size)
+static void print_head(const ff_columns *c, size_t k, char *out, size_t size)
 {
-    bool bare = fe_unit_is_dimensionless(&c->units[k]) && strcmp(c->asked[k]->unit, "%") != 0;
+    bool bare = ff_unit_is_dimensionless(&c->units[k]) && strcmp(c->asked[k]->unit, "%") != 0;
     snprintf(out, size, "%s%s%s%s", c->asked[k]->name, bare ? "" : " [",
              bare ? "" : c->asked[k]->unit, bare ? "" : "]");
 }
 
 static bool refuse_name(const fe_column_reader *r, fe_field head, const char *word)
 {
-    const fe_columns *c = r->c;
+    const ff_columns *c = r->c;
     const char *names[FE_MOST_FIELDS];
     char list[800] = "", name[160], hint[1000];
     size_t count = c->count < FE_MOST_FIELDS ? c->count : FE_MOST_FIELDS, used = 0;
@@ -36,7 +36,7 @@ static bool refuse_name(const fe_column_reader *r, fe_field head, const char *wo
         if (used < sizeof list)
             used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", k ? ", " : "", name);
     }
-    const char *near = fe_nearest(word, names, count);
+    const char *near = ff_nearest(word, names, count);
     if (near)
         snprintf(hint, sizeof hint, "did you mean \"%s\"? One of your own begins with x-", near);
     else
@@ -48,7 +48,7 @@ static bool refuse_name(const fe_column_reader *r, fe_field head, const char *wo
 static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const char *open,
                       const char *word)
 {
-    fe_columns *c = r->c;
+    ff_columns *c = r->c;
     size_t k = (size_t)r->column_of[index];
     char unit[80] = "", why[200], example[160];
     print_head(c, k, example, sizeof example);
@@ -61,13 +61,13 @@ static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const ch
     }
     if (!strcmp(unit, "-"))
         unit[0] = 0;
-    if (!*unit && !fe_unit_is_dimensionless(&c->units[k]))
+    if (!*unit && !ff_unit_is_dimensionless(&c->units[k]))
         return fe_column_refuse(r, head, NULL,
                                 "the column \"%s\" needs its unit in brackets, such as \"%s\"",
                                 word, example);
-    if (!fe_unit_parse(unit, &r->unit_of[index], why, sizeof why))
+    if (!ff_unit_parse(unit, &r->unit_of[index], why, sizeof why))
         return fe_column_refuse(r, head, NULL, "the unit \"%s\" %s", unit, why);
-    return fe_unit_same_dimension(&r->unit_of[index], &c->units[k]) ||
+    return ff_unit_same_dimension(&r->unit_of[index], &c->units[k]) ||
            fe_column_refuse(r, head, NULL,
                             "the column \"%s\" is in \"%s\", but should be in %s or the like", word,
                             unit, c->asked[k]->unit);
@@ -76,7 +76,7 @@ static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const ch
 /* "pressure [GPa]" */
 static bool read_head(fe_column_reader *r, size_t index, fe_field head)
 {
-    fe_columns *c = r->c;
+    ff_columns *c = r->c;
     const char *open = memchr(head.at, '[', (size_t)(head.end - head.at));
     fe_field name = fe_field_trim(head.at, open ? open : head.end);
     char word[80];
@@ -92,14 +92,14 @@ static bool read_head(fe_column_reader *r, size_t index, fe_field head)
     return read_unit(r, index, head, open, word);
 }
 
-static bool same_group(const fe_columns *c, size_t i, size_t k)
+static bool same_group(const ff_columns *c, size_t i, size_t k)
 {
     const char *a = c->asked[i]->group, *b = c->asked[k]->group;
     return i == k || (a && b && !strcmp(a, b));
 }
 
 /* Counts the columns of the file in the group of k; *first: k is the first row of the group. */
-static size_t count_group(const fe_columns *c, size_t k, bool *first)
+static size_t count_group(const ff_columns *c, size_t k, bool *first)
 {
     size_t given = 0;
     *first = true;
@@ -112,7 +112,7 @@ static size_t count_group(const fe_columns *c, size_t k, bool *first)
 
 static bool refuse_missing(const fe_column_reader *r, size_t k, fe_field line)
 {
-    const fe_columns *c = r->c;
+    const ff_columns *c = r->c;
     char names[500], name[160];
     size_t used = 0;
     for (size_t i = k; i < c->count && used < sizeof names; i++) {
@@ -128,14 +128,14 @@ static bool refuse_missing(const fe_column_reader *r, size_t k, fe_field line)
 /* Required columns are there, and at most one column of each group. */
 static bool check_heads(const fe_column_reader *r, fe_field line)
 {
-    const fe_columns *c = r->c;
+    const ff_columns *c = r->c;
     bool good = true, first;
     for (size_t k = 0; k < c->count; k++) {
         if (count_group(c, k, &first) == 0 && first && c->asked[k]->flags & FF_REQUIRED)
             good = refuse_missing(r, k, line);
         for (size_t i = 0; i < k; i++)
             if (c->values[i] && c->values[k] && same_group(c, i, k))
-                good = fe_error(r->report, FE_EXIT_INPUT, c->heads[k], NULL,
+                good = ff_error(r->report, FF_FAULT_INPUT, c->heads[k], NULL,
                                 "the columns \"%s\" and \"%s\" exclude each other",
                                 c->asked[i]->name, c->asked[k]->name);
     }
@@ -144,7 +144,7 @@ static bool check_heads(const fe_column_reader *r, fe_field line)
 
 bool fe_column_heads_read(fe_column_reader *r, fe_field line)
 {
-    fe_columns *c = r->c;
+    ff_columns *c = r->c;
     fe_field fields[FE_MOST_FIELDS];
     c->separator = fe_line_separator(line);
     c->width = fe_line_split(line, c->separator, fields);

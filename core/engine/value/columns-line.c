@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 #include "columns-read.h"
 
 #include "text.h"
@@ -25,10 +25,10 @@ fe_field fe_field_trim(const char *at, const char *end)
 }
 
 /* The stretch from `at` to `end` of the line that begins at `begin`. */
-static fe_place place_in(const fe_source *source, uint32_t line, const char *begin, fe_field text)
+static ff_place place_in(const ff_source *source, uint32_t line, const char *begin, fe_field text)
 {
     const char *stop = source->text + source->length;
-    fe_place place = {.source = source, .line = line, .column = 1};
+    ff_place place = {.source = source, .line = line, .column = 1};
     uint32_t code;
     while (begin < text.at) {
         begin += fe_char_read(begin, stop, &code);
@@ -39,10 +39,10 @@ static fe_place place_in(const fe_source *source, uint32_t line, const char *beg
     return place;
 }
 
-fe_place fe_column_place(const fe_column_reader *r, fe_field text)
+ff_place fe_column_place(const fe_column_reader *r, fe_field text)
 {
     return text.at ? place_in(&r->c->source, r->line, r->begin, text)
-                   : (fe_place){.source = &r->c->source};
+                   : (ff_place){.source = &r->c->source};
 }
 
 bool fe_column_refuse(const fe_column_reader *r, fe_field text, const char *hint,
@@ -53,7 +53,7 @@ bool fe_column_refuse(const fe_column_reader *r, fe_field text, const char *hint
     va_start(args, format);
     vsnprintf(sentence, sizeof sentence, format, args);
     va_end(args);
-    return fe_error(r->report, FE_EXIT_INPUT, fe_column_place(r, text), hint, "%s", sentence);
+    return ff_error(r->report, FF_FAULT_INPUT, fe_column_place(r, text), hint, "%s", sentence);
 }
 
 /* Where blanks separate the fields, a name and its unit are still one field: "time [s]". */
@@ -97,7 +97,7 @@ size_t fe_line_split(fe_field line, char separator, fe_field fields[FE_MOST_FIEL
     }
 }
 
-size_t fe_row_split(const fe_columns *c, fe_field line, fe_field fields[FE_MOST_FIELDS])
+size_t fe_row_split(const ff_columns *c, fe_field line, fe_field fields[FE_MOST_FIELDS])
 {
     bool parted =
         c->separator != ' ' && memchr(line.at, c->separator, (size_t)(line.end - line.at));
@@ -115,13 +115,13 @@ char fe_line_separator(fe_field line)
     return *s;
 }
 
-fe_place fe_columns_place(const fe_columns *c, size_t row, size_t column)
+ff_place ff_columns_place(const ff_columns *c, size_t row, size_t column)
 {
     fe_field fields[FE_MOST_FIELDS], text = {NULL, NULL};
     const char *end, *begin;
     bool known = column < c->count && c->values[column];
     if (row >= c->rows)
-        return known ? c->heads[column] : (fe_place){.source = &c->source};
+        return known ? c->heads[column] : (ff_place){.source = &c->source};
     begin = fe_line_begin(&c->source, c->lines[row], &end);
     text = fe_field_trim(begin, end);
     if (known && fe_row_split(c, text, fields) == c->width)

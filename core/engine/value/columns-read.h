@@ -1,18 +1,18 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* What the three files of the reader of tables share. */
 #ifndef FE_COLUMNS_READ_H
 #define FE_COLUMNS_READ_H
 
-#include "columns.h"
+#include <flankfilm/engine.h>
 
 enum { FE_MOST_FIELDS = 100, FE_NO_COLUMN = -1 };
 
 /* The state of reading one table. */
 typedef struct fe_column_reader {
-    fe_columns *c;
-    fe_report *report;
+    ff_columns *c;
+    ff_report *report;
     int column_of[FE_MOST_FIELDS]; /* rank of the column that was asked for, or FE_NO_COLUMN */
-    fe_unit unit_of[FE_MOST_FIELDS];
+    ff_unit unit_of[FE_MOST_FIELDS];
     uint32_t line;
     const char *begin; /* of the line */
     size_t room, most; /* of rows */
@@ -29,10 +29,10 @@ fe_field fe_field_trim(const char *at, const char *end);
 size_t fe_line_split(fe_field line, char separator, fe_field fields[FE_MOST_FIELDS]);
 /* Splits a line as the header was split. Without that separator in it, the first one that gives as
    many fields as the header has is used. */
-size_t fe_row_split(const fe_columns *columns, fe_field line, fe_field fields[FE_MOST_FIELDS]);
+size_t fe_row_split(const ff_columns *columns, fe_field line, fe_field fields[FE_MOST_FIELDS]);
 char fe_line_separator(fe_field line); /* of a header */
 /* The place of a part of the line that is being read; at NULL: of the whole file. */
-fe_place fe_column_place(const fe_column_reader *reader, fe_field text);
+ff_place fe_column_place(const fe_column_reader *reader, fe_field text);
 /* Reports an error at a part of the line. Returns false. */
 bool fe_column_refuse(const fe_column_reader *reader, fe_field text, const char *hint,
                       const char *format, ...) __attribute__((format(printf, 4, 5)));

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 #include "columns-read.h"
 
 #include "limits.h"
@@ -18,9 +18,9 @@ static const fe_field whole = {NULL, NULL};
 
 static bool load(fe_column_reader *r, const char *path)
 {
-    fe_source *source = &r->c->source;
+    ff_source *source = &r->c->source;
     struct stat about = {.st_size = 0};
-    *source = (fe_source){.name = fe_copy_text(path, strlen(path)),
+    *source = (ff_source){.name = fe_copy_text(path, strlen(path)),
                           .directory = fe_copy_text(".", 1),
                           .text = fe_alloc(1),
                           .temporary = true};
@@ -45,7 +45,7 @@ static bool load(fe_column_reader *r, const char *path)
 /* Drops a byte order mark and refuses zero bytes. Where no line ends with LF, a CR ends a line. */
 static bool check_text(fe_column_reader *r)
 {
-    fe_source *source = &r->c->source;
+    ff_source *source = &r->c->source;
     if (source->length >= 3 && !memcmp(source->text, "\xEF\xBB\xBF", 3)) {
         source->length -= 3;
         memmove(source->text, source->text + 3, source->length + 1);
@@ -54,14 +54,14 @@ static bool check_text(fe_column_reader *r)
         for (char *at = source->text; (at = strchr(at, '\r'));)
             *at++ = '\n';
     const char *zero = memchr(source->text, 0, source->length);
-    return !zero ||
-           fe_error(r->report, FE_EXIT_INPUT, fe_place_of(source, (size_t)(zero - source->text), 0),
-                    NULL, "this is not a text file: it has a zero byte here");
+    return !zero || ff_error(r->report, FF_FAULT_INPUT,
+                             fe_place_of(source, (size_t)(zero - source->text), 0), NULL,
+                             "this is not a text file: it has a zero byte here");
 }
 
-static void print_value(const fe_columns *c, size_t k, double si, char out[80])
+static void print_value(const ff_columns *c, size_t k, double si, char out[80])
 {
-    fe_quantity_print(si, &c->units[k], c->asked[k]->unit, out, 80);
+    ff_quantity_print(si, &c->units[k], c->asked[k]->unit, out, 80);
 }
 
 static bool check_limits(const fe_column_reader *r, size_t k, double *si, fe_field text)
@@ -77,7 +77,7 @@ static bool check_limits(const fe_column_reader *r, size_t k, double *si, fe_fie
 /* Checks a number against the flags of its column. */
 static bool check_flags(const fe_column_reader *r, size_t k, size_t row, fe_field text)
 {
-    const fe_columns *c = r->c;
+    const ff_columns *c = r->c;
     const ff_param *asked = c->asked[k];
     double si = c->values[k][row];
     char value[80], before[80];
@@ -93,20 +93,20 @@ static bool check_flags(const fe_column_reader *r, size_t k, size_t row, fe_fiel
 
 static bool read_number(fe_column_reader *r, size_t index, fe_field text, size_t row)
 {
-    fe_columns *c = r->c;
+    ff_columns *c = r->c;
     size_t k = (size_t)r->column_of[index];
     const char *end = text.at, *name = c->asked[k]->name;
     double number = 0;
     int shown = (int)(text.end - text.at > 40 ? 40 : text.end - text.at);
     if (text.at == text.end)
         return fe_column_refuse(r, text, NULL, "%s has no number here", name);
-    bool read = fe_number_parse(text.at, &number, &end);
+    bool read = ff_number_parse(text.at, &number, &end);
     if (end != text.end || end == text.at)
         return fe_column_refuse(
             r, text,
             memchr(text.at, ',', (size_t)(text.end - text.at)) ? "write a decimal point" : NULL,
             "\"%.*s\" is not a number", shown, text.at);
-    double si = fe_unit_to_si(&r->unit_of[index], number);
+    double si = ff_unit_to_si(&r->unit_of[index], number);
     c->values[k][row] = si;
     if (!read || !isfinite(si))
         return fe_column_refuse(r, text, NULL, "%.*s is out of range", shown, text.at);
@@ -115,7 +115,7 @@ static bool read_number(fe_column_reader *r, size_t index, fe_field text, size_t
 
 static void make_room(fe_column_reader *r)
 {
-    fe_columns *c = r->c;
+    ff_columns *c = r->c;
     if (c->rows < r->room)
         return;
     r->room = 2 * c->rows + 64;
@@ -128,7 +128,7 @@ static void make_room(fe_column_reader *r)
 /* False when reading on would serve nothing. */
 static bool read_row(fe_column_reader *r, fe_field line)
 {
-    fe_columns *c = r->c;
+    ff_columns *c = r->c;
     fe_field fields[FE_MOST_FIELDS];
     if (c->rows == r->most)
         return fe_column_refuse(r, line, NULL, "the table has more than %zu rows", r->most);
@@ -149,7 +149,7 @@ static bool read_row(fe_column_reader *r, fe_field line)
 
 static bool take_rows(fe_column_reader *r, const ff_param *rows, size_t count, size_t stride)
 {
-    fe_columns *c = r->c;
+    ff_columns *c = r->c;
     char why[200];
     c->count = count;
     c->asked = fe_alloc(count * sizeof *c->asked);
@@ -163,8 +163,8 @@ static bool take_rows(fe_column_reader *r, const ff_param *rows, size_t count, s
         c->asked[k] = row;
         if (row->max_count > 0 && row->max_count < r->most)
             r->most = row->max_count;
-        if (!fe_unit_parse(row->unit, &c->units[k], why, sizeof why))
-            return fe_error(r->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL,
+        if (!ff_unit_parse(row->unit, &c->units[k], why, sizeof why))
+            return ff_error(r->report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL,
                             "of the column \"%s\" that is asked for, the unit \"%s\" %s", row->name,
                             row->unit, why);
     }
@@ -173,7 +173,7 @@ static bool take_rows(fe_column_reader *r, const ff_param *rows, size_t count, s
 
 static bool check_count(const fe_column_reader *r)
 {
-    const fe_columns *c = r->c;
+    const ff_columns *c = r->c;
     bool good = true;
     if (c->width == 0)
         return fe_column_refuse(r, whole, NULL,
@@ -188,12 +188,12 @@ static bool check_count(const fe_column_reader *r)
     return good;
 }
 
-bool fe_columns_read(fe_columns *c, const char *path, const ff_param *rows, size_t count,
-                     size_t stride, fe_report *report)
+bool ff_columns_read(ff_columns *c, const char *path, const ff_param *rows, size_t count,
+                     size_t stride, ff_report *report)
 {
     fe_column_reader r = {.c = c, .report = report};
-    size_t before = fe_report_errors(report);
-    *c = (fe_columns){.count = 0};
+    size_t before = ff_report_errors(report);
+    *c = (ff_columns){.count = 0};
     if (!take_rows(&r, rows, count, stride) || !load(&r, path) || !check_text(&r))
         return false;
     const char *stop = c->source.text + c->source.length;
@@ -207,9 +207,9 @@ bool fe_columns_read(fe_columns *c, const char *path, const ff_param *rows, size
         if (line.at == line.end || *line.at == '#')
             continue;
         good = c->width ? read_row(&r, line) : fe_column_heads_read(&r, line);
-        good = good && fe_report_errors(report) < before + MOST_ERRORS;
+        good = good && ff_report_errors(report) < before + MOST_ERRORS;
     }
-    if (!good || !check_count(&r) || fe_report_errors(report) > before)
+    if (!good || !check_count(&r) || ff_report_errors(report) > before)
         return false;
     c->table = (ff_table){.size = sizeof c->table,
                           .row_count = c->rows,
@@ -218,7 +218,7 @@ bool fe_columns_read(fe_columns *c, const char *path, const ff_param *rows, size
     return true;
 }
 
-void fe_columns_free(fe_columns *c)
+void ff_columns_free(ff_columns *c)
 {
     for (size_t k = 0; k < c->count; k++)
         fe_free(c->values[k]);
@@ -231,5 +231,5 @@ void fe_columns_free(fe_columns *c)
     fe_free(c->source.name);
     fe_free(c->source.text);
     fe_free(c->source.directory);
-    *c = (fe_columns){.count = 0};
+    *c = (ff_columns){.count = 0};
 }

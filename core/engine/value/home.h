@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Finds what came with the engine, from the file that holds this code: the library, or a program
    that it was linked into. */
 #ifndef FE_HOME_H

@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Reads a file and the files that it includes, and merges them into one tree. */
 #include <errno.h>
 #include <libgen.h>
@@ -8,23 +8,24 @@
 
 #include "home.h"
 #include "node.h"
+#include "tree.h"
 
 /* A file that is being read. */
 typedef struct file {
-    fe_tree *tree;
-    fe_report *report;
+    ff_tree *tree;
+    ff_report *report;
     const struct file *parent; /* the file that includes it, or NULL */
-    fe_place place;            /* of its name in the parent */
+    ff_place place;            /* of its name in the parent */
     const char *path;
     struct stat info;
     int level;
 } file;
 
-static fe_node *load(file *f);
+static ff_node *load(file *f);
 
 static void *refuse(const file *f, const char *why)
 {
-    fe_error(f->report, FE_EXIT_INPUT, f->place, NULL, "cannot read \"%s\": %s", f->path, why);
+    ff_error(f->report, FF_FAULT_INPUT, f->place, NULL, "cannot read \"%s\": %s", f->path, why);
     return NULL;
 }
 
@@ -55,7 +56,7 @@ static char *read_file(file *f, size_t *length)
 }
 
 /* Without a leading "./". */
-char *fe_path_beside(const char *directory, const char *path)
+char *ff_path_beside(const char *directory, const char *path)
 {
     bool alone = *path == '/' || !strcmp(directory, ".");
     return fe_print_text("%s%s%s", alone ? "" : directory, alone ? "" : "/", path);
@@ -77,15 +78,15 @@ static char *shipped(const char *path)
     return found;
 }
 
-static fe_node *load_entry(const file *f, const fe_node *entry)
+static ff_node *load_entry(const file *f, const ff_node *entry)
 {
-    if (entry->kind != FE_SCALAR || *entry->text == '\0') {
-        fe_error(f->report, FE_EXIT_INPUT, entry->place, NULL,
+    if (entry->kind != FF_SCALAR || *entry->text == '\0') {
+        ff_error(f->report, FF_FAULT_INPUT, entry->place, NULL,
                  "expected the path of a file, found %s",
-                 entry->kind == FE_SCALAR ? "nothing" : fe_kind_name(entry->kind));
+                 entry->kind == FF_SCALAR ? "nothing" : fe_kind_name(entry->kind));
         return NULL;
     }
-    char *path = fe_path_beside(entry->place.source->directory, entry->text), *other;
+    char *path = ff_path_beside(entry->place.source->directory, entry->text), *other;
     if (access(path, F_OK) != 0 && (other = shipped(entry->text))) {
         fe_free(path);
         path = other;
@@ -96,17 +97,17 @@ static fe_node *load_entry(const file *f, const fe_node *entry)
                   .place = entry->place,
                   .path = path,
                   .level = f->level + 1};
-    fe_node *node = load(&inner);
+    ff_node *node = load(&inner);
     fe_free(path);
     return node;
 }
 
 /* Merges the named files into *base, which may be NULL. False when one cannot be read. */
-static bool load_named(const file *f, const fe_node *named, fe_node **base)
+static bool load_named(const file *f, const ff_node *named, ff_node **base)
 {
-    bool list = named->kind == FE_SEQUENCE, whole = true;
+    bool list = named->kind == FF_SEQUENCE, whole = true;
     for (size_t i = 0; i < (list ? named->count : 1); i++) {
-        fe_node *node = load_entry(f, list ? named->items[i] : named);
+        ff_node *node = load_entry(f, list ? named->items[i] : named);
         if (node)
             *base = fe_node_merge(f->tree, *base, node);
         whole = whole && node;
@@ -115,28 +116,28 @@ static bool load_named(const file *f, const fe_node *named, fe_node **base)
 }
 
 /* Removes `include` from the map and reads its files. False when one cannot be read. */
-static bool load_includes(const file *f, fe_node *map, fe_node **base)
+static bool load_includes(const file *f, ff_node *map, ff_node **base)
 {
     size_t at = fe_map_find(map, "include");
     *base = NULL;
     if (at == map->count)
         return true;
-    const fe_node *named = map->items[at];
+    const ff_node *named = map->items[at];
     fe_map_remove(map, at);
     return fe_node_is_empty(named) || load_named(f, named, base);
 }
 
 /* Reads a source with what it includes. NULL when any part of it cannot be read. */
-static fe_node *read_source(const file *f, const fe_source *source)
+static ff_node *read_source(const file *f, const ff_source *source)
 {
-    fe_node *root = fe_yaml_read(f->tree, source, source->text, f->report), *base;
-    fe_place whole = {.source = source};
+    ff_node *root = fe_yaml_read(f->tree, source, source->text, f->report), *base;
+    ff_place whole = {.source = source};
     if (root && fe_node_is_empty(root)) {
-        fe_error(f->report, FE_EXIT_INPUT, whole, NULL, "there is nothing in it to read");
+        ff_error(f->report, FF_FAULT_INPUT, whole, NULL, "there is nothing in it to read");
         return NULL;
     }
-    if (root && root->kind != FE_MAP) {
-        fe_error(f->report, FE_EXIT_INPUT, root->place, "write \"key: value\"",
+    if (root && root->kind != FF_MAP) {
+        ff_error(f->report, FF_FAULT_INPUT, root->place, "write \"key: value\"",
                  "expected a map at the top, found %s", fe_kind_name(root->kind));
         return NULL;
     }
@@ -154,10 +155,10 @@ static bool includes_itself(const file *f)
     return false;
 }
 
-static fe_node *load(file *f)
+static ff_node *load(file *f)
 {
     size_t length;
-    fe_node *node = NULL;
+    ff_node *node = NULL;
     if (f->level > FE_MOST_INCLUDE_LEVELS)
         return refuse(f, "files include each other more than 16 levels deep");
     if (f->tree->files == FE_MOST_FILES)
@@ -168,7 +169,7 @@ static fe_node *load(file *f)
     f->tree->files++;
     if (includes_itself(f)) {
         bool direct = !f->parent->parent;
-        fe_error(f->report, FE_EXIT_INPUT, f->place, NULL, "the file \"%s\" includes itself%s%s%s",
+        ff_error(f->report, FF_FAULT_INPUT, f->place, NULL, "the file \"%s\" includes itself%s%s%s",
                  f->path, direct ? "" : " by way of \"", direct ? "" : f->parent->path,
                  direct ? "" : "\"");
     } else {
@@ -180,22 +181,22 @@ static fe_node *load(file *f)
     return node;
 }
 
-bool fe_node_include(fe_tree *tree, const fe_node *named, fe_report *report)
+bool fe_node_include(ff_tree *tree, const ff_node *named, ff_report *report)
 {
     const file f = {.tree = tree, .report = report, .path = "--set"};
     return load_named(&f, named, &tree->root);
 }
 
-fe_tree *fe_tree_load(const char *path, fe_report *report)
+ff_tree *ff_tree_load(const char *path, ff_report *report)
 {
-    fe_tree *tree = fe_alloc(sizeof *tree);
+    ff_tree *tree = fe_alloc(sizeof *tree);
     tree->root = load(&(file){.tree = tree, .report = report, .path = path});
     return tree;
 }
 
-fe_tree *fe_tree_parse(const char *name, const char *directory, const char *text, fe_report *report)
+ff_tree *ff_tree_parse(const char *name, const char *directory, const char *text, ff_report *report)
 {
-    fe_tree *tree = fe_alloc(sizeof *tree);
+    ff_tree *tree = fe_alloc(sizeof *tree);
     file f = {.tree = tree, .report = report, .path = name};
     size_t length = strlen(text);
     if (length > FE_MOST_TEXT)

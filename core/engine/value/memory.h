@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /*
  * Memory of the engine. A block belongs to the heap that was in use when it was made, and is freed
  * with it at the latest.

@@ -1,7 +1,7 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <string.h>
+/* SPDX-License-Identifier: MIT */
+#include <flankfilm/engine.h>
 
-#include "report.h"
+#include <string.h>
 
 enum { LONGEST = 63, NEVER = 1000 };
 
@@ -40,7 +40,7 @@ static int distance(const char *a, const char *b)
     return row[n % 3][m];
 }
 
-const char *fe_nearest(const char *word, const char *const *candidates, size_t count)
+const char *ff_nearest(const char *word, const char *const *candidates, size_t count)
 {
     const char *best = NULL;
     /* one mistake in three letters is near; two letters with a mistake are another word */

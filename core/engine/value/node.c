@@ -1,21 +1,24 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 #include "node.h"
+
+#include <flankfilm/engine.h>
+#include "tree.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-fe_node *fe_node_new(fe_tree *tree, fe_kind kind, fe_place place)
+ff_node *fe_node_new(ff_tree *tree, ff_node_kind kind, ff_place place)
 {
-    fe_node *node = fe_arena_alloc(&tree->arena, sizeof *node);
+    ff_node *node = fe_arena_alloc(&tree->arena, sizeof *node);
     tree->nodes++;
     node->kind = kind;
     node->place = place;
-    if (kind == FE_SCALAR)
+    if (kind == FF_SCALAR)
         node->text = fe_arena_text(&tree->arena, "", 0);
     return node;
 }
 
-static void *grow(fe_tree *tree, const void *old, size_t count, size_t size)
+static void *grow(ff_tree *tree, const void *old, size_t count, size_t size)
 {
     void *grown = fe_arena_alloc(&tree->arena, (count ? 2 * count : 1) * size);
     if (count > 0)
@@ -23,7 +26,7 @@ static void *grow(fe_tree *tree, const void *old, size_t count, size_t size)
     return grown;
 }
 
-void fe_node_add(fe_tree *tree, fe_node *node, char *key, fe_place key_place, fe_node *item)
+void fe_node_add(ff_tree *tree, ff_node *node, char *key, ff_place key_place, ff_node *item)
 {
     size_t n = node->count++;
     if ((n & (n - 1)) == 0) { /* arrays have room for the next power of two */
@@ -40,7 +43,7 @@ void fe_node_add(fe_tree *tree, fe_node *node, char *key, fe_place key_place, fe
     }
 }
 
-void fe_map_remove(fe_node *map, size_t index)
+void fe_map_remove(ff_node *map, size_t index)
 {
     map->count--;
     for (size_t i = index; i < map->count; i++) {
@@ -50,7 +53,7 @@ void fe_map_remove(fe_node *map, size_t index)
     }
 }
 
-size_t fe_map_find(const fe_node *map, const char *key)
+size_t fe_map_find(const ff_node *map, const char *key)
 {
     size_t i = 0;
     while (i < map->count && strcmp(map->keys[i], key) != 0)
@@ -58,25 +61,25 @@ size_t fe_map_find(const fe_node *map, const char *key)
     return i;
 }
 
-bool fe_node_is_empty(const fe_node *node)
+bool fe_node_is_empty(const ff_node *node)
 {
-    return node->kind == FE_SCALAR && *node->text == '\0' && !node->quoted;
+    return node->kind == FF_SCALAR && *node->text == '\0' && !node->quoted;
 }
 
-fe_node *fe_node_copy(fe_tree *tree, const fe_node *node)
+ff_node *fe_node_copy(ff_tree *tree, const ff_node *node)
 {
-    fe_node *copy = fe_node_new(tree, node->kind, node->place);
+    ff_node *copy = fe_node_new(tree, node->kind, node->place);
     copy->text = node->text;
     copy->quoted = node->quoted;
     for (size_t i = 0; i < node->count; i++) {
-        bool map = node->kind == FE_MAP;
-        fe_node_add(tree, copy, map ? node->keys[i] : NULL, map ? node->key_places[i] : FE_NOWHERE,
+        bool map = node->kind == FF_MAP;
+        fe_node_add(tree, copy, map ? node->keys[i] : NULL, map ? node->key_places[i] : FF_NOWHERE,
                     fe_node_copy(tree, node->items[i]));
     }
     return copy;
 }
 
-size_t fe_node_levels(const fe_node *node)
+size_t fe_node_levels(const ff_node *node)
 {
     size_t most = 0;
     for (size_t i = 0; i < node->count; i++) {
@@ -86,16 +89,16 @@ size_t fe_node_levels(const fe_node *node)
     return most + 1;
 }
 
-void fe_node_set_rank(fe_node *node, uint32_t rank)
+void fe_node_set_rank(ff_node *node, uint32_t rank)
 {
     node->rank = rank;
     for (size_t i = 0; i < node->count; i++)
         fe_node_set_rank(node->items[i], rank);
 }
 
-fe_node *fe_node_merge(fe_tree *tree, fe_node *base, fe_node *later)
+ff_node *fe_node_merge(ff_tree *tree, ff_node *base, ff_node *later)
 {
-    if (!base || base->kind != FE_MAP || later->kind != FE_MAP)
+    if (!base || base->kind != FF_MAP || later->kind != FF_MAP)
         return later;
     for (size_t i = 0; i < later->count; i++) {
         size_t at = fe_map_find(base, later->keys[i]);
@@ -111,10 +114,10 @@ fe_node *fe_node_merge(fe_tree *tree, fe_node *base, fe_node *later)
     return base;
 }
 
-fe_source *fe_tree_source(fe_tree *tree, const char *name, const char *directory, const char *text,
+ff_source *fe_tree_source(ff_tree *tree, const char *name, const char *directory, const char *text,
                           size_t length)
 {
-    fe_source *source = fe_arena_alloc(&tree->arena, sizeof *source);
+    ff_source *source = fe_arena_alloc(&tree->arena, sizeof *source);
     const char *end = text + length;
     source->name = fe_arena_text(&tree->arena, name, strlen(name));
     source->directory = fe_arena_text(&tree->arena, directory, strlen(directory));
@@ -129,12 +132,12 @@ fe_source *fe_tree_source(fe_tree *tree, const char *name, const char *directory
     return source;
 }
 
-const fe_node *fe_tree_root(const fe_tree *tree)
+const ff_node *ff_tree_root(const ff_tree *tree)
 {
     return tree->root;
 }
 
-void fe_tree_free(fe_tree *tree)
+void ff_tree_free(ff_tree *tree)
 {
     if (!tree)
         return;
@@ -142,15 +145,15 @@ void fe_tree_free(fe_tree *tree)
     fe_free(tree);
 }
 
-const fe_node *fe_node_get(const fe_node *map, const char *key)
+const ff_node *ff_node_get(const ff_node *map, const char *key)
 {
-    if (!map || map->kind != FE_MAP)
+    if (!map || map->kind != FF_MAP)
         return NULL;
     size_t at = fe_map_find(map, key);
     return at < map->count ? map->items[at] : NULL;
 }
 
-const char *fe_kind_name(fe_kind kind)
+const char *fe_kind_name(ff_node_kind kind)
 {
     static const char *const names[] = {"a value", "a list", "a map"};
     return names[kind];

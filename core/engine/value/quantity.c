@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Numbers and quantities as users write them. */
 #include <errno.h>
 #include <locale.h>
@@ -67,7 +67,7 @@ static bool read_number(const char *text, double *value, const char **end)
     return true;
 }
 
-bool fe_number_parse(const char *text, double *value, const char **end)
+bool ff_number_parse(const char *text, double *value, const char **end)
 {
     double number;
     if (!read_number(text, &number, end) || !isfinite(number))
@@ -77,15 +77,15 @@ bool fe_number_parse(const char *text, double *value, const char **end)
 }
 
 /* "a length (m, mm, um, nm)", or the row's own unit where the dimension has no name. */
-static void expect(const fe_unit *row, const char *row_text, char out[120])
+static void expect(const ff_unit *row, const char *row_text, char out[120])
 {
     const char *name = fe_dimension_name(row);
     if (!name)
         snprintf(out, 120, "a quantity in %.40s", row_text);
-    else if (fe_unit_is_dimensionless(row))
+    else if (ff_unit_is_dimensionless(row))
         snprintf(out, 120, "%s", name);
     else
-        snprintf(out, 120, "%s (%s)", name, fe_unit_examples(row));
+        snprintf(out, 120, "%s (%s)", name, ff_unit_examples(row));
 }
 
 /* Says how to write a number without the mark that `rest` begins with; NULL: it is not one. */
@@ -100,24 +100,24 @@ static const char *wrong_mark(const char *rest)
     return *rest == '.' ? "it has two decimal points" : NULL;
 }
 
-static bool refuse_dimension(const reading *r, double si, const fe_unit *unit, const fe_unit *row,
+static bool refuse_dimension(const reading *r, double si, const ff_unit *unit, const ff_unit *row,
                              const char *wanted)
 {
-    static const fe_unit turning = {.power = {0, 0, -1, 0, 1}}, frequency = {.power = {0, 0, -1}};
+    static const ff_unit turning = {.power = {0, 0, -1, 0, 1}}, frequency = {.power = {0, 0, -1}};
     static const double turn = 2 * 3.14159265358979323846;
     const char *name = fe_dimension_name(unit);
     char tail[48] = "";
-    if (fe_unit_same_dimension(unit, &turning) && fe_unit_same_dimension(row, &frequency))
+    if (ff_unit_same_dimension(unit, &turning) && ff_unit_same_dimension(row, &frequency))
         snprintf(tail, sizeof tail, "; it is %.6g rev/s", si / turn);
     if (name)
         return refuse(r, "is %s; expected %s%s", name, wanted, tail);
     return refuse(r, "is not %s", wanted);
 }
 
-static bool read_unit(const char *text, fe_unit *unit, const char *wanted, const reading *r)
+static bool read_unit(const char *text, ff_unit *unit, const char *wanted, const reading *r)
 {
     char clause[200] = "is a second number";
-    if (strcmp(text, "1") != 0 && fe_unit_parse(text, unit, clause, sizeof clause))
+    if (strcmp(text, "1") != 0 && ff_unit_parse(text, unit, clause, sizeof clause))
         return true;
     bool advised = strchr(clause, ';') != NULL;
     snprintf(r->why, r->why_size, "the unit \"%.*s\" %s%s%s", quoted(text), text, clause,
@@ -125,13 +125,13 @@ static bool read_unit(const char *text, fe_unit *unit, const char *wanted, const
     return false;
 }
 
-bool fe_quantity_parse(const char *text, const fe_unit *row, const char *row_text, double *si,
+bool ff_quantity_parse(const char *text, const ff_unit *row, const char *row_text, double *si,
                        char *why, size_t why_size)
 {
     char wanted[120];
     const char *rest;
     double number;
-    fe_unit unit = {.factor = 1};
+    ff_unit unit = {.factor = 1};
     reading r = {.text = pass_blanks(text), .why = why, .why_size = why_size};
     expect(row, row_text, wanted);
     if (*r.text == '\0') {
@@ -143,15 +143,15 @@ bool fe_quantity_parse(const char *text, const fe_unit *row, const char *row_tex
     const char *advice = wrong_mark(rest), *part = pass_blanks(rest);
     if (advice)
         return refuse(&r, "is not a number: %s", advice);
-    if (*part == '\0' && !fe_unit_is_dimensionless(row))
+    if (*part == '\0' && !ff_unit_is_dimensionless(row))
         return refuse(&r, "has no unit; write for example \"%.*s %s\"", (int)(rest - r.text),
                       r.text, row_text);
     if (*part != '\0' && !read_unit(part, &unit, wanted, &r))
         return false;
-    double value = fe_unit_to_si(&unit, number);
+    double value = ff_unit_to_si(&unit, number);
     if (!isfinite(value))
         return refuse(&r, "is too large a number");
-    if (!fe_unit_same_dimension(&unit, row))
+    if (!ff_unit_same_dimension(&unit, row))
         return refuse_dimension(&r, value, &unit, row, wanted);
     *si = value;
     return true;
@@ -171,7 +171,7 @@ static bool to_integer(const char *text, const char *end, double number, int64_t
     return true;
 }
 
-bool fe_integer_parse(const char *text, int64_t *value, char *why, size_t why_size)
+bool ff_integer_parse(const char *text, int64_t *value, char *why, size_t why_size)
 {
     reading r = {.text = pass_blanks(text), .why = why, .why_size = why_size};
     const char *end;
@@ -187,12 +187,12 @@ bool fe_integer_parse(const char *text, int64_t *value, char *why, size_t why_si
     return true;
 }
 
-void fe_quantity_print(double si, const fe_unit *row, const char *row_text, char *out, size_t size)
+void ff_quantity_print(double si, const ff_unit *row, const char *row_text, char *out, size_t size)
 {
     bool bare = *row_text == '\0' || !strcmp(row_text, "1");
     locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
     locale_t before = plain ? uselocale(plain) : (locale_t)0;
-    snprintf(out, size, "%.6g%s%s", fe_unit_from_si(row, si), bare ? "" : " ",
+    snprintf(out, size, "%.6g%s%s", ff_unit_from_si(row, si), bare ? "" : " ",
              bare ? "" : row_text);
     if (plain) {
         uselocale(before);

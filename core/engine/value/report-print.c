@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Writes messages for people: place, sentence, the line with a caret, what to do about it. */
 #include <stdlib.h>
 #include <string.h>
@@ -64,7 +64,7 @@ static void print_text(FILE *stream, const char *text)
 }
 
 /* Prints the line, or the part of a long line around the place, and the underline below it. */
-static void print_line(const printer *p, const fe_place *place)
+static void print_line(const printer *p, const ff_place *place)
 {
     const char *end, *at = fe_line_begin(place->source, place->line, &end);
     uint32_t first = place->column > LEAD + WINDOW / 2 ? place->column - LEAD : 1;
@@ -90,11 +90,11 @@ static void print_line(const printer *p, const fe_place *place)
     fputc('\n', p->stream);
 }
 
-static void print_message(const printer *p, const fe_message *m)
+static void print_message(const printer *p, const ff_message *m)
 {
     static const char *const names[] = {"error", "warning"};
     const char *styles[] = {RED, YELLOW};
-    const fe_place *place = &m->place;
+    const ff_place *place = &m->place;
     paint(p, BOLD);
     if (place->source) {
         print_text(p->stream, place->source->name);
@@ -117,14 +117,14 @@ static void print_message(const printer *p, const fe_message *m)
 }
 
 typedef struct entry {
-    const fe_message *message;
+    const ff_message *message;
     size_t file; /* index of the first message about its file; without a file it comes last */
 } entry;
 
 static int compare(const void *a, const void *b)
 {
     const entry *x = a, *y = b;
-    const fe_place *p = &x->message->place, *q = &y->message->place;
+    const ff_place *p = &x->message->place, *q = &y->message->place;
     if (x->file != y->file)
         return x->file < y->file ? -1 : 1;
     if (p->line != q->line)
@@ -135,27 +135,27 @@ static int compare(const void *a, const void *b)
     return x->message < y->message ? -1 : x->message > y->message;
 }
 
-static size_t file_of(const fe_report *report, const fe_source *source)
+static size_t file_of(const ff_report *report, const ff_source *source)
 {
     size_t first = 0;
-    while (source && fe_report_at(report, first)->place.source != source)
+    while (source && ff_report_at(report, first)->place.source != source)
         first++;
     return source ? first : SIZE_MAX;
 }
 
-void fe_report_print(const fe_report *report, FILE *stream, bool colour)
+void ff_report_print(const ff_report *report, FILE *stream, bool colour)
 {
     printer p = {stream, colour};
-    size_t count = fe_report_count(report), printed = 0, errors = fe_report_errors(report);
+    size_t count = ff_report_count(report), printed = 0, errors = ff_report_errors(report);
     entry *entries = fe_alloc(count * sizeof *entries);
     for (size_t i = 0; i < count; i++) {
-        const fe_message *m = fe_report_at(report, i);
+        const ff_message *m = ff_report_at(report, i);
         entries[i] = (entry){m, file_of(report, m->place.source)};
     }
     qsort(entries, count, sizeof *entries, compare);
     for (size_t i = 0; i < count; i++) {
-        const fe_message *m = entries[i].message;
-        if (m->severity != FE_ERROR || printed++ < MOST_PRINTED)
+        const ff_message *m = entries[i].message;
+        if (m->severity != FF_ERROR || printed++ < MOST_PRINTED)
             print_message(&p, m);
     }
     fe_free(entries);
@@ -163,9 +163,9 @@ void fe_report_print(const fe_report *report, FILE *stream, bool colour)
         fprintf(stream, "... and %zu more errors\n", errors - MOST_PRINTED);
 }
 
-void fe_message_print(const fe_message *m, char *out, size_t size)
+void ff_message_print(const ff_message *m, char *out, size_t size)
 {
-    const fe_place *place = &m->place;
+    const ff_place *place = &m->place;
     const char *name = place->source ? place->source->name : "";
     if (place->line > 0)
         snprintf(out, size, "%s:%u:%u: %s", name, place->line, place->column, m->text);

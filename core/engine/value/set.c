@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Assignments from the command line, which override what the files say. */
 #include <stdlib.h>
 #include <string.h>
@@ -8,55 +8,55 @@
 
 /* Follows the path of one assignment through the tree. */
 typedef struct walk {
-    fe_tree *tree;
-    fe_report *report;
+    ff_tree *tree;
+    ff_report *report;
     uint32_t rank;
-    const fe_place *at; /* the place that all words of the path get; NULL: their own */
-    fe_node **slot;     /* the node that the path has reached */
+    const ff_place *at; /* the place that all words of the path get; NULL: their own */
+    ff_node **slot;     /* the node that the path has reached */
     size_t level;
 } walk;
 
-static bool fail(fe_report *report, fe_place place, const char *hint, const char *text)
+static bool fail(ff_report *report, ff_place place, const char *hint, const char *text)
 {
-    return fe_error(report, FE_EXIT_INPUT, place, hint, "%s", text);
+    return ff_error(report, FF_FAULT_INPUT, place, hint, "%s", text);
 }
 
-static bool step_into_map(walk *w, char *word, fe_place place, bool last)
+static bool step_into_map(walk *w, char *word, ff_place place, bool last)
 {
-    fe_node *map = *w->slot;
+    ff_node *map = *w->slot;
     size_t at = fe_map_find(map, word);
     if (at == map->count)
-        fe_node_add(w->tree, map, word, place, fe_node_new(w->tree, FE_SCALAR, place));
+        fe_node_add(w->tree, map, word, place, fe_node_new(w->tree, FF_SCALAR, place));
     if (last) /* keys on the way keep their places in the file */
         map->key_places[at] = place;
     w->slot = &map->items[at];
     return true;
 }
 
-static bool step_into_list(walk *w, const char *word, fe_place place)
+static bool step_into_list(walk *w, const char *word, ff_place place)
 {
-    const fe_node *list = *w->slot;
+    const ff_node *list = *w->slot;
     char *end;
     unsigned long index = strtoul(word, &end, 10);
     if (*end != '\0' || *word < '0' || *word > '9' || index >= list->count)
-        return fe_error(w->report, FE_EXIT_INPUT, place, "entries are counted from 0",
+        return ff_error(w->report, FF_FAULT_INPUT, place, "entries are counted from 0",
                         "\"%.60s\" is not an entry of a list of %zu", word, list->count);
     w->slot = &list->items[index];
     return true;
 }
 
 /* Follows one word of the path; an empty value on the way becomes a map. */
-static bool step(walk *w, char *word, fe_place place, bool last)
+static bool step(walk *w, char *word, ff_place place, bool last)
 {
-    fe_node *node = *w->slot;
+    ff_node *node = *w->slot;
     w->level++;
     if (fe_node_is_empty(node)) {
-        node->kind = FE_MAP;
+        node->kind = FF_MAP;
         node->rank = w->rank;
     }
-    if (node->kind == FE_MAP)
+    if (node->kind == FF_MAP)
         return step_into_map(w, word, place, last);
-    if (node->kind == FE_SEQUENCE)
+    if (node->kind == FF_SEQUENCE)
         return step_into_list(w, word, place);
     return fail(w->report, place, NULL, "the path before this part leads to a value, not to a map");
 }
@@ -65,10 +65,10 @@ static bool step(walk *w, char *word, fe_place place, bool last)
    as the paths of a sweep are. */
 static size_t word_length(const walk *w, const char *at, const char *end)
 {
-    const fe_node *map = *w->slot;
+    const ff_node *map = *w->slot;
     const char *dot = memchr(at, '.', (size_t)(end - at));
     size_t whole = (size_t)(end - at), length = dot ? (size_t)(dot - at) : whole;
-    for (size_t i = 0; map->kind == FE_MAP && i < map->count; i++) {
+    for (size_t i = 0; map->kind == FF_MAP && i < map->count; i++) {
         size_t longer = strlen(map->keys[i]);
         if (longer > length && longer <= whole && !memcmp(at, map->keys[i], longer) &&
             (longer == whole || at[longer] == '.'))
@@ -78,11 +78,11 @@ static size_t word_length(const walk *w, const char *at, const char *end)
 }
 
 /* Follows the words from `at` to `end`, separated by dots, and merges the value into that node. */
-static bool apply(walk *w, const fe_source *source, const char *at, const char *end, fe_node *value)
+static bool apply(walk *w, const ff_source *source, const char *at, const char *end, ff_node *value)
 {
     for (bool last = false; !last; at++) {
         const char *stop = at + word_length(w, at, end);
-        fe_place place = fe_place_of(source, (size_t)(at - source->text), 0);
+        ff_place place = fe_place_of(source, (size_t)(at - source->text), 0);
         place.width = fe_place_of(source, (size_t)(stop - source->text), 0).column - place.column;
         place = w->at ? *w->at : place;
         last = stop == end;
@@ -108,8 +108,8 @@ static bool is_one_of(const char *word, size_t length, const char *const *words)
 }
 
 /* Reads the value behind "=". The path becomes blanks, so that columns count from its start. */
-static fe_node *read_value(fe_tree *tree, const fe_source *source, const char *equals,
-                           fe_report *report)
+static ff_node *read_value(ff_tree *tree, const ff_source *source, const char *equals,
+                           ff_report *report)
 {
     const char *end = source->text + source->length;
     char *text = fe_copy_text(source->text, source->length), *blank = text;
@@ -117,30 +117,30 @@ static fe_node *read_value(fe_tree *tree, const fe_source *source, const char *e
     for (const char *at = source->text; at <= equals; at += fe_char_read(at, end, &code))
         *blank++ = *at == '\n' ? '\n' : ' ';
     memmove(blank, equals + 1, strlen(equals));
-    fe_node *value = fe_yaml_read(tree, source, text, report);
+    ff_node *value = fe_yaml_read(tree, source, text, report);
     fe_free(text);
     return value;
 }
 
-static void relocate(fe_node *node, const fe_place *place)
+static void relocate(ff_node *node, const ff_place *place)
 {
     node->place = *place;
     for (size_t i = 0; i < node->count; i++) {
-        if (node->kind == FE_MAP)
+        if (node->kind == FF_MAP)
             node->key_places[i] = *place;
         relocate(node->items[i], place);
     }
 }
 
-bool fe_tree_set_at(fe_tree *tree, const char *assignment, const fe_place *path,
-                    const fe_place *place, const char *prefix, const char *const *top,
-                    fe_report *report)
+bool ff_tree_set_at(ff_tree *tree, const char *assignment, const ff_place *path,
+                    const ff_place *place, const char *prefix, const char *const *top,
+                    ff_report *report)
 {
-    size_t length = strlen(assignment), errors = fe_report_errors(report);
+    size_t length = strlen(assignment), errors = ff_report_errors(report);
     bool fits = length <= FE_MOST_TEXT;
-    fe_source *source = fe_tree_source(tree, "--set", ".", assignment, fits ? length : 0);
+    ff_source *source = fe_tree_source(tree, "--set", ".", assignment, fits ? length : 0);
     const char *at = source->text, *equals = strchr(at, '='), *end = equals;
-    fe_place whole = {.source = source, .line = 1, .column = 1};
+    ff_place whole = {.source = source, .line = 1, .column = 1};
     if (!fits)
         return fail(report, whole, NULL, "the assignment is larger than 1 MiB");
     if (!equals)
@@ -151,8 +151,8 @@ bool fe_tree_set_at(fe_tree *tree, const char *assignment, const fe_place *path,
         end--;
     size_t first = strcspn(at, ".= ");
     static const char *const include[] = {"include", NULL};
-    fe_node *value = read_value(tree, source, equals, report);
-    if (!value || !tree->root || fe_report_errors(report) > errors)
+    ff_node *value = read_value(tree, source, equals, report);
+    if (!value || !tree->root || ff_report_errors(report) > errors)
         return false;
     if (is_one_of(at, first, include) && at + first == end)
         return fe_node_include(tree, value, report);
@@ -167,15 +167,15 @@ bool fe_tree_set_at(fe_tree *tree, const char *assignment, const fe_place *path,
     return apply(&w, source, at, end, value);
 }
 
-bool fe_tree_set(fe_tree *tree, const char *assignment, const char *prefix, const char *const *top,
-                 fe_report *report)
+bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, const char *const *top,
+                 ff_report *report)
 {
-    return fe_tree_set_at(tree, assignment, NULL, NULL, prefix, top, report);
+    return ff_tree_set_at(tree, assignment, NULL, NULL, prefix, top, report);
 }
 
-void fe_tree_put(fe_tree *tree, const char *key, const fe_node *node)
+void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node)
 {
-    fe_node *root = tree->root, *copy = fe_node_copy(tree, node);
+    ff_node *root = tree->root, *copy = fe_node_copy(tree, node);
     size_t at = fe_map_find(root, key);
     if (at < root->count)
         root->items[at] = copy;

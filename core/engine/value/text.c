@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 #include "text.h"
 
 #include <string.h>
@@ -29,7 +29,7 @@ static const char *line_end(const char *at, const char *stop)
     return end ? end : stop;
 }
 
-const char *fe_line_begin(const fe_source *source, uint32_t line, const char **end)
+const char *fe_line_begin(const ff_source *source, uint32_t line, const char **end)
 {
     const char *at = source->text, *stop = at + source->length;
     for (; line > 1 && at < stop; line--) {
@@ -40,10 +40,10 @@ const char *fe_line_begin(const fe_source *source, uint32_t line, const char **e
     return at;
 }
 
-fe_place fe_place_of(const fe_source *source, size_t offset, uint32_t width)
+ff_place fe_place_of(const ff_source *source, size_t offset, uint32_t width)
 {
     const char *at = source->text, *stop = at + source->length, *goal = at + offset;
-    fe_place place = {.source = source, .line = 1, .column = 1, .width = width};
+    ff_place place = {.source = source, .line = 1, .column = 1, .width = width};
     uint32_t code;
     while (at < goal && at < stop) {
         place.column = *at == '\n' ? 1 : place.column + 1;
@@ -53,7 +53,7 @@ fe_place fe_place_of(const fe_source *source, size_t offset, uint32_t width)
     return place;
 }
 
-const char *fe_text_at(const fe_place *place, const char **end)
+const char *fe_text_at(const ff_place *place, const char **end)
 {
     const char *at = fe_line_begin(place->source, place->line, end);
     uint32_t code;

@@ -1,9 +1,9 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* UTF-8 and lines, counted as the YAML reader counts them. */
 #ifndef FE_TEXT_H
 #define FE_TEXT_H
 
-#include "report.h"
+#include <flankfilm/engine.h>
 
 enum { FE_NO_CHAR = 0xFFFFFFFFu >> 1 };
 
@@ -12,12 +12,12 @@ enum { FE_NO_CHAR = 0xFFFFFFFFu >> 1 };
 size_t fe_char_read(const char *at, const char *end, uint32_t *code);
 
 /* The line of a place: its first byte and its end, without the break. */
-const char *fe_line_begin(const fe_source *source, uint32_t line, const char **end);
+const char *fe_line_begin(const ff_source *source, uint32_t line, const char **end);
 
 /* The place of the character at byte `offset`. */
-fe_place fe_place_of(const fe_source *source, size_t offset, uint32_t width);
+ff_place fe_place_of(const ff_source *source, size_t offset, uint32_t width);
 
 /* The text of the place's line from the place on, up to *end. */
-const char *fe_text_at(const fe_place *place, const char **end);
+const char *fe_text_at(const ff_place *place, const char **end);
 
 #endif

@@ -1,8 +1,9 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
+#include <flankfilm/engine.h>
+
 #include <string.h>
 #include <strings.h>
 
-#include "report.h"
 #include "unit-table.h"
 
 static const double PI = 3.14159265358979323846;
@@ -98,12 +99,12 @@ const char *fe_symbol_nearest(const char *word)
     for (size_t i = 0; i < COUNT(habits); i++)
         if (!strcasecmp(habits[i][0], word))
             return habits[i][1];
-    return fe_nearest(word, common, COUNT(common));
+    return ff_nearest(word, common, COUNT(common));
 }
 
 /* What messages call the dimensions of this field, and units that they offer. */
 static const struct dimension {
-    int8_t power[FE_DIMENSIONS];
+    int8_t power[FF_DIMENSIONS];
     const char *name, *examples;
 } dimensions[] = {
     {{0, 0, 0, 0, 0}, "a plain number", "1, %"},
@@ -136,7 +137,7 @@ static const struct dimension {
     {{-1, 0, 0, 0, 0}, "a wavenumber", "1/m, 1/mm"},
 };
 
-static const struct dimension *find_dimension(const fe_unit *unit)
+static const struct dimension *find_dimension(const ff_unit *unit)
 {
     for (size_t i = 0; i < COUNT(dimensions); i++)
         if (!memcmp(dimensions[i].power, unit->power, sizeof unit->power))
@@ -144,13 +145,13 @@ static const struct dimension *find_dimension(const fe_unit *unit)
     return NULL;
 }
 
-const char *fe_dimension_name(const fe_unit *unit)
+const char *fe_dimension_name(const ff_unit *unit)
 {
     const struct dimension *found = find_dimension(unit);
     return found ? found->name : NULL;
 }
 
-const char *fe_unit_examples(const fe_unit *unit)
+const char *ff_unit_examples(const ff_unit *unit)
 {
     const struct dimension *found = find_dimension(unit);
     return found ? found->examples : "";

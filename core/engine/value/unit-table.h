@@ -1,9 +1,9 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* The closed table of unit symbols. Internal to core/engine/value. */
 #ifndef FE_UNIT_TABLE_H
 #define FE_UNIT_TABLE_H
 
-#include "unit.h"
+#include <flankfilm/engine.h>
 
 /* One unit in terms of the base units: scale * 10^ten. Powers of ten stay apart from the rest so
    that the factor of a product of decimal units is correctly rounded. */
@@ -11,7 +11,7 @@ typedef struct fe_symbol {
     const char *name;
     double scale;
     int ten;
-    int8_t power[FE_DIMENSIONS];
+    int8_t power[FF_DIMENSIONS];
     bool prefixed; /* takes SI prefixes */
     double offset; /* degC and degF */
 } fe_symbol;
@@ -23,6 +23,6 @@ bool fe_symbol_find(const char *word, fe_symbol *symbol);
 const char *fe_symbol_nearest(const char *word);
 
 /* "a length", "a rotational speed"; NULL when the dimension has no name. */
-const char *fe_dimension_name(const fe_unit *unit);
+const char *fe_dimension_name(const ff_unit *unit);
 
 #endif

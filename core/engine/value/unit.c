@@ -1,10 +1,12 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /*
  * unit     = "" | "1" | [ "1" | product ] "/" ( factor | "(" product ")" ) | product
  * product  = factor { ( " " | "." ) factor }
  * factor   = symbol [ power ],  power = [ "^" ] [ "-" ] digit
  */
 #include "unit.h"
+
+#include <flankfilm/engine.h>
 
 #include <float.h>
 #include <math.h>
@@ -23,7 +25,7 @@ static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVW
 typedef struct reader {
     char text[LONGEST + 1]; /* plain: see `spellings` */
     const char *at;
-    int power[FE_DIMENSIONS];
+    int power[FF_DIMENSIONS];
     double scale;
     int ten;
     int factors;
@@ -138,7 +140,7 @@ static bool read_power(reader *r, int *power)
 
 static bool multiply(reader *r, const fe_symbol *symbol, int power)
 {
-    for (int i = 0; i < FE_DIMENSIONS; i++) {
+    for (int i = 0; i < FF_DIMENSIONS; i++) {
         r->power[i] += power * symbol->power[i];
         if (abs(r->power[i]) > LARGEST_POWER_IN_ALL)
             return refuse(r, "has too high a power in all");
@@ -236,7 +238,7 @@ static bool read_unit(reader *r)
     return *r->at == '\0' || read_below(r);
 }
 
-static bool finish(const reader *r, fe_unit *unit)
+static bool finish(const reader *r, ff_unit *unit)
 {
     if (r->offset_at && (r->factors > 1 || r->offset_power != 1)) {
         int length = 4; /* of "degC" */
@@ -244,7 +246,7 @@ static bool finish(const reader *r, fe_unit *unit)
             r, "has %.*s in a product, where only differences make sense; write \"%.*sK%s\"",
             length, r->offset_at, (int)(r->offset_at - r->text), r->text, r->offset_at + length);
     }
-    for (int i = 0; i < FE_DIMENSIONS; i++)
+    for (int i = 0; i < FF_DIMENSIONS; i++)
         unit->power[i] = (int8_t)r->power[i];
     /* correctly rounded when scale is a whole number and ten is moderate */
     double tens = pow(10, abs(r->ten));
@@ -253,52 +255,52 @@ static bool finish(const reader *r, fe_unit *unit)
     return isnormal(unit->factor) || refuse(r, "is beyond what numbers can hold");
 }
 
-bool fe_unit_parse(const char *text, fe_unit *unit, char *why, size_t why_size)
+bool ff_unit_parse(const char *text, ff_unit *unit, char *why, size_t why_size)
 {
     reader r = {.scale = 1, .why = why, .why_size = why_size};
-    *unit = (fe_unit){.factor = 1};
+    *unit = (ff_unit){.factor = 1};
     return spell_plainly(&r, text) && read_unit(&r) && finish(&r, unit);
 }
 
-bool fe_unit_same_dimension(const fe_unit *a, const fe_unit *b)
+bool ff_unit_same_dimension(const ff_unit *a, const ff_unit *b)
 {
     return !memcmp(a->power, b->power, sizeof a->power);
 }
 
-bool fe_unit_is_si(const fe_unit *unit)
+bool ff_unit_is_si(const ff_unit *unit)
 {
     return unit->factor == 1 && unit->offset == 0;
 }
 
-bool fe_unit_is_dimensionless(const fe_unit *unit)
+bool ff_unit_is_dimensionless(const ff_unit *unit)
 {
-    static const fe_unit none;
-    return fe_unit_same_dimension(unit, &none);
+    static const ff_unit none;
+    return ff_unit_same_dimension(unit, &none);
 }
 
 /* Returns n when the factor is 1/n for a whole n, else 0. A factor such as 1e-3 is itself rounded,
    so that dividing by 1000 rounds once less. */
-static double inverse(const fe_unit *unit)
+static double inverse(const ff_unit *unit)
 {
     double n = unit->factor < 1 ? round(1 / unit->factor) : 0;
     return n > 0 && 1 / n == unit->factor ? n : 0;
 }
 
-double fe_unit_to_si(const fe_unit *unit, double number)
+double ff_unit_to_si(const ff_unit *unit, double number)
 {
     double n = inverse(unit);
     return (n > 0 ? number / n : number * unit->factor) + unit->offset;
 }
 
-double fe_unit_from_si(const fe_unit *unit, double si)
+double ff_unit_from_si(const ff_unit *unit, double si)
 {
     double n = inverse(unit);
     return n > 0 ? (si - unit->offset) * n : (si - unit->offset) / unit->factor;
 }
 
-int fe_unit_compare(const fe_unit *unit, double si, double limit)
+int fe_unit_compare(const ff_unit *unit, double si, double limit)
 {
-    double limit_si = fe_unit_to_si(unit, limit);
+    double limit_si = ff_unit_to_si(unit, limit);
     if (isfinite(limit_si) && fabs(si - limit_si) <= 4 * DBL_EPSILON * fabs(limit_si))
         return 0;
     return si < limit_si ? -1 : 1;

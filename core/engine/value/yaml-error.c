@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Explains an error of libyaml to someone who writes a file. */
 #include <stdio.h>
 #include <string.h>
@@ -12,7 +12,7 @@ enum { AT, BEGIN, LINE, COLON, PLACES };
 
 typedef struct fault {
     const char *problem, *context; /* of libyaml; never NULL */
-    fe_place places[PLACES];       /* of the problem; of what was being read; of the line's first
+    ff_place places[PLACES];       /* of the problem; of what was being read; of the line's first
                                       character; of a ":" without a blank, column 0: none */
     char c, opening;               /* that stand AT and at BEGIN, '\n' at the end of a line */
     bool after_colon;              /* a "key: " stands before the problem in its line */
@@ -83,20 +83,20 @@ static const struct rule {
      "there is text after the end of the document's value", NULL},
 };
 
-static fe_place place_at(const fe_source *source, const yaml_mark_t *mark)
+static ff_place place_at(const ff_source *source, const yaml_mark_t *mark)
 {
-    return (fe_place){
+    return (ff_place){
         .source = source, .line = (uint32_t)mark->line + 1, .column = (uint32_t)mark->column + 1};
 }
 
-static char char_at(const fe_place *place)
+static char char_at(const ff_place *place)
 {
     const char *end, *at = fe_text_at(place, &end);
     return at < end ? *at : '\n';
 }
 
 /* Finds the first ":" behind the place, in its line, that is not followed by a blank. */
-static fe_place find_tight_colon(fe_place place)
+static ff_place find_tight_colon(ff_place place)
 {
     const char *end, *at = fe_text_at(&place, &end);
     uint32_t code;
@@ -111,7 +111,7 @@ static fe_place find_tight_colon(fe_place place)
 
 static void look_at_line(fault *s)
 {
-    const fe_place *at = &s->places[AT];
+    const ff_place *at = &s->places[AT];
     const char *end, *begin = fe_line_begin(at->source, at->line, &end);
     const char *stop = fe_text_at(at, &end), *start = begin;
     while (start < end && (*start == ' ' || *start == '\t'))
@@ -133,22 +133,22 @@ static bool holds(const fault *s, const struct rule *rule)
            (!*rule->characters || strchr(rule->characters, s->c)) && conditions[rule->when];
 }
 
-static void explain_bracket(const fault *s, fe_report *report)
+static void explain_bracket(const fault *s, ff_report *report)
 {
-    const fe_place *at = &s->places[AT], *begin = &s->places[BEGIN];
+    const ff_place *at = &s->places[AT], *begin = &s->places[BEGIN];
     if (s->c == '\n' || s->c == '#')
-        fe_error(report, FE_EXIT_INPUT, *begin, NULL, "the \"%c\" opened here is not closed",
+        ff_error(report, FF_FAULT_INPUT, *begin, NULL, "the \"%c\" opened here is not closed",
                  s->opening);
     else if (at->line > begin->line && s->c != ']' && s->c != '}')
-        fe_error(report, FE_EXIT_INPUT, *begin, NULL,
+        ff_error(report, FF_FAULT_INPUT, *begin, NULL,
                  "the \"%c\" opened here is not closed, or a \",\" is missing before line %u",
                  s->opening, at->line);
     else
-        fe_error(report, FE_EXIT_INPUT, *at, NULL, "expected \",\" or \"%c\" here",
+        ff_error(report, FF_FAULT_INPUT, *at, NULL, "expected \",\" or \"%c\" here",
                  s->opening == '[' ? ']' : '}');
 }
 
-void fe_yaml_explain(const yaml_parser_t *parser, const fe_source *source, fe_report *report)
+void fe_yaml_explain(const yaml_parser_t *parser, const ff_source *source, ff_report *report)
 {
     fault s = {.problem = parser->problem ? parser->problem : "unknown problem",
                .context = parser->context ? parser->context : "",
@@ -168,10 +168,10 @@ void fe_yaml_explain(const yaml_parser_t *parser, const fe_source *source, fe_re
             continue;
         char name[] = {'"', s.c, '"', '\0'};
         bool named = rule->text[strlen(rule->text) - 1] == ' ';
-        fe_error(report, FE_EXIT_INPUT, s.places[rule->where], rule->hint, "%s%s", rule->text,
+        ff_error(report, FF_FAULT_INPUT, s.places[rule->where], rule->hint, "%s%s", rule->text,
                  named ? name : "");
         return;
     }
-    fe_error(report, FE_EXIT_INPUT, s.places[AT], NULL, "this is not valid YAML: %s %s", s.problem,
+    ff_error(report, FF_FAULT_INPUT, s.places[AT], NULL, "this is not valid YAML: %s %s", s.problem,
              s.context);
 }

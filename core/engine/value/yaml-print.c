@@ -1,6 +1,7 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Nodes in YAML's flow style. */
-#include "tree.h"
+
+#include <flankfilm/engine.h>
 
 #include <string.h>
 
@@ -14,7 +15,7 @@ static bool is_plain(const char *text)
            text[0] != ' ' && (length == 0 || text[length - 1] != ' ');
 }
 
-void fe_yaml_print_text(const char *text, bool quoted, FILE *out)
+void ff_yaml_print_text(const char *text, bool quoted, FILE *out)
 {
     if (!quoted && is_plain(text)) {
         fputs(text, out);
@@ -29,20 +30,20 @@ void fe_yaml_print_text(const char *text, bool quoted, FILE *out)
     fputc('"', out);
 }
 
-void fe_yaml_print(const fe_node *node, FILE *out)
+void ff_yaml_print(const ff_node *node, FILE *out)
 {
-    if (node->kind == FE_SCALAR) {
-        fe_yaml_print_text(node->text, node->quoted, out);
+    if (node->kind == FF_SCALAR) {
+        ff_yaml_print_text(node->text, node->quoted, out);
         return;
     }
-    fputc(node->kind == FE_MAP ? '{' : '[', out);
+    fputc(node->kind == FF_MAP ? '{' : '[', out);
     for (size_t i = 0; i < node->count; i++) {
         fputs(i ? ", " : "", out);
-        if (node->kind == FE_MAP) {
-            fe_yaml_print_text(node->keys[i], false, out);
+        if (node->kind == FF_MAP) {
+            ff_yaml_print_text(node->keys[i], false, out);
             fputs(": ", out);
         }
-        fe_yaml_print(node->items[i], out);
+        ff_yaml_print(node->items[i], out);
     }
-    fputc(node->kind == FE_MAP ? '}' : ']', out);
+    fputc(node->kind == FF_MAP ? '}' : ']', out);
 }

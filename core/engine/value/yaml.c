@@ -1,4 +1,4 @@
-/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* SPDX-License-Identifier: MIT */
 /* Makes nodes of the events of libyaml, within bounds, and refuses parts of YAML that are not used.
  */
 #include <stdlib.h>
@@ -13,26 +13,26 @@ enum { MOST_ANCHORS = 1000, TO_THE_END = 1 << 20 };
 
 typedef struct anchor {
     const char *name;
-    const fe_node *node; /* NULL while it is being read */
+    const ff_node *node; /* NULL while it is being read */
 } anchor;
 
 typedef struct reader {
     fe_resource open; /* the parser and its last event */
     yaml_parser_t parser;
     yaml_event_t event;
-    fe_tree *tree;
-    const fe_source *source;
-    fe_report *report;
+    ff_tree *tree;
+    const ff_source *source;
+    ff_report *report;
     anchor anchors[MOST_ANCHORS];
     size_t anchor_count;
     bool stopped; /* the rest cannot be read, and what was read is lost */
 } reader;
 
 /* The place of a text over several lines is its part in the first line. */
-static fe_place event_place(const reader *r, const yaml_event_t *event)
+static ff_place event_place(const reader *r, const yaml_event_t *event)
 {
     const yaml_mark_t *start = &event->start_mark, *end = &event->end_mark;
-    fe_place place = {.source = r->source,
+    ff_place place = {.source = r->source,
                       .line = (uint32_t)start->line + 1,
                       .column = (uint32_t)start->column + 1};
     if (event->type == YAML_SCALAR_EVENT || event->type == YAML_ALIAS_EVENT)
@@ -41,12 +41,12 @@ static fe_place event_place(const reader *r, const yaml_event_t *event)
     return place;
 }
 
-static void fail(reader *r, fe_place place, const char *hint, const char *text)
+static void fail(reader *r, ff_place place, const char *hint, const char *text)
 {
-    fe_error(r->report, FE_EXIT_INPUT, place, hint, "%s", text);
+    ff_error(r->report, FF_FAULT_INPUT, place, hint, "%s", text);
 }
 
-static void stop(reader *r, fe_place place, const char *hint, const char *text)
+static void stop(reader *r, ff_place place, const char *hint, const char *text)
 {
     fail(r, place, hint, text);
     r->stopped = true;
@@ -100,7 +100,7 @@ static bool next(reader *r, yaml_event_t *event)
 }
 
 /* The text of a scalar event. */
-static char *read_text(reader *r, const yaml_event_t *event, fe_place place)
+static char *read_text(reader *r, const yaml_event_t *event, ff_place place)
 {
     char *text = (char *)event->data.scalar.value;
     if (memchr(text, '\0', event->data.scalar.length))
@@ -108,7 +108,7 @@ static char *read_text(reader *r, const yaml_event_t *event, fe_place place)
     return text;
 }
 
-static void check_tag(reader *r, const yaml_char_t *tag, fe_place place)
+static void check_tag(reader *r, const yaml_char_t *tag, ff_place place)
 {
     if (tag)
         fail(r, place, "remove it; a text that begins with \"!\" is written in quotes",
@@ -124,77 +124,77 @@ static const anchor *find_anchor(const reader *r, const char *name)
 }
 
 /* A copy of what the alias names; an empty map when it names nothing. */
-static fe_node *read_alias(reader *r, const yaml_event_t *event, fe_place place, size_t level)
+static ff_node *read_alias(reader *r, const yaml_event_t *event, ff_place place, size_t level)
 {
     const char *name = (const char *)event->data.alias.anchor;
     const anchor *a = find_anchor(r, name);
     if (!a)
-        fe_error(r->report, FE_EXIT_INPUT, place, "an anchor comes before its aliases",
+        ff_error(r->report, FF_FAULT_INPUT, place, "an anchor comes before its aliases",
                  "the alias \"*%.60s\" has no anchor \"&%.60s\" before it", name, name);
     else if (!a->node)
-        fe_error(r->report, FE_EXIT_INPUT, place, NULL,
+        ff_error(r->report, FF_FAULT_INPUT, place, NULL,
                  "the alias \"*%.60s\" is inside the value that it repeats", name);
     else if (level + fe_node_levels(a->node) > FE_MOST_LEVELS + 1)
         stop(r, place, NULL, "values are nested more than 64 levels deep here");
     else
         return fe_node_copy(r->tree, a->node);
-    return fe_node_new(r->tree, FE_MAP, place);
+    return fe_node_new(r->tree, FF_MAP, place);
 }
 
-static fe_node *read_node(reader *r, const yaml_event_t *event, size_t level);
+static ff_node *read_node(reader *r, const yaml_event_t *event, size_t level);
 
-static void read_list(reader *r, fe_node *list, size_t level)
+static void read_list(reader *r, ff_node *list, size_t level)
 {
     yaml_event_t event;
     while (next(r, &event) && event.type != YAML_SEQUENCE_END_EVENT)
-        fe_node_add(r->tree, list, NULL, FE_NOWHERE, read_node(r, &event, level + 1));
+        fe_node_add(r->tree, list, NULL, FF_NOWHERE, read_node(r, &event, level + 1));
 }
 
-static void add_pair(reader *r, fe_node *map, char *key, fe_place place, fe_node *item)
+static void add_pair(reader *r, ff_node *map, char *key, ff_place place, ff_node *item)
 {
     size_t at = fe_map_find(map, key);
     if (at < map->count) {
         char *hint = fe_print_text("its first occurrence is in line %u", map->key_places[at].line);
-        fe_error(r->report, FE_EXIT_INPUT, place, hint, "the key \"%.60s\" is given twice", key);
+        ff_error(r->report, FF_FAULT_INPUT, place, hint, "the key \"%.60s\" is given twice", key);
         fe_free(hint);
     } else if (map->count == FE_MOST_KEYS)
         stop(r, place, NULL, "the map has more than 4096 keys");
     else if (strchr(key, ':') && fe_node_is_empty(item) && item->place.line == place.line &&
              item->place.column == place.column + place.width)
         /* in { }, "use:gear" is a key without a value */
-        fe_error(r->report, FE_EXIT_INPUT, place, "write \"key: value\"",
+        ff_error(r->report, FF_FAULT_INPUT, place, "write \"key: value\"",
                  "a space is missing after \":\" in \"%.60s\"", key);
     else
         fe_node_add(r->tree, map, key, place, item);
 }
 
 /* The value of "<<" is an alias of a map, or a list of such aliases. */
-static void check_merge(reader *r, const fe_node *item, bool alias, fe_place place)
+static void check_merge(reader *r, const ff_node *item, bool alias, ff_place place)
 {
-    bool good = item->kind == FE_SEQUENCE || (alias && item->kind == FE_MAP);
-    for (size_t i = 0; i < item->count && item->kind == FE_SEQUENCE; i++)
-        good = good && item->items[i]->kind == FE_MAP;
+    bool good = item->kind == FF_SEQUENCE || (alias && item->kind == FF_MAP);
+    for (size_t i = 0; i < item->count && item->kind == FF_SEQUENCE; i++)
+        good = good && item->items[i]->kind == FF_MAP;
     if (!good)
         fail(r, place, "write \"<<: *name\" or \"<<: [*one, *two]\"",
              "\"<<\" takes aliases of maps only");
 }
 
 /* Keys of the merged maps do not replace the map's own, nor those of earlier merged maps. */
-static void merge_maps(reader *r, fe_node *map)
+static void merge_maps(reader *r, ff_node *map)
 {
     size_t at = fe_map_find(map, "<<");
-    fe_node *merged = map->items[at];
+    ff_node *merged = map->items[at];
     fe_map_remove(map, at);
-    bool list = merged->kind == FE_SEQUENCE;
+    bool list = merged->kind == FF_SEQUENCE;
     for (size_t i = 0; i < (list ? merged->count : 1); i++) {
-        const fe_node *from = list ? merged->items[i] : merged;
-        for (size_t k = 0; from->kind == FE_MAP && k < from->count; k++)
+        const ff_node *from = list ? merged->items[i] : merged;
+        for (size_t k = 0; from->kind == FF_MAP && k < from->count; k++)
             if (fe_map_find(map, from->keys[k]) == map->count)
                 add_pair(r, map, from->keys[k], from->key_places[k], from->items[k]);
     }
 }
 
-static char *read_key(reader *r, const yaml_event_t *event, fe_place place, bool *merge)
+static char *read_key(reader *r, const yaml_event_t *event, ff_place place, bool *merge)
 {
     char *key = NULL;
     if (event->type == YAML_SCALAR_EVENT) {
@@ -210,18 +210,18 @@ static char *read_key(reader *r, const yaml_event_t *event, fe_place place, bool
     return key;
 }
 
-static void read_map(reader *r, fe_node *map, size_t level)
+static void read_map(reader *r, ff_node *map, size_t level)
 {
     yaml_event_t event;
     bool merge = false, merges = false;
     while (next(r, &event) && event.type != YAML_MAPPING_END_EVENT) {
-        fe_place place = event_place(r, &event);
+        ff_place place = event_place(r, &event);
         char *key = read_key(r, &event, place, &merge);
         if (!next(r, &event))
             return;
         bool alias = event.type == YAML_ALIAS_EVENT;
-        fe_place item_place = event_place(r, &event);
-        fe_node *item = read_node(r, &event, level + 1);
+        ff_place item_place = event_place(r, &event);
+        ff_node *item = read_node(r, &event, level + 1);
         if (r->stopped)
             return;
         if (merge)
@@ -235,13 +235,13 @@ static void read_map(reader *r, fe_node *map, size_t level)
 }
 
 /* A list, a map or a scalar. */
-static fe_node *read_content(reader *r, const yaml_event_t *event, fe_place place, size_t level)
+static ff_node *read_content(reader *r, const yaml_event_t *event, ff_place place, size_t level)
 {
-    static const fe_kind kinds[] = {[YAML_SCALAR_EVENT] = FE_SCALAR,
-                                    [YAML_SEQUENCE_START_EVENT] = FE_SEQUENCE,
-                                    [YAML_MAPPING_START_EVENT] = FE_MAP};
+    static const ff_node_kind kinds[] = {[YAML_SCALAR_EVENT] = FF_SCALAR,
+                                         [YAML_SEQUENCE_START_EVENT] = FF_SEQUENCE,
+                                         [YAML_MAPPING_START_EVENT] = FF_MAP};
     const char *name = (const char *)event->data.scalar.anchor; /* of a list or a map, too */
-    fe_node *node = fe_node_new(r->tree, kinds[event->type], place);
+    ff_node *node = fe_node_new(r->tree, kinds[event->type], place);
     size_t at = r->anchor_count;
     check_tag(r, event->data.scalar.tag, place);
     if (name && at == MOST_ANCHORS) {
@@ -250,9 +250,9 @@ static fe_node *read_content(reader *r, const yaml_event_t *event, fe_place plac
     }
     if (name)
         r->anchors[r->anchor_count++].name = name;
-    if (node->kind == FE_MAP)
+    if (node->kind == FF_MAP)
         read_map(r, node, level);
-    else if (node->kind == FE_SEQUENCE)
+    else if (node->kind == FF_SEQUENCE)
         read_list(r, node, level);
     else {
         yaml_scalar_style_t style = event->data.scalar.style;
@@ -266,20 +266,20 @@ static fe_node *read_content(reader *r, const yaml_event_t *event, fe_place plac
 }
 
 /* Reads the node that `event` begins. */
-static fe_node *read_node(reader *r, const yaml_event_t *event, size_t level)
+static ff_node *read_node(reader *r, const yaml_event_t *event, size_t level)
 {
-    fe_place place = event_place(r, event);
+    ff_place place = event_place(r, event);
     if (level > FE_MOST_LEVELS && event->type != YAML_SCALAR_EVENT) {
         stop(r, place, NULL, "values are nested more than 64 levels deep here");
-        return fe_node_new(r->tree, FE_MAP, place);
+        return fe_node_new(r->tree, FF_MAP, place);
     }
     return event->type == YAML_ALIAS_EVENT ? read_alias(r, event, place, level)
                                            : read_content(r, event, place, level);
 }
 
-static fe_node *read_document(reader *r)
+static ff_node *read_document(reader *r)
 {
-    fe_node *root = NULL;
+    ff_node *root = NULL;
     yaml_event_t event;
     while (next(r, &event)) {
         switch (event.type) {
@@ -292,7 +292,7 @@ static fe_node *read_document(reader *r)
         case YAML_STREAM_END_EVENT:
             if (!root)
                 root =
-                    fe_node_new(r->tree, FE_SCALAR, fe_place_of(r->source, r->source->length, 0));
+                    fe_node_new(r->tree, FF_SCALAR, fe_place_of(r->source, r->source->length, 0));
             return root;
         default:
             if (root && event.type == YAML_DOCUMENT_START_EVENT)
@@ -305,7 +305,7 @@ static fe_node *read_document(reader *r)
 
 /* libyaml names controls and ill-formed bytes by their offset only, and takes some of them for line
    breaks. */
-static bool check_characters(const fe_source *source, fe_report *report)
+static bool check_characters(const ff_source *source, ff_report *report)
 {
     const char *at = source->text, *end = at + source->length;
     uint32_t c;
@@ -315,11 +315,11 @@ static bool check_characters(const fe_source *source, fe_report *report)
                        c == 0x2028 || c == 0x2029 || c == 0xFFFE || c == 0xFFFF;
         if (!control && c != FE_NO_CHAR)
             continue;
-        fe_place place = fe_place_of(source, (size_t)(at - source->text), 1);
+        ff_place place = fe_place_of(source, (size_t)(at - source->text), 1);
         if (control)
-            return fe_error(report, FE_EXIT_INPUT, place, NULL,
+            return ff_error(report, FF_FAULT_INPUT, place, NULL,
                             "there is a control character (U+%04X) in the text", c);
-        return fe_error(report, FE_EXIT_INPUT, place, "save the file as UTF-8",
+        return ff_error(report, FF_FAULT_INPUT, place, "save the file as UTF-8",
                         "the text is not UTF-8 here (byte 0x%02X)", (unsigned char)*at);
     }
     return true;
@@ -332,7 +332,7 @@ static void close_parser(void *reader_of)
     yaml_parser_delete(&r->parser);
 }
 
-fe_node *fe_yaml_read(fe_tree *tree, const fe_source *source, const char *text, fe_report *report)
+ff_node *fe_yaml_read(ff_tree *tree, const ff_source *source, const char *text, ff_report *report)
 {
     if (!check_characters(source, report))
         return NULL;
@@ -345,7 +345,7 @@ fe_node *fe_yaml_read(fe_tree *tree, const fe_source *source, const char *text, 
     fe_resource_add(&r->open, close_parser, r);
     yaml_parser_set_encoding(&r->parser, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&r->parser, (const unsigned char *)text, strlen(text));
-    fe_node *root = read_document(r);
+    ff_node *root = read_document(r);
     fe_resource_remove(&r->open);
     close_parser(r);
     fe_free(r);

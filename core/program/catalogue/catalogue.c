@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "catalogue.h"
 
-#include "../../engine/plugin/clean.h"
+#include <flankfilm/engine.h>
 
 #include <stdlib.h>
 #include <string.h>
@@ -66,14 +66,14 @@ static const char *copy_clean(catalogue *c, const char *text)
 {
     char *copy = text ? memory_arena_text(&c->arena, text, strlen(text)) : NULL;
     if (copy)
-        fe_clean_text(copy, strlen(text) + 1, text);
+        ff_clean_text(copy, strlen(text) + 1, text);
     return copy;
 }
 
-void catalogue_add(catalogue *c, const char *id, const fe_loaded *loaded, const char *user,
-                   const fe_report *report)
+void catalogue_add(catalogue *c, const char *id, const ff_loaded *loaded, const char *user,
+                   const ff_report *report)
 {
-    const fe_message *why = loaded ? NULL : fe_report_first(report);
+    const ff_message *why = loaded ? NULL : ff_report_first(report);
     c->entries = memory_resize(c->entries, (c->count + 1) * sizeof *c->entries);
     c->entries[c->count++] = (catalogue_entry){.id = copy_clean(c, id),
                                                .model = loaded ? loaded->model : NULL,

@@ -3,7 +3,8 @@
 #ifndef CATALOGUE_H
 #define CATALOGUE_H
 
-#include "../../engine/plugin/library.h"
+#include <flankfilm/engine.h>
+
 #include "../memory/memory.h"
 
 #include <jansson.h>
@@ -25,8 +26,8 @@ typedef struct catalogue {
 } catalogue;
 
 /* Adds a model; `loaded` is NULL when it could not be loaded, for the first error of the report. */
-void catalogue_add(catalogue *c, const char *id, const fe_loaded *loaded, const char *user,
-                   const fe_report *report);
+void catalogue_add(catalogue *c, const char *id, const ff_loaded *loaded, const char *user,
+                   const ff_report *report);
 void catalogue_free(catalogue *c);
 
 /* Each has a file of its own and prints to stdout, the schema to `out`. With `page` the only entry

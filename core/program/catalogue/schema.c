@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* JSON Schema (draft-07) of the YAML files, made from the tables of all models that are there, so
    that an editor completes and checks what the program does. */
+#include <flankfilm/engine.h>
+
 #include "catalogue.h"
 
-#include "../../engine/plugin/param.h"
 #include "../study/study.h"
 
 #include <stdlib.h>
@@ -43,7 +44,7 @@ static void set_pattern(json_t *schema, const ff_param *row, bool bare)
 {
     const char *number = "[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)?";
     char message[700], limits[200];
-    fe_param_expectation(row, message, sizeof message);
+    ff_param_expectation(row, message, sizeof message);
     catalogue_print_limits(row, limits, sizeof limits);
     json_object_set_new(schema, "pattern",
                         json_sprintf("^(%s%s%s\\s*%s)$", row->choices ? row->choices : "",
@@ -255,7 +256,7 @@ static json_t *whole_schema(const catalogue *c, const char *version)
     json_object_set_new(schema, "$schema", json_string("http://json-schema.org/draft-07/schema#"));
     json_object_set_new(schema, "title", json_sprintf("flankfilm %s", version));
     json_object_set_new(schema, "definitions", definitions);
-    for (const char *const *key = fe_pipeline_top_keys; *key; key++)
+    for (const char *const *key = ff_file_keys(); *key; key++)
         json_object_set_new(top, *key, json_true());
     json_object_set_new(top, "format", json_pack("{s:i}", "const", 1));
     json_object_set_new(top, "title", json_pack("{s:s}", "type", "string"));

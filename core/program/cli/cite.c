@@ -15,10 +15,10 @@ static void add_varied(catalogue *models, cli_session *session)
         bool use = length > 4 && !strcmp(varied->path + length - 4, ".use");
         for (size_t i = 0; use && i < points; i++) {
             const char *id = study_varied_value(varied, i);
-            const fe_loaded *loaded =
-                fe_names_kind_only(id)
+            const ff_loaded *loaded =
+                ff_names_kind_only(id)
                     ? NULL
-                    : fe_library_load(session->library, id, FE_NOWHERE, session->report);
+                    : ff_library_load(session->library, id, FF_NOWHERE, session->report);
             if (loaded)
                 catalogue_add(models, id, loaded, "study", session->report);
         }
@@ -29,17 +29,17 @@ int cli_cite(const cli_options *options)
 {
     cli_session session;
     catalogue models = {.count = 0};
-    int code = FE_EXIT_OK;
+    int code = EXIT_SUCCESS;
     bool good = cli_session_open(&session, options, false) &&
                 cli_choose_models(&session); /* a model is cited only when it is known */
     for (size_t i = 0; good && i < session.pipeline->count; i++) {
-        const fe_stage *stage = &session.pipeline->stages[session.pipeline->order[i]];
+        const ff_stage *stage = &session.pipeline->stages[session.pipeline->order[i]];
         if (stage->needed)
             catalogue_add(&models, stage->use, stage->loaded, stage->name, session.report);
     }
     if (good)
         add_varied(&models, &session);
-    if (good && fe_report_errors(session.report) == 0)
+    if (good && ff_report_errors(session.report) == 0)
         catalogue_print_bibtex(&models, CLI_VERSION);
     else
         code = cli_refuse(session.report, options, "nothing is cited");

@@ -7,6 +7,9 @@
 
 #include <jansson.h>
 
+/* Exit codes are EXIT_SUCCESS, the FF_FAULT_... of the errors, or this one. */
+enum { CLI_EXIT_CASES = 4 }; /* a study finished with failed cases */
+
 /* Each returns the exit code of the program. */
 int cli_run(const cli_options *options);
 int cli_plan_study(const cli_options *options);
@@ -29,6 +32,6 @@ json_t *cli_json_savings(const study_reuse_counts *savings);
 int cli_run_study(cli_session *session, const cli_options *options);
 /* Finds the part of the cases that Slurm's array and, unless array_only, its tasks give to this
    process. False after an error. */
-bool cli_shard_find(study_run *run, bool array_only, fe_report *report);
+bool cli_shard_find(study_run *run, bool array_only, ff_report *report);
 
 #endif

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "crash.h"
 
-#include "../../engine/plugin/guard.h"
-#include "../../engine/value/report.h"
+#include <flankfilm/engine.h>
 
 #include <poll.h>
 #include <pthread.h>
@@ -30,6 +29,7 @@ static struct sigaction before[FAULTS];
    that goes through it would fault again. */
 static ssize_t (*volatile const write_bound)(int, const void *, size_t) = write;
 static void (*volatile const exit_bound)(int) = _exit;
+static ff_guard_mark (*volatile const guard_bound)(void) = ff_guard_current;
 
 /* The sentence, made by functions that a signal handler may call. */
 typedef struct line {
@@ -72,7 +72,7 @@ static void put_json(const line *sentence)
     put(STDOUT_FILENO, tail, sizeof tail - 1);
 }
 
-static _Noreturn void die(fe_guard_mark who, const char *what, const char *detail)
+static _Noreturn void die(ff_guard_mark who, const char *what, const char *detail)
 {
     if (atomic_flag_test_and_set(&dying))
         for (;;)
@@ -94,7 +94,7 @@ static _Noreturn void die(fe_guard_mark who, const char *what, const char *detai
     if (owes_json)
         put_json(&sentence);
     for (;;)
-        exit_bound(FE_EXIT_PLUGIN);
+        exit_bound(FF_FAULT_PLUGIN);
 }
 
 /* What happened in a thread of which it is not known that a plugin runs there: the plugin may have
@@ -117,7 +117,7 @@ static void on_fault(int number, siginfo_t *info, void *context)
     int which = 0;
     while (which < FAULTS - 1 && fault_signals[which] != number)
         which++;
-    fe_guard_mark who = fe_guard_current();
+    ff_guard_mark who = guard_bound();
     const char *verb = atomic_load(&foreign_verb);
     bool asked = verb && pthread_equal(pthread_self(), main_thread);
     if (who.path)
@@ -136,7 +136,7 @@ static void on_fault(int number, siginfo_t *info, void *context)
 
 static void on_exit_call(void)
 {
-    fe_guard_mark who = fe_guard_current();
+    ff_guard_mark who = guard_bound();
     if (who.path)
         die(who, ended, "it called exit()");
     ask_main_thread(ended, "it called exit()");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Keeps a fault inside a plugin from looking like a fault of the program: a signal or a call of
- * exit() while a plugin's code runs ends the program with FE_EXIT_PLUGIN and one sentence that
+ * exit() while a plugin's code runs ends the program with FF_FAULT_PLUGIN and one sentence that
  * names the plugin, the stage and what it was doing.
  */
 #ifndef CLI_CRASH_H

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The commands check and explain, which run nothing but what a choice of models depends on. */
+#include <flankfilm/engine.h>
+
 #include "../terminal/terminal.h"
 #include "command.h"
 #include "resolved.h"
 
-#include "../../engine/plugin/clean.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
 
@@ -13,11 +14,11 @@
 
 enum { NAME = 24, VALUE = 28 };
 
-static json_t *outputs(const fe_stage *stage)
+static json_t *outputs(const ff_stage *stage)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const fe_result *result = &stage->results[i];
+        const ff_result *result = &stage->results[i];
         if (result->wanted)
             json_array_append_new(list,
                                   json_pack("{s:s, s:s, s:b}", "output", result->row->name, "unit",
@@ -26,7 +27,7 @@ static json_t *outputs(const fe_stage *stage)
     return list;
 }
 
-static json_t *describe_stage(const fe_pipeline *pipeline, const fe_stage *stage)
+static json_t *describe_stage(const ff_pipeline *pipeline, const ff_stage *stage)
 {
     json_t *entry =
         json_pack("{s:s, s:s, s:b, s:b, s:s}", "stage", stage->name, "model", stage->use, "runs",
@@ -114,12 +115,12 @@ static void print_stage(const json_t *stage)
     print_outputs(json_object_get(stage, "outputs"));
 }
 
-static void print_plan(const fe_pipeline *pipeline, const char *file, const json_t *stages)
+static void print_plan(const ff_pipeline *pipeline, const char *file, const json_t *stages)
 {
     size_t needed = 0, i;
     char title[400];
     const json_t *stage;
-    fe_clean_text(title, sizeof title, pipeline->title ? pipeline->title : file);
+    ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : file);
     for (i = 0; i < pipeline->count; i++)
         needed += pipeline->stages[i].needed;
     printf("%s: %zu of %zu stages run (* requested)\n", title, needed, pipeline->count);
@@ -140,11 +141,11 @@ static void print_plan(const fe_pipeline *pipeline, const char *file, const json
 }
 
 /* Lists the stages that had to run for choices; the caller frees the text. */
-static char *list_run(const fe_pipeline *pipeline)
+static char *list_run(const ff_pipeline *pipeline)
 {
     char *ran = memory_print_text("%s", "");
     for (size_t i = 0; i < pipeline->count; i++) {
-        const fe_stage *stage = &pipeline->stages[pipeline->order[i]];
+        const ff_stage *stage = &pipeline->stages[pipeline->order[i]];
         if (!(stage->seconds > 0))
             continue;
         char *longer = memory_print_text("%s%s%s", ran, *ran ? ", " : "", stage->name);
@@ -156,11 +157,11 @@ static char *list_run(const fe_pipeline *pipeline)
 
 static void explain(cli_session *session, const cli_options *options)
 {
-    const fe_pipeline *pipeline = session->pipeline;
+    const ff_pipeline *pipeline = session->pipeline;
     json_t *stages = json_array();
     cli_choose_models(session);
     char *ran = list_run(pipeline);
-    int code = fe_report_exit_code(session->report);
+    int code = ff_report_fault(session->report);
     for (size_t i = 0; i < pipeline->count; i++)
         json_array_append_new(stages,
                               describe_stage(pipeline, &pipeline->stages[pipeline->order[i]]));
@@ -181,7 +182,7 @@ static void explain(cli_session *session, const cli_options *options)
         free(ran);
         return;
     }
-    fe_report_print(session->report, stderr, terminal_colour(stderr));
+    ff_report_print(session->report, stderr, terminal_colour(stderr));
     print_plan(pipeline, options->operand, stages);
     if (*ran)
         terminal_print_wrapped(ran, printf("\nrun for the choice of models: "), 2);
@@ -196,13 +197,13 @@ static void confirm(cli_session *session, const cli_options *options)
 {
     size_t stages = session->pipeline->count, cases = session->study ? session->study->count : 1;
     if (options->json) {
-        json_t *answer = results_json_answer("ok", FE_EXIT_OK, session->report);
+        json_t *answer = results_json_answer("ok", EXIT_SUCCESS, session->report);
         json_object_set_new(answer, "stages", json_integer((json_int_t)stages));
         json_object_set_new(answer, "cases", json_integer((json_int_t)cases));
         results_json_print(answer);
         return;
     }
-    fe_report_print(session->report, stderr, terminal_colour(stderr)); /* warnings */
+    ff_report_print(session->report, stderr, terminal_colour(stderr)); /* warnings */
     printf("%s: ok (%zu stage%s", options->operand, stages, stages == 1 ? "" : "s");
     const char *tried = session->study && session->study->driver
                             ? "; first of %zu cases)\n"
@@ -214,10 +215,10 @@ static int with_session(const cli_options *options, bool everything,
                         void (*tell)(cli_session *, const cli_options *))
 {
     cli_session session;
-    int code = FE_EXIT_OK;
+    int code = EXIT_SUCCESS;
     if (cli_session_open(&session, options, everything)) {
         tell(&session, options);
-        code = fe_report_exit_code(session.report);
+        code = ff_report_fault(session.report);
     } else {
         code = cli_refuse(session.report, options, "nothing was run");
     }
@@ -232,7 +233,7 @@ int cli_check(const cli_options *options)
 
 static void resolve(cli_session *session, const cli_options *options)
 {
-    fe_report_print(session->report, stderr, terminal_colour(stderr)); /* warnings */
+    ff_report_print(session->report, stderr, terminal_colour(stderr)); /* warnings */
     cli_print_resolved(session, options);
 }
 
@@ -241,7 +242,7 @@ int cli_explain(const cli_options *options)
     bool yaml = cli_option(options, "yaml");
     if (yaml && options->json) {
         cli_wrong_usage(options, "explain prints YAML or JSON, not both");
-        return FE_EXIT_INPUT;
+        return FF_FAULT_INPUT;
     }
     return with_session(options, false, yaml ? resolve : explain);
 }

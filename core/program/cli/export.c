@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Results for people and other programs. CSV and the page are the program's own; any other form is
    that of a model of the kind "writer". */
+#include <flankfilm/engine.h>
+
 #include "command.h"
 
-#include "../../engine/pipeline/service.h"
 #include "../report/report.h"
 #include "../results/export-csv.h"
 #include "../results/json.h"
@@ -50,11 +51,11 @@ static const form *find_form(const char *name)
 }
 
 /* False with an error when one of the program's own was meant, and there is no such model. */
-static bool check_name(const char *name, fe_library *library, fe_report *report)
+static bool check_name(const char *name, ff_library *library, ff_report *report)
 {
     const char *names[FORMS];
     size_t count;
-    const char *const *ids = fe_library_ids(library, &count);
+    const char *const *ids = ff_library_ids(library, &count);
     char *id = memory_print_text("%s%s", kind, name);
     bool known = false;
     for (size_t i = 0; i < count; i++)
@@ -62,8 +63,8 @@ static bool check_name(const char *name, fe_library *library, fe_report *report)
     free(id);
     for (size_t i = 0; i < FORMS; i++)
         names[i] = forms[i].name;
-    const char *near = known ? NULL : fe_nearest(name, names, FORMS);
-    return !near || fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+    const char *near = known ? NULL : ff_nearest(name, names, FORMS);
+    return !near || ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                              "there is no writer \"%s\"; did you mean \"%s\"?", name, near);
 }
 
@@ -86,7 +87,7 @@ static const char *path_of(void *ctx, const char *name)
     results_target *to = ctx;
     const char *path = to->folder ? name ? results_folder_path(to->folder, name) : NULL : to->part;
     if (!path)
-        fe_error(to->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL,
+        ff_error(to->report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL,
                  "the writer asked for a file of the name \"%s\"", name ? name : "");
     return path;
 }
@@ -100,36 +101,35 @@ static ff_status call_write(const void *table, void *ctx)
 }
 
 /* What the view reported comes before what the writer made of it. */
-static bool call_writer(const fe_service *service, const ff_view *view, results_target *to)
+static bool call_writer(const ff_service *service, const ff_view *view, results_target *to)
 {
-    fe_report *captured = fe_report_new();
+    ff_report *captured = ff_report_new();
     call c = {view, to};
-    bool good = fe_service_call(service, "write", call_write, &c, captured);
-    for (size_t i = 0; i < fe_report_count(captured); i++) {
-        const fe_message *message = fe_report_at(captured, i);
-        if (message->severity == FE_WARNING)
-            fe_warn(to->report, FE_NOWHERE, "%s", message->text);
-        else if (fe_report_errors(to->report) == 0)
-            fe_error(to->report, message->exit_code, FE_NOWHERE, message->hint, "%s",
-                     message->text);
+    bool good = ff_service_call(service, "write", call_write, &c, captured);
+    for (size_t i = 0; i < ff_report_count(captured); i++) {
+        const ff_message *message = ff_report_at(captured, i);
+        if (message->severity == FF_WARNING)
+            ff_warn(to->report, FF_NOWHERE, "%s", message->text);
+        else if (ff_report_errors(to->report) == 0)
+            ff_error(to->report, message->fault, FF_NOWHERE, message->hint, "%s", message->text);
     }
-    fe_report_free(captured);
-    return good && fe_report_errors(to->report) == 0;
+    ff_report_free(captured);
+    return good && ff_report_errors(to->report) == 0;
 }
 
 /* The form that a model writes. */
-static bool open_writer(fe_service *service, fe_library *library, const cli_options *options,
-                        const char *name, form *to, fe_report *report)
+static bool open_writer(ff_service *service, ff_library *library, const cli_options *options,
+                        const char *name, form *to, ff_report *report)
 {
     const cli_words settings = cli_option_words(options, "with");
-    const fe_service_choice choice = {
+    const ff_service_choice choice = {
         .option = "--to",
         .interface = FF_WRITER_ID,
         .name = name,
         .settings = settings.words,
         .setting_count = settings.count,
     };
-    if (!fe_service_open(service, library, &choice, report))
+    if (!ff_service_open(service, library, &choice, report))
         return false;
     const char *slash = strchr(name, '/');
     to->name = slash ? slash + 1 : name;
@@ -137,7 +137,7 @@ static bool open_writer(fe_service *service, fe_library *library, const cli_opti
     return true;
 }
 
-static bool write_to(const form *to, const fe_service *service, const ff_view *view,
+static bool write_to(const form *to, const ff_service *service, const ff_view *view,
                      const cli_options *options, const char *stem, results_target *target)
 {
     target->path = options->directory ? memory_print_text("%s", options->directory)
@@ -147,23 +147,23 @@ static bool write_to(const form *to, const fe_service *service, const ff_view *v
            results_target_commit(target);
 }
 
-static bool run(const cli_options *options, const char *name, const char *stem, fe_library *library,
+static bool run(const cli_options *options, const char *name, const char *stem, ff_library *library,
                 results_target *target)
 {
     const ff_view *view = results_view_open(options->operand, target->report);
     const form *own = find_form(name);
     form to = own ? *own : (form){.name = name};
-    fe_service service = {.table = NULL};
+    ff_service service = {.table = NULL};
     const cli_words settings = cli_option_words(options, "with");
     bool good = view != NULL;
     if (good && own && settings.count)
-        good = fe_error(target->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+        good = ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                         "--with %s: %s takes no parameters", settings.words[0], name);
     else if (good && !own)
         good = check_name(name, library, target->report) &&
                open_writer(&service, library, options, name, &to, target->report);
     good = good && write_to(&to, &service, view, options, stem, target);
-    fe_service_close(&service);
+    ff_service_close(&service);
     results_view_close(view);
     return good;
 }
@@ -171,10 +171,10 @@ static bool run(const cli_options *options, const char *name, const char *stem, 
 static int write_with(const cli_options *options, const char *to, const char *stem)
 {
     const char *name = name_of(to);
-    fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
-    results_target target = {.report = fe_report_new()};
+    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
+    results_target target = {.report = ff_report_new()};
     bool good = run(options, name, stem, library, &target);
-    int code = FE_EXIT_OK;
+    int code = EXIT_SUCCESS;
     if (!good) {
         code = cli_refuse(target.report, options, "nothing was written");
     } else if (options->json) {
@@ -182,12 +182,12 @@ static int write_with(const cli_options *options, const char *to, const char *st
         json_object_set_new(answer, "path", results_json_text(target.path));
         results_json_print(answer);
     } else {
-        fe_report_print(target.report, stderr, false);
+        ff_report_print(target.report, stderr, false);
         printf("%s\n", target.path);
     }
     results_target_close(&target);
-    fe_report_free(target.report);
-    fe_library_free(library);
+    ff_report_free(target.report);
+    ff_library_free(library);
     return code;
 }
 

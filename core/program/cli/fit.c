@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool work(fit *f, fe_library *library, const cli_options *options)
+static bool work(fit *f, ff_library *library, const cli_options *options)
 {
     if (strcmp(options->operand, "viscosity") != 0)
-        return fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+        return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                         "fit finds the parameters of viscosity laws, not of \"%s\"",
                         options->operand);
     const cli_words laws = cli_option_words(options, "law"), ats = cli_option_words(options, "at");
@@ -23,7 +23,7 @@ static bool work(fit *f, fe_library *library, const cli_options *options)
 
 static json_t *answer_of(const fit *f)
 {
-    json_t *answer = results_json_answer("ok", FE_EXIT_OK, f->report), *facts = fit_facts(f);
+    json_t *answer = results_json_answer("ok", EXIT_SUCCESS, f->report), *facts = fit_facts(f);
     json_object_update(answer, facts);
     json_decref(facts);
     return answer;
@@ -71,23 +71,23 @@ static char *directory_of(const cli_options *options)
 
 int cli_fit_command(const cli_options *options)
 {
-    fit f = {.report = fe_report_new()};
-    fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
+    fit f = {.report = ff_report_new()};
+    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     char *directory = directory_of(options);
-    int code = FE_EXIT_OK;
+    int code = EXIT_SUCCESS;
     if (!work(&f, library, options) || (directory && !write_files(&f, directory))) {
         code = cli_refuse(f.report, options, "nothing was fitted");
     } else if (options->json) {
         results_json_print(answer_of(&f));
     } else {
-        fe_report_print(f.report, stderr, false);
+        ff_report_print(f.report, stderr, false);
         fit_print(&f);
         if (directory)
             printf("\nresults in %s\n", directory);
     }
     free(directory);
     fit_free(&f);
-    fe_report_free(f.report);
-    fe_library_free(library);
+    ff_report_free(f.report);
+    ff_library_free(library);
     return code;
 }

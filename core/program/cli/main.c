@@ -3,7 +3,6 @@
 #include "command.h"
 #include "crash.h"
 
-#include "../../engine/value/memory.h"
 #include "../memory/memory.h"
 
 #include <ctype.h>
@@ -100,7 +99,7 @@ static bool find_command(cli_options *options, const char *word)
             options->command = &commands[i];
     }
     names[COMMANDS] = "help";
-    const char *near = fe_nearest(word, names, COMMANDS + 1);
+    const char *near = ff_nearest(word, names, COMMANDS + 1);
     if (options->command)
         return true;
     if (near && word[0] != '-')
@@ -113,21 +112,21 @@ static bool find_command(cli_options *options, const char *word)
 static int help(cli_options *options, int argc, char **argv)
 {
     if (argc > 2 && !cli_wrong_usage(options, "help takes one command"))
-        return FE_EXIT_INPUT;
+        return FF_FAULT_INPUT;
     if (argc == 2 && !find_command(options, argv[1]))
-        return FE_EXIT_INPUT;
+        return FF_FAULT_INPUT;
     if (options->command)
         print_help(options->command);
     else
         print_overview();
-    return FE_EXIT_OK;
+    return EXIT_SUCCESS;
 }
 
 static int execute(cli_options *options, int argc, char **argv)
 {
-    int code = FE_EXIT_OK;
+    int code = EXIT_SUCCESS;
     if (!find_command(options, argv[0]) || !cli_options_parse(options, argc, argv)) {
-        code = FE_EXIT_INPUT;
+        code = FF_FAULT_INPUT;
     } else if (cli_option(options, "help")) {
         print_help(options->command);
     } else {
@@ -146,11 +145,11 @@ static int dispatch(int argc, char **argv)
         options.json = options.json || !strcmp(argv[i], "--json");
     if (!word) {
         cli_wrong_usage(&options, "a command is missing; flankfilm --help lists them");
-        return FE_EXIT_INPUT;
+        return FF_FAULT_INPUT;
     }
     if (!strcmp(word, "--version")) {
         printf("flankfilm %s\n", CLI_VERSION);
-        return FE_EXIT_OK;
+        return EXIT_SUCCESS;
     }
     if (!strcmp(word, "help") || !strcmp(word, "--help") || !strcmp(word, "-h"))
         return help(&options, argc - 1, argv + 1);
@@ -163,7 +162,7 @@ static void hold_standard_streams(void)
 {
     for (int fd = 0; fd <= 2; fd++)
         if (fcntl(fd, F_GETFD) == -1 && open("/dev/null", O_RDONLY) != fd)
-            _exit(FE_EXIT_FAILED);
+            _exit(FF_FAULT_RUN);
 }
 
 /* Output that could not be written makes the run fail, whatever else went well. */
@@ -175,7 +174,7 @@ static int close_output(int code)
         return code;
     fprintf(stderr, "flankfilm: the output could not be written%s%s\n", errno ? ": " : "",
             errno ? strerror(errno) : "");
-    return FE_EXIT_FAILED;
+    return FF_FAULT_RUN;
 }
 
 typedef struct command_line {
@@ -192,11 +191,10 @@ static void dispatch_it(void *ctx)
 
 int main(int argc, char **argv)
 {
-    static fe_heap heap; /* of the engine; goes with the process */
-    command_line line = {argc, argv, FE_EXIT_FAILED};
+    command_line line = {argc, argv, FF_FAULT_RUN};
     hold_standard_streams();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe shows as a write error */
-    if (fe_protected(&heap, dispatch_it, &line) == FF_NOMEM)
+    if (ff_protected(dispatch_it, &line) == FF_NOMEM)
         memory_require(NULL);
     return close_output(line.code);
 }

@@ -11,17 +11,17 @@
 
 /* Lists all models, or those of one kind. The report gets the errors of models that cannot be
    loaded; it may be NULL. */
-static void list(catalogue *models, fe_library *library, const char *kind, fe_report *report)
+static void list(catalogue *models, ff_library *library, const char *kind, ff_report *report)
 {
     size_t count = 0, length = kind ? strlen(kind) : 0;
-    const char *const *ids = fe_library_ids(library, &count);
+    const char *const *ids = ff_library_ids(library, &count);
     for (size_t i = 0; i < count; i++) {
-        fe_report *captured = report ? report : fe_report_new();
+        ff_report *captured = report ? report : ff_report_new();
         if (!kind || (!strncmp(ids[i], kind, length) && ids[i][length] == '/'))
-            catalogue_add(models, ids[i], fe_library_load(library, ids[i], FE_NOWHERE, captured),
+            catalogue_add(models, ids[i], ff_library_load(library, ids[i], FF_NOWHERE, captured),
                           "", captured);
         if (!report)
-            fe_report_free(captured);
+            ff_report_free(captured);
     }
 }
 
@@ -29,22 +29,22 @@ static int print_none(const cli_options *options)
 {
     if (options->json)
         results_json_print(json_pack("{s:s, s:s, s:i, s:[]}", "flankfilm", CLI_VERSION, "status",
-                                     "ok", "exit", FE_EXIT_OK, "models"));
+                                     "ok", "exit", EXIT_SUCCESS, "models"));
     else
         printf("no models found; name their directory with --plugin-path\n");
-    return FE_EXIT_OK;
+    return EXIT_SUCCESS;
 }
 
 int cli_models(const cli_options *options)
 {
     const char *id = options->operand;
-    fe_report *report = fe_report_new();
-    fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
+    ff_report *report = ff_report_new();
+    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     catalogue models = {.count = 0};
-    int code = FE_EXIT_OK;
+    int code = EXIT_SUCCESS;
     list(&models, library, id, NULL);
     bool page = id && models.count == 0;
-    const fe_loaded *loaded = page ? fe_library_load(library, id, FE_NOWHERE, report) : NULL;
+    const ff_loaded *loaded = page ? ff_library_load(library, id, FF_NOWHERE, report) : NULL;
     if (loaded)
         catalogue_add(&models, id, loaded, "", report);
     if (!id && models.count == 0)
@@ -58,15 +58,15 @@ int cli_models(const cli_options *options)
     else
         catalogue_print_text(&models, page);
     catalogue_free(&models);
-    fe_library_free(library);
-    fe_report_free(report);
+    ff_library_free(library);
+    ff_report_free(report);
     return code;
 }
 
 int cli_schema(const cli_options *options)
 {
-    fe_report *report = fe_report_new();
-    fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
+    ff_report *report = ff_report_new();
+    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     catalogue models = {.count = 0};
     const char *path = options->operand;
     list(&models, library, NULL, report);
@@ -79,13 +79,13 @@ int cli_schema(const cli_options *options)
     if (out && path)
         good = fclose(out) == 0 && good;
     if (!good && path)
-        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be written: %s", path,
+        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s cannot be written: %s", path,
                  strerror(errno));
-    if (fe_report_errors(report))
-        fe_report_print(report, stderr, terminal_colour(stderr));
-    int code = fe_report_exit_code(report);
+    if (ff_report_errors(report))
+        ff_report_print(report, stderr, terminal_colour(stderr));
+    int code = ff_report_fault(report);
     catalogue_free(&models);
-    fe_library_free(library);
-    fe_report_free(report);
+    ff_library_free(library);
+    ff_report_free(report);
     return code;
 }

@@ -2,7 +2,6 @@
 /* The command new: writes a plugin that is ready to build, with a build file and a pipeline. */
 #include "command.h"
 
-#include "../../engine/value/memory.h"
 #include "../memory/memory.h"
 
 #include <errno.h>
@@ -51,7 +50,7 @@ static bool fill_in(FILE *stream, const char *template, const word *words)
 
 /* Writes folder/name, but never replaces a file. */
 static bool write_file(const char *folder, const char *name, const char *template,
-                       const word *words, fe_report *report)
+                       const word *words, ff_report *report)
 {
     char *path = memory_print_text("%s/%s", folder, name);
     FILE *stream = fopen(path, "wx");
@@ -59,7 +58,7 @@ static bool write_file(const char *folder, const char *name, const char *templat
     if (stream)
         good = fclose(stream) == 0 && good;
     if (!good)
-        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be written: %s", path,
+        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s cannot be written: %s", path,
                  strerror(errno));
     free(path);
     return good;
@@ -67,16 +66,16 @@ static bool write_file(const char *folder, const char *name, const char *templat
 
 /* Finds the template of the kind, "<kind>.template.c", or the general one, "template.c", in the
    directories of plugins. *own: it is that of the kind. NULL after an error. */
-static char *find_template(const fe_library *library, const char *kind, const char *ending,
-                           bool *own, fe_report *report)
+static char *find_template(const ff_library *library, const char *kind, const char *ending,
+                           bool *own, ff_report *report)
 {
     char *name = memory_print_text("%s.template.%s", kind, ending);
-    char *path = fe_library_file(library, name), *general = strstr(name, ".template.") + 1;
+    char *path = ff_library_file(library, name), *general = strstr(name, ".template.") + 1;
     *own = path != NULL;
     if (!path)
-        path = fe_library_file(library, general);
+        path = ff_library_file(library, general);
     if (!path)
-        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE,
+        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
                  "--plugin-path and FLANKFILM_PLUGIN_PATH add directories",
                  "no directory of plugins holds %s", general);
     free(name);
@@ -85,24 +84,24 @@ static char *find_template(const fe_library *library, const char *kind, const ch
 
 /* Whether the first model of the kind is a law, which is verified with random parameters; a stage
    needs the inputs of a real run. */
-static bool is_law(fe_library *library, const char *kind)
+static bool is_law(ff_library *library, const char *kind)
 {
     size_t count = 0, length = strlen(kind);
-    const char *const *ids = fe_library_ids(library, &count);
-    fe_report *captured = fe_report_new();
-    const fe_loaded *loaded = NULL;
+    const char *const *ids = ff_library_ids(library, &count);
+    ff_report *captured = ff_report_new();
+    const ff_loaded *loaded = NULL;
     for (size_t i = 0; i < count && !loaded; i++)
         if (!strncmp(ids[i], kind, length) && ids[i][length] == '/')
-            loaded = fe_library_load(library, ids[i], FE_NOWHERE, captured);
-    fe_report_free(captured);
+            loaded = ff_library_load(library, ids[i], FF_NOWHERE, captured);
+    ff_report_free(captured);
     return loaded && loaded->model->output_count > 0 && ff_model_output(loaded->model, 0)->service;
 }
 
-static bool write_all(const cli_options *options, const char *folder, fe_report *report)
+static bool write_all(const cli_options *options, const char *folder, ff_report *report)
 {
     const char *id = options->operand, *name = strchr(id, '/') + 1;
     char *kind = memory_copy_text(id, strcspn(id, "/"));
-    fe_library *library = fe_library_new(options->plugin_paths, options->plugin_path_count);
+    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     char *inputs = is_law(library, kind)
                        ? memory_copy_text("", 0)
                        : memory_print_text(", '--pipeline', files('%s.yaml')", name);
@@ -115,7 +114,7 @@ static bool write_all(const cli_options *options, const char *folder, fe_report 
     for (size_t i = 0; i < 4 && good; i++) {
         char *template = find_template(library, kind, files[i][1], &own[i], report);
         good = template && write_file(folder, files[i][0], template, words, report);
-        fe_free(template);
+        ff_free(template);
     }
     if (good)
         printf("%s is in %s; its README.md has the next three commands\n", id, folder);
@@ -127,7 +126,7 @@ static bool write_all(const cli_options *options, const char *folder, fe_report 
     free(yaml);
     free(kind);
     free(inputs);
-    fe_library_free(library);
+    ff_library_free(library);
     return good;
 }
 
@@ -140,25 +139,25 @@ static bool is_word(const char *text, size_t length)
 int cli_new(const cli_options *options)
 {
     const char *id = options->operand, *slash = strchr(id, '/');
-    fe_report *report = fe_report_new();
-    int code = FE_EXIT_OK;
+    ff_report *report = ff_report_new();
+    int code = EXIT_SUCCESS;
     if (!slash || !is_word(id, (size_t)(slash - id)) || !is_word(slash + 1, strlen(slash + 1)) ||
         !strcmp(slash + 1, "auto")) {
-        fe_error(
-            report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+        ff_error(
+            report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
             "\"%.100s\" is not a name for a model: write kind/name, in lower-case letters, digits "
             "and hyphens; \"auto\" leaves the choice to the program",
             id);
     } else {
         const char *folder = options->directory ? options->directory : slash + 1;
         if (mkdir(folder, 0777) != 0)
-            fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "the folder %s cannot be made: %s",
+            ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "the folder %s cannot be made: %s",
                      folder, strerror(errno));
         else
             write_all(options, folder, report);
     }
-    if (fe_report_errors(report))
+    if (ff_report_errors(report))
         code = cli_refuse(report, options, "nothing was made");
-    fe_report_free(report);
+    ff_report_free(report);
     return code;
 }

@@ -153,10 +153,10 @@ bool cli_wrong_usage(const cli_options *options, const char *format, ...)
     cli_print_usage(options->command, stream);
     fclose(stream);
     if (options->json) {
-        fe_report *report = fe_report_new();
-        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, usage, "%s", sentence);
-        results_json_print(results_json_answer("error", FE_EXIT_INPUT, report));
-        fe_report_free(report);
+        ff_report *report = ff_report_new();
+        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, usage, "%s", sentence);
+        results_json_print(results_json_answer("error", FF_FAULT_INPUT, report));
+        ff_report_free(report);
     } else {
         fprintf(stderr, "flankfilm: %s\n%s\n", sentence, usage);
     }
@@ -170,7 +170,7 @@ static bool set_jobs(cli_options *options, const char *argument)
     enum { MOST = 4096 };
     int64_t jobs = 0;
     char why[160];
-    bool good = fe_integer_parse(argument, &jobs, why, sizeof why) && jobs >= 1 && jobs <= MOST;
+    bool good = ff_integer_parse(argument, &jobs, why, sizeof why) && jobs >= 1 && jobs <= MOST;
     options->jobs = good ? (size_t)jobs : 0;
     return good || cli_wrong_usage(options, "-j wants a whole number from 1 to %d, not \"%s\"",
                                    MOST, argument);
@@ -242,7 +242,7 @@ static bool refuse_unknown(const cli_options *options, const char *word, int cod
     for (size_t i = 0; i < ROWS; i++)
         names[i] = rows[i].name;
     snprintf(name, sizeof name, "%.*s", (int)strcspn(word + 2, "="), word + 2);
-    const char *near = fe_nearest(name, names, ROWS);
+    const char *near = ff_nearest(name, names, ROWS);
     return cli_wrong_usage(options, "unknown option --%s%s%s%s", name,
                            near ? "; did you mean --" : "", near ? near : "", near ? "?" : "");
 }

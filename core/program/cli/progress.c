@@ -20,7 +20,7 @@ static void on_interrupt(int signal_number)
         return; /* nobody is there to read it */
 }
 
-static int on_progress(void *ctx, const fe_stage *stage, double fraction)
+static int on_progress(void *ctx, const ff_stage *stage, double fraction)
 {
     cli_progress *progress = ctx;
     struct timespec time;
@@ -39,7 +39,7 @@ static int on_progress(void *ctx, const fe_stage *stage, double fraction)
     return interrupts != 0;
 }
 
-static void on_log(void *ctx, const fe_stage *stage, int level, const char *text)
+static void on_log(void *ctx, const ff_stage *stage, int level, const char *text)
 {
     cli_progress *progress = ctx;
     bool warning = level >= FF_LOG_WARNING;
@@ -47,10 +47,10 @@ static void on_log(void *ctx, const fe_stage *stage, int level, const char *text
                           json_pack("{s:s, s:s, s:o}", "stage", stage->name, "level",
                                     warning ? "warning" : "info", "text", results_json_text(text)));
     if (warning)
-        fe_warn(progress->report, stage->place, "%s: %s", stage->name, text);
+        ff_warn(progress->report, stage->place, "%s: %s", stage->name, text);
 }
 
-void cli_progress_begin(cli_progress *progress, fe_report *report)
+void cli_progress_begin(cli_progress *progress, ff_report *report)
 {
     *progress = (cli_progress){.watch = {.progress = on_progress, .log = on_log, .ctx = progress},
                                .report = report,

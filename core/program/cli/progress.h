@@ -6,16 +6,16 @@
 #include "../results/json.h"
 
 typedef struct cli_progress {
-    fe_watch watch; /* to give to fe_pipeline_run */
-    fe_report *report;
+    ff_observer watch; /* to give to ff_pipeline_run */
+    ff_report *report;
     json_t *log; /* [{stage, level, text}]; the caller frees it */
     bool terminal;
-    const fe_stage *stage; /* runs since `started`; its line was drawn last at `drawn` */
+    const ff_stage *stage; /* runs since `started`; its line was drawn last at `drawn` */
     double started, drawn; /* s; 0: there is no line on the terminal */
 } cli_progress;
 
 /* Takes over SIGINT: the first one asks the stages to stop, the second ends the program. */
-void cli_progress_begin(cli_progress *progress, fe_report *report);
+void cli_progress_begin(cli_progress *progress, ff_report *report);
 void cli_progress_end(cli_progress *progress); /* clears the line; SIGINT is as it was before */
 
 bool cli_interrupted(void);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "resolved.h"
 
-#include "../../engine/plugin/clean.h"
-#include "../../engine/value/memory.h"
+#include <flankfilm/engine.h>
+
 #include "../memory/memory.h"
 
 #include <stdlib.h>
@@ -18,9 +18,9 @@ static void print_line(int indent, bool comment, const char *key, const char *va
     char *name = NULL, remark[600];
     size_t length = 0;
     FILE *out = memory_require(open_memstream(&name, &length));
-    fe_yaml_print_text(key, false, out);
+    ff_yaml_print_text(key, false, out);
     fclose(out);
-    fe_clean_text(remark, sizeof remark, note);
+    ff_clean_text(remark, sizeof remark, note);
     int column =
         printf("%*s%s%s:%s%s", indent, "", comment ? "# " : "", name, *value ? " " : "", value);
     if (*remark)
@@ -30,29 +30,29 @@ static void print_line(int indent, bool comment, const char *key, const char *va
 }
 
 /* Prints the files that a study lays over the file, by their absolute paths. */
-static void print_files(const fe_node *list, FILE *out)
+static void print_files(const ff_node *list, FILE *out)
 {
     for (size_t i = 0; i < list->count; i++) {
-        const fe_node *item = list->items[i];
+        const ff_node *item = list->items[i];
         const char *beside = item->place.source ? item->place.source->directory : ".";
-        char *path = fe_path_beside(beside, item->text), *absolute = realpath(path, NULL);
+        char *path = ff_path_beside(beside, item->text), *absolute = realpath(path, NULL);
         fputs(i ? ", " : "[", out);
-        fe_yaml_print_text(absolute ? absolute : path, true, out);
+        ff_yaml_print_text(absolute ? absolute : path, true, out);
         free(absolute);
-        fe_free(path);
+        ff_free(path);
     }
     fputc(']', out);
 }
 
 /* The parameter of a stage that runs; NULL: it is none. */
-static const fe_bound *find_bound(const fe_stage *stage, const char *path)
+static const ff_bound *find_bound(const ff_stage *stage, const char *path)
 {
     int index = stage && stage->params ? ff_model_find_param(stage->loaded->model, path) : -1;
     return index < 0 ? NULL : &stage->params[index];
 }
 
 /* The value as it may stand in a file in any folder: paths are absolute. To be freed. */
-static char *print_value(const fe_bound *bound, const fe_node *node, const char *path)
+static char *print_value(const ff_bound *bound, const ff_node *node, const char *path)
 {
     bool file = bound && bound->present && bound->row->type == FF_FILE && bound->value.text;
     char *text = NULL, *absolute = file ? realpath(bound->value.text, NULL) : NULL;
@@ -60,11 +60,11 @@ static char *print_value(const fe_bound *bound, const fe_node *node, const char 
     size_t length = 0;
     FILE *out = memory_require(open_memstream(&text, &length));
     if (absolute)
-        fe_yaml_print_text(absolute, true, out);
-    else if (last && !strcmp(last, ".include") && node->kind == FE_SEQUENCE && node->count > 0)
+        ff_yaml_print_text(absolute, true, out);
+    else if (last && !strcmp(last, ".include") && node->kind == FF_SEQUENCE && node->count > 0)
         print_files(node, out);
     else
-        fe_yaml_print(node, out);
+        ff_yaml_print(node, out);
     fclose(out);
     free(absolute);
     return text;
@@ -72,30 +72,30 @@ static char *print_value(const fe_bound *bound, const fe_node *node, const char 
 
 /* Prints a value; one that a later layer, or another parameter of its group, has replaced is a
    comment. */
-static void print_leaf(const fe_stage *stage, const fe_node *node, const char *key,
+static void print_leaf(const ff_stage *stage, const ff_node *node, const char *key,
                        const char *path, int indent)
 {
-    const fe_bound *bound = find_bound(stage, path);
+    const ff_bound *bound = find_bound(stage, path);
     bool replaced = bound && (bound->place.source != node->place.source ||
                               bound->place.line != node->place.line ||
                               bound->place.column != node->place.column);
     char origin[512], *text = print_value(bound, node, path);
-    fe_bound_origin(&(fe_bound){.place = node->place}, origin, sizeof origin);
+    ff_bound_origin(&(ff_bound){.place = node->place}, origin, sizeof origin);
     char *note = memory_print_text("%s%s", origin, replaced ? ", replaced by a later one" : "");
     print_line(indent, replaced, key, text, note);
     free(note);
     free(text);
 }
 
-static void print_map(const fe_stage *stage, const fe_node *map, const char *prefix, int indent);
+static void print_map(const ff_stage *stage, const ff_node *map, const char *prefix, int indent);
 
-static void print_entry(const fe_stage *stage, const char *key, const fe_node *item,
+static void print_entry(const ff_stage *stage, const char *key, const ff_node *item,
                         const char *prefix, int indent)
 {
     char *path = memory_print_text("%s%s%s", prefix, *prefix ? "." : "", key);
     bool set = stage && !strcmp(prefix, "with"); /* the key is the model that it is for */
     bool other = set && strcmp(key, stage->use) != 0;
-    if (item->kind != FE_MAP || item->count == 0) {
+    if (item->kind != FF_MAP || item->count == 0) {
         print_leaf(stage, item, key, path, indent);
     } else {
         print_line(indent, false, key, "", "");
@@ -106,16 +106,16 @@ static void print_entry(const fe_stage *stage, const char *key, const fe_node *i
 
 /* Prints the entries of a map; `stage` is the one that it belongs to, NULL for none or one that
    does not run. */
-static void print_map(const fe_stage *stage, const fe_node *map, const char *prefix, int indent)
+static void print_map(const ff_stage *stage, const ff_node *map, const char *prefix, int indent)
 {
     for (size_t i = 0; i < map->count; i++)
         print_entry(stage, map->keys[i], map->items[i], prefix, indent);
 }
 
-static void print_unwritten(const fe_pipeline *pipeline, const fe_stage *stage, int indent)
+static void print_unwritten(const ff_pipeline *pipeline, const ff_stage *stage, int indent)
 {
     for (size_t i = 0; i < stage->wire_count; i++) {
-        const fe_wire *wire = &stage->wires[i];
+        const ff_wire *wire = &stage->wires[i];
         if (wire->automatic && wire->stage >= 0)
             print_line(indent, true, wire->name, pipeline->stages[wire->stage].name, "automatic");
     }
@@ -125,7 +125,7 @@ static void print_unwritten(const fe_pipeline *pipeline, const fe_stage *stage, 
                        "preset");
 }
 
-static const fe_stage *find_stage(const fe_pipeline *pipeline, const char *name)
+static const ff_stage *find_stage(const ff_pipeline *pipeline, const char *name)
 {
     for (size_t i = 0; pipeline && i < pipeline->count; i++)
         if (!strcmp(pipeline->stages[i].name, name))
@@ -133,11 +133,11 @@ static const fe_stage *find_stage(const fe_pipeline *pipeline, const char *name)
     return NULL;
 }
 
-static void print_pipeline(const fe_pipeline *pipeline, const fe_node *map)
+static void print_pipeline(const ff_pipeline *pipeline, const ff_node *map)
 {
     print_line(0, false, "pipeline", "", "");
     for (size_t i = 0; i < map->count; i++) {
-        const fe_stage *stage = find_stage(pipeline, map->keys[i]);
+        const ff_stage *stage = find_stage(pipeline, map->keys[i]);
         bool runs = stage && stage->needed;
         print_line(STEP, false, map->keys[i], map->items[i]->count ? "" : "{}",
                    stage && !runs ? stage->why : "");
@@ -147,11 +147,11 @@ static void print_pipeline(const fe_pipeline *pipeline, const fe_node *map)
     }
 }
 
-static void print_tree(const fe_tree *tree, const fe_pipeline *pipeline, const char *file)
+static void print_tree(const ff_tree *tree, const ff_pipeline *pipeline, const char *file)
 {
-    const fe_node *root = fe_tree_root(tree);
+    const ff_node *root = ff_tree_root(tree);
     char name[400];
-    fe_clean_text(name, sizeof name, file);
+    ff_clean_text(name, sizeof name, file);
     printf("# %s as flankfilm " CLI_VERSION
            " reads it: each value with its origin, and in comments "
            "what is not written\n",
@@ -170,16 +170,16 @@ void cli_print_resolved(const cli_session *session, const cli_options *options)
         print_tree(session->tree, session->pipeline, options->operand);
         return;
     }
-    fe_report *captured = fe_report_new(); /* stages may lack what the cases bring */
-    fe_tree *tree = fe_tree_load(options->operand, captured);
+    ff_report *captured = ff_report_new(); /* stages may lack what the cases bring */
+    ff_tree *tree = ff_tree_load(options->operand, captured);
     for (size_t i = 0; i < options->set_count; i++)
-        fe_tree_set(tree, options->sets[i], "pipeline", fe_pipeline_top_keys, captured);
+        ff_tree_set(tree, options->sets[i], "pipeline", ff_file_keys(), captured);
     if (session->study->request)
-        fe_tree_put(tree, "outputs", session->study->request);
-    fe_pipeline *pipeline = fe_pipeline_build(tree, session->library, false, captured);
-    if (fe_tree_root(tree)) /* the file can still be read */
+        ff_tree_put(tree, "outputs", session->study->request);
+    ff_pipeline *pipeline = ff_pipeline_build(tree, session->library, false, captured);
+    if (ff_tree_root(tree)) /* the file can still be read */
         print_tree(tree, pipeline, options->operand);
-    fe_pipeline_free(pipeline);
-    fe_tree_free(tree);
-    fe_report_free(captured);
+    ff_pipeline_free(pipeline);
+    ff_tree_free(tree);
+    ff_report_free(captured);
 }

@@ -12,11 +12,11 @@
 /* Sets the exit code and the status in words from the report. */
 static void set_status(results_outcome *outcome)
 {
-    outcome->exit_code = fe_report_exit_code(outcome->report);
-    outcome->status = outcome->exit_code == FE_EXIT_OK       ? "ok"
-                      : outcome->exit_code != FE_EXIT_FAILED ? "error"
-                      : cli_interrupted()                    ? "stopped"
-                                                             : "failed";
+    outcome->exit_code = ff_report_fault(outcome->report);
+    outcome->status = outcome->exit_code == EXIT_SUCCESS   ? "ok"
+                      : outcome->exit_code != FF_FAULT_RUN ? "error"
+                      : cli_interrupted()                  ? "stopped"
+                                                           : "failed";
 }
 
 /* `directory` is where the results are, or NULL. */
@@ -24,13 +24,13 @@ static void print_outcome(const results_outcome *outcome, const char *directory)
 {
     cli_print_summary(outcome);
     fflush(stdout);
-    if (fe_report_count(outcome->report)) {
+    if (ff_report_count(outcome->report)) {
         fputc('\n', stderr);
-        fe_report_print(outcome->report, stderr, terminal_colour(stderr));
+        ff_report_print(outcome->report, stderr, terminal_colour(stderr));
     }
     if (directory)
         printf("\nresults in %s\n", directory);
-    if (outcome->exit_code != FE_EXIT_OK)
+    if (outcome->exit_code != EXIT_SUCCESS)
         fprintf(stderr, "the run %s\n", cli_interrupted() ? "was stopped" : "failed");
 }
 
@@ -39,10 +39,10 @@ static int run_session(cli_session *session, const cli_options *options, results
 {
     cli_progress progress;
     cli_progress_begin(&progress, session->report);
-    bool ran = fe_pipeline_run(session->pipeline, &progress.watch, session->report);
+    bool ran = ff_pipeline_run(session->pipeline, &progress.watch, session->report);
     cli_progress_end(&progress);
-    if (!ran && fe_report_errors(session->report) == 0)
-        fe_error(session->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "the run was stopped");
+    if (!ran && ff_report_errors(session->report) == 0)
+        ff_error(session->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "the run was stopped");
 
     results_outcome outcome = {.pipeline = session->pipeline,
                                .report = session->report,
@@ -72,7 +72,7 @@ int cli_run(const cli_options *options)
         return code;
     }
     if (good && cli_option(options, "executor"))
-        good = fe_error(session.report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+        good = ff_error(session.report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                         "%s has no study: there is nothing to spread", options->operand);
     if (options->directory)
         directory = memory_print_text("%s", options->directory);

@@ -14,16 +14,16 @@ enum { MOST_ERRORS = 20 };
 /* Applies the first case of a study to the tree: it shows what holds for all cases. */
 static bool open_study(cli_session *session, const cli_options *options)
 {
-    const fe_node *node = fe_node_get(fe_tree_root(session->tree), "study");
-    if (!node || (node->kind == FE_SCALAR && !*node->text))
+    const ff_node *node = ff_node_get(ff_tree_root(session->tree), "study");
+    if (!node || (node->kind == FF_SCALAR && !*node->text))
         return true;
-    size_t errors = fe_report_errors(session->report);
+    size_t errors = ff_report_errors(session->report);
     session->study = study_open(node, session->report);
-    if (fe_report_errors(session->report) > errors)
+    if (ff_report_errors(session->report) > errors)
         return false;
     setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
     if (!session->study->overlay_first)     /* the first case may be the one that fails */
-        fe_tree_put(session->tree, "outputs", session->study->request);
+        ff_tree_put(session->tree, "outputs", session->study->request);
     else
         study_overlay(session->study, 0, options->sets, options->set_count, session->tree,
                       session->report);
@@ -33,21 +33,21 @@ static bool open_study(cli_session *session, const cli_options *options)
 /* Adds the errors of a case to the report. */
 static void try_case(cli_session *session, const cli_options *options, size_t index)
 {
-    fe_report *captured = fe_report_new();
-    fe_tree *tree = fe_tree_load(options->operand, captured);
+    ff_report *captured = ff_report_new();
+    ff_tree *tree = ff_tree_load(options->operand, captured);
     study_overlay(session->study, index, options->sets, options->set_count, tree, captured);
-    fe_pipeline_free(fe_pipeline_build(tree, session->library, true, captured));
-    for (size_t i = 0; i < fe_report_count(captured); i++) {
-        const fe_message *m = fe_report_at(captured, i);
-        fe_source source = m->place.source ? *m->place.source : (fe_source){0};
-        fe_place place = m->place;
+    ff_pipeline_free(ff_pipeline_build(tree, session->library, true, captured));
+    for (size_t i = 0; i < ff_report_count(captured); i++) {
+        const ff_message *m = ff_report_at(captured, i);
+        ff_source source = m->place.source ? *m->place.source : (ff_source){0};
+        ff_place place = m->place;
         source.temporary = true; /* it is freed with the tree */
         place.source = place.source ? &source : NULL;
-        if (m->severity == FE_ERROR)
-            fe_error(session->report, m->exit_code, place, m->hint, "%s", m->text);
+        if (m->severity == FF_ERROR)
+            ff_error(session->report, m->fault, place, m->hint, "%s", m->text);
     }
-    fe_tree_free(tree);
-    fe_report_free(captured);
+    ff_tree_free(tree);
+    ff_report_free(captured);
 }
 
 /* Tries each value of each axis once, or the end of a range, with the other axes at their first. */
@@ -60,64 +60,63 @@ static void try_values(cli_session *session, const cli_options *options)
         for (size_t a = varied->axis + 1; a < study->axis_count; a++)
             stride *= study->points[a];
         for (size_t i = varied->values || varied->names ? 1 : last; i > 0 && i <= last; i++)
-            if (fe_report_errors(session->report) < MOST_ERRORS)
+            if (ff_report_errors(session->report) < MOST_ERRORS)
                 try_case(session, options, i * stride);
     }
 }
 
 static void warn_of_follow(const cli_session *session)
 {
-    const fe_pipeline *pipeline = session->pipeline;
+    const ff_pipeline *pipeline = session->pipeline;
     bool carried = !session->study || study_chain_length(session->study) == 1;
     for (size_t i = 0; pipeline && i < pipeline->count; i++)
-        carried = carried || fe_stage_has_state(&pipeline->stages[i]) ||
+        carried = carried || ff_stage_has_state(&pipeline->stages[i]) ||
                   (pipeline->stages[i].needed &&
                    pipeline->stages[i].choice); /* the model is not known yet */
     if (!carried)
-        fe_warn(session->report, FE_NOWHERE,
+        ff_warn(session->report, FF_NOWHERE,
                 "study: no stage that runs hands a state to the next case, so that \"follow\" "
                 "changes nothing");
 }
 
 bool cli_session_open(cli_session *session, const cli_options *options, bool everything)
 {
-    *session = (cli_session){.report = fe_report_new()};
-    session->tree = fe_tree_load(options->operand, session->report);
-    if (!fe_tree_root(session->tree))
+    *session = (cli_session){.report = ff_report_new()};
+    session->tree = ff_tree_load(options->operand, session->report);
+    if (!ff_tree_root(session->tree))
         return false;
     for (size_t i = 0; i < options->set_count; i++)
-        fe_tree_set(session->tree, options->sets[i], "pipeline", fe_pipeline_top_keys,
-                    session->report);
-    session->library = fe_library_new(options->plugin_paths, options->plugin_path_count);
+        ff_tree_set(session->tree, options->sets[i], "pipeline", ff_file_keys(), session->report);
+    session->library = ff_library_new(options->plugin_paths, options->plugin_path_count);
     if (!open_study(session, options))
         return false;
     session->pipeline =
-        fe_pipeline_build(session->tree, session->library, everything, session->report);
+        ff_pipeline_build(session->tree, session->library, everything, session->report);
     warn_of_follow(session);
     if (session->study && session->pipeline)
         study_check(session->study, session->pipeline, session->report);
     if (session->study && !session->study->driver && everything &&
-        fe_report_errors(session->report) == 0)
+        ff_report_errors(session->report) == 0)
         try_values(session, options);
-    return session->pipeline && fe_report_errors(session->report) == 0;
+    return session->pipeline && ff_report_errors(session->report) == 0;
 }
 
 bool cli_choose_models(cli_session *session)
 {
-    const fe_pipeline *pipeline = session->pipeline;
+    const ff_pipeline *pipeline = session->pipeline;
     for (size_t i = 0; i < pipeline->count; i++)
         if (pipeline->stages[i].needed && pipeline->stages[i].choice)
-            return fe_pipeline_choose(session->pipeline, NULL, session->report);
+            return ff_pipeline_choose(session->pipeline, NULL, session->report);
     return true;
 }
 
 void cli_session_close(cli_session *session)
 {
     study_free(session->study);
-    fe_pipeline_free(session->pipeline);
-    fe_library_free(session->library);
-    fe_tree_free(session->tree);
-    fe_report_free(session->report);
+    ff_pipeline_free(session->pipeline);
+    ff_library_free(session->library);
+    ff_tree_free(session->tree);
+    ff_report_free(session->report);
 }
 
 char *cli_default_directory(const char *file)
@@ -136,15 +135,15 @@ char *cli_study_directory(const cli_options *options)
                               : cli_default_directory(options->operand);
 }
 
-int cli_refuse(const fe_report *report, const cli_options *options, const char *ending)
+int cli_refuse(const ff_report *report, const cli_options *options, const char *ending)
 {
-    int code = fe_report_exit_code(report);
-    size_t errors = fe_report_errors(report);
+    int code = ff_report_fault(report);
+    size_t errors = ff_report_errors(report);
     if (options->json) {
         results_json_print(results_json_answer("error", code, report));
         return code;
     }
-    fe_report_print(report, stderr, terminal_colour(stderr));
+    ff_report_print(report, stderr, terminal_colour(stderr));
     fprintf(stderr, "%zu error%s; %s\n", errors, errors == 1 ? "" : "s", ending);
     return code;
 }

@@ -7,10 +7,10 @@
 #include "options.h"
 
 typedef struct cli_session {
-    fe_report *report;
-    fe_tree *tree;
-    fe_library *library;
-    fe_pipeline *pipeline;   /* may be NULL after errors; of a study: its first case */
+    ff_report *report;
+    ff_tree *tree;
+    ff_library *library;
+    ff_pipeline *pipeline;   /* may be NULL after errors; of a study: its first case */
     study_definition *study; /* NULL: a single case */
 } cli_session;
 
@@ -26,6 +26,6 @@ char *cli_default_directory(const char *file);
 char *cli_study_directory(const cli_options *options);
 
 /* Prints the errors, as JSON or with `ending` below them, and returns their exit code. */
-int cli_refuse(const fe_report *report, const cli_options *options, const char *ending);
+int cli_refuse(const ff_report *report, const cli_options *options, const char *ending);
 
 #endif

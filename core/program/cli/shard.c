@@ -10,7 +10,7 @@ static long environment(const char *name, long otherwise)
     return text && *text ? strtol(text, NULL, 10) : otherwise;
 }
 
-bool cli_shard_find(study_run *run, bool array_only, fe_report *report)
+bool cli_shard_find(study_run *run, bool array_only, ff_report *report)
 {
     long arrays = environment("SLURM_ARRAY_TASK_COUNT", 1);
     long first = environment("SLURM_ARRAY_TASK_MIN", 0);
@@ -22,8 +22,8 @@ bool cli_shard_find(study_run *run, bool array_only, fe_report *report)
         array = 0;
     } else if (step < 1 || last - first != (arrays - 1) * step || array < 0 || array % step != 0 ||
                array / step >= arrays) {
-        return fe_error(
-            report, FE_EXIT_INPUT, FE_NOWHERE, "say which part it is: --shard I/N",
+        return ff_error(
+            report, FF_FAULT_INPUT, FF_NOWHERE, "say which part it is: --shard I/N",
             "the numbers of Slurm's array are not a range: %ld of %ld tasks from %ld to "
             "%ld",
             array + first, arrays, first, last);

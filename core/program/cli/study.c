@@ -122,10 +122,10 @@ json_t *cli_json_savings(const study_reuse_counts *savings)
 
 /* Of a study whose number of cases its driver leaves open, that is not told. */
 static void tell_end(const study_definition *study, const study_counters *counters, bool good,
-                     const char *directory, fe_report *report)
+                     const char *directory, ff_report *report)
 {
     char *files = study->driver ? study_files(study) : memory_print_text("%s", "");
-    fe_report_print(report, stderr, terminal_colour(stderr));
+    ff_report_print(report, stderr, terminal_colour(stderr));
     printf("%zu ", counters->done);
     if (!study->driver || !*study_further(study))
         printf("of %zu ", counters->total);
@@ -142,9 +142,9 @@ static void tell_end(const study_definition *study, const study_counters *counte
 }
 
 static void answer_end(const study_definition *study, const study_counters *counters, int code,
-                       const char *directory, fe_report *report)
+                       const char *directory, ff_report *report)
 {
-    bool good = code == FE_EXIT_OK || code == FE_EXIT_CASES;
+    bool good = code == EXIT_SUCCESS || code == CLI_EXIT_CASES;
     json_t *answer = results_json_answer(good ? "ok" : "error", code, report);
     json_object_update_new(
         answer,
@@ -158,26 +158,26 @@ static void answer_end(const study_definition *study, const study_counters *coun
 }
 
 /* The model that --executor names; without one all is well, too. */
-static bool open_executor(fe_service *service, cli_session *session, const cli_options *options)
+static bool open_executor(ff_service *service, cli_session *session, const cli_options *options)
 {
     const char *name = cli_option(options, "executor");
     const cli_words settings = cli_option_words(options, "with");
-    fe_service_choice choice = {.option = "--executor",
+    ff_service_choice choice = {.option = "--executor",
                                 .interface = FF_EXECUTOR_ID,
                                 .name = name,
                                 .settings = settings.words,
                                 .setting_count = settings.count};
-    return !name || fe_service_open(service, session->library, &choice, session->report);
+    return !name || ff_service_open(service, session->library, &choice, session->report);
 }
 
 /* Whether the driver of the study runs it; its first cases can be run elsewhere, unless costs
    count. False after an error. */
-static bool settle_driver(const study_run *run, bool *driven, fe_report *report)
+static bool settle_driver(const study_run *run, bool *driven, ff_report *report)
 {
     bool spread = run->executor || run->shards > 1;
     *driven = run->study->driver && !spread;
     return !spread || !run->study->measure ||
-           fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, "run it in one process on an idle machine",
+           ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "run it in one process on an idle machine",
                     "costs are measured, one case at a time: it cannot be spread");
 }
 
@@ -194,14 +194,14 @@ int cli_run_study(cli_session *session, const cli_options *options)
     study_run run = run_of(session, options, directory);
     teller t = {.session = session, .options = options, .terminal = isatty(STDERR_FILENO) != 0};
     study_counters counters = {.total = 0};
-    fe_service service = {.table = NULL};
+    ff_service service = {.table = NULL};
     run.progress = options->json ? NULL : tell_progress;
     run.describe = describe;
     run.say = say;
     run.ctx = &t;
-    if (!open_executor(&service, session, options) || fe_report_errors(session->report) > 0) {
+    if (!open_executor(&service, session, options) || ff_report_errors(session->report) > 0) {
         int code = cli_refuse(session->report, options, "nothing was run");
-        fe_service_close(&service);
+        ff_service_close(&service);
         free(directory);
         return code;
     }
@@ -212,7 +212,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
                                    : study_execute(&run, &counters, session->report));
     int verdict = driven ? study_verdict(study) : -1;
     bool bad = verdict < 0 ? counters.failed > 0 : verdict == FF_BAD;
-    int code = !good ? fe_report_exit_code(session->report) : bad ? FE_EXIT_CASES : FE_EXIT_OK;
+    int code = !good ? ff_report_fault(session->report) : bad ? CLI_EXIT_CASES : EXIT_SUCCESS;
     if (t.terminal && run.progress)
         fputs("\r\033[K", stderr);
     if (!good && (driven || !settled || counters.leads) && counters.total == 0)
@@ -222,10 +222,10 @@ int cli_run_study(cli_session *session, const cli_options *options)
     else if (counters.leads)
         tell_end(study, &counters, good, directory, session->report);
     else
-        fe_report_print(session->report, stderr, terminal_colour(stderr));
+        ff_report_print(session->report, stderr, terminal_colour(stderr));
     if (study->driver && !driven && good && counters.leads && !options->json)
         tell_rest(study);
-    fe_service_close(&service);
+    ff_service_close(&service);
     free(directory);
     return code;
 }
@@ -285,13 +285,13 @@ int cli_plan_study(const cli_options *options)
     study_plan plan = {.left = 0};
     char *directory = cli_study_directory(options);
     bool good = cli_session_open(&session, options, false);
-    int code = FE_EXIT_OK;
+    int code = EXIT_SUCCESS;
     if (good && !session.study)
-        good = fe_error(session.report, FE_EXIT_INPUT, FE_NOWHERE,
+        good = ff_error(session.report, FF_FAULT_INPUT, FF_NOWHERE,
                         "explain says what a single case would run", "%s has no study",
                         options->operand);
     study_run run = good ? run_of(&session, options, directory) : (study_run){0};
-    good = good && fe_report_errors(session.report) == 0;
+    good = good && ff_report_errors(session.report) == 0;
     if (good)
         study_preview(&run, &plan);
     if (!good) {

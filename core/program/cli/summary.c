@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "summary.h"
-#include "../terminal/terminal.h"
 
-#include "../../engine/plugin/clean.h"
+#include "../terminal/terminal.h"
+#include <flankfilm/engine.h>
+
 #include "../results/number.h"
 
 #include <math.h>
@@ -41,7 +42,7 @@ static void start_line(paper *page)
     page->heading = NULL;
 }
 
-static int worst_verdict(const fe_stage *stage)
+static int worst_verdict(const ff_stage *stage)
 {
     int worst = -1;
     for (size_t i = 0; i < stage->quality_count; i++)
@@ -50,11 +51,11 @@ static int worst_verdict(const fe_stage *stage)
     return worst;
 }
 
-static void print_stage(paper *page, const fe_stage *stage)
+static void print_stage(paper *page, const ff_stage *stage)
 {
     results_readable time = results_readable_unit("s", stage->seconds);
     int verdict = worst_verdict(stage);
-    const char *word = verdict < 0 ? "" : fe_verdict_name(verdict);
+    const char *word = verdict < 0 ? "" : ff_verdict_name(verdict);
     if (stage->status != FF_OK) {
         verdict = stage->status == FF_DOMAIN ? FF_DOUBTFUL : FF_BAD;
         word = results_status_name(stage);
@@ -73,7 +74,7 @@ static void print_stage(paper *page, const fe_stage *stage)
 }
 
 /* Ranks of the least and the greatest value. */
-static void find_extremes(const fe_result *result, size_t *least, size_t *greatest)
+static void find_extremes(const ff_result *result, size_t *least, size_t *greatest)
 {
     *least = *greatest = 0;
     for (size_t i = 1; i < result->count; i++) {
@@ -85,7 +86,7 @@ static void find_extremes(const fe_result *result, size_t *least, size_t *greate
 }
 
 /* Numbers of one quantity; what is noise beside the greatest of them is 0. */
-static void print_range(const fe_result *result, double a, double b, char *out, size_t size)
+static void print_range(const ff_result *result, double a, double b, char *out, size_t size)
 {
     double most = fmax(fabs(a), fabs(b));
     results_readable unit = results_readable_unit(result->row->unit, most);
@@ -100,12 +101,12 @@ static void print_range(const fe_result *result, double a, double b, char *out, 
 }
 
 /* Where the extremes of a series lie. */
-static void print_where(const fe_pipeline *pipeline, const fe_stage *stage, size_t output,
+static void print_where(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
                         size_t least, size_t greatest, char *out, size_t size)
 {
-    const fe_result *result = &stage->results[output];
-    const char *dim = fe_result_dim(stage, output, 0);
-    const fe_result *axis = results_axis(pipeline, stage, dim, result->count, result, "rad");
+    const ff_result *result = &stage->results[output];
+    const char *dim = ff_result_dim(stage, output, 0);
+    const ff_result *axis = results_axis(pipeline, stage, dim, result->count, result, "rad");
     if (!axis) {
         snprintf(out, size, "min at %s %zu, max at %zu of %zu", dim, least + 1, greatest + 1,
                  result->count);
@@ -117,21 +118,21 @@ static void print_where(const fe_pipeline *pipeline, const fe_stage *stage, size
              *unit.unit ? " " : "", unit.unit, axis->row->name);
 }
 
-static void print_shape(const fe_stage *stage, size_t output, char *out, size_t size)
+static void print_shape(const ff_stage *stage, size_t output, char *out, size_t size)
 {
-    const fe_result *result = &stage->results[output];
+    const ff_result *result = &stage->results[output];
     size_t at = 0;
     for (uint32_t i = 0; i < result->rank && at < size; i++)
         at += (size_t)snprintf(out + at, size - at, "%s%zu %s", i ? " by " : "", result->shape[i],
-                               fe_result_dim(stage, output, i));
+                               ff_result_dim(stage, output, i));
 }
 
 /* One line: name, value or range; where the extremes of a series lie, the shape of a field, or what
    a scalar means. */
-static void print_result(const fe_pipeline *pipeline, const fe_stage *stage, size_t output,
+static void print_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
                          int width)
 {
-    const fe_result *result = &stage->results[output];
+    const ff_result *result = &stage->results[output];
     char value[96] = "(none)", text[256] = "";
     size_t least = 0, greatest = 0;
     if (result->count > 0) {
@@ -150,13 +151,13 @@ static void print_result(const fe_pipeline *pipeline, const fe_stage *stage, siz
 }
 
 /* The requested results, and the scalars that were computed besides. */
-static bool is_shown(const fe_stage *stage, size_t output)
+static bool is_shown(const ff_stage *stage, size_t output)
 {
-    const fe_result *result = &stage->results[output];
+    const ff_result *result = &stage->results[output];
     return result->data && (result->requested || result->rank == 0);
 }
 
-static void print_results(paper *page, const fe_pipeline *pipeline, const fe_stage *stage)
+static void print_results(paper *page, const ff_pipeline *pipeline, const ff_stage *stage)
 {
     int width = 0;
     page->heading = stage->name;
@@ -174,11 +175,11 @@ static void print_results(paper *page, const fe_pipeline *pipeline, const fe_sta
 }
 
 /* What is not good. */
-static void print_quality(paper *page, const fe_stage *stage)
+static void print_quality(paper *page, const ff_stage *stage)
 {
     for (size_t i = 0; i < stage->quality_count; i++) {
-        const fe_quality *line = &stage->quality[i];
-        const char *verdict = fe_verdict_name(line->verdict);
+        const ff_quality *line = &stage->quality[i];
+        const char *verdict = ff_verdict_name(line->verdict);
         if (line->verdict == FF_GOOD)
             continue;
         start_line(page);
@@ -212,15 +213,15 @@ static void print_log(paper *page, const json_t *log)
 
 void cli_print_summary(const results_outcome *outcome)
 {
-    const fe_pipeline *pipeline = outcome->pipeline;
+    const ff_pipeline *pipeline = outcome->pipeline;
     paper page = {.colour = terminal_colour(stdout)};
     char title[400];
-    fe_clean_text(title, sizeof title, pipeline->title ? pipeline->title : outcome->file);
+    ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : outcome->file);
     paint(&page, "1", title);
     putchar('\n');
     page.heading = "Stages";
     for (size_t i = 0; i < pipeline->count; i++) {
-        const fe_stage *stage = &pipeline->stages[pipeline->order[i]];
+        const ff_stage *stage = &pipeline->stages[pipeline->order[i]];
         if (stage->ran || stage->status != FF_OK)
             print_stage(&page, stage);
     }

@@ -42,12 +42,12 @@ static double time_limit(void)
 {
     const char *text = getenv("FLANKFILM_VERIFY_LIMIT"), *end;
     double limit;
-    return text && fe_number_parse(text, &limit, &end) && limit > 0 ? limit : 60;
+    return text && ff_number_parse(text, &limit, &end) && limit > 0 ? limit : 60;
 }
 
 int cli_verify_command(const cli_options *options)
 {
-    fe_report *report = fe_report_new();
+    ff_report *report = ff_report_new();
     verdicts t = {.tests = options->json ? json_array() : NULL};
     verify_request request = {.path = options->operand,
                               .pipeline = cli_option(options, "pipeline"),
@@ -58,7 +58,7 @@ int cli_verify_command(const cli_options *options)
     if (!verify_plugin(&request, print_verdict, &t, report)) {
         code = cli_refuse(report, options, "nothing was tested");
     } else {
-        code = t.faulty ? FE_EXIT_PLUGIN : FE_EXIT_OK;
+        code = t.faulty ? FF_FAULT_PLUGIN : EXIT_SUCCESS;
         if (options->json) {
             json_t *answer = results_json_answer(t.faulty ? "error" : "ok", code, report);
             json_object_set(answer, "tests", t.tests);
@@ -68,6 +68,6 @@ int cli_verify_command(const cli_options *options)
         }
     }
     json_decref(t.tests);
-    fe_report_free(report);
+    ff_report_free(report);
     return code;
 }

@@ -24,15 +24,15 @@ static bool report_unfitted(const fit *f)
     for (size_t i = 1; same && i < f->law_count; i++)
         same = !strcmp(f->laws[0].why, f->laws[i].why);
     if (same)
-        return fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+        return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                         "none of %zu laws can be fitted: %s", f->law_count, f->laws[0].why);
     for (size_t i = 0; i < f->law_count; i++) {
         const fit_law *law = &f->laws[i];
         if (*law->why && (none || f->named))
-            good = fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be fitted: %s",
+            good = ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s cannot be fitted: %s",
                             law->id, law->why);
         else if (*law->why)
-            fe_warn(f->report, FE_NOWHERE, "%s is not fitted: %s", law->id, law->why);
+            ff_warn(f->report, FF_NOWHERE, "%s is not fitted: %s", law->id, law->why);
     }
     return good;
 }
@@ -41,7 +41,7 @@ bool fit_run(fit *f)
 {
     for (size_t i = 0; i < f->law_count; i++)
         fit_regress(f, &f->laws[i]);
-    return fe_report_errors(f->report) == 0 && report_unfitted(f);
+    return ff_report_errors(f->report) == 0 && report_unfitted(f);
 }
 
 static json_t *json_number(double value)
@@ -53,7 +53,7 @@ static json_t *describe_param(const fit_param *param)
 {
     static const char *const names[] = {"preset", "held", "fitted", "at limit"};
     char text[64];
-    fe_quantity_print(param->value, param->unit, param->row->unit, text, sizeof text);
+    ff_quantity_print(param->value, param->unit, param->row->unit, text, sizeof text);
     json_t *entry = json_pack("{s:s, s:o, s:s, s:s}", "name", param->row->name, "value",
                               json_number(param->value), "text", text, "how", names[param->found]);
     if (param->found == FIT_FREE)

@@ -129,9 +129,9 @@ static size_t find_duplicate(const fit_data *d, size_t i)
     return k;
 }
 
-static fe_place place_of(const fit *f, size_t row, size_t column)
+static ff_place place_of(const fit *f, size_t row, size_t column)
 {
-    return fe_columns_place(&f->columns, row, column);
+    return ff_columns_place(&f->columns, row, column);
 }
 
 static bool check_rows(const fit *f, const fit_data *d)
@@ -142,20 +142,20 @@ static bool check_rows(const fit *f, const fit_data *d)
         same_p = same_p && d->p[i] == d->p[0];
         same_eta = same_eta && fabs(d->ln_eta[i] - d->ln_eta[0]) < 1e-9;
         if (duplicate < i)
-            return fe_error(f->report, FE_EXIT_INPUT, place_of(f, d->row[i], SIZE_MAX), NULL,
+            return ff_error(f->report, FF_FAULT_INPUT, place_of(f, d->row[i], SIZE_MAX), NULL,
                             "this row repeats row %zu of the table to the last digit: a point that "
                             "counts twice would feign confidence",
                             d->row[duplicate] + 1);
     }
     if (same_p)
-        return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, FIT_PRESSURE), NULL,
+        return ff_error(f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, FIT_PRESSURE), NULL,
                         "all rows have the pressure %.4g GPa: a law of pressure needs several",
                         1e-9 * d->p[0]);
     if (same_eta)
-        return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
+        return ff_error(f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
                         "the viscosity is the same in all rows: there is no rise to fit");
     if (d->isothermal && covariance(d) < 0)
-        return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
+        return ff_error(f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, FIT_VISCOSITY), NULL,
                         "the viscosity falls with pressure, which no oil's does: are the columns "
                         "what they say?");
     return true;
@@ -168,7 +168,7 @@ static bool select_rows(fit *f)
     const double *T = f->columns.values[FIT_TEMPERATURE];
     char list[120];
     if (n > MOST_ROWS)
-        return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, SIZE_MAX), NULL,
+        return ff_error(f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, SIZE_MAX), NULL,
                         "the table has more than %d rows: average them first", MOST_ROWS);
     *d = (fit_data){.p = memory_alloc(n * sizeof(double)),
                     .T = T ? memory_alloc(n * sizeof(double)) : NULL,
@@ -178,7 +178,7 @@ static bool select_rows(fit *f)
     copy_rows(f, d);
     if (d->n == 0) {
         list_isotherms(T, n, list, sizeof list);
-        return fe_error(f->report, FE_EXIT_INPUT, place_of(f, SIZE_MAX, FIT_TEMPERATURE), NULL,
+        return ff_error(f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, FIT_TEMPERATURE), NULL,
                         "no row is within %g K of %.4g degC; there are %s degC", ISOTHERM,
                         f->at[FIT_TEMPERATURE] - 273.15, list);
     }
@@ -189,7 +189,7 @@ static bool select_rows(fit *f)
 
 bool fit_read(fit *f, const char *path)
 {
-    return fe_columns_read(&f->columns, path, columns, FIT_COLUMNS, sizeof columns[0], f->report);
+    return ff_columns_read(&f->columns, path, columns, FIT_COLUMNS, sizeof columns[0], f->report);
 }
 
 void fit_range(const fit *f, size_t column, double *low, double *high)
@@ -205,16 +205,16 @@ void fit_range(const fit *f, size_t column, double *low, double *high)
 /* --at: a value of the column that has its dimension; it must lie inside the data. */
 static bool set_condition(fit *f, const char *text)
 {
-    const fe_columns *c = &f->columns;
+    const ff_columns *c = &f->columns;
     char why[300] = "";
     for (size_t k = 0; k < c->count; k++) {
         double low, high, si;
         const ff_param *row = c->asked[k];
-        if (k == FIT_VISCOSITY || fe_unit_is_dimensionless(&c->units[k]) ||
-            !fe_quantity_parse(text, &c->units[k], row->unit, &si, why, sizeof why))
+        if (k == FIT_VISCOSITY || ff_unit_is_dimensionless(&c->units[k]) ||
+            !ff_quantity_parse(text, &c->units[k], row->unit, &si, why, sizeof why))
             continue;
         if (!c->values[k])
-            return fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+            return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                             "--at \"%s\" asks for a %s, but the data have no such column", text,
                             row->name);
         fit_range(f, k, &low, &high);
@@ -223,14 +223,14 @@ static bool set_condition(fit *f, const char *text)
         if (si >= low - slack && si <= high + slack)
             return true;
         char first[64], last[64];
-        fe_quantity_print(low, &c->units[k], row->unit, first, sizeof first);
-        fe_quantity_print(high, &c->units[k], row->unit, last, sizeof last);
-        return fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+        ff_quantity_print(low, &c->units[k], row->unit, first, sizeof first);
+        ff_quantity_print(high, &c->units[k], row->unit, last, sizeof last);
+        return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                         "--at \"%s\" lies outside the data, whose %s goes from %s to %s: a fit "
                         "says nothing beyond",
                         text, row->name, first, last);
     }
-    return fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+    return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                     "--at \"%s\" is not a quantity of the data: %s", text, why);
 }
 

@@ -6,8 +6,7 @@
 #ifndef FIT_H
 #define FIT_H
 
-#include "../../engine/pipeline/trial.h"
-#include "../../engine/value/columns.h"
+#include <flankfilm/engine.h>
 
 #include <jansson.h>
 
@@ -24,14 +23,14 @@ typedef enum fit_state {
 
 typedef struct fit_param {
     const ff_param *row;
-    const fe_unit *unit;
+    const ff_unit *unit;
     fit_state asked, found;
     double value;     /* that it is held at, then that was found; NaN: none, or no number */
     double low, high; /* 95 % confidence interval; NaN: none */
 } fit_param;
 
 typedef struct fit_law {
-    fe_trial *trial;
+    ff_trial *trial;
     char *id; /* "viscosity/roelands" */
     fit_param *params;
     size_t param_count;
@@ -65,10 +64,10 @@ typedef struct fit_data {
 
 /* Starts zeroed but for the report; what is wrong goes there. */
 typedef struct fit {
-    fe_report *report;
-    fe_columns columns;     /* the file of the data */
+    ff_report *report;
+    ff_columns columns;     /* the file of the data */
     double at[FIT_COLUMNS]; /* where the user asks; NaN: nowhere */
-    fe_tree *settings;      /* what the user says of parameters */
+    ff_tree *settings;      /* what the user says of parameters */
     bool named;             /* the user has named the laws: each of them must be fitted */
     fit_law *laws;
     size_t law_count;
@@ -78,7 +77,7 @@ typedef struct fit {
 /* The steps, in this order; each false after an error. */
 bool fit_read(fit *f, const char *path);
 /* names: "roelands" or "viscosity/roelands"; none: the laws that come with the program. */
-bool fit_add_laws(fit *f, fe_library *library, const char *const *names, size_t count);
+bool fit_add_laws(fit *f, ff_library *library, const char *const *names, size_t count);
 /* "name=value" or "viscosity/barus.name=value"; a value of "free" is to be found. */
 bool fit_set(fit *f, const char *const *sets, size_t count);
 /* Quantities inside the data, such as "80 degC". */

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The laws that are fitted, and what the user says of their parameters. */
+#include <flankfilm/engine.h>
+
 #include "fit.h"
 
-#include "../../engine/plugin/environment.h"
-#include "../../engine/plugin/guard.h"
 #include "../memory/memory.h"
 
 #include <flankfilm/viscosity.h>
@@ -15,12 +15,12 @@ static const char *const laws[] = {"viscosity/barus", "viscosity/two-slope", "vi
                                    "viscosity/doolittle-tait"};
 enum { LAWS = sizeof laws / sizeof laws[0] };
 
-static bool add_law(fit *f, fe_library *library, const char *id)
+static bool add_law(fit *f, ff_library *library, const char *id)
 {
-    fe_trial *trial = fe_trial_new(library, id, FF_VISCOSITY_ID, f->report);
+    ff_trial *trial = ff_trial_new(library, id, FF_VISCOSITY_ID, f->report);
     if (!trial)
         return false;
-    const fe_loaded *loaded = fe_trial_model(trial);
+    const ff_loaded *loaded = ff_trial_model(trial);
     size_t count = loaded->model->param_count;
     f->laws = memory_resize(f->laws, (f->law_count + 1) * sizeof *f->laws);
     fit_law *law = &f->laws[f->law_count++];
@@ -38,7 +38,7 @@ static bool add_law(fit *f, fe_library *library, const char *id)
     return true;
 }
 
-bool fit_add_laws(fit *f, fe_library *library, const char *const *names, size_t count)
+bool fit_add_laws(fit *f, ff_library *library, const char *const *names, size_t count)
 {
     bool good = true;
     f->named = count > 0;
@@ -46,7 +46,7 @@ bool fit_add_laws(fit *f, fe_library *library, const char *const *names, size_t 
         char *id = memory_print_text("%s%s", strchr(names[i], '/') ? "" : "viscosity/", names[i]);
         for (size_t k = 0; k < f->law_count; k++)
             if (!strcmp(f->laws[k].id, id))
-                good = fe_error(f->report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "--law names %s twice",
+                good = ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "--law names %s twice",
                                 id);
         good = good && add_law(f, library, id);
         free(id);
@@ -57,26 +57,26 @@ bool fit_add_laws(fit *f, fe_library *library, const char *const *names, size_t 
 }
 
 /* Applies a setting to all laws that have the parameter, or to `only`. */
-static bool set_param(fit *f, const char *name, const fe_node *node, const fit_law *only)
+static bool set_param(fit *f, const char *name, const ff_node *node, const fit_law *only)
 {
     bool used = false, good = true;
     for (size_t i = 0; i < f->law_count; i++) {
         fit_law *law = &f->laws[i];
-        int index = ff_model_find_param(fe_trial_model(law->trial)->model, name);
+        int index = ff_model_find_param(ff_trial_model(law->trial)->model, name);
         if (index < 0 || (only && law != only))
             continue;
         fit_param *param = &law->params[index];
         used = true;
-        if (node->kind == FE_SCALAR && !strcmp(node->text, "free")) {
+        if (node->kind == FF_SCALAR && !strcmp(node->text, "free")) {
             param->asked = FIT_FREE;
         } else {
             param->asked = param->found = FIT_HELD;
-            good = fe_trial_hold(law->trial, (size_t)index, node, f->report) && good;
-            param->value = fe_trial_held(law->trial, (size_t)index);
+            good = ff_trial_hold(law->trial, (size_t)index, node, f->report) && good;
+            param->value = ff_trial_held(law->trial, (size_t)index);
         }
     }
     return used ? good
-                : fe_error(f->report, FE_EXIT_INPUT, node->place, NULL,
+                : ff_error(f->report, FF_FAULT_INPUT, node->place, NULL,
                            "no law that is fitted has a parameter \"%s\"", name);
 }
 
@@ -91,15 +91,15 @@ static const fit_law *find_law(const fit *f, const char *id)
 bool fit_set(fit *f, const char *const *sets, size_t count)
 {
     bool good = true;
-    f->settings = fe_tree_parse("--set", ".", "{}", f->report);
+    f->settings = ff_tree_parse("--set", ".", "{}", f->report);
     for (size_t i = 0; i < count && good; i++)
-        good = fe_tree_set(f->settings, sets[i], NULL, fe_pipeline_top_keys, f->report);
-    const fe_node *root = fe_tree_root(f->settings);
+        good = ff_tree_set(f->settings, sets[i], NULL, ff_file_keys(), f->report);
+    const ff_node *root = ff_tree_root(f->settings);
     for (size_t i = 0; root && i < root->count && good; i++) {
-        const fe_node *node = root->items[i];
+        const ff_node *node = root->items[i];
         const fit_law *only = find_law(f, root->keys[i]);
-        if (only && node->kind != FE_MAP)
-            return fe_error(f->report, FE_EXIT_INPUT, node->place, NULL,
+        if (only && node->kind != FF_MAP)
+            return ff_error(f->report, FF_FAULT_INPUT, node->place, NULL,
                             "%s is a law: name a parameter of it, %s.NAME=VALUE", only->id,
                             only->id);
         for (size_t k = 0; only && k < node->count; k++)
@@ -113,17 +113,17 @@ bool fit_set(fit *f, const char *const *sets, size_t count)
 /* The service with these values; NULL when the law refuses them. */
 static const ff_viscosity *open_law(fit *f, fit_law *law, const double *values)
 {
-    fe_report *said = fe_report_new();
-    const void *service = fe_trial_open(law->trial, values, said);
+    ff_report *said = ff_report_new();
+    const void *service = ff_trial_open(law->trial, values, said);
     if (!service) {
-        const char *why = fe_trial_why(law->trial);
-        const char *text = fe_report_count(said) ? fe_report_at(said, 0)->text : "";
+        const char *why = ff_trial_why(law->trial);
+        const char *text = ff_report_count(said) ? ff_report_at(said, 0)->text : "";
         free(law->refusal);
         law->refusal = memory_print_text("%s", *why ? why : text);
-        if (fe_report_exit_code(said) == FE_EXIT_PLUGIN)
-            fe_error(f->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL, "%s", text);
+        if (ff_report_fault(said) == FF_FAULT_PLUGIN)
+            ff_error(f->report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL, "%s", text);
     }
-    fe_report_free(said);
+    ff_report_free(said);
     return service;
 }
 
@@ -131,17 +131,17 @@ bool fit_law_eval(fit *f, fit_law *law, const double *values, size_t n, const do
                   const double *T, double *ln_eta)
 {
     const ff_viscosity *service = open_law(f, law, values);
-    const char *path = fe_trial_model(law->trial)->path;
-    fe_environment environment;
+    const char *path = ff_trial_model(law->trial)->path;
+    ff_environment environment;
     if (!service)
         return false;
-    fe_environment_keep(&environment);
-    fe_guard_mark mark = fe_guard_enter(path, law->id, "its fit");
+    ff_environment_keep(&environment);
+    ff_guard_mark mark = ff_guard_enter(path, law->id, "its fit");
     ff_status status = service->eval(service->self, n, p, T, ln_eta, NULL, NULL);
-    fe_guard_leave(mark);
-    const char *changed = fe_environment_restore(&environment);
+    ff_guard_leave(mark);
+    const char *changed = ff_environment_restore(&environment);
     if (changed)
-        fe_warn(f->report, FE_NOWHERE, "%s: the plugin %s %s during its fit; this was set back",
+        ff_warn(f->report, FF_NOWHERE, "%s: the plugin %s %s during its fit; this was set back",
                 law->id, path, changed);
     return status >= 0;
 }
@@ -160,7 +160,7 @@ void fit_free(fit *f)
 {
     for (size_t i = 0; i < f->law_count; i++) {
         fit_law *law = &f->laws[i];
-        fe_trial_free(law->trial);
+        ff_trial_free(law->trial);
         free(law->id);
         free(law->params);
         free(law->refusal);
@@ -173,6 +173,6 @@ void fit_free(fit *f)
     free(f->data.ln_eta);
     free(f->data.root);
     free(f->data.row);
-    fe_columns_free(&f->columns);
-    fe_tree_free(f->settings);
+    ff_columns_free(&f->columns);
+    ff_tree_free(f->settings);
 }

@@ -11,7 +11,7 @@ enum { NAME = 28, PARAM = 18, VALUE = 20 };
 
 static void print_data(const fit *f)
 {
-    const fe_columns *c = &f->columns;
+    const ff_columns *c = &f->columns;
     printf("%s: %zu rows", c->source.name, c->rows);
     for (size_t k = 0; k < FIT_COLUMNS; k++) {
         char first[64], last[64];
@@ -19,8 +19,8 @@ static void print_data(const fit *f)
         if (!c->values[k])
             continue;
         fit_range(f, k, &low, &high);
-        fe_quantity_print(low, &c->units[k], c->asked[k]->unit, first, sizeof first);
-        fe_quantity_print(high, &c->units[k], c->asked[k]->unit, last, sizeof last);
+        ff_quantity_print(low, &c->units[k], c->asked[k]->unit, first, sizeof first);
+        ff_quantity_print(high, &c->units[k], c->asked[k]->unit, last, sizeof last);
         printf(", %s %s", c->asked[k]->name, first);
         if (strcmp(first, last) != 0)
             printf(" to %s", last);
@@ -38,7 +38,7 @@ static bool was_asked(const fit *f)
 
 static void print_table(const fit *f)
 {
-    const fe_columns *c = &f->columns;
+    const ff_columns *c = &f->columns;
     double best = fit_best(f)->criterion;
     bool asked = was_asked(f);
     printf("%-*s %5s %9s %22s %9s%s\n", NAME, "law", "found", "rms", "largest", "AICc",
@@ -52,7 +52,7 @@ static void print_table(const fit *f)
                  c->lines[law->largest_row]);
         printf("%-*s %5zu %7.3g %% %22s %+9.1f", NAME, law->id, law->free_count, 100 * law->rms,
                largest, law->criterion - best);
-        fe_quantity_print(law->asked, &c->units[FIT_VISCOSITY], c->asked[FIT_VISCOSITY]->unit,
+        ff_quantity_print(law->asked, &c->units[FIT_VISCOSITY], c->asked[FIT_VISCOSITY]->unit,
                           value, sizeof value);
         printf("%s%s\n", asked ? "  " : "", asked ? value : "");
     }
@@ -60,7 +60,7 @@ static void print_table(const fit *f)
 
 static void print_quantity(const fit_param *param, double si, char text[64])
 {
-    fe_quantity_print(si, param->unit, param->row->unit, text, 64);
+    ff_quantity_print(si, param->unit, param->row->unit, text, 64);
 }
 
 static void print_param(const fit_param *param)

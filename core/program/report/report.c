@@ -68,7 +68,7 @@ static void write_page(report_page *page)
     write_foot(page);
 }
 
-bool report_write(const ff_view *view, const char *path, fe_report *report)
+bool report_write(const ff_view *view, const char *path, ff_report *report)
 {
     report_page page = {.view = view, .out = fopen(path, "we")};
     bool lost = !page.out;
@@ -79,7 +79,7 @@ bool report_write(const ff_view *view, const char *path, fe_report *report)
         lost = fclose(page.out) != 0 || lost;
     }
     if (lost && !page.failed)
-        fe_error(report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "the page could not be written: %s",
+        ff_error(report, FF_FAULT_RUN, FF_NOWHERE, NULL, "the page could not be written: %s",
                  strerror(errno ? errno : EIO));
     return !lost && !page.failed;
 }

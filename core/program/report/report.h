@@ -3,11 +3,10 @@
 #ifndef REPORT_REPORT_H
 #define REPORT_REPORT_H
 
-#include "../../engine/value/report.h"
-
+#include <flankfilm/engine.h>
 #include <flankfilm/writer.h>
 
 /* Writes the page to a file. False with an error in the report, which is the view's as well. */
-bool report_write(const ff_view *view, const char *path, fe_report *report);
+bool report_write(const ff_view *view, const char *path, ff_report *report);
 
 #endif

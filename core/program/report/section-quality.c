@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The section on how far the numbers can be trusted. */
+#include <flankfilm/engine.h>
+
 #include "page.h"
 
-#include "../../engine/pipeline/pipeline.h"
 #include "../memory/memory.h"
 
 #include <stdlib.h>
@@ -43,7 +44,7 @@ static worst find_worst(const ff_view *view, const ff_view_quality *of)
 static void write_line(report_page *page, const worst *w)
 {
     FILE *out = page->out;
-    const char *verdict = fe_verdict_name(w->line->verdict);
+    const char *verdict = ff_verdict_name(w->line->verdict);
     fputs("<tr>", out);
     report_put_cell(out, page->view->stages[w->line->stage]->name);
     report_put_cell(out, w->line->name);

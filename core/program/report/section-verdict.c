@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The table that answers what an engineer asks first. */
-#include "page.h"
+#include <flankfilm/engine.h>
 
-#include "../../engine/pipeline/pipeline.h"
+#include "page.h"
 
 #include <math.h>
 #include <string.h>
@@ -137,7 +137,7 @@ static void write_quality_row(report_page *page)
             "<tr><th scope=\"row\">Quality of the numbers</th><td></td><td><span class=\"badge "
             "%s\">%s</span></td><td><a href=\"#quality\">%zu checks good, %zu doubtful, %zu "
             "bad</a></td></tr>\n",
-            fe_verdict_name(worst), fe_verdict_name(worst), counts[FF_GOOD], counts[FF_DOUBTFUL],
+            ff_verdict_name(worst), ff_verdict_name(worst), counts[FF_GOOD], counts[FF_DOUBTFUL],
             counts[FF_BAD]);
 }
 

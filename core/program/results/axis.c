@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-static bool is_rising(const fe_result *series)
+static bool is_rising(const ff_result *series)
 {
     for (size_t i = 1; i < series->count; i++)
         if (!(series->data[i] >= series->data[i - 1]))
@@ -12,7 +12,7 @@ static bool is_rising(const fe_result *series)
 }
 
 /* A value that many points share, such as the number of the engagement, cannot tell them apart. */
-static bool has_plateaus(const fe_result *series)
+static bool has_plateaus(const ff_result *series)
 {
     for (size_t i = 2; i < series->count; i++)
         if (!(series->data[i] > series->data[i - 2]))
@@ -21,7 +21,7 @@ static bool has_plateaus(const fe_result *series)
 }
 
 /* Says how well a series serves as an axis; 0 means not at all. */
-static int fitness_of(const fe_result *series, bool own, const char *dim, const char *better)
+static int fitness_of(const ff_result *series, bool own, const char *dim, const char *better)
 {
     const char *unit = series->row->unit;
     if (!is_rising(series))
@@ -35,17 +35,17 @@ static int fitness_of(const fe_result *series, bool own, const char *dim, const 
     return own && !has_plateaus(series) ? 1 : 0;
 }
 
-const fe_result *results_axis(const fe_pipeline *pipeline, const fe_stage *stage, const char *dim,
-                              size_t count, const fe_result *self, const char *better)
+const ff_result *results_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
+                              size_t count, const ff_result *self, const char *better)
 {
-    const fe_loaded *loaded = stage->loaded;
+    const ff_loaded *loaded = stage->loaded;
     size_t own = loaded->model->output_count;
-    const fe_result *best = NULL;
+    const ff_result *best = NULL;
     int best_merit = 0;
     for (size_t i = 0; i < own + loaded->model->input_count; i++) {
-        const fe_dims *dims = i < own ? &loaded->output_dims[i] : &loaded->input_dims[i - own];
-        const fe_result *series =
-            i < own ? &stage->results[i] : fe_feeding_result(pipeline, stage, i - own);
+        const ff_dims *dims = i < own ? &loaded->output_dims[i] : &loaded->input_dims[i - own];
+        const ff_result *series =
+            i < own ? &stage->results[i] : ff_feeding_result(pipeline, stage, i - own);
         if (!series || !series->data || series == self || series->rank != 1 ||
             series->count != count || strcmp(dims->name[dims->rank - 1], dim) != 0)
             continue;
@@ -58,10 +58,10 @@ const fe_result *results_axis(const fe_pipeline *pipeline, const fe_stage *stage
     return best;
 }
 
-const fe_stage *results_stage_of(const fe_pipeline *pipeline, const fe_result *result)
+const ff_stage *results_stage_of(const ff_pipeline *pipeline, const ff_result *result)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
-        const fe_stage *stage = &pipeline->stages[i];
+        const ff_stage *stage = &pipeline->stages[i];
         size_t count = stage->loaded ? stage->loaded->model->output_count : 0;
         for (size_t k = 0; k < count; k++)
             if (&stage->results[k] == result)

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "export-csv.h"
-#include "number.h"
 
-#include "../../engine/pipeline/pipeline.h"
+#include "number.h"
+#include <flankfilm/engine.h>
+
 #include "../memory/memory.h"
 
 #include <stdlib.h>
@@ -258,7 +259,7 @@ static bool write_quality(table *t)
             put_number(t->out, line->value);
             fputc(',', t->out);
             put_number(t->out, line->limit);
-            fprintf(t->out, ",%s,", fe_verdict_name(line->verdict));
+            fprintf(t->out, ",%s,", ff_verdict_name(line->verdict));
             put_text(t->out, line->text);
             fputc('\n', t->out);
         }

@@ -31,7 +31,7 @@ struct results_folder {
     size_t count;
     FILE *stream;        /* of the file that is being written */
     const char *writing; /* its name */
-    fe_report *report;
+    ff_report *report;
     bool failed; /* the report says why */
     bool sync;
 };
@@ -67,7 +67,7 @@ static entry *add_entry(results_folder *folder, const char *name)
 static void note_failure(results_folder *folder, const char *name)
 {
     if (!folder->failed)
-        fe_error(folder->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "%s/%s could not be written: %s",
+        ff_error(folder->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "%s/%s could not be written: %s",
                  folder->path, name, strerror(errno ? errno : EIO));
     folder->failed = true;
 }
@@ -162,26 +162,26 @@ static size_t count_files(const results_folder *folder, bool remove_parts)
 
 static bool lock_directory(results_folder *folder)
 {
-    fe_report *report = folder->report;
+    ff_report *report = folder->report;
     static const char hint[] = "name another directory with -o";
     const char *path = folder->path;
     folder->fd = study_make_path(path) ? open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
     if (folder->fd < 0 || access(path, W_OK) != 0)
-        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
+        return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, hint,
                         "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
     if (flock(folder->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
+        return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, hint,
                         "another run is using the result directory \"%s\"", path);
     bool ours = read_manifest(folder);
     if (!ours && count_files(folder, false) > 0)
-        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
+        return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, hint,
                         "\"%s\" holds files that are not results of flankfilm", path);
     count_files(folder, true); /* a run that was killed left them */
     write_manifest(folder);
     return !folder->failed;
 }
 
-results_folder *results_folder_open(const char *path, fe_report *report)
+results_folder *results_folder_open(const char *path, ff_report *report)
 {
     results_folder *folder = memory_alloc(sizeof *folder);
     folder->fd = -1;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "json.h"
 
-#include "../../engine/plugin/clean.h"
+#include <flankfilm/engine.h>
+
 #include "../memory/memory.h"
 #include "../study/study.h"
 
@@ -17,7 +18,7 @@ json_t *results_json_text(const char *text)
         return string;
     size_t size = strlen(text) + 1;
     char *clean = memory_alloc(size);
-    fe_clean_text(clean, size, text);
+    ff_clean_text(clean, size, text);
     string = json_string(clean);
     free(clean);
     return string;
@@ -28,12 +29,12 @@ static json_t *number_or_null(uint32_t number)
     return number ? json_integer(number) : json_null();
 }
 
-static json_t *list_messages(const fe_report *report, fe_severity severity)
+static json_t *list_messages(const ff_report *report, ff_severity severity)
 {
     json_t *list = json_array();
-    for (size_t i = 0; i < fe_report_count(report); i++) {
-        const fe_message *message = fe_report_at(report, i);
-        const fe_place *place = &message->place;
+    for (size_t i = 0; i < ff_report_count(report); i++) {
+        const ff_message *message = ff_report_at(report, i);
+        const ff_place *place = &message->place;
         if (message->severity == severity)
             json_array_append_new(
                 list,
@@ -46,13 +47,13 @@ static json_t *list_messages(const fe_report *report, fe_severity severity)
     return list;
 }
 
-json_t *results_json_answer(const char *status, int code, const fe_report *report)
+json_t *results_json_answer(const char *status, int code, const ff_report *report)
 {
     json_t *answer =
         json_pack("{s:s, s:s, s:i}", "flankfilm", RESULTS_VERSION, "status", status, "exit", code);
     if (report) {
-        json_object_set_new(answer, "errors", list_messages(report, FE_ERROR));
-        json_object_set_new(answer, "warnings", list_messages(report, FE_WARNING));
+        json_object_set_new(answer, "errors", list_messages(report, FF_ERROR));
+        json_object_set_new(answer, "warnings", list_messages(report, FF_WARNING));
     }
     return answer;
 }
@@ -64,7 +65,7 @@ void results_json_print(json_t *object)
     json_decref(object);
 }
 
-static json_t *param_value(const fe_bound *bound)
+static json_t *param_value(const ff_bound *bound)
 {
     const ff_value *value = &bound->value;
     if (value->text)
@@ -81,16 +82,16 @@ static json_t *param_value(const fe_bound *bound)
     return list;
 }
 
-json_t *results_json_params(const fe_stage *stage)
+json_t *results_json_params(const ff_stage *stage)
 {
     json_t *object = json_object();
     for (size_t i = 0; stage->params && i < stage->loaded->model->param_count; i++) {
-        const fe_bound *bound = &stage->params[i];
+        const ff_bound *bound = &stage->params[i];
         char text[512], origin[512];
         if (!bound->present)
             continue;
-        fe_bound_print(stage, i, text, sizeof text);
-        fe_bound_origin(bound, origin, sizeof origin);
+        ff_bound_print(stage, i, text, sizeof text);
+        ff_bound_origin(bound, origin, sizeof origin);
         json_object_set_new(object, bound->row->name,
                             json_pack("{s:o, s:o, s:o}", "value", param_value(bound), "text",
                                       results_json_text(text), "origin",
@@ -99,11 +100,11 @@ json_t *results_json_params(const fe_stage *stage)
     return object;
 }
 
-json_t *results_json_wires(const fe_pipeline *pipeline, const fe_stage *stage)
+json_t *results_json_wires(const ff_pipeline *pipeline, const ff_stage *stage)
 {
     json_t *object = json_object();
     for (size_t i = 0; i < stage->wire_count; i++) {
-        const fe_wire *wire = &stage->wires[i];
+        const ff_wire *wire = &stage->wires[i];
         if (wire->stage >= 0)
             json_object_set_new(object, wire->name,
                                 json_pack("{s:s, s:b}", "stage", pipeline->stages[wire->stage].name,
@@ -112,7 +113,7 @@ json_t *results_json_wires(const fe_pipeline *pipeline, const fe_stage *stage)
     return object;
 }
 
-json_t *results_json_origin(const fe_pipeline *pipeline, const fe_stage *stage)
+json_t *results_json_origin(const ff_pipeline *pipeline, const ff_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     char build[20];
@@ -143,7 +144,7 @@ json_t *results_json_facts(const char *file)
     return facts;
 }
 
-static json_t *describe_candidate(const fe_candidate *c, bool chosen)
+static json_t *describe_candidate(const ff_candidate *c, bool chosen)
 {
     static const char *const answers[] = {"no", "yes", "ambiguous"};
     json_t *entry = json_pack("{s:s, s:b, s:o}", "model", c->stage->use, "chosen", chosen, "reason",
@@ -156,9 +157,9 @@ static json_t *describe_candidate(const fe_candidate *c, bool chosen)
     return entry;
 }
 
-json_t *results_json_choice(const fe_stage *stage)
+json_t *results_json_choice(const ff_stage *stage)
 {
-    const fe_choice *choice = stage->choice;
+    const ff_choice *choice = stage->choice;
     if (!choice)
         return json_null();
     json_t *list = json_array();

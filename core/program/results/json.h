@@ -3,7 +3,7 @@
 #ifndef RESULTS_JSON_H
 #define RESULTS_JSON_H
 
-#include "../../engine/pipeline/pipeline.h"
+#include <flankfilm/engine.h>
 
 #include <jansson.h>
 
@@ -14,20 +14,20 @@ json_t *results_json_text(const char *text); /* null for NULL; what is not UTF-8
 
 /* {"flankfilm": version, "status": status, "exit": code}, the start of every answer; with the
    "errors" and "warnings" of the report, unless that is NULL. */
-json_t *results_json_answer(const char *status, int code, const fe_report *report);
+json_t *results_json_answer(const char *status, int code, const ff_report *report);
 
 /* Prints the object to stdout and frees it. */
 void results_json_print(json_t *object);
 
 /* These describe parts of a stage. */
-json_t *results_json_params(const fe_stage *stage); /* {name: {value, text, origin}} */
-json_t *results_json_wires(const fe_pipeline *pipeline, const fe_stage *stage);
+json_t *results_json_params(const ff_stage *stage); /* {name: {value, text, origin}} */
+json_t *results_json_wires(const ff_pipeline *pipeline, const ff_stage *stage);
 /* Returns {version, build, reference, bibtex, parameters, wires} of a stage that is loaded. */
-json_t *results_json_origin(const fe_pipeline *pipeline, const fe_stage *stage);
+json_t *results_json_origin(const ff_pipeline *pipeline, const ff_stage *stage);
 
 /* Returns {name: text} of the circumstances: version, file, date, machine. */
 json_t *results_json_facts(const char *file);
 /* Returns {use, accuracy, chosen, candidates: [...]}; null where the file names the model. */
-json_t *results_json_choice(const fe_stage *stage);
+json_t *results_json_choice(const ff_stage *stage);
 
 #endif

@@ -17,26 +17,26 @@ static void write_number(double value, FILE *stream)
 }
 
 /* Returns the dimension of the series in <stage>.csv, whatever was computed of them. */
-static const char *main_dim(const fe_stage *stage)
+static const char *main_dim(const ff_stage *stage)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const fe_dims *dims = &stage->loaded->output_dims[i];
+        const ff_dims *dims = &stage->loaded->output_dims[i];
         if (dims->rank > 0 && dims->rank - dims->first_optional == 1)
             return dims->name[dims->rank - 1];
     }
     return "";
 }
 
-static bool is_series(const fe_stage *stage, size_t output, const char *dim)
+static bool is_series(const ff_stage *stage, size_t output, const char *dim)
 {
-    const fe_result *result = &stage->results[output];
-    return result->data && result->rank == 1 && strcmp(fe_result_dim(stage, output, 0), dim) == 0;
+    const ff_result *result = &stage->results[output];
+    return result->data && result->rank == 1 && strcmp(ff_result_dim(stage, output, 0), dim) == 0;
 }
 
 /* Writes all series along one dimension. */
-static void write_series(const fe_stage *stage, const char *dim, results_folder *folder)
+static void write_series(const ff_stage *stage, const char *dim, results_folder *folder)
 {
-    const fe_result *columns[MOST_COLUMNS];
+    const ff_result *columns[MOST_COLUMNS];
     size_t count = 0;
     char suffix[64] = ".csv";
     if (strcmp(dim, main_dim(stage)) != 0)
@@ -57,10 +57,10 @@ static void write_series(const fe_stage *stage, const char *dim, results_folder 
         }
 }
 
-static void write_all_series(const fe_stage *stage, results_folder *folder)
+static void write_all_series(const ff_stage *stage, results_folder *folder)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const char *dim = fe_result_dim(stage, i, 0);
+        const char *dim = ff_result_dim(stage, i, 0);
         bool first = is_series(stage, i, dim);
         for (size_t earlier = 0; earlier < i; earlier++)
             first = first && !is_series(stage, earlier, dim);
@@ -69,11 +69,11 @@ static void write_all_series(const fe_stage *stage, results_folder *folder)
     }
 }
 
-static void write_scalars(const fe_stage *stage, results_folder *folder)
+static void write_scalars(const ff_stage *stage, results_folder *folder)
 {
     FILE *stream = NULL;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const fe_result *result = &stage->results[i];
+        const ff_result *result = &stage->results[i];
         if (!result->data || result->rank != 0)
             continue;
         if (!stream) {
@@ -89,13 +89,13 @@ static void write_scalars(const fe_stage *stage, results_folder *folder)
 }
 
 /* The first row holds the axis of the columns, the first column that of the rows. */
-static void write_field(const fe_pipeline *pipeline, const fe_stage *stage, size_t output,
+static void write_field(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
                         FILE *stream)
 {
-    const fe_result *field = &stage->results[output], *axes[2];
+    const ff_result *field = &stage->results[output], *axes[2];
     const double *at = field->data;
     for (uint32_t i = 0; i < 2; i++) {
-        const char *dim = fe_result_dim(stage, output, i);
+        const char *dim = ff_result_dim(stage, output, i);
         axes[i] = results_axis(pipeline, stage, dim, field->shape[i], NULL, "s");
         fprintf(stream, "%s%s [%s]", i ? " \\ " : "", axes[i] ? axes[i]->row->name : dim,
                 axes[i] ? axes[i]->row->unit : "index");
@@ -115,10 +115,10 @@ static void write_field(const fe_pipeline *pipeline, const fe_stage *stage, size
     }
 }
 
-static void write_fields(const fe_pipeline *pipeline, const fe_stage *stage, results_folder *folder)
+static void write_fields(const ff_pipeline *pipeline, const ff_stage *stage, results_folder *folder)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const fe_result *result = &stage->results[i];
+        const ff_result *result = &stage->results[i];
         char suffix[128];
         if (!result->data || !result->requested || result->rank != 2)
             continue;
@@ -129,10 +129,10 @@ static void write_fields(const fe_pipeline *pipeline, const fe_stage *stage, res
     }
 }
 
-void results_write_run_csv(const fe_pipeline *pipeline, results_folder *folder)
+void results_write_run_csv(const ff_pipeline *pipeline, results_folder *folder)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
-        const fe_stage *stage = &pipeline->stages[i];
+        const ff_stage *stage = &pipeline->stages[i];
         if (!stage->ran)
             continue;
         write_all_series(stage, folder);

@@ -11,7 +11,7 @@
 #include <string.h>
 
 /* Arrays are written as they are: a JSON node for each number would cost many times as much. */
-static void write_array(const fe_result *result, FILE *stream)
+static void write_array(const ff_result *result, FILE *stream)
 {
     char text[RESULTS_NUMBER_SIZE];
     for (size_t i = 0; i < result->count; i++) {
@@ -33,41 +33,41 @@ static void write_members(json_t *object, FILE *stream)
     json_decref(object);
 }
 
-static json_t *describe_scalar(const fe_result *result)
+static json_t *describe_scalar(const ff_result *result)
 {
     return json_pack("{s:s, s:o}", "unit", result->row->unit, "value",
                      study_json_real(result->data[0]));
 }
 
-static json_t *describe_array(const fe_stage *stage, size_t output)
+static json_t *describe_array(const ff_stage *stage, size_t output)
 {
-    const fe_result *result = &stage->results[output];
+    const ff_result *result = &stage->results[output];
     json_t *dims = json_array(), *shape = json_array();
     for (uint32_t i = 0; i < result->rank; i++) {
-        json_array_append_new(dims, json_string(fe_result_dim(stage, output, i)));
+        json_array_append_new(dims, json_string(ff_result_dim(stage, output, i)));
         json_array_append_new(shape, json_integer((json_int_t)result->shape[i]));
     }
     return json_pack("{s:s, s:o, s:o}", "unit", result->row->unit, "dims", dims, "shape", shape);
 }
 
 /* A time, an angle, or what its dimension is named after: other series are plotted against it. */
-static bool is_axis(const fe_stage *stage, size_t output)
+static bool is_axis(const ff_stage *stage, size_t output)
 {
     const ff_port *row = stage->results[output].row;
     return stage->results[output].rank == 1 &&
            (!strcmp(row->unit, "s") || !strcmp(row->unit, "rad") ||
-            !strcmp(row->name, fe_result_dim(stage, output, 0)));
+            !strcmp(row->name, ff_result_dim(stage, output, 0)));
 }
 
 /* Names what each dimension is plotted against: "gears.roll_angle", or "". */
-static json_t *axes_of(const fe_pipeline *pipeline, const fe_stage *stage, size_t output)
+static json_t *axes_of(const ff_pipeline *pipeline, const ff_stage *stage, size_t output)
 {
-    const fe_result *result = &stage->results[output];
+    const ff_result *result = &stage->results[output];
     json_t *list = json_array();
     for (uint32_t i = 0; i < result->rank; i++) {
-        const fe_result *axis = results_axis(pipeline, stage, fe_result_dim(stage, output, i),
+        const ff_result *axis = results_axis(pipeline, stage, ff_result_dim(stage, output, i),
                                              result->shape[i], result, "rad");
-        const fe_stage *of =
+        const ff_stage *of =
             axis && !is_axis(stage, output) ? results_stage_of(pipeline, axis) : NULL;
         char *name = memory_print_text("%s%s%s", of ? of->name : "", of ? "." : "",
                                        of ? axis->row->name : "");
@@ -77,10 +77,10 @@ static json_t *axes_of(const fe_pipeline *pipeline, const fe_stage *stage, size_
     return list;
 }
 
-static void write_output(const fe_pipeline *pipeline, const fe_stage *stage, size_t output,
+static void write_output(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
                          FILE *stream)
 {
-    const fe_result *result = &stage->results[output];
+    const ff_result *result = &stage->results[output];
     fprintf(stream, "\"%s.%s\":{", stage->name, result->row->name); /* plain words */
     json_t *head = result->rank ? describe_array(stage, output) : describe_scalar(result);
     json_object_set_new(head, "doc", results_json_text(result->row->doc));
@@ -95,13 +95,13 @@ static void write_output(const fe_pipeline *pipeline, const fe_stage *stage, siz
 }
 
 /* Writes what the file requests; or, of what was computed on the way, the scalars and series. */
-static void write_outputs(const fe_pipeline *pipeline, bool requested, FILE *stream)
+static void write_outputs(const ff_pipeline *pipeline, bool requested, FILE *stream)
 {
     const char *gap = "";
     for (size_t s = 0; s < pipeline->count; s++) {
-        const fe_stage *stage = &pipeline->stages[s];
+        const ff_stage *stage = &pipeline->stages[s];
         for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
-            const fe_result *result = &stage->results[i];
+            const ff_result *result = &stage->results[i];
             if (!result->data || result->requested != requested || (!requested && result->rank > 1))
                 continue;
             fputs(gap, stream);
@@ -111,14 +111,14 @@ static void write_outputs(const fe_pipeline *pipeline, bool requested, FILE *str
     }
 }
 
-void results_write_arrays_json(const fe_pipeline *pipeline, FILE *stream)
+void results_write_arrays_json(const ff_pipeline *pipeline, FILE *stream)
 {
     fputs("{\"outputs\":{", stream);
     write_outputs(pipeline, true, stream);
     fputs("}}\n", stream);
 }
 
-const char *results_status_name(const fe_stage *stage)
+const char *results_status_name(const ff_stage *stage)
 {
     static const char *const names[] = {"bug", "not supported", "out of memory",  "invalid",
                                         "ok",  "out of range",  "no convergence", "stopped"};
@@ -128,21 +128,21 @@ const char *results_status_name(const fe_stage *stage)
                                                                 : names[stage->status - FF_BUG];
 }
 
-static json_t *describe_quality(const fe_stage *stage)
+static json_t *describe_quality(const ff_stage *stage)
 {
     json_t *object = json_object();
     for (size_t i = 0; i < stage->quality_count; i++) {
-        const fe_quality *line = &stage->quality[i];
+        const ff_quality *line = &stage->quality[i];
         json_object_set_new(object, line->name,
                             json_pack("{s:o, s:o, s:s, s:o}", "value", study_json_real(line->value),
                                       "limit", study_json_real(line->limit), "verdict",
-                                      fe_verdict_name(line->verdict), "text",
+                                      ff_verdict_name(line->verdict), "text",
                                       results_json_text(line->text)));
     }
     return object;
 }
 
-static json_t *describe_scalars(const fe_stage *stage)
+static json_t *describe_scalars(const ff_stage *stage)
 {
     json_t *object = json_object();
     for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++)
@@ -152,7 +152,7 @@ static json_t *describe_scalars(const fe_stage *stage)
     return object;
 }
 
-static json_t *describe_stage(const fe_pipeline *pipeline, const fe_stage *stage, bool details)
+static json_t *describe_stage(const ff_pipeline *pipeline, const ff_stage *stage, bool details)
 {
     json_t *entry =
         json_pack("{s:s, s:s, s:b, s:o, s:s, s:o, s:o}", "stage", stage->name, "model", stage->use,
@@ -171,7 +171,7 @@ static json_t *describe_stage(const fe_pipeline *pipeline, const fe_stage *stage
 
 void results_write_run_json(const results_outcome *outcome, bool details, FILE *stream)
 {
-    const fe_pipeline *pipeline = outcome->pipeline;
+    const ff_pipeline *pipeline = outcome->pipeline;
     json_t *head = results_json_answer(outcome->status, outcome->exit_code, outcome->report);
     json_t *stages = json_array();
     json_object_set_new(head, "title", results_json_text(pipeline->title));

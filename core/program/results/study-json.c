@@ -7,14 +7,14 @@
 #include <string.h>
 
 /* Finds the parameter that a path names in the first case; false when it names something else. */
-static bool find_param(const fe_pipeline *pipeline, const char *path, const ff_param **row,
-                       const fe_unit **unit)
+static bool find_param(const ff_pipeline *pipeline, const char *path, const ff_param **row,
+                       const ff_unit **unit)
 {
     static const char top[] = "pipeline.";
     const char *name;
     if (!strncmp(path, top, sizeof top - 1))
         path += sizeof top - 1;
-    const fe_stage *stage = fe_stage_of(pipeline, path, &name);
+    const ff_stage *stage = ff_stage_of(pipeline, path, &name);
     int param = stage && stage->loaded ? ff_model_find_param(stage->loaded->model, name) : -1;
     if (param < 0)
         return false;
@@ -24,14 +24,14 @@ static bool find_param(const fe_pipeline *pipeline, const char *path, const ff_p
 }
 
 /* Finds the coherent SI unit among the examples for the dimension; NULL when there is none. */
-static json_t *si_unit(const fe_unit *unit)
+static json_t *si_unit(const ff_unit *unit)
 {
-    const char *at = fe_unit_examples(unit);
+    const char *at = ff_unit_examples(unit);
     while (*at) {
         size_t length = strcspn(at, ",");
-        fe_unit offered;
+        ff_unit offered;
         char why[200], *text = memory_print_text("%.*s", (int)length, at);
-        bool found = fe_unit_parse(text, &offered, why, sizeof why) && fe_unit_is_si(&offered);
+        bool found = ff_unit_parse(text, &offered, why, sizeof why) && ff_unit_is_si(&offered);
         json_t *name = found ? results_json_text(text) : NULL;
         free(text);
         if (name)
@@ -44,13 +44,13 @@ static json_t *si_unit(const fe_unit *unit)
 
 /* Returns the values in SI, or NULL when one of them is a word. */
 static json_t *numbers_in_si(const study_varied *varied, size_t points, const ff_param *row,
-                             const fe_unit *unit)
+                             const ff_unit *unit)
 {
     json_t *values = json_array();
     for (size_t i = 0; i < points; i++) {
         double si;
         char why[300];
-        if (!fe_quantity_parse(study_varied_value(varied, i), unit, row->unit, &si, why,
+        if (!ff_quantity_parse(study_varied_value(varied, i), unit, row->unit, &si, why,
                                sizeof why)) {
             json_decref(values);
             return NULL;
@@ -66,7 +66,7 @@ static json_t *describe_axes(const results_study *of, const study_definition *st
     for (size_t k = 0; k < study->varied_count; k++) {
         const study_varied *varied = &study->varied[k];
         const ff_param *row = NULL;
-        const fe_unit *unit = NULL;
+        const ff_unit *unit = NULL;
         json_t *words = json_array();
         for (size_t i = 0; i < study->points[varied->axis]; i++)
             json_array_append_new(words, results_json_text(study_varied_value(varied, i)));
@@ -86,12 +86,12 @@ static json_t *describe_axes(const results_study *of, const study_definition *st
     return list;
 }
 
-static json_t *describe_stages(const fe_pipeline *pipeline, json_t *docs)
+static json_t *describe_stages(const ff_pipeline *pipeline, json_t *docs)
 {
     json_t *list = json_array();
     char name[160];
     for (size_t i = 0; i < pipeline->count; i++) {
-        const fe_stage *stage = &pipeline->stages[i];
+        const ff_stage *stage = &pipeline->stages[i];
         if (!stage->needed || !stage->loaded)
             continue;
         json_t *entry = results_json_origin(pipeline, stage);
@@ -115,15 +115,15 @@ static json_t *list_other_models(const results_study *of, const study_definition
         const study_varied *varied = &study->varied[k];
         const char *dot = strrchr(varied->path, '.');
         for (size_t i = 0; dot && !strcmp(dot, ".use") && i < study->points[varied->axis]; i++) {
-            fe_report *silent = fe_report_new();
-            const fe_loaded *loaded =
-                fe_library_load(of->library, study_varied_value(varied, i), FE_NOWHERE, silent);
+            ff_report *silent = ff_report_new();
+            const ff_loaded *loaded =
+                ff_library_load(of->library, study_varied_value(varied, i), FF_NOWHERE, silent);
             if (loaded)
                 json_object_set_new(models, loaded->model->id,
                                     json_pack("{s:o, s:o}", "reference",
                                               results_json_text(loaded->model->reference), "bibtex",
                                               results_json_text(loaded->model->bibtex)));
-            fe_report_free(silent);
+            ff_report_free(silent);
         }
     }
     return models;

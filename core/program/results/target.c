@@ -22,7 +22,7 @@ static bool open_file(results_target *target)
     if (fd >= 0)
         close(fd);
     return fd >= 0 ||
-           fe_error(target->report, FE_EXIT_INPUT, FE_NOWHERE, "name another file with -o",
+           ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, "name another file with -o",
                     "\"%s\" cannot be written: %s", target->path, strerror(errno));
 }
 
@@ -41,8 +41,8 @@ bool results_target_commit(results_target *target)
     if (target->folder)
         return results_folder_commit(target->folder);
     return (results_file_sync(target->part) && rename(target->part, target->path) == 0) ||
-           fe_error(target->report, FE_EXIT_FAILED, FE_NOWHERE, NULL,
-                    "\"%s\" cannot be written: %s", target->path, strerror(errno));
+           ff_error(target->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "\"%s\" cannot be written: %s",
+                    target->path, strerror(errno));
 }
 
 void results_target_close(results_target *target)

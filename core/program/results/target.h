@@ -9,7 +9,7 @@ typedef struct results_target {
     char *path;             /* owned */
     char *part;             /* of a file: the temporary file that it is written to */
     results_folder *folder; /* of a directory */
-    fe_report *report;
+    ff_report *report;
 } results_target;
 
 /* Opens `path`, which is set like `report`, as a directory or a file. These return false after an

@@ -50,7 +50,7 @@ bool results_view_read_run(results_reader *reader)
 {
     errno = 0;
     if (!results_document_open(&reader->run, reader->directory, "result.json"))
-        return fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE, "run the case again",
+        return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE, "run the case again",
                         "%s/result.json cannot be read%s%s", reader->path, errno ? ": " : "",
                         errno ? strerror(errno) : "");
     const json_t *root = reader->run.root;

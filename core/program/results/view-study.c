@@ -183,7 +183,7 @@ static void read_against(results_reader *reader)
 
 static bool refuse(results_reader *reader, const char *what)
 {
-    return fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE,
+    return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
                     "run the study again: that takes no time where its cases are done", "%s/%s %s",
                     reader->path, study_description, what);
 }

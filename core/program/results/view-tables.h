@@ -21,7 +21,7 @@ typedef struct results_case {
 
 typedef struct results_reader {
     ff_view view;
-    fe_report *report;
+    ff_report *report;
     memory_arena arena;
     const char *path;
     int directory;

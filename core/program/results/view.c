@@ -42,7 +42,7 @@ static const results_document *arrays_of(results_reader *reader, size_t index)
     bool good = results_document_open(&reader->arrays, reader->directory, name);
     reader->arrays_case = good ? index : reader->view.case_count;
     if (!good)
-        fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE,
+        ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
                  "flankfilm run with --rerun all writes it anew", "%s/%s cannot be read%s%s",
                  reader->path, name, errno ? ": " : "", errno ? strerror(errno) : "");
     free(name);
@@ -68,7 +68,7 @@ static loaded *read_array(results_reader *reader, size_t index, const char *name
     loaded *made = memory_alloc(sizeof *made + (fits ? (size_t)count : 0) * sizeof made->data[0]);
     if (fits && results_document_read_numbers(document, data, (size_t)count, made->data))
         return made;
-    fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+    ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
              "the numbers of %s in %s cannot be read", name, reader->path);
     free(made);
     return NULL;
@@ -178,7 +178,7 @@ static bool read_directory(results_reader *reader)
     const char *path = reader->path;
     reader->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (reader->directory < 0)
-        return fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE,
+        return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
                         "name the directory that a run has written", "\"%s\" cannot be opened: %s",
                         path, strerror(errno));
     if (faccessat(reader->directory, study_marker, F_OK, 0) == 0) {
@@ -187,12 +187,12 @@ static bool read_directory(results_reader *reader)
     }
     if (faccessat(reader->directory, "result.json", F_OK, 0) == 0)
         return results_view_read_run(reader);
-    return fe_error(reader->report, FE_EXIT_INPUT, FE_NOWHERE,
+    return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
                     "name the directory that a run has written",
                     "\"%s\" holds no results of flankfilm", path);
 }
 
-const ff_view *results_view_open(const char *directory, fe_report *report)
+const ff_view *results_view_open(const char *directory, ff_report *report)
 {
     results_reader *reader = memory_alloc(sizeof *reader);
     reader->report = report;

@@ -10,7 +10,7 @@ bool results_write_run(const results_outcome *outcome, results_folder *folder)
     return results_folder_commit(folder);
 }
 
-bool results_write_case(const fe_pipeline *pipeline, const char *directory, fe_report *report)
+bool results_write_case(const ff_pipeline *pipeline, const char *directory, ff_report *report)
 {
     results_folder *folder = results_folder_open(directory, report);
     if (!folder)

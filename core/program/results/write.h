@@ -9,8 +9,8 @@
 #include <jansson.h>
 
 typedef struct results_outcome {
-    const fe_pipeline *pipeline;
-    const fe_report *report;
+    const ff_pipeline *pipeline;
+    const ff_report *report;
     const char *file;   /* as the user named it */
     const char *status; /* "ok", "failed", "stopped", "error" */
     int exit_code;
@@ -21,24 +21,24 @@ typedef struct results_outcome {
    report. */
 bool results_write_run(const results_outcome *outcome, results_folder *folder);
 /* Writes the files of a case of a study: arrays.json and the tables. False with an error. */
-bool results_write_case(const fe_pipeline *pipeline, const char *directory, fe_report *report);
+bool results_write_case(const ff_pipeline *pipeline, const char *directory, ff_report *report);
 
 /* Writes result.json, one JSON object. With details it also says what each stage was made of, and
    has scalars and series that were computed on the way. */
 void results_write_run_json(const results_outcome *outcome, bool details, FILE *stream);
 /* Writes arrays.json: the "outputs" alone, which are the same whenever and wherever they are
    computed. */
-void results_write_arrays_json(const fe_pipeline *pipeline, FILE *stream);
+void results_write_arrays_json(const ff_pipeline *pipeline, FILE *stream);
 
 /*
  * <stage>.csv holds the series along the first dimension of the model's table of outputs,
  * <stage>-<dimension>.csv those along another, <stage>-scalars.csv the scalars, and
  * <stage>-<output>.csv a requested field: a row per first dimension, a column per second one.
  */
-void results_write_run_csv(const fe_pipeline *pipeline, results_folder *folder);
+void results_write_run_csv(const ff_pipeline *pipeline, results_folder *folder);
 
 /* Says how a stage ended, in a word or two. */
-const char *results_status_name(const fe_stage *stage);
+const char *results_status_name(const ff_stage *stage);
 
 /*
  * Finds what dimension `dim` of a stage's results, of length `count`, is plotted against: among the
@@ -46,19 +46,19 @@ const char *results_status_name(const fe_stage *stage);
  * first rising one in the unit `better`, in s or in rad, else its own first rising one. `self` (or
  * NULL) is the series that asks. NULL: there is none, use the index.
  */
-const fe_result *results_axis(const fe_pipeline *pipeline, const fe_stage *stage, const char *dim,
-                              size_t count, const fe_result *self, const char *better);
+const ff_result *results_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
+                              size_t count, const ff_result *self, const char *better);
 
 /* Finds the stage that a result belongs to. */
-const fe_stage *results_stage_of(const fe_pipeline *pipeline, const fe_result *result);
+const ff_stage *results_stage_of(const ff_pipeline *pipeline, const ff_result *result);
 
 /* What a study is made of, for study.json. */
 typedef struct results_study {
     const char *file; /* as the user named it */
     const char *const *sets;
     size_t set_count;
-    const fe_pipeline *pipeline; /* of its first case */
-    fe_library *library;
+    const ff_pipeline *pipeline; /* of its first case */
+    ff_library *library;
 } results_study;
 
 /* Writes the axes of a study and the stages of its first case as one JSON object. */

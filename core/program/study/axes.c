@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads what stands under `study:` into axes with their points. */
-#include "study.h"
+#include <flankfilm/engine.h>
 
-#include "../../engine/value/memory.h"
-#include "../../engine/value/unit.h"
+#include "study.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,17 +12,17 @@ enum { MOST_CASES = 1000000 };
 
 typedef struct reading {
     study_definition *study;
-    fe_report *report;
+    ff_report *report;
     bool single;        /* a single value counts as a list of one */
     bool sampled;       /* ranges without "points" are sampled, on axis 0 */
     uint32_t dimension; /* the next dimension of the sample */
     uint64_t seed;
-    fe_place place; /* of the path that is being read */
+    ff_place place; /* of the path that is being read */
 } reading;
 
-static bool refuse(reading *r, fe_place place, const char *hint, const char *what, const char *name)
+static bool refuse(reading *r, ff_place place, const char *hint, const char *what, const char *name)
 {
-    return fe_error(r->report, FE_EXIT_INPUT, place, hint, "study: %.80s%s%s", name,
+    return ff_error(r->report, FF_FAULT_INPUT, place, hint, "study: %.80s%s%s", name,
                     *name ? ": " : "", what);
 }
 
@@ -53,31 +52,31 @@ static const char *keep_text(reading *r, char *text)
     return kept;
 }
 
-static const char *assignment_of(reading *r, const char *path, const fe_node *value)
+static const char *assignment_of(reading *r, const char *path, const ff_node *value)
 {
     char *text = NULL;
     size_t length = 0;
     FILE *out = memory_require(open_memstream(&text, &length));
     fprintf(out, "%s=", path);
-    fe_yaml_print(value, out);
+    ff_yaml_print(value, out);
     fclose(out);
     return keep_text(r, text);
 }
 
 /* A list, or a map whose keys name the values. */
-static void add_list(reading *r, const char *path, const fe_node *list, size_t axis)
+static void add_list(reading *r, const char *path, const ff_node *list, size_t axis)
 {
     study_varied *varied = add_varied(r, path, axis);
     for (size_t i = 0; i < list->count; i++)
         varied->assignments[i] = assignment_of(r, path, list->items[i]);
     varied->values = list;
-    if (list->kind == FE_MAP)
+    if (list->kind == FF_MAP)
         varied->names = (const char **)list->keys;
 }
 
 /* Names a file by its name without directories and ending, when no other file of the list has that
    name; else by its whole path. */
-static char *file_name(const fe_node *list, size_t at)
+static char *file_name(const ff_node *list, size_t at)
 {
     char *name = NULL;
     for (size_t i = list->count + 1; i-- > 0;) { /* the file's own path comes first */
@@ -96,12 +95,12 @@ static char *file_name(const fe_node *list, size_t at)
 
 /* Adds files that are laid over the file of the study, one in each case: `path` only names the
    choice. */
-static bool add_files(reading *r, const char *path, const fe_node *map)
+static bool add_files(reading *r, const char *path, const ff_node *map)
 {
-    const fe_node *list = map->items[0];
-    bool good = map->count == 1 && list->kind == FE_SEQUENCE && list->count > 0;
+    const ff_node *list = map->items[0];
+    bool good = map->count == 1 && list->kind == FF_SEQUENCE && list->count > 0;
     for (size_t i = 0; good && i < list->count; i++)
-        good = list->items[i]->kind == FE_SCALAR && *list->items[i]->text;
+        good = list->items[i]->kind == FF_SCALAR && *list->items[i]->text;
     if (!good)
         return refuse(r, map->place, "write oil_card: {include: [a.yaml, b.yaml]}",
                       "expected a list of files, one for each case", path);
@@ -109,22 +108,22 @@ static bool add_files(reading *r, const char *path, const fe_node *map)
     const char **names = memory_arena_alloc(&r->study->arena, list->count * sizeof *names);
     varied->names = names;
     for (size_t i = 0; i < list->count; i++) {
-        fe_node file = *list->items[i];
-        file.text = fe_path_beside(file.place.source->directory, file.text);
+        ff_node file = *list->items[i];
+        file.text = ff_path_beside(file.place.source->directory, file.text);
         file.quoted = true;
         varied->assignments[i] = assignment_of(r, "include", &file);
         names[i] = keep_text(r, file_name(list, i));
-        fe_free(file.text);
+        ff_free(file.text);
     }
     return true;
 }
 
 /* Reads the direction of the chains along the axis that is added next: "up" goes towards larger
    values. */
-static bool read_follow(reading *r, const fe_node *node, const char *path, bool falling)
+static bool read_follow(reading *r, const ff_node *node, const char *path, bool falling)
 {
     study_definition *study = r->study;
-    bool word = node->kind == FE_SCALAR, up = word && !strcmp(node->text, "up");
+    bool word = node->kind == FF_SCALAR, up = word && !strcmp(node->text, "up");
     bool down = word && !strcmp(node->text, "down"), both = word && !strcmp(node->text, "both");
     if (!up && !down && !both)
         return refuse(r, node->place, NULL, "\"follow\" is up, down or both", path);
@@ -150,40 +149,40 @@ typedef struct span {
     bool log;
 } span;
 
-static bool read_end(reading *r, const fe_node *node, const char *path, double *number,
+static bool read_end(reading *r, const ff_node *node, const char *path, double *number,
                      const char **unit)
 {
     char why[200];
-    fe_unit parsed;
-    if (!node || node->kind != FE_SCALAR || !fe_number_parse(node->text, number, unit))
-        return refuse(r, node ? node->place : FE_NOWHERE, "write {from: 400 Hz, to: 4000 Hz, ...}",
+    ff_unit parsed;
+    if (!node || node->kind != FF_SCALAR || !ff_number_parse(node->text, number, unit))
+        return refuse(r, node ? node->place : FF_NOWHERE, "write {from: 400 Hz, to: 4000 Hz, ...}",
                       "\"from\" and \"to\" must be numbers with their unit", path);
     *unit += strspn(*unit, " ");
-    return fe_unit_parse(*unit, &parsed, why, sizeof why) ||
-           fe_error(r->report, FE_EXIT_INPUT, node->place, NULL, "study: %s: the unit \"%.40s\" %s",
-                    path, *unit, why);
+    return ff_unit_parse(*unit, &parsed, why, sizeof why) ||
+           ff_error(r->report, FF_FAULT_INPUT, node->place, NULL,
+                    "study: %s: the unit \"%.40s\" %s", path, *unit, why);
 }
 
-static bool read_span(reading *r, const fe_node *map, const char *path, span *s)
+static bool read_span(reading *r, const ff_node *map, const char *path, span *s)
 {
-    const fe_node *from = fe_node_get(map, "from"), *to = fe_node_get(map, "to");
-    const fe_node *spacing = fe_node_get(map, "spacing");
+    const ff_node *from = ff_node_get(map, "from"), *to = ff_node_get(map, "to");
+    const ff_node *spacing = ff_node_get(map, "spacing");
     const char *unit;
     char why[200];
-    fe_unit a, b;
+    ff_unit a, b;
     if (!from || !to)
         return refuse(r, map->place, "write {from: 400 Hz, to: 4000 Hz, points: 10}",
                       "a range wants \"from\" and \"to\"", path);
     if (!read_end(r, from, path, &s->from, &s->unit) || !read_end(r, to, path, &s->to, &unit))
         return false;
-    fe_unit_parse(s->unit, &a, why, sizeof why);
-    fe_unit_parse(unit, &b, why, sizeof why);
-    if (!fe_unit_same_dimension(&a, &b))
+    ff_unit_parse(s->unit, &a, why, sizeof why);
+    ff_unit_parse(unit, &b, why, sizeof why);
+    if (!ff_unit_same_dimension(&a, &b))
         return refuse(r, to->place, NULL, "\"from\" and \"to\" have units that do not agree", path);
     if (strcmp(unit, s->unit) != 0)
-        s->to = fe_unit_from_si(&a, fe_unit_to_si(&b, s->to));
-    s->log = spacing && spacing->kind == FE_SCALAR && !strcmp(spacing->text, "log");
-    if (spacing && !s->log && (spacing->kind != FE_SCALAR || strcmp(spacing->text, "linear") != 0))
+        s->to = ff_unit_from_si(&a, ff_unit_to_si(&b, s->to));
+    s->log = spacing && spacing->kind == FF_SCALAR && !strcmp(spacing->text, "log");
+    if (spacing && !s->log && (spacing->kind != FF_SCALAR || strcmp(spacing->text, "linear") != 0))
         return refuse(r, spacing->place, NULL, "\"spacing\" is either linear or log", path);
     if (s->log && !(s->from > 0 && s->to > 0))
         return refuse(r, map->place, NULL, "spacing log wants two positive ends", path);
@@ -201,29 +200,29 @@ static const char *span_text(reading *r, const char *path, const span *s, double
                      memory_print_text("%s=%.12g%s%s", path, value, *s->unit ? " " : "", s->unit));
 }
 
-static bool read_count(reading *r, const fe_node *node, const char *name, int64_t least,
+static bool read_count(reading *r, const ff_node *node, const char *name, int64_t least,
                        int64_t *count)
 {
     char why[200];
-    if (node->kind == FE_SCALAR && fe_integer_parse(node->text, count, why, sizeof why) &&
+    if (node->kind == FF_SCALAR && ff_integer_parse(node->text, count, why, sizeof why) &&
         *count >= least && *count <= MOST_CASES)
         return true;
-    return fe_error(r->report, FE_EXIT_INPUT, node->place, NULL,
+    return ff_error(r->report, FF_FAULT_INPUT, node->place, NULL,
                     "study: %s wants a whole number from %d to %d", name, (int)least, MOST_CASES);
 }
 
-bool study_check_keys(const fe_node *map, const char *where, const char *const *known,
-                      fe_report *report)
+bool study_check_keys(const ff_node *map, const char *where, const char *const *known,
+                      ff_report *report)
 {
     bool good = true;
-    for (size_t i = 0; map->kind == FE_MAP && i < map->count; i++) {
+    for (size_t i = 0; map->kind == FF_MAP && i < map->count; i++) {
         size_t count = 0, found = 0;
         for (; known[count]; count++)
             found += !strcmp(map->keys[i], known[count]);
-        const char *near = fe_nearest(map->keys[i], known, count);
+        const char *near = ff_nearest(map->keys[i], known, count);
         if (found || !strncmp(map->keys[i], "x-", 2))
             continue;
-        good = fe_error(report, FE_EXIT_INPUT, map->key_places[i], NULL,
+        good = ff_error(report, FF_FAULT_INPUT, map->key_places[i], NULL,
                         "study: %s%sunknown key \"%.80s\"%s%s%s", where, *where ? ": " : "",
                         map->keys[i], near ? "; did you mean \"" : "", near ? near : "",
                         near ? "\"?" : "");
@@ -231,10 +230,10 @@ bool study_check_keys(const fe_node *map, const char *where, const char *const *
     return good;
 }
 
-static bool too_many(reading *r, fe_place place, double cases)
+static bool too_many(reading *r, ff_place place, double cases)
 {
     return cases > MOST_CASES &&
-           !fe_error(r->report, FE_EXIT_INPUT, place, NULL,
+           !ff_error(r->report, FF_FAULT_INPUT, place, NULL,
                      "study: %.3g cases; at most %d are possible", cases, MOST_CASES);
 }
 
@@ -246,10 +245,10 @@ static double cases_of(const study_definition *study)
     return cases;
 }
 
-static bool read_range(reading *r, const fe_node *map, const char *path)
+static bool read_range(reading *r, const ff_node *map, const char *path)
 {
     static const char *const known[] = {"from", "to", "points", "spacing", "follow", NULL};
-    const fe_node *points = fe_node_get(map, "points"), *follow = fe_node_get(map, "follow");
+    const ff_node *points = ff_node_get(map, "points"), *follow = ff_node_get(map, "follow");
     bool drawn = !points && r->sampled;
     int64_t count = 0;
     span s;
@@ -279,39 +278,39 @@ static bool read_range(reading *r, const fe_node *map, const char *path)
 }
 
 /* Whether all values of the map are maps: then its keys name them. */
-static bool is_named(const fe_node *map)
+static bool is_named(const ff_node *map)
 {
     size_t maps = 0;
     for (size_t i = 0; i < map->count; i++)
-        maps += map->items[i]->kind == FE_MAP;
+        maps += map->items[i]->kind == FF_MAP;
     return maps > 0 && maps == map->count;
 }
 
-static const fe_node *list_of(reading *r, fe_node **item)
+static const ff_node *list_of(reading *r, ff_node **item)
 {
-    fe_node *list = memory_arena_alloc(&r->study->arena, sizeof *list);
-    *list = (fe_node){.kind = FE_SEQUENCE, .place = (*item)->place, .items = item, .count = 1};
+    ff_node *list = memory_arena_alloc(&r->study->arena, sizeof *list);
+    *list = (ff_node){.kind = FF_SEQUENCE, .place = (*item)->place, .items = item, .count = 1};
     return list;
 }
 
-static bool read_sweep(reading *r, const fe_node *map)
+static bool read_sweep(reading *r, const ff_node *map)
 {
     bool good = true;
-    if (map->kind != FE_MAP || map->count == 0)
+    if (map->kind != FF_MAP || map->count == 0)
         return refuse(r, map->place, "write for example duty.torque: [100 N m, 200 N m]",
                       "expected a map from paths to values", "sweep");
     for (size_t i = 0; i < map->count; i++) {
-        const fe_node *node = map->items[i];
+        const ff_node *node = map->items[i];
         r->place = map->key_places[i];
-        if (r->single && node->kind == FE_SCALAR)
+        if (r->single && node->kind == FF_SCALAR)
             node = list_of(r, &map->items[i]);
-        if (fe_node_get(node, "include"))
+        if (ff_node_get(node, "include"))
             good = add_files(r, map->keys[i], node) && good;
-        else if (node->kind == FE_MAP && is_named(node))
+        else if (node->kind == FF_MAP && is_named(node))
             add_list(r, map->keys[i], node, add_axis(r, node->count));
-        else if (node->kind == FE_MAP)
+        else if (node->kind == FF_MAP)
             good = read_range(r, node, map->keys[i]) && good;
-        else if (node->kind == FE_SEQUENCE && node->count > 0)
+        else if (node->kind == FF_SEQUENCE && node->count > 0)
             add_list(r, map->keys[i], node, add_axis(r, node->count));
         else
             good = refuse(r, node->place, NULL,
@@ -321,14 +320,14 @@ static bool read_sweep(reading *r, const fe_node *map)
     return good;
 }
 
-static bool read_zip(reading *r, const fe_node *map)
+static bool read_zip(reading *r, const ff_node *map)
 {
-    size_t count = map->kind == FE_MAP && map->count ? map->items[0]->count : 0;
+    size_t count = map->kind == FF_MAP && map->count ? map->items[0]->count : 0;
     if (count == 0)
         return refuse(r, map->place, NULL, "expected a map from paths to lists", "zip");
     size_t axis = add_axis(r, count);
     for (size_t k = 0; k < map->count; k++) {
-        if (map->items[k]->kind != FE_SEQUENCE || map->items[k]->count != count)
+        if (map->items[k]->kind != FF_SEQUENCE || map->items[k]->count != count)
             return refuse(r, map->items[k]->place, NULL, "the lists of a zip must be equally long",
                           "zip");
         r->place = map->key_places[k];
@@ -337,12 +336,12 @@ static bool read_zip(reading *r, const fe_node *map)
     return true;
 }
 
-static bool read_sample(reading *r, const fe_node *map)
+static bool read_sample(reading *r, const ff_node *map)
 {
     static const char *const known[] = {"sobol", "seed", NULL};
-    const fe_node *points = fe_node_get(map, "sobol"), *seed = fe_node_get(map, "seed");
+    const ff_node *points = ff_node_get(map, "sobol"), *seed = ff_node_get(map, "seed");
     int64_t count = 0, number = 0;
-    if (map->kind != FE_MAP || !points)
+    if (map->kind != FF_MAP || !points)
         return refuse(r, map->place, NULL, "expected {sobol: NUMBER OF POINTS, seed: 1}", "sample");
     if (!study_check_keys(map, "sample", known, r->report) ||
         !read_count(r, points, "sobol", 1, &count) ||
@@ -354,23 +353,23 @@ static bool read_sample(reading *r, const fe_node *map)
     return true;
 }
 
-bool study_read_limits(study_definition *study, const fe_node *node, fe_report *report)
+bool study_read_limits(study_definition *study, const ff_node *node, ff_report *report)
 {
     reading whole = {.study = study, .report = report}, *r = &whole;
-    const fe_node *time = fe_node_get(node, "time_limit");
-    const fe_node *memory = fe_node_get(node, "memory_limit");
-    fe_unit second, one;
+    const ff_node *time = ff_node_get(node, "time_limit");
+    const ff_node *memory = ff_node_get(node, "memory_limit");
+    ff_unit second, one;
     char why[200];
-    fe_unit_parse("s", &second, why, sizeof why);
-    fe_unit_parse("1", &one, why, sizeof why);
+    ff_unit_parse("s", &second, why, sizeof why);
+    ff_unit_parse("1", &one, why, sizeof why);
     if (time &&
-        (time->kind != FE_SCALAR ||
-         !fe_quantity_parse(time->text, &second, "s", &r->study->time_limit, why, sizeof why) ||
+        (time->kind != FF_SCALAR ||
+         !ff_quantity_parse(time->text, &second, "s", &r->study->time_limit, why, sizeof why) ||
          !(r->study->time_limit > 0)))
         return refuse(r, time->place, NULL, "expected a time such as 60 s", "time_limit");
     if (memory &&
-        (memory->kind != FE_SCALAR ||
-         !fe_quantity_parse(memory->text, &one, "1", &r->study->memory_limit, why, sizeof why) ||
+        (memory->kind != FF_SCALAR ||
+         !ff_quantity_parse(memory->text, &one, "1", &r->study->memory_limit, why, sizeof why) ||
          !(r->study->memory_limit >= 1)))
         return refuse(r, memory->place, NULL, "expected a number of MiB for each worker",
                       "memory_limit");
@@ -378,7 +377,7 @@ bool study_read_limits(study_definition *study, const fe_node *node, fe_report *
     return true;
 }
 
-static bool finish_axes(reading *r, const fe_node *node)
+static bool finish_axes(reading *r, const ff_node *node)
 {
     study_definition *study = r->study;
     double cases = cases_of(study);
@@ -407,11 +406,11 @@ static void begin_axes(reading *r, size_t paths)
     study->followed = study->direction = SIZE_MAX;
 }
 
-static bool read_all(reading *r, const fe_node *node)
+static bool read_all(reading *r, const ff_node *node)
 {
-    const fe_node *sweep = fe_node_get(node, "sweep"), *zip = fe_node_get(node, "zip");
-    const fe_node *sample = fe_node_get(node, "sample");
-    if (node->kind != FE_MAP || (!sweep && !zip))
+    const ff_node *sweep = ff_node_get(node, "sweep"), *zip = ff_node_get(node, "zip");
+    const ff_node *sample = ff_node_get(node, "sample");
+    if (node->kind != FF_MAP || (!sweep && !zip))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
     begin_axes(r, (sweep ? sweep->count : 0) + (zip ? zip->count : 0));
@@ -419,7 +418,7 @@ static bool read_all(reading *r, const fe_node *node)
            (!zip || read_zip(r, zip)) && finish_axes(r, node);
 }
 
-study_definition *study_expand(const fe_node *sweep, fe_report *report)
+study_definition *study_expand(const ff_node *sweep, ff_report *report)
 {
     study_definition *study = memory_alloc(sizeof *study);
     reading r = {.study = study, .report = report, .single = true};
@@ -430,7 +429,7 @@ study_definition *study_expand(const fe_node *sweep, fe_report *report)
     return NULL;
 }
 
-study_definition *study_read(const fe_node *node, fe_report *report)
+study_definition *study_read(const ff_node *node, ff_report *report)
 {
     study_definition *study = memory_alloc(sizeof *study);
     reading r = {.study = study, .report = report};

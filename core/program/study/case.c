@@ -38,29 +38,29 @@ static const char *assignment_at(const study_definition *study, size_t index,
 }
 
 void study_overlay(const study_definition *study, size_t index, const char *const *sets,
-                   size_t set_count, fe_tree *tree, fe_report *report)
+                   size_t set_count, ff_tree *tree, ff_report *report)
 {
     const char *text;
     size_t n = study->varied_count;
     for (size_t i = 0; (text = assignment_at(study, index, sets, set_count, i)); i++) {
         const study_varied *v = i >= n + set_count ? &study->varied[i - n - set_count] : NULL;
-        const fe_place *path = v && v->place.source ? &v->place : NULL, *place = path;
+        const ff_place *path = v && v->place.source ? &v->place : NULL, *place = path;
         if (path && v->values)
             place = &v->values->items[study_rank(study, v->axis, index)]->place;
-        if (*text && fe_tree_root(tree))
-            fe_tree_set_at(tree, text, path, place, "pipeline", fe_pipeline_top_keys, report);
+        if (*text && ff_tree_root(tree))
+            ff_tree_set_at(tree, text, path, place, "pipeline", ff_file_keys(), report);
     }
-    if (study->request && fe_tree_root(tree))
-        fe_tree_put(tree, "outputs", study->request);
+    if (study->request && ff_tree_root(tree))
+        ff_tree_put(tree, "outputs", study->request);
 }
 
 void study_case_open(study_case *c, const study_run *run, size_t index)
 {
     const study_definition *study = run->study;
-    *c = (study_case){.report = fe_report_new()};
-    c->tree = fe_tree_load(run->file, c->report);
+    *c = (study_case){.report = ff_report_new()};
+    c->tree = ff_tree_load(run->file, c->report);
     study_overlay(study, index, run->sets, run->set_count, c->tree, c->report);
-    c->pipeline = fe_pipeline_build(c->tree, run->library, false, c->report);
+    c->pipeline = ff_pipeline_build(c->tree, run->library, false, c->report);
     uint64_t fingerprint = hash_assignments(study, index);
     if (study_case_is_good(c)) {
         study_measure_want(study, c->pipeline);
@@ -74,9 +74,9 @@ void study_case_open(study_case *c, const study_run *run, size_t index)
 
 void study_case_close(study_case *c)
 {
-    fe_pipeline_free(c->pipeline);
-    fe_tree_free(c->tree);
-    fe_report_free(c->report);
+    ff_pipeline_free(c->pipeline);
+    ff_tree_free(c->tree);
+    ff_report_free(c->report);
     free(c->fingerprints);
 }
 
@@ -139,39 +139,39 @@ json_t *study_case_record(const study_run *run, size_t index, const char *key, c
     return record;
 }
 
-char *study_first_error(const fe_report *report)
+char *study_first_error(const ff_report *report)
 {
     char text[2000] = "no reason is known";
-    for (size_t i = fe_report_count(report); i-- > 0;) {
-        const fe_message *m = fe_report_at(report, i);
-        if (m->severity != FE_ERROR)
+    for (size_t i = ff_report_count(report); i-- > 0;) {
+        const ff_message *m = ff_report_at(report, i);
+        if (m->severity != FF_ERROR)
             continue;
         if (m->place.source && m->place.source->temporary)
-            fe_message_print(m, text, sizeof text);
+            ff_message_print(m, text, sizeof text);
         else
             snprintf(text, sizeof text, "%s", m->text);
     }
     return memory_copy_text(text, strlen(text));
 }
 
-static const char *status_of(const fe_report *report)
+static const char *status_of(const ff_report *report)
 {
-    int code = fe_report_exit_code(report);
-    return code == FE_EXIT_OK       ? "ok"
-           : code == FE_EXIT_FAILED ? "failed"
-           : code == FE_EXIT_INPUT  ? "invalid"
+    int code = ff_report_fault(report);
+    return code == EXIT_SUCCESS     ? "ok"
+           : code == FF_FAULT_RUN   ? "failed"
+           : code == FF_FAULT_INPUT ? "invalid"
                                     : "plugin fault";
 }
 
 /* Adds {stage: {name: [value, limit, verdict, text]}}. */
-static void add_quality(json_t *record, const fe_pipeline *pipeline)
+static void add_quality(json_t *record, const ff_pipeline *pipeline)
 {
     json_t *all = json_object();
     for (size_t i = 0; pipeline && i < pipeline->count; i++) {
-        const fe_stage *stage = &pipeline->stages[i];
+        const ff_stage *stage = &pipeline->stages[i];
         json_t *lines = stage->quality_count ? json_object() : NULL;
         for (size_t k = 0; k < stage->quality_count; k++) {
-            const fe_quality *line = &stage->quality[k];
+            const ff_quality *line = &stage->quality[k];
             json_object_set_new(lines, line->name,
                                 json_pack("[o, o, i, s*]", study_json_real(line->value),
                                           study_json_real(line->limit), line->verdict, line->text));
@@ -183,12 +183,12 @@ static void add_quality(json_t *record, const fe_pipeline *pipeline)
 }
 
 /* Returns [unit, dims, shape] of an array, whose numbers are in a file of the case. */
-static json_t *describe_array(const fe_stage *stage, size_t output)
+static json_t *describe_array(const ff_stage *stage, size_t output)
 {
-    const fe_result *result = &stage->results[output];
+    const ff_result *result = &stage->results[output];
     json_t *dims = json_array(), *shape = json_array();
     for (uint32_t i = 0; i < result->rank; i++) {
-        json_array_append_new(dims, json_string(fe_result_dim(stage, output, i)));
+        json_array_append_new(dims, json_string(ff_result_dim(stage, output, i)));
         json_array_append_new(shape, json_integer((json_int_t)result->shape[i]));
     }
     return json_pack("[s, o, o]", result->row->unit, dims, shape);
@@ -196,13 +196,13 @@ static json_t *describe_array(const fe_stage *stage, size_t output)
 
 /* Adds the requested scalars, and how long each stage took or that it was reused. True when there
    are arrays. */
-static bool add_results(json_t *record, const fe_pipeline *pipeline)
+static bool add_results(json_t *record, const ff_pipeline *pipeline)
 {
     json_t *outputs = json_object(), *seconds = json_object(), *reused = json_object();
     json_t *arrays = json_object();
     json_t *chosen = json_object();
     for (size_t i = 0; i < pipeline->count; i++) {
-        const fe_stage *stage = &pipeline->stages[i];
+        const ff_stage *stage = &pipeline->stages[i];
         char name[160];
         if (!stage->ran)
             continue;
@@ -211,7 +211,7 @@ static bool add_results(json_t *record, const fe_pipeline *pipeline)
         json_object_set_new(stage->reused ? reused : seconds, stage->name,
                             json_real(stage->seconds));
         for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
-            const fe_result *result = &stage->results[k];
+            const ff_result *result = &stage->results[k];
             if (!result->requested || !result->data)
                 continue;
             snprintf(name, sizeof name, "%s.%s", stage->name, result->row->name);
@@ -259,7 +259,7 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
                          .fingerprints = c->fingerprints,
                          .stats = memory->stats,
                          .held = -1};
-    fe_watch watch = {.recall = study_reuse_recall, .keep = study_reuse_keep, .ctx = &reuse};
+    ff_observer watch = {.recall = study_reuse_recall, .keep = study_reuse_keep, .ctx = &reuse};
     double start = study_seconds_now();
     json_t *setups = study_case_setups(c); /* running may drop outputs that a model refuses */
     json_t *parameters = study_case_parameters(c, setups, memory->seen);
@@ -268,10 +268,10 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
         bool *fresh = measure ? study_measure_fresh(measure, c->pipeline) : NULL;
         reuse.fresh = fresh;
         study_chain_restore_states(c);
-        fe_pipeline_run(c->pipeline, &watch, c->report);
+        ff_pipeline_run(c->pipeline, &watch, c->report);
         free(fresh);
     }
-    bool good = fe_report_errors(c->report) == 0;
+    bool good = ff_report_errors(c->report) == 0;
     char *reason = good ? NULL : study_first_error(c->report);
     json_t *record = study_case_record(run, index, c->key, status_of(c->report), reason);
     free(reason);

@@ -22,9 +22,9 @@ typedef struct study_reuse {
     char name[20]; /* of that file */
 } study_reuse;
 
-/* Callbacks of fe_watch, whose ctx is a study_reuse. */
-bool study_reuse_recall(void *ctx, const fe_pipeline *pipeline, fe_stage *stage);
-void study_reuse_keep(void *ctx, const fe_pipeline *pipeline, const fe_stage *stage);
+/* Callbacks of ff_observer, whose ctx is a study_reuse. */
+bool study_reuse_recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage);
+void study_reuse_keep(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage);
 
 /* case.c */
 typedef struct study_memory { /* what a worker keeps from case to case */
@@ -35,9 +35,9 @@ typedef struct study_memory { /* what a worker keeps from case to case */
 } study_memory;
 
 typedef struct study_case {
-    fe_report *report;
-    fe_tree *tree;
-    fe_pipeline *pipeline; /* may be NULL after errors */
+    ff_report *report;
+    ff_tree *tree;
+    ff_pipeline *pipeline; /* may be NULL after errors */
     uint64_t *fingerprints;
     char key[STUDY_KEY_SIZE];
     const json_t *states; /* {stage: state} that it starts from; NULL when it is not in a chain */
@@ -55,7 +55,7 @@ json_t *study_case_record(const study_run *run, size_t index, const char *key, c
 json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_memory *memory);
 /* Returns the text of the first error, to be freed; with its place when that is in a table, which
    the text does not name. */
-char *study_first_error(const fe_report *report);
+char *study_first_error(const ff_report *report);
 
 /* setup.c */
 json_t *study_case_setups(const study_case *c); /* {stage: hash of its setup} */
@@ -67,7 +67,7 @@ void study_setup_compare(const study_case *c, const json_t *record, const json_t
 
 /* choices.c: returns {stage: {use, model, accuracy, promised, settings: {parameter: value}}} of the
    stages that have chosen a model: what it takes to choose the same again. */
-json_t *study_choices_record(const fe_pipeline *pipeline);
+json_t *study_choices_record(const ff_pipeline *pipeline);
 
 /* measure.c */
 /* Returns the fingerprint of a repeat, from which its key is made. */
@@ -75,9 +75,9 @@ uint64_t study_measure_fingerprint(uint64_t fingerprint, size_t repeat);
 /* Binds this process to the core that it runs on. */
 void study_measure_pin(void);
 /* Makes stages compute what the measure records of them. */
-void study_measure_want(const study_definition *study, const fe_pipeline *pipeline);
+void study_measure_want(const study_definition *study, const ff_pipeline *pipeline);
 /* Returns for each stage whether it is evaluated in every case; to be freed. */
-bool *study_measure_fresh(const study_measure *measure, const fe_pipeline *pipeline);
+bool *study_measure_fresh(const study_measure *measure, const ff_pipeline *pipeline);
 /* Adds what was measured to the record, and writes the requested outputs to a file. */
 bool study_measure_record(const study_case *c, const study_run *run, size_t index, json_t *record);
 /* Returns the outputs of that file: {output: {unit, rank, values, along, at}}; NULL without one. */

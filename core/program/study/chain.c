@@ -111,7 +111,7 @@ static int digit_of(char c)
 
 /* Reads two hexadecimal digits for each byte. A text with other characters, which this program does
    not write, gives an empty state. */
-static void read_state(fe_stage *stage, const char *text)
+static void read_state(ff_stage *stage, const char *text)
 {
     size_t size = strlen(text) / 2;
     unsigned char *bytes = memory_alloc(size + 1);
@@ -122,14 +122,14 @@ static void read_state(fe_stage *stage, const char *text)
         else
             bytes[i] = (unsigned char)(16 * high + low);
     }
-    fe_stage_set_state(stage, bytes, size);
+    ff_stage_set_state(stage, bytes, size);
     free(bytes);
 }
 
 void study_chain_restore_states(const study_case *c)
 {
     for (size_t i = 0; c->states && i < c->pipeline->count; i++) {
-        fe_stage *stage = &c->pipeline->stages[i];
+        ff_stage *stage = &c->pipeline->stages[i];
         const char *text = json_string_value(json_object_get(c->states, stage->name));
         c->pipeline->chained = true;
         if (text)
@@ -137,7 +137,7 @@ void study_chain_restore_states(const study_case *c)
     }
 }
 
-static json_t *write_state(const fe_stage *stage)
+static json_t *write_state(const ff_stage *stage)
 {
     const unsigned char *bytes = stage->state;
     char *text = memory_alloc(2 * stage->state_size + 1);

@@ -3,25 +3,25 @@
 #include "case.h"
 
 /* Returns the parameters that the chosen model has set by itself. */
-static json_t *proposed_settings(const fe_stage *stage)
+static json_t *proposed_settings(const ff_stage *stage)
 {
     json_t *map = json_object();
     char text[512];
     for (size_t i = 0; i < stage->loaded->model->param_count; i++) {
         if (!stage->params[i].proposed)
             continue;
-        fe_bound_print(stage, i, text, sizeof text);
+        ff_bound_print(stage, i, text, sizeof text);
         json_object_set_new(map, stage->params[i].row->name, json_string(text));
     }
     return map;
 }
 
-json_t *study_choices_record(const fe_pipeline *pipeline)
+json_t *study_choices_record(const ff_pipeline *pipeline)
 {
     json_t *all = json_object();
     for (size_t i = 0; i < pipeline->count; i++) {
-        const fe_stage *stage = &pipeline->stages[i];
-        const fe_choice *choice = stage->choice;
+        const ff_stage *stage = &pipeline->stages[i];
+        const ff_choice *choice = stage->choice;
         if (!stage->ran || !choice || !choice->chosen)
             continue;
         json_t *own =

@@ -39,14 +39,14 @@ char *study_context_format(study_context *context, const char *format, ...)
     return text;
 }
 
-bool study_context_refuse(study_context *context, const fe_node *where, const char *hint,
+bool study_context_refuse(study_context *context, const ff_node *where, const char *hint,
                           const char *text)
 {
-    return fe_error(context->report, FE_EXIT_INPUT, where ? where->place : FE_NOWHERE, hint,
+    return ff_error(context->report, FF_FAULT_INPUT, where ? where->place : FF_NOWHERE, hint,
                     "%s: %s", context->name, text);
 }
 
-const study_definition *study_context_expand(study_context *context, const fe_node *map)
+const study_definition *study_context_expand(study_context *context, const ff_node *map)
 {
     study_definition *study = study_expand(map, context->report);
     if (!study)
@@ -60,14 +60,14 @@ const study_definition *study_context_expand(study_context *context, const fe_no
     return NULL;
 }
 
-const char *study_word(const fe_node *node)
+const char *study_word(const ff_node *node)
 {
-    return node && node->kind == FE_SCALAR ? node->text : NULL;
+    return node && node->kind == FF_SCALAR ? node->text : NULL;
 }
 
-bool study_is_map(const fe_node *node)
+bool study_is_map(const ff_node *node)
 {
-    return node && node->kind == FE_MAP;
+    return node && node->kind == FF_MAP;
 }
 
 void study_context_print_line(const study_context *context, int indent, const char *line)

@@ -17,7 +17,7 @@ enum { STUDY_TREE = 0 };
 
 /* What stands under a key of a driver. */
 typedef struct study_key_value {
-    const fe_node *node; /* NULL when the key is missing */
+    const ff_node *node; /* NULL when the key is missing */
     ff_value value;      /* in SI, from the node or the preset, when the key has a type */
 } study_key_value;
 
@@ -56,7 +56,7 @@ typedef struct study_outcome {
 
 typedef struct study_submitted {
     const char *label;            /* for messages: "cells 512" */
-    fe_place place;               /* where it stands in the file */
+    ff_place place;               /* where it stands in the file */
     const study_outcome *outcome; /* NULL until study_outcome_of reads it */
 } study_submitted;
 
@@ -71,7 +71,7 @@ enum { STUDY_RESULT_FILES = 4, STUDY_MOST_SUBMITTED = 1000000 };
 
 typedef struct study_context {
     const char *name;   /* the key under `study:` */
-    fe_report *report;  /* of the current call */
+    ff_report *report;  /* of the current call */
     memory_arena arena; /* memory that lives as long as the study */
 
     /* The driver sets these before anything has run. */
@@ -83,7 +83,7 @@ typedef struct study_context {
     size_t path_count;
     /* its cases come first; NULL when the first cases form a plain list */
     const study_definition *grid;
-    const fe_node *const *outputs; /* "film.h_min": they replace the file's outputs */
+    const ff_node *const *outputs; /* "film.h_min": they replace the file's outputs */
     size_t output_count;
     const char *const *extras; /* other results to record, where stages have them */
     size_t extra_count;
@@ -119,14 +119,14 @@ void study_context_free(study_context *context);
 char *study_context_format(study_context *context, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* Reports an error at a node of the file, which may be NULL; returns false. */
-bool study_context_refuse(study_context *context, const fe_node *where, const char *hint,
+bool study_context_refuse(study_context *context, const ff_node *where, const char *hint,
                           const char *text);
 /* Returns the cases of a map from paths to ranges, lists or single values, as under `sweep:`; NULL
    after an error. They live as long as the context. */
-const study_definition *study_context_expand(study_context *context, const fe_node *map);
+const study_definition *study_context_expand(study_context *context, const ff_node *map);
 /* Returns the text of a value; NULL for a list, a map or a missing node. */
-const char *study_word(const fe_node *node);
-bool study_is_map(const fe_node *node);
+const char *study_word(const ff_node *node);
+bool study_is_map(const ff_node *node);
 /* Prints a line on the terminal. One that is too long is cut (indent 0), continued on lines that
    are indented by `indent` columns, or left as it is (-1). */
 void study_context_print_line(const study_context *context, int indent, const char *line);
@@ -136,7 +136,7 @@ FILE *study_context_file(study_context *context, const char *name);
 /* submit.c: adds a case and returns its number 0, 1, ... There is a setting for each path of the
    context, whose texts live as long as it. Cases that differ in `repeat` alone are all run. */
 size_t study_submit(study_context *context, const study_setting *settings, size_t repeat,
-                    const char *label, const fe_node *place);
+                    const char *label, const ff_node *place);
 /* Runs the cases with the numbers from `begin` to `end` - 1. False when the study cannot go on. */
 bool study_run_submitted(study_context *context, size_t begin, size_t end);
 /* Writes the table of the cases that ran, and the description of the study. */
@@ -147,7 +147,7 @@ const study_outcome *study_outcome_of(study_context *context, size_t number);
 
 /* scale.c: returns the stage of "stage.name", or NULL. Sets *param to the index of the parameter of
    that name, or to SIZE_MAX when it is not in use or not a number. */
-const fe_stage *study_find_number(const fe_pipeline *pipeline, const char *path, size_t *param);
+const ff_stage *study_find_number(const ff_pipeline *pipeline, const char *path, size_t *param);
 /* Writes the values of parameters in a case, times factors, as a user would write them; NULL for
    one whose stage does not run there or that is not a number. */
 void study_scale_parameters(study_context *context, size_t number, const char *const *paths,

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs studies whose later cases depend on what earlier ones gave: finds the driver, reads its keys
    and the cases that are known beforehand, and runs it. */
+#include <flankfilm/engine.h>
+
 #include "case.h"
 #include "stability.h"
 #include "tradeoff.h"
-
-#include "../../engine/plugin/param.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -27,14 +27,14 @@ typedef struct study_driver {
 } study_driver;
 
 /* Returns the outputs that the driver requests of its cases, as a file would list them. */
-static fe_node *request_of(study_context *context)
+static ff_node *request_of(study_context *context)
 {
-    fe_node *list = memory_arena_alloc(&context->arena, sizeof *list);
-    *list = (fe_node){.kind = FE_SEQUENCE, .count = context->output_count};
+    ff_node *list = memory_arena_alloc(&context->arena, sizeof *list);
+    *list = (ff_node){.kind = FF_SEQUENCE, .count = context->output_count};
     list->items = memory_arena_alloc(&context->arena, (list->count + 1) * sizeof *list->items);
     for (size_t i = 0; i < list->count; i++) {
         list->items[i] = memory_arena_alloc(&context->arena, sizeof **list->items);
-        *list->items[i] = (fe_node){.kind = FE_SCALAR,
+        *list->items[i] = (ff_node){.kind = FF_SCALAR,
                                     .place = context->outputs[i]->place,
                                     .text = context->outputs[i]->text};
         if (i == 0)
@@ -50,7 +50,7 @@ static void add_knob(study_context *context, study_measure *m, const char *assig
     if (!strncmp(assignment, prefix, sizeof prefix - 1))
         assignment += sizeof prefix - 1;
     size_t length = strcspn(assignment, ".="), i = 0;
-    for (const char *const *top = fe_pipeline_top_keys; *top; top++)
+    for (const char *const *top = ff_file_keys(); *top; top++)
         m->all = m->all || (strlen(*top) == length && !strncmp(*top, assignment, length));
     while (i < m->knob_count &&
            (strlen(m->knobs[i]) != length || strncmp(m->knobs[i], assignment, length) != 0))
@@ -60,7 +60,7 @@ static void add_knob(study_context *context, study_measure *m, const char *assig
 }
 
 /* Returns what is measured beside the scalars; NULL when nothing is. */
-static study_measure *measure_of(study_context *context, const fe_node *request)
+static study_measure *measure_of(study_context *context, const ff_node *request)
 {
     size_t most = context->planned * context->path_count + context->stage_count + 1;
     if (!context->measured)
@@ -81,7 +81,7 @@ static study_measure *measure_of(study_context *context, const fe_node *request)
 static void lay_out_planned(study_context *context, study_definition *study)
 {
     const study_definition *grid = context->grid;
-    const fe_node *request = request_of(context);
+    const ff_node *request = request_of(context);
     context->planned = context->list.count;
     context->measure = measure_of(context, request);
     study->request = context->list.request = request;
@@ -99,14 +99,14 @@ static void lay_out_planned(study_context *context, study_definition *study)
 }
 
 /* Reports an unknown key, with the nearest known one or the name of the driver. */
-static void refuse_key(const study_driver_row *row, const char *key, fe_place place,
-                       fe_report *report)
+static void refuse_key(const study_driver_row *row, const char *key, ff_place place,
+                       ff_report *report)
 {
     const char **names = memory_alloc(row->key_count * sizeof *names);
     for (size_t i = 0; i < row->key_count; i++)
         names[i] = row->keys[i].name;
-    const char *near = fe_nearest(key, names, row->key_count);
-    fe_error(report, FE_EXIT_INPUT, place, NULL, "%s: unknown key \"%.80s\"%s%s%s", row->name, key,
+    const char *near = ff_nearest(key, names, row->key_count);
+    ff_error(report, FF_FAULT_INPUT, place, NULL, "%s: unknown key \"%.80s\"%s%s%s", row->name, key,
              near ? "; did you mean \"" : " for study/", near ? near : row->name,
              near ? "\"?" : "");
     free(names);
@@ -120,64 +120,64 @@ static const ff_param *find_key(const study_driver_row *row, const char *key)
     return NULL;
 }
 
-static bool check_keys(const study_driver_row *row, const fe_node *map, fe_report *report)
+static bool check_keys(const study_driver_row *row, const ff_node *map, ff_report *report)
 {
-    size_t errors = fe_report_errors(report);
+    size_t errors = ff_report_errors(report);
     for (size_t i = 0; i < map->count; i++)
         if (strncmp(map->keys[i], "x-", 2) != 0 && !find_key(row, map->keys[i]))
             refuse_key(row, map->keys[i], map->key_places[i], report);
     for (size_t i = 0; i < row->key_count; i++) {
         const ff_param *key = &row->keys[i];
-        if (!(key->flags & FF_REQUIRED) || fe_node_get(map, key->name))
+        if (!(key->flags & FF_REQUIRED) || ff_node_get(map, key->name))
             continue;
         char *hint = memory_print_text("%s: a value, a list or a map", key->name);
-        fe_error(report, FE_EXIT_INPUT, map->place, hint, "%s: \"%s\" is missing: %s", row->name,
+        ff_error(report, FF_FAULT_INPUT, map->place, hint, "%s: \"%s\" is missing: %s", row->name,
                  key->name, key->doc);
         free(hint);
     }
-    return fe_report_errors(report) == errors;
+    return ff_report_errors(report) == errors;
 }
 
 /* Reads a key that has a type, from its node or its preset. */
 static bool read_value(const study_driver_row *row, const ff_param *key, study_key_value *value,
-                       fe_report *report)
+                       ff_report *report)
 {
     char name[192], why[200];
-    fe_unit unit;
+    ff_unit unit;
     snprintf(name, sizeof name, "%s.%s", row->name, key->name);
-    fe_unit_parse(*key->unit ? key->unit : "1", &unit, why, sizeof why);
-    return value->node   ? fe_param_read(key, &unit, name, value->node, &value->value, report)
-           : key->preset ? fe_param_read_preset(key, &unit, name, &value->value, report)
+    ff_unit_parse(*key->unit ? key->unit : "1", &unit, why, sizeof why);
+    return value->node   ? ff_param_read(key, &unit, name, value->node, &value->value, report)
+           : key->preset ? ff_param_read_preset(key, &unit, name, &value->value, report)
                          : true;
 }
 
-static bool read_keys(study_driver *driver, const fe_node *map, fe_report *report)
+static bool read_keys(study_driver *driver, const ff_node *map, ff_report *report)
 {
     const study_driver_row *row = driver->row;
-    size_t errors = fe_report_errors(report);
+    size_t errors = ff_report_errors(report);
     study_key_value *values = memory_alloc(row->key_count * sizeof *values);
     check_keys(row, map, report);
     for (size_t i = 0; i < row->key_count; i++) {
-        values[i].node = fe_node_get(map, row->keys[i].name);
+        values[i].node = ff_node_get(map, row->keys[i].name);
         if (row->keys[i].type != STUDY_TREE)
             read_value(row, &row->keys[i], &values[i], report);
     }
-    bool good = fe_report_errors(report) == errors;
+    bool good = ff_report_errors(report) == errors;
     if (good && row->keys == study_map_keys)
         driver->map = study_map_read(&driver->context, values);
     else if (good)
         driver->tradeoff = study_tradeoff_read(&driver->context, values);
     for (size_t i = 0; i < row->key_count; i++)
-        fe_value_clear(&values[i].value);
+        ff_value_clear(&values[i].value);
     free(values);
     return driver->map || driver->tradeoff;
 }
 
-static bool open_driver(study_definition *study, const fe_node *node, const study_driver_row *row,
-                        fe_report *report)
+static bool open_driver(study_definition *study, const ff_node *node, const study_driver_row *row,
+                        ff_report *report)
 {
     study_driver *driver = study->driver = memory_alloc(sizeof *driver);
-    const fe_node *map = fe_node_get(node, row->name);
+    const ff_node *map = ff_node_get(node, row->name);
     driver->row = row;
     driver->context = (study_context){
         .name = row->name, .report = report, .further = "", .list = *study, .verdict = -1};
@@ -185,8 +185,8 @@ static bool open_driver(study_definition *study, const fe_node *node, const stud
     driver->context.list.points = &driver->context.list.count;
     driver->context.list.axis_count = driver->context.list.followed =
         driver->context.list.direction = 1;
-    if (map->kind != FE_MAP)
-        return fe_error(report, FE_EXIT_INPUT, map->place, NULL,
+    if (map->kind != FF_MAP)
+        return ff_error(report, FF_FAULT_INPUT, map->place, NULL,
                         "%s: expected a map; flankfilm schema lists what may stand there",
                         row->name);
     if (!read_keys(driver, map, report))
@@ -195,14 +195,14 @@ static bool open_driver(study_definition *study, const fe_node *node, const stud
     for (size_t i = 0; i < node->count; i++)
         for (const char *const *own = study_keys; *own; own++)
             if (!strcmp(node->keys[i], *own) && !strstr(*own, "_limit"))
-                return fe_error(report, FE_EXIT_INPUT, map->place, NULL,
+                return ff_error(report, FF_FAULT_INPUT, map->place, NULL,
                                 "study: %s: a study either sweeps or %s: write two files",
                                 row->name, row->verb);
     return true;
 }
 
 /* Returns the driver that a key names, or NULL. Unknown keys are errors. */
-static const study_driver_row *find_driver(const fe_node *node, fe_report *report)
+static const study_driver_row *find_driver(const ff_node *node, ff_report *report)
 {
     enum { MOST = 16 };
     const char *known[MOST];
@@ -214,12 +214,12 @@ static const study_driver_row *find_driver(const fe_node *node, fe_report *repor
         known[count++] = row->name;
     known[count] = NULL;
     study_check_keys(node, "", known, report);
-    for (size_t i = 0; node->kind == FE_MAP && i < node->count; i++)
+    for (size_t i = 0; node->kind == FF_MAP && i < node->count; i++)
         for (const study_driver_row *row = study_drivers; row->name; row++) {
             if (strcmp(node->keys[i], row->name) != 0)
                 continue;
             if (found)
-                fe_error(report, FE_EXIT_INPUT, node->key_places[i], NULL,
+                ff_error(report, FF_FAULT_INPUT, node->key_places[i], NULL,
                          "study: \"%s\" and \"%s\" exclude each other: write two files",
                          found->name, row->name);
             found = row;
@@ -227,11 +227,11 @@ static const study_driver_row *find_driver(const fe_node *node, fe_report *repor
     return found;
 }
 
-study_definition *study_open(const fe_node *node, fe_report *report)
+study_definition *study_open(const ff_node *node, ff_report *report)
 {
-    size_t errors = fe_report_errors(report);
+    size_t errors = ff_report_errors(report);
     const study_driver_row *row = find_driver(node, report);
-    if (fe_report_errors(report) > errors)
+    if (ff_report_errors(report) > errors)
         return NULL;
     if (!row)
         return study_read(node, report);
@@ -251,12 +251,12 @@ void study_free(study_definition *study)
 }
 
 /* Checks that the pipeline has the stage of "stage.name". */
-static bool check_stage(const study_context *context, const fe_pipeline *pipeline, const char *path,
-                        fe_report *report)
+static bool check_stage(const study_context *context, const ff_pipeline *pipeline, const char *path,
+                        ff_report *report)
 {
     const char *name;
-    return fe_stage_of(pipeline, path, &name) ||
-           fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+    return ff_stage_of(pipeline, path, &name) ||
+           ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                     "%s: %s: the pipeline has no stage \"%.*s\"", context->name, path,
                     (int)strcspn(path, "."), path);
 }
@@ -269,23 +269,23 @@ static bool is_too_much(const study_context *context, const char *dims)
     return context->measured ? field : series;
 }
 
-static void check_output(const study_context *context, const fe_pipeline *pipeline,
-                         const fe_node *asked, fe_report *report)
+static void check_output(const study_context *context, const ff_pipeline *pipeline,
+                         const ff_node *asked, ff_report *report)
 {
     const char *name;
-    const fe_stage *stage = fe_stage_of(pipeline, asked->text, &name);
+    const ff_stage *stage = ff_stage_of(pipeline, asked->text, &name);
     const ff_model *model = stage && stage->results ? stage->loaded->model : NULL;
     int output = model ? ff_model_find_output(model, name) : -1;
     const ff_port *row = output >= 0 ? stage->results[output].row : NULL;
     if (row && row->dims && is_too_much(context, row->dims))
-        fe_error(report, FE_EXIT_INPUT, asked->place,
+        ff_error(report, FF_FAULT_INPUT, asked->place,
                  context->measured ? NULL : "name a scalar, such as a mean or an extreme value",
                  context->measured ? "%s: %s is a field; name scalars and series"
                                    : "%s: %s is a series or a field, which cannot be compared",
                  context->name, asked->text);
 }
 
-void study_check(const study_definition *study, const fe_pipeline *pipeline, fe_report *report)
+void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_report *report)
 {
     const study_context *context = study->driver ? &study->driver->context : NULL;
     size_t scaled = 0;
@@ -300,7 +300,7 @@ void study_check(const study_definition *study, const fe_pipeline *pipeline, fe_
         scaled += param != SIZE_MAX;
     }
     if (context && context->knobs && scaled == 0)
-        fe_warn(report, FE_NOWHERE,
+        ff_warn(report, FF_NOWHERE,
                 "%s: no number is refined, so that verdicts rest on the quality alone",
                 context->name);
 }
@@ -309,11 +309,11 @@ void study_check(const study_definition *study, const fe_pipeline *pipeline, fe_
    first error at each place is reported. */
 static bool open_cases(const study_context *context, const study_run *run)
 {
-    fe_place wrong = FE_NOWHERE;
+    ff_place wrong = FF_NOWHERE;
     bool good = true;
     for (size_t i = 0; i < context->planned; i++) {
         const study_submitted *submitted = &context->cases[i];
-        const fe_place place = submitted->place;
+        const ff_place place = submitted->place;
         study_case c;
         if (context->repeats[i] > 0 || (wrong.source && wrong.source == place.source &&
                                         wrong.line == place.line && wrong.column == place.column))
@@ -321,7 +321,7 @@ static bool open_cases(const study_context *context, const study_run *run)
         study_case_open(&c, run, i);
         if (!study_case_is_good(&c)) {
             char *why = study_first_error(c.report);
-            good = fe_error(context->report, FE_EXIT_INPUT, place, NULL, "%s: %s: %s",
+            good = ff_error(context->report, FF_FAULT_INPUT, place, NULL, "%s: %s: %s",
                             context->name, submitted->label, why);
             free(why);
             wrong = place;
@@ -331,7 +331,7 @@ static bool open_cases(const study_context *context, const study_run *run)
     return good;
 }
 
-bool study_drive(const study_run *run, study_counters *counters, fe_report *report)
+bool study_drive(const study_run *run, study_counters *counters, ff_report *report)
 {
     study_driver *driver = run->study->driver;
     study_context *context = &driver->context;
@@ -350,7 +350,7 @@ bool study_drive(const study_run *run, study_counters *counters, fe_report *repo
             study_write_file(run->directory, context->files[i].name, context->files[i].text,
                              "the journal has all cases; the same command writes the file", report);
     context->run = NULL;
-    return good && fe_report_errors(report) == 0;
+    return good && ff_report_errors(report) == 0;
 }
 
 const char *study_cases(const study_definition *study)

@@ -11,7 +11,7 @@
 const char study_description[] = "study.json";
 
 bool study_write_file(const char *directory, const char *name, const char *text, const char *hint,
-                      fe_report *report)
+                      ff_report *report)
 {
     char *path = memory_print_text("%s/%s", directory, name);
     char *part = memory_print_text("%s.%ld.part", path,
@@ -24,7 +24,7 @@ bool study_write_file(const char *directory, const char *name, const char *text,
     if (!good) {
         int cause = errno;
         unlink(part);
-        fe_error(report, FE_EXIT_FAILED, FE_NOWHERE, hint, "%s could not be written: %s", path,
+        ff_error(report, FF_FAULT_RUN, FF_NOWHERE, hint, "%s could not be written: %s", path,
                  strerror(cause));
     }
     free(path);
@@ -32,7 +32,7 @@ bool study_write_file(const char *directory, const char *name, const char *text,
     return good;
 }
 
-bool study_describe(const study_run *run, fe_report *report)
+bool study_describe(const study_run *run, ff_report *report)
 {
     char *text = NULL;
     size_t length = 0;

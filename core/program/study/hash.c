@@ -35,7 +35,7 @@ uint64_t study_hash_file(uint64_t hash, const char *path)
     return hash_number(hash, stream != NULL);
 }
 
-static uint64_t hash_param(uint64_t hash, const fe_bound *bound)
+static uint64_t hash_param(uint64_t hash, const ff_bound *bound)
 {
     const ff_value *value = &bound->value;
     double real = value->real + 0.0; /* turns -0 into 0 */
@@ -54,7 +54,7 @@ static uint64_t hash_param(uint64_t hash, const fe_bound *bound)
     return study_hash_text(hash, value->text);
 }
 
-uint64_t study_hash_setup(const fe_stage *stage)
+uint64_t study_hash_setup(const ff_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     uint64_t hash = study_hash_text(STUDY_HASH_START, model->id);
@@ -72,12 +72,12 @@ uint64_t study_hash_setup(const fe_stage *stage)
     return hash;
 }
 
-uint64_t study_fingerprint(const fe_pipeline *pipeline, uint64_t *fingerprints)
+uint64_t study_fingerprint(const ff_pipeline *pipeline, uint64_t *fingerprints)
 {
     uint64_t whole = STUDY_HASH_START;
     for (size_t i = 0; i < pipeline->count; i++) {
         size_t at = pipeline->order[i];
-        const fe_stage *stage = &pipeline->stages[at];
+        const ff_stage *stage = &pipeline->stages[at];
         if (!stage->needed)
             continue;
         fingerprints[at] = study_hash_setup(stage);
@@ -88,7 +88,7 @@ uint64_t study_fingerprint(const fe_pipeline *pipeline, uint64_t *fingerprints)
         }
     }
     for (size_t i = 0; i < pipeline->count; i++) {
-        const fe_stage *stage = &pipeline->stages[i];
+        const ff_stage *stage = &pipeline->stages[i];
         for (size_t k = 0; stage->needed && k < stage->loaded->model->output_count; k++)
             if (stage->results[k].requested) {
                 whole = hash_number(study_hash_text(whole, stage->name), fingerprints[i]);
@@ -98,7 +98,7 @@ uint64_t study_fingerprint(const fe_pipeline *pipeline, uint64_t *fingerprints)
     return whole;
 }
 
-static const fe_wire *find_wire(const fe_stage *stage, const char *name)
+static const ff_wire *find_wire(const ff_stage *stage, const char *name)
 {
     for (size_t i = 0; i < stage->wire_count; i++)
         if (!strcmp(stage->wires[i].name, name))
@@ -106,14 +106,14 @@ static const fe_wire *find_wire(const fe_stage *stage, const char *name)
     return NULL;
 }
 
-uint64_t study_hash_evaluation(const fe_pipeline *pipeline, const fe_stage *stage,
+uint64_t study_hash_evaluation(const ff_pipeline *pipeline, const ff_stage *stage,
                                const uint64_t *fingerprints)
 {
     uint64_t hash = study_hash_text(study_hash_setup(stage), "file format 2");
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
         const ff_port *row = ff_model_input(stage->loaded->model, i);
-        const fe_wire *wire = row->service ? find_wire(stage, row->name) : NULL;
-        const fe_result *given = fe_feeding_result(pipeline, stage, i);
+        const ff_wire *wire = row->service ? find_wire(stage, row->name) : NULL;
+        const ff_result *given = ff_feeding_result(pipeline, stage, i);
         hash = study_hash_text(hash, row->name);
         if (wire && wire->stage >= 0)
             hash = hash_number(hash, fingerprints[wire->stage]);

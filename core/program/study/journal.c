@@ -167,16 +167,16 @@ static bool lock_file(int fd, int how)
     return state == 0 || errno != EWOULDBLOCK;
 }
 
-static bool claim_directory(const char *path, fe_report *report)
+static bool claim_directory(const char *path, ff_report *report)
 {
     return (study_make_path(path) && mark_directory(path)) ||
-           fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, "name another directory with -o",
+           ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "name another directory with -o",
                     errno ? "the result directory \"%s\" cannot be used: %s"
                           : "\"%s\" holds files that are not results of a study",
                     path, strerror(errno));
 }
 
-static bool open_files(study_journal *journal, const study_run *run, fe_report *report)
+static bool open_files(study_journal *journal, const study_run *run, ff_report *report)
 {
     static const char hint[] = "name another directory with -o";
     const char *path = run->directory;
@@ -187,7 +187,7 @@ static bool open_files(study_journal *journal, const study_run *run, fe_report *
     if (study_make_path(path))
         journal->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (journal->directory >= 0 && !lock_file(journal->directory, alone ? LOCK_EX : LOCK_SH))
-        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
+        return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, hint,
                         "another run is using the result directory \"%s\"", path);
     if (journal->directory >= 0 && !claim_directory(path, report))
         return false;
@@ -195,14 +195,14 @@ static bool open_files(study_journal *journal, const study_run *run, fe_report *
         journal->fd =
             openat(journal->directory, name, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
     if (journal->fd >= 0 && !lock_file(journal->fd, LOCK_EX))
-        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+        return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                         "another run works on shard %zu of \"%s\"", run->shard, path);
     return (journal->fd >= 0 && drop_torn_tail(journal->fd)) ||
-           fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, hint,
+           ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, hint,
                     "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
 }
 
-bool study_journal_open(study_journal *journal, const study_run *run, fe_report *report)
+bool study_journal_open(study_journal *journal, const study_run *run, ff_report *report)
 {
     *journal = (study_journal){.fd = -1, .directory = -1, .synced = study_seconds_now()};
     bool good = open_files(journal, run, report);
@@ -212,7 +212,7 @@ bool study_journal_open(study_journal *journal, const study_run *run, fe_report 
 }
 
 bool study_journal_append(study_journal *journal, const char *line, size_t length,
-                          fe_report *report)
+                          ff_report *report)
 {
     off_t before = lseek(journal->fd, 0, SEEK_END);
     ssize_t written = write(journal->fd, line, length);
@@ -222,7 +222,7 @@ bool study_journal_append(study_journal *journal, const char *line, size_t lengt
         int cause = errno;
         if (before >= 0 && ftruncate(journal->fd, before) != 0)
             cause = errno; /* the next run drops the incomplete line */
-        return fe_error(report, FE_EXIT_FAILED, FE_NOWHERE,
+        return ff_error(report, FF_FAULT_RUN, FF_NOWHERE,
                         "nothing that was finished is lost; the same command goes on",
                         "the journal could not be written: %s", strerror(cause));
     }

@@ -16,9 +16,9 @@ typedef struct study_journal {
 } study_journal;
 
 /* Locks the directory and this shard's journal in it, and drops an unfinished last line. */
-bool study_journal_open(study_journal *journal, const study_run *run, fe_report *report);
+bool study_journal_open(study_journal *journal, const study_run *run, ff_report *report);
 bool study_journal_append(study_journal *journal, const char *line, size_t length,
-                          fe_report *report);
+                          ff_report *report);
 void study_journal_close(study_journal *journal);
 /* Returns the record as a line with its checksum, to be freed. */
 char *study_journal_line(const json_t *record);
@@ -32,11 +32,11 @@ void study_savings_add(study_reuse_counts *savings, const json_t *record);
 
 /* file.c: writes a text file in the study's directory; hint may be NULL. */
 bool study_write_file(const char *directory, const char *name, const char *text, const char *hint,
-                      fe_report *report);
+                      ff_report *report);
 /* Writes the description of the study beside its journal. */
-bool study_describe(const study_run *run, fe_report *report);
+bool study_describe(const study_run *run, ff_report *report);
 
 /* table.c: writes table.csv; needs the keys of all cases. */
-bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], fe_report *report);
+bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_report *report);
 
 #endif

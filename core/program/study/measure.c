@@ -32,18 +32,18 @@ void study_measure_pin(void)
 
 /* Returns the result "stage.name" of a stage that runs; NULL when there is none, or it is a
    service. */
-static fe_result *find_result(const fe_pipeline *pipeline, const char *path, const fe_stage **stage)
+static ff_result *find_result(const ff_pipeline *pipeline, const char *path, const ff_stage **stage)
 {
     const char *name;
-    *stage = fe_stage_of(pipeline, path, &name);
+    *stage = ff_stage_of(pipeline, path, &name);
     bool runs = *stage && (*stage)->needed;
     int output = runs ? ff_model_find_output((*stage)->loaded->model, name) : -1;
-    fe_result *result = output < 0 ? NULL : &(*stage)->results[output];
+    ff_result *result = output < 0 ? NULL : &(*stage)->results[output];
     return result && !result->row->service ? result : NULL;
 }
 
 /* Ranks how well a result serves as what `self` is plotted against; 0 means not at all. */
-static int rank_as_axis(const study_measure *m, const fe_result *result, const fe_result *self)
+static int rank_as_axis(const study_measure *m, const ff_result *result, const ff_result *self)
 {
     const char *dims = self->row->dims, *unit = result->row->unit, *name = result->row->name;
     if (result == self || result->row->service || !result->row->dims || !dims ||
@@ -54,29 +54,29 @@ static int rank_as_axis(const study_measure *m, const fe_result *result, const f
     return !strcmp(name, dims) ? 3 : !strcmp(unit, "rad") ? 2 : !strcmp(unit, "s") ? 1 : 0;
 }
 
-void study_measure_want(const study_definition *study, const fe_pipeline *pipeline)
+void study_measure_want(const study_definition *study, const ff_pipeline *pipeline)
 {
     const study_measure *m = study->measure;
-    const fe_stage *stage;
+    const ff_stage *stage;
     for (size_t i = 0; m && i < m->request->count; i++) {
-        const fe_result *self = find_result(pipeline, m->request->items[i]->text, &stage);
+        const ff_result *self = find_result(pipeline, m->request->items[i]->text, &stage);
         for (size_t k = 0; self && k < stage->loaded->model->output_count; k++)
             if (rank_as_axis(m, &stage->results[k], self))
                 stage->results[k].wanted = true;
     }
     for (size_t i = 0; i < study->extra_count; i++) {
-        fe_result *result = find_result(pipeline, study->extras[i], &stage);
+        ff_result *result = find_result(pipeline, study->extras[i], &stage);
         if (result)
             result->wanted = result->requested = true;
     }
 }
 
-bool *study_measure_fresh(const study_measure *m, const fe_pipeline *pipeline)
+bool *study_measure_fresh(const study_measure *m, const ff_pipeline *pipeline)
 {
     bool *fresh = memory_alloc((pipeline->count + 1) * sizeof *fresh);
     for (size_t i = 0; i < pipeline->count; i++) {
         size_t at = pipeline->order[i];
-        const fe_stage *stage = &pipeline->stages[at];
+        const ff_stage *stage = &pipeline->stages[at];
         fresh[at] = m->all;
         for (size_t k = 0; k < m->knob_count; k++)
             fresh[at] = fresh[at] || !strcmp(m->knobs[k], stage->name);
@@ -86,7 +86,7 @@ bool *study_measure_fresh(const study_measure *m, const fe_pipeline *pipeline)
     return fresh;
 }
 
-static bool is_rising(const fe_result *result)
+static bool is_rising(const ff_result *result)
 {
     for (size_t i = 1; i < result->count; i++)
         if (!(result->data[i] >= result->data[i - 1]))
@@ -94,13 +94,13 @@ static bool is_rising(const fe_result *result)
     return result->count > 1 && result->data[result->count - 1] > result->data[0];
 }
 
-static const fe_result *find_axis(const study_measure *m, const fe_stage *stage,
-                                  const fe_result *self)
+static const ff_result *find_axis(const study_measure *m, const ff_stage *stage,
+                                  const ff_result *self)
 {
-    const fe_result *best = NULL;
+    const ff_result *best = NULL;
     int rank = 0;
     for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
-        const fe_result *result = &stage->results[k];
+        const ff_result *result = &stage->results[k];
         int here = result->data && result->rank == 1 && result->count == self->count
                        ? rank_as_axis(m, result, self)
                        : 0;
@@ -112,7 +112,7 @@ static const fe_result *find_axis(const study_measure *m, const fe_stage *stage,
     return best;
 }
 
-static json_t *numbers_of(const fe_result *result)
+static json_t *numbers_of(const ff_result *result)
 {
     json_t *list = json_array();
     for (size_t i = 0; i < result->count; i++)
@@ -122,14 +122,14 @@ static json_t *numbers_of(const fe_result *result)
 
 /* Adds {output: {unit, rank, values, along, at}}; the last two only for a series that is plotted
    against another. */
-static void add_output(const study_measure *m, const fe_pipeline *pipeline, const char *path,
+static void add_output(const study_measure *m, const ff_pipeline *pipeline, const char *path,
                        json_t *all)
 {
-    const fe_stage *stage;
-    const fe_result *result = find_result(pipeline, path, &stage);
+    const ff_stage *stage;
+    const ff_result *result = find_result(pipeline, path, &stage);
     if (!result || !result->data)
         return;
-    const fe_result *axis = result->rank == 1 ? find_axis(m, stage, result) : NULL;
+    const ff_result *axis = result->rank == 1 ? find_axis(m, stage, result) : NULL;
     json_t *one = json_pack("{s:s, s:i, s:o}", "unit", result->row->unit, "rank", (int)result->rank,
                             "values", numbers_of(result));
     if (axis)
@@ -140,7 +140,7 @@ static void add_output(const study_measure *m, const fe_pipeline *pipeline, cons
 
 /* The file counts only once the journal has the line of the case. */
 static bool write_values(const json_t *values, const char *directory, const char *key,
-                         fe_report *report)
+                         ff_report *report)
 {
     char *folder = memory_print_text("%s/values", directory),
          *name = memory_print_text("%s.json", key);
@@ -156,7 +156,7 @@ static bool write_values(const json_t *values, const char *directory, const char
 bool study_measure_record(const study_case *c, const study_run *run, size_t index, json_t *record)
 {
     const study_measure *m = run->study->measure;
-    const fe_pipeline *pipeline = c->pipeline;
+    const ff_pipeline *pipeline = c->pipeline;
     bool *fresh = study_measure_fresh(m, pipeline);
     json_t *values = json_object(), *work = json_object();
     for (size_t i = 0; i < m->request->count; i++)

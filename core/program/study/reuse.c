@@ -46,10 +46,10 @@ static char *read_text(FILE *in)
     return text;
 }
 
-static void write_results(const fe_stage *stage, FILE *out)
+static void write_results(const ff_stage *stage, FILE *out)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const fe_result *result = &stage->results[i];
+        const ff_result *result = &stage->results[i];
         int32_t rank = result->data ? (int32_t)result->rank : -1;
         fwrite(&rank, sizeof rank, 1, out);
         fwrite(result->shape, sizeof *result->shape, rank > 0 ? (size_t)rank : 0, out);
@@ -59,7 +59,7 @@ static void write_results(const fe_stage *stage, FILE *out)
     fwrite(&stage->seconds, sizeof stage->seconds, 1, out);
     fwrite(&stage->quality_count, sizeof stage->quality_count, 1, out);
     for (size_t i = 0; i < stage->quality_count; i++) {
-        const fe_quality *line = &stage->quality[i];
+        const ff_quality *line = &stage->quality[i];
         fwrite(&line->value, sizeof line->value, 1, out);
         fwrite(&line->limit, sizeof line->limit, 1, out);
         fwrite(&line->verdict, sizeof line->verdict, 1, out);
@@ -70,39 +70,39 @@ static void write_results(const fe_stage *stage, FILE *out)
 
 /* Reads what write_results wrote, whose checksum has been verified. False when a wanted result is
    missing. */
-static bool read_results(fe_stage *stage, FILE *in)
+static bool read_results(ff_stage *stage, FILE *in)
 {
     bool all = true;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        fe_result *result = &stage->results[i];
+        ff_result *result = &stage->results[i];
         int32_t rank;
         read_bytes(in, &rank, sizeof rank);
         all = all && (rank >= 0 || !result->wanted); /* the model may not have given it */
         if (rank < 0)
             continue;
-        size_t shape[FE_MAX_RANK];
+        size_t shape[FF_MAX_RANK];
         read_bytes(in, shape, (uint32_t)rank * sizeof *shape);
-        fe_result_fill(result, (uint32_t)rank, shape);
+        ff_result_fill(result, (uint32_t)rank, shape);
         read_bytes(in, result->data, result->count * sizeof *result->data);
     }
     size_t lines;
     read_bytes(in, &stage->seconds, sizeof stage->seconds);
     read_bytes(in, &lines, sizeof lines);
     for (size_t i = 0; i < lines; i++) {
-        fe_quality line;
+        ff_quality line;
         read_bytes(in, &line.value, sizeof line.value);
         read_bytes(in, &line.limit, sizeof line.limit);
         read_bytes(in, &line.verdict, sizeof line.verdict);
         line.name = read_text(in);
         line.text = read_text(in);
-        fe_add_quality(stage, line.name, line.value, line.limit, line.verdict, line.text);
+        ff_add_quality(stage, line.name, line.value, line.limit, line.verdict, line.text);
         free(line.name);
         free(line.text);
     }
     return all;
 }
 
-static bool read_kept(int fd, fe_stage *stage)
+static bool read_kept(int fd, ff_stage *stage)
 {
     struct stat info;
     uint64_t sum;
@@ -121,7 +121,7 @@ static bool read_kept(int fd, fe_stage *stage)
     return good;
 }
 
-bool study_reuse_recall(void *ctx, const fe_pipeline *pipeline, fe_stage *stage)
+bool study_reuse_recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
 {
     study_reuse *reuse = ctx;
     size_t index = (size_t)(stage - pipeline->stages);
@@ -146,7 +146,7 @@ bool study_reuse_recall(void *ctx, const fe_pipeline *pipeline, fe_stage *stage)
 }
 
 /* Returns the number of bytes written. */
-static size_t write_kept(int fd, const fe_stage *stage)
+static size_t write_kept(int fd, const ff_stage *stage)
 {
     char *text = NULL;
     size_t length = 0;
@@ -168,7 +168,7 @@ static size_t write_kept(int fd, const fe_stage *stage)
     return length;
 }
 
-void study_reuse_keep(void *ctx, const fe_pipeline *pipeline, const fe_stage *stage)
+void study_reuse_keep(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage)
 {
     study_reuse *reuse = ctx;
     size_t index = (size_t)(stage - pipeline->stages);

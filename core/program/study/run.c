@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs a study: hands out cases and writes their answers to the journal. */
+#include <flankfilm/engine.h>
+
 #include "chain.h"
 #include "journal.h"
 #include "workers.h"
-
-#include "../../engine/plugin/guard.h"
 
 #include <signal.h>
 #include <stdlib.h>
@@ -13,7 +13,7 @@
 
 typedef struct execution {
     const study_run *run;
-    fe_report *report;
+    ff_report *report;
     study_counters *counters;
     study_journal journal;
     bool open;    /* whether the journal is open */
@@ -45,7 +45,7 @@ static size_t end_of_chains(const study_run *run)
 static int32_t begin_leading(void *ctx)
 {
     execution *r = ctx;
-    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
     const study_run *run = r->run;
     size_t total = run->study->count, first = run->shard - 1;
     size_t chains = end_of_chains(run) - run->begin;
@@ -66,7 +66,7 @@ static int32_t begin_leading(void *ctx)
     } else {
         r->counters->total = 0;
     }
-    fe_guard_leave(mark);
+    ff_guard_leave(mark);
     return r->open ? 0 : -1;
 }
 
@@ -88,7 +88,7 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
     bool good = verdict == STUDY_VERDICT_GOOD || verdict == STUDY_VERDICT_KNOWN;
     bool known = verdict == STUDY_VERDICT_KNOWN || verdict == STUDY_VERDICT_KNOWN_BAD;
     if (verdict == STUDY_VERDICT_FATAL)
-        return fe_error(r->report, FE_EXIT_FAILED, FE_NOWHERE,
+        return ff_error(r->report, FF_FAULT_RUN, FF_NOWHERE,
                         "nothing that was finished is lost; the same command goes on", "%.*s",
                         (int)strcspn(text, "\n"), text);
     if (!known && !study_journal_append(&r->journal, text, strlen(text), r->report))
@@ -110,16 +110,16 @@ static void note_answer(void *ctx, const void *answer, size_t size)
     char key[STUDY_KEY_SIZE], verdict;
     size_t index;
     int length = 0;
-    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
     bool whole = r->keys && size > 0 && text[size - 1] == '\0' &&
                  sscanf(text, "%zu %19s %c%n", &index, key, &verdict, &length) == 3 &&
                  index < r->run->study->count && text[length] == ' ';
     if (!whole)
-        fe_error(r->report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL,
+        ff_error(r->report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL,
                  "the answer to a case cannot be read");
     if (!whole || !record_answer(r, index, key, verdict, text + length + 1))
         r->ending = true;
-    fe_guard_leave(mark);
+    ff_guard_leave(mark);
 }
 
 static void start_chain(void *ctx, size_t task)
@@ -144,7 +144,7 @@ static int32_t wait_for_answer(void *ctx, int32_t milliseconds, size_t *task, co
                                size_t *size)
 {
     execution *r = ctx;
-    fe_guard_mark mark = fe_guard_enter(NULL, NULL, NULL);
+    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
     bool forked = r->run->executor != NULL;
     r->pool.ending = r->ending || interrupts;
     int state = forked ? study_fork_server_wait(&r->fork_server, milliseconds, task)
@@ -154,7 +154,7 @@ static int32_t wait_for_answer(void *ctx, int32_t milliseconds, size_t *task, co
         *size = strlen(*answer) + 1;
     }
     show_progress(r);
-    fe_guard_leave(mark);
+    ff_guard_leave(mark);
     return state;
 }
 
@@ -188,7 +188,7 @@ static ff_status call_executor(const void *table, void *ctx)
 
 static bool run_cases(execution *r)
 {
-    const fe_service *executor = r->run->executor;
+    const ff_service *executor = r->run->executor;
     ff_tasks tasks = {.size = sizeof tasks,
                       .ctx = r,
                       .slots = r->run->jobs,
@@ -201,8 +201,8 @@ static bool run_cases(execution *r)
         return run_here(r);
     bool good =
         study_fork_server_start(&r->fork_server, r->run)
-            ? fe_service_call(executor, "run", call_executor, &tasks, r->report)
-            : fe_error(r->report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "no process could be started");
+            ? ff_service_call(executor, "run", call_executor, &tasks, r->report)
+            : ff_error(r->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "no process could be started");
     study_fork_server_end(&r->fork_server);
     return good;
 }
@@ -246,20 +246,20 @@ static void finish_run(execution *r)
     if (run->progress)
         run->progress(run->ctx, r->counters);
     if (interrupts)
-        fe_error(r->report, FE_EXIT_FAILED, FE_NOWHERE, "the same command goes on with the rest",
+        ff_error(r->report, FF_FAULT_RUN, FF_NOWHERE, "the same command goes on with the rest",
                  "the study was stopped");
     else if (r->counters->done < r->counters->total && !r->ending &&
-             fe_report_errors(r->report) == 0)
-        fe_error(r->report, FE_EXIT_PLUGIN, FE_NOWHERE, "the same command goes on with the rest",
+             ff_report_errors(r->report) == 0)
+        ff_error(r->report, FF_FAULT_PLUGIN, FF_NOWHERE, "the same command goes on with the rest",
                  "the executor left %zu cases undone", r->counters->total - r->counters->done);
-    if (fe_report_errors(r->report) == 0 && !run->end) {
+    if (ff_report_errors(r->report) == 0 && !run->end) {
         find_keys(r);
         study_table_write(run, r->keys, r->report);
     }
     study_journal_close(&r->journal);
 }
 
-bool study_execute(const study_run *run, study_counters *counters, fe_report *report)
+bool study_execute(const study_run *run, study_counters *counters, ff_report *report)
 {
     execution r = {.run = run, .report = report, .counters = counters};
     struct sigaction before[2];
@@ -273,5 +273,5 @@ bool study_execute(const study_run *run, study_counters *counters, fe_report *re
     json_decref(r.done);
     if (!run->keys)
         free(r.keys);
-    return fe_report_errors(report) == 0;
+    return ff_report_errors(report) == 0;
 }

@@ -8,7 +8,7 @@
 
 bool study_case_is_good(const study_case *c)
 {
-    return c->pipeline && fe_report_errors(c->report) == 0;
+    return c->pipeline && ff_report_errors(c->report) == 0;
 }
 
 json_t *study_case_setups(const study_case *c)
@@ -16,7 +16,7 @@ json_t *study_case_setups(const study_case *c)
     json_t *setups = json_object();
     char text[20];
     for (size_t i = 0; study_case_is_good(c) && i < c->pipeline->count; i++) {
-        const fe_stage *stage = &c->pipeline->stages[i];
+        const ff_stage *stage = &c->pipeline->stages[i];
         if (!stage->needed)
             continue;
         snprintf(text, sizeof text, "%016llx", (unsigned long long)study_hash_setup(stage));
@@ -25,7 +25,7 @@ json_t *study_case_setups(const study_case *c)
     return setups;
 }
 
-static json_t *describe_setup(const fe_stage *stage)
+static json_t *describe_setup(const ff_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     json_t *values = json_object();
@@ -36,7 +36,7 @@ static json_t *describe_setup(const fe_stage *stage)
     for (size_t i = 0; i < model->param_count; i++) {
         if (!stage->params[i].present)
             continue;
-        fe_bound_print(stage, i, text, sizeof text);
+        ff_bound_print(stage, i, text, sizeof text);
         json_object_set_new(values, stage->params[i].row->name, json_string(text));
     }
     text[0] = '\0';

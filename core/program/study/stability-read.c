@@ -7,7 +7,7 @@
 
 enum { MOST_HALVINGS = 40 };
 
-static bool refuse(const study_map *map, const fe_node *where, const char *hint, const char *what)
+static bool refuse(const study_map *map, const ff_node *where, const char *hint, const char *what)
 {
     return study_context_refuse(map->context, where, hint, what);
 }
@@ -17,15 +17,15 @@ static void *allocate(const study_map *map, size_t count, size_t size)
     return memory_arena_alloc(&map->context->arena, (count + 1) * size);
 }
 
-static bool is_range(const fe_node *axis)
+static bool is_range(const ff_node *axis)
 {
-    return fe_node_get(axis, "from");
+    return ff_node_get(axis, "from");
 }
 
 /* Reads the axes, which are written as those of a sweep. */
 static bool read_axes(study_map *map)
 {
-    const fe_node *axes = map->values[MAP_AXES].node;
+    const ff_node *axes = map->values[MAP_AXES].node;
     if (!study_is_map(axes) || axes->count == 0)
         return refuse(map, axes,
                       "write axes: {duty.torque: {from: 1 N m, to: 1000 N m, points: 7, "
@@ -38,12 +38,12 @@ static bool read_axes(study_map *map)
 
 static bool read_halvings(study_map *map)
 {
-    const fe_node *axes = map->values[MAP_AXES].node, *bisect = map->values[MAP_BISECT].node;
+    const ff_node *axes = map->values[MAP_AXES].node, *bisect = map->values[MAP_BISECT].node;
     map->halvings = allocate(map, axes->count, sizeof *map->halvings);
     map->log = allocate(map, axes->count, sizeof *map->log);
     for (size_t a = 0; a < axes->count; a++) {
-        const char *spacing = study_word(fe_node_get(axes->items[a], "spacing"));
-        const fe_node *own = study_is_map(bisect) ? fe_node_get(bisect, axes->keys[a]) : bisect;
+        const char *spacing = study_word(ff_node_get(axes->items[a], "spacing"));
+        const ff_node *own = study_is_map(bisect) ? ff_node_get(bisect, axes->keys[a]) : bisect;
         const char *text = study_word(own), *end = "";
         double value = 0;
         map->log[a] = is_range(axes->items[a]) && spacing && !strcmp(spacing, "log");
@@ -54,7 +54,7 @@ static bool read_halvings(study_map *map)
         map->halvings[a] = is_range(axes->items[a]) ? (size_t)value : 0;
     }
     for (size_t i = 0; study_is_map(bisect) && i < bisect->count; i++) {
-        const fe_node *axis = fe_node_get(axes, bisect->keys[i]);
+        const ff_node *axis = ff_node_get(axes, bisect->keys[i]);
         if (!axis || !is_range(axis))
             return refuse(map, bisect->items[i], NULL,
                           "\"bisect\" names an axis that has \"from\" and \"to\"");
@@ -63,18 +63,18 @@ static bool read_halvings(study_map *map)
 }
 
 /* Returns the items of a list; a word counts as a list of one. */
-static const fe_node *const *items_of(const fe_node *const *list, size_t *count)
+static const ff_node *const *items_of(const ff_node *const *list, size_t *count)
 {
-    bool word = (*list)->kind == FE_SCALAR;
+    bool word = (*list)->kind == FF_SCALAR;
     *count = word ? 1 : (*list)->count;
-    return word ? list : (const fe_node *const *)(*list)->items;
+    return word ? list : (const ff_node *const *)(*list)->items;
 }
 
 /* Reads a list of "stage.name"; NULL after an error. */
-static const char **read_names(const study_map *map, const fe_node *list, const char *what,
+static const char **read_names(const study_map *map, const ff_node *list, const char *what,
                                size_t *count)
 {
-    const fe_node *const *items = items_of(&list, count);
+    const ff_node *const *items = items_of(&list, count);
     const char **names = allocate(map, *count, sizeof *names);
     for (size_t i = 0; i < *count; i++) {
         const char *word = study_word(items[i]), *text = word ? word : "";
@@ -92,7 +92,7 @@ static const char **read_names(const study_map *map, const fe_node *list, const 
 
 static bool read_claims(study_map *map)
 {
-    const fe_node *outputs = map->values[MAP_OUTPUTS].node,
+    const ff_node *outputs = map->values[MAP_OUTPUTS].node,
                   *estimates = map->values[MAP_ESTIMATES].node;
     if (!outputs || (!study_word(outputs) && outputs->count == 0))
         return refuse(map, outputs, "write outputs: [film.h_min_lowest]",
@@ -123,12 +123,12 @@ static bool read_claims(study_map *map)
 /* Reads a list of knobs to double, or a map from knobs to factors. */
 static bool read_knobs(study_map *map)
 {
-    const fe_node *refine = map->values[MAP_REFINE].node;
+    const ff_node *refine = map->values[MAP_REFINE].node;
     size_t count = refine ? refine->count : 0;
     map->knobs = allocate(map, count, sizeof *map->knobs);
     map->factors = allocate(map, count, sizeof *map->factors);
     for (size_t i = 0; i < count; i++) {
-        const fe_node *item = refine->items[i];
+        const ff_node *item = refine->items[i];
         const char *text = study_word(item), *end;
         const char *path = study_is_map(refine) ? refine->keys[i] : text;
         double factor = 2;
@@ -163,9 +163,9 @@ static bool read_condition(const study_map *map, const char *text, study_conditi
 /* Reads a list of conditions, or a map from conditions to the lines that warn because of them. */
 static bool read_physical(study_map *map)
 {
-    const fe_node *physical = map->values[MAP_PHYSICAL].node;
+    const ff_node *physical = map->values[MAP_PHYSICAL].node;
     size_t count = 0;
-    const fe_node *const *items = physical ? items_of(&physical, &count) : NULL;
+    const ff_node *const *items = physical ? items_of(&physical, &count) : NULL;
     map->physical = allocate(map, count, sizeof *map->physical);
     for (size_t i = 0; i < count; i++) {
         bool by_name = study_is_map(physical);
@@ -185,7 +185,7 @@ static bool read_physical(study_map *map)
 
 static bool read_notes(study_map *map)
 {
-    const fe_node *notes = map->values[MAP_NOTES].node;
+    const ff_node *notes = map->values[MAP_NOTES].node;
     map->notes = allocate(map, notes ? notes->count : 0, sizeof *map->notes);
     for (size_t i = 0; notes && (i == 0 || i < notes->count); i++) {
         study_condition *c = &map->notes[map->note_count];
@@ -203,7 +203,7 @@ static bool read_notes(study_map *map)
 
 static bool read_kinds(study_map *map)
 {
-    const fe_node *range = map->values[MAP_RANGE].node;
+    const ff_node *range = map->values[MAP_RANGE].node;
     return (!range || (map->range = read_names(map, range, "range", &map->range_count))) &&
            read_physical(map) && read_notes(map);
 }
@@ -221,7 +221,7 @@ static bool read_share(const char *text, double *share)
 
 static bool read_tolerance(study_map *map)
 {
-    const fe_node *tolerance = map->values[MAP_TOLERANCE].node;
+    const ff_node *tolerance = map->values[MAP_TOLERANCE].node;
     map->tolerance = 0.01;
     return !tolerance ||
            (read_share(study_word(tolerance), &map->tolerance) && map->tolerance > 0) ||

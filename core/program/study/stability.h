@@ -86,7 +86,7 @@ extern const ff_param study_map_keys[STUDY_MAP_KEYS];
 typedef struct study_map {
     study_context *context;
     const study_key_value *values; /* only while they are read */
-    const fe_node *outputs;
+    const ff_node *outputs;
     const study_definition *grid;
     size_t axis_count;
     size_t *halvings; /* along each axis */

@@ -6,7 +6,8 @@
 #ifndef STUDY_H
 #define STUDY_H
 
-#include "../../engine/pipeline/service.h"
+#include <flankfilm/engine.h>
+
 #include "../memory/memory.h"
 
 struct json_t;
@@ -18,13 +19,13 @@ typedef struct study_varied {
     /* "path=value in YAML" for each point of the axis; "" assigns nothing */
     const char **assignments;
     const char **names;    /* of the points; NULL when their values are their names */
-    fe_place place;        /* of the path in its file; its source is NULL when no file has it */
-    const fe_node *values; /* one for each point; NULL when the program made the values */
+    ff_place place;        /* of the path in its file; its source is NULL when no file has it */
+    const ff_node *values; /* one for each point; NULL when the program made the values */
 } study_varied;
 
 /* What measure.c records of each case beside its scalars: series, and the cost. */
 typedef struct study_measure {
-    const fe_node *request; /* list of outputs that replaces the file's */
+    const ff_node *request; /* list of outputs that replaces the file's */
     const char *along;  /* name of the series that others are plotted against; NULL lets the program
                            find one */
     const char **knobs; /* stages in which cases differ: they and those that they feed are evaluated
@@ -49,7 +50,7 @@ typedef struct study_definition {
     bool backwards;      /* chains run from the last point of `followed` to the first */
     double time_limit;   /* s for a case; 0 means no limit */
     double memory_limit; /* bytes for a worker; 0 means its share of the machine's */
-    const fe_node *request; /* list of outputs that replaces the file's; NULL keeps that */
+    const ff_node *request; /* list of outputs that replaces the file's; NULL keeps that */
     /* other results to record, "stage.name", in the cases that have them */
     const char *const *extras;
     size_t extra_count;
@@ -61,7 +62,7 @@ typedef struct study_definition {
 
 /* Reads what stands under `study:`. After errors it returns NULL, or a study that must not be run
    but keeps the texts that the messages need. The tree of the node must outlive the study. */
-study_definition *study_open(const fe_node *node, fe_report *report);
+study_definition *study_open(const ff_node *node, ff_report *report);
 void study_free(study_definition *study); /* frees its driver, too; accepts NULL */
 void study_definition_free(study_definition *study);
 
@@ -81,21 +82,21 @@ extern const study_driver_row study_drivers[]; /* ends with a row without a name
 extern const char *const study_keys[];
 
 /* Reads a study without a driver; NULL after an error. */
-study_definition *study_read(const fe_node *node, fe_report *report);
+study_definition *study_read(const ff_node *node, ff_report *report);
 
 /* Reports every key that is not in the list, which NULL ends; keys that begin with "x-" are
    allowed. */
-bool study_check_keys(const fe_node *map, const char *where, const char *const *known,
-                      fe_report *report);
+bool study_check_keys(const ff_node *map, const char *where, const char *const *known,
+                      ff_report *report);
 /* Reads time_limit and memory_limit. */
-bool study_read_limits(study_definition *study, const fe_node *node, fe_report *report);
+bool study_read_limits(study_definition *study, const ff_node *node, ff_report *report);
 
 /* Reads a map from paths to what they take, as under `sweep:`, or to one value. NULL after an
    error. */
-study_definition *study_expand(const fe_node *sweep, fe_report *report);
+study_definition *study_expand(const ff_node *sweep, ff_report *report);
 
 /* Checks that the pipeline has what the driver of the study names. */
-void study_check(const study_definition *study, const fe_pipeline *pipeline, fe_report *report);
+void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_report *report);
 const char *study_cases(const study_definition *study); /* what its cases are called: "cases" */
 const char *
 study_further(const study_definition *study); /* which cases may follow; "" when none do */
@@ -110,7 +111,7 @@ size_t study_rank(const study_definition *study, size_t axis, size_t index);
 
 /* Lays a case over a tree: first the files that it includes, then `sets`, then its values. */
 void study_overlay(const study_definition *study, size_t index, const char *const *sets,
-                   size_t set_count, fe_tree *tree, fe_report *report);
+                   size_t set_count, ff_tree *tree, ff_report *report);
 
 /* chain.c: the cases form chains, along which a state is handed on; without `follow` every case is
    a chain of its own. */
@@ -154,10 +155,10 @@ typedef struct study_run {
     const char *file; /* each case reads it anew */
     const char **sets;
     size_t set_count;
-    fe_library *library;
+    ff_library *library;
     const char *directory;
     size_t jobs;
-    const fe_service *executor; /* NULL when workers of this process run all cases */
+    const ff_service *executor; /* NULL when workers of this process run all cases */
     size_t shard, shards;       /* this run does shard number `shard`, from 1 to `shards` */
     size_t begin, end; /* the chains to run, after which no table is written; end 0 means all, with
                           the table */
@@ -168,7 +169,7 @@ typedef struct study_run {
                                      when the caller does not need them */
 
     /* Writes the files of a case with series or fields into a directory. */
-    bool (*write)(const fe_pipeline *pipeline, const char *directory, fe_report *report);
+    bool (*write)(const ff_pipeline *pipeline, const char *directory, ff_report *report);
     /* Describes the study for those who read its directory. */
     const study_definition *described;
     void (*describe)(void *ctx, const study_definition *study, FILE *out);
@@ -179,11 +180,11 @@ typedef struct study_run {
 
 /* Runs what is not done yet, then writes table.csv. Failed cases are only counted; the report gets
    what keeps the study from going on. */
-bool study_execute(const study_run *run, study_counters *counters, fe_report *report);
+bool study_execute(const study_run *run, study_counters *counters, ff_report *report);
 
 /* Runs a study with a driver, in this process and its workers: the cases that it submits; then it
    writes the table of those that ran and the files of the driver. */
-bool study_drive(const study_run *run, study_counters *counters, fe_report *report);
+bool study_drive(const study_run *run, study_counters *counters, ff_report *report);
 /* What came of a study with a driver: members for `run --json`, or NULL. */
 struct json_t *study_facts(const study_definition *study);
 /* Its verdict, FF_GOOD or FF_BAD; -1 when its cases decide. */

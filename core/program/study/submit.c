@@ -37,14 +37,14 @@ static void make_room(study_context *context)
 }
 
 size_t study_submit(study_context *context, const study_setting *settings, size_t repeat,
-                    const char *label, const fe_node *place)
+                    const char *label, const ff_node *place)
 {
     study_definition *list = &context->list;
     if (list->count > STUDY_MOST_SUBMITTED)
         return list->count; /* study_run_submitted reports it */
     make_room(context);
     context->cases[list->count] =
-        (study_submitted){.label = label, .place = place ? place->place : FE_NOWHERE};
+        (study_submitted){.label = label, .place = place ? place->place : FF_NOWHERE};
     context->repeats[list->count] = repeat;
     memset(context->keys[list->count], 0, sizeof *context->keys);
     for (size_t k = 0; k < list->varied_count; k++) {
@@ -72,7 +72,7 @@ bool study_run_submitted(study_context *context, size_t begin, size_t end)
 {
     study_counters counters;
     if (context->list.count > STUDY_MOST_SUBMITTED)
-        return fe_error(context->report, FE_EXIT_INPUT, FE_NOWHERE, NULL,
+        return ff_error(context->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                         "%s: more than 1000000 cases", context->name);
     if (begin == end)
         return true;

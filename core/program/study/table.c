@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes table.csv: a row for each case with what was varied and the scalars that it gave. */
-#include "journal.h"
+#include <flankfilm/engine.h>
 
-#include "../../engine/value/unit.h"
+#include "journal.h"
 
 #include <fcntl.h>
 #include <stdlib.h>
@@ -30,7 +30,7 @@ static const char *unit_of(const char *value, size_t *digits)
 {
     double number;
     const char *end;
-    if (!fe_number_parse(value, &number, &end))
+    if (!ff_number_parse(value, &number, &end))
         return NULL;
     *digits = (size_t)(end - value);
     return end + strspn(end, " ");
@@ -107,7 +107,7 @@ static json_t *find_columns(const study_definition *study, const json_t *records
     return columns;
 }
 
-bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], fe_report *report)
+bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_report *report)
 {
     const study_definition *study = run->study;
     char *marker = memory_print_text("%s/%s", run->directory, study_marker);

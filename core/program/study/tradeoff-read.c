@@ -7,14 +7,14 @@
 
 enum { MOST_POINTS = 10000, MOST_REFINEMENTS = 20 };
 
-static bool refuse(const study_tradeoff *t, const fe_node *where, const char *hint,
+static bool refuse(const study_tradeoff *t, const ff_node *where, const char *hint,
                    const char *what)
 {
     return study_context_refuse(t->context, where, hint, what);
 }
 
 /* Returns the number of a knob, which is added when it is new; STUDY_MOST_KNOBS after an error. */
-static size_t find_knob(study_tradeoff *t, const char *path, const fe_node *place)
+static size_t find_knob(study_tradeoff *t, const char *path, const ff_node *place)
 {
     size_t k = 0;
     while (k < t->knob_count && strcmp(t->knobs[k], path) != 0)
@@ -26,7 +26,7 @@ static size_t find_knob(study_tradeoff *t, const char *path, const fe_node *plac
     return k;
 }
 
-static study_point *add_point(study_tradeoff *t, const fe_node *place)
+static study_point *add_point(study_tradeoff *t, const ff_node *place)
 {
     study_context *context = t->context;
     if ((t->count & (t->count - 1)) == 0) {
@@ -60,11 +60,11 @@ static bool is_knob(const char *key)
 }
 
 /* Returns the map without the keys that are not knobs. */
-static const fe_node *knobs_of(study_context *context, const fe_node *map)
+static const ff_node *knobs_of(study_context *context, const ff_node *map)
 {
-    fe_node *knobs = memory_arena_alloc(&context->arena, sizeof *knobs);
+    ff_node *knobs = memory_arena_alloc(&context->arena, sizeof *knobs);
     size_t room = map->count + 1;
-    *knobs = (fe_node){.kind = FE_MAP, .place = map->place};
+    *knobs = (ff_node){.kind = FF_MAP, .place = map->place};
     knobs->keys = memory_arena_alloc(&context->arena, room * sizeof *knobs->keys);
     knobs->items = memory_arena_alloc(&context->arena, room * sizeof *knobs->items);
     knobs->key_places = memory_arena_alloc(&context->arena, room * sizeof *knobs->key_places);
@@ -80,9 +80,9 @@ static const fe_node *knobs_of(study_context *context, const fe_node *map)
 
 /* Adds a point for every case of a map from paths to values; an empty map gives the file as it is.
  */
-static bool add_block(study_tradeoff *t, const fe_node *map)
+static bool add_block(study_tradeoff *t, const ff_node *map)
 {
-    const fe_node *knobs = knobs_of(t->context, map);
+    const ff_node *knobs = knobs_of(t->context, map);
     if (knobs->count == 0)
         return add_point(t, map);
     const study_definition *block = study_context_expand(t->context, knobs);
@@ -100,14 +100,14 @@ static bool add_block(study_tradeoff *t, const fe_node *map)
 
 /* Finds by which factor a knob grows from level to level: 2, or what a map says; 1 without
    refinement. */
-static bool find_factor(const study_tradeoff *t, const fe_node *refine, const char *path,
+static bool find_factor(const study_tradeoff *t, const ff_node *refine, const char *path,
                         double *factor)
 {
     const char *end;
     *factor = 1;
     for (size_t i = 0; refine && i < refine->count; i++) {
-        const fe_node *item = refine->items[i];
-        bool map = refine->kind == FE_MAP;
+        const ff_node *item = refine->items[i];
+        bool map = refine->kind == FF_MAP;
         const char *text = study_word(item), *name = map ? refine->keys[i] : text;
         if (!text)
             return refuse(
@@ -123,7 +123,7 @@ static bool find_factor(const study_tradeoff *t, const fe_node *refine, const ch
 }
 
 /* Makes a level finer than what the file says; level 0 stays. */
-static bool refine_level(study_tradeoff *t, const fe_node *map, const fe_node *refine, size_t level)
+static bool refine_level(study_tradeoff *t, const ff_node *map, const ff_node *refine, size_t level)
 {
     for (size_t i = 0; i < map->count; i++) {
         const char *path = map->keys[i], *end;
@@ -146,11 +146,11 @@ static bool refine_level(study_tradeoff *t, const fe_node *map, const fe_node *r
     return true;
 }
 
-static bool check_refine(const study_tradeoff *t, const fe_node *map, const fe_node *refine)
+static bool check_refine(const study_tradeoff *t, const ff_node *map, const ff_node *refine)
 {
     for (size_t i = 0; refine && i < refine->count; i++) {
-        const char *name = refine->kind == FE_MAP ? refine->keys[i] : study_word(refine->items[i]);
-        if (!fe_node_get(map, name ? name : ""))
+        const char *name = refine->kind == FF_MAP ? refine->keys[i] : study_word(refine->items[i]);
+        if (!ff_node_get(map, name ? name : ""))
             return refuse(t, refine->items[i], NULL,
                           study_context_format(
                               t->context, "the reference gives no \"%.80s\" that could be refined",
@@ -159,9 +159,9 @@ static bool check_refine(const study_tradeoff *t, const fe_node *map, const fe_n
     return true;
 }
 
-static bool read_reference(study_tradeoff *t, const fe_node *map)
+static bool read_reference(study_tradeoff *t, const ff_node *map)
 {
-    const fe_node *refine = fe_node_get(map, "refine"), *times = fe_node_get(map, "refinements");
+    const ff_node *refine = ff_node_get(map, "refine"), *times = ff_node_get(map, "refinements");
     const char *text = study_word(times), *end = "";
     double refinements = 3;
     if (!study_is_map(map))
@@ -182,9 +182,9 @@ static bool read_reference(study_tradeoff *t, const fe_node *map)
     return true;
 }
 
-static bool read_candidates(study_tradeoff *t, const fe_node *list)
+static bool read_candidates(study_tradeoff *t, const ff_node *list)
 {
-    if (!list || list->kind != FE_SEQUENCE || list->count == 0)
+    if (!list || list->kind != FF_SEQUENCE || list->count == 0)
         return refuse(t, list,
                       "write candidates: [{film.cells: [128, 256], film.steps: [500, 1000]}]",
                       "\"candidates\" is a list of maps from paths to lists of values");
@@ -200,12 +200,12 @@ static bool read_candidates(study_tradeoff *t, const fe_node *list)
 }
 
 /* Reads a list of texts, ended by NULL; a missing list counts as empty. NULL after an error. */
-static const char **read_texts(const study_tradeoff *t, const fe_node *list, const char *what,
+static const char **read_texts(const study_tradeoff *t, const ff_node *list, const char *what,
                                size_t *count)
 {
     size_t length = list ? list->count : 0;
     const char **texts = memory_arena_alloc(&t->context->arena, (length + 1) * sizeof *texts);
-    bool good = !list || list->kind == FE_SEQUENCE;
+    bool good = !list || list->kind == FF_SEQUENCE;
     for (size_t i = 0; good && i < length; i++) {
         texts[i] = study_word(list->items[i]);
         good = texts[i] && *texts[i];
@@ -216,7 +216,7 @@ static const char **read_texts(const study_tradeoff *t, const fe_node *list, con
     return good ? texts : NULL;
 }
 
-static bool read_claims(study_tradeoff *t, const fe_node *map)
+static bool read_claims(study_tradeoff *t, const ff_node *map)
 {
     static const char *const none[] = {NULL};
     const study_context *context = t->context;
@@ -253,9 +253,9 @@ static bool read_claims(study_tradeoff *t, const fe_node *map)
 static bool read_measure(study_tradeoff *t, const study_key_value *values)
 {
     study_context *context = t->context;
-    const fe_node *outputs = values[TRADEOFF_OUTPUTS].node;
+    const ff_node *outputs = values[TRADEOFF_OUTPUTS].node;
     size_t count;
-    if (!outputs || outputs->kind != FE_SEQUENCE || outputs->count == 0)
+    if (!outputs || outputs->kind != FF_SEQUENCE || outputs->count == 0)
         return refuse(t, outputs, NULL,
                       "\"outputs\" is a list of the outputs that matter, such as [film.h_min]");
     if (!read_texts(t, outputs, "\"outputs\" is a list of STAGE.OUTPUT", &count))
@@ -263,7 +263,7 @@ static bool read_measure(study_tradeoff *t, const study_key_value *values)
     for (size_t i = 0; i < outputs->count; i++)
         if (strchr(outputs->items[i]->text, '*'))
             return refuse(t, outputs->items[i], NULL, "name each output that matters");
-    context->outputs = (const fe_node *const *)outputs->items;
+    context->outputs = (const ff_node *const *)outputs->items;
     context->output_count = outputs->count;
     t->counts = read_texts(t, values[TRADEOFF_COUNTS].node, "\"counts\" is a list of STAGE.NAME",
                            &t->count_count);

@@ -93,8 +93,8 @@ static bool run_reference(const study_tradeoff *t, size_t *levels)
         const study_outcome *outcome = study_tradeoff_outcome(t, level);
         bool lost = *outcome->reason == '\0' && !outcome->outputs[0].values;
         if (*outcome->reason || lost)
-            return fe_error(
-                context->report, FE_EXIT_FAILED, t->points[level].place->place,
+            return ff_error(
+                context->report, FF_FAULT_RUN, t->points[level].place->place,
                 "a coarser reference, or fewer refinements, may do",
                 "%s: the reference failed (%s): %s", context->name, t->points[level].label,
                 lost ? "what it gave is lost; --rerun all computes it anew" : outcome->reason);

@@ -13,7 +13,7 @@ enum { STUDY_MOST_KNOBS = 64 };
 typedef struct study_point {
     const char **assignments, **values;
     const char *label;
-    const fe_node *place;
+    const ff_node *place;
 } study_point;
 
 enum {

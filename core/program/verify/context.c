@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "private.h"
+#include <flankfilm/engine.h>
 
-#include "../../engine/plugin/clean.h"
-#include "../../engine/plugin/param.h"
+#include "private.h"
 
 #include <stdarg.h>
 #include <stdio.h>
@@ -15,7 +14,7 @@ void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const c
 {
     if (outcome->finding == VERIFY_PASSED) {
         outcome->finding = finding;
-        fe_clean_text(outcome->why, sizeof outcome->why, why);
+        ff_clean_text(outcome->why, sizeof outcome->why, why);
     }
 }
 
@@ -42,18 +41,18 @@ static const char *process_changed(const verify_process *was)
     return was->mask == is.mask ? NULL : "changed the mask of new files";
 }
 
-void verify_context_begin(verify_context *context, fe_library *library)
+void verify_context_begin(verify_context *context, ff_library *library)
 {
     context->model = context->loaded->model;
     context->laws = verify_plain_laws(library, context->loaded);
     context->random = (verify_random){42};
     keep_process(&context->process);
-    fe_environment_keep(&context->environment);
+    ff_environment_keep(&context->environment);
 }
 
 const char *verify_changed(const verify_context *context)
 {
-    const char *what = fe_environment_restore(&context->environment);
+    const char *what = ff_environment_restore(&context->environment);
     return what ? what : process_changed(&context->process);
 }
 
@@ -96,11 +95,11 @@ bool verify_read_param(verify_context *context, size_t param, const char *text, 
 {
     ff_param row = *ff_model_param(context->model, param);
     row.preset = text ? text : row.preset;
-    fe_report_free(context->messages);
-    context->messages = fe_report_new();
-    bool good = fe_param_read_preset(&row, &context->loaded->param_units[param], row.name, value,
+    ff_report_free(context->messages);
+    context->messages = ff_report_new();
+    bool good = ff_param_read_preset(&row, &context->loaded->param_units[param], row.name, value,
                                      context->messages);
-    *message = fe_report_count(context->messages) ? fe_report_at(context->messages, 0)->text : NULL;
+    *message = ff_report_count(context->messages) ? ff_report_at(context->messages, 0)->text : NULL;
     return good;
 }
 

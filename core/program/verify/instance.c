@@ -44,7 +44,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
                instance->evaluating ? "which it does not have" : "outside of evaluate");
         return NULL;
     }
-    const fe_dims *dims = &instance->context->loaded->output_dims[index];
+    const ff_dims *dims = &instance->context->loaded->output_dims[index];
     const char *name = ff_model_output(model, index)->name;
     if (instance->outputs[index].data)
         breach(instance, "gave the output \"%s\" twice", name);
@@ -86,7 +86,7 @@ static ff_status table_status(verify_instance *instance, ff_status status)
                "asked for an impossible table, or reported a fault in one that it has not read");
     if (!instance->tables.errors)
         return status;
-    fe_tables_print(&instance->tables, why, sizeof why);
+    ff_tables_print(&instance->tables, why, sizeof why);
     return host_fail(instance, status, instance->tables.item, why);
 }
 
@@ -95,7 +95,7 @@ static ff_status table_read(void *ctx, const char *item, const char *path, const
 {
     verify_instance *instance = ctx;
     return table_status(instance,
-                        fe_tables_read(&instance->tables, item, path, rows, count, stride, table));
+                        ff_tables_read(&instance->tables, item, path, rows, count, stride, table));
 }
 
 static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t column,
@@ -103,7 +103,7 @@ static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t
 {
     verify_instance *instance = ctx;
     return table_status(instance,
-                        fe_tables_fail(&instance->tables, table, row, column, text ? text : ""));
+                        ff_tables_fail(&instance->tables, table, row, column, text ? text : ""));
 }
 
 static const void *host_extension(void *ctx, const char *id)
@@ -207,7 +207,7 @@ void verify_instance_close(verify_instance *instance)
     if (instance->created && instance->context->model->destroy)
         instance->context->model->destroy(instance->self);
     instance->created = false;
-    fe_tables_free(&instance->tables);
+    ff_tables_free(&instance->tables);
     forget(instance);
     free(instance->outputs);
     free(instance->shapes);

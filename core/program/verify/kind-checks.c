@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <flankfilm/engine.h>
+
 #include "private.h"
 
-#include "../../engine/plugin/guard.h"
 #include "../memory/memory.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-static bool can_be_found(fe_library *library, const char *id)
+static bool can_be_found(ff_library *library, const char *id)
 {
     size_t count;
-    const char *const *ids = fe_library_ids(library, &count);
+    const char *const *ids = ff_library_ids(library, &count);
     for (size_t i = 0; i < count; i++)
         if (!strcmp(ids[i], id))
             return true;
@@ -30,7 +31,7 @@ static const void *find_offer(verify_kind_checks *checks)
         .size = sizeof host, .abi_minor = FF_ABI_MINOR, .ctx = NULL, .fail = host_fail};
     const ff_model *model = checks->loaded->model;
     const void *offer = NULL;
-    fe_guard_mark mark = fe_guard_enter(checks->loaded->path, NULL, "create and service");
+    ff_guard_mark mark = ff_guard_enter(checks->loaded->path, NULL, "create and service");
     checks->created = model->param_count + model->input_count == 0 &&
                       model->create(&host, &checks->self) == FF_OK;
     for (size_t i = 0; i < model->output_count && checks->created && !offer; i++) {
@@ -38,19 +39,19 @@ static const void *find_offer(verify_kind_checks *checks)
         if (service && !strcmp(service, FF_CONFORMANCE_ID))
             offer = model->service(checks->self, (uint32_t)i);
     }
-    fe_guard_leave(mark);
+    ff_guard_leave(mark);
     return offer;
 }
 
-bool verify_kind_checks_open(verify_kind_checks *checks, fe_library *library, const char *kind,
-                             fe_report *report)
+bool verify_kind_checks_open(verify_kind_checks *checks, ff_library *library, const char *kind,
+                             ff_report *report)
 {
     char *id = memory_print_text("%s/%s", FF_CONFORMANCE_KIND, kind);
     *checks = (verify_kind_checks){.offer = NULL};
     if (can_be_found(library, id))
-        checks->loaded = fe_library_load(library, id, FE_NOWHERE, report);
+        checks->loaded = ff_library_load(library, id, FF_NOWHERE, report);
     if (checks->loaded && !(checks->offer = find_offer(checks)))
-        fe_error(report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL, "%s does not offer %s by itself", id,
+        ff_error(report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL, "%s does not offer %s by itself", id,
                  FF_CONFORMANCE_ID);
     free(id);
     return checks->offer;
@@ -64,9 +65,9 @@ void verify_kind_checks_close(verify_kind_checks *checks)
 }
 
 /* The plain law of the first kind that may feed the row and has one of its interface. */
-static const void *plain_law(fe_library *library, const ff_port *row)
+static const void *plain_law(ff_library *library, const ff_port *row)
 {
-    fe_report *report = fe_report_new();
+    ff_report *report = ff_report_new();
     const void *law = NULL;
     char kind[64];
     for (size_t i = 0; !law && ff_word_at(row->from ? row->from : row->name, i, kind, sizeof kind);
@@ -76,11 +77,11 @@ static const void *plain_law(fe_library *library, const ff_port *row)
             !strcmp(checks->offer->service, row->service))
             law = checks->offer->plain;
     }
-    fe_report_free(report);
+    ff_report_free(report);
     return law;
 }
 
-const void **verify_plain_laws(fe_library *library, const fe_loaded *loaded)
+const void **verify_plain_laws(ff_library *library, const ff_loaded *loaded)
 {
     const ff_model *model = loaded->model;
     const void **laws = memory_alloc(model->input_count * sizeof *laws);

@@ -4,10 +4,9 @@
 #ifndef VERIFY_PRIVATE_H
 #define VERIFY_PRIVATE_H
 
-#include "verify.h"
+#include <flankfilm/engine.h>
 
-#include "../../engine/plugin/environment.h"
-#include "../../engine/value/tables.h"
+#include "verify.h"
 
 #include <flankfilm/conformance.h>
 
@@ -18,17 +17,17 @@
 /* kind-checks.c: the model conformance/KIND, which says what models of that kind owe. */
 typedef struct verify_kind_checks {
     const ff_conformance *offer;
-    const fe_loaded *loaded;
+    const ff_loaded *loaded;
     void *self;
     bool created; /* `self` is to be destroyed */
 } verify_kind_checks;
 
 /* False when there is no such model, or with an error. `offer` lives until it is closed. */
-bool verify_kind_checks_open(verify_kind_checks *checks, fe_library *library, const char *kind,
-                             fe_report *report);
+bool verify_kind_checks_open(verify_kind_checks *checks, ff_library *library, const char *kind,
+                             ff_report *report);
 void verify_kind_checks_close(verify_kind_checks *checks);
 /* For each service input of the model a plain law that the law's kind offers; NULL: none. */
-const void **verify_plain_laws(fe_library *library, const fe_loaded *loaded);
+const void **verify_plain_laws(ff_library *library, const ff_loaded *loaded);
 
 /* guarded.c: numbers between guard zones, which show a write outside. */
 typedef struct verify_guarded {
@@ -70,19 +69,19 @@ typedef struct verify_process {
 
 /* context.c: one test of one model. */
 typedef struct verify_context {
-    const fe_loaded *loaded;
+    const ff_loaded *loaded;
     const ff_model *model; /* under test */
     const void **laws;     /* of each service input a plain law; NULL: none */
     verify_random random;
     struct verify_setup *given; /* from the user's pipeline; NULL: there is none */
     verify_outcome *outcome;
-    fe_report *messages; /* about the parameter that was read last */
-    fe_environment environment;
+    ff_report *messages; /* about the parameter that was read last */
+    ff_environment environment;
     verify_process process;
 } verify_context;
 
 /* `loaded` and `outcome` are set. From now on the model may change nothing of the process. */
-void verify_context_begin(verify_context *context, fe_library *library);
+void verify_context_begin(verify_context *context, ff_library *library);
 /* What of the process is not as it was then: completes 'the plugin ...'. NULL: nothing. */
 const char *verify_changed(const verify_context *context);
 
@@ -107,7 +106,7 @@ typedef struct verify_setup {
     ff_array *inputs;      /* of each input row */
     const void **services; /* the table of a service input; NULL: not connected */
     verify_guarded *memory;
-    size_t (*shapes)[FE_MAX_RANK];
+    size_t (*shapes)[FF_MAX_RANK];
 } verify_setup;
 
 /* Parameters in their calibrated range; anywhere in their physical limits, and at them; or in the
@@ -127,7 +126,7 @@ bool verify_inputs_are_unchanged(const verify_setup *setup, double **copies, con
 /* user-run.c: takes the parameters of the stage of the user's pipeline that uses the model and,
    with `run`, what the other stages feed it. False with errors in the report. */
 bool verify_take_user_run(verify_context *context, const verify_request *request,
-                          fe_library *library, bool run, fe_report *report);
+                          ff_library *library, bool run, ff_report *report);
 
 /* instance.c: one instance of the model, and its host. */
 typedef struct verify_instance {
@@ -138,11 +137,11 @@ typedef struct verify_instance {
     bool evaluating;
     uint64_t wanted;         /* by evaluate; rows from 64 on only with all others */
     verify_guarded *outputs; /* of each row */
-    size_t (*shapes)[FE_MAX_RANK];
+    size_t (*shapes)[FF_MAX_RANK];
     uint32_t *ranks;
     const ff_value *values;   /* of each parameter, the setup's; size 0: not set */
     char item[96], text[300]; /* of the last failure */
-    fe_tables tables;         /* that it has read */
+    ff_tables tables;         /* that it has read */
     char breach[200];         /* of the interface: completes 'it ...' */
     double stop_at;           /* progress asks to stop from then on */
     bool asked_to_stop;

@@ -62,11 +62,11 @@ static const test any_model[] = {
 typedef struct session {
     const verify_request *request;
     char *root, *id;
-    fe_library *library; /* the folder of the plugin comes before the search path */
+    ff_library *library; /* the folder of the plugin comes before the search path */
     void (*tell)(void *ctx, size_t number, const verify_result *result);
     void *ctx;
     size_t number;
-    fe_report *report;
+    ff_report *report;
     bool good; /* the user's file can be used */
 } session;
 
@@ -88,34 +88,34 @@ static bool concerns(const test *t, const ff_model *model)
 }
 
 /* A warning at loading fails the test, too: the loader has undone what it is about. */
-static bool load(verify_context *context, fe_library *library, const char *id)
+static bool load(verify_context *context, ff_library *library, const char *id)
 {
-    fe_report *report = fe_report_new();
-    context->loaded = fe_library_load(library, id, FE_NOWHERE, report);
-    if (fe_report_count(report))
-        verify_outcome_set(context->outcome, VERIFY_FAILED, fe_report_at(report, 0)->text);
-    fe_report_free(report);
+    ff_report *report = ff_report_new();
+    context->loaded = ff_library_load(library, id, FF_NOWHERE, report);
+    if (ff_report_count(report))
+        verify_outcome_set(context->outcome, VERIFY_FAILED, ff_report_at(report, 0)->text);
+    ff_report_free(report);
     return context->loaded && context->outcome->finding == VERIFY_PASSED;
 }
 
 /* Inputs cost a run of the pipeline; parameters do not. */
 static bool take_user_run(verify_context *context, const verify_request *request,
-                          fe_library *library, bool inputs)
+                          ff_library *library, bool inputs)
 {
-    fe_report *report = fe_report_new();
+    ff_report *report = ff_report_new();
     verify_step(context, "running %s", request->pipeline);
     bool good = verify_take_user_run(context, request, library, inputs, report);
     char *why = memory_print_text("%s: %s", request->pipeline,
-                                  fe_report_count(report) ? fe_report_at(report, 0)->text
+                                  ff_report_count(report) ? ff_report_at(report, 0)->text
                                                           : "it cannot be used");
     if (!good)
         verify_outcome_set(context->outcome, VERIFY_FAILED, why);
     free(why);
-    fe_report_free(report);
+    ff_report_free(report);
     return good;
 }
 
-static void try_model(verify_context *context, const session *s, fe_library *library, const test *t)
+static void try_model(verify_context *context, const session *s, ff_library *library, const test *t)
 {
     const verify_request *request = s->request;
     bool inputs = t->matter == ITS_KIND || t->concern >= WITH_DATA;
@@ -134,7 +134,7 @@ static _Noreturn void child(const session *s, const test *t, verify_outcome *out
 {
     verify_context context = {.outcome = outcome};
     const char *const roots[] = {s->root};
-    fe_library *library = fe_library_new(roots, 1);
+    ff_library *library = ff_library_new(roots, 1);
     verify_step(&context, "loading");
     if (load(&context, library, s->id) && t->matter != LOADING)
         try_model(&context, s, library, t);
@@ -249,7 +249,7 @@ static bool try(session *s, const test *t)
         return true;
     run_test(s, t, &result);
     if (file && result.finding != VERIFY_PASSED)
-        s->good = fe_error(s->report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s", result.why);
+        s->good = ff_error(s->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s", result.why);
     else if (!file && (result.finding != VERIFY_SKIPPED || result.why[0]))
         s->tell(s->ctx, ++s->number, &result);
     return t->matter >= ANY_MODEL || result.finding == VERIFY_PASSED;
@@ -257,7 +257,7 @@ static bool try(session *s, const test *t)
 
 static void try_kind(session *s)
 {
-    fe_report *report = fe_report_new();
+    ff_report *report = ff_report_new();
     char *kind = memory_copy_text(s->id, strcspn(s->id, "/"));
     verify_kind_checks checks;
     bool known = verify_kind_checks_open(&checks, s->library, kind, report);
@@ -267,12 +267,12 @@ static void try_kind(session *s)
         try(s, &(test){check->name, check->claim, ITS_KIND, ALL, NULL, check});
     }
     if (!known) {
-        bool broken = fe_report_count(report) > 0;
+        bool broken = ff_report_count(report) > 0;
         verify_result none = {.test = "kind",
                               .claim = "keeps what its kind asks for",
                               .finding = broken ? VERIFY_FAILED : VERIFY_SKIPPED};
         if (broken)
-            snprintf(none.why, sizeof none.why, "%s", fe_report_at(report, 0)->text);
+            snprintf(none.why, sizeof none.why, "%s", ff_report_at(report, 0)->text);
         else
             snprintf(
                 none.why, sizeof none.why,
@@ -282,29 +282,29 @@ static void try_kind(session *s)
     }
     verify_kind_checks_close(&checks);
     free(kind);
-    fe_report_free(report);
+    ff_report_free(report);
 }
 
 bool verify_plugin(const verify_request *request,
                    void (*tell)(void *ctx, size_t number, const verify_result *result), void *ctx,
-                   fe_report *report)
+                   ff_report *report)
 {
     session s = {.request = request, .tell = tell, .ctx = ctx, .report = report, .good = true};
     if (access(request->path, R_OK) != 0)
-        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "%s cannot be read: %s",
+        return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s cannot be read: %s",
                         request->path, strerror(errno));
     if (!part(request->path, &s.root, &s.id))
-        return fe_error(report, FE_EXIT_INPUT, FE_NOWHERE,
+        return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
                         "its place must be KIND/NAME.so, as its id says", "%s is not a plugin",
                         request->path);
     const char *const roots[] = {s.root};
-    s.library = fe_library_new(roots, 1);
+    s.library = ff_library_new(roots, 1);
     if (try(&s, &descriptor) && try(&s, &pipeline)) {
         for (size_t i = 0; i < sizeof any_model / sizeof *any_model; i++)
             try(&s, &any_model[i]);
         try_kind(&s);
     }
-    fe_library_free(s.library);
+    ff_library_free(s.library);
     free(s.root);
     free(s.id);
     return s.good;

@@ -67,7 +67,7 @@ static int compare_reals(const void *a, const void *b)
 
 static double to_si(const verify_setup *setup, size_t param, double number)
 {
-    const fe_unit *unit = &setup->context->loaded->param_units[param];
+    const ff_unit *unit = &setup->context->loaded->param_units[param];
     return unit->factor * number + unit->offset;
 }
 
@@ -220,9 +220,9 @@ void verify_setup_draw_inputs(verify_setup *setup, verify_random *random)
     const ff_model *model = setup->context->model;
     size_t seed = verify_below(random, 1000), style = verify_below(random, 3);
     for (size_t i = 0; i < model->input_count; i++) {
-        const fe_dims *dims = &setup->context->loaded->input_dims[i];
+        const ff_dims *dims = &setup->context->loaded->input_dims[i];
         const ff_port *row = ff_model_input(model, i);
-        size_t shape[FE_MAX_RANK], count = 1;
+        size_t shape[FF_MAX_RANK], count = 1;
         bool absent = row->flags & FF_OPTIONAL && verify_below(random, 2) == 0;
         bool shorter = dims->first_optional && verify_below(random, 2) == 0;
         if (row->service || absent)

@@ -11,9 +11,9 @@ enum { PATIENCE = 2 }; /* s, after which a stage is asked to stop */
 
 static bool check_lengths(verify_context *c, const verify_instance *instance, size_t output)
 {
-    const fe_dims *dims = &c->loaded->output_dims[output];
+    const ff_dims *dims = &c->loaded->output_dims[output];
     for (size_t other = 0; other < output; other++) {
-        const fe_dims *theirs = &c->loaded->output_dims[other];
+        const ff_dims *theirs = &c->loaded->output_dims[other];
         uint32_t left = dims->rank - instance->ranks[output];
         uint32_t left_theirs = theirs->rank - instance->ranks[other];
         for (uint32_t i = left; i < dims->rank && instance->outputs[other].data; i++)

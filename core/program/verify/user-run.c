@@ -7,22 +7,22 @@
 #include <string.h>
 
 /* The name of the stage that uses the model; NULL after an error. */
-static const char *find_stage(const fe_node *root, const char *id, fe_report *report)
+static const char *find_stage(const ff_node *root, const char *id, ff_report *report)
 {
-    const fe_node *stages = fe_node_get(root, "pipeline");
-    for (size_t i = 0; stages && stages->kind == FE_MAP && i < stages->count; i++) {
-        const fe_node *use = fe_node_get(stages->items[i], "use");
-        if (use && use->kind == FE_SCALAR && !strcmp(use->text, id))
+    const ff_node *stages = ff_node_get(root, "pipeline");
+    for (size_t i = 0; stages && stages->kind == FF_MAP && i < stages->count; i++) {
+        const ff_node *use = ff_node_get(stages->items[i], "use");
+        if (use && use->kind == FF_SCALAR && !strcmp(use->text, id))
             return stages->keys[i];
     }
-    fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "no stage of the file uses %s", id);
+    ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "no stage of the file uses %s", id);
     return NULL;
 }
 
-static bool take_stage(verify_context *context, const fe_pipeline *pipeline, const char *name)
+static bool take_stage(verify_context *context, const ff_pipeline *pipeline, const char *name)
 {
     const ff_model *model = context->model;
-    const fe_stage *stage = pipeline->stages, *end = stage + pipeline->count;
+    const ff_stage *stage = pipeline->stages, *end = stage + pipeline->count;
     while (stage < end && strcmp(stage->name, name) != 0)
         stage++;
     if (stage == end)
@@ -34,7 +34,7 @@ static bool take_stage(verify_context *context, const fe_pipeline *pipeline, con
             context->given->values[i].size = sizeof(ff_value);
         }
     for (size_t i = 0; i < model->input_count; i++) {
-        const fe_result *result = fe_feeding_result(pipeline, stage, i);
+        const ff_result *result = ff_feeding_result(pipeline, stage, i);
         if (result && result->data)
             verify_setup_give(context->given, i, result->data, result->rank, result->shape);
     }
@@ -42,23 +42,23 @@ static bool take_stage(verify_context *context, const fe_pipeline *pipeline, con
 }
 
 bool verify_take_user_run(verify_context *context, const verify_request *request,
-                          fe_library *library, bool run, fe_report *report)
+                          ff_library *library, bool run, ff_report *report)
 {
     const ff_model *model = context->model;
-    fe_tree *tree = fe_tree_load(request->pipeline, report);
-    bool good = fe_tree_root(tree) && fe_report_errors(report) == 0;
+    ff_tree *tree = ff_tree_load(request->pipeline, report);
+    bool good = ff_tree_root(tree) && ff_report_errors(report) == 0;
     for (size_t i = 0; i < request->set_count && good; i++)
-        good = fe_tree_set(tree, request->sets[i], "pipeline", fe_pipeline_top_keys, report);
-    const char *name = good ? find_stage(fe_tree_root(tree), model->id, report) : NULL;
+        good = ff_tree_set(tree, request->sets[i], "pipeline", ff_file_keys(), report);
+    const char *name = good ? find_stage(ff_tree_root(tree), model->id, report) : NULL;
     if (!name)
         return false;
     bool data = verify_data_outputs(model); /* a law has none, and no output asks for it */
     char *outputs = memory_print_text("outputs=[%s.*]", name);
     if (data)
-        fe_tree_set(tree, outputs, "pipeline", fe_pipeline_top_keys, report);
+        ff_tree_set(tree, outputs, "pipeline", ff_file_keys(), report);
     free(outputs);
-    fe_pipeline *pipeline = fe_pipeline_build(tree, library, !data, report);
-    return pipeline && fe_report_errors(report) == 0 &&
-           (!run || !data || fe_pipeline_run(pipeline, NULL, report)) &&
+    ff_pipeline *pipeline = ff_pipeline_build(tree, library, !data, report);
+    return pipeline && ff_report_errors(report) == 0 &&
+           (!run || !data || ff_pipeline_run(pipeline, NULL, report)) &&
            take_stage(context, pipeline, name);
 }

@@ -7,7 +7,7 @@
 #ifndef VERIFY_H
 #define VERIFY_H
 
-#include "../../engine/pipeline/pipeline.h"
+#include <flankfilm/engine.h>
 
 typedef enum verify_finding {
     VERIFY_PASSED,
@@ -35,6 +35,6 @@ typedef struct verify_request {
    nothing to test. */
 bool verify_plugin(const verify_request *request,
                    void (*tell)(void *ctx, size_t number, const verify_result *result), void *ctx,
-                   fe_report *report);
+                   ff_report *report);
 
 #endif

@@ -100,9 +100,9 @@ static const struct {
 
 static void format(const char *text, unsigned line, unsigned column, const char *phrase)
 {
-    attempt a = {.report = fe_report_new(), .library = fe_library_new(NULL, 0)};
-    a.tree = fe_tree_parse("case.yaml", ".", text, a.report);
-    a.pipeline = fe_pipeline_build(a.tree, a.library, true, a.report);
+    attempt a = {.report = ff_report_new(), .library = ff_library_new(NULL, 0)};
+    a.tree = ff_tree_parse("case.yaml", ".", text, a.report);
+    a.pipeline = ff_pipeline_build(a.tree, a.library, true, a.report);
     check_error(phrase, &a, line, column, phrase);
     try_close(&a);
 }
@@ -116,9 +116,9 @@ static void all_in_one_pass(void)
                           "  c: {use: toy/user, law: d}\n"
                           "outputs: [a.leve]\n",
                           true);
-    check_true("seven errors of one file at once", fe_report_errors(a.report) == 7);
-    check_true("exit code 2", fe_report_exit_code(a.report) == FE_EXIT_INPUT);
-    if (fe_report_errors(a.report) != 7)
+    check_true("seven errors of one file at once", ff_report_errors(a.report) == 7);
+    check_true("exit code 2", ff_report_fault(a.report) == FF_FAULT_INPUT);
+    if (ff_report_errors(a.report) != 7)
         try_print(&a);
     try_close(&a);
 }
@@ -128,7 +128,7 @@ int main(void)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         attempt a = try_build(cases[i].text, true);
         check_error(cases[i].phrase, &a, cases[i].line, cases[i].column, cases[i].phrase);
-        check_true("exit code 2", fe_report_exit_code(a.report) == FE_EXIT_INPUT);
+        check_true("exit code 2", ff_report_fault(a.report) == FF_FAULT_INPUT);
         try_close(&a);
     }
     format("pipeline: {a: {use: toy/law}}\n", 1, 1, "the file does not state its format");

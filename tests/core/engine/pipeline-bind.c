@@ -44,7 +44,7 @@ static void presets(void)
 static double value_of(const char *line, const char *param)
 {
     attempt a = with_line(line);
-    const fe_bound *bound = try_param(&a, "a", param);
+    const ff_bound *bound = try_param(&a, "a", param);
     check_good(line, &a);
     double value = !bound || !bound->present      ? NAN
                    : bound->row->type == FF_REALS ? bound->value.reals[bound->value.count - 1]
@@ -105,7 +105,7 @@ static void layers(void)
     try_close(&a);
     a = try_build(text, true);
     check_error("in a check the unknown model is an error", &a, 9, 7, "nobody/here");
-    check_true("the only one", fe_report_errors(a.report) == 1);
+    check_true("the only one", ff_report_errors(a.report) == 1);
     try_close(&a);
 }
 
@@ -128,12 +128,12 @@ static void swaps(void)
 static void calibration(void)
 {
     attempt a = with_line("share: 0.1");
-    check_true("no warning inside", fe_report_count(a.report) == 0);
+    check_true("no warning inside", ff_report_count(a.report) == 0);
     try_close(&a);
     a = try_build("pipeline:\n  a: {use: toy/source, level: 60 mm}\n", false);
     check_good("outside the calibrated range", &a);
     check_true("a warning at the value",
-               try_says(&a, FE_WARNING, 3, 31,
+               try_says(&a, FF_WARNING, 3, 31,
                         "a.level: 60 mm is outside the calibrated range, which ends at 50 mm"));
     try_close(&a);
 }
@@ -149,12 +149,12 @@ static void files(void)
     if (!file || fclose(file) != 0)
         exit(2);
     const char *const places[] = {try_plugins()};
-    attempt a = {.report = fe_report_new(), .library = fe_library_new(places, 1)};
-    a.tree = fe_tree_parse("case.yaml", directory,
+    attempt a = {.report = ff_report_new(), .library = ff_library_new(places, 1)};
+    a.tree = ff_tree_parse("case.yaml", directory,
                            "format: 1\npipeline:\n"
                            "  a: {use: toy/source, level: 1 mm, table: data.csv}\n",
                            a.report);
-    a.pipeline = fe_pipeline_build(a.tree, a.library, false, a.report);
+    a.pipeline = ff_pipeline_build(a.tree, a.library, false, a.report);
     check_good("a file beside the text that names it", &a);
     check_true("its path is resolved", !strcmp(try_param(&a, "a", "table")->value.text, path));
     try_close(&a);

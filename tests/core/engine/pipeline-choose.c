@@ -15,11 +15,11 @@ static attempt choose(const char *pick, const char *level, const char *outputs)
     return try_run(text);
 }
 
-static const fe_candidate *candidate(const attempt *a, const char *model)
+static const ff_candidate *candidate(const attempt *a, const char *model)
 {
-    const fe_choice *choice = try_stage(a, "pick")->choice;
+    const ff_choice *choice = try_stage(a, "pick")->choice;
     for (size_t i = 0; choice && i < choice->count; i++) {
-        const fe_candidate *c = &choice->candidates[i];
+        const ff_candidate *c = &choice->candidates[i];
         const char *use = choice->chosen == c ? try_stage(a, "pick")->use : c->stage->use;
         if (!strcmp(use, model))
             return c;
@@ -29,7 +29,7 @@ static const fe_candidate *candidate(const attempt *a, const char *model)
 
 static int says(const attempt *a, const char *model, const char *phrase)
 {
-    const fe_candidate *c = candidate(a, model);
+    const ff_candidate *c = candidate(a, model);
     if (c && c->reason && strstr(c->reason, phrase))
         return 1;
     printf("%s says: %s\n", model, c && c->reason ? c->reason : "nothing");
@@ -38,8 +38,8 @@ static int says(const attempt *a, const char *model, const char *phrase)
 
 static bool hints(const attempt *a, const char *phrase)
 {
-    for (size_t i = 0; i < fe_report_count(a->report); i++)
-        if (fe_report_at(a->report, i)->hint && strstr(fe_report_at(a->report, i)->hint, phrase))
+    for (size_t i = 0; i < ff_report_count(a->report); i++)
+        if (ff_report_at(a->report, i)->hint && strstr(ff_report_at(a->report, i)->hint, phrase))
             return true;
     return false;
 }
@@ -49,7 +49,7 @@ static void cheapest(void)
     attempt a = choose("use: picked/auto", "2 mm", "pick.value");
     check_good("the accuracy of the file", &a);
     check_true("the cheapest that meets it", try_scalar(&a, "pick", "value") == 1);
-    const fe_stage *pick = try_stage(&a, "pick");
+    const ff_stage *pick = try_stage(&a, "pick");
     check_true("the stage is the chosen one's", !strcmp(pick->use, "picked/coarse"));
     check_true("what was asked for stays", !strcmp(pick->choice->use, "picked/auto"));
     check_near("accuracy", pick->choice->accuracy, 0.08, 1e-15);
@@ -68,7 +68,7 @@ static void cheapest(void)
                                                !strcmp(pick->quality[0].name, "promised_error") &&
                                                pick->quality[0].value == 0.05);
     check_true("again gives the same",
-               fe_pipeline_run(a.pipeline, NULL, a.report) && try_scalar(&a, "pick", "value") == 1);
+               ff_pipeline_run(a.pipeline, NULL, a.report) && try_scalar(&a, "pick", "value") == 1);
     try_close(&a);
 }
 
@@ -136,10 +136,10 @@ static void nothing_to_choose(void)
 {
     attempt a = choose("use: picked/fine", "2 mm", "pick.value");
     check_good("an accuracy of the file alone", &a);
-    check_true("is told to change nothing", try_says(&a, FE_WARNING, 2, 11, "changes nothing"));
+    check_true("is told to change nothing", try_says(&a, FF_WARNING, 2, 11, "changes nothing"));
     try_close(&a);
     a = choose("use: picked/auto", "2 mm", "pick.value");
-    check_true("with a choice it is not", fe_report_count(a.report) == 0);
+    check_true("with a choice it is not", ff_report_count(a.report) == 0);
     try_close(&a);
 }
 
@@ -147,7 +147,7 @@ static void refusals(void)
 {
     attempt a = choose("use: picked/auto, accuracy: 0.01 %", "2 mm", "pick.value");
     check_error("out of reach", &a, 5, 15, "no model promises 0.01 %");
-    check_true("fails", fe_report_exit_code(a.report) == FE_EXIT_FAILED);
+    check_true("fails", ff_report_fault(a.report) == FF_FAULT_RUN);
     check_true("what is", hints(&a, "accuracy: 0.105 % is within reach for value"));
     try_close(&a);
     a = choose("use: picked/auto, cells: 1, only: picked/fine, accuracy: 3 %", "2 mm",
@@ -166,7 +166,7 @@ static void refusals(void)
     try_close(&a);
     a = choose("use: picked/auto, cells: 0", "2 mm", "pick.value");
     check_error("a value that the models refuse", &a, 5, 35, "pick.cells");
-    check_true("told once", fe_report_errors(a.report) == 1);
+    check_true("told once", ff_report_errors(a.report) == 1);
     try_close(&a);
     a = choose("use: picked/auto, cells: 13", "2 mm", "pick.value");
     check_error("what all models refuse together", &a, 5, 35, "must not be 13");
@@ -197,11 +197,11 @@ static void feeds(void)
                           true);
     check_good("check", &a);
     check_true("only what a choice needs is run",
-               fe_pipeline_choose(a.pipeline, NULL, a.report) && try_stage(&a, "one")->ran &&
+               ff_pipeline_choose(a.pipeline, NULL, a.report) && try_stage(&a, "one")->ran &&
                    !try_stage(&a, "idle")->ran && !try_stage(&a, "pick")->ran);
     check_true("and the choice is made", !strcmp(try_stage(&a, "pick")->use, "picked/coarse"));
     check_true("then the rest",
-               fe_pipeline_run(a.pipeline, NULL, a.report) && try_scalar(&a, "pick", "value") == 1);
+               ff_pipeline_run(a.pipeline, NULL, a.report) && try_scalar(&a, "pick", "value") == 1);
     try_close(&a);
 }
 

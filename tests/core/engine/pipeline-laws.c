@@ -21,11 +21,11 @@ static attempt choose(const char *law, const char *judges, const char *outputs)
 
 static const char one_judge[] = "  film: {use: judge/strict}\n";
 
-static const fe_candidate *candidate(const attempt *a, const char *model)
+static const ff_candidate *candidate(const attempt *a, const char *model)
 {
-    const fe_choice *choice = try_stage(a, "rule")->choice;
+    const ff_choice *choice = try_stage(a, "rule")->choice;
     for (size_t i = 0; choice && i < choice->count; i++) {
-        const fe_candidate *c = &choice->candidates[i];
+        const ff_candidate *c = &choice->candidates[i];
         if (!strcmp(c->stage->use, model))
             return c;
     }
@@ -34,7 +34,7 @@ static const fe_candidate *candidate(const attempt *a, const char *model)
 
 static int says(const attempt *a, const char *model, const char *phrase)
 {
-    const fe_candidate *c = candidate(a, model);
+    const ff_candidate *c = candidate(a, model);
     if (c && c->reason && strstr(c->reason, phrase))
         return 1;
     printf("%s says: %s\n", model, c && c->reason ? c->reason : "nothing");
@@ -58,10 +58,10 @@ static void judged(void)
     check_true("which says what it is", says(&a, "ruled/costly", "it is costly"));
     check_true("one that is silent", says(&a, "ruled/silent", "does not assess"));
     check_true("one without a set", says(&a, "ruled/keyed", "\"gain\" is missing"));
-    const fe_stage *rule = try_stage(&a, "rule");
+    const ff_stage *rule = try_stage(&a, "rule");
     check_true("the promise is on record",
                rule->quality_count == 1 && !strcmp(rule->quality[0].name, "promised_error"));
-    check_true("again gives the same", fe_pipeline_run(a.pipeline, NULL, a.report) &&
+    check_true("again gives the same", ff_pipeline_run(a.pipeline, NULL, a.report) &&
                                            try_scalar(&a, "film", "value") > 20.3);
     try_close(&a);
     a = choose("use: ruled/auto, accuracy: 60 %, " SETS, one_judge, "film.value");
@@ -172,10 +172,10 @@ static void looks(void)
                           true);
     check_good("check", &a);
     check_true("only what the judge needs is run",
-               fe_pipeline_choose(a.pipeline, NULL, a.report) && try_stage(&a, "one")->ran &&
+               ff_pipeline_choose(a.pipeline, NULL, a.report) && try_stage(&a, "one")->ran &&
                    !try_stage(&a, "idle")->ran && !try_stage(&a, "film")->ran);
     check_true("and the choice is made", is_chosen(&a, "ruled/cheap"));
-    check_true("then the rest", fe_pipeline_run(a.pipeline, NULL, a.report));
+    check_true("then the rest", ff_pipeline_run(a.pipeline, NULL, a.report));
     check_near("with the law", try_scalar(&a, "film", "value"), 30, 1e-12);
     try_close(&a);
 }

@@ -41,7 +41,7 @@ static void results(void)
         taken += a.pipeline->stages[i].seconds;
     check_true("time is taken, by each stage its own",
                try_stage(&a, "one")->seconds > 0 && taken < now() - begin);
-    check_true("again gives the same", fe_pipeline_run(a.pipeline, NULL, a.report) &&
+    check_true("again gives the same", ff_pipeline_run(a.pipeline, NULL, a.report) &&
                                            try_scalar(&a, "one", "evaluations") == 2 &&
                                            try_stage(&a, "one")->quality_count == 1);
     try_close(&a);
@@ -74,15 +74,15 @@ static void shapes(void)
     attempt a = try_run("pipeline: {one: {use: toy/source, level: 2 mm, count: 0}}\n"
                         "outputs: [one.field, one.series, one.rare]\n");
     check_good("lengths of 0", &a);
-    const fe_result *field = try_result(&a, "one", "field");
+    const ff_result *field = try_result(&a, "one", "field");
     check_true("an empty field",
                field->data && field->rank == 2 && field->shape[1] == 4 && field->count == 0);
-    const fe_stage *one = try_stage(&a, "one");
+    const ff_stage *one = try_stage(&a, "one");
     int rare = ff_model_find_output(one->loaded->model, "rare");
     check_true("an absent leading dimension",
-               one->results[rare].rank == 1 && !strcmp(fe_result_dim(one, (size_t)rare, 0), "k"));
+               one->results[rare].rank == 1 && !strcmp(ff_result_dim(one, (size_t)rare, 0), "k"));
     check_true("names of dimensions",
-               !strcmp(fe_result_dim(one, 2, 0), "t") && !strcmp(fe_result_dim(one, 2, 1), "x"));
+               !strcmp(ff_result_dim(one, 2, 0), "t") && !strcmp(ff_result_dim(one, 2, 1), "x"));
     try_close(&a);
 }
 
@@ -94,7 +94,7 @@ static void lengths_of_inputs(void)
                         "  sum: {use: toy/consumer, source: one, more: two}\n");
     check_error("two inputs of different lengths along one dimension", &a, 5, 47,
                 "the dimension \"t\" is 5 long in \"source.series\", but 6 in \"more.series\"");
-    check_true("wrong input", fe_report_exit_code(a.report) == FE_EXIT_INPUT);
+    check_true("wrong input", ff_report_fault(a.report) == FF_FAULT_INPUT);
     check_true("results so far stay", try_result(&a, "one", "series")->data != NULL);
     try_close(&a);
 }
@@ -107,28 +107,28 @@ static void status(const char *answer, int exit_code, const char *phrase)
              "  sum: {use: toy/consumer, source: one}\n",
              answer);
     attempt a = try_run(text);
-    check_true(answer, fe_report_exit_code(a.report) == exit_code);
-    if (exit_code == FE_EXIT_OK)
-        check_true("a warning", try_says(&a, FE_WARNING, 3, 33, phrase));
-    else if (exit_code == FE_EXIT_PLUGIN)
+    check_true(answer, ff_report_fault(a.report) == exit_code);
+    if (exit_code == FF_FAULT_NONE)
+        check_true("a warning", try_says(&a, FF_WARNING, 3, 33, phrase));
+    else if (exit_code == FF_FAULT_PLUGIN)
         check_error("at the model", &a, 3, 14, phrase);
     else
         check_error("at the parameter", &a, 3, 33, phrase);
-    const fe_stage *sum = try_stage(&a, "sum");
-    check_true("what depends on it", sum && sum->ran == (exit_code == FE_EXIT_OK));
+    const ff_stage *sum = try_stage(&a, "sum");
+    check_true("what depends on it", sum && sum->ran == (exit_code == FF_FAULT_NONE));
     try_close(&a);
 }
 
 static void statuses(void)
 {
-    status("domain", FE_EXIT_OK, "one: the answer is domain");
-    status("noconv", FE_EXIT_FAILED, "one.level (toy/source): the answer is noconv");
-    status("stopped", FE_EXIT_FAILED, "the answer is stopped");
-    status("nomem", FE_EXIT_FAILED, "the answer is nomem");
-    status("invalid", FE_EXIT_INPUT, "the answer is invalid");
-    status("unsupported", FE_EXIT_INPUT, "the answer is unsupported");
-    status("bug", FE_EXIT_PLUGIN, "a fault of its own during evaluate: the answer is bug");
-    status("unknown", FE_EXIT_PLUGIN, "the unknown status 77 during evaluate");
+    status("domain", FF_FAULT_NONE, "one: the answer is domain");
+    status("noconv", FF_FAULT_RUN, "one.level (toy/source): the answer is noconv");
+    status("stopped", FF_FAULT_RUN, "the answer is stopped");
+    status("nomem", FF_FAULT_RUN, "the answer is nomem");
+    status("invalid", FF_FAULT_INPUT, "the answer is invalid");
+    status("unsupported", FF_FAULT_INPUT, "the answer is unsupported");
+    status("bug", FF_FAULT_PLUGIN, "a fault of its own during evaluate: the answer is bug");
+    status("unknown", FF_FAULT_PLUGIN, "the unknown status 77 during evaluate");
     attempt a = try_build("pipeline: {one: {use: toy/source, level: 2 mm, count: 7, answer: "
                           "ready}}\n",
                           false);
@@ -143,7 +143,7 @@ static void bad_quality(void)
                         "  sum: {use: toy/consumer, source: one}\n");
     check_error("a bad verdict fails the run", &a, 3, 3,
                 "balance is 0.5, held to 1e-08: nothing balances");
-    check_true("with its exit code", fe_report_exit_code(a.report) == FE_EXIT_FAILED);
+    check_true("with its exit code", ff_report_fault(a.report) == FF_FAULT_RUN);
     check_true("and its results kept", try_stage(&a, "sum")->ran);
     try_close(&a);
 }
@@ -158,17 +158,17 @@ static void refused_outputs(void)
     a = try_run("pipeline: {one: {use: toy/source, level: 2 mm}}\noutputs: [one.*, one.never]\n");
     check_error("what is asked for by name is an error", &a, 2, 12,
                 "one.never (toy/source): not to be had");
-    check_true("of the input", fe_report_exit_code(a.report) == FE_EXIT_INPUT);
+    check_true("of the input", ff_report_fault(a.report) == FF_FAULT_INPUT);
     try_close(&a);
 }
 
-static int stop(void *ctx, const fe_stage *s, double fraction)
+static int stop(void *ctx, const ff_stage *s, double fraction)
 {
     (void)ctx, (void)s;
     return fraction == 0.5;
 }
 
-static void count_lines(void *ctx, const fe_stage *s, int level, const char *text)
+static void count_lines(void *ctx, const ff_stage *s, int level, const char *text)
 {
     *(int *)ctx += level == FF_LOG_INFO && !strcmp(text, "working") && !strcmp(s->name, "one");
 }
@@ -176,11 +176,11 @@ static void count_lines(void *ctx, const fe_stage *s, int level, const char *tex
 static void watched(void)
 {
     int lines = 0;
-    fe_watch watch = {.progress = stop, .log = count_lines, .ctx = &lines};
+    ff_observer watch = {.progress = stop, .log = count_lines, .ctx = &lines};
     attempt a =
         try_build("pipeline: {one: {use: toy/source, level: 2 mm, answer: progress}}\n", false);
-    check_true("a run that is stopped", !fe_pipeline_run(a.pipeline, &watch, a.report) &&
-                                            fe_report_exit_code(a.report) == FE_EXIT_FAILED);
+    check_true("a run that is stopped", !ff_pipeline_run(a.pipeline, &watch, a.report) &&
+                                            ff_report_fault(a.report) == FF_FAULT_RUN);
     check_error("says so", &a, 0, 0, "it was stopped");
     check_true("log lines arrive", lines == 1);
     try_close(&a);

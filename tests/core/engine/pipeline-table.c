@@ -28,10 +28,10 @@ static void refuse(const char *how, const char *table, unsigned line, unsigned c
 {
     attempt a = run(how, table);
     check_error(phrase, &a, line, column, phrase);
-    check_true("alone", fe_report_errors(a.report) == 1);
-    check_true("of that exit code", fe_report_exit_code(a.report) == exit_code);
-    check_true("in that file", fe_report_count(a.report) > 0 &&
-                                   !strcmp(fe_report_at(a.report, 0)->place.source->name, source));
+    check_true("alone", ff_report_errors(a.report) == 1);
+    check_true("of that exit code", ff_report_fault(a.report) == exit_code);
+    check_true("in that file", ff_report_count(a.report) > 0 &&
+                                   !strcmp(ff_report_at(a.report, 0)->place.source->name, source));
     try_close(&a);
 }
 
@@ -40,7 +40,7 @@ static void printed(void)
     char text[1000] = "", expected[1000];
     attempt a = run("cell", "# flood\nlevel [m]\n0.5\n 0.25\n");
     FILE *stream = fmemopen(text, sizeof text, "w");
-    fe_report_print(a.report, stream, false);
+    ff_report_print(a.report, stream, false);
     fclose(stream);
     snprintf(expected, sizeof expected,
              "%s:4:2: error: one.file (toy/reader): the level of row 2 is wrong\n"
@@ -65,7 +65,7 @@ int main(void)
     check_near("in SI", try_scalar(&a, "one", "sum"), 0.75, 1e-15);
     try_close(&a);
     a = run("used", "tiefe [m], level [s]\n1\n");
-    check_true("all errors at once", fe_report_errors(a.report) == 2);
+    check_true("all errors at once", ff_report_errors(a.report) == 2);
     try_close(&a);
     a = run("ignored", bad);
     check_good("a failure that the model can live with", &a);

@@ -20,11 +20,11 @@ static attempt begin(const char *text, const char *assignment, bool everything)
     const char *const directories[] = {try_plugins()};
     char whole[8192];
     snprintf(whole, sizeof whole, "format: 1\n%s", text);
-    attempt a = {.report = fe_report_new(), .library = fe_library_new(directories, 1)};
-    a.tree = fe_tree_parse("case.yaml", ".", whole, a.report);
+    attempt a = {.report = ff_report_new(), .library = ff_library_new(directories, 1)};
+    a.tree = ff_tree_parse("case.yaml", ".", whole, a.report);
     if (assignment)
-        fe_tree_set(a.tree, assignment, "pipeline", fe_pipeline_top_keys, a.report);
-    a.pipeline = fe_pipeline_build(a.tree, a.library, everything, a.report);
+        ff_tree_set(a.tree, assignment, "pipeline", ff_file_keys(), a.report);
+    a.pipeline = ff_pipeline_build(a.tree, a.library, everything, a.report);
     return a;
 }
 
@@ -41,20 +41,20 @@ attempt try_build_set(const char *text, const char *assignment, bool everything)
 attempt try_run(const char *text)
 {
     attempt a = begin(text, NULL, false);
-    if (a.pipeline && fe_report_errors(a.report) == 0)
-        fe_pipeline_run(a.pipeline, NULL, a.report);
+    if (a.pipeline && ff_report_errors(a.report) == 0)
+        ff_pipeline_run(a.pipeline, NULL, a.report);
     return a;
 }
 
 void try_close(attempt *a)
 {
-    fe_pipeline_free(a->pipeline);
-    fe_tree_free(a->tree);
-    fe_library_free(a->library);
-    fe_report_free(a->report);
+    ff_pipeline_free(a->pipeline);
+    ff_tree_free(a->tree);
+    ff_library_free(a->library);
+    ff_report_free(a->report);
 }
 
-const fe_stage *try_stage(const attempt *a, const char *name)
+const ff_stage *try_stage(const attempt *a, const char *name)
 {
     for (size_t i = 0; a->pipeline && i < a->pipeline->count; i++)
         if (!strcmp(a->pipeline->stages[i].name, name))
@@ -62,31 +62,31 @@ const fe_stage *try_stage(const attempt *a, const char *name)
     return NULL;
 }
 
-const fe_bound *try_param(const attempt *a, const char *of, const char *param)
+const ff_bound *try_param(const attempt *a, const char *of, const char *param)
 {
-    const fe_stage *s = try_stage(a, of);
+    const ff_stage *s = try_stage(a, of);
     int row = s && s->params ? ff_model_find_param(s->loaded->model, param) : -1;
     return row < 0 ? NULL : &s->params[row];
 }
 
-const fe_result *try_result(const attempt *a, const char *of, const char *output)
+const ff_result *try_result(const attempt *a, const char *of, const char *output)
 {
-    const fe_stage *s = try_stage(a, of);
+    const ff_stage *s = try_stage(a, of);
     int row = s && s->loaded ? ff_model_find_output(s->loaded->model, output) : -1;
     return row < 0 ? NULL : &s->results[row];
 }
 
 double try_scalar(const attempt *a, const char *of, const char *output)
 {
-    const fe_result *result = try_result(a, of, output);
+    const ff_result *result = try_result(a, of, output);
     return result && result->data ? result->data[0] : NAN;
 }
 
-bool try_says(const attempt *a, fe_severity severity, unsigned line, unsigned column,
+bool try_says(const attempt *a, ff_severity severity, unsigned line, unsigned column,
               const char *phrase)
 {
-    for (size_t i = 0; i < fe_report_count(a->report); i++) {
-        const fe_message *m = fe_report_at(a->report, i);
+    for (size_t i = 0; i < ff_report_count(a->report); i++) {
+        const ff_message *m = ff_report_at(a->report, i);
         bool here = line == 0 || (m->place.line == line && m->place.column == column);
         if (m->severity == severity && here &&
             (strstr(m->text, phrase) || (m->hint && strstr(m->hint, phrase))))
@@ -97,8 +97,8 @@ bool try_says(const attempt *a, fe_severity severity, unsigned line, unsigned co
 
 void try_print(const attempt *a)
 {
-    for (size_t i = 0; i < fe_report_count(a->report); i++) {
-        const fe_message *m = fe_report_at(a->report, i);
+    for (size_t i = 0; i < ff_report_count(a->report); i++) {
+        const ff_message *m = ff_report_at(a->report, i);
         printf("    %u:%u: %s%s%s\n", m->place.line, m->place.column, m->text,
                m->hint ? "\n        hint: " : "", m->hint ? m->hint : "");
     }
@@ -106,14 +106,14 @@ void try_print(const attempt *a)
 
 void check_good(const char *what, const attempt *a)
 {
-    if (!check_true(what, a->pipeline && fe_report_errors(a->report) == 0))
+    if (!check_true(what, a->pipeline && ff_report_errors(a->report) == 0))
         try_print(a);
 }
 
 void check_error(const char *what, const attempt *a, unsigned line, unsigned column,
                  const char *phrase)
 {
-    if (!check_true(what, try_says(a, FE_ERROR, line, column, phrase))) {
+    if (!check_true(what, try_says(a, FF_ERROR, line, column, phrase))) {
         printf("    wanted at %u:%u: %s\n", line, column, phrase);
         try_print(a);
     }

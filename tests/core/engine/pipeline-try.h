@@ -3,16 +3,16 @@
 #ifndef PIPELINE_TRY_H
 #define PIPELINE_TRY_H
 
-#include "../../../core/engine/pipeline/pipeline.h"
+#include <flankfilm/engine.h>
 
 #include <host.h>
 
 /* A line "format: 1" is put before the text, so that the text's first line is line 2. */
 typedef struct attempt {
-    fe_tree *tree;
-    fe_library *library;
-    fe_report *report;
-    fe_pipeline *pipeline; /* may be NULL */
+    ff_tree *tree;
+    ff_library *library;
+    ff_report *report;
+    ff_pipeline *pipeline; /* may be NULL */
 } attempt;
 
 attempt try_build(const char *text, bool everything);
@@ -25,13 +25,13 @@ void try_close(attempt *a);
 /* The directory of the fixtures' kinds. */
 const char *try_plugins(void);
 
-const fe_stage *try_stage(const attempt *a, const char *name);
-const fe_bound *try_param(const attempt *a, const char *of, const char *param);
-const fe_result *try_result(const attempt *a, const char *of, const char *output);
+const ff_stage *try_stage(const attempt *a, const char *name);
+const ff_bound *try_param(const attempt *a, const char *of, const char *param);
+const ff_result *try_result(const attempt *a, const char *of, const char *output);
 double try_scalar(const attempt *a, const char *of, const char *output); /* NaN: none */
 
 /* Some message of that severity holds the phrase; line 0 is any place. */
-bool try_says(const attempt *a, fe_severity severity, unsigned line, unsigned column,
+bool try_says(const attempt *a, ff_severity severity, unsigned line, unsigned column,
               const char *phrase);
 void try_print(const attempt *a); /* all messages, to stdout */
 

@@ -6,7 +6,7 @@
 
 static int feeder(const attempt *a, const char *of, const char *wire)
 {
-    const fe_stage *s = try_stage(a, of);
+    const ff_stage *s = try_stage(a, of);
     for (size_t i = 0; s && i < s->wire_count; i++)
         if (!strcmp(s->wires[i].name, wire))
             return s->wires[i].stage;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Faults inside plugins end the program with exit code 3 and one sentence. */
-#include "../../../core/engine/plugin/guard.h"
+#include <flankfilm/engine.h>
+
 #include "../../../core/program/cli/crash.h"
 #include "pipeline-try.h"
 
@@ -20,8 +21,8 @@ static int work(const char *fault, bool json)
              "outputs: [film.level, film.series]\n",
              fault);
     attempt a = try_run(text);
-    fe_report_print(a.report, stderr, false);
-    int code = fe_report_exit_code(a.report);
+    ff_report_print(a.report, stderr, false);
+    int code = ff_report_fault(a.report);
     try_close(&a);
     return code;
 }
@@ -50,14 +51,14 @@ static void dies(const char *fault, const char *phrase)
     char file[64];
     remains r = try_child(in_words, fault);
     snprintf(file, sizeof file, "faulty/%s.so", fault);
-    if (!check_true(fault, r.exit_code == FE_EXIT_PLUGIN && strstr(r.err, phrase) &&
+    if (!check_true(fault, r.exit_code == FF_FAULT_PLUGIN && strstr(r.err, phrase) &&
                                strstr(r.err, file) && count_lines(r.err) == 1))
         printf("    exit %d, signal %d: %s\n", r.exit_code, r.signal, r.err);
     check_true("stdout stays empty", r.out[0] == 0);
     r = try_child(in_json, fault);
     snprintf(file, sizeof file, "faulty/%s.so", fault);
     static const char head[] = "{\"status\":\"error\",\"exit\":3,\"errors\":[{";
-    if (!check_true("--json gets one object", r.exit_code == FE_EXIT_PLUGIN &&
+    if (!check_true("--json gets one object", r.exit_code == FF_FAULT_PLUGIN &&
                                                   !strncmp(r.out, head, sizeof head - 1) &&
                                                   strstr(r.out, file) && count_lines(r.out) == 1))
         printf("    exit %d, signal %d: %s\n", r.exit_code, r.signal, r.out);
@@ -91,29 +92,30 @@ static void deaths(void)
 
 static void breaches(void)
 {
-    fails("nan", FE_EXIT_PLUGIN, "gave no number (NaN) at index 2 of the output \"series\"");
-    fails("infinite", FE_EXIT_PLUGIN, "gave an infinite number at index 0 of the output \"level\"");
-    fails("missing", FE_EXIT_PLUGIN, "did not give the output \"level\"");
-    fails("rank", FE_EXIT_PLUGIN, "gave the output \"level\" with 6 dimensions");
-    fails("lengths", FE_EXIT_PLUGIN, "the dimension \"t\" is 3 long in \"series\", but 4");
-    fails("twice", FE_EXIT_PLUGIN, "gave the output \"series\" twice");
-    fails("row", FE_EXIT_PLUGIN, "output row 99");
-    fails("early-output", FE_EXIT_PLUGIN, "outside of evaluate");
-    fails("verdict", FE_EXIT_PLUGIN, "unknown verdict 99");
-    fails("huge", FE_EXIT_FAILED, "not enough memory for the output \"series\"");
-    fails("fail-create", FE_EXIT_PLUGIN, "bytes ?? and lines");
-    fails("rounding", FE_EXIT_OK, "changed the rounding mode during evaluate");
-    fails("locale", FE_EXIT_OK, "changed the locale during evaluate");
+    fails("nan", FF_FAULT_PLUGIN, "gave no number (NaN) at index 2 of the output \"series\"");
+    fails("infinite", FF_FAULT_PLUGIN,
+          "gave an infinite number at index 0 of the output \"level\"");
+    fails("missing", FF_FAULT_PLUGIN, "did not give the output \"level\"");
+    fails("rank", FF_FAULT_PLUGIN, "gave the output \"level\" with 6 dimensions");
+    fails("lengths", FF_FAULT_PLUGIN, "the dimension \"t\" is 3 long in \"series\", but 4");
+    fails("twice", FF_FAULT_PLUGIN, "gave the output \"series\" twice");
+    fails("row", FF_FAULT_PLUGIN, "output row 99");
+    fails("early-output", FF_FAULT_PLUGIN, "outside of evaluate");
+    fails("verdict", FF_FAULT_PLUGIN, "unknown verdict 99");
+    fails("huge", FF_FAULT_RUN, "not enough memory for the output \"series\"");
+    fails("fail-create", FF_FAULT_PLUGIN, "bytes ?? and lines");
+    fails("rounding", FF_FAULT_NONE, "changed the rounding mode during evaluate");
+    fails("locale", FF_FAULT_NONE, "changed the locale during evaluate");
     remains r = try_child(in_words, "none");
-    check_true("a model without a fault", r.exit_code == FE_EXIT_OK && !r.err[0]);
+    check_true("a model without a fault", r.exit_code == FF_FAULT_NONE && !r.err[0]);
 }
 
 static int crash_alone(const char *argument)
 {
     (void)argument;
     cli_crash_install(false);
-    fe_guard_mark mark = fe_guard_enter("x.so", NULL, "evaluate");
-    fe_guard_leave(mark);
+    ff_guard_mark mark = ff_guard_enter("x.so", NULL, "evaluate");
+    ff_guard_leave(mark);
     raise(SIGABRT);
     return 0;
 }

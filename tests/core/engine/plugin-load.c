@@ -9,21 +9,21 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static attempt load_from(const char *directory, const char *id, const fe_loaded **loaded)
+static attempt load_from(const char *directory, const char *id, const ff_loaded **loaded)
 {
-    attempt a = {.report = fe_report_new(), .library = fe_library_new(&directory, 1)};
-    *loaded = fe_library_load(a.library, id, FE_NOWHERE, a.report);
+    attempt a = {.report = ff_report_new(), .library = ff_library_new(&directory, 1)};
+    *loaded = ff_library_load(a.library, id, FF_NOWHERE, a.report);
     return a;
 }
 
 static void refuses(const char *id, int exit_code, const char *phrase)
 {
-    const fe_loaded *loaded;
+    const ff_loaded *loaded;
     attempt a = load_from(try_plugins(), id, &loaded);
     check_error(id, &a, 0, 0, phrase);
     check_true("it is not loaded", !loaded);
-    check_true("its exit code", fe_report_exit_code(a.report) == exit_code);
-    if (exit_code == FE_EXIT_PLUGIN)
+    check_true("its exit code", ff_report_fault(a.report) == exit_code);
+    if (exit_code == FF_FAULT_PLUGIN)
         check_error("the sentence names the file", &a, 0, 0, id);
     try_close(&a);
 }
@@ -78,39 +78,39 @@ static void descriptors(void)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         char id[64];
         snprintf(id, sizeof id, "faulty/%s", cases[i].fault);
-        refuses(id, FE_EXIT_PLUGIN, cases[i].phrase);
+        refuses(id, FF_FAULT_PLUGIN, cases[i].phrase);
     }
 }
 
 static void names(void)
 {
-    refuses("toy/surce", FE_EXIT_INPUT, "did you mean \"toy/source\"?");
-    refuses("toy/surce", FE_EXIT_INPUT, "/toy/surce.so");
-    refuses("toy/nothing-near", FE_EXIT_PLUGIN, "there is no model");
-    refuses("../toy/source", FE_EXIT_INPUT, "does not name a model");
-    refuses("toy/source.so", FE_EXIT_INPUT, "does not name a model");
-    refuses("toy/../toy/source", FE_EXIT_INPUT, "does not name a model");
-    refuses("toy", FE_EXIT_INPUT, "does not name a model");
-    refuses("Toy/Source", FE_EXIT_INPUT, "did you mean \"toy/source\"?");
-    refuses("source", FE_EXIT_INPUT, "did you mean \"toy/source\"?");
-    refuses("", FE_EXIT_INPUT, "does not name a model");
-    refuses("toy/", FE_EXIT_INPUT, "does not name a model");
-    refuses("/tmp/x", FE_EXIT_INPUT, "does not name a model");
+    refuses("toy/surce", FF_FAULT_INPUT, "did you mean \"toy/source\"?");
+    refuses("toy/surce", FF_FAULT_INPUT, "/toy/surce.so");
+    refuses("toy/nothing-near", FF_FAULT_PLUGIN, "there is no model");
+    refuses("../toy/source", FF_FAULT_INPUT, "does not name a model");
+    refuses("toy/source.so", FF_FAULT_INPUT, "does not name a model");
+    refuses("toy/../toy/source", FF_FAULT_INPUT, "does not name a model");
+    refuses("toy", FF_FAULT_INPUT, "does not name a model");
+    refuses("Toy/Source", FF_FAULT_INPUT, "did you mean \"toy/source\"?");
+    refuses("source", FF_FAULT_INPUT, "did you mean \"toy/source\"?");
+    refuses("", FF_FAULT_INPUT, "does not name a model");
+    refuses("toy/", FF_FAULT_INPUT, "does not name a model");
+    refuses("/tmp/x", FF_FAULT_INPUT, "does not name a model");
 }
 
 static void loads_once(void)
 {
-    const fe_loaded *first;
+    const ff_loaded *first;
     attempt a = load_from(try_plugins(), "toy/source", &first);
-    check_true("a healthy model loads", first && fe_report_count(a.report) == 0);
+    check_true("a healthy model loads", first && ff_report_count(a.report) == 0);
     check_true("the second time gives the same",
-               fe_library_load(a.library, "toy/source", FE_NOWHERE, a.report) == first);
+               ff_library_load(a.library, "toy/source", FF_NOWHERE, a.report) == first);
     check_true("rows are found by name", first && ff_model_find_param(first->model, "share") == 2 &&
                                              ff_model_find_param(first->model, "shar") == -1);
     check_true("optional leading dimension",
                first && first->output_dims[6].first_optional && first->output_dims[6].rank == 2);
     size_t count;
-    const char *const *ids = fe_library_ids(a.library, &count);
+    const char *const *ids = ff_library_ids(a.library, &count);
     bool sorted = true, found = false;
     for (size_t i = 0; i < count; i++) {
         sorted = sorted && (i == 0 || strcmp(ids[i - 1], ids[i]) < 0);
@@ -122,26 +122,26 @@ static void loads_once(void)
 
 static void several_models(void)
 {
-    const fe_loaded *first;
+    const ff_loaded *first;
     attempt a = load_from(try_plugins(), "toy/several", &first);
-    const fe_loaded *wide = fe_library_load(a.library, "toy/wide", FE_NOWHERE, a.report);
-    check_true("both models of an object load", fe_report_count(a.report) == 0);
+    const ff_loaded *wide = ff_library_load(a.library, "toy/wide", FF_NOWHERE, a.report);
+    check_true("both models of an object load", ff_report_count(a.report) == 0);
     check_true("each by its own id", first && wide && !strcmp(first->model->id, "toy/several") &&
                                          !strcmp(wide->model->id, "toy/wide"));
     check_true("and its own path", wide && strstr(wide->path, "/toy/wide.so"));
     check_true("of one object", first && wide && first->model->create == wide->model->create);
-    refuses("toy/absent", FE_EXIT_PLUGIN,
+    refuses("toy/absent", FF_FAULT_PLUGIN,
             "has the models toy/several, toy/wide, but its place says \"toy/absent\"");
     try_close(&a);
 }
 
 static void keeps_arithmetic(void)
 {
-    const fe_loaded *loaded;
+    const ff_loaded *loaded;
     volatile double smallest = DBL_MIN;
     attempt a = load_from(try_plugins(), "faulty/fast-math", &loaded);
     check_true("a model linked with -ffast-math loads", loaded != NULL);
-    check_true("with a warning", try_says(&a, FE_WARNING, 0, 0, "flush small numbers to zero"));
+    check_true("with a warning", try_says(&a, FF_WARNING, 0, 0, "flush small numbers to zero"));
     check_true("and subnormal numbers are still there", smallest / 2 > 0);
     try_close(&a);
 }
@@ -176,12 +176,12 @@ static size_t read_model(const char *id, char *bytes, size_t most)
 
 static void refuses_own(const char *name, const char *phrase)
 {
-    const fe_loaded *loaded;
+    const ff_loaded *loaded;
     char id[64];
     snprintf(id, sizeof id, "own/%s", name);
     attempt a = load_from(home, id, &loaded);
     check_error(name, &a, 0, 0, phrase);
-    check_true("a plugin's fault", fe_report_exit_code(a.report) == FE_EXIT_PLUGIN && !loaded);
+    check_true("a plugin's fault", ff_report_fault(a.report) == FF_FAULT_PLUGIN && !loaded);
     try_close(&a);
 }
 
@@ -222,7 +222,7 @@ static void broken_files(void)
 /* The first of two directories wins, even when what stands there is broken. */
 static void order_of_search(void)
 {
-    const fe_loaded *loaded;
+    const ff_loaded *loaded;
     const char *const both[] = {home, try_plugins()};
     char path[256];
     snprintf(path, sizeof path, "%s/toy", home);
@@ -231,17 +231,17 @@ static void order_of_search(void)
     FILE *file = fopen(path, "w");
     if (!file || fclose(file) != 0)
         exit(2);
-    attempt a = {.report = fe_report_new(), .library = fe_library_new(both, 2)};
-    loaded = fe_library_load(a.library, "toy/law", FE_NOWHERE, a.report);
+    attempt a = {.report = ff_report_new(), .library = ff_library_new(both, 2)};
+    loaded = ff_library_load(a.library, "toy/law", FF_NOWHERE, a.report);
     check_error("the first file found is the one used", &a, 0, 0, "is empty");
     check_true("what stands behind it is not looked at", !loaded);
-    loaded = fe_library_load(a.library, "toy/source", FE_NOWHERE, a.report);
+    loaded = ff_library_load(a.library, "toy/source", FF_NOWHERE, a.report);
     check_true("the second directory is searched", loaded != NULL);
     try_close(&a);
     setenv("FLANKFILM_PLUGIN_PATH", try_plugins(), 1);
-    a = (attempt){.report = fe_report_new(), .library = fe_library_new(NULL, 0)};
+    a = (attempt){.report = ff_report_new(), .library = ff_library_new(NULL, 0)};
     check_true("FLANKFILM_PLUGIN_PATH is searched",
-               fe_library_load(a.library, "toy/law", FE_NOWHERE, a.report) != NULL);
+               ff_library_load(a.library, "toy/law", FF_NOWHERE, a.report) != NULL);
     try_close(&a);
     unsetenv("FLANKFILM_PLUGIN_PATH");
     char link[300], target[4096];
@@ -250,9 +250,9 @@ static void order_of_search(void)
     snprintf(link, sizeof link, "%s/plugins", path);
     bool linked = realpath(try_plugins(), target) && symlink(target, link) == 0;
     setenv("XDG_DATA_HOME", home, 1);
-    a = (attempt){.report = fe_report_new(), .library = fe_library_new(NULL, 0)};
+    a = (attempt){.report = ff_report_new(), .library = ff_library_new(NULL, 0)};
     check_true("the user's data directory is searched",
-               linked && fe_library_load(a.library, "toy/law", FE_NOWHERE, a.report) != NULL);
+               linked && ff_library_load(a.library, "toy/law", FF_NOWHERE, a.report) != NULL);
     try_close(&a);
 }
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Malformed files in tests/bad/yaml: the first message of each says what is wrong, and where. */
+#include <flankfilm/engine.h>
+
 #include <dirent.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "../../../core/engine/value/tree.h"
 #include "value-check.h"
 
 static const struct {
@@ -89,17 +90,17 @@ START_TEST(says_what_and_where)
 {
     char path[1100];
     snprintf(path, sizeof path, "%s/%s.yaml", folder(), rows[_i].name);
-    fe_report *report = fe_report_new();
-    fe_tree *tree = fe_tree_load(path, report);
-    ck_assert_msg(fe_report_errors(report) > 0, "%s: no error", rows[_i].name);
-    const fe_message *first = fe_report_at(report, 0);
+    ff_report *report = ff_report_new();
+    ff_tree *tree = ff_tree_load(path, report);
+    ck_assert_msg(ff_report_errors(report) > 0, "%s: no error", rows[_i].name);
+    const ff_message *first = ff_report_at(report, 0);
     ck_assert_msg(first->place.line == rows[_i].line && first->place.column == rows[_i].column,
                   "%s:%u:%u: %s", rows[_i].name, first->place.line, first->place.column,
                   first->text);
     ck_assert_msg(strstr(first->text, rows[_i].words), "%s: %s", rows[_i].name, first->text);
-    ck_assert_int_eq(fe_report_exit_code(report), FE_EXIT_INPUT);
-    fe_report_free(report);
-    fe_tree_free(tree);
+    ck_assert_int_eq(ff_report_fault(report), FF_FAULT_INPUT);
+    ff_report_free(report);
+    ff_tree_free(tree);
 }
 END_TEST
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hostile and broken texts: bounded time and memory, always a message, never a crash. */
+#include <flankfilm/engine.h>
+
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 
-#include "../../../core/engine/value/tree.h"
 #include "value-check.h"
 
 enum { MEBIBYTE = 1 << 20 };
@@ -48,25 +49,25 @@ static double seconds(void)
 static void check_refused(const char *words, double limit)
 {
     double start = seconds();
-    fe_report *report = fe_report_new();
-    fe_tree *tree = fe_tree_parse("bound.yaml", NULL, text, report);
+    ff_report *report = ff_report_new();
+    ff_tree *tree = ff_tree_parse("bound.yaml", NULL, text, report);
     double took = seconds() - start;
-    ck_assert_uint_ge(fe_report_errors(report), 1);
-    ck_assert_msg(strstr(fe_report_at(report, 0)->text, words), "%s",
-                  fe_report_at(report, 0)->text);
+    ck_assert_uint_ge(ff_report_errors(report), 1);
+    ck_assert_msg(strstr(ff_report_at(report, 0)->text, words), "%s",
+                  ff_report_at(report, 0)->text);
     ck_assert_msg(took < limit, "%g s", took);
-    fe_tree_free(tree);
-    fe_report_free(report);
+    ff_tree_free(tree);
+    ff_report_free(report);
 }
 
 static void check_accepted(void)
 {
-    fe_report *report = fe_report_new();
-    fe_tree *tree = fe_tree_parse("bound.yaml", NULL, text, report);
-    ck_assert_msg(fe_report_errors(report) == 0, "%s", fe_report_at(report, 0)->text);
-    ck_assert_ptr_nonnull(fe_tree_root(tree));
-    fe_tree_free(tree);
-    fe_report_free(report);
+    ff_report *report = ff_report_new();
+    ff_tree *tree = ff_tree_parse("bound.yaml", NULL, text, report);
+    ck_assert_msg(ff_report_errors(report) == 0, "%s", ff_report_at(report, 0)->text);
+    ck_assert_ptr_nonnull(ff_tree_root(tree));
+    ff_tree_free(tree);
+    ff_report_free(report);
 }
 
 START_TEST(fifty_thousand_brackets)
@@ -292,13 +293,13 @@ static void mutate(uint64_t *state)
     text[used] = '\0';
 }
 
-static size_t count_nodes(const fe_node *node)
+static size_t count_nodes(const ff_node *node)
 {
     size_t count = 1;
-    ck_assert(node->kind != FE_SCALAR || strlen(node->text) <= used + sizeof sample);
+    ck_assert(node->kind != FF_SCALAR || strlen(node->text) <= used + sizeof sample);
     for (size_t i = 0; i < node->count; i++) {
         ck_assert_ptr_nonnull(node->items[i]);
-        ck_assert(node->kind != FE_MAP || node->keys[i]);
+        ck_assert(node->kind != FF_MAP || node->keys[i]);
         count += count_nodes(node->items[i]);
     }
     return count;
@@ -307,21 +308,21 @@ static size_t count_nodes(const fe_node *node)
 /* Each text gives a tree, or errors that can be printed; places stay inside the text. */
 static void check_round(FILE *sink)
 {
-    fe_report *report = fe_report_new();
-    fe_tree *tree = fe_tree_parse("fuzz.yaml", "/nonexistent", text, report);
-    if (fe_tree_root(tree))
-        ck_assert_uint_le(count_nodes(fe_tree_root(tree)), 100000);
+    ff_report *report = ff_report_new();
+    ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
+    if (ff_tree_root(tree))
+        ck_assert_uint_le(count_nodes(ff_tree_root(tree)), 100000);
     else
-        ck_assert_uint_ge(fe_report_errors(report), 1);
-    for (size_t i = 0; i < fe_report_count(report); i++) {
-        const fe_message *m = fe_report_at(report, i);
+        ck_assert_uint_ge(ff_report_errors(report), 1);
+    for (size_t i = 0; i < ff_report_count(report); i++) {
+        const ff_message *m = ff_report_at(report, i);
         ck_assert(m->text[0] && !strstr(m->text, "not valid YAML: unknown"));
         ck_assert_uint_le(m->place.line, used + 2);
         ck_assert_uint_le(m->place.column, used + 2);
     }
-    fe_report_print(report, sink, true);
-    fe_tree_free(tree);
-    fe_report_free(report);
+    ff_report_print(report, sink, true);
+    ff_tree_free(tree);
+    ff_report_free(report);
 }
 
 START_TEST(mutated_files)
@@ -345,17 +346,17 @@ START_TEST(mutated_assignments)
                                          "outputs.0=x", "a.b.c.d=", "gears.teeth.1=\"2\\n\""};
     uint64_t state = 1986;
     for (int round = 0; round < 2000; round++) {
-        fe_report *report = fe_report_new();
-        fe_tree *tree = fe_tree_parse("fuzz.yaml", ".", sample, report);
+        ff_report *report = ff_report_new();
+        ff_tree *tree = ff_tree_parse("fuzz.yaml", ".", sample, report);
         used = 0;
         put(starts[round % 5]);
         mutate(&state);
-        size_t errors = fe_report_errors(report);
-        bool done = fe_tree_set(tree, text, "pipeline", NULL, report);
-        ck_assert(done == (fe_report_errors(report) == errors));
-        count_nodes(fe_tree_root(tree));
-        fe_tree_free(tree);
-        fe_report_free(report);
+        size_t errors = ff_report_errors(report);
+        bool done = ff_tree_set(tree, text, "pipeline", NULL, report);
+        ck_assert(done == (ff_report_errors(report) == errors));
+        count_nodes(ff_tree_root(tree));
+        ff_tree_free(tree);
+        ff_report_free(report);
     }
 }
 END_TEST

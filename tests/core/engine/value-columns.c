@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables of numbers: what is read, and what is refused at which place. */
-#include "../../../core/engine/value/columns.h"
-#include "../../../core/engine/value/tables.h"
+#include <flankfilm/engine.h>
+
 #include "value-check.h"
 
 #include <locale.h>
@@ -38,8 +38,8 @@ static const ff_param rows[] = {
 enum { TIME, ANGLE, LENGTH, GEAR, TEMPERATURE, COLUMNS };
 
 static char path[64];
-static fe_columns columns;
-static fe_report *report;
+static ff_columns columns;
+static ff_report *report;
 
 static void set_up(void)
 {
@@ -47,14 +47,14 @@ static void set_up(void)
     int file = mkstemp(path);
     ck_assert(file >= 0);
     close(file);
-    report = fe_report_new();
+    report = ff_report_new();
 }
 
 static void tear_down(void)
 {
     unlink(path);
-    fe_columns_free(&columns);
-    fe_report_free(report);
+    ff_columns_free(&columns);
+    ff_report_free(report);
 }
 
 static void write_bytes(const char *bytes, size_t length)
@@ -65,7 +65,7 @@ static void write_bytes(const char *bytes, size_t length)
 
 static bool read_rows(const ff_param *asked, size_t count)
 {
-    return fe_columns_read(&columns, path, asked, count, sizeof *asked, report);
+    return ff_columns_read(&columns, path, asked, count, sizeof *asked, report);
 }
 
 static bool read_text(const char *text)
@@ -100,7 +100,7 @@ static const form forms[] = {
 START_TEST(forms_that_are_read)
 {
     ck_assert(read_text(forms[_i].text));
-    ck_assert_uint_eq(fe_report_count(report), 0);
+    ck_assert_uint_eq(ff_report_count(report), 0);
     ck_assert_uint_eq(columns.table.row_count, 2);
     const double *const *column = columns.table.columns;
     ck_assert_double_eq(column[TIME][0], 0);
@@ -146,15 +146,15 @@ START_TEST(lines_and_places)
     ck_assert(read_text("# µ\ntime [s], angle [deg], gear\n\n0, 10, 1\n# b\n 0.5,  20, 2\n"));
     ck_assert_uint_eq(columns.table.lines[0], 4);
     ck_assert_uint_eq(columns.table.lines[1], 6);
-    fe_place cell = fe_columns_place(&columns, 1, ANGLE);
+    ff_place cell = ff_columns_place(&columns, 1, ANGLE);
     ck_assert(cell.line == 6 && cell.column == 8 && cell.width == 2);
-    fe_place row = fe_columns_place(&columns, 0, SIZE_MAX);
+    ff_place row = ff_columns_place(&columns, 0, SIZE_MAX);
     ck_assert(row.line == 4 && row.column == 1 && row.width == 8);
-    fe_place head = fe_columns_place(&columns, SIZE_MAX, ANGLE);
+    ff_place head = ff_columns_place(&columns, SIZE_MAX, ANGLE);
     ck_assert(head.line == 2 && head.column == 11 && head.width == 11);
-    fe_place all = fe_columns_place(&columns, SIZE_MAX, SIZE_MAX);
+    ff_place all = ff_columns_place(&columns, SIZE_MAX, SIZE_MAX);
     ck_assert(all.source && all.line == 0);
-    fe_place absent = fe_columns_place(&columns, 1, LENGTH);
+    ff_place absent = ff_columns_place(&columns, 1, LENGTH);
     ck_assert(absent.line == 6 && absent.width == 11);
 }
 END_TEST
@@ -212,9 +212,9 @@ START_TEST(files_that_are_refused)
 {
     const refusal *r = &refusals[_i];
     ck_assert(!read_text(r->text));
-    ck_assert_uint_eq(fe_report_errors(report), 1);
-    ck_assert_int_eq(fe_report_exit_code(report), FE_EXIT_INPUT);
-    const fe_message *m = fe_report_at(report, 0);
+    ck_assert_uint_eq(ff_report_errors(report), 1);
+    ck_assert_int_eq(ff_report_fault(report), FF_FAULT_INPUT);
+    const ff_message *m = ff_report_at(report, 0);
     ck_assert_msg(!strncmp(m->text, r->said, strlen(r->said)), "%s", m->text);
     ck_assert_str_eq(m->place.source->name, path);
     ck_assert_uint_eq(m->place.line, r->line);
@@ -227,9 +227,9 @@ END_TEST
 
 static const char *hint_of(const char *text)
 {
-    fe_columns_free(&columns);
+    ff_columns_free(&columns);
     ck_assert(!read_text(text));
-    return fe_report_at(report, fe_report_count(report) - 1)->hint;
+    return ff_report_at(report, ff_report_count(report) - 1)->hint;
 }
 
 START_TEST(hints)
@@ -246,16 +246,16 @@ END_TEST
 START_TEST(all_that_is_wrong_comes_at_once_but_not_for_ever)
 {
     ck_assert(!read_text("time [h], angle [m], more\n0, 1, 2\n"));
-    ck_assert_uint_eq(fe_report_errors(report), 2); /* an hour is a time */
-    fe_columns_free(&columns);
+    ck_assert_uint_eq(ff_report_errors(report), 2); /* an hour is a time */
+    ff_columns_free(&columns);
     ck_assert(!read_text(HEAD "x, 1\n1, y\n2, 91\n1, 3\n"));
-    ck_assert_uint_eq(fe_report_errors(report), 6);
-    fe_columns_free(&columns);
+    ck_assert_uint_eq(ff_report_errors(report), 6);
+    ff_columns_free(&columns);
     char text[2000] = HEAD;
     for (int i = 0; i < 300; i++)
         strcat(text, "x, 1\n");
     ck_assert(!read_text(text));
-    ck_assert_uint_eq(fe_report_errors(report), 26);
+    ck_assert_uint_eq(ff_report_errors(report), 26);
 }
 END_TEST
 
@@ -264,14 +264,14 @@ START_TEST(no_text)
     static const char zero[] = HEAD "0,1\0\n";
     write_bytes(zero, sizeof zero - 1);
     ck_assert(!read_rows(rows, COLUMNS));
-    const fe_message *m = fe_report_at(report, 0);
+    const ff_message *m = ff_report_at(report, 0);
     ck_assert_str_eq(m->text, "this is not a text file: it has a zero byte here");
     ck_assert(m->place.line == 2 && m->place.column == 4);
     static const char *const names[] = {"/tmp", "/dev/zero", "/dev/null", "/no/such/file"};
     for (size_t i = 0; i < ROWS(names); i++) {
-        fe_columns_free(&columns);
-        ck_assert(!fe_columns_read(&columns, names[i], rows, COLUMNS, sizeof *rows, report));
-        m = fe_report_at(report, i + 1);
+        ff_columns_free(&columns);
+        ck_assert(!ff_columns_read(&columns, names[i], rows, COLUMNS, sizeof *rows, report));
+        m = ff_report_at(report, i + 1);
         ck_assert_str_eq(m->text, i < 3 ? "this is not a text file"
                                         : "the file cannot be read: No such file or directory");
     }
@@ -284,13 +284,13 @@ START_TEST(bounded_files)
     ck_assert(file && fseek(file, 1 << 27, SEEK_SET) == 0 && fputc('x', file) == 'x');
     fclose(file);
     ck_assert(!read_rows(rows, COLUMNS));
-    ck_assert_str_eq(fe_report_at(report, 0)->text, "the file has more than 128 MiB");
-    fe_columns_free(&columns);
+    ck_assert_str_eq(ff_report_at(report, 0)->text, "the file has more than 128 MiB");
+    ff_columns_free(&columns);
     char header[1000] = "x-0";
     for (int i = 0; i < 100; i++)
         strcat(header, ",x-1");
     ck_assert(!read_text(header));
-    ck_assert_str_eq(fe_report_at(report, 1)->text, "the header names more than 100 columns");
+    ck_assert_str_eq(ff_report_at(report, 1)->text, "the header names more than 100 columns");
 }
 END_TEST
 
@@ -303,12 +303,12 @@ START_TEST(number_of_rows)
     for (size_t i = 0; i < ROWS(texts); i++) {
         write_bytes(texts[i], strlen(texts[i]));
         ck_assert(read_rows(some, 1) == (i == 1 || i == 2));
-        fe_columns_free(&columns);
+        ff_columns_free(&columns);
     }
-    ck_assert_uint_eq(fe_report_errors(report), 2);
-    ck_assert_str_eq(fe_report_at(report, 0)->text, "the table must have at least 2 rows");
-    ck_assert_str_eq(fe_report_at(report, 1)->text, "the table has more than 3 rows");
-    ck_assert_uint_eq(fe_report_at(report, 1)->place.line, 5);
+    ck_assert_uint_eq(ff_report_errors(report), 2);
+    ck_assert_str_eq(ff_report_at(report, 0)->text, "the table must have at least 2 rows");
+    ck_assert_str_eq(ff_report_at(report, 1)->text, "the table has more than 3 rows");
+    ck_assert_uint_eq(ff_report_at(report, 1)->place.line, 5);
 }
 END_TEST
 
@@ -317,7 +317,7 @@ START_TEST(a_unit_of_the_plugin_that_is_none)
     static const ff_param bad[] = {{.name = "a", .unit = "sek", .doc = "", .type = FF_REALS}};
     write_bytes("a\n1\n", 4);
     ck_assert(!read_rows(bad, 1));
-    ck_assert_int_eq(fe_report_exit_code(report), FE_EXIT_PLUGIN);
+    ck_assert_int_eq(ff_report_fault(report), FF_FAULT_PLUGIN);
 }
 END_TEST
 
@@ -325,16 +325,16 @@ END_TEST
 START_TEST(the_report_keeps_the_text)
 {
     char printed[1000];
-    fe_report *other = fe_report_new();
+    ff_report *other = ff_report_new();
     ck_assert(!read_text(HEAD "0, x\n1, y\n"));
-    for (size_t i = 0; i < fe_report_count(report); i++)
-        fe_error(other, FE_EXIT_INPUT, fe_report_at(report, i)->place, NULL, "%s",
-                 fe_report_at(report, i)->text);
-    fe_columns_free(&columns);
-    fe_report_free(report);
+    for (size_t i = 0; i < ff_report_count(report); i++)
+        ff_error(other, FF_FAULT_INPUT, ff_report_at(report, i)->place, NULL, "%s",
+                 ff_report_at(report, i)->text);
+    ff_columns_free(&columns);
+    ff_report_free(report);
     report = other;
     FILE *stream = fmemopen(printed, sizeof printed, "w");
-    fe_report_print(report, stream, false);
+    ff_report_print(report, stream, false);
     fclose(stream);
     ck_assert_ptr_nonnull(strstr(printed, ":2:4: error: \"x\" is not a number\n    2 | 0, x\n"
                                           "      |    ^\n"));
@@ -344,29 +344,29 @@ END_TEST
 
 START_TEST(tables_of_an_instance)
 {
-    fe_tables tables = {.kept = NULL};
+    ff_tables tables = {.kept = NULL};
     const ff_table *first, *second, *third;
     char why[200], expected[200];
     write_bytes(HEAD "0, 1\n", strlen(HEAD) + 5);
-    ck_assert(fe_tables_read(&tables, "one", path, rows, COLUMNS, sizeof *rows, &first) == FF_OK);
+    ck_assert(ff_tables_read(&tables, "one", path, rows, COLUMNS, sizeof *rows, &first) == FF_OK);
     write_bytes(HEAD "0, 2\n1, 2\n", strlen(HEAD) + 10);
-    ck_assert(fe_tables_read(&tables, "two", path, rows, COLUMNS, sizeof *rows, &second) == FF_OK);
+    ck_assert(ff_tables_read(&tables, "two", path, rows, COLUMNS, sizeof *rows, &second) == FF_OK);
     ck_assert(first->row_count == 1 && second->row_count == 2 && !tables.errors);
-    ck_assert(fe_tables_read(&tables, "none", "/no/such/file", rows, COLUMNS, sizeof *rows,
+    ck_assert(ff_tables_read(&tables, "none", "/no/such/file", rows, COLUMNS, sizeof *rows,
                              &third) == FF_INVALID);
     ck_assert(!third && tables.errors && !strcmp(tables.item, "none"));
-    ck_assert(fe_tables_fail(&tables, first, 0, ANGLE, "too small") == FF_INVALID);
-    fe_tables_print(&tables, why, sizeof why);
+    ck_assert(ff_tables_fail(&tables, first, 0, ANGLE, "too small") == FF_INVALID);
+    ff_tables_print(&tables, why, sizeof why);
     snprintf(expected, sizeof expected, "%s:2:4: too small", path);
     ck_assert_str_eq(why, expected);
     ck_assert_str_eq(tables.item, "one");
-    ck_assert(fe_tables_fail(&tables, second, 7, 99, "all of it") == FF_INVALID);
-    fe_tables_print(&tables, why, sizeof why);
+    ck_assert(ff_tables_fail(&tables, second, 7, 99, "all of it") == FF_INVALID);
+    ff_tables_print(&tables, why, sizeof why);
     snprintf(expected, sizeof expected, "%s: all of it", path);
     ck_assert_str_eq(why, expected);
-    ck_assert(fe_tables_fail(&tables, &(ff_table){.size = 0}, 0, 0, "whose?") == FF_BUG);
+    ck_assert(ff_tables_fail(&tables, &(ff_table){.size = 0}, 0, 0, "whose?") == FF_BUG);
     ck_assert(!tables.errors);
-    fe_tables_free(&tables);
+    ff_tables_free(&tables);
 }
 END_TEST
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers and quantities as users write them. */
+#include <flankfilm/engine.h>
+
 #include <locale.h>
 #include <math.h>
 #include <string.h>
 
-#include "../../../core/engine/value/unit.h"
 #include "value-check.h"
 
 static const double PI = 3.14159265358979323846;
@@ -46,20 +47,20 @@ static const struct {
     {"2e3mm", "mm", 2},
 };
 
-static fe_unit unit_of(const char *text)
+static ff_unit unit_of(const char *text)
 {
-    fe_unit unit;
+    ff_unit unit;
     char why[256];
-    ck_assert_msg(fe_unit_parse(text, &unit, why, sizeof why), "%s", text);
+    ck_assert_msg(ff_unit_parse(text, &unit, why, sizeof why), "%s", text);
     return unit;
 }
 
 START_TEST(reads_quantity)
 {
-    fe_unit row = unit_of(goods[_i].row);
+    ff_unit row = unit_of(goods[_i].row);
     char why[256] = "";
     double si = NAN;
-    ck_assert_msg(fe_quantity_parse(goods[_i].text, &row, goods[_i].row, &si, why, sizeof why),
+    ck_assert_msg(ff_quantity_parse(goods[_i].text, &row, goods[_i].row, &si, why, sizeof why),
                   "%s: %s", goods[_i].text, why);
     ck_assert_msg(fabs(si - goods[_i].si) <= 4e-16 * fabs(goods[_i].si), "%s: %.17g",
                   goods[_i].text, si);
@@ -109,10 +110,10 @@ static const struct {
 
 START_TEST(refuses_quantity)
 {
-    fe_unit row = unit_of(bads[_i].row);
+    ff_unit row = unit_of(bads[_i].row);
     char why[256] = "";
     double si = 17;
-    ck_assert_msg(!fe_quantity_parse(bads[_i].text, &row, bads[_i].row, &si, why, sizeof why), "%s",
+    ck_assert_msg(!ff_quantity_parse(bads[_i].text, &row, bads[_i].row, &si, why, sizeof why), "%s",
                   bads[_i].text);
     ck_assert_msg(strstr(why, bads[_i].sentence), "%s: %s", bads[_i].text, why);
     ck_assert_double_eq(si, 17);
@@ -123,10 +124,10 @@ START_TEST(quotes_little_of_a_long_text)
 {
     char text[5000], why[256];
     double si;
-    fe_unit row = unit_of("mm");
+    ff_unit row = unit_of("mm");
     for (size_t i = 0; i < sizeof text - 3; i += 2)
         memcpy(text + i, "\xC3\xA4", 3);
-    ck_assert(!fe_quantity_parse(text, &row, "mm", &si, why, sizeof why));
+    ck_assert(!ff_quantity_parse(text, &row, "mm", &si, why, sizeof why));
     ck_assert_uint_lt(strlen(why), 200);
     ck_assert_ptr_nonnull(strstr(why, "\xC3\xA4...\""));
 }
@@ -134,14 +135,14 @@ END_TEST
 
 START_TEST(small_buffers_are_kept)
 {
-    fe_unit row = unit_of("Hz");
+    ff_unit row = unit_of("Hz");
     double si;
     for (size_t size = 0; size < 90; size++) {
         char why[100];
         memset(why, '#', sizeof why);
-        ck_assert(!fe_quantity_parse("1500 rpm", &row, "Hz", &si, why, size));
+        ck_assert(!ff_quantity_parse("1500 rpm", &row, "Hz", &si, why, size));
         ck_assert_int_eq(why[size], '#');
-        ck_assert(!fe_unit_parse("N/mm um", &row, why, size));
+        ck_assert(!ff_unit_parse("N/mm um", &row, why, size));
         ck_assert_int_eq(why[size], '#');
         row = unit_of("Hz");
     }
@@ -162,7 +163,7 @@ START_TEST(reads_number_up_to_its_end)
     for (size_t i = 0; i < ROWS(rows); i++) {
         double value;
         const char *end;
-        ck_assert_msg(fe_number_parse(rows[i].text, &value, &end), "%s", rows[i].text);
+        ck_assert_msg(ff_number_parse(rows[i].text, &value, &end), "%s", rows[i].text);
         ck_assert_double_eq(value, rows[i].value);
         ck_assert_str_eq(end, rows[i].rest);
     }
@@ -186,7 +187,7 @@ START_TEST(reads_whole_numbers)
     for (size_t i = 0; i < ROWS(rows); i++) {
         char why[256] = "";
         int64_t value = 99;
-        ck_assert_msg(fe_integer_parse(rows[i].text, &value, why, sizeof why), "%s", why);
+        ck_assert_msg(ff_integer_parse(rows[i].text, &value, why, sizeof why), "%s", why);
         ck_assert_int_eq(value, rows[i].value);
     }
 }
@@ -209,7 +210,7 @@ START_TEST(refuses_what_is_not_whole)
     for (size_t i = 0; i < ROWS(rows); i++) {
         char why[256] = "";
         int64_t value;
-        ck_assert_msg(!fe_integer_parse(rows[i][0], &value, why, sizeof why), "%s", rows[i][0]);
+        ck_assert_msg(!ff_integer_parse(rows[i][0], &value, why, sizeof why), "%s", rows[i][0]);
         ck_assert_msg(strstr(why, rows[i][1]), "%s: %s", rows[i][0], why);
     }
 }
@@ -223,9 +224,9 @@ START_TEST(prints_in_the_units_of_the_row)
     } rows[] = {{250, "N m", "250 N m"},      {0.003, "mm", "3 mm"},     {0.3, "1", "0.3"},
                 {373.15, "degC", "100 degC"}, {1.0 / 3, "", "0.333333"}, {0.05, "%", "5 %"}};
     for (size_t i = 0; i < ROWS(rows); i++) {
-        fe_unit row = unit_of(rows[i].row);
+        ff_unit row = unit_of(rows[i].row);
         char text[64];
-        fe_quantity_print(rows[i].si, &row, rows[i].row, text, sizeof text);
+        ff_quantity_print(rows[i].si, &row, rows[i].row, text, sizeof text);
         ck_assert_str_eq(text, rows[i].text);
     }
 }
@@ -238,12 +239,12 @@ START_TEST(locale_changes_nothing)
     for (size_t i = 0; i < ROWS(locales); i++)
         if (setlocale(LC_ALL, locales[i]))
             break;
-    fe_unit row = unit_of("mm");
+    ff_unit row = unit_of("mm");
     char why[256], text[64];
     double si;
-    ck_assert(fe_quantity_parse("1.5 mm", &row, "mm", &si, why, sizeof why));
+    ck_assert(ff_quantity_parse("1.5 mm", &row, "mm", &si, why, sizeof why));
     ck_assert_double_eq(si, 1.5e-3);
-    fe_quantity_print(si, &row, "mm", text, sizeof text);
+    ff_quantity_print(si, &row, "mm", text, sizeof text);
     ck_assert_str_eq(text, "1.5 mm");
 }
 END_TEST
@@ -254,7 +255,7 @@ START_TEST(random_texts)
     static const char *const pieces[] = {
         "1",  "3.5",  "e",  "-",   "+", ".", " ", "/",    "(", ")", "^", "*", "m", "N", "mm", "s",
         "Pa", "degC", "um", "GPa", "°", "·", "²", "\xFF", "2", "9", "%", "_", ",", "k", "rad"};
-    fe_unit row = unit_of("1");
+    ff_unit row = unit_of("1");
     uint64_t state = 1893;
     for (int round = 0; round < 20000; round++) {
         char text[128] = "1", why[200] = "";
@@ -263,10 +264,10 @@ START_TEST(random_texts)
             state = state * 6364136223846793005u + 1442695040888963407u;
             strcat(text, pieces[(state >> 33) % ROWS(pieces)]);
         }
-        bool read = fe_quantity_parse(text, &row, "1", &si, why, sizeof why);
+        bool read = ff_quantity_parse(text, &row, "1", &si, why, sizeof why);
         ck_assert_msg(read ? isfinite(si) : why[0] != '\0', "%s", text);
-        fe_unit unit;
-        if (fe_unit_parse(text + 1, &unit, why, sizeof why))
+        ff_unit unit;
+        if (ff_unit_parse(text + 1, &unit, why, sizeof why))
             ck_assert(isnormal(unit.factor));
     }
 }

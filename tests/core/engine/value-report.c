@@ -1,47 +1,48 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Messages: order, doubles, exit codes, and the picture with the caret. */
+#include <flankfilm/engine.h>
+
 #include <stdio.h>
 #include <string.h>
 
-#include "../../../core/engine/value/report.h"
 #include "value-check.h"
 
-static fe_report *report;
+static ff_report *report;
 static char printed[100000];
 
 static void set_up(void)
 {
-    report = fe_report_new();
+    report = ff_report_new();
 }
 
 static void tear_down(void)
 {
-    fe_report_free(report);
+    ff_report_free(report);
 }
 
 static const char *print(bool colour)
 {
     FILE *stream = fmemopen(printed, sizeof printed, "w");
-    fe_report_print(report, stream, colour);
+    ff_report_print(report, stream, colour);
     fclose(stream);
     return printed;
 }
 
-static fe_source source_of(const char *name, char *text)
+static ff_source source_of(const char *name, char *text)
 {
-    return (fe_source){.name = (char *)(size_t)name, .text = text, .length = strlen(text)};
+    return (ff_source){.name = (char *)(size_t)name, .text = text, .length = strlen(text)};
 }
 
-static fe_place at(const fe_source *source, uint32_t line, uint32_t column, uint32_t width)
+static ff_place at(const ff_source *source, uint32_t line, uint32_t column, uint32_t width)
 {
-    return (fe_place){.source = source, .line = line, .column = column, .width = width};
+    return (ff_place){.source = source, .line = line, .column = column, .width = width};
 }
 
 START_TEST(prints_place_line_caret_and_hint)
 {
     char text[] = "gear:\n  module: 3 furlong\n";
-    fe_source source = source_of("gear.yaml", text);
-    bool answer = fe_error(report, FE_EXIT_INPUT, at(&source, 2, 11, 9), "lengths are in mm",
+    ff_source source = source_of("gear.yaml", text);
+    bool answer = ff_error(report, FF_FAULT_INPUT, at(&source, 2, 11, 9), "lengths are in mm",
                            "\"%s\" is not a length", "3 furlong");
     ck_assert(!answer);
     ck_assert_str_eq(print(false), "gear.yaml:2:11: error: \"3 furlong\" is not a length\n"
@@ -54,8 +55,8 @@ END_TEST
 START_TEST(caret_counts_characters)
 {
     char text[] = "räder: {größe: 3}\n";
-    fe_source source = source_of("a", text);
-    fe_error(report, FE_EXIT_INPUT, at(&source, 1, 9, 5), NULL, "no");
+    ff_source source = source_of("a", text);
+    ff_error(report, FF_FAULT_INPUT, at(&source, 1, 9, 5), NULL, "no");
     ck_assert_ptr_nonnull(strstr(print(false), "    1 | räder: {größe: 3}\n"
                                                "      |         ^^^^^\n"));
 }
@@ -64,8 +65,8 @@ END_TEST
 START_TEST(caret_allows_for_wide_characters)
 {
     char text[] = "title: 歯車 x\n";
-    fe_source source = source_of("a", text);
-    fe_error(report, FE_EXIT_INPUT, at(&source, 1, 11, 1), NULL, "no");
+    ff_source source = source_of("a", text);
+    ff_error(report, FF_FAULT_INPUT, at(&source, 1, 11, 1), NULL, "no");
     ck_assert_ptr_nonnull(strstr(print(false), "      |             ^\n"));
 }
 END_TEST
@@ -73,9 +74,9 @@ END_TEST
 START_TEST(underline_ends_with_the_line)
 {
     char text[] = "abc\ndef\n";
-    fe_source source = source_of("a", text);
-    fe_error(report, FE_EXIT_INPUT, at(&source, 1, 2, 50), NULL, "no");
-    fe_error(report, FE_EXIT_INPUT, at(&source, 2, 4, 0), NULL, "end");
+    ff_source source = source_of("a", text);
+    ff_error(report, FF_FAULT_INPUT, at(&source, 1, 2, 50), NULL, "no");
+    ff_error(report, FF_FAULT_INPUT, at(&source, 2, 4, 0), NULL, "end");
     print(false);
     ck_assert_ptr_nonnull(strstr(printed, "    1 | abc\n      |  ^^\n"));
     ck_assert_ptr_nonnull(strstr(printed, "    2 | def\n      |    ^\n"));
@@ -85,8 +86,8 @@ END_TEST
 START_TEST(place_beyond_the_text_does_no_harm)
 {
     char text[] = "abc";
-    fe_source source = source_of("a", text);
-    fe_error(report, FE_EXIT_INPUT, at(&source, 99, 99, 9), NULL, "no");
+    ff_source source = source_of("a", text);
+    ff_error(report, FF_FAULT_INPUT, at(&source, 99, 99, 9), NULL, "no");
     ck_assert_ptr_nonnull(strstr(print(false), "a:99:99: error: no\n"));
 }
 END_TEST
@@ -94,8 +95,8 @@ END_TEST
 START_TEST(controls_do_not_reach_the_terminal)
 {
     char text[] = "\tx: \033[31m\xE2\x80\xAE\xFFy\n";
-    fe_source source = source_of("a\033", text);
-    fe_error(report, FE_EXIT_INPUT, at(&source, 1, 2, 1), "b\nc", "d\033e");
+    ff_source source = source_of("a\033", text);
+    ff_error(report, FF_FAULT_INPUT, at(&source, 1, 2, 1), "b\nc", "d\033e");
     print(false);
     ck_assert_ptr_null(strchr(printed, '\033'));
     ck_assert_ptr_nonnull(
@@ -109,8 +110,8 @@ START_TEST(long_line_is_shown_around_the_place)
     static char text[300001];
     memset(text, 'a', 300000);
     text[250000] = 'X';
-    fe_source source = source_of("a", text);
-    fe_error(report, FE_EXIT_INPUT, at(&source, 1, 250001, 1), NULL, "no");
+    ff_source source = source_of("a", text);
+    ff_error(report, FF_FAULT_INPUT, at(&source, 1, 250001, 1), NULL, "no");
     print(false);
     ck_assert_uint_lt(strlen(printed), 400);
     const char *line = strstr(printed, "    1 | "), *mark = strstr(printed, "      | ");
@@ -121,9 +122,9 @@ END_TEST
 START_TEST(message_without_a_line_has_no_picture)
 {
     char text[] = "";
-    fe_source source = source_of("empty.yaml", text);
-    fe_error(report, FE_EXIT_INPUT, (fe_place){.source = &source}, NULL, "nothing");
-    fe_error(report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL, "no plugins");
+    ff_source source = source_of("empty.yaml", text);
+    ff_error(report, FF_FAULT_INPUT, (ff_place){.source = &source}, NULL, "nothing");
+    ff_error(report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL, "no plugins");
     ck_assert_str_eq(print(false), "empty.yaml: error: nothing\nerror: no plugins\n");
 }
 END_TEST
@@ -131,12 +132,12 @@ END_TEST
 START_TEST(sorts_by_file_and_line)
 {
     char text[] = "a\nb\nc\n";
-    fe_source one = source_of("one", text), two = source_of("two", text);
-    fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "last");
-    fe_error(report, FE_EXIT_INPUT, at(&one, 3, 1, 1), NULL, "third");
-    fe_error(report, FE_EXIT_INPUT, at(&two, 1, 1, 1), NULL, "fourth");
-    fe_warn(report, at(&one, 2, 5, 1), "second");
-    fe_error(report, FE_EXIT_INPUT, at(&one, 2, 1, 1), NULL, "first");
+    ff_source one = source_of("one", text), two = source_of("two", text);
+    ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "last");
+    ff_error(report, FF_FAULT_INPUT, at(&one, 3, 1, 1), NULL, "third");
+    ff_error(report, FF_FAULT_INPUT, at(&two, 1, 1, 1), NULL, "fourth");
+    ff_warn(report, at(&one, 2, 5, 1), "second");
+    ff_error(report, FF_FAULT_INPUT, at(&one, 2, 1, 1), NULL, "first");
     print(false);
     static const char *const order[] = {"first", "second", "third", "fourth", "last"};
     const char *before = printed;
@@ -152,21 +153,21 @@ END_TEST
 START_TEST(equal_messages_are_kept_once)
 {
     char text[] = "a\nb\n";
-    fe_source source = source_of("a", text);
+    ff_source source = source_of("a", text);
     for (uint32_t i = 0; i < 3; i++)
-        fe_error(report, FE_EXIT_INPUT, at(&source, 1, 1, i), NULL, "no");
-    fe_error(report, FE_EXIT_INPUT, at(&source, 2, 1, 1), NULL, "no");
-    fe_warn(report, at(&source, 1, 1, 1), "no");
-    ck_assert_uint_eq(fe_report_count(report), 3);
-    ck_assert_uint_eq(fe_report_errors(report), 2);
-    ck_assert_int_eq(fe_report_at(report, 2)->severity, FE_WARNING);
+        ff_error(report, FF_FAULT_INPUT, at(&source, 1, 1, i), NULL, "no");
+    ff_error(report, FF_FAULT_INPUT, at(&source, 2, 1, 1), NULL, "no");
+    ff_warn(report, at(&source, 1, 1, 1), "no");
+    ck_assert_uint_eq(ff_report_count(report), 3);
+    ck_assert_uint_eq(ff_report_errors(report), 2);
+    ck_assert_int_eq(ff_report_at(report, 2)->severity, FF_WARNING);
 }
 END_TEST
 
 START_TEST(prints_twenty_errors_at_most)
 {
     for (int i = 0; i < 30; i++)
-        fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "number %d", i);
+        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "number %d", i);
     print(false);
     ck_assert_ptr_nonnull(strstr(printed, "number 19\n"));
     ck_assert_ptr_null(strstr(printed, "number 20\n"));
@@ -177,31 +178,32 @@ END_TEST
 START_TEST(counts_errors_beyond_those_it_keeps)
 {
     for (int i = 0; i < 5000; i++)
-        fe_error(report, i == 4999 ? FE_EXIT_PLUGIN : FE_EXIT_INPUT, FE_NOWHERE, NULL, "no %d", i);
-    ck_assert_uint_eq(fe_report_errors(report), 5000);
-    ck_assert_uint_eq(fe_report_count(report), 1000);
-    ck_assert_int_eq(fe_report_exit_code(report), FE_EXIT_PLUGIN);
+        ff_error(report, i == 4999 ? FF_FAULT_PLUGIN : FF_FAULT_INPUT, FF_NOWHERE, NULL, "no %d",
+                 i);
+    ck_assert_uint_eq(ff_report_errors(report), 5000);
+    ck_assert_uint_eq(ff_report_count(report), 1000);
+    ck_assert_int_eq(ff_report_fault(report), FF_FAULT_PLUGIN);
 }
 END_TEST
 
 START_TEST(gravest_error_gives_the_exit_code)
 {
-    ck_assert_int_eq(fe_report_exit_code(report), FE_EXIT_OK);
-    fe_warn(report, FE_NOWHERE, "careful");
-    ck_assert_int_eq(fe_report_exit_code(report), FE_EXIT_OK);
-    fe_error(report, FE_EXIT_FAILED, FE_NOWHERE, NULL, "a");
-    ck_assert_int_eq(fe_report_exit_code(report), FE_EXIT_FAILED);
-    fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "b");
-    ck_assert_int_eq(fe_report_exit_code(report), FE_EXIT_INPUT);
-    fe_error(report, FE_EXIT_PLUGIN, FE_NOWHERE, NULL, "c");
-    fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "d");
-    ck_assert_int_eq(fe_report_exit_code(report), FE_EXIT_PLUGIN);
+    ck_assert_int_eq(ff_report_fault(report), FF_FAULT_NONE);
+    ff_warn(report, FF_NOWHERE, "careful");
+    ck_assert_int_eq(ff_report_fault(report), FF_FAULT_NONE);
+    ff_error(report, FF_FAULT_RUN, FF_NOWHERE, NULL, "a");
+    ck_assert_int_eq(ff_report_fault(report), FF_FAULT_RUN);
+    ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "b");
+    ck_assert_int_eq(ff_report_fault(report), FF_FAULT_INPUT);
+    ff_error(report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL, "c");
+    ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "d");
+    ck_assert_int_eq(ff_report_fault(report), FF_FAULT_PLUGIN);
 }
 END_TEST
 
 START_TEST(colours_on_request_only)
 {
-    fe_error(report, FE_EXIT_INPUT, FE_NOWHERE, NULL, "no");
+    ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "no");
     ck_assert_ptr_null(strchr(print(false), '\033'));
     ck_assert_ptr_nonnull(strstr(print(true), "\033[1;31merror: \033[0m"));
 }
@@ -225,11 +227,11 @@ START_TEST(finds_the_nearest_word)
         {"", NULL},
     };
     for (size_t i = 0; i < ROWS(rows); i++) {
-        const char *near = fe_nearest(rows[i][0], keys, ROWS(keys));
+        const char *near = ff_nearest(rows[i][0], keys, ROWS(keys));
         ck_assert_msg((!near && !rows[i][1]) || (near && rows[i][1] && !strcmp(near, rows[i][1])),
                       "%s: %s", rows[i][0], near ? near : "none");
     }
-    ck_assert_ptr_null(fe_nearest("a", NULL, 0));
+    ck_assert_ptr_null(ff_nearest("a", NULL, 0));
 }
 END_TEST
 

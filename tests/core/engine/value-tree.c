@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trees: places, aliases, merge keys, includes, layers, and assignments. */
+#include <flankfilm/engine.h>
+
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,15 +11,15 @@
 #include "../../../core/engine/value/tree.h"
 #include "value-check.h"
 
-static fe_report *report;
-static fe_tree *tree;
+static ff_report *report;
+static ff_tree *tree;
 static char folder[64];
 
 static const char *const top[] = {"format", "title", "pipeline", "outputs", NULL};
 
 static void set_up(void)
 {
-    report = fe_report_new();
+    report = ff_report_new();
     int used = snprintf(folder, sizeof folder - 7, "/tmp/flankfilm-tree-");
     memset(folder + used, 'X', 6);
     folder[used + 6] = '\0';
@@ -27,8 +29,8 @@ static void set_up(void)
 static void tear_down(void)
 {
     char command[100];
-    fe_tree_free(tree);
-    fe_report_free(report);
+    ff_tree_free(tree);
+    ff_report_free(report);
     snprintf(command, sizeof command, "rm -rf '%s'", folder);
     ck_assert_int_eq(system(command), 0);
 }
@@ -50,23 +52,23 @@ static void write_file(const char *name, const char *text)
 
 static void parse(const char *text)
 {
-    tree = fe_tree_parse("test.yaml", folder, text, report);
+    tree = ff_tree_parse("test.yaml", folder, text, report);
 }
 
 static void load(const char *name)
 {
-    tree = fe_tree_load(path_of(name), report);
+    tree = ff_tree_load(path_of(name), report);
 }
 
 /* The node at "a.b.0". */
-static const fe_node *find(const char *path)
+static const ff_node *find(const char *path)
 {
-    const fe_node *node = fe_tree_root(tree);
+    const ff_node *node = ff_tree_root(tree);
     char copy[200], *rest = NULL;
     snprintf(copy, sizeof copy, "%s", path);
     for (char *word = strtok_r(copy, ".", &rest); word && node; word = strtok_r(NULL, ".", &rest)) {
-        if (node->kind == FE_MAP) {
-            node = fe_node_get(node, word);
+        if (node->kind == FF_MAP) {
+            node = ff_node_get(node, word);
             continue;
         }
         size_t index = strtoul(word, NULL, 10);
@@ -77,13 +79,13 @@ static const fe_node *find(const char *path)
 
 static void check_text(const char *path, const char *text)
 {
-    const fe_node *node = find(path);
+    const ff_node *node = find(path);
     ck_assert_msg(node != NULL, "there is no %s", path);
-    ck_assert_int_eq(node->kind, FE_SCALAR);
+    ck_assert_int_eq(node->kind, FF_SCALAR);
     ck_assert_str_eq(node->text, text);
 }
 
-static void check_place(fe_place place, uint32_t line, uint32_t column, uint32_t width)
+static void check_place(ff_place place, uint32_t line, uint32_t column, uint32_t width)
 {
     ck_assert_uint_eq(place.line, line);
     ck_assert_uint_eq(place.column, column);
@@ -92,18 +94,18 @@ static void check_place(fe_place place, uint32_t line, uint32_t column, uint32_t
 
 static void check_no_errors(void)
 {
-    if (fe_report_errors(report) > 0)
-        fe_report_print(report, stderr, false);
-    ck_assert_uint_eq(fe_report_errors(report), 0);
+    if (ff_report_errors(report) > 0)
+        ff_report_print(report, stderr, false);
+    ck_assert_uint_eq(ff_report_errors(report), 0);
 }
 
 /* The first message holds the words. */
 static void check_error(const char *words)
 {
-    ck_assert_uint_ge(fe_report_errors(report), 1);
-    const char *text = fe_report_at(report, 0)->text;
+    ck_assert_uint_ge(ff_report_errors(report), 1);
+    const char *text = ff_report_at(report, 0)->text;
     ck_assert_msg(strstr(text, words) != NULL, "%s", text);
-    ck_assert_int_eq(fe_report_exit_code(report), FE_EXIT_INPUT);
+    ck_assert_int_eq(ff_report_fault(report), FF_FAULT_INPUT);
 }
 
 START_TEST(scalars_stay_text)
@@ -137,13 +139,13 @@ START_TEST(what_is_printed_reads_as_itself)
         FILE *out = open_memstream(&line, &length);
         ck_assert_ptr_nonnull(out);
         fputs("a: {b: ", out);
-        fe_yaml_print_text(texts[i], false, out);
+        ff_yaml_print_text(texts[i], false, out);
         fputs("}\n", out);
         fclose(out);
         parse(line);
         check_no_errors();
         check_text("a.b", texts[i]);
-        fe_tree_free(tree);
+        ff_tree_free(tree);
         tree = NULL;
         free(line);
     }
@@ -155,7 +157,7 @@ START_TEST(places_count_characters_from_one)
     parse("größe: äöü\nb: {c: [1, 22]}\n");
     check_no_errors();
     check_place(find("größe")->place, 1, 8, 3);
-    check_place(fe_tree_root(tree)->key_places[0], 1, 1, 5);
+    check_place(ff_tree_root(tree)->key_places[0], 1, 1, 5);
     check_place(find("b")->place, 2, 4, 0);
     check_place(find("b.c")->place, 2, 8, 0);
     check_place(find("b.c.1")->place, 2, 12, 2);
@@ -166,8 +168,8 @@ END_TEST
 START_TEST(any_line_break_counts)
 {
     parse("a: 1\r\nb: 2\rc: 3\nd: [}\n");
-    ck_assert_ptr_null(fe_tree_root(tree));
-    ck_assert_uint_eq(fe_report_at(report, 0)->place.line, 4);
+    ck_assert_ptr_null(ff_tree_root(tree));
+    ck_assert_uint_eq(ff_report_at(report, 0)->place.line, 4);
 }
 END_TEST
 
@@ -184,7 +186,7 @@ START_TEST(alias_is_a_copy)
 {
     parse("a: &a {x: [1, 2]}\nb: *a\npipeline: {}\n");
     check_no_errors();
-    ck_assert(fe_tree_set(tree, "b.x.0=9", NULL, NULL, report));
+    ck_assert(ff_tree_set(tree, "b.x.0=9", NULL, NULL, report));
     check_text("b.x.0", "9");
     check_text("a.x.0", "1");
     check_place(find("b.x.1")->place, 1, 15, 1);
@@ -226,19 +228,19 @@ END_TEST
 START_TEST(all_errors_in_one_pass)
 {
     parse("a: 1\na: 2\nb: !t 3\nc: *none\nd: {e: 1, e: 2}\n");
-    ck_assert_uint_eq(fe_report_errors(report), 4);
-    ck_assert_ptr_nonnull(fe_tree_root(tree));
+    ck_assert_uint_eq(ff_report_errors(report), 4);
+    ck_assert_ptr_nonnull(ff_tree_root(tree));
     check_text("a", "1");
     for (size_t i = 0; i < 4; i++)
-        ck_assert_uint_eq(fe_report_at(report, i)->place.line, i + 2);
+        ck_assert_uint_eq(ff_report_at(report, i)->place.line, i + 2);
 }
 END_TEST
 
 START_TEST(errors_before_a_broken_line_are_kept)
 {
     parse("a: 1\na: 2\nb: [1\nc: 2\n");
-    ck_assert_uint_eq(fe_report_errors(report), 2);
-    ck_assert_ptr_null(fe_tree_root(tree));
+    ck_assert_uint_eq(ff_report_errors(report), 2);
+    ck_assert_ptr_null(ff_tree_root(tree));
 }
 END_TEST
 
@@ -258,7 +260,7 @@ START_TEST(includes_lie_under_the_file)
     ck_assert_ptr_null(find("include"));
     ck_assert_uint_lt(find("only")->rank, find("oil.eta0")->rank);
     ck_assert_uint_lt(find("oil.eta0")->rank, find("oil.b")->rank);
-    ck_assert(fe_tree_set(tree, "oil.c=1", NULL, NULL, report));
+    ck_assert(ff_tree_set(tree, "oil.c=1", NULL, NULL, report));
     ck_assert_uint_lt(find("oil.b")->rank, find("oil.c")->rank);
 }
 END_TEST
@@ -297,9 +299,9 @@ START_TEST(circle_of_includes_is_refused)
     write_file("two.yaml", "a: 1\ninclude: [one.yaml]\n");
     load("one.yaml");
     check_error("includes itself by way of");
-    ck_assert_uint_eq(fe_report_at(report, 0)->place.line, 2);
-    ck_assert_uint_eq(fe_report_at(report, 0)->place.column, 11);
-    ck_assert_ptr_null(fe_tree_root(tree));
+    ck_assert_uint_eq(ff_report_at(report, 0)->place.line, 2);
+    ck_assert_uint_eq(ff_report_at(report, 0)->place.column, 11);
+    ck_assert_ptr_null(ff_tree_root(tree));
 }
 END_TEST
 
@@ -308,8 +310,8 @@ START_TEST(every_lost_include_is_reported)
     write_file("bad.yaml", "a: [1\n");
     write_file("main.yaml", "include: [none.yaml, bad.yaml, ., also-none.yaml]\nb: 1\nb: 2\n");
     load("main.yaml");
-    ck_assert_uint_eq(fe_report_errors(report), 5);
-    ck_assert_ptr_null(fe_tree_root(tree));
+    ck_assert_uint_eq(ff_report_errors(report), 5);
+    ck_assert_ptr_null(ff_tree_root(tree));
 }
 END_TEST
 
@@ -323,7 +325,7 @@ START_TEST(includes_have_a_depth)
     }
     load("f0.yaml");
     check_error("more than 16 levels deep");
-    ck_assert_uint_eq(fe_report_errors(report), 1);
+    ck_assert_uint_eq(ff_report_errors(report), 1);
 }
 END_TEST
 
@@ -349,15 +351,15 @@ START_TEST(unreadable_files_are_named)
     write_file("main.yaml", "a: 1\n");
     ck_assert_int_eq(mkfifo(path_of("pipe"), 0600), 0);
     for (size_t i = 0; i < ROWS(rows); i++) {
-        fe_report *one = fe_report_new();
-        fe_tree *none = fe_tree_load(path_of(rows[i][0]), one);
-        ck_assert_ptr_null(fe_tree_root(none));
-        ck_assert_uint_eq(fe_report_errors(one), 1);
-        ck_assert_msg(strstr(fe_report_at(one, 0)->text, rows[i][1]) &&
-                          strstr(fe_report_at(one, 0)->text, folder),
-                      "%s", fe_report_at(one, 0)->text);
-        fe_tree_free(none);
-        fe_report_free(one);
+        ff_report *one = ff_report_new();
+        ff_tree *none = ff_tree_load(path_of(rows[i][0]), one);
+        ck_assert_ptr_null(ff_tree_root(none));
+        ck_assert_uint_eq(ff_report_errors(one), 1);
+        ck_assert_msg(strstr(ff_report_at(one, 0)->text, rows[i][1]) &&
+                          strstr(ff_report_at(one, 0)->text, folder),
+                      "%s", ff_report_at(one, 0)->text);
+        ff_tree_free(none);
+        ff_report_free(one);
     }
 }
 END_TEST
@@ -381,7 +383,7 @@ static const char two_stages[] =
 START_TEST(assignment_replaces_a_value)
 {
     parse(two_stages);
-    ck_assert(fe_tree_set(tree, "duty.torque=300 N m", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "duty.torque=300 N m", "pipeline", top, report));
     check_text("pipeline.duty.torque", "300 N m");
     check_text("pipeline.duty.use", "operating/steady");
     check_no_errors();
@@ -391,9 +393,9 @@ END_TEST
 START_TEST(assignment_starts_at_the_top_for_top_words)
 {
     parse(two_stages);
-    ck_assert(fe_tree_set(tree, "pipeline.duty.torque=1 N m", "pipeline", top, report));
-    ck_assert(fe_tree_set(tree, "title=a: b", "pipeline", top, report));
-    ck_assert(fe_tree_set(tree, "outputs=[film.p_max]", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "pipeline.duty.torque=1 N m", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "title=a: b", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "outputs=[film.p_max]", "pipeline", top, report));
     check_text("pipeline.duty.torque", "1 N m");
     check_text("title.a", "b");
     ck_assert_uint_eq(find("outputs")->count, 1);
@@ -403,8 +405,8 @@ END_TEST
 START_TEST(assignment_reaches_into_lists)
 {
     parse(two_stages);
-    ck_assert(fe_tree_set(tree, "gears.teeth.1=25", "pipeline", top, report));
-    ck_assert(fe_tree_set(tree, "outputs.0=film.p_max", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "gears.teeth.1=25", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "outputs.0=film.p_max", "pipeline", top, report));
     check_text("pipeline.gears.teeth.0", "50");
     check_text("pipeline.gears.teeth.1", "25");
     check_text("outputs.0", "film.p_max");
@@ -414,11 +416,11 @@ END_TEST
 START_TEST(assignment_follows_keys_with_dots)
 {
     parse("format: 1\nstudy: {sweep: {duty.torque: {points: 2}}}\n");
-    ck_assert(fe_tree_set(tree, "study.sweep.duty.torque.points=3", NULL, NULL, report));
-    ck_assert(fe_tree_set(tree, "study.sweep.duty.torquem=1", NULL, NULL, report));
-    const fe_node *sweep = find("study.sweep");
+    ck_assert(ff_tree_set(tree, "study.sweep.duty.torque.points=3", NULL, NULL, report));
+    ck_assert(ff_tree_set(tree, "study.sweep.duty.torquem=1", NULL, NULL, report));
+    const ff_node *sweep = find("study.sweep");
     ck_assert_uint_eq(sweep->count, 2);
-    ck_assert_str_eq(fe_node_get(fe_node_get(sweep, "duty.torque"), "points")->text, "3");
+    ck_assert_str_eq(ff_node_get(ff_node_get(sweep, "duty.torque"), "points")->text, "3");
     check_text("study.sweep.duty.torquem", "1");
 }
 END_TEST
@@ -426,7 +428,7 @@ END_TEST
 START_TEST(assignment_makes_maps_on_the_way)
 {
     parse("format: 1\n");
-    ck_assert(fe_tree_set(tree, "oil.with.viscosity/barus.eta0=5 cP", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "oil.with.viscosity/barus.eta0=5 cP", "pipeline", top, report));
     check_text("pipeline.oil.with.viscosity/barus.eta0", "5 cP");
     ck_assert_uint_eq(find("pipeline.oil")->rank, 1);
 }
@@ -435,7 +437,7 @@ END_TEST
 START_TEST(assignment_of_a_map_merges)
 {
     parse(two_stages);
-    ck_assert(fe_tree_set(tree, "duty={torque: 1 N m, speed: 3 rpm}", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "duty={torque: 1 N m, speed: 3 rpm}", "pipeline", top, report));
     check_text("pipeline.duty.use", "operating/steady");
     check_text("pipeline.duty.torque", "1 N m");
     check_text("pipeline.duty.speed", "3 rpm");
@@ -445,9 +447,9 @@ END_TEST
 START_TEST(assignment_may_be_empty_or_hold_equals)
 {
     parse(two_stages);
-    ck_assert(fe_tree_set(tree, "title=", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "title=", "pipeline", top, report));
     check_text("title", "");
-    ck_assert(fe_tree_set(tree, "title = a=b", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "title = a=b", "pipeline", top, report));
     check_text("title", "a=b");
 }
 END_TEST
@@ -455,8 +457,8 @@ END_TEST
 START_TEST(assignment_places_point_into_it)
 {
     parse(two_stages);
-    ck_assert(fe_tree_set(tree, "düty.torque=\"3 N\"", "pipeline", top, report));
-    const fe_node *node = find("pipeline.düty.torque");
+    ck_assert(ff_tree_set(tree, "düty.torque=\"3 N\"", "pipeline", top, report));
+    const ff_node *node = find("pipeline.düty.torque");
     ck_assert_str_eq(node->place.source->name, "--set");
     ck_assert_str_eq(node->place.source->text, "düty.torque=\"3 N\"");
     check_place(node->place, 1, 13, 5);
@@ -490,10 +492,10 @@ START_TEST(assignment_is_refused)
 {
     parse(two_stages);
     const char *assignment = bad_assignments[_i].assignment;
-    ck_assert(!fe_tree_set(tree, assignment, "pipeline", top, report));
+    ck_assert(!ff_tree_set(tree, assignment, "pipeline", top, report));
     check_error(bad_assignments[_i].words);
-    ck_assert_uint_eq(fe_report_at(report, 0)->place.column, bad_assignments[_i].column);
-    ck_assert_str_eq(fe_report_at(report, 0)->place.source->name, "--set");
+    ck_assert_uint_eq(ff_report_at(report, 0)->place.column, bad_assignments[_i].column);
+    ck_assert_str_eq(ff_report_at(report, 0)->place.source->name, "--set");
 }
 END_TEST
 
@@ -504,7 +506,7 @@ START_TEST(assignment_path_has_a_depth)
         strcat(text, "a.");
     strcat(text, "a=1");
     parse("format: 1\n");
-    ck_assert(!fe_tree_set(tree, text, NULL, NULL, report));
+    ck_assert(!ff_tree_set(tree, text, NULL, NULL, report));
     check_error("more than 64 levels deep");
 }
 END_TEST
@@ -512,20 +514,20 @@ END_TEST
 START_TEST(assignment_to_a_broken_file_is_false)
 {
     parse("a: [\n");
-    ck_assert(!fe_tree_set(tree, "a=1", NULL, NULL, report));
-    ck_assert_ptr_null(fe_tree_root(tree));
+    ck_assert(!ff_tree_set(tree, "a=1", NULL, NULL, report));
+    ck_assert_ptr_null(ff_tree_root(tree));
 }
 END_TEST
 
 START_TEST(absent_things_are_null)
 {
     parse("a: 1\n");
-    ck_assert_ptr_null(fe_node_get(NULL, "a"));
-    ck_assert_ptr_null(fe_node_get(fe_tree_root(tree), "b"));
-    ck_assert_ptr_null(fe_node_get(find("a"), "b"));
-    ck_assert_str_eq(fe_kind_name(FE_MAP), "a map");
-    fe_tree_free(NULL);
-    fe_report_free(NULL);
+    ck_assert_ptr_null(ff_node_get(NULL, "a"));
+    ck_assert_ptr_null(ff_node_get(ff_tree_root(tree), "b"));
+    ck_assert_ptr_null(ff_node_get(find("a"), "b"));
+    ck_assert_str_eq(fe_kind_name(FF_MAP), "a map");
+    ff_tree_free(NULL);
+    ff_report_free(NULL);
 }
 END_TEST
 

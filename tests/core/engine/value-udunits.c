@@ -3,12 +3,13 @@
  * Our factors against those of UDUNITS-2. It takes the radian for a number, knows neither cP nor
  * reyn nor rev, and writes degree in full: where it differs, the row says how it spells the unit.
  */
+#include <flankfilm/engine.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <udunits2.h>
 
-#include "../../../core/engine/value/unit.h"
 #include "value-check.h"
 
 static const char *const rows[][2] = {
@@ -80,11 +81,11 @@ static ut_system *read_database(void)
 }
 
 /* The coherent unit of the same dimension, in words of UDUNITS. */
-static ut_unit *coherent(ut_system *system, const fe_unit *unit)
+static ut_unit *coherent(ut_system *system, const ff_unit *unit)
 {
     static const char *const names[] = {"m", "kg", "s", "kelvin", "radian"};
     char text[128] = "1";
-    for (int i = 0; i < FE_DIMENSIONS; i++) {
+    for (int i = 0; i < FF_DIMENSIONS; i++) {
         size_t used = strlen(text);
         if (unit->power[i] != 0)
             snprintf(text + used, sizeof text - used, " %s^%d", names[i], unit->power[i]);
@@ -105,15 +106,15 @@ START_TEST(agrees_with_udunits)
     ck_assert_msg(system != NULL, "the database of UDUNITS cannot be read");
     for (size_t i = 0; i < ROWS(rows); i++) {
         const char *text = rows[i][0], *theirs = rows[i][1] ? rows[i][1] : text;
-        fe_unit unit;
+        ff_unit unit;
         char why[256] = "";
-        ck_assert_msg(fe_unit_parse(text, &unit, why, sizeof why), "\"%s\" %s", text, why);
+        ck_assert_msg(ff_unit_parse(text, &unit, why, sizeof why), "\"%s\" %s", text, why);
         ut_unit *from = ut_parse(system, theirs, UT_UTF8), *to = coherent(system, &unit);
         ck_assert_msg(from && to, "UDUNITS does not know \"%s\"", theirs);
         cv_converter *converter = ut_get_converter(from, to);
         ck_assert_msg(converter != NULL, "%s has another dimension for UDUNITS", text);
-        check_close(text, fe_unit_to_si(&unit, 1), cv_convert_double(converter, 1));
-        check_close(text, fe_unit_to_si(&unit, 1234.5), cv_convert_double(converter, 1234.5));
+        check_close(text, ff_unit_to_si(&unit, 1), cv_convert_double(converter, 1));
+        check_close(text, ff_unit_to_si(&unit, 1234.5), cv_convert_double(converter, 1234.5));
         cv_free(converter);
         ut_free(from);
         ut_free(to);
@@ -126,13 +127,13 @@ END_TEST
 START_TEST(refuses_where_udunits_errs)
 {
     static const char *const traps[] = {"N/mm um", "W/m K", "W/m-K", "mm^0.5", "mm 2"};
-    fe_unit unit, hertz;
+    ff_unit unit, hertz;
     char why[256];
     for (size_t i = 0; i < ROWS(traps); i++)
-        ck_assert_msg(!fe_unit_parse(traps[i], &unit, why, sizeof why), "%s", traps[i]);
-    ck_assert(fe_unit_parse("rpm", &unit, why, sizeof why));
-    ck_assert(fe_unit_parse("Hz", &hertz, why, sizeof why));
-    ck_assert(!fe_unit_same_dimension(&unit, &hertz));
+        ck_assert_msg(!ff_unit_parse(traps[i], &unit, why, sizeof why), "%s", traps[i]);
+    ck_assert(ff_unit_parse("rpm", &unit, why, sizeof why));
+    ck_assert(ff_unit_parse("Hz", &hertz, why, sizeof why));
+    ck_assert(!ff_unit_same_dimension(&unit, &hertz));
 }
 END_TEST
 

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Units: what is read, with which value and dimension, and what is refused with which advice. */
+#include <flankfilm/engine.h>
+
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "../../../core/engine/value/unit.h"
 #include "value-check.h"
 
 static const double PI = 3.14159265358979323846;
@@ -12,7 +13,7 @@ static const double PI = 3.14159265358979323846;
 typedef struct good {
     const char *text;
     double factor;
-    int8_t power[FE_DIMENSIONS]; /* m, kg, s, K, rad */
+    int8_t power[FF_DIMENSIONS]; /* m, kg, s, K, rad */
 } good;
 
 static const good goods[] = {
@@ -116,9 +117,9 @@ static void check_factor(const char *text, double factor, double expected)
 START_TEST(reads_unit)
 {
     const good *row = &goods[_i];
-    fe_unit unit;
+    ff_unit unit;
     char why[256] = "";
-    ck_assert_msg(fe_unit_parse(row->text, &unit, why, sizeof why), "\"%s\" %s", row->text, why);
+    ck_assert_msg(ff_unit_parse(row->text, &unit, why, sizeof why), "\"%s\" %s", row->text, why);
     check_factor(row->text, unit.factor, row->factor);
     ck_assert_msg(!memcmp(unit.power, row->power, sizeof unit.power), "%s", row->text);
     ck_assert_double_eq(unit.offset, 0);
@@ -179,48 +180,48 @@ static const struct {
 
 START_TEST(refuses_unit)
 {
-    fe_unit unit;
+    ff_unit unit;
     char why[256] = "";
-    ck_assert_msg(!fe_unit_parse(bads[_i].text, &unit, why, sizeof why), "%s", bads[_i].text);
+    ck_assert_msg(!ff_unit_parse(bads[_i].text, &unit, why, sizeof why), "%s", bads[_i].text);
     ck_assert_msg(why[0] && strstr(why, bads[_i].clause), "\"%s\" %s", bads[_i].text, why);
 }
 END_TEST
 
-static fe_unit unit_of(const char *text)
+static ff_unit unit_of(const char *text)
 {
-    fe_unit unit;
+    ff_unit unit;
     char why[256];
-    ck_assert_msg(fe_unit_parse(text, &unit, why, sizeof why), "%s", text);
+    ck_assert_msg(ff_unit_parse(text, &unit, why, sizeof why), "%s", text);
     return unit;
 }
 
 START_TEST(turning_is_no_frequency)
 {
-    fe_unit rpm = unit_of("rpm"), hertz = unit_of("Hz"), rad = unit_of("rad"), one = unit_of("1");
-    ck_assert(!fe_unit_same_dimension(&rpm, &hertz));
-    ck_assert(!fe_unit_same_dimension(&rad, &one));
-    ck_assert(!fe_unit_is_dimensionless(&rad));
-    ck_assert(fe_unit_is_dimensionless(&one));
+    ff_unit rpm = unit_of("rpm"), hertz = unit_of("Hz"), rad = unit_of("rad"), one = unit_of("1");
+    ck_assert(!ff_unit_same_dimension(&rpm, &hertz));
+    ck_assert(!ff_unit_same_dimension(&rad, &one));
+    ck_assert(!ff_unit_is_dimensionless(&rad));
+    ck_assert(ff_unit_is_dimensionless(&one));
 }
 END_TEST
 
 START_TEST(knows_si)
 {
-    fe_unit pascal = unit_of("Pa"), milli = unit_of("mm"), celsius = unit_of("degC");
-    ck_assert(fe_unit_is_si(&pascal));
-    ck_assert(!fe_unit_is_si(&milli));
-    ck_assert(!fe_unit_is_si(&celsius));
+    ff_unit pascal = unit_of("Pa"), milli = unit_of("mm"), celsius = unit_of("degC");
+    ck_assert(ff_unit_is_si(&pascal));
+    ck_assert(!ff_unit_is_si(&milli));
+    ck_assert(!ff_unit_is_si(&celsius));
 }
 END_TEST
 
 START_TEST(temperature_has_offset)
 {
-    fe_unit celsius = unit_of("degC"), sign = unit_of("°C"), fahrenheit = unit_of("degF");
-    ck_assert_double_eq_tol(fe_unit_to_si(&celsius, 100), 373.15, 1e-12);
-    ck_assert_double_eq_tol(fe_unit_to_si(&sign, 40), 313.15, 1e-12);
-    ck_assert_double_eq_tol(fe_unit_to_si(&fahrenheit, 212), 373.15, 1e-12);
-    ck_assert_double_eq_tol(fe_unit_from_si(&celsius, 313.15), 40, 1e-12);
-    ck_assert_double_eq_tol(fe_unit_from_si(&fahrenheit, 273.15), 32, 1e-12);
+    ff_unit celsius = unit_of("degC"), sign = unit_of("°C"), fahrenheit = unit_of("degF");
+    ck_assert_double_eq_tol(ff_unit_to_si(&celsius, 100), 373.15, 1e-12);
+    ck_assert_double_eq_tol(ff_unit_to_si(&sign, 40), 313.15, 1e-12);
+    ck_assert_double_eq_tol(ff_unit_to_si(&fahrenheit, 212), 373.15, 1e-12);
+    ck_assert_double_eq_tol(ff_unit_from_si(&celsius, 313.15), 40, 1e-12);
+    ck_assert_double_eq_tol(ff_unit_from_si(&fahrenheit, 273.15), 32, 1e-12);
 }
 END_TEST
 
@@ -229,9 +230,9 @@ START_TEST(decimal_units_round_once)
 {
     static const char *const units[] = {"mm", "um", "nm", "1/GPa", "mPa s", "cSt"};
     for (size_t i = 0; i < ROWS(units); i++) {
-        fe_unit unit = unit_of(units[i]);
-        ck_assert_double_eq(fe_unit_to_si(&unit, 3), 3 / round(1 / unit.factor));
-        ck_assert_double_eq(fe_unit_from_si(&unit, fe_unit_to_si(&unit, 250)), 250);
+        ff_unit unit = unit_of(units[i]);
+        ck_assert_double_eq(ff_unit_to_si(&unit, 3), 3 / round(1 / unit.factor));
+        ck_assert_double_eq(ff_unit_from_si(&unit, ff_unit_to_si(&unit, 250)), 250);
     }
     ck_assert_double_eq(unit_of("1/GPa").factor, 1e-9);
     ck_assert_double_eq(unit_of("mm2").factor, 1e-6);
@@ -245,13 +246,13 @@ START_TEST(every_example_reads_as_its_dimension)
                                         "Pa s", "cSt",   "K",     "W/(m K)", "J/(kg K)", "1/GPa",
                                         "N/m",  "kg m2", "kg/m3", "deg",     "m/s",      "W"};
     for (size_t i = 0; i < ROWS(units); i++) {
-        fe_unit unit = unit_of(units[i]);
+        ff_unit unit = unit_of(units[i]);
         char list[128], *rest = NULL;
-        snprintf(list, sizeof list, "%s", fe_unit_examples(&unit));
+        snprintf(list, sizeof list, "%s", ff_unit_examples(&unit));
         ck_assert(list[0]);
         for (char *word = strtok_r(list, ",", &rest); word; word = strtok_r(NULL, ",", &rest)) {
-            fe_unit example = unit_of(word);
-            ck_assert_msg(fe_unit_same_dimension(&unit, &example), "%s: %s", units[i], word);
+            ff_unit example = unit_of(word);
+            ck_assert_msg(ff_unit_same_dimension(&unit, &example), "%s: %s", units[i], word);
         }
     }
 }

@@ -7,21 +7,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-static fe_tree *tree;
-static fe_report *report;
+static ff_tree *tree;
+static ff_report *report;
 
 static study_definition *read_study(const char *text)
 {
-    report = fe_report_new();
-    tree = fe_tree_parse("study.yaml", ".", text, report);
-    return study_read(fe_node_get(fe_tree_root(tree), "study"), report);
+    report = ff_report_new();
+    tree = ff_tree_parse("study.yaml", ".", text, report);
+    return study_read(ff_node_get(ff_tree_root(tree), "study"), report);
 }
 
 static void forget(study_definition *study)
 {
     study_free(study);
-    fe_tree_free(tree);
-    fe_report_free(report);
+    ff_tree_free(tree);
+    ff_report_free(report);
 }
 
 static void expect_values(const char *what, const char *range, const char *const *values,

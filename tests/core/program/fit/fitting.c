@@ -56,7 +56,7 @@ static void forget(fitting *f)
 {
     if (f->report)
         fit_free(&f->fit);
-    fe_report_free(f->report);
+    ff_report_free(f->report);
 }
 
 bool fitting_run(fitting *f, const points *data)
@@ -69,9 +69,9 @@ bool fitting_run(fitting *f, const points *data)
         close(file);
     write_data(path, data);
     if (!f->library)
-        f->library = fe_library_new(&plugins, 1);
+        f->library = ff_library_new(&plugins, 1);
     forget(f);
-    f->report = fe_report_new();
+    f->report = ff_report_new();
     f->fit = (fit){.report = f->report};
     while (f->hold[held])
         held++;
@@ -86,7 +86,7 @@ bool fitting_run(fitting *f, const points *data)
 void fitting_close(fitting *f)
 {
     forget(f);
-    fe_library_free(f->library);
+    ff_library_free(f->library);
 }
 
 const fit_param *fitting_param(const fitting *f, const char *name)
@@ -100,8 +100,8 @@ const fit_param *fitting_param(const fitting *f, const char *name)
 
 bool fitting_says(const fitting *f, const char *part)
 {
-    for (size_t i = 0; i < fe_report_count(f->report); i++)
-        if (strstr(fe_report_at(f->report, i)->text, part))
+    for (size_t i = 0; i < ff_report_count(f->report); i++)
+        if (strstr(ff_report_at(f->report, i)->text, part))
             return true;
     return false;
 }

@@ -10,8 +10,8 @@
 typedef struct fitting {
     const char *id;      /* of the law */
     const char *hold[4]; /* "V_occ=0.6132", ..., NULL */
-    fe_library *library;
-    fe_report *report; /* of the last run */
+    ff_library *library;
+    ff_report *report; /* of the last run */
     fit fit;
     const fit_law *law; /* its only one */
 } fitting;

@@ -1,0 +1,600 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * libflankfilm: the engine of flankfilm as a library. It reads a YAML file, loads the models that
+ * the file names, wires them and runs them. It is compiled against this header and linked with
+ * `pkg-config --cflags --libs libflankfilm`.
+ *
+ * It never prints, exits, forks or changes the locale, the working directory, the floating-point
+ * environment or the signal handlers of its process. Numbers are coherent SI with angles in rad;
+ * texts are UTF-8.
+ *
+ * Ownership: who makes an object frees it, with the function that stands beside the one that made
+ * it. What is handed in is copied unless it is said to be borrowed. What is handed out is constant,
+ * belongs to the object that it was asked of, and lives as long as that.
+ *
+ * Threads: an object is used by one thread at a time; objects that do not know each other may be
+ * used at the same time.
+ */
+#ifndef FLANKFILM_ENGINE_H
+#define FLANKFILM_ENGINE_H
+
+#include <flankfilm/rows.h>
+#include <flankfilm/table.h>
+
+#include <fenv.h>
+#include <stdbool.h>
+#include <stdio.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(__GNUC__)
+#pragma GCC visibility push(default)
+#define FF_FORMAT(text, first) __attribute__((format(printf, text, first)))
+#else
+#define FF_FORMAT(text, first)
+#endif
+
+/*
+ * Draft: all that follows may change until version 1.0 of the library.
+ */
+
+/* Calls function(ctx). What follows is called from there alone: without memory the call is left,
+   all that was made in it and not freed goes, and the answer is FF_NOMEM; else it is FF_OK. */
+ff_status ff_protected(void (*function)(void *ctx), void *ctx);
+
+/* Frees what is said to be freed by the caller. NULL is nothing. */
+void ff_free(void *memory);
+
+/* Messages: errors and warnings, each with the place it is about. */
+
+/* What an error says is at fault, the worst last. A program can use the number as its exit code. */
+enum {
+    FF_FAULT_NONE = 0,
+    FF_FAULT_RUN = 1,   /* the run failed numerically */
+    FF_FAULT_INPUT = 2, /* the input is wrong */
+    FF_FAULT_PLUGIN = 3 /* a plugin is at fault */
+};
+
+/* A text that values were read from: a file or a command-line assignment. */
+typedef struct ff_source {
+    char *name; /* as messages print it: "gear.yaml", "--set" */
+    char *text; /* the whole text, NUL at its end */
+    size_t length;
+    char *directory; /* where relative files of this source are looked for */
+    bool temporary;  /* reports that mention it keep a copy, since it may be freed before them */
+} ff_source;
+
+/* A stretch of one line. line 0: the whole source; source NULL: no place at all. */
+typedef struct ff_place {
+    const ff_source *source;
+    uint32_t line, column; /* from 1; column counts characters, not bytes */
+    uint32_t width;        /* characters to underline; 0: only the caret */
+} ff_place;
+
+#ifdef __cplusplus
+#define FF_NOWHERE ff_place()
+#else
+#define FF_NOWHERE ((ff_place){0})
+#endif
+
+typedef enum ff_severity { FF_ERROR, FF_WARNING } ff_severity;
+
+typedef struct ff_message {
+    ff_severity severity;
+    int fault; /* of an error: FF_FAULT_INPUT, ... */
+    ff_place place;
+    char *text; /* one sentence */
+    char *hint; /* what to do about it, or NULL */
+} ff_message;
+
+/* A growing list of messages. Equal messages at the same place are kept once; beyond 1000, errors
+   are counted but not kept. Sources outlive it, unless they are temporary. One thread. */
+typedef struct ff_report ff_report;
+
+ff_report *ff_report_new(void);
+void ff_report_free(ff_report *report);
+
+/* hint may be NULL. Always returns false, so that `return ff_error(...)` reads well. */
+bool ff_error(ff_report *report, int fault, ff_place place, const char *hint, const char *format,
+              ...) FF_FORMAT(5, 6);
+void ff_warn(ff_report *report, ff_place place, const char *format, ...) FF_FORMAT(3, 4);
+
+size_t ff_report_count(const ff_report *report);
+const ff_message *ff_report_at(const ff_report *report, size_t index);
+const ff_message *ff_report_first(const ff_report *report); /* error; NULL without */
+size_t ff_report_errors(const ff_report *report);
+
+/* The worst that the errors say is at fault; FF_FAULT_NONE without errors. */
+int ff_report_fault(const ff_report *report);
+
+/* Prints each message as "file:line:column: error: text", the line, a caret and the hint, in the
+   order of files and lines, at most 20 errors. Colour when `colour`. */
+void ff_report_print(const ff_report *report, FILE *stream, bool colour);
+
+/* Writes "load.csv:3:7: the text", with the parts of the place that are known. */
+void ff_message_print(const ff_message *message, char *out, size_t size);
+
+/* The candidate nearest to `word` by edit distance, or NULL when none is near. */
+const char *ff_nearest(const char *word, const char *const *candidates, size_t count);
+
+/* Copies a text that a plugin or a file made; control bytes and broken UTF-8 become '?', white
+   space becomes a blank. */
+void ff_clean_text(char *out, size_t size, const char *text);
+
+/*
+ * Units and quantities. The base dimensions are m, kg, s, K and rad: angle is a dimension of its
+ * own, so rpm is never silently Hz. These functions may be called by any thread.
+ */
+
+enum { FF_DIMENSIONS = 5 };
+
+/* SI value = factor * number + offset. offset is not 0 for degC and degF alone. */
+typedef struct ff_unit {
+    int8_t power[FF_DIMENSIONS]; /* of m, kg, s, K, rad */
+    double factor;
+    double offset;
+} ff_unit;
+
+/* Reads "mm", "N m", "Nm", "1/GPa", "mPa s", "N/(mm um)", "kg/m3", "rev/min". "" and "1" are
+   dimensionless. On failure writes a clause that completes 'the unit "x" ...' into why (size
+   why_size) and returns false. */
+bool ff_unit_parse(const char *text, ff_unit *unit, char *why, size_t why_size);
+
+bool ff_unit_same_dimension(const ff_unit *a, const ff_unit *b);
+bool ff_unit_is_si(const ff_unit *unit);            /* factor 1, offset 0 */
+bool ff_unit_is_dimensionless(const ff_unit *unit); /* all powers 0 */
+
+double ff_unit_to_si(const ff_unit *unit, double number);
+double ff_unit_from_si(const ff_unit *unit, double si);
+
+/* A few units of the same dimension that a message can offer: "m, mm, um, nm"; "" for a dimension
+   without a name. */
+const char *ff_unit_examples(const ff_unit *unit);
+
+/* Reads a quantity such as "250 N m", "3mm", "20 deg", "1e-3" and gives its SI value. `row` is the
+   unit that the parameter is declared in; its text `row_text` serves messages. A bare number is
+   right only where `row` is dimensionless. NaN, infinities and overflow are refused. On failure
+   writes one sentence into why and returns false. */
+bool ff_quantity_parse(const char *text, const ff_unit *row, const char *row_text, double *si,
+                       char *why, size_t why_size);
+
+/* Writes `si` in the row's unit as a user would read it, "250 N m" (6 significant digits). */
+void ff_quantity_print(double si, const ff_unit *row, const char *row_text, char *out, size_t size);
+
+/* Reads a whole number that fits; on failure false, with a sentence in why. */
+bool ff_integer_parse(const char *text, int64_t *value, char *why, size_t why_size);
+
+/* Reads a plain finite number, locale-independent; *end is set past it. False: none there. */
+bool ff_number_parse(const char *text, double *value, const char **end);
+
+/*
+ * A YAML file as a tree of maps, sequences and scalars. Scalars stay text: the reader of a value
+ * declares its type. Every node and key knows its place.
+ */
+
+typedef enum ff_node_kind { FF_SCALAR, FF_SEQUENCE, FF_MAP } ff_node_kind;
+
+typedef struct ff_node ff_node;
+
+struct ff_node {
+    ff_node_kind kind;
+    ff_place place;
+    char *text;    /* scalar; "" when empty */
+    bool quoted;   /* scalar written in quotes */
+    uint32_t rank; /* layer: included files first, the file itself, then each --set; higher wins */
+    size_t count;  /* children of a sequence or map */
+    ff_node **items;
+    char **keys;          /* map */
+    ff_place *key_places; /* map */
+};
+
+typedef struct ff_tree ff_tree;
+
+/*
+ * Reads `path`, reads the files of its `include:` list first (relative to the file that names
+ * them, or else to the examples that came with the library) and merges: maps deep, all else is
+ * replaced by the later; `include` itself is left out.
+ * Refuses duplicate keys, tags, several documents, more than 64 levels, 1 MiB of text, 100 000
+ * nodes after alias expansion, 4096 keys in a map, 1000 anchors in a file, 16 levels or 64 files of
+ * includes, and a file that includes itself. Merge key "<<" takes aliases of maps. Always returns a
+ * tree; it has no root when the report got errors that leave nothing to read: a file is lost or
+ * broken off. Places point into the tree, so it outlives the report's printing.
+ */
+ff_tree *ff_tree_load(const char *path, ff_report *report);
+
+/* The same from memory: name serves messages, directory the relative files. */
+ff_tree *ff_tree_parse(const char *name, const char *directory, const char *text,
+                       ff_report *report);
+
+/*
+ * Applies "a.b.c=value": the value is read as YAML, maps on the way are made, a list index is
+ * ".0". `prefix` (or NULL) names the map that a path starts in unless its first word is one of
+ * `top` (a NULL-terminated list). Places of such values point into the assignment itself.
+ * "include=FILE", or a list of files, merges files into the tree.
+ */
+bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, const char *const *top,
+                 ff_report *report);
+
+/* The same for an assignment that stands in a file: places of its path and of its value there, or
+   NULL. */
+bool ff_tree_set_at(ff_tree *tree, const char *assignment, const ff_place *path,
+                    const ff_place *place, const char *prefix, const char *const *top,
+                    ff_report *report);
+
+/* Puts a copy of a node of the tree, places and all, under a key of its root. */
+void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node);
+
+const ff_node *ff_tree_root(const ff_tree *tree); /* a map, or NULL */
+void ff_tree_free(ff_tree *tree);
+
+const ff_node *ff_node_get(const ff_node *map, const char *key); /* NULL: absent or no map */
+
+/* The path of a file that a text in that directory names; the caller frees it. */
+char *ff_path_beside(const char *directory, const char *path);
+
+/* Writes the node on one line that reads as the same node; the second writes a key or a text. */
+void ff_yaml_print(const ff_node *node, FILE *out);
+void ff_yaml_print_text(const char *text, bool quoted, FILE *out);
+
+/* Tables of numbers from text files; flankfilm/table.h describes the format. */
+
+typedef struct ff_columns {
+    ff_table table; /* the view of a model */
+    ff_source source;
+    size_t count; /* columns that were asked for */
+    const ff_param **asked;
+    ff_unit *units; /* their rows' */
+    size_t rows;
+    double **values; /* in SI, of each column; NULL: the file lacks it */
+    uint32_t *lines; /* of each row */
+    ff_place *heads; /* of each column in the header */
+    size_t *fields;  /* of each column: which field of a line */
+    size_t width;    /* fields of a line */
+    char separator;  /* of the header; ' ': any blanks */
+} ff_columns;
+
+/* Reports everything that is wrong, up to 20 errors; false after one. The columns must be freed
+   either way. */
+bool ff_columns_read(ff_columns *columns, const char *path, const ff_param *rows, size_t count,
+                     size_t stride, ff_report *report);
+void ff_columns_free(ff_columns *columns);
+
+/* The place of a field; a row or column of SIZE_MAX stands for all of them. */
+ff_place ff_columns_place(const ff_columns *columns, size_t row, size_t column);
+
+/*
+ * Models. Each is loaded once, checked in full, and never unloaded.
+ *
+ * Search order: the given directories, FLANKFILM_PLUGIN_PATH, the user's data directory, the
+ * installed directory and, when the library lies in its build tree, the build's plugins. The first
+ * file found is the one used; further ones are not looked at.
+ */
+
+enum { FF_MAX_RANK = 4 };
+
+/* The dimensions of a port row, read from its `dims`. */
+typedef struct ff_dims {
+    uint32_t rank;       /* with the optional one */
+    bool first_optional; /* "engagement? station" */
+    char name[FF_MAX_RANK][24];
+} ff_dims;
+
+/* A model that passed every check, with the units and dimensions of its rows. The descriptor and
+   its rows have all members of this version, also where the plugin was compiled for an older one.
+ */
+typedef struct ff_loaded {
+    const ff_model *model;
+    char *path; /* of the shared object */
+    ff_unit *param_units;
+    ff_unit *input_units;
+    ff_unit *output_units;
+    ff_dims *input_dims;
+    ff_dims *output_dims;
+} ff_loaded;
+
+typedef struct ff_library ff_library;
+
+ff_library *ff_library_new(const char *const *directories, size_t count);
+void ff_library_free(ff_library *library);
+
+/*
+ * Returns the model `id`, which is loaded at the first call. NULL after an error: it was not found
+ * (FF_FAULT_INPUT when the id looks like a misspelt one, else FF_FAULT_PLUGIN), is not a shared
+ * object, or has a wrong ABI or a bad table. `place` is where the user named it.
+ */
+const ff_loaded *ff_library_load(ff_library *library, const char *id, ff_place place,
+                                 ff_report *report);
+
+/* Sorted ids of all models that can be found, without loading one. Freed with the library. */
+const char *const *ff_library_ids(ff_library *library, size_t *count);
+
+/* The first file of that name in the directories of plugins, freed by the caller, or NULL. */
+char *ff_library_file(const ff_library *library, const char *name);
+
+/*
+ * Reads `node` by the row's type into *value: SI, inside the physical limits; a warning when
+ * outside the calibrated range. `name` ("gears.module") begins each message; unit is the row's.
+ * Its text and reals belong to *value. On failure false, with errors in the report.
+ */
+bool ff_param_read(const ff_param *row, const ff_unit *unit, const char *name, const ff_node *node,
+                   ff_value *value, ff_report *report);
+
+/* The same from the row's preset. */
+bool ff_param_read_preset(const ff_param *row, const ff_unit *unit, const char *name,
+                          ff_value *value, ff_report *report);
+
+void ff_value_clear(ff_value *value);
+
+/* What the row expects: 'a number with a unit such as "3 mm"'. */
+void ff_param_expectation(const ff_param *row, char *out, size_t size);
+
+/*
+ * A pipeline: the stages of one YAML file, their parameters, their wires, and their results.
+ *
+ * Evaluation pulls: from the requested outputs back to what they need, each stage once. A stage
+ * that no requested output needs is not loaded and not run.
+ */
+
+/* A parameter of a stage with the value it has. */
+typedef struct ff_bound {
+    const ff_param *row;
+    bool present;   /* given or preset */
+    ff_value value; /* SI; points into memory of the stage */
+    ff_place place; /* where it was given; source NULL: the model's preset */
+    bool proposed;  /* set by the model itself for the requested accuracy */
+} ff_bound;
+
+/* A wire of a stage: the stage that feeds the input rows named "wire.*" or "wire". */
+typedef struct ff_wire {
+    char name[48];
+    int stage;      /* index of the feeding stage; -1: not connected */
+    bool automatic; /* not written in the file */
+    ff_place place;
+} ff_wire;
+
+typedef struct ff_result {
+    const ff_port *row;
+    bool wanted;    /* requested, or needed by another stage */
+    bool requested; /* by the file */
+    bool required;  /* must be given: requested by name, or for a required input */
+    double *data;   /* NULL: not given */
+    uint32_t rank;
+    size_t shape[FF_MAX_RANK];
+    size_t count; /* product of shape; 1 for a scalar */
+    /* Dimension i of the data is called ff_result_dim(stage, result, i). */
+} ff_result;
+
+typedef struct ff_quality {
+    char *name;
+    double value, limit;
+    int verdict; /* FF_GOOD, FF_DOUBTFUL, FF_BAD */
+    char *text;  /* or NULL */
+} ff_quality;
+
+/* A model that a stage could use, and what it says of itself. */
+typedef struct ff_candidate {
+    struct ff_stage *stage; /* with this model in it; its name and place are the stage's */
+    bool fits;              /* it can be set up, and gives what is needed */
+    bool assessed;          /* the numbers are there */
+    int applies;            /* FF_APPLIES ... */
+    double error, cost;
+    char *reason;    /* the model's own, or what keeps it out */
+    char *proposals; /* "cells: 256, steps: auto", or "" */
+    double judged;   /* the part of the error that the judge of a law adds; 0: none */
+    char *verdict;   /* the reason of that judge; NULL: none */
+} ff_candidate;
+
+/* A stage whose model is chosen at run time, for an accuracy. */
+typedef struct ff_choice {
+    const char *use; /* as written: KIND/auto, or the one model that is tuned */
+    double accuracy;
+    bool refine; /* settings of the file may change, and the best model is taken whatever its error
+                  */
+    ff_candidate *candidates;
+    size_t count;
+    const ff_candidate *chosen; /* NULL: not yet, or none does */
+    /* Of laws, which offer services: the stages that they serve judge them against a reference. */
+    bool serves;
+    const ff_candidate *reference; /* NULL: not known yet, or the candidates serve none */
+} ff_choice;
+
+typedef struct ff_stage {
+    char *name;
+    ff_place place;
+    const char *use; /* model id as written */
+    ff_place use_place;
+    const ff_node *node;
+    const ff_loaded *loaded; /* NULL: not loaded */
+    bool needed;             /* some requested output needs it */
+    char *why;               /* in words, for `explain`: "film.h_min is requested", "feeds film",
+                                "no requested output needs it" */
+    ff_bound *params;        /* one per row of the model; NULL before bind */
+    ff_wire *wires;
+    size_t wire_count;
+    ff_result *results; /* one per output row */
+    bool ran;
+    bool reused;      /* its results are those of an earlier run */
+    ff_status status; /* of evaluate */
+    double seconds;   /* wall time of evaluate, also of the earlier run */
+    double work;      /* s: processor time of evaluate, over all threads */
+    ff_quality *quality;
+    size_t quality_count;
+    void *state;       /* in a chain: what evaluate starts from, then what it left; NULL: none */
+    size_t state_size; /* bytes of it */
+    ff_choice *choice; /* NULL: the file says which model. Until the choice is made, the stage has
+                          all that its candidates have, by name; then it is that of the chosen */
+    struct fe_instance *instance; /* the engine's own */
+} ff_stage;
+
+typedef struct ff_pipeline {
+    char *title; /* or NULL */
+    ff_stage *stages;
+    size_t count;
+    size_t *order; /* indices of stages; each comes after those that feed it */
+    bool chained;  /* stages start from `state`, and leave one */
+    struct fe_pipeline_memory *memory;
+} ff_pipeline;
+
+/* Called while a stage works; a non-zero answer stops the run. */
+typedef struct ff_observer {
+    int (*progress)(void *ctx, const ff_stage *stage, double fraction);
+    void (*log)(void *ctx, const ff_stage *stage, int level, const char *text);
+    /* May fill in the results of a stage, which is then not evaluated. May be NULL. */
+    bool (*recall)(void *ctx, const ff_pipeline *pipeline, ff_stage *stage);
+    /* Called after each evaluation, good or not. May be NULL. */
+    void (*keep)(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage);
+    void *ctx;
+} ff_observer;
+
+/*
+ * Reads the file's `format`, `title`, `pipeline` and `outputs`, loads the models that are needed
+ * (with `everything` all of them, as `check` wants), binds parameters, wires stages and
+ * calls their `ready`. All errors of the file go to the report in one pass. NULL only when nothing
+ * can be shown; with errors in the report the pipeline must not be run. The tree and the library
+ * outlive the pipeline.
+ */
+ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool everything,
+                               ff_report *report);
+
+/* Runs what is needed; observer may be NULL. False when a stage failed: the report says why, and
+   the results so far stay readable. */
+bool ff_pipeline_run(ff_pipeline *pipeline, const ff_observer *observer, ff_report *report);
+
+/* True for KIND/auto, which leaves the model to be chosen. */
+bool ff_names_kind_only(const char *use);
+/* Makes the choices, and runs the stages that they depend on alone. True without any choice. */
+bool ff_pipeline_choose(ff_pipeline *pipeline, const ff_observer *observer, ff_report *report);
+
+/* The stage of "stage.name"; NULL: there is none. *name: what stands behind the dot, or "". */
+ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char **name);
+const char *ff_result_dim(const ff_stage *stage, size_t output, uint32_t axis);
+/* The result that feeds input row `input`; NULL: not connected, or a service. */
+ff_result *ff_feeding_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t input);
+/* Writes the value of a present parameter as a user would: "[50, 50]", "3 mm", "auto". */
+void ff_bound_print(const ff_stage *stage, size_t param, char *out, size_t size);
+/* Where a value comes from: "pair.yaml:12", "--set", "preset"; "proposed" by the model for the
+   accuracy asked for. */
+void ff_bound_origin(const ff_bound *bound, char *out, size_t size);
+/* True when the stage runs and hands a state to the neighbouring case of a chain. */
+bool ff_stage_has_state(const ff_stage *stage);
+/* Replaces the state of the stage by a copy. */
+void ff_stage_set_state(ff_stage *stage, const void *bytes, size_t size);
+const char *ff_verdict_name(int verdict); /* "good", "doubtful", "bad" */
+
+/* Makes room for an output, zeroed: rank and shape are those of its row. */
+double *ff_result_fill(ff_result *result, uint32_t rank, const size_t *shape);
+void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
+                    const char *text);
+
+/* The words that may stand at the top of a file: "format", "title", ...; NULL-terminated. */
+const char *const *ff_file_keys(void);
+
+void ff_pipeline_free(ff_pipeline *pipeline);
+
+/*
+ * Going: what follows is left out as soon as an instance of one model can take its place.
+ */
+
+/* The service of a model that the command line names, which serves the program itself. */
+typedef struct ff_service {
+    ff_tree *tree;
+    ff_pipeline *pipeline; /* of it alone */
+    const void *table;     /* of its service */
+} ff_service;
+
+/* What the command line says of it. */
+typedef struct ff_service_choice {
+    const char *option;    /* "--executor" */
+    const char *interface; /* "flankfilm.KIND/1": the model is KIND/<name> */
+    const char *name;      /* or kind/name */
+    const char **settings; /* "parameter=value" */
+    size_t setting_count;
+} ff_service_choice;
+
+/* False after an error; the service must be closed either way. */
+bool ff_service_open(ff_service *service, ff_library *library, const ff_service_choice *choice,
+                     ff_report *report);
+void ff_service_close(ff_service *service);
+
+/* Calls `work`, which calls the service. Its failure is reported as a fault of the model, unless
+   `work` has reported an error itself. */
+bool ff_service_call(const ff_service *service, const char *action,
+                     ff_status (*work)(const void *table, void *ctx), void *ctx, ff_report *report);
+
+/* A law that is tried with one set of parameters after the other. */
+typedef struct ff_trial ff_trial;
+
+/* NULL after an error: no such model, it offers no such service, it takes inputs. */
+ff_trial *ff_trial_new(ff_library *library, const char *id, const char *interface,
+                       ff_report *report);
+void ff_trial_free(ff_trial *trial);
+
+const ff_loaded *ff_trial_model(const ff_trial *trial);
+/* Reads a parameter that is held from here on. False after an error. */
+bool ff_trial_hold(ff_trial *trial, size_t param, const ff_node *node, ff_report *report);
+double ff_trial_held(const ff_trial *trial, size_t param); /* NaN: it is no number */
+
+/* The service with these values, in SI; NaN: what it is held at, its preset, or none. Lives until
+   the next call. NULL after an error. */
+const void *ff_trial_open(ff_trial *trial, const double *values, ff_report *report);
+/* The reason that the law itself gave for refusing them; "" without. */
+const char *ff_trial_why(const ff_trial *trial);
+
+/* The tables that one instance of a model reads through flankfilm.table/1. Starts zeroed. */
+typedef struct ff_tables {
+    struct fe_kept_table *kept;
+    ff_report *errors; /* why the last call failed; NULL: it did not */
+    const char *item;  /* the item that the last call was about */
+} ff_tables;
+
+ff_status ff_tables_read(ff_tables *tables, const char *item, const char *path,
+                         const ff_param *rows, size_t count, size_t stride, const ff_table **table);
+/* FF_BUG for a table that was not read here. */
+ff_status ff_tables_fail(ff_tables *tables, const ff_table *table, size_t row, size_t column,
+                         const char *text);
+/* "load.csv:3:7: time must not decrease", of the first error. */
+void ff_tables_print(const ff_tables *tables, char *out, size_t size);
+void ff_tables_free(ff_tables *tables); /* all of it; may be used again */
+
+/* Which plugin's code is running, for handlers of crashes: the path of the shared object, or NULL
+   when no plugin runs; stage or NULL; "evaluate" and the like. Each thread knows its own: a thread
+   that a plugin started knows nothing, and the one that waits for it has the answer. */
+typedef struct ff_guard_mark {
+    const char *path, *stage, *action;
+} ff_guard_mark;
+
+/* Which code runs from here on. Calls may nest: what ff_guard_enter returns is given to
+   ff_guard_leave. */
+ff_guard_mark ff_guard_enter(const char *path, const char *stage, const char *action);
+void ff_guard_leave(ff_guard_mark previous);
+ff_guard_mark ff_guard_current(void); /* may be called in a handler of signals */
+
+/* What a plugin must leave as it was: floating-point arithmetic and the locale. */
+typedef struct ff_arithmetic {
+    int rounding, traps;
+    bool flushes;  /* subnormal results become zero */
+    bool ignores;  /* subnormal operands count as zero */
+    bool extended; /* long double has its full precision */
+} ff_arithmetic;
+
+typedef struct ff_environment {
+    fenv_t floating;
+    ff_arithmetic arithmetic;
+    char locale[256]; /* "" when it was longer */
+} ff_environment;
+
+void ff_environment_keep(ff_environment *environment);
+/* Sets back what differs and says what it was: a clause that completes 'the plugin ...'; NULL when
+   all is as it was. */
+const char *ff_environment_restore(const ff_environment *environment);
+
+#if defined(__GNUC__)
+#pragma GCC visibility pop
+#endif
+
+#ifdef __cplusplus
+}
+#endif
+#endif
