@@ -109,7 +109,7 @@ function look(P, L,  i, set, key) {
 function figure10() {
     head("Fig. 10: roughness of the flanks", 10)
     table()
-    row("R_q of 0.54 and 0.53 um", F("%.4f and %.4f um", 1e6 * s["r.rq_1"], 1e6 * s["r.rq_2"]), "the printed digits", F("%.2f %.2f", 1e6 * s["r.rq_1"], 1e6 * s["r.rq_2"]) == "0.54 0.53")
+    row("R_q of 0.54 and 0.53 um", F("%.4f and %.4f um", 1e6 * s["r.rq_1"], 1e6 * s["r.rq_2"]), "`rq` is given", -2)
     row("the traces measured on ground flanks", "made by `surface/synthetic`: waves from 20 to 400 um, power falling with the square of the wave number", "the traces were known", -1)
     say("The paper's surfaces are measured and not published. What follows holds for " seed_count " surfaces of the same Rq (`seed` " surface[1] \
         " to " surface[seed_count] "); the first one is drawn.")

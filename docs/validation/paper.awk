@@ -25,6 +25,8 @@ BEGIN {
     load(in_ "/fine", "film", "fine")
     load(in_ "/coarse", "film_static", "coarse")
     load(in_ "/atlas", "motion-point", "a")
+    size_count = split(parts_of_k, size, " ")
+    for (i = 1; i <= size_count; i++) load(in_ "/k-" size[i], "motion-point", "a" size[i])
     load(in_ "/flanks", "flanks", "r")
     scalars(in_ "/flanks", "flanks", "r")
     soon = 0.05 # deg, after LPSTC

@@ -33,7 +33,7 @@ at() { # POINT NAME FILE [--set ...]
 }
 digest() { # AWK-FILE ...; with what all of them share
     for file; do shift; set -- "$@" -f "$here/$file"; done
-    awk -v in_="$work" -v quick="$quick" -v seeds="$seeds" -v stage="$stage" -f "$here/csv.awk" -f "$here/paper.awk" "$@" < /dev/null
+    awk -v in_="$work" -v quick="$quick" -v seeds="$seeds" -v stage="$stage" -v parts_of_k="$parts" -f "$here/csv.awk" -f "$here/paper.awk" "$@" < /dev/null
 }
 seeds="2011 2012 2013 2014 2015 2016 2017 2018" # of the surfaces; the first one is drawn
 fields="film.film, film.pressure, film.x, film.roll_angle"
@@ -50,6 +50,13 @@ at I fine "$here/paper.yaml" --set film.cells=1024 --set film.steps=2000 --set '
 at I coarse "$here/paper.yaml" --set film_static.steps=125 --set 'outputs=[film_static.h_min, film_static.roll_angle]'
 at I step "$here/paper.yaml" --set static.load_ramp='0 deg' --set tooth.load_ramp='0 deg' --set "outputs=[$fields, $static]"
 run atlas "$here/dynamics.yaml" --set mesh.use=stiffness/load-distribution --set motion.max_period=1
+# harmonics 1 to 3 of this k(t), whole and in parts of their size
+parts="1 0.5 0.35 0.25 0.15"
+for part in $parts; do
+    awk -v part=$part -v in_="$work" -f "$here/csv.awk" -f "$here/paper-harmonics.awk" > "$work/k-$part.csv"
+    run "k-$part" "$here/dynamics.yaml" --set motion.max_period=1 \
+        --set "mesh={use: stiffness/table, file: $work/k-$part.csv}"
+done
 run flanks "$here/paper-rough.yaml" --set "outputs=[flanks.*]"
 
 # of the films between rough flanks the ten positions alone are kept
