@@ -220,16 +220,31 @@ void conformance_check_guards(const ff_fixture *fixture)
     for_each_function(fixture, guards);
 }
 
+/* "p = 1e9, T = 300". */
+static const char *point_text(const conformance_function *function, const double *point,
+                              char text[160])
+{
+    size_t used = 0;
+    for (size_t i = 0; i < function->axis_count && used < 120; i++)
+        used += (size_t)snprintf(text + used, 160 - used, "%s%s = %g", i ? ", " : "",
+                                 function->axes[i]->name, point[i]);
+    return text;
+}
+
 static bool check_finite(checking *c, const conformance_function *function, const batch *b,
                          double speed)
 {
     for (size_t i = 0; i < function->result_count; i++)
         for (size_t k = 0; k < b->n; k++)
-            if (!isfinite(b->out[i][k]))
-                return ff_check_failf(c->fixture, "%s: %s is %g at %s = %g, %s = %g, scalar %g",
-                                      function->name, function->results[i], b->out[i][k],
-                                      function->axes[0]->name, b->in[0][k], function->axes[1]->name,
-                                      b->in[1][k], speed);
+            if (!isfinite(b->out[i][k])) {
+                double point[CONFORMANCE_AXES];
+                char where[160];
+                for (size_t j = 0; j < function->axis_count; j++)
+                    point[j] = b->in[j][k];
+                return ff_check_failf(c->fixture, "%s: %s is %g at %s, scalar %g", function->name,
+                                      function->results[i], b->out[i][k],
+                                      point_text(function, point, where), speed);
+            }
     return true;
 }
 
@@ -264,6 +279,7 @@ void conformance_check_finite(const ff_fixture *fixture)
 static bool derivatives(checking *c, const conformance_function *function, const void *table,
                         double speed)
 {
+    char where[160];
     for (int k = 0; k < POINTS; k++)
         for (size_t i = 1; i < function->result_count; i++) {
             conformance_line l = {
@@ -278,11 +294,9 @@ static bool derivatives(checking *c, const conformance_function *function, const
             if (conformance_compare_slope(&l, out[i], h, &found) == 1 &&
                 conformance_compare_slope(&l, out[i], h / 8, &found) == 1)
                 return ff_check_failf(
-                    c->fixture,
-                    "%s: %s is %.9g at %s = %g, %s = %g, but differences of %s give "
-                    "%.9g",
-                    function->name, function->results[i], out[i], function->axes[0]->name,
-                    l.point[0], function->axes[1]->name, l.point[1], function->results[0], found);
+                    c->fixture, "%s: %s is %.9g at %s, but differences of %s give %.9g",
+                    function->name, function->results[i], out[i],
+                    point_text(function, l.point, where), function->results[0], found);
         }
     return true;
 }

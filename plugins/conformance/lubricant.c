@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Draft. What an oil owes: positive properties, and a viscosity that does not rise with
+   temperature. */
+#include "law-checks.h"
+#include "offer.h"
+
+#include <flankfilm/laws.h>
+
+#include <math.h>
+
+/* The data of an oil need not tell a property, or at one temperature alone. */
+static bool is_known(const ff_liquid *oil, int32_t what)
+{
+    const double T[2] = {313.15, 373.15};
+    double value[2] = {NAN, NAN};
+    oil->eval(oil->self, what, 2, T, value, NULL);
+    return !isnan(value[0]) && !isnan(value[1]);
+}
+
+/* In place of what is not known stands a constant. */
+static ff_status property(const void *table, int32_t what, size_t n, const double *T, double sign,
+                          double *const *out)
+{
+    const ff_liquid *oil = table;
+    ff_status status = oil->eval(oil->self, what, n, T, out[0], out[1]);
+    bool known = is_known(oil, what);
+    for (size_t i = 0; i < n && status >= FF_OK; i++) {
+        out[0][i] = known ? sign * out[0][i] : 1;
+        if (out[1])
+            out[1][i] = known ? sign * out[1][i] : 0;
+    }
+    return status;
+}
+
+static ff_status fluidity(const void *table, size_t n, const double *const *in, double speed,
+                          double *const *out)
+{
+    (void)speed;
+    return property(table, FF_LIQUID_LN_ETA0, n, in[0], -1, out);
+}
+
+static ff_status rho0(const void *table, size_t n, const double *const *in, double speed,
+                      double *const *out)
+{
+    (void)speed;
+    return property(table, FF_LIQUID_RHO0, n, in[0], 1, out);
+}
+
+static ff_status conductivity(const void *table, size_t n, const double *const *in, double speed,
+                              double *const *out)
+{
+    (void)speed;
+    return property(table, FF_LIQUID_CONDUCTIVITY, n, in[0], 1, out);
+}
+
+static ff_status heat_capacity(const void *table, size_t n, const double *const *in, double speed,
+                               double *const *out)
+{
+    (void)speed;
+    return property(table, FF_LIQUID_HEAT_CAPACITY, n, in[0], 1, out);
+}
+
+static ff_status pressure_coefficient(const void *table, size_t n, const double *const *in,
+                                      double speed, double *const *out)
+{
+    (void)speed;
+    return property(table, FF_LIQUID_PRESSURE_COEFFICIENT, n, in[0], 1, out);
+}
+
+static const double temperatures[] = {-1e30, 0, 1, 200, 300, 600, 1000, 1e30};
+static const conformance_axis temperature = {.name = "T",
+                                             .low = 280,
+                                             .high = 420,
+                                             .extremes = temperatures,
+                                             .extreme_count =
+                                                 sizeof temperatures / sizeof *temperatures};
+
+#define PROPERTY(says, value, ...)                                                                 \
+    {                                                                                              \
+        .service = FF_LIQUID_ID, .name = says, .axes = {&temperature}, .axis_count = 1,            \
+        .results = {value, "its slope"}, .by = {0, 0}, .result_count = 2, .speed_count = 1,        \
+        __VA_ARGS__                                                                                \
+    }
+
+const conformance_function conformance_functions[] = {
+    PROPERTY("eval of the viscosity", "-ln_eta0", .rising = true, .call = fluidity),
+    PROPERTY("eval of the density", "rho0", .positive = true, .call = rho0),
+    PROPERTY("eval of the conductivity", "conductivity", .positive = true, .call = conductivity),
+    PROPERTY("eval of the heat capacity", "heat_capacity", .positive = true, .call = heat_capacity),
+    PROPERTY("eval of the pressure coefficient", "alpha", .positive = true,
+             .call = pressure_coefficient),
+};
+const size_t conformance_function_count =
+    sizeof conformance_functions / sizeof conformance_functions[0];
+
+/* That of water, more or less; of the rest nothing is known. */
+static ff_status plain_eval(const void *self, int32_t what, size_t n, const double *T,
+                            double *value, double *slope)
+{
+    (void)self, (void)T;
+    for (size_t i = 0; i < n; i++) {
+        value[i] = what == FF_LIQUID_LN_ETA0 ? -4 : what == FF_LIQUID_RHO0 ? 900 : NAN;
+        if (slope)
+            slope[i] = isnan(value[i]) ? NAN : 0;
+    }
+    return FF_OK;
+}
+
+static const ff_liquid plain = {sizeof plain, NULL, plain_eval};
+
+static const ff_check checks[] = {CONFORMANCE_LAW_CHECKS};
+
+const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
+                                          .checks = FF_TABLE(checks),
+                                          .service = FF_LIQUID_ID,
+                                          .plain = &plain};
+
+const ff_model conformance_model = {
+    .size = sizeof conformance_model,
+    .abi_major = FF_ABI_MAJOR,
+    .id = "conformance/lubricant",
+    .version = "1.0.0",
+    .summary = "what an oil keeps: finite, pure, positive, a viscosity that falls with temperature",
+    .reference = "",
+    .bibtex = "",
+    .licence = "GPL-3.0-or-later",
+    .outputs = FF_TABLE(conformance_outputs),
+    .create = conformance_create,
+    .service = conformance_service,
+};

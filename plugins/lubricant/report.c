@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What an oil is at the temperature that it runs at. */
+#include "liquid.h"
+
+#include <math.h>
+
+static const double ZERO = 273.15; /* degC in K */
+
+const ff_port lubricant_inputs[1] = {{.name = "operating.oil_temperature",
+                                      .unit = "K",
+                                      .doc = "of the oil in the inlet",
+                                      .dims = "",
+                                      .flags = FF_OPTIONAL,
+                                      .from = "operating"}};
+
+enum { OUT_OIL, OUT_TEMPERATURE, OUT_VALUES };
+
+/* The rows from OUT_VALUES on, by property; the expansion comes last. */
+const ff_port lubricant_outputs[8] = {
+    {.name = "oil",
+     .unit = "",
+     .doc = "the oil over temperature",
+     .dims = "",
+     .service = FF_LIQUID_ID},
+    {.name = "temperature", .unit = "K", .doc = "of the oil in the inlet", .dims = ""},
+    {.name = "eta0", .unit = "Pa s", .doc = "viscosity at ambient pressure", .dims = ""},
+    {.name = "rho0", .unit = "kg/m3", .doc = "density at ambient pressure", .dims = ""},
+    {.name = "conductivity", .unit = "W/(m K)", .doc = "thermal conductivity", .dims = ""},
+    {.name = "heat_capacity", .unit = "J/(kg K)", .doc = "specific heat", .dims = ""},
+    {.name = "alpha",
+     .unit = "1/Pa",
+     .doc = "pressure coefficient dln(eta)/dp at ambient pressure",
+     .dims = ""},
+    {.name = "expansion", .unit = "1/K", .doc = "-drho0/dT over rho0", .dims = ""},
+};
+
+static ff_status find_temperature(const lubricant_oil *oil, const ff_array *in, double *T)
+{
+    const ff_host *host = oil->host;
+    bool wired = in && in->data, given = !isnan(oil->temperature);
+    if (wired && given)
+        return ff_failf(host, FF_INVALID, "temperature",
+                        "the temperature stands in two places: here %g degC, and oil_temperature "
+                        "of the operating stage, %g degC; leave this one out",
+                        oil->temperature - ZERO, in->data[0] - ZERO);
+    if (!wired && !given)
+        return ff_failf(host, FF_INVALID, "temperature",
+                        "the temperature of the oil is missing: give oil_temperature to an "
+                        "operating stage, or temperature here");
+    *T = wired ? in->data[0] : oil->temperature;
+    if (!(*T >= oil->coldest && *T <= oil->hottest))
+        return ff_failf(host, FF_INVALID, wired ? "operating.oil_temperature" : "temperature",
+                        "at %g degC ASTM D341 gives this oil no viscosity: it holds from %.0f to "
+                        "%.0f degC",
+                        *T - ZERO, oil->coldest - ZERO, oil->hottest - ZERO);
+    return FF_OK;
+}
+
+static ff_status put(const lubricant_oil *oil, uint32_t output, double T)
+{
+    static const char *const missing[] = {
+        [FF_LIQUID_LN_ETA0] = "its viscosity is known at one temperature alone",
+        [FF_LIQUID_CONDUCTIVITY] = "neither conductivity nor a base oil that has one is given",
+        [FF_LIQUID_HEAT_CAPACITY] = "neither heat_capacity nor a base oil that has one is given",
+        [FF_LIQUID_PRESSURE_COEFFICIENT] = "neither a base oil, nor alpha at this temperature, is "
+                                           "given"};
+    double value, slope;
+    bool expansion = output == OUT_VALUES + FF_LIQUID_PRESSURE_COEFFICIENT + 1;
+    int32_t what = expansion ? FF_LIQUID_RHO0 : (int32_t)(output - OUT_VALUES);
+    oil->service.eval(oil, what, 1, &T, &value, &slope);
+    if (isnan(value))
+        return ff_failf(oil->host, what == FF_LIQUID_LN_ETA0 ? FF_INVALID : FF_UNSUPPORTED,
+                        lubricant_outputs[output].name,
+                        "%s of this oil is not known at %g degC: %s",
+                        lubricant_outputs[output].name, T - ZERO, missing[what]);
+    if (what == FF_LIQUID_LN_ETA0)
+        value = exp(value);
+    return ff_put_scalar(oil->host, output, expansion ? 0 - slope / value : value);
+}
+
+static void judge(const lubricant_oil *oil, double T)
+{
+    double beyond = fmax(0, fmax(oil->low - T, T - oil->high));
+    char text[160];
+    snprintf(text, sizeof text,
+             "K beyond what the data of the oil reach, %.0f to %.0f degC; its viscosity there is "
+             "an extrapolation",
+             oil->low - ZERO, oil->high - ZERO);
+    oil->host->quality(oil->host->ctx, "extrapolation", beyond, 0,
+                       beyond > 0 ? FF_DOUBTFUL : FF_GOOD, beyond > 0 ? text : NULL);
+}
+
+ff_status lubricant_evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const lubricant_oil *oil = self;
+    double T = 0;
+    ff_status status = find_temperature(oil, in, &T);
+    if (status == FF_OK && wanted & FF_BIT(OUT_TEMPERATURE))
+        status = ff_put_scalar(oil->host, OUT_TEMPERATURE, T);
+    for (uint32_t i = OUT_VALUES; i < 8 && status == FF_OK; i++)
+        if (wanted & FF_BIT(i))
+            status = put(oil, i, T);
+    if (status == FF_OK)
+        judge(oil, T);
+    return status;
+}

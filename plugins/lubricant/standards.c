@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "standards.h"
+
+#include <math.h>
+#include <stdio.h>
+
+static const double CST = 1e-6; /* m2/s */
+
+/*
+ * Mid-points of ISO 3448 at 40 degC, and the viscosity at 100 degC that has the viscosity index of
+ * the base by ASTM D2270, all in cSt: 95 for mineral oil, 150 for PAO and ester (esters: 140 to
+ * 160), 200 for PAG (an ethylene-propylene oxide copolymer of 204, 62.5 and 22.5 mPa s at 30, 60
+ * and 100 degC; Stachowiak and Batchelor, Engineering Tribology, table 2.3). Typical, no product.
+ */
+static const struct {
+    double nu_40, mineral, synthetic, glycol;
+} grades[] = {
+    {10, 2.637, 2.903, 3.137},   {15, 3.381, 3.791, 4.170},   {22, 4.254, 4.860, 5.435},
+    {32, 5.290, 6.268, 7.214},   {46, 6.644, 8.099, 9.604},   {68, 8.530, 10.85, 13.22},
+    {100, 11.07, 14.51, 18.05},  {150, 14.54, 19.59, 24.87},  {220, 18.75, 25.92, 33.63},
+    {320, 23.95, 34.07, 44.98},  {460, 30.34, 44.24, 59.21},  {680, 39.06, 58.25, 79.07},
+    {1000, 49.86, 76.02, 104.3}, {1500, 64.21, 99.81, 138.2},
+};
+
+int64_t lubricant_grade_find(const char *text)
+{
+    int number = 0, end = 0;
+    if (sscanf(text, " ISO VG %6d %n", &number, &end) != 1 &&
+        sscanf(text, " VG %6d %n", &number, &end) != 1)
+        return -1;
+    for (size_t i = 0; i < sizeof grades / sizeof *grades && !text[end]; i++)
+        if (grades[i].nu_40 == number)
+            return (int64_t)i;
+    return -1;
+}
+
+double lubricant_grade_nu_40(int64_t grade)
+{
+    return CST * grades[grade].nu_40;
+}
+
+double lubricant_grade_nu_100(int64_t grade, int base)
+{
+    double nu_100 = grades[grade].synthetic;
+    if (base == LUBRICANT_MINERAL)
+        nu_100 = grades[grade].mineral;
+    else if (base == LUBRICANT_PAG)
+        nu_100 = grades[grade].glycol;
+    return CST * nu_100;
+}
+
+/* ASTM D341-20, equations 1 and 2. */
+double lubricant_d341_ordinate(double nu)
+{
+    nu /= CST;
+    return log10(log10(nu + 0.7 + exp(-1.47 - 1.84 * nu - 0.51 * nu * nu)));
+}
+
+/* ASTM D341-20, equation 3, which is a fit below some 5 cSt, good to 0.1 %. */
+double lubricant_d341_nu(double y, double *slope)
+{
+    double lg_z = pow(10, y), z = pow(10, lg_z) - 0.7;
+    double rest = exp(-0.7487 - 3.295 * z + 0.6119 * z * z - 0.3193 * z * z * z);
+    double dz_dy = (z + 0.7) * M_LN10 * lg_z * M_LN10;
+    *slope = CST * dz_dy * (1 + rest * (3.295 - 1.2238 * z + 0.9579 * z * z));
+    return CST * (z - rest);
+}
+
+/* rho = rho15 exp(-a (1 + 0.8 a)), a = 0.6278 (T - 15 degC)/rho15: lubricating oils of 800 to 1164
+   kg/m3, -18 to 150 degC (ASTM D1250, table 54D). */
+double lubricant_d1250_density(double density_15, double T, double *slope)
+{
+    double per_kelvin = 0.6278 / density_15, a = per_kelvin * (T - 288.15);
+    double density = density_15 * exp(-a * (1 + 0.8 * a));
+    *slope = -density * per_kelvin * (1 + 1.6 * a);
+    return density;
+}

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What standards say of oils: viscosity grades, and viscosity and density over temperature. */
+#ifndef LUBRICANT_STANDARDS_H
+#define LUBRICANT_STANDARDS_H
+
+#include <stdint.h>
+
+/* Rank of "ISO VG 220" among the grades of ISO 3448 that gear oils come in; -1: no such grade. */
+int64_t lubricant_grade_find(const char *text);
+#define LUBRICANT_GRADES "ISO VG 10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000 or 1500"
+
+/* Base oils; LUBRICANT_BASES has their names in this order. */
+enum { LUBRICANT_MINERAL, LUBRICANT_PAO, LUBRICANT_ESTER, LUBRICANT_PAG, LUBRICANT_BASE_COUNT };
+#define LUBRICANT_BASES "mineral|PAO|ester|PAG"
+
+/* Kinematic viscosity, m2/s, of the grade of that rank at 40 and 100 degC. */
+double lubricant_grade_nu_40(int64_t grade);
+double lubricant_grade_nu_100(int64_t grade, int base);
+
+/*
+ * ASTM D341: y = lg lg Z, Z = nu + 0.7 + exp(-1.47 - 1.84 nu - 0.51 nu^2), nu in cSt, is a straight
+ * line over lg T. It holds from 0.21 to 2e7 cSt.
+ */
+double lubricant_d341_ordinate(double nu); /* nu in m2/s */
+/* nu in m2/s, and its slope over y. */
+double lubricant_d341_nu(double y, double *slope);
+#define LUBRICANT_D341_LEAST 0.21e-6 /* m2/s */
+#define LUBRICANT_D341_MOST  20.0
+
+/* Density, kg/m3, at T (K) by ASTM D1250, and its slope. */
+double lubricant_d1250_density(double density_15, double T, double *slope);
+
+#endif

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Grades by ISO 3448 and ASTM D2270, viscosity by D341, density by D1250. */
+#include "host.h"
+
+#include "../../../plugins/lubricant/standards.h"
+
+#include <flankfilm/laws.h>
+
+#include <math.h>
+#include <stdio.h>
+
+static const double CST = 1e-6;
+
+/* Viscosities of 0 and 100 index that share nu_100 = Y with the oil: ASTM D2270, appendix X2. */
+static void references(double Y, double *L, double *H)
+{
+    static const struct {
+        double upto, L[3], H[3];
+    } rows[] = {
+        {3.8, {1.14673, 1.7576, -0.109}, {0.84155, 1.5521, -0.077}},
+        {4.4, {3.38095, -15.4952, 33.196}, {0.78571, 1.7929, -0.183}},
+        {5, {2.5, -7.2143, 13.812}, {0.82143, 1.5679, 0.119}},
+        {6.4, {0.101, 16.635, -45.469}, {0.04985, 9.1613, -18.557}},
+        {7, {3.35714, -23.5643, 78.466}, {0.22619, 7.7369, -16.656}},
+        {7.7, {0.01191, 21.475, -72.870}, {0.79762, -0.7321, 14.61}},
+        {9, {0.41858, 16.1558, -56.04}, {0.05794, 10.5156, -28.24}},
+        {12, {0.88779, 7.5527, -16.6}, {0.26665, 6.7015, -10.81}},
+        {15, {0.7672, 10.7972, -38.18}, {0.20073, 8.4658, -22.49}},
+        {18, {0.97305, 5.3135, -2.2}, {0.28889, 5.9741, -4.93}},
+        {22, {0.97256, 5.25, -0.98}, {0.24504, 7.416, -16.73}},
+        {28, {0.91413, 7.4759, -21.82}, {0.20323, 9.1267, -34.23}},
+        {40, {0.87031, 9.7157, -50.77}, {0.18411, 10.1015, -46.75}},
+        {55, {0.84703, 12.6752, -133.31}, {0.17029, 11.4866, -80.62}},
+        {70, {0.85921, 11.1009, -83.19}, {0.1713, 11.368, -76.94}},
+        {HUGE_VAL, {0.83531, 14.6731, -216.246}, {0.16841, 11.8493, -96.947}},
+    };
+    size_t i = 0;
+    while (Y > rows[i].upto)
+        i++;
+    *L = rows[i].L[0] * Y * Y + rows[i].L[1] * Y + rows[i].L[2];
+    *H = rows[i].H[0] * Y * Y + rows[i].H[1] * Y + rows[i].H[2];
+}
+
+/* Viscosity index by ASTM D2270, procedures A (up to 100) and B. */
+static double viscosity_index(double nu_40, double nu_100)
+{
+    double L, H;
+    references(nu_100, &L, &H);
+    if (nu_40 >= H)
+        return 100 * (L - nu_40) / (L - H);
+    double N = log(H / nu_40) / log(nu_100);
+    return 100 + (pow(10, N) - 1) / 0.00715;
+}
+
+static void grades_are_found_by_name(void)
+{
+    static const char *const good[] = {"ISO VG 220", "ISO VG220", "VG 220", " ISO  VG 220 "};
+    static const char *const bad[] = {"",    "ISO",         "ISO VG",
+                                      "220", "ISO VG 220x", "ISO VG 99999999999"};
+    for (size_t i = 0; i < 4; i++)
+        check_true(good[i],
+                   lubricant_grade_find(good[i]) == 8 && lubricant_grade_nu_40(8) == 220 * CST);
+    for (size_t i = 0; i < 6; i++)
+        check_true("refused", lubricant_grade_find(bad[i]) == -1);
+}
+
+static void grades_have_the_index_of_their_base(void)
+{
+    static const double index[LUBRICANT_BASE_COUNT] = {95, 150, 150, 200};
+    for (int64_t grade = 0; grade < 14; grade++)
+        for (int base = 0; base < LUBRICANT_BASE_COUNT; base++) {
+            double nu_40 = lubricant_grade_nu_40(grade) / CST;
+            printf("ISO VG %g, base %d\n", nu_40, base);
+            check_near("index", viscosity_index(nu_40, lubricant_grade_nu_100(grade, base) / CST),
+                       index[base], 1e-3);
+        }
+}
+
+/* Below some 5 cSt the inverse that D341 prints is a fit, good to 0.1 %. */
+static void d341_goes_there_and_back(void)
+{
+    for (double nu = 0.21; nu < 2e7; nu *= 1.3) {
+        double slope, next, y = lubricant_d341_ordinate(nu * CST), h = 1e-6;
+        check_near("nu", lubricant_d341_nu(y, &slope), nu * CST, nu < 7 ? 1e-3 : 1e-9);
+        double above = lubricant_d341_nu(y + h, &next), below = lubricant_d341_nu(y - h, &next);
+        check_near("its slope", slope, (above - below) / (2 * h), 1e-6);
+    }
+}
+
+static double property(stage *oil, int32_t what, double T)
+{
+    const ff_liquid *l = stage_service(oil, FF_LIQUID_ID);
+    double value;
+    l->eval(l->self, what, 1, &T, &value, NULL);
+    return value;
+}
+
+static double nu_at(const char *nu_40, const char *nu_100, double T)
+{
+    stage *oil = stage_open("lubricant/measured");
+    stage_set_text(oil, "nu_40", nu_40);
+    stage_set_text(oil, "nu_100", nu_100);
+    stage_set_text(oil, "density_15", "870 kg/m3");
+    double nu = exp(property(oil, FF_LIQUID_LN_ETA0, T)) / property(oil, FF_LIQUID_RHO0, T);
+    stage_close(oil);
+    return nu / CST;
+}
+
+/* A published worked case: 32 cSt at 40 and 5.4 cSt at 100 degC give 8.5 cSt at 80 degC. */
+static void d341_example(void)
+{
+    check_near("nu at 80 degC", nu_at("32 cSt", "5.4 cSt", 353.15), 8.5, 6e-3);
+    check_near("nu at 40 degC", nu_at("32 cSt", "5.4 cSt", 313.15), 32, 1e-9);
+}
+
+static void grades_have_their_mid_point(void)
+{
+    static const char *const bases[] = {"mineral", "PAO", "ester", "PAG"};
+    static const double grades[] = {32, 46, 68, 100, 150, 220, 320, 460, 680};
+    for (size_t i = 0; i < 9; i++)
+        for (int base = 0; base < 4; base++) {
+            stage *oil = stage_open("lubricant/grade");
+            char name[24];
+            snprintf(name, sizeof name, "ISO VG %g", grades[i]);
+            stage_set_text(oil, "grade", name);
+            stage_set_text(oil, "base", bases[base]);
+            double rho = property(oil, FF_LIQUID_RHO0, 313.15);
+            check_near(name, exp(property(oil, FF_LIQUID_LN_ETA0, 313.15)), grades[i] * CST * rho,
+                       1e-12);
+            stage_close(oil);
+        }
+}
+
+/* A change of name alone: the grade and the same figures of a data sheet. */
+static void grade_and_data_sheet_agree(void)
+{
+    stage *grade = stage_open("lubricant/grade"), *sheet = stage_open("lubricant/measured");
+    stage_set_text(grade, "grade", "ISO VG 220");
+    stage_set_text(sheet, "nu_40", "220 cSt");
+    stage_set_text(sheet, "nu_100", "18.75 cSt");
+    stage_set_text(sheet, "density_15", "890 kg/m3");
+    stage_set_text(sheet, "base", "mineral");
+    for (int32_t what = 0; what <= FF_LIQUID_PRESSURE_COEFFICIENT; what++)
+        check_near("property", property(grade, what, 353.15), property(sheet, what, 353.15), 1e-13);
+    stage_close(grade);
+    stage_close(sheet);
+}
+
+static void density_falls_with_temperature(void)
+{
+    double slope, ignored;
+    check_near("at 15 degC", lubricant_d1250_density(890, 288.15, &slope), 890, 1e-15);
+    check_near("expansion at 15 degC", -slope / 890, 0.6278 / 890, 1e-12);
+    lubricant_d1250_density(890, 350, &slope);
+    check_near("its slope", slope,
+               (lubricant_d1250_density(890, 350.1, &ignored) -
+                lubricant_d1250_density(890, 349.9, &ignored)) /
+                   0.2,
+               1e-7);
+}
+
+int main(void)
+{
+    grades_are_found_by_name();
+    grades_have_the_index_of_their_base();
+    d341_goes_there_and_back();
+    d341_example();
+    grades_have_their_mid_point();
+    grade_and_data_sheet_agree();
+    density_falls_with_temperature();
+    return check_done();
+}
