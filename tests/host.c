@@ -437,6 +437,11 @@ void stage_give_scalar(stage *s, const char *row, double value)
     f->array.data = &f->scalar;
 }
 
+static bool has_place(const stage *s, const ff_param *row)
+{
+    return s->model->param_stride >= sizeof *row && row->place;
+}
+
 static int group_is_given(const stage *s, const char *group)
 {
     for (size_t i = 0; group && i < s->model->param_count; i++) {
@@ -449,12 +454,19 @@ static int group_is_given(const stage *s, const char *group)
 
 static ff_status apply_settings(stage *s)
 {
+    bool present[MAX_ROWS];
     for (size_t i = 0; i < s->model->param_count; i++) {
         const ff_param *row = param_row(s, i);
-        setting *v = &s->settings[i];
-        if (!v->given && row->preset && !group_is_given(s, row->group))
+        bool preset = row->preset && !group_is_given(s, row->group);
+        present[i] = s->settings[i].given || preset;
+        if (!s->settings[i].given && preset)
             keep(s, i, read_text(s, i, row->preset, 0));
-        else if (!v->given)
+        if (has_place(s, row))
+            ff_param_place(row, s->self, present[i] ? &s->settings[i].value : NULL);
+    }
+    for (size_t i = 0; i < s->model->param_count; i++) {
+        setting *v = &s->settings[i];
+        if (!present[i] || has_place(s, param_row(s, i)))
             continue;
         ff_status status = s->model->set(s->self, (uint32_t)i, &v->value);
         if (status < 0)

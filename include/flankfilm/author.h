@@ -111,6 +111,16 @@ FF_UNUSED static double *ff_put_series(const ff_host *host, uint32_t output, siz
     return host->output(host->ctx, output, 1, &count);
 }
 
+/* assess of a law, whose error those judge who use it: with the seconds that a million points
+   take, and what it is good for in a line, or "". */
+FF_UNUSED static ff_status ff_assess_law(double cost, const char *reason, ff_assessment *assessment)
+{
+    assessment->applies = FF_APPLIES;
+    assessment->cost = cost;
+    assessment->reason = reason;
+    return FF_OK;
+}
+
 /* Of a list of one value for both gears or surfaces, or of one for each: that of number i. */
 FF_UNUSED static double ff_of_both(const ff_reals *list, size_t i)
 {
@@ -132,7 +142,7 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, size_t i)
 #define FF_MODEL(name, type, ...)                                                                  \
     static ff_status name##_create(const ff_host *host, void **self)                               \
     {                                                                                              \
-        type *instance = calloc(1, sizeof *instance);                                      \
+        type *instance = calloc(1, sizeof *instance);                                              \
         if (!instance)                                                                             \
             return FF_NOMEM;                                                                       \
         instance->host = host;                                                                     \
@@ -165,7 +175,7 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, size_t i)
 #define FF_LAW(name, type, output, id, doc, table, ...)                                            \
     static ff_status name##_create(const ff_host *host, void **self)                               \
     {                                                                                              \
-        type *law = calloc(1, sizeof *law);                                                \
+        type *law = calloc(1, sizeof *law);                                                        \
         if (!law)                                                                                  \
             return FF_NOMEM;                                                                       \
         law->host = host;                                                                          \

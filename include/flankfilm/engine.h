@@ -330,6 +330,10 @@ void ff_value_clear(ff_value *value);
 /* What the row expects: 'a number with a unit such as "3 mm"'. */
 void ff_param_expectation(const ff_param *row, char *out, size_t size);
 
+/* Writes the value into the member that the row names by `place`; NULL: it was not given. Texts and
+   lists are not copied: they live until the instance is destroyed. */
+void ff_param_place(const ff_param *row, void *self, const ff_value *value);
+
 /*
  * A pipeline: the stages of one YAML file, their parameters, their wires, and their results.
  *
@@ -344,6 +348,7 @@ typedef struct ff_bound {
     ff_value value; /* SI; points into memory of the stage */
     ff_place place; /* where it was given; source NULL: the model's preset */
     bool proposed;  /* set by the model itself for the requested accuracy */
+    ff_value first; /* what a proposal replaced; the instance that was asked may still hold it */
 } ff_bound;
 
 /* A wire of a stage: the stage that feeds the input rows named "wire.*" or "wire". */

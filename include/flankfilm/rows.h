@@ -74,6 +74,19 @@ FF_UNUSED static int ff_model_find_service(const ff_model *model, const char *in
     return -1;
 }
 
+/* Whether the model says how well or at what cost it would do, so that it can be chosen. */
+FF_UNUSED static int ff_model_assesses(const ff_model *model)
+{
+    if (FF_HAS(model, assess) && model->assess)
+        return 1;
+    if (!FF_HAS(model, cost) || !(model->cost > 0))
+        return 0;
+    for (size_t i = 0; i < model->output_count; i++)
+        if (!ff_model_output(model, i)->service)
+            return 0;
+    return 1;
+}
+
 /* True for each word of "a|b|c" in turn: word number `rank` is copied out. */
 FF_UNUSED static int ff_word_at(const char *words, size_t rank, char *out, size_t size)
 {

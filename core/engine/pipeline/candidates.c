@@ -227,8 +227,10 @@ void fe_free_candidates(ff_stage *stage)
         ff_stage *candidate = stage->choice->candidates[i].stage;
         if (!candidate->loaded)
             continue;
-        for (size_t k = 0; candidate->params && k < candidate->loaded->model->param_count; k++)
+        for (size_t k = 0; candidate->params && k < candidate->loaded->model->param_count; k++) {
             ff_value_clear(&candidate->params[k].value);
+            ff_value_clear(&candidate->params[k].first);
+        }
         fe_forget_results(candidate);
     }
 }

@@ -45,7 +45,10 @@ static bool take_proposals(ff_stage *stage, const ff_assessment *a, ff_report *r
         ff_param row = *bound->row;
         row.preset = p->value;
         snprintf(name, sizeof name, "%s.%s", stage->name, row.name);
-        ff_value_clear(&bound->value);
+        if (bound->proposed)
+            ff_value_clear(&bound->value);
+        else
+            bound->first = bound->value;
         bound->present = bound->proposed = ff_param_read_preset(
             &row, &stage->loaded->param_units[index], name, &bound->value, report);
         if (!bound->present)
@@ -73,6 +76,18 @@ static bool note_assessment(ff_pipeline *pipeline, ff_candidate *c, const ff_ass
     return true;
 }
 
+/* A law may state its cost in place of the function `assess`. */
+static ff_status ask(const ff_stage *candidate, double accuracy, const ff_array *in,
+                     ff_assessment *a)
+{
+    const ff_model *model = candidate->loaded->model;
+    if (model->assess)
+        return model->assess(candidate->instance->self, fe_wanted_of(candidate), accuracy, in, a);
+    a->applies = FF_APPLIES;
+    a->cost = model->cost;
+    return FF_OK;
+}
+
 static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_candidate *c)
 {
     const ff_model *model = c->stage->loaded->model;
@@ -88,8 +103,7 @@ static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_candidate *c
         if (good) {
             ff_assessment a = {.size = sizeof a};
             fe_call call = fe_call_begin(c->stage, "assess");
-            ff_status status = model->assess(c->stage->instance->self, fe_wanted_of(c->stage),
-                                             stage->choice->accuracy, in, &a);
+            ff_status status = ask(c->stage, stage->choice->accuracy, in, &a);
             good =
                 fe_call_end(&call, status, captured) && note_assessment(pipeline, c, &a, captured);
         }

@@ -2,6 +2,7 @@
 /* The life of a model's object: create, set, wire, ready; destroy. */
 #include "build.h"
 
+#include "../plugin/param.h"
 #include "../plugin/serial.h"
 
 #include <stdio.h>
@@ -21,6 +22,21 @@ static void destroy(void *of)
     instance->created = instance->alive = false;
 }
 
+/* Fills in the members behind `place`. */
+static void place(const ff_stage *stage)
+{
+    const ff_model *model = stage->loaded->model;
+    fe_instance *instance = stage->instance;
+    if (model->self_size && !instance->self)
+        snprintf(instance->fault, sizeof instance->fault,
+                 "gave no instance to take its parameters");
+    for (size_t i = 0; i < model->param_count && !instance->fault[0]; i++) {
+        const ff_bound *param = &stage->params[i];
+        if (param->row->place)
+            ff_param_place(param->row, instance->self, param->present ? &param->value : NULL);
+    }
+}
+
 static bool create(ff_stage *stage, ff_report *report)
 {
     fe_instance *instance = stage->instance;
@@ -29,6 +45,8 @@ static bool create(ff_stage *stage, ff_report *report)
     ff_status status = stage->loaded->model->create(&instance->host, &instance->self);
     instance->created = status == FF_OK || status == FF_DOMAIN;
     fe_resource_add(&instance->open, destroy, instance);
+    if (instance->created)
+        place(stage);
     return fe_call_end(&call, status, report);
 }
 
@@ -39,7 +57,7 @@ static bool set(ff_stage *stage, ff_report *report)
     bool good = true;
     for (size_t i = 0; i < model->param_count; i++) {
         const ff_bound *param = &stage->params[i];
-        if (!param->present)
+        if (!param->present || param->row->place)
             continue;
         fe_call call = fe_call_begin(stage, "set");
         ff_status status = model->set(instance->self, (uint32_t)i, &param->value);

@@ -233,7 +233,7 @@ static bool add_candidate(fe_build *b, ff_stage *stage, const char *id, tables *
     *c = (ff_candidate){.stage = new_stage(b, stage, id), .fits = true, .proposals = ""};
     if (!load_model(&capturing, c->stage))
         fe_leave_out(b->pipeline, c, ff_report_first(capturing.report)->text);
-    else if (!FF_HAS(c->stage->loaded->model, assess) || !c->stage->loaded->model->assess)
+    else if (!ff_model_assesses(c->stage->loaded->model))
         fe_leave_out(b->pipeline, c, "it does not assess itself");
     else if ((other = clash(t, c->stage->loaded)))
         fe_leave_out(b->pipeline, c,

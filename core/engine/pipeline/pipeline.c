@@ -70,8 +70,10 @@ void ff_pipeline_free(ff_pipeline *pipeline)
     for (size_t i = 0; i < pipeline->count; i++) {
         ff_stage *stage = &pipeline->stages[i];
         fe_free_candidates(stage);
-        for (size_t k = 0; stage->params && k < stage->loaded->model->param_count; k++)
+        for (size_t k = 0; stage->params && k < stage->loaded->model->param_count; k++) {
             ff_value_clear(&stage->params[k].value);
+            ff_value_clear(&stage->params[k].first);
+        }
         fe_forget_results(stage);
         fe_free(stage->state);
     }

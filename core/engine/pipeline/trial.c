@@ -64,10 +64,17 @@ const ff_loaded *ff_trial_model(const ff_trial *t)
     return t->stage.loaded;
 }
 
+static void close_instance(ff_trial *t)
+{
+    fe_close_instance(&t->stage);
+    t->instance = (fe_instance){.stage = &t->stage};
+}
+
 bool ff_trial_hold(ff_trial *t, size_t param, const ff_node *node, ff_report *report)
 {
     const ff_loaded *loaded = t->stage.loaded;
     const ff_param *row = ff_model_param(loaded->model, param);
+    close_instance(t); /* it may hold the value */
     ff_value_clear(&t->standing[param]);
     bool good = ff_param_read(row, &loaded->param_units[param], row->name, node,
                               &t->standing[param], report);
@@ -91,12 +98,6 @@ static bool group_is_taken(const ff_trial *t, const char *group, const double *v
             return true;
     }
     return false;
-}
-
-static void close_instance(ff_trial *t)
-{
-    fe_close_instance(&t->stage);
-    t->instance = (fe_instance){.stage = &t->stage};
 }
 
 const char *ff_trial_why(const ff_trial *t)

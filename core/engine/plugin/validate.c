@@ -159,7 +159,7 @@ static bool check_tables(const checking *c)
 static bool check_model(const checking *c, const char *id)
 {
     const ff_model *m = c->model;
-    bool data = false, service = false, wired = false;
+    bool data = false, service = false, wired = false, placed = true;
     for (size_t i = 0; i < m->output_count; i++) {
         bool serves = ff_model_output(m, i)->service;
         service = service || serves;
@@ -167,6 +167,8 @@ static bool check_model(const checking *c, const char *id)
     }
     for (size_t i = 0; i < m->input_count; i++)
         wired = wired || ff_model_input(m, i)->service;
+    for (size_t i = 0; i < m->param_count; i++)
+        placed = placed && ff_model_param(m, i)->place;
     const claim claims[] = {
         {is_line(m->version), "states no version of its own"},
         {is_line(m->summary), "has no summary of one line"},
@@ -177,9 +179,9 @@ static bool check_model(const checking *c, const char *id)
         {m->create != NULL, "lacks the function \"create\""},
         {m->evaluate || !data, "lacks the function \"evaluate\", which its outputs call for"},
         {m->service || !service, "lacks the function \"service\", which its outputs call for"},
-        {m->set || m->param_count == 0,
-         "lacks the function \"set\", which its parameters call for"},
+        {m->set || placed, "lacks the function \"set\", which its parameters call for"},
         {m->wire || !wired, "lacks the function \"wire\", which its inputs call for"},
+        {m->cost >= 0 && isfinite(m->cost), "states an impossible cost"},
     };
     if (m->output_count > MOST_OUTPUTS_1_0 && m->abi_minor < 2)
         return fault(c, "has %zu outputs; for more than %d it must ask for version 1.2",
@@ -251,6 +253,36 @@ static bool check_preset(const checking *c, const ff_param *row, const ff_unit *
     return good;
 }
 
+/* The member lies within the instance, aligned, and apart from those of the rows before. */
+static bool check_place(const checking *c, size_t index)
+{
+    const ff_model *m = c->model;
+    const ff_param *row = ff_model_param(m, index);
+    if (!row->place)
+        return true;
+    fe_member member = fe_param_member(row->type);
+    size_t first = row->place - 1;
+    if (m->self_size == 0 || m->abi_minor < 2)
+        return fault(c, "has a place for the parameter \"%s\", but %s", c->name,
+                     m->self_size ? "does not ask for version 1.2 of the interface"
+                                  : "does not state the size of its instance, self_size");
+    if (first > m->self_size || member.size > m->self_size - first)
+        return fault(c, "places the parameter \"%s\" behind the %zu bytes of its instance", c->name,
+                     m->self_size);
+    if (first % member.alignment != 0)
+        return fault(c, "places the parameter \"%s\" at byte %zu, where its type cannot stand",
+                     c->name, first);
+    for (size_t i = 0; i < index; i++) {
+        const ff_param *other = ff_model_param(m, i);
+        size_t size = fe_param_member(other->type).size;
+        if (other->place && row->place < other->place + size &&
+            other->place < row->place + member.size)
+            return fault(c, "places the parameters \"%s\" and \"%s\" over each other", other->name,
+                         c->name);
+    }
+    return true;
+}
+
 static bool check_unit(const checking *c, const char *text, ff_unit *unit)
 {
     char clause[256];
@@ -278,7 +310,8 @@ static bool check_param(checking *c, size_t index, ff_unit *unit)
         if (!strncmp(c->name, other, least) && strchr(".", n < m ? other[n] : c->name[m]))
             return fault(c, "has the parameter \"%.*s\" twice", (int)least, other);
     }
-    return check_param_row(c, row) && check_unit(c, row->unit, unit) && check_preset(c, row, unit);
+    return check_param_row(c, row) && check_place(c, index) && check_unit(c, row->unit, unit) &&
+           check_preset(c, row, unit);
 }
 
 /* Reads "", "station", "engagement? station"; NULL, or what is wrong. */

@@ -10,11 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool can_assess(const ff_model *model)
-{
-    return FF_HAS(model, assess) && model->assess;
-}
-
 /* A map that requires no key, since an included file may have it. "x-" keys are the user's own. */
 static json_t *open_map(void)
 {
@@ -155,7 +150,7 @@ static json_t *model_schema(const ff_model *model)
     for (size_t i = 0; i < model->input_count; i++)
         add_wire(map, ff_model_input(model, i));
     for (const char *const *key = (const char *const[]){"accuracy", "only", "refine", NULL};
-         can_assess(model) && *key; key++)
+         ff_model_assesses(model) && *key; key++)
         json_object_set_new(properties(map), *key, json_true());
     return map;
 }
@@ -210,7 +205,7 @@ static json_t *stage_schema(const catalogue *c, json_t *definitions)
         json_object_set_new(definitions, strrchr(place, '/') + 1, model_schema(entry->model));
         json_object_set_new(properties(with), entry->id, json_pack("{s:s}", "$ref", place));
         json_array_append_new(ids, json_string(entry->id));
-        if (can_assess(entry->model))
+        if (ff_model_assesses(entry->model))
             add_auto(ids, entry->id);
         json_array_append_new(cases, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:{s:s}}", "if",
                                                "properties", "use", "const", entry->id, "required",

@@ -12,27 +12,51 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+enum { REMEMBERED = 64 };
+
 /* Of the child process; only redirected functions touch them. */
 static size_t made, failing;
+static struct {
+    uintptr_t first;
+    size_t size;
+} blocks[REMEMBERED]; /* the last ones; one that was freed since may be among them */
 
 static bool fails(void)
 {
     return ++made == failing;
 }
 
+static void *remember(void *memory, size_t size)
+{
+    blocks[made % REMEMBERED].first = (uintptr_t)memory;
+    blocks[made % REMEMBERED].size = memory ? size : 0;
+    return memory;
+}
+
 static void *counting_malloc(size_t size)
 {
-    return fails() ? NULL : malloc(size);
+    return fails() ? NULL : remember(malloc(size), size);
 }
 
 static void *counting_calloc(size_t count, size_t size)
 {
-    return fails() ? NULL : calloc(count, size);
+    return fails() ? NULL : remember(calloc(count, size), count * size);
 }
 
 static void *counting_realloc(void *memory, size_t size)
 {
-    return fails() ? NULL : realloc(memory, size);
+    return fails() ? NULL : remember(realloc(memory, size), size);
+}
+
+size_t verify_allocation_room(const void *memory)
+{
+    for (size_t back = 0; back < REMEMBERED && back < made; back++) {
+        uintptr_t at = (uintptr_t)memory, first = blocks[(made - back) % REMEMBERED].first;
+        size_t size = blocks[(made - back) % REMEMBERED].size;
+        if (at >= first && at - first < size)
+            return size - (at - first);
+    }
+    return 0;
 }
 
 static uintptr_t replacement(const char *name)

@@ -153,6 +153,25 @@ static ff_status wire(verify_instance *instance, const verify_setup *setup)
     return status;
 }
 
+/* Fills in the members behind `place`, unless they are known to lie outside of the instance. */
+static ff_status place(verify_instance *instance, const verify_setup *setup)
+{
+    const ff_model *model = instance->context->model;
+    instance->room = verify_allocation_room(instance->self);
+    if (!instance->self)
+        breach(instance, "gave no instance to take its parameters");
+    else if (instance->room && instance->room < model->self_size)
+        breach(instance, "gives an instance of %zu bytes, but its self_size is %zu", instance->room,
+               model->self_size);
+    if (instance->breach[0])
+        return FF_BUG;
+    for (size_t i = 0; i < model->param_count; i++)
+        if (ff_model_param(model, i)->place)
+            ff_param_place(ff_model_param(model, i), instance->self,
+                           setup->values[i].size ? &setup->values[i] : NULL);
+    return FF_OK;
+}
+
 ff_status verify_instance_open(verify_instance *instance, const verify_setup *setup)
 {
     const ff_model *model = setup->context->model;
@@ -176,8 +195,10 @@ ff_status verify_instance_open(verify_instance *instance, const verify_setup *se
                                .given = host_given};
     ff_status status = model->create(&instance->host, &instance->self);
     instance->created = status == FF_OK;
+    if (status == FF_OK && model->self_size)
+        status = place(instance, setup);
     for (size_t i = 0; i < model->param_count && status == FF_OK; i++)
-        if (setup->values[i].size)
+        if (setup->values[i].size && !ff_model_param(model, i)->place)
             status = model->set(instance->self, (uint32_t)i, &setup->values[i]);
     if (status == FF_OK)
         status = wire(instance, setup);

@@ -134,6 +134,7 @@ typedef struct verify_instance {
     const verify_context *context;
     void *self;
     bool created;
+    size_t room; /* bytes that were allocated for `self`; 0: not known */
     bool evaluating;
     uint64_t wanted;         /* by evaluate; rows from 64 on only with all others */
     verify_guarded *outputs; /* of each row */
@@ -170,10 +171,13 @@ void verify_run_check(verify_context *context, const ff_check *check);
 bool verify_allocations_redirect(const ff_model *model);
 void verify_allocations_fail(size_t nth);
 size_t verify_allocations_made(void);
+/* Bytes from there to the end of the block that the plugin allocated; 0: it is in none. */
+size_t verify_allocation_room(const void *memory);
 
 /* test-life.c, test-outputs.c, test-promises.c: what any model owes. False after a failure. */
 bool verify_test_references(verify_context *context);
 bool verify_test_presets(verify_context *context);
+bool verify_test_places(verify_context *context);
 bool verify_test_life(verify_context *context);
 bool verify_test_leaks(verify_context *context);
 bool verify_test_allocations(verify_context *context);

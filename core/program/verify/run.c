@@ -20,7 +20,7 @@
 typedef enum matter { LOADING, USER_FILE, ANY_MODEL, ITS_KIND } matter;
 
 /* Which models a test concerns; from WITH_DATA on it needs inputs. */
-typedef enum concern { ALL, WITH_PARAMS, WITH_DATA, WITH_ASSESS, WITH_JUDGE } concern;
+typedef enum concern { ALL, WITH_PARAMS, WITH_PLACES, WITH_DATA, WITH_ASSESS, WITH_JUDGE } concern;
 
 typedef struct test {
     const char *name, *claim;
@@ -39,6 +39,8 @@ static const test any_model[] = {
      verify_test_references, NULL},
     {"presets", "presets lie in the calibrated range", ANY_MODEL, WITH_PARAMS, verify_test_presets,
      NULL},
+    {"places", "has a member for each parameter with a place", ANY_MODEL, WITH_PLACES,
+     verify_test_places, NULL},
     {"life", "can be created and destroyed in every legal order", ANY_MODEL, ALL, verify_test_life,
      NULL},
     {"leaks", "a thousand instances leave no memory behind", ANY_MODEL, ALL, verify_test_leaks,
@@ -75,6 +77,8 @@ static bool concerns(const test *t, const ff_model *model)
     switch (t->concern) {
     case WITH_PARAMS:
         return model->param_count > 0;
+    case WITH_PLACES:
+        return model->self_size > 0;
     case WITH_DATA:
         return verify_data_outputs(model) != 0;
     case WITH_ASSESS:

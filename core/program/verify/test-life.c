@@ -52,6 +52,20 @@ bool verify_test_presets(verify_context *c)
     return good;
 }
 
+bool verify_test_places(verify_context *c)
+{
+    verify_instance instance;
+    if (!verify_allocations_redirect(c->model))
+        return verify_skip(c, "its calls of malloc cannot be redirected");
+    verify_step(c, "create");
+    verify_instance_open(&instance, verify_setup_new(c));
+    bool good = !instance.breach[0] || verify_fail(c, "it %s", instance.breach);
+    if (good && !instance.room)
+        verify_skip(c, "its instances are not from malloc: their size cannot be seen");
+    verify_instance_close(&instance);
+    return good;
+}
+
 /* create, set, ready, service, destroy; true when all were good. */
 static bool live(verify_context *c, const verify_setup *setup, ff_status *status)
 {

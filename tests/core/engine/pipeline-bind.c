@@ -69,6 +69,48 @@ static void types(void)
     check_true("a file", value_of("table: /dev/../etc/hostname", "count") == 3);
 }
 
+/* A scalar of toy/placed, whose outputs are what the members of its instance hold. */
+static double member_of(const char *line, const char *output)
+{
+    char text[256];
+    snprintf(text, sizeof text, "pipeline: {a: {use: toy/placed, %s}}\n", line);
+    attempt a = try_run(text);
+    check_good(line, &a);
+    double value = try_scalar(&a, "a", output);
+    try_close(&a);
+    return value;
+}
+
+static void places(void)
+{
+    static const char *const absent[] = {"real", "integer", "on",   "choice",
+                                         "text", "file",    "rate", NULL};
+    for (size_t i = 0; absent[i]; i++)
+        check_true("not given", member_of("plain: 3", absent[i]) == -1);
+    check_true("no list", member_of("plain: 3", "list") == 0);
+    check_true("set for what has no place, after the places", member_of("on: true", "sets") == 1);
+    check_true("a length in SI", member_of("real: 2 mm", "real") == 2e-3);
+    check_true("a word beside a number", member_of("real: auto", "real") == -1);
+    check_true("an integer", member_of("integer: 7", "integer") == 7);
+    check_true("a word beside an integer", member_of("integer: many", "integer") == -1);
+    check_true("a switch", member_of("on: true", "on") == 1 && member_of("on: false", "on") == 0);
+    check_true("a choice", member_of("choice: odd", "choice") == 1);
+    check_true("a text", member_of("text: four", "text") == 4);
+    check_true("a file", member_of("file: /etc/hostname", "file") == 13);
+    check_true("a list", member_of("list: [1 kg, 500 g]", "list") == 2 &&
+                             member_of("list: [1 kg, 500 g]", "sum") == 1.5);
+    check_near("preset of a group", member_of("plain: 3", "speed"), 10 * 2 * M_PI / 60, 1e-12);
+    check_true("another member of the group",
+               member_of("rate: 5 Hz", "speed") == -1 && member_of("rate: 5 Hz", "rate") == 5);
+    check_true("what the user wrote", member_of("rate: 5 Hz, on: true", "given") == 2);
+    attempt a = try_build("pipeline: {a: {use: toy/placed, real: 101 mm}}\n", false);
+    check_error("limits hold", &a, 0, 0, "is too large; it must be at most 100 mm");
+    try_close(&a);
+    a = try_build("pipeline: {a: {use: faulty/place-null}}\n", false);
+    check_error("no instance", &a, 0, 0, "gave no instance to take its parameters");
+    try_close(&a);
+}
+
 static void groups(void)
 {
     check_near("preset of a group", value_of("count: 3", "speed"), 10 * 2 * M_PI / 60, 1e-12);
@@ -167,6 +209,7 @@ int main(void)
     presets();
     types();
     groups();
+    places();
     layers();
     swaps();
     calibration();

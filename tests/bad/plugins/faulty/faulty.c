@@ -111,7 +111,7 @@ static double promised;
 static ff_status create(const ff_host *host, void **self)
 {
     size_t shape = 2;
-    *self = (void *)(uintptr_t)host;
+    *self = is("place-null") ? NULL : (void *)(uintptr_t)host;
     if (is("early-output"))
         host->output(host->ctx, 1, 1, &shape);
     misbehave("create");
@@ -232,6 +232,7 @@ static void destroy(void *self)
 static ff_model model = {
     .size = sizeof model,
     .abi_major = FF_ABI_MAJOR,
+    .abi_minor = FF_ABI_MINOR,
     .id = "faulty/" FAULT,
     .version = "1.0.0",
     .summary = "A model with a fault",
@@ -279,6 +280,8 @@ static void spoil_model(void)
         model.output_stride = 8;
     if (is("many"))
         model.output_count = 1001;
+    if (is("cost"))
+        model.cost = NAN;
     if (is("many-old"))
         model.output_count = 65, model.abi_minor = 1;
     if (is("no-output"))
@@ -313,6 +316,18 @@ static void spoil_params(void)
         params[1].name = "size.of";
     if (is("wire-param"))
         params[0].name = "source";
+}
+
+static void spoil_places(void)
+{
+    if (strncmp(FAULT, "place-", 6) != 0)
+        return;
+    model.self_size = is("place-size") ? 0 : 16;
+    params[0].place = is("place-behind") ? 10 : is("place-crooked") ? 5 : 1;
+    if (is("place-old"))
+        model.abi_minor = 1;
+    if (is("place-over"))
+        params[1].place = 5;
 }
 
 static void spoil_ports(void)
@@ -350,6 +365,7 @@ const ff_model *ENTRY(void)
         exit(0);
     spoil_model();
     spoil_params();
+    spoil_places();
     spoil_ports();
     return &model;
 }

@@ -179,6 +179,13 @@ FF_EXPORT const ff_model *flankfilm_model_v1(void)
     strange[1].preset = "8 mm";
     if (is("preset"))
         model.params = strange;
+    if (is("self-size")) { /* four bytes more than create allocates */
+        model.params = strange;
+        model.abi_minor = 2;
+        model.self_size = sizeof(law) + 4;
+        strange[1].preset = "1 mm";
+        strange[0].place = offsetof(law, alpha) + 1;
+    }
     if (is("bibtex"))
         model.bibtex = "@article{Barus1893, author={Barus}";
     return &model;
