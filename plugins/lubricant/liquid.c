@@ -5,23 +5,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-const char lubricant_reference[] =
-    "ASTM D341-20 (viscosity over temperature), ASTM D1250 table 54D (density), ISO 3448 and ASTM "
-    "D2270 (grades); Gold, Schmidt, Dicke, Loos and Assmann 2001, J. Synth. Lubr. 18 (pressure "
-    "coefficient); Cragoe 1929, Bureau of Standards Misc. Publ. 97 (thermal data of mineral oil)";
-const char lubricant_bibtex[] =
-    "@techreport{astmd341, author = {{ASTM International}}, title = {D341-20: Standard Practice "
-    "for Viscosity-Temperature Equations and Charts for Liquid Petroleum or Hydrocarbon "
-    "Products}, year = {2020}}\n"
-    "@article{gold2001, author = {Gold, P. W. and Schmidt, A. and Dicke, H. and Loos, J. and "
-    "Assmann, C.}, title = {Viscosity-pressure-temperature behaviour of mineral and synthetic "
-    "oils}, journal = {Journal of Synthetic Lubrication}, volume = {18}, pages = {51--79}, year = "
-    "{2001}}\n"
-    "@techreport{cragoe1929, author = {Cragoe, C. S.}, title = {Thermal properties of petroleum "
-    "products}, institution = {Bureau of Standards}, number = {Miscellaneous Publication 97}, "
-    "year = {1929}}";
 
 enum { PROPERTIES = FF_LIQUID_PRESSURE_COEFFICIENT + 1 };
 
@@ -167,36 +150,6 @@ static ff_status eval(const void *self, int32_t what, size_t n, const double *T,
     return status;
 }
 
-ff_status lubricant_create(const ff_host *host, size_t size, void **self)
-{
-    lubricant_oil *oil = calloc(1, size);
-    if (!oil)
-        return FF_NOMEM;
-    oil->service = (ff_liquid){.size = sizeof oil->service, .self = oil, .eval = eval};
-    oil->host = host;
-    oil->density_15 = oil->expansion = oil->alpha = oil->alpha_at = oil->conductivity =
-        oil->heat_capacity = oil->temperature = NAN;
-    oil->base = -1;
-    *self = oil;
-    return FF_OK;
-}
-
-/* Writes the value where the row says. */
-ff_status lubricant_set(void *self, const ff_param *row, const ff_value *value)
-{
-    lubricant_oil *oil = self;
-    void *member = (char *)self + row->place - 1;
-    if (row->type == FF_REAL) {
-        *(double *)member = value->real;
-    } else if (row->type == FF_CHOICE) {
-        *(int32_t *)member = (int32_t)value->integer;
-    } else {
-        free(oil->text);
-        *(const char **)member = oil->text = strdup(value->text);
-    }
-    return row->type == FF_REAL || row->type == FF_CHOICE || oil->text ? FF_OK : FF_NOMEM;
-}
-
 /* Temperatures between which the straight ends of the curve keep ASTM D341. */
 static void find_limits(lubricant_oil *oil)
 {
@@ -254,6 +207,7 @@ ff_status lubricant_oil_ready(lubricant_oil *oil)
         if (!isnan(twice[i].given) && table_of(oil, twice[i].what))
             return ff_failf(oil->host, FF_INVALID, twice[i].name,
                             "the table has a column %s already", twice[i].name);
+    oil->service = (ff_liquid){.size = sizeof oil->service, .self = oil, .eval = eval};
     find_limits(oil);
     return find_alpha(oil);
 }
@@ -281,7 +235,6 @@ void lubricant_destroy(void *self)
 {
     lubricant_oil *oil = self;
     if (oil) {
-        free(oil->text);
         lubricant_curve_free(&oil->viscosity);
         for (size_t i = 0; i < sizeof oil->tables / sizeof *oil->tables; i++)
             lubricant_curve_free(&oil->tables[i]);

@@ -8,18 +8,19 @@
 #define LUBRICANT_LIQUID_H
 
 #include "curve.h"
+#include "references.h"
 
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
 
-/* First member of both instances. NaN and -1: not given. */
+/* An instance of both models. NaN, -1 and NULL: not given. */
 typedef struct lubricant_oil {
-    ff_liquid service;
     const ff_host *host;
+    ff_liquid service;
     double density_15, expansion, alpha, alpha_at, conductivity, heat_capacity, temperature;
     int32_t base;
-
-    char *text; /* the oil's copy of the text that `set` was given */
+    double nu_40, nu_100, eta0, at, density;
+    const char *grade, *file;
 
     /* Filled in by the model before lubricant_oil_ready. */
     lubricant_curve viscosity; /* ordinate of ASTM D341 over ln T; one point: serves that alone */
@@ -30,31 +31,33 @@ typedef struct lubricant_oil {
     double alpha_scale;      /* of the base's correlation; NaN: alpha is not known from it */
 } lubricant_oil;
 
-/* The rows that both models have; `type` begins with a lubricant_oil called `oil`. */
-#define LUBRICANT_ROWS(type)                                                                       \
-    FF_QUANTITY("alpha", "1/GPa", type, oil.alpha, FF_MIN_OPEN, NULL, NULL, 0, 1000, 2, 50,        \
+/* The rows that both models have. */
+#define LUBRICANT_ROWS                                                                             \
+    FF_QUANTITY("alpha", "1/GPa", lubricant_oil, alpha, FF_MIN_OPEN, NULL, NULL, 0, 1000, 2, 50,   \
                 "pressure coefficient dln(eta)/dp at ambient pressure and the temperature "        \
                 "alpha_at; over temperature it follows the base oil"),                             \
-        FF_QUANTITY("alpha_at", "degC", type, oil.alpha_at, 0, NULL, NULL, -150, 500, -60, 250,    \
-                    "temperature that alpha holds at"),                                            \
-        FF_QUANTITY("conductivity", "W/(m K)", type, oil.conductivity, FF_MIN_OPEN, NULL, NULL, 0, \
-                    100, 0.08, 0.3,                                                                \
+        FF_QUANTITY("alpha_at", "degC", lubricant_oil, alpha_at, 0, NULL, NULL, -150, 500, -60,    \
+                    250, "temperature that alpha holds at"),                                       \
+        FF_QUANTITY("conductivity", "W/(m K)", lubricant_oil, conductivity, FF_MIN_OPEN, NULL,     \
+                    NULL, 0, 100, 0.08, 0.3,                                                       \
                     "thermal conductivity, taken for every temperature; without it that of the "   \
                     "base oil"),                                                                   \
-        FF_QUANTITY("heat_capacity", "J/(kg K)", type, oil.heat_capacity, FF_MIN_OPEN, NULL, NULL, \
-                    0, 1e5, 1200, 3500,                                                            \
+        FF_QUANTITY("heat_capacity", "J/(kg K)", lubricant_oil, heat_capacity, FF_MIN_OPEN, NULL,  \
+                    NULL, 0, 1e5, 1200, 3500,                                                      \
                     "specific heat, taken for every temperature; without it that of the base "     \
                     "oil"),                                                                        \
-        FF_QUANTITY("temperature", "degC", type, oil.temperature, 0, NULL, NULL, -150, 500, 0, 0,  \
+        FF_QUANTITY("temperature", "degC", lubricant_oil, temperature, 0, NULL, NULL, -150, 500,   \
+                    0, 0,                                                                          \
                     "of the oil in the inlet, where no operating stage gives oil_temperature")
 
-extern const char lubricant_reference[], lubricant_bibtex[];
+#define LUBRICANT_REFERENCE                                                                        \
+    "ASTM D341-20 (viscosity over temperature), ASTM D1250 table 54D (density), ISO 3448 and "     \
+    "ASTM D2270 (grades); Gold, Schmidt, Dicke, Loos and Assmann 2001, J. Synth. Lubr. 18 "        \
+    "(pressure coefficient); Cragoe 1929, Bureau of Standards Misc. Publ. 97 (thermal data)"
+#define LUBRICANT_BIBTEX BIB_ASTMD341 "\n" BIB_Gold2001 "\n" BIB_Cragoe1929
 extern const ff_port lubricant_inputs[1];
 extern const ff_port lubricant_outputs[8];
 
-/* Of an instance of `size` bytes that begins with a lubricant_oil. */
-ff_status lubricant_create(const ff_host *host, size_t size, void **self);
-ff_status lubricant_set(void *self, const ff_param *row, const ff_value *value);
 ff_status lubricant_oil_ready(lubricant_oil *oil);
 /* The viscosity by ASTM D341 from those at 40 and 100 degC, m2/s. */
 ff_status lubricant_oil_ready_from(lubricant_oil *oil, double nu_40, double nu_100);
