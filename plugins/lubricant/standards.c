@@ -56,14 +56,19 @@ double lubricant_d341_ordinate(double nu)
     return log10(log10(nu + 0.7 + exp(-1.47 - 1.84 * nu - 0.51 * nu * nu)));
 }
 
-/* ASTM D341-20, equation 3, which is a fit below some 5 cSt, good to 0.1 %. */
+/* ASTM D341-20, equation 3, a fit that is good to 0.1 % below some 5 cSt; then Newton steps on
+   equation 2, so that data come back as they were given. */
 double lubricant_d341_nu(double y, double *slope)
 {
-    double lg_z = pow(10, y), z = pow(10, lg_z) - 0.7;
-    double rest = exp(-0.7487 - 3.295 * z + 0.6119 * z * z - 0.3193 * z * z * z);
-    double dz_dy = (z + 0.7) * M_LN10 * lg_z * M_LN10;
-    *slope = CST * dz_dy * (1 + rest * (3.295 - 1.2238 * z + 0.9579 * z * z));
-    return CST * (z - rest);
+    double lg_Z = pow(10, y), Z = pow(10, lg_Z), z = Z - 0.7, steepness = 1;
+    double nu = z - exp(-0.7487 - 3.295 * z + 0.6119 * z * z - 0.3193 * z * z * z);
+    for (int i = 0; i < 3; i++) {
+        double rest = exp(-1.47 - 1.84 * nu - 0.51 * nu * nu);
+        steepness = 1 - (1.84 + 1.02 * nu) * rest; /* dZ/dnu */
+        nu -= (nu + 0.7 + rest - Z) / steepness;
+    }
+    *slope = CST * Z * M_LN10 * lg_Z * M_LN10 / steepness;
+    return CST * nu;
 }
 
 /* rho = rho15 exp(-a (1 + 0.8 a)), a = 0.6278 (T - 15 degC)/rho15: lubricating oils of 800 to 1164
