@@ -442,6 +442,17 @@ static bool has_place(const stage *s, const ff_param *row)
     return s->model->param_stride >= sizeof *row && row->place;
 }
 
+/* The wire that replaces the parameter is connected. */
+static bool is_replaced(const stage *s, const ff_param *row)
+{
+    if (s->model->param_stride < sizeof *row || !row->instead)
+        return false;
+    for (size_t i = 0; i < s->model->input_count; i++)
+        if (!strcmp(input_row(s, i)->name, row->instead))
+            return s->feeds[i].connected;
+    return false;
+}
+
 static int group_is_given(const stage *s, const char *group)
 {
     for (size_t i = 0; group && i < s->model->param_count; i++) {
@@ -457,7 +468,7 @@ static ff_status apply_settings(stage *s)
     bool present[MAX_ROWS];
     for (size_t i = 0; i < s->model->param_count; i++) {
         const ff_param *row = param_row(s, i);
-        bool preset = row->preset && !group_is_given(s, row->group);
+        bool preset = row->preset && !group_is_given(s, row->group) && !is_replaced(s, row);
         present[i] = s->settings[i].given || preset;
         if (!s->settings[i].given && preset)
             keep(s, i, read_text(s, i, row->preset, 0));

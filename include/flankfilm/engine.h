@@ -349,6 +349,7 @@ typedef struct ff_bound {
     ff_place place; /* where it was given; source NULL: the model's preset */
     bool proposed;  /* set by the model itself for the requested accuracy */
     ff_value first; /* what a proposal replaced; the instance that was asked may still hold it */
+    const struct ff_wire *wire; /* connected, so that it replaces the parameter; NULL: none */
 } ff_bound;
 
 /* A wire of a stage: the stage that feeds the input rows named "wire.*" or "wire". */

@@ -118,11 +118,45 @@ static bool same_group(const ff_param *a, const ff_param *b)
     return a->group && b->group && !strcmp(a->group, b->group);
 }
 
+/* The connected wire that replaces the parameter; NULL: none. */
+static const ff_wire *find_replacing(const binding *k, const ff_param *row)
+{
+    for (size_t i = 0; row->instead && i < k->stage->wire_count; i++)
+        if (!strcmp(k->stage->wires[i].name, row->instead) && k->stage->wires[i].stage >= 0)
+            return &k->stage->wires[i];
+    return NULL;
+}
+
+/* A parameter that a connected wire replaces must not be given. */
+static void settle_replaced(binding *k, const ff_param *row, const fe_setting *setting)
+{
+    const ff_wire *wire = setting->wire;
+    const ff_stage *from = &k->b->pipeline->stages[wire->stage];
+    char origin[512];
+    ff_bound_origin(&(ff_bound){.place = wire->automatic ? from->place : wire->place}, origin,
+                    sizeof origin);
+    if (setting->node)
+        ff_error(k->b->report, FF_FAULT_INPUT, setting->node->place,
+                 fe_pipeline_print(k->b->pipeline,
+                                   "leave \"%s\" out, or leave the wire unconnected: %s: none",
+                                   row->name, wire->name),
+                 "%s.%s: the stage \"%s\" gives this by the wire \"%s\" (%s), so that it stands "
+                 "in two places",
+                 k->stage->name, row->name, from->name, wire->name, origin);
+}
+
+/* A wire takes the place of the parameter, or would once the model under `with` is chosen. */
+static bool may_be_replaced(const binding *k, size_t index)
+{
+    return k->settings[index].wire ||
+           (!k->chosen && ff_model_param(k->loaded->model, index)->instead);
+}
+
 /* Of the given members of a group, the one of the latest layer stays; two in it are an error. */
 static void settle_group(binding *k, const ff_param *row)
 {
     const ff_model *model = k->loaded->model;
-    const char *names = "", *given = NULL;
+    const char *names = "", *given = NULL, *instead = "";
     bool required = false, preset = false;
     uint64_t latest = 0;
     for (size_t i = 0; i < model->param_count; i++)
@@ -135,8 +169,10 @@ static void settle_group(binding *k, const ff_param *row)
             continue;
         names = fe_pipeline_print(k->b->pipeline, "%s%s\"%s\"", names, *names ? ", " : "",
                                   member->name);
-        required = required || member->flags & FF_REQUIRED;
+        required = required || (member->flags & FF_REQUIRED && !may_be_replaced(k, i));
         preset = preset || member->preset;
+        if (member->instead)
+            instead = fe_pipeline_print(k->b->pipeline, ", or the wire \"%s\"", member->instead);
         if (setting->priority < latest)
             setting->node = NULL;
         if (setting->node && given)
@@ -150,7 +186,7 @@ static void settle_group(binding *k, const ff_param *row)
         k->settings[i].displaced |= same_group(row, ff_model_param(model, i));
     if (required && !preset && !given)
         ff_error(k->b->report, FF_FAULT_INPUT, k->stage->place, NULL,
-                 "%s (%s): one of %s must be given", k->stage->name, k->id, names);
+                 "%s (%s): one of %s must be given%s", k->stage->name, k->id, names, instead);
 }
 
 static void settle_row(binding *k, size_t index)
@@ -161,13 +197,21 @@ static void settle_row(binding *k, size_t index)
         first++;
     if (row->group && first == index)
         settle_group(k, row);
-    if (row->group || !(row->flags & FF_REQUIRED) || k->settings[index].node)
+    if (k->settings[index].wire)
+        settle_replaced(k, row, &k->settings[index]);
+    if (row->group || !(row->flags & FF_REQUIRED) || k->settings[index].node ||
+        may_be_replaced(k, index))
         return;
     char wanted[640];
+    const char *either = "";
     ff_param_expectation(row, wanted, sizeof wanted);
+    if (row->instead)
+        either = fe_pipeline_print(k->b->pipeline, ", or %s: STAGE", row->instead);
     ff_error(k->b->report, FF_FAULT_INPUT, k->stage->place,
-             fe_pipeline_print(k->b->pipeline, "%s: %s", row->name, wanted),
-             "%s (%s): \"%s\" is missing: %s", k->stage->name, k->id, row->name, row->doc);
+             fe_pipeline_print(k->b->pipeline, "%s: %s%s", row->name, wanted, either),
+             "%s (%s): \"%s\"%s%s%s is missing: %s", k->stage->name, k->id, row->name,
+             row->instead ? " or the wire \"" : "", row->instead ? row->instead : "",
+             row->instead ? "\"" : "", row->doc);
 }
 
 static ff_bound bind_row(binding *k, size_t index)
@@ -175,13 +219,13 @@ static ff_bound bind_row(binding *k, size_t index)
     const ff_param *row = ff_model_param(k->loaded->model, index);
     const ff_unit *unit = &k->loaded->param_units[index];
     const ff_node *node = k->settings[index].node;
-    ff_bound bound = {.row = row};
+    ff_bound bound = {.row = row, .wire = k->settings[index].wire};
     char name[192];
     snprintf(name, sizeof name, "%s.%s", k->stage->name, row->name);
     if (node) {
         bound.place = node->place;
         bound.present = ff_param_read(row, unit, name, node, &bound.value, k->b->report);
-    } else if (row->preset && !k->settings[index].displaced) {
+    } else if (row->preset && !k->settings[index].displaced && !bound.wire) {
         bound.present = ff_param_read_preset(row, unit, name, &bound.value, k->b->report);
     }
     return bound;
@@ -198,8 +242,10 @@ static void bind_model(binding *k)
         check_keys(k, k->stage->node, "", true);
     if (set && set->kind == FF_MAP)
         check_keys(k, set, "", false);
-    for (size_t i = 0; i < model->param_count; i++)
+    for (size_t i = 0; i < model->param_count; i++) {
         k->settings[i] = fe_find_setting(k->stage, k->id, ff_model_param(model, i)->name);
+        k->settings[i].wire = find_replacing(k, ff_model_param(model, i));
+    }
     for (size_t i = 0; i < model->param_count; i++)
         settle_row(k, i);
     for (size_t i = 0; i < model->param_count; i++) {

@@ -66,6 +66,7 @@ typedef struct fe_setting {
     const ff_node *node; /* NULL: nothing */
     uint64_t priority;   /* the later layer wins; in one layer the stage's own key */
     bool displaced;      /* a parameter whose preset gives way to another of its group */
+    const ff_wire *wire; /* connected, and replaces the parameter; NULL: none */
 } fe_setting;
 
 fe_setting fe_find_setting(const ff_stage *stage, const char *model, const char *path);

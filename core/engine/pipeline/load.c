@@ -120,7 +120,7 @@ static void add_params(tables *t, const ff_loaded *from)
     for (size_t i = 0; i < from->model->param_count; i++) {
         ff_param row = *ff_model_param(from->model, i);
         row.flags &= ~(uint32_t)FF_REQUIRED;
-        row.preset = row.group = NULL; /* each candidate has its own */
+        row.preset = row.group = row.instead = NULL; /* each candidate has its own */
         if (ff_model_find_param(t->model, row.name) < 0)
             add_param(t, &row, &from->param_units[i]);
         t->model->params = t->params;

@@ -390,6 +390,19 @@ static bool check_input(checking *c, size_t index, ff_unit *unit, ff_dims *dims)
     return check_port(c, row, unit, dims);
 }
 
+/* What replaces a parameter is a service that may stay unconnected. */
+static bool check_instead(const checking *c, size_t index)
+{
+    const ff_param *row = ff_model_param(c->model, index);
+    int input = row->instead ? ff_model_find_input(c->model, row->instead) : -1;
+    const ff_port *port = input >= 0 ? ff_model_input(c->model, (size_t)input) : NULL;
+    return !row->instead || (port && port->service && port->flags & FF_OPTIONAL) ||
+           fault(c,
+                 "lets \"%.60s\" replace the parameter \"%s\", which is not an optional service "
+                 "input",
+                 row->instead, row->name);
+}
+
 static bool check_output(checking *c, size_t index, ff_unit *unit, ff_dims *dims)
 {
     const ff_port *row = ff_model_output(c->model, index);
@@ -462,6 +475,8 @@ bool fe_model_check(ff_loaded *loaded, const char *id, fe_arena *memory, char *w
         good = check_param(&c, i, &loaded->param_units[i]);
     for (size_t i = 0; i < model->input_count && good; i++)
         good = check_input(&c, i, &loaded->input_units[i], &loaded->input_dims[i]);
+    for (size_t i = 0; i < model->param_count && good; i++)
+        good = check_instead(&c, i);
     for (size_t i = 0; i < model->output_count && good; i++)
         good = check_output(&c, i, &loaded->output_units[i], &loaded->output_dims[i]);
     for (size_t i = 0; i < ff_model_columns(model) && good; i++)

@@ -42,6 +42,8 @@ static json_t *json_param(const ff_param *row)
     json_object_set_new(entry, "group", results_json_text(row->group));
     json_object_set_new(entry, "limits", json_limits(row->min, row->max));
     json_object_set_new(entry, "calibrated", json_limits(row->low, row->high));
+    if (row->instead)
+        json_object_set_new(entry, "instead", results_json_text(row->instead));
     json_object_set_new(entry, "expects", results_json_text(type));
     return entry;
 }

@@ -31,6 +31,8 @@ static void print_param(const ff_param *row)
     printf(" ");
     print_cell(row->group ? row->group : "");
     printf(" ");
+    if (row->instead)
+        printf("(replaced by the wire `%s`) ", row->instead);
     print_cell(row->doc);
     printf("\n");
 }

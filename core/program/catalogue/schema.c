@@ -108,8 +108,10 @@ static json_t *param_schema(const ff_param *row)
     char type[400];
     catalogue_print_type(row, type, sizeof type);
     json_object_set_new(schema, "description",
-                        json_sprintf("%s (%s%s%s)", row->doc, type, row->preset ? "; preset " : "",
-                                     row->preset ? row->preset : ""));
+                        json_sprintf("%s (%s%s%s%s%s)", row->doc, type,
+                                     row->preset ? "; preset " : "", row->preset ? row->preset : "",
+                                     row->instead ? "; replaced by the wire " : "",
+                                     row->instead ? row->instead : ""));
     return schema;
 }
 

@@ -34,6 +34,8 @@ static void print_param(const ff_param *row)
     printf("  %-*s %s", NAME, row->name, type);
     if (row->flags & FF_REQUIRED)
         printf(", required");
+    if (row->instead)
+        printf("%s the wire %s", row->flags & FF_REQUIRED ? ", or" : ", replaced by", row->instead);
     if (row->preset)
         printf(", preset %s", row->preset);
     if (row->group)

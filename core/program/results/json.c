@@ -88,14 +88,18 @@ json_t *results_json_params(const ff_stage *stage)
     for (size_t i = 0; stage->params && i < stage->loaded->model->param_count; i++) {
         const ff_bound *bound = &stage->params[i];
         char text[512], origin[512];
-        if (!bound->present)
+        if (!bound->present && !bound->wire)
             continue;
-        ff_bound_print(stage, i, text, sizeof text);
-        ff_bound_origin(bound, origin, sizeof origin);
-        json_object_set_new(object, bound->row->name,
-                            json_pack("{s:o, s:o, s:o}", "value", param_value(bound), "text",
-                                      results_json_text(text), "origin",
-                                      results_json_text(origin)));
+        if (bound->wire)
+            snprintf(text, sizeof text, "by the wire %s", bound->wire->name);
+        else
+            ff_bound_print(stage, i, text, sizeof text);
+        ff_bound_origin(bound->wire ? &(ff_bound){.place = bound->wire->place} : bound, origin,
+                        sizeof origin);
+        json_object_set_new(
+            object, bound->row->name,
+            json_pack("{s:o, s:o, s:o}", "value", bound->wire ? json_null() : param_value(bound),
+                      "text", results_json_text(text), "origin", results_json_text(origin)));
     }
     return object;
 }

@@ -153,6 +153,13 @@ static bool has_preset(const ff_model *model, size_t member)
     return !needed;
 }
 
+/* A service that is there takes the place of the parameter. */
+static bool is_replaced(const verify_setup *setup, const ff_param *row)
+{
+    int input = row->instead ? ff_model_find_input(setup->context->model, row->instead) : -1;
+    return input >= 0 && setup->services[input];
+}
+
 void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify_range range)
 {
     const ff_model *model = setup->context->model;
@@ -173,6 +180,8 @@ void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify
         const ff_param *row = ff_model_param(model, i);
         const char *message;
         setup->values[i].size = 0;
+        if (is_replaced(setup, row))
+            continue;
         if (give[i])
             draw_value(setup, i, random, range, &setup->values[i]);
         else if (row->preset && (!row->group || (range == VERIFY_REQUIRED && has_preset(model, i))))

@@ -111,6 +111,50 @@ static void places(void)
     try_close(&a);
 }
 
+/* The stage `r` of toy/replaced, with the parameters, beside the other lines. */
+static attempt replaced(const char *params, const char *others)
+{
+    char text[512];
+    snprintf(text, sizeof text, "pipeline:\n%s  r: {use: toy/replaced, %s}\noutputs: [r.*]\n",
+             others, params);
+    return try_run(text);
+}
+
+static void replaced_by_a_wire(void)
+{
+    static const char law[] = "  l: {use: toy/law, gain: 5}\n";
+    attempt a = replaced("gain: 3, far: 1 m", "");
+    check_good("a parameter without the wire", &a);
+    check_true("its preset applies",
+               try_scalar(&a, "r", "gain") == 3 && try_scalar(&a, "r", "absent") == 1);
+    try_close(&a);
+    a = replaced("law: l", law);
+    check_good("the wire without the parameter", &a);
+    check_true("no preset applies",
+               try_scalar(&a, "r", "gain") == 5 && try_scalar(&a, "r", "absent") == 4);
+    check_true("the wire is named", try_param(&a, "r", "gain")->wire == try_stage(&a, "r")->wires);
+    try_close(&a);
+    a = replaced("law: l, gain: 3", law);
+    check_error("both: at the parameter", &a, 4, 40,
+                "gives this by the wire \"law\" (case.yaml:4)");
+    check_error("both: what to do", &a, 4, 40, "or leave the wire unconnected: law: none");
+    try_close(&a);
+    a = replaced("far: 1 m", law);
+    check_error("both: wired by itself", &a, 4, 31, "by the wire \"law\" (case.yaml:3)");
+    try_close(&a);
+    a = replaced("law: none, gain: 3, far: 1 m", law);
+    check_good("the wire left unconnected", &a);
+    try_close(&a);
+    a = replaced("far: 1 m", "");
+    check_error("neither", &a, 3, 3, "\"gain\" or the wire \"law\" is missing: what the law says");
+    check_error("neither: what to write", &a, 3, 3, "gain: a number, or law: STAGE");
+    try_close(&a);
+    a = replaced("gain: 3", "");
+    check_error("neither of a group", &a, 3, 3,
+                "one of \"near\", \"far\" must be given, or the wire");
+    try_close(&a);
+}
+
 static void groups(void)
 {
     check_near("preset of a group", value_of("count: 3", "speed"), 10 * 2 * M_PI / 60, 1e-12);
@@ -210,6 +254,7 @@ int main(void)
     types();
     groups();
     places();
+    replaced_by_a_wire();
     layers();
     swaps();
     calibration();

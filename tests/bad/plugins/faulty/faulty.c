@@ -312,6 +312,10 @@ static void spoil_params(void)
         params[1].choices = "a||b";
     if (is("no-choices"))
         params[1].choices = NULL;
+    if (is("instead"))
+        params[0].instead = "source";
+    if (is("instead-needed"))
+        params[0].instead = "law", inputs[2].flags = 0;
     if (is("map"))
         params[1].name = "size.of";
     if (is("wire-param"))
