@@ -1,7 +1,83 @@
 /* SPDX-License-Identifier: MIT */
-#include <flankfilm/engine.h>
+/* The engine itself: its models, and the message of its last call. */
+#include "plugin/library.h"
+#include "private.h"
 
-#include "value/memory.h"
+#include <stdlib.h>
+
+ff_status fe_engine_call(ff_engine *engine, fe_heap *heap, void (*function)(void *ctx), void *ctx)
+{
+    fe_free(engine->said);
+    engine->said = NULL;
+    engine->message = "";
+    ff_status status = fe_protected(heap, function, ctx);
+    if (status == FF_NOMEM)
+        engine->message = "out of memory\n";
+    return status;
+}
+
+void fe_engine_say(ff_engine *engine, const ff_report *report)
+{
+    fe_heap *before = fe_heap_use(&engine->heap);
+    engine->said = ff_report_text(report, false);
+    engine->message = engine->said;
+    fe_heap_use(before);
+}
+
+ff_status fe_status_of(const ff_report *report)
+{
+    static const ff_status statuses[] = {[FF_FAULT_NONE] = FF_OK,
+                                         [FF_FAULT_RUN] = FF_NOCONV,
+                                         [FF_FAULT_INPUT] = FF_INVALID,
+                                         [FF_FAULT_PLUGIN] = FF_BUG};
+    return statuses[ff_report_fault(report)];
+}
+
+typedef struct new_call {
+    ff_engine *engine;
+    const ff_engine_options *options;
+} new_call;
+
+static void find_models(void *ctx)
+{
+    const new_call *call = ctx;
+    const ff_engine_options *o = call->options;
+    bool listed = o && FF_HAS(o, plugin_path_count);
+    call->engine->library =
+        fe_library_new(listed ? o->plugin_paths : NULL, listed ? o->plugin_path_count : 0);
+}
+
+ff_status ff_engine_new(const ff_engine_options *options, ff_engine **engine)
+{
+    new_call call = {.engine = calloc(1, sizeof **engine), .options = options};
+    *engine = call.engine;
+    ff_status status = call.engine
+                           ? fe_engine_call(call.engine, &call.engine->heap, find_models, &call)
+                           : FF_NOMEM;
+    if (status != FF_OK) {
+        ff_engine_close(*engine);
+        *engine = NULL;
+    }
+    return status;
+}
+
+void ff_engine_close(ff_engine *engine)
+{
+    if (!engine)
+        return;
+    fe_heap_close(&engine->heap);
+    free(engine);
+}
+
+const char *ff_engine_message(const ff_engine *engine)
+{
+    return engine->message;
+}
+
+ff_library *ff_engine_library(ff_engine *engine)
+{
+    return engine->library;
+}
 
 ff_status ff_protected(void (*function)(void *ctx), void *ctx)
 {
@@ -9,9 +85,4 @@ ff_status ff_protected(void (*function)(void *ctx), void *ctx)
     ff_status status = fe_protected(&heap, function, ctx);
     fe_heap_close(&heap);
     return status;
-}
-
-void ff_free(void *memory)
-{
-    fe_free(memory);
 }

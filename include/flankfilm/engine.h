@@ -1,19 +1,48 @@
 /* SPDX-License-Identifier: MIT */
 /*
- * libflankfilm: the engine of flankfilm as a library. It reads a YAML file, loads the models that
- * the file names, wires them and runs them. It is compiled against this header and linked with
- * `pkg-config --cflags --libs libflankfilm`.
+ * libflankfilm: the engine of flankfilm as a library. It reads a pipeline from a YAML file, loads
+ * the models that it names, wires and runs them, and hands out their results:
  *
- * It never prints, exits, forks or changes the locale, the working directory, the floating-point
- * environment or the signal handlers of its process. Numbers are coherent SI with angles in rad;
- * texts are UTF-8.
+ *   ff_engine *engine = NULL;
+ *   ff_run *run = NULL;
+ *   const ff_result *film;
+ *   if (ff_engine_new(NULL, &engine) == FF_OK &&
+ *       ff_run_open(engine, "gears.yaml", NULL, &run) == FF_OK &&
+ *       ff_run_start(run, NULL) == FF_OK &&
+ *       ff_run_result(run, "film.h_min", &film) == FF_OK)
+ *       printf("%g %s\n", film->data[0], film->row->unit);
+ *   else
+ *       fputs(engine ? ff_engine_message(engine) : "out of memory", stderr);
+ *   ff_run_close(run);
+ *   ff_engine_close(engine);
  *
- * Ownership: who makes an object frees it, with the function that stands beside the one that made
- * it. What is handed in is copied unless it is said to be borrowed. What is handed out is constant,
- * belongs to the object that it was asked of, and lives as long as that.
+ * Compile and link with `pkg-config --cflags --libs libflankfilm`. docs/library.md is the guide.
  *
- * Threads: an object is used by one thread at a time; objects that do not know each other may be
- * used at the same time.
+ * Manners: it never prints, exits, forks or changes the locale, the working directory, the
+ * floating-point environment or the signal handlers of its process. It has no global state. A model
+ * is code of others in this process: one that crashes takes the process along.
+ *
+ * Numbers are coherent SI with angles in rad; texts are UTF-8. Growing structs that a caller fills
+ * in begin with `size`; those that the library fills in grow at their end.
+ *
+ * Errors: a function that can fail returns a status, FF_OK or one of plugin.h:
+ *   FF_INVALID   the file, an assignment or an argument is wrong;
+ *   FF_BUG       a plugin is at fault, or it is missing;
+ *   FF_NOCONV    the run failed: no convergence, no solution, a result that cannot be trusted;
+ *   FF_STOPPED   an observer stopped the run;
+ *   FF_NOMEM     out of memory; the objects that took part can only be closed.
+ * ff_engine_message says why.
+ *
+ * Ownership: who makes an object closes it, what was made from an engine before the engine. What is
+ * handed in is copied, unless it is said to be borrowed. What is handed out is constant, belongs to
+ * the object that it was asked of, and lives until that is closed or works again.
+ *
+ * Threads: an engine, its runs and its instances are used by one thread at a time. Engines in
+ * different threads work at the same time; models that cannot do that (FF_SERIAL) wait for each
+ * other. After fork in a process of one thread both processes may go on.
+ *
+ * Version: the part up to "Draft" keeps its meaning until the name of the library changes from
+ * libflankfilm.so.0; what is added, is added at the end of structs.
  */
 #ifndef FLANKFILM_ENGINE_H
 #define FLANKFILM_ENGINE_H
@@ -23,7 +52,6 @@
 
 #include <fenv.h>
 #include <stdbool.h>
-#include <stdio.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -36,12 +64,105 @@ extern "C" {
 #define FF_FORMAT(text, first)
 #endif
 
+/* The engine: the models that were loaded, and the message of the last call. */
+
+typedef struct ff_engine ff_engine;
+
+typedef struct ff_engine_options {
+    size_t size;
+    const char *const *plugin_paths; /* directories that are searched before all others */
+    size_t plugin_path_count;
+} ff_engine_options;
+
 /*
- * Draft: all that follows may change until version 1.0 of the library.
+ * options may be NULL. Models are looked for in the given directories, in those of the environment
+ * variable FLANKFILM_PLUGIN_PATH, in the user's (~/.local/share/flankfilm/plugins), in the one that
+ * was installed with the library and, when that lies in its build tree, in the build's. The first
+ * file found is the one used. Without memory *engine is NULL.
+ */
+ff_status ff_engine_new(const ff_engine_options *options, ff_engine **engine);
+void ff_engine_close(ff_engine *engine); /* NULL is nothing */
+
+/* The errors and warnings of the last call of the engine or of one of its runs, each as
+   "FILE:LINE:COLUMN: error: SENTENCE", the line with a caret, and a hint; "" without any. Lives
+   until the next of these calls. */
+const char *ff_engine_message(const ff_engine *engine);
+
+/* Runs: one case of a pipeline from its file to its results. */
+
+typedef struct ff_run ff_run;
+typedef struct ff_stage ff_stage;
+typedef struct ff_pipeline ff_pipeline;
+
+/*
+ * Reads the file, applies the assignments of `sets` ("film.cells=512", NULL-terminated, or NULL for
+ * none), loads the models that the requested outputs need and wires them. All that is wrong is said
+ * at once. *run is NULL after an error. A file with a study, an accuracy or a model that is left
+ * open (KIND/auto) is refused: these are the work of the program `flankfilm run`.
+ */
+ff_status ff_run_open(ff_engine *engine, const char *file, const char *const *sets, ff_run **run);
+void ff_run_close(ff_run *run); /* NULL is nothing */
+
+/* Called during ff_run_start; any member may be NULL. A call must return. */
+typedef struct ff_observer {
+    size_t size;
+    void *ctx; /* first argument of every function below */
+    /* Share of the stage's work that is done, 0 to 1; a non-zero answer stops the run. */
+    int32_t (*progress)(void *ctx, const ff_stage *stage, double fraction);
+    /* level: FF_LOG_INFO, FF_LOG_WARNING. */
+    void (*log)(void *ctx, const ff_stage *stage, int32_t level, const char *text);
+    /* Draft: may fill in the results of a stage (true), which is then not evaluated. */
+    bool (*recall)(void *ctx, const ff_pipeline *pipeline, ff_stage *stage);
+    /* Draft: called after each evaluation, good or not. */
+    void (*keep)(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage);
+} ff_observer;
+
+/* The name of the stage in the file: "film". */
+const char *ff_stage_name(const ff_stage *stage);
+
+/* Runs the stages that the requested outputs need, each once. The observer is borrowed for the call
+   and may be NULL. After FF_NOCONV and FF_STOPPED the results so far can be read. */
+ff_status ff_run_start(ff_run *run, const ff_observer *observer);
+
+enum { FF_MAX_RANK = 4 };
+
+typedef struct ff_result {
+    const ff_port *row; /* of the model: name, unit, doc */
+    const double *data; /* row-major, `count` numbers; NULL: not given */
+    uint32_t rank;      /* 0: a scalar */
+    size_t shape[FF_MAX_RANK];
+    const char *dims[FF_MAX_RANK]; /* "t", "x" */
+    size_t count;                  /* product of shape; 1 for a scalar */
+    /* Draft: */
+    bool wanted;    /* requested, or needed by another stage */
+    bool requested; /* by the file */
+    bool required;  /* must be given: requested by name, or for a required input */
+} ff_result;
+
+/* The result "stage.output". FF_INVALID: there is no such output, or it was not computed. */
+ff_status ff_run_result(ff_run *run, const char *path, const ff_result **result);
+
+typedef struct ff_quality {
+    const char *stage; /* its name */
+    const char *name;
+    double value, limit;
+    int32_t verdict;  /* FF_GOOD, FF_DOUBTFUL, FF_BAD */
+    const char *text; /* or NULL */
+} ff_quality;
+
+/* The worst verdict of the stages that ran, and their quality lines, in the order of the run;
+   FF_INVALID beyond the last. */
+ff_status ff_run_verdict(const ff_run *run, int32_t *verdict);
+ff_status ff_run_quality(const ff_run *run, size_t index, const ff_quality **line);
+
+/*
+ * Draft: all that follows may change until version 1.0 of the library. It is what the program
+ * `flankfilm` needs beyond the above. Its functions are called from ff_protected alone, and their
+ * objects are freed there.
  */
 
-/* Calls function(ctx). What follows is called from there alone: without memory the call is left,
-   all that was made in it and not freed goes, and the answer is FF_NOMEM; else it is FF_OK. */
+/* Calls function(ctx). Without memory the call is left, what was made in it and not freed goes, and
+   the answer is FF_NOMEM; else it is FF_OK. */
 ff_status ff_protected(void (*function)(void *ctx), void *ctx);
 
 /* Frees what is said to be freed by the caller. NULL is nothing. */
@@ -109,9 +230,10 @@ size_t ff_report_errors(const ff_report *report);
 /* The worst that the errors say is at fault; FF_FAULT_NONE without errors. */
 int ff_report_fault(const ff_report *report);
 
-/* Prints each message as "file:line:column: error: text", the line, a caret and the hint, in the
-   order of files and lines, at most 20 errors. Colour when `colour`. */
-void ff_report_print(const ff_report *report, FILE *stream, bool colour);
+/* Each message as "file:line:column: error: text", the line, a caret and the hint, in the order of
+   files and lines, at most 20 errors; with the colours of a terminal when `colour`. Freed by the
+   caller. */
+char *ff_report_text(const ff_report *report, bool colour);
 
 /* Writes "load.csv:3:7: the text", with the parts of the place that are known. */
 void ff_message_print(const ff_message *message, char *out, size_t size);
@@ -234,10 +356,6 @@ const ff_node *ff_node_get(const ff_node *map, const char *key); /* NULL: absent
 /* The path of a file that a text in that directory names; the caller frees it. */
 char *ff_path_beside(const char *directory, const char *path);
 
-/* Writes the node on one line that reads as the same node; the second writes a key or a text. */
-void ff_yaml_print(const ff_node *node, FILE *out);
-void ff_yaml_print_text(const char *text, bool quoted, FILE *out);
-
 /* Tables of numbers from text files; flankfilm/table.h describes the format. */
 
 typedef struct ff_columns {
@@ -264,15 +382,7 @@ void ff_columns_free(ff_columns *columns);
 /* The place of a field; a row or column of SIZE_MAX stands for all of them. */
 ff_place ff_columns_place(const ff_columns *columns, size_t row, size_t column);
 
-/*
- * Models. Each is loaded once, checked in full, and never unloaded.
- *
- * Search order: the given directories, FLANKFILM_PLUGIN_PATH, the user's data directory, the
- * installed directory and, when the library lies in its build tree, the build's plugins. The first
- * file found is the one used; further ones are not looked at.
- */
-
-enum { FF_MAX_RANK = 4 };
+/* Models. Each is loaded once, checked in full, and never unloaded. */
 
 /* The dimensions of a port row, read from its `dims`. */
 typedef struct ff_dims {
@@ -296,8 +406,7 @@ typedef struct ff_loaded {
 
 typedef struct ff_library ff_library;
 
-ff_library *ff_library_new(const char *const *directories, size_t count);
-void ff_library_free(ff_library *library);
+ff_library *ff_engine_library(ff_engine *engine);
 
 /*
  * Returns the model `id`, which is loaded at the first call. NULL after an error: it was not found
@@ -360,31 +469,12 @@ typedef struct ff_wire {
     ff_place place;
 } ff_wire;
 
-typedef struct ff_result {
-    const ff_port *row;
-    bool wanted;    /* requested, or needed by another stage */
-    bool requested; /* by the file */
-    bool required;  /* must be given: requested by name, or for a required input */
-    double *data;   /* NULL: not given */
-    uint32_t rank;
-    size_t shape[FF_MAX_RANK];
-    size_t count; /* product of shape; 1 for a scalar */
-    /* Dimension i of the data is called ff_result_dim(stage, result, i). */
-} ff_result;
-
-typedef struct ff_quality {
-    char *name;
-    double value, limit;
-    int verdict; /* FF_GOOD, FF_DOUBTFUL, FF_BAD */
-    char *text;  /* or NULL */
-} ff_quality;
-
 /* A model that a stage could use, and what it says of itself. */
 typedef struct ff_candidate {
-    struct ff_stage *stage; /* with this model in it; its name and place are the stage's */
-    bool fits;              /* it can be set up, and gives what is needed */
-    bool assessed;          /* the numbers are there */
-    int applies;            /* FF_APPLIES ... */
+    ff_stage *stage; /* with this model in it; its name and place are the stage's */
+    bool fits;       /* it can be set up, and gives what is needed */
+    bool assessed;   /* the numbers are there */
+    int applies;     /* FF_APPLIES ... */
     double error, cost;
     char *reason;    /* the model's own, or what keeps it out */
     char *proposals; /* "cells: 256, steps: auto", or "" */
@@ -406,7 +496,7 @@ typedef struct ff_choice {
     const ff_candidate *reference; /* NULL: not known yet, or the candidates serve none */
 } ff_choice;
 
-typedef struct ff_stage {
+struct ff_stage {
     char *name;
     ff_place place;
     const char *use; /* model id as written */
@@ -432,27 +522,16 @@ typedef struct ff_stage {
     ff_choice *choice; /* NULL: the file says which model. Until the choice is made, the stage has
                           all that its candidates have, by name; then it is that of the chosen */
     struct fe_instance *instance; /* the engine's own */
-} ff_stage;
+};
 
-typedef struct ff_pipeline {
+struct ff_pipeline {
     char *title; /* or NULL */
     ff_stage *stages;
     size_t count;
     size_t *order; /* indices of stages; each comes after those that feed it */
     bool chained;  /* stages start from `state`, and leave one */
     struct fe_pipeline_memory *memory;
-} ff_pipeline;
-
-/* Called while a stage works; a non-zero answer stops the run. */
-typedef struct ff_observer {
-    int (*progress)(void *ctx, const ff_stage *stage, double fraction);
-    void (*log)(void *ctx, const ff_stage *stage, int level, const char *text);
-    /* May fill in the results of a stage, which is then not evaluated. May be NULL. */
-    bool (*recall)(void *ctx, const ff_pipeline *pipeline, ff_stage *stage);
-    /* Called after each evaluation, good or not. May be NULL. */
-    void (*keep)(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage);
-    void *ctx;
-} ff_observer;
+};
 
 /*
  * Reads the file's `format`, `title`, `pipeline` and `outputs`, loads the models that are needed
@@ -475,7 +554,6 @@ bool ff_pipeline_choose(ff_pipeline *pipeline, const ff_observer *observer, ff_r
 
 /* The stage of "stage.name"; NULL: there is none. *name: what stands behind the dot, or "". */
 ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char **name);
-const char *ff_result_dim(const ff_stage *stage, size_t output, uint32_t axis);
 /* The result that feeds input row `input`; NULL: not connected, or a service. */
 ff_result *ff_feeding_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t input);
 /* Writes the value of a present parameter as a user would: "[50, 50]", "3 mm", "auto". */
@@ -489,8 +567,8 @@ bool ff_stage_has_state(const ff_stage *stage);
 void ff_stage_set_state(ff_stage *stage, const void *bytes, size_t size);
 const char *ff_verdict_name(int verdict); /* "good", "doubtful", "bad" */
 
-/* Makes room for an output, zeroed: rank and shape are those of its row. */
-double *ff_result_fill(ff_result *result, uint32_t rank, const size_t *shape);
+/* Makes room for an output, zeroed: rank and shape are such as its row allows. */
+double *ff_result_fill(ff_stage *stage, size_t output, uint32_t rank, const size_t *shape);
 void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
                     const char *text);
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Binding: a document becomes a pipeline of the toy models of tests/bad, and runs if it is legal.
  */
-#include <flankfilm/engine.h>
+#include "../../core/engine/plugin/library.h"
 
 #include "fuzz.h"
 
@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const char *toys = getenv("FLANKFILM_FUZZ_TOYS");
     must(toys != NULL);
     if (!library)
-        library = ff_library_new(&toys, 1);
+        library = fe_library_new(&toys, 1);
     char *text = fuzz_text(data, size);
     ff_report *report = ff_report_new();
     ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);

@@ -20,11 +20,13 @@ static void lay(const study_definition *study, size_t index, const char *text, f
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static ff_library *library; /* models stay loaded */
+    static ff_engine *engine; /* models stay loaded */
     const char *toys = getenv("FLANKFILM_FUZZ_TOYS");
     must(toys != NULL);
-    if (!library)
-        library = ff_library_new(&toys, 1);
+    ff_engine_options options = {
+        .size = sizeof options, .plugin_paths = &toys, .plugin_path_count = 1};
+    must(engine || ff_engine_new(&options, &engine) == FF_OK);
+    ff_library *library = ff_engine_library(engine);
     char *text = fuzz_text(data, size);
     ff_report *report = ff_report_new();
     ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);

@@ -155,26 +155,34 @@ static bool has_room(uint32_t rank, const size_t *shape)
     return product <= most;
 }
 
-double *ff_result_fill(ff_result *result, uint32_t rank, const size_t *shape)
+double *ff_result_fill(ff_stage *stage, size_t output, uint32_t rank, const size_t *shape)
 {
+    ff_result *result = &stage->results[output];
+    const ff_dims *dims = &stage->loaded->output_dims[output];
+    uint32_t absent = dims->first_optional && rank < dims->rank;
     size_t count = 1;
-    for (uint32_t i = 0; i < rank; i++)
+    for (uint32_t i = 0; i < rank; i++) {
         count *= result->shape[i] = shape[i];
+        result->dims[i] = dims->name[i + absent];
+    }
+    double *data = fe_alloc(count * sizeof *data);
     result->rank = rank;
     result->count = count;
-    return result->data = fe_alloc(count * sizeof *result->data);
+    result->data = data;
+    return data;
 }
 
 typedef struct output_call {
-    ff_result *result;
-    uint32_t rank;
+    ff_stage *stage;
+    uint32_t index, rank;
     const size_t *shape;
+    double *data;
 } output_call;
 
 static void fill_result(void *ctx)
 {
-    const output_call *call = ctx;
-    ff_result_fill(call->result, call->rank, call->shape);
+    output_call *call = ctx;
+    call->data = ff_result_fill(call->stage, call->index, call->rank, call->shape);
 }
 
 static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_t *shape)
@@ -186,10 +194,10 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
                instance->evaluating ? "which it does not have" : "outside of evaluate");
         return NULL;
     }
-    ff_result *result = &instance->stage->results[index];
+    const ff_result *result = &instance->stage->results[index];
     const ff_dims *dims = &loaded->output_dims[index];
     const char *name = result->row->name;
-    output_call call = {result, rank, shape};
+    output_call call = {.stage = instance->stage, .index = index, .rank = rank, .shape = shape};
     if (result->row->service)
         breach(instance, "asked for memory of the service \"%s\"", name);
     else if (result->data)
@@ -203,7 +211,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
             snprintf(instance->text, sizeof instance->text,
                      "there is not enough memory for the output \"%s\"", name);
     }
-    return result->data;
+    return call.data;
 }
 
 static char *clean_copy(const char *text)
@@ -217,7 +225,8 @@ void ff_add_quality(ff_stage *stage, const char *name, double value, double limi
                     const char *text)
 {
     stage->quality = fe_resize(stage->quality, (stage->quality_count + 1) * sizeof *stage->quality);
-    ff_quality line = {.name = clean_copy(name),
+    ff_quality line = {.stage = stage->name,
+                       .name = clean_copy(name),
                        .value = value,
                        .limit = limit,
                        .verdict = verdict,
@@ -276,12 +285,12 @@ void fe_host_init(fe_instance *instance)
 void fe_forget_results(ff_stage *stage)
 {
     for (size_t i = 0; stage->results && i < stage->loaded->model->output_count; i++) {
-        fe_free(stage->results[i].data);
+        fe_free((void *)stage->results[i].data);
         stage->results[i].data = NULL;
     }
     for (size_t i = 0; i < stage->quality_count; i++) {
-        fe_free(stage->quality[i].name);
-        fe_free(stage->quality[i].text);
+        fe_free((void *)stage->quality[i].name);
+        fe_free((void *)stage->quality[i].text);
     }
     fe_free(stage->quality);
     stage->quality = NULL;

@@ -47,13 +47,6 @@ ff_result *ff_feeding_result(const ff_pipeline *pipeline, const ff_stage *stage,
     return output < 0 ? NULL : &from->results[output];
 }
 
-const char *ff_result_dim(const ff_stage *stage, size_t output, uint32_t axis)
-{
-    const ff_dims *dims = &stage->loaded->output_dims[output];
-    uint32_t absent = dims->first_optional && stage->results[output].rank < dims->rank;
-    return axis + absent < dims->rank ? dims->name[axis + absent] : "";
-}
-
 uint64_t fe_wanted_of(const ff_stage *stage)
 {
     uint64_t wanted = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include <flankfilm/engine.h>
+#include "library.h"
 
 #include "../value/memory.h"
 #include "private.h"
@@ -21,7 +21,7 @@ struct ff_library {
     size_t id_count;
 };
 
-ff_library *ff_library_new(const char *const *directories, size_t count)
+ff_library *fe_library_new(const char *const *directories, size_t count)
 {
     ff_library *library = fe_alloc(sizeof *library);
     library->heap = fe_heap_in_use();
@@ -29,7 +29,7 @@ ff_library *ff_library_new(const char *const *directories, size_t count)
     return library;
 }
 
-void ff_library_free(ff_library *library)
+void fe_library_free(ff_library *library)
 {
     if (!library)
         return;

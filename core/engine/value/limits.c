@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "limits.h"
 
-#include <flankfilm/engine.h>
 #include "unit.h"
+#include <flankfilm/engine.h>
 
 #include <stdio.h>
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "memory.h"
 
+#include <flankfilm/engine.h>
+
 #include <errno.h>
 #include <setjmp.h>
 #include <stdbool.h>
@@ -127,6 +129,11 @@ void fe_free(void *memory)
         return;
     take_out(block_of(memory));
     free(block_of(memory));
+}
+
+void ff_free(void *memory)
+{
+    fe_free(memory);
 }
 
 void fe_resource_add(fe_resource *resource, void (*close)(void *object), void *object)

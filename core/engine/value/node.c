@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "node.h"
 
-#include <flankfilm/engine.h>
 #include "tree.h"
+#include <flankfilm/engine.h>
 
 #include <stdlib.h>
 #include <string.h>

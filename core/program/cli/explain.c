@@ -182,7 +182,7 @@ static void explain(cli_session *session, const cli_options *options)
         free(ran);
         return;
     }
-    ff_report_print(session->report, stderr, terminal_colour(stderr));
+    terminal_print_messages(session->report, stderr, terminal_colour(stderr));
     print_plan(pipeline, options->operand, stages);
     if (*ran)
         terminal_print_wrapped(ran, printf("\nrun for the choice of models: "), 2);
@@ -203,7 +203,7 @@ static void confirm(cli_session *session, const cli_options *options)
         results_json_print(answer);
         return;
     }
-    ff_report_print(session->report, stderr, terminal_colour(stderr)); /* warnings */
+    terminal_print_messages(session->report, stderr, terminal_colour(stderr)); /* warnings */
     printf("%s: ok (%zu stage%s", options->operand, stages, stages == 1 ? "" : "s");
     const char *tried = session->study && session->study->driver
                             ? "; first of %zu cases)\n"
@@ -233,7 +233,7 @@ int cli_check(const cli_options *options)
 
 static void resolve(cli_session *session, const cli_options *options)
 {
-    ff_report_print(session->report, stderr, terminal_colour(stderr)); /* warnings */
+    terminal_print_messages(session->report, stderr, terminal_colour(stderr)); /* warnings */
     cli_print_resolved(session, options);
 }
 

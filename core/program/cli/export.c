@@ -10,6 +10,7 @@
 #include "../results/json.h"
 #include "../results/target.h"
 #include "../results/view.h"
+#include "../terminal/terminal.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -171,7 +172,8 @@ static bool run(const cli_options *options, const char *name, const char *stem, 
 static int write_with(const cli_options *options, const char *to, const char *stem)
 {
     const char *name = name_of(to);
-    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
+    ff_engine *engine = cli_engine_new(options);
+    ff_library *library = ff_engine_library(engine);
     results_target target = {.report = ff_report_new()};
     bool good = run(options, name, stem, library, &target);
     int code = EXIT_SUCCESS;
@@ -182,12 +184,12 @@ static int write_with(const cli_options *options, const char *to, const char *st
         json_object_set_new(answer, "path", results_json_text(target.path));
         results_json_print(answer);
     } else {
-        ff_report_print(target.report, stderr, false);
+        terminal_print_messages(target.report, stderr, false);
         printf("%s\n", target.path);
     }
     results_target_close(&target);
     ff_report_free(target.report);
-    ff_library_free(library);
+    ff_engine_close(engine);
     return code;
 }
 

@@ -3,6 +3,7 @@
 #include "../fit/fit.h"
 #include "../results/folder.h"
 #include "../results/json.h"
+#include "../terminal/terminal.h"
 #include "command.h"
 
 #include <stdlib.h>
@@ -72,7 +73,8 @@ static char *directory_of(const cli_options *options)
 int cli_fit_command(const cli_options *options)
 {
     fit f = {.report = ff_report_new()};
-    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
+    ff_engine *engine = cli_engine_new(options);
+    ff_library *library = ff_engine_library(engine);
     char *directory = directory_of(options);
     int code = EXIT_SUCCESS;
     if (!work(&f, library, options) || (directory && !write_files(&f, directory))) {
@@ -80,7 +82,7 @@ int cli_fit_command(const cli_options *options)
     } else if (options->json) {
         results_json_print(answer_of(&f));
     } else {
-        ff_report_print(f.report, stderr, false);
+        terminal_print_messages(f.report, stderr, false);
         fit_print(&f);
         if (directory)
             printf("\nresults in %s\n", directory);
@@ -88,6 +90,6 @@ int cli_fit_command(const cli_options *options)
     free(directory);
     fit_free(&f);
     ff_report_free(f.report);
-    ff_library_free(library);
+    ff_engine_close(engine);
     return code;
 }

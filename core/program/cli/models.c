@@ -39,7 +39,8 @@ int cli_models(const cli_options *options)
 {
     const char *id = options->operand;
     ff_report *report = ff_report_new();
-    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
+    ff_engine *engine = cli_engine_new(options);
+    ff_library *library = ff_engine_library(engine);
     catalogue models = {.count = 0};
     int code = EXIT_SUCCESS;
     list(&models, library, id, NULL);
@@ -58,7 +59,7 @@ int cli_models(const cli_options *options)
     else
         catalogue_print_text(&models, page);
     catalogue_free(&models);
-    ff_library_free(library);
+    ff_engine_close(engine);
     ff_report_free(report);
     return code;
 }
@@ -66,7 +67,8 @@ int cli_models(const cli_options *options)
 int cli_schema(const cli_options *options)
 {
     ff_report *report = ff_report_new();
-    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
+    ff_engine *engine = cli_engine_new(options);
+    ff_library *library = ff_engine_library(engine);
     catalogue models = {.count = 0};
     const char *path = options->operand;
     list(&models, library, NULL, report);
@@ -82,10 +84,10 @@ int cli_schema(const cli_options *options)
         ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s cannot be written: %s", path,
                  strerror(errno));
     if (ff_report_errors(report))
-        ff_report_print(report, stderr, terminal_colour(stderr));
+        terminal_print_messages(report, stderr, terminal_colour(stderr));
     int code = ff_report_fault(report);
     catalogue_free(&models);
-    ff_library_free(library);
+    ff_engine_close(engine);
     ff_report_free(report);
     return code;
 }

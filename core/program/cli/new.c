@@ -101,7 +101,8 @@ static bool write_all(const cli_options *options, const char *folder, ff_report 
 {
     const char *id = options->operand, *name = strchr(id, '/') + 1;
     char *kind = memory_copy_text(id, strcspn(id, "/"));
-    ff_library *library = ff_library_new(options->plugin_paths, options->plugin_path_count);
+    ff_engine *engine = cli_engine_new(options);
+    ff_library *library = ff_engine_library(engine);
     char *inputs = is_law(library, kind)
                        ? memory_copy_text("", 0)
                        : memory_print_text(", '--pipeline', files('%s.yaml')", name);
@@ -126,7 +127,7 @@ static bool write_all(const cli_options *options, const char *folder, ff_report 
     free(yaml);
     free(kind);
     free(inputs);
-    ff_library_free(library);
+    ff_engine_close(engine);
     return good;
 }
 

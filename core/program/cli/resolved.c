@@ -4,6 +4,7 @@
 #include <flankfilm/engine.h>
 
 #include "../memory/memory.h"
+#include "../study/yaml.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,7 +19,7 @@ static void print_line(int indent, bool comment, const char *key, const char *va
     char *name = NULL, remark[600];
     size_t length = 0;
     FILE *out = memory_require(open_memstream(&name, &length));
-    ff_yaml_print_text(key, false, out);
+    study_yaml_print_text(key, false, out);
     fclose(out);
     ff_clean_text(remark, sizeof remark, note);
     int column =
@@ -37,7 +38,7 @@ static void print_files(const ff_node *list, FILE *out)
         const char *beside = item->place.source ? item->place.source->directory : ".";
         char *path = ff_path_beside(beside, item->text), *absolute = realpath(path, NULL);
         fputs(i ? ", " : "[", out);
-        ff_yaml_print_text(absolute ? absolute : path, true, out);
+        study_yaml_print_text(absolute ? absolute : path, true, out);
         free(absolute);
         ff_free(path);
     }
@@ -60,11 +61,11 @@ static char *print_value(const ff_bound *bound, const ff_node *node, const char 
     size_t length = 0;
     FILE *out = memory_require(open_memstream(&text, &length));
     if (absolute)
-        ff_yaml_print_text(absolute, true, out);
+        study_yaml_print_text(absolute, true, out);
     else if (last && !strcmp(last, ".include") && node->kind == FF_SEQUENCE && node->count > 0)
         print_files(node, out);
     else
-        ff_yaml_print(node, out);
+        study_yaml_print(node, out);
     fclose(out);
     free(absolute);
     return text;

@@ -26,7 +26,7 @@ static void print_outcome(const results_outcome *outcome, const char *directory)
     fflush(stdout);
     if (ff_report_count(outcome->report)) {
         fputc('\n', stderr);
-        ff_report_print(outcome->report, stderr, terminal_colour(stderr));
+        terminal_print_messages(outcome->report, stderr, terminal_colour(stderr));
     }
     if (directory)
         printf("\nresults in %s\n", directory);

@@ -87,7 +87,8 @@ bool cli_session_open(cli_session *session, const cli_options *options, bool eve
         return false;
     for (size_t i = 0; i < options->set_count; i++)
         ff_tree_set(session->tree, options->sets[i], "pipeline", ff_file_keys(), session->report);
-    session->library = ff_library_new(options->plugin_paths, options->plugin_path_count);
+    session->engine = cli_engine_new(options);
+    session->library = ff_engine_library(session->engine);
     if (!open_study(session, options))
         return false;
     session->pipeline =
@@ -114,9 +115,19 @@ void cli_session_close(cli_session *session)
 {
     study_free(session->study);
     ff_pipeline_free(session->pipeline);
-    ff_library_free(session->library);
+    ff_engine_close(session->engine);
     ff_tree_free(session->tree);
     ff_report_free(session->report);
+}
+
+ff_engine *cli_engine_new(const cli_options *options)
+{
+    ff_engine_options given = {.size = sizeof given,
+                               .plugin_paths = options->plugin_paths,
+                               .plugin_path_count = options->plugin_path_count};
+    ff_engine *engine;
+    ff_engine_new(&given, &engine);
+    return memory_require(engine);
 }
 
 char *cli_default_directory(const char *file)
@@ -143,7 +154,7 @@ int cli_refuse(const ff_report *report, const cli_options *options, const char *
         results_json_print(results_json_answer("error", code, report));
         return code;
     }
-    ff_report_print(report, stderr, terminal_colour(stderr));
+    terminal_print_messages(report, stderr, terminal_colour(stderr));
     fprintf(stderr, "%zu error%s; %s\n", errors, errors == 1 ? "" : "s", ending);
     return code;
 }

@@ -9,10 +9,14 @@
 typedef struct cli_session {
     ff_report *report;
     ff_tree *tree;
-    ff_library *library;
+    ff_engine *engine;
+    ff_library *library;     /* of the engine */
     ff_pipeline *pipeline;   /* may be NULL after errors; of a study: its first case */
     study_definition *study; /* NULL: a single case */
 } cli_session;
+
+/* With the directories of the options. */
+ff_engine *cli_engine_new(const cli_options *options);
 
 /* Loads the file, applies --set and builds the pipeline. False with errors in the report. */
 bool cli_session_open(cli_session *session, const cli_options *options, bool everything);

@@ -125,7 +125,7 @@ static void tell_end(const study_definition *study, const study_counters *counte
                      const char *directory, ff_report *report)
 {
     char *files = study->driver ? study_files(study) : memory_print_text("%s", "");
-    ff_report_print(report, stderr, terminal_colour(stderr));
+    terminal_print_messages(report, stderr, terminal_colour(stderr));
     printf("%zu ", counters->done);
     if (!study->driver || !*study_further(study))
         printf("of %zu ", counters->total);
@@ -222,7 +222,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
     else if (counters.leads)
         tell_end(study, &counters, good, directory, session->report);
     else
-        ff_report_print(session->report, stderr, terminal_colour(stderr));
+        terminal_print_messages(session->report, stderr, terminal_colour(stderr));
     if (study->driver && !driven && good && counters.leads && !options->json)
         tell_rest(study);
     ff_service_close(&service);

@@ -105,7 +105,7 @@ static void print_where(const ff_pipeline *pipeline, const ff_stage *stage, size
                         size_t least, size_t greatest, char *out, size_t size)
 {
     const ff_result *result = &stage->results[output];
-    const char *dim = ff_result_dim(stage, output, 0);
+    const char *dim = result->dims[0];
     const ff_result *axis = results_axis(pipeline, stage, dim, result->count, result, "rad");
     if (!axis) {
         snprintf(out, size, "min at %s %zu, max at %zu of %zu", dim, least + 1, greatest + 1,
@@ -124,7 +124,7 @@ static void print_shape(const ff_stage *stage, size_t output, char *out, size_t 
     size_t at = 0;
     for (uint32_t i = 0; i < result->rank && at < size; i++)
         at += (size_t)snprintf(out + at, size - at, "%s%zu %s", i ? " by " : "", result->shape[i],
-                               ff_result_dim(stage, output, i));
+                               result->dims[i]);
 }
 
 /* One line: name, value or range; where the extremes of a series lie, the shape of a field, or what

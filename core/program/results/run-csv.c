@@ -30,7 +30,7 @@ static const char *main_dim(const ff_stage *stage)
 static bool is_series(const ff_stage *stage, size_t output, const char *dim)
 {
     const ff_result *result = &stage->results[output];
-    return result->data && result->rank == 1 && strcmp(ff_result_dim(stage, output, 0), dim) == 0;
+    return result->data && result->rank == 1 && strcmp(result->dims[0], dim) == 0;
 }
 
 /* Writes all series along one dimension. */
@@ -60,7 +60,7 @@ static void write_series(const ff_stage *stage, const char *dim, results_folder 
 static void write_all_series(const ff_stage *stage, results_folder *folder)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const char *dim = ff_result_dim(stage, i, 0);
+        const char *dim = stage->results[i].dims[0];
         bool first = is_series(stage, i, dim);
         for (size_t earlier = 0; earlier < i; earlier++)
             first = first && !is_series(stage, earlier, dim);
@@ -95,7 +95,7 @@ static void write_field(const ff_pipeline *pipeline, const ff_stage *stage, size
     const ff_result *field = &stage->results[output], *axes[2];
     const double *at = field->data;
     for (uint32_t i = 0; i < 2; i++) {
-        const char *dim = ff_result_dim(stage, output, i);
+        const char *dim = field->dims[i];
         axes[i] = results_axis(pipeline, stage, dim, field->shape[i], NULL, "s");
         fprintf(stream, "%s%s [%s]", i ? " \\ " : "", axes[i] ? axes[i]->row->name : dim,
                 axes[i] ? axes[i]->row->unit : "index");

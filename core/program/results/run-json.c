@@ -44,7 +44,7 @@ static json_t *describe_array(const ff_stage *stage, size_t output)
     const ff_result *result = &stage->results[output];
     json_t *dims = json_array(), *shape = json_array();
     for (uint32_t i = 0; i < result->rank; i++) {
-        json_array_append_new(dims, json_string(ff_result_dim(stage, output, i)));
+        json_array_append_new(dims, json_string(result->dims[i]));
         json_array_append_new(shape, json_integer((json_int_t)result->shape[i]));
     }
     return json_pack("{s:s, s:o, s:o}", "unit", result->row->unit, "dims", dims, "shape", shape);
@@ -56,7 +56,7 @@ static bool is_axis(const ff_stage *stage, size_t output)
     const ff_port *row = stage->results[output].row;
     return stage->results[output].rank == 1 &&
            (!strcmp(row->unit, "s") || !strcmp(row->unit, "rad") ||
-            !strcmp(row->name, ff_result_dim(stage, output, 0)));
+            !strcmp(row->name, stage->results[output].dims[0]));
 }
 
 /* Names what each dimension is plotted against: "gears.roll_angle", or "". */
@@ -65,8 +65,8 @@ static json_t *axes_of(const ff_pipeline *pipeline, const ff_stage *stage, size_
     const ff_result *result = &stage->results[output];
     json_t *list = json_array();
     for (uint32_t i = 0; i < result->rank; i++) {
-        const ff_result *axis = results_axis(pipeline, stage, ff_result_dim(stage, output, i),
-                                             result->shape[i], result, "rad");
+        const ff_result *axis =
+            results_axis(pipeline, stage, result->dims[i], result->shape[i], result, "rad");
         const ff_stage *of =
             axis && !is_axis(stage, output) ? results_stage_of(pipeline, axis) : NULL;
         char *name = memory_print_text("%s%s%s", of ? of->name : "", of ? "." : "",

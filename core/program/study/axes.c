@@ -3,6 +3,7 @@
 #include <flankfilm/engine.h>
 
 #include "study.h"
+#include "yaml.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -58,7 +59,7 @@ static const char *assignment_of(reading *r, const char *path, const ff_node *va
     size_t length = 0;
     FILE *out = memory_require(open_memstream(&text, &length));
     fprintf(out, "%s=", path);
-    ff_yaml_print(value, out);
+    study_yaml_print(value, out);
     fclose(out);
     return keep_text(r, text);
 }

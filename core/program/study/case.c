@@ -188,7 +188,7 @@ static json_t *describe_array(const ff_stage *stage, size_t output)
     const ff_result *result = &stage->results[output];
     json_t *dims = json_array(), *shape = json_array();
     for (uint32_t i = 0; i < result->rank; i++) {
-        json_array_append_new(dims, json_string(ff_result_dim(stage, output, i)));
+        json_array_append_new(dims, json_string(result->dims[i]));
         json_array_append_new(shape, json_integer((json_int_t)result->shape[i]));
     }
     return json_pack("[s, o, o]", result->row->unit, dims, shape);

@@ -82,8 +82,8 @@ static bool read_results(ff_stage *stage, FILE *in)
             continue;
         size_t shape[FF_MAX_RANK];
         read_bytes(in, shape, (uint32_t)rank * sizeof *shape);
-        ff_result_fill(result, (uint32_t)rank, shape);
-        read_bytes(in, result->data, result->count * sizeof *result->data);
+        double *data = ff_result_fill(stage, i, (uint32_t)rank, shape);
+        read_bytes(in, data, result->count * sizeof *data);
     }
     size_t lines;
     read_bytes(in, &stage->seconds, sizeof stage->seconds);
@@ -93,11 +93,10 @@ static bool read_results(ff_stage *stage, FILE *in)
         read_bytes(in, &line.value, sizeof line.value);
         read_bytes(in, &line.limit, sizeof line.limit);
         read_bytes(in, &line.verdict, sizeof line.verdict);
-        line.name = read_text(in);
-        line.text = read_text(in);
-        ff_add_quality(stage, line.name, line.value, line.limit, line.verdict, line.text);
-        free(line.name);
-        free(line.text);
+        char *name = read_text(in), *text = read_text(in);
+        ff_add_quality(stage, name, line.value, line.limit, line.verdict, text);
+        free(name);
+        free(text);
     }
     return all;
 }

@@ -13,6 +13,13 @@ bool terminal_colour(FILE *stream)
            !(terminal && strcmp(terminal, "dumb") == 0);
 }
 
+void terminal_print_messages(const ff_report *report, FILE *stream, bool colour)
+{
+    char *text = ff_report_text(report, colour);
+    fputs(text, stream);
+    ff_free(text);
+}
+
 /* Characters, not bytes, of UTF-8. */
 static int columns_of(const char *text, size_t length)
 {

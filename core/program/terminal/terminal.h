@@ -3,6 +3,8 @@
 #ifndef TERMINAL_H
 #define TERMINAL_H
 
+#include <flankfilm/engine.h>
+
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -10,6 +12,9 @@ enum { TERMINAL_WIDTH = 100 };
 
 /* Whether colour is welcome there: a terminal, and no NO_COLOR. */
 bool terminal_colour(FILE *stream);
+
+/* Prints the messages, each with its place and its line. */
+void terminal_print_messages(const ff_report *report, FILE *stream, bool colour);
 
 /* Prints text and a line end. The cursor stands at `column`; further lines begin at `indent`. */
 void terminal_print_wrapped(const char *text, int column, int indent);

@@ -64,7 +64,7 @@ static const test any_model[] = {
 typedef struct session {
     const verify_request *request;
     char *root, *id;
-    ff_library *library; /* the folder of the plugin comes before the search path */
+    ff_library *library;
     void (*tell)(void *ctx, size_t number, const verify_result *result);
     void *ctx;
     size_t number;
@@ -134,11 +134,21 @@ static void try_model(verify_context *context, const session *s, ff_library *lib
         verify_run_check(context, t->check);
 }
 
+/* The folder of the plugin comes before the search path. */
+static ff_engine *open_engine(const char *root)
+{
+    const char *const roots[] = {root};
+    ff_engine_options options = {
+        .size = sizeof options, .plugin_paths = roots, .plugin_path_count = 1};
+    ff_engine *engine;
+    ff_engine_new(&options, &engine);
+    return memory_require(engine);
+}
+
 static _Noreturn void child(const session *s, const test *t, verify_outcome *outcome)
 {
     verify_context context = {.outcome = outcome};
-    const char *const roots[] = {s->root};
-    ff_library *library = ff_library_new(roots, 1);
+    ff_library *library = ff_engine_library(open_engine(s->root));
     verify_step(&context, "loading");
     if (load(&context, library, s->id) && t->matter != LOADING)
         try_model(&context, s, library, t);
@@ -301,14 +311,14 @@ bool verify_plugin(const verify_request *request,
         return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
                         "its place must be KIND/NAME.so, as its id says", "%s is not a plugin",
                         request->path);
-    const char *const roots[] = {s.root};
-    s.library = ff_library_new(roots, 1);
+    ff_engine *engine = open_engine(s.root);
+    s.library = ff_engine_library(engine);
     if (try(&s, &descriptor) && try(&s, &pipeline)) {
         for (size_t i = 0; i < sizeof any_model / sizeof *any_model; i++)
             try(&s, &any_model[i]);
         try_kind(&s);
     }
-    ff_library_free(s.library);
+    ff_engine_close(engine);
     free(s.root);
     free(s.id);
     return s.good;

@@ -235,7 +235,7 @@ static void files(void)
     if (!file || fclose(file) != 0)
         exit(2);
     const char *const places[] = {try_plugins()};
-    attempt a = {.report = ff_report_new(), .library = ff_library_new(places, 1)};
+    attempt a = {.report = ff_report_new(), .library = fe_library_new(places, 1)};
     a.tree = ff_tree_parse("case.yaml", directory,
                            "format: 1\npipeline:\n"
                            "  a: {use: toy/source, level: 1 mm, table: data.csv}\n",

@@ -20,7 +20,7 @@ static attempt begin(const char *text, const char *assignment, bool everything)
     const char *const directories[] = {try_plugins()};
     char whole[8192];
     snprintf(whole, sizeof whole, "format: 1\n%s", text);
-    attempt a = {.report = ff_report_new(), .library = ff_library_new(directories, 1)};
+    attempt a = {.report = ff_report_new(), .library = fe_library_new(directories, 1)};
     a.tree = ff_tree_parse("case.yaml", ".", whole, a.report);
     if (assignment)
         ff_tree_set(a.tree, assignment, "pipeline", ff_file_keys(), a.report);
@@ -50,7 +50,7 @@ void try_close(attempt *a)
 {
     ff_pipeline_free(a->pipeline);
     ff_tree_free(a->tree);
-    ff_library_free(a->library);
+    fe_library_free(a->library);
     ff_report_free(a->report);
 }
 

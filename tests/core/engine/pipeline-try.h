@@ -3,7 +3,7 @@
 #ifndef PIPELINE_TRY_H
 #define PIPELINE_TRY_H
 
-#include <flankfilm/engine.h>
+#include "../../../core/engine/plugin/library.h"
 
 #include <host.h>
 

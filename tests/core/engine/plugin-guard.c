@@ -21,7 +21,9 @@ static int work(const char *fault, bool json)
              "outputs: [film.level, film.series]\n",
              fault);
     attempt a = try_run(text);
-    ff_report_print(a.report, stderr, false);
+    char *said = ff_report_text(a.report, false);
+    fputs(said, stderr);
+    ff_free(said);
     int code = ff_report_fault(a.report);
     try_close(&a);
     return code;

@@ -11,7 +11,7 @@
 
 static attempt load_from(const char *directory, const char *id, const ff_loaded **loaded)
 {
-    attempt a = {.report = ff_report_new(), .library = ff_library_new(&directory, 1)};
+    attempt a = {.report = ff_report_new(), .library = fe_library_new(&directory, 1)};
     *loaded = ff_library_load(a.library, id, FF_NOWHERE, a.report);
     return a;
 }
@@ -240,7 +240,7 @@ static void order_of_search(void)
     FILE *file = fopen(path, "w");
     if (!file || fclose(file) != 0)
         exit(2);
-    attempt a = {.report = ff_report_new(), .library = ff_library_new(both, 2)};
+    attempt a = {.report = ff_report_new(), .library = fe_library_new(both, 2)};
     loaded = ff_library_load(a.library, "toy/law", FF_NOWHERE, a.report);
     check_error("the first file found is the one used", &a, 0, 0, "is empty");
     check_true("what stands behind it is not looked at", !loaded);
@@ -248,7 +248,7 @@ static void order_of_search(void)
     check_true("the second directory is searched", loaded != NULL);
     try_close(&a);
     setenv("FLANKFILM_PLUGIN_PATH", try_plugins(), 1);
-    a = (attempt){.report = ff_report_new(), .library = ff_library_new(NULL, 0)};
+    a = (attempt){.report = ff_report_new(), .library = fe_library_new(NULL, 0)};
     check_true("FLANKFILM_PLUGIN_PATH is searched",
                ff_library_load(a.library, "toy/law", FF_NOWHERE, a.report) != NULL);
     try_close(&a);
@@ -259,7 +259,7 @@ static void order_of_search(void)
     snprintf(link, sizeof link, "%s/plugins", path);
     bool linked = realpath(try_plugins(), target) && symlink(target, link) == 0;
     setenv("XDG_DATA_HOME", home, 1);
-    a = (attempt){.report = ff_report_new(), .library = ff_library_new(NULL, 0)};
+    a = (attempt){.report = ff_report_new(), .library = fe_library_new(NULL, 0)};
     check_true("the user's data directory is searched",
                linked && ff_library_load(a.library, "toy/law", FF_NOWHERE, a.report) != NULL);
     try_close(&a);

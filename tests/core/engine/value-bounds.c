@@ -306,7 +306,7 @@ static size_t count_nodes(const ff_node *node)
 }
 
 /* Each text gives a tree, or errors that can be printed; places stay inside the text. */
-static void check_round(FILE *sink)
+static void check_round(void)
 {
     ff_report *report = ff_report_new();
     ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
@@ -320,7 +320,7 @@ static void check_round(FILE *sink)
         ck_assert_uint_le(m->place.line, used + 2);
         ck_assert_uint_le(m->place.column, used + 2);
     }
-    ff_report_print(report, sink, true);
+    ff_free(ff_report_text(report, true));
     ff_tree_free(tree);
     ff_report_free(report);
 }
@@ -328,15 +328,12 @@ static void check_round(FILE *sink)
 START_TEST(mutated_files)
 {
     uint64_t state = 20110521;
-    FILE *sink = fopen("/dev/null", "w");
-    ck_assert_ptr_nonnull(sink);
     for (int round = 0; round < 2000; round++) {
         used = 0;
         put(sample);
         mutate(&state);
-        check_round(sink);
+        check_round();
     }
-    fclose(sink);
 }
 END_TEST
 

@@ -68,16 +68,18 @@ bool fitting_run(fitting *f, const points *data)
     if (file >= 0)
         close(file);
     write_data(path, data);
-    if (!f->library)
-        f->library = ff_library_new(&plugins, 1);
+    ff_engine_options options = {
+        .size = sizeof options, .plugin_paths = &plugins, .plugin_path_count = 1};
+    if (!f->engine && ff_engine_new(&options, &f->engine) != FF_OK)
+        return false;
     forget(f);
     f->report = ff_report_new();
     f->fit = (fit){.report = f->report};
     while (f->hold[held])
         held++;
-    bool good = fit_read(&f->fit, path) && fit_add_laws(&f->fit, f->library, &f->id, 1) &&
-                fit_set(&f->fit, f->hold, held) && fit_set_conditions(&f->fit, NULL, 0) &&
-                fit_run(&f->fit);
+    bool good =
+        fit_read(&f->fit, path) && fit_add_laws(&f->fit, ff_engine_library(f->engine), &f->id, 1) &&
+        fit_set(&f->fit, f->hold, held) && fit_set_conditions(&f->fit, NULL, 0) && fit_run(&f->fit);
     f->law = f->fit.laws;
     unlink(path);
     return good;
@@ -86,7 +88,7 @@ bool fitting_run(fitting *f, const points *data)
 void fitting_close(fitting *f)
 {
     forget(f);
-    ff_library_free(f->library);
+    ff_engine_close(f->engine);
 }
 
 const fit_param *fitting_param(const fitting *f, const char *name)

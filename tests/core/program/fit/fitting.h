@@ -10,7 +10,7 @@
 typedef struct fitting {
     const char *id;      /* of the law */
     const char *hold[4]; /* "V_occ=0.6132", ..., NULL */
-    ff_library *library;
+    ff_engine *engine;
     ff_report *report; /* of the last run */
     fit fit;
     const fit_law *law; /* its only one */

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Writes messages for people: place, sentence, the line with a caret, what to do about it. */
+/* Messages for people: place, sentence, the line with a caret, what to do about it. */
+#include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,18 +10,46 @@
 
 enum { MOST_PRINTED = 20, WINDOW = 90, LEAD = 40 };
 
+/* The text that is being written. */
 typedef struct printer {
-    FILE *stream;
+    char *text;
+    size_t length, room;
     bool colour;
 } printer;
 
 static const char BOLD[] = "\033[1m", RED[] = "\033[1;31m", YELLOW[] = "\033[1;33m",
                   PLAIN[] = "\033[0m";
 
-static void paint(const printer *p, const char *style)
+static void add_bytes(printer *p, const char *bytes, size_t count)
+{
+    if (p->room - p->length <= count) {
+        p->room = 2 * p->room + count + 1;
+        p->text = fe_resize(p->text, p->room);
+    }
+    memcpy(p->text + p->length, bytes, count);
+    p->length += count;
+    p->text[p->length] = 0;
+}
+
+static void add(printer *p, const char *text)
+{
+    add_bytes(p, text, strlen(text));
+}
+
+__attribute__((format(printf, 2, 3))) static void add_formatted(printer *p, const char *format, ...)
+{
+    char text[64];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    add(p, text);
+}
+
+static void paint(printer *p, const char *style)
 {
     if (p->colour)
-        fputs(style, p->stream);
+        add(p, style);
 }
 
 /* Control characters and marks that change the direction of writing are not printed. */
@@ -43,28 +73,28 @@ static int width_of(uint32_t c)
 }
 
 /* Writes one character and returns its columns. A tab becomes one blank. */
-static int print_char(FILE *stream, const char *at, size_t length, uint32_t code)
+static int print_char(printer *p, const char *at, size_t length, uint32_t code)
 {
     if (is_printable(code)) {
-        fwrite(at, 1, length, stream);
+        add_bytes(p, at, length);
         return width_of(code);
     }
-    fputc(code == '\t' || code == '\n' ? ' ' : '?', stream);
+    add(p, code == '\t' || code == '\n' ? " " : "?");
     return 1;
 }
 
-static void print_text(FILE *stream, const char *text)
+static void print_text(printer *p, const char *text)
 {
     const char *end = text + strlen(text);
     uint32_t code;
     for (size_t n; text < end; text += n) {
         n = fe_char_read(text, end, &code);
-        print_char(stream, text, n, code);
+        print_char(p, text, n, code);
     }
 }
 
 /* Prints the line, or the part of a long line around the place, and the underline below it. */
-static void print_line(const printer *p, const ff_place *place)
+static void print_line(printer *p, const ff_place *place)
 {
     const char *end, *at = fe_line_begin(place->source, place->line, &end);
     uint32_t first = place->column > LEAD + WINDOW / 2 ? place->column - LEAD : 1;
@@ -72,47 +102,49 @@ static void print_line(const printer *p, const ff_place *place)
     int before = first > 1 ? 4 : 0, under = 0;
     uint32_t code;
 
-    fprintf(p->stream, "%5u | %s", place->line, first > 1 ? "... " : "");
+    add_formatted(p, "%5u | %s", place->line, first > 1 ? "... " : "");
     for (uint32_t i = 1; i < first + WINDOW && at < end; i++) {
         size_t n = fe_char_read(at, end, &code);
         if (i >= first) {
-            int columns = print_char(p->stream, at, n, code);
+            int columns = print_char(p, at, n, code);
             before += i < place->column ? columns : 0;
             under += i >= place->column && i <= last ? columns : 0;
         }
         at += n;
     }
-    fprintf(p->stream, "%s\n      | %*s", at < end ? " ..." : "", before, "");
+    add(p, at < end ? " ...\n      | " : "\n      | ");
+    for (int i = 0; i < before; i++)
+        add(p, " ");
     paint(p, RED);
     for (int i = 0; i < under || i == 0; i++)
-        fputc('^', p->stream);
+        add(p, "^");
     paint(p, PLAIN);
-    fputc('\n', p->stream);
+    add(p, "\n");
 }
 
-static void print_message(const printer *p, const ff_message *m)
+static void print_message(printer *p, const ff_message *m)
 {
-    static const char *const names[] = {"error", "warning"};
+    static const char *const names[] = {"error: ", "warning: "};
     const char *styles[] = {RED, YELLOW};
     const ff_place *place = &m->place;
     paint(p, BOLD);
     if (place->source) {
-        print_text(p->stream, place->source->name);
+        print_text(p, place->source->name);
         if (place->line > 0)
-            fprintf(p->stream, ":%u:%u", place->line, place->column);
-        fputs(": ", p->stream);
+            add_formatted(p, ":%u:%u", place->line, place->column);
+        add(p, ": ");
     }
     paint(p, styles[m->severity]);
-    fprintf(p->stream, "%s: ", names[m->severity]);
+    add(p, names[m->severity]);
     paint(p, PLAIN);
-    print_text(p->stream, m->text);
-    fputc('\n', p->stream);
+    print_text(p, m->text);
+    add(p, "\n");
     if (place->source && place->line > 0)
         print_line(p, place);
     if (m->hint) {
-        fputs("hint: ", p->stream);
-        print_text(p->stream, m->hint);
-        fputc('\n', p->stream);
+        add(p, "hint: ");
+        print_text(p, m->hint);
+        add(p, "\n");
     }
 }
 
@@ -143,9 +175,9 @@ static size_t file_of(const ff_report *report, const ff_source *source)
     return source ? first : SIZE_MAX;
 }
 
-void ff_report_print(const ff_report *report, FILE *stream, bool colour)
+char *ff_report_text(const ff_report *report, bool colour)
 {
-    printer p = {stream, colour};
+    printer p = {.text = fe_copy_text("", 0), .room = 1, .colour = colour};
     size_t count = ff_report_count(report), printed = 0, errors = ff_report_errors(report);
     entry *entries = fe_alloc(count * sizeof *entries);
     for (size_t i = 0; i < count; i++) {
@@ -160,7 +192,8 @@ void ff_report_print(const ff_report *report, FILE *stream, bool colour)
     }
     fe_free(entries);
     if (errors > MOST_PRINTED)
-        fprintf(stream, "... and %zu more errors\n", errors - MOST_PRINTED);
+        add_formatted(&p, "... and %zu more errors\n", errors - MOST_PRINTED);
+    return p.text;
 }
 
 void ff_message_print(const ff_message *m, char *out, size_t size)

@@ -1,7 +1,6 @@
-/* SPDX-License-Identifier: MIT */
+/* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Nodes in YAML's flow style. */
-
-#include <flankfilm/engine.h>
+#include "yaml.h"
 
 #include <string.h>
 
@@ -15,7 +14,7 @@ static bool is_plain(const char *text)
            text[0] != ' ' && (length == 0 || text[length - 1] != ' ');
 }
 
-void ff_yaml_print_text(const char *text, bool quoted, FILE *out)
+void study_yaml_print_text(const char *text, bool quoted, FILE *out)
 {
     if (!quoted && is_plain(text)) {
         fputs(text, out);
@@ -30,20 +29,20 @@ void ff_yaml_print_text(const char *text, bool quoted, FILE *out)
     fputc('"', out);
 }
 
-void ff_yaml_print(const ff_node *node, FILE *out)
+void study_yaml_print(const ff_node *node, FILE *out)
 {
     if (node->kind == FF_SCALAR) {
-        ff_yaml_print_text(node->text, node->quoted, out);
+        study_yaml_print_text(node->text, node->quoted, out);
         return;
     }
     fputc(node->kind == FF_MAP ? '{' : '[', out);
     for (size_t i = 0; i < node->count; i++) {
         fputs(i ? ", " : "", out);
         if (node->kind == FF_MAP) {
-            ff_yaml_print_text(node->keys[i], false, out);
+            study_yaml_print_text(node->keys[i], false, out);
             fputs(": ", out);
         }
-        ff_yaml_print(node->items[i], out);
+        study_yaml_print(node->items[i], out);
     }
     fputc(node->kind == FF_MAP ? '}' : ']', out);
 }

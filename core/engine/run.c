@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: MIT */
+/* Runs: one case of a pipeline from its file to its results. */
+#include "private.h"
+
+#include <string.h>
+
+struct ff_run {
+    ff_engine *engine;
+    fe_heap heap;
+    ff_tree *tree;
+    ff_report *report; /* of the call that is being made */
+    ff_pipeline *pipeline;
+    bool broken; /* it had no memory once, and can only be closed */
+};
+
+/* The arguments of a call, and what it answers. */
+typedef struct run_call {
+    ff_run *run;
+    const char *text;        /* a file, or the path of a result */
+    const char *const *sets; /* NULL-terminated, or NULL */
+    const ff_observer *observer;
+    const ff_result *result;
+    void (*work)(struct run_call *call);
+} run_call;
+
+static void work(void *ctx)
+{
+    run_call *call = ctx;
+    ff_run *run = call->run;
+    run->report = ff_report_new();
+    call->work(call);
+    fe_engine_say(run->engine, run->report);
+}
+
+static void forget(void *ctx)
+{
+    ff_run *run = ctx;
+    ff_report_free(run->report);
+    run->report = NULL;
+}
+
+/* Makes the call, with messages of its own. */
+static ff_status handle(run_call *call)
+{
+    ff_run *run = call->run;
+    ff_status status = FF_NOMEM;
+    if (!run->broken && fe_engine_call(run->engine, &run->heap, work, call) == FF_OK)
+        status = fe_status_of(run->report);
+    run->broken = status == FF_NOMEM;
+    if (!run->broken)
+        fe_protected(&run->heap, forget, run);
+    return status;
+}
+
+/* What the program does with many cases. */
+static void refuse_many(run_call *call, const ff_node *root)
+{
+    static const char *const keys[] = {"study", "accuracy"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        const ff_node *node = ff_node_get(root, keys[i]);
+        if (node && !(node->kind == FF_SCALAR && !*node->text))
+            ff_error(call->run->report, FF_FAULT_INPUT, node->place, "flankfilm run FILE does both",
+                     "%s: the library runs one case, whose models are known", keys[i]);
+    }
+}
+
+static void refuse_choices(run_call *call)
+{
+    const ff_pipeline *pipeline = call->run->pipeline;
+    for (size_t i = 0; pipeline && i < pipeline->count; i++)
+        if (pipeline->stages[i].needed && pipeline->stages[i].choice)
+            ff_error(call->run->report, FF_FAULT_INPUT, pipeline->stages[i].use_place,
+                     "flankfilm run FILE chooses a model",
+                     "%s: the library does not choose a model, and %s leaves it open",
+                     pipeline->stages[i].name, pipeline->stages[i].choice->use);
+}
+
+static void open(run_call *call)
+{
+    ff_run *run = call->run;
+    run->tree = ff_tree_load(call->text, run->report);
+    if (!ff_tree_root(run->tree))
+        return;
+    for (const char *const *set = call->sets; set && *set; set++)
+        ff_tree_set(run->tree, *set, "pipeline", ff_file_keys(), run->report);
+    refuse_many(call, ff_tree_root(run->tree));
+    if (ff_report_errors(run->report) > 0)
+        return;
+    run->pipeline = ff_pipeline_build(run->tree, run->engine->library, false, run->report);
+    refuse_choices(call);
+}
+
+static void make(void *ctx)
+{
+    run_call *call = ctx;
+    call->run = fe_alloc(sizeof *call->run);
+}
+
+ff_status ff_run_open(ff_engine *engine, const char *file, const char *const *sets, ff_run **run)
+{
+    run_call call = {.text = file, .sets = sets, .work = open};
+    *run = NULL;
+    if (fe_engine_call(engine, &engine->heap, make, &call) != FF_OK)
+        return FF_NOMEM;
+    call.run->engine = engine;
+    ff_status status = handle(&call);
+    if (status == FF_OK)
+        *run = call.run;
+    else
+        ff_run_close(call.run);
+    return status;
+}
+
+void ff_run_close(ff_run *run)
+{
+    if (!run)
+        return;
+    fe_heap_close(&run->heap);
+    fe_free(run);
+}
+
+static void start(run_call *call)
+{
+    ff_pipeline_run(call->run->pipeline, call->observer, call->run->report);
+}
+
+ff_status ff_run_start(ff_run *run, const ff_observer *observer)
+{
+    run_call call = {.run = run, .observer = observer, .work = start};
+    ff_status status = handle(&call);
+    for (size_t i = 0; !run->broken && i < run->pipeline->count; i++)
+        if (run->pipeline->stages[i].status == FF_STOPPED && status != FF_OK)
+            return FF_STOPPED;
+    return status;
+}
+
+static void find(run_call *call)
+{
+    ff_run *run = call->run;
+    const char *name;
+    const ff_stage *stage = ff_stage_of(run->pipeline, call->text, &name);
+    int output = stage && stage->loaded ? ff_model_find_output(stage->loaded->model, name) : -1;
+    if (stage && (output >= 0 || !stage->loaded))
+        call->result = output < 0 ? NULL : &stage->results[output];
+    else
+        ff_error(run->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "there is no result \"%.80s\"",
+                 call->text);
+    if (ff_report_errors(run->report) == 0 && (!call->result || !call->result->data))
+        ff_error(run->report, FF_FAULT_INPUT, FF_NOWHERE,
+                 "the list `outputs` of the file asks for it", "%.80s was not computed",
+                 call->text);
+}
+
+ff_status ff_run_result(ff_run *run, const char *path, const ff_result **result)
+{
+    run_call call = {.run = run, .text = path, .work = find};
+    ff_status status = handle(&call);
+    *result = status == FF_OK ? call.result : NULL;
+    return status;
+}
+
+ff_status ff_run_quality(const ff_run *run, size_t index, const ff_quality **line)
+{
+    *line = NULL;
+    for (size_t i = 0; !run->broken && i < run->pipeline->count; i++) {
+        const ff_stage *stage = &run->pipeline->stages[run->pipeline->order[i]];
+        if (index < stage->quality_count) {
+            *line = &stage->quality[index];
+            return FF_OK;
+        }
+        index -= stage->quality_count;
+    }
+    return FF_INVALID;
+}
+
+ff_status ff_run_verdict(const ff_run *run, int32_t *verdict)
+{
+    const ff_quality *line;
+    *verdict = FF_GOOD;
+    for (size_t i = 0; ff_run_quality(run, i, &line) == FF_OK; i++)
+        *verdict = line->verdict > *verdict ? line->verdict : *verdict;
+    return run->broken ? FF_NOMEM : FF_OK;
+}
+
+const char *ff_stage_name(const ff_stage *stage)
+{
+    return stage->name;
+}

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Nodes of a file in YAML's flow style. */
+#ifndef STUDY_YAML_H
+#define STUDY_YAML_H
+
+#include <flankfilm/engine.h>
+
+#include <stdio.h>
+
+/* Writes the node on one line that reads as the same node; the second writes a key or a text. */
+void study_yaml_print(const ff_node *node, FILE *out);
+void study_yaml_print_text(const char *text, bool quoted, FILE *out);
+
+#endif
