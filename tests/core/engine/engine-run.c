@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A run as a program sees it through the library: results, quality, messages, what it refuses. */
+#include <flankfilm/engine.h>
+
+#include <host.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static ff_engine *engine;
+static char file[] = "/tmp/flankfilm-run-XXXXXX";
+
+static ff_engine *open_engine(void)
+{
+    const char *toys = getenv("FLANKFILM_TEST_BAD");
+    ff_engine_options options = {
+        .size = sizeof options, .plugin_paths = &toys, .plugin_path_count = 1};
+    ff_engine *made;
+    check_true("an engine", toys && ff_engine_new(&options, &made) == FF_OK);
+    return made;
+}
+
+static ff_run *open_run(ff_engine *of, const char *text, const char *const *sets, ff_status *status)
+{
+    ff_run *run;
+    FILE *out = fopen(file, "w");
+    fprintf(out, "format: 1\n%s", text);
+    fclose(out);
+    *status = ff_run_open(of, file, sets, &run);
+    return run;
+}
+
+static int says(const char *words)
+{
+    return strstr(ff_engine_message(engine), words) != NULL;
+}
+
+static const char two_stages[] = "pipeline:\n"
+                                 "  one: {use: toy/source, level: 2 mm, count: 5}\n"
+                                 "  sum: {use: toy/consumer, source: one}\n"
+                                 "outputs: [sum.sum, one.field]\n";
+
+static double scalar(ff_run *run, const char *path)
+{
+    const ff_result *result;
+    return ff_run_result(run, path, &result) == FF_OK ? result->data[0] : -1;
+}
+
+static void results(void)
+{
+    static const char *const sets[] = {"one.level=4 mm", NULL};
+    ff_status status;
+    const ff_result *result;
+    const ff_quality *line;
+    int32_t verdict = -1;
+    ff_run *run = open_run(engine, two_stages, sets, &status);
+    check_true("a file is read", status == FF_OK && run && says("") && !*ff_engine_message(engine));
+    check_true("nothing is there before the run",
+               ff_run_result(run, "sum.sum", &result) == FF_INVALID && !result &&
+                   says("sum.sum was not computed"));
+    check_true("a run", ff_run_start(run, NULL) == FF_OK);
+    check_near("a result, as set", scalar(run, "sum.sum"), 0.02, 1e-15);
+    check_true("a field", ff_run_result(run, "one.field", &result) == FF_OK && result->rank == 2 &&
+                              !strcmp(result->dims[0], "t") && !strcmp(result->dims[1], "x") &&
+                              result->count == result->shape[0] * result->shape[1] &&
+                              !strcmp(result->row->name, "field"));
+    check_true("no such result", ff_run_result(run, "sum.nothing", &result) == FF_INVALID &&
+                                     says("there is no result \"sum.nothing\""));
+    check_true("no such stage", ff_run_result(run, "none.sum", &result) == FF_INVALID);
+    check_true("a verdict", ff_run_verdict(run, &verdict) == FF_OK && verdict == FF_GOOD);
+    check_true("a quality line", ff_run_quality(run, 0, &line) == FF_OK &&
+                                     !strcmp(line->stage, "one") && line->name[0]);
+    check_true("no more of them", ff_run_quality(run, 1, &line) == FF_INVALID && !line);
+    check_true("a second run", ff_run_start(run, NULL) == FF_OK && scalar(run, "sum.sum") > 0);
+    ff_run_close(run);
+}
+
+static void errors(void)
+{
+    ff_status status;
+    ff_run *run = open_run(engine, "pipeline:\n  one: {use: toy/source, level: 2 s, cuont: 5}\n",
+                           NULL, &status);
+    check_true("a wrong file", status == FF_INVALID && !run);
+    check_true("all errors at once, with places",
+               says(":3:") && says("error:") && says("cuont") && says("2 s"));
+    check_true("a file that is not there",
+               ff_run_open(engine, "/nowhere/x.yaml", NULL, &run) == FF_INVALID && !run &&
+                   says("/nowhere/x.yaml"));
+    run = open_run(engine, "pipeline: {one: {use: toy/source, level: 2 mm, answer: noconv}}\n",
+                   NULL, &status);
+    check_true("a run that fails", ff_run_start(run, NULL) == FF_NOCONV && says("noconv"));
+    ff_run_close(run);
+    run = open_run(engine, "pipeline: {one: {use: toy/source, level: 2 mm, answer: bug}}\n", NULL,
+                   &status);
+    check_true("a plugin at fault", ff_run_start(run, NULL) == FF_BUG && says("the plugin "));
+    ff_run_close(run);
+    ff_run_close(NULL);
+}
+
+static void refused(void)
+{
+    ff_status status;
+    ff_run *run = open_run(engine,
+                           "study: {sweep: {one.level: [1 mm, 2 mm]}}\npipeline: {one: {use: "
+                           "toy/source, level: 2 mm}}\n",
+                           NULL, &status);
+    check_true("a study is refused", status == FF_INVALID && !run && says("study: the library"));
+    run = open_run(engine, "accuracy: 2 %\npipeline: {one: {use: toy/source, level: 2 mm}}\n", NULL,
+                   &status);
+    check_true("an accuracy is refused", status == FF_INVALID && !run && says("accuracy: "));
+    run = open_run(engine, "pipeline: {one: {use: toy/auto, level: 2 mm}}\n", NULL, &status);
+    check_true("an open model is refused", status == FF_INVALID && !run && says("toy/auto"));
+}
+
+static int32_t stop(void *ctx, const ff_stage *of, double fraction)
+{
+    (void)ctx;
+    return !strcmp(ff_stage_name(of), "one") && fraction == 0.5;
+}
+
+static void count_lines(void *ctx, const ff_stage *of, int32_t level, const char *text)
+{
+    (void)of;
+    *(int *)ctx += level == FF_LOG_INFO && !strcmp(text, "working");
+}
+
+static void observed(void)
+{
+    int lines = 0;
+    ff_status status;
+    ff_observer observer = {
+        .size = sizeof observer, .ctx = &lines, .progress = stop, .log = count_lines};
+    ff_run *run =
+        open_run(engine, "pipeline: {one: {use: toy/source, level: 2 mm, answer: progress}}\n",
+                 NULL, &status);
+    check_true("a run that is stopped", ff_run_start(run, &observer) == FF_STOPPED);
+    check_true("log lines arrive", lines == 1);
+    ff_run_close(run);
+}
+
+static void two_engines(void)
+{
+    ff_status one, two;
+    ff_engine *other = open_engine();
+    ff_run *a = open_run(engine, two_stages, NULL, &one);
+    ff_run *b = open_run(other, two_stages, NULL, &two);
+    check_true("two engines in one process", ff_run_start(a, NULL) == FF_OK &&
+                                                 ff_run_start(b, NULL) == FF_OK &&
+                                                 scalar(a, "sum.sum") == scalar(b, "sum.sum"));
+    ff_run_close(b);
+    ff_engine_close(other);
+    check_near("one outlives the other", scalar(a, "sum.sum"), 0.01, 1e-15);
+    ff_run_close(a);
+    ff_engine_close(NULL);
+}
+
+int main(void)
+{
+    int made = mkstemp(file);
+    if (made < 0)
+        return 2;
+    close(made);
+    engine = open_engine();
+    results();
+    errors();
+    refused();
+    observed();
+    two_engines();
+    ff_engine_close(engine);
+    unlink(file);
+    return check_done();
+}
