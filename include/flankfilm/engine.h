@@ -642,18 +642,24 @@ ff_status ff_tables_fail(ff_tables *tables, const ff_table *table, size_t row, s
 void ff_tables_print(const ff_tables *tables, char *out, size_t size);
 void ff_tables_free(ff_tables *tables); /* all of it; may be used again */
 
-/* Which plugin's code is running, for handlers of crashes: the path of the shared object, or NULL
-   when no plugin runs; stage or NULL; "evaluate" and the like. Each thread knows its own: a thread
-   that a plugin started knows nothing, and the one that waits for it has the answer. */
+/* Which plugin's code is running, for handlers of crashes. Each thread knows its own: a thread that
+   a plugin started knows nothing, and the one that waits for it has the answer. */
 typedef struct ff_guard_mark {
-    const char *path, *stage, *action;
+    const char *path;                      /* of the shared object; NULL: no plugin runs */
+    const char *stage;                     /* or NULL */
+    const char *action;                    /* "evaluate" and the like */
+    const void *code;                      /* an address in the object; NULL: not known */
+    const struct ff_guard_mark **services; /* that it may call; NULL-ended, or NULL */
 } ff_guard_mark;
 
 /* Which code runs from here on. Calls may nest: what ff_guard_enter returns is given to
    ff_guard_leave. */
-ff_guard_mark ff_guard_enter(const char *path, const char *stage, const char *action);
+ff_guard_mark ff_guard_enter(ff_guard_mark mark);
 void ff_guard_leave(ff_guard_mark previous);
 ff_guard_mark ff_guard_current(void); /* may be called in a handler of signals */
+/* Writes '<before>oil: the plugin oil.so, rho: the plugin rho.so' of all services that the running
+   code may call; "" without any. May be called in a handler of signals. */
+void ff_guard_print_services(const ff_guard_mark *mark, const char *before, char *out, size_t size);
 
 /* What a plugin must leave as it was: floating-point arithmetic and the locale. */
 typedef struct ff_arithmetic {

@@ -17,6 +17,7 @@ typedef struct fe_instance {
     bool broken;    /* the report says why it cannot run */
     bool candidate; /* `stage` is that of a candidate */
     ff_stage *stage;
+    ff_guard_mark mark; /* its own code, and the services that it is wired to */
 
     enum { FE_NEW, FE_ENTERED, FE_SORTED } sorting;
     const ff_stage *entering; /* the feeding stage that is being sorted */
@@ -88,9 +89,13 @@ typedef struct fe_call {
     const ff_stage *stage;
     const char *action;
     ff_environment environment;
-    ff_guard_mark mark;
+    ff_guard_mark previous;
 } fe_call;
 
+/* The NULL that ends its services, to be replaced by one more where there is room. */
+const ff_guard_mark **fe_end_of_services(const ff_guard_mark *mark);
+/* Says in ff_guard_current that its code runs, and returns what ran before. */
+ff_guard_mark fe_enter_model(const ff_stage *stage, const char *action);
 fe_call fe_call_begin(const ff_stage *stage, const char *action);
 /* Restores the environment that a model must not change, and reports the status of the call and the
    faults of the model. True when the call was good. */

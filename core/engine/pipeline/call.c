@@ -6,6 +6,25 @@
 
 #include <stdio.h>
 
+const ff_guard_mark **fe_end_of_services(const ff_guard_mark *mark)
+{
+    const ff_guard_mark **end = mark->services;
+    while (*end)
+        end++;
+    return end;
+}
+
+ff_guard_mark fe_enter_model(const ff_stage *stage, const char *action)
+{
+    ff_guard_mark *mark = &stage->instance->mark;
+    *mark = (ff_guard_mark){.path = stage->loaded->path,
+                            .stage = stage->name,
+                            .action = action,
+                            .code = (const void *)(uintptr_t)stage->loaded->model->create,
+                            .services = mark->services};
+    return ff_guard_enter(*mark);
+}
+
 fe_call fe_call_begin(const ff_stage *stage, const char *action)
 {
     fe_instance *instance = stage->instance;
@@ -14,7 +33,7 @@ fe_call fe_call_begin(const ff_stage *stage, const char *action)
     fe_tables_forget(&instance->tables);
     fe_serial_enter(stage->loaded->model);
     ff_environment_keep(&call.environment);
-    call.mark = ff_guard_enter(stage->loaded->path, stage->name, action);
+    call.previous = fe_enter_model(stage, action);
     return call;
 }
 
@@ -110,16 +129,27 @@ static bool judge(const fe_call *call, ff_status status, ff_report *report)
     return true;
 }
 
+/* Services are called past the core: that one of them made the change cannot be told from it. */
+static void warn_of_change(const fe_call *call, const char *changed, ff_report *report)
+{
+    const ff_stage *stage = call->stage;
+    char services[700];
+    ff_guard_print_services(&stage->instance->mark, ", or one that serves it (", services,
+                            sizeof services);
+    ff_warn(report, stage->use_place, "%s: the plugin %s%s%s %s during %s; this was set back",
+            stage->name, stage->loaded->path, services, services[0] ? ")," : "", changed,
+            call->action);
+}
+
 bool fe_call_end(const fe_call *call, ff_status status, ff_report *report)
 {
     const ff_stage *stage = call->stage;
-    ff_guard_leave(call->mark);
+    ff_guard_leave(call->previous);
     const char *changed = ff_environment_restore(&call->environment);
     fe_serial_leave(stage->loaded->model);
     if (stage->instance->no_memory)
         fe_out_of_memory();
     if (changed)
-        ff_warn(report, stage->use_place, "%s: the plugin %s %s during %s; this was set back",
-                stage->name, stage->loaded->path, changed, call->action);
+        warn_of_change(call, changed, report);
     return judge(call, status, report);
 }

@@ -39,7 +39,7 @@ static void host_log(void *ctx, int32_t level, const char *text)
     fe_instance *instance = ctx;
     char clean[512];
     ff_clean_text(clean, sizeof clean, text ? text : "");
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
     if (instance->watch && instance->watch->log)
         instance->watch->log(instance->watch->ctx, instance->stage, level, clean);
     ff_guard_leave(mark);
@@ -50,7 +50,7 @@ static int32_t host_progress(void *ctx, double fraction)
     fe_instance *instance = ctx;
     int stop = 0;
     double share = fraction > 0 ? fmin(fraction, 1) : 0; /* NaN: 0 */
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
     if (instance->watch && instance->watch->progress)
         stop = instance->watch->progress(instance->watch->ctx, instance->stage, share);
     ff_guard_leave(mark);
@@ -61,7 +61,7 @@ static int32_t host_progress(void *ctx, double fraction)
    thread of its own: without memory, the call into the plugin is left when it returns. */
 static ff_status protect(fe_instance *instance, void (*function)(void *ctx), void *ctx)
 {
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
     ff_status status = fe_protected(instance->heap, function, ctx);
     ff_guard_leave(mark);
     instance->no_memory = instance->no_memory || status == FF_NOMEM;

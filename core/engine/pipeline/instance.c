@@ -14,9 +14,9 @@ static void destroy(void *of)
     const ff_model *model = stage->loaded->model;
     if (instance->created && model->destroy) {
         fe_serial_enter(model);
-        ff_guard_mark mark = ff_guard_enter(stage->loaded->path, stage->name, "destroy");
+        ff_guard_mark previous = fe_enter_model(stage, "destroy");
         model->destroy(instance->self);
-        ff_guard_leave(mark);
+        ff_guard_leave(previous);
         fe_serial_leave(model);
     }
     instance->created = instance->alive = false;
@@ -99,7 +99,12 @@ static bool wire(fe_build *b, ff_stage *stage)
 {
     const ff_pipeline *pipeline = b->pipeline;
     const ff_model *model = stage->loaded->model;
+    ff_guard_mark *mark = &stage->instance->mark;
     bool good = true;
+    if (model->input_count == 0)
+        return true;
+    mark->services = fe_arena_alloc(&b->pipeline->memory->arena,
+                                    (model->input_count + 2) * sizeof *mark->services);
     for (size_t i = 0; i < model->input_count && good; i++) {
         const ff_port *row = ff_model_input(model, i);
         const ff_wire *wire = fe_input_wire(stage, i);
@@ -110,6 +115,8 @@ static bool wire(fe_build *b, ff_stage *stage)
             continue;
         if (row->service && !(service = service_of(from, row, b->report)))
             return false;
+        if (service)
+            *fe_end_of_services(mark) = &from->instance->mark;
         if (!model->wire)
             continue;
         fe_call call = fe_call_begin(stage, "wire");
@@ -141,6 +148,7 @@ void fe_close_instance(ff_stage *stage)
     fe_resource_remove(&instance->open);
     destroy(instance);
     ff_tables_free(&instance->tables);
+    instance->mark.services = NULL;
 }
 
 bool fe_reopen(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)

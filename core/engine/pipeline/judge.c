@@ -168,10 +168,13 @@ static void judge_one(ff_pipeline *pipeline, ff_candidate *c, ff_stage *judge, i
     const ff_model *model = judge->loaded->model;
     ff_report *captured = ff_report_new();
     ff_assessment a = {.size = sizeof a};
+    const ff_guard_mark **lent = fe_end_of_services(&judge->instance->mark);
+    *lent = &c->stage->instance->mark;
     fe_call call = fe_call_begin(judge, "judge");
     ff_status status =
         model->judge(judge->instance->self, fe_wanted_of(judge), (uint32_t)input,
                      table_of(c->stage, ff_model_input(model, (size_t)input)), in, &a);
+    *lent = NULL;
     if (!fe_call_end(&call, status, captured) || !note_verdict(pipeline, c, judge, &a, captured))
         dismiss(pipeline, c,
                 ff_report_first(captured) ? ff_report_first(captured)->text : "the judge gave up");

@@ -125,7 +125,8 @@ static ff_loaded *load_model(ff_library *library, const char *id, const char *pa
     loading l = {.library = library, .id = id, .loaded = loaded};
     loaded->path = fe_arena_text(&library->memory, path, strlen(path));
     ff_environment_keep(&environment);
-    ff_guard_mark previous = ff_guard_enter(loaded->path, NULL, "load");
+    ff_guard_mark previous =
+        ff_guard_enter((ff_guard_mark){.path = loaded->path, .action = "load"});
     ff_status status = fe_protected(library->heap, load, &l);
     ff_guard_leave(previous);
     const char *changed = ff_environment_restore(&environment);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* flankfilm: how the vibration of a spur gear pair changes the oil film between its teeth. */
 #include "command.h"
-#include "crash.h"
 
+#include "../crash/crash.h"
 #include "../memory/memory.h"
 
 #include <ctype.h>
@@ -130,7 +130,7 @@ static int execute(cli_options *options, int argc, char **argv)
     } else if (cli_option(options, "help")) {
         print_help(options->command);
     } else {
-        cli_crash_install(options->json);
+        crash_install(options->json);
         code = options->command->run(options);
     }
     cli_options_free(options);
@@ -189,12 +189,19 @@ static void dispatch_it(void *ctx)
     line->code = dispatch(line->argc, line->argv);
 }
 
+/* What a sanitizer that counts memory has to say at the end. */
+__attribute__((weak)) void __lsan_do_leak_check(void);
+
 int main(int argc, char **argv)
 {
     command_line line = {argc, argv, FF_FAULT_RUN};
     hold_standard_streams();
     signal(SIGPIPE, SIG_IGN); /* a closed pipe shows as a write error */
+    signal(SIGXFSZ, SIG_IGN); /* so does a limit on the size of files */
     if (ff_protected(dispatch_it, &line) == FF_NOMEM)
         memory_require(NULL);
-    return close_output(line.code);
+    int code = close_output(line.code);
+    if (__lsan_do_leak_check)
+        __lsan_do_leak_check();
+    _exit(code); /* destructors of plugins do not run: all is written, and one could crash */
 }

@@ -136,7 +136,8 @@ bool fit_law_eval(fit *f, fit_law *law, const double *values, size_t n, const do
     if (!service)
         return false;
     ff_environment_keep(&environment);
-    ff_guard_mark mark = ff_guard_enter(path, law->id, "its fit");
+    ff_guard_mark mark =
+        ff_guard_enter((ff_guard_mark){.path = path, .stage = law->id, .action = "its fit"});
     ff_status status = service->eval(service->self, n, p, T, ln_eta, NULL, NULL);
     ff_guard_leave(mark);
     const char *changed = ff_environment_restore(&environment);

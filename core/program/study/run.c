@@ -45,7 +45,7 @@ static size_t end_of_chains(const study_run *run)
 static int32_t begin_leading(void *ctx)
 {
     execution *r = ctx;
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
     const study_run *run = r->run;
     size_t total = run->study->count, first = run->shard - 1;
     size_t chains = end_of_chains(run) - run->begin;
@@ -110,7 +110,7 @@ static void note_answer(void *ctx, const void *answer, size_t size)
     char key[STUDY_KEY_SIZE], verdict;
     size_t index;
     int length = 0;
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
     bool whole = r->keys && size > 0 && text[size - 1] == '\0' &&
                  sscanf(text, "%zu %19s %c%n", &index, key, &verdict, &length) == 3 &&
                  index < r->run->study->count && text[length] == ' ';
@@ -144,7 +144,7 @@ static int32_t wait_for_answer(void *ctx, int32_t milliseconds, size_t *task, co
                                size_t *size)
 {
     execution *r = ctx;
-    ff_guard_mark mark = ff_guard_enter(NULL, NULL, NULL);
+    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
     bool forked = r->run->executor != NULL;
     r->pool.ending = r->ending || interrupts;
     int state = forked ? study_fork_server_wait(&r->fork_server, milliseconds, task)

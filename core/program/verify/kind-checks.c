@@ -31,7 +31,8 @@ static const void *find_offer(verify_kind_checks *checks)
         .size = sizeof host, .abi_minor = FF_ABI_MINOR, .ctx = NULL, .fail = host_fail};
     const ff_model *model = checks->loaded->model;
     const void *offer = NULL;
-    ff_guard_mark mark = ff_guard_enter(checks->loaded->path, NULL, "create and service");
+    ff_guard_mark mark = ff_guard_enter(
+        (ff_guard_mark){.path = checks->loaded->path, .action = "create and service"});
     checks->created = model->param_count + model->input_count == 0 &&
                       model->create(&host, &checks->self) == FF_OK;
     for (size_t i = 0; i < model->output_count && checks->created && !offer; i++) {

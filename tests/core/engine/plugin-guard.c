@@ -2,7 +2,7 @@
 /* Faults inside plugins end the program with exit code 3 and one sentence. */
 #include <flankfilm/engine.h>
 
-#include "../../../core/program/cli/crash.h"
+#include "../../../core/program/crash/crash.h"
 #include "pipeline-try.h"
 
 #include <signal.h>
@@ -14,7 +14,7 @@
 static int work(const char *fault, bool json)
 {
     char text[256];
-    cli_crash_install(json);
+    crash_install(json);
     snprintf(text, sizeof text,
              "pipeline:\n"
              "  film: {use: faulty/%s}\n"
@@ -115,8 +115,8 @@ static void breaches(void)
 static int crash_alone(const char *argument)
 {
     (void)argument;
-    cli_crash_install(false);
-    ff_guard_mark mark = ff_guard_enter("x.so", NULL, "evaluate");
+    crash_install(false);
+    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = "x.so", .action = "evaluate"});
     ff_guard_leave(mark);
     raise(SIGABRT);
     return 0;
@@ -127,7 +127,7 @@ static int fault_alone(const char *argument)
     static int *volatile nowhere = NULL;
     (void)argument;
     signal(SIGSEGV, SIG_DFL); /* a sanitizer's handler would stand there */
-    cli_crash_install(false);
+    crash_install(false);
     *nowhere = 1;
     return 0;
 }
@@ -135,7 +135,7 @@ static int fault_alone(const char *argument)
 static int exit_alone(const char *argument)
 {
     (void)argument;
-    cli_crash_install(true);
+    crash_install(true);
     exit(5);
 }
 

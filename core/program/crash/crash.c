@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "crash.h"
 
+#include "blame.h"
+#include "exits.h"
+
 #include <flankfilm/engine.h>
 
 #include <poll.h>
@@ -8,13 +11,16 @@
 #include <signal.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
+#include <ucontext.h>
 #include <unistd.h>
 
 static bool owes_json;
 static pthread_t main_thread; /* calls the plugins */
-/* What happened in another thread; detail is written before verb, which is NULL otherwise. */
+/* What happened in another thread; the rest is written before verb, which is NULL otherwise. */
 static _Atomic(const char *) foreign_verb;
 static const char *foreign_detail;
+static crash_stack foreign_stack;
 static const char crashed[] = " crashed during ", ended[] = " ended the program during ";
 static atomic_flag dying = ATOMIC_FLAG_INIT;
 
@@ -28,12 +34,11 @@ static struct sigaction before[FAULTS];
 /* Bound at program start: when the dynamic linker itself faults over a damaged file, a first call
    that goes through it would fault again. */
 static ssize_t (*volatile const write_bound)(int, const void *, size_t) = write;
-static void (*volatile const exit_bound)(int) = _exit;
 static ff_guard_mark (*volatile const guard_bound)(void) = ff_guard_current;
 
 /* The sentence, made by functions that a signal handler may call. */
 typedef struct line {
-    char text[1024];
+    char text[2048];
     size_t length;
 } line;
 
@@ -72,20 +77,33 @@ static void put_json(const line *sentence)
     put(STDOUT_FILENO, tail, sizeof tail - 1);
 }
 
-static _Noreturn void die(ff_guard_mark who, const char *what, const char *detail)
+/* "oil: the plugin oil.so crashed during evaluate of film: abort". `who` NULL: it may be any that
+   takes part. */
+static _Noreturn void die(const ff_guard_mark *running, const ff_guard_mark *who, const char *verb,
+                          const char *detail)
 {
     if (atomic_flag_test_and_set(&dying))
         for (;;)
             pause(); /* another thread reports the fault */
     line sentence = {.length = 0};
-    if (who.stage) {
-        add(&sentence, who.stage);
+    char services[700] = "";
+    if (!who)
+        ff_guard_print_services(running, ", or one that serves it (", services, sizeof services);
+    who = who ? who : running;
+    if (who->stage) {
+        add(&sentence, who->stage);
         add(&sentence, ": ");
     }
     add(&sentence, "the plugin ");
-    add(&sentence, who.path);
-    add(&sentence, what);
-    add(&sentence, who.action ? who.action : "its work");
+    add(&sentence, who->path);
+    add(&sentence, services);
+    add(&sentence, services[0] ? ")," : "");
+    add(&sentence, verb);
+    add(&sentence, running->action ? running->action : "its work");
+    if (who != running && running->stage) {
+        add(&sentence, " of ");
+        add(&sentence, running->stage);
+    }
     add(&sentence, ": ");
     add(&sentence, detail);
     put(STDERR_FILENO, "error: ", 7);
@@ -93,17 +111,17 @@ static _Noreturn void die(ff_guard_mark who, const char *what, const char *detai
     put(STDERR_FILENO, "\n", 1);
     if (owes_json)
         put_json(&sentence);
-    for (;;)
-        exit_bound(FF_FAULT_PLUGIN);
+    crash_leave(FF_FAULT_PLUGIN);
 }
 
 /* What happened in a thread of which it is not known that a plugin runs there: the plugin may have
    started it. The main thread waits for it then, and is asked. Returns when no plugin runs. */
-static void ask_main_thread(const char *verb, const char *detail)
+static void ask_main_thread(const crash_stack *stack, const char *verb, const char *detail)
 {
     enum { TRIES = 100, MILLISECONDS = 10 };
     if (pthread_equal(pthread_self(), main_thread))
         return;
+    foreign_stack = *stack;
     foreign_detail = detail;
     atomic_store(&foreign_verb, verb);
     pthread_kill(main_thread, SIGABRT);
@@ -111,22 +129,54 @@ static void ask_main_thread(const char *verb, const char *detail)
         poll(NULL, 0, MILLISECONDS);
 }
 
+/* Answers another thread; false when none has asked. */
+static bool answer_thread(const ff_guard_mark *running)
+{
+    const char *verb = atomic_load(&foreign_verb);
+    if (!verb || !pthread_equal(pthread_self(), main_thread))
+        return false;
+    if (running->path)
+        die(running, crash_stack_blame(&foreign_stack, running), verb, foreign_detail);
+    atomic_store(&foreign_verb, NULL);
+    return true;
+}
+
+/* The address of the instruction; after a call of nothing, that of the caller. */
+static const void *place_of(const void *context)
+{
+#ifdef __x86_64__
+    const greg_t *registers = ((const ucontext_t *)context)->uc_mcontext.gregs;
+    return registers[REG_RIP] > 4095 ? (const void *)registers[REG_RIP]
+                                     : *(const void *const *)registers[REG_RSP];
+#else
+    (void)context;
+    return NULL;
+#endif
+}
+
+/* Who switched a trap on may have returned long before it strikes. */
+static bool is_trap(int number, const siginfo_t *info)
+{
+    return number == SIGFPE && info->si_code >= FPE_FLTDIV && info->si_code <= FPE_FLTSUB;
+}
+
 static void on_fault(int number, siginfo_t *info, void *context)
 {
-    (void)context;
     int which = 0;
+    crash_stack stack;
     while (which < FAULTS - 1 && fault_signals[which] != number)
         which++;
-    ff_guard_mark who = guard_bound();
-    const char *verb = atomic_load(&foreign_verb);
-    bool asked = verb && pthread_equal(pthread_self(), main_thread);
-    if (who.path)
-        die(who, asked ? verb : crashed, asked ? foreign_detail : fault_names[which]);
-    if (asked) {
-        atomic_store(&foreign_verb, NULL);
+    ff_guard_mark running = guard_bound();
+    if (answer_thread(&running))
         return;
-    }
-    ask_main_thread(crashed, fault_names[which]);
+    if (running.path && is_trap(number, info))
+        die(&running, NULL, crashed, "a floating-point trap that it switched on");
+    if (running.path && !running.code)
+        die(&running, &running, crashed, fault_names[which]);
+    crash_stack_read(&stack, place_of(context));
+    if (running.path)
+        die(&running, crash_stack_blame(&stack, &running), crashed, fault_names[which]);
+    ask_main_thread(&stack, crashed, fault_names[which]);
     /* Not a plugin's: what stood before has it. A faulting instruction faults again on return;
        a signal that was sent is sent again. */
     sigaction(number, &before[which], NULL);
@@ -136,13 +186,38 @@ static void on_fault(int number, siginfo_t *info, void *context)
 
 static void on_exit_call(void)
 {
-    ff_guard_mark who = guard_bound();
-    if (who.path)
-        die(who, ended, "it called exit()");
-    ask_main_thread(ended, "it called exit()");
+    static const char detail[] = "it called exit()";
+    crash_stack stack;
+    ff_guard_mark running = ff_guard_current();
+    crash_stack_read(&stack, NULL);
+    if (running.path)
+        die(&running, crash_stack_blame(&stack, &running), ended, detail);
+    ask_main_thread(&stack, ended, detail);
 }
 
-void cli_crash_install(bool json)
+/* The libraries of a plugin may know what they do: an MPI starts helpers of its own. */
+static void on_end(const char *function, const void *caller)
+{
+    char detail[64] = "it called ";
+    ff_guard_mark running = ff_guard_current();
+    const ff_guard_mark *who = running.path ? crash_address_blame(caller, &running) : NULL;
+    if (who)
+        die(&running, who, ended, strcat(detail, function));
+}
+
+static void on_fork(void)
+{
+    crash_stack stack;
+    ff_guard_mark running = ff_guard_current();
+    if (!running.path)
+        return;
+    crash_stack_read(&stack, NULL);
+    const ff_guard_mark *who = crash_stack_blame_caller(&stack, &running);
+    if (who)
+        die(&running, who, " broke the rules during ", "it called fork()");
+}
+
+void crash_install(bool json)
 {
     static char stack[65536]; /* a stack overflow leaves none of the thread's own */
     stack_t alternative = {.ss_sp = stack, .ss_size = sizeof stack};
@@ -153,6 +228,8 @@ void cli_crash_install(bool json)
     sigemptyset(&action.sa_mask);
     for (int i = 0; i < FAULTS; i++)
         sigaction(fault_signals[i], &action, &before[i]);
+    crash_exits_watch(on_end);
+    pthread_atfork(on_fork, NULL, NULL);
     atexit(on_exit_call);
     at_quick_exit(on_exit_call);
 }

@@ -4,13 +4,13 @@
  * exit() while a plugin's code runs ends the program with FF_FAULT_PLUGIN and one sentence that
  * names the plugin, the stage and what it was doing.
  */
-#ifndef CLI_CRASH_H
-#define CLI_CRASH_H
+#ifndef CRASH_CRASH_H
+#define CRASH_CRASH_H
 
 #include <stdbool.h>
 
 /* Installs the handlers; once, at program start. json: also print the failure as the one JSON
    object that a --json run owes its caller. */
-void cli_crash_install(bool json);
+void crash_install(bool json);
 
 #endif

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Whose code stands on a stack, found by functions that a handler of signals may call. */
+#ifndef CRASH_BLAME_H
+#define CRASH_BLAME_H
+
+#include <flankfilm/engine.h>
+
+enum { CRASH_DEEPEST_STACK = 64 };
+
+/* The innermost addresses of code on the stack of a thread. */
+typedef struct crash_stack {
+    const void *at[CRASH_DEEPEST_STACK];
+    size_t count;
+} crash_stack;
+
+/* The stack of this thread. `fault` is where its fault is, which comes first; NULL: it has none. */
+void crash_stack_read(crash_stack *stack, const void *fault);
+
+/* The innermost plugin on the stack: the one that `running` says, or one that serves it. NULL:
+   there is none. */
+const ff_guard_mark *crash_stack_blame(const crash_stack *stack, const ff_guard_mark *running);
+
+/* The same where a library called this program: only the code that called the library counts. */
+const ff_guard_mark *crash_stack_blame_caller(const crash_stack *stack,
+                                              const ff_guard_mark *running);
+
+/* The same of one address. */
+const ff_guard_mark *crash_address_blame(const void *address, const ff_guard_mark *running);
+
+#endif

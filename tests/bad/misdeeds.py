@@ -1,0 +1,124 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whatever a plugin does, the program ends with a sentence that names it, and never as if all was well.
+
+   misdeeds.py FLANKFILM BAD_PLUGINS
+"""
+import json
+import os
+import subprocess
+import sys
+import tempfile
+
+flankfilm, plugins = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
+FILES = {"law": plugins + "/viscosity/misdeed.so", "stage": plugins + "/misdeed/stage.so"}
+STAGES = {"law": "oil", "stage": "point"}
+PLACES = {
+    "law": ["constructor", "entry", "create", "set", "ready", "service", "eval", "destroy"],
+    "stage": ["constructor", "entry", "create", "set", "wire", "ready", "evaluate", "destroy"],
+}
+# what is done: what the sentence says of it
+ENDS = {
+    "crash": "crashed during {}: segmentation fault",
+    "null-call": "crashed during {}: segmentation fault",
+    "abort": "crashed during {}: abort",
+    "divide": "crashed during {}: arithmetic fault",
+    "overflow": "crashed during {}: segmentation fault",
+    "trap": "crashed during {}: a floating-point trap that it switched on",
+    "exit": "ended the program during {}: it called exit()",
+    "quick-exit": "ended the program during {}: it called exit()",
+    "_exit": "ended the program during {}: it called _exit()",
+    "_Exit": "ended the program during {}: it called _Exit()",
+    "exit-group": "ended the program during {}: it called syscall()",
+    "execl": "ended the program during {}: it called execl()",
+    "execvp": "ended the program during {}: it called execvp()",
+    "thread-exit": "ended the program during {}: it called exit()",
+    "fork": "broke the rules during {}: it called fork()",
+}
+# of these it cannot be told any more which of those that take part did them
+VAGUE = ["trap", "thread-exit"]
+
+CASE = """format: 1
+pipeline:
+  oil: {use: viscosity/misdeed}
+  point: {use: misdeed/stage}
+outputs: [point.ln_eta]
+"""
+STUDY = CASE + "study: {sweep: {oil.alpha: [10 1/GPa, 20 1/GPa]}}\n"
+
+failures = []
+tried = 0
+
+
+def run(misdeed, *args):
+    environment = dict(os.environ, FLANKFILM_MISDEED=misdeed, FLANKFILM_PLUGIN_PATH=plugins)
+    return subprocess.run([flankfilm, *args], env=environment, capture_output=True, text=True, timeout=60)
+
+
+def hold(what, good, said):
+    global tried
+    tried += 1
+    if not good:
+        failures.append(f"{what}: {said}")
+
+
+def sentence(role, place, what):
+    """The words that must stand in the message."""
+    phase = {"constructor": "load", "entry": "load", "eval": "evaluate of point"}.get(place, place)
+    who = "" if phase == "load" else STAGES[role] + ": "
+    words = ENDS[what].format(phase)
+    if what not in VAGUE:
+        return [f"{who}the plugin {FILES[role]} {words}"]
+    return [FILES[role], words.replace(" of point", "")]
+
+
+def ends_in_json(role, place, what):
+    misdeed = f"{role} {place} {what}"
+    done = run(misdeed, "run", "case.yaml", "--json")
+    said = sentence(role, place, what)
+    try:
+        answer = json.loads(done.stdout)  # one object
+        message = answer["errors"][0]["message"]
+        good = answer["exit"] == 3
+    except (ValueError, IndexError):
+        message, good = "", False
+    good = good and done.returncode == 3 and all(words in message for words in said)
+    hold(misdeed, good and done.stderr == f"error: {message}\n", f"{done.returncode}: {done.stdout} {done.stderr}")
+
+
+def ends_in_words(role, place, what):
+    misdeed = f"{role} {place} {what}"
+    done = run(misdeed, "run", "case.yaml", "-o", "words")
+    good = done.returncode == 3 and all(words in done.stderr for words in sentence(role, place, what))
+    hold(misdeed + " in words", good, f"{done.returncode}: {done.stderr}")
+
+
+def ends_in_a_study(role, place, what):
+    misdeed = f"{role} {place} {what}"
+    directory = misdeed.replace(" ", "-")
+    done = run(misdeed, "run", "study.yaml", "-j1", "-o", directory)
+    with open(directory + "/table.csv", encoding="utf-8") as stream:
+        table = stream.read()
+    good = done.returncode == 4 and "2 failed" in done.stdout
+    good = good and all(table.count(words) == 2 for words in sentence(role, place, what))
+    hold(misdeed + " in a study", good, f"{done.returncode}: {done.stdout} {done.stderr} {table}")
+
+
+os.chdir(tempfile.mkdtemp())
+for name, text in ("case.yaml", CASE), ("study.yaml", STUDY):
+    with open(name, "w", encoding="utf-8") as stream:
+        stream.write(text)
+hold("nothing", run("", "run", "case.yaml", "--json").returncode == 0, "it fails")
+for role, places in PLACES.items():
+    for place in places:
+        for what in ENDS:
+            ends_in_json(role, place, what)
+        ends_in_words(role, place, "_exit")
+for role, place in ("law", "eval"), ("stage", "evaluate"):
+    for what in ENDS:
+        ends_in_a_study(role, place, what)
+# destructors of an object do not run in the program: all is written by then
+hold("destructor", run("law destructor crash", "run", "case.yaml", "--json").returncode == 0, "it fails")
+
+print(*failures, sep="\n")
+print(f"{len(failures)} of {tried} misdeeds did not end as they must")
+sys.exit(1 if failures or tried < 100 else 0)

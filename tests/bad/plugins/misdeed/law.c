@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A viscosity law of ln eta = -5 + alpha p that may misbehave in any of its functions. */
+static const char role[] = "law";
+
+#include "misdeed.h"
+
+#include <flankfilm/author.h>
+#include <flankfilm/laws.h>
+
+typedef struct law {
+    ff_viscosity service;
+    double alpha;
+} law;
+
+static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
+                      double *dln_dp, double *dln_dT)
+{
+    const law *l = self;
+    (void)T;
+    misbehave("eval");
+    for (size_t i = 0; i < n; i++) {
+        ln_eta[i] = -5 + l->alpha * p[i];
+        if (dln_dp)
+            dln_dp[i] = l->alpha;
+        if (dln_dT)
+            dln_dT[i] = 0;
+    }
+    return FF_OK;
+}
+
+static const ff_param params[] = {{.name = "alpha",
+                                   .unit = "1/GPa",
+                                   .doc = "pressure coefficient",
+                                   .type = FF_REAL,
+                                   .preset = "15 1/GPa",
+                                   .max = 100,
+                                   .low = 2,
+                                   .high = 50}};
+static const ff_port outputs[] = {
+    {.name = "viscosity", .unit = "", .doc = "the law", .dims = "", .service = FF_VISCOSITY_ID}};
+
+static ff_status create(const ff_host *host, void **self)
+{
+    law *l = calloc(1, sizeof *l);
+    (void)host;
+    if (!l)
+        return FF_NOMEM;
+    l->service = (ff_viscosity){.size = sizeof l->service, .self = l, .eval = eval};
+    *self = l;
+    misbehave("create");
+    return FF_OK;
+}
+
+static ff_status set(void *self, uint32_t param, const ff_value *value)
+{
+    (void)param;
+    ((law *)self)->alpha = value->real;
+    misbehave("set");
+    return FF_OK;
+}
+
+static ff_status ready(void *self)
+{
+    (void)self;
+    misbehave("ready");
+    return FF_OK;
+}
+
+static const void *service(void *self, uint32_t output)
+{
+    (void)output;
+    misbehave("service");
+    return &((law *)self)->service;
+}
+
+static void destroy(void *self)
+{
+    misbehave("destroy");
+    free(self);
+}
+
+static const ff_model model = {
+    .size = sizeof model,
+    .abi_major = FF_ABI_MAJOR,
+    .id = "viscosity/misdeed",
+    .version = "1.0.0",
+    .summary = "A law that misbehaves",
+    .reference = "",
+    .bibtex = "",
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .outputs = FF_TABLE(outputs),
+    .create = create,
+    .set = set,
+    .ready = ready,
+    .service = service,
+    .destroy = destroy,
+};
+
+FF_EXPORT const ff_model *flankfilm_model_v1(void)
+{
+    misbehave("entry");
+    return &model;
+}
