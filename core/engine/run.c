@@ -119,9 +119,14 @@ void ff_run_close(ff_run *run)
     fe_free(run);
 }
 
+/* Members that the caller's struct is too short for are NULL. */
 static void start(run_call *call)
 {
-    ff_pipeline_run(call->run->pipeline, call->observer, call->run->report);
+    ff_observer observer = {.size = sizeof observer};
+    if (call->observer)
+        memcpy(&observer, call->observer,
+               call->observer->size < sizeof observer ? call->observer->size : sizeof observer);
+    ff_pipeline_run(call->run->pipeline, &observer, call->run->report);
 }
 
 ff_status ff_run_start(ff_run *run, const ff_observer *observer)
@@ -157,6 +162,23 @@ ff_status ff_run_result(ff_run *run, const char *path, const ff_result **result)
     ff_status status = handle(&call);
     *result = status == FF_OK ? call.result : NULL;
     return status;
+}
+
+ff_status ff_run_output(const ff_run *run, size_t index, const char **stage,
+                        const ff_result **result)
+{
+    *stage = NULL;
+    *result = NULL;
+    for (size_t i = 0; !run->broken && i < run->pipeline->count; i++) {
+        const ff_stage *s = &run->pipeline->stages[run->pipeline->order[i]];
+        for (size_t k = 0; s->results && k < s->loaded->model->output_count; k++)
+            if (s->results[k].data && index-- == 0) {
+                *stage = s->name;
+                *result = &s->results[k];
+                return FF_OK;
+            }
+    }
+    return run->broken ? FF_NOMEM : FF_INVALID;
 }
 
 ff_status ff_run_quality(const ff_run *run, size_t index, const ff_quality **line)

@@ -141,6 +141,10 @@ typedef struct ff_result {
 
 /* The result "stage.output". FF_INVALID: there is no such output, or it was not computed. */
 ff_status ff_run_result(ff_run *run, const char *path, const ff_result **result);
+/* The results that were computed, in the order of the run, and the names of their stages;
+   FF_INVALID beyond the last. */
+ff_status ff_run_output(const ff_run *run, size_t index, const char **stage,
+                        const ff_result **result);
 
 typedef struct ff_quality {
     const char *stage; /* its name */

@@ -1,0 +1,249 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The program from Python: runs cases and studies in a process of its own, and opens results."""
+
+import csv
+import json
+import os
+import shlex
+import shutil
+import subprocess
+from collections.abc import Mapping
+
+import numpy as np
+
+from .arrays import Array, Error
+
+
+def _array(entry):
+    """Of {"unit", "value"} or {"unit", "dims", "shape", "data"}; null is NaN."""
+    doc, against = entry.get("doc") or "", entry.get("against") or ()
+    if "data" not in entry:
+        value = entry.get("value")
+        return Array(np.nan if value is None else float(value), entry["unit"], (), doc)
+    data = np.array(entry["data"], dtype=float).reshape(entry["shape"])
+    return Array(data, entry["unit"], entry["dims"], doc, against)
+
+
+class Result(Mapping):
+    """A run: a mapping of "stage.output" to Array. `asked` are the names that the file asks for,
+    `quality` has the lines of each stage, `json` all that the program said."""
+
+    def __init__(self, answer, path=None):
+        self.json, self.path = answer, path
+        self.title, self.status = answer.get("title"), answer.get("status")
+        self.asked = list(answer.get("outputs") or {})
+        self.warnings = [w["message"] for w in answer.get("warnings") or ()]
+        self.quality = {s["stage"]: s.get("quality") or {} for s in answer.get("stages") or ()}
+        self._entries = {**(answer.get("computed") or {}), **(answer.get("outputs") or {})}
+        self._arrays = {}
+
+    def __getitem__(self, name):
+        if name not in self._arrays:
+            if name not in self._entries:
+                raise KeyError(f"{name}: the results have {', '.join(self._entries)}")
+            self._arrays[name] = _array(self._entries[name])
+        return self._arrays[name]
+
+    def __iter__(self):
+        return iter(self._entries)
+
+    def __len__(self):
+        return len(self._entries)
+
+    def __repr__(self):
+        return f"<Result {self.title or ''}: {', '.join(self._entries)}>"
+
+    def against(self, name, dimension=0):
+        """The series that the dimension is plotted against, or None."""
+        names = self[name].against
+        return self[names[dimension]] if dimension < len(names) and names[dimension] in self else None
+
+
+def _number(text):
+    try:
+        return float(text)
+    except ValueError:
+        return np.nan
+
+
+class Study(Mapping):
+    """A study: a mapping of "stage.output" to Array whose first dimensions are what is varied. What
+    a case lacks is NaN; arrays of different lengths are padded with NaN.
+
+    axes     the values of each dimension, by its name ("mesh_frequency", "oil.use")
+    status   of each case, in the shape of the study; reason likewise
+    table    the columns of table.csv as they are"""
+
+    def __init__(self, path):
+        self.path = path
+        with _file(path, "study.json") as file:
+            about = json.load(file)
+        with _file(path, "table.csv") as file:
+            rows = list(csv.reader(file))
+        self.title, self.shape = about.get("title"), tuple(about["lengths"])
+        head, self._rows = rows[0], rows[1:]
+        if len(self._rows) != np.prod(self.shape, dtype=int):
+            raise Error(f"{path}: the table does not have all cases; run the study again")
+        self.table = {h: [row[i] for row in self._rows] for i, h in enumerate(head)}
+        self.status = np.array(self.table["status"], dtype=object).reshape(self.shape)
+        self.reason = np.array(self.table["reason"], dtype=object).reshape(self.shape)
+        self._name_axes(about["axes"])
+        self._columns = {}
+        for h in head:
+            name, _, unit = h.partition(" [")
+            if unit and "." in name and name not in {a["path"] for a in about["axes"]}:
+                self._columns[name] = (h, unit.rstrip("]"))
+        self._arrays = None
+
+    def _name_axes(self, axes):
+        self.axes, self.dims = {}, []
+        for d in range(len(self.shape)):
+            mine = [a for a in axes if a["dimension"] == d]
+            last = [a["path"].rpartition(".")[2] for a in mine]
+            name = "point" if len(mine) != 1 else mine[0]["path"] if last[0] == "use" else last[0]
+            if name in self.dims:
+                name = mine[0]["path"] if mine else f"{name}_{d + 1}"
+            self.dims.append(name)
+            for a in mine:
+                values, unit = (a["values"], a["unit"]) if a.get("values") else (a["words"], "")
+                axis = Array(np.array(values), unit, (name,))
+                self.axes[name if len(mine) == 1 else a["path"]] = axis
+
+    def case(self, index):
+        """The arrays of one case, by its number from 0: a dictionary."""
+        place = os.path.join(self.path, "cases", self.table["key"][index], "arrays.json")
+        if not os.path.exists(place):
+            return {}
+        with _file(place) as file:
+            return {k: _array(e) for k, e in json.load(file)["outputs"].items()}
+
+    def _load(self):
+        if self._arrays is None:
+            self._arrays = [self.case(i) for i in range(len(self._rows))]
+        return self._arrays
+
+    def _stack(self, name):
+        parts = [case.get(name) for case in self._load()]
+        some = [p for p in parts if p is not None]
+        rank = max(p.data.ndim for p in some)
+        model = next(p for p in some if p.data.ndim == rank)
+        shape = tuple(max(p.data.shape[-rank + k] if p.data.ndim == rank else 1 for p in some)
+                      for k in range(rank))
+        data = np.full((len(parts), *shape), np.nan)
+        for k, part in enumerate(parts):
+            if part is not None:
+                full = part.data.reshape((1,) * (rank - part.data.ndim) + part.data.shape)
+                data[(k, *(slice(n) for n in full.shape))] = full
+        dims = (*self.dims, *model.dims)
+        return Array(data.reshape(*self.shape, *shape), model.unit, dims, model.doc, model.against)
+
+    def __getitem__(self, name):
+        if name in self._columns:
+            head, unit = self._columns[name]
+            data = np.array([_number(text) for text in self.table[head]]).reshape(self.shape)
+            return Array(data, unit, self.dims)
+        if name not in set(self):
+            raise KeyError(f"{name}: the study has {', '.join(self)}")
+        return self._stack(name)
+
+    def __iter__(self):
+        seen = dict.fromkeys(self._columns)
+        for case in self._load():
+            seen.update(dict.fromkeys(k for k, a in case.items() if a.dims))
+        return iter(seen)
+
+    def __len__(self):
+        return sum(1 for _ in self)
+
+    def __repr__(self):
+        axes = ", ".join(f"{d}: {n}" for d, n in zip(self.dims, self.shape))
+        return f"<Study {self.title or ''} over {axes}: {', '.join(self)}>"
+
+
+def _file(*parts):
+    try:
+        return _open(os.path.join(*parts), encoding="utf-8", newline="")
+    except OSError as error:
+        raise Error(f"{os.path.join(*parts)}: {error.strerror}") from None
+
+
+_open = open
+
+
+def open(path):  # as in xarray or gzip
+    """The Result or Study of a directory that `flankfilm run` has written."""
+    path = os.fspath(path)
+    if os.path.exists(os.path.join(path, "study.json")):
+        return Study(path)
+    if not os.path.exists(os.path.join(path, "result.json")):
+        raise Error(f"{path}: no results of flankfilm are here")
+    with _file(path, "result.json") as file:
+        return Result(json.load(file), path)
+
+
+def _program():
+    named = os.environ.get("FLANKFILM")
+    found = shlex.split(named) if named else [shutil.which("flankfilm")]
+    if not found[0]:
+        raise Error("flankfilm is not on the path; put its place into the variable FLANKFILM")
+    return found
+
+
+def _text(value):
+    """As YAML has it."""
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(_text(v) for v in value) + "]"
+    return value if isinstance(value, str) else json.dumps(value)
+
+
+def _sets(sets):
+    return [word for path, value in (sets or {}).items() for word in ("--set", f"{path}={_text(value)}")]
+
+
+def _call(*words):
+    """The JSON answer. An answer with errors raises, one of a run with what it has left."""
+    line = [*_program(), *map(str, words), "--json"]
+    try:
+        done = subprocess.run(line, capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise Error(f"{line[0]}: {error.strerror}") from None
+    try:
+        answer = json.loads(done.stdout)
+    except ValueError:
+        raise Error(done.stderr.strip() or f"{line[0]} ended with code {done.returncode}",
+                    done.returncode) from None
+    errors = answer.get("errors") or []
+    if errors:
+        text = "\n".join(
+            (f"{e['file']}:{e['line']}:{e['column']}: " if e.get("line") else "") + e["message"]
+            for e in errors)
+        left = Result(answer) if answer.get("outputs") else None
+        raise Error(text, answer["exit"], errors, left)
+    return answer
+
+
+def run(file, sets=None, directory=None, jobs=None):
+    """Runs a case or a study with `sets` laid over it, {"duty.torque": "300 N m"}, and gives a
+    Result or a Study. With `directory` the results are also written there; those of a study always
+    are. Failed cases of a study do not raise: see Study.status."""
+    words = ["run", os.fspath(file), *_sets(sets)]
+    words += ["-o", os.fspath(directory)] if directory else []
+    words += ["-j", jobs] if jobs else []
+    answer = _call(*words)
+    if "cases" in answer:
+        return Study(answer["directory"])
+    return Result(answer, directory)
+
+
+def check(file, sets=None):
+    """Raises what is wrong with the file, and runs nothing."""
+    _call("check", os.fspath(file), *_sets(sets))
+
+
+def fit(kind, data, laws=(), at=(), sets=None, directory=None):
+    """Parameters of laws from measured data, as the dictionary that `flankfilm fit --json` prints."""
+    words = ["fit", kind, os.fspath(data), *_sets(sets)]
+    words += [word for law in laws for word in ("--law", law)]
+    words += [word for value in at for word in ("--at", value)]
+    words += ["-o", os.fspath(directory)] if directory else []
+    return _call(*words)
