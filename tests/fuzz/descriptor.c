@@ -4,8 +4,6 @@
  * check, and what passes can be described and given values. Structs and strings lie in memory of
  * their exact size, so that a sanitizer sees a read past what they state.
  */
-#include <flankfilm/engine.h>
-
 #include "fuzz.h"
 
 #include "../../core/engine/plugin/private.h"

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Studies: a document with `study:`, and some of its cases laid over the toy models of tests/bad.
  */
-#include <flankfilm/engine.h>
-
 #include "fuzz.h"
 
 #include "../../core/program/study/study.h"

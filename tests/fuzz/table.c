@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The reader of tables. What is accepted is finite, inside its limits, and stands where it is said
    to stand. */
-#include <flankfilm/engine.h>
-
 #include "fuzz.h"
 
 #include <math.h>

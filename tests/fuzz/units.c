@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Units and quantities: "unit\nquantity". What is accepted is finite, and reads back as it was
    printed. */
-#include <flankfilm/engine.h>
-
 #include "fuzz.h"
 
 #include <math.h>

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The reader of YAML: a text, and behind its first NUL byte a --set assignment. */
-#include <flankfilm/engine.h>
-
 #include "fuzz.h"
 
 #include <string.h>

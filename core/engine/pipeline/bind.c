@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* Reads the parameters of a stage from the file, by the table of its model. */
-#include <flankfilm/engine.h>
-
 #include "build.h"
 
 #include <stdio.h>

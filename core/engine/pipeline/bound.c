@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* Writes values of parameters as a user would. */
-#include <flankfilm/engine.h>
-
 #include "build.h"
 
 #include <stdio.h>

@@ -3,8 +3,6 @@
 #ifndef FE_BUILD_H
 #define FE_BUILD_H
 
-#include <flankfilm/engine.h>
-
 #include "../value/memory.h"
 #include "../value/tables.h"
 

@@ -5,8 +5,6 @@
  * its own beside it, that is linked, bound and opened like any other. A candidate that cannot be
  * is left out with its reason; what the file says wrongly of one stays an error.
  */
-#include <flankfilm/engine.h>
-
 #include "build.h"
 
 #include <stdlib.h>

@@ -3,8 +3,6 @@
  * The choice of a model: each candidate looks at what feeds it and says how large an error it would
  * make, and at what cost; the cheapest one within the accuracy asked for becomes the stage's.
  */
-#include <flankfilm/engine.h>
-
 #include "build.h"
 
 #include <math.h>

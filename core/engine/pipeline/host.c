@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* The functions of the host that a model may call. */
-#include <flankfilm/engine.h>
-
 #include "build.h"
 
 #include <math.h>

@@ -4,8 +4,6 @@
  * they judge each candidate by how it would change their results against a reference law, which
  * serves all stages until then. A stage that cannot judge keeps the reference.
  */
-#include <flankfilm/engine.h>
-
 #include "build.h"
 
 #include <math.h>

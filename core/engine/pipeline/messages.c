@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* Texts that live as long as the pipeline, and what several messages have in common. */
-#include <flankfilm/engine.h>
-
 #include "build.h"
 
 #include "../value/tree.h"

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* Building a pipeline from a file, step by step. */
-#include <flankfilm/engine.h>
-
 #include "build.h"
 
 #include <stdlib.h>

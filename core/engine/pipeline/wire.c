@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* Finds which stage feeds which inputs. */
-#include <flankfilm/engine.h>
-
 #include "build.h"
 
 #include "../plugin/param.h"

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "clean.h"
 
-#include <flankfilm/engine.h>
-
 #include "../value/text.h"
 
 #include <string.h>

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "param.h"
 
-#include <flankfilm/engine.h>
-
 #include "../value/limits.h"
 #include "../value/memory.h"
 #include "../value/tree.h"

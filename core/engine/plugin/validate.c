@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: MIT */
 /* Checks a descriptor before anything else uses it. */
-#include <flankfilm/engine.h>
-
 #include "../value/memory.h"
 #include "clean.h"
 #include "param.h"

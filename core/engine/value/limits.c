@@ -2,7 +2,6 @@
 #include "limits.h"
 
 #include "unit.h"
-#include <flankfilm/engine.h>
 
 #include <stdio.h>
 

@@ -2,7 +2,6 @@
 #include "node.h"
 
 #include "tree.h"
-#include <flankfilm/engine.h>
 
 #include <stdlib.h>
 #include <string.h>

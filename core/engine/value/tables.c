@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 #include "tables.h"
 
-#include <flankfilm/engine.h>
-
 #include "memory.h"
 
 #include <stdlib.h>

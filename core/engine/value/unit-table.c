@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: MIT */
-#include <flankfilm/engine.h>
-
 #include <string.h>
 #include <strings.h>
 

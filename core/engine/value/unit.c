@@ -6,8 +6,6 @@
  */
 #include "unit.h"
 
-#include <flankfilm/engine.h>
-
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "catalogue.h"
 
-#include <flankfilm/engine.h>
-
 #include <stdlib.h>
 #include <string.h>
 

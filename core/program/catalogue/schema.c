@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* JSON Schema (draft-07) of the YAML files, made from the tables of all models that are there, so
    that an editor completes and checks what the program does. */
-#include <flankfilm/engine.h>
-
 #include "catalogue.h"
 
 #include "../study/study.h"

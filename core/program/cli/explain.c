@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The commands check and explain, which run nothing but what a choice of models depends on. */
-#include <flankfilm/engine.h>
-
 #include "../terminal/terminal.h"
 #include "command.h"
 #include "resolved.h"

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Results for people and other programs. CSV and the page are the program's own; any other form is
    that of a model of the kind "writer". */
-#include <flankfilm/engine.h>
-
 #include "command.h"
 
 #include "../report/report.h"

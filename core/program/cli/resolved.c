@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "resolved.h"
 
-#include <flankfilm/engine.h>
-
 #include "../memory/memory.h"
 #include "../study/yaml.h"
 

@@ -2,7 +2,6 @@
 #include "summary.h"
 
 #include "../terminal/terminal.h"
-#include <flankfilm/engine.h>
 
 #include "../results/number.h"
 

@@ -4,8 +4,6 @@
 #include "blame.h"
 #include "exits.h"
 
-#include <flankfilm/engine.h>
-
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>

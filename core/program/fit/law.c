@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The laws that are fitted, and what the user says of their parameters. */
-#include <flankfilm/engine.h>
-
 #include "fit.h"
 
 #include "../memory/memory.h"

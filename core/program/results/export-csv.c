@@ -2,7 +2,6 @@
 #include "export-csv.h"
 
 #include "number.h"
-#include <flankfilm/engine.h>
 
 #include "../memory/memory.h"
 

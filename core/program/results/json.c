@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "json.h"
 
-#include <flankfilm/engine.h>
-
 #include "../memory/memory.h"
 #include "../study/study.h"
 

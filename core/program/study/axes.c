@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads what stands under `study:` into axes with their points. */
-#include <flankfilm/engine.h>
-
 #include "study.h"
 #include "yaml.h"
 

@@ -1,8 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs studies whose later cases depend on what earlier ones gave: finds the driver, reads its keys
    and the cases that are known beforehand, and runs it. */
-#include <flankfilm/engine.h>
-
 #include "case.h"
 #include "stability.h"
 #include "tradeoff.h"

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs a study: hands out cases and writes their answers to the journal. */
-#include <flankfilm/engine.h>
-
 #include "chain.h"
 #include "journal.h"
 #include "workers.h"

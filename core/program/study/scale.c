@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Makes parameters of a case larger or smaller. */
-#include <flankfilm/engine.h>
-
 #include "context.h"
 
 #include "case.h"

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes table.csv: a row for each case with what was varied and the scalars that it gave. */
-#include <flankfilm/engine.h>
-
 #include "journal.h"
 
 #include <fcntl.h>

@@ -1,6 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include <flankfilm/engine.h>
-
 #include "private.h"
 
 #include <stdarg.h>

@@ -4,8 +4,6 @@
 #ifndef VERIFY_PRIVATE_H
 #define VERIFY_PRIVATE_H
 
-#include <flankfilm/engine.h>
-
 #include "verify.h"
 
 #include <flankfilm/conformance.h>

@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Faults inside plugins end the program with exit code 3 and one sentence. */
-#include <flankfilm/engine.h>
-
 #include "../../../core/program/crash/crash.h"
 #include "pipeline-try.h"
 

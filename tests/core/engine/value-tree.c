@@ -1,7 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Trees: places, aliases, merge keys, includes, layers, and assignments. */
-#include <flankfilm/engine.h>
-
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
