@@ -227,6 +227,10 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                           "root mean square roughness of both flanks, 0: unknown; for the "
                           "lambda ratio alone, and only without a surface",
                           "gear", NULL, FF_OPTIONAL, NULL},
+    [EHL_IN_DISCRETISATION] = {"discretisation", "",
+                               "solves the film of each instant in place of this model's own "
+                               "solver; smooth flanks",
+                               "", FF_FILM_ID, FF_OPTIONAL, NULL},
 };
 
 const ff_port ehl_outputs[EHL_OUTPUTS] = {

@@ -5,6 +5,8 @@
 
 #include "reynolds.h"
 
+#include <flankfilm/film.h>
+
 typedef struct ehl_counters {
     double newton, krylov, convolutions, factorisations;
     double
@@ -14,8 +16,11 @@ typedef struct ehl_counters {
 typedef struct ehl_solver {
     const ehl_grid *grid;
     ehl_reynolds *reynolds;
-    const double *kernel; /* ehl_kernel_fill, one value per node distance */
-    double tolerance;     /* relative change of pressure in the last step */
+    const double *kernel;   /* ehl_kernel_fill, one value per node distance */
+    double modulus;         /* E', Pa */
+    double tolerance;       /* relative change of pressure in the last step */
+    int no_film;            /* what came from outside was no film: not a number, or p at the ends */
+    const ff_film *outside; /* the discretisation of another stage, for ehl_outside; NULL: none */
     ehl_counters counters;
     double rescaling; /* of the pressure to its load, at the end of the last solution */
     void *self;
@@ -27,11 +32,13 @@ typedef struct ehl_solver {
     ff_status (*maker)(struct ehl_solver *s); /* of this one */
 } ehl_solver;
 
-/* A solver on grid, reynolds, kernel and tolerance, which are set; FF_NOMEM. */
+/* A solver on grid, reynolds, kernel, modulus and tolerance, which are set; FF_NOMEM, or
+   FF_UNSUPPORTED. */
 typedef ff_status ehl_solver_maker(ehl_solver *s);
 
 ehl_solver_maker ehl_newton_krylov;
 ehl_solver_maker ehl_dense_newton;
 ehl_solver_maker ehl_line_relaxation;
+ehl_solver_maker ehl_outside;
 
 #endif

@@ -6,9 +6,9 @@
 
 #define SOLVER_MODEL                                                                               \
     .size = sizeof(ff_model), .abi_major = FF_ABI_MAJOR, .abi_minor = 2, .version = "1.0.0",       \
-    .licence = "GPL-3.0-or-later", .params = FF_TABLE(ehl_params), .inputs = FF_TABLE(ehl_inputs), \
-    .outputs = FF_TABLE(ehl_outputs), .set = ehl_set, .wire = ehl_wire, .evaluate = ehl_evaluate,  \
-    .judge = ehl_judge, .destroy = ehl_destroy
+    .licence = "GPL-3.0-or-later", .params = FF_TABLE(ehl_params), .inputs = ehl_inputs,           \
+    .input_stride = sizeof ehl_inputs[0], .outputs = FF_TABLE(ehl_outputs), .set = ehl_set,        \
+    .wire = ehl_wire, .evaluate = ehl_evaluate, .judge = ehl_judge, .destroy = ehl_destroy
 
 static ff_status create_finite_volume(const ff_host *host, void **self)
 {
@@ -46,6 +46,7 @@ static const ff_model finite_volume = {
         "@article{stanley1997, author={Stanley, H. M. and Kato, T.}, title={An {FFT}-based method "
         "for rough surface contact}, journal={J. Tribol.}, volume={119}, pages={481--485}, "
         "year={1997}}\n",
+    .input_count = EHL_INPUTS,
     .create = create_finite_volume,
     .assess = assess_finite_volume,
 };
@@ -80,6 +81,7 @@ static const ff_model dense_newton = {
         "in Lubrication}, publisher={Elsevier}, year={2000}}\n"
         "@book{anderson1999, author={Anderson, E. and others}, title={{LAPACK} Users' Guide}, "
         "publisher={SIAM}, year={1999}}\n",
+    .input_count = EHL_IN_DISCRETISATION,
     .create = create_dense_newton,
     .assess = assess_dense_newton,
 };
@@ -121,6 +123,7 @@ static const ff_model control_volume = {
         "@article{walker2011, author={Walker, H. F. and Ni, P.}, title={Anderson acceleration for "
         "fixed-point iterations}, journal={SIAM J. Numer. Anal.}, volume={49}, pages={1715--1735}, "
         "year={2011}}\n",
+    .input_count = EHL_IN_DISCRETISATION,
     .create = create_control_volume,
 };
 

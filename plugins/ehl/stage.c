@@ -114,6 +114,8 @@ ff_status ehl_wire(void *self, uint32_t input, const void *service)
         m->laws.density = service;
     else if (input == EHL_IN_RHEOLOGY)
         m->laws.rheology = service;
+    else if (input == EHL_IN_DISCRETISATION)
+        m->outside = service;
     return FF_OK;
 }
 
@@ -167,10 +169,11 @@ static ff_status read_surface(const ehl_model *m, const ff_array *in, run *r)
     const ff_array *row = in + EHL_IN_POSITION;
     if (!row[0].data || m->smooth)
         return FF_OK;
-    if (m->maker != ehl_newton_krylov)
+    if (m->maker != ehl_newton_krylov || m->outside)
         return ff_failf(m->host, FF_UNSUPPORTED, "surface.position",
-                        "this model knows smooth flanks only; ehl/finite-volume takes rough "
-                        "ones");
+                        "%s knows smooth flanks only; ehl/finite-volume takes rough ones%s",
+                        m->outside ? "the discretisation" : "this model",
+                        m->outside ? " where none is wired" : "");
     for (uint32_t k = EHL_IN_POSITION; k <= EHL_IN_ORIGIN; k++)
         if (!in[k].data)
             return ff_failf(m->host, FF_INVALID, ehl_inputs[k].name,
@@ -243,10 +246,18 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
         .grid = &r->grid,
         .reynolds = &r->reynolds,
         .kernel = r->kernel,
+        .modulus = r->history.modulus,
         .tolerance = m->tolerance,
-        .maker = m->maker,
+        .outside = m->outside,
+        .maker = m->outside ? ehl_outside : m->maker,
     };
-    status = m->maker(&r->solver);
+    status = r->solver.maker(&r->solver);
+    if (status == FF_UNSUPPORTED && m->outside)
+        return ff_failf(
+            m->host, status, "discretisation",
+            "the discretisation does not solve for such a film: cavitation %s, %s wedge",
+            m->conserving ? "mass-conserving" : "clip",
+            m->wedge == 2 ? "second-order" : "first-order");
     if (status == FF_UNSUPPORTED)
         return ff_failf(m->host, status, NULL, "LAPACK, which this model needs, cannot be loaded");
     if (status != FF_OK)
@@ -263,6 +274,11 @@ static ff_status explain(const ehl_model *m, const run *r, ff_status status, dou
     const double molecule = 0.5e-9; /* Israelachvili 2011 */
     if (status != FF_NOCONV)
         return status;
+    if (r->solver.no_film)
+        return ff_failf(m->host, status, "discretisation",
+                        "at time %.6g s the discretisation gave something that is not a film: not "
+                        "numbers, or a pressure at the ends of the domain",
+                        time);
     if (r->history.roll)
         snprintf(roll, sizeof roll, ", roll angle %.6g rad", at.roll);
     if (r->march.known > 0)

@@ -54,6 +54,7 @@ enum {
     EHL_IN_PERIOD,
     EHL_IN_ORIGIN,
     EHL_IN_ROUGHNESS,
+    EHL_IN_DISCRETISATION, /* of ehl/finite-volume alone */
     EHL_INPUTS
 };
 
@@ -134,7 +135,8 @@ typedef struct ehl_model {
     double contact_film, boundary_friction, hardness, valley_length;
     int ventilated, smooth;
     ehl_laws laws;
-    int given; /* EHL_TUNE_... flags of what the user wrote */
+    const ff_film *outside; /* NULL: the solver of `maker` */
+    int given;              /* EHL_TUNE_... flags of what the user wrote */
     int roughness_given;
     char text[3][32]; /* text and reason belong to the last assessment */
     char reason[400];

@@ -85,7 +85,9 @@ ff_status ehl_grid_level_create(ehl_grid_level *l, const ehl_solver *s, size_t c
     l->solver = (ehl_solver){.grid = &l->grid,
                              .reynolds = &l->reynolds,
                              .kernel = l->kernel,
+                             .modulus = modulus,
                              .tolerance = fmax(s->tolerance, loose),
+                             .outside = s->outside,
                              .maker = s->maker};
     return s->maker(&l->solver);
 }

@@ -283,6 +283,8 @@ static const char *why_error_is_unknown(const ehl_model *m, const ehl_history *h
         m->light_load > 0)
         return "nothing is known of the error with a domain, a scheme, a wedge or a light load of "
                "one's own";
+    if (m->outside)
+        return "nothing is known beforehand of the error of another discretisation";
     if (h->turns || h->at_rest)
         return "nothing is known beforehand of the error where the contact is at rest or turns "
                "round";
