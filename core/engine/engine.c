@@ -30,7 +30,7 @@ ff_status fe_status_of(const ff_report *report)
                                          [FF_FAULT_RUN] = FF_NOCONV,
                                          [FF_FAULT_INPUT] = FF_INVALID,
                                          [FF_FAULT_PLUGIN] = FF_BUG};
-    return statuses[ff_report_fault(report)];
+    return ff_report_lacked_memory(report) ? FF_NOMEM : statuses[ff_report_fault(report)];
 }
 
 typedef struct new_call {

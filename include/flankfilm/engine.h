@@ -233,6 +233,8 @@ size_t ff_report_errors(const ff_report *report);
 
 /* The worst that the errors say is at fault; FF_FAULT_NONE without errors. */
 int ff_report_fault(const ff_report *report);
+/* Whether an error came of a lack of memory: with more of it, the same call might be good. */
+bool ff_report_lacked_memory(const ff_report *report);
 
 /* Each message as "file:line:column: error: text", the line, a caret and the hint, in the order of
    files and lines, at most 20 errors; with the colours of a terminal when `colour`. Freed by the

@@ -4,6 +4,7 @@
 #define FE_BUILD_H
 
 #include "../value/memory.h"
+#include "../value/report.h"
 #include "../value/tables.h"
 
 /* The object of the model of a stage, and what building has found out about it. */
@@ -24,6 +25,7 @@ typedef struct fe_instance {
     fe_heap *heap;    /* of what the functions of the host allocate */
     fe_resource open; /* `self`, from create to destroy */
     bool no_memory;   /* a function of the host had none: the call is left when it returns */
+    bool no_room;     /* the same for an output, which `text` names */
     ff_tables tables; /* what it has read; their errors are reported before `text` */
     bool evaluating;
     char item[96];   /* of the last host->fail */

@@ -30,6 +30,7 @@ fe_call fe_call_begin(const ff_stage *stage, const char *action)
     fe_instance *instance = stage->instance;
     fe_call call = {.stage = stage, .action = action};
     instance->item[0] = instance->text[0] = instance->fault[0] = 0;
+    instance->no_room = false;
     fe_tables_forget(&instance->tables);
     fe_serial_enter(stage->loaded->model);
     ff_environment_keep(&call.environment);
@@ -102,6 +103,7 @@ static bool judge(const fe_call *call, ff_status status, ff_report *report)
 {
     const ff_stage *stage = call->stage;
     const fe_instance *instance = stage->instance;
+    status = instance->no_room ? FF_NOMEM : status;
     meaning means = meaning_of(status);
     const char *text = instance->text[0] ? instance->text : means.reason;
     char what[700];
@@ -110,6 +112,8 @@ static bool judge(const fe_call *call, ff_status status, ff_report *report)
         return fe_plugin_fault(stage, report, instance->fault);
     if (status == FF_OK)
         return true;
+    if (status == FF_NOMEM)
+        fe_report_note_no_memory(report);
     if (instance->tables.errors)
         return tell_table(stage, report);
     if (means.fault == FF_FAULT_PLUGIN) {

@@ -202,6 +202,7 @@ void fe_open_candidates(fe_build *b, ff_stage *stage)
             continue;
         capturing.report = ff_report_new();
         fe_open_instance(&capturing, c->stage);
+        fe_report_require_memory(capturing.report);
         const ff_message *why = ff_report_first(capturing.report);
         if (!c->stage->instance->alive)
             fe_leave_out(b->pipeline, c, why ? why->text : "it cannot be set up");

@@ -105,6 +105,7 @@ static void assess(ff_pipeline *pipeline, const ff_stage *stage, ff_candidate *c
             good =
                 fe_call_end(&call, status, captured) && note_assessment(pipeline, c, &a, captured);
         }
+        fe_report_require_memory(captured);
         if (!good)
             fe_leave_out(pipeline, c,
                          last_error(captured) ? last_error(captured)->text

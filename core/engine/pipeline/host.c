@@ -205,6 +205,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
                rank, result->row->dims);
     else if (!has_room(rank, shape) ||
              fe_protected(instance->heap, fill_result, &call) == FF_NOMEM) {
+        instance->no_room = true;
         if (!instance->text[0])
             snprintf(instance->text, sizeof instance->text,
                      "there is not enough memory for the output \"%s\"", name);

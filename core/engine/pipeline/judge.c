@@ -173,7 +173,10 @@ static void judge_one(ff_pipeline *pipeline, ff_candidate *c, ff_stage *judge, i
         model->judge(judge->instance->self, fe_wanted_of(judge), (uint32_t)input,
                      table_of(c->stage, ff_model_input(model, (size_t)input)), in, &a);
     *lent = NULL;
-    if (!fe_call_end(&call, status, captured) || !note_verdict(pipeline, c, judge, &a, captured))
+    bool good =
+        fe_call_end(&call, status, captured) && note_verdict(pipeline, c, judge, &a, captured);
+    fe_report_require_memory(captured);
+    if (!good)
         dismiss(pipeline, c,
                 ff_report_first(captured) ? ff_report_first(captured)->text : "the judge gave up");
     ff_report_free(captured);

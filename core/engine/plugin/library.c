@@ -73,30 +73,35 @@ static const char *linker_words(const char *path)
     return words ? words : "for a reason that the linker does not tell";
 }
 
-/* Whether the linker had no memory, which it says in the words of the C library alone. */
-static bool lacked_memory(const char *words)
-{
-    return strstr(words, strerror(ENOMEM)) || strstr(words, "out of memory");
-}
-
 /*
  * RTLD_LOCAL keeps one plugin's names from another's; the object stays for good, since unloading
  * breaks what it registered; RTLD_DEEPBIND would give it an allocator of its own.
+ * Without memory the linker often gives another reason. So it is asked twice: what is wrong with
+ * the file is so again.
  */
+static void *open_file(const char *path, char *why, size_t why_size)
+{
+    char first[1024];
+    void *object = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (object)
+        return object;
+    snprintf(first, sizeof first, "cannot be loaded: %s", linker_words(path));
+    object = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (object)
+        return object;
+    snprintf(why, why_size, "cannot be loaded: %s", linker_words(path));
+    if (strcmp(first, why) != 0 || strstr(why, strerror(ENOMEM)))
+        fe_out_of_memory();
+    return NULL;
+}
+
 static bool open_object(const char *id, ff_loaded *loaded, fe_arena *memory, char *why,
                         size_t why_size)
 {
     if (!fe_elf_check(loaded->path, why, why_size))
         return false;
-    void *object = dlopen(loaded->path, RTLD_NOW | RTLD_LOCAL);
-    if (!object) {
-        const char *words = linker_words(loaded->path);
-        if (lacked_memory(words))
-            fe_out_of_memory();
-        snprintf(why, why_size, "cannot be loaded: %s", words);
-        return false;
-    }
-    return fe_entry_find(object, id, &loaded->model, why, why_size) &&
+    void *object = open_file(loaded->path, why, why_size);
+    return object && fe_entry_find(object, id, &loaded->model, why, why_size) &&
            fe_model_check(loaded, id, memory, why, why_size);
 }
 

@@ -3,7 +3,8 @@
 #include "../value/home.h"
 #include "private.h"
 
-#include <glob.h>
+#include <dirent.h>
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -92,52 +93,78 @@ static int compare(const void *a, const void *b)
     return strcmp(*(char *const *)a, *(char *const *)b);
 }
 
-typedef struct listing {
+typedef struct folder {
     fe_resource open;
-    glob_t files;
-} listing;
+    DIR *stream;
+} folder;
 
-static void close_listing(void *of)
+static void close_folder(void *of)
 {
-    listing *l = of;
-    globfree(&l->files);
+    closedir(((folder *)of)->stream);
 }
 
-/* Finds all files kind/name.so; wildcards in the name of the directory itself are escaped. */
-static listing *find_files(const char *directory)
+/* NULL: there is no such folder. */
+static folder *open_folder(const char *path)
 {
-    listing *l = fe_alloc(sizeof *l);
-    char *pattern = fe_alloc(2 * strlen(directory) + sizeof "/*/*.so"), *end = pattern;
-    for (const char *at = directory; *at; at++) {
-        if (strchr("*?[]\\", *at))
-            *end++ = '\\';
-        *end++ = *at;
+    folder *f = fe_alloc(sizeof *f);
+    f->stream = opendir(path);
+    if (f->stream) {
+        fe_resource_add(&f->open, close_folder, f);
+        return f;
     }
-    strcpy(end, "/*/*.so");
-    fe_resource_add(&l->open, close_listing, l);
-    if (glob(pattern, GLOB_NOSORT, NULL, &l->files) == GLOB_NOSPACE)
+    fe_free(f);
+    if (errno == ENOMEM)
         fe_out_of_memory();
-    fe_free(pattern);
-    return l;
+    return NULL;
+}
+
+/* The next name with that ending and more, which is not hidden; NULL behind the last one. */
+static const char *next_name(folder *f, const char *ending)
+{
+    const struct dirent *entry;
+    while ((entry = readdir(f->stream))) {
+        size_t length = strlen(entry->d_name), tail = strlen(ending);
+        if (entry->d_name[0] != '.' && length > tail &&
+            !strcmp(entry->d_name + length - tail, ending))
+            return entry->d_name;
+    }
+    fe_resource_remove(&f->open);
+    close_folder(f);
+    fe_free(f);
+    return NULL;
+}
+
+typedef struct id_list {
+    char **ids;
+    size_t count;
+} id_list;
+
+/* Adds the ids of all files KIND/name.so in the directory. */
+static void list_kind(id_list *list, const char *directory, const char *kind)
+{
+    static const char ending[] = ".so";
+    char *path = fe_print_text("%s/%s", directory, kind);
+    folder *files = open_folder(path);
+    const char *name;
+    while (files && (name = next_name(files, ending))) {
+        int length = (int)(strlen(name) - strlen(ending));
+        list->ids = fe_resize(list->ids, (list->count + 1) * sizeof *list->ids);
+        list->ids[list->count++] = fe_print_text("%s/%.*s", kind, length, name);
+    }
+    fe_free(path);
 }
 
 char **fe_search_path_list(const fe_search_path *search, size_t *count)
 {
-    char **ids = NULL;
-    size_t found = 0;
+    id_list list = {NULL, 0};
     for (size_t i = 0; i < search->count; i++) {
-        size_t before = strlen(search->directories[i]) + 1;
-        listing *l = find_files(search->directories[i]);
-        for (size_t k = 0; k < l->files.gl_pathc; k++) {
-            const char *path = l->files.gl_pathv[k] + before;
-            char *id = fe_copy_text(path, strlen(path) - strlen(".so"));
-            ids = fe_resize(ids, (found + 1) * sizeof *ids);
-            ids[found++] = id;
-        }
-        fe_resource_remove(&l->open);
-        close_listing(l);
-        fe_free(l);
+        folder *kinds = open_folder(search->directories[i]);
+        const char *kind;
+        while (kinds && (kind = next_name(kinds, "")))
+            list_kind(&list, search->directories[i], kind);
     }
+    char **ids = list.ids;
+    size_t found = list.count;
     if (found > 0)
         qsort(ids, found, sizeof *ids, compare);
     *count = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-#include <flankfilm/engine.h>
+#include "report.h"
 
 #include <stdarg.h>
 #include <stdlib.h>
@@ -16,6 +16,7 @@ struct ff_report {
     size_t count;
     size_t errors; /* with those beyond MOST_KEPT */
     int fault;
+    bool lacked_memory;
     ff_source **sources; /* copies of temporary ones */
     size_t source_count;
 };
@@ -149,6 +150,22 @@ const ff_message *ff_report_first(const ff_report *report)
 size_t ff_report_errors(const ff_report *report)
 {
     return report->errors;
+}
+
+void fe_report_note_no_memory(ff_report *report)
+{
+    report->lacked_memory = true;
+}
+
+bool ff_report_lacked_memory(const ff_report *report)
+{
+    return report->lacked_memory;
+}
+
+void fe_report_require_memory(const ff_report *captured)
+{
+    if (captured->lacked_memory)
+        fe_out_of_memory();
 }
 
 int ff_report_fault(const ff_report *report)

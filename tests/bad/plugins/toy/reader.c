@@ -58,7 +58,7 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
         r->path = strdup(value->text);
     else
         r->how = value->integer;
-    return FF_OK;
+    return r->path || param > 0 ? FF_OK : FF_NOMEM;
 }
 
 static ff_status ready(void *self)

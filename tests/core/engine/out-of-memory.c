@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Each allocation of a run fails in turn, alone or with all that follow: in the engine, in libyaml,
+ * in the dynamic linker and in the models. The run answers that it lacked memory, or rightly;
+ * nothing is left behind, and the next run is good.
+ */
+#include <flankfilm/engine.h>
+
+#include <host.h>
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* What the allocator does, and has done. */
+static struct {
+    size_t calls, fail_at; /* the first that fails; 0: none */
+    bool onwards;          /* and all later ones */
+    long live;             /* blocks */
+} memory;
+
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *old, size_t size);
+void *__libc_memalign(size_t alignment, size_t size);
+void __libc_free(void *old);
+
+#define PUBLIC __attribute__((visibility("default")))
+
+static bool refuses(void)
+{
+    memory.calls++;
+    bool refused = memory.fail_at > 0 && (memory.onwards ? memory.calls >= memory.fail_at
+                                                         : memory.calls == memory.fail_at);
+    if (refused)
+        errno = ENOMEM;
+    return refused;
+}
+
+static void *count(void *made)
+{
+    memory.live += made != NULL;
+    return made;
+}
+
+PUBLIC void *malloc(size_t size)
+{
+    return refuses() ? NULL : count(__libc_malloc(size));
+}
+
+PUBLIC void *calloc(size_t number, size_t size)
+{
+    return refuses() ? NULL : count(__libc_calloc(number, size));
+}
+
+PUBLIC void *realloc(void *old, size_t size)
+{
+    if (refuses())
+        return NULL;
+    void *made = __libc_realloc(old, size);
+    memory.live += (made != NULL) - (old != NULL && (made || size == 0));
+    return made;
+}
+
+PUBLIC void *memalign(size_t alignment, size_t size)
+{
+    return refuses() ? NULL : count(__libc_memalign(alignment, size));
+}
+
+PUBLIC void *aligned_alloc(size_t alignment, size_t size)
+{
+    return memalign(alignment, size);
+}
+
+PUBLIC int posix_memalign(void **made, size_t alignment, size_t size)
+{
+    *made = memalign(alignment, size);
+    return *made ? 0 : ENOMEM;
+}
+
+PUBLIC void free(void *old)
+{
+    memory.live -= old != NULL;
+    __libc_free(old);
+}
+
+/* The blocks in use, without the error that the dynamic linker keeps for each thread. */
+static long live(void)
+{
+    dlerror(), dlerror();
+    return memory.live;
+}
+
+/* What is run, in the directory of the test, and what came of it. */
+typedef struct attempt {
+    const char *file;
+    bool open;     /* its models are to be chosen */
+    size_t calls;  /* of the allocator */
+    bool lacked;   /* an error says that memory was missing */
+    double answer; /* over all numbers and messages */
+} attempt;
+
+static const char *directory;
+
+static void add_array(attempt *a, const char *name, const ff_result *result)
+{
+    for (size_t n = 0; n < result->count; n++)
+        a->answer += (double)(name[0] + name[1]) * result->data[n];
+}
+
+/* A file whose models are known. */
+static ff_status run_file(attempt *a, ff_engine *engine)
+{
+    ff_run *run;
+    const char *name;
+    const ff_result *result;
+    const ff_quality *line;
+    ff_status status = ff_run_open(engine, a->file, NULL, &run);
+    if (status == FF_OK)
+        status = ff_run_start(run, NULL);
+    for (size_t i = 0; status == FF_OK && ff_run_output(run, i, &name, &result) == FF_OK; i++)
+        add_array(a, name, result);
+    for (size_t i = 0; status == FF_OK && ff_run_quality(run, i, &line) == FF_OK; i++)
+        a->answer += 1e3 * line->limit;
+    ff_run_close(run);
+    return status;
+}
+
+typedef struct choice {
+    attempt *a;
+    ff_engine *engine;
+    ff_report *report;
+} choice;
+
+/* A file that leaves models open, as the program runs it. */
+static void run_open_file(void *ctx)
+{
+    choice *c = ctx;
+    c->report = ff_report_new();
+    ff_tree *tree = ff_tree_load(c->a->file, c->report);
+    ff_pipeline *p = ff_pipeline_build(tree, ff_engine_library(c->engine), false, c->report);
+    if (p && ff_report_errors(c->report) == 0 && ff_pipeline_run(p, NULL, c->report))
+        for (size_t i = 0; i < p->count; i++)
+            for (size_t k = 0; p->stages[i].ran && k < p->stages[i].loaded->model->output_count;
+                 k++)
+                if (p->stages[i].results[k].data)
+                    add_array(c->a, p->stages[i].name, &p->stages[i].results[k]);
+    c->a->lacked = ff_report_lacked_memory(c->report);
+}
+
+/* The status of the run; the answer has the length of the message, too. */
+static ff_status run(attempt *a)
+{
+    const ff_engine_options options = {sizeof options, &directory, 1};
+    choice c = {.a = a};
+    ff_status status = ff_engine_new(&options, &c.engine);
+    if (status != FF_OK)
+        return status;
+    if (a->open)
+        status = ff_protected(run_open_file, &c);
+    else
+        status = run_file(a, c.engine);
+    a->answer += 1e6 * (double)strlen(ff_engine_message(c.engine));
+    ff_engine_close(c.engine);
+    return status == FF_OK && a->lacked ? FF_NOMEM : status;
+}
+
+static ff_status try_run(attempt *a, size_t fail_at, bool onwards)
+{
+    memory.calls = 0;
+    memory.fail_at = fail_at;
+    memory.onwards = onwards;
+    ff_status status = run(a);
+    memory.fail_at = 0;
+    a->calls = memory.calls;
+    return status;
+}
+
+/* Whether a run in which an allocation failed, and the next one, are as they should be. */
+static bool fail_once(const attempt *plan, size_t at, bool onwards, size_t *calls)
+{
+    attempt failed = *plan, next = *plan;
+    ff_status status = try_run(&failed, at, onwards);
+    *calls = failed.calls;
+    ff_status good = try_run(&next, 0, false);
+    return good != FF_NOMEM &&
+           (status == FF_NOMEM || (status == good && failed.answer == next.answer));
+}
+
+static void tell(const char *what, const char *file, size_t at, bool onwards)
+{
+    check_true(what, false);
+    printf("    %s: allocation %zu fails%s\n", file, at, onwards ? ", and all later ones" : "");
+}
+
+/* Fails one allocation in `stride` of those that a run makes when the models are loaded. */
+static void fail_warm(const attempt *plan, size_t stride, bool onwards)
+{
+    size_t calls, at = 1;
+    for (;; at += stride) {
+        long before = live();
+        bool good = fail_once(plan, at, onwards, &calls);
+        if (calls < at)
+            break;
+        if (!good)
+            tell("a wrong answer", plan->file, at, onwards);
+        else if (live() != before)
+            tell("memory is left behind", plan->file, at, onwards);
+    }
+    check_true("some failed", at > 100);
+}
+
+/* Fails each while models are loaded, which a process does once. */
+static void fail_cold(const attempt *plan, bool onwards)
+{
+    enum { GOOD, WRONG, BEYOND };
+    int answer = GOOD;
+    size_t at = 1;
+    for (; answer != BEYOND; at++) {
+        int status = 0;
+        size_t calls;
+        fflush(stdout);
+        if (fork() == 0) {
+            bool good = fail_once(plan, at, onwards, &calls);
+            _exit(!good ? WRONG : calls < at ? BEYOND : GOOD);
+        }
+        wait(&status);
+        answer = WIFEXITED(status) ? WEXITSTATUS(status) : WRONG;
+        if (answer == WRONG)
+            tell("wrong while models are loaded", plan->file, at, onwards);
+    }
+    check_true("some failed", at > 100);
+}
+
+/* DIRECTORY-OF-PLUGINS DIRECTORY-OF-FILES FILE STRIDE [open]; stride 0: cold. */
+int main(int argc, char **argv)
+{
+    if (argc < 5 || chdir(argv[2]) != 0)
+        return 2;
+    const attempt plan = {.file = argv[3], .open = argc > 5};
+    size_t stride = (size_t)atoi(argv[4]);
+    directory = argv[1];
+    for (int onwards = 0; onwards <= 1; onwards++)
+        if (stride == 0) {
+            fail_cold(&plan, onwards);
+        } else {
+            attempt first = plan;
+            try_run(&first, 0, false); /* loads what stays */
+            fail_warm(&plan, stride, onwards);
+        }
+    return check_done();
+}
