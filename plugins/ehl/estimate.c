@@ -33,38 +33,6 @@ double ehl_estimate_moes(const ehl_estimate *e, const ehl_instant *at)
     return ehl_moes_film(at, e->history.modulus, &oil);
 }
 
-ff_status ehl_estimate_set(void *self, uint32_t param, const ff_value *value)
-{
-    ehl_estimate *e = self;
-    double number = value->text ? 0 : value->real; /* a word, auto or none, is 0 */
-    switch (param) {
-    case EHL_ESTIMATE_CELLS:
-        e->cells = (size_t)value->integer;
-        break;
-    case EHL_ESTIMATE_INLET:
-        e->inlet = number;
-        break;
-    case EHL_ESTIMATE_OUTLET:
-        e->outlet = number;
-        break;
-    case EHL_ESTIMATE_STEPS:
-        e->steps = value->text ? 0 : (size_t)value->integer;
-        break;
-    case EHL_ESTIMATE_LIGHT_LOAD:
-        e->light_load = number;
-        break;
-    case EHL_ESTIMATE_OIL_CONDUCTIVITY:
-        e->heating.conductivity = value->real;
-        break;
-    case EHL_ESTIMATE_TEMPERATURE_SLOPE:
-        e->heating.slope = number;
-        break;
-    default:
-        return FF_BUG;
-    }
-    return FF_OK;
-}
-
 ff_status ehl_estimate_wire(void *self, uint32_t input, const void *service)
 {
     ehl_estimate *e = self;
@@ -92,7 +60,7 @@ static ehl_moment moment(const ehl_estimate *e, ehl_instant at)
 
 static int own_times(const ehl_estimate *e, const ehl_history *one)
 {
-    return e->steps == 0 || one->count == 1;
+    return e->steps < 0 || one->count == 1;
 }
 
 /* Lists the moments of one engagement and returns their number. Without `to` it only counts
@@ -100,7 +68,7 @@ static int own_times(const ehl_estimate *e, const ehl_history *one)
 static size_t list_moments(const ehl_estimate *e, const ehl_history *one, ehl_moment *to)
 {
     const int own = own_times(e, one);
-    const size_t count = own ? one->count : e->steps + 1;
+    const size_t count = own ? one->count : (size_t)e->steps + 1;
     const double begin = one->time[0], end = one->time[one->count - 1];
     for (size_t k = 0; to && k < count; k++) {
         double share = (double)k / (double)e->steps;
@@ -151,7 +119,7 @@ static ff_status read_scene(ehl_estimate *e, const ff_array *in)
         .gap = in[EHL_ESTIMATE_IN_GAP].data,
         .engagement = in[EHL_ESTIMATE_IN_ENGAGEMENT].data,
         .modulus = *in[EHL_ESTIMATE_IN_MODULUS].data,
-        .load_floor = e->light_load,
+        .load_floor = fmax(e->light_load, 0),
     };
     ff_status status = ehl_history_check(&e->history, e->host);
     if (status == FF_OK)
@@ -187,7 +155,7 @@ static ff_status begin(ehl_estimate *e, uint64_t wanted, const ff_array *in)
     e->alpha = ehl_oil_alpha(&e->laws, &e->oil);
     e->out_of_law = 0;
     if (wanted & fields)
-        ehl_grid_fit(&e->grid, e->cells, e->inlet, e->outlet, &e->history, &e->oil, 0);
+        ehl_grid_fit(&e->grid, (size_t)e->cells, e->inlet, e->outlet, &e->history, &e->oil, 0);
     return fill_moments(e);
 }
 
@@ -440,7 +408,7 @@ ff_status ehl_estimate_assess(ehl_estimate *e, uint64_t wanted, const ff_array *
         if (!(here < a->error)) /* the reason is of the worst */
             ehl_conditions_print(&conditions, e->reason, sizeof e->reason);
         a->error = fmax(a->error, here);
-        a->cost += cost * (double)(e->steps > 0 ? e->steps : one.count);
+        a->cost += cost * (e->steps > 0 ? (double)e->steps : (double)one.count);
         /* a rigid contact knows nothing of Hertz */
         unlike_hertz |= conditions.M_high < 1 && (targets.pressure || targets.friction);
         mixed |= conditions.lambda > 0 && conditions.lambda < EHL_MIXED_BELOW;

@@ -13,19 +13,33 @@
 
 #include <flankfilm/plugin.h>
 
-enum {
-    EHL_ESTIMATE_CELLS,
-    EHL_ESTIMATE_INLET,
-    EHL_ESTIMATE_OUTLET,
-    EHL_ESTIMATE_STEPS,
-    EHL_ESTIMATE_LIGHT_LOAD,
-    EHL_ESTIMATE_OIL_CONDUCTIVITY,
-    EHL_ESTIMATE_TEMPERATURE_SLOPE,
-    EHL_ESTIMATE_SHARED, /* parameters of every such model; film-formula has those below, too */
-    EHL_ESTIMATE_FORMULA = EHL_ESTIMATE_SHARED,
-    EHL_ESTIMATE_COEFFICIENT,
-    EHL_ESTIMATE_PARAMS
-};
+/* Rows of the parameters of every such model. */
+#define EHL_ESTIMATE_PARAMS                                                                        \
+    FF_COUNT("cells", ehl_estimate, cells, 0, "512", NULL, 4, 65536, 0, 0,                         \
+             "cells from inlet to outlet of the fields film and pressure; nothing else depends "   \
+             "on them"),                                                                           \
+        FF_QUANTITY_OR("auto", "inlet", "1", ehl_estimate, inlet, FF_MIN_OPEN, "auto", NULL, 0,    \
+                       1e6, 0, 0,                                                                  \
+                       "start of the fields in front of the contact, in largest Hertz "            \
+                       "half-widths; auto: a + 10 sqrt(2 R h) of every load"),                     \
+        FF_QUANTITY_OR("auto", "outlet", "1", ehl_estimate, outlet, FF_MIN_OPEN, "auto", NULL, 0,  \
+                       1e6, 0, 0,                                                                  \
+                       "end of the fields behind the contact, in largest Hertz half-widths; "      \
+                       "auto: a + 2 sqrt(2 R h) of every load"),                                   \
+        FF_COUNT_OR("auto", "steps", ehl_estimate, steps, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,  \
+                    "equal time steps of the results; auto: the times of the contact"),            \
+        FF_QUANTITY_OR("none", "light_load", "N/m", ehl_estimate, light_load, FF_MIN_OPEN, "none", \
+                       NULL, 0, 1e9, 0, 0,                                                         \
+                       "a load per width that stands in for smaller ones; none: the film of 1 % "  \
+                       "of the largest load stands in, and the gap of lost contact is added"),     \
+        FF_QUANTITY("oil_conductivity", "W/(m K)", ehl_estimate, heating.conductivity, 0,          \
+                    "0.14 W/(m K)", NULL, 1e-3, 1e3, 0, 0,                                         \
+                    "thermal conductivity of the oil, for the line inlet_heating of the quality "  \
+                    "alone; oils have 0.1 to 0.17"),                                               \
+        FF_QUANTITY_OR("auto", "temperature_slope", "1/K", ehl_estimate, heating.slope,            \
+                       FF_MIN_OPEN, "auto", NULL, 0, 10, 0, 0,                                     \
+                       "-d ln(eta)/dT of the oil, for inlet_heating alone; auto: that of the "     \
+                       "viscosity law, or 0.03 1/K where it knows no temperature")
 
 enum {
     EHL_ESTIMATE_IN_TIME,
@@ -79,7 +93,6 @@ enum {
 
 extern const ff_model ehl_film_formula_model; /* ehl/film-formula */
 
-extern const ff_param ehl_estimate_params[EHL_ESTIMATE_PARAMS];
 extern const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS];
 extern const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS];
 
@@ -112,7 +125,7 @@ struct ehl_estimate {
     void (*report)(const ehl_estimate *e); /* its lines of the quality record */
     void (*end)(ehl_estimate *e);
 
-    size_t cells, steps; /* steps 0: the times of the history */
+    int64_t cells, steps; /* steps -1: the times of the history */
     double inlet, outlet, light_load;
     ehl_inlet_heating heating;
     ehl_laws laws;
@@ -138,7 +151,6 @@ ff_status ehl_estimate_assess(ehl_estimate *e, uint64_t wanted, const ff_array *
 ff_status ehl_estimate_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
                              const ff_array *in, ff_assessment *a);
 
-ff_status ehl_estimate_set(void *self, uint32_t param, const ff_value *value);
 ff_status ehl_estimate_wire(void *self, uint32_t input, const void *service);
 ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in);
 

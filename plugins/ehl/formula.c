@@ -56,7 +56,7 @@ ehl_film_numbers ehl_film_formula(int formula, ehl_contact_numbers n)
 
 typedef struct film_formula {
     ehl_estimate e;
-    int formula, ambient;
+    int32_t formula, pressure_coefficient; /* ranks of the words */
     double *density;  /* at p_max, over that at ambient pressure, of every moment */
     double h_central; /* m, of the latest moment */
 } film_formula;
@@ -84,7 +84,7 @@ static int inside(const film_formula *f, const ehl_moment *m)
 static ff_status begin(ehl_estimate *e)
 {
     film_formula *f = (film_formula *)e;
-    double alpha = f->ambient ? e->oil.alpha : e->alpha;
+    double alpha = f->pressure_coefficient ? e->oil.alpha : e->alpha;
     if (f->formula != EHL_MOES && !(alpha > 0))
         return ff_failf(e->host, FF_INVALID, "formula",
                         "this formula is for a viscosity that rises with pressure, and this one "
@@ -107,7 +107,7 @@ static void film(ehl_estimate *e, size_t k, ehl_estimate_film *out)
     film_formula *f = (film_formula *)e;
     const ehl_moment *m = &e->moment[k];
     const ehl_instant *at = &m->at;
-    double modulus = e->history.modulus, alpha = f->ambient ? e->oil.alpha : e->alpha;
+    double modulus = e->history.modulus, alpha = f->pressure_coefficient ? e->oil.alpha : e->alpha;
     double size = modulus * at->radius;
     ehl_contact_numbers n = {
         .U = fmax(e->oil.viscosity * at->entrainment / size, 1e-30),
@@ -198,35 +198,36 @@ static ff_status create(const ff_host *host, void **self)
     return FF_OK;
 }
 
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    film_formula *f = self;
-    if (param < EHL_ESTIMATE_SHARED)
-        return ehl_estimate_set(&f->e, param, value);
-    if (param == EHL_ESTIMATE_FORMULA)
-        f->formula = (int)value->integer;
-    else
-        f->ambient = (int)value->integer;
-    return FF_OK;
-}
-
 static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
                         ff_assessment *a)
 {
     const double per_time = 2e-6; /* s */
     (void)accuracy;
     const film_formula *f = self;
-    if (f->formula != EHL_MOES || f->ambient || f->e.light_load > 0)
+    if (f->formula != EHL_MOES || f->pressure_coefficient || f->e.light_load > 0)
         return ff_failf(
             f->e.host, FF_UNSUPPORTED, "formula",
             "the error is known of Moes' formula with the asymptotic coefficient alone");
     return ehl_estimate_assess(self, wanted, in, ehl_formula_error, per_time, a);
 }
 
+static const ff_param params[] = {
+    EHL_ESTIMATE_PARAMS,
+    FF_ONE_OF(
+        "moes|dowson-higginson|dowson-toyoda|pan-hamrock", "formula", film_formula, formula, 0,
+        "moes",
+        "moes: all regimes; the others: heavily loaded, elastic and piezoviscous. What a formula "
+        "lacks of h_min and h_central comes from its authors' other one or from a ratio"),
+    FF_ONE_OF("asymptotic|ambient", "pressure_coefficient", film_formula, pressure_coefficient, 0,
+              "asymptotic",
+              "alpha in the formula: asymptotic, 1/int eta0/eta dp, which is the fairest between "
+              "laws; or ambient, the slope of ln(eta) at p = 0"),
+};
+
 const ff_model ehl_film_formula_model = {
     .size = sizeof(ff_model),
     .abi_major = FF_ABI_MAJOR,
-    .abi_minor = 0,
+    .abi_minor = 2,
     .id = "ehl/film-formula",
     .version = "1.0.0",
     .summary = "film thickness of a smooth line contact by a formula for steady films, at every "
@@ -246,9 +247,8 @@ const ff_model ehl_film_formula_model = {
         "performance parameters used in elastohydrodynamically lubricated line contacts}, "
         "journal={J. Tribol.}, volume={111}, pages={246--251}, year={1989}}\n",
     .licence = "GPL-3.0-or-later",
-    .params = ehl_estimate_params,
-    .param_count = EHL_ESTIMATE_PARAMS,
-    .param_stride = sizeof ehl_estimate_params[0],
+    .params = FF_TABLE(params),
+    .self_size = sizeof(film_formula),
     .inputs = ehl_estimate_inputs,
     .input_count = EHL_ESTIMATE_INPUTS,
     .input_stride = sizeof ehl_estimate_inputs[0],
@@ -256,7 +256,6 @@ const ff_model ehl_film_formula_model = {
     .output_count = EHL_ESTIMATE_OUTPUTS,
     .output_stride = sizeof ehl_estimate_outputs[0],
     .create = create,
-    .set = set,
     .wire = ehl_estimate_wire,
     .evaluate = ehl_estimate_evaluate,
     .destroy = free,

@@ -364,10 +364,12 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     return ehl_estimate_assess(self, wanted, in, ehl_inlet_error, per_time, a);
 }
 
+static const ff_param params[] = {EHL_ESTIMATE_PARAMS};
+
 static const ff_model inlet_analysis_model = {
     .size = sizeof inlet_analysis_model,
     .abi_major = FF_ABI_MAJOR,
-    .abi_minor = 0,
+    .abi_minor = 2,
     .id = "ehl/inlet-analysis",
     .version = "1.0.0",
     .summary = "film of a smooth line contact from its inlet, with the laws of the oil, carried "
@@ -385,9 +387,8 @@ static const ff_model inlet_analysis_model = {
         "theory of elastohydrodynamic lubrication}, journal={Wear}, volume={19}, "
         "pages={109--119}, year={1972}}\n",
     .licence = "GPL-3.0-or-later",
-    .params = ehl_estimate_params,
-    .param_count = EHL_ESTIMATE_SHARED,
-    .param_stride = sizeof ehl_estimate_params[0],
+    .params = FF_TABLE(params),
+    .self_size = sizeof(inlet_analysis),
     .inputs = ehl_estimate_inputs,
     .input_count = EHL_ESTIMATE_INPUTS,
     .input_stride = sizeof ehl_estimate_inputs[0],
@@ -395,7 +396,6 @@ static const ff_model inlet_analysis_model = {
     .output_count = EHL_ESTIMATE_OUTPUTS,
     .output_stride = sizeof ehl_estimate_outputs[0],
     .create = create,
-    .set = ehl_estimate_set,
     .wire = ehl_estimate_wire,
     .evaluate = ehl_estimate_evaluate,
     .destroy = free,

@@ -4,15 +4,86 @@
 
 #include <flankfilm/author.h>
 
+static const ff_param params[] = {
+    FF_COUNT("cells", ehl_model, cells, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
+             "cells of the uniform grid from inlet to outlet; the error of the film falls with "
+             "their square (second-order wedge)"),
+    FF_QUANTITY_OR(
+        "auto", "inlet", "1", ehl_model, inlet, FF_MIN_OPEN | FF_TUNABLE, "auto", NULL, 0, 1e6, 2,
+        1e6,
+        "start of the domain in front of the contact, in largest Hertz half-widths of the history; "
+        "auto: a + 10 sqrt(2 R h) of every load, and up to 57 under light ones"),
+    FF_QUANTITY_OR("auto", "outlet", "1", ehl_model, outlet, FF_MIN_OPEN | FF_TUNABLE, "auto", NULL,
+                   0, 1e6, 1.1, 1e6,
+                   "end of the domain behind the contact, in largest Hertz half-widths; auto: a + "
+                   "2 sqrt(2 R h) of every load; with rough flanks both ends at least a + sqrt(8 R "
+                   "Rq); where the entrainment turns round both as far as the further"),
+    FF_COUNT_OR("auto", "steps", ehl_model, steps, FF_TUNABLE, "auto", NULL, 1, 1e7, 0, 0,
+                "equal time steps from the first to the last time of the contact, or auto: as many "
+                "as time_tolerance asks for, which land on the kinks of the history; a history of "
+                "one time is solved as steady. With rough flanks a step is divided so that the oil "
+                "moves a cell at most, less where they touch"),
+    FF_QUANTITY("time_tolerance", "1", ehl_model, time_tolerance, FF_TUNABLE, "7e-3", NULL, 1e-6, 1,
+                0, 0,
+                "steps: auto: error of the film, over itself, that the time steps of one passage "
+                "through the contact may add up to"),
+    FF_ONE_OF("euler|bdf2", "time_scheme", ehl_model, time_scheme, 0, "bdf2",
+              "squeeze term: backward Euler (first order) or two-step backward differentiation "
+              "(second order)"),
+    FF_ONE_OF("first|second", "wedge", ehl_model, wedge, 0, "second",
+              "order of the upwind wedge term"),
+    FF_ONE_OF("clip|mass-conserving", "cavitation", ehl_model, cavitation, 0, "clip",
+              "clip: p >= 0, and the film is full where p > 0 (Reynolds' condition); mass is not "
+              "conserved where p = 0. mass-conserving: there a share of the gap is filled, and is "
+              "carried along until the film closes again"),
+    FF_QUANTITY("tolerance", "1", ehl_model, tolerance, FF_TUNABLE, "1e-5", NULL, 1e-12, 1e-2, 0, 0,
+                "largest last change of pressure over its maximum; the film is then as accurate as "
+                "if the equations were solved exactly, to about this"),
+    FF_QUANTITY_OR("none", "light_load", "N/m", ehl_model, light_load, FF_MIN_OPEN, "none", NULL, 0,
+                   1e9, 0, 0,
+                   "none: without load the film is carried on without a load balance; or a load "
+                   "per width that stands in for smaller ones"),
+    FF_QUANTITY("oil_conductivity", "W/(m K)", ehl_model, heating.conductivity, 0, "0.14 W/(m K)",
+                NULL, 1e-3, 1e3, 0, 0,
+                "thermal conductivity of the oil, for the line inlet_heating of the quality alone; "
+                "oils have 0.1 to 0.17"),
+    FF_QUANTITY_OR("auto", "temperature_slope", "1/K", ehl_model, heating.slope, FF_MIN_OPEN,
+                   "auto", NULL, 0, 10, 0, 0,
+                   "-d ln(eta)/dT of the oil, for inlet_heating alone; auto: that of the viscosity "
+                   "law, or 0.03 1/K where it knows no temperature"),
+    FF_QUANTITY("contact_film", "nm", ehl_model, contact_film, 0, "1 nm", NULL, 1e-3, 1e3, 0.5, 10,
+                "rough flanks: least film; the asperities carry what would press them closer. Two "
+                "molecular layers of an oil, 0.5 nm each (Israelachvili 2011)"),
+    FF_QUANTITY("boundary_friction", "1", ehl_model, boundary_friction, 0, "0.10", NULL, 0, 2, 0.05,
+                0.2, "friction coefficient of the asperities in contact"),
+    FF_QUANTITY(
+        "asperity_hardness", "GPa", ehl_model, asperity_hardness, 0, "7 GPa", NULL, 0, 1e3, 0, 0,
+        "rough flanks: highest pressure, of asperities and of the film, at which the metal yields: "
+        "hardness of the softer flank, 7 GPa case-hardened (700 HV); 0: elastic at every pressure"),
+    FF_ONE_OF("sealed|ventilated", "valleys", ehl_model, valleys, 0, "sealed",
+              "rough flanks: sealed: oil between asperities in contact has no way out but through "
+              "their gaps, as between ridges along the tooth; ventilated: it leaks sideways, over "
+              "valley_length"),
+    FF_QUANTITY("valley_length", "mm", ehl_model, valley_length, FF_MIN_OPEN, "0.2 mm", NULL, 0,
+                1e3, 0, 0,
+                "valleys: ventilated: length of a valley along the tooth, open at both ends"),
+    FF_ONE_OF("resolved|ignored", "roughness", ehl_model, roughness, FF_TUNABLE, "resolved",
+              "heights of a wired surface: resolved, as the flanks move; or ignored, where the "
+              "film is many times the roughness"),
+};
+
 #define SOLVER_MODEL                                                                               \
-    .size = sizeof(ff_model), .abi_major = FF_ABI_MAJOR, .abi_minor = 2, .version = "1.0.0",       \
-    .licence = "GPL-3.0-or-later", .params = FF_TABLE(ehl_params), .inputs = ehl_inputs,           \
-    .input_stride = sizeof ehl_inputs[0], .outputs = FF_TABLE(ehl_outputs), .set = ehl_set,        \
-    .wire = ehl_wire, .evaluate = ehl_evaluate, .judge = ehl_judge, .destroy = ehl_destroy
+    .size = sizeof(ff_model), .abi_major = FF_ABI_MAJOR, .abi_minor = 2,                           \
+    .self_size = sizeof(ehl_model), .version = "1.0.0", .licence = "GPL-3.0-or-later",             \
+    .params = FF_TABLE(params), .inputs = ehl_inputs, .input_stride = sizeof ehl_inputs[0],        \
+    .outputs = FF_TABLE(ehl_outputs), .wire = ehl_wire, .evaluate = ehl_evaluate,                  \
+    .judge = ehl_judge, .destroy = ehl_destroy
+
+static const ff_model finite_volume;
 
 static ff_status create_finite_volume(const ff_host *host, void **self)
 {
-    return ehl_create(host, ehl_newton_krylov, self);
+    return ehl_create(host, &finite_volume, ehl_newton_krylov, self);
 }
 
 /* Newton-GMRES with FFTs: as good as proportional, s. */
@@ -51,9 +122,11 @@ static const ff_model finite_volume = {
     .assess = assess_finite_volume,
 };
 
+static const ff_model dense_newton;
+
 static ff_status create_dense_newton(const ff_host *host, void **self)
 {
-    return ehl_create(host, ehl_dense_newton, self);
+    return ehl_create(host, &dense_newton, ehl_dense_newton, self);
 }
 
 /* A dense matrix is factorised two or three times, s. */
@@ -86,9 +159,11 @@ static const ff_model dense_newton = {
     .assess = assess_dense_newton,
 };
 
+static const ff_model control_volume;
+
 static ff_status create_control_volume(const ff_host *host, void **self)
 {
-    return ehl_create(host, ehl_line_relaxation, self);
+    return ehl_create(host, &control_volume, ehl_line_relaxation, self);
 }
 
 /*

@@ -14,12 +14,14 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-ff_status ehl_create(const ff_host *host, ehl_solver_maker *maker, void **self)
+ff_status ehl_create(const ff_host *host, const ff_model *model, ehl_solver_maker *maker,
+                     void **self)
 {
     ehl_model *m = calloc(1, sizeof *m);
     if (!m)
         return FF_NOMEM;
     m->host = host;
+    m->model = model;
     m->maker = maker;
     *self = m;
     return FF_OK;
@@ -28,81 +30,6 @@ ff_status ehl_create(const ff_host *host, ehl_solver_maker *maker, void **self)
 void ehl_destroy(void *self)
 {
     free(self);
-}
-
-static int given_by(uint32_t param, const ff_value *value)
-{
-    static const int marks[EHL_PARAMS] = {[EHL_CELLS] = EHL_TUNE_CELLS,
-                                          [EHL_STEPS] = EHL_TUNE_STEPS,
-                                          [EHL_TIME_TOLERANCE] = EHL_TUNE_TOLERANCE};
-    return value->given ? marks[param] : 0;
-}
-
-ff_status ehl_set(void *self, uint32_t param, const ff_value *value)
-{
-    ehl_model *m = self;
-    double number = value->text ? 0 : value->real; /* a word, auto or none, is 0 */
-    m->given |= given_by(param, value);
-    switch (param) {
-    case EHL_CELLS:
-        m->cells = (size_t)value->integer;
-        break;
-    case EHL_INLET:
-        m->inlet = number;
-        break;
-    case EHL_OUTLET:
-        m->outlet = number;
-        break;
-    case EHL_STEPS:
-        m->steps = value->text ? 0 : (size_t)value->integer;
-        break;
-    case EHL_TIME_TOLERANCE:
-        m->time_tolerance = value->real;
-        break;
-    case EHL_TIME_SCHEME:
-        m->scheme = (int)value->integer;
-        break;
-    case EHL_WEDGE:
-        m->wedge = (int)value->integer + 1;
-        break;
-    case EHL_TOLERANCE:
-        m->tolerance = value->real;
-        break;
-    case EHL_LIGHT_LOAD:
-        m->light_load = number;
-        break;
-    case EHL_OIL_CONDUCTIVITY:
-        m->heating.conductivity = value->real;
-        break;
-    case EHL_TEMPERATURE_SLOPE:
-        m->heating.slope = number;
-        break;
-    case EHL_CONTACT_FILM:
-        m->contact_film = value->real;
-        break;
-    case EHL_BOUNDARY_FRICTION:
-        m->boundary_friction = value->real;
-        break;
-    case EHL_ASPERITY_HARDNESS:
-        m->hardness = value->real;
-        break;
-    case EHL_VALLEYS:
-        m->ventilated = value->integer == 1;
-        break;
-    case EHL_VALLEY_LENGTH:
-        m->valley_length = value->real;
-        break;
-    case EHL_CAVITATION:
-        m->conserving = value->integer == 1;
-        break;
-    case EHL_ROUGHNESS:
-        m->smooth = value->integer == 1;
-        m->roughness_given = value->given;
-        break;
-    default:
-        break;
-    }
-    return FF_OK;
 }
 
 ff_status ehl_wire(void *self, uint32_t input, const void *service)
@@ -158,7 +85,7 @@ ff_status ehl_read_history(const ehl_model *m, const ff_array *in, ehl_history *
         .gap = in[EHL_IN_GAP].data,
         .engagement = in[EHL_IN_ENGAGEMENT].data,
         .modulus = *in[EHL_IN_MODULUS].data,
-        .load_floor = m->light_load,
+        .load_floor = fmax(m->light_load, 0),
     };
     return ehl_history_check(h, m->host);
 }
@@ -167,7 +94,7 @@ ff_status ehl_read_history(const ehl_model *m, const ff_array *in, ehl_history *
 static ff_status read_surface(const ehl_model *m, const ff_array *in, run *r)
 {
     const ff_array *row = in + EHL_IN_POSITION;
-    if (!row[0].data || m->smooth)
+    if (!row[0].data || m->roughness == EHL_IGNORED)
         return FF_OK;
     if (m->maker != ehl_newton_krylov || m->outside)
         return ff_failf(m->host, FF_UNSUPPORTED, "surface.position",
@@ -197,13 +124,13 @@ static ff_status read_surface(const ehl_model *m, const ff_array *in, run *r)
 static ff_status check_hardness(const ehl_model *m, const run *r)
 {
     const double mean = 3.14159265358979323846 / 4 * r->grid.pressure;
-    if (!(r->rough.count > 0 && m->hardness > 0) || m->hardness > mean)
+    if (!(r->rough.count > 0 && m->asperity_hardness > 0) || m->asperity_hardness > mean)
         return FF_OK;
     return ff_failf(m->host, FF_INVALID, "asperity_hardness",
                     "flanks of %.4g GPa would yield all over the contact, whose mean pressure is "
                     "%.4g GPa under the largest load: asperity_hardness must be above that, or 0 "
                     "for flanks that stay elastic",
-                    1e-9 * m->hardness, 1e-9 * mean);
+                    1e-9 * m->asperity_hardness, 1e-9 * mean);
 }
 
 static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
@@ -217,20 +144,20 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
     if (ehl_fluid_oil(&m->laws, &r->oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
     double rq = r->rough.count > 0 ? ehl_roughness_rq(&r->rough) : 0;
-    ehl_grid_fit(&r->grid, m->cells, m->inlet, m->outlet, &r->history, &r->oil, rq);
+    ehl_grid_fit(&r->grid, (size_t)m->cells, m->inlet, m->outlet, &r->history, &r->oil, rq);
     if (!(r->grid.dx > 0 && isfinite(r->grid.dx)))
         return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
                         "the contact and the oil give no finite length of the domain");
     status = check_hardness(m, r);
     if (status != FF_OK)
         return status;
-    if (ehl_reynolds_create(&r->reynolds, &r->grid, &m->laws, &r->oil, m->wedge) != FF_OK)
+    if (ehl_reynolds_create(&r->reynolds, &r->grid, &m->laws, &r->oil, m->wedge + 1) != FF_OK)
         return FF_NOMEM;
     r->kernel = malloc(r->grid.nodes * sizeof *r->kernel);
     if (!r->kernel)
         return FF_NOMEM;
     ehl_kernel_fill(r->grid.nodes, r->grid.dx, r->history.modulus, r->grid.half_width, r->kernel);
-    r->reynolds.conserving = m->conserving;
+    r->reynolds.conserving = m->cavitation == EHL_CONSERVING;
     r->reynolds.unit = r->oil.density * (r->kernel[0] - r->kernel[r->grid.nodes - 1]);
     if (r->rough.count > 0) {
         /* mass-conserving cavitation: a bubble in a valley must give way; first-order wedge: the
@@ -238,8 +165,9 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
         r->reynolds.conserving = 1;
         r->reynolds.wedge = 1;
         r->reynolds.contact = r->reynolds.floor = m->contact_film;
-        r->reynolds.leak = m->ventilated ? 12 / (m->valley_length * m->valley_length) : 0;
-        r->reynolds.hardness = m->hardness;
+        r->reynolds.leak =
+            m->valleys == EHL_VENTILATED ? 12 / (m->valley_length * m->valley_length) : 0;
+        r->reynolds.hardness = m->asperity_hardness;
         r->reynolds.give = r->kernel[0] - r->kernel[r->grid.nodes - 1];
     }
     r->solver = (ehl_solver){
@@ -256,13 +184,13 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
         return ff_failf(
             m->host, status, "discretisation",
             "the discretisation does not solve for such a film: cavitation %s, %s wedge",
-            m->conserving ? "mass-conserving" : "clip",
-            m->wedge == 2 ? "second-order" : "first-order");
+            r->reynolds.conserving ? "mass-conserving" : "clip",
+            r->reynolds.wedge == 2 ? "second-order" : "first-order");
     if (status == FF_UNSUPPORTED)
         return ff_failf(m->host, status, NULL, "LAPACK, which this model needs, cannot be loaded");
     if (status != FF_OK)
         return status;
-    status = ehl_march_create(&r->march, &r->history, &r->solver, m->scheme);
+    status = ehl_march_create(&r->march, &r->history, &r->solver, m->time_scheme);
     r->march.rough = r->rough.count > 0 ? &r->rough : NULL;
     return status;
 }
@@ -305,14 +233,15 @@ static ff_status march_equal_steps(const ehl_model *m, run *r)
 {
     const ehl_history *h = &r->history;
     double begin = h->time[0], end = h->time[h->count - 1];
-    for (size_t k = 1; k <= m->steps; k++) {
+    const size_t steps = (size_t)m->steps;
+    for (size_t k = 1; k <= steps; k++) {
         if (stopped(m, r, k))
             return FF_STOPPED;
-        double time = k == m->steps ? end : begin + (end - begin) * (double)k / (double)m->steps;
+        double time = k == steps ? end : begin + (end - begin) * (double)k / (double)steps;
         ff_status status = ehl_march_to(&r->march, time);
         if (status != FF_OK)
             return explain(m, r, status, time);
-        status = ehl_results_record(&r->results, &r->march, k == m->steps);
+        status = ehl_results_record(&r->results, &r->march, k == steps);
         if (status != FF_OK)
             return status;
     }

@@ -12,28 +12,6 @@
 #include <flankfilm/plugin.h>
 
 enum {
-    EHL_CELLS,
-    EHL_INLET,
-    EHL_OUTLET,
-    EHL_STEPS,
-    EHL_TIME_TOLERANCE,
-    EHL_TIME_SCHEME,
-    EHL_WEDGE,
-    EHL_CAVITATION,
-    EHL_TOLERANCE,
-    EHL_LIGHT_LOAD,
-    EHL_OIL_CONDUCTIVITY,
-    EHL_TEMPERATURE_SLOPE,
-    EHL_CONTACT_FILM,
-    EHL_BOUNDARY_FRICTION,
-    EHL_ASPERITY_HARDNESS,
-    EHL_VALLEYS,
-    EHL_VALLEY_LENGTH,
-    EHL_ROUGHNESS,
-    EHL_PARAMS
-};
-
-enum {
     EHL_IN_TIME,
     EHL_IN_RADIUS,
     EHL_IN_SPEED_1,
@@ -107,12 +85,11 @@ enum {
     EHL_OUTPUTS
 };
 
-extern const ff_param ehl_params[EHL_PARAMS];
 extern const ff_port ehl_inputs[EHL_INPUTS];
 extern const ff_port ehl_outputs[EHL_OUTPUTS];
 
-ff_status ehl_create(const ff_host *host, ehl_solver_maker *maker, void **self);
-ff_status ehl_set(void *self, uint32_t param, const ff_value *value);
+ff_status ehl_create(const ff_host *host, const ff_model *model, ehl_solver_maker *maker,
+                     void **self);
 ff_status ehl_wire(void *self, uint32_t input, const void *service);
 ff_status ehl_evaluate(void *self, uint64_t wanted, const ff_array *in);
 /* step_cost returns the seconds that a step takes with that many cells. */
@@ -124,21 +101,22 @@ void ehl_destroy(void *self);
 
 /* Declares what the files of the film model share. */
 
+/* Ranks of the words of cavitation, valleys and roughness. */
+enum { EHL_CONSERVING = 1, EHL_VENTILATED = 1, EHL_IGNORED = 1 };
+
 typedef struct ehl_model {
     const ff_host *host;
+    const ff_model *model; /* its descriptor */
     ehl_solver_maker *maker;
-    size_t cells, steps;  /* steps 0: chosen automatically */
-    double inlet, outlet; /* multiples of the half-width; 0: chosen automatically */
-    int scheme, wedge, conserving;
-    double tolerance, time_tolerance, light_load;
+    /* parameters, by their names; auto and none read as -1 or NaN, a word as its rank */
+    int64_t cells, steps;
+    double inlet, outlet, time_tolerance, tolerance, light_load;
+    int32_t time_scheme, wedge, cavitation, valleys, roughness;
+    double contact_film, boundary_friction, asperity_hardness, valley_length;
     ehl_inlet_heating heating;
-    double contact_film, boundary_friction, hardness, valley_length;
-    int ventilated, smooth;
     ehl_laws laws;
     const ff_film *outside; /* NULL: the solver of `maker` */
-    int given;              /* EHL_TUNE_... flags of what the user wrote */
-    int roughness_given;
-    char text[3][32]; /* text and reason belong to the last assessment */
+    char text[3][32];       /* text and reason belong to the last assessment */
     char reason[400];
     ff_proposal proposals[4];
 } ehl_model;

@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Numbers n of cells such that Fourier transforms of length 2 n are fast. */
 static const size_t CELLS[] = {96,   112,  128,  144,  160,  176,  192,  208,  224,
@@ -268,6 +269,22 @@ static void propose_settings(ehl_model *m, const ehl_tuning *t, int rough, ff_as
     a->proposal_count = rough ? 4 : 3;
 }
 
+static int is_given(const ehl_model *m, const char *param)
+{
+    uint32_t row = 0;
+    while (strcmp(m->model->params[row].name, param) != 0)
+        row++;
+    return FF_HAS(m->host, given) && m->host->given(m->host->ctx, row);
+}
+
+/* EHL_TUNE_... of what the user wrote. */
+static int given_settings(const ehl_model *m)
+{
+    return (is_given(m, "cells") ? EHL_TUNE_CELLS : 0) |
+           (is_given(m, "steps") ? EHL_TUNE_STEPS : 0) |
+           (is_given(m, "time_tolerance") ? EHL_TUNE_TOLERANCE : 0);
+}
+
 /* Returns why the error cannot be estimated; NULL: it can. */
 static const char *why_error_is_unknown(const ehl_model *m, const ehl_history *h, uint64_t wanted,
                                         int rough)
@@ -276,10 +293,11 @@ static const char *why_error_is_unknown(const ehl_model *m, const ehl_history *h
                                           FF_BIT(EHL_CONTACT_RATIO) | FF_BIT(EHL_TRAPPED_SHARE) |
                                           FF_BIT(EHL_ASPERITY_PRESSURE) | FF_BIT(EHL_YIELD_SHARE) |
                                           FF_BIT(EHL_PLASTIC_DEPTH_MAX) | FF_BIT(EHL_PLASTIC_DEPTH);
-    if (rough && ((m->roughness_given && !m->smooth) || wanted & of_asperities))
+    if (rough &&
+        ((is_given(m, "roughness") && m->roughness != EHL_IGNORED) || wanted & of_asperities))
         return "nothing is known beforehand of the error of a rough film: choose the cells by the "
                "shortest wave";
-    if (m->inlet > 0 || m->outlet > 0 || m->scheme == EHL_EULER || m->wedge == 1 ||
+    if (m->inlet > 0 || m->outlet > 0 || m->time_scheme == EHL_EULER || m->wedge == 0 ||
         m->light_load > 0)
         return "nothing is known of the error with a domain, a scheme, a wedge or a light load of "
                "one's own";
@@ -300,8 +318,9 @@ static ff_status tune_by_probes(const ehl_model *m, const ehl_history *h, const 
     enum { MOST_PROBES = 4 };
     const double near = 0.85;
     const ehl_tuning given = *t;
+    const int fixed = given_settings(m);
     double work = 0;
-    ehl_tune(conditions, accuracy, m->given, targets, t);
+    ehl_tune(conditions, accuracy, fixed, targets, t);
     if (m->maker != ehl_newton_krylov || conditions->steady || conditions->thin_count == 0)
         return FF_OK;
     for (int k = 0; k < MOST_PROBES; k++) {
@@ -315,12 +334,12 @@ static ff_status tune_by_probes(const ehl_model *m, const ehl_history *h, const 
             conditions->thin[probe->worst]; /* the other instant need not be solved again */
         conditions->thin_count = 1;
         *t = given;
-        ehl_tune(conditions, accuracy, m->given, targets, t);
+        ehl_tune(conditions, accuracy, fixed, targets, t);
         double ratio = (double)t->cells / (double)probe->cells;
         if (probe->cells > 0 && ratio < 1 && (ratio > near || k + 1 == MOST_PROBES)) {
             *t = given; /* nothing was measured with fewer cells */
             t->cells = probe->cells;
-            ehl_tune(conditions, accuracy, m->given | EHL_TUNE_CELLS, targets, t);
+            ehl_tune(conditions, accuracy, fixed | EHL_TUNE_CELLS, targets, t);
         }
         if (probe->cells == 0 || (ratio > near && ratio * near < 1))
             break;
@@ -341,7 +360,9 @@ static ff_status assess_engagement(const ehl_model *m, const ff_array *in, const
                                    const ehl_oil *oil, double accuracy, ehl_error_targets targets,
                                    double (*step_cost)(double cells), demand *d)
 {
-    d->tuning = (ehl_tuning){.cells = m->cells, .steps = m->steps, .tolerance = m->time_tolerance};
+    d->tuning = (ehl_tuning){.cells = (size_t)m->cells,
+                             .steps = m->steps > 0 ? (size_t)m->steps : 0,
+                             .tolerance = m->time_tolerance};
     ff_status status = ehl_conditions_read(one, &m->laws, oil, in[EHL_IN_RQ_1].data,
                                            in[EHL_IN_RQ_2].data, &d->conditions);
     if (status != FF_OK)
