@@ -111,9 +111,10 @@ typedef struct ff_observer {
     int32_t (*progress)(void *ctx, const ff_stage *stage, double fraction);
     /* level: FF_LOG_INFO, FF_LOG_WARNING. */
     void (*log)(void *ctx, const ff_stage *stage, int32_t level, const char *text);
-    /* Draft: may fill in the results of a stage (true), which is then not evaluated. */
+    /* Draft: may fill in the results of a stage (true), which is then not evaluated. The first
+       stage of a loop stands for all of its stages, here and in keep. */
     bool (*recall)(void *ctx, const ff_pipeline *pipeline, ff_stage *stage);
-    /* Draft: called after each evaluation, good or not. */
+    /* Draft: called after each evaluation, good or not; of a loop, after the last round. */
     void (*keep)(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage);
 } ff_observer;
 
@@ -472,8 +473,24 @@ typedef struct ff_wire {
     char name[48];
     int stage;      /* index of the feeding stage; -1: not connected */
     bool automatic; /* not written in the file */
+    bool feedback;  /* its inputs may close a loop */
+    bool closes;    /* it closes one: it carries what its stage gave in the round before */
     ff_place place;
 } ff_wire;
+
+/* Stages that need each other by feedback wires. They are one node of the graph: all of them are
+   needed or none, and they are evaluated round after round until what the wires carry has settled.
+   Loops that share a stage are one. */
+typedef struct ff_loop {
+    size_t first, count; /* its stages in the `order` of the pipeline */
+} ff_loop;
+
+/* How loops are iterated, as the file says under `feedback`. */
+typedef struct ff_feedback {
+    int64_t rounds;    /* a loop that has not settled after so many is bad */
+    double tolerance;  /* largest change of what a wire carries, over the largest number in it */
+    double relaxation; /* share of that change which the next round takes; 1: all of it */
+} ff_feedback;
 
 /* A model that a stage could use, and what it says of itself. */
 typedef struct ff_candidate {
@@ -523,10 +540,11 @@ struct ff_stage {
     double work;      /* s: processor time of evaluate, over all threads */
     ff_quality *quality;
     size_t quality_count;
-    void *state;       /* in a chain: what evaluate starts from, then what it left; NULL: none */
-    size_t state_size; /* bytes of it */
-    ff_choice *choice; /* NULL: the file says which model. Until the choice is made, the stage has
-                          all that its candidates have, by name; then it is that of the chosen */
+    void *state;         /* in a chain: what evaluate starts from, then what it left; NULL: none */
+    size_t state_size;   /* bytes of it */
+    const ff_loop *loop; /* that it belongs to; NULL: none */
+    ff_choice *choice;   /* NULL: the file says which model. Until the choice is made, the stage has
+                            all that its candidates have, by name; then it is that of the chosen */
     struct fe_instance *instance; /* the engine's own */
 };
 
@@ -535,7 +553,10 @@ struct ff_pipeline {
     ff_stage *stages;
     size_t count;
     size_t *order; /* indices of stages; each comes after those that feed it */
-    bool chained;  /* stages start from `state`, and leave one */
+    ff_loop *loops;
+    size_t loop_count;
+    ff_feedback feedback;
+    bool chained; /* stages start from `state`, and leave one */
     struct fe_pipeline_memory *memory;
 };
 
@@ -578,6 +599,8 @@ double *ff_result_fill(ff_stage *stage, size_t output, uint32_t rank, const size
 void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
                     const char *text);
 
+/* The parameters under `feedback`. */
+const ff_param *ff_feedback_rows(size_t *count);
 /* The words that may stand at the top of a file: "format", "title", ...; NULL-terminated. */
 const char *const *ff_file_keys(void);
 

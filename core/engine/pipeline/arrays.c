@@ -59,21 +59,36 @@ static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size
                     stage->name, wire->name, why);
 }
 
+/* What a feedback wire brings from the round before. It is left out when its lengths have changed
+   since. */
+static void take_fed_back(const ff_stage *stage, size_t input, lengths *all, ff_array *in)
+{
+    const ff_result *fed = &stage->instance->member->fed[input];
+    char why[256];
+    if (fed->data && enter_lengths(all, ff_model_input(stage->loaded->model, input)->name,
+                                   &stage->loaded->input_dims[input], fed, why, sizeof why))
+        *in = (ff_array){.data = fed->data, .shape = fed->shape, .rank = fed->rank};
+}
+
 bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
                       ff_report *report)
 {
     lengths all = {.count = 0};
     bool good = true;
     for (size_t i = 0; i < stage->wire_count; i++)
-        if (stage->wires[i].stage >= 0 && !pipeline->stages[stage->wires[i].stage].ran)
+        if (stage->wires[i].stage >= 0 && !stage->wires[i].closes &&
+            !pipeline->stages[stage->wires[i].stage].ran)
             return false;
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
         const ff_result *given = ff_feeding_result(pipeline, stage, i);
-        if (!given || !given->data)
+        if (!given || !given->data || fe_is_fed_back(stage, i))
             continue;
         good = check_input(pipeline, stage, i, given, &all, report) && good;
         in[i] = (ff_array){.data = given->data, .shape = given->shape, .rank = given->rank};
     }
+    for (size_t i = 0; i < stage->loaded->model->input_count; i++)
+        if (stage->instance->member)
+            take_fed_back(stage, i, &all, &in[i]);
     fe_free(all.seen);
     return good;
 }

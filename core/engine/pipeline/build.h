@@ -22,8 +22,9 @@ typedef struct fe_instance {
     const ff_stage *entering; /* the feeding stage that is being sorted */
 
     const ff_observer *watch;
-    fe_heap *heap;    /* of what the functions of the host allocate */
-    fe_resource open; /* `self`, from create to destroy */
+    struct fe_loop_stage *member; /* of a loop that runs; NULL: of none */
+    fe_heap *heap;                /* of what the functions of the host allocate */
+    fe_resource open;             /* `self`, from create to destroy */
     bool no_memory;   /* a function of the host had none: the call is left when it returns */
     bool no_room;     /* the same for an output, which `text` names */
     ff_tables tables; /* what it has read; their errors are reported before `text` */
@@ -56,6 +57,8 @@ const char *fe_found(const ff_node *node); /* "a map", ..., "nothing" */
 /* Reports '<where>: expected <what>, found a list' at the node. Returns false. */
 bool fe_expected(fe_build *b, const ff_node *node, const char *where, const char *what);
 
+void fe_hand_on(const ff_message *m, ff_report *report); /* the same to another report */
+
 /* setting.c: the node at "a.b" behind maps within maps; NULL: there is none. */
 const ff_node *fe_find_node(const ff_node *map, const char *path);
 /* The map that stands for the model under `with`; NULL: there is none. */
@@ -76,6 +79,7 @@ fe_setting fe_find_setting(const ff_stage *stage, const char *model, const char 
 bool fe_is_on_wire(const char *input, const char *wire); /* "gear.teeth" is on "gear" */
 const char *fe_output_name(const ff_port *input);        /* what it takes: "teeth" */
 const ff_wire *fe_input_wire(const ff_stage *stage, size_t input);
+bool fe_is_fed_back(const ff_stage *stage, size_t input); /* by a wire that closes a loop */
 /* The output or service of `from` that an input row takes, or -1. */
 int fe_find_offer(const ff_loaded *from, const ff_port *input);
 uint64_t fe_wanted_of(const ff_stage *stage); /* bits of the first 64 outputs */
@@ -102,6 +106,23 @@ fe_call fe_call_begin(const ff_stage *stage, const char *action);
 bool fe_call_end(const fe_call *call, ff_status status, ff_report *report);
 /* Reports 'the plugin x.so <what>' at the stage's model. Returns false. */
 bool fe_plugin_fault(const ff_stage *stage, ff_report *report, const char *what);
+
+/* A line that a stage of a loop has logged: it is handed on after the last round. */
+typedef struct fe_log_line {
+    int level;
+    char text[512];
+} fe_log_line;
+
+/* A stage of a loop that runs. */
+typedef struct fe_loop_stage {
+    ff_stage *stage;
+    ff_result *fed;     /* by input row: what a feedback wire carries, from the round before */
+    bool *fed_anew;     /* by input row: it is not what it was then */
+    bool *gave_anew;    /* by output row: the same of what the stage gave */
+    ff_report *report;  /* of its last evaluation */
+    fe_log_line *lines; /* the same */
+    size_t line_count;
+} fe_loop_stage;
 
 /* host.c: the functions that a model may call. */
 void fe_host_init(fe_instance *instance);
@@ -140,6 +161,17 @@ bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_arr
 /* False, with an error, when the stage's results cannot be used. */
 bool fe_check_results(const ff_stage *stage, ff_report *report);
 
+/* evaluate.c: one evaluation of a stage. False after an error. */
+bool fe_evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
+                 ff_report *report);
+/* Reports what the stage itself calls bad. False when it does. */
+bool fe_check_quality(const ff_stage *stage, ff_report *report);
+
+/* rounds.c: evaluates the stages of a loop until what its feedback wires carry has settled. False
+   after an error; when it was stopped, all its stages have that status. */
+bool fe_run_loop(ff_pipeline *pipeline, const ff_loop *loop, const ff_observer *watch,
+                 ff_report *report);
+
 /* state.c: the state of a chain, before and after evaluate; nothing outside of one. False after an
    error. */
 bool fe_restore_state(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
@@ -170,6 +202,13 @@ void fe_note_choice(ff_stage *stage);
 
 /* request.c: marks the requested outputs; links what they need. */
 void fe_request_outputs(fe_build *b, const ff_node *outputs);
+
+/* feedback.c: what the file says under `feedback`. */
+void fe_read_feedback(fe_build *b, const ff_node *feedback);
+/* Finds the loops of a pipeline whose other wires are sorted, and puts the stages of each side by
+   side. */
+void fe_find_loops(fe_build *b);
+ff_loop *fe_loop_of(const ff_pipeline *pipeline, const ff_stage *stage); /* NULL: in none */
 
 /* order.c: which stages run, why, and in which order. */
 void fe_mark_needed(ff_pipeline *pipeline);

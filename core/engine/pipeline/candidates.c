@@ -10,14 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void hand_on(const ff_message *m, ff_report *report)
-{
-    if (m->severity == FF_ERROR)
-        ff_error(report, m->fault, m->place, m->hint, "%s", m->text);
-    else
-        ff_warn(report, m->place, "%s", m->text);
-}
-
 /* Whether a candidate is left. When there is none, `why` (or NULL) is reported. */
 static bool some_fit(fe_build *b, ff_stage *stage, const ff_message *why)
 {
@@ -27,7 +19,7 @@ static bool some_fit(fe_build *b, ff_stage *stage, const ff_message *why)
             return true;
     stage->instance->broken = true;
     if (why)
-        hand_on(why, b->report);
+        fe_hand_on(why, b->report);
     return false;
 }
 
@@ -108,7 +100,7 @@ static const ff_message *bind_candidate(fe_build *b, ff_candidate *c, ff_report 
         if (m->severity == FF_ERROR && is_about_stage(m, c->stage))
             missing = missing ? missing : m;
         else
-            hand_on(m, b->report);
+            fe_hand_on(m, b->report);
     }
     if (c->stage->instance->broken)
         fe_leave_out(b->pipeline, c, missing ? missing->text : "its parameters are wrong");
@@ -207,7 +199,7 @@ void fe_open_candidates(fe_build *b, ff_stage *stage)
         if (!c->stage->instance->alive)
             fe_leave_out(b->pipeline, c, why ? why->text : "it cannot be set up");
         for (size_t k = 0; c->fits && k < ff_report_count(capturing.report); k++)
-            hand_on(ff_report_at(capturing.report, k), b->report);
+            fe_hand_on(ff_report_at(capturing.report, k), b->report);
         if (c->fits || captured) {
             ff_report_free(capturing.report);
         } else {

@@ -31,12 +31,32 @@ static ff_status host_fail(void *ctx, ff_status status, const char *item, const 
     return status;
 }
 
+static ff_status protect(fe_instance *instance, void (*function)(void *ctx), void *ctx);
+
+typedef struct log_call {
+    fe_loop_stage *member;
+    fe_log_line line;
+} log_call;
+
+static void keep_line(void *ctx)
+{
+    const log_call *call = ctx;
+    fe_loop_stage *m = call->member;
+    m->lines = fe_resize(m->lines, (m->line_count + 1) * sizeof *m->lines);
+    m->lines[m->line_count++] = call->line;
+}
+
 /* The watch belongs to the program: a fault in it is not the plugin's. */
 static void host_log(void *ctx, int32_t level, const char *text)
 {
     fe_instance *instance = ctx;
-    char clean[512];
-    ff_clean_text(clean, sizeof clean, text ? text : "");
+    log_call call = {.member = instance->member, .line = {.level = level}};
+    char *clean = call.line.text;
+    ff_clean_text(clean, sizeof call.line.text, text ? text : "");
+    if (instance->member) {
+        protect(instance, keep_line, &call);
+        return;
+    }
     ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
     if (instance->watch && instance->watch->log)
         instance->watch->log(instance->watch->ctx, instance->stage, level, clean);

@@ -43,3 +43,11 @@ bool fe_expected(fe_build *b, const ff_node *node, const char *where, const char
     return ff_error(b->report, FF_FAULT_INPUT, node->place, NULL, "%s: expected %s, found %s",
                     where, what, fe_found(node));
 }
+
+void fe_hand_on(const ff_message *m, ff_report *report)
+{
+    if (m->severity == FF_ERROR)
+        ff_error(report, m->fault, m->place, m->hint, "%s", m->text);
+    else
+        ff_warn(report, m->place, "%s", m->text);
+}

@@ -15,6 +15,16 @@ static void warn_of_accuracy(const fe_build *b)
                 "write use: KIND/auto there");
 }
 
+static void warn_of_feedback(const fe_build *b, const ff_node *feedback)
+{
+    bool loops = !feedback || ff_report_errors(b->report) > 0;
+    for (size_t i = 0; i < b->pipeline->count && !loops; i++)
+        loops = b->pipeline->stages[i].needed && b->pipeline->stages[i].loop;
+    if (!loops)
+        ff_warn(b->report, feedback->place,
+                "feedback: no stage that runs is in a loop, so that it changes nothing");
+}
+
 static void bind(fe_build *b, ff_stage *stage)
 {
     fe_bind_stage(b, stage);
@@ -42,6 +52,7 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool ev
     }
     for (size_t i = 0; everything && i < pipeline->count; i++)
         fe_link_from(&b, &pipeline->stages[i]);
+    fe_read_feedback(&b, ff_node_get(root, "feedback"));
     fe_request_outputs(&b, ff_node_get(root, "outputs"));
     fe_mark_needed(pipeline);
     fe_sort_stages(&b);
@@ -56,6 +67,7 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool ev
             fe_open_instance(&b, stage);
     }
     warn_of_accuracy(&b);
+    warn_of_feedback(&b, ff_node_get(root, "feedback"));
     return pipeline;
 }
 

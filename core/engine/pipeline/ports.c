@@ -24,6 +24,11 @@ const ff_wire *fe_input_wire(const ff_stage *stage, size_t input)
     return &stage->wires[i];
 }
 
+bool fe_is_fed_back(const ff_stage *stage, size_t input)
+{
+    return stage->wire_count > 0 && fe_input_wire(stage, input)->closes;
+}
+
 int fe_find_offer(const ff_loaded *from, const ff_port *input)
 {
     for (size_t i = 0; i < from->model->output_count; i++) {

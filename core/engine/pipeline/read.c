@@ -7,8 +7,8 @@
 
 enum { MOST_STAGES = 1000, LONGEST_NAME = 64 };
 
-static const char *const top_keys[] = {"format",  "title", "include",  "pipeline",
-                                       "outputs", "study", "accuracy", NULL};
+static const char *const top_keys[] = {"format", "title",    "include",  "pipeline", "outputs",
+                                       "study",  "accuracy", "feedback", NULL};
 enum { TOP_KEYS = sizeof top_keys / sizeof top_keys[0] - 1 };
 
 const char *const *ff_file_keys(void)

@@ -65,7 +65,7 @@ static void read_request(fe_build *b, const ff_node *item)
     fe_link_from(b, stage);
 }
 
-/* Without a list, the outputs of stages that feed no other are requested. */
+/* Without a list, the outputs of stages that feed no other, but for feedback, are requested. */
 static void request_default(fe_build *b)
 {
     ff_pipeline *pipeline = b->pipeline;
@@ -74,7 +74,7 @@ static void request_default(fe_build *b)
         const ff_stage *stage = &pipeline->stages[i];
         fe_link_from(b, &pipeline->stages[i]);
         for (size_t k = 0; k < stage->wire_count; k++)
-            if (stage->wires[k].stage >= 0)
+            if (stage->wires[k].stage >= 0 && !stage->wires[k].feedback)
                 feeds[stage->wires[k].stage] = true;
     }
     for (size_t i = 0; i < pipeline->count; i++) {

@@ -176,8 +176,12 @@ void fe_link_stage(fe_build *b, ff_stage *stage)
         snprintf(wire->name, sizeof wire->name, "%.*s", (int)strcspn(row->name, "."), row->name);
         wire->stage = -1;
         const ff_node *node = fe_find_setting(stage, stage->use, wire->name).node;
+        wire->feedback = row->flags & FF_FEEDBACK;
+        wire->place = stage->place;
         bool good = node ? link_written(b, stage, wire, node)
-                         : link_automatic(b, stage, wire, row->from ? row->from : wire->name);
+                    : wire->feedback
+                        ? true
+                        : link_automatic(b, stage, wire, row->from ? row->from : wire->name);
         stage->instance->broken = stage->instance->broken || !good;
     }
 }

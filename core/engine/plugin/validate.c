@@ -337,7 +337,7 @@ static bool check_port(const checking *c, const ff_port *row, ff_unit *unit, ff_
 {
     bool plain = (!row->unit || !row->unit[0]) && (!row->dims || !row->dims[0]);
     const claim claims[] = {
-        {row->flags <= FF_OPTIONAL, "has unknown flags"},
+        {row->flags < 2 * FF_FEEDBACK, "has unknown flags"},
         {is_line(row->doc), "has no line of explanation"},
         {!row->service || is_line(row->service), "has a bad interface"},
         {!row->service || plain, "has a unit or dimensions beside the interface"},
@@ -355,6 +355,17 @@ static bool check_port(const checking *c, const ff_port *row, ff_unit *unit, ff_
     const char *wrong = read_dims(row->dims, dims);
     return !wrong || fault(c, "has bad dimensions for the %s \"%s\": \"%.60s\" %s", c->what,
                            c->name, row->dims, wrong);
+}
+
+/* A wire that may close a loop can be absent, and carries data. */
+static bool check_feedback(const checking *c, const ff_port *row)
+{
+    const claim claims[] = {
+        {row->flags & FF_OPTIONAL, "has feedback that is not optional"},
+        {!row->service, "has feedback of a service"},
+        {c->model->abi_minor >= 2, "does not ask for version 1.2, which feedback needs,"},
+    };
+    return !(row->flags & FF_FEEDBACK) || check_claims(c, claims, sizeof claims / sizeof *claims);
 }
 
 /* A wire cannot have the name of a parameter, and its rows come from one stage. */
@@ -378,6 +389,9 @@ static bool check_input(checking *c, size_t index, ff_unit *unit, ff_dims *dims)
             other->from && row->from ? !strcmp(other->from, row->from) : other->from == row->from;
         if (!strcmp(c->name, other->name))
             return fault(c, "has the input \"%s\" twice", c->name);
+        if (same_first_name(c->name, other->name) && (row->flags ^ other->flags) & FF_FEEDBACK)
+            return fault(c, "has feedback for one of the inputs \"%s\" and \"%s\" alone",
+                         other->name, c->name);
         if (same_first_name(c->name, other->name) && !same_from)
             return fault(c, "wires the inputs \"%s\" and \"%s\" from different kinds", other->name,
                          c->name);
@@ -385,7 +399,7 @@ static bool check_input(checking *c, size_t index, ff_unit *unit, ff_dims *dims)
     for (size_t i = 0; i < c->model->param_count; i++)
         if (same_first_name(c->name, ff_model_param(c->model, i)->name))
             return fault(c, "calls both a wire and a parameter \"%.*s\"", wire, c->name);
-    return check_port(c, row, unit, dims);
+    return check_feedback(c, row) && check_port(c, row, unit, dims);
 }
 
 /* What replaces a parameter is a service that may stay unconnected. */
@@ -406,6 +420,8 @@ static bool check_output(checking *c, size_t index, ff_unit *unit, ff_dims *dims
     const ff_port *row = ff_model_output(c->model, index);
     c->what = "output";
     c->name = row->name ? row->name : "";
+    if (row->flags & FF_FEEDBACK)
+        return fault(c, "has unknown flags for the output \"%.60s\"", c->name);
     if (count_names(c->name) != 1)
         return fault(c, "gives its output %zu the name \"%.60s\", which is not possible", index + 1,
                      c->name);

@@ -55,6 +55,8 @@ static json_t *json_port(const ff_port *row, bool input)
                               "service", results_json_text(row->service), "doc", row->doc);
     if (input) {
         json_object_set_new(entry, "optional", json_boolean(row->flags & FF_OPTIONAL));
+        if (row->flags & FF_FEEDBACK)
+            json_object_set_new(entry, "feedback", json_true());
         json_object_set_new(entry, "from", results_json_text(row->from));
     }
     return entry;

@@ -62,7 +62,9 @@ static void print_port(const ff_port *row, bool input)
         printf(" ");
         print_cell(row->from ? row->from : "");
         printf(" ");
-        print_cell(row->flags & FF_OPTIONAL ? "optional" : "");
+        print_cell(row->flags & FF_FEEDBACK   ? "feedback"
+                   : row->flags & FF_OPTIONAL ? "optional"
+                                              : "");
     }
     printf(" ");
     print_cell(row->doc);

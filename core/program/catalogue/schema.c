@@ -244,6 +244,18 @@ static json_t *study_schema(void)
     return map;
 }
 
+static json_t *feedback_schema(void)
+{
+    size_t count;
+    const ff_param *rows = ff_feedback_rows(&count);
+    json_t *map = open_map();
+    json_object_set_new(map, "description",
+                        json_string("how loops that feedback wires close are iterated"));
+    for (size_t i = 0; i < count; i++)
+        add_param(map, &rows[i]);
+    return map;
+}
+
 static json_t *whole_schema(const catalogue *c, const char *version)
 {
     json_t *schema = open_map(), *definitions = json_object(), *top = properties(schema);
@@ -260,6 +272,7 @@ static json_t *whole_schema(const catalogue *c, const char *version)
             top, *key,
             json_pack("{s:[s, s], s:{s:s}}", "type", "array", "string", "items", "type", "string"));
     json_object_set_new(top, "study", study_schema());
+    json_object_set_new(top, "feedback", feedback_schema());
     json_object_set_new(top, "pipeline",
                         json_pack("{s:s, s:{s:b}, s:{s:s}}", "type", "object", "patternProperties",
                                   "^x-", 1, "additionalProperties", "$ref", "#/definitions/stage"));

@@ -71,7 +71,7 @@ static void print_port(const ff_port *row, bool input)
     else
         printf("%s%s%s", row->unit, *row->dims ? " over " : "", row->dims);
     if (input && row->flags & FF_OPTIONAL)
-        printf(", optional");
+        printf(row->flags & FF_FEEDBACK ? ", feedback" : ", optional");
     if (input && row->from)
         printf(", from %s", row->from);
     printf("\n");

@@ -40,6 +40,46 @@ static json_t *describe_stage(const ff_pipeline *pipeline, const ff_stage *stage
     return entry;
 }
 
+/* Adds {from, to, wire, feedback} for each wire between stages of the loop, of feedback or not. */
+static void add_wires(const ff_pipeline *pipeline, const ff_loop *loop, bool feedback, json_t *list)
+{
+    for (size_t i = 0; i < loop->count; i++) {
+        const ff_stage *to = &pipeline->stages[pipeline->order[loop->first + i]];
+        for (size_t k = 0; k < to->wire_count; k++) {
+            const ff_wire *wire = &to->wires[k];
+            if (wire->stage >= 0 && pipeline->stages[wire->stage].loop == loop &&
+                wire->closes == feedback)
+                json_array_append_new(list,
+                                      json_pack("{s:s, s:s, s:s, s:b}", "from",
+                                                pipeline->stages[wire->stage].name, "to", to->name,
+                                                "wire", wire->name, "feedback", feedback));
+        }
+    }
+}
+
+static json_t *describe_loops(const ff_pipeline *pipeline)
+{
+    const ff_feedback *feedback = &pipeline->feedback;
+    json_t *list = json_array();
+    for (size_t i = 0; i < pipeline->loop_count; i++) {
+        const ff_loop *loop = &pipeline->loops[i];
+        json_t *stages = json_array(), *wires = json_array();
+        add_wires(pipeline, loop, false, wires);
+        add_wires(pipeline, loop, true, wires);
+        for (size_t k = 0; k < loop->count; k++)
+            json_array_append_new(
+                stages, json_string(pipeline->stages[pipeline->order[loop->first + k]].name));
+        if (pipeline->stages[pipeline->order[loop->first]].needed)
+            json_array_append_new(
+                list, json_pack("{s:O, s:O, s:I, s:f, s:f}", "stages", stages, "wires", wires,
+                                "rounds", (json_int_t)feedback->rounds, "tolerance",
+                                feedback->tolerance, "relaxation", feedback->relaxation));
+        json_decref(stages);
+        json_decref(wires);
+    }
+    return list;
+}
+
 static const char *text_of(const json_t *object, const char *key)
 {
     return json_string_value(json_object_get(object, key));
@@ -102,8 +142,12 @@ static void print_stage(const json_t *stage)
     json_object_foreach(json_object_get(stage, "wires"), name, entry)
     {
         bool automatic = json_is_true(json_object_get(entry, "automatic"));
-        printf("  %s %-*s %-*s %s\n", name, NAME - 1 - (int)strlen(name), "<-", VALUE,
-               text_of(entry, "stage"), automatic ? "automatic" : "written");
+        bool feedback = json_is_true(json_object_get(entry, "feedback"));
+        printf("  %s %-*s %-*s %s\n", name, NAME - 1 - (int)strlen(name), feedback ? "<~" : "<-",
+               VALUE, text_of(entry, "stage"),
+               feedback    ? "feedback"
+               : automatic ? "automatic"
+                           : "written");
     }
     json_object_foreach(json_object_get(stage, "parameters"), name, entry)
     {
@@ -111,6 +155,29 @@ static void print_stage(const json_t *stage)
                text_of(entry, "origin"));
     }
     print_outputs(json_object_get(stage, "outputs"));
+}
+
+/* Draws a loop: a line for each wire, and a wavy arrow where the round before comes back. */
+static void print_loop(const json_t *loop)
+{
+    const json_t *entry;
+    size_t i;
+    printf("\nloop:");
+    json_array_foreach(json_object_get(loop, "stages"), i, entry)
+    {
+        printf("%s %s", i ? "," : "", json_string_value(entry));
+    }
+    printf("; in at most %" JSON_INTEGER_FORMAT
+           " rounds, until what comes back changes by no more than %g\n",
+           json_integer_value(json_object_get(loop, "rounds")),
+           json_number_value(json_object_get(loop, "tolerance")));
+    json_array_foreach(json_object_get(loop, "wires"), i, entry)
+    {
+        bool feedback = json_is_true(json_object_get(entry, "feedback"));
+        printf("  %s %s %s.%s%s\n", text_of(entry, "from"), feedback ? "~>" : "->",
+               text_of(entry, "to"), text_of(entry, "wire"),
+               feedback ? "  absent in the first round" : "");
+    }
 }
 
 static void print_plan(const ff_pipeline *pipeline, const char *file, const json_t *stages)
@@ -127,6 +194,12 @@ static void print_plan(const ff_pipeline *pipeline, const char *file, const json
         if (json_is_true(json_object_get(stage, "runs")))
             print_stage(stage);
     }
+    json_t *loops = describe_loops(pipeline);
+    json_array_foreach(loops, i, stage)
+    {
+        print_loop(stage);
+    }
+    json_decref(loops);
     if (needed < pipeline->count)
         printf("\nnot run:\n");
     json_array_foreach(stages, i, stage)
@@ -168,6 +241,8 @@ static void explain(cli_session *session, const cli_options *options)
     json_object_set_new(answer, "title", results_json_text(pipeline->title));
     json_object_set_new(answer, "file", results_json_text(options->operand));
     json_object_set_new(answer, "stages", stages);
+    if (pipeline->loop_count)
+        json_object_set_new(answer, "loops", describe_loops(pipeline));
     study_reuse_counts savings = {0};
     if (session->study) {
         char *directory = cli_study_directory(options);

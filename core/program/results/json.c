@@ -107,10 +107,13 @@ json_t *results_json_wires(const ff_pipeline *pipeline, const ff_stage *stage)
     json_t *object = json_object();
     for (size_t i = 0; i < stage->wire_count; i++) {
         const ff_wire *wire = &stage->wires[i];
-        if (wire->stage >= 0)
-            json_object_set_new(object, wire->name,
-                                json_pack("{s:s, s:b}", "stage", pipeline->stages[wire->stage].name,
-                                          "automatic", wire->automatic));
+        if (wire->stage < 0)
+            continue;
+        json_t *entry = json_pack("{s:s, s:b}", "stage", pipeline->stages[wire->stage].name,
+                                  "automatic", wire->automatic);
+        if (wire->closes)
+            json_object_set_new(entry, "feedback", json_true());
+        json_object_set_new(object, wire->name, entry);
     }
     return object;
 }

@@ -72,6 +72,49 @@ uint64_t study_hash_setup(const ff_stage *stage)
     return hash;
 }
 
+static uint64_t hash_feedback(uint64_t hash, const ff_feedback *feedback)
+{
+    hash = hash_number(hash, (uint64_t)feedback->rounds);
+    hash = study_hash(hash, &feedback->tolerance, sizeof feedback->tolerance);
+    return study_hash(hash, &feedback->relaxation, sizeof feedback->relaxation);
+}
+
+/* The place, from 1 on, of what feeds the wire in the loop of the stage; 0: it is outside. */
+static size_t place_in_loop(const ff_pipeline *pipeline, const ff_stage *stage, const ff_wire *wire)
+{
+    for (size_t i = 0; stage->loop && wire->stage >= 0 && i < stage->loop->count; i++)
+        if (pipeline->order[stage->loop->first + i] == (size_t)wire->stage)
+            return i + 1;
+    return 0;
+}
+
+/* The wires of a stage, by what feeds them. */
+static uint64_t hash_wires(uint64_t hash, const ff_pipeline *pipeline, const ff_stage *stage,
+                           const uint64_t *fingerprints)
+{
+    for (size_t k = 0; k < stage->wire_count; k++) {
+        const ff_wire *wire = &stage->wires[k];
+        size_t inside = place_in_loop(pipeline, stage, wire);
+        hash = study_hash_text(hash, wire->name);
+        hash = hash_number(hash, wire->stage < 0 ? 0 : inside ? inside : fingerprints[wire->stage]);
+    }
+    return hash;
+}
+
+/* The stages of a loop are one node: what changes for one changes for all. */
+static void mark_loop(const ff_pipeline *pipeline, const ff_loop *loop, uint64_t *fingerprints)
+{
+    const size_t *members = &pipeline->order[loop->first];
+    uint64_t node = hash_feedback(STUDY_HASH_START, &pipeline->feedback);
+    for (size_t i = 0; i < loop->count; i++) {
+        const ff_stage *stage = &pipeline->stages[members[i]];
+        node = hash_number(node, study_hash_setup(stage));
+        node = hash_wires(node, pipeline, stage, fingerprints);
+    }
+    for (size_t i = 0; i < loop->count; i++)
+        fingerprints[members[i]] = hash_number(node, i);
+}
+
 uint64_t study_fingerprint(const ff_pipeline *pipeline, uint64_t *fingerprints)
 {
     uint64_t whole = STUDY_HASH_START;
@@ -80,12 +123,10 @@ uint64_t study_fingerprint(const ff_pipeline *pipeline, uint64_t *fingerprints)
         const ff_stage *stage = &pipeline->stages[at];
         if (!stage->needed)
             continue;
-        fingerprints[at] = study_hash_setup(stage);
-        for (size_t k = 0; k < stage->wire_count; k++) {
-            int from = stage->wires[k].stage;
-            fingerprints[at] = study_hash_text(fingerprints[at], stage->wires[k].name);
-            fingerprints[at] = hash_number(fingerprints[at], from < 0 ? 0 : fingerprints[from]);
-        }
+        if (!stage->loop)
+            fingerprints[at] = hash_wires(study_hash_setup(stage), pipeline, stage, fingerprints);
+        else if (i == stage->loop->first)
+            mark_loop(pipeline, stage->loop, fingerprints);
     }
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];
@@ -98,23 +139,30 @@ uint64_t study_fingerprint(const ff_pipeline *pipeline, uint64_t *fingerprints)
     return whole;
 }
 
-static const ff_wire *find_wire(const ff_stage *stage, const char *name)
+/* The wire of an input row; NULL: the stage has none. */
+static const ff_wire *find_wire(const ff_stage *stage, const char *input)
 {
     for (size_t i = 0; i < stage->wire_count; i++)
-        if (!strcmp(stage->wires[i].name, name))
+        if (strlen(stage->wires[i].name) == strcspn(input, ".") &&
+            !strncmp(stage->wires[i].name, input, strcspn(input, ".")))
             return &stage->wires[i];
     return NULL;
 }
 
-uint64_t study_hash_evaluation(const ff_pipeline *pipeline, const ff_stage *stage,
-                               const uint64_t *fingerprints)
+/* What the stage is fed; by a stage of its own loop, which of them that is. */
+static uint64_t hash_inputs(uint64_t hash, const ff_pipeline *pipeline, const ff_stage *stage,
+                            const uint64_t *fingerprints)
 {
-    uint64_t hash = study_hash_text(study_hash_setup(stage), "file format 2");
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
         const ff_port *row = ff_model_input(stage->loaded->model, i);
-        const ff_wire *wire = row->service ? find_wire(stage, row->name) : NULL;
+        const ff_wire *any = find_wire(stage, row->name), *wire = row->service ? any : NULL;
         const ff_result *given = ff_feeding_result(pipeline, stage, i);
+        size_t inside = any ? place_in_loop(pipeline, stage, any) : 0;
         hash = study_hash_text(hash, row->name);
+        if (inside) {
+            hash = hash_number(hash, inside);
+            continue;
+        }
         if (wire && wire->stage >= 0)
             hash = hash_number(hash, fingerprints[wire->stage]);
         if (wire && wire->stage >= 0 && pipeline->stages[wire->stage].choice)
@@ -124,6 +172,21 @@ uint64_t study_hash_evaluation(const ff_pipeline *pipeline, const ff_stage *stag
         hash = hash_number(hash, given->rank);
         hash = study_hash(hash, given->shape, given->rank * sizeof *given->shape);
         hash = study_hash(hash, given->data, given->count * sizeof *given->data);
+    }
+    return hash;
+}
+
+uint64_t study_hash_evaluation(const ff_pipeline *pipeline, const ff_stage *stage,
+                               const uint64_t *fingerprints)
+{
+    uint64_t hash = study_hash_text(study_hash_setup(stage), "file format 2");
+    if (!stage->loop)
+        return hash_inputs(hash, pipeline, stage, fingerprints);
+    hash = hash_feedback(hash, &pipeline->feedback);
+    for (size_t i = 0; i < stage->loop->count; i++) {
+        const ff_stage *member = &pipeline->stages[pipeline->order[stage->loop->first + i]];
+        hash = hash_number(hash, study_hash_setup(member));
+        hash = hash_inputs(hash, pipeline, member, fingerprints);
     }
     return hash;
 }

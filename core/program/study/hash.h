@@ -13,7 +13,7 @@ uint64_t study_hash_setup(const ff_stage *stage);
    and which outputs are requested. Sets in fingerprints the same for each needed stage. */
 uint64_t study_fingerprint(const ff_pipeline *pipeline, uint64_t *fingerprints);
 /* Hashes what the results of a stage depend on, just before it is evaluated: as above, but with the
-   values that it is fed instead of the stages that feed it. */
+   values that it is fed instead of the stages that feed it. A stage of a loop stands for all. */
 uint64_t study_hash_evaluation(const ff_pipeline *pipeline, const ff_stage *stage,
                                const uint64_t *fingerprints);
 

@@ -46,6 +46,15 @@ static char *read_text(FILE *in)
     return text;
 }
 
+/* Stage number `i` of those that are kept together: of the loop, or the stage alone. NULL: there
+   are no more. */
+static ff_stage *together(const ff_pipeline *pipeline, const ff_stage *stage, size_t i)
+{
+    if (stage->loop && i < stage->loop->count)
+        return &pipeline->stages[pipeline->order[stage->loop->first + i]];
+    return !stage->loop && i == 0 ? &pipeline->stages[stage - pipeline->stages] : NULL;
+}
+
 static void write_results(const ff_stage *stage, FILE *out)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
@@ -101,7 +110,7 @@ static bool read_results(ff_stage *stage, FILE *in)
     return all;
 }
 
-static bool read_kept(int fd, ff_stage *stage)
+static bool read_kept(int fd, const ff_pipeline *pipeline, const ff_stage *stage)
 {
     struct stat info;
     uint64_t sum;
@@ -113,7 +122,9 @@ static bool read_kept(int fd, ff_stage *stage)
     memcpy(&sum, text, sizeof sum);
     whole = whole && sum == study_hash(STUDY_HASH_START, text + sizeof sum, size - sizeof sum);
     FILE *in = whole ? fmemopen(text + sizeof sum, size - sizeof sum, "r") : NULL;
-    bool good = in && read_results(stage, in);
+    bool good = in != NULL;
+    for (size_t i = 0; good && together(pipeline, stage, i); i++)
+        good = read_results(together(pipeline, stage, i), in);
     if (in)
         fclose(in);
     free(text);
@@ -125,7 +136,10 @@ bool study_reuse_recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
     study_reuse *reuse = ctx;
     size_t index = (size_t)(stage - pipeline->stages);
     study_reuse_stats *own = &reuse->stats[index];
-    if (reuse->directory < 0 || (reuse->fresh && reuse->fresh[index]) || own->idle > MOST_IDLE ||
+    bool fresh = false;
+    for (size_t i = 0; reuse->fresh && together(pipeline, stage, i); i++)
+        fresh = fresh || reuse->fresh[together(pipeline, stage, i) - pipeline->stages];
+    if (reuse->directory < 0 || fresh || own->idle > MOST_IDLE ||
         (own->seconds > 0 && own->seconds < worth_keeping))
         return false;
     snprintf(reuse->name, sizeof reuse->name, "%016llx",
@@ -135,7 +149,7 @@ bool study_reuse_recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
         return false;
     while (flock(fd, LOCK_EX) != 0 && errno == EINTR)
         ;
-    if (read_kept(fd, stage)) {
+    if (read_kept(fd, pipeline, stage)) {
         own->idle = 0;
         close(fd);
         return true;
@@ -145,7 +159,7 @@ bool study_reuse_recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
 }
 
 /* Returns the number of bytes written. */
-static size_t write_kept(int fd, const ff_stage *stage)
+static size_t write_kept(int fd, const ff_pipeline *pipeline, const ff_stage *stage)
 {
     char *text = NULL;
     size_t length = 0;
@@ -154,7 +168,8 @@ static size_t write_kept(int fd, const ff_stage *stage)
     if (!out)
         return 0;
     fwrite(&sum, sizeof sum, 1, out);
-    write_results(stage, out);
+    for (size_t i = 0; together(pipeline, stage, i); i++)
+        write_results(together(pipeline, stage, i), out);
     bool whole = fclose(out) == 0 && length <= LARGEST;
     if (whole) {
         sum = study_hash(STUDY_HASH_START, text + sizeof sum, length - sizeof sum);
@@ -171,11 +186,17 @@ void study_reuse_keep(void *ctx, const ff_pipeline *pipeline, const ff_stage *st
 {
     study_reuse *reuse = ctx;
     size_t index = (size_t)(stage - pipeline->stages);
-    bool good = stage->ran && stage->status == FF_OK;
-    reuse->stats[index].seconds = stage->seconds;
+    bool good = true;
+    double seconds = 0;
+    for (size_t i = 0; together(pipeline, stage, i); i++) {
+        const ff_stage *one = together(pipeline, stage, i);
+        good = good && one->ran && one->status == FF_OK;
+        seconds += one->seconds;
+    }
+    reuse->stats[index].seconds = seconds;
     if (reuse->held < 0)
         return;
-    size_t kept = good && stage->seconds >= worth_keeping ? write_kept(reuse->held, stage) : 0;
+    size_t kept = good && seconds >= worth_keeping ? write_kept(reuse->held, pipeline, stage) : 0;
     reuse->stats[index].idle += kept;
     if (kept == 0)
         unlinkat(reuse->directory, reuse->name, 0);

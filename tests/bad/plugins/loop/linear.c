@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A linear stage with feedback: level = base + gain before + factor back + share more. */
+#include <flankfilm/author.h>
+
+#include "../toy/toy.h"
+
+#include <math.h>
+#include <string.h>
+#include <time.h>
+
+typedef struct loop {
+    const ff_host *host;
+    double base, gain, factor, share, most, work;
+    int64_t points;
+    int32_t warns;
+    double evaluations;
+    char carried[32];
+} loop;
+
+#define NUMBER(name, preset, doc)                                                                  \
+    FF_QUANTITY(#name, "1", loop, name, 0, preset, NULL, 0, 0, 0, 0, doc)
+static const ff_param params[] = {
+    FF_QUANTITY("base", "m", loop, base, FF_REQUIRED, NULL, NULL, 0, 0, 0, 0, "without inputs"),
+    NUMBER(gain, "1", "of what is before"),
+    NUMBER(factor, "0", "of what comes back"),
+    NUMBER(share, "0", "of what else comes back"),
+    FF_QUANTITY("most", "m", loop, most, 0, "1e300 m", NULL, 0, 0, 0, 0, "above it, no solution"),
+    FF_QUANTITY("work", "s", loop, work, 0, "0 s", NULL, 0, 0.1, 0, 0, "wasted in evaluate"),
+    FF_COUNT("points", loop, points, 0, "3", NULL, 0, 100, 0, 0, "one less with feedback"),
+    FF_SWITCH("warns", loop, warns, "false", "says that it is out of range"),
+};
+
+static const char nobody[] = "nothing";
+static const ff_port inputs[] = {
+    {"before.level", "m", "a level", "", NULL, FF_OPTIONAL, nobody},
+    {"before.series", "m", "a series", "t", NULL, FF_OPTIONAL, nobody},
+    {"flag.sign", "1", "a sign", "", NULL, FF_OPTIONAL, nobody},
+    {"law", "", "a law", NULL, TOY_LAW_ID, FF_OPTIONAL, nobody},
+    {"back.level", "m", "a level", "", NULL, FF_OPTIONAL | FF_FEEDBACK, "loop"},
+    {"back.series", "m", "a series", "t", NULL, FF_OPTIONAL | FF_FEEDBACK, "loop"},
+    {"more.level", "m", "another level", "", NULL, FF_OPTIONAL | FF_FEEDBACK, "loop"},
+};
+enum { BEFORE, BEFORE_SERIES, FLAG, LAW, BACK, BACK_SERIES, MORE };
+
+static const ff_port outputs[] = {
+    {"level", "m", "a level", "", NULL, 0, NULL},
+    {"series", "m", "the level over its points", "t", NULL, 0, NULL},
+    {"sign", "1", "of the level", "", NULL, 0, NULL},
+    {"evaluations", "1", "so far", "", NULL, 0, NULL},
+    {"connected", "1", "inputs that are there", "", NULL, 0, NULL},
+    {"law", "", "itself as a law", NULL, TOY_LAW_ID, 0, NULL},
+};
+
+static ff_status wire(void *self, uint32_t input, const void *service)
+{
+    (void)self, (void)input, (void)service;
+    return FF_OK;
+}
+
+static double at(const ff_array *in, double factor)
+{
+    return in->data ? factor * in->data[0] : 0;
+}
+
+static void waste(double seconds)
+{
+    clock_t end = clock() + (clock_t)(seconds * CLOCKS_PER_SEC);
+    while (clock() < end)
+        ;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    loop *l = self;
+    const ff_host *host = l->host;
+    double connected = 0;
+    char text[32];
+    waste(l->work);
+    for (int i = 0; i < 7; i++)
+        connected += in[i].data != NULL;
+    double level =
+        l->base + at(&in[BEFORE], l->gain) + at(&in[BACK], l->factor) + at(&in[MORE], l->share);
+    if (level > l->most)
+        return ff_failf(host, FF_NOCONV, NULL, "the level is %g", level);
+    if (host->progress(host->ctx, 0.5))
+        return FF_STOPPED;
+    l->evaluations++;
+    snprintf(text, sizeof text, "evaluation %g", l->evaluations);
+    host->log(host->ctx, FF_LOG_INFO, text);
+    host->quality(host->ctx, "level", level, l->most, FF_GOOD, NULL);
+    double values[] = {level, 0, (level > 0) - (level < 0), l->evaluations, connected};
+    ff_status status = l->warns ? ff_failf(host, FF_DOMAIN, NULL, "level %g", level) : FF_OK;
+    for (uint32_t i = 0; i < sizeof values / sizeof *values; i++)
+        if (i != 1 && wanted & FF_BIT(i) && ff_put_scalar(host, i, values[i]) != FF_OK)
+            return FF_NOMEM;
+    size_t count = (size_t)l->points - (l->points > 3 && in[BACK].data);
+    double *series = wanted & FF_BIT(1) ? ff_put_series(host, 1, count) : NULL;
+    for (size_t i = 0; series && i < count; i++)
+        series[i] = level * (double)(i + 1) / (double)count;
+    return status;
+}
+
+static const void *service(void *self, uint32_t output)
+{
+    static const toy_law law = {.size = sizeof law};
+    (void)self, (void)output;
+    return &law;
+}
+
+static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
+                        ff_assessment *assessment)
+{
+    (void)self, (void)wanted, (void)accuracy, (void)in;
+    assessment->applies = FF_APPLIES;
+    assessment->reason = "linear";
+    return FF_OK;
+}
+
+/* The state tells how often stages before it were evaluated. */
+static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
+{
+    loop *l = self;
+    if (from)
+        l->evaluations = 100 * (double)from->count;
+    else
+        to->bytes = l->carried, to->count = 1;
+    return FF_OK;
+}
+
+FF_MODEL(loop_model, loop, .id = "loop/linear", .version = "1.0.0",
+         .summary = "Adds up what is before and what comes back", .reference = "", .bibtex = "",
+         .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
+         .outputs = FF_TABLE(outputs), .wire = wire, .evaluate = evaluate, .destroy = free,
+         .service = service, .carry = carry, .assess = assess);
+FF_EXPORT_MODELS(&loop_model);
