@@ -3,6 +3,7 @@
 
 #include "../value/memory.h"
 #include "private.h"
+#include "serial.h"
 
 #include <dlfcn.h>
 #include <errno.h>
@@ -132,7 +133,9 @@ static ff_loaded *load_model(ff_library *library, const char *id, const char *pa
     ff_environment_keep(&environment);
     ff_guard_mark previous =
         ff_guard_enter((ff_guard_mark){.path = loaded->path, .action = "load"});
+    fe_serial_enter(NULL);
     ff_status status = fe_protected(library->heap, load, &l);
+    fe_serial_leave(NULL);
     ff_guard_leave(previous);
     const char *changed = ff_environment_restore(&environment);
     if (status == FF_NOMEM)

@@ -9,6 +9,7 @@
 
 #include <flankfilm/plugin.h>
 
+/* NULL: a model is being loaded, which may make its tables only then. */
 void fe_serial_enter(const ff_model *model);
 void fe_serial_leave(const ff_model *model);
 

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Engines in several threads at once: each gives its own answers, and models that must run alone
+   do. Built with a thread sanitizer by .ci/run. */
+#include <flankfilm/engine.h>
+
+#include <host.h>
+
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { THREADS = 4, ROUNDS = 8 };
+
+typedef struct worker {
+    pthread_t thread;
+    int level; /* mm */
+    int wrong_sums, wrong_messages, failures;
+    double others; /* instances of a serial model that ran at the same time */
+} worker;
+
+static double scalar(worker *w, ff_run *run, const char *path)
+{
+    const ff_result *result;
+    if (ff_run_result(run, path, &result) == FF_OK && result->count == 1)
+        return result->data[0];
+    w->failures++;
+    return 0;
+}
+
+static void run_toys(worker *w, ff_engine *engine)
+{
+    char level[32];
+    const char *const sets[] = {level, NULL};
+    ff_run *run;
+    snprintf(level, sizeof level, "one.level=%d mm", w->level);
+    if (ff_run_open(engine, "toys.yaml", sets, &run) != FF_OK || ff_run_start(run, NULL) != FF_OK) {
+        w->failures++;
+    } else {
+        double wanted = 5e-3 * w->level, sum = scalar(w, run, "sum.sum");
+        w->wrong_sums += !(sum > 0.999 * wanted && sum < 1.001 * wanted);
+        w->others += scalar(w, run, "alone.others");
+    }
+    ff_run_close(run);
+}
+
+static void run_wrong(worker *w, ff_engine *engine)
+{
+    ff_run *run;
+    w->failures += ff_run_open(engine, "wrong.yaml", NULL, &run) != FF_BUG;
+    w->wrong_messages += !strstr(ff_engine_message(engine), "there is no stage \"nobody\"");
+    ff_run_close(run);
+}
+
+static void *work(void *ctx)
+{
+    worker *w = ctx;
+    const char *directory = getenv("FLANKFILM_TEST_BAD");
+    const ff_engine_options options = {sizeof options, &directory, 1};
+    for (int i = 0; i < ROUNDS; i++) {
+        ff_engine *engine;
+        if (ff_engine_new(&options, &engine) != FF_OK)
+            w->failures++;
+        run_toys(w, engine);
+        run_wrong(w, engine);
+        run_toys(w, engine);
+        ff_engine_close(engine);
+    }
+    return NULL;
+}
+
+int main(void)
+{
+    static worker workers[THREADS];
+    char folder[4096];
+    snprintf(folder, sizeof folder, "%s/tests/core/engine/scenes", getenv("FLANKFILM_TEST_SOURCE"));
+    if (chdir(folder) != 0)
+        return 2;
+    for (int i = 0; i < THREADS; i++) {
+        workers[i].level = i + 1;
+        if (pthread_create(&workers[i].thread, NULL, work, &workers[i]) != 0)
+            return 2;
+    }
+    for (int i = 0; i < THREADS; i++) {
+        pthread_join(workers[i].thread, NULL);
+        check_true("every call answered", workers[i].failures == 0);
+        check_true("with its own numbers", workers[i].wrong_sums == 0);
+        check_true("and its own messages", workers[i].wrong_messages == 0);
+        check_true("a serial model ran alone", workers[i].others == 0);
+    }
+    return check_done();
+}
