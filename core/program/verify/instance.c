@@ -202,6 +202,11 @@ ff_status verify_instance_open(verify_instance *instance, const verify_setup *se
             status = model->set(instance->self, (uint32_t)i, &setup->values[i]);
     if (status == FF_OK)
         status = wire(instance, setup);
+    const char *missing = verify_setup_missing(setup);
+    if (status == FF_OK && missing) {
+        snprintf(instance->text, sizeof instance->text, "%s is needed", missing);
+        return FF_INVALID;
+    }
     return status == FF_OK && model->ready ? model->ready(instance->self) : status;
 }
 

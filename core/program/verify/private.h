@@ -116,6 +116,9 @@ void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify
 void verify_setup_draw_inputs(verify_setup *setup, verify_random *random);
 void verify_setup_give(verify_setup *setup, size_t input, const double *data, uint32_t rank,
                        const size_t *shape);
+/* A parameter that ready may count on, since it is required or has a preset, and that is missing.
+ */
+const char *verify_setup_missing(const verify_setup *setup);
 bool verify_setup_is_complete(const verify_setup *setup); /* every required input is there */
 double **verify_copy_inputs(const verify_setup *setup);
 /* Compares the inputs with the copies, which are freed. `function` was called in between. */

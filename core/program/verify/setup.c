@@ -190,6 +190,30 @@ void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify
     free(give);
 }
 
+static bool has_member(const verify_setup *setup, const char *group)
+{
+    const ff_model *model = setup->context->model;
+    for (size_t i = 0; i < model->param_count; i++) {
+        const ff_param *row = ff_model_param(model, i);
+        if (row->group && !strcmp(row->group, group) && setup->values[i].size)
+            return true;
+    }
+    return false;
+}
+
+const char *verify_setup_missing(const verify_setup *setup)
+{
+    const ff_model *model = setup->context->model;
+    for (size_t i = 0; i < model->param_count; i++) {
+        const ff_param *row = ff_model_param(model, i);
+        bool counted_on = row->preset || row->flags & FF_REQUIRED;
+        bool there = row->group ? has_member(setup, row->group) : setup->values[i].size > 0;
+        if (counted_on && !there && !is_replaced(setup, row))
+            return row->name;
+    }
+    return NULL;
+}
+
 void verify_setup_give(verify_setup *setup, size_t input, const double *data, uint32_t rank,
                        const size_t *shape)
 {
