@@ -5,6 +5,7 @@
 
 #include "plugin.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -111,20 +112,11 @@ FF_UNUSED static double *ff_put_series(const ff_host *host, uint32_t output, siz
     return host->output(host->ctx, output, 1, &count);
 }
 
-/* assess of a law, whose error those judge who use it: with the seconds that a million points
-   take, and what it is good for in a line, or "". */
-FF_UNUSED static ff_status ff_assess_law(double cost, const char *reason, ff_assessment *assessment)
+/* Of a list of one value for both gears or surfaces, or of one for each: that of number i, 0 or 1.
+   NaN where the list was not given. */
+FF_UNUSED static double ff_of_both(const ff_reals *list, int i)
 {
-    assessment->applies = FF_APPLIES;
-    assessment->cost = cost;
-    assessment->reason = reason;
-    return FF_OK;
-}
-
-/* Of a list of one value for both gears or surfaces, or of one for each: that of number i. */
-FF_UNUSED static double ff_of_both(const ff_reals *list, size_t i)
-{
-    return list->data[i < list->count ? i : list->count - 1];
+    return list->count == 0 ? NAN : list->data[list->count > 1 ? i : 0];
 }
 
 /*
@@ -132,7 +124,7 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, size_t i)
  * file.
  *
  * FF_MODEL defines the descriptor `name` of a model whose instance is a struct `type` with a member
- * `const ff_host *host`; create makes it, zeroed. A member with nothing to free says
+ * `const ff_host *host`; create makes it, zeroed. A model with nothing else to free says
  * `.destroy = free`.
  *
  *   FF_MODEL(steady_model, steady, .id = "operating/steady", .version = "1.0.0", ...,
@@ -142,11 +134,11 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, size_t i)
 #define FF_MODEL(name, type, ...)                                                                  \
     static ff_status name##_create(const ff_host *host, void **self)                               \
     {                                                                                              \
-        type *instance = calloc(1, sizeof *instance);                                              \
-        if (!instance)                                                                             \
+        type *ff_self = calloc(1, sizeof *ff_self);                                                \
+        if (!ff_self)                                                                              \
             return FF_NOMEM;                                                                       \
-        instance->host = host;                                                                     \
-        *self = instance;                                                                          \
+        ff_self->host = host;                                                                      \
+        *self = ff_self;                                                                           \
         return FF_OK;                                                                              \
     }                                                                                              \
     const ff_model name = {FF_HEAD(type, name##_create), __VA_ARGS__}
@@ -175,13 +167,13 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, size_t i)
 #define FF_LAW(name, type, output, id, doc, table, ...)                                            \
     static ff_status name##_create(const ff_host *host, void **self)                               \
     {                                                                                              \
-        type *law = calloc(1, sizeof *law);                                                        \
-        if (!law)                                                                                  \
+        type *ff_self = calloc(1, sizeof *ff_self);                                                \
+        if (!ff_self)                                                                              \
             return FF_NOMEM;                                                                       \
-        law->host = host;                                                                          \
-        law->service = table;                                                                      \
-        law->service.self = law;                                                                   \
-        *self = law;                                                                               \
+        ff_self->host = host;                                                                      \
+        ff_self->service = table;                                                                  \
+        ff_self->service.self = ff_self;                                                           \
+        *self = ff_self;                                                                           \
         return FF_OK;                                                                              \
     }                                                                                              \
     static const void *name##_service(void *self, uint32_t row)                                    \

@@ -6,10 +6,8 @@
  * host reads the file and says what is wrong with it, with file, line, column and caret:
  *
  *     static const ff_param columns[] = {
- *         {.name = "time", .unit = "s", .doc = "of the instant", .type = FF_REALS,
- *          .flags = FF_REQUIRED | FF_INCREASING},
- *         {.name = "load", .unit = "N/mm", .doc = "force over width", .type = FF_REALS,
- *          .flags = FF_REQUIRED, .min = 0, .max = 1e9},
+ *         FF_COLUMN("time", "s", FF_REQUIRED | FF_INCREASING, NULL, 0, 0, "of the instant"),
+ *         FF_COLUMN("load", "N/mm", FF_REQUIRED, NULL, 0, 1e9, "force over width"),
  *     };
  *     const ff_table *t;
  *     ff_status status = ff_table_read(host, "file", path, FF_TABLE(columns), &t);
@@ -44,6 +42,10 @@ extern "C" {
 #endif
 
 #define FF_TABLE_ID "flankfilm.table/1"
+
+/* A row of `columns`; flags, group and limits as in ff_param. */
+#define FF_COLUMN(name, unit, flags, group, min, max, doc)                                         \
+    FF_ROW(name, unit, doc, FF_REALS, flags, NULL, NULL, group, min, max, 0, 0, 0, 0, 0)
 
 /* A table that was read. It lives until the instance is destroyed. */
 typedef struct ff_table {

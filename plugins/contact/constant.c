@@ -2,122 +2,47 @@
 /* contact/constant: a line contact whose radius, speeds and load do not change. */
 #include "history.h"
 #include "line-contact.h"
+#include "references.h"
 
 #include <flankfilm/author.h>
 
 #include <math.h>
 #include <stdlib.h>
 
-enum {
-    P_RADIUS,
-    P_RADIUS_1,
-    P_RADIUS_2,
-    P_ENTRAINMENT_SPEED,
-    P_SLIDE_ROLL_RATIO,
-    P_SPEED_1,
-    P_SPEED_2,
-    P_LOAD_PER_WIDTH,
-    P_REDUCED_MODULUS,
-    P_ELASTIC_MODULUS,
-    P_POISSON_RATIO,
-    P_DURATION,
-    PARAM_COUNT
-};
-
-static const ff_param params[] = {
-    {.name = "radius",
-     .unit = "mm",
-     .doc = "equivalent radius R; both surfaces are then given 2 R",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .group = "radius",
-     .min = 1e-6,
-     .max = 1e9},
-    {.name = "radius_1",
-     .unit = "mm",
-     .doc = "radius of surface 1, together with radius_2, in place of `radius`",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .group = "radius",
-     .min = 1e-6,
-     .max = 1e9},
-    {.name = "radius_2",
-     .unit = "mm",
-     .doc = "radius of surface 2, together with radius_1",
-     .type = FF_REAL,
-     .min = 1e-6,
-     .max = 1e9},
-    {.name = "entrainment_speed",
-     .unit = "m/s",
-     .doc = "mean surface speed u_r = (u1 + u2)/2",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .group = "speed",
-     .min = 1e-9,
-     .max = 1e6},
-    {.name = "slide_roll_ratio",
-     .unit = "1",
-     .doc = "(u1 - u2)/u_r, together with entrainment_speed; left out: 0, pure rolling",
-     .type = FF_REAL,
-     .min = -1e3,
-     .max = 1e3},
-    {.name = "speed_1",
-     .unit = "m/s",
-     .doc = "speed u1 of surface 1, together with speed_2, in place of entrainment_speed",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .group = "speed",
-     .min = -1e6,
-     .max = 1e6},
-    {.name = "speed_2",
-     .unit = "m/s",
-     .doc = "speed u2 of surface 2, together with speed_1",
-     .type = FF_REAL,
-     .min = -1e6,
-     .max = 1e6},
-    {.name = "load_per_width",
-     .unit = "N/mm",
-     .doc = "load per width of the contact",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .min = 1e-9,
-     .max = 1e9},
-    CONTACT_REDUCED_MODULUS_ROW,
-    CONTACT_ELASTIC_MODULUS_ROW,
-    CONTACT_POISSON_RATIO_ROW,
-    {.name = "duration",
-     .unit = "s",
-     .doc = "length of the history; 0: a steady contact, one instant",
-     .type = FF_REAL,
-     .preset = "0 s",
-     .min = 0,
-     .max = 1e9},
-};
-
 typedef struct constant_contact {
     const ff_host *host;
-    contact_value param[PARAM_COUNT];
+    /* NaN: not given */
+    double radius, radius_1, radius_2, entrainment_speed, slide_roll_ratio, speed_1, speed_2;
+    double load_per_width, duration;
+    contact_moduli moduli;
     const ff_viscosity *law;
     double reduced_modulus;
     contact_point point;
 } constant_contact;
 
-static ff_status create(const ff_host *host, void **self)
-{
-    constant_contact *s = calloc(1, sizeof *s);
-    if (!s)
-        return FF_NOMEM;
-    s->host = host;
-    *self = s;
-    return FF_OK;
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    constant_contact *s = self;
-    contact_value_set(&s->param[param], &params[param], value);
-    return FF_OK;
-}
+static const ff_param params[] = {
+    FF_QUANTITY("radius", "mm", constant_contact, radius, FF_REQUIRED, NULL, "radius", 1e-6, 1e9, 0,
+                0, "equivalent radius R; both surfaces are then given 2 R"),
+    FF_QUANTITY("radius_1", "mm", constant_contact, radius_1, FF_REQUIRED, NULL, "radius", 1e-6,
+                1e9, 0, 0, "radius of surface 1, together with radius_2, in place of `radius`"),
+    FF_QUANTITY("radius_2", "mm", constant_contact, radius_2, 0, NULL, NULL, 1e-6, 1e9, 0, 0,
+                "radius of surface 2, together with radius_1"),
+    FF_QUANTITY("entrainment_speed", "m/s", constant_contact, entrainment_speed, FF_REQUIRED, NULL,
+                "speed", 1e-9, 1e6, 0, 0, "mean surface speed u_r = (u1 + u2)/2"),
+    FF_QUANTITY("slide_roll_ratio", "1", constant_contact, slide_roll_ratio, 0, NULL, NULL, -1e3,
+                1e3, 0, 0,
+                "(u1 - u2)/u_r, together with entrainment_speed; left out: 0, pure rolling"),
+    FF_QUANTITY("speed_1", "m/s", constant_contact, speed_1, FF_REQUIRED, NULL, "speed", -1e6, 1e6,
+                0, 0,
+                "speed u1 of surface 1, together with speed_2, in place of entrainment_speed"),
+    FF_QUANTITY("speed_2", "m/s", constant_contact, speed_2, 0, NULL, NULL, -1e6, 1e6, 0, 0,
+                "speed u2 of surface 2, together with speed_1"),
+    FF_QUANTITY("load_per_width", "N/mm", constant_contact, load_per_width, FF_REQUIRED, NULL, NULL,
+                1e-9, 1e9, 0, 0, "load per width of the contact"),
+    CONTACT_MODULI_ROWS(constant_contact),
+    FF_QUANTITY("duration", "s", constant_contact, duration, 0, "0 s", NULL, 0, 1e9, 0, 0,
+                "length of the history; 0: a steady contact, one instant"),
+};
 
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
@@ -130,23 +55,23 @@ static ff_status wire(void *self, uint32_t input, const void *service)
 /* Parameters that only mean something together: `mate` needs `with`. */
 static ff_status check_company(const constant_contact *s)
 {
-    static const struct {
-        uint32_t with, mate;
-        int both; /* `with` needs `mate` too */
+    const struct {
+        const char *with, *mate;
+        double with_value, mate_value;
+        bool both; /* `with` needs `mate` too */
     } company[] = {
-        {P_RADIUS_1, P_RADIUS_2, 1},
-        {P_SPEED_1, P_SPEED_2, 1},
-        {P_ENTRAINMENT_SPEED, P_SLIDE_ROLL_RATIO, 0},
+        {"radius_1", "radius_2", s->radius_1, s->radius_2, true},
+        {"speed_1", "speed_2", s->speed_1, s->speed_2, true},
+        {"entrainment_speed", "slide_roll_ratio", s->entrainment_speed, s->slide_roll_ratio, false},
     };
     for (size_t i = 0; i < sizeof company / sizeof company[0]; i++) {
-        uint32_t with = company[i].with, mate = company[i].mate;
-        if (s->param[mate].given && !s->param[with].given)
-            return ff_failf(s->host, FF_INVALID, params[mate].name,
-                            "%s has no meaning without %s; give both or neither", params[mate].name,
-                            params[with].name);
-        if (company[i].both && s->param[with].given && !s->param[mate].given)
-            return ff_failf(s->host, FF_INVALID, params[with].name, "%s needs %s beside it",
-                            params[with].name, params[mate].name);
+        const char *with = company[i].with, *mate = company[i].mate;
+        bool has_with = !isnan(company[i].with_value), has_mate = !isnan(company[i].mate_value);
+        if (has_mate && !has_with)
+            return ff_failf(s->host, FF_INVALID, mate,
+                            "%s has no meaning without %s; give both or neither", mate, with);
+        if (company[i].both && has_with && !has_mate)
+            return ff_failf(s->host, FF_INVALID, with, "%s needs %s beside it", with, mate);
     }
     return FF_OK;
 }
@@ -158,27 +83,19 @@ static ff_status ready(void *self)
     if (status != FF_OK)
         return status;
     contact_point *p = &s->point;
-    p->load_per_width = s->param[P_LOAD_PER_WIDTH].value[0];
-    p->radius_1 = p->radius_2 = 2 * s->param[P_RADIUS].value[0];
-    if (s->param[P_RADIUS_1].given) {
-        p->radius_1 = s->param[P_RADIUS_1].value[0];
-        p->radius_2 = s->param[P_RADIUS_2].value[0];
-    }
-    double mean = s->param[P_ENTRAINMENT_SPEED].value[0],
-           slide = s->param[P_SLIDE_ROLL_RATIO].value[0];
-    p->speed_1 = mean * (1 + slide / 2);
-    p->speed_2 = mean * (1 - slide / 2);
-    if (s->param[P_SPEED_1].given) {
-        p->speed_1 = s->param[P_SPEED_1].value[0];
-        p->speed_2 = s->param[P_SPEED_2].value[0];
-    }
+    p->load_per_width = s->load_per_width;
+    p->radius_1 = isnan(s->radius_1) ? 2 * s->radius : s->radius_1;
+    p->radius_2 = isnan(s->radius_1) ? 2 * s->radius : s->radius_2;
+    double mean = s->entrainment_speed,
+           slide = isnan(s->slide_roll_ratio) ? 0 : s->slide_roll_ratio;
+    p->speed_1 = isnan(s->speed_1) ? mean * (1 + slide / 2) : s->speed_1;
+    p->speed_2 = isnan(s->speed_1) ? mean * (1 - slide / 2) : s->speed_2;
     if (!(fabs(p->speed_1 + p->speed_2) > 0))
-        return ff_failf(s->host, FF_INVALID,
-                        s->param[P_SPEED_1].given ? "speed_1" : "entrainment_speed",
+        return ff_failf(s->host, FF_INVALID, isnan(s->speed_1) ? "entrainment_speed" : "speed_1",
                         "surface speeds %g and %g m/s carry no oil into the contact; their sum "
                         "must not be 0",
                         p->speed_1, p->speed_2);
-    return contact_reduced_modulus(s->host, &s->param[P_REDUCED_MODULUS], &s->reduced_modulus);
+    return contact_reduced_modulus(s->host, &s->moduli, &s->reduced_modulus);
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
@@ -186,7 +103,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const constant_contact *s = self;
     contact_point point = s->point;
     contact_history history;
-    double duration = s->param[P_DURATION].value[0];
+    double duration = s->duration;
     size_t count = duration > 0 ? 2 : 1;
     (void)in;
     ff_status status =
@@ -200,35 +117,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-static void destroy(void *self)
-{
-    free(self);
-}
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "contact/constant",
-    .version = "1.0.0",
-    .summary = "line contact of constant radius, speeds and load",
-    .reference = contact_line_reference,
-    .bibtex = contact_line_bibtex,
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params),
-    .inputs = FF_TABLE(contact_line_inputs),
-    .outputs = contact_outputs,
-    .output_count = CONTACT_ROLL_ANGLE,
-    .output_stride = sizeof contact_outputs[0],
-    .create = create,
-    .set = set,
-    .wire = wire,
-    .ready = ready,
-    .evaluate = evaluate,
-    .destroy = destroy,
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(contact_constant, constant_contact, .id = "contact/constant", .version = "1.0.0",
+         .summary = "line contact of constant radius, speeds and load",
+         .reference = contact_line_reference, .bibtex = BIB_johnson1985 "\n" BIB_moes2000,
+         .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+         .inputs = FF_TABLE(contact_line_inputs), .outputs = contact_outputs,
+         .output_count = CONTACT_ROLL_ANGLE, .output_stride = sizeof contact_outputs[0],
+         .wire = wire, .ready = ready, .evaluate = evaluate, .destroy = free);

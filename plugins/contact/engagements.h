@@ -4,12 +4,13 @@
 #define CONTACT_ENGAGEMENTS_H
 
 #include <stddef.h>
+#include <stdint.h>
 
 enum { CONTACT_ENGAGEMENTS_ALL = -1 };
 
 typedef struct contact_engagement_choice {
-    long one;    /* the number of one, or CONTACT_ENGAGEMENTS_ALL */
-    size_t most; /* of all */
+    int64_t one;  /* the number of one, or CONTACT_ENGAGEMENTS_ALL */
+    int64_t most; /* of all */
 } contact_engagement_choice;
 
 /* Picks at most `most` >= 1 of the `available` ones, in their order: all, or one of each of `most`

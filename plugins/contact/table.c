@@ -2,120 +2,46 @@
 /* contact/table: the history of a line contact from a file, instant by instant. */
 #include "history.h"
 #include "line-contact.h"
+#include "references.h"
 
 #include <flankfilm/table.h>
 
 #include <stdlib.h>
-#include <string.h>
-
-enum { P_FILE, P_REDUCED_MODULUS, P_ELASTIC_MODULUS, P_POISSON_RATIO, PARAM_COUNT };
 
 /* Columns of the file, in the order of the rows. */
 enum { TIME, RADIUS, RADIUS_1, RADIUS_2, SPEED_1, SPEED_2, LOAD, GAP };
 
 static const ff_param columns[] = {
-    {.name = "time",
-     .unit = "s",
-     .doc = "of the instant",
-     .type = FF_REALS,
-     .flags = FF_REQUIRED | FF_INCREASING,
-     .max_count = 1000000},
-    {.name = "radius",
-     .unit = "mm",
-     .doc = "equivalent radius of the contact, or both radii",
-     .type = FF_REALS,
-     .flags = FF_REQUIRED,
-     .group = "radius",
-     .min = 1e-6,
-     .max = 1e9},
-    {.name = "radius_1",
-     .unit = "mm",
-     .doc = "radius of body 1, beside radius_2",
-     .type = FF_REALS,
-     .flags = FF_REQUIRED,
-     .group = "radius",
-     .min = 1e-6,
-     .max = 1e9},
-    {.name = "radius_2",
-     .unit = "mm",
-     .doc = "radius of body 2, beside radius_1",
-     .type = FF_REALS,
-     .min = 1e-6,
-     .max = 1e9},
-    {.name = "speed_1",
-     .unit = "m/s",
-     .doc = "speed of surface 1",
-     .type = FF_REALS,
-     .flags = FF_REQUIRED,
-     .min = -1e6,
-     .max = 1e6},
-    {.name = "speed_2",
-     .unit = "m/s",
-     .doc = "speed of surface 2",
-     .type = FF_REALS,
-     .flags = FF_REQUIRED,
-     .min = -1e6,
-     .max = 1e6},
-    {.name = "load_per_width",
-     .unit = "N/mm",
-     .doc = "normal force over the width",
-     .type = FF_REALS,
-     .flags = FF_REQUIRED,
-     .min = 0,
-     .max = 1e9},
-    {.name = "gap",
-     .unit = "um",
-     .doc = "between the surfaces where the contact is lost",
-     .type = FF_REALS,
-     .min = 0,
-     .max = 1e12},
-};
-
-static const ff_param params[] = {
-    {.name = "file",
-     .unit = "",
-     .doc =
-         "table with the columns time [s], radius [mm] (equivalent) or radius_1 [mm] and radius_2 "
-         "[mm], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], and gap [um] where the "
-         "contact is lost; straight lines between the rows, a time given twice is a jump, at "
-         "the first time from the film of the first row",
-     .type = FF_FILE,
-     .flags = FF_REQUIRED},
-    CONTACT_REDUCED_MODULUS_ROW,
-    CONTACT_ELASTIC_MODULUS_ROW,
-    CONTACT_POISSON_RATIO_ROW,
+    FF_ROW("time", "s", "of the instant", FF_REALS, FF_REQUIRED | FF_INCREASING, NULL, NULL, NULL,
+           0, 0, 0, 0, 0, 1000000, 0),
+    FF_COLUMN("radius", "mm", FF_REQUIRED, "radius", 1e-6, 1e9,
+              "equivalent radius of the contact, or both radii"),
+    FF_COLUMN("radius_1", "mm", FF_REQUIRED, "radius", 1e-6, 1e9,
+              "radius of body 1, beside radius_2"),
+    FF_COLUMN("radius_2", "mm", 0, NULL, 1e-6, 1e9, "radius of body 2, beside radius_1"),
+    FF_COLUMN("speed_1", "m/s", FF_REQUIRED, NULL, -1e6, 1e6, "speed of surface 1"),
+    FF_COLUMN("speed_2", "m/s", FF_REQUIRED, NULL, -1e6, 1e6, "speed of surface 2"),
+    FF_COLUMN("load_per_width", "N/mm", FF_REQUIRED, NULL, 0, 1e9, "normal force over the width"),
+    FF_COLUMN("gap", "um", 0, NULL, 0, 1e12, "between the surfaces where the contact is lost"),
 };
 
 typedef struct table_contact {
     const ff_host *host;
-    char *path;
-    contact_value param[PARAM_COUNT]; /* all but the file */
+    const char *path;
+    contact_moduli moduli;
     const ff_viscosity *law;
     double reduced_modulus;
     const ff_table *file;
 } table_contact;
 
-static ff_status create(const ff_host *host, void **self)
-{
-    table_contact *t = calloc(1, sizeof *t);
-    if (!t)
-        return FF_NOMEM;
-    t->host = host;
-    *self = t;
-    return FF_OK;
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    table_contact *t = self;
-    if (param == P_FILE) {
-        free(t->path);
-        t->path = strdup(value->text);
-        return t->path ? FF_OK : FF_NOMEM;
-    }
-    contact_value_set(&t->param[param], &params[param], value);
-    return FF_OK;
-}
+static const ff_param params[] = {
+    FF_PATH("file", table_contact, path, FF_REQUIRED, NULL,
+            "table with the columns time [s], radius [mm] (equivalent) or radius_1 [mm] and "
+            "radius_2 [mm], speed_1 [m/s], speed_2 [m/s], load_per_width [N/mm], and gap [um] "
+            "where the contact is lost; straight lines between the rows, a time given twice is a "
+            "jump, at the first time from the film of the first row"),
+    CONTACT_MODULI_ROWS(table_contact),
+};
 
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
@@ -158,10 +84,7 @@ static ff_status check_file(const table_contact *t)
 static ff_status ready(void *self)
 {
     table_contact *t = self;
-    if (!t->path)
-        return ff_failf(t->host, FF_INVALID, "file", "a table is needed: file");
-    ff_status status =
-        contact_reduced_modulus(t->host, &t->param[P_REDUCED_MODULUS], &t->reduced_modulus);
+    ff_status status = contact_reduced_modulus(t->host, &t->moduli, &t->reduced_modulus);
     if (status == FF_OK)
         status = ff_table_read(t->host, "file", t->path, FF_TABLE(columns), &t->file);
     return status == FF_OK ? check_file(t) : status;
@@ -197,39 +120,11 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-static void destroy(void *self)
-{
-    table_contact *t = self;
-    if (t)
-        free(t->path);
-    free(t);
-}
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "contact/table",
-    .version = "1.0.0",
-    .summary = "line contact whose radii, speeds and load are read from a file",
-    .reference = contact_line_reference,
-    .bibtex = contact_line_bibtex,
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params),
-    .inputs = FF_TABLE(contact_line_inputs),
-    .outputs = contact_outputs,
-    .output_count = CONTACT_ROLL_ANGLE,
-    .output_stride = sizeof contact_outputs[0],
-    .create = create,
-    .set = set,
-    .wire = wire,
-    .ready = ready,
-    .evaluate = evaluate,
-    .destroy = destroy,
-    .columns = FF_TABLE(columns),
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(contact_table, table_contact, .id = "contact/table", .version = "1.0.0",
+         .summary = "line contact whose radii, speeds and load are read from a file",
+         .reference = contact_line_reference, .bibtex = BIB_johnson1985 "\n" BIB_moes2000,
+         .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+         .inputs = FF_TABLE(contact_line_inputs), .outputs = contact_outputs,
+         .output_count = CONTACT_ROLL_ANGLE, .output_stride = sizeof contact_outputs[0],
+         .wire = wire, .ready = ready, .evaluate = evaluate, .destroy = free,
+         .columns = FF_TABLE(columns));

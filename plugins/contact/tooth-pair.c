@@ -3,6 +3,7 @@
 #include "../numerics/interval.h"
 #include "history.h"
 #include "load-curve.h"
+#include "references.h"
 #include "tooth-path.h"
 
 #include <flankfilm/author.h>
@@ -16,78 +17,30 @@ static const double degree = M_PI / 180;
    so that steps always fit. */
 static const double step_width = 1e-6;
 
-enum { P_LOAD_RAMP, P_POINTS, P_ENGAGEMENT, P_MAX_ENGAGEMENTS };
-
-static const ff_param params[] = {
-    {.name = "load_ramp",
-     .unit = "deg",
-     .doc = "roll angle over which the load passes linearly from before to after a change in the "
-            "number of pairs, centred on it; left out: less where changes are nearer than that; "
-            "0: a step, 1e-6 of the path wide",
-     .type = FF_REAL,
-     .preset = "0.2 deg",
-     .min = 0,
-     .max = 90},
-    {.name = "points",
-     .unit = "1",
-     .doc = "instants of each engagement; the ends of the ramps are among them",
-     .type = FF_INT,
-     .flags = FF_TUNABLE,
-     .preset = "1000",
-     .min = 16,
-     .max = 1e6},
-    {.name = "engagement",
-     .unit = "1",
-     .doc = "which mesh cycle of a motion that lasts several the pair begins in, from 0; all: one "
-            "after the other, each a history of its own",
-     .type = FF_INT,
-     .preset = "all",
-     .choices = "all",
-     .min = 0,
-     .max = 1e6},
-    {.name = "max_engagements",
-     .unit = "1",
-     .doc =
-         "the most engagements that `all` takes; of a longer motion as many, spread over all of it",
-     .type = FF_INT,
-     .preset = "16",
-     .min = 1,
-     .max = 1e6},
-};
+enum { P_LOAD_RAMP };
 
 typedef struct tooth_pair {
     const ff_host *host;
     double load_ramp;
-    bool ramp_given;
-    size_t points;
+    int64_t points;
     contact_engagement_choice engagements;
     const ff_viscosity *law;
 } tooth_pair;
 
-static ff_status create(const ff_host *host, void **self)
-{
-    tooth_pair *s = calloc(1, sizeof *s);
-    if (!s)
-        return FF_NOMEM;
-    s->host = host;
-    *self = s;
-    return FF_OK;
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    tooth_pair *s = self;
-    if (param == P_LOAD_RAMP) {
-        s->load_ramp = value->real;
-        s->ramp_given = value->given != 0;
-    } else if (param == P_POINTS)
-        s->points = (size_t)value->integer;
-    else if (param == P_MAX_ENGAGEMENTS)
-        s->engagements.most = (size_t)value->integer;
-    else
-        s->engagements.one = value->text ? CONTACT_ENGAGEMENTS_ALL : (long)value->integer;
-    return FF_OK;
-}
+static const ff_param params[] = {
+    FF_QUANTITY("load_ramp", "deg", tooth_pair, load_ramp, 0, "0.2 deg", NULL, 0, 90, 0, 0,
+                "roll angle over which the load passes linearly from before to after a change in "
+                "the number of pairs, centred on it; left out: less where changes are nearer than "
+                "that; 0: a step, 1e-6 of the path wide"),
+    FF_COUNT("points", tooth_pair, points, FF_TUNABLE, "1000", NULL, 16, 1e6, 0, 0,
+             "instants of each engagement; the ends of the ramps are among them"),
+    FF_COUNT_OR("all", "engagement", tooth_pair, engagements.one, 0, "all", NULL, 0, 1e6, 0, 0,
+                "which mesh cycle of a motion that lasts several the pair begins in, from 0; all: "
+                "one after the other, each a history of its own"),
+    FF_COUNT(
+        "max_engagements", tooth_pair, engagements.most, 0, "16", NULL, 1, 1e6, 0, 0,
+        "the most engagements that `all` takes; of a longer motion as many, spread over all of it"),
+};
 
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
@@ -167,12 +120,12 @@ static ff_status add_instant(load_record *r, const contact_tooth_path *p, const 
 static ff_status add_instants(const tooth_pair *s, const contact_tooth_path *p, const engagement *e,
                               const double *breaks, size_t break_count, load_record *r)
 {
-    double per_angle = (double)(s->points - 1) / (breaks[break_count - 1] - breaks[0]);
+    const size_t points = (size_t)s->points;
+    double per_angle = (double)(points - 1) / (breaks[break_count - 1] - breaks[0]);
     size_t done = 0;
     ff_status status = add_instant(r, p, e, breaks[0]);
     for (size_t k = 1; k < break_count && status == FF_OK; k++) {
-        size_t most =
-            s->points - (break_count - k); /* leaves one for each breakpoint still to come */
+        size_t most = points - (break_count - k); /* leaves one for each breakpoint still to come */
         double share = round((breaks[k] - breaks[0]) * per_angle);
         size_t end = (size_t)fmin(fmax(share, (double)(done + 1)), (double)most);
         double step = (breaks[k] - breaks[k - 1]) / (double)(end - done);
@@ -207,7 +160,7 @@ static ff_status make_ramps(const tooth_pair *s, const contact_tooth_path *p, co
     double most = contact_pieces_make_ramps(count, pieces, width);
     if (width < most)
         return FF_OK;
-    if (!s->ramp_given) {
+    if (!s->host->given(s->host->ctx, P_LOAD_RAMP)) {
         shrink_ramps(s, pieces, count, most);
         return FF_OK;
     }
@@ -302,14 +255,15 @@ static ff_status make_history(const tooth_pair *s, const contact_tooth_path *p, 
     if (status != FF_OK)
         return status;
     size_t break_count = list_breakpoints(pieces, count, p, breaks);
-    if (break_count > s->points)
+    const size_t points = (size_t)s->points;
+    if (break_count > points)
         return ff_failf(s->host, FF_INVALID, "points",
                         "points is %zu; the history needs at least %zu for the ramps of its load",
-                        s->points, break_count);
+                        points, break_count);
     load_record r = {0};
     engagement e = {.force = {p->n, count, p->angle, NULL, slopes, pieces},
                     .gap = {p->n, count, p->angle, NULL, slopes + p->n, pieces}};
-    status = contact_history_open(&r.history, s->host, wanted, p->count * s->points,
+    status = contact_history_open(&r.history, s->host, wanted, p->count * points,
                                   p->reduced_modulus, s->law);
     for (size_t k = 0; k < p->count && status == FF_OK; k++) {
         size_t number = p->engagement[k];
@@ -349,42 +303,11 @@ out:
     return status;
 }
 
-static void destroy(void *self)
-{
-    free(self);
-}
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "contact/tooth-pair",
-    .version = "1.0.0",
-    .summary = "load, radii and speeds of one tooth pair from SAP to tip",
-    .reference =
-        "Li and Kahraman 2011, Proc. IMechE Part J, Influence of dynamic behaviour on "
-        "elastohydrodynamic lubrication of spur gears; Steffen 1990, Astron. Astrophys. 239, 443 "
-        "(interpolation)",
-    .bibtex =
-        "@article{likahraman2011, author = {Li, S. and Kahraman, A.}, title = {Influence of "
-        "dynamic "
-        "behaviour on elastohydrodynamic lubrication of spur gears}, journal = {Proceedings of the "
-        "Institution of Mechanical Engineers, Part J}, pages = {740--753}, year = {2011}}\n"
-        "@article{steffen1990, author = {Steffen, M.}, title = {A simple method for monotonic "
-        "interpolation in one dimension}, journal = {Astronomy and Astrophysics}, volume = {239}, "
-        "pages = {443--450}, year = {1990}}",
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params),
-    .inputs = FF_TABLE(contact_tooth_inputs),
-    .outputs = FF_TABLE(contact_outputs),
-    .create = create,
-    .set = set,
-    .wire = wire,
-    .evaluate = evaluate,
-    .destroy = destroy,
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(contact_tooth_pair, tooth_pair, .id = "contact/tooth-pair", .version = "1.0.0",
+         .summary = "load, radii and speeds of one tooth pair from SAP to tip",
+         .reference = "Li and Kahraman 2011, Proc. IMechE Part J, Influence of dynamic behaviour "
+                      "on elastohydrodynamic lubrication of spur gears; Steffen 1990, Astron. "
+                      "Astrophys. 239, 443 (interpolation)",
+         .bibtex = BIB_likahraman2011 "\n" BIB_steffen1990, .licence = "GPL-3.0-or-later",
+         .params = FF_TABLE(params), .inputs = FF_TABLE(contact_tooth_inputs),
+         .outputs = FF_TABLE(contact_outputs), .wire = wire, .evaluate = evaluate, .destroy = free);

@@ -109,7 +109,7 @@ static ff_status read_engagements(const ff_host *host, contact_engagement_choice
     if (wanted.one != CONTACT_ENGAGEMENTS_ALL && (size_t)wanted.one >= p->available)
         return ff_failf(host, FF_INVALID, "engagement",
                         "engagement %ld does not exist: the load has %zu, counted from 0",
-                        wanted.one, p->available);
+                        (long)wanted.one, p->available);
     if (p->gap && p->gaps != 1 && p->gaps != p->available)
         return ff_failf(host, FF_INVALID, "load.gap",
                         "load.gap has %zu engagements, load.tooth_force %zu", p->gaps,
@@ -120,7 +120,7 @@ static ff_status read_engagements(const ff_host *host, contact_engagement_choice
     p->count = 1;
     p->engagement[0] = (size_t)wanted.one;
     if (wanted.one == CONTACT_ENGAGEMENTS_ALL)
-        p->count = contact_engagements_pick(p->available, wanted.most, p->engagement);
+        p->count = contact_engagements_pick(p->available, (size_t)wanted.most, p->engagement);
     return FF_OK;
 }
 

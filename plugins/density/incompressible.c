@@ -1,13 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Incompressible: rho = rho0. */
 #include "law.h"
+#include "references.h"
 
-#include <stdlib.h>
+typedef struct incompressible {
+    const ff_host *host;
+    ff_density service;
+    double rho0; /* kg/m3 */
+} incompressible;
 
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *rho,
                       double *drho_dp, double *drho_dT)
 {
-    const density_law *law = self;
+    const incompressible *law = self;
     (void)p;
     (void)T;
     for (size_t i = 0; i < n; i++) {
@@ -20,45 +25,12 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     return FF_OK;
 }
 
-static const ff_param params[] = {DENSITY_RHO0_ROW("density")};
-
-static ff_status create(const ff_host *host, void **self)
-{
-    (void)host;
-    return density_law_create(sizeof(density_law), 2e-4, eval, self);
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    density_law *law = self;
-    (void)param;
-    law->rho0 = value->real;
-    return FF_OK;
-}
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = 0,
-    .id = "density/incompressible",
-    .version = "1.0.0",
-    .summary = "density that pressure does not change",
-    .reference = "Reynolds 1886, Philosophical Transactions 177, 157-234",
-    .bibtex = "@article{Reynolds1886, author={Reynolds, O.}, title={On the theory of lubrication "
-              "and its application to Mr. Beauchamp Tower's experiments}, journal={Philosophical "
-              "Transactions of the Royal Society of London}, volume={177}, pages={157--234}, "
-              "year={1886}}",
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params),
-    .outputs = FF_TABLE(density_law_outputs),
-    .create = create,
-    .set = set,
-    .service = density_law_service,
-    .destroy = free,
-    .assess = density_law_assess,
+static const ff_param params[] = {
+    DENSITY_RHO0_ROW(incompressible, "density"),
 };
 
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_DENSITY_LAW(density_incompressible, incompressible, eval, .id = "density/incompressible",
+               .version = "1.0.0", .summary = "density that pressure does not change",
+               .reference = "Reynolds 1886, Philosophical Transactions 177, 157-234",
+               .bibtex = BIB_Reynolds1886, .licence = "GPL-3.0-or-later",
+               .params = FF_TABLE(params), .cost = 2e-4);

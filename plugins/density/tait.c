@@ -5,13 +5,15 @@
  * liquid is compressed that far, and V itself would reach 0.
  */
 #include "law.h"
+#include "references.h"
 #include "tension.h"
 
 #include <math.h>
-#include <stdlib.h>
 
 typedef struct tait {
-    density_law law;
+    const ff_host *host;
+    ff_density service;
+    double rho0;         /* kg/m3 */
     double K0, K0_prime; /* Pa, 1 */
     double cap;          /* Pa, where V = 1/2 */
 } tait;
@@ -20,7 +22,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                       double *drho_dp, double *drho_dT)
 {
     const tait *d = self;
-    const double rho0 = d->law.rho0, K0 = d->K0, k = 1 + d->K0_prime, cap = d->cap;
+    const double rho0 = d->rho0, K0 = d->K0, k = 1 + d->K0_prime, cap = d->cap;
     double lowest = 0, highest = 0;
     (void)T;
     for (size_t i = 0; i < n; i++) {
@@ -39,39 +41,12 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
 }
 
 static const ff_param params[] = {
-    DENSITY_RHO0_ROW("density at ambient pressure"),
-    {.name = "K0",
-     .unit = "GPa",
-     .doc = "bulk modulus at ambient pressure",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .min = 0.01,
-     .max = 1000,
-     .low = 0.5,
-     .high = 3},
-    {.name = "K0_prime",
-     .unit = "1",
-     .doc = "rise of the bulk modulus with pressure",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .max = 100,
-     .low = 8,
-     .high = 13},
+    DENSITY_RHO0_ROW(tait, "density at ambient pressure"),
+    FF_QUANTITY("K0", "GPa", tait, K0, FF_REQUIRED, NULL, NULL, 0.01, 1000, 0.5, 3,
+                "bulk modulus at ambient pressure"),
+    FF_QUANTITY("K0_prime", "1", tait, K0_prime, FF_REQUIRED, NULL, NULL, 0, 100, 8, 13,
+                "rise of the bulk modulus with pressure"),
 };
-
-static ff_status create(const ff_host *host, void **self)
-{
-    (void)host;
-    return density_law_create(sizeof(tait), 1.3e-2, eval, self);
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    tait *d = self;
-    double *own[] = {&d->law.rho0, &d->K0, &d->K0_prime}; /* in the order of the rows */
-    *own[param] = value->real;
-    return FF_OK;
-}
 
 static ff_status ready(void *self)
 {
@@ -81,30 +56,8 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = 0,
-    .id = "density/tait",
-    .version = "1.0.0",
-    .summary = "density by the Tait equation of state",
-    .reference = "Dymond & Malhotra 1988, Int. J. Thermophysics 9, 941-951",
-    .bibtex =
-        "@article{DymondMalhotra1988, author={Dymond, J. H. and Malhotra, R.}, title={The {Tait} "
-        "equation: 100 years on}, journal={International Journal of Thermophysics}, "
-        "volume={9}, pages={941--951}, year={1988}}",
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params),
-    .outputs = FF_TABLE(density_law_outputs),
-    .create = create,
-    .set = set,
-    .ready = ready,
-    .service = density_law_service,
-    .destroy = free,
-    .assess = density_law_assess,
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_DENSITY_LAW(density_tait, tait, eval, .id = "density/tait", .version = "1.0.0",
+               .summary = "density by the Tait equation of state",
+               .reference = "Dymond & Malhotra 1988, Int. J. Thermophysics 9, 941-951",
+               .bibtex = BIB_DymondMalhotra1988, .licence = "GPL-3.0-or-later",
+               .params = FF_TABLE(params), .ready = ready, .cost = 1.3e-2);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/coupled: the gear pair on its bearings, two translations and a rotation per gear. */
 #include "coupled-motion.h"
+#include "references.h"
 
 #include <flankfilm/author.h>
 
@@ -8,135 +9,62 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum {
-    P_DAMPING_RATIO,
-    P_DAMPING,
-    P_BRANCH,
-    P_EQUIVALENT_MASS,
-    P_NATURAL_FREQUENCY,
-    P_BEARING_STIFFNESS,
-    P_BEARING_DAMPING_RATIO,
-    P_GEAR_MASS,
-    P_CYCLES_SETTLE,
-    P_CYCLES_MEASURED,
-    P_STEPS_PER_CYCLE,
-    P_TOLERANCE,
-    P_SETTLE_TOLERANCE
-};
-
-static const ff_param params[] = {
-    {"damping_ratio", "1",
-     "damping of the mesh over critical damping at the mean stiffness, c/(2 sqrt(k m))", FF_REAL, 0,
-     "0.01", NULL, NULL, 0, 10, 1e-3, 0.2, 0, 0, 0, NULL},
-    {"damping", "",
-     "when the mesh damper acts: always (also in free flight, as Li & Kahraman 2011), in contact "
-     "only, or in contact and clipped so that the flanks never pull",
-     FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0, 0, NULL},
-    {"branch", "",
-     "which of several motions: lower comes up slowly from 0.7 times the mesh frequency, upper "
-     "comes down from 1.4 times the natural frequency of the mesh",
-     FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0, 0, NULL},
-    {"equivalent_mass", "kg", "mass that the mesh spring sees in rotation; default: the gear's",
-     FF_REAL, FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"natural_frequency", "Hz",
-     "linear natural frequency of the mesh on stiff bearings at the mean stiffness, in place of "
-     "the mass",
-     FF_REAL, FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"bearing_stiffness", "N/m",
-     "radial stiffness that shaft and bearings give each gear, the same in all directions; one "
-     "value or two",
-     FF_REALS, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e15, 1e7, 1e11, 1, 2, 0, NULL},
-    {"bearing_damping_ratio", "1",
-     "damping of each gear on its bearings over critical damping, c/(2 sqrt(k m)); one value or "
-     "two",
-     FF_REALS, 0, "0.02", NULL, NULL, 0, 10, 1e-3, 0.2, 1, 2, 0, NULL},
-    {"gear_mass", "kg", "masses that move on the bearings; default: the gears'; one value or two",
-     FF_REALS, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 1, 2, 0, NULL},
-    {"cycles_settle", "1",
-     "mesh cycles in which the motion may settle; auto: four times what the damping takes", FF_INT,
-     FF_TUNABLE, "auto", "auto", NULL, 1, 1e6, 0, 0, 0, 0, 0, NULL},
-    {"cycles_measured", "1", "mesh cycles shown when the motion is not periodic", FF_INT, 0, "16",
-     NULL, NULL, 1, 256, 0, 0, 0, 0, 0, NULL},
-    {"steps_per_cycle", "1", "points shown per mesh cycle; the integrator's steps are its own",
-     FF_INT, FF_TUNABLE, "512", NULL, NULL, 16, 65536, 0, 0, 0, 0, 0, NULL},
-    {"tolerance", "1", "error of one integration step over the static deflection", FF_REAL,
-     FF_TUNABLE, "1e-9", NULL, NULL, 1e-13, 1e-3, 1e-12, 1e-6, 0, 0, 0, NULL},
-    {"settle_tolerance", "1",
-     "distance to the periodic motion at which it has settled, over the static deflection", FF_REAL,
-     FF_TUNABLE, "1e-6", NULL, NULL, 1e-12, 1e-2, 1e-10, 1e-4, 0, 0, 0, NULL},
-};
-
 typedef struct model {
     const ff_host *host;
     double zeta, tolerance, settle_tolerance;
-    int damping;
-    dynamics_branch branch;
+    int32_t damping, branch;
     dynamics_inertia inertia;
-    double bearing[2], bearing_zeta[2], mass[2]; /* N/m, 1, kg; mass 0: the gear's own */
-    size_t cycles_settle, cycles_measured, steps_per_cycle;
+    ff_reals bearing, bearing_zeta,
+        mass; /* N/m, 1, kg; one value or two; mass empty: the gears' own */
+    int64_t cycles_settle, cycles_measured, steps_per_cycle;
 } model;
 
-static ff_status create(const ff_host *host, void **self)
+static const ff_param params[] = {
+    FF_QUANTITY("damping_ratio", "1", model, zeta, 0, "0.01", NULL, 0, 10, 1e-3, 0.2,
+                "damping of the mesh over critical damping at the mean stiffness, c/(2 sqrt(k m))"),
+    FF_ONE_OF("always|contact|clipped", "damping", model, damping, 0, "always",
+              "when the mesh damper acts: always (also in free flight, as Li & Kahraman 2011), in "
+              "contact only, or in contact and clipped so that the flanks never pull"),
+    FF_ONE_OF("lower|upper", "branch", model, branch, 0, "lower",
+              "which of several motions: lower comes up slowly from 0.7 times the mesh frequency, "
+              "upper comes down from 1.4 times the natural frequency of the mesh"),
+    FF_QUANTITY("equivalent_mass", "kg", model, inertia.equivalent_mass, FF_MIN_OPEN, NULL,
+                "inertia", 0, 1e9, 0, 0,
+                "mass that the mesh spring sees in rotation; default: the gear's"),
+    FF_QUANTITY("natural_frequency", "Hz", model, inertia.natural_frequency, FF_MIN_OPEN, NULL,
+                "inertia", 0, 1e9, 0, 0,
+                "linear natural frequency of the mesh on stiff bearings at the mean stiffness, in "
+                "place of the mass"),
+    FF_LIST("bearing_stiffness", "N/m", model, bearing, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0,
+            1e15, 1e7, 1e11, 1, 2,
+            "radial stiffness that shaft and bearings give each gear, the same in all directions; "
+            "one value or two"),
+    FF_LIST("bearing_damping_ratio", "1", model, bearing_zeta, 0, "0.02", NULL, 0, 10, 1e-3, 0.2, 1,
+            2,
+            "damping of each gear on its bearings over critical damping, c/(2 sqrt(k m)); one "
+            "value or two"),
+    FF_LIST("gear_mass", "kg", model, mass, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0, 1, 2,
+            "masses that move on the bearings; default: the gears'; one value or two"),
+    FF_COUNT_OR(
+        "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
+        "mesh cycles in which the motion may settle; auto: four times what the damping takes"),
+    FF_COUNT("cycles_measured", model, cycles_measured, 0, "16", NULL, 1, 256, 0, 0,
+             "mesh cycles shown when the motion is not periodic"),
+    FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
+             "points shown per mesh cycle; the integrator's steps are its own"),
+    FF_QUANTITY("tolerance", "1", model, tolerance, FF_TUNABLE, "1e-9", NULL, 1e-13, 1e-3, 1e-12,
+                1e-6, "error of one integration step over the static deflection"),
+    FF_QUANTITY(
+        "settle_tolerance", "1", model, settle_tolerance, FF_TUNABLE, "1e-6", NULL, 1e-12, 1e-2,
+        1e-10, 1e-4,
+        "distance to the periodic motion at which it has settled, over the static deflection"),
+};
+
+/* GSL's own handler would end the program; all its returns are checked here. */
+static ff_status ready(void *self)
 {
-    /* GSL's own handler would end the program; all its returns are checked here */
+    (void)self;
     gsl_set_error_handler_off();
-    model *m = calloc(1, sizeof *m);
-    if (!m)
-        return FF_NOMEM;
-    m->host = host;
-    *self = m;
-    return FF_OK;
-}
-
-static void set_both(double both[2], const ff_value *value)
-{
-    both[0] = value->reals[0];
-    both[1] = value->reals[value->count - 1];
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    model *m = self;
-    switch (param) {
-    case P_DAMPING_RATIO:
-        m->zeta = value->real;
-        break;
-    case P_DAMPING:
-        m->damping = (int)value->integer;
-        break;
-    case P_BRANCH:
-        m->branch = (dynamics_branch)value->integer;
-        break;
-    case P_EQUIVALENT_MASS:
-        m->inertia.equivalent_mass = value->real;
-        break;
-    case P_NATURAL_FREQUENCY:
-        m->inertia.natural_frequency = value->real;
-        break;
-    case P_BEARING_STIFFNESS:
-        set_both(m->bearing, value);
-        break;
-    case P_BEARING_DAMPING_RATIO:
-        set_both(m->bearing_zeta, value);
-        break;
-    case P_GEAR_MASS:
-        set_both(m->mass, value);
-        break;
-    case P_CYCLES_SETTLE:
-        m->cycles_settle = dynamics_count_or_auto(value);
-        break;
-    case P_CYCLES_MEASURED:
-        m->cycles_measured = (size_t)value->integer;
-        break;
-    case P_STEPS_PER_CYCLE:
-        m->steps_per_cycle = (size_t)value->integer;
-        break;
-    case P_TOLERANCE:
-        m->tolerance = value->real;
-        break;
-    default:
-        m->settle_tolerance = value->real;
-    }
     return FF_OK;
 }
 
@@ -160,7 +88,7 @@ static ff_status check_gears(const model *m, const ff_array *in)
         return ff_failf(m->host, FF_INVALID, dynamics_input_ports[DYNAMICS_IN_CENTRE_DISTANCE].name,
                         "must be above the sum of the base radii, %g m, but is %g m",
                         base[0] + base[1], centre);
-    if (!(m->mass[0] > 0) && !in[DYNAMICS_IN_MASS].data)
+    if (m->mass.count == 0 && !in[DYNAMICS_IN_MASS].data)
         return ff_failf(m->host, FF_INVALID, "gear_mass",
                         "no masses are known: give gear_mass, or wire a gear that offers mass");
     return FF_OK;
@@ -180,9 +108,12 @@ static ff_status build_pair(const model *m, const ff_array *in, const dynamics_i
     pair->base_1 = base[0] / excitation->length;
     pair->base_pitch = pair->base_1 * inputs->pitch;
     for (int i = 0; i < 2; i++) {
-        pair->mass[i] = (m->mass[0] > 0 ? m->mass[i] : in[DYNAMICS_IN_MASS].data[i]) / unit_mass;
-        pair->bearing[i] = m->bearing[i] / excitation->stiffness;
-        pair->damper[i] = 2 * m->bearing_zeta[i] * sqrt(pair->bearing[i] * pair->mass[i]);
+        pair->mass[i] =
+            (m->mass.count > 0 ? ff_of_both(&m->mass, i) : in[DYNAMICS_IN_MASS].data[i]) /
+            unit_mass;
+        pair->bearing[i] = ff_of_both(&m->bearing, i) / excitation->stiffness;
+        pair->damper[i] =
+            2 * ff_of_both(&m->bearing_zeta, i) * sqrt(pair->bearing[i] * pair->mass[i]);
     }
     double *cycle = calloc(2 * inputs->stations, sizeof *cycle), *share = cycle + inputs->stations;
     if (!cycle)
@@ -238,9 +169,9 @@ static ff_status output_motion(const model *m, const dynamics_coupled *pair,
     dynamics_coupled_motion motion = {.T = 2 * M_PI * inputs->natural_frequency /
                                            inputs->mesh_frequency};
     dynamics_settling how = {
-        .branch = m->branch,
+        .branch = (dynamics_branch)m->branch,
         .T = motion.T,
-        .cycles = m->cycles_settle,
+        .cycles = dynamics_count_or_auto(m->cycles_settle),
         .tolerance = m->settle_tolerance,
         .host = m->host,
     };
@@ -248,11 +179,12 @@ static ff_status output_motion(const model *m, const dynamics_coupled *pair,
         return fail_too_many_steps(m->host, inputs);
     dynamics_coupled_run *run = dynamics_coupled_run_new(pair, m->tolerance);
     ff_status status = run ? dynamics_coupled_settle(run, pair, &how, &motion) : FF_NOMEM;
-    motion.cycles = motion.settled.period > 0 ? (size_t)motion.settled.period : m->cycles_measured;
+    motion.cycles =
+        motion.settled.period > 0 ? (size_t)motion.settled.period : (size_t)m->cycles_measured;
     motion.cycles = motion.settled.period == DYNAMICS_UNBOUNDED ? 1 : motion.cycles;
     if (status == FF_OK)
         status = dynamics_coupled_motion_record(&motion, pair, inputs, m->tolerance,
-                                                m->steps_per_cycle, m->host);
+                                                (size_t)m->steps_per_cycle, m->host);
     if (status == FF_OK)
         status = dynamics_coupled_multipliers(&motion, multipliers, &largest);
     if (status == FF_OK)
@@ -285,50 +217,16 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-static void destroy(void *self)
-{
-    free(self);
-}
-
-static const ff_model descriptor = {
-    .size = sizeof descriptor,
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "dynamics/coupled",
-    .version = "1.0.0",
-    .summary =
-        "non-linear dynamics of the gear pair with two translations and a rotation per gear; "
-        "backlash, pressure angle and contact ratio follow the centre distance",
-    .reference =
-        "Kim, Yoo & Chung 2010, Dynamic analysis for a pair of spur gears with translational "
-        "motion due to bearing deformation, J. Sound Vib. 329, 4409-4421; Li & Kahraman "
-        "2011, Proc. IMechE J 225, 740-753, eqs 2-5",
-    .bibtex = "@article{kim2010gears,\n"
-              "  author = {Kim, W. and Yoo, H. H. and Chung, J.},\n"
-              "  title = {Dynamic analysis for a pair of spur gears with translational motion due "
-              "to bearing deformation},\n"
-              "  journal = {J. Sound and Vibration},\n"
-              "  volume = {329},\n"
-              "  pages = {4409--4421},\n"
-              "  year = {2010}\n"
-              "}\n",
-    .licence = "GPL-3.0-or-later",
-    .params = params,
-    .param_count = sizeof params / sizeof params[0],
-    .param_stride = sizeof params[0],
-    .inputs = dynamics_input_ports,
-    .input_count = DYNAMICS_COUPLED_INPUT_COUNT,
-    .input_stride = sizeof dynamics_input_ports[0],
-    .outputs = dynamics_coupled_outputs,
-    .output_count = DYNAMICS_COUPLED_OUTPUT_COUNT,
-    .output_stride = sizeof dynamics_coupled_outputs[0],
-    .create = create,
-    .set = set,
-    .evaluate = evaluate,
-    .destroy = destroy,
-};
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &descriptor;
-}
+FF_MODEL(dynamics_coupled_model, model, .id = "dynamics/coupled", .version = "1.0.0",
+         .summary = "non-linear dynamics of the gear pair with two translations and a rotation per "
+                    "gear; backlash, pressure angle and contact ratio follow the centre distance",
+         .reference = "Kim, Yoo & Chung 2010, Dynamic analysis for a pair of spur gears with "
+                      "translational motion due to bearing deformation, J. Sound Vib. 329, "
+                      "4409-4421; Li & Kahraman 2011, Proc. IMechE J 225, 740-753, eqs 2-5",
+         .bibtex = BIB_kim2010gears "\n", .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+         .inputs = dynamics_input_ports, .input_count = DYNAMICS_COUPLED_INPUT_COUNT,
+         .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_coupled_outputs,
+         .output_count = DYNAMICS_COUPLED_OUTPUT_COUNT,
+         .output_stride = sizeof dynamics_coupled_outputs[0], .ready = ready, .evaluate = evaluate,
+         .destroy = free);
+FF_EXPORT_MODELS(&dynamics_coupled_model);

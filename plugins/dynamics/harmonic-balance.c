@@ -8,6 +8,7 @@
 #include "harmonics.h"
 #include "inputs.h"
 #include "motion.h"
+#include "references.h"
 #include "settle.h"
 #include "stable-motions.h"
 
@@ -16,121 +17,53 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum {
-    P_DAMPING_RATIO,
-    P_DAMPING,
-    P_BRANCH,
-    P_EQUIVALENT_MASS,
-    P_NATURAL_FREQUENCY,
-    P_HARMONICS,
-    P_SAMPLES,
-    P_STEPS_PER_CYCLE,
-    P_TOLERANCE,
-    P_ATLAS_FROM,
-    P_ATLAS_TO
-};
-
 /* Harmonics of the series of an atlas, where their number is left open. */
 enum { ATLAS_HARMONICS = 48 };
 
-static const ff_param params[] = {
-    {"damping_ratio", "1", "damping over critical damping at the mean stiffness, c/(2 sqrt(k m))",
-     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-3, 0.2, 0, 0, 0, NULL},
-    {"damping", "",
-     "when the damper acts; a series needs a force without jumps, so that only always is served",
-     FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0, 0, NULL},
-    {"branch", "",
-     "which of several motions: lower is that without separation where there is a stable one, else "
-     "followed up from 0.7 times the mesh frequency; upper is followed down from 1.4 times the "
-     "natural frequency, also where it is unstable; where a study follows the speed, it is for the "
-     "first case of a chain",
-     FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0, 0, NULL},
-    {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
-     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"natural_frequency", "Hz",
-     "linear natural frequency at the mean stiffness, in place of the mass", FF_REAL, FF_MIN_OPEN,
-     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"harmonics", "1",
-     "of the mesh frequency in the series; auto: until the first neglected ones, as the force "
-     "drives them, stay below the tolerance",
-     FF_INT, FF_TUNABLE, "auto", "auto", NULL, 1, DYNAMICS_MOST_HARMONICS, 5,
-     DYNAMICS_MOST_HARMONICS, 0, 0, 0, NULL},
-    {"samples", "1",
-     "of the mesh force per mesh cycle, at least 8 for each harmonic; auto: 32 for each", FF_INT,
-     FF_TUNABLE, "auto", "auto", NULL, 16, 1 << 20, 0, 0, 0, 0, 0, NULL},
-    {"steps_per_cycle", "1", "points shown per mesh cycle", FF_INT, FF_TUNABLE, "512", NULL, NULL,
-     16, 65536, 0, 0, 0, 0, 0, NULL},
-    {"tolerance", "1",
-     "amplitude of the first neglected harmonics, summed, over the static deflection", FF_REAL,
-     FF_TUNABLE, "1e-6", NULL, NULL, 1e-12, 1e-1, 1e-9, 1e-3, 0, 0, 0, NULL},
-    {"atlas.from", "Hz", "lowest mesh frequency of the atlas; default: natural_frequency/8",
-     FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"atlas.to", "Hz", "highest mesh frequency of the atlas; default: 1.4 natural_frequency",
-     FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0, 0, NULL},
-};
-
 typedef struct model {
     const ff_host *host;
-    double zeta, tolerance, atlas_from, atlas_to; /* Hz; 0: follows the natural frequency */
-    int damping, upper;
+    double zeta, tolerance, atlas_from, atlas_to; /* Hz; NaN: follows the natural frequency */
+    int32_t damping, branch;
     dynamics_inertia inertia;
-    size_t harmonics, samples, steps_per_cycle; /* 0: auto */
+    int64_t harmonics_given, samples_given, steps_per_cycle; /* -1: auto */
+    size_t harmonics, samples;                               /* the same; 0: auto */
     dynamics_harmonics_warm_start from, to; /* what the neighbouring case left, what it is left */
 } model;
 
-static ff_status create(const ff_host *host, void **self)
-{
-    model *m = calloc(1, sizeof *m);
-    if (!m)
-        return FF_NOMEM;
-    m->host = host;
-    *self = m;
-    return FF_OK;
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    model *m = self;
-    switch (param) {
-    case P_DAMPING_RATIO:
-        m->zeta = value->real;
-        break;
-    case P_DAMPING:
-        m->damping = (int)value->integer;
-        break;
-    case P_BRANCH:
-        m->upper = value->integer == 1;
-        break;
-    case P_EQUIVALENT_MASS:
-        m->inertia.equivalent_mass = value->real;
-        break;
-    case P_NATURAL_FREQUENCY:
-        m->inertia.natural_frequency = value->real;
-        break;
-    case P_HARMONICS:
-        m->harmonics = dynamics_count_or_auto(value);
-        break;
-    case P_SAMPLES:
-        m->samples = dynamics_count_or_auto(value);
-        break;
-    case P_STEPS_PER_CYCLE:
-        m->steps_per_cycle = (size_t)value->integer;
-        break;
-    case P_ATLAS_FROM:
-        m->atlas_from = value->real;
-        break;
-    case P_ATLAS_TO:
-        m->atlas_to = value->real;
-        break;
-    default:
-        m->tolerance = value->real;
-    }
-    return FF_OK;
-}
+static const ff_param params[] = {
+    DYNAMICS_DAMPING_RATIO_ROW(model, 1e-3),
+    FF_ONE_OF("always|contact|clipped", "damping", model, damping, 0, "always",
+              "when the damper acts; a series needs a force without jumps, so that only always is "
+              "served"),
+    FF_ONE_OF("lower|upper", "branch", model, branch, 0, "lower",
+              "which of several motions: lower is that without separation where there is a stable "
+              "one, else followed up from 0.7 times the mesh frequency; upper is followed down "
+              "from 1.4 times the natural frequency, also where it is unstable; where a study "
+              "follows the speed, it is for the first case of a chain"),
+    DYNAMICS_INERTIA_ROWS(model),
+    FF_COUNT_OR("auto", "harmonics", model, harmonics_given, FF_TUNABLE, "auto", NULL, 1,
+                DYNAMICS_MOST_HARMONICS, 5, DYNAMICS_MOST_HARMONICS,
+                "of the mesh frequency in the series; auto: until the first neglected ones, as the "
+                "force drives them, stay below the tolerance"),
+    FF_COUNT_OR(
+        "auto", "samples", model, samples_given, FF_TUNABLE, "auto", NULL, 16, 1 << 20, 0, 0,
+        "of the mesh force per mesh cycle, at least 8 for each harmonic; auto: 32 for each"),
+    FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
+             "points shown per mesh cycle"),
+    FF_QUANTITY("tolerance", "1", model, tolerance, FF_TUNABLE, "1e-6", NULL, 1e-12, 1e-1, 1e-9,
+                1e-3,
+                "amplitude of the first neglected harmonics, summed, over the static deflection"),
+    FF_QUANTITY("atlas.from", "Hz", model, atlas_from, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
+                "lowest mesh frequency of the atlas; default: natural_frequency/8"),
+    FF_QUANTITY("atlas.to", "Hz", model, atlas_to, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
+                "highest mesh frequency of the atlas; default: 1.4 natural_frequency"),
+};
 
 static ff_status ready(void *self)
 {
-    const model *m = self;
+    model *m = self;
+    m->harmonics = dynamics_count_or_auto(m->harmonics_given);
+    m->samples = dynamics_count_or_auto(m->samples_given);
     if (m->damping != DYNAMICS_DAMPING_ALWAYS)
         return ff_failf(m->host, FF_UNSUPPORTED, "damping",
                         "a damper that lets go in the gap makes the mesh force jump, which a "
@@ -268,7 +201,7 @@ static ff_status report_and_output(const model *m, const dynamics_excitation *ex
         .excitation = excitation, .period = 1, .cycles = 1, .T = 2 * M_PI / w};
     double multipliers[4];
     ff_status status =
-        dynamics_harmonics_motion(&motion, inputs, s->x, s->harmonics, m->steps_per_cycle);
+        dynamics_harmonics_motion(&motion, inputs, s->x, s->harmonics, (size_t)m->steps_per_cycle);
     if (status == FF_OK) {
         double largest = dynamics_motion_multipliers(&motion, multipliers);
         if (excitation->half_gap == 0 && largest > 1 + 1e-9)
@@ -284,7 +217,7 @@ static ff_status fail_without_motion(const model *m, const dynamics_inputs *inpu
 {
     return ff_failf(m->host, FF_NOCONV, "operating.mesh_frequency",
                     "no motion of one mesh cycle was found at %g Hz on the %s branch: %s",
-                    inputs->mesh_frequency, m->upper ? "upper" : "lower",
+                    inputs->mesh_frequency, m->branch == DYNAMICS_BRANCH_UPPER ? "upper" : "lower",
                     why ? why : "Newton's method fails with these harmonics");
 }
 
@@ -325,7 +258,7 @@ static ff_status output_motion(model *m, const dynamics_excitation *excitation,
     solution s = {.x = calloc(2 * DYNAMICS_MOST_HARMONICS + 1, sizeof *s.x)};
     dynamics_continuation_request request = {.excitation = excitation,
                                              .host = m->host,
-                                             .from_above = m->upper,
+                                             .from_above = m->branch == DYNAMICS_BRANCH_UPPER,
                                              .w = w,
                                              .harmonics = harmonics_on_the_way(w)};
     ff_status status =
@@ -407,7 +340,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
         .cost = 0.4,
         .longest = longest,
         .one_cycle = 1,
-        .branch = m->upper ? DYNAMICS_BRANCH_UPPER : DYNAMICS_BRANCH_LOWER,
+        .branch = (dynamics_branch)m->branch,
         .reason = "a series, which converges slowly at jumps of the stiffness; whether it is about "
                   "to jump is not looked at",
     };
@@ -422,51 +355,16 @@ static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *t
     return dynamics_harmonics_warm_start_carry(&m->from, from, &m->to, to);
 }
 
-static void destroy(void *self)
-{
-    free(self);
-}
-
-static const ff_model descriptor = {
-    .size = sizeof descriptor,
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "dynamics/harmonic-balance",
-    .version = "1.0.0",
+FF_MODEL(
+    dynamics_harmonic_balance, model, .id = "dynamics/harmonic-balance", .version = "1.0.0",
     .summary = "non-linear dynamics of the gear pair with backlash as a Fourier series of the mesh "
                "cycle, by continuation in speed",
     .reference = "Cameron & Griffin 1989, An alternating frequency/time domain method for "
                  "calculating the steady-state response of nonlinear dynamic systems, J. Appl. "
                  "Mech. 56, 149-154; Li & Kahraman 2011, Proc. IMechE J 225, 740-753, eqs 2-5",
-    .bibtex = "@article{camerongriffin1989,\n"
-              "  author = {Cameron, T. M. and Griffin, J. H.},\n"
-              "  title = {An alternating frequency/time domain method for calculating the "
-              "steady-state response of nonlinear dynamic systems},\n"
-              "  journal = {J. Applied Mechanics},\n"
-              "  volume = {56},\n"
-              "  pages = {149--154},\n"
-              "  year = {1989}\n"
-              "}\n",
-    .licence = "GPL-3.0-or-later",
-    .params = params,
-    .param_count = sizeof params / sizeof params[0],
-    .param_stride = sizeof params[0],
-    .inputs = dynamics_input_ports,
-    .input_count = DYNAMICS_INPUT_COUNT,
-    .input_stride = sizeof dynamics_input_ports[0],
-    .outputs = dynamics_motion_outputs,
-    .output_count = DYNAMICS_ATLAS_OUTPUT_COUNT,
-    .output_stride = sizeof dynamics_motion_outputs[0],
-    .create = create,
-    .set = set,
-    .ready = ready,
-    .evaluate = evaluate,
-    .destroy = destroy,
-    .carry = carry,
-    .assess = assess,
-};
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &descriptor;
-}
+    .bibtex = BIB_camerongriffin1989 "\n", .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params), .inputs = dynamics_input_ports, .input_count = DYNAMICS_INPUT_COUNT,
+    .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_motion_outputs,
+    .output_count = DYNAMICS_ATLAS_OUTPUT_COUNT, .output_stride = sizeof dynamics_motion_outputs[0],
+    .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry, .assess = assess);
+FF_EXPORT_MODELS(&dynamics_harmonic_balance);

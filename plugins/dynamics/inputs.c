@@ -153,11 +153,6 @@ ff_status dynamics_natural_frequency(const ff_host *host, const dynamics_inertia
     return FF_OK;
 }
 
-size_t dynamics_count_or_auto(const ff_value *value)
-{
-    return value->text && !strcmp(value->text, "auto") ? 0 : (size_t)value->integer;
-}
-
 /* The range holds the main resonance and the superharmonic ones up to order 8. */
 ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *from, double *to)
 {

@@ -5,7 +5,7 @@
 
 #include "excitation.h"
 
-#include <flankfilm/plugin.h>
+#include <flankfilm/author.h>
 
 enum {
     DYNAMICS_IN_ROLL_ANGLE,
@@ -31,10 +31,26 @@ enum {
 
 extern const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT];
 
-/* The inertia that the user gives; both 0: that of the gear. */
+/* The inertia that the user gives; both NaN: that of the gear. */
 typedef struct dynamics_inertia {
     double equivalent_mass, natural_frequency; /* kg, Hz */
 } dynamics_inertia;
+
+/* Parameters that several models have: members `zeta`, `damping` and `inertia` of their instances.
+   `low` is the least damping ratio that the model was checked with. */
+#define DYNAMICS_DAMPING_RATIO_ROW(type, low)                                                      \
+    FF_QUANTITY("damping_ratio", "1", type, zeta, 0, "0.01", NULL, 0, 10, low, 0.2,                \
+                "damping over critical damping at the mean stiffness, c/(2 sqrt(k m))")
+#define DYNAMICS_DAMPING_ROW(type)                                                                 \
+    FF_ONE_OF("always|contact|clipped", "damping", type, damping, 0, "always",                     \
+              "when the damper acts: always (also in free flight, as Li & Kahraman 2011), in "     \
+              "contact only, or in contact and clipped so that the flanks never pull")
+#define DYNAMICS_INERTIA_ROWS(type)                                                                \
+    FF_QUANTITY("equivalent_mass", "kg", type, inertia.equivalent_mass, FF_MIN_OPEN, NULL,         \
+                "inertia", 0, 1e9, 0, 0, "mass that the mesh spring sees; default: the gear's"),   \
+        FF_QUANTITY("natural_frequency", "Hz", type, inertia.natural_frequency, FF_MIN_OPEN, NULL, \
+                    "inertia", 0, 1e9, 0, 0,                                                       \
+                    "linear natural frequency at the mean stiffness, in place of the mass")
 
 typedef struct dynamics_inputs {
     double line_force, mesh_frequency, natural_frequency; /* N, Hz, Hz */
@@ -49,8 +65,11 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
                                const dynamics_inertia *inertia, dynamics_inputs *inputs,
                                dynamics_excitation *excitation);
 
-/* A parameter that is a number or `auto`, which is 0. */
-size_t dynamics_count_or_auto(const ff_value *value);
+/* A parameter that is a number or `auto`: -1, which becomes 0. */
+static inline size_t dynamics_count_or_auto(int64_t value)
+{
+    return value < 0 ? 0 : (size_t)value;
+}
 
 /* Fills in the ends of an atlas that are not given (0), Hz, by the natural frequency. */
 ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *from, double *to);

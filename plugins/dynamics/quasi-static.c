@@ -6,6 +6,7 @@
  */
 #include "inputs.h"
 #include "linear-pair.h"
+#include "references.h"
 
 #include <flankfilm/author.h>
 
@@ -13,18 +14,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { P_EQUIVALENT_MASS, P_NATURAL_FREQUENCY, P_DAMPING_RATIO };
+typedef struct model {
+    const ff_host *host;
+    dynamics_inertia inertia;
+    double zeta;
+    char reason[256]; /* of the last assessment */
+} model;
 
 static const ff_param params[] = {
-    {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
-     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"natural_frequency", "Hz",
-     "linear natural frequency at the mean stiffness, in place of the mass", FF_REAL, FF_MIN_OPEN,
-     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"damping_ratio", "1",
-     "damping over critical damping; says how far the motion is from the static one where the "
-     "program chooses the model, and nothing else",
-     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-4, 0.2, 0, 0, 0, NULL},
+    DYNAMICS_INERTIA_ROWS(model),
+    FF_QUANTITY("damping_ratio", "1", model, zeta, 0, "0.01", NULL, 0, 10, 1e-4, 0.2,
+                "damping over critical damping; says how far the motion is from the static one "
+                "where the program chooses the model, and nothing else"),
 };
 
 enum {
@@ -88,35 +89,6 @@ static const ff_port outputs[] = {
     {"natural_frequency", "Hz", "linear, at the mean stiffness; needs a mass", "", NULL, 0, NULL},
     {"period", "1", "of the motion in mesh cycles: those of the tooth forces", "", NULL, 0, NULL},
 };
-
-typedef struct model {
-    const ff_host *host;
-    dynamics_inertia inertia;
-    double zeta;
-    char reason[256]; /* of the last assessment */
-} model;
-
-static ff_status create(const ff_host *host, void **self)
-{
-    model *m = calloc(1, sizeof *m);
-    if (!m)
-        return FF_NOMEM;
-    m->host = host;
-    *self = m;
-    return FF_OK;
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    model *m = self;
-    if (param == P_EQUIVALENT_MASS)
-        m->inertia.equivalent_mass = value->real;
-    else if (param == P_NATURAL_FREQUENCY)
-        m->inertia.natural_frequency = value->real;
-    else
-        m->zeta = value->real;
-    return FF_OK;
-}
 
 static ff_status check(const ff_host *host, const ff_array *in)
 {
@@ -316,47 +288,12 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     return FF_OK;
 }
 
-static void destroy(void *self)
-{
-    free(self);
-}
-
-static const ff_model descriptor = {
-    .size = sizeof descriptor,
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "dynamics/quasi-static",
-    .version = "1.0.0",
+FF_MODEL(
+    dynamics_quasi_static, model, .id = "dynamics/quasi-static", .version = "1.0.0",
     .summary = "no dynamics: the gears stand still in every mesh position",
     .reference = "Li & Kahraman 2011, Influence of dynamic behaviour on elastohydrodynamic "
                  "lubrication of spur gears, Proc. IMechE J 225, 740-753, eq. 2 without inertia",
-    .bibtex = "@article{likahraman2011,\n"
-              "  author = {Li, S. and Kahraman, A.},\n"
-              "  title = {Influence of dynamic behaviour on elastohydrodynamic lubrication of spur "
-              "gears},\n"
-              "  journal = {Proc. IMechE, Part J: J. Engineering Tribology},\n"
-              "  volume = {225},\n"
-              "  pages = {740--753},\n"
-              "  year = {2011}\n"
-              "}\n",
-    .licence = "GPL-3.0-or-later",
-    .params = params,
-    .param_count = sizeof params / sizeof params[0],
-    .param_stride = sizeof params[0],
-    .inputs = inputs,
-    .input_count = sizeof inputs / sizeof inputs[0],
-    .input_stride = sizeof inputs[0],
-    .outputs = outputs,
-    .output_count = sizeof outputs / sizeof outputs[0],
-    .output_stride = sizeof outputs[0],
-    .create = create,
-    .set = set,
-    .evaluate = evaluate,
-    .destroy = destroy,
-    .assess = assess,
-};
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &descriptor;
-}
+    .bibtex = BIB_likahraman2011 "\n", .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+    .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free,
+    .assess = assess);
+FF_EXPORT_MODELS(&dynamics_quasi_static);

@@ -5,6 +5,7 @@
 #include "full-contact.h"
 #include "jump-search.h"
 #include "periodicity.h"
+#include "references.h"
 #include "stable-motions.h"
 #include "trajectory.h"
 #include "warm-start.h"
@@ -16,60 +17,49 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    P_DAMPING_RATIO,
-    P_DAMPING,
-    P_BRANCH,
-    P_EQUIVALENT_MASS,
-    P_NATURAL_FREQUENCY,
-    P_ATLAS_FROM,
-    P_ATLAS_TO,
-    P_MAX_PERIOD,
-    P_SEARCH_SPEEDS,
-    P_SEARCH_STARTS,
-    P_ARC_STEP,
-    P_CYCLES_SETTLE,
-    P_CYCLES_MEASURED,
-    P_STEPS_PER_CYCLE
-};
+typedef struct model {
+    const ff_host *host;
+    double zeta, atlas_from, atlas_to, arc_step;
+    int32_t damping;
+    const char *branch_word;
+    dynamics_inertia inertia;
+    int64_t max_period, speeds, starts, cycles_settle, cycles_measured, steps_per_cycle;
+    int by_name; /* 0: `branch_word` is lower or upper; 1: the branch of the atlas called `name` */
+    dynamics_branch branch;
+    dynamics_branch_name name;
+    dynamics_warm_start from, to; /* what the neighbouring case left, and what it is left */
+    char reason[320];             /* of the last assessment */
+} model;
 
 static const ff_param params[] = {
-    {"damping_ratio", "1", "damping over critical damping at the mean stiffness, c/(2 sqrt(k m))",
-     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-4, 0.2, 0, 0, 0, NULL},
-    {"damping", "",
-     "when the damper acts: always (also in free flight, as Li & Kahraman 2011), in contact only, "
-     "or in contact and clipped so that the flanks never pull",
-     FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0, 0, NULL},
-    {"branch", "",
-     "which of several motions: lower is the one without separation where it is stable, or else "
-     "what comes up slowly from 0.7 times the mesh frequency; upper comes down from 1.4 times the "
-     "natural frequency; or the name of a branch of the atlas, as p2-1; where a study follows the "
-     "speed, lower and upper are for the first case of a chain",
-     FF_TEXT, 0, "lower", NULL, NULL, 0, 0, 0, 0, 0, 0, 0, NULL},
-    {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
-     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"natural_frequency", "Hz",
-     "linear natural frequency at the mean stiffness, in place of the mass", FF_REAL, FF_MIN_OPEN,
-     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"atlas.from", "Hz", "lowest mesh frequency of the atlas; default: natural_frequency/8",
-     FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"atlas.to", "Hz", "highest mesh frequency of the atlas; default: 1.4 natural_frequency",
-     FF_REAL, FF_MIN_OPEN, NULL, NULL, NULL, 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"max_period", "1", "longest period, in mesh cycles, that is looked for", FF_INT, FF_TUNABLE,
-     "6", NULL, NULL, 1, DYNAMICS_PERIOD_MAX, 0, 0, 0, 0, 0, NULL},
-    {"search_speeds", "1", "speeds at which the atlas is searched for isolated motions", FF_INT,
-     FF_TUNABLE, "24", NULL, NULL, 0, 10000, 0, 0, 0, 0, 0, NULL},
-    {"search_starts", "1", "starts of the search at each of them", FF_INT, FF_TUNABLE, "16", NULL,
-     NULL, 0, 10000, 0, 0, 0, 0, 0, NULL},
-    {"arc_step", "1", "longest step along a branch, over the size of the motion", FF_REAL,
-     FF_TUNABLE, "0.04", NULL, NULL, 1e-4, 0.5, 1e-3, 0.1, 0, 0, 0, NULL},
-    {"cycles_settle", "1",
-     "mesh cycles in which lower and upper may settle; auto: four times what the damping takes",
-     FF_INT, FF_TUNABLE, "auto", "auto", NULL, 1, 1e6, 0, 0, 0, 0, 0, NULL},
-    {"cycles_measured", "1", "mesh cycles shown when the motion is not periodic", FF_INT, 0, "64",
-     NULL, NULL, 1, 1024, 0, 0, 0, 0, 0, NULL},
-    {"steps_per_cycle", "1", "points shown per mesh cycle; the steps of the solver are exact",
-     FF_INT, FF_TUNABLE, "512", NULL, NULL, 16, 65536, 0, 0, 0, 0, 0, NULL},
+    DYNAMICS_DAMPING_RATIO_ROW(model, 1e-4),
+    DYNAMICS_DAMPING_ROW(model),
+    FF_PHRASE(
+        "branch", model, branch_word, 0, "lower", NULL,
+        "which of several motions: lower is the one without separation where it is stable, or else "
+        "what comes up slowly from 0.7 times the mesh frequency; upper comes down from 1.4 times "
+        "the natural frequency; or the name of a branch of the atlas, as p2-1; where a study "
+        "follows the speed, lower and upper are for the first case of a chain"),
+    DYNAMICS_INERTIA_ROWS(model),
+    FF_QUANTITY("atlas.from", "Hz", model, atlas_from, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
+                "lowest mesh frequency of the atlas; default: natural_frequency/8"),
+    FF_QUANTITY("atlas.to", "Hz", model, atlas_to, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
+                "highest mesh frequency of the atlas; default: 1.4 natural_frequency"),
+    FF_COUNT("max_period", model, max_period, FF_TUNABLE, "6", NULL, 1, DYNAMICS_PERIOD_MAX, 0, 0,
+             "longest period, in mesh cycles, that is looked for"),
+    FF_COUNT("search_speeds", model, speeds, FF_TUNABLE, "24", NULL, 0, 10000, 0, 0,
+             "speeds at which the atlas is searched for isolated motions"),
+    FF_COUNT("search_starts", model, starts, FF_TUNABLE, "16", NULL, 0, 10000, 0, 0,
+             "starts of the search at each of them"),
+    FF_QUANTITY("arc_step", "1", model, arc_step, FF_TUNABLE, "0.04", NULL, 1e-4, 0.5, 1e-3, 0.1,
+                "longest step along a branch, over the size of the motion"),
+    FF_COUNT_OR(
+        "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
+        "mesh cycles in which lower and upper may settle; auto: four times what the damping takes"),
+    FF_COUNT("cycles_measured", model, cycles_measured, 0, "64", NULL, 1, 1024, 0, 0,
+             "mesh cycles shown when the motion is not periodic"),
+    FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
+             "points shown per mesh cycle; the steps of the solver are exact"),
 };
 
 static const uint64_t motion_bits = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
@@ -77,31 +67,9 @@ static const uint64_t motion_bits = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
 /* The accuracy that `cycles_settle: auto` aims at; Newton's method goes on from there. */
 static const double settle_tolerance = 1e-4;
 
-typedef struct model {
-    const ff_host *host;
-    double zeta, atlas_from, atlas_to, arc_step;
-    int damping, max_period;
-    int by_name; /* 0: `branch` is lower or upper; 1: the branch of the atlas called `name` */
-    dynamics_branch branch;
-    dynamics_branch_name name;
-    dynamics_inertia inertia;
-    size_t speeds, starts, cycles_settle, cycles_measured, steps_per_cycle;
-    dynamics_warm_start from, to; /* what the neighbouring case left, and what it is left */
-    char reason[320];             /* of the last assessment */
-} model;
-
-static ff_status create(const ff_host *host, void **self)
+static ff_status set_branch(model *m)
 {
-    model *m = calloc(1, sizeof *m);
-    if (!m)
-        return FF_NOMEM;
-    m->host = host;
-    *self = m;
-    return FF_OK;
-}
-
-static ff_status set_branch(model *m, const char *text)
-{
+    const char *text = m->branch_word;
     m->by_name = 0;
     m->branch = DYNAMICS_BRANCH_LOWER;
     if (!strcmp(text, "lower"))
@@ -117,61 +85,13 @@ static ff_status set_branch(model *m, const char *text)
                                  DYNAMICS_PERIOD_MAX, text);
 }
 
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    model *m = self;
-    switch (param) {
-    case P_DAMPING_RATIO:
-        m->zeta = value->real;
-        break;
-    case P_DAMPING:
-        m->damping = (int)value->integer;
-        break;
-    case P_BRANCH:
-        return set_branch(m, value->text);
-    case P_EQUIVALENT_MASS:
-        m->inertia.equivalent_mass = value->real;
-        break;
-    case P_NATURAL_FREQUENCY:
-        m->inertia.natural_frequency = value->real;
-        break;
-    case P_ATLAS_FROM:
-        m->atlas_from = value->real;
-        break;
-    case P_ATLAS_TO:
-        m->atlas_to = value->real;
-        break;
-    case P_MAX_PERIOD:
-        m->max_period = (int)value->integer;
-        break;
-    case P_SEARCH_SPEEDS:
-        m->speeds = (size_t)value->integer;
-        break;
-    case P_SEARCH_STARTS:
-        m->starts = (size_t)value->integer;
-        break;
-    case P_ARC_STEP:
-        m->arc_step = value->real;
-        break;
-    case P_CYCLES_SETTLE:
-        m->cycles_settle = dynamics_count_or_auto(value);
-        break;
-    case P_CYCLES_MEASURED:
-        m->cycles_measured = (size_t)value->integer;
-        break;
-    default:
-        m->steps_per_cycle = (size_t)value->integer;
-    }
-    return FF_OK;
-}
-
 static ff_status ready(void *self)
 {
-    const model *m = self;
+    model *m = self;
     if (m->atlas_from > 0 && m->atlas_to > 0 && m->atlas_to <= m->atlas_from)
         return ff_failf(m->host, FF_INVALID, "atlas.to", "must be above atlas.from, %g Hz",
                         m->atlas_from);
-    return FF_OK;
+    return set_branch(m);
 }
 
 /* All that one evaluation works on. */
@@ -200,9 +120,9 @@ static ff_status build_atlas(job *j)
         .low = log(from / natural),
         .high = log(to / natural),
         .step = m->arc_step,
-        .max_period = m->max_period,
-        .speeds = m->speeds,
-        .starts = m->starts,
+        .max_period = (int)m->max_period,
+        .speeds = (size_t)m->speeds,
+        .starts = (size_t)m->starts,
         .moments = (j->wanted & FF_BIT(DYNAMICS_OUT_ATLAS_RMS)) != 0,
     };
     return dynamics_atlas_build(&j->flow, &request, m->host, &j->atlas);
@@ -233,7 +153,8 @@ static ff_status find_motion(const job *j, dynamics_attractor *a)
     if (m->by_name)
         return find_named(j, a);
     double T = dynamics_cycle_duration(j->lambda);
-    dynamics_search search = {j->lambda, m->max_period, m->cycles_settle, 1};
+    dynamics_search search = {j->lambda, (int)m->max_period,
+                              dynamics_count_or_auto(m->cycles_settle), 1};
     if (!search.cycles)
         search.cycles = dynamics_settle_limit(&j->excitation, T, settle_tolerance);
     if (m->from.mesh_frequency > 0) {
@@ -252,13 +173,13 @@ static ff_status output_motion(const job *j, const dynamics_attractor *a)
     const model *m = j->m;
     dynamics_motion motion = {
         .excitation = &j->excitation, .period = a->period, .T = dynamics_cycle_duration(j->lambda)};
-    motion.cycles = a->period > 0 ? (size_t)a->period : m->cycles_measured;
+    motion.cycles = a->period > 0 ? (size_t)a->period : (size_t)m->cycles_measured;
     if (a->period == DYNAMICS_UNBOUNDED)
         motion.cycles = 1;
     ff_status status =
-        dynamics_trajectory_record(&j->flow, &j->inputs, m->steps_per_cycle, a->x, &motion);
+        dynamics_trajectory_record(&j->flow, &j->inputs, (size_t)m->steps_per_cycle, a->x, &motion);
     if (status == FF_OK)
-        dynamics_periodicity_report(a, &motion, m->max_period, m->host);
+        dynamics_periodicity_report(a, &motion, (int)m->max_period, m->host);
     if (status == FF_OK)
         status = dynamics_motion_put(&motion, &j->inputs, m->host);
     dynamics_record_free(&motion.record);
@@ -431,56 +352,14 @@ static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *t
     return dynamics_warm_start_carry(&m->from, from, &m->to, to);
 }
 
-static void destroy(void *self)
-{
-    free(self);
-}
-
-static const ff_model descriptor = {
-    .size = sizeof descriptor,
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "dynamics/shooting",
-    .version = "1.0.0",
+FF_MODEL(
+    dynamics_shooting, model, .id = "dynamics/shooting", .version = "1.0.0",
     .summary = "every periodic motion of the gear pair with backlash, stable or not, to round-off",
     .reference = "Li & Kahraman 2011, Proc. IMechE J 225, 740-753, eqs 2-5; continuation: Keller "
                  "1977, Numerical solution of bifurcation and nonlinear eigenvalue problems",
-    .bibtex = "@article{likahraman2011,\n"
-              "  author = {Li, S. and Kahraman, A.},\n"
-              "  title = {Influence of dynamic behaviour on elastohydrodynamic lubrication of spur "
-              "gears},\n"
-              "  journal = {Proc. IMechE, Part J: J. Engineering Tribology},\n"
-              "  volume = {225},\n"
-              "  pages = {740--753},\n"
-              "  year = {2011}\n"
-              "}\n"
-              "@incollection{keller1977,\n"
-              "  author = {Keller, H. B.},\n"
-              "  title = {Numerical solution of bifurcation and nonlinear eigenvalue problems},\n"
-              "  booktitle = {Applications of Bifurcation Theory},\n"
-              "  publisher = {Academic Press},\n"
-              "  year = {1977}\n"
-              "}\n",
-    .licence = "GPL-3.0-or-later",
-    .params = params,
-    .param_count = sizeof params / sizeof params[0],
-    .param_stride = sizeof params[0],
-    .inputs = dynamics_input_ports,
-    .input_count = DYNAMICS_INPUT_COUNT,
-    .input_stride = sizeof dynamics_input_ports[0],
-    .outputs = dynamics_motion_outputs,
-    .output_count = DYNAMICS_ATLAS_OUTPUT_COUNT,
-    .output_stride = sizeof dynamics_motion_outputs[0],
-    .create = create,
-    .set = set,
-    .ready = ready,
-    .evaluate = evaluate,
-    .destroy = destroy,
-    .carry = carry,
-    .assess = assess,
-};
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &descriptor;
-}
+    .bibtex = BIB_likahraman2011 "\n" BIB_keller1977 "\n", .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params), .inputs = dynamics_input_ports, .input_count = DYNAMICS_INPUT_COUNT,
+    .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_motion_outputs,
+    .output_count = DYNAMICS_ATLAS_OUTPUT_COUNT, .output_stride = sizeof dynamics_motion_outputs[0],
+    .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry, .assess = assess);
+FF_EXPORT_MODELS(&dynamics_shooting);

@@ -3,6 +3,7 @@
 #include "assess.h"
 #include "inputs.h"
 #include "motion.h"
+#include "references.h"
 #include "settle.h"
 #include "stable-motions.h"
 #include "warm-start.h"
@@ -14,106 +15,44 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    P_DAMPING_RATIO,
-    P_DAMPING,
-    P_BRANCH,
-    P_EQUIVALENT_MASS,
-    P_NATURAL_FREQUENCY,
-    P_CYCLES_SETTLE,
-    P_CYCLES_MEASURED,
-    P_STEPS_PER_CYCLE,
-    P_TOLERANCE,
-    P_SETTLE_TOLERANCE
-};
-
-static const ff_param params[] = {
-    {"damping_ratio", "1", "damping over critical damping at the mean stiffness, c/(2 sqrt(k m))",
-     FF_REAL, 0, "0.01", NULL, NULL, 0, 10, 1e-3, 0.2, 0, 0, 0, NULL},
-    {"damping", "",
-     "when the damper acts: always (also in free flight, as Li & Kahraman 2011), in contact only, "
-     "or in contact and clipped so that the flanks never pull",
-     FF_CHOICE, 0, "always", "always|contact|clipped", NULL, 0, 0, 0, 0, 0, 0, 0, NULL},
-    {"branch", "",
-     "which of several motions: lower is the one without separation where it is stable, or else "
-     "what comes up slowly from 0.7 times the mesh frequency; upper comes down from 1.4 times the "
-     "natural frequency; where a study follows the speed, it is for the first case of a chain",
-     FF_CHOICE, 0, "lower", "lower|upper", NULL, 0, 0, 0, 0, 0, 0, 0, NULL},
-    {"equivalent_mass", "kg", "mass that the mesh spring sees; default: the gear's", FF_REAL,
-     FF_MIN_OPEN, NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"natural_frequency", "Hz",
-     "linear natural frequency at the mean stiffness, in place of the mass", FF_REAL, FF_MIN_OPEN,
-     NULL, NULL, "inertia", 0, 1e9, 0, 0, 0, 0, 0, NULL},
-    {"cycles_settle", "1",
-     "mesh cycles in which the motion may settle; auto: four times what the damping takes", FF_INT,
-     FF_TUNABLE, "auto", "auto", NULL, 1, 1e6, 0, 0, 0, 0, 0, NULL},
-    {"cycles_measured", "1", "mesh cycles shown when the motion is not periodic", FF_INT, 0, "64",
-     NULL, NULL, 1, 1024, 0, 0, 0, 0, 0, NULL},
-    {"steps_per_cycle", "1", "points shown per mesh cycle; the integrator's steps are its own",
-     FF_INT, FF_TUNABLE, "512", NULL, NULL, 16, 65536, 0, 0, 0, 0, 0, NULL},
-    {"tolerance", "1", "error of one integration step over the static deflection", FF_REAL,
-     FF_TUNABLE, "1e-9", NULL, NULL, 1e-13, 1e-3, 1e-12, 1e-6, 0, 0, 0, NULL},
-    {"settle_tolerance", "1",
-     "distance to the periodic motion at which it has settled, over the static deflection", FF_REAL,
-     FF_TUNABLE, "1e-7", NULL, NULL, 1e-12, 1e-2, 1e-11, 1e-4, 0, 0, 0, NULL},
-};
-
 typedef struct model {
     const ff_host *host;
     double zeta, tolerance, settle_tolerance;
-    int damping;
-    dynamics_branch branch;
+    int32_t damping, branch;
     dynamics_inertia inertia;
-    size_t cycles_settle, cycles_measured, steps_per_cycle;
+    int64_t cycles_settle, cycles_measured, steps_per_cycle;
     dynamics_warm_start from, to; /* what the neighbouring case left, and what it is left */
 } model;
 
-static ff_status create(const ff_host *host, void **self)
-{
-    /* GSL's own handler would end the program; all its returns are checked here */
-    gsl_set_error_handler_off();
-    model *m = calloc(1, sizeof *m);
-    if (!m)
-        return FF_NOMEM;
-    m->host = host;
-    *self = m;
-    return FF_OK;
-}
+static const ff_param params[] = {
+    DYNAMICS_DAMPING_RATIO_ROW(model, 1e-3),
+    DYNAMICS_DAMPING_ROW(model),
+    FF_ONE_OF("lower|upper", "branch", model, branch, 0, "lower",
+              "which of several motions: lower is the one without separation where it is stable, "
+              "or else what comes up slowly from 0.7 times the mesh frequency; upper comes down "
+              "from 1.4 times the natural frequency; where a study follows the speed, it is for "
+              "the first case of a chain"),
+    DYNAMICS_INERTIA_ROWS(model),
+    FF_COUNT_OR(
+        "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
+        "mesh cycles in which the motion may settle; auto: four times what the damping takes"),
+    FF_COUNT("cycles_measured", model, cycles_measured, 0, "64", NULL, 1, 1024, 0, 0,
+             "mesh cycles shown when the motion is not periodic"),
+    FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
+             "points shown per mesh cycle; the integrator's steps are its own"),
+    FF_QUANTITY("tolerance", "1", model, tolerance, FF_TUNABLE, "1e-9", NULL, 1e-13, 1e-3, 1e-12,
+                1e-6, "error of one integration step over the static deflection"),
+    FF_QUANTITY(
+        "settle_tolerance", "1", model, settle_tolerance, FF_TUNABLE, "1e-7", NULL, 1e-12, 1e-2,
+        1e-11, 1e-4,
+        "distance to the periodic motion at which it has settled, over the static deflection"),
+};
 
-static ff_status set(void *self, uint32_t param, const ff_value *value)
+/* GSL's own handler would end the program; all its returns are checked here. */
+static ff_status ready(void *self)
 {
-    model *m = self;
-    switch (param) {
-    case P_DAMPING_RATIO:
-        m->zeta = value->real;
-        break;
-    case P_DAMPING:
-        m->damping = (int)value->integer;
-        break;
-    case P_BRANCH:
-        m->branch = (dynamics_branch)value->integer;
-        break;
-    case P_EQUIVALENT_MASS:
-        m->inertia.equivalent_mass = value->real;
-        break;
-    case P_NATURAL_FREQUENCY:
-        m->inertia.natural_frequency = value->real;
-        break;
-    case P_CYCLES_SETTLE:
-        m->cycles_settle = dynamics_count_or_auto(value);
-        break;
-    case P_CYCLES_MEASURED:
-        m->cycles_measured = (size_t)value->integer;
-        break;
-    case P_STEPS_PER_CYCLE:
-        m->steps_per_cycle = (size_t)value->integer;
-        break;
-    case P_TOLERANCE:
-        m->tolerance = value->real;
-        break;
-    default:
-        m->settle_tolerance = value->real;
-    }
+    (void)self;
+    gsl_set_error_handler_off();
     return FF_OK;
 }
 
@@ -193,12 +132,12 @@ static ff_status output_motion(const model *m, const dynamics_excitation *excita
                                const dynamics_settled *settled)
 {
     dynamics_motion motion = {.excitation = excitation, .period = settled->period, .T = T};
-    motion.cycles = settled->period > 0 ? (size_t)settled->period : m->cycles_measured;
+    motion.cycles = settled->period > 0 ? (size_t)settled->period : (size_t)m->cycles_measured;
     if (settled->period == DYNAMICS_UNBOUNDED)
         motion.cycles = 1;
     double multipliers[4], error = 0;
-    ff_status status = dynamics_motion_record(&motion, inputs, m->tolerance, m->steps_per_cycle,
-                                              settled->delta, settled->rate);
+    ff_status status = dynamics_motion_record(
+        &motion, inputs, m->tolerance, (size_t)m->steps_per_cycle, settled->delta, settled->rate);
     double largest = status == FF_OK ? dynamics_motion_multipliers(&motion, multipliers) : 0;
     if (status == FF_OK && settled->period > 0)
         status = step_error(m, excitation, &motion, settled, largest, &error);
@@ -220,9 +159,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status != FF_OK)
         goto out;
     dynamics_settling how = {
-        .branch = m->branch,
+        .branch = (dynamics_branch)m->branch,
         .T = 2 * M_PI * inputs.natural_frequency / inputs.mesh_frequency,
-        .cycles = m->cycles_settle,
+        .cycles = dynamics_count_or_auto(m->cycles_settle),
         .tolerance = m->settle_tolerance,
         .step_tolerance = m->tolerance,
         .host = m->host,
@@ -266,7 +205,7 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
         .error = fmax(10 * m->settle_tolerance, 1e-5),
         .cost = 5e-3,
         .longest = dynamics_longest_cycle,
-        .branch = m->branch,
+        .branch = (dynamics_branch)m->branch,
         .from = &m->from,
         .reason = "integrated until it repeats itself, contact loss included; whether it is about "
                   "to jump is not looked at",
@@ -282,49 +221,15 @@ static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *t
     return dynamics_warm_start_carry(&m->from, from, &m->to, to);
 }
 
-static void destroy(void *self)
-{
-    free(self);
-}
-
-static const ff_model descriptor = {
-    .size = sizeof descriptor,
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "dynamics/time-integration",
-    .version = "1.0.0",
-    .summary = "non-linear dynamics of the gear pair with backlash, integrated until it repeats "
-               "itself",
+FF_MODEL(
+    dynamics_time_integration, model, .id = "dynamics/time-integration", .version = "1.0.0",
+    .summary =
+        "non-linear dynamics of the gear pair with backlash, integrated until it repeats itself",
     .reference = "Li & Kahraman 2011, Influence of dynamic behaviour on elastohydrodynamic "
                  "lubrication of spur gears, Proc. IMechE J 225, 740-753, eqs 2-5",
-    .bibtex = "@article{likahraman2011,\n"
-              "  author = {Li, S. and Kahraman, A.},\n"
-              "  title = {Influence of dynamic behaviour on elastohydrodynamic lubrication of spur "
-              "gears},\n"
-              "  journal = {Proc. IMechE, Part J: J. Engineering Tribology},\n"
-              "  volume = {225},\n"
-              "  pages = {740--753},\n"
-              "  year = {2011}\n"
-              "}\n",
-    .licence = "GPL-3.0-or-later",
-    .params = params,
-    .param_count = sizeof params / sizeof params[0],
-    .param_stride = sizeof params[0],
-    .inputs = dynamics_input_ports,
-    .input_count = DYNAMICS_INPUT_COUNT,
-    .input_stride = sizeof dynamics_input_ports[0],
-    .outputs = dynamics_motion_outputs,
-    .output_count = DYNAMICS_SPEED_OUTPUT_COUNT,
-    .output_stride = sizeof dynamics_motion_outputs[0],
-    .create = create,
-    .set = set,
-    .evaluate = evaluate,
-    .destroy = destroy,
-    .carry = carry,
-    .assess = assess,
-};
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &descriptor;
-}
+    .bibtex = BIB_likahraman2011 "\n", .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+    .inputs = dynamics_input_ports, .input_count = DYNAMICS_INPUT_COUNT,
+    .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_motion_outputs,
+    .output_count = DYNAMICS_SPEED_OUTPUT_COUNT, .output_stride = sizeof dynamics_motion_outputs[0],
+    .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry, .assess = assess);
+FF_EXPORT_MODELS(&dynamics_time_integration);

@@ -36,13 +36,13 @@ static void set_limits(const gear_spur_pair *p, double lpstc[2], double hpstc[2]
 static ff_status set_start(const ff_host *host, const gear_flanks *f, const gear_relief *relief,
                            int g, const char *item, double preset, double end, double *start)
 {
-    *start = relief->start_given ? relief->start[g] : preset;
-    if (relief->start_given && !(*start >= f->low[g] - slack && *start <= f->high[g] + slack))
+    *start = relief->start.count > 0 ? ff_of_both(&relief->start, g) : preset;
+    if (relief->start.count > 0 && !(*start >= f->low[g] - slack && *start <= f->high[g] + slack))
         return ff_failf(host, FF_INVALID, item,
                         "gear %d: the relief starts at the roll angle %.4f deg, but its flank is "
                         "in contact from %.4f to %.4f deg; the relief must lie on it",
                         g + 1, *start / degree, f->low[g] / degree, f->high[g] / degree);
-    if (relief->amount[g] > 0 && fabs(end - *start) <= slack)
+    if (ff_of_both(&relief->amount, g) > 0 && fabs(end - *start) <= slack)
         return ff_failf(host, FF_INVALID, item,
                         "gear %d: the relief starts where it ends, at the roll angle %.4f deg; "
                         "give %s a place inside the flank, from %.4f to %.4f deg",
@@ -72,7 +72,7 @@ static ff_status set_reliefs(const ff_host *host, const gear_flank_spec *s, cons
 static double relieve(const gear_relief *relief, int g, double beyond, double length)
 {
     double u = length > 0 ? fmin(beyond / length, 1) : 0;
-    return u > 0 ? relief->amount[g] * (relief->parabolic ? u * u : u) : 0;
+    return u > 0 ? ff_of_both(&relief->amount, g) * (relief->shape == 1 ? u * u : u) : 0;
 }
 
 /* The curve goes on with its first and last deviation beyond its ends. */
@@ -95,8 +95,8 @@ static double deviation_at(const gear_flank_spec *s, const gear_flanks *f, int g
     double u = (roll - f->low[g]) / (f->high[g] - f->low[g]);
     double off = relieve(&s->tip, g, roll - f->tip_start[g], f->high[g] - f->tip_start[g]) +
                  relieve(&s->root, g, f->root_start[g] - roll, f->root_start[g] - f->low[g]) +
-                 s->crown[g] * (2 * u - 1) * (2 * u - 1);
-    return s->slope[g] * (u - 0.5) - off + curve_at(&f->measured[g], roll);
+                 ff_of_both(&s->crown, g) * (2 * u - 1) * (2 * u - 1);
+    return ff_of_both(&s->slope, g) * (u - 0.5) - off + curve_at(&f->measured[g], roll);
 }
 
 static int by_value(const void *a, const void *b)
@@ -114,9 +114,9 @@ static size_t place_points(const gear_flank_spec *s, const gear_flanks *f, int g
     size_t count = 0, kept = 0;
     for (int i = 0; i <= PROFILE_STEPS; i++)
         roll[count++] = i == PROFILE_STEPS ? high : low + (high - low) * i / PROFILE_STEPS;
-    if (s->tip.amount[g] > 0)
+    if (ff_of_both(&s->tip.amount, g) > 0)
         roll[count++] = f->tip_start[g];
-    if (s->root.amount[g] > 0)
+    if (ff_of_both(&s->root.amount, g) > 0)
         roll[count++] = f->root_start[g];
     for (size_t i = 0; i < c->count; i++)
         if (c->roll[i] > low && c->roll[i] < high)
@@ -145,8 +145,9 @@ static void fill_points(double *roll, size_t count, size_t wanted)
 static bool is_perfect(const gear_flank_spec *s, const gear_flanks *f)
 {
     for (int g = 0; g < 2; g++)
-        if (s->tip.amount[g] > 0 || s->root.amount[g] > 0 || s->crown[g] > 0 ||
-            fabs(s->slope[g]) > 0 || f->measured[g].count > 0)
+        if (ff_of_both(&s->tip.amount, g) > 0 || ff_of_both(&s->root.amount, g) > 0 ||
+            ff_of_both(&s->crown, g) > 0 || fabs(ff_of_both(&s->slope, g)) > 0 ||
+            f->measured[g].count > 0)
             return false;
     return true;
 }
@@ -183,10 +184,10 @@ static ff_status check_index(const ff_host *host, const gear_flank_spec *s,
 {
     static const char *const items[] = {"pitch_error", "pitch_error_2"};
     for (int g = 0; g < 2; g++)
-        if ((double)s->indexed[g] > gears->teeth[g])
+        if ((double)s->index[g].count > ff_of_both(&gears->teeth, g))
             return ff_failf(host, FF_INVALID, items[g],
-                            "%zu index deviations for the %g teeth of gear %d", s->indexed[g],
-                            gears->teeth[g], g + 1);
+                            "%zu index deviations for the %g teeth of gear %d", s->index[g].count,
+                            ff_of_both(&gears->teeth, g), g + 1);
     return FF_OK;
 }
 

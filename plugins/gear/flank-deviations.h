@@ -12,19 +12,18 @@
 
 #include <flankfilm/plugin.h>
 
-/* A relief from `start` to the end of the flank. */
+/* A relief from `start` to the end of the flank; one value or two. */
 typedef struct gear_relief {
-    double amount[2], start[2]; /* m, roll angle of the own gear in rad */
-    bool start_given, parabolic;
+    ff_reals amount, start; /* m, roll angle of the own gear in rad; start may be empty */
+    int32_t shape;          /* 1: parabolic */
 } gear_relief;
 
 typedef struct gear_flank_spec {
     gear_relief tip, root;
-    double crown[2];  /* taken off both ends of the flank, m */
-    double slope[2];  /* f_H_alpha: rise from the lowest contact to the tip, m */
-    double *index[2]; /* deviations of the first teeth, m; the others have none */
-    size_t indexed[2];
-    char *file;
+    ff_reals crown;    /* taken off both ends of the flank, m; one value or two */
+    ff_reals slope;    /* f_H_alpha: rise from the lowest contact to the tip, m; one value or two */
+    ff_reals index[2]; /* deviations of the first teeth, m; the others have none */
+    const char *file;  /* may be NULL */
 } gear_flank_spec;
 
 /* The flanks that follow from a specification; angles in rad, deviations in m. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gear/involute-spur: path of contact, radii of curvature and inertia of a spur gear pair. */
 #include "flank-deviations.h"
+#include "references.h"
 #include "spur-geometry.h"
 #include "spur-rows.h"
 
@@ -13,125 +14,111 @@
 typedef struct spur {
     const ff_host *host;
     gear_spur_spec spec;
-    double face_width, bore[2], given_inertia[2], elastic[2], poisson[2], density[2];
-    size_t stations;
-    gear_spur_pair pair;
-    double bore_radius[2], mass[2], inertia[2], roughness[2]; /* Rq; 0: not given */
+    double face_width;
+    ff_reals bore, given_inertia, elastic, poisson, density, roughness_rq, roughness_ra;
+    int64_t stations;
     gear_flank_spec flank_spec;
+    gear_spur_pair pair;
+    double bore_radius[2], mass[2], inertia[2];
     gear_flanks flanks;
 } spur;
 
-static ff_status create(const ff_host *host, void **self)
-{
-    spur *s = calloc(1, sizeof *s);
-    if (!s)
-        return FF_NOMEM;
-    s->host = host;
-    *self = s;
-    return FF_OK;
-}
-
-static ff_status set_index_deviations(spur *s, int gear, const ff_value *value)
-{
-    double *kept = malloc((value->count + 1) * sizeof *kept);
-    if (!kept)
-        return FF_NOMEM;
-    memcpy(kept, value->reals, value->count * sizeof *kept);
-    free(s->flank_spec.index[gear]);
-    s->flank_spec.index[gear] = kept;
-    s->flank_spec.indexed[gear] = value->count;
-    return FF_OK;
-}
-
-/* The parameters of the flanks that are not numbers for both gears. */
-static ff_status set_flanks(spur *s, uint32_t param, const ff_value *value)
-{
-    gear_flank_spec *f = &s->flank_spec;
-    switch (param) {
-    case P_TIP_RELIEF_SHAPE:
-        f->tip.parabolic = value->integer == 1;
-        return FF_OK;
-    case P_ROOT_RELIEF_SHAPE:
-        f->root.parabolic = value->integer == 1;
-        return FF_OK;
-    case P_PITCH_ERROR:
-        return set_index_deviations(s, 0, value);
-    case P_PITCH_ERROR_2:
-        return set_index_deviations(s, 1, value);
-    default: /* P_PROFILE_FILE */
-        free(f->file);
-        f->file = strdup(value->text);
-        return f->file ? FF_OK : FF_NOMEM;
-    }
-}
-
-/* Most parameters are a number of the pair or one for each gear; a single one stands for both
- * gears. */
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    spur *s = self;
-    double *const both[GEAR_SPUR_PARAMS] = {
-        [P_TEETH] = s->spec.teeth,
-        [P_PROFILE_SHIFT] = s->spec.shift,
-        [P_TIP_DIAMETER] = s->spec.tip_diameter,
-        [P_ROOT_DIAMETER] = s->spec.root_diameter,
-        [P_BORE_DIAMETER] = s->bore,
-        [P_INERTIA] = s->given_inertia,
-        [P_ELASTIC_MODULUS] = s->elastic,
-        [P_POISSON_RATIO] = s->poisson,
-        [P_DENSITY] = s->density,
-        [P_TIP_RELIEF] = s->flank_spec.tip.amount,
-        [P_TIP_RELIEF_START] = s->flank_spec.tip.start,
-        [P_ROOT_RELIEF] = s->flank_spec.root.amount,
-        [P_ROOT_RELIEF_START] = s->flank_spec.root.start,
-        [P_CROWNING] = s->flank_spec.crown,
-        [P_PROFILE_SLOPE] = s->flank_spec.slope,
-        [P_ROUGHNESS_RQ] = s->roughness,
-        [P_ROUGHNESS_RA] = s->roughness,
-    };
-    double *const one[GEAR_SPUR_PARAMS] = {
-        [P_MODULE] = &s->spec.module,     [P_PRESSURE_ANGLE] = &s->spec.pressure_angle,
-        [P_FACE_WIDTH] = &s->face_width,  [P_CENTRE_DISTANCE] = &s->spec.centre_distance,
-        [P_BACKLASH] = &s->spec.backlash,
-    };
-    if (both[param]) {
-        both[param][0] = value->reals[0];
-        both[param][1] = value->reals[value->count - 1];
-    } else if (one[param])
-        *one[param] = value->real;
-    else if (param == P_BACKLASH_MEASURE)
-        s->spec.backlash_circular = value->integer == 1;
-    else if (param == P_STATIONS)
-        s->stations = (size_t)value->integer;
-    else
-        return set_flanks(s, param, value);
-    if (param == P_BACKLASH)
-        s->spec.backlash_given = true;
-    if (param == P_ROUGHNESS_RA) /* Rq of Gaussian heights */
-        for (int i = 0; i < 2; i++)
-            s->roughness[i] *= sqrt(M_PI / 2);
-    if (param == P_TIP_RELIEF_START)
-        s->flank_spec.tip.start_given = true;
-    if (param == P_ROOT_RELIEF_START)
-        s->flank_spec.root.start_given = true;
-    return FF_OK;
-}
+static const ff_param params[] = {
+    FF_LIST("teeth", "1", spur, spec.teeth, FF_REQUIRED | FF_WHOLE, NULL, NULL, 3, 1e6, 0, 0, 1, 2,
+            "numbers of teeth of gear 1 (driving) and gear 2; one value: both the same"),
+    FF_QUANTITY("module", "mm", spur, spec.module, FF_REQUIRED, NULL, NULL, 1e-3, 1e3, 0, 0,
+                "module: reference diameter over number of teeth"),
+    FF_QUANTITY("pressure_angle", "deg", spur, spec.pressure_angle, 0, "20 deg", NULL, 5, 45, 0, 0,
+                "pressure angle of the basic rack"),
+    FF_QUANTITY("face_width", "mm", spur, face_width, FF_REQUIRED, NULL, NULL, 1e-3, 1e5, 0, 0,
+                "width of the teeth in contact"),
+    FF_LIST("profile_shift", "1", spur, spec.shift, 0, "0", NULL, -10, 10, 0, 0, 1, 2,
+            "profile shift coefficients x1 and x2, outward positive; what leaves a tooth undercut "
+            "by more than 0.01 module is refused"),
+    FF_QUANTITY("centre_distance", "mm", spur, spec.centre_distance, 0, NULL, NULL, 1e-3, 1e9, 0, 0,
+                "working centre distance; left out: where teeth of these profile shifts mesh "
+                "without backlash"),
+    FF_LIST("tip_diameter", "mm", spur, spec.tip_diameter, 0, NULL, NULL, 1e-3, 1e9, 0, 0, 1, 2,
+            "tip (outside) diameters; left out: d + 2 m (1 + x), shortened as DIN 3960 says where "
+            "the profile shifts do not cancel"),
+    FF_LIST("root_diameter", "mm", spur, spec.root_diameter, 0, NULL, NULL, 1e-3, 1e9, 0, 0, 1, 2,
+            "root diameters; left out: d + 2 m (x - 1.25)"),
+    FF_QUANTITY("backlash", "mm", spur, spec.backlash, 0, NULL, NULL, 0, 1e3, 0, 0,
+                "total backlash of the mounted pair, twice the half-gap b; left out: what the "
+                "centre distance leaves, 0 where that is left out too"),
+    FF_ONE_OF("line-of-action|circular", "backlash_measure", spur, spec.backlash_measure, 0,
+              "line-of-action",
+              "where `backlash` is measured: along the line of action, or as an arc of the working "
+              "pitch circle"),
+    FF_LIST("bore_diameter", "mm", spur, bore, 0, "0 mm", NULL, 0, 1e9, 0, 0, 1, 2,
+            "bore diameters, 0: none"),
+    FF_LIST("inertia", "kg m2", spur, given_inertia, 0, NULL, NULL, 1e-20, 1e20, 0, 0, 1, 2,
+            "polar moments of inertia; left out: discs of working pitch diameter and face width, "
+            "less the bore"),
+    FF_LIST("elastic_modulus", "GPa", spur, elastic, 0, "206 GPa", NULL, 1e-3, 1e4, 0, 0, 1, 2,
+            "Young's moduli E1 and E2"),
+    FF_LIST("poisson_ratio", "1", spur, poisson, 0, "0.3", NULL, 0, 0.5, 0, 0, 1, 2,
+            "Poisson's ratios of the gears"),
+    FF_LIST("density", "kg/m3", spur, density, 0, "7850 kg/m3", NULL, 1, 1e5, 0, 0, 1, 2,
+            "densities of the gears, for mass and inertia"),
+    FF_COUNT("stations", spur, stations, FF_TUNABLE, "200", NULL, 8, 100000, 0, 0,
+             "about how many intervals the path of contact is cut into"),
+    FF_LIST("tip_relief", "um", spur, flank_spec.tip.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
+            "metal taken off at the tip of the flank, normal to it, one value or two"),
+    FF_LIST(
+        "tip_relief_start", "deg", spur, flank_spec.tip.start, 0, NULL, NULL, 0, 1e4, 0, 0, 1, 2,
+        "roll angle of the own gear from which the tip is relieved; left out: each gear's HPSTC"),
+    FF_ONE_OF("linear|parabolic", "tip_relief_shape", spur, flank_spec.tip.shape, 0, "linear",
+              "growth of the tip relief from its start to the tip"),
+    FF_LIST("root_relief", "um", spur, flank_spec.root.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
+            "metal taken off at the lowest point of contact, one value or two"),
+    FF_LIST(
+        "root_relief_start", "deg", spur, flank_spec.root.start, 0, NULL, NULL, 0, 1e4, 0, 0, 1, 2,
+        "roll angle of the own gear below which the root is relieved; left out: each gear's LPSTC"),
+    FF_ONE_OF("linear|parabolic", "root_relief_shape", spur, flank_spec.root.shape, 0, "linear",
+              "growth of the root relief from its start to the lowest point of contact"),
+    FF_LIST("crowning", "um", spur, flank_spec.crown, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
+            "profile crown (barrelling): parabola that takes this much off at both ends of the "
+            "flank, nothing in its middle"),
+    FF_LIST(
+        "profile_slope", "um", spur, flank_spec.slope, 0, "0 um", NULL, -1e4, 1e4, 0, 0, 1, 2,
+        "profile slope deviation f_H_alpha of ISO 1328-1, which a pressure-angle error gives: rise "
+        "of the flank from its lowest contact to the tip, positive where the tip has more metal"),
+    FF_LIST("pitch_error", "um", spur, flank_spec.index[0], 0, NULL, NULL, -1e4, 1e4, 0, 0, 1,
+            100000,
+            "index deviations of the teeth of gear 1 along the line of action, tooth by tooth, "
+            "positive: more metal on the working flank; teeth not listed have none"),
+    FF_LIST("pitch_error_2", "um", spur, flank_spec.index[1], 0, NULL, NULL, -1e4, 1e4, 0, 0, 1,
+            100000, "the same of the teeth of gear 2"),
+    FF_PATH("profile_file", spur, flank_spec.file, 0, NULL,
+            "measured profiles to be added: text with the header gear, roll_angle [deg], deviation "
+            "[um]; roll angle of the own gear, deviation positive: more metal"),
+    FF_LIST("roughness_rq", "um", spur, roughness_rq, FF_MIN_OPEN, NULL, "roughness", 0, 1e3, 0.01,
+            10, 1, 2,
+            "root mean square roughness Rq of the flanks, one value or two, for the lambda ratio "
+            "of smooth films; a film between rough flanks takes a stage of the kind surface"),
+    FF_LIST("roughness_ra", "um", spur, roughness_ra, FF_MIN_OPEN, NULL, "roughness", 0, 1e3, 0.01,
+            10, 1, 2,
+            "mean roughness Ra instead, as on drawings: Rq = sqrt(pi/2) Ra of Gaussian heights"),
+};
 
 /* Mass and inertia of discs of working pitch diameter with a bore; a stated inertia replaces
  * theirs. */
 static ff_status set_discs(spur *s)
 {
     for (int i = 0; i < 2; i++) {
-        double radius = s->pair.pitch_radius[i], bore = s->bore[i] / 2;
+        double radius = s->pair.pitch_radius[i], bore = ff_of_both(&s->bore, i) / 2;
         if (!(bore < s->pair.root_radius[i]))
             return ff_failf(s->host, FF_INVALID, "bore_diameter",
                             "gear %d has bore diameter %g mm; it must be less than its root "
                             "diameter %g mm",
-                            i + 1, 1e3 * s->bore[i], 2e3 * s->pair.root_radius[i]);
+                            i + 1, 2e3 * bore, 2e3 * s->pair.root_radius[i]);
         s->bore_radius[i] = bore;
-        s->mass[i] = s->density[i] * M_PI * s->face_width * (radius - bore) * (radius + bore);
-        s->inertia[i] = s->given_inertia[i] > 0 ? s->given_inertia[i]
-                                                : s->mass[i] * (radius * radius + bore * bore) / 2;
+        s->mass[i] =
+            ff_of_both(&s->density, i) * M_PI * s->face_width * (radius - bore) * (radius + bore);
+        s->inertia[i] = s->given_inertia.count > 0
+                            ? ff_of_both(&s->given_inertia, i)
+                            : s->mass[i] * (radius * radius + bore * bore) / 2;
     }
     return FF_OK;
 }
@@ -152,7 +139,12 @@ static ff_status write_scalars(const spur *s, uint64_t wanted)
 {
     const gear_spur_pair *p = &s->pair;
     const double rb1 = p->base_radius[0], rb2 = p->base_radius[1];
-    const double *J = s->inertia, *nu = s->poisson;
+    const double *J = s->inertia;
+    double compliance = 0; /* sum of (1 - nu^2)/E */
+    for (int i = 0; i < 2; i++) {
+        double nu = ff_of_both(&s->poisson, i);
+        compliance += (1 - nu * nu) / ff_of_both(&s->elastic, i);
+    }
     const struct {
         uint32_t row;
         double value;
@@ -172,8 +164,7 @@ static ff_status write_scalars(const spur *s, uint64_t wanted)
         {OUT_MODULE, s->spec.module},
         {OUT_PRESSURE_ANGLE, s->spec.pressure_angle},
         {OUT_EQUIVALENT_MASS, 1 / (rb1 * rb1 / J[0] + rb2 * rb2 / J[1])},
-        {OUT_REDUCED_MODULUS,
-         2 / ((1 - nu[0] * nu[0]) / s->elastic[0] + (1 - nu[1] * nu[1]) / s->elastic[1])},
+        {OUT_REDUCED_MODULUS, 2 / compliance},
     };
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0]; i++)
         if (wanted & FF_BIT(scalars[i].row) &&
@@ -182,9 +173,25 @@ static ff_status write_scalars(const spur *s, uint64_t wanted)
     return FF_OK;
 }
 
+/* Rq; that of Gaussian heights is sqrt(pi/2) Ra. 0: not given. */
+static double roughness_of(const spur *s, int gear)
+{
+    if (s->roughness_ra.count > 0)
+        return ff_of_both(&s->roughness_ra, gear) * sqrt(M_PI / 2);
+    return s->roughness_rq.count > 0 ? ff_of_both(&s->roughness_rq, gear) : 0;
+}
+
 static ff_status write_pairs(const spur *s, uint64_t wanted)
 {
     const gear_spur_pair *p = &s->pair;
+    double teeth[2], shift[2], elastic[2], poisson[2], roughness[2];
+    for (int i = 0; i < 2; i++) {
+        teeth[i] = ff_of_both(&s->spec.teeth, i);
+        shift[i] = ff_of_both(&s->spec.shift, i);
+        elastic[i] = ff_of_both(&s->elastic, i);
+        poisson[i] = ff_of_both(&s->poisson, i);
+        roughness[i] = roughness_of(s, i);
+    }
     const struct {
         uint32_t row;
         const double *values;
@@ -195,14 +202,14 @@ static ff_status write_pairs(const spur *s, uint64_t wanted)
         {OUT_ROOT_RADIUS, p->root_radius},
         {OUT_REFERENCE_RADIUS, p->reference_radius},
         {OUT_BORE_RADIUS, s->bore_radius},
-        {OUT_TEETH, s->spec.teeth},
-        {OUT_PROFILE_SHIFT, s->spec.shift},
+        {OUT_TEETH, teeth},
+        {OUT_PROFILE_SHIFT, shift},
         {OUT_TOOTH_THICKNESS, p->thickness},
         {OUT_MASS, s->mass},
         {OUT_INERTIA, s->inertia},
-        {OUT_ELASTIC_MODULUS, s->elastic},
-        {OUT_POISSON_RATIO, s->poisson},
-        {OUT_ROUGHNESS, s->roughness},
+        {OUT_ELASTIC_MODULUS, elastic},
+        {OUT_POISSON_RATIO, poisson},
+        {OUT_ROUGHNESS, roughness},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (!(wanted & FF_BIT(pairs[i].row)))
@@ -221,7 +228,7 @@ static ff_status write_pairs(const spur *s, uint64_t wanted)
 static ff_status write_stations(const spur *s, uint64_t wanted)
 {
     gear_spur_run runs[GEAR_SPUR_RUNS];
-    size_t run_count = gear_spur_runs(&s->pair, s->stations, runs), count = 0, at = 0;
+    size_t run_count = gear_spur_runs(&s->pair, (size_t)s->stations, runs), count = 0, at = 0;
     for (size_t i = 0; i < run_count; i++)
         count += runs[i].intervals + !runs[i].joined;
     double *roll = NULL, *radius_1 = NULL, *radius_2 = NULL;
@@ -264,11 +271,13 @@ static ff_status write_flanks(const spur *s, uint64_t wanted)
     for (uint32_t g = 0; g < 2; g++) {
         if (!(wanted & FF_BIT(OUT_PITCH_DEVIATION_1 + g)))
             continue;
-        double *to = ff_put_series(s->host, OUT_PITCH_DEVIATION_1 + g, (size_t)s->spec.teeth[g]);
+        double *to = ff_put_series(s->host, OUT_PITCH_DEVIATION_1 + g,
+                                   (size_t)ff_of_both(&s->spec.teeth, (int)g));
         if (!to)
             return FF_NOMEM;
-        if (s->flank_spec.indexed[g] > 0)
-            memcpy(to, s->flank_spec.index[g], s->flank_spec.indexed[g] * sizeof *to);
+        const ff_reals *index = &s->flank_spec.index[g];
+        if (index->count > 0)
+            memcpy(to, index->data, index->count * sizeof *to);
     }
     return FF_OK;
 }
@@ -312,39 +321,15 @@ static void destroy(void *self)
     if (!s)
         return;
     gear_flanks_free(&s->flanks);
-    free(s->flank_spec.index[0]);
-    free(s->flank_spec.index[1]);
-    free(s->flank_spec.file);
     free(s);
 }
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "gear/involute-spur",
-    .version = "1.0.0",
-    .summary = "external involute spur gear pair: path of contact, radii, inertia, deviations of "
-               "the flanks",
-    .reference =
-        "DIN 3960:1987, definitions and parameters of cylindrical gears; ISO 53:1998 (basic rack); "
-        "Litvin and Fuentes 2004, Gear Geometry and Applied Theory",
-    .bibtex = "@book{litvin2004, author = {Litvin, Faydor L. and Fuentes, Alfonso}, title = {Gear "
-              "Geometry "
-              "and Applied Theory}, edition = {2}, publisher = {Cambridge University Press}, year "
-              "= {2004}}",
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(gear_spur_params),
-    .outputs = FF_TABLE(gear_spur_outputs),
-    .create = create,
-    .set = set,
-    .ready = ready,
-    .evaluate = evaluate,
-    .destroy = destroy,
-    .columns = FF_TABLE(gear_curve_columns),
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(gear_involute_spur, spur, .id = "gear/involute-spur", .version = "1.0.0",
+         .summary = "external involute spur gear pair: path of contact, radii, inertia, deviations "
+                    "of the flanks",
+         .reference = "DIN 3960:1987, definitions and parameters of cylindrical gears; ISO 53:1998 "
+                      "(basic rack); Litvin and Fuentes 2004, Gear Geometry and Applied Theory",
+         .bibtex = BIB_litvin2004, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+         .outputs = FF_TABLE(gear_spur_outputs), .ready = ready, .evaluate = evaluate,
+         .destroy = destroy, .columns = FF_TABLE(gear_curve_columns));
+FF_EXPORT_MODELS(&gear_involute_spur);

@@ -46,20 +46,22 @@ static double involute_inverse(double value)
    there is none. */
 static double tight_involute(const gear_spur_spec *g)
 {
-    return involute(g->pressure_angle) +
-           2 * (g->shift[0] + g->shift[1]) * tan(g->pressure_angle) / (g->teeth[0] + g->teeth[1]);
+    return involute(g->pressure_angle) + 2 * (ff_of_both(&g->shift, 0) + ff_of_both(&g->shift, 1)) *
+                                             tan(g->pressure_angle) /
+                                             (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1));
 }
 
 static ff_status check_undercut(const ff_host *host, const gear_spur_spec *g)
 {
     for (int i = 0; i < 2; i++) {
         double s = sin(g->pressure_angle);
-        double least = addendum - g->teeth[i] * s * s / 2; /* DIN 3960: x >= 1 - z sin^2(a)/2 */
-        if (g->shift[i] < least - harmless_undercut)
+        double least =
+            addendum - ff_of_both(&g->teeth, i) * s * s / 2; /* DIN 3960: x >= 1 - z sin^2(a)/2 */
+        if (ff_of_both(&g->shift, i) < least - harmless_undercut)
             return ff_failf(host, FF_INVALID, "profile_shift",
                             "gear %d with %g teeth and profile shift %g is undercut; its "
                             "profile_shift must be at least %.3f, or it needs more teeth",
-                            i + 1, g->teeth[i], g->shift[i], least);
+                            i + 1, ff_of_both(&g->teeth, i), ff_of_both(&g->shift, i), least);
     }
     return FF_OK;
 }
@@ -80,11 +82,13 @@ static ff_status mount(const ff_host *host, const gear_spur_spec *g, gear_spur_p
             return ff_failf(host, FF_INVALID, "profile_shift",
                             "the profile shifts %g and %g sum to too little for these teeth to "
                             "mesh; the sum must exceed %.3f, or give centre_distance",
-                            g->shift[0], g->shift[1],
-                            -involute(g->pressure_angle) * (g->teeth[0] + g->teeth[1]) /
+                            ff_of_both(&g->shift, 0), ff_of_both(&g->shift, 1),
+                            -involute(g->pressure_angle) *
+                                (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1)) /
                                 (2 * tan(g->pressure_angle)));
-        p->working_angle =
-            g->shift[0] + g->shift[1] == 0 ? g->pressure_angle : involute_inverse(tight);
+        p->working_angle = ff_of_both(&g->shift, 0) + ff_of_both(&g->shift, 1) == 0
+                               ? g->pressure_angle
+                               : involute_inverse(tight);
         p->centre_distance = base_sum / cos(p->working_angle);
     }
     p->line_length = p->centre_distance * sin(p->working_angle);
@@ -100,7 +104,8 @@ static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear
 {
     double tight = tight_involute(g), full = 0;
     if (g->centre_distance > 0)
-        full = g->module * cos(g->pressure_angle) * (g->teeth[0] + g->teeth[1]) *
+        full = g->module * cos(g->pressure_angle) *
+               (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1)) *
                (involute(p->working_angle) - tight);
     if (full < -rounding * g->module)
         return ff_failf(host, FF_INVALID, "centre_distance",
@@ -109,8 +114,8 @@ static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear
                         1e3 * p->centre_distance,
                         1e3 * (p->base_radius[0] + p->base_radius[1]) /
                             cos(involute_inverse(tight)));
-    double unit = g->backlash_circular ? cos(p->working_angle) : 1;
-    p->backlash = g->backlash_given ? g->backlash * unit : fmax(full, 0);
+    double unit = g->backlash_measure == 1 ? cos(p->working_angle) : 1;
+    p->backlash = isnan(g->backlash) ? fmax(full, 0) : g->backlash * unit;
     if (p->backlash < full - rounding * g->module)
         return ff_failf(host, FF_INVALID, "backlash",
                         "backlash %g mm is less than the %.4f mm that teeth of these profile "
@@ -127,13 +132,15 @@ static ff_status set_depths(const ff_host *host, const gear_spur_spec *g, gear_s
        shifts do not cancel (DIN 3960); tips are never lengthened. */
     double shortening =
         fmin(0, p->centre_distance - p->reference_radius[0] - p->reference_radius[1] -
-                    (g->shift[0] + g->shift[1]) * g->module);
+                    (ff_of_both(&g->shift, 0) + ff_of_both(&g->shift, 1)) * g->module);
     for (int i = 0; i < 2; i++) {
-        double middle = p->reference_radius[i] + g->shift[i] * g->module;
-        p->root_radius[i] =
-            g->root_diameter[i] > 0 ? g->root_diameter[i] / 2 : middle - dedendum * g->module;
-        p->tip_radius[i] = g->tip_diameter[i] > 0 ? g->tip_diameter[i] / 2
-                                                  : middle + addendum * g->module + shortening;
+        double middle = p->reference_radius[i] + ff_of_both(&g->shift, i) * g->module;
+        p->root_radius[i] = ff_of_both(&g->root_diameter, i) > 0
+                                ? ff_of_both(&g->root_diameter, i) / 2
+                                : middle - dedendum * g->module;
+        p->tip_radius[i] = ff_of_both(&g->tip_diameter, i) > 0
+                               ? ff_of_both(&g->tip_diameter, i) / 2
+                               : middle + addendum * g->module + shortening;
         if (!(p->root_radius[i] > 0))
             return ff_failf(host, FF_INVALID, "root_diameter",
                             "gear %d has root diameter %g mm; it must be above 0", i + 1,
@@ -151,7 +158,8 @@ static ff_status set_depths(const ff_host *host, const gear_spur_spec *g, gear_s
     int tip = p->tip_radius[0] + p->root_radius[1] > p->tip_radius[1] + p->root_radius[0] ? 0 : 1;
     if (p->clearance < 0)
         return ff_failf(host, FF_INVALID,
-                        g->root_diameter[1 - tip] > 0 ? "root_diameter" : "tip_diameter",
+                        ff_of_both(&g->root_diameter, 1 - tip) > 0 ? "root_diameter"
+                                                                   : "tip_diameter",
                         "the tip of gear %d (diameter %g mm) strikes the root of gear %d (%g mm) "
                         "at centre distance %g mm; tip and root radius must sum to less",
                         tip + 1, 2e3 * p->tip_radius[tip], 2 - tip, 2e3 * p->root_radius[1 - tip],
@@ -172,20 +180,21 @@ static double thickness_at(const gear_spur_spec *g, const gear_spur_pair *p, int
 static ff_status set_thickness(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p,
                                double thinning)
 {
-    double pitch = 2 * p->pitch_radius[0] * M_PI / g->teeth[0];
+    double pitch = 2 * p->pitch_radius[0] * M_PI / ff_of_both(&g->teeth, 0);
     double filled = p->backlash / cos(p->working_angle);
     for (int i = 0; i < 2; i++) {
-        p->thickness[i] = g->module * (M_PI_2 + 2 * g->shift[i] * tan(g->pressure_angle));
+        p->thickness[i] =
+            g->module * (M_PI_2 + 2 * ff_of_both(&g->shift, i) * tan(g->pressure_angle));
         double arc = p->thickness[i] - thinning / (2 * cos(g->pressure_angle));
         filled += thickness_at(g, p, i, arc, p->pitch_radius[i]);
         p->tip_thickness[i] = thickness_at(g, p, i, arc, p->tip_radius[i]);
         if (!(p->tip_thickness[i] > 0))
             return ff_failf(host, FF_INVALID,
-                            g->tip_diameter[i] > 0 ? "tip_diameter" : "profile_shift",
+                            ff_of_both(&g->tip_diameter, i) > 0 ? "tip_diameter" : "profile_shift",
                             "the tooth of gear %d is pointed below its tip diameter %g mm; "
                             "its %s must be less%s",
                             i + 1, 2e3 * p->tip_radius[i],
-                            g->tip_diameter[i] > 0 ? "tip_diameter" : "profile_shift",
+                            ff_of_both(&g->tip_diameter, i) > 0 ? "tip_diameter" : "profile_shift",
                             thinning > 0 ? ", or the backlash" : "");
     }
     p->pitch_error = fabs(filled / pitch - 1);
@@ -216,7 +225,7 @@ static ff_status set_path(const ff_host *host, const gear_spur_spec *g, gear_spu
     for (int i = 0; i < 2; i++)
         if (!(reach[i] < p->line_length * (1 - 1e-9)))
             return ff_failf(host, FF_INVALID,
-                            g->tip_diameter[i] > 0 ? "tip_diameter" : "profile_shift",
+                            ff_of_both(&g->tip_diameter, i) > 0 ? "tip_diameter" : "profile_shift",
                             "the tip of gear %d (diameter %g mm) reaches below the base circle of "
                             "gear %d, where there is no involute; the tip diameter must be less "
                             "than %.4f mm",
@@ -227,7 +236,8 @@ static ff_status set_path(const ff_host *host, const gear_spur_spec *g, gear_spu
     p->pitch_point = p->base_radius[0] * tan(p->working_angle);
     p->contact_ratio = (p->tip - p->sap) / p->base_pitch;
     if (!(p->contact_ratio >= 1 - same_place && p->contact_ratio < MOST_PAIRS))
-        return ff_failf(host, FF_INVALID, g->tip_diameter[0] > 0 ? "tip_diameter" : "teeth",
+        return ff_failf(host, FF_INVALID,
+                        ff_of_both(&g->tip_diameter, 0) > 0 ? "tip_diameter" : "teeth",
                         "the profile contact ratio of the pair is %.4f; it must be at least 1 and "
                         "less than %d",
                         p->contact_ratio, MOST_PAIRS);
@@ -254,7 +264,7 @@ ff_status gear_spur_pair_make(const ff_host *host, const gear_spur_spec *g, gear
     double thinning = 0;
     *p = (gear_spur_pair){0};
     for (int i = 0; i < 2; i++) {
-        p->reference_radius[i] = g->module * g->teeth[i] / 2;
+        p->reference_radius[i] = g->module * ff_of_both(&g->teeth, i) / 2;
         p->base_radius[i] = p->reference_radius[i] * cos(g->pressure_angle);
     }
     p->base_pitch = M_PI * g->module * cos(g->pressure_angle);

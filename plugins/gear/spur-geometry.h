@@ -11,17 +11,16 @@
 
 #include <stdbool.h>
 
-/* The pair as the user states it; 0 means "not given" where a member says so. */
+/* The pair as the user states it; NaN or empty: not given. Lists hold one value or two. */
 typedef struct gear_spur_spec {
-    double teeth[2];
+    ff_reals teeth;
     double module;
-    double pressure_angle;                    /* of the reference rack */
-    double shift[2];                          /* profile shift coefficients */
-    double centre_distance;                   /* 0: zero backlash with these shifts */
-    double tip_diameter[2], root_diameter[2]; /* 0: standard */
-    double backlash;                          /* of the mounted pair */
-    bool backlash_given;                      /* false: what the centre distance leaves */
-    bool backlash_circular;                   /* measured as an arc of the working pitch circle */
+    double pressure_angle;                /* of the reference rack */
+    ff_reals shift;                       /* profile shift coefficients */
+    double centre_distance;               /* not given: zero backlash with these shifts */
+    ff_reals tip_diameter, root_diameter; /* not given: standard */
+    double backlash;          /* of the mounted pair; not given: what the centre distance leaves */
+    int32_t backlash_measure; /* 1: as an arc of the working pitch circle */
 } gear_spur_spec;
 
 typedef struct gear_spur_pair {

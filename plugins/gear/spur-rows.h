@@ -1,43 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameters and outputs of gear/involute-spur. */
+/* Outputs of gear/involute-spur. */
 #ifndef GEAR_SPUR_ROWS_H
 #define GEAR_SPUR_ROWS_H
 
 #include <flankfilm/plugin.h>
-
-enum {
-    P_TEETH,
-    P_MODULE,
-    P_PRESSURE_ANGLE,
-    P_FACE_WIDTH,
-    P_PROFILE_SHIFT,
-    P_CENTRE_DISTANCE,
-    P_TIP_DIAMETER,
-    P_ROOT_DIAMETER,
-    P_BACKLASH,
-    P_BACKLASH_MEASURE,
-    P_BORE_DIAMETER,
-    P_INERTIA,
-    P_ELASTIC_MODULUS,
-    P_POISSON_RATIO,
-    P_DENSITY,
-    P_STATIONS,
-    P_TIP_RELIEF,
-    P_TIP_RELIEF_START,
-    P_TIP_RELIEF_SHAPE,
-    P_ROOT_RELIEF,
-    P_ROOT_RELIEF_START,
-    P_ROOT_RELIEF_SHAPE,
-    P_CROWNING,
-    P_PROFILE_SLOPE,
-    P_PITCH_ERROR,
-    P_PITCH_ERROR_2,
-    P_PROFILE_FILE,
-    P_ROUGHNESS_RQ,
-    P_ROUGHNESS_RA,
-    GEAR_SPUR_PARAMS
-};
-extern const ff_param gear_spur_params[GEAR_SPUR_PARAMS];
 
 enum {
     OUT_CONTACT_RATIO,

@@ -1,11 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameters and ports of losses/tooth-mesh. */
+/* Ports of losses/tooth-mesh. */
 #ifndef LOSSES_ROWS_H
 #define LOSSES_ROWS_H
 
 #include <flankfilm/plugin.h>
-
-enum { P_CONDUCTIVITY, P_DENSITY, P_SPECIFIC_HEAT, P_BULK_TEMPERATURE, P_POINTS, LOSSES_PARAMS };
 
 enum {
     IN_ROLL_ANGLE,
@@ -58,7 +56,6 @@ enum {
     LOSSES_OUTPUTS
 };
 
-extern const ff_param losses_params[LOSSES_PARAMS];
 extern const ff_port losses_inputs[LOSSES_INPUTS];
 extern const ff_port losses_outputs[LOSSES_OUTPUTS];
 

@@ -3,6 +3,7 @@
  */
 #include "../numerics/interval.h"
 #include "mesh-inputs.h"
+#include "references.h"
 
 #include <flankfilm/author.h>
 
@@ -17,34 +18,25 @@ static const double least_half_width = 1e-3; /* of the largest; a narrower conta
 
 typedef struct tooth_mesh {
     const ff_host *host;
-    double steel[P_BULK_TEMPERATURE][2]; /* conductivity, density, specific heat of both gears */
-    double bulk;                         /* K; 0: auto */
-    size_t points;
+    ff_reals conductivity, density, specific_heat; /* of both gears */
+    double bulk_temperature;                       /* K; NaN: auto */
+    int64_t points;
 } tooth_mesh;
 
-static ff_status create(const ff_host *host, void **self)
-{
-    tooth_mesh *s = calloc(1, sizeof *s);
-    if (!s)
-        return FF_NOMEM;
-    s->host = host;
-    *self = s;
-    return FF_OK;
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    tooth_mesh *s = self;
-    if (param == P_BULK_TEMPERATURE)
-        s->bulk = value->text ? 0 : value->real;
-    else if (param == P_POINTS)
-        s->points = (size_t)value->integer;
-    else {
-        s->steel[param][0] = value->reals[0];
-        s->steel[param][1] = value->reals[value->count - 1];
-    }
-    return FF_OK;
-}
+static const ff_param params[] = {
+    FF_LIST("thermal_conductivity", "W/(m K)", tooth_mesh, conductivity, 0, "47 W/(m K)", NULL,
+            1e-3, 1e4, 0, 0, 1, 2, "of gear 1 and gear 2, or of both; steel 47"),
+    FF_LIST("density", "kg/m3", tooth_mesh, density, 0, "7850 kg/m3", NULL, 1, 1e5, 0, 0, 1, 2,
+            "of gear 1 and gear 2, or of both; steel 7850"),
+    FF_LIST("specific_heat", "J/(kg K)", tooth_mesh, specific_heat, 0, "455 J/(kg K)", NULL, 1, 1e5,
+            0, 0, 1, 2, "of gear 1 and gear 2, or of both; steel 450 to 460"),
+    FF_QUANTITY_OR("auto", "bulk_temperature", "degC", tooth_mesh, bulk_temperature, 0, "auto",
+                   NULL, -150, 1000, 0, 0,
+                   "temperature of the teeth before they meet; auto: that of the oil, which is the "
+                   "least it can be"),
+    FF_COUNT("points", tooth_mesh, points, FF_TUNABLE, "200", NULL, 2, 1e6, 0, 0,
+             "equal parts of the mesh cycle in mesh_power_loss"),
+};
 
 /* Radii and surface speeds at a roll angle; the radii of involutes are linear in it. */
 static void motion_at(const losses_mesh *m, double roll, double radius[2], double speed[2])
@@ -63,8 +55,8 @@ static double flash_at(const tooth_mesh *s, double power, const double speed[2],
 {
     double conducted = 0; /* B1 sqrt u1 + B2 sqrt u2 */
     for (int g = 0; g < 2; g++)
-        conducted += sqrt(s->steel[P_CONDUCTIVITY][g] * s->steel[P_DENSITY][g] *
-                          s->steel[P_SPECIFIC_HEAT][g] * speed[g]);
+        conducted += sqrt(ff_of_both(&s->conductivity, g) * ff_of_both(&s->density, g) *
+                          ff_of_both(&s->specific_heat, g) * speed[g]);
     return blok * power / (conducted * sqrt(2 * half_width));
 }
 
@@ -145,14 +137,14 @@ static ff_status write_cycle(const tooth_mesh *s, const losses_mesh *m, uint64_t
 {
     const losses_engagement e = losses_engagement_at(m, 0);
     const double leave = losses_leaving_phase(&e);
-    const size_t count = s->points + 1 + (leave > 0 ? 2 : 0);
+    const size_t points = (size_t)s->points, count = points + 1 + (leave > 0 ? 2 : 0);
     double *phase = malloc(2 * count * sizeof *phase), *loss = phase ? phase + count : NULL;
     if (!phase)
         return FF_NOMEM;
     size_t n = 0;
     bool left = !(leave > 0);
-    for (size_t i = 0; i <= s->points; i++) {
-        double at = (double)i / (double)s->points;
+    for (size_t i = 0; i <= points; i++) {
+        double at = (double)i / (double)points;
         if (!left && at > leave - 1e-9) {
             left = true;
             phase[n] = phase[n + 1] = leave;
@@ -291,8 +283,9 @@ static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of,
         "maximum");
     motion_at(m, m->roll[m->hottest], radius, speed);
     for (int g = 0; g < 2; g++)
-        peclet = fmin(peclet, speed[g] * m->half_width[m->hottest] * s->steel[P_DENSITY][g] *
-                                  s->steel[P_SPECIFIC_HEAT][g] / (2 * s->steel[P_CONDUCTIVITY][g]));
+        peclet = fmin(peclet, speed[g] * m->half_width[m->hottest] * ff_of_both(&s->density, g) *
+                                  ff_of_both(&s->specific_heat, g) /
+                                  (2 * ff_of_both(&s->conductivity, g)));
     if (m->flash[m->hottest] > 0)
         host->quality(host->ctx, "peclet", peclet, least_peclet,
                       peclet >= least_peclet ? FF_GOOD : FF_DOUBTFUL,
@@ -332,7 +325,7 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
 {
     const scatter of = scatter_of(m, NULL);
     const double mean = of.mean, input = m->torque * m->omega[0];
-    const double bulk = s->bulk > 0 ? s->bulk : m->oil_temperature;
+    const double bulk = s->bulk_temperature > 0 ? s->bulk_temperature : m->oil_temperature;
     const double hottest = m->flash[m->hottest];
     const struct {
         uint32_t row;
@@ -388,45 +381,13 @@ out:
     return status;
 }
 
-static void destroy(void *self)
-{
-    free(self);
-}
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "losses/tooth-mesh",
-    .version = "1.0.0",
-    .summary = "power loss, efficiency and flash temperature of a tooth mesh",
-    .reference =
-        "Blok 1937, Theoretical study of temperature rise at surfaces of actual contact under "
-        "oiliness "
-        "lubricating conditions, Proc. General Discussion on Lubrication, IMechE 2, 222; Jaeger "
-        "1942, "
-        "Moving sources of heat and the temperature at sliding contacts, Proc. R. Soc. NSW 76, 203",
-    .bibtex =
-        "@inproceedings{blok1937, author = {Blok, H.}, title = {Theoretical study of temperature "
-        "rise "
-        "at surfaces of actual contact under oiliness lubricating conditions}, booktitle = "
-        "{Proceedings of the General Discussion on Lubrication and Lubricants}, publisher = "
-        "{Institution of Mechanical Engineers}, volume = {2}, pages = {222--235}, year = {1937}}\n"
-        "@article{jaeger1942, author = {Jaeger, J. C.}, title = {Moving sources of heat and the "
-        "temperature at sliding contacts}, journal = {Proceedings of the Royal Society of New "
-        "South "
-        "Wales}, volume = {76}, pages = {203--224}, year = {1942}}",
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(losses_params),
-    .inputs = FF_TABLE(losses_inputs),
-    .outputs = FF_TABLE(losses_outputs),
-    .create = create,
-    .set = set,
-    .evaluate = evaluate,
-    .destroy = destroy,
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(losses_tooth_mesh, tooth_mesh, .id = "losses/tooth-mesh", .version = "1.0.0",
+         .summary = "power loss, efficiency and flash temperature of a tooth mesh",
+         .reference = "Blok 1937, Theoretical study of temperature rise at surfaces of actual "
+                      "contact under oiliness lubricating conditions, Proc. General Discussion on "
+                      "Lubrication, IMechE 2, 222; Jaeger 1942, Moving sources of heat and the "
+                      "temperature at sliding contacts, Proc. R. Soc. NSW 76, 203",
+         .bibtex = BIB_blok1937 "\n" BIB_jaeger1942, .licence = "GPL-3.0-or-later",
+         .params = FF_TABLE(params), .inputs = FF_TABLE(losses_inputs),
+         .outputs = FF_TABLE(losses_outputs), .evaluate = evaluate, .destroy = free);
+FF_EXPORT_MODELS(&losses_tooth_mesh);

@@ -1,43 +1,28 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* operating/steady: constant torque and speed. */
+#include "references.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { P_TORQUE, P_SPEED, P_MESH_FREQUENCY, P_OIL_TEMPERATURE };
+typedef struct steady {
+    const ff_host *host;
+    double torque, oil_temperature;
+    double speed, mesh_frequency; /* rad/s, Hz; one of both is given */
+} steady;
 
 static const ff_param params[] = {
-    {.name = "torque",
-     .unit = "N m",
-     .doc = "torque on gear 1, constant",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .min = 1e-9,
-     .max = 1e12},
-    {.name = "speed",
-     .unit = "rpm",
-     .doc = "speed of gear 1",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .group = "speed",
-     .min = 1e-3,
-     .max = 1e7},
-    {.name = "mesh_frequency",
-     .unit = "Hz",
-     .doc = "tooth meshes per second, in place of the speed; needs a gear",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .group = "speed",
-     .min = 1e-4,
-     .max = 1e9},
-    {.name = "oil_temperature",
-     .unit = "degC",
-     .doc = "temperature of the oil that enters the mesh, handed to stages that ask for it",
-     .type = FF_REAL,
-     .preset = "40 degC",
-     .min = -150,
-     .max = 500},
+    FF_QUANTITY("torque", "N m", steady, torque, FF_REQUIRED, NULL, NULL, 1e-9, 1e12, 0, 0,
+                "torque on gear 1, constant"),
+    FF_QUANTITY("speed", "rpm", steady, speed, FF_REQUIRED, NULL, "speed", 1e-3, 1e7, 0, 0,
+                "speed of gear 1"),
+    FF_QUANTITY("mesh_frequency", "Hz", steady, mesh_frequency, FF_REQUIRED, NULL, "speed", 1e-4,
+                1e9, 0, 0, "tooth meshes per second, in place of the speed; needs a gear"),
+    FF_QUANTITY("oil_temperature", "degC", steady, oil_temperature, 0, "40 degC", NULL, -150, 500,
+                0, 0,
+                "temperature of the oil that enters the mesh, handed to stages that ask for it"),
 };
 
 enum { IN_TEETH, IN_BASE_RADIUS };
@@ -69,41 +54,6 @@ static const ff_port outputs[] = {
      .dims = ""},
     {.name = "oil_temperature", .unit = "K", .doc = "temperature of the oil", .dims = ""},
 };
-
-typedef struct steady {
-    const ff_host *host;
-    double torque, oil_temperature;
-    double speed, mesh_frequency; /* rad/s, Hz; 0: not given */
-} steady;
-
-static ff_status create(const ff_host *host, void **self)
-{
-    steady *s = calloc(1, sizeof *s);
-    if (!s)
-        return FF_NOMEM;
-    s->host = host;
-    *self = s;
-    return FF_OK;
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    steady *s = self;
-    switch (param) {
-    case P_TORQUE:
-        s->torque = value->real;
-        break;
-    case P_SPEED:
-        s->speed = value->real;
-        break;
-    case P_MESH_FREQUENCY:
-        s->mesh_frequency = value->real;
-        break;
-    default:
-        s->oil_temperature = value->real;
-    }
-    return FF_OK;
-}
 
 static ff_status ready(void *self)
 {
@@ -160,37 +110,11 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-static void destroy(void *self)
-{
-    free(self);
-}
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "operating/steady",
-    .version = "1.0.0",
-    .summary = "constant torque and speed of gear 1",
-    .reference = "Li and Kahraman 2011, Proc. IMechE Part J, Influence of dynamic behaviour on "
-                 "elastohydrodynamic lubrication of spur gears",
-    .bibtex =
-        "@article{likahraman2011, author = {Li, S. and Kahraman, A.}, title = {Influence of "
-        "dynamic "
-        "behaviour on elastohydrodynamic lubrication of spur gears}, journal = {Proceedings of the "
-        "Institution of Mechanical Engineers, Part J}, pages = {740--753}, year = {2011}}",
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params),
-    .inputs = FF_TABLE(inputs),
-    .outputs = FF_TABLE(outputs),
-    .create = create,
-    .set = set,
-    .ready = ready,
-    .evaluate = evaluate,
-    .destroy = destroy,
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(operating_steady, steady, .id = "operating/steady", .version = "1.0.0",
+         .summary = "constant torque and speed of gear 1",
+         .reference = "Li and Kahraman 2011, Proc. IMechE Part J, Influence of dynamic behaviour "
+                      "on elastohydrodynamic lubrication of spur gears",
+         .bibtex = BIB_likahraman2011, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+         .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs), .ready = ready,
+         .evaluate = evaluate, .destroy = free);
+FF_EXPORT_MODELS(&operating_steady);

@@ -5,13 +5,14 @@
  *   psi = dg/dtau = (1 + S^2)^((3 - n)/2) / (eta (1 + n S^2)),   S = eta g/G.
  */
 #include "law.h"
-
-#include <stdlib.h>
+#include "references.h"
 
 static const double STRESS_MAX = 1e300; /* Pa */
 
 typedef struct carreau {
-    rheology_law law;
+    const ff_host *host;
+    ff_rheology service;
+    double limiting_stress_coefficient;
     double G, n; /* Pa, 1 */
 } carreau;
 
@@ -76,74 +77,24 @@ static ff_status shear(const void *self, size_t count, const double *p, const do
         double ln_S = ln_strain(c, ln_eta[i], h[i], u_s);
         double ln_tau = log(c->G) + ln_S + (c->n - 1) / 2 * log_one_more(2 * ln_S);
         double plain = exp(fmin(ln_tau, ln_most));
-        tau[i] = copysign(rheology_limited(plain, p[i], c->law.limiting_stress_coefficient), u_s);
+        tau[i] = copysign(rheology_limited(plain, p[i], c->limiting_stress_coefficient), u_s);
         outside |= ln_tau > ln_most || h[i] < RHEOLOGY_FILM_MIN;
     }
     return outside ? FF_DOMAIN : FF_OK;
 }
 
 static const ff_param params[] = {
-    {.name = "G",
-     .unit = "MPa",
-     .doc = "stress where shear thinning sets in",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED | FF_MIN_OPEN,
-     .max = 1e30,
-     .low = 0.01,
-     .high = 50},
-    {.name = "n",
-     .unit = "1",
-     .doc = "exponent of the thinned stress, tau ~ rate^n; 1: Newtonian",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .min = 0.01,
-     .max = 1,
-     .low = 0.2,
-     .high = 1},
-    RHEOLOGY_LIMITING_STRESS_ROW,
+    FF_QUANTITY("G", "MPa", carreau, G, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0, 1e30, 0.01, 50,
+                "stress where shear thinning sets in"),
+    FF_QUANTITY("n", "1", carreau, n, FF_REQUIRED, NULL, NULL, 0.01, 1, 0.2, 1,
+                "exponent of the thinned stress, tau ~ rate^n; 1: Newtonian"),
+    RHEOLOGY_LIMITING_STRESS_ROW(carreau),
 };
 
-static ff_status create(const ff_host *host, void **self)
-{
-    (void)host;
-    return rheology_law_create(sizeof(carreau), 5.4e-2, flow, shear, self);
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    carreau *c = self;
-    double *own[] = {&c->G, &c->n,
-                     &c->law.limiting_stress_coefficient}; /* in the order of the rows */
-    *own[param] = value->real;
-    return FF_OK;
-}
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = 0,
-    .id = "rheology/carreau",
-    .version = "1.0.0",
+FF_RHEOLOGY_LAW(
+    rheology_carreau, carreau, flow, shear, .id = "rheology/carreau", .version = "1.0.0",
     .summary = "shear thinning by a power law above a stress G",
     .reference = "Carreau 1972, Trans. Soc. Rheology 16, 99-127; Bair 2007, High-Pressure Rheology "
                  "for Quantitative Elastohydrodynamics; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
-    .bibtex = "@article{Carreau1972, author={Carreau, P. J.}, title={Rheological equations from "
-              "molecular network theories}, journal={Transactions of the Society of Rheology}, "
-              "volume={16}, pages={99--127}, year={1972}}\n"
-              "@book{Bair2007, author={Bair, S.}, title={High-Pressure Rheology for Quantitative "
-              "Elastohydrodynamics}, publisher={Elsevier}, "
-              "year={2007}}\n" RHEOLOGY_LIMITING_STRESS_BIBTEX,
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params),
-    .outputs = FF_TABLE(rheology_law_outputs),
-    .create = create,
-    .set = set,
-    .service = rheology_law_service,
-    .destroy = free,
-    .assess = rheology_law_assess,
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+    .bibtex = BIB_Carreau1972 "\n" BIB_Bair2007 "\n" BIB_BairWiner1979,
+    .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .cost = 5.4e-2);

@@ -1,8 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Newtonian: psi = 1/eta, tau = eta u_s/h. */
 #include "law.h"
+#include "references.h"
 
-#include <stdlib.h>
+typedef struct newtonian {
+    const ff_host *host;
+    ff_rheology service;
+    double limiting_stress_coefficient;
+} newtonian;
 
 static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
                       double *psi, double *dpsi_dln_eta, double *dpsi_dh)
@@ -25,7 +30,7 @@ static ff_status flow(const void *self, size_t n, const double *ln_eta, const do
 static ff_status shear(const void *self, size_t n, const double *p, const double *ln_eta,
                        const double *h, double u_s, double *tau)
 {
-    const rheology_law *law = self;
+    const newtonian *law = self;
     int outside = 0;
     if (u_s == 0) {
         for (size_t i = 0; i < n; i++)
@@ -43,47 +48,12 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
 }
 
 static const ff_param params[] = {
-    RHEOLOGY_LIMITING_STRESS_ROW,
+    RHEOLOGY_LIMITING_STRESS_ROW(newtonian),
 };
 
-static ff_status create(const ff_host *host, void **self)
-{
-    (void)host;
-    return rheology_law_create(sizeof(rheology_law), 4e-3, flow, shear, self);
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    rheology_law *law = self;
-    (void)param;
-    law->limiting_stress_coefficient = value->real;
-    return FF_OK;
-}
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = 0,
-    .id = "rheology/newtonian",
-    .version = "1.0.0",
-    .summary = "shear does not change the viscosity",
-    .reference = "Reynolds 1886, Philosophical Transactions 177, "
-                 "157-234; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
-    .bibtex = "@article{Reynolds1886, author={Reynolds, O.}, title={On the theory of lubrication "
-              "and its application to Mr. Beauchamp Tower's experiments}, journal={Philosophical "
-              "Transactions of the Royal Society of London}, volume={177}, pages={157--234}, "
-              "year={1886}}\n" RHEOLOGY_LIMITING_STRESS_BIBTEX,
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params),
-    .outputs = FF_TABLE(rheology_law_outputs),
-    .create = create,
-    .set = set,
-    .service = rheology_law_service,
-    .destroy = free,
-    .assess = rheology_law_assess,
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_RHEOLOGY_LAW(rheology_newtonian, newtonian, flow, shear, .id = "rheology/newtonian",
+                .version = "1.0.0", .summary = "shear does not change the viscosity",
+                .reference = "Reynolds 1886, Philosophical Transactions 177, "
+                             "157-234; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
+                .bibtex = BIB_Reynolds1886 "\n" BIB_BairWiner1979, .licence = "GPL-3.0-or-later",
+                .params = FF_TABLE(params), .cost = 4e-3);

@@ -5,13 +5,14 @@
  *   psi = cosh(asinh S)/eta = sqrt(1/eta^2 + (u_s/(tau0 h))^2).
  */
 #include "law.h"
-
-#include <stdlib.h>
+#include "references.h"
 
 static const double STRESS_MAX = 1e300; /* Pa */
 
 typedef struct ree_eyring {
-    rheology_law law;
+    const ff_host *host;
+    ff_rheology service;
+    double limiting_stress_coefficient;
     double tau0; /* Pa */
 } ree_eyring;
 
@@ -52,65 +53,22 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
         /* asinh S = ln 2S where S is large; the cut at e^300 is exact in double precision */
         double rise = asinh(exp(fmin(ln_S, 300))) + fmax(ln_S - 300, 0);
         double plain = fmin(r->tau0 * rise, STRESS_MAX);
-        tau[i] = copysign(rheology_limited(plain, p[i], r->law.limiting_stress_coefficient), u_s);
+        tau[i] = copysign(rheology_limited(plain, p[i], r->limiting_stress_coefficient), u_s);
         outside |= plain == STRESS_MAX || h[i] < RHEOLOGY_FILM_MIN;
     }
     return outside ? FF_DOMAIN : FF_OK;
 }
 
 static const ff_param params[] = {
-    {.name = "tau0",
-     .unit = "MPa",
-     .doc = "Eyring stress, where shear thinning sets in",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED | FF_MIN_OPEN,
-     .max = 1e30,
-     .low = 0.5,
-     .high = 50},
-    RHEOLOGY_LIMITING_STRESS_ROW,
+    FF_QUANTITY("tau0", "MPa", ree_eyring, tau0, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0, 1e30,
+                0.5, 50, "Eyring stress, where shear thinning sets in"),
+    RHEOLOGY_LIMITING_STRESS_ROW(ree_eyring),
 };
 
-static ff_status create(const ff_host *host, void **self)
-{
-    (void)host;
-    return rheology_law_create(sizeof(ree_eyring), 8e-3, flow, shear, self);
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    ree_eyring *r = self;
-    double *own[] = {&r->tau0, &r->law.limiting_stress_coefficient}; /* in the order of the rows */
-    *own[param] = value->real;
-    return FF_OK;
-}
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = 0,
-    .id = "rheology/ree-eyring",
-    .version = "1.0.0",
-    .summary = "shear thinning by a thermally activated flow",
-    .reference = "Johnson & Tevaarwerk 1977, Proc. R. Soc. A 356, 215-236; Li & Kahraman 2011, "
-                 "Proc. IMechE J, 740-753; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
-    .bibtex = "@article{JohnsonTevaarwerk1977, author={Johnson, K. L. and Tevaarwerk, J. L.}, "
-              "title={Shear behaviour of elastohydrodynamic oil films}, journal={Proceedings of "
-              "the Royal Society of London A}, volume={356}, pages={215--236}, year={1977}}\n"
-              "@article{LiKahraman2011, author={Li, S. and Kahraman, A.}, title={Influence of "
-              "dynamic behaviour on elastohydrodynamic lubrication of spur gears}, "
-              "journal={Proceedings of the Institution of Mechanical Engineers, Part J}, "
-              "pages={740--753}, year={2011}}\n" RHEOLOGY_LIMITING_STRESS_BIBTEX,
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params),
-    .outputs = FF_TABLE(rheology_law_outputs),
-    .create = create,
-    .set = set,
-    .service = rheology_law_service,
-    .destroy = free,
-    .assess = rheology_law_assess,
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_RHEOLOGY_LAW(rheology_ree_eyring, ree_eyring, flow, shear, .id = "rheology/ree-eyring",
+                .version = "1.0.0", .summary = "shear thinning by a thermally activated flow",
+                .reference =
+                    "Johnson & Tevaarwerk 1977, Proc. R. Soc. A 356, 215-236; Li & Kahraman 2011, "
+                    "Proc. IMechE J, 740-753; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
+                .bibtex = BIB_JohnsonTevaarwerk1977 "\n" BIB_LiKahraman2011 "\n" BIB_BairWiner1979,
+                .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .cost = 8e-3);

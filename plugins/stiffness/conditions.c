@@ -23,9 +23,8 @@ static ff_status check_cycle(const ff_host *host, const stiffness_deviations *d,
                     period, period - 1, cycle);
 }
 
-ff_status stiffness_conditions_read(const ff_host *host, const ff_array *in,
-                                    const stiffness_rim *rim, stiffness_mesh_cycles cycles,
-                                    stiffness_conditions *conditions)
+ff_status stiffness_conditions_read(const ff_host *host, const ff_array *in, const ff_reals *rim,
+                                    stiffness_mesh_cycles cycles, stiffness_conditions *conditions)
 {
     ff_status status = stiffness_path_read(host, in, &conditions->path);
     if (status == FF_OK)

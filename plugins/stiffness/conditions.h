@@ -23,8 +23,7 @@ typedef struct stiffness_mesh_cycles {
 stiffness_mesh_cycles stiffness_mesh_cycles_set(const ff_value *value);
 
 /* Reads and checks the inputs; a mesh cycle that the hunting period does not have is refused. */
-ff_status stiffness_conditions_read(const ff_host *host, const ff_array *in,
-                                    const stiffness_rim *rim, stiffness_mesh_cycles cycles,
-                                    stiffness_conditions *conditions);
+ff_status stiffness_conditions_read(const ff_host *host, const ff_array *in, const ff_reals *rim,
+                                    stiffness_mesh_cycles cycles, stiffness_conditions *conditions);
 
 #endif

@@ -39,7 +39,7 @@ double stiffness_elastic_pair_teeth(const stiffness_elastic_pair *p, const doubl
 {
     double sum = 0;
     for (int g = 0; g < 2; g++) {
-        if (p->model->analytical) {
+        if (p->model->compliance == STIFFNESS_ANALYTICAL) {
             stiffness_compliance c =
                 stiffness_tooth_compliance(&p->tooth[g], roll[g], p->model->rule);
             sum += stiffness_compliance_sum(&c);
@@ -55,7 +55,7 @@ static double cross_compliance(const stiffness_elastic_pair *p, const stiffness_
                                size_t i, size_t k)
 {
     int ahead = (int)lround(at->age[i] - at->age[k]);
-    if (p->model->analytical || !p->model->coupling)
+    if (p->model->compliance == STIFFNESS_ANALYTICAL || !p->model->coupling)
         return 0;
     return stiffness_ring_other(&p->body[0]->ring, ahead, at->roll[k][0], at->roll[i][0]) +
            stiffness_ring_other(&p->body[1]->ring, -ahead, at->roll[k][1], at->roll[i][1]);
@@ -93,9 +93,9 @@ static stiffness_body_data data_of(const stiffness_elasticity *m, const stiffnes
     r.material.elastic_modulus = g->elastic_modulus;
     r.material.poisson_ratio = g->poisson_ratio;
     r.material.width = gears->width;
-    r.material.plane_strain = m->plane_strain;
+    r.material.plane_strain = m->plane == STIFFNESS_STRAIN;
     r.rim_radius = g->rim_radius;
-    r.elements = m->elements;
+    r.elements = (size_t)m->elements;
     return r;
 }
 
@@ -145,12 +145,12 @@ static ff_status make_body(const stiffness_elasticity *m, const stiffness_gears 
                         "gear %d: plane strain of a material with Poisson's ratio %g is out of "
                         "reach of these elements; use plane stress",
                         gear + 1, wanted.material.poisson_ratio);
-    if (!m->analytical) {
+    if (m->compliance != STIFFNESS_ANALYTICAL) {
         ff_status status = make_ring(m, gear, b);
         if (status != FF_OK)
             return status;
     }
-    b->made = !m->analytical;
+    b->made = m->compliance != STIFFNESS_ANALYTICAL;
     return FF_OK;
 }
 
@@ -166,7 +166,7 @@ ff_status stiffness_elastic_pair_make(stiffness_elasticity *m, const stiffness_g
         if (status != FF_OK)
             return status;
         p->body[g] = &m->body[twin ? 0 : g];
-        stiffness_tooth_of_gear(&p->tooth[g], gears, g, m->plane_strain);
+        stiffness_tooth_of_gear(&p->tooth[g], gears, g, m->plane == STIFFNESS_STRAIN);
         p->half_space[g] = (1 - gear->poisson_ratio * gear->poisson_ratio) /
                            (M_PI * gear->elastic_modulus * gears->width);
         if (m->host->progress(m->host->ctx, 0.4 * (g + 1)) != 0)

@@ -27,13 +27,18 @@ typedef struct stiffness_body {
     double mesh_error; /* relative change of the compliance at mid-flank with half the elements */
 } stiffness_body;
 
+/* The compliance by finite elements, or teeth as beams, uncoupled. */
+enum { STIFFNESS_FINITE_ELEMENT, STIFFNESS_ANALYTICAL };
+enum { STIFFNESS_STRAIN, STIFFNESS_STRESS };
+
 /* How the compliance is computed, and what has been computed of it. */
 typedef struct stiffness_elasticity {
     const ff_host *host;
-    size_t elements; /* of one sector */
-    bool analytical; /* teeth as beams, uncoupled, in place of finite elements */
-    bool plane_strain, coupling;
-    double fillet; /* radius of the rack's tip, in modules */
+    int64_t elements;   /* of one sector */
+    int32_t compliance; /* STIFFNESS_FINITE_ELEMENT, STIFFNESS_ANALYTICAL */
+    int32_t plane;      /* STIFFNESS_STRAIN, STIFFNESS_STRESS */
+    int32_t coupling;   /* 1: neighbouring teeth move each other */
+    double fillet;      /* radius of the rack's tip, in modules */
     gsl_integration_glfixed_table *rule;
     stiffness_body body[2]; /* kept from one evaluation to the next */
 } stiffness_elasticity;

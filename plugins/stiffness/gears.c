@@ -11,15 +11,6 @@
 /* Root radius over rim radius that a gear without a bore is given. */
 static const double default_body_ratio = 2;
 
-ff_status stiffness_rim_set(const ff_host *host, const ff_value *value, stiffness_rim *rim)
-{
-    if (value->count < 1 || value->count > 2)
-        return ff_failf(host, FF_INVALID, "rim_radius",
-                        "one radius for both gears or two are needed, not %zu", value->count);
-    *rim = (stiffness_rim){value->count, {value->reals[0], value->reals[value->count - 1]}};
-    return FF_OK;
-}
-
 static ff_status read_positive(const ff_host *host, const ff_array *in, int row, size_t gear,
                                double *value)
 {
@@ -31,7 +22,7 @@ static ff_status read_positive(const ff_host *host, const ff_array *in, int row,
     return status;
 }
 
-static ff_status check_gear(const ff_host *host, const stiffness_gear *g, const stiffness_rim *rim,
+static ff_status check_gear(const ff_host *host, const stiffness_gear *g, const ff_reals *rim,
                             int gear)
 {
     if (!(g->poisson_ratio > -1 && g->poisson_ratio <= 0.5))
@@ -52,8 +43,8 @@ static ff_status check_gear(const ff_host *host, const stiffness_gear *g, const 
     return FF_OK;
 }
 
-static ff_status read_gear(const ff_host *host, const ff_array *in, const stiffness_rim *rim,
-                           int gear, stiffness_gear *g)
+static ff_status read_gear(const ff_host *host, const ff_array *in, const ff_reals *rim, int gear,
+                           stiffness_gear *g)
 {
     const struct {
         int row;
@@ -79,7 +70,7 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const stiffn
     if (!(backlash >= 0))
         return ff_failf(host, FF_INVALID, "gear.backlash",
                         "the backlash must not be negative; it is %g m", backlash);
-    g->rim_radius = rim->count ? rim->radius[gear]
+    g->rim_radius = rim->count ? ff_of_both(rim, gear)
                     : bore > 0 ? bore
                                : g->root_radius / default_body_ratio;
     g->full_thickness = g->thickness;
@@ -89,7 +80,7 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const stiffn
 }
 
 ff_status stiffness_gears_read(const ff_host *host, const ff_array *in, const stiffness_path *e,
-                               const stiffness_rim *rim, stiffness_gears *g)
+                               const ff_reals *rim, stiffness_gears *g)
 {
     *g = (stiffness_gears){
         .roll_sap = e->roll_sap, .pitch = e->pitch, .contact_ratio = e->contact_ratio};

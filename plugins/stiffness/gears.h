@@ -25,17 +25,9 @@ typedef struct stiffness_gears {
     double roll_sap, pitch, contact_ratio;
 } stiffness_gears;
 
-/* Rim radii that the user states; count 0: bore, or half the root radius without a bore. */
-typedef struct stiffness_rim {
-    size_t count;
-    double radius[2];
-} stiffness_rim;
-
-/* The parameter rim_radius: one value or two. */
-ff_status stiffness_rim_set(const ff_host *host, const ff_value *value, stiffness_rim *rim);
-
-/* Reads and checks the input rows from STIFFNESS_IN_BASE on. */
+/* Reads and checks the input rows from STIFFNESS_IN_BASE on. `rim`: the radii that the user states;
+   empty: bore, or half the root radius without a bore. */
 ff_status stiffness_gears_read(const ff_host *host, const ff_array *in, const stiffness_path *e,
-                               const stiffness_rim *rim, stiffness_gears *gears);
+                               const ff_reals *rim, stiffness_gears *gears);
 
 #endif

@@ -10,21 +10,20 @@
 #include "loaded-cycle.h"
 #include "outputs.h"
 #include "params.h"
+#include "references.h"
 
 #include <flankfilm/author.h>
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { POINTS, DEFINITION, SHAPE, RAMP, BLANK, CORRECTION, MESH_CYCLE };
-
 typedef struct iso_model {
     const ff_host *host;
-    size_t points;
+    int64_t points;
     stiffness_mesh_cycles cycles;
-    bool tangent, trapezoidal;
-    double ramp;              /* mesh cycles from no load to full load */
-    double blank, correction; /* C_R, C_M */
+    int32_t definition, shape; /* 1: tangent; 1: trapezoidal */
+    double ramp;               /* mesh cycles from no load to full load */
+    double blank, correction;  /* C_R, C_M */
 } iso_model;
 
 /* What the standard gives for one pair of gears. */
@@ -34,83 +33,28 @@ typedef struct iso_pair {
 } iso_pair;
 
 static const ff_param params[] = {
-    STIFFNESS_POINTS_ROW,
-    STIFFNESS_DEFINITION_ROW,
-    {.name = "shape",
-     .unit = "",
-     .doc = "rectangular: pairs take part at once and share the load in equal parts; trapezoidal: "
-            "they do over a ramp, centred on SAP and on the tip, with the same mean",
-     .type = FF_CHOICE,
-     .preset = "rectangular",
-     .choices = "rectangular|trapezoidal"},
-    {.name = "ramp",
-     .unit = "1",
-     .doc = "length of the trapezoid's ramps in mesh cycles",
-     .type = FF_REAL,
-     .flags = FF_MIN_OPEN,
-     .preset = "0.2",
-     .min = 0,
-     .max = 0.5},
-    {.name = "blank_factor",
-     .unit = "1",
-     .doc = "gear blank factor C_R: 1 for solid disc gears, less for thin rims and webs",
-     .type = FF_REAL,
-     .flags = FF_MIN_OPEN,
-     .preset = "1",
-     .min = 0,
-     .max = 1},
-    {.name = "correction_factor",
-     .unit = "1",
-     .doc = "C_M, which brings the theoretical single stiffness to the measured one",
-     .type = FF_REAL,
-     .flags = FF_MIN_OPEN,
-     .preset = "0.8",
-     .min = 0,
-     .max = 1},
+    STIFFNESS_POINTS_ROW(iso_model),
+    STIFFNESS_DEFINITION_ROW(iso_model),
+    FF_ONE_OF(
+        "rectangular|trapezoidal", "shape", iso_model, shape, 0, "rectangular",
+        "rectangular: pairs take part at once and share the load in equal parts; trapezoidal: they "
+        "do over a ramp, centred on SAP and on the tip, with the same mean"),
+    FF_QUANTITY("ramp", "1", iso_model, ramp, FF_MIN_OPEN, "0.2", NULL, 0, 0.5, 0, 0,
+                "length of the trapezoid's ramps in mesh cycles"),
+    FF_QUANTITY("blank_factor", "1", iso_model, blank, FF_MIN_OPEN, "1", NULL, 0, 1, 0, 0,
+                "gear blank factor C_R: 1 for solid disc gears, less for thin rims and webs"),
+    FF_QUANTITY("correction_factor", "1", iso_model, correction, FF_MIN_OPEN, "0.8", NULL, 0, 1, 0,
+                0, "C_M, which brings the theoretical single stiffness to the measured one"),
     STIFFNESS_MESH_CYCLE_ROW,
 };
 
-static ff_status create(const ff_host *host, void **self)
-{
-    iso_model *m = calloc(1, sizeof *m);
-    if (!m)
-        return FF_NOMEM;
-    m->host = host;
-    *self = m;
-    return FF_OK;
-}
-
+/* Of mesh_cycle. */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     iso_model *m = self;
-    switch (param) {
-    case POINTS:
-        m->points = (size_t)value->integer;
-        return FF_OK;
-    case DEFINITION:
-        m->tangent = value->integer == 1;
-        return FF_OK;
-    case SHAPE:
-        m->trapezoidal = value->integer == 1;
-        return FF_OK;
-    case RAMP:
-        m->ramp = value->real;
-        return FF_OK;
-    case BLANK:
-        m->blank = value->real;
-        return FF_OK;
-    case CORRECTION:
-        m->correction = value->real;
-        return FF_OK;
-    default: /* MESH_CYCLE */
-        m->cycles = stiffness_mesh_cycles_set(value);
-        return FF_OK;
-    }
-}
-
-static void destroy(void *self)
-{
-    free(self);
+    (void)param;
+    m->cycles = stiffness_mesh_cycles_set(value);
+    return FF_OK;
 }
 
 /* Profile shift from the tooth thickness at the reference circle, s = m (pi/2 + 2 x tan a). */
@@ -233,9 +177,10 @@ static void report_range(const iso_model *m, const stiffness_path *e)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const iso_model *m = self;
-    const stiffness_rim rim = {0};
+    const ff_reals rim = {NULL, 0};
     stiffness_conditions conditions;
-    iso_pair f = {.ramp = m->trapezoidal ? m->ramp : 0};
+    const bool trapezoidal = m->shape == 1;
+    iso_pair f = {.ramp = trapezoidal ? m->ramp : 0};
     ff_status status = stiffness_conditions_read(m->host, in, &rim, m->cycles, &conditions);
     if (status == FF_OK)
         status = set_single(m, &conditions.gears, conditions.path.line_force, &f.single);
@@ -246,13 +191,13 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     stiffness_source source = {
         .host = m->host,
         .conditions = &conditions,
-        .points = m->points,
+        .points = (size_t)m->points,
         .cycles = m->cycles,
-        .tangent = m->tangent,
+        .tangent = m->definition == 1,
         .before = f.ramp / 2,
         .after = f.ramp / 2,
-        .sharp = !m->trapezoidal,
-        .slope_changes = m->trapezoidal ? 2 : 0,
+        .sharp = !trapezoidal,
+        .slope_changes = trapezoidal ? 2 : 0,
         .slope_change = {f.ramp / 2, conditions.path.contact_ratio - f.ramp / 2},
         .compliance = compliance,
         .self = &f,
@@ -279,33 +224,13 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     return stiffness_assess(&estimate, wanted, in, a);
 }
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "stiffness/iso-6336",
-    .version = "1.0.0",
-    .summary = "mesh stiffness of ISO 6336-1, method B, with a rectangular or trapezoidal time "
-               "course",
+FF_MODEL(
+    stiffness_iso_6336, iso_model, .id = "stiffness/iso-6336", .version = "1.0.0",
+    .summary =
+        "mesh stiffness of ISO 6336-1, method B, with a rectangular or trapezoidal time course",
     .reference =
         "ISO 6336-1:2019, Calculation of load capacity of spur and helical gears, clause 9",
-    .bibtex = "@techreport{iso6336-1, author={{ISO}}, title={Calculation of load capacity of spur "
-              "and helical gears -- Part 1: Basic principles, introduction and general influence "
-              "factors}, institution={International Organization for Standardization}, "
-              "number={ISO 6336-1:2019}, year={2019}}",
-    .licence = "GPL-3.0-or-later",
-    .flags = 0,
-    FF_TABLE(params),
-    FF_TABLE(stiffness_inputs),
-    FF_TABLE(stiffness_outputs),
-    .create = create,
-    .set = set,
-    .evaluate = evaluate,
-    .destroy = destroy,
-    .assess = assess,
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+    .bibtex = BIB_iso6336_1, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+    .inputs = FF_TABLE(stiffness_inputs), .outputs = FF_TABLE(stiffness_outputs), .set = set,
+    .evaluate = evaluate, .destroy = free, .assess = assess);
+FF_EXPORT_MODELS(&stiffness_iso_6336);

@@ -11,25 +11,13 @@
 #include "loaded-cycle.h"
 #include "outputs.h"
 #include "params.h"
+#include "references.h"
 
 #include <flankfilm/author.h>
 
 #include <math.h>
 #include <stdlib.h>
 
-enum {
-    POINTS,
-    DEFINITION,
-    COMPLIANCE,
-    ELEMENTS,
-    PLANE,
-    COUPLING,
-    CORNER,
-    RIM_RADIUS,
-    FILLET,
-    MESH_CYCLE
-};
-enum { FINITE_ELEMENT, ANALYTICAL };
 enum { NODES = 32 }; /* of the Gauss-Legendre rule, enough for rounding (potential-energy.c) */
 
 /* Teeth are coupled over as many places (ring.h) as mesh up to this contact ratio. */
@@ -37,65 +25,38 @@ static const double highest_contact_ratio = 4;
 
 typedef struct distribution {
     const ff_host *host;
-    size_t points;
+    int64_t points;
     stiffness_mesh_cycles cycles;
-    bool tangent, corner;
-    stiffness_rim rim;
+    int32_t definition, corner; /* 1: tangent */
+    ff_reals rim;
     stiffness_elasticity teeth;
 } distribution;
 
 static const ff_param params[] = {
-    STIFFNESS_POINTS_ROW,
-    {.name = "definition",
-     .unit = "",
-     .doc = "secant F/(e_l - e), or tangent dF/d(e_l), which a small vibration about the load sees",
-     .type = FF_CHOICE,
-     .preset = "secant",
-     .choices = "secant|tangent"},
-    {.name = "compliance",
-     .unit = "",
-     .doc = "finite-element: plane elements of the whole ring of teeth; analytical: beam with the "
-            "foundation of Sainsot et al. 2004, teeth uncoupled",
-     .type = FF_CHOICE,
-     .preset = "finite-element",
-     .choices = "finite-element|analytical"},
-    {.name = "elements_per_tooth",
-     .unit = "1",
-     .doc = "about how many elements of eight nodes one sector of a gear has",
-     .type = FF_INT,
-     .flags = FF_TUNABLE,
-     .preset = "900",
-     .min = 50,
-     .max = 20000},
-    {.name = "plane",
-     .unit = "",
-     .doc = "strain: teeth that are wide against their thickness, some five times or more; "
-            "stress: narrow ones, free to bulge sideways, but for the contact, which stays in "
-            "plane strain",
-     .type = FF_CHOICE,
-     .preset = "strain",
-     .choices = "strain|stress"},
-    {.name = "neighbour_coupling",
-     .unit = "",
-     .doc = "whether a loaded tooth moves its neighbours through the gear body; with finite "
-            "elements alone",
-     .type = FF_BOOL,
-     .preset = "true"},
-    {.name = "corner_contact",
-     .unit = "",
-     .doc = "whether tip corners touch under load before SAP and after the tip, off the line of "
-            "action",
-     .type = FF_BOOL,
-     .preset = "false"},
-    STIFFNESS_RIM_RADIUS_ROW,
-    {.name = "fillet_radius",
-     .unit = "1",
-     .doc = "tip radius of the rack that cuts the teeth, in modules; made smaller where the tooth "
-            "space or the path of contact leaves less room",
-     .type = FF_REAL,
-     .preset = "0.38",
-     .min = 0,
-     .max = 1},
+    STIFFNESS_POINTS_ROW(distribution),
+    FF_ONE_OF(
+        "secant|tangent", "definition", distribution, definition, 0, "secant",
+        "secant F/(e_l - e), or tangent dF/d(e_l), which a small vibration about the load sees"),
+    FF_ONE_OF("finite-element|analytical", "compliance", distribution, teeth.compliance, 0,
+              "finite-element",
+              "finite-element: plane elements of the whole ring of teeth; analytical: beam with "
+              "the foundation of Sainsot et al. 2004, teeth uncoupled"),
+    FF_COUNT("elements_per_tooth", distribution, teeth.elements, FF_TUNABLE, "900", NULL, 50, 20000,
+             0, 0, "about how many elements of eight nodes one sector of a gear has"),
+    FF_ONE_OF(
+        "strain|stress", "plane", distribution, teeth.plane, 0, "strain",
+        "strain: teeth that are wide against their thickness, some five times or more; stress: "
+        "narrow ones, free to bulge sideways, but for the contact, which stays in plane strain"),
+    FF_SWITCH("neighbour_coupling", distribution, teeth.coupling, "true",
+              "whether a loaded tooth moves its neighbours through the gear body; with finite "
+              "elements alone"),
+    FF_SWITCH("corner_contact", distribution, corner, "false",
+              "whether tip corners touch under load before SAP and after the tip, off the line of "
+              "action"),
+    STIFFNESS_RIM_RADIUS_ROW(distribution),
+    FF_QUANTITY("fillet_radius", "1", distribution, teeth.fillet, 0, "0.38", NULL, 0, 1, 0, 0,
+                "tip radius of the rack that cuts the teeth, in modules; made smaller where the "
+                "tooth space or the path of contact leaves less room"),
     STIFFNESS_MESH_CYCLE_ROW,
 };
 
@@ -124,40 +85,13 @@ static ff_status create(const ff_host *host, void **self)
     return FF_OK;
 }
 
+/* Of mesh_cycle. */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     distribution *m = self;
-    switch (param) {
-    case POINTS:
-        m->points = (size_t)value->integer;
-        return FF_OK;
-    case DEFINITION:
-        m->tangent = value->integer == 1;
-        return FF_OK;
-    case COMPLIANCE:
-        m->teeth.analytical = value->integer == ANALYTICAL;
-        return FF_OK;
-    case ELEMENTS:
-        m->teeth.elements = (size_t)value->integer;
-        return FF_OK;
-    case PLANE:
-        m->teeth.plane_strain = value->integer == 0;
-        return FF_OK;
-    case COUPLING:
-        m->teeth.coupling = value->integer == 1;
-        return FF_OK;
-    case CORNER:
-        m->corner = value->integer == 1;
-        return FF_OK;
-    case RIM_RADIUS:
-        return stiffness_rim_set(m->host, value, &m->rim);
-    case FILLET:
-        m->teeth.fillet = value->real;
-        return FF_OK;
-    default: /* MESH_CYCLE */
-        m->cycles = stiffness_mesh_cycles_set(value);
-        return FF_OK;
-    }
+    (void)param;
+    m->cycles = stiffness_mesh_cycles_set(value);
+    return FF_OK;
 }
 
 static ff_status check_range(const distribution *m, const stiffness_path *e)
@@ -267,19 +201,19 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         status = stiffness_elastic_pair_make(&m->teeth, &conditions.gears, &p);
     if (status != FF_OK)
         return status;
-    if (!m->teeth.analytical) {
+    if (m->teeth.compliance != STIFFNESS_ANALYTICAL) {
         report_mesh(m, &p);
         report_half_plane(m, &p, &conditions.path);
     }
     report_contact(m, &p, &conditions.path);
-    if (!m->teeth.plane_strain)
+    if (m->teeth.plane != STIFFNESS_STRAIN)
         report_plane(m, &p, &conditions.path);
     stiffness_source source = {.host = m->host,
                                .conditions = &conditions,
-                               .points = m->points,
+                               .points = (size_t)m->points,
                                .cycles = m->cycles,
-                               .tangent = m->tangent,
-                               .corner = m->corner,
+                               .tangent = m->definition == 1,
+                               .corner = m->corner == 1,
                                .before = m->corner ? stiffness_corner_reach : 0,
                                .after = m->corner ? stiffness_corner_reach : 0,
                                .sharp = !m->corner,
@@ -302,50 +236,30 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     };
     const distribution *m = self;
     (void)accuracy;
-    if (m->teeth.analytical)
+    if (m->teeth.compliance == STIFFNESS_ANALYTICAL)
         return ff_failf(m->host, FF_UNSUPPORTED, "compliance",
                         "the error is known of finite elements alone");
     return stiffness_assess(&estimate, wanted, in, a);
 }
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
+const ff_model stiffness_load_distribution = {
+    FF_HEAD(distribution, create),
     .id = "stiffness/load-distribution",
     .version = "1.0.0",
     .summary = "mesh stiffness, transmission errors and tooth forces from the load distribution "
                "over elastic teeth",
-    .reference = "Conry & Seireg 1973, ASME J. Eng. Ind. 95, 1115-1122; Weber 1949, DSIR "
-                 "Sponsored Research (Germany) Report 3; Johnson 1985, Contact Mechanics; Thomas "
-                 "1979, Int. J. Numer. Methods Eng. 14, 81-102 (rotational periodicity); Litvin & "
-                 "Fuentes 2004, Gear Geometry and Applied Theory (fillet)",
-    .bibtex =
-        "@article{conry1973, author={Conry, T. F. and Seireg, A.}, title={A mathematical "
-        "programming technique for the evaluation of load distribution and optimal modifications "
-        "for gear systems}, journal={Journal of Engineering for Industry}, volume={95}, "
-        "pages={1115--1122}, year={1973}}\n"
-        "@techreport{weber1949, author={Weber, C.}, title={The deformation of loaded gears and the "
-        "effect on their load-carrying capacity}, institution={DSIR Sponsored Research (Germany)}, "
-        "number={3}, year={1949}}\n"
-        "@book{johnson1985, author={Johnson, K. L.}, title={Contact mechanics}, "
-        "publisher={Cambridge University Press}, year={1985}}\n"
-        "@article{thomas1979, author={Thomas, D. L.}, title={Dynamics of rotationally periodic "
-        "structures}, journal={International Journal for Numerical Methods in Engineering}, "
-        "volume={14}, pages={81--102}, year={1979}}",
+    .reference = "Conry & Seireg 1973, ASME J. Eng. Ind. 95, 1115-1122; Weber 1949, DSIR Sponsored "
+                 "Research (Germany) Report 3; Johnson 1985, Contact Mechanics; Thomas 1979, Int. "
+                 "J. Numer. Methods Eng. 14, 81-102 (rotational periodicity); Litvin & Fuentes "
+                 "2004, Gear Geometry and Applied Theory (fillet)",
+    .bibtex = BIB_conry1973 "\n" BIB_weber1949 "\n" BIB_johnson1985 "\n" BIB_thomas1979,
     .licence = "GPL-3.0-or-later",
-    .flags = 0,
-    FF_TABLE(params),
-    FF_TABLE(stiffness_inputs),
-    FF_TABLE(stiffness_outputs),
-    .create = create,
+    .params = FF_TABLE(params),
+    .inputs = FF_TABLE(stiffness_inputs),
+    .outputs = FF_TABLE(stiffness_outputs),
     .set = set,
     .evaluate = evaluate,
     .destroy = destroy,
     .assess = assess,
 };
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_EXPORT_MODELS(&stiffness_load_distribution);

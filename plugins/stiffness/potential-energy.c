@@ -11,6 +11,7 @@
 #include "loaded-cycle.h"
 #include "outputs.h"
 #include "params.h"
+#include "references.h"
 #include "tooth-beam.h"
 
 #include <flankfilm/author.h>
@@ -18,18 +19,16 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { POINTS, RIM_RADIUS, PLANE, DEFINITION, MESH_CYCLE };
-
 /* Of the Gauss-Legendre rules: the integrands are analytic, and 32 nodes reach rounding. */
 enum { NODES = 32, NODES_OF_CHECK = 64 };
 
 typedef struct energy_model {
     const ff_host *host;
     gsl_integration_glfixed_table *rule, *check_rule;
-    size_t points;
+    int64_t points;
     stiffness_mesh_cycles cycles;
-    stiffness_rim rim;
-    bool plane_strain, tangent;
+    ff_reals rim;
+    int32_t plane, definition; /* 1: strain; 1: tangent */
 } energy_model;
 
 /* One pair of teeth along the path of contact. */
@@ -41,16 +40,12 @@ typedef struct beam_pair {
 } beam_pair;
 
 static const ff_param params[] = {
-    STIFFNESS_POINTS_ROW,
-    STIFFNESS_RIM_RADIUS_ROW,
-    {.name = "plane",
-     .unit = "",
-     .doc = "stress: the tooth bends as a narrow beam; strain: as a wide plate, E/(1-nu^2) in "
-            "bending and compression",
-     .type = FF_CHOICE,
-     .preset = "stress",
-     .choices = "stress|strain"},
-    STIFFNESS_DEFINITION_ROW,
+    STIFFNESS_POINTS_ROW(energy_model),
+    STIFFNESS_RIM_RADIUS_ROW(energy_model),
+    FF_ONE_OF("stress|strain", "plane", energy_model, plane, 0, "stress",
+              "stress: the tooth bends as a narrow beam; strain: as a wide plate, E/(1-nu^2) in "
+              "bending and compression"),
+    STIFFNESS_DEFINITION_ROW(energy_model),
     STIFFNESS_MESH_CYCLE_ROW,
 };
 
@@ -82,25 +77,13 @@ static ff_status create(const ff_host *host, void **self)
     return FF_OK;
 }
 
+/* Of mesh_cycle. */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
-    energy_model *s = self;
-    switch (param) {
-    case POINTS:
-        s->points = (size_t)value->integer;
-        return FF_OK;
-    case RIM_RADIUS:
-        return stiffness_rim_set(s->host, value, &s->rim);
-    case PLANE:
-        s->plane_strain = value->integer == 1;
-        return FF_OK;
-    case DEFINITION:
-        s->tangent = value->integer == 1;
-        return FF_OK;
-    default: /* MESH_CYCLE */
-        s->cycles = stiffness_mesh_cycles_set(value);
-        return FF_OK;
-    }
+    energy_model *m = self;
+    (void)param;
+    m->cycles = stiffness_mesh_cycles_set(value);
+    return FF_OK;
 }
 
 static double pair_compliance(const beam_pair *p, double age)
@@ -148,7 +131,7 @@ static ff_status make_pair(const energy_model *s, const stiffness_gears *gears, 
     *p = (beam_pair){.gears = gears, .rule = s->rule};
     for (int gear = 0; gear < 2; gear++) {
         const stiffness_gear *g = &gears->gear[gear];
-        stiffness_tooth_of_gear(&p->tooth[gear], gears, gear, s->plane_strain);
+        stiffness_tooth_of_gear(&p->tooth[gear], gears, gear, s->plane == 1);
         /* Yang & Sun 1985: pi E b/(4 (1-nu^2)) for like materials; each gear adds its part */
         p->contact += 2 * (1 - g->poisson_ratio * g->poisson_ratio) /
                       (M_PI * g->elastic_modulus * gears->width);
@@ -203,9 +186,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     report_quadrature(s, &p);
     stiffness_source source = {.host = s->host,
                                .conditions = &conditions,
-                               .points = s->points,
+                               .points = (size_t)s->points,
                                .cycles = s->cycles,
-                               .tangent = s->tangent,
+                               .tangent = s->definition == 1,
                                .sharp = true,
                                .compliance = compliance,
                                .self = &p,
@@ -230,45 +213,24 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     return stiffness_assess(&estimate, wanted, in, a);
 }
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
+const ff_model stiffness_potential_energy = {
+    FF_HEAD(energy_model, create),
     .id = "stiffness/potential-energy",
     .version = "1.0.0",
     .summary = "mesh stiffness from bending, shear and compression of the teeth, their foundation "
                "and the Hertzian contact",
-    .reference = "Yang & Lin 1987, ASME J. Mech. Transm. Autom. Des. 109, 189-196; Tian 2004, "
-                 "MSc thesis, University of Alberta; Sainsot, Velex & Duverger 2004, ASME J. Mech. "
-                 "Des. 126, 748-752; Yang & Sun 1985, ASME J. Mech. Transm. Autom. Des. 107, "
-                 "529-535",
-    .bibtex =
-        "@article{yang1987, author={Yang, D. C. H. and Lin, J. Y.}, title={Hertzian damping, tooth "
-        "friction and bending elasticity in gear impact dynamics}, journal={Journal of Mechanisms, "
-        "Transmissions, and Automation in Design}, volume={109}, pages={189--196}, year={1987}}\n"
-        "@mastersthesis{tian2004, author={Tian, X. H.}, title={Dynamic simulation for system "
-        "response of gearbox including localized gear faults}, school={University of Alberta}, "
-        "year={2004}}\n"
-        "@article{sainsot2004, author={Sainsot, P. and Velex, P. and Duverger, O.}, "
-        "title={Contribution of gear body to tooth deflections: a new bidimensional analytical "
-        "formula}, journal={Journal of Mechanical Design}, volume={126}, pages={748--752}, "
-        "year={2004}}\n"
-        "@article{yang1985, author={Yang, D. C. H. and Sun, Z. S.}, title={A rotary model for spur "
-        "gear dynamics}, journal={Journal of Mechanisms, Transmissions, and Automation in Design}, "
-        "volume={107}, pages={529--535}, year={1985}}",
+    .reference =
+        "Yang & Lin 1987, ASME J. Mech. Transm. Autom. Des. 109, 189-196; Tian 2004, MSc thesis, "
+        "University of Alberta; Sainsot, Velex & Duverger 2004, ASME J. Mech. Des. 126, 748-752; "
+        "Yang & Sun 1985, ASME J. Mech. Transm. Autom. Des. 107, 529-535",
+    .bibtex = BIB_yang1987 "\n" BIB_tian2004 "\n" BIB_sainsot2004 "\n" BIB_yang1985,
     .licence = "GPL-3.0-or-later",
-    .flags = 0,
-    FF_TABLE(params),
-    FF_TABLE(stiffness_inputs),
-    FF_TABLE(stiffness_outputs),
-    .create = create,
+    .params = FF_TABLE(params),
+    .inputs = FF_TABLE(stiffness_inputs),
+    .outputs = FF_TABLE(stiffness_outputs),
     .set = set,
     .evaluate = evaluate,
     .destroy = destroy,
     .assess = assess,
 };
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_EXPORT_MODELS(&stiffness_potential_energy);

@@ -2,28 +2,37 @@
 #include "table-samples.h"
 
 #include "cycle.h"
-#include "table-rows.h"
 
 #include <math.h>
 #include <stdlib.h>
 
+const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS] = {
+    FF_ROW("phase", "1", "mesh cycles, from 0 to 1", FF_REALS, FF_REQUIRED, NULL, NULL, NULL, 0, 0,
+           0, 0, 0, 100000, 0),
+    FF_COLUMN("stiffness", "N/m", 0, "stiffness", 0, 0, "mesh stiffness"),
+    FF_COLUMN("transmission_error", "um", 0, NULL, 0, 0, "without load"),
+    FF_COLUMN("loaded_transmission_error", "um", 0, "stiffness", 0, 0,
+              "under the load of the operating point"),
+    FF_COLUMN("load_share", "1", 0, NULL, 0, 0, "of the entering pair"),
+};
+
 static ff_status use_lists(stiffness_table *t)
 {
-    if (!t->phase)
+    if (t->phase.count == 0)
         return ff_failf(t->host, FF_INVALID, "file",
                         "a table is needed: file, or the lists phase and stiffness");
-    if (!t->stiffness)
+    if (t->stiffness.count == 0)
         return ff_failf(t->host, FF_INVALID, "stiffness", "phase is given, stiffness is missing");
-    if (t->phases != t->stiffnesses)
+    if (t->phase.count != t->stiffness.count)
         return ff_failf(t->host, FF_INVALID, "stiffness",
                         "%zu values for %zu phases; both lists have the same length",
-                        t->stiffnesses, t->phases);
+                        t->stiffness.count, t->phase.count);
     if (t->load_share == FROM_FILE)
         return ff_failf(t->host, FF_INVALID, "load_share",
                         "load_share: file needs a file with a column load_share");
-    t->count = t->phases;
-    t->at = t->phase;
-    t->k = t->stiffness;
+    t->count = t->phase.count;
+    t->at = t->phase.data;
+    t->k = t->stiffness.data;
     return FF_OK;
 }
 
@@ -120,8 +129,8 @@ static ff_status mark_corners(stiffness_table *t)
         return FF_NOMEM;
     free(t->corner_at);
     t->corner_at = flags;
-    for (size_t c = 0; c < t->corners; c++) {
-        double phase = t->corner[c] < 1 ? t->corner[c] : 0;
+    for (size_t c = 0; c < t->corner.count; c++) {
+        double phase = t->corner.data[c] < 1 ? t->corner.data[c] : 0;
         size_t i = 0;
         while (i < t->distinct.count &&
                fabs(t->distinct.phase[i] - phase) > STIFFNESS_PHASE_TOLERANCE)
@@ -138,7 +147,7 @@ ff_status stiffness_table_samples(stiffness_table *t)
 {
     ff_status status;
     if (t->path) {
-        if (t->stiffness)
+        if (t->stiffness.count > 0)
             return ff_failf(t->host, FF_INVALID, "stiffness",
                             "stiffness belongs to the list phase; with file it comes from there");
         status =

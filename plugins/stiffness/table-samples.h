@@ -7,16 +7,30 @@
 
 #include <flankfilm/table.h>
 
+/* In the order of the rows. */
+enum {
+    COLUMN_PHASE,
+    COLUMN_STIFFNESS,
+    COLUMN_ERROR,
+    COLUMN_LOADED,
+    COLUMN_SHARE,
+    STIFFNESS_TABLE_COLUMNS
+};
+enum { LINEAR, CUBIC, FITTED };
+enum { RIGID, FROM_FILE };
+enum { SECANT, TANGENT };
+enum { PERIODIC, JUMP };
+
+extern const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS];
+
 typedef struct stiffness_table {
     const ff_host *host;
-    char *path;
-    size_t phases, stiffnesses;
-    double *phase, *stiffness; /* the lists of the YAML file */
-    int interpolation, load_share, definition, ends;
-    size_t points;
+    const char *path;          /* NULL: the lists */
+    ff_reals phase, stiffness; /* the lists of the YAML file */
+    int32_t interpolation, load_share, definition, ends;
+    int64_t points;
     double tolerance;
-    size_t corners;
-    double *corner;  /* phases where the slope of a fit may jump */
+    ff_reals corner; /* phases where the slope of a fit may jump */
     bool *corner_at; /* the same as a flag for each distinct phase */
     const ff_table *file;
     size_t count;         /* samples, of the lists or the file */
@@ -24,6 +38,8 @@ typedef struct stiffness_table {
     const double *error, *loaded, *share;
     stiffness_table_phases distinct;
 } stiffness_table;
+
+extern const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS];
 
 /* Finds the samples and their distinct phases, or refuses them where the user finds them. */
 ff_status stiffness_table_samples(stiffness_table *t);

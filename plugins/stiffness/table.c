@@ -4,7 +4,7 @@
 #include "inputs.h"
 #include "outputs.h"
 #include "path-inputs.h"
-#include "table-rows.h"
+#include "references.h"
 #include "table-samples.h"
 
 #include <flankfilm/author.h>
@@ -27,15 +27,42 @@ typedef struct table_curves {
     curve k, error, share;
 } table_curves;
 
-static ff_status create(const ff_host *host, void **self)
-{
-    stiffness_table *t = calloc(1, sizeof *t);
-    if (!t)
-        return FF_NOMEM;
-    t->host = host;
-    *self = t;
-    return FF_OK;
-}
+static const ff_param params[] = {
+    FF_PATH("file", stiffness_table, path, FF_REQUIRED, "source",
+            "table with the columns phase, stiffness [N/m], or phase, transmission_error [um], "
+            "loaded_transmission_error [um], where k = F/(e_l - e); transmission_error may stand "
+            "beside stiffness; load_share as said there"),
+    FF_LIST("phase", "1", stiffness_table, phase, FF_REQUIRED | FF_INCREASING, NULL, "source", 0, 1,
+            0, 0, 1, 100000,
+            "phases of the mesh cycle, 0 = the entering pair at SAP; one given twice holds the "
+            "values before and after a jump, and so do 1 and 0 with ends: jump"),
+    FF_LIST("stiffness", "N/m", stiffness_table, stiffness, FF_MIN_OPEN, NULL, NULL, 0, 1e15, 1e5,
+            1e11, 1, 100000, "mesh stiffness along the line of action at these phases"),
+    FF_ONE_OF("linear|cubic|fitted", "interpolation", stiffness_table, interpolation, 0, "linear",
+              "between the phases: linear, or the piecewise cubic of Steffen, which has a "
+              "continuous slope between jumps and never leaves the range of its two neighbours; "
+              "fitted: least-squares piecewise cubics, for tables of many noisy samples"),
+    FF_ONE_OF(
+        "rigid|file", "load_share", stiffness_table, load_share, 0, "rigid",
+        "rigid: the pairs in contact carry equal parts; file: column load_share holds the part of "
+        "the pair that entered last, over phase, and the pair before it carries the rest"),
+    FF_COUNT("points", stiffness_table, points, FF_TUNABLE, "200", NULL, 4, 100000, 0, 0,
+             "equal steps of the mesh cycle that the outputs are given at, beside the table's own "
+             "phases"),
+    FF_ONE_OF("secant|tangent", "definition", stiffness_table, definition, 0, "secant",
+              "what the given stiffness is: secant F/(e_l - e), or tangent dF/d(e_l), which then "
+              "stands for the secant in the loaded transmission error"),
+    FF_QUANTITY(
+        "tolerance", "1", stiffness_table, tolerance, FF_MIN_OPEN | FF_TUNABLE, "0.01", NULL, 0, 1,
+        0, 0, "largest distance of the fitted cubics from a sample, over the range of the samples"),
+    FF_LIST("corners", "1", stiffness_table, corner, FF_INCREASING, NULL, NULL, 0, 1, 0, 0, 1, 200,
+            "phases of the table at which the slope of the fitted cubics may jump; those given "
+            "twice for a jump are corners anyway"),
+    FF_ONE_OF(
+        "periodic|jump", "ends", stiffness_table, ends, 0, "periodic",
+        "stiffness at phases 1 and 0 when the table gives both: periodic refuses a difference "
+        "above 5 % of its range; jump says that it jumps there, as where a pair enters"),
+};
 
 static void destroy(void *self)
 {
@@ -43,60 +70,8 @@ static void destroy(void *self)
     if (!t)
         return;
     stiffness_table_phases_free(&t->distinct);
-    free(t->path);
-    free(t->phase);
-    free(t->stiffness);
-    free(t->corner);
     free(t->corner_at);
     free(t);
-}
-
-static ff_status keep_list(const ff_value *value, double **list, size_t *count)
-{
-    double *copy = malloc((value->count + 1) * sizeof *copy);
-    if (!copy)
-        return FF_NOMEM;
-    if (value->count > 0)
-        memcpy(copy, value->reals, value->count * sizeof *copy);
-    free(*list);
-    *list = copy;
-    *count = value->count;
-    return FF_OK;
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    stiffness_table *t = self;
-    switch (param) {
-    case FILE_NAME:
-        free(t->path);
-        t->path = strdup(value->text);
-        return t->path ? FF_OK : FF_NOMEM;
-    case PHASE:
-        return keep_list(value, &t->phase, &t->phases);
-    case STIFFNESS:
-        return keep_list(value, &t->stiffness, &t->stiffnesses);
-    case INTERPOLATION:
-        t->interpolation = (int)value->integer;
-        return FF_OK;
-    case LOAD_SHARE:
-        t->load_share = (int)value->integer;
-        return FF_OK;
-    case POINTS:
-        t->points = (size_t)value->integer;
-        return FF_OK;
-    case DEFINITION:
-        t->definition = (int)value->integer;
-        return FF_OK;
-    case TOLERANCE:
-        t->tolerance = value->real;
-        return FF_OK;
-    case ENDS:
-        t->ends = (int)value->integer;
-        return FF_OK;
-    default: /* CORNERS */
-        return keep_list(value, &t->corner, &t->corners);
-    }
 }
 
 static ff_status ready(void *self)
@@ -244,7 +219,7 @@ static ff_status sample_cycle(const stiffness_table *t, table_work *w)
     size_t breaks = list_cycle_breakpoints(t, s->contact_ratio, w->sample, w->breaks);
     if (!curve_make(t, w->sample, &s->k) || !curve_make(t, t->error, &s->error) ||
         !curve_make(t, t->share, &s->share) ||
-        !stiffness_cycle_make(&w->cycle, t->points, breaks, w->breaks))
+        !stiffness_cycle_make(&w->cycle, (size_t)t->points, breaks, w->breaks))
         return FF_NOMEM;
     w->stiffness = malloc(w->cycle.count * sizeof *w->stiffness);
     w->error = malloc(w->cycle.count * sizeof *w->error);
@@ -322,33 +297,12 @@ out:
     return status;
 }
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "stiffness/table",
-    .version = "1.0.0",
-    .summary = "mesh stiffness from a table over one mesh cycle",
-    .reference = "Steffen 1990, Astron. Astrophys. 239, 443-450 (the cubic interpolation)",
-    .bibtex = "@article{steffen1990, author={Steffen, M.}, title={A simple method for monotonic "
-              "interpolation in one dimension}, journal={Astronomy and Astrophysics}, "
-              "volume={239}, pages={443--450}, year={1990}}",
-    .licence = "GPL-3.0-or-later",
-    .flags = 0,
-    FF_TABLE(stiffness_table_params),
-    .inputs = stiffness_inputs,
-    .input_count = STIFFNESS_PATH_INPUTS,
-    .input_stride = sizeof stiffness_inputs[0],
-    FF_TABLE(stiffness_outputs),
-    .create = create,
-    .set = set,
-    .ready = ready,
-    .evaluate = evaluate,
-    .destroy = destroy,
-    .columns = FF_TABLE(stiffness_table_columns),
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(stiffness_table_model, stiffness_table, .id = "stiffness/table", .version = "1.0.0",
+         .summary = "mesh stiffness from a table over one mesh cycle",
+         .reference = "Steffen 1990, Astron. Astrophys. 239, 443-450 (the cubic interpolation)",
+         .bibtex = BIB_steffen1990, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+         .inputs = stiffness_inputs, .input_count = STIFFNESS_PATH_INPUTS,
+         .input_stride = sizeof stiffness_inputs[0], .outputs = FF_TABLE(stiffness_outputs),
+         .ready = ready, .evaluate = evaluate, .destroy = destroy,
+         .columns = FF_TABLE(stiffness_table_columns));
+FF_EXPORT_MODELS(&stiffness_table_model);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* surface/measured: flanks from the traces of a profilometer. */
 #include "record.h"
+#include "references.h"
 #include "roughness.h"
 #include "trace.h"
 
@@ -10,32 +11,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    P_FILE_1,
-    P_FILE_2,
-    P_DETREND,
-    P_CUTOFF_LONG,
-    P_CUTOFF_SHORT,
-    P_DIRECTION,
-    P_DIRECTION_2,
-    P_EXTEND,
-    P_SPACING,
-    P_ORIGIN,
-    PARAM_COUNT
-};
 enum { NO_DETREND = -1, MEAN = 0, LINEAR = 1 };
 enum { PERIODIC, MIRROR, FLAT };
 
 /* In spacings: the filter then still passes half of a wave as long as the cut-off, to 1e-4. */
 static const double least_cutoff = 5;
 
+typedef struct measured {
+    const ff_host *host;
+    const char *path[2];
+    int detrend;                                       /* order of the polynomial, or NO_DETREND */
+    double cutoff_long, cutoff_short, spacing, origin; /* NaN: none, auto */
+    int32_t direction, direction_2, extend;            /* direction_2 < 0: as direction */
+    surface_trace trace[2];                            /* n = 0: a smooth flank */
+} measured;
+
 static const ff_param params[] = {
-    {.name = "file_1",
-     .unit = "",
-     .doc = "trace of flank 1 with the header \"position [um], height [um]\", heights positive out "
-            "of the metal; left out: a smooth flank",
-     .type = FF_FILE},
-    {.name = "file_2", .unit = "", .doc = "trace of flank 2, as file_1", .type = FF_FILE},
+    FF_PATH("file_1", measured, path[0], 0, NULL,
+            "trace of flank 1 with the header \"position [um], height [um]\", heights positive out "
+            "of the metal; left out: a smooth flank"),
+    FF_PATH("file_2", measured, path[1], 0, NULL, "trace of flank 2, as file_1"),
     {.name = "detrend",
      .unit = "1",
      .doc =
@@ -46,71 +41,30 @@ static const ff_param params[] = {
      .choices = "none|mean|linear",
      .min = 0,
      .max = 20},
-    {.name = "cutoff_long",
-     .unit = "um",
-     .doc = "cut-off of the Gaussian filter (ISO 16610-21) that takes off longer waves; 800 um is "
-            "usual for Ra from 0.1 to 2 um (ISO 4288)",
-     .type = FF_REAL,
-     .preset = "none",
-     .choices = "none",
-     .min = 1e-3,
-     .max = 1e6},
-    {.name = "cutoff_short",
-     .unit = "um",
-     .doc = "cut-off of the Gaussian filter that takes off shorter waves; 2.5 um goes with 800 um "
-            "(ISO 3274)",
-     .type = FF_REAL,
-     .preset = "none",
-     .choices = "none",
-     .min = 1e-3,
-     .max = 1e6},
-    {.name = "direction",
-     .unit = "",
-     .doc = "forward: positions rise along x, towards the outlet; reversed: against it. From root "
-            "to tip the driving flank is reversed, the driven one forward",
-     .type = FF_CHOICE,
-     .preset = "forward",
-     .choices = "forward|reversed"},
-    {.name = "direction_2",
-     .unit = "",
-     .doc = "direction of flank 2 where it is not that of flank 1",
-     .type = FF_CHOICE,
-     .choices = "forward|reversed"},
-    {.name = "extend",
-     .unit = "",
-     .doc = "beyond the record: it repeats, it repeats after its mirror image (no step at the "
-            "seam), or the flanks are flat",
-     .type = FF_CHOICE,
-     .preset = "mirror",
-     .choices = "periodic|mirror|flat"},
-    {.name = "spacing",
-     .unit = "um",
-     .doc = "distance of the points of the record; each is the mean of the trace around it; auto: "
-            "that of the file (of the finer one)",
-     .type = FF_REAL,
-     .flags = FF_TUNABLE,
-     .preset = "auto",
-     .choices = "auto",
-     .min = 1e-4,
-     .max = 1e6},
-    {.name = "origin",
-     .unit = "um",
-     .doc = "arc coordinate of both flanks, from the start of their records, at x = 0 at the first "
-            "time",
-     .type = FF_REAL,
-     .preset = "0 um",
-     .min = -1e9,
-     .max = 1e9},
+    FF_QUANTITY_OR("none", "cutoff_long", "um", measured, cutoff_long, 0, "none", NULL, 1e-3, 1e6,
+                   0, 0,
+                   "cut-off of the Gaussian filter (ISO 16610-21) that takes off longer waves; 800 "
+                   "um is usual for Ra from 0.1 to 2 um (ISO 4288)"),
+    FF_QUANTITY_OR("none", "cutoff_short", "um", measured, cutoff_short, 0, "none", NULL, 1e-3, 1e6,
+                   0, 0,
+                   "cut-off of the Gaussian filter that takes off shorter waves; 2.5 um goes with "
+                   "800 um (ISO 3274)"),
+    FF_ONE_OF("forward|reversed", "direction", measured, direction, 0, "forward",
+              "forward: positions rise along x, towards the outlet; reversed: against it. From "
+              "root to tip the driving flank is reversed, the driven one forward"),
+    FF_ONE_OF("forward|reversed", "direction_2", measured, direction_2, 0, NULL,
+              "direction of flank 2 where it is not that of flank 1"),
+    FF_ONE_OF("periodic|mirror|flat", "extend", measured, extend, 0, "mirror",
+              "beyond the record: it repeats, it repeats after its mirror image (no step at the "
+              "seam), or the flanks are flat"),
+    FF_QUANTITY_OR("auto", "spacing", "um", measured, spacing, FF_TUNABLE, "auto", NULL, 1e-4, 1e6,
+                   0, 0,
+                   "distance of the points of the record; each is the mean of the trace around it; "
+                   "auto: that of the file (of the finer one)"),
+    FF_QUANTITY("origin", "um", measured, origin, 0, "0 um", NULL, -1e9, 1e9, 0, 0,
+                "arc coordinate of both flanks, from the start of their records, at x = 0 at the "
+                "first time"),
 };
-
-typedef struct measured {
-    const ff_host *host;
-    char *path[2];
-    int detrend;                                       /* order of the polynomial, or NO_DETREND */
-    double cutoff_long, cutoff_short, spacing, origin; /* 0: none, auto */
-    int reversed[2], extend;
-    surface_trace trace[2]; /* n = 0: a smooth flank */
-} measured;
 
 /* The heights of a flank before they enter the record. */
 typedef struct flank {
@@ -118,69 +72,24 @@ typedef struct flank {
     double *height;
 } flank;
 
-static ff_status create(const ff_host *host, void **self)
-{
-    measured *s = calloc(1, sizeof *s);
-    if (!s)
-        return FF_NOMEM;
-    s->host = host;
-    s->detrend = LINEAR;
-    *self = s;
-    return FF_OK;
-}
-
-static ff_status set_path(char **path, const char *text)
-{
-    free(*path);
-    *path = strdup(text);
-    return *path ? FF_OK : FF_NOMEM;
-}
-
-static int order_of(const char *word)
-{
-    return !strcmp(word, "none") ? NO_DETREND : !strcmp(word, "mean") ? MEAN : LINEAR;
-}
-
+/* Of `detrend`, the one parameter whose words differ. */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
     measured *s = self;
-    double number = value->text ? 0 : value->real;
-    switch (param) {
-    case P_FILE_1:
-        return set_path(&s->path[0], value->text);
-    case P_FILE_2:
-        return set_path(&s->path[1], value->text);
-    case P_DETREND:
-        s->detrend = value->text ? order_of(value->text) : (int)value->integer;
-        break;
-    case P_CUTOFF_LONG:
-        s->cutoff_long = number;
-        break;
-    case P_CUTOFF_SHORT:
-        s->cutoff_short = number;
-        break;
-    case P_DIRECTION:
-        s->reversed[0] = s->reversed[1] = (int)value->integer;
-        break;
-    case P_DIRECTION_2: /* is set after direction, whose row stands before it */
-        s->reversed[1] = (int)value->integer;
-        break;
-    case P_EXTEND:
-        s->extend = (int)value->integer;
-        break;
-    case P_SPACING:
-        s->spacing = number;
-        break;
-    case P_ORIGIN:
-        s->origin = number;
-        break;
-    }
+    (void)param;
+    s->detrend = !value->text                   ? (int)value->integer
+                 : !strcmp(value->text, "none") ? NO_DETREND
+                 : !strcmp(value->text, "mean") ? MEAN
+                                                : LINEAR;
     return FF_OK;
 }
 
-static const char *file_name(size_t g)
+static const char *const file_names[2] = {"file_1", "file_2"};
+
+/* Whether flank g is turned round. */
+static bool is_reversed(const measured *s, size_t g)
 {
-    return params[P_FILE_1 + g].name;
+    return (g == 1 && s->direction_2 >= 0 ? s->direction_2 : s->direction) == 1;
 }
 
 static ff_status ready(void *self)
@@ -188,14 +97,14 @@ static ff_status ready(void *self)
     measured *s = self;
     if (!s->path[0] && !s->path[1])
         return ff_failf(s->host, FF_INVALID, "file_1", "a trace is needed: file_1, file_2 or both");
-    if (s->cutoff_long > 0 && !(s->cutoff_short < s->cutoff_long))
+    if (s->cutoff_long > 0 && s->cutoff_short >= s->cutoff_long)
         return ff_failf(s->host, FF_INVALID, "cutoff_short",
                         "cutoff_short %g um must be less than cutoff_long %g um",
                         s->cutoff_short * 1e6, s->cutoff_long * 1e6);
     ff_status status = FF_OK;
     for (size_t g = 0; g < 2 && status == FF_OK; g++) {
         if (s->path[g])
-            status = surface_trace_read(s->host, file_name(g), s->path[g], &s->trace[g]);
+            status = surface_trace_read(s->host, file_names[g], s->path[g], &s->trace[g]);
     }
     return status;
 }
@@ -213,20 +122,18 @@ static double spacing_of(const measured *s)
     return spacing;
 }
 
-static ff_status check_cutoff(const measured *s, uint32_t param, double cutoff, size_t n,
+static ff_status check_cutoff(const measured *s, const char *param, double cutoff, size_t n,
                               double spacing)
 {
     if (!(cutoff > 0))
         return FF_OK;
     if (cutoff < least_cutoff * spacing)
-        return ff_failf(s->host, FF_INVALID, params[param].name,
-                        "%s is %g um; with points %g um apart it must be at least %g um",
-                        params[param].name, cutoff * 1e6, spacing * 1e6,
-                        least_cutoff * spacing * 1e6);
+        return ff_failf(s->host, FF_INVALID, param,
+                        "%s is %g um; with points %g um apart it must be at least %g um", param,
+                        cutoff * 1e6, spacing * 1e6, least_cutoff * spacing * 1e6);
     if (cutoff > spacing * (double)n)
-        return ff_failf(s->host, FF_INVALID, params[param].name,
-                        "%s is %g um, longer than the record of %g um", params[param].name,
-                        cutoff * 1e6, spacing * (double)n * 1e6);
+        return ff_failf(s->host, FF_INVALID, param, "%s is %g um, longer than the record of %g um",
+                        param, cutoff * 1e6, spacing * (double)n * 1e6);
     return FF_OK;
 }
 
@@ -245,9 +152,9 @@ static ff_status make_flank(const measured *s, size_t g, double spacing, flank *
     const surface_trace *trace = &s->trace[g];
     f->n = surface_trace_cells(trace, spacing);
     if (f->n > SURFACE_POINTS || f->n < 2 || (size_t)(s->detrend + 1) >= f->n)
-        return ff_failf(s->host, FF_INVALID, s->spacing > 0 ? "spacing" : file_name(g),
+        return ff_failf(s->host, FF_INVALID, s->spacing > 0 ? "spacing" : file_names[g],
                         "%s gives %zu%s points that are %g um apart; it must be between %d and %d",
-                        file_name(g), f->n, f->n > SURFACE_POINTS ? " or more" : "", spacing * 1e6,
+                        file_names[g], f->n, f->n > SURFACE_POINTS ? " or more" : "", spacing * 1e6,
                         s->detrend < 1 ? 2 : s->detrend + 2, SURFACE_POINTS);
     f->height = malloc(f->n * sizeof *f->height);
     if (!f->height)
@@ -258,16 +165,16 @@ static ff_status make_flank(const measured *s, size_t g, double spacing, flank *
     if (s->detrend != NO_DETREND)
         status = surface_detrend(f->n, s->detrend, f->height);
     if (status == FF_OK)
-        status = check_cutoff(s, P_CUTOFF_LONG, s->cutoff_long, f->n, spacing);
+        status = check_cutoff(s, "cutoff_long", s->cutoff_long, f->n, spacing);
     if (status == FF_OK)
-        status = check_cutoff(s, P_CUTOFF_SHORT, s->cutoff_short, f->n, spacing);
+        status = check_cutoff(s, "cutoff_short", s->cutoff_short, f->n, spacing);
     if (status == FF_OK && s->cutoff_long > 0)
         status = surface_remove_longer(f->n, s->cutoff_long / spacing, f->height);
     if (status == FF_OK && s->cutoff_short > 0)
         status = surface_remove_shorter(f->n, s->cutoff_short / spacing, f->height);
     if (status != FF_OK)
         return status;
-    if (s->reversed[g])
+    if (is_reversed(s, g))
         reverse(f->n, f->height);
     double rq = surface_rms(f->n, f->height), share = rq > 0 ? distance / rq : 0;
     s->host->quality(s->host->ctx, g ? "resampling_2" : "resampling_1", share, 0.05,
@@ -352,43 +259,12 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-static void destroy(void *self)
-{
-    measured *s = self;
-    for (size_t g = 0; s && g < 2; g++)
-        free(s->path[g]);
-    free(s);
-}
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "surface/measured",
-    .version = "1.0.0",
-    .summary = "flanks from the traces of a profilometer, filtered",
-    .reference = "ISO 16610-21:2011, Geometrical product specifications, Filtration, Linear "
-                 "profile filters: "
-                 "Gaussian filters; ISO/TS 16610-28:2010, Profile filters: End effects",
-    .bibtex =
-        "@techreport{iso16610-21, title = {{ISO} 16610-21: Geometrical product specifications, "
-        "Filtration, Linear profile filters: Gaussian filters}, institution = {International "
-        "Organization for Standardization}, year = {2011}}\n"
-        "@techreport{iso16610-28, title = {{ISO/TS} 16610-28: Geometrical product specifications, "
-        "Filtration, Profile filters: End effects}, institution = {International Organization for "
-        "Standardization}, year = {2010}}",
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params),
-    .outputs = FF_TABLE(surface_outputs),
-    .create = create,
-    .set = set,
-    .ready = ready,
-    .evaluate = evaluate,
-    .destroy = destroy,
-    .columns = FF_TABLE(surface_trace_columns),
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(surface_measured, measured, .id = "surface/measured", .version = "1.0.0",
+         .summary = "flanks from the traces of a profilometer, filtered",
+         .reference =
+             "ISO 16610-21:2011, Geometrical product specifications, Filtration, Linear profile "
+             "filters: Gaussian filters; ISO/TS 16610-28:2010, Profile filters: End effects",
+         .bibtex = BIB_iso16610_21 "\n" BIB_iso16610_28, .licence = "GPL-3.0-or-later",
+         .params = FF_TABLE(params), .outputs = FF_TABLE(surface_outputs), .set = set,
+         .ready = ready, .evaluate = evaluate, .destroy = free,
+         .columns = FF_TABLE(surface_trace_columns));

@@ -49,11 +49,6 @@ void surface_record_free(surface_record *record)
     record->height[0] = record->height[1] = NULL;
 }
 
-int surface_flanks_of(const ff_value *value)
-{
-    return value->text ? surface_flank(0) + surface_flank(1) : (int)value->integer;
-}
-
 double surface_rms(size_t n, const double *height)
 {
     double sum = 0, square = 0;

@@ -40,12 +40,10 @@ ff_status surface_record_make(const ff_host *host, const char *item, double n, d
                               surface_record *record);
 void surface_record_free(surface_record *record);
 
-/* The parameter `flank`: 1, 2 or the word `both`, as a sum of surface_flank of both. */
-int surface_flanks_of(const ff_value *value);
-/* The bit of flank g, 0 or 1. */
-static inline int surface_flank(int g)
+/* Whether the parameter `flank`, 1, 2 or -1 for the word `both`, means flank g, 0 or 1. */
+static inline bool surface_has_flank(int64_t flank, int g)
 {
-    return g + 1;
+    return flank < 0 || flank == g + 1;
 }
 
 /* Root mean square about the mean. */

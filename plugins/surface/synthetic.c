@@ -2,24 +2,13 @@
 /* surface/synthetic: rough flanks of a given spectrum, the same on every machine. */
 #include "fourier.h"
 #include "record.h"
+#include "references.h"
 
 #include <flankfilm/author.h>
 
 #include <math.h>
 #include <stdlib.h>
 
-enum {
-    P_RQ,
-    P_SEED,
-    P_SHORTEST,
-    P_LONGEST,
-    P_SPECTRUM_SLOPE,
-    P_AMPLITUDES,
-    P_LENGTH,
-    P_SPACING,
-    P_ORIGIN,
-    PARAM_COUNT
-};
 enum { FIXED, GAUSSIAN };
 
 static const double longest_per_length =
@@ -28,92 +17,41 @@ static const double points_per_shortest = 32; /* straight lines between them are
 static const double least_per_shortest = 4;   /* fewer points do not hold the shortest wave */
 static const double slack = 1e-9;             /* rounding of a length, relative */
 
-static const ff_param params[] = {
-    {.name = "rq",
-     .unit = "um",
-     .doc =
-         "root mean square roughness of flank 1 and of flank 2, met exactly; one number: of both",
-     .type = FF_REALS,
-     .flags = FF_REQUIRED,
-     .min = 0,
-     .max = 1e3,
-     .low = 0,
-     .high = 10,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "seed",
-     .unit = "1",
-     .doc = "number that the phases of flank 1 and of flank 2 are drawn from; the flanks differ "
-            "with one number too, and the second number leaves flank 1 as it is",
-     .type = FF_REALS,
-     .flags = FF_WHOLE,
-     .preset = "1",
-     .min = 0,
-     .max = 9007199254740992,
-     .min_count = 1,
-     .max_count = 2},
-    {.name = "shortest",
-     .unit = "um",
-     .doc = "shortest wavelength",
-     .type = FF_REAL,
-     .preset = "20 um",
-     .min = 1e-3,
-     .max = 1e6},
-    {.name = "longest",
-     .unit = "um",
-     .doc = "longest wavelength",
-     .type = FF_REAL,
-     .preset = "800 um",
-     .min = 1e-3,
-     .max = 1e6},
-    {.name = "spectrum_slope",
-     .unit = "1",
-     .doc = "the power spectral density falls with this power of the wavenumber; 2: amplitudes in "
-            "proportion to the wavelength (Sayles and Thomas 1978)",
-     .type = FF_REAL,
-     .preset = "2",
-     .min = -10,
-     .max = 10,
-     .low = 0,
-     .high = 4},
-    {.name = "amplitudes",
-     .unit = "",
-     .doc = "fixed: each wave has the amplitude of the spectrum and a random phase; gaussian: sine "
-            "and cosine have Gaussian amplitudes, so that the spectrum holds on average",
-     .type = FF_CHOICE,
-     .preset = "fixed",
-     .choices = "fixed|gaussian"},
-    {.name = "length",
-     .unit = "um",
-     .doc = "length of the record, after which it repeats; auto: 10 times the longest wavelength",
-     .type = FF_REAL,
-     .preset = "auto",
-     .choices = "auto",
-     .min = 1e-3,
-     .max = 1e7},
-    {.name = "spacing",
-     .unit = "um",
-     .doc = "greatest distance of the points, whose number is a power of 2; auto: a 32nd of the "
-            "shortest wavelength",
-     .type = FF_REAL,
-     .flags = FF_TUNABLE,
-     .preset = "auto",
-     .choices = "auto",
-     .min = 1e-4,
-     .max = 1e6},
-    {.name = "origin",
-     .unit = "um",
-     .doc = "arc coordinate of both flanks at x = 0 at the first time",
-     .type = FF_REAL,
-     .preset = "0 um",
-     .min = -1e9,
-     .max = 1e9},
-};
-
 typedef struct synthetic {
     const ff_host *host;
-    double value[PARAM_COUNT][2]; /* a single number is in both; auto: 0 */
+    ff_reals rq, seed; /* one number or two */
+    double shortest, longest, spectrum_slope, origin;
+    double length, spacing; /* NaN: auto */
+    int32_t amplitudes;
 } synthetic;
+
+static const ff_param params[] = {
+    FF_LIST(
+        "rq", "um", synthetic, rq, FF_REQUIRED, NULL, NULL, 0, 1e3, 0, 10, 1, 2,
+        "root mean square roughness of flank 1 and of flank 2, met exactly; one number: of both"),
+    FF_LIST("seed", "1", synthetic, seed, FF_WHOLE, "1", NULL, 0, 9007199254740992, 0, 0, 1, 2,
+            "number that the phases of flank 1 and of flank 2 are drawn from; the flanks differ "
+            "with one number too, and the second number leaves flank 1 as it is"),
+    FF_QUANTITY("shortest", "um", synthetic, shortest, 0, "20 um", NULL, 1e-3, 1e6, 0, 0,
+                "shortest wavelength"),
+    FF_QUANTITY("longest", "um", synthetic, longest, 0, "800 um", NULL, 1e-3, 1e6, 0, 0,
+                "longest wavelength"),
+    FF_QUANTITY("spectrum_slope", "1", synthetic, spectrum_slope, 0, "2", NULL, -10, 10, 0, 4,
+                "the power spectral density falls with this power of the wavenumber; 2: amplitudes "
+                "in proportion to the wavelength (Sayles and Thomas 1978)"),
+    FF_ONE_OF("fixed|gaussian", "amplitudes", synthetic, amplitudes, 0, "fixed",
+              "fixed: each wave has the amplitude of the spectrum and a random phase; gaussian: "
+              "sine and cosine have Gaussian amplitudes, so that the spectrum holds on average"),
+    FF_QUANTITY_OR(
+        "auto", "length", "um", synthetic, length, 0, "auto", NULL, 1e-3, 1e7, 0, 0,
+        "length of the record, after which it repeats; auto: 10 times the longest wavelength"),
+    FF_QUANTITY_OR("auto", "spacing", "um", synthetic, spacing, FF_TUNABLE, "auto", NULL, 1e-4, 1e6,
+                   0, 0,
+                   "greatest distance of the points, whose number is a power of 2; auto: a 32nd of "
+                   "the shortest wavelength"),
+    FF_QUANTITY("origin", "um", synthetic, origin, 0, "0 um", NULL, -1e9, 1e9, 0, 0,
+                "arc coordinate of both flanks at x = 0 at the first time"),
+};
 
 /* The waves: harmonics `first` to `last` of the length of the record, on n points. */
 typedef struct band {
@@ -121,46 +59,22 @@ typedef struct band {
     double length;
 } band;
 
-static ff_status create(const ff_host *host, void **self)
-{
-    synthetic *s = calloc(1, sizeof *s);
-    if (!s)
-        return FF_NOMEM;
-    s->host = host;
-    *self = s;
-    return FF_OK;
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    synthetic *s = self;
-    double *to = s->value[param];
-    if (params[param].type == FF_REALS) {
-        to[0] = value->reals[0];
-        to[1] = value->reals[value->count - 1];
-    } else if (params[param].type == FF_CHOICE)
-        to[0] = (double)value->integer;
-    else
-        to[0] = value->text ? 0 : value->real;
-    return FF_OK;
-}
-
 static double length_of(const synthetic *s)
 {
-    double length = s->value[P_LENGTH][0];
-    return length > 0 ? length : longest_per_length * s->value[P_LONGEST][0];
+    double length = s->length;
+    return length > 0 ? length : longest_per_length * s->longest;
 }
 
 static double spacing_of(const synthetic *s)
 {
-    double spacing = s->value[P_SPACING][0];
-    return spacing > 0 ? spacing : s->value[P_SHORTEST][0] / points_per_shortest;
+    double spacing = s->spacing;
+    return spacing > 0 ? spacing : s->shortest / points_per_shortest;
 }
 
 static ff_status ready(void *self)
 {
     const synthetic *s = self;
-    const double um = 1e6, shortest = s->value[P_SHORTEST][0], longest = s->value[P_LONGEST][0];
+    const double um = 1e6, shortest = s->shortest, longest = s->longest;
     const double length = length_of(s), spacing = spacing_of(s);
     if (!(shortest <= longest))
         return ff_failf(s->host, FF_INVALID, "shortest",
@@ -202,18 +116,19 @@ static double draw(double seed, size_t flank, size_t harmonic, size_t which)
 }
 
 /* Sums the waves of the spectrum and scales them to the Rq of the flank; `wave` holds n. */
-static ff_status make_flank(const synthetic *s, const band *b, size_t flank, double complex *wave,
+static ff_status make_flank(const synthetic *s, const band *b, int flank, double complex *wave,
                             surface_record *record)
 {
-    const double rq = s->value[P_RQ][flank], slope = s->value[P_SPECTRUM_SLOPE][0];
+    const double rq = ff_of_both(&s->rq, flank), slope = s->spectrum_slope;
+    const double seed = ff_of_both(&s->seed, flank);
     double *height = record->height[flank];
     for (size_t k = 0; k < b->n; k++)
         wave[k] = 0;
     for (size_t k = b->first; k <= b->last; k++) {
         double amplitude = pow((double)k / (double)b->first, -slope / 2);
-        double phase = 2 * M_PI * draw(s->value[P_SEED][flank], flank, k, 0);
-        if ((int)s->value[P_AMPLITUDES][0] == GAUSSIAN) /* Box and Muller 1958 */
-            amplitude *= sqrt(-log1p(-draw(s->value[P_SEED][flank], flank, k, 1)));
+        double phase = 2 * M_PI * draw(seed, (size_t)flank, k, 0);
+        if (s->amplitudes == GAUSSIAN) /* Box and Muller 1958 */
+            amplitude *= sqrt(-log1p(-draw(seed, (size_t)flank, k, 1)));
         wave[k] = amplitude * cexp(phase * I);
     }
     ff_status status = surface_fourier(b->n, wave, 1);
@@ -256,17 +171,17 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     band b = {.length = length_of(s)};
     (void)in;
     b.n = surface_power_of_two(b.length / spacing_of(s) * (1 - slack));
-    b.first = (size_t)ceil(b.length / s->value[P_LONGEST][0] * (1 - slack));
-    b.last = (size_t)floor(b.length / s->value[P_SHORTEST][0] * (1 + slack));
+    b.first = (size_t)ceil(b.length / s->longest * (1 - slack));
+    b.last = (size_t)floor(b.length / s->shortest * (1 + slack));
     ff_status status =
         surface_record_make(s->host, "length", (double)b.n, b.length / (double)b.n, &record);
     double complex *wave = status == FF_OK ? malloc(b.n * sizeof *wave) : NULL;
     if (status == FF_OK && !wave)
         status = FF_NOMEM;
-    for (size_t g = 0; g < 2 && status == FF_OK; g++)
+    for (int g = 0; g < 2 && status == FF_OK; g++)
         status = make_flank(s, &b, g, wave, &record);
     record.repeats = true;
-    record.origin = s->value[P_ORIGIN][0];
+    record.origin = s->origin;
     if (status == FF_OK)
         status = surface_record_publish(s->host, wanted, &record);
     if (status == FF_OK)
@@ -276,43 +191,12 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-static void destroy(void *self)
-{
-    free(self);
-}
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = FF_ABI_MINOR,
-    .id = "surface/synthetic",
-    .version = "1.0.0",
+FF_MODEL(
+    surface_synthetic, synthetic, .id = "surface/synthetic", .version = "1.0.0",
     .summary = "rough flanks of a given spectrum and Rq",
     .reference =
         "Sayles and Thomas 1978, Surface topography as a nonstationary random process, Nature 271, "
-        "431; "
-        "Steele, Lea and Flood 2014, Fast splittable pseudorandom number generators, OOPSLA",
-    .bibtex =
-        "@article{sayles1978, author = {Sayles, R. S. and Thomas, T. R.}, title = {Surface "
-        "topography "
-        "as a nonstationary random process}, journal = {Nature}, volume = {271}, pages = "
-        "{431--434}, "
-        "year = {1978}}\n"
-        "@inproceedings{steele2014, author = {Steele, G. L. and Lea, D. and Flood, C. H.}, title = "
-        "{Fast splittable pseudorandom number generators}, booktitle = {OOPSLA}, pages = "
-        "{453--472}, "
-        "year = {2014}}",
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params),
-    .outputs = FF_TABLE(surface_outputs),
-    .create = create,
-    .set = set,
-    .ready = ready,
-    .evaluate = evaluate,
-    .destroy = destroy,
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+        "431; Steele, Lea and Flood 2014, Fast splittable pseudorandom number generators, OOPSLA",
+    .bibtex = BIB_sayles1978 "\n" BIB_steele2014, .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params), .outputs = FF_TABLE(surface_outputs), .ready = ready,
+    .evaluate = evaluate, .destroy = free);

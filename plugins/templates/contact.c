@@ -4,49 +4,21 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { RADIUS, SPEED, SLIDE, WIDTH_LOAD, MODULUS, PARAMS };
-
 typedef struct {
     const ff_host *host;
-    double value[PARAMS];
+    double radius, speed, slide, load, modulus;
 } stage;
 
 static const ff_param params[] = {
-    [RADIUS] = {.name = "radius",
-                .unit = "mm",
-                .type = FF_REAL,
-                .flags = FF_REQUIRED,
-                .doc = "equivalent radius R, 1/R = 1/R1 + 1/R2",
-                .min = 1e-3,
-                .max = 1e6},
-    [SPEED] = {.name = "entrainment_speed",
-               .unit = "m/s",
-               .type = FF_REAL,
-               .flags = FF_REQUIRED,
-               .doc = "u_r = (u1 + u2)/2",
-               .min = 0,
-               .max = 1e4},
-    [SLIDE] = {.name = "slide_roll_ratio",
-               .unit = "",
-               .type = FF_REAL,
-               .preset = "0",
-               .doc = "(u1 - u2)/u_r",
-               .min = -2,
-               .max = 2},
-    [WIDTH_LOAD] = {.name = "load_per_width",
-                    .unit = "N/mm",
-                    .type = FF_REAL,
-                    .flags = FF_REQUIRED,
-                    .doc = "load per width of the contact",
-                    .min = 0,
-                    .max = 1e6},
-    [MODULUS] = {.name = "reduced_modulus",
-                 .unit = "GPa",
-                 .type = FF_REAL,
-                 .preset = "226.4 GPa",
-                 .doc = "E' of 2/E' = sum (1 - nu^2)/E",
-                 .min = 1e-3,
-                 .max = 1e5},
+    FF_QUANTITY("radius", "mm", stage, radius, FF_REQUIRED, NULL, NULL, 1e-3, 1e6, 0, 0,
+                "equivalent radius R, 1/R = 1/R1 + 1/R2"),
+    FF_QUANTITY("entrainment_speed", "m/s", stage, speed, FF_REQUIRED, NULL, NULL, 0, 1e4, 0, 0,
+                "u_r = (u1 + u2)/2"),
+    FF_QUANTITY("slide_roll_ratio", "", stage, slide, 0, "0", NULL, -2, 2, 0, 0, "(u1 - u2)/u_r"),
+    FF_QUANTITY("load_per_width", "N/mm", stage, load, FF_REQUIRED, NULL, NULL, 0, 1e6, 0, 0,
+                "load per width of the contact"),
+    FF_QUANTITY("reduced_modulus", "GPa", stage, modulus, 0, "226.4 GPa", NULL, 1e-3, 1e5, 0, 0,
+                "E' of 2/E' = sum (1 - nu^2)/E"),
 };
 
 enum { TIME, EQUIVALENT, SPEED_1, SPEED_2, LOAD, WIDTH, PRESSURE, REDUCED };
@@ -65,36 +37,19 @@ static const ff_port outputs[] = {
     [REDUCED] = {.name = "reduced_modulus", .unit = "Pa", .dims = "", .doc = "E'"},
 };
 
-static ff_status create(const ff_host *host, void **self)
-{
-    stage *s = calloc(1, sizeof *s);
-    if (!s)
-        return ff_failf(host, FF_NOMEM, NULL, "out of memory");
-    s->host = host;
-    *self = s;
-    return FF_OK;
-}
-
-/* The value is in SI units. */
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    ((stage *)self)->value[param] = value->real;
-    return FF_OK;
-}
-
 /* `wanted` has a bit for each output; those that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
-    const double *v = s->value, pi = 3.141592653589793;
-    const double width = sqrt(8 * v[WIDTH_LOAD] * v[RADIUS] / (pi * v[MODULUS]));
+    const double pi = 3.141592653589793;
+    const double width = sqrt(8 * s->load * s->radius / (pi * s->modulus));
     const double value[] = {0,
-                            v[RADIUS],
-                            v[SPEED] * (1 + v[SLIDE] / 2),
-                            v[SPEED] * (1 - v[SLIDE] / 2),
-                            v[WIDTH_LOAD],
+                            s->radius,
+                            s->speed * (1 + s->slide / 2),
+                            s->speed * (1 - s->slide / 2),
+                            s->load,
                             width,
-                            width > 0 ? 2 * v[WIDTH_LOAD] / (pi * width) : 0};
+                            width > 0 ? 2 * s->load / (pi * width) : 0};
     (void)wanted, (void)in;
     for (uint32_t i = TIME; i <= PRESSURE; i++) {
         double *series = ff_put_series(s->host, i, 1);
@@ -102,27 +57,11 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
             return FF_NOMEM;
         series[0] = value[i];
     }
-    return ff_put_scalar(s->host, REDUCED, v[MODULUS]);
+    return ff_put_scalar(s->host, REDUCED, s->modulus);
 }
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .id = "@ID@",
-    .version = "0.1.0",
-    .summary = "one line on what it is good for",
-    .reference = "",
-    .bibtex = "",
-    .licence = "MIT",
-    .params = FF_TABLE(params),
-    .outputs = FF_TABLE(outputs),
-    .create = create,
-    .set = set,
-    .evaluate = evaluate,
-    .destroy = free,
-};
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
+         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .licence = "MIT", .params = FF_TABLE(params), .outputs = FF_TABLE(outputs),
+         .evaluate = evaluate, .destroy = free);
+FF_EXPORT_MODELS(&model);

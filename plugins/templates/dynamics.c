@@ -10,13 +10,8 @@ typedef struct {
 } stage;
 
 static const ff_param params[] = {
-    {.name = "scale",
-     .unit = "",
-     .type = FF_REAL,
-     .preset = "1",
-     .doc = "factor on the transmission error, in place of what your motion needs",
-     .min = 0,
-     .max = 10},
+    FF_QUANTITY("scale", "", stage, scale, 0, "1", NULL, 0, 10, 0, 0,
+                "factor on the transmission error, in place of what your motion needs"),
 };
 
 enum { PHASE_IN, LTE, WS, FORCE };
@@ -53,24 +48,6 @@ static const ff_port outputs[] = {
     [RMS] = {.name = "dte_rms", .unit = "m", .dims = "", .doc = "rms of the alternating part of s"},
     [PERIOD] = {.name = "period", .unit = "1", .dims = "", .doc = "mesh cycles of the motion"},
 };
-
-static ff_status create(const ff_host *host, void **self)
-{
-    stage *s = calloc(1, sizeof *s);
-    if (!s)
-        return ff_failf(host, FF_NOMEM, NULL, "out of memory");
-    s->host = host;
-    *self = s;
-    return FF_OK;
-}
-
-/* The value is in SI units. */
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    if (param == 0)
-        ((stage *)self)->scale = value->real;
-    return FF_OK;
-}
 
 /* `wanted` has a bit for each output; those that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
@@ -110,25 +87,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return ff_put_scalar(s->host, PERIOD, 1);
 }
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .id = "@ID@",
-    .version = "0.1.0",
-    .summary = "one line on what it is good for",
-    .reference = "",
-    .bibtex = "",
-    .licence = "MIT",
-    .params = FF_TABLE(params),
-    .inputs = FF_TABLE(inputs),
-    .outputs = FF_TABLE(outputs),
-    .create = create,
-    .set = set,
-    .evaluate = evaluate,
-    .destroy = free,
-};
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
+         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
+         .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free);
+FF_EXPORT_MODELS(&model);

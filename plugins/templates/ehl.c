@@ -13,13 +13,8 @@ typedef struct {
 } stage;
 
 static const ff_param params[] = {
-    {.name = "least_load",
-     .unit = "N/m",
-     .type = FF_REAL,
-     .preset = "100 N/m",
-     .doc = "load per width that a lost contact is given",
-     .min = 1e-3,
-     .max = 1e6},
+    FF_QUANTITY("least_load", "N/m", stage, least_load, 0, "100 N/m", NULL, 1e-3, 1e6, 0, 0,
+                "load per width that a lost contact is given"),
 };
 
 enum { TIME_IN, RADIUS, SPEED_1, SPEED_2, LOAD, MODULUS, VISCOSITY };
@@ -55,24 +50,6 @@ static const ff_port outputs[] = {
                 .dims = "",
                 .doc = "lowest h_min of all times"},
 };
-
-static ff_status create(const ff_host *host, void **self)
-{
-    stage *s = calloc(1, sizeof *s);
-    if (!s)
-        return ff_failf(host, FF_NOMEM, NULL, "out of memory");
-    s->host = host;
-    *self = s;
-    return FF_OK;
-}
-
-/* The value is in SI units. */
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    if (param == 0)
-        ((stage *)self)->least_load = value->real;
-    return FF_OK;
-}
 
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
@@ -119,26 +96,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return ff_put_scalar(s->host, LOWEST, lowest);
 }
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .id = "@ID@",
-    .version = "0.1.0",
-    .summary = "one line on what it is good for",
-    .reference = "Dowson 1968, Proc. IMechE 182",
-    .bibtex = "",
-    .licence = "MIT",
-    .params = FF_TABLE(params),
-    .inputs = FF_TABLE(inputs),
-    .outputs = FF_TABLE(outputs),
-    .create = create,
-    .set = set,
-    .wire = wire,
-    .evaluate = evaluate,
-    .destroy = free,
-};
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
+         .summary = "one line on what it is good for", .reference = "Dowson 1968, Proc. IMechE 182",
+         .bibtex = "", .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
+         .outputs = FF_TABLE(outputs), .wire = wire, .evaluate = evaluate, .destroy = free);
+FF_EXPORT_MODELS(&model);

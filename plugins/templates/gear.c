@@ -6,56 +6,23 @@
 #include <stdlib.h>
 
 enum { STEPS = 60, COUNT = 3 * (STEPS + 1) };
-enum { TEETH_1, TEETH_2, MODULE, ANGLE, WIDTH, BACKLASH, PARAMS };
 
 typedef struct {
     const ff_host *host;
-    double p[PARAMS];
+    int64_t teeth_1, teeth_2;
+    double module, angle, width, backlash;
 } stage;
 
 static const ff_param params[] = {
-    [TEETH_1] = {.name = "teeth_1",
-                 .unit = "",
-                 .type = FF_INT,
-                 .flags = FF_REQUIRED,
-                 .doc = "teeth of gear 1",
-                 .min = 5,
-                 .max = 1000},
-    [TEETH_2] = {.name = "teeth_2",
-                 .unit = "",
-                 .type = FF_INT,
-                 .flags = FF_REQUIRED,
-                 .doc = "teeth of gear 2",
-                 .min = 5,
-                 .max = 1000},
-    [MODULE] = {.name = "module",
-                .unit = "mm",
-                .type = FF_REAL,
-                .flags = FF_REQUIRED,
-                .doc = "module",
-                .min = 0.05,
-                .max = 100},
-    [ANGLE] = {.name = "pressure_angle",
-               .unit = "deg",
-               .type = FF_REAL,
-               .preset = "20 deg",
-               .doc = "pressure angle",
-               .min = 10,
-               .max = 35},
-    [WIDTH] = {.name = "face_width",
-               .unit = "mm",
-               .type = FF_REAL,
-               .flags = FF_REQUIRED,
-               .doc = "width of the teeth",
-               .min = 0.1,
-               .max = 1e4},
-    [BACKLASH] = {.name = "backlash",
-                  .unit = "mm",
-                  .type = FF_REAL,
-                  .preset = "0 mm",
-                  .doc = "along the line of action",
-                  .min = 0,
-                  .max = 10},
+    FF_COUNT("teeth_1", stage, teeth_1, FF_REQUIRED, NULL, NULL, 5, 1000, 0, 0, "teeth of gear 1"),
+    FF_COUNT("teeth_2", stage, teeth_2, FF_REQUIRED, NULL, NULL, 5, 1000, 0, 0, "teeth of gear 2"),
+    FF_QUANTITY("module", "mm", stage, module, FF_REQUIRED, NULL, NULL, 0.05, 100, 0, 0, "module"),
+    FF_QUANTITY("pressure_angle", "deg", stage, angle, 0, "20 deg", NULL, 10, 35, 0, 0,
+                "pressure angle"),
+    FF_QUANTITY("face_width", "mm", stage, width, FF_REQUIRED, NULL, NULL, 0.1, 1e4, 0, 0,
+                "width of the teeth"),
+    FF_QUANTITY("backlash", "mm", stage, backlash, 0, "0 mm", NULL, 0, 10, 0, 0,
+                "along the line of action"),
 };
 
 enum { ROLL, RADIUS_1, RADIUS_2, TEETH, BASE, SAP, TIP, RATIO, WIDE, GAP, MASS, MODULUS };
@@ -87,33 +54,17 @@ static const ff_port outputs[] = {
                  .doc = "E' of 2/E' = sum (1 - nu^2)/E"},
 };
 
-static ff_status create(const ff_host *host, void **self)
-{
-    stage *s = calloc(1, sizeof *s);
-    if (!s)
-        return ff_failf(host, FF_NOMEM, NULL, "out of memory");
-    s->host = host;
-    *self = s;
-    return FF_OK;
-}
-
-/* The value is in SI units. */
-static ff_status set(void *self, uint32_t param, const ff_value *v)
-{
-    ((stage *)self)->p[param] = param <= TEETH_2 ? (double)v->integer : v->real;
-    return FF_OK;
-}
-
 /* `wanted` has a bit for each output; those that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
-    const double *p = s->p, pi = 3.141592653589793;
-    double r1 = p[MODULE] * p[TEETH_1] / 2, r2 = p[MODULE] * p[TEETH_2] / 2;
-    double b1 = r1 * cos(p[ANGLE]), b2 = r2 * cos(p[ANGLE]); /* base circles */
-    double line = (b1 + b2) * tan(p[ANGLE]), pitch = 2 * pi * b1 / p[TEETH_1];
-    double sap = line - sqrt(pow(r2 + p[MODULE], 2) - b2 * b2);
-    double tip = sqrt(pow(r1 + p[MODULE], 2) - b1 * b1);
+    const double pi = 3.141592653589793, m = s->module;
+    const double z1 = (double)s->teeth_1, z2 = (double)s->teeth_2;
+    double r1 = m * z1 / 2, r2 = m * z2 / 2;
+    double b1 = r1 * cos(s->angle), b2 = r2 * cos(s->angle); /* base circles */
+    double line = (b1 + b2) * tan(s->angle), pitch = 2 * pi * b1 / z1;
+    double sap = line - sqrt(pow(r2 + m, 2) - b2 * b2);
+    double tip = sqrt(pow(r1 + m, 2) - b1 * b1);
     double ratio = (tip - sap) / pitch;
     (void)wanted, (void)in;
     if (!(sap > 0 && tip < line))
@@ -128,8 +79,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     double *base = ff_put_series(s->host, BASE, 2);
     if (!roll || !radius_1 || !radius_2 || !teeth || !base)
         return FF_NOMEM;
-    teeth[0] = p[TEETH_1];
-    teeth[1] = p[TEETH_2];
+    teeth[0] = z1;
+    teeth[1] = z2;
     base[0] = b1;
     base[1] = b2;
     const double ends[] = {sap, tip - pitch, sap + pitch, tip}; /* SAP, LPSTC, HPSTC, tip */
@@ -140,34 +91,18 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         radius_2[i] = line - radius_1[i];
         roll[i] = radius_1[i] / b1;
     }
-    double j1 = pi * 7850 * p[WIDTH] * pow(r1, 4) / 2, j2 = pi * 7850 * p[WIDTH] * pow(r2, 4) / 2;
+    double j1 = pi * 7850 * s->width * pow(r1, 4) / 2, j2 = pi * 7850 * s->width * pow(r2, 4) / 2;
     double mass = j1 * j2 / (j1 * b2 * b2 + j2 * b1 * b1);
     const double value[] = {
-        sap / b1, tip / b1, ratio, p[WIDTH], p[BACKLASH], mass, 2 / (2 * (1 - 0.09) / 206e9)};
+        sap / b1, tip / b1, ratio, s->width, s->backlash, mass, 2 / (2 * (1 - 0.09) / 206e9)};
     for (uint32_t i = SAP; i <= MODULUS; i++)
         if (ff_put_scalar(s->host, i, value[i - SAP]) != FF_OK)
             return FF_NOMEM;
     return FF_OK;
 }
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .id = "@ID@",
-    .version = "0.1.0",
-    .summary = "one line on what it is good for",
-    .reference = "",
-    .bibtex = "",
-    .licence = "MIT",
-    .params = FF_TABLE(params),
-    .outputs = FF_TABLE(outputs),
-    .create = create,
-    .set = set,
-    .evaluate = evaluate,
-    .destroy = free,
-};
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
+         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .licence = "MIT", .params = FF_TABLE(params), .outputs = FF_TABLE(outputs),
+         .evaluate = evaluate, .destroy = free);
+FF_EXPORT_MODELS(&model);

@@ -1,12 +1,12 @@
 /* @ID@: psi = sqrt(1/eta^2 + (u_s/(tau0 h))^2) of Ree and Eyring; write your law into `flow` and
    `shear`. */
 #include <flankfilm/author.h>
-#include <flankfilm/rheology.h>
+#include <flankfilm/laws.h>
 
 #include <math.h>
-#include <stdlib.h>
 
 typedef struct {
+    const ff_host *host;
     ff_rheology service;
     double tau0;
 } law;
@@ -42,71 +42,13 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
 }
 
 static const ff_param params[] = {
-    {.name = "tau0",
-     .unit = "MPa",
-     .type = FF_REAL,
-     .flags = FF_REQUIRED,
-     .doc = "Eyring stress",
-     .min = 1e-3,
-     .max = 1e3,
-     .low = 1,
-     .high = 20},
+    FF_QUANTITY("tau0", "MPa", law, tau0, FF_REQUIRED, NULL, NULL, 1e-3, 1e3, 1, 20,
+                "Eyring stress"),
 };
 
-static const ff_port outputs[] = {
-    {.name = "rheology", .unit = "", .dims = "", .service = FF_RHEOLOGY_ID, .doc = "the law"},
-};
-
-static ff_status create(const ff_host *host, void **self)
-{
-    law *l = calloc(1, sizeof *l);
-    if (!l)
-        return ff_failf(host, FF_NOMEM, NULL, "out of memory");
-    l->service = (ff_rheology){.size = sizeof l->service, .self = l, .flow = flow, .shear = shear};
-    *self = l;
-    return FF_OK;
-}
-
-/* The value is in SI units. */
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    if (param == 0)
-        ((law *)self)->tau0 = value->real;
-    return FF_OK;
-}
-
-static const void *service(void *self, uint32_t output)
-{
-    return output ? NULL : &((law *)self)->service;
-}
-
-/* Takes part where a file says rheology/auto: seconds for a million points, what it is good for. */
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *a)
-{
-    (void)self, (void)wanted, (void)accuracy, (void)in;
-    return ff_assess_law(4e-3, "", a);
-}
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .id = "@ID@",
-    .version = "0.1.0",
-    .summary = "one line on what it is good for",
-    .reference = "",
-    .bibtex = "",
-    .licence = "MIT",
-    .params = FF_TABLE(params),
-    .outputs = FF_TABLE(outputs),
-    .create = create,
-    .set = set,
-    .service = service,
-    .destroy = free,
-    .assess = assess,
-};
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+/* `cost`: seconds for a million points; with it the law takes part where a file says rheology/auto.
+ */
+FF_RHEOLOGY_LAW(model, law, flow, shear, .id = "@ID@", .version = "0.1.0",
+                .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+                .licence = "MIT", .params = FF_TABLE(params), .cost = 4e-3);
+FF_EXPORT_MODELS(&model);

@@ -12,14 +12,8 @@ typedef struct {
 } stage;
 
 static const ff_param params[] = {
-    {.name = "pair_stiffness",
-     .unit = "N/um",
-     .type = FF_REAL,
-     .preset = "280 N/um",
-     .flags = FF_MIN_OPEN,
-     .doc = "stiffness of one pair along the line of action",
-     .min = 0,
-     .max = 1e6},
+    FF_QUANTITY("pair_stiffness", "N/um", stage, pair, FF_MIN_OPEN, "280 N/um", NULL, 0, 1e6, 0, 0,
+                "stiffness of one pair along the line of action"),
 };
 
 enum { ROLL, SAP, TIP, TEETH, FORCE };
@@ -60,24 +54,6 @@ static const ff_port outputs[] = {
                .dims = "station",
                .doc = "its part of the line force"},
 };
-
-static ff_status create(const ff_host *host, void **self)
-{
-    stage *s = calloc(1, sizeof *s);
-    if (!s)
-        return ff_failf(host, FF_NOMEM, NULL, "out of memory");
-    s->host = host;
-    *self = s;
-    return FF_OK;
-}
-
-/* The value is in SI units. */
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    if (param == 0)
-        ((stage *)self)->pair = value->real;
-    return FF_OK;
-}
 
 /* `wanted` has a bit for each output; those that are not wanted may be left out. */
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
@@ -126,25 +102,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return FF_OK;
 }
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .id = "@ID@",
-    .version = "0.1.0",
-    .summary = "one line on what it is good for",
-    .reference = "",
-    .bibtex = "",
-    .licence = "MIT",
-    .params = FF_TABLE(params),
-    .inputs = FF_TABLE(inputs),
-    .outputs = FF_TABLE(outputs),
-    .create = create,
-    .set = set,
-    .evaluate = evaluate,
-    .destroy = free,
-};
-
-FF_EXPORT const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_MODEL(model, stage, .id = "@ID@", .version = "0.1.0",
+         .summary = "one line on what it is good for", .reference = "", .bibtex = "",
+         .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
+         .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free);
+FF_EXPORT_MODELS(&model);

@@ -5,9 +5,12 @@
  * other, which is the cubic of Goglia, Cusano & Conry 1984 for a transition in its middle.
  */
 #include "law.h"
+#include "references.h"
 
 typedef struct two_slope {
-    viscosity_law law;
+    const ff_host *host;
+    ff_viscosity service;
+    viscosity_oil oil;
     double alpha_1, alpha_2, middle, width; /* 1/Pa, Pa */
 } two_slope;
 
@@ -15,116 +18,52 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                       double *dln_dp, double *dln_dT)
 {
     const two_slope *t = self;
-    const double change = t->alpha_2 - t->alpha_1, width = t->width, cap = t->law.pressure_cap;
+    const double change = t->alpha_2 - t->alpha_1, width = t->width, cap = t->oil.pressure_cap;
     const double begin = t->middle - width / 2, end = t->middle + width / 2;
     const double part = width > 0 ? 1 / width : 0;
     (void)T;
     for (size_t i = 0; i < n; i++) {
-        double q = viscosity_law_clip(p[i], cap);
+        double q = viscosity_clip(p[i], cap);
         double over = q > end ? q - end : 0, in = q > begin ? q - begin : 0;
         double inside = in < width ? in : width;
         /* at a transition of width 0 the upper slope holds */
         double share = q >= end ? 1 : inside * part;
         double slope = t->alpha_1 + change * share;
-        ln_eta[i] = t->law.ln_eta0 + t->alpha_1 * q + change * (over + inside * inside * part / 2) +
+        ln_eta[i] = t->oil.ln_eta0 + t->alpha_1 * q + change * (over + inside * inside * part / 2) +
                     slope * (p[i] - q);
         if (dln_dp)
             dln_dp[i] = slope;
     }
-    return viscosity_law_end(&t->law, n, p, dln_dT);
+    return viscosity_oil_end(&t->oil, n, p, dln_dT);
 }
 
 static const ff_param params[] = {
-    VISCOSITY_LAW_ROWS,
-    {.name = "alpha_1",
-     .unit = "1/GPa",
-     .type = FF_REAL,
-     .doc = "pressure-viscosity coefficient below the transition",
-     .flags = FF_REQUIRED,
-     .max = 1000,
-     .low = 2,
-     .high = 50},
-    {.name = "alpha_2",
-     .unit = "1/GPa",
-     .type = FF_REAL,
-     .doc = "pressure-viscosity coefficient above the transition",
-     .flags = FF_REQUIRED,
-     .max = 1000,
-     .low = 1,
-     .high = 50},
-    {.name = "p_transition",
-     .unit = "GPa",
-     .type = FF_REAL,
-     .doc = "pressure at which the two lines of ln(eta) meet",
-     .flags = FF_REQUIRED | FF_MIN_OPEN,
-     .max = 100,
-     .low = 0.05,
-     .high = 1},
-    {.name = "transition_width",
-     .unit = "GPa",
-     .type = FF_REAL,
-     .doc = "range of pressure around p_transition over which the slope changes; 0: it jumps",
-     .preset = "0 GPa",
-     .min = 0,
-     .max = 100},
+    VISCOSITY_OIL_ROWS(two_slope),
+    FF_QUANTITY("alpha_1", "1/GPa", two_slope, alpha_1, FF_REQUIRED, NULL, NULL, 0, 1000, 2, 50,
+                "pressure-viscosity coefficient below the transition"),
+    FF_QUANTITY("alpha_2", "1/GPa", two_slope, alpha_2, FF_REQUIRED, NULL, NULL, 0, 1000, 1, 50,
+                "pressure-viscosity coefficient above the transition"),
+    FF_QUANTITY("p_transition", "GPa", two_slope, middle, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0,
+                100, 0.05, 1, "pressure at which the two lines of ln(eta) meet"),
+    FF_QUANTITY("transition_width", "GPa", two_slope, width, 0, "0 GPa", NULL, 0, 100, 0, 0,
+                "range of pressure around p_transition over which the slope changes; 0: it jumps"),
 };
-
-static ff_status create(const ff_host *host, void **self)
-{
-    return viscosity_law_create(host, sizeof(two_slope), 2.4e-3, eval, self);
-}
-
-static ff_status set(void *self, uint32_t param, const ff_value *value)
-{
-    two_slope *t = self;
-    double *own[] = {&t->alpha_1, &t->alpha_2, &t->middle,
-                     &t->width}; /* in the order of the rows */
-    if (param < VISCOSITY_LAW_PARAMS)
-        return viscosity_law_set(&t->law, param, value);
-    *own[param - VISCOSITY_LAW_PARAMS] = value->real;
-    return FF_OK;
-}
 
 static ff_status ready(void *self)
 {
     two_slope *t = self;
     if (t->width > 2 * t->middle)
-        return ff_failf(t->law.host, FF_INVALID, "transition_width",
+        return ff_failf(t->host, FF_INVALID, "transition_width",
                         "the transition would begin below ambient pressure: its width, %g GPa, "
                         "must not exceed twice p_transition, %g GPa",
                         1e-9 * t->width, 1e-9 * t->middle);
-    return viscosity_law_ready(&t->law, viscosity_highest_cap);
+    return viscosity_oil_ready(t->host, &t->oil, viscosity_highest_cap);
 }
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = 0,
-    .id = "viscosity/two-slope",
-    .version = "1.0.0",
+FF_VISCOSITY_LAW(
+    viscosity_two_slope, two_slope, eval, .id = "viscosity/two-slope", .version = "1.0.0",
     .summary = "Barus' law with another slope at high pressure",
     .reference = "Allen, Townsend & Zaretsky 1970, J. Lubrication Technology 92, 145-155; Goglia, "
                  "Cusano & Conry 1984, J. Tribology 106, 104-112",
-    .bibtex =
-        "@article{Allen1970, author={Allen, C. W. and Townsend, D. P. and Zaretsky, E. V.}, "
-        "title={Elastohydrodynamic lubrication of a spinning ball in a nonconforming groove}, "
-        "journal={Journal of Lubrication Technology}, volume={92}, year={1970}}\n"
-        "@article{Goglia1984, author={Goglia, P. R. and Cusano, C. and Conry, T. F.}, title={The "
-        "effects of surface irregularities on the elastohydrodynamic lubrication of sliding line "
-        "contacts. {Part I}: single irregularities}, journal={Journal of Tribology}, "
-        "volume={106}, pages={104--112}, year={1984}}",
-    .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params),
-    .outputs = FF_TABLE(viscosity_law_outputs),
-    .create = create,
-    .set = set,
-    .ready = ready,
-    .service = viscosity_law_service,
-    .destroy = viscosity_law_destroy,
-    .assess = viscosity_law_assess,
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+    .bibtex = BIB_Allen1970 "\n" BIB_Goglia1984, .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params), .ready = ready, .cost = 2.4e-3);

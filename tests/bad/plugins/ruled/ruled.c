@@ -59,7 +59,10 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
                         ff_assessment *a)
 {
     (void)self, (void)wanted, (void)accuracy, (void)in;
-    return ff_assess_law(is("costly") ? 9 : is("cheap") ? 1 : 2, "it is " NAME, a);
+    a->applies = FF_APPLIES;
+    a->cost = is("costly") ? 9 : is("cheap") ? 1 : 2;
+    a->reason = "it is " NAME;
+    return FF_OK;
 }
 
 const ff_model *flankfilm_model_v1(void)

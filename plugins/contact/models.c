@@ -1,0 +1,6 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <flankfilm/author.h>
+
+extern const ff_model contact_constant, contact_table, contact_tooth_pair;
+
+FF_EXPORT_MODELS(&contact_constant, &contact_table, &contact_tooth_pair);

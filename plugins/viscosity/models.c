@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include <flankfilm/author.h>
+
+extern const ff_model viscosity_isoviscous, viscosity_barus, viscosity_roelands,
+    viscosity_two_slope, viscosity_doolittle_tait;
+
+FF_EXPORT_MODELS(&viscosity_isoviscous, &viscosity_barus, &viscosity_roelands, &viscosity_two_slope,
+                 &viscosity_doolittle_tait);
