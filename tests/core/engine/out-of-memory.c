@@ -99,7 +99,8 @@ static long live(void)
 /* What is run, in the directory of the test, and what came of it. */
 typedef struct attempt {
     const char *file;
-    bool open;     /* its models are to be chosen */
+    bool open; /* its models are to be chosen */
+    ff_status status;
     size_t calls;  /* of the allocator */
     bool lacked;   /* an error says that memory was missing */
     double answer; /* over all numbers and messages */
@@ -170,26 +171,24 @@ static ff_status run(attempt *a)
     return status == FF_OK && a->lacked ? FF_NOMEM : status;
 }
 
-static ff_status try_run(attempt *a, size_t fail_at, bool onwards)
+static attempt try_run(const attempt *plan, size_t fail_at, bool onwards)
 {
+    attempt a = *plan;
     memory.calls = 0;
     memory.fail_at = fail_at;
     memory.onwards = onwards;
-    ff_status status = run(a);
+    a.status = run(&a);
     memory.fail_at = 0;
-    a->calls = memory.calls;
-    return status;
+    a.calls = memory.calls;
+    return a;
 }
 
-/* Whether a run in which an allocation failed, and the next one, are as they should be. */
-static bool fail_once(const attempt *plan, size_t at, bool onwards, size_t *calls)
+/* Whether a run in which allocations failed, and a good one, are as they should be. */
+static bool agree(const attempt *failed, const attempt *good)
 {
-    attempt failed = *plan, next = *plan;
-    ff_status status = try_run(&failed, at, onwards);
-    *calls = failed.calls;
-    ff_status good = try_run(&next, 0, false);
-    return good != FF_NOMEM &&
-           (status == FF_NOMEM || (status == good && failed.answer == next.answer));
+    return good->status != FF_NOMEM &&
+           (failed->status == FF_NOMEM ||
+            (failed->status == good->status && failed->answer == good->answer));
 }
 
 static void tell(const char *what, const char *file, size_t at, bool onwards)
@@ -201,16 +200,19 @@ static void tell(const char *what, const char *file, size_t at, bool onwards)
 /* Fails one allocation in `stride` of those that a run makes when the models are loaded. */
 static void fail_warm(const attempt *plan, size_t stride, bool onwards)
 {
-    size_t calls, at = 1;
-    for (;; at += stride) {
+    attempt good = try_run(plan, 0, false); /* loads what stays */
+    size_t at = 1;
+    for (size_t round = 1;; at += stride, round++) {
         long before = live();
-        bool good = fail_once(plan, at, onwards, &calls);
-        if (calls < at)
+        attempt failed = try_run(plan, at, onwards);
+        if (failed.calls < at)
             break;
-        if (!good)
+        if (!agree(&failed, &good))
             tell("a wrong answer", plan->file, at, onwards);
         else if (live() != before)
             tell("memory is left behind", plan->file, at, onwards);
+        if (round % 64 == 0)
+            good = try_run(plan, 0, false);
     }
     check_true("some failed", at > 100);
 }
@@ -223,11 +225,10 @@ static void fail_cold(const attempt *plan, bool onwards)
     size_t at = 1;
     for (; answer != BEYOND; at++) {
         int status = 0;
-        size_t calls;
         fflush(stdout);
         if (fork() == 0) {
-            bool good = fail_once(plan, at, onwards, &calls);
-            _exit(!good ? WRONG : calls < at ? BEYOND : GOOD);
+            attempt failed = try_run(plan, at, onwards), next = try_run(plan, 0, false);
+            _exit(!agree(&failed, &next) ? WRONG : failed.calls < at ? BEYOND : GOOD);
         }
         wait(&status);
         answer = WIFEXITED(status) ? WEXITSTATUS(status) : WRONG;
@@ -246,12 +247,9 @@ int main(int argc, char **argv)
     size_t stride = (size_t)atoi(argv[4]);
     directory = argv[1];
     for (int onwards = 0; onwards <= 1; onwards++)
-        if (stride == 0) {
+        if (stride == 0)
             fail_cold(&plan, onwards);
-        } else {
-            attempt first = plan;
-            try_run(&first, 0, false); /* loads what stays */
+        else
             fail_warm(&plan, stride, onwards);
-        }
     return check_done();
 }
