@@ -36,12 +36,7 @@ double ehl_estimate_moes(const ehl_estimate *e, const ehl_instant *at)
 ff_status ehl_estimate_wire(void *self, uint32_t input, const void *service)
 {
     ehl_estimate *e = self;
-    if (input == EHL_ESTIMATE_IN_VISCOSITY)
-        e->laws.viscosity = service;
-    else if (input == EHL_ESTIMATE_IN_DENSITY)
-        e->laws.density = service;
-    else if (input == EHL_ESTIMATE_IN_RHEOLOGY)
-        e->laws.rheology = service;
+    ehl_wire_law(&e->laws, input, service);
     return FF_OK;
 }
 
@@ -108,20 +103,7 @@ static ff_status fill_moments(ehl_estimate *e)
 
 static ff_status read_scene(ehl_estimate *e, const ff_array *in)
 {
-    e->history = (ehl_history){
-        .count = in[EHL_ESTIMATE_IN_TIME].shape[0],
-        .time = in[EHL_ESTIMATE_IN_TIME].data,
-        .radius = in[EHL_ESTIMATE_IN_RADIUS].data,
-        .speed_1 = in[EHL_ESTIMATE_IN_SPEED_1].data,
-        .speed_2 = in[EHL_ESTIMATE_IN_SPEED_2].data,
-        .load = in[EHL_ESTIMATE_IN_LOAD].data,
-        .roll = in[EHL_ESTIMATE_IN_ROLL].data,
-        .gap = in[EHL_ESTIMATE_IN_GAP].data,
-        .engagement = in[EHL_ESTIMATE_IN_ENGAGEMENT].data,
-        .modulus = *in[EHL_ESTIMATE_IN_MODULUS].data,
-        .load_floor = fmax(e->light_load, 0),
-    };
-    ff_status status = ehl_history_check(&e->history, e->host);
+    ff_status status = ehl_read_history(e->host, in, e->light_load, &e->history);
     if (status == FF_OK)
         status = ehl_history_one_way(&e->history, e->host, "a film without a squeeze term");
     if (status != FF_OK)
@@ -342,7 +324,7 @@ ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
     ehl_estimate *e = self;
     results r = {.host = e->host, .wanted = wanted, .lowest = HUGE_VAL, .least_lambda = HUGE_VAL};
     uint64_t rolling = FF_BIT(EHL_ESTIMATE_ROLL_ANGLE) | FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST_AT);
-    if ((wanted & rolling) && !in[EHL_ESTIMATE_IN_ROLL].data)
+    if ((wanted & rolling) && !in[EHL_IN_ROLL].data)
         return ff_failf(
             e->host, FF_UNSUPPORTED,
             wanted & FF_BIT(EHL_ESTIMATE_ROLL_ANGLE) ? "roll_angle" : "h_min_lowest_at",
@@ -434,6 +416,6 @@ ff_status ehl_estimate_judge(void *self, uint64_t wanted, uint32_t input, const 
     return status != FF_OK
                ? status
                : ehl_judge_law(e->host, &e->history, &e->laws,
-                               (ehl_law_kind)(input - EHL_ESTIMATE_IN_VISCOSITY), service,
+                               (ehl_law_kind)(input - EHL_IN_VISCOSITY), service,
                                error_targets_of(wanted), e->reason, sizeof e->reason, a);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * What the models share that estimate the film without solving for the pressure: parameters,
- * ports, times, and results on the Hertzian contact. A model adds the film alone.
+ * times, and results on the Hertzian contact. A model adds the film alone.
  */
 #ifndef EHL_ESTIMATE_H
 #define EHL_ESTIMATE_H
@@ -10,6 +10,7 @@
 #include "grid.h"
 #include "history.h"
 #include "inlet.h"
+#include "ports.h"
 
 #include <flankfilm/plugin.h>
 
@@ -32,69 +33,9 @@
                        NULL, 0, 1e9, 0, 0,                                                         \
                        "a load per width that stands in for smaller ones; none: the film of 1 % "  \
                        "of the largest load stands in, and the gap of lost contact is added"),     \
-        FF_QUANTITY("oil_conductivity", "W/(m K)", ehl_estimate, heating.conductivity, 0,          \
-                    "0.14 W/(m K)", NULL, 1e-3, 1e3, 0, 0,                                         \
-                    "thermal conductivity of the oil, for the line inlet_heating of the quality "  \
-                    "alone; oils have 0.1 to 0.17"),                                               \
-        FF_QUANTITY_OR("auto", "temperature_slope", "1/K", ehl_estimate, heating.slope,            \
-                       FF_MIN_OPEN, "auto", NULL, 0, 10, 0, 0,                                     \
-                       "-d ln(eta)/dT of the oil, for inlet_heating alone; auto: that of the "     \
-                       "viscosity law, or 0.03 1/K where it knows no temperature")
-
-enum {
-    EHL_ESTIMATE_IN_TIME,
-    EHL_ESTIMATE_IN_RADIUS,
-    EHL_ESTIMATE_IN_SPEED_1,
-    EHL_ESTIMATE_IN_SPEED_2,
-    EHL_ESTIMATE_IN_LOAD,
-    EHL_ESTIMATE_IN_MODULUS,
-    EHL_ESTIMATE_IN_ROLL,
-    EHL_ESTIMATE_IN_GAP,
-    EHL_ESTIMATE_IN_ENGAGEMENT,
-    EHL_ESTIMATE_IN_VISCOSITY,
-    EHL_ESTIMATE_IN_DENSITY,
-    EHL_ESTIMATE_IN_RHEOLOGY,
-    EHL_ESTIMATE_IN_RQ_1,
-    EHL_ESTIMATE_IN_RQ_2,
-    EHL_ESTIMATE_IN_ROUGHNESS,
-    EHL_ESTIMATE_INPUTS
-};
-
-/* The series over time come first. */
-enum {
-    EHL_ESTIMATE_TIME,
-    EHL_ESTIMATE_ROLL_ANGLE,
-    EHL_ESTIMATE_ENGAGEMENT,
-    EHL_ESTIMATE_H_MIN,
-    EHL_ESTIMATE_H_CENTRAL,
-    EHL_ESTIMATE_P_MAX,
-    EHL_ESTIMATE_FRICTION_COEFFICIENT,
-    EHL_ESTIMATE_TRACTION,
-    EHL_ESTIMATE_POWER_LOSS,
-    EHL_ESTIMATE_SLIDING_LOSS,
-    EHL_ESTIMATE_ROLLING_LOSS,
-    EHL_ESTIMATE_SQUEEZE_LOSS,
-    EHL_ESTIMATE_ASPERITY_LOSS,
-    EHL_ESTIMATE_H_MIN_ERROR,
-    EHL_ESTIMATE_LAMBDA_RATIO,
-    EHL_ESTIMATE_SERIES,
-    EHL_ESTIMATE_X = EHL_ESTIMATE_SERIES,
-    EHL_ESTIMATE_FILM,
-    EHL_ESTIMATE_PRESSURE,
-    EHL_ESTIMATE_H_MIN_LOWEST,
-    EHL_ESTIMATE_H_MIN_LOWEST_AT,
-    EHL_ESTIMATE_P_MAX_HIGHEST,
-    EHL_ESTIMATE_LAMBDA_RATIO_LOWEST,
-    EHL_ESTIMATE_H_MIN_LOWEST_MEAN,
-    EHL_ESTIMATE_H_MIN_LOWEST_SPREAD,
-    EHL_ESTIMATE_ENGAGEMENTS_JUDGED,
-    EHL_ESTIMATE_OUTPUTS
-};
+        EHL_HEATING_PARAMS(ehl_estimate)
 
 extern const ff_model ehl_film_formula_model; /* ehl/film-formula */
-
-extern const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS];
-extern const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS];
 
 /* One instant of the results. Loads below 1 % of the largest count as that for the film, which
    would grow beyond all bounds, and as they are for the pressure. */

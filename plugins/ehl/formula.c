@@ -5,6 +5,7 @@
 
 #include "estimate.h"
 #include "inlet.h"
+#include "references.h"
 
 #include <flankfilm/author.h>
 
@@ -235,17 +236,7 @@ const ff_model ehl_film_formula_model = {
     .reference = "Moes 2000, Lubrication and Beyond, University of Twente; Dowson & Higginson "
                  "1977, Elasto-hydrodynamic Lubrication; Dowson & Toyoda 1978, Proc. 5th "
                  "Leeds-Lyon Symp., 60-65; Pan & Hamrock 1989, J. Tribol. 111, 246-251",
-    .bibtex =
-        "@book{moes2000, author={Moes, H.}, title={Lubrication and Beyond}, "
-        "publisher={University of Twente}, year={2000}}\n"
-        "@book{dowson1977, author={Dowson, D. and Higginson, G. R.}, title={Elasto-hydrodynamic "
-        "Lubrication}, publisher={Pergamon}, year={1977}}\n"
-        "@inproceedings{dowson1978, author={Dowson, D. and Toyoda, S.}, title={A central film "
-        "thickness formula for elastohydrodynamic line contacts}, booktitle={Proc. 5th Leeds-Lyon "
-        "Symposium on Tribology}, pages={60--65}, year={1978}}\n"
-        "@article{pan1989, author={Pan, P. and Hamrock, B. J.}, title={Simple formulas for "
-        "performance parameters used in elastohydrodynamically lubricated line contacts}, "
-        "journal={J. Tribol.}, volume={111}, pages={246--251}, year={1989}}\n",
+    .bibtex = BIB_moes2000 "\n" BIB_dowson1977 "\n" BIB_dowson1978 "\n" BIB_pan1989 "\n",
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
     .self_size = sizeof(film_formula),

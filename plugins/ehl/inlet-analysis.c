@@ -8,6 +8,7 @@
  */
 #include "estimate.h"
 #include "inlet.h"
+#include "references.h"
 
 #include <flankfilm/author.h>
 
@@ -377,15 +378,7 @@ static const ff_model inlet_analysis_model = {
     .reference = "Ertel 1939, Akad. Nauk SSSR, Prikladnaya Matematika i Mekhanika 3; Grubin & "
                  "Vinogradova 1949, TsNIITMASh Book 30; Greenwood 1972, Wear 19, 109-119 (an "
                  "extension of the Grubin theory)",
-    .bibtex =
-        "@article{ertel1939, author={Ertel, A. M.}, title={Hydrodynamic lubrication based on new "
-        "principles}, journal={Akad. Nauk SSSR, Prikladnaya Matematika i Mekhanika}, volume={3}, "
-        "year={1939}}\n"
-        "@book{grubin1949, author={Grubin, A. N. and Vinogradova, I. E.}, title={Investigation of "
-        "the contact of machine components}, publisher={TsNIITMASh, Book 30}, year={1949}}\n"
-        "@article{greenwood1972, author={Greenwood, J. A.}, title={An extension of the {Grubin} "
-        "theory of elastohydrodynamic lubrication}, journal={Wear}, volume={19}, "
-        "pages={109--119}, year={1972}}\n",
+    .bibtex = BIB_ertel1939 "\n" BIB_grubin1949 "\n" BIB_greenwood1972 "\n",
     .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params),
     .self_size = sizeof(inlet_analysis),

@@ -59,6 +59,17 @@ typedef struct ehl_inlet_heating {
     double slope;        /* -d ln eta/dT, 1/K; 0: that of the law, or 0.03 where it has none */
 } ehl_inlet_heating;
 
+/* Rows of these parameters for a model with a member `heating`. */
+#define EHL_HEATING_PARAMS(type)                                                                   \
+    FF_QUANTITY("oil_conductivity", "W/(m K)", type, heating.conductivity, 0, "0.14 W/(m K)",      \
+                NULL, 1e-3, 1e3, 0, 0,                                                             \
+                "thermal conductivity of the oil, for the line inlet_heating of the quality "      \
+                "alone; oils have 0.1 to 0.17"),                                                   \
+        FF_QUANTITY_OR("auto", "temperature_slope", "1/K", type, heating.slope, FF_MIN_OPEN,       \
+                       "auto", NULL, 0, 10, 0, 0,                                                  \
+                       "-d ln(eta)/dT of the oil, for inlet_heating alone; auto: that of the "     \
+                       "viscosity law, or 0.03 1/K where it knows no temperature")
+
 /* Film with over film without heating: Q = eta0 beta u^2/k, S = |u1 - u2|/u. 0 where the fit has
    left its range so far that it turns negative. */
 double ehl_gupta_factor(double p_hertz, double modulus, double Q, double S);

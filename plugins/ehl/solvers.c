@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The models of the film that solve for the pressure: one stage (stage.h) with three solvers. */
+#include "references.h"
 #include "stage.h"
 
 #include <flankfilm/author.h>
@@ -43,14 +44,7 @@ static const ff_param params[] = {
                    1e9, 0, 0,
                    "none: without load the film is carried on without a load balance; or a load "
                    "per width that stands in for smaller ones"),
-    FF_QUANTITY("oil_conductivity", "W/(m K)", ehl_model, heating.conductivity, 0, "0.14 W/(m K)",
-                NULL, 1e-3, 1e3, 0, 0,
-                "thermal conductivity of the oil, for the line inlet_heating of the quality alone; "
-                "oils have 0.1 to 0.17"),
-    FF_QUANTITY_OR("auto", "temperature_slope", "1/K", ehl_model, heating.slope, FF_MIN_OPEN,
-                   "auto", NULL, 0, 10, 0, 0,
-                   "-d ln(eta)/dT of the oil, for inlet_heating alone; auto: that of the viscosity "
-                   "law, or 0.03 1/K where it knows no temperature"),
+    EHL_HEATING_PARAMS(ehl_model),
     FF_QUANTITY("contact_film", "nm", ehl_model, contact_film, 0, "1 nm", NULL, 1e-3, 1e3, 0.5, 10,
                 "rough flanks: least film; the asperities carry what would press them closer. Two "
                 "molecular layers of an oil, 0.5 nm each (Israelachvili 2011)"),
@@ -108,15 +102,7 @@ static const ff_model finite_volume = {
         "Venner & Lubrecht 2000, Multilevel Methods in Lubrication (equations); Saad & Schultz "
         "1986, SIAM J. Sci. Stat. Comput. 7 (GMRES); Stanley & Kato 1997, J. Tribol. 119 "
         "(deflection by FFT)",
-    .bibtex =
-        "@book{venner2000, author={Venner, C. H. and Lubrecht, A. A.}, title={Multilevel Methods "
-        "in Lubrication}, publisher={Elsevier}, year={2000}}\n"
-        "@article{saad1986, author={Saad, Y. and Schultz, M. H.}, title={{GMRES}: A generalized "
-        "minimal residual algorithm for solving nonsymmetric linear systems}, journal={SIAM J. "
-        "Sci. Stat. Comput.}, volume={7}, pages={856--869}, year={1986}}\n"
-        "@article{stanley1997, author={Stanley, H. M. and Kato, T.}, title={An {FFT}-based method "
-        "for rough surface contact}, journal={J. Tribol.}, volume={119}, pages={481--485}, "
-        "year={1997}}\n",
+    .bibtex = BIB_venner2000 "\n" BIB_saad1986 "\n" BIB_stanley1997 "\n",
     .input_count = EHL_INPUTS,
     .create = create_finite_volume,
     .assess = assess_finite_volume,
@@ -149,11 +135,7 @@ static const ff_model dense_newton = {
                "LAPACK; slow, meant for up to 300 cells or few steps",
     .reference = "Venner & Lubrecht 2000, Multilevel Methods in Lubrication (equations); Anderson "
                  "et al. 1999, LAPACK Users' Guide",
-    .bibtex =
-        "@book{venner2000, author={Venner, C. H. and Lubrecht, A. A.}, title={Multilevel Methods "
-        "in Lubrication}, publisher={Elsevier}, year={2000}}\n"
-        "@book{anderson1999, author={Anderson, E. and others}, title={{LAPACK} Users' Guide}, "
-        "publisher={SIAM}, year={1999}}\n",
+    .bibtex = BIB_venner2000 "\n" BIB_anderson1999 "\n",
     .input_count = EHL_IN_DISCRETISATION,
     .create = create_dense_newton,
     .assess = assess_dense_newton,
@@ -187,17 +169,7 @@ static const ff_model control_volume = {
         "Li & Kahraman 2009, Tribology International 42 (asymmetric integrated control volumes; "
         "the form used here is inferred); Zhu & Hu 2001, Tribol. Trans. 44 (unified system, "
         "semi-system matrix); Walker & Ni 2011, SIAM J. Numer. Anal. 49 (acceleration)",
-    .bibtex =
-        "@article{li2009, author={Li, S. and Kahraman, A.}, title={A mixed {EHL} model with "
-        "asymmetric integrated control volume discretization}, journal={Tribology "
-        "International}, volume={42}, year={2009}}\n"
-        "@article{zhu2001, author={Zhu, D. and Hu, Y. Z.}, title={A computer program package for "
-        "the prediction of {EHL} and mixed lubrication characteristics, friction, subsurface "
-        "stresses and flash temperatures based on measured 3-{D} surface roughness}, "
-        "journal={Tribol. Trans.}, volume={44}, pages={383--390}, year={2001}}\n"
-        "@article{walker2011, author={Walker, H. F. and Ni, P.}, title={Anderson acceleration for "
-        "fixed-point iterations}, journal={SIAM J. Numer. Anal.}, volume={49}, pages={1715--1735}, "
-        "year={2011}}\n",
+    .bibtex = BIB_li2009 "\n" BIB_zhu2001 "\n" BIB_walker2011 "\n",
     .input_count = EHL_IN_DISCRETISATION,
     .create = create_control_volume,
 };

@@ -35,14 +35,10 @@ void ehl_destroy(void *self)
 ff_status ehl_wire(void *self, uint32_t input, const void *service)
 {
     ehl_model *m = self;
-    if (input == EHL_IN_VISCOSITY)
-        m->laws.viscosity = service;
-    else if (input == EHL_IN_DENSITY)
-        m->laws.density = service;
-    else if (input == EHL_IN_RHEOLOGY)
-        m->laws.rheology = service;
-    else if (input == EHL_IN_DISCRETISATION)
+    if (input == EHL_IN_DISCRETISATION)
         m->outside = service;
+    else
+        ehl_wire_law(&m->laws, input, service);
     return FF_OK;
 }
 
@@ -70,24 +66,6 @@ static void run_destroy(run *r)
     free(r->kernel);
     ehl_roughness_destroy(&r->rough);
     ehl_reynolds_destroy(&r->reynolds);
-}
-
-ff_status ehl_read_history(const ehl_model *m, const ff_array *in, ehl_history *h)
-{
-    *h = (ehl_history){
-        .count = in[EHL_IN_TIME].shape[0],
-        .time = in[EHL_IN_TIME].data,
-        .radius = in[EHL_IN_RADIUS].data,
-        .speed_1 = in[EHL_IN_SPEED_1].data,
-        .speed_2 = in[EHL_IN_SPEED_2].data,
-        .load = in[EHL_IN_LOAD].data,
-        .roll = in[EHL_IN_ROLL].data,
-        .gap = in[EHL_IN_GAP].data,
-        .engagement = in[EHL_IN_ENGAGEMENT].data,
-        .modulus = *in[EHL_IN_MODULUS].data,
-        .load_floor = fmax(m->light_load, 0),
-    };
-    return ehl_history_check(h, m->host);
 }
 
 /* Reads the rough flanks when a surface is wired. */
@@ -135,7 +113,7 @@ static ff_status check_hardness(const ehl_model *m, const run *r)
 
 static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
 {
-    ff_status status = ehl_read_history(m, in, &r->history);
+    ff_status status = ehl_read_history(m->host, in, m->light_load, &r->history);
     if (status != FF_OK)
         return status;
     status = read_surface(m, in, r);
@@ -309,7 +287,7 @@ ff_status ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     ehl_model *m = self;
     run r = {0};
-    ff_status status = ehl_read_history(m, in, &r.history);
+    ff_status status = ehl_read_history(m->host, in, m->light_load, &r.history);
     if (status != FF_OK)
         return status;
     if ((wanted & (FF_BIT(EHL_ROLL_ANGLE) | FF_BIT(EHL_H_MIN_LOWEST_AT))) && !in[EHL_IN_ROLL].data)

@@ -1,31 +1,49 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "estimate.h"
-#include "stage.h"
+#include "ports.h"
+
+#include <flankfilm/film.h>
+
+#include <math.h>
+
+/* The contact and the oil, which all models have. `another`: what another engagement begins with.
+ */
+#define CONTACT_AND_OIL(another)                                                                   \
+    [EHL_IN_TIME] = {"contact.time",                                                               \
+                     "s",                                                                          \
+                     "times of the history, not decreasing; one: a steady contact",                \
+                     "t",                                                                          \
+                     NULL,                                                                         \
+                     0,                                                                            \
+                     NULL},                                                                        \
+    [EHL_IN_RADIUS] =                                                                              \
+        {"contact.equivalent_radius", "m", "R: 1/R = 1/r1 + 1/r2", "t", NULL, 0, NULL},            \
+    [EHL_IN_SPEED_1] = {"contact.speed_1", "m/s", "surface speed u1", "t", NULL, 0, NULL},         \
+    [EHL_IN_SPEED_2] = {"contact.speed_2", "m/s", "surface speed u2", "t", NULL, 0, NULL},         \
+    [EHL_IN_LOAD] =                                                                                \
+        {"contact.load_per_width", "N/m", "normal load; 0: contact lost", "t", NULL, 0, NULL},     \
+    [EHL_IN_MODULUS] =                                                                             \
+        {"contact.reduced_modulus", "Pa", "E': 2/E' = sum (1 - nu^2)/E", "", NULL, 0, NULL},       \
+    [EHL_IN_ROLL] = {"contact.roll_angle", "rad", "roll angle of gear 1", "t", NULL,               \
+                     FF_OPTIONAL,          NULL},                                                  \
+    [EHL_IN_GAP] = {"contact.gap", "m",  "separation of the flanks where the contact is lost",     \
+                    "t",           NULL, FF_OPTIONAL,                                              \
+                    NULL},                                                                         \
+    [EHL_IN_ENGAGEMENT] = {"contact.engagement",                                                   \
+                           "1",                                                                    \
+                           "engagement that each time belongs to; another one begins " another,    \
+                           "t",                                                                    \
+                           NULL,                                                                   \
+                           FF_OPTIONAL,                                                            \
+                           NULL},                                                                  \
+    [EHL_IN_VISCOSITY] = {"viscosity", "", "viscosity of the oil", "", FF_VISCOSITY_ID, 0, NULL},  \
+    [EHL_IN_DENSITY] = {"density", "", "density of the oil", "", FF_DENSITY_ID, 0, NULL},          \
+    [EHL_IN_RHEOLOGY] =                                                                            \
+        {                                                                                          \
+            "rheology",  "",  "flow under shear; none: Newtonian", "", FF_RHEOLOGY_ID,             \
+            FF_OPTIONAL, NULL}
 
 const ff_port ehl_inputs[EHL_INPUTS] = {
-    [EHL_IN_TIME] = {"contact.time", "s",
-                     "times of the history, not decreasing; one: a steady contact", "t", NULL, 0,
-                     NULL},
-    [EHL_IN_RADIUS] = {"contact.equivalent_radius", "m", "R: 1/R = 1/r1 + 1/r2", "t", NULL, 0,
-                       NULL},
-    [EHL_IN_SPEED_1] = {"contact.speed_1", "m/s", "surface speed u1", "t", NULL, 0, NULL},
-    [EHL_IN_SPEED_2] = {"contact.speed_2", "m/s", "surface speed u2", "t", NULL, 0, NULL},
-    [EHL_IN_LOAD] = {"contact.load_per_width", "N/m", "normal load; 0: contact lost", "t", NULL, 0,
-                     NULL},
-    [EHL_IN_MODULUS] = {"contact.reduced_modulus", "Pa", "E': 2/E' = sum (1 - nu^2)/E", "", NULL, 0,
-                        NULL},
-    [EHL_IN_ROLL] = {"contact.roll_angle", "rad", "roll angle of gear 1", "t", NULL, FF_OPTIONAL,
-                     NULL},
-    [EHL_IN_GAP] = {"contact.gap", "m", "separation of the flanks where the contact is lost", "t",
-                    NULL, FF_OPTIONAL, NULL},
-    [EHL_IN_ENGAGEMENT] = {"contact.engagement", "1",
-                           "engagement that each time belongs to; another one begins with a "
-                           "steady film of its own",
-                           "t", NULL, FF_OPTIONAL, NULL},
-    [EHL_IN_VISCOSITY] = {"viscosity", "", "viscosity of the oil", "", FF_VISCOSITY_ID, 0, NULL},
-    [EHL_IN_DENSITY] = {"density", "", "density of the oil", "", FF_DENSITY_ID, 0, NULL},
-    [EHL_IN_RHEOLOGY] = {"rheology", "", "flow under shear; none: Newtonian", "", FF_RHEOLOGY_ID,
-                         FF_OPTIONAL, NULL},
+    CONTACT_AND_OIL("with a steady film of its own"),
     [EHL_IN_POSITION] = {"surface.position", "m",
                          "arc coordinate s, in equal steps from 0; no surface: smooth flanks",
                          "arc", NULL, FF_OPTIONAL, NULL},
@@ -176,30 +194,7 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
 };
 
 const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS] = {
-    [EHL_ESTIMATE_IN_TIME] = {"contact.time", "s",
-                              "times of the history, not decreasing; one: a steady contact", "t",
-                              NULL, 0, NULL},
-    [EHL_ESTIMATE_IN_RADIUS] = {"contact.equivalent_radius", "m", "R: 1/R = 1/r1 + 1/r2", "t", NULL,
-                                0, NULL},
-    [EHL_ESTIMATE_IN_SPEED_1] = {"contact.speed_1", "m/s", "surface speed u1", "t", NULL, 0, NULL},
-    [EHL_ESTIMATE_IN_SPEED_2] = {"contact.speed_2", "m/s", "surface speed u2", "t", NULL, 0, NULL},
-    [EHL_ESTIMATE_IN_LOAD] = {"contact.load_per_width", "N/m", "normal load; 0: contact lost", "t",
-                              NULL, 0, NULL},
-    [EHL_ESTIMATE_IN_MODULUS] = {"contact.reduced_modulus", "Pa", "E': 2/E' = sum (1 - nu^2)/E", "",
-                                 NULL, 0, NULL},
-    [EHL_ESTIMATE_IN_ROLL] = {"contact.roll_angle", "rad", "roll angle of gear 1", "t", NULL,
-                              FF_OPTIONAL, NULL},
-    [EHL_ESTIMATE_IN_GAP] = {"contact.gap", "m",
-                             "separation of the flanks where the contact is lost", "t", NULL,
-                             FF_OPTIONAL, NULL},
-    [EHL_ESTIMATE_IN_ENGAGEMENT] = {"contact.engagement", "1",
-                                    "engagement that each time belongs to; another one begins anew",
-                                    "t", NULL, FF_OPTIONAL, NULL},
-    [EHL_ESTIMATE_IN_VISCOSITY] = {"viscosity", "", "viscosity of the oil", "", FF_VISCOSITY_ID, 0,
-                                   NULL},
-    [EHL_ESTIMATE_IN_DENSITY] = {"density", "", "density of the oil", "", FF_DENSITY_ID, 0, NULL},
-    [EHL_ESTIMATE_IN_RHEOLOGY] = {"rheology", "", "flow under shear; none: Newtonian", "",
-                                  FF_RHEOLOGY_ID, FF_OPTIONAL, NULL},
+    CONTACT_AND_OIL("anew"),
     [EHL_ESTIMATE_IN_RQ_1] = {"surface.rq_1", "m",
                               "roughness of flank 1; the film stays smooth, but where the program "
                               "chooses the model it knows of it",
@@ -274,3 +269,32 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
     [EHL_ESTIMATE_ENGAGEMENTS_JUDGED] = {"engagements_judged", "1",
                                          "engagements that the results are of", "", NULL, 0, NULL},
 };
+
+ff_status ehl_read_history(const ff_host *host, const ff_array *in, double light_load,
+                           ehl_history *h)
+{
+    *h = (ehl_history){
+        .count = in[EHL_IN_TIME].shape[0],
+        .time = in[EHL_IN_TIME].data,
+        .radius = in[EHL_IN_RADIUS].data,
+        .speed_1 = in[EHL_IN_SPEED_1].data,
+        .speed_2 = in[EHL_IN_SPEED_2].data,
+        .load = in[EHL_IN_LOAD].data,
+        .roll = in[EHL_IN_ROLL].data,
+        .gap = in[EHL_IN_GAP].data,
+        .engagement = in[EHL_IN_ENGAGEMENT].data,
+        .modulus = *in[EHL_IN_MODULUS].data,
+        .load_floor = fmax(light_load, 0),
+    };
+    return ehl_history_check(h, host);
+}
+
+void ehl_wire_law(ehl_laws *laws, uint32_t input, const void *service)
+{
+    if (input == EHL_IN_VISCOSITY)
+        laws->viscosity = service;
+    else if (input == EHL_IN_DENSITY)
+        laws->density = service;
+    else if (input == EHL_IN_RHEOLOGY)
+        laws->rheology = service;
+}
