@@ -16,6 +16,7 @@ static ff_status density(const void *table, size_t n, const double *const *in, d
 const conformance_function conformance_functions[] = {
     {.service = FF_DENSITY_ID,
      .name = "eval",
+     .size = sizeof(ff_density),
      .axes = {&conformance_pressure, &conformance_temperature},
      .axis_count = 2,
      .results = {"rho", "drho_dp", "drho_dT"},

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Checks of the functions of a law. */
 #include "law-checks.h"
+#include "jump.h"
 #include "slope.h"
 
 #include <math.h>
@@ -116,7 +117,14 @@ static void for_each_function(const ff_fixture *fixture,
             if (ours && !table)
                 good = ff_check_failf(fixture, "service gave no table for \"%s\"",
                                       output_row(model, i)->name);
-            for (size_t k = 0; k < conformance_function_count && table; k++)
+            if (table && *(const size_t *)table < conformance_functions[0].size)
+                good =
+                    ff_check_failf(fixture,
+                                   "the table for \"%s\" says a size of %zu bytes, but that of the "
+                                   "interface has %zu",
+                                   output_row(model, i)->name, *(const size_t *)table,
+                                   conformance_functions[0].size);
+            for (size_t k = 0; k < conformance_function_count && table && good; k++)
                 for (size_t v = 0; v < conformance_functions[k].speed_count && good; v++) {
                     step(fixture, "", conformance_functions[k].name);
                     good = test(&c, &conformance_functions[k], table,
@@ -304,6 +312,29 @@ static bool derivatives(checking *c, const conformance_function *function, const
 void conformance_check_derivatives(const ff_fixture *fixture)
 {
     for_each_function(fixture, derivatives);
+}
+
+static bool continuity(checking *c, const conformance_function *function, const void *table,
+                       double speed)
+{
+    enum { LINES = 3 };
+    for (size_t i = 0; i < LINES * function->axis_count; i++) {
+        conformance_line l = {
+            .function = function, .table = table, .speed = speed, .axis = i / LINES};
+        conformance_jump jump;
+        for (size_t j = 0; j < function->axis_count; j++)
+            l.point[j] = draw(function->axes[j], &c->random);
+        if (conformance_find_jump(&l, &jump))
+            return ff_check_failf(c->fixture, "%s: %s jumps from %.9g to %.9g at %s = %.9g",
+                                  function->name, function->results[0], jump.before, jump.after,
+                                  function->axes[l.axis]->name, jump.at);
+    }
+    return true;
+}
+
+void conformance_check_continuity(const ff_fixture *fixture)
+{
+    for_each_function(fixture, continuity);
 }
 
 static bool check_rise(checking *c, const conformance_function *function, const batch *b)

@@ -22,6 +22,7 @@ typedef struct conformance_axis {
 
 typedef struct conformance_function {
     const char *service, *name;
+    size_t size; /* of the table of the service */
     const conformance_axis *axes[CONFORMANCE_AXES];
     size_t axis_count;
     const char *results[CONFORMANCE_RESULTS]; /* the value, then its derivatives by axis `by` */
@@ -44,6 +45,7 @@ void conformance_check_guards(const ff_fixture *fixture);
 void conformance_check_batch(const ff_fixture *fixture);
 void conformance_check_finite(const ff_fixture *fixture);
 void conformance_check_derivatives(const ff_fixture *fixture);
+void conformance_check_continuity(const ff_fixture *fixture);
 void conformance_check_physics(const ff_fixture *fixture);
 void conformance_check_purity(const ff_fixture *fixture);
 
@@ -54,6 +56,7 @@ void conformance_check_purity(const ff_fixture *fixture);
         {"batch", "a batch gives what single calls give", conformance_check_batch},                \
         {"finite", "is finite for extreme arguments", conformance_check_finite},                   \
         {"derivatives", "derivatives agree with differences", conformance_check_derivatives},      \
+        {"continuity", "has no jumps", conformance_check_continuity},                              \
         {"physics", "has the sign and slope that physics asks for", conformance_check_physics},    \
     {                                                                                              \
         "purity", "gives the same answers again, and in two threads", conformance_check_purity     \

@@ -77,9 +77,9 @@ static const conformance_axis temperature = {.name = "T",
 
 #define PROPERTY(says, value, ...)                                                                 \
     {                                                                                              \
-        .service = FF_LIQUID_ID, .name = says, .axes = {&temperature}, .axis_count = 1,            \
-        .results = {value, "its slope"}, .by = {0, 0}, .result_count = 2, .speed_count = 1,        \
-        __VA_ARGS__                                                                                \
+        .service = FF_LIQUID_ID, .size = sizeof(ff_liquid), .name = says, .axes = {&temperature},  \
+        .axis_count = 1, .results = {value, "its slope"}, .by = {0, 0}, .result_count = 2,         \
+        .speed_count = 1, __VA_ARGS__                                                              \
     }
 
 const conformance_function conformance_functions[] = {

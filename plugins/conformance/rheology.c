@@ -25,6 +25,7 @@ static ff_status shear(const void *table, size_t n, const double *const *in, dou
 const conformance_function conformance_functions[] = {
     {.service = FF_RHEOLOGY_ID,
      .name = "flow",
+     .size = sizeof(ff_rheology),
      .axes = {&conformance_ln_eta, &conformance_film},
      .axis_count = 2,
      .results = {"psi", "dpsi_dln_eta", "dpsi_dh"},
@@ -36,6 +37,7 @@ const conformance_function conformance_functions[] = {
      .call = flow},
     {.service = FF_RHEOLOGY_ID,
      .name = "shear",
+     .size = sizeof(ff_rheology),
      .axes = {&conformance_pressure, &conformance_ln_eta, &conformance_film},
      .axis_count = 3,
      .results = {"tau"},

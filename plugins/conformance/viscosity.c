@@ -16,6 +16,7 @@ static ff_status viscosity(const void *table, size_t n, const double *const *in,
 const conformance_function conformance_functions[] = {
     {.service = FF_VISCOSITY_ID,
      .name = "eval",
+     .size = sizeof(ff_viscosity),
      .axes = {&conformance_pressure, &conformance_temperature},
      .axis_count = 2,
      .results = {"ln_eta", "dln_dp", "dln_dT"},

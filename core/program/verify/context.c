@@ -4,7 +4,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -16,47 +15,37 @@ void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const c
     }
 }
 
-static void keep_process(verify_process *process)
-{
-    memset(process, 0, sizeof *process);
-    for (int i = 1; i < VERIFY_SIGNALS; i++)
-        sigaction(i, NULL, &process->signals[i]);
-    process->mask = umask(0);
-    umask(process->mask);
-    if (!getcwd(process->folder, sizeof process->folder))
-        process->folder[0] = 0;
-}
-
-static const char *process_changed(const verify_process *was)
-{
-    verify_process is;
-    keep_process(&is);
-    for (int i = 1; i < VERIFY_SIGNALS; i++)
-        if (was->signals[i].sa_handler != is.signals[i].sa_handler)
-            return "changed a signal handler";
-    if (strcmp(was->folder, is.folder) != 0)
-        return "changed the working directory";
-    return was->mask == is.mask ? NULL : "changed the mask of new files";
-}
-
 void verify_context_begin(verify_context *context, ff_library *library)
 {
     context->model = context->loaded->model;
     context->laws = verify_plain_laws(library, context->loaded);
     context->random = (verify_random){42};
-    keep_process(&context->process);
+}
+
+void verify_watch(verify_context *context)
+{
+    context->watching = true;
+    context->pid = getpid();
+    verify_process_look(&context->process);
     ff_environment_keep(&context->environment);
 }
 
-const char *verify_changed(const verify_context *context)
+void verify_check_process(verify_context *context)
 {
-    const char *what = ff_environment_restore(&context->environment);
-    return what ? what : process_changed(&context->process);
+    if (!context->watching)
+        return;
+    if (getpid() != context->pid)
+        _exit(0); /* a copy of the test that the model made */
+    const char *change = ff_environment_restore(&context->environment);
+    change = change ? change : verify_process_changed(&context->process);
+    if (change)
+        verify_fail(context, "%s while %s", change, context->outcome->step);
 }
 
 void verify_step(verify_context *context, const char *format, ...)
 {
     va_list args;
+    verify_check_process(context);
     va_start(args, format);
     vsnprintf(context->outcome->step, sizeof context->outcome->step, format, args);
     va_end(args);

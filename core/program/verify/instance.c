@@ -172,7 +172,7 @@ static ff_status place(verify_instance *instance, const verify_setup *setup)
     return FF_OK;
 }
 
-ff_status verify_instance_open(verify_instance *instance, const verify_setup *setup)
+ff_status verify_instance_create(verify_instance *instance, const verify_setup *setup)
 {
     const ff_model *model = setup->context->model;
     *instance = (verify_instance){
@@ -195,6 +195,13 @@ ff_status verify_instance_open(verify_instance *instance, const verify_setup *se
                                .given = host_given};
     ff_status status = model->create(&instance->host, &instance->self);
     instance->created = status == FF_OK;
+    return status;
+}
+
+ff_status verify_instance_open(verify_instance *instance, const verify_setup *setup)
+{
+    const ff_model *model = setup->context->model;
+    ff_status status = verify_instance_create(instance, setup);
     if (status == FF_OK && model->self_size)
         status = place(instance, setup);
     for (size_t i = 0; i < model->param_count && status == FF_OK; i++)

@@ -10,6 +10,9 @@
 
 #include <limits.h>
 #include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/time.h>
 #include <sys/types.h>
 
 /* kind-checks.c: the model conformance/KIND, which says what models of that kind owe. */
@@ -56,14 +59,26 @@ typedef struct verify_outcome {
 /* Only the first finding is kept. */
 void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const char *why);
 
-enum { VERIFY_SIGNALS = 32 };
+enum { VERIFY_SIGNALS = 32, VERIFY_LIMITS = RLIM_NLIMITS };
 
-/* What of the process a model must leave alone beside arithmetic and locale. */
+/* process.c: what of the process a model must leave alone beside arithmetic and locale. */
 typedef struct verify_process {
     struct sigaction signals[VERIFY_SIGNALS];
+    sigset_t blocked;
+    stack_t stack; /* of the handlers */
+    struct itimerval timers[3];
+    struct stat streams[3];
     char folder[PATH_MAX];
     mode_t mask;
+    struct rlimit limits[VERIFY_LIMITS];
+    uint64_t variables; /* a hash of the environment */
+    long children;      /* differs once there was one more */
+    size_t threads;
 } verify_process;
+
+void verify_process_look(verify_process *process);
+/* What is not as it was then: completes 'the plugin ...'. NULL: nothing. */
+const char *verify_process_changed(const verify_process *was);
 
 /* context.c: one test of one model. */
 typedef struct verify_context {
@@ -74,16 +89,19 @@ typedef struct verify_context {
     struct verify_setup *given; /* from the user's pipeline; NULL: there is none */
     verify_outcome *outcome;
     ff_report *messages; /* about the parameter that was read last */
+    bool watching;       /* from verify_watch on the model may change nothing of the process */
+    pid_t pid;
     ff_environment environment;
     verify_process process;
 } verify_context;
 
-/* `loaded` and `outcome` are set. From now on the model may change nothing of the process. */
+/* `loaded` and `outcome` are set. */
 void verify_context_begin(verify_context *context, ff_library *library);
-/* What of the process is not as it was then: completes 'the plugin ...'. NULL: nothing. */
-const char *verify_changed(const verify_context *context);
+void verify_watch(verify_context *context);
+/* Fails when the process is not as it was, which the step at hand has done. */
+void verify_check_process(verify_context *context);
 
-/* Names the call in which a crash or a hang is then found. */
+/* Names the call in which a crash, a hang or a change of the process is then found. */
 void verify_step(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
 /* Only the first finding is kept. Return false. */
 bool verify_fail(verify_context *context, const char *format, ...) FF_PRINTF(2, 3);
@@ -149,7 +167,9 @@ typedef struct verify_instance {
     bool asked_to_stop;
 } verify_instance;
 
-/* create, set, wire, ready. To be closed whatever the status is. */
+/* create alone. To be closed whatever the status is. */
+ff_status verify_instance_create(verify_instance *instance, const verify_setup *setup);
+/* create, set, wire, ready; `setup` has all that is required. To be closed likewise. */
 ff_status verify_instance_open(verify_instance *instance, const verify_setup *setup);
 /* The outputs stay until the next call. */
 ff_status verify_instance_evaluate(verify_instance *instance, uint64_t wanted,

@@ -119,6 +119,19 @@ static bool take_user_run(verify_context *context, const verify_request *request
     return good;
 }
 
+static void run_watched(verify_context *context, const test *t, bool watching)
+{
+    context->watching = false; /* other models may have run */
+    verify_step(context, "beginning");
+    if (watching)
+        verify_watch(context);
+    if (t->matter == ANY_MODEL)
+        t->run(context);
+    else if (t->matter == ITS_KIND)
+        verify_run_check(context, t->check);
+    verify_check_process(context);
+}
+
 static void try_model(verify_context *context, const session *s, ff_library *library, const test *t)
 {
     const verify_request *request = s->request;
@@ -128,10 +141,8 @@ static void try_model(verify_context *context, const session *s, ff_library *lib
         context->outcome->finding = VERIFY_SKIPPED;
     else if (request->pipeline && !take_user_run(context, request, library, inputs))
         return;
-    else if (t->matter == ANY_MODEL)
-        t->run(context);
-    else if (t->matter == ITS_KIND)
-        verify_run_check(context, t->check);
+    else
+        run_watched(context, t, inputs || t->run == verify_test_environment);
 }
 
 /* The folder of the plugin comes before the search path. */
@@ -145,15 +156,32 @@ static ff_engine *open_engine(const char *root)
     return memory_require(engine);
 }
 
+/* The program itself does without them, but other programs that use the library may not. */
+static void run_destructors(verify_context *context)
+{
+#ifndef __SANITIZE_ADDRESS__ /* which would count what the test has left behind */
+    context->watching = false;
+    verify_step(context, "running its destructors");
+    exit(0);
+#else
+    (void)context;
+#endif
+}
+
 static _Noreturn void child(const session *s, const test *t, verify_outcome *outcome)
 {
     verify_context context = {.outcome = outcome};
     ff_library *library = ff_engine_library(open_engine(s->root));
     verify_step(&context, "loading");
-    if (load(&context, library, s->id) && t->matter != LOADING)
+    verify_watch(&context);
+    bool loaded = load(&context, library, s->id);
+    verify_check_process(&context);
+    if (loaded && t->matter != LOADING)
         try_model(&context, s, library, t);
     fflush(stdout);
     outcome->finished = true;
+    if (t->matter == LOADING)
+        run_destructors(&context);
     _exit(0);
 }
 
@@ -173,7 +201,7 @@ static void conclude(verify_outcome *outcome, int status, bool late, FILE *captu
     first_words(capture, words, sizeof words);
     result->finding = outcome->finding;
     snprintf(result->why, sizeof result->why, "%s", outcome->why);
-    if (outcome->finished && !words[0])
+    if (outcome->finished && !words[0] && !late && !WIFSIGNALED(status))
         return;
     result->finding = VERIFY_FAILED;
     if (late)
@@ -184,25 +212,23 @@ static void conclude(verify_outcome *outcome, int status, bool late, FILE *captu
                  strsignal(WTERMSIG(status)));
     else if (!outcome->finished)
         snprintf(result->why, sizeof result->why, "ended the program while %s: %s", outcome->step,
-                 words[0] ? words : "it called exit()");
+                 words[0] ? words : "it called exit(), or the like");
     else if (!outcome->why[0])
         snprintf(result->why, sizeof result->why, "printed \"%.100s\"", words);
 }
 
-/* Waits for the child, but not for ever; true when it was late. */
+/* Waits for the child, but not for ever, and ends what it has started; true when it was late. */
 static bool await(pid_t pid, double limit, int *status)
 {
     double end = verify_now() + limit;
     const struct timespec pause = {.tv_nsec = 1000000};
-    while (waitpid(pid, status, WNOHANG) == 0) {
-        if (verify_now() > end) {
-            kill(-pid, SIGKILL);
-            waitpid(pid, status, 0);
-            return true;
-        }
+    siginfo_t info = {.si_pid = 0};
+    while (waitid(P_PID, (id_t)pid, &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0 &&
+           verify_now() < end)
         nanosleep(&pause, NULL);
-    }
-    return false;
+    kill(-pid, SIGKILL);
+    waitpid(pid, status, 0);
+    return info.si_pid == 0;
 }
 
 static void run_test(const session *s, const test *t, verify_result *result)
@@ -311,6 +337,8 @@ bool verify_plugin(const verify_request *request,
         return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
                         "its place must be KIND/NAME.so, as its id says", "%s is not a plugin",
                         request->path);
+    setenv("OPENBLAS_NUM_THREADS", "1", 1); /* a thread that stays is then the model's own */
+    setenv("OMP_NUM_THREADS", "1", 1);
     ff_engine *engine = open_engine(s.root);
     s.library = ff_engine_library(engine);
     if (try(&s, &descriptor) && try(&s, &pipeline)) {

@@ -103,7 +103,7 @@ static void change(const char *what)
     if (!strcmp(what, "limit"))
         setrlimit(RLIMIT_NOFILE, &limit);
     if (!strcmp(what, "variable"))
-        setenv("LANG", "C.UTF-8", 1);
+        setenv("MISDEED_WAS_HERE", "1", 1);
     if (!strcmp(what, "clear"))
         clearenv();
     if (!strcmp(what, "timer"))
@@ -118,12 +118,16 @@ static void change(const char *what)
         result = (int)write(STDOUT_FILENO, "here I am\n", 10);
 }
 
+/* Once in a process, which is enough. */
 static void misbehave(const char *where)
 {
+    static int done;
     const char *misdeed = getenv("FLANKFILM_MISDEED");
     char begin[64];
     size_t length = (size_t)snprintf(begin, sizeof begin, "%s %s ", role, where);
     if (!misdeed || strncmp(misdeed, begin, length) != 0)
+        return;
+    if (done++)
         return;
     end(&misdeed[length]);
     change(&misdeed[length]);

@@ -51,9 +51,22 @@ static double value(const law *l, double p)
         return log(exp(ln_eta));
     if (is("falling") && p > 2e9)
         return -5 + l->alpha * (4e9 - p);
+    if (is("jump") && p >= 2e8)
+        return ln_eta + 1;
+    if (is("small-jump") && p >= 2e8)
+        return ln_eta + 1e-4;
     if (is("counter"))
         return ln_eta * (1 + 4 * DBL_EPSILON * (double)(calls++ % 3));
     return ln_eta;
+}
+
+/* Steep, and with a kink, but without a fault. */
+static double extra(double p, double *slope)
+{
+    const double middle = 2e8, width = 1e3;
+    double rise = is("steep") ? tanh((p - middle) / width) : 0;
+    *slope = is("steep") ? (1 - rise * rise) / width : is("kink") && p > middle ? 4e-9 : 0;
+    return is("kink") ? fmax(p - middle, 0) * 4e-9 : rise;
 }
 
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
@@ -65,9 +78,10 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     misbehave(n, p);
     for (size_t i = 0; i < n; i++) {
         scratch[i] = p[i];
-        ln_eta[i] = value(l, is("thread") ? ((volatile double *)scratch)[i] : p[i]);
+        double slope, more = extra(p[i], &slope);
+        ln_eta[i] = value(l, is("thread") ? ((volatile double *)scratch)[i] : p[i]) + more;
         if (dln_dp)
-            dln_dp[i] = is("falling") && p[i] > 2e9 ? -l->alpha : factor * l->alpha;
+            dln_dp[i] = (is("falling") && p[i] > 2e9 ? -l->alpha : factor * l->alpha) + slope;
         if (dln_dT)
             dln_dT[i] = is("temperature") ? 1e-6 : 0;
     }
@@ -145,6 +159,8 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 static const void *service(void *self, uint32_t output)
 {
     (void)output;
+    if (is("size"))
+        ((law *)self)->service.size = 0;
     return is("no-table") ? NULL : &((law *)self)->service;
 }
 
