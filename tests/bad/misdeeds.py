@@ -37,6 +37,31 @@ ENDS = {
 # of these it cannot be told any more which of those that take part did them
 VAGUE = ["trap", "thread-exit"]
 
+# what verify says of a change, whichever function makes it
+CHANGES = {
+    "rounding": "changed the rounding mode",
+    "flush": "switched the processor to flush small numbers to zero",
+    "locale": "changed the locale",
+    "folder": "changed the working directory",
+    "umask": "changed the mask of new files",
+    "handler": "changed a signal handler",
+    "mask": "changed which signals are blocked",
+    "stack": "changed the stack of the signal handlers",
+    "close": "closed or replaced the standard output",
+    "redirect": "closed or replaced the standard error output",
+    "limit": "changed a resource limit",
+    "variable": "changed the environment variables",
+    "clear": "changed the environment variables",
+    "timer": "set a timer that sends a signal",
+    "child": "started another process",
+    "fork": "started another process",
+    "thread": "left a thread behind",
+    "print": 'printed "here I am"',
+    "write": 'printed "here I am"',
+}
+# those that a run finds, too, and sets back
+SET_BACK = ["rounding", "flush", "locale", "folder"]
+
 CASE = """format: 1
 pipeline:
   oil: {use: viscosity/misdeed}
@@ -103,6 +128,23 @@ def ends_in_a_study(role, place, what):
     hold(misdeed + " in a study", good, f"{done.returncode}: {done.stdout} {done.stderr} {table}")
 
 
+def is_set_back(role, place, what):
+    """A warning names the plugin, and the results are where they are said to be."""
+    misdeed = f"{role} {place} {what}"
+    directory = misdeed.replace(" ", "-")
+    done = run(misdeed, "run", "case.yaml", "-o", directory)
+    good = done.returncode == 0 and FILES[role] in done.stderr and CHANGES[what] in done.stderr
+    good = good and os.path.exists(directory + "/result.json")
+    hold(misdeed, good, f"{done.returncode}: {done.stdout} {done.stderr}")
+
+
+def is_verified(role, place, what, says):
+    misdeed = f"{role} {place} {what}"
+    done = run(misdeed, "verify", FILES[role])
+    lines = [line for line in done.stdout.split("\n") if line.startswith("# faulty: ") and says in line]
+    hold("verify of " + misdeed, done.returncode == 3 and lines, done.stdout)
+
+
 os.chdir(tempfile.mkdtemp())
 for name, text in ("case.yaml", CASE), ("study.yaml", STUDY):
     with open(name, "w", encoding="utf-8") as stream:
@@ -116,6 +158,21 @@ for role, places in PLACES.items():
 for role, place in ("law", "eval"), ("stage", "evaluate"):
     for what in ENDS:
         ends_in_a_study(role, place, what)
+for role, places in PLACES.items():
+    for place in places[:-1]:  # at the end of a run nobody looks any more
+        for what in SET_BACK:
+            is_set_back(role, place, what)
+hold("verify of nothing", run("", "verify", FILES["law"]).returncode == 0, "it fails")
+for what, says in CHANGES.items():
+    is_verified("law", "eval", what, says)
+for role, places in PLACES.items():
+    for place in places:
+        is_verified(role, place, "folder", CHANGES["folder"])
+is_verified("law", "eval", "limit", "changed a resource limit while calling eval")
+is_verified("law", "constructor", "_exit", "ended the program while loading")
+is_verified("law", "eval", "execl", "ended the program while calling eval")
+is_verified("law", "destructor", "crash", "crashed while running its destructors")
+
 # destructors of an object do not run in the program: all is written by then
 hold("destructor", run("law destructor crash", "run", "case.yaml", "--json").returncode == 0, "it fails")
 

@@ -3,6 +3,7 @@
 #ifndef FE_BUILD_H
 #define FE_BUILD_H
 
+#include "../plugin/folder.h"
 #include "../value/memory.h"
 #include "../value/report.h"
 #include "../value/tables.h"
@@ -35,6 +36,7 @@ typedef struct fe_instance {
 } fe_instance;
 
 struct fe_pipeline_memory {
+    fe_folder folder; /* the working directory */
     fe_arena arena;
     ff_library *library;
 };
@@ -104,6 +106,9 @@ fe_call fe_call_begin(const ff_stage *stage, const char *action);
 /* Restores the environment that a model must not change, and reports the status of the call and the
    faults of the model. True when the call was good. */
 bool fe_call_end(const fe_call *call, ff_status status, ff_report *report);
+/* Goes back to the working directory that the calls so far must not have left, with a warning. */
+void fe_check_folder(const ff_pipeline *pipeline, const ff_stage *stage, const char *action,
+                     ff_report *report);
 /* Reports 'the plugin x.so <what>' at the stage's model. Returns false. */
 bool fe_plugin_fault(const ff_stage *stage, ff_report *report, const char *what);
 

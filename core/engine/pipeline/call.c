@@ -134,15 +134,21 @@ static bool judge(const fe_call *call, ff_status status, ff_report *report)
 }
 
 /* Services are called past the core: that one of them made the change cannot be told from it. */
-static void warn_of_change(const fe_call *call, const char *changed, ff_report *report)
+static void warn_of_change(const ff_stage *stage, const char *changed, const char *action,
+                           ff_report *report)
 {
-    const ff_stage *stage = call->stage;
     char services[700];
     ff_guard_print_services(&stage->instance->mark, ", or one that serves it (", services,
                             sizeof services);
     ff_warn(report, stage->use_place, "%s: the plugin %s%s%s %s during %s; this was set back",
-            stage->name, stage->loaded->path, services, services[0] ? ")," : "", changed,
-            call->action);
+            stage->name, stage->loaded->path, services, services[0] ? ")," : "", changed, action);
+}
+
+void fe_check_folder(const ff_pipeline *pipeline, const ff_stage *stage, const char *action,
+                     ff_report *report)
+{
+    if (fe_folder_restore(&pipeline->memory->folder))
+        warn_of_change(stage, "changed the working directory", action, report);
 }
 
 bool fe_call_end(const fe_call *call, ff_status status, ff_report *report)
@@ -154,6 +160,6 @@ bool fe_call_end(const fe_call *call, ff_status status, ff_report *report)
     if (stage->instance->no_memory)
         fe_out_of_memory();
     if (changed)
-        warn_of_change(call, changed, report);
+        warn_of_change(stage, changed, call->action, report);
     return judge(call, status, report);
 }

@@ -63,6 +63,7 @@ bool fe_evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *i
         instance->evaluating = false;
         again = drop_refused(stage);
         good = fe_call_end(&call, again ? FF_OK : stage->status, report);
+        fe_check_folder(pipeline, stage, "evaluate", report);
     } while (again);
     return good && fe_check_results(stage, report);
 }

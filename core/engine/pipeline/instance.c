@@ -138,6 +138,8 @@ void fe_open_instance(fe_build *b, ff_stage *stage)
 {
     stage->instance->alive = create(stage, b->report) && set(stage, b->report) && wire(b, stage) &&
                              ready(stage, b->report);
+    if (b->pipeline)
+        fe_check_folder(b->pipeline, stage, "create, set, wire or ready", b->report);
 }
 
 void fe_close_instance(ff_stage *stage)

@@ -41,6 +41,7 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool ev
     ff_pipeline *pipeline = fe_alloc(sizeof *pipeline);
     pipeline->memory = fe_alloc(sizeof *pipeline->memory);
     pipeline->memory->library = library;
+    fe_folder_keep(&pipeline->memory->folder);
     fe_build b = {.pipeline = pipeline,
                   .library = library,
                   .report = report,
@@ -77,6 +78,7 @@ void ff_pipeline_free(ff_pipeline *pipeline)
         return;
     for (size_t i = pipeline->count; i-- > 0;)
         fe_close_instance(&pipeline->stages[pipeline->order[i]]);
+    fe_folder_restore(&pipeline->memory->folder);
     for (size_t i = 0; i < pipeline->count; i++) {
         ff_stage *stage = &pipeline->stages[i];
         fe_free_candidates(stage);

@@ -2,6 +2,7 @@
 #include "library.h"
 
 #include "../value/memory.h"
+#include "folder.h"
 #include "private.h"
 #include "serial.h"
 
@@ -127,10 +128,12 @@ static ff_loaded *load_model(ff_library *library, const char *id, const char *pa
 {
     char clean[1024];
     ff_environment environment;
+    fe_folder folder;
     ff_loaded *loaded = fe_arena_alloc(&library->memory, sizeof *loaded);
     loading l = {.library = library, .id = id, .loaded = loaded};
     loaded->path = fe_arena_text(&library->memory, path, strlen(path));
     ff_environment_keep(&environment);
+    fe_folder_keep(&folder);
     ff_guard_mark previous =
         ff_guard_enter((ff_guard_mark){.path = loaded->path, .action = "load"});
     fe_serial_enter(NULL);
@@ -138,6 +141,7 @@ static ff_loaded *load_model(ff_library *library, const char *id, const char *pa
     fe_serial_leave(NULL);
     ff_guard_leave(previous);
     const char *changed = ff_environment_restore(&environment);
+    changed = fe_folder_restore(&folder) ? "changed the working directory" : changed;
     if (status == FF_NOMEM)
         fe_out_of_memory();
     if (changed)

@@ -25,7 +25,9 @@ ff_status ff_tables_read(ff_tables *tables, const char *item, const char *path,
     struct fe_kept_table *kept = fe_alloc(sizeof *kept);
     fe_tables_forget(tables);
     ff_report *report = ff_report_new();
-    bool good = ff_columns_read(&kept->columns, path, rows, count, stride, report);
+    bool good = path ? ff_columns_read(&kept->columns, path, rows, count, stride, report)
+                     : ff_error(report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL, "it gave no path");
+    item = item ? item : "";
     kept->item = fe_copy_text(item, strlen(item));
     kept->next = tables->kept;
     tables->kept = kept; /* also one that failed: the error names its item */

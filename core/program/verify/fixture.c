@@ -145,6 +145,10 @@ static void *open_instance(void *ctx)
     verify_step(f->context, "create, set and ready");
     for (int i = 0; i < (f->context->given ? 1 : TRIES); i++) {
         made->setup = make_setup(f);
+        if (verify_setup_lacks(made->setup)) {
+            verify_skip_lacking(made->setup);
+            return NULL;
+        }
         if (verify_instance_open(&made->instance, made->setup) == FF_OK) {
             verify_step(f->context, "%s", last);
             return made;
@@ -159,7 +163,9 @@ static void *open_instance(void *ctx)
 
 static const void *service(void *ctx, void *instance, uint32_t output)
 {
-    return ((fixture *)ctx)->context->model->service(((opened *)instance)->instance.self, output);
+    verify_context *context = ((fixture *)ctx)->context;
+    verify_step(context, "service");
+    return context->model->service(((opened *)instance)->instance.self, output);
 }
 
 /* The bits of the outputs that the words name. */
@@ -221,7 +227,7 @@ static const char *why(void *ctx, void *instance)
 
 static void close_instance(void *ctx, void *instance)
 {
-    (void)ctx;
+    verify_step(((fixture *)ctx)->context, "destroy");
     if (instance)
         verify_instance_close(&((opened *)instance)->instance);
 }

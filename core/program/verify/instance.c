@@ -259,6 +259,11 @@ verify_setup *verify_open_accepted(verify_context *context, verify_instance *ins
             setup = verify_setup_new(context);
         if (!context->given)
             verify_setup_draw_params(setup, &context->random, VERIFY_CALIBRATED);
+        if (!context->given && verify_setup_lacks(setup)) {
+            if (!quietly)
+                verify_skip_lacking(setup);
+            return NULL;
+        }
         verify_step(context, "create, set and ready");
         if (verify_instance_open(instance, setup) == FF_OK)
             return setup;

@@ -10,6 +10,7 @@
 
 #include <limits.h>
 #include <signal.h>
+#include <stdio.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/time.h>
@@ -86,6 +87,7 @@ typedef struct verify_context {
     const ff_model *model; /* under test */
     const void **laws;     /* of each service input a plain law; NULL: none */
     verify_random random;
+    FILE *table;                /* for a model that reads one, in memory; NULL: none yet */
     struct verify_setup *given; /* from the user's pipeline; NULL: there is none */
     verify_outcome *outcome;
     ff_report *messages; /* about the parameter that was read last */
@@ -130,6 +132,15 @@ typedef struct verify_setup {
 typedef enum verify_range { VERIFY_CALIBRATED, VERIFY_PHYSICAL, VERIFY_REQUIRED } verify_range;
 
 verify_setup *verify_setup_new(verify_context *context); /* plain laws, and nothing else */
+/* random.c: of a parameter, in its unit. */
+double verify_draw_number(const ff_param *row, verify_random *random, verify_range range);
+/* table.c: the path of a file with the columns of the model and other numbers at each call, which
+   lasts as long as the process; NULL: it states none. */
+const char *verify_make_table(verify_context *context);
+/* The name of a required parameter that has no value; NULL: none. */
+const char *verify_setup_lacks(const verify_setup *setup);
+/* Skips the test for that reason. Returns false. */
+bool verify_skip_lacking(const verify_setup *setup);
 void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify_range range);
 void verify_setup_draw_inputs(verify_setup *setup, verify_random *random);
 void verify_setup_give(verify_setup *setup, size_t input, const double *data, uint32_t rank,

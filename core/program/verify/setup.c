@@ -24,41 +24,6 @@ verify_setup *verify_setup_new(verify_context *context)
     return setup;
 }
 
-/* Evenly over the numbers, or over their magnitudes when these span more than two decades. */
-static double between(verify_random *random, double low, double high)
-{
-    double share = verify_uniform(random);
-    if (low > 0 && high / low > 100)
-        return low * pow(high / low, share);
-    if (low == 0 && high > 1e3)
-        return high * pow(1e-9, share);
-    return low + share * (high - low);
-}
-
-/* In the row's unit. */
-static double draw_number(const ff_param *row, verify_random *random, verify_range range)
-{
-    double low = row->low, high = row->high;
-    bool at_limit = range == VERIFY_PHYSICAL && verify_below(random, 3) == 0;
-    if (!(low < high) || range == VERIFY_PHYSICAL) {
-        bool limited = row->min < row->max;
-        low = limited && row->min > -1e6 ? row->min : -1e6;
-        high = limited && row->max < 1e6 ? row->max : fmax(1e6, low);
-        if (!limited)
-            low = -1e6;
-        if (limited && row->max > 1e6 && row->min >= 0)
-            high = fmax(row->min, 1) * (range == VERIFY_PHYSICAL ? 1e9 : 1e3);
-        if (high > row->max && limited)
-            high = row->max;
-    }
-    if (at_limit && verify_below(random, 2) == 0 && !(row->flags & FF_MIN_OPEN))
-        return low;
-    if (at_limit && !(row->flags & FF_MAX_OPEN) && isfinite(high))
-        return high;
-    double number = between(random, low, high);
-    return number > low ? number : low + 0.5 * (high - low);
-}
-
 static int compare_reals(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;
@@ -79,7 +44,7 @@ static void draw_reals(const verify_setup *setup, size_t param, verify_random *r
     value->count = row->min_count + verify_below(random, most - row->min_count + 1);
     double *reals = memory_alloc((value->count + 1) * sizeof *reals);
     for (size_t i = 0; i < value->count; i++) {
-        double number = draw_number(row, random, range);
+        double number = verify_draw_number(row, random, range);
         number = row->flags & FF_WHOLE ? round(number) : number;
         reals[i] = to_si(setup, param, number);
     }
@@ -102,18 +67,20 @@ static void draw_value(const verify_setup *setup, size_t param, verify_random *r
         ff_word_at(row->choices, (size_t)value->integer, word, sizeof word);
         value->text = strdup(word);
     } else if (row->type == FF_REAL) {
-        value->real = to_si(setup, param, draw_number(row, random, range));
+        value->real = to_si(setup, param, verify_draw_number(row, random, range));
     } else if (row->type == FF_INT) {
-        value->integer = (int64_t)round(draw_number(row, random, range));
+        value->integer = (int64_t)round(verify_draw_number(row, random, range));
     } else if (row->type == FF_BOOL) {
         value->integer = (int64_t)verify_below(random, 2);
     } else if (row->type == FF_REALS) {
         draw_reals(setup, param, random, range, value);
     } else if (row->type == FF_TEXT) {
         value->text = verify_below(random, 2) ? "a text" : "";
-    } else {
-        value->size = 0; /* a file: there is none to give */
+    } else if (row->flags & FF_REQUIRED) {
+        value->text = verify_make_table(setup->context);
     }
+    if (row->type == FF_FILE && !value->text)
+        value->size = 0;
 }
 
 /* Of a group's members that may be drawn, the one to give: drawn with equal chance. */
@@ -158,6 +125,38 @@ static bool is_replaced(const verify_setup *setup, const ff_param *row)
 {
     int input = row->instead ? ff_model_find_input(setup->context->model, row->instead) : -1;
     return input >= 0 && setup->services[input];
+}
+
+static bool group_is_given(const verify_setup *setup, const char *group)
+{
+    const ff_model *model = setup->context->model;
+    for (size_t i = 0; i < model->param_count; i++) {
+        const char *other = ff_model_param(model, i)->group;
+        if (other && !strcmp(other, group) && setup->values[i].size)
+            return true;
+    }
+    return false;
+}
+
+const char *verify_setup_lacks(const verify_setup *setup)
+{
+    const ff_model *model = setup->context->model;
+    for (size_t i = 0; i < model->param_count; i++) {
+        const ff_param *row = ff_model_param(model, i);
+        bool given = setup->values[i].size || is_replaced(setup, row) ||
+                     (row->group && group_is_given(setup, row->group));
+        if (row->flags & FF_REQUIRED && !given)
+            return row->name;
+    }
+    return NULL;
+}
+
+bool verify_skip_lacking(const verify_setup *setup)
+{
+    return verify_skip(setup->context,
+                       "it requires \"%s\", and states no columns of which a file could be made; "
+                       "--pipeline FILE gives one",
+                       verify_setup_lacks(setup));
 }
 
 void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify_range range)

@@ -185,6 +185,8 @@ bool verify_test_limits(verify_context *c)
         verify_setup *setup = verify_setup_new(c);
         verify_instance instance;
         verify_setup_draw_params(setup, &c->random, i % 2 ? VERIFY_PHYSICAL : VERIFY_CALIBRATED);
+        if (verify_setup_lacks(setup))
+            return verify_skip_lacking(setup);
         verify_step(c, "set and ready with random parameters, draw %d", i);
         ff_status status = verify_instance_open(&instance, setup);
         good = check_reason(c, &instance, status, "a set of random parameters");

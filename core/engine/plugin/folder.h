@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: MIT */
+/* The working directory, which a plugin must leave as it is. */
+#ifndef FE_FOLDER_H
+#define FE_FOLDER_H
+
+#include <limits.h>
+#include <stdbool.h>
+
+typedef struct fe_folder {
+    char path[PATH_MAX]; /* "" when it is not known */
+} fe_folder;
+
+void fe_folder_keep(fe_folder *folder);
+/* Goes back there; true when the working directory was another one. */
+bool fe_folder_restore(const fe_folder *folder);
+
+#endif
