@@ -161,6 +161,86 @@ ff_status ff_run_verdict(const ff_run *run, int32_t *verdict);
 ff_status ff_run_quality(const ff_run *run, size_t index, const ff_quality **line);
 
 /*
+ * Instances: one model by hand, without a file.
+ *
+ *   ff_instance *gear;
+ *   const ff_result *ratio;
+ *   ff_instance_new(engine, "gear/involute-spur", &gear);
+ *   ff_instance_set(gear, "module", "3 mm");
+ *   ...
+ *   if (ff_instance_run(gear, "contact_ratio") == FF_OK &&
+ *       ff_instance_result(gear, "contact_ratio", &ratio) == FF_OK)
+ *       printf("%g\n", ratio->data[0]);
+ *   ff_instance_close(gear);
+ *
+ * Parameters are checked as those of a file: names, units, limits and counts when they are set,
+ * groups and what is required when the model is made, which the first run or service does. Setting
+ * a parameter, or connecting an input, after that makes the model anew at the next run or service,
+ * and with it those that use it. Beside the statuses above, a call answers with that of the model:
+ * FF_DOMAIN where it warned, FF_UNSUPPORTED where it does not serve the request. After an error the
+ * instance is as before the call, but for its results.
+ */
+
+typedef struct ff_instance ff_instance;
+
+/* *instance is NULL after an error. */
+ff_status ff_instance_new(ff_engine *engine, const char *id, ff_instance **instance);
+/* NULL is nothing. What uses the instance can then only be closed. */
+void ff_instance_close(ff_instance *instance);
+
+/* A parameter as a user writes it in a file: "3 mm", "auto", "[1, 2]"; NULL: as if never set. Of a
+   group the member that was set last is given. */
+ff_status ff_instance_set(ff_instance *instance, const char *param, const char *text);
+/* The same in SI: a scalar is a list of one, a switch 0 or 1, a choice the rank of its word. */
+ff_status ff_instance_set_reals(ff_instance *instance, const char *param, const double *si,
+                                size_t count);
+
+/* Feeds an input, "contact.time", with a copy of an array; NULL: with nothing. In a pipeline its
+   numbers are finite. */
+ff_status ff_instance_give(ff_instance *instance, const char *input, const ff_array *array);
+/* Feeds the inputs "wire.*" with outputs of another instance, or the service input `wire` with its
+   service; NULL: with nothing. */
+ff_status ff_instance_use(ff_instance *instance, const char *wire, ff_instance *from);
+/* Feeds a service input with a table of the caller, which is borrowed until another one replaces it
+   or the instance is closed; NULL: with nothing. */
+ff_status ff_instance_serve(ff_instance *instance, const char *wire, const void *table);
+
+/* Makes the model, unless it is there: what a run or a service does first. */
+ff_status ff_instance_ready(ff_instance *instance);
+/* Runs what feeds the instance and is not up to date, for what it takes from there alone, then the
+   instance. `outputs` names what is wanted, "h_min p_max"; NULL: all outputs but those that the
+   model refuses for its inputs. A result that cannot be trusted is FF_OK: see the verdict. */
+ff_status ff_instance_run(ff_instance *instance, const char *outputs);
+
+/* An output of the last run. FF_INVALID: there is no such output, or it was not given. It lives
+   until the instance runs again, also for another instance, or is closed. */
+ff_status ff_instance_result(const ff_instance *instance, const char *output,
+                             const ff_result **result);
+/* The worst verdict of the last run, and its quality lines; FF_INVALID beyond the last. */
+ff_status ff_instance_verdict(const ff_instance *instance, int32_t *verdict);
+ff_status ff_instance_quality(const ff_instance *instance, size_t index, const ff_quality **line);
+
+/* The table of the service of that interface id, "flankfilm.viscosity/1". It lives until the model
+   is made anew. */
+ff_status ff_instance_service(ff_instance *instance, const char *interface, const void **table);
+/* Calls work(ctx), which calls the service. What goes wrong in there is said to be the model's, as
+   is a status other than FF_OK; `action` says in messages what is being done: "its fit". */
+ff_status ff_instance_call(ff_instance *instance, const char *action, ff_status (*work)(void *ctx),
+                           void *ctx);
+
+/* Lets the next run of `to` start from the state that the last run of `from` left, as in a chain of
+   cases. FF_UNSUPPORTED: there is none. */
+ff_status ff_instance_carry(ff_instance *to, ff_instance *from);
+
+/* Progress and log of all calls that follow; NULL: none. */
+ff_status ff_instance_observe(ff_instance *instance, const ff_observer *observer);
+
+/* Why the last call failed or warned, in the words of the model alone where it said anything, and
+   the parameter, input or output at fault; "" where that is not known. Live until the next call. */
+const char *ff_instance_reason(const ff_instance *instance);
+const char *ff_instance_item(const ff_instance *instance);
+
+/*
  * Draft: all that follows may change until version 1.0 of the library. It is what the program
  * `flankfilm` needs beyond the above. Its functions are called from ff_protected alone, and their
  * objects are freed there.
@@ -226,6 +306,9 @@ void ff_report_free(ff_report *report);
 bool ff_error(ff_report *report, int fault, ff_place place, const char *hint, const char *format,
               ...) FF_FORMAT(5, 6);
 void ff_warn(ff_report *report, ff_place place, const char *format, ...) FF_FORMAT(3, 4);
+
+/* Copies all messages of another report. */
+void ff_report_append(ff_report *report, const ff_report *other);
 
 size_t ff_report_count(const ff_report *report);
 const ff_message *ff_report_at(const ff_report *report, size_t index);
@@ -610,50 +693,10 @@ void ff_pipeline_free(ff_pipeline *pipeline);
  * Going: what follows is left out as soon as an instance of one model can take its place.
  */
 
-/* The service of a model that the command line names, which serves the program itself. */
-typedef struct ff_service {
-    ff_tree *tree;
-    ff_pipeline *pipeline; /* of it alone */
-    const void *table;     /* of its service */
-} ff_service;
-
-/* What the command line says of it. */
-typedef struct ff_service_choice {
-    const char *option;    /* "--executor" */
-    const char *interface; /* "flankfilm.KIND/1": the model is KIND/<name> */
-    const char *name;      /* or kind/name */
-    const char **settings; /* "parameter=value" */
-    size_t setting_count;
-} ff_service_choice;
-
-/* False after an error; the service must be closed either way. */
-bool ff_service_open(ff_service *service, ff_library *library, const ff_service_choice *choice,
-                     ff_report *report);
-void ff_service_close(ff_service *service);
-
-/* Calls `work`, which calls the service. Its failure is reported as a fault of the model, unless
-   `work` has reported an error itself. */
-bool ff_service_call(const ff_service *service, const char *action,
-                     ff_status (*work)(const void *table, void *ctx), void *ctx, ff_report *report);
-
-/* A law that is tried with one set of parameters after the other. */
-typedef struct ff_trial ff_trial;
-
-/* NULL after an error: no such model, it offers no such service, it takes inputs. */
-ff_trial *ff_trial_new(ff_library *library, const char *id, const char *interface,
-                       ff_report *report);
-void ff_trial_free(ff_trial *trial);
-
-const ff_loaded *ff_trial_model(const ff_trial *trial);
-/* Reads a parameter that is held from here on. False after an error. */
-bool ff_trial_hold(ff_trial *trial, size_t param, const ff_node *node, ff_report *report);
-double ff_trial_held(const ff_trial *trial, size_t param); /* NaN: it is no number */
-
-/* The service with these values, in SI; NaN: what it is held at, its preset, or none. Lives until
-   the next call. NULL after an error. */
-const void *ff_trial_open(ff_trial *trial, const double *values, ff_report *report);
-/* The reason that the law itself gave for refusing them; "" without. */
-const char *ff_trial_why(const ff_trial *trial);
+/* All messages of the last call of the instance, and its model, parameters and times, as those of a
+   stage in a pipeline. */
+const ff_report *ff_instance_report(const ff_instance *instance);
+const ff_stage *ff_instance_stage(const ff_instance *instance);
 
 /* The tables that one instance of a model reads through flankfilm.table/1. Starts zeroed. */
 typedef struct ff_tables {

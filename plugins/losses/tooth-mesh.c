@@ -183,6 +183,9 @@ static ff_status write_series(const tooth_mesh *s, const losses_mesh *m, uint64_
                                           [OUT_POWER_LOSS] = m->loss,
                                           [OUT_FLASH] = m->flash,
                                           [OUT_CONTACT_TEMPERATURE] = m->flash};
+    if (wanted & FF_BIT(OUT_ENGAGEMENT) && !m->engagement)
+        return ff_failf(s->host, FF_UNSUPPORTED, losses_outputs[OUT_ENGAGEMENT].name,
+                        "this output needs a film model that gives engagement");
     for (uint32_t row = 0; row < LOSSES_OUTPUTS; row++) {
         if (!from[row] || !(wanted & FF_BIT(row)))
             continue;

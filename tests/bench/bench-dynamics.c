@@ -7,6 +7,7 @@
  *
  *   meson test -C build --benchmark dynamics --verbose
  */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

@@ -6,6 +6,7 @@
  *
  *   meson test -C build --benchmark ehl --verbose
  */
+#include "check.h"
 #include "tooth.h"
 
 #include <math.h>

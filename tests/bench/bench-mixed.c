@@ -10,6 +10,7 @@
  * Names: cells, steps, surfaces, shortest (um), least and most (rpm), ventilated (0 or 1), hardness
  * (GPa; 0: elastic flanks).
  */
+#include "check.h"
 #include "tooth.h"
 
 #include <math.h>

@@ -6,7 +6,7 @@
 #ifndef BENCH_TOOTH_H
 #define BENCH_TOOTH_H
 
-#include "host.h"
+#include "stage.h"
 
 enum { POINTS = 801 };
 

@@ -7,21 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The length that each named dimension was first seen with. */
-typedef struct lengths {
-    struct {
-        const char *dim, *row;
-        size_t length;
-    } * seen;
-    size_t count;
-} lengths;
-
-/* Records the lengths of one array; false, with a clause in why, when a dimension has two. */
-static bool enter_lengths(lengths *all, const char *row, const ff_dims *dims,
-                          const ff_result *given, char *why, size_t why_size)
+bool fe_enter_lengths(fe_lengths *all, const char *row, const ff_dims *dims, uint32_t rank,
+                      const size_t *shape, char *why, size_t why_size)
 {
-    for (uint32_t i = 0; i < given->rank; i++) {
-        const char *dim = dims->name[i + dims->rank - given->rank];
+    for (uint32_t i = 0; i < rank; i++) {
+        const char *dim = dims->name[i + dims->rank - rank];
         size_t k = 0;
         while (k < all->count && strcmp(all->seen[k].dim, dim) != 0)
             k++;
@@ -29,20 +19,20 @@ static bool enter_lengths(lengths *all, const char *row, const ff_dims *dims,
             all->seen = fe_resize(all->seen, (k + 1) * sizeof *all->seen);
             all->seen[k].dim = dim;
             all->seen[k].row = row;
-            all->seen[k].length = given->shape[i];
+            all->seen[k].length = shape[i];
             all->count++;
         }
-        if (all->seen[k].length == given->shape[i])
+        if (all->seen[k].length == shape[i])
             continue;
         snprintf(why, why_size, "the dimension \"%s\" is %zu long in \"%s\", but %zu in \"%s\"",
-                 dim, all->seen[k].length, all->seen[k].row, given->shape[i], row);
+                 dim, all->seen[k].length, all->seen[k].row, shape[i], row);
         return false;
     }
     return true;
 }
 
 static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size_t input,
-                        const ff_result *given, lengths *all, ff_report *report)
+                        const ff_result *given, fe_lengths *all, ff_report *report)
 {
     const ff_port *row = ff_model_input(stage->loaded->model, input);
     const ff_dims *dims = &stage->loaded->input_dims[input];
@@ -53,7 +43,7 @@ static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size
                         "%s.%s: %s gives \"%s\" with %u dimensions, but %s takes it along \"%s\"",
                         stage->name, row->name, pipeline->stages[wire->stage].name,
                         given->row->name, given->rank, stage->use, row->dims);
-    return enter_lengths(all, row->name, dims, given, why, sizeof why) ||
+    return fe_enter_lengths(all, row->name, dims, given->rank, given->shape, why, sizeof why) ||
            ff_error(report, FF_FAULT_INPUT, wire->place,
                     "the stages that feed these wires must belong together", "%s.%s: %s",
                     stage->name, wire->name, why);
@@ -61,19 +51,20 @@ static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size
 
 /* What a feedback wire brings from the round before. It is left out when its lengths have changed
    since. */
-static void take_fed_back(const ff_stage *stage, size_t input, lengths *all, ff_array *in)
+static void take_fed_back(const ff_stage *stage, size_t input, fe_lengths *all, ff_array *in)
 {
     const ff_result *fed = &stage->instance->member->fed[input];
     char why[256];
-    if (fed->data && enter_lengths(all, ff_model_input(stage->loaded->model, input)->name,
-                                   &stage->loaded->input_dims[input], fed, why, sizeof why))
+    if (fed->data &&
+        fe_enter_lengths(all, ff_model_input(stage->loaded->model, input)->name,
+                         &stage->loaded->input_dims[input], fed->rank, fed->shape, why, sizeof why))
         *in = (ff_array){.data = fed->data, .shape = fed->shape, .rank = fed->rank};
 }
 
 bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
                       ff_report *report)
 {
-    lengths all = {.count = 0};
+    fe_lengths all = {.count = 0};
     bool good = true;
     for (size_t i = 0; i < stage->wire_count; i++)
         if (stage->wires[i].stage >= 0 && !stage->wires[i].closes &&
@@ -94,7 +85,7 @@ bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_arr
 }
 
 /* Whether an output cannot be used; `why` completes 'the plugin ...'. */
-static bool is_faulty(const ff_stage *stage, size_t output, lengths *all, char *why, size_t size)
+static bool is_faulty(const ff_stage *stage, size_t output, fe_lengths *all, char *why, size_t size)
 {
     const ff_result *result = &stage->results[output];
     const char *name = result->row->name;
@@ -103,8 +94,8 @@ static bool is_faulty(const ff_stage *stage, size_t output, lengths *all, char *
         snprintf(why, size, "did not give the output \"%s\"", name);
         return result->wanted;
     }
-    if (!enter_lengths(all, name, &stage->loaded->output_dims[output], result, clash,
-                       sizeof clash)) {
+    if (!fe_enter_lengths(all, name, &stage->loaded->output_dims[output], result->rank,
+                          result->shape, clash, sizeof clash)) {
         snprintf(why, size, "contradicts itself: %s", clash);
         return true;
     }
@@ -120,7 +111,7 @@ static bool is_faulty(const ff_stage *stage, size_t output, lengths *all, char *
 
 bool fe_check_results(const ff_stage *stage, ff_report *report)
 {
-    lengths all = {.count = 0};
+    fe_lengths all = {.count = 0};
     char why[320];
     bool good = true;
     for (size_t i = 0; i < stage->loaded->model->output_count && good; i++)

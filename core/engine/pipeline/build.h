@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
-/* Shared by the files of core/engine/pipeline alone; each file uses those above it alone. */
+/* Shared by the files of core/engine/pipeline, where each file uses those above it alone, and by
+   instances. */
 #ifndef FE_BUILD_H
 #define FE_BUILD_H
 
@@ -30,9 +31,10 @@ typedef struct fe_instance {
     bool no_room;     /* the same for an output, which `text` names */
     ff_tables tables; /* what it has read; their errors are reported before `text` */
     bool evaluating;
-    char item[96];   /* of the last host->fail */
-    char text[512];  /* the same */
-    char fault[256]; /* how the plugin broke the interface: completes 'the plugin x.so ...' */
+    ff_status status; /* of the last call */
+    char item[96];    /* of the last host->fail */
+    char text[512];   /* the same */
+    char fault[256];  /* how the plugin broke the interface: completes 'the plugin x.so ...' */
 } fe_instance;
 
 struct fe_pipeline_memory {
@@ -144,7 +146,11 @@ bool fe_load_stage(fe_build *b, ff_stage *stage);
 enum { FE_ACCURACY, FE_ONLY, FE_REFINE, FE_OWN_ROWS };
 void fe_leave_out(ff_pipeline *pipeline, ff_candidate *c, const char *reason);
 
-/* wire.c: one wire for each word before the dot in the names of the input rows, and what feeds
+/* wire.c: why `from` cannot feed the wire of that name, to complete 'the stage ...'; NULL: it
+   offers all that the wire requires, and at least one output. */
+const char *fe_wire_misfit(fe_build *b, const ff_stage *stage, const char *wire,
+                           const ff_loaded *from);
+/* One wire for each word before the dot in the names of the input rows, and what feeds
    each. */
 void fe_link_stage(fe_build *b, ff_stage *stage);
 
@@ -153,20 +159,41 @@ void fe_bind_stage(fe_build *b, ff_stage *stage);
 
 /* instance.c: create, set, wire, ready; destroy. */
 void fe_open_instance(fe_build *b, ff_stage *stage);
+/* The steps of it; false after an error. */
+bool fe_create_object(ff_stage *stage, ff_report *report);
+bool fe_set_param(ff_stage *stage, size_t param,
+                  ff_report *report); /* unless it is absent or has a place */
+bool fe_wire_object(ff_stage *stage, size_t input, const void *service, ff_report *report);
+bool fe_ready_object(ff_stage *stage, ff_report *report);
 void fe_close_instance(ff_stage *stage);
 /* The table behind a service of a live instance. NULL: it gives none, and the report says why. */
 const void *fe_fetch_service(ff_stage *stage, uint32_t output, ff_report *report);
 /* Another instance, which knows the parameters and the wires as they are now. */
 bool fe_reopen(ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
 
-/* arrays.c: what feeds the stage, one array per input row. False when a feeding stage has not run,
+/* arrays.c: the length that each named dimension was first seen with. Starts zeroed; `seen` is to
+   be freed. */
+typedef struct fe_lengths {
+    struct {
+        const char *dim, *row;
+        size_t length;
+    } * seen;
+    size_t count;
+} fe_lengths;
+
+/* Records the lengths of one array; false, with a clause in why, when a dimension has two. */
+bool fe_enter_lengths(fe_lengths *all, const char *row, const ff_dims *dims, uint32_t rank,
+                      const size_t *shape, char *why, size_t why_size);
+
+/* What feeds the stage, one array per input row. False when a feeding stage has not run,
    which is known already, or with an error. */
 bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
                       ff_report *report);
 /* False, with an error, when the stage's results cannot be used. */
 bool fe_check_results(const ff_stage *stage, ff_report *report);
 
-/* evaluate.c: one evaluation of a stage. False after an error. */
+/* evaluate.c: one evaluation of a stage, without the outputs that it refuses where nothing requires
+   them. False after an error. */
 bool fe_evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
                  ff_report *report);
 /* Reports what the stage itself calls bad. False when it does. */

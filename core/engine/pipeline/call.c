@@ -155,6 +155,7 @@ bool fe_call_end(const fe_call *call, ff_status status, ff_report *report)
 {
     const ff_stage *stage = call->stage;
     ff_guard_leave(call->previous);
+    stage->instance->status = status;
     const char *changed = ff_environment_restore(&call->environment);
     fe_serial_leave(stage->loaded->model);
     if (stage->instance->no_memory)

@@ -37,7 +37,7 @@ static void place(const ff_stage *stage)
     }
 }
 
-static bool create(ff_stage *stage, ff_report *report)
+bool fe_create_object(ff_stage *stage, ff_report *report)
 {
     fe_instance *instance = stage->instance;
     fe_host_init(instance);
@@ -50,21 +50,24 @@ static bool create(ff_stage *stage, ff_report *report)
     return fe_call_end(&call, status, report);
 }
 
+bool fe_set_param(ff_stage *stage, size_t param, ff_report *report)
+{
+    const ff_bound *bound = &stage->params[param];
+    fe_instance *instance = stage->instance;
+    if (!bound->present || bound->row->place)
+        return true;
+    fe_call call = fe_call_begin(stage, "set");
+    ff_status status = stage->loaded->model->set(instance->self, (uint32_t)param, &bound->value);
+    if (status != FF_OK && !instance->item[0])
+        snprintf(instance->item, sizeof instance->item, "%s", bound->row->name);
+    return fe_call_end(&call, status, report);
+}
+
 static bool set(ff_stage *stage, ff_report *report)
 {
-    const ff_model *model = stage->loaded->model;
-    fe_instance *instance = stage->instance;
     bool good = true;
-    for (size_t i = 0; i < model->param_count; i++) {
-        const ff_bound *param = &stage->params[i];
-        if (!param->present || param->row->place)
-            continue;
-        fe_call call = fe_call_begin(stage, "set");
-        ff_status status = model->set(instance->self, (uint32_t)i, &param->value);
-        if (!instance->item[0])
-            snprintf(instance->item, sizeof instance->item, "%s", param->row->name);
-        good = fe_call_end(&call, status, report) && good;
-    }
+    for (size_t i = 0; i < stage->loaded->model->param_count; i++)
+        good = fe_set_param(stage, i, report) && good;
     return good;
 }
 
@@ -95,6 +98,15 @@ static ff_stage *serving(ff_stage *stage)
     return choice && !choice->chosen && choice->reference ? choice->reference->stage : stage;
 }
 
+bool fe_wire_object(ff_stage *stage, size_t input, const void *service, ff_report *report)
+{
+    const ff_model *model = stage->loaded->model;
+    if (!model->wire)
+        return true;
+    fe_call call = fe_call_begin(stage, "wire");
+    return fe_call_end(&call, model->wire(stage->instance->self, (uint32_t)input, service), report);
+}
+
 static bool wire(fe_build *b, ff_stage *stage)
 {
     const ff_pipeline *pipeline = b->pipeline;
@@ -117,16 +129,12 @@ static bool wire(fe_build *b, ff_stage *stage)
             return false;
         if (service)
             *fe_end_of_services(mark) = &from->instance->mark;
-        if (!model->wire)
-            continue;
-        fe_call call = fe_call_begin(stage, "wire");
-        good =
-            fe_call_end(&call, model->wire(stage->instance->self, (uint32_t)i, service), b->report);
+        good = fe_wire_object(stage, i, service, b->report);
     }
     return good;
 }
 
-static bool ready(ff_stage *stage, ff_report *report)
+bool fe_ready_object(ff_stage *stage, ff_report *report)
 {
     if (!stage->loaded->model->ready)
         return true;
@@ -136,8 +144,8 @@ static bool ready(ff_stage *stage, ff_report *report)
 
 void fe_open_instance(fe_build *b, ff_stage *stage)
 {
-    stage->instance->alive = create(stage, b->report) && set(stage, b->report) && wire(b, stage) &&
-                             ready(stage, b->report);
+    stage->instance->alive = fe_create_object(stage, b->report) && set(stage, b->report) &&
+                             wire(b, stage) && fe_ready_object(stage, b->report);
     if (b->pipeline)
         fe_check_folder(b->pipeline, stage, "create, set, wire or ready", b->report);
 }

@@ -36,16 +36,14 @@ static const char *row_misfit(fe_build *b, const ff_loaded *to, size_t input, co
     return NULL;
 }
 
-/* Why `from` cannot feed a wire, to complete 'the stage ...'; NULL: it offers all that the wire
-   requires, and at least one output. */
-static const char *misfit(fe_build *b, const ff_stage *stage, const ff_wire *wire,
-                          const ff_loaded *from)
+const char *fe_wire_misfit(fe_build *b, const ff_stage *stage, const char *wire,
+                           const ff_loaded *from)
 {
     const char *why = NULL;
     bool feeds = false;
     for (size_t i = 0; i < stage->loaded->model->input_count && !why; i++) {
         const ff_port *row = ff_model_input(stage->loaded->model, i);
-        if (!fe_is_on_wire(row->name, wire->name))
+        if (!fe_is_on_wire(row->name, wire))
             continue;
         int output = fe_find_offer(from, row);
         feeds = feeds || output >= 0;
@@ -96,7 +94,7 @@ static bool link_written(fe_build *b, const ff_stage *stage, ff_wire *wire, cons
     wire->stage = (int)(from - b->pipeline->stages);
     if (!fe_load_stage(b, from))
         return false;
-    const char *why = misfit(b, stage, wire, from->loaded);
+    const char *why = fe_wire_misfit(b, stage, wire->name, from->loaded);
     return !why || ff_error(b->report, FF_FAULT_INPUT, node->place, NULL,
                             "%s: the stage \"%s\" (%s) %s", path, from->name, from->use, why);
 }
@@ -135,7 +133,7 @@ static bool link_automatic(fe_build *b, const ff_stage *stage, ff_wire *wire, co
         if (from == stage || !from->use || !is_of_kind(from->use, kinds))
             continue;
         known = fe_load_stage(b, from) && known;
-        const char *why = from->loaded ? misfit(b, stage, wire, from->loaded) : "";
+        const char *why = from->loaded ? fe_wire_misfit(b, stage, wire->name, from->loaded) : "";
         if (why) {
             why_not = fe_pipeline_print(b->pipeline, "the stage \"%s\" (%s) %s", from->name,
                                         from->use, why);

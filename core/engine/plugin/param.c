@@ -112,19 +112,21 @@ static bool check_range(const reading *r, const ff_node *node, double *si)
 {
     const ff_param *row = r->row;
     char value[80], limit[80], wanted[100];
-    print(r, *si, value);
     int side = fe_limits_check(row, r->unit, si, wanted);
-    if (side != 0)
+    if (side != 0) {
+        print(r, *si, value);
         return refuse(r, node, NULL, "%s is too %s; it must be %s", value,
                       side < 0 ? "small" : "large", wanted);
+    }
     if (row->low < row->high) {
         bool under = fe_unit_compare(r->unit, *si, row->low) < 0;
         bool over = fe_unit_compare(r->unit, *si, row->high) > 0;
+        if (!under && !over)
+            return true;
+        print(r, *si, value);
         print(r, ff_unit_to_si(r->unit, under ? row->low : row->high), limit);
-        if (under || over)
-            ff_warn(r->report, node->place,
-                    "%s: %s is outside the calibrated range, which %s at %s", r->name, value,
-                    under ? "begins" : "ends", limit);
+        ff_warn(r->report, node->place, "%s: %s is outside the calibrated range, which %s at %s",
+                r->name, value, under ? "begins" : "ends", limit);
     }
     return true;
 }
@@ -251,26 +253,123 @@ bool ff_param_read(const ff_param *row, const ff_unit *unit, const char *name, c
     return false;
 }
 
+/* The items of "[20 mm, 21 mm]", which is cut up. */
+static void split_list(char *text, ff_node *list, ff_node *items, ff_node **pointers)
+{
+    char *rest = NULL;
+    list->kind = FF_SEQUENCE;
+    list->items = pointers;
+    for (char *item = strtok_r(text, "[],", &rest); item; item = strtok_r(NULL, "[],", &rest)) {
+        item += strspn(item, " \t\n");
+        if (!*item)
+            continue;
+        items[list->count] = (ff_node){.kind = FF_SCALAR, .text = item};
+        pointers[list->count] = &items[list->count];
+        list->count++;
+    }
+}
+
+bool fe_param_read_text(const ff_param *row, const ff_unit *unit, const char *name,
+                        const char *text, ff_value *value, ff_report *report)
+{
+    char *copy = fe_print_text("%s", text);
+    ff_node node = {.kind = FF_SCALAR, .quoted = true, .text = copy}, *items = NULL;
+    ff_node **pointers = NULL;
+    if (row->type == FF_REALS && copy[0] == '[') {
+        size_t most = strlen(copy);
+        items = fe_alloc(most * sizeof *items);
+        pointers = fe_alloc(most * sizeof *pointers);
+        split_list(copy, &node, items, pointers);
+    }
+    bool good = ff_param_read(row, unit, name, &node, value, report);
+    fe_free(pointers);
+    fe_free(items);
+    fe_free(copy);
+    return good;
+}
+
 bool ff_param_read_preset(const ff_param *row, const ff_unit *unit, const char *name,
                           ff_value *value, ff_report *report)
 {
-    enum { MOST = 64 };
-    ff_node items[MOST], *list[MOST];
-    ff_node node = {.kind = FF_SCALAR, .quoted = true, .items = list};
-    char *text = fe_print_text("%s", row->preset), *rest = NULL;
-    node.text = text;
-    if (row->type == FF_REALS && text[0] == '[') { /* "[20 mm, 21 mm]" */
-        node.kind = FF_SEQUENCE;
-        for (char *item = strtok_r(text, "[],", &rest); item && node.count < MOST;
-             item = strtok_r(NULL, "[],", &rest)) {
-            items[node.count] = (ff_node){.kind = FF_SCALAR, .text = item};
-            list[node.count] = &items[node.count];
-            node.count++;
-        }
-    }
-    bool good = ff_param_read(row, unit, name, &node, value, report);
+    bool good = fe_param_read_text(row, unit, name, row->preset, value, report);
     value->given = 0;
-    fe_free(text);
+    return good;
+}
+
+/* One number, or one of a list. */
+static bool take_number(const reading *r, double *si)
+{
+    static const ff_node nowhere = {.kind = FF_SCALAR};
+    bool whole = r->row->type == FF_INT || r->row->flags & FF_WHOLE;
+    if (!isfinite(*si))
+        return refuse(r, &nowhere, NULL, "%g is not a number that it can have", *si);
+    if (whole && *si != floor(*si))
+        return refuse(r, &nowhere, NULL, "%g is not a whole number", *si);
+    return check_range(r, &nowhere, si);
+}
+
+static bool take_list(const reading *r, const double *si, size_t count, ff_value *value)
+{
+    static const ff_node nowhere = {.kind = FF_SCALAR};
+    if (!check_length(r, &nowhere, count))
+        return false;
+    double *reals = fe_alloc(count * sizeof *reals);
+    bool good = true;
+    value->reals = reals;
+    value->count = count;
+    for (size_t i = 0; i < count && good; i++) {
+        reals[i] = si[i];
+        good = take_number(r, &reals[i]);
+        if (good && i > 0 && (r->row->flags & FF_INCREASING) && reals[i] < reals[i - 1])
+            good = refuse(r, &nowhere, NULL,
+                          "the numbers must not decrease, but %g follows a larger one", reals[i]);
+    }
+    return good;
+}
+
+/* A switch, or the rank of a word. */
+static bool take_rank(const reading *r, double number, ff_value *value)
+{
+    static const ff_node nowhere = {.kind = FF_SCALAR};
+    const ff_param *row = r->row;
+    char word[64];
+    bool known = number >= 0 && number < 1000 && number == floor(number);
+    if (row->type == FF_BOOL)
+        known = number == 0 || number == 1;
+    else
+        known = known && ff_word_at(row->choices, (size_t)number, word, sizeof word);
+    if (!known)
+        return refuse_kind(r, &nowhere);
+    value->integer = (int64_t)number;
+    if (row->type == FF_CHOICE)
+        value->text = fe_copy_text(word, strlen(word));
+    return true;
+}
+
+bool fe_param_take(const ff_param *row, const ff_unit *unit, const char *name, const double *si,
+                   size_t count, ff_value *value, ff_report *report)
+{
+    static const ff_node nowhere = {.kind = FF_SCALAR};
+    reading r = {.row = row, .unit = unit, .name = name, .report = report};
+    double number = count ? si[0] : 0;
+    bool good = false;
+    *value = (ff_value){.size = sizeof *value, .given = 1};
+    if (row->type == FF_REALS)
+        good = take_list(&r, si, count, value);
+    else if (count != 1)
+        good = refuse(&r, &nowhere, NULL, "expected one number, found %zu", count);
+    else if (row->type == FF_BOOL || row->type == FF_CHOICE)
+        good = take_rank(&r, number, value);
+    else if (row->type == FF_REAL || row->type == FF_INT)
+        good = take_number(&r, &number);
+    else
+        good = refuse_kind(&r, &nowhere);
+    if (good && row->type == FF_REAL)
+        value->real = number;
+    else if (good && row->type == FF_INT)
+        value->integer = (int64_t)number;
+    if (!good)
+        ff_value_clear(value);
     return good;
 }
 

@@ -2,8 +2,14 @@
 #ifndef FE_PARAM_H
 #define FE_PARAM_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include <flankfilm/engine.h>
+
+/* ff_param_read from a text as a user writes it in a file: "3 mm", "[1 mm, 2 mm]". */
+bool fe_param_read_text(const ff_param *row, const ff_unit *unit, const char *name,
+                        const char *text, ff_value *value, ff_report *report);
+/* The same from numbers in SI; a switch is 0 or 1, a choice the rank of its word. */
+bool fe_param_take(const ff_param *row, const ff_unit *unit, const char *name, const double *si,
+                   size_t count, ff_value *value, ff_report *report);
 
 /* The member of the instance that a row of that type has, as the table in plugin.h says. */
 typedef struct fe_member {

@@ -129,6 +129,17 @@ void ff_warn(ff_report *report, ff_place place, const char *format, ...)
     fe_heap_use(before);
 }
 
+void ff_report_append(ff_report *report, const ff_report *other)
+{
+    for (size_t i = 0; i < other->count; i++) {
+        const ff_message *m = &other->messages[i];
+        if (m->severity == FF_ERROR)
+            ff_error(report, m->fault, m->place, m->hint, "%s", m->text);
+        else
+            ff_warn(report, m->place, "%s", m->text);
+    }
+}
+
 size_t ff_report_count(const ff_report *report)
 {
     return report->count;

@@ -2,6 +2,7 @@
 /* Results for people and other programs. CSV and the page are the program's own; any other form is
    that of a model of the kind "writer". */
 #include "command.h"
+#include "service.h"
 
 #include "../report/report.h"
 #include "../results/export-csv.h"
@@ -77,6 +78,7 @@ static char *default_path(const char *directory, const char *stem, const form *t
 }
 
 typedef struct call {
+    const void *table;
     const ff_view *view;
     results_target *target;
 } call;
@@ -91,78 +93,66 @@ static const char *path_of(void *ctx, const char *name)
     return path;
 }
 
-static ff_status call_write(const void *table, void *ctx)
+static ff_status call_write(void *ctx)
 {
-    const ff_writer *writer = table;
     const call *c = ctx;
+    const ff_writer *writer = c->table;
     const ff_target target = {.size = sizeof target, .ctx = c->target, .path = path_of};
     return writer->write(writer->self, c->view, &target);
 }
 
 /* What the view reported comes before what the writer made of it. */
-static bool call_writer(const ff_service *service, const ff_view *view, results_target *to)
+static bool call_writer(ff_instance *writer, const ff_view *view, results_target *to)
 {
-    ff_report *captured = ff_report_new();
-    call c = {view, to};
-    bool good = ff_service_call(service, "write", call_write, &c, captured);
-    for (size_t i = 0; i < ff_report_count(captured); i++) {
-        const ff_message *message = ff_report_at(captured, i);
-        if (message->severity == FF_WARNING)
-            ff_warn(to->report, FF_NOWHERE, "%s", message->text);
-        else if (ff_report_errors(to->report) == 0)
-            ff_error(to->report, message->fault, FF_NOWHERE, message->hint, "%s", message->text);
-    }
-    ff_report_free(captured);
+    call c = {.view = view, .target = to};
+    bool good = ff_instance_service(writer, FF_WRITER_ID, &c.table) >= 0 &&
+                ff_instance_call(writer, "write", call_write, &c) >= 0;
+    if (ff_report_errors(to->report) == 0)
+        ff_report_append(to->report, ff_instance_report(writer));
     return good && ff_report_errors(to->report) == 0;
 }
 
-/* The form that a model writes. */
-static bool open_writer(ff_service *service, ff_library *library, const cli_options *options,
-                        const char *name, form *to, ff_report *report)
+/* The form that a model writes; NULL after an error. */
+static ff_instance *open_writer(ff_engine *engine, const cli_options *options, const char *name,
+                                form *to, ff_report *report)
 {
-    const cli_words settings = cli_option_words(options, "with");
-    const ff_service_choice choice = {
-        .option = "--to",
-        .interface = FF_WRITER_ID,
-        .name = name,
-        .settings = settings.words,
-        .setting_count = settings.count,
-    };
-    if (!ff_service_open(service, library, &choice, report))
-        return false;
+    const void *table;
+    ff_instance *writer = cli_service_open(engine, options, "to", FF_WRITER_ID, &table, report);
     const char *slash = strchr(name, '/');
+    if (!writer)
+        return NULL;
     to->name = slash ? slash + 1 : name;
-    to->suffix = ((const ff_writer *)service->table)->suffix;
-    return true;
+    to->suffix = ((const ff_writer *)table)->suffix;
+    return writer;
 }
 
-static bool write_to(const form *to, const ff_service *service, const ff_view *view,
+static bool write_to(const form *to, ff_instance *writer, const ff_view *view,
                      const cli_options *options, const char *stem, results_target *target)
 {
     target->path = options->directory ? memory_print_text("%s", options->directory)
                                       : default_path(options->operand, stem, to);
     return results_target_open(target, !*to->suffix) &&
-           (to->write ? to->write(view, target) : call_writer(service, view, target)) &&
+           (to->write ? to->write(view, target) : call_writer(writer, view, target)) &&
            results_target_commit(target);
 }
 
-static bool run(const cli_options *options, const char *name, const char *stem, ff_library *library,
+static bool run(const cli_options *options, const char *name, const char *stem, ff_engine *engine,
                 results_target *target)
 {
     const ff_view *view = results_view_open(options->operand, target->report);
     const form *own = find_form(name);
     form to = own ? *own : (form){.name = name};
-    ff_service service = {.table = NULL};
+    ff_instance *writer = NULL;
     const cli_words settings = cli_option_words(options, "with");
     bool good = view != NULL;
     if (good && own && settings.count)
         good = ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                         "--with %s: %s takes no parameters", settings.words[0], name);
     else if (good && !own)
-        good = check_name(name, library, target->report) &&
-               open_writer(&service, library, options, name, &to, target->report);
-    good = good && write_to(&to, &service, view, options, stem, target);
-    ff_service_close(&service);
+        good = check_name(name, ff_engine_library(engine), target->report) &&
+               (writer = open_writer(engine, options, name, &to, target->report));
+    good = good && write_to(&to, writer, view, options, stem, target);
+    ff_instance_close(writer);
     results_view_close(view);
     return good;
 }
@@ -171,9 +161,8 @@ static int write_with(const cli_options *options, const char *to, const char *st
 {
     const char *name = name_of(to);
     ff_engine *engine = cli_engine_new(options);
-    ff_library *library = ff_engine_library(engine);
     results_target target = {.report = ff_report_new()};
-    bool good = run(options, name, stem, library, &target);
+    bool good = run(options, name, stem, engine, &target);
     int code = EXIT_SUCCESS;
     if (!good) {
         code = cli_refuse(target.report, options, "nothing was written");

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool work(fit *f, ff_library *library, const cli_options *options)
+static bool work(fit *f, ff_engine *engine, const cli_options *options)
 {
     if (strcmp(options->operand, "viscosity") != 0)
         return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
@@ -17,7 +17,7 @@ static bool work(fit *f, ff_library *library, const cli_options *options)
                         options->operand);
     const cli_words laws = cli_option_words(options, "law"), ats = cli_option_words(options, "at");
     bool good = fit_read(f, options->second);
-    good = fit_add_laws(f, library, laws.words, laws.count) && good;
+    good = fit_add_laws(f, engine, laws.words, laws.count) && good;
     good = fit_set(f, options->sets, options->set_count) && good;
     return good && fit_set_conditions(f, ats.words, ats.count) && fit_run(f);
 }
@@ -74,10 +74,9 @@ int cli_fit_command(const cli_options *options)
 {
     fit f = {.report = ff_report_new()};
     ff_engine *engine = cli_engine_new(options);
-    ff_library *library = ff_engine_library(engine);
     char *directory = directory_of(options);
     int code = EXIT_SUCCESS;
-    if (!work(&f, library, options) || (directory && !write_files(&f, directory))) {
+    if (!work(&f, engine, options) || (directory && !write_files(&f, directory))) {
         code = cli_refuse(f.report, options, "nothing was fitted");
     } else if (options->json) {
         results_json_print(answer_of(&f));

@@ -2,6 +2,7 @@
 /* Studies on the command line: run and plan. */
 #include "../terminal/terminal.h"
 #include "command.h"
+#include "service.h"
 
 #include "../memory/memory.h"
 #include "../results/json.h"
@@ -157,19 +158,6 @@ static void answer_end(const study_definition *study, const study_counters *coun
     results_json_print(answer);
 }
 
-/* The model that --executor names; without one all is well, too. */
-static bool open_executor(ff_service *service, cli_session *session, const cli_options *options)
-{
-    const char *name = cli_option(options, "executor");
-    const cli_words settings = cli_option_words(options, "with");
-    ff_service_choice choice = {.option = "--executor",
-                                .interface = FF_EXECUTOR_ID,
-                                .name = name,
-                                .settings = settings.words,
-                                .setting_count = settings.count};
-    return !name || ff_service_open(service, session->library, &choice, session->report);
-}
-
 /* Whether the driver of the study runs it; its first cases can be run elsewhere, unless costs
    count. False after an error. */
 static bool settle_driver(const study_run *run, bool *driven, ff_report *report)
@@ -194,18 +182,20 @@ int cli_run_study(cli_session *session, const cli_options *options)
     study_run run = run_of(session, options, directory);
     teller t = {.session = session, .options = options, .terminal = isatty(STDERR_FILENO) != 0};
     study_counters counters = {.total = 0};
-    ff_service service = {.table = NULL};
+    const void *table;
     run.progress = options->json ? NULL : tell_progress;
     run.describe = describe;
     run.say = say;
     run.ctx = &t;
-    if (!open_executor(&service, session, options) || ff_report_errors(session->report) > 0) {
+    if (cli_option(options, "executor"))
+        run.executor = cli_service_open(session->engine, options, "executor", FF_EXECUTOR_ID,
+                                        &table, session->report);
+    if (ff_report_errors(session->report) > 0) {
         int code = cli_refuse(session->report, options, "nothing was run");
-        ff_service_close(&service);
+        ff_instance_close(run.executor);
         free(directory);
         return code;
     }
-    run.executor = cli_option(options, "executor") ? &service : NULL;
     const study_definition *study = session->study;
     bool driven, settled = settle_driver(&run, &driven, session->report);
     bool good = settled && (driven ? study_drive(&run, &counters, session->report)
@@ -225,7 +215,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
         terminal_print_messages(session->report, stderr, terminal_colour(stderr));
     if (study->driver && !driven && good && counters.leads && !options->json)
         tell_rest(study);
-    ff_service_close(&service);
+    ff_instance_close(run.executor);
     free(directory);
     return code;
 }

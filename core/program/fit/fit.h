@@ -26,12 +26,14 @@ typedef struct fit_param {
     const ff_unit *unit;
     fit_state asked, found;
     double value;     /* that it is held at, then that was found; NaN: none, or no number */
+    double tried;     /* what its law was last told; NaN: nothing */
     double low, high; /* 95 % confidence interval; NaN: none */
 } fit_param;
 
 typedef struct fit_law {
-    ff_trial *trial;
-    char *id; /* "viscosity/roelands" */
+    ff_instance *instance;
+    const ff_loaded *loaded; /* its model */
+    char *id;                /* "viscosity/roelands" */
     fit_param *params;
     size_t param_count;
     char *refusal; /* why the law refused its parameters the last time; NULL: it never did */
@@ -77,7 +79,7 @@ typedef struct fit {
 /* The steps, in this order; each false after an error. */
 bool fit_read(fit *f, const char *path);
 /* names: "roelands" or "viscosity/roelands"; none: the laws that come with the program. */
-bool fit_add_laws(fit *f, ff_library *library, const char *const *names, size_t count);
+bool fit_add_laws(fit *f, ff_engine *engine, const char *const *names, size_t count);
 /* "name=value" or "viscosity/barus.name=value"; a value of "free" is to be found. */
 bool fit_set(fit *f, const char *const *sets, size_t count);
 /* Quantities inside the data, such as "80 degC". */

@@ -13,16 +13,24 @@ static const char *const laws[] = {"viscosity/barus", "viscosity/two-slope", "vi
                                    "viscosity/doolittle-tait"};
 enum { LAWS = sizeof laws / sizeof laws[0] };
 
-static bool add_law(fit *f, ff_library *library, const char *id)
+static bool add_law(fit *f, ff_engine *engine, const char *id)
 {
-    ff_trial *trial = ff_trial_new(library, id, FF_VISCOSITY_ID, f->report);
-    if (!trial)
+    const ff_loaded *loaded = ff_library_load(ff_engine_library(engine), id, FF_NOWHERE, f->report);
+    bool serves = loaded && ff_model_find_service(loaded->model, FF_VISCOSITY_ID) >= 0;
+    ff_instance *instance;
+    if (!loaded)
         return false;
-    const ff_loaded *loaded = ff_trial_model(trial);
+    if (!serves || loaded->model->input_count)
+        return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s cannot be fitted: it %s%s",
+                        id, serves ? "needs other stages" : "offers no service ",
+                        serves ? "" : FF_VISCOSITY_ID);
+    if (ff_instance_new(engine, id, &instance) != FF_OK)
+        return ff_error(f->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "%s", ff_engine_message(engine));
     size_t count = loaded->model->param_count;
     f->laws = memory_resize(f->laws, (f->law_count + 1) * sizeof *f->laws);
     fit_law *law = &f->laws[f->law_count++];
-    *law = (fit_law){.trial = trial,
+    *law = (fit_law){.instance = instance,
+                     .loaded = loaded,
                      .id = memory_copy_text(id, strlen(id)),
                      .params = memory_alloc((count + 1) * sizeof *law->params),
                      .param_count = count,
@@ -31,12 +39,13 @@ static bool add_law(fit *f, ff_library *library, const char *id)
         law->params[i] = (fit_param){.row = ff_model_param(loaded->model, i),
                                      .unit = &loaded->param_units[i],
                                      .value = NAN,
+                                     .tried = NAN,
                                      .low = NAN,
                                      .high = NAN};
     return true;
 }
 
-bool fit_add_laws(fit *f, ff_library *library, const char *const *names, size_t count)
+bool fit_add_laws(fit *f, ff_engine *engine, const char *const *names, size_t count)
 {
     bool good = true;
     f->named = count > 0;
@@ -46,12 +55,34 @@ bool fit_add_laws(fit *f, ff_library *library, const char *const *names, size_t 
             if (!strcmp(f->laws[k].id, id))
                 good = ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "--law names %s twice",
                                 id);
-        good = good && add_law(f, library, id);
+        good = good && add_law(f, engine, id);
         free(id);
     }
     for (size_t i = 0; i < LAWS && count == 0; i++)
-        good = add_law(f, library, laws[i]) && good;
+        good = add_law(f, engine, laws[i]) && good;
     return good;
+}
+
+/* Holds a parameter at what the user gave. */
+static bool hold(fit *f, fit_law *law, fit_param *param, const ff_node *node)
+{
+    const ff_param *row = param->row;
+    ff_value value;
+    param->asked = param->found = FIT_HELD;
+    if (!ff_param_read(row, param->unit, row->name, node, &value, f->report))
+        return false;
+    bool number = row->type == FF_REAL && !value.text;
+    if (number)
+        param->value = value.real;
+    ff_status status =
+        number ? ff_instance_set_reals(law->instance, row->name, &value.real, 1)
+        : row->type == FF_REALS
+            ? ff_instance_set_reals(law->instance, row->name, value.reals, value.count)
+            : ff_instance_set(law->instance, row->name, node->text);
+    ff_value_clear(&value);
+    if (status != FF_OK)
+        ff_report_append(f->report, ff_instance_report(law->instance));
+    return status == FF_OK;
 }
 
 /* Applies a setting to all laws that have the parameter, or to `only`. */
@@ -60,7 +91,7 @@ static bool set_param(fit *f, const char *name, const ff_node *node, const fit_l
     bool used = false, good = true;
     for (size_t i = 0; i < f->law_count; i++) {
         fit_law *law = &f->laws[i];
-        int index = ff_model_find_param(ff_trial_model(law->trial)->model, name);
+        int index = ff_model_find_param(law->loaded->model, name);
         if (index < 0 || (only && law != only))
             continue;
         fit_param *param = &law->params[index];
@@ -68,9 +99,7 @@ static bool set_param(fit *f, const char *name, const ff_node *node, const fit_l
         if (node->kind == FF_SCALAR && !strcmp(node->text, "free")) {
             param->asked = FIT_FREE;
         } else {
-            param->asked = param->found = FIT_HELD;
-            good = ff_trial_hold(law->trial, (size_t)index, node, f->report) && good;
-            param->value = ff_trial_held(law->trial, (size_t)index);
+            good = hold(f, law, param, node) && good;
         }
     }
     return used ? good
@@ -84,6 +113,23 @@ static const fit_law *find_law(const fit *f, const char *id)
         if (!strcmp(f->laws[i].id, id))
             return &f->laws[i];
     return NULL;
+}
+
+/* Of a group one member at most is held or found. */
+static bool check_groups(const fit *f, const fit_law *law)
+{
+    for (size_t i = 0; i < law->param_count; i++) {
+        const fit_param *one = &law->params[i];
+        for (size_t k = i + 1; k < law->param_count && one->row->group; k++) {
+            const fit_param *other = &law->params[k];
+            if (one->asked != FIT_PRESET && other->asked != FIT_PRESET && other->row->group &&
+                !strcmp(one->row->group, other->row->group))
+                return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
+                                "%s: only one of \"%s\" and \"%s\" may be given", law->id,
+                                one->row->name, other->row->name);
+        }
+    }
+    return true;
 }
 
 bool fit_set(fit *f, const char *const *sets, size_t count)
@@ -105,44 +151,57 @@ bool fit_set(fit *f, const char *const *sets, size_t count)
         if (!only)
             good = set_param(f, root->keys[i], node, NULL);
     }
+    for (size_t i = 0; i < f->law_count && good; i++)
+        good = check_groups(f, &f->laws[i]);
     return good;
 }
 
-/* The service with these values; NULL when the law refuses them. */
-static const ff_viscosity *open_law(fit *f, fit_law *law, const double *values)
+/* Tells the law what has changed. False when it refuses a value. */
+static bool set_values(fit_law *law, const double *values)
 {
-    ff_report *said = ff_report_new();
-    const void *service = ff_trial_open(law->trial, values, said);
-    if (!service) {
-        const char *why = ff_trial_why(law->trial);
-        const char *text = ff_report_count(said) ? ff_report_at(said, 0)->text : "";
-        free(law->refusal);
-        law->refusal = memory_print_text("%s", *why ? why : text);
-        if (ff_report_fault(said) == FF_FAULT_PLUGIN)
-            ff_error(f->report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL, "%s", text);
+    bool good = true;
+    for (size_t i = 0; i < law->param_count && good; i++) {
+        fit_param *param = &law->params[i];
+        bool given = !isnan(values[i]), was = !isnan(param->tried);
+        if (given && !(values[i] == param->tried))
+            good = ff_instance_set_reals(law->instance, param->row->name, &values[i], 1) == FF_OK;
+        else if (!given && was)
+            good = ff_instance_set(law->instance, param->row->name, NULL) == FF_OK;
+        param->tried = good ? values[i] : NAN;
     }
-    ff_report_free(said);
-    return service;
+    return good;
+}
+
+typedef struct evaluation {
+    const void *table;
+    size_t n;
+    const double *p, *T;
+    double *ln_eta;
+} evaluation;
+
+static ff_status evaluate(void *ctx)
+{
+    const evaluation *e = ctx;
+    const ff_viscosity *law = e->table;
+    ff_status status = law->eval(law->self, e->n, e->p, e->T, e->ln_eta, NULL, NULL);
+    return status < 0 ? status : FF_OK;
 }
 
 bool fit_law_eval(fit *f, fit_law *law, const double *values, size_t n, const double *p,
                   const double *T, double *ln_eta)
 {
-    const ff_viscosity *service = open_law(f, law, values);
-    const char *path = ff_trial_model(law->trial)->path;
-    ff_environment environment;
-    if (!service)
-        return false;
-    ff_environment_keep(&environment);
-    ff_guard_mark mark =
-        ff_guard_enter((ff_guard_mark){.path = path, .stage = law->id, .action = "its fit"});
-    ff_status status = service->eval(service->self, n, p, T, ln_eta, NULL, NULL);
-    ff_guard_leave(mark);
-    const char *changed = ff_environment_restore(&environment);
-    if (changed)
-        ff_warn(f->report, FF_NOWHERE, "%s: the plugin %s %s during its fit; this was set back",
-                law->id, path, changed);
-    return status >= 0;
+    evaluation e = {.n = n, .p = p, .T = T, .ln_eta = ln_eta};
+    bool open = set_values(law, values) &&
+                ff_instance_service(law->instance, FF_VISCOSITY_ID, &e.table) >= 0;
+    bool good = open && ff_instance_call(law->instance, "its fit", evaluate, &e) == FF_OK;
+    const ff_report *said = ff_instance_report(law->instance);
+    if (!open) {
+        free(law->refusal);
+        law->refusal = memory_print_text("%s", ff_instance_reason(law->instance));
+    }
+    if (good || ff_report_fault(said) == FF_FAULT_PLUGIN)
+        ff_report_append(f->report, said);
+    return good;
 }
 
 double fit_to_si(const fit_param *param, double number)
@@ -159,7 +218,7 @@ void fit_free(fit *f)
 {
     for (size_t i = 0; i < f->law_count; i++) {
         fit_law *law = &f->laws[i];
-        ff_trial_free(law->trial);
+        ff_instance_close(law->instance);
         free(law->id);
         free(law->params);
         free(law->refusal);

@@ -76,7 +76,7 @@ static bool is_free(const fit_law *law, size_t index)
     return (param->row->flags & FF_REQUIRED) != 0;
 }
 
-/* Sets up the axes. The trial has the values that the user holds; pressure_cap is held at the end
+/* Sets up the axes. The law has the values that the user holds; pressure_cap is held at the end
    of the data, so that the law says by itself when it is used beyond. */
 static bool choose_free(fit_search *s)
 {

@@ -178,15 +178,35 @@ static bool run_here(execution *r)
     return true;
 }
 
-static ff_status call_executor(const void *table, void *ctx)
+typedef struct executor_call {
+    const void *table;
+    ff_tasks *tasks;
+} executor_call;
+
+static ff_status call_executor(void *ctx)
 {
-    const ff_executor *executor = table;
-    return FF_HAS(executor, run) && executor->run ? executor->run(executor->self, ctx) : FF_BUG;
+    const executor_call *call = ctx;
+    const ff_executor *executor = call->table;
+    return FF_HAS(executor, run) && executor->run ? executor->run(executor->self, call->tasks)
+                                                  : FF_BUG;
+}
+
+/* An error that was reported while it ran says more than its status. */
+static bool run_elsewhere(execution *r, ff_tasks *tasks)
+{
+    ff_instance *executor = r->run->executor;
+    executor_call call = {.tasks = tasks};
+    size_t errors = ff_report_errors(r->report);
+    bool good = ff_instance_service(executor, FF_EXECUTOR_ID, &call.table) >= 0 &&
+                ff_instance_call(executor, "run", call_executor, &call) >= 0;
+    if (ff_report_errors(r->report) > errors)
+        return false;
+    ff_report_append(r->report, ff_instance_report(executor));
+    return good;
 }
 
 static bool run_cases(execution *r)
 {
-    const ff_service *executor = r->run->executor;
     ff_tasks tasks = {.size = sizeof tasks,
                       .ctx = r,
                       .slots = r->run->jobs,
@@ -195,11 +215,11 @@ static bool run_cases(execution *r)
                       .note = note_answer,
                       .give = start_chain,
                       .take = wait_for_answer};
-    if (!executor)
+    if (!r->run->executor)
         return run_here(r);
     bool good =
         study_fork_server_start(&r->fork_server, r->run)
-            ? ff_service_call(executor, "run", call_executor, &tasks, r->report)
+            ? run_elsewhere(r, &tasks)
             : ff_error(r->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "no process could be started");
     study_fork_server_end(&r->fork_server);
     return good;

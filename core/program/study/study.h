@@ -158,8 +158,8 @@ typedef struct study_run {
     ff_library *library;
     const char *directory;
     size_t jobs;
-    const ff_service *executor; /* NULL when workers of this process run all cases */
-    size_t shard, shards;       /* this run does shard number `shard`, from 1 to `shards` */
+    ff_instance *executor; /* offers FF_EXECUTOR_ID; NULL: workers of this process run all cases */
+    size_t shard, shards;  /* this run does shard number `shard`, from 1 to `shards` */
     size_t begin, end; /* the chains to run, after which no table is written; end 0 means all, with
                           the table */
     enum study_rerun rerun;

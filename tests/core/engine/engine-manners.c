@@ -2,7 +2,7 @@
 /* Whatever the library is asked, it prints nothing, and leaves the process as it was. */
 #include <flankfilm/engine.h>
 
-#include <host.h>
+#include <check.h>
 
 #include <fcntl.h>
 #include <fenv.h>

@@ -2,7 +2,7 @@
 /* A run as a program sees it through the library: results, quality, messages, what it refuses. */
 #include <flankfilm/engine.h>
 
-#include <host.h>
+#include <check.h>
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
    do. Built with a thread sanitizer by .ci/run. */
 #include <flankfilm/engine.h>
 
-#include <host.h>
+#include <check.h>
 
 #include <pthread.h>
 #include <stdio.h>

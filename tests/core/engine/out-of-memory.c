@@ -6,7 +6,7 @@
  */
 #include <flankfilm/engine.h>
 
-#include <host.h>
+#include <check.h>
 
 #include <dlfcn.h>
 #include <errno.h>

@@ -5,7 +5,7 @@
 
 #include "../../../core/engine/plugin/library.h"
 
-#include <host.h>
+#include <check.h>
 
 /* A line "format: 1" is put before the text, so that the text's first line is line 2. */
 typedef struct attempt {

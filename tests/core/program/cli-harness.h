@@ -7,7 +7,7 @@
 #ifndef CLI_HARNESS_H
 #define CLI_HARNESS_H
 
-#include <host.h>
+#include <check.h>
 #include <jansson.h>
 #include <stdbool.h>
 

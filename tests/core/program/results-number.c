@@ -2,8 +2,8 @@
 /* The fast writing of numbers against printf. */
 #include "../../../core/program/results/number.h"
 
+#include <check.h>
 #include <float.h>
-#include <host.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>

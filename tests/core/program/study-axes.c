@@ -2,7 +2,7 @@
 /* What stands under `study:` as axes and points; the Sobol sequence. */
 #include "../../../core/program/study/study.h"
 
-#include <host.h>
+#include <check.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 
 #include "../../../core/program/study/front.h"
 
-#include <host.h>
+#include <check.h>
 #include <math.h>
 
 static void test_scalars(void)

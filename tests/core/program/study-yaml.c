@@ -2,7 +2,7 @@
 /* What is written as YAML reads as itself. */
 #include "../../../core/program/study/yaml.h"
 
-#include "host.h"
+#include "check.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Hertz and Moes figures of a constant line contact. */
-#include <host.h>
+#include <check.h>
+#include <stage.h>
 
 #include <flankfilm/viscosity.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A motion of several mesh cycles: each of its engagements is a history, and none is forgotten. */
 #include "../../../plugins/contact/engagements.h"
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

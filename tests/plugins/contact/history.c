@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Kinematics, Hertz and Moes figures along one tooth engagement. */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

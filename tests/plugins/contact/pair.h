@@ -3,7 +3,7 @@
 #ifndef TEST_PAIR_H
 #define TEST_PAIR_H
 
-#include <host.h>
+#include <stage.h>
 
 typedef struct pair {
     stage *gear, *duty, *tooth;

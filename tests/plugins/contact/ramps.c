@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Ramps of the load where pairs come and go in quick succession, and where three share it. */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Histories from files: what is read, and what is refused with its line. */
-#include <host.h>
+#include <check.h>
+#include <stage.h>
 
 #include <stdio.h>
 #include <stdlib.h>

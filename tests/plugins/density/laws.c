@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the interface asks of every density law. */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include "../viscosity/difference.h"
 

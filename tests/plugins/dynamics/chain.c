@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Motions handed from speed to speed: the sweep up stays on the lower branch, the sweep down on the
    upper one, and each leaves its branch where the atlas has the fold. */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

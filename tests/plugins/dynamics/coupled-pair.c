@@ -3,7 +3,7 @@
    go. */
 #include "../../../plugins/dynamics/coupled-pair.h"
 
-#include "host.h"
+#include "check.h"
 
 #include <math.h>
 

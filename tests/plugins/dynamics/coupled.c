@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/coupled where the answer is known, against rigid bearings, and at the edges. */
+#include "check.h"
 #include "pair.h"
 
 #include <complex.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/time-integration at the edges: finite numbers, an honest verdict, an end. The host ends
    the program at a result that is not finite. */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The atlas of dynamics/harmonic-balance: the curves from both ends of the range. */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

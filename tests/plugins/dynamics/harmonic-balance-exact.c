@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/harmonic-balance where the answer is known: Hill's equation and Mathieu's. */
+#include "check.h"
 #include "pair.h"
 
 #include <complex.h>

@@ -2,7 +2,7 @@
 /* The analytic Jacobian of the balance against differences of its residual. */
 #include "../../../plugins/dynamics/harmonics.h"
 
-#include "host.h"
+#include "check.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/harmonic-balance and dynamics/shooting, which share no equation solver, side by side. */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/harmonic-balance against states that other solvers found, and integration in time. */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
  */
 #include "../../../plugins/dynamics/linear-pair.h"
 
-#include "host.h"
+#include "check.h"
 
 #include <complex.h>
 #include <math.h>

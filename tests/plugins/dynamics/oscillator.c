@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The integrator by itself: energy, reversal in time, grazing, and what its tolerance means. */
-#include "host.h"
+#include "check.h"
 
 #include "../../../plugins/dynamics/oscillator.h"
 

@@ -3,7 +3,7 @@
 #ifndef TEST_DYNAMICS_PAIR_H
 #define TEST_DYNAMICS_PAIR_H
 
-#include "host.h"
+#include "stage.h"
 
 enum { PAIR_MAX_PHASES = 4096, PAIR_STATIONS = 11 };
 

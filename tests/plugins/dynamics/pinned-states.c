@@ -3,6 +3,7 @@
  * Both branches of the trapezoid against states that another solver found: exact Taylor pieces with
  * located events, agreed with rk8pd and CVODE at 1e-8. Lengths over b, times 1/omega_n.
  */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The atlas of dynamics/shooting: its branches agree with single motions, with one another and with
    what must hold on each. */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/shooting at the edges: finite numbers, identities that hold, and an answer or a reason
    in words. The host ends the program at a result that is not finite. */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

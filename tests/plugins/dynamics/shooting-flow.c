@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The exact way through a mesh cycle, by cases with a closed form and by what must not change. */
-#include "host.h"
+#include "check.h"
 
 #include "../../../plugins/dynamics/orbit.h"
 

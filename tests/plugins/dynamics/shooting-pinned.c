@@ -4,6 +4,7 @@
  * Taylor pieces with located events, agreed with rk8pd and CVODE. Lengths over b, times 1/omega_n;
  * the printed digits are the limit. Also Abel's identity, the energy balance and the folds.
  */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

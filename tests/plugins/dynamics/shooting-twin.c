@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The same motion by dynamics/shooting and by dynamics/time-integration at 1e-10, which share the
    equation but neither steps nor events nor the way to the periodic motion. */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/time-integration where the answer is known in closed form, and its invariants. */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

@@ -3,6 +3,7 @@
  * The slow and obvious twin: eq. 3 of Li & Kahraman 2011 as it stands, classical Runge-Kutta with
  * fixed steps straight through all kinks, 20000 to a mesh cycle.
  */
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

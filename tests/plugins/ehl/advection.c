@@ -4,6 +4,7 @@
  * left: the waves of the film are carried unchanged at the mean speed, though the flank that made
  * them moves at another one.
  */
+#include "check.h"
 #include "flank.h"
 
 #include <math.h>

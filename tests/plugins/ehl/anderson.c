@@ -2,7 +2,7 @@
 /* Anderson acceleration of a linear relaxation: as many steps as unknowns, and one, end it. */
 #include "../../../plugins/ehl/anderson.h"
 
-#include "host.h"
+#include "check.h"
 
 #include <math.h>
 #include <stdio.h>

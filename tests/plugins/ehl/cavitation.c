@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The film with its mass conserved where it is cavitated, through loss of contact. */
+#include "check.h"
 #include "line.h"
 
 #include <math.h>

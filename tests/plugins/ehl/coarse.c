@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the coarse system takes off the balances, against sums over the blocks of its own. */
-#include "host.h"
+#include "check.h"
 
 #include "../../../plugins/ehl/coarse.h"
 #include "../../../plugins/ehl/deflection.h"

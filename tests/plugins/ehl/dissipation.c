@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the film dissipates: against published solutions, other integrals and other domains. */
+#include "check.h"
 #include "flank.h"
 
 #include <math.h>

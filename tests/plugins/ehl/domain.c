@@ -5,13 +5,14 @@
  *
  *   test-ehl-domain [print]      print: as a table for the documentation
  */
+#include "check.h"
 #include "line.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-static const double loads[] = {4, 1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-6};
+static const double loads[] = {4, 1, 0.3, 0.1, 0.03, 0.01, 1e-3, 1e-4};
 
 enum { LOADS = sizeof loads / sizeof loads[0] };
 

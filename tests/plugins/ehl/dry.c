@@ -4,6 +4,7 @@
  * the dry rough contact, a convex problem with one solution, elastic or with a hardness that no
  * pressure exceeds (Almqvist et al. 2007). It is solved here by projected gradients.
  */
+#include "check.h"
 #include "flank.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Engagements that follow one another in a history are films of their own, whatever their order. */
+#include "check.h"
 #include "models.h"
 
 #include <math.h>

@@ -6,6 +6,7 @@
  *
  *   test-ehl-errors [count [first]]      with a count: prints each scene and the sum
  */
+#include "check.h"
 #include "line.h"
 
 #include <math.h>
@@ -77,6 +78,7 @@ static void set_law(line *c, const scene *s)
         line_oil(c, "viscosity/two-slope", c->eta0, 0);
         stage_set(c->oil, "alpha_1", 2.2e-8);
         stage_set(c->oil, "alpha_2", 1.1e-8);
+        stage_set(c->oil, "p_transition", 0.4e9);
     }
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What both models without a pressure solution must do: extremes, contact loss, fields, mirrors,
    refusals. */
+#include "check.h"
 #include "line.h"
 
 #include <math.h>

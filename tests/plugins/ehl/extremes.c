@@ -2,6 +2,7 @@
 /* Steady films from a cold start, far from the nominal contact, with every law: each is put to the
    equations again. */
 #include "balance.h"
+#include "check.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -6,6 +6,7 @@
  *   test-ehl-formula [print]      print: the scatter as a table for the documentation
  */
 #include "../../../plugins/ehl/formula.h"
+#include "check.h"
 
 #include "line.h"
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The work of a time step hardly depends on the number of cells, apart from that of each cell. */
+#include "check.h"
 #include "line.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Heights of the flanks in the cells: no metal is lost at any shift, and they move with the flank.
  */
-#include "host.h"
+#include "check.h"
 
 #include "../../../plugins/ehl/surface.h"
 

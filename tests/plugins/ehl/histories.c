@@ -3,6 +3,7 @@
    after every way to them, and, where the pressure is solved for, second order in time under
    sinusoidal and ramped loads and away from a jump. */
 #include "balance.h"
+#include "check.h"
 #include "models.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The line of the quality record that says what an isothermal film leaves out. */
 #include "../../../plugins/ehl/inlet.h"
+#include "check.h"
 
 #include "line.h"
 

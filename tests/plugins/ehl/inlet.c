@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* ehl/inlet-analysis against ehl/finite-volume, steady and through the pass of a tooth pair. */
+#include "check.h"
 #include "line.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What holds for the steady film of every model: likeness, mirrors, signs, monotony, shapes. */
 #include "balance.h"
+#include "check.h"
 #include "models.h"
 
 #include <math.h>

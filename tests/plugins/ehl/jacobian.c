@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The derivatives of the balances against central differences of the balances. */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include "../../../plugins/ehl/reynolds.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Deflection: the kernel against quadrature, the FFT against the double sum, Hertz's pressure. */
-#include "host.h"
+#include "check.h"
 
 #include "../../../plugins/ehl/deflection.h"
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every model gives the film over the roughness of the flanks, whoever knows it: gears or surface.
  */
+#include "check.h"
 #include "flank.h"
 #include "models.h"
 

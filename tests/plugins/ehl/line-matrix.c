@@ -4,7 +4,7 @@
 #include "../../../plugins/ehl/band.h"
 
 #include "../../../plugins/ehl/reynolds.h"
-#include "host.h"
+#include "check.h"
 
 #include <math.h>
 #include <stdlib.h>

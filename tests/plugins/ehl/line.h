@@ -3,7 +3,7 @@
 #ifndef TEST_EHL_LINE_H
 #define TEST_EHL_LINE_H
 
-#include "host.h"
+#include "stage.h"
 
 #include <stddef.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The contact is lost and closes again. */
 #include "balance.h"
+#include "check.h"
 
 #include <math.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What a probe solve says of a number of cells is what those cells are off by in a whole solution,
    and it costs nearly nothing. */
+#include "check.h"
 #include "line.h"
 
 #include "../../../plugins/ehl/assess.h"

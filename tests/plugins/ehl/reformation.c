@@ -6,7 +6,8 @@
  * along (Jakobsson & Floberg 1957), which gives h*, the place of reformation and both pressures by
  * quadrature.
  */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include "../../../plugins/ehl/deflection.h"
 #include "../../../plugins/ehl/solver.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contacts that no film model can solve: one sentence each, which names the input. */
+#include "check.h"
 #include "models.h"
 
 #include <math.h>

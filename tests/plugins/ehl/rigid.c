@@ -6,6 +6,7 @@
  *
  *   test-ehl-rigid [print]      print: as a table for the documentation
  */
+#include "check.h"
 #include "models.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
  */
 #include "../../../plugins/ehl/surface.h"
 
-#include "host.h"
+#include "check.h"
 
 #include <math.h>
 #include <stddef.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Rough flanks in the contact: what is conserved, what is held, and flat flanks as the limit. */
 #include "balance.h"
+#include "check.h"
 #include "flank.h"
 
 #include <math.h>

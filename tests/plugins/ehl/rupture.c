@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Where the film ends: a node that is wet and does not pull, in front of one that is dry and does
    not gain mass. Where asymmetric volumes of second order have no such end they say so. */
+#include "check.h"
 #include "line.h"
 
 #include <math.h>

@@ -3,6 +3,7 @@
  * What asperities carry, and oil that they shut in, is a property of the flanks and the oil: not of
  * the cells and the steps. Without that their share would be worth nothing.
  */
+#include "check.h"
 #include "flank.h"
 
 #include <math.h>

@@ -6,6 +6,7 @@
  *
  *   test-ehl-slow [dense]      dense: against dense-newton on 4000 equal steps, for half an hour
  */
+#include "check.h"
 #include "line.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The balances of a film are small, and each spoiled film shows in the one that is to find it. */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include "../../../plugins/ehl/balance.h"
 #include "../../../plugins/ehl/deflection.h"

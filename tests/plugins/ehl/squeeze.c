@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contacts that start, stop, turn round or jump: what no entrainment carries is squeezed. */
+#include "check.h"
 #include "line.h"
 
 #include <math.h>

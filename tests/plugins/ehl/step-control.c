@@ -2,6 +2,7 @@
 /* Time steps that the model chooses: what they cost, how far they are off, and what they say of it.
  */
 #include "balance.h"
+#include "check.h"
 
 #include <math.h>
 #include <stdio.h>

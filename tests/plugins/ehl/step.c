@@ -4,6 +4,7 @@
  * the steps: as large as the error where its front passes, and gone with it. (It was 4 % long after
  * the front, where the film was right to 0.02 %.)
  */
+#include "check.h"
 #include "line.h"
 
 #include <math.h>

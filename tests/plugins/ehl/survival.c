@@ -6,6 +6,7 @@
  *   test-ehl-survival [long]      long: 8193 cells and 1e5 steps
  */
 #include "balance.h"
+#include "check.h"
 #include "models.h"
 
 #include <math.h>

@@ -6,6 +6,7 @@
  *
  *   test-ehl-table [all|print]      all: every case; print: as tables for the documentation
  */
+#include "check.h"
 #include "models.h"
 
 #include <math.h>

@@ -2,6 +2,7 @@
 /* The film through a smooth cycle of load: balances at every step, order in time, independence of
    the grid, and the same film when all runs backwards. */
 #include "balance.h"
+#include "check.h"
 
 #include <math.h>
 #include <stdio.h>

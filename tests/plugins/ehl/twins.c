@@ -2,6 +2,7 @@
 /* finite-volume and dense-newton solve the same equations by other means, and so do finite-volume
    and control-volume with their first-order schemes: at a tolerance of 1e-10 they agree to 1e-6,
    steady and through a change of load. */
+#include "check.h"
 #include "line.h"
 
 #include <math.h>

@@ -8,6 +8,7 @@
  *   test-ehl-violent [cases] [first seed]
  */
 #include "balance.h"
+#include "check.h"
 
 #include <math.h>
 #include <stdint.h>

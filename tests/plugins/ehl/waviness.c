@@ -4,6 +4,7 @@
  * left in the middle of the contact, against the numerical table and the fit of Venner, Couhier,
  * Lubrecht & Greenwood 1997. `table CELLS` and `refinement` print it all.
  */
+#include "check.h"
 #include "flank.h"
 
 #include <math.h>

@@ -3,6 +3,7 @@
  * Flanks that yield where the pressure reaches their hardness H: against the closed form of a dry
  * smooth contact, and what holds at every node and instant. The dry rough contact is in dry.c.
  */
+#include "check.h"
 #include "flank.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Contact ratios from 1 to below 4: where pairs come and go, whole numbers and their neighbours. */
-#include <host.h>
+#include <check.h>
+#include <stage.h>
 
 #include <math.h>
 #include <stdio.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* 10^4 pairs that the model accepts, drawn at random: what must hold for each of them. */
-#include <host.h>
+#include <check.h>
+#include <stage.h>
 
 #include <math.h>
 #include <stdint.h>

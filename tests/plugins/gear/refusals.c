@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Pairs that cannot run are refused by name, with what would do. */
-#include <host.h>
+#include <check.h>
+#include <stage.h>
 
 #include <stddef.h>
 #include <stdio.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Profile shift, centre distance and backlash against a published table and second derivations. */
-#include <host.h>
+#include <check.h>
+#include <stage.h>
 
 #include <math.h>
 #include <stddef.h>

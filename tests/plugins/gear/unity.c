@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The 50/50 gear pair of Li & Kahraman 2011 against its closed forms, to the digits printed. */
-#include <host.h>
+#include <check.h>
+#include <stage.h>
 
 #include <math.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 #ifndef TEST_ENGAGEMENT_H
 #define TEST_ENGAGEMENT_H
 
-#include <host.h>
+#include <stage.h>
 
 #include <stddef.h>
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Blok's flash temperature against the temperature of a moving band of heat. */
+#include "check.h"
 #include "engagement.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Losses of all pairs in mesh against closed forms. */
+#include "check.h"
 #include "engagement.h"
 
 #include <math.h>
@@ -196,6 +197,7 @@ static void test_alike_engagements_are_one(void)
     stage_close(s);
     s = train_open(&t, 2, alike);
     t.part[1][7] *= 1.01;
+    stage_give_series(s, "ehl.rolling_loss", t.n, t.part[1]);
     check_true("runs", stage_run(s) == FF_OK);
     check_true("parts that are not the whole", stage_verdict(s) == FF_BAD);
     stage_close(s);
@@ -239,8 +241,8 @@ static void test_refusals(void)
     s = engagement_open(&e);
     stage_give_scalar(s, "gear.face_width", NAN);
     refuse(s, "gear.face_width");
-    s = engagement_open(&e);
     e.roll[7] = e.roll[9];
+    s = engagement_open(&e);
     refuse(s, "ehl.roll_angle");
 }
 

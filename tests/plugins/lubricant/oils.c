@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Oils over temperature: slopes, extremes, and published figures. */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include <flankfilm/laws.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What contradicts itself, or is not known, is said at the parameter or output that it concerns. */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Grades by ISO 3448 and ASTM D2270, viscosity by D341, density by D1250. */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include "../../../plugins/lubricant/standards.h"
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Fluidity that the pressure flow sees: values, limits, derivatives, extremes. */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include "../viscosity/difference.h"
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Mean shear stress of the film: values, limits, extremes. */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include <flankfilm/rheology.h>
 

@@ -29,7 +29,7 @@ void chain_close(chain *c)
 
 void chain_run(chain *c)
 {
-    if (stage_run(c->mesh) != FF_OK) {
+    if (stage_run(c->gear) != FF_OK || stage_run(c->mesh) != FF_OK) {
         printf("FAIL %s: %s\n", stage_why_item(c->mesh), stage_why(c->mesh));
         exit(1);
     }

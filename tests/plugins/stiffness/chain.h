@@ -3,7 +3,7 @@
 #ifndef TEST_STIFFNESS_CHAIN_H
 #define TEST_STIFFNESS_CHAIN_H
 
-#include "host.h"
+#include "stage.h"
 
 typedef struct chain {
     stage *gear, *duty, *mesh;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Every source of stiffness on gears of contact ratio 1 to 2.6: the pairs carry the line force. */
 #include "chain.h"
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "../../../plugins/stiffness/cycle.h"
 
-#include "host.h"
+#include "check.h"
 
 #include <math.h>
 #include <stdlib.h>

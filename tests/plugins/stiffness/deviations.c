@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Deviations of the flanks mean the same to all sources. */
 #include "chain.h"
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* ISO 6336-1 against figures worked by hand for the 50/50 pair. */
 #include "chain.h"
+#include "check.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Load distribution over the teeth of the 50/50 pair of Li & Kahraman 2011. */
 #include "chain.h"
+#include "check.h"
 #include "pair.h"
 
 #include <math.h>

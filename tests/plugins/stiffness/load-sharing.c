@@ -2,7 +2,7 @@
 /* The contact problem of one mesh position against closed forms and against trying all sets. */
 #include "../../../plugins/stiffness/load-sharing.h"
 
-#include "host.h"
+#include "check.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -3,7 +3,7 @@
 #ifndef TEST_STIFFNESS_PAIR_H
 #define TEST_STIFFNESS_PAIR_H
 
-#include "host.h"
+#include "stage.h"
 
 enum { PAIR_STATIONS = 45 };
 

@@ -2,7 +2,7 @@
 /* Measured profiles: values between their points, and where they have corners. */
 #include "../../../plugins/stiffness/deviations.h"
 
-#include "host.h"
+#include "check.h"
 
 #include <math.h>
 

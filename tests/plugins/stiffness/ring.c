@@ -3,7 +3,7 @@
 #include "../../../plugins/stiffness/ring.h"
 #include "../../../plugins/stiffness/condense.h"
 
-#include "host.h"
+#include "check.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "../../../plugins/stiffness/tooth-beam.h"
 
-#include "host.h"
+#include "check.h"
 
 #include <math.h>
 

@@ -2,7 +2,8 @@
 /* The Gaussian filter and the detrending of measured flanks. */
 #include "trace-file.h"
 
-#include <host.h>
+#include <check.h>
+#include <stage.h>
 
 #include <math.h>
 #include <unistd.h>

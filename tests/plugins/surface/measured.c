@@ -2,7 +2,8 @@
 /* Measured flanks: resampling, directions, lengths and what follows the record. */
 #include "trace-file.h"
 
-#include <host.h>
+#include <check.h>
+#include <stage.h>
 
 #include <math.h>
 #include <unistd.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Waves and dents against their formulas. */
-#include <host.h>
+#include <check.h>
+#include <stage.h>
 
 #include <math.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Synthetic flanks: Rq, spectrum and what a seed changes. */
-#include <host.h>
+#include <check.h>
+#include <stage.h>
 
 #include <math.h>
 #include <stdlib.h>

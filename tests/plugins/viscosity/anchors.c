@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Each viscosity law against numbers computed elsewhere and against its own limits. */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include <flankfilm/viscosity.h>
 

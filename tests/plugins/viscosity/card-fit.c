@@ -5,7 +5,8 @@
  * as the data that the card names, and eta within 20 % of them as far as the card says. Reads the
  * constants from the cards themselves, so that card and claim cannot part.
  */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include <flankfilm/rheology.h>
 #include <flankfilm/viscosity.h>

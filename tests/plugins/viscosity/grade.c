@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* eta0 from a grade or from two kinematic viscosities. */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include "../../../plugins/viscosity/grade.h"
 

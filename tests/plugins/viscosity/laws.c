@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What the interface asks of every viscosity law. */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include "difference.h"
 
@@ -47,7 +48,7 @@ static const law laws[] = {
       {"alpha_1", "1 1/GPa"},
       {"alpha_2", "1000 1/GPa"},
       {"p_transition", "100 GPa"},
-      {"transition_width", "200 GPa"}},
+      {"transition_width", "100 GPa"}},
      10e9,
      1e8},
     {"viscosity/doolittle-tait",

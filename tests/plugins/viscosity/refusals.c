@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameters of viscosity laws that do not go together are refused, by name. */
-#include "host.h"
+#include "check.h"
+#include "stage.h"
 
 #include <stdio.h>
 #include <string.h>

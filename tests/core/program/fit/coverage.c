@@ -4,6 +4,7 @@
  * interval covers the truth are counted for each parameter. With a true probability of 0.95 fewer
  * than 180 or more than 198 of 200 come by chance in 0.2 % of all tries.
  */
+#include "check.h"
 #include "fitting.h"
 
 #include <math.h>

@@ -2,6 +2,7 @@
 #include "fitting.h"
 
 #include <flankfilm/viscosity.h>
+#include <stage.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -77,9 +78,9 @@ bool fitting_run(fitting *f, const points *data)
     f->fit = (fit){.report = f->report};
     while (f->hold[held])
         held++;
-    bool good =
-        fit_read(&f->fit, path) && fit_add_laws(&f->fit, ff_engine_library(f->engine), &f->id, 1) &&
-        fit_set(&f->fit, f->hold, held) && fit_set_conditions(&f->fit, NULL, 0) && fit_run(&f->fit);
+    bool good = fit_read(&f->fit, path) && fit_add_laws(&f->fit, f->engine, &f->id, 1) &&
+                fit_set(&f->fit, f->hold, held) && fit_set_conditions(&f->fit, NULL, 0) &&
+                fit_run(&f->fit);
     f->law = f->fit.laws;
     unlink(path);
     return good;

@@ -5,8 +5,6 @@
 
 #include "../../../../core/program/fit/fit.h"
 
-#include <host.h>
-
 typedef struct fitting {
     const char *id;      /* of the law */
     const char *hold[4]; /* "V_occ=0.6132", ..., NULL */

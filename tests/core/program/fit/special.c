@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Exact data, weights, parameters that cannot be told apart, limits, data that are none. */
+#include "check.h"
 #include "fitting.h"
 
 #include <math.h>

@@ -1,0 +1,265 @@
+/* SPDX-License-Identifier: MIT */
+/* Instances: runs, results and services. */
+#include "instance.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Requests the outputs that the words name, or all of them. False for an unknown name. */
+static bool request(ff_instance *i, const char *words)
+{
+    const ff_model *model = i->stage.loaded->model;
+    char name[96];
+    for (size_t k = 0; k < model->output_count; k++) {
+        i->stage.results[k].wanted = !words && !i->stage.results[k].row->service;
+        i->stage.results[k].required = false;
+    }
+    while (words && *(words += strspn(words, " "))) {
+        size_t length = strcspn(words, " ");
+        snprintf(name, sizeof name, "%.*s", (int)length, words);
+        int output = ff_model_find_output(model, name);
+        if (output < 0 || i->stage.results[output].row->service)
+            return fe_refuse(i, name, "it has no output \"%s\"", name);
+        i->stage.results[output].wanted = i->stage.results[output].required = true;
+        words += length;
+    }
+    return true;
+}
+
+static bool is_up_to_date(const ff_instance *i)
+{
+    bool good = i->stage.ran && !i->stale;
+    for (size_t k = 0; k < i->stage.loaded->model->input_count && good; k++) {
+        const fe_feed *feed = &i->feeds[k];
+        bool serves = ff_model_input(i->stage.loaded->model, k)->service;
+        if (feed->from)
+            good = serves ? !feed->from->stale && feed->version == feed->from->version
+                          : is_up_to_date(feed->from) && feed->version == feed->from->runs;
+    }
+    return good;
+}
+
+static bool run_marked(fe_request *q);
+
+/* Runs `from` for what the instance takes from it, and for what it gave before. */
+static bool run_feeding(ff_instance *i, ff_instance *from)
+{
+    const ff_model *model = i->stage.loaded->model;
+    for (size_t k = 0; k < from->stage.loaded->model->output_count; k++) {
+        from->stage.results[k].wanted = from->stage.results[k].data;
+        from->stage.results[k].required = false;
+    }
+    for (size_t k = 0; k < model->input_count; k++) {
+        const ff_port *row = ff_model_input(model, k);
+        if (i->feeds[k].from != from || row->service)
+            continue;
+        ff_result *taken = &from->stage.results[i->feeds[k].output];
+        taken->wanted = true;
+        taken->required = taken->required || !(row->flags & FF_OPTIONAL);
+    }
+    ff_status status = fe_handle(&(fe_request){.instance = from, .work = run_marked});
+    return status == FF_OK || status == FF_DOMAIN || fe_pass_on(i, from);
+}
+
+static bool run_what_feeds(ff_instance *i)
+{
+    for (size_t k = 0; k < i->stage.loaded->model->input_count; k++) {
+        ff_instance *from = i->feeds[k].from;
+        if (!from || ff_model_input(i->stage.loaded->model, k)->service)
+            continue;
+        bool there =
+            from->stage.results[i->feeds[k].output].data || from->refused[i->feeds[k].output];
+        if (!(there && is_up_to_date(from)) && !run_feeding(i, from))
+            return false;
+    }
+    return true;
+}
+
+/* One array for each input row; dimensions of one name have one length. */
+static bool gather(ff_instance *i, ff_array *in)
+{
+    const ff_loaded *loaded = i->stage.loaded;
+    fe_lengths all = {.count = 0};
+    bool good = true;
+    char why[256];
+    for (size_t k = 0; k < loaded->model->input_count && good; k++) {
+        const ff_port *row = ff_model_input(loaded->model, k);
+        fe_feed *feed = &i->feeds[k];
+        const ff_dims *dims = &loaded->input_dims[k];
+        in[k] = feed->array;
+        if (feed->from && !row->service) {
+            const ff_result *given = &feed->from->stage.results[feed->output];
+            in[k] = (ff_array){.data = given->data, .shape = given->shape, .rank = given->rank};
+            feed->version = feed->from->runs;
+        }
+        if (!in[k].data)
+            in[k] = (ff_array){.data = NULL};
+        else if (in[k].rank > dims->rank || in[k].rank + dims->first_optional < dims->rank)
+            good = fe_refuse(i, row->name, "\"%s\" is fed with %u dimensions; it takes \"%s\"",
+                             row->name, in[k].rank, row->dims);
+        else if (!fe_enter_lengths(&all, row->name, dims, in[k].rank, in[k].shape, why, sizeof why))
+            good = fe_refuse(i, row->name, "%s", why);
+    }
+    fe_free(all.seen);
+    return good;
+}
+
+static bool evaluate(ff_instance *i, const ff_array *in)
+{
+    ff_stage *stage = &i->stage;
+    for (size_t k = 0; k < stage->loaded->model->output_count; k++)
+        i->refused[k] = stage->results[k].wanted;
+    i->runs++;
+    stage->seconds = stage->work = 0;
+    fe_folder_keep(&i->memory.folder);
+    i->object.watch = &i->observer;
+    i->pipeline.chained = stage->state != NULL;
+    stage->ran = fe_evaluate(&i->pipeline, stage, in, i->report);
+    i->pipeline.chained = false;
+    i->object.watch = NULL;
+    ff_stage_set_state(stage, NULL, 0);
+    for (size_t k = 0; k < stage->loaded->model->output_count; k++)
+        i->refused[k] = i->refused[k] && !stage->results[k].wanted;
+    if (stage->status != FF_OK)
+        i->object.status = stage->status;
+    return stage->ran;
+}
+
+/* Runs for the outputs that are marked as wanted. */
+static bool run_marked(fe_request *q)
+{
+    ff_instance *i = q->instance;
+    if (!run_what_feeds(i) || !fe_make_object(i)) {
+        fe_forget_results(&i->stage);
+        return false;
+    }
+    ff_array *in = fe_alloc((i->stage.loaded->model->input_count + 1) * sizeof *in);
+    fe_forget_results(&i->stage);
+    bool good = gather(i, in) && evaluate(i, in);
+    fe_free(in);
+    return good;
+}
+
+static bool run(fe_request *q)
+{
+    return request(q->instance, q->text) && run_marked(q);
+}
+
+ff_status ff_instance_run(ff_instance *instance, const char *outputs)
+{
+    return fe_handle(&(fe_request){.instance = instance, .work = run, .text = outputs});
+}
+
+ff_status ff_instance_result(const ff_instance *i, const char *output, const ff_result **result)
+{
+    int row = ff_model_find_output(i->stage.loaded->model, output);
+    bool given = !i->broken && row >= 0 && i->stage.results[row].data;
+    *result = given ? &i->stage.results[row] : NULL;
+    return given ? FF_OK : FF_INVALID;
+}
+
+ff_status ff_instance_quality(const ff_instance *i, size_t index, const ff_quality **line)
+{
+    bool there = !i->broken && index < i->stage.quality_count;
+    *line = there ? &i->stage.quality[index] : NULL;
+    return there ? FF_OK : FF_INVALID;
+}
+
+ff_status ff_instance_verdict(const ff_instance *i, int32_t *verdict)
+{
+    const ff_quality *line;
+    *verdict = FF_GOOD;
+    for (size_t k = 0; ff_instance_quality(i, k, &line) == FF_OK; k++)
+        *verdict = line->verdict > *verdict ? line->verdict : *verdict;
+    return i->broken ? FF_NOMEM : FF_OK;
+}
+
+static bool fetch(fe_request *q)
+{
+    ff_instance *i = q->instance;
+    int row = ff_model_find_service(i->stage.loaded->model, q->name);
+    if (row < 0)
+        return fe_refuse(i, q->name, "it does not offer the service %s", q->name);
+    if (!fe_make_object(i))
+        return false;
+    *q->fetched = fe_fetch_service(&i->stage, (uint32_t)row, i->report);
+    return *q->fetched;
+}
+
+ff_status ff_instance_service(ff_instance *instance, const char *interface, const void **table)
+{
+    *table = NULL;
+    return fe_handle(
+        &(fe_request){.instance = instance, .work = fetch, .name = interface, .fetched = table});
+}
+
+static bool call(fe_request *q)
+{
+    ff_instance *i = q->instance;
+    fe_call bracket = fe_call_begin(&i->stage, q->name);
+    return fe_call_end(&bracket, q->call(q->ctx), i->report);
+}
+
+ff_status ff_instance_call(ff_instance *instance, const char *action, ff_status (*work)(void *ctx),
+                           void *ctx)
+{
+    return fe_handle(&(fe_request){
+        .instance = instance, .work = call, .name = action, .call = work, .ctx = ctx});
+}
+
+static bool carry(fe_request *q)
+{
+    ff_instance *i = q->instance, *from = q->other;
+    bool good =
+        ff_stage_has_state(&i->stage) && from->object.alive && ff_stage_has_state(&from->stage);
+    if (good) {
+        from->pipeline.chained = true;
+        good = fe_save_state(&from->pipeline, &from->stage, i->report);
+        from->pipeline.chained = false;
+        if (!good)
+            return false;
+    }
+    if (!good || !from->stage.state) {
+        i->object.status = FF_UNSUPPORTED;
+        return fe_refuse(i, "", "%s hands on no state", from->stage.use);
+    }
+    ff_stage_set_state(&i->stage, from->stage.state, from->stage.state_size);
+    if (from != i)
+        ff_stage_set_state(&from->stage, NULL, 0);
+    return true;
+}
+
+ff_status ff_instance_carry(ff_instance *to, ff_instance *from)
+{
+    return fe_handle(&(fe_request){.instance = to, .work = carry, .other = from});
+}
+
+ff_status ff_instance_observe(ff_instance *instance, const ff_observer *observer)
+{
+    size_t known = sizeof instance->observer;
+    memset(&instance->observer, 0, known);
+    if (observer)
+        memcpy(&instance->observer, observer, observer->size < known ? observer->size : known);
+    return FF_OK;
+}
+
+const char *ff_instance_reason(const ff_instance *i)
+{
+    return i->reason;
+}
+
+const char *ff_instance_item(const ff_instance *i)
+{
+    return i->item;
+}
+
+const ff_report *ff_instance_report(const ff_instance *i)
+{
+    return i->report;
+}
+
+const ff_stage *ff_instance_stage(const ff_instance *i)
+{
+    return &i->stage;
+}

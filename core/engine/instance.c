@@ -1,0 +1,462 @@
+/* SPDX-License-Identifier: MIT */
+/* Instances: what they are made of, and how their objects are made. */
+#include "instance.h"
+
+#include "plugin/param.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Keeps why the call failed or warned. */
+static void explain(ff_instance *i)
+{
+    const ff_tables *tables = &i->object.tables;
+    const ff_message *said = ff_report_first(i->report);
+    if (!said && ff_report_count(i->report))
+        said = ff_report_at(i->report, 0);
+    if (!said)
+        return;
+    fe_engine_say(i->engine, i->report);
+    if (tables->errors)
+        ff_tables_print(tables, i->reason, sizeof i->reason);
+    else
+        snprintf(i->reason, sizeof i->reason, "%s",
+                 i->object.text[0] ? i->object.text : said->text);
+    if (!i->item[0])
+        snprintf(i->item, sizeof i->item, "%s", tables->errors ? tables->item : i->object.item);
+}
+
+static void work(void *of)
+{
+    fe_request *request = of;
+    ff_instance *i = request->instance;
+    if (!i->report || ff_report_count(i->report)) {
+        ff_report_free(i->report);
+        i->report = ff_report_new();
+    }
+    fe_tables_forget(&i->object.tables);
+    bool good = request->work(request);
+    ff_status status = i->object.status;
+    explain(i);
+    if (good)
+        request->status = status > 0 ? status : FF_OK;
+    else if (ff_report_fault(i->report) == FF_FAULT_PLUGIN)
+        request->status = FF_BUG;
+    else
+        request->status = status != FF_OK ? status : FF_INVALID;
+}
+
+ff_status fe_handle(fe_request *request)
+{
+    ff_instance *i = request->instance;
+    i->item[0] = i->reason[0] = i->object.item[0] = i->object.text[0] = 0;
+    i->object.status = FF_OK;
+    if (!i->broken && fe_engine_call(i->engine, &i->heap, work, request) == FF_OK)
+        return request->status;
+    i->broken = true;
+    return FF_NOMEM;
+}
+
+bool fe_refuse(ff_instance *i, const char *item, const char *format, ...)
+{
+    char text[700];
+    va_list args;
+    va_start(args, format);
+    vsnprintf(text, sizeof text, format, args);
+    va_end(args);
+    snprintf(i->item, sizeof i->item, "%s", item);
+    return ff_error(i->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s: %s", i->stage.use, text);
+}
+
+bool fe_pass_on(ff_instance *i, const ff_instance *from)
+{
+    if (from->broken)
+        fe_out_of_memory();
+    ff_report_append(i->report, from->report);
+    i->object.status = from->object.status;
+    return false;
+}
+
+static void read_presets(ff_instance *i)
+{
+    const ff_loaded *loaded = i->stage.loaded;
+    for (size_t k = 0; k < loaded->model->param_count; k++) {
+        const ff_param *row = ff_model_param(loaded->model, k);
+        i->stage.params[k].row = row;
+        if (row->preset && !ff_param_read_preset(row, &loaded->param_units[k], row->name,
+                                                 &i->presets[k], i->report))
+            i->presets[k].size = 0;
+    }
+}
+
+static bool load(fe_request *q)
+{
+    ff_instance *i = q->instance;
+    fe_arena *arena = &i->memory.arena;
+    ff_stage *stage = &i->stage;
+    const char *name = strchr(q->name, '/');
+    name = name ? name + 1 : q->name;
+    stage->use = fe_arena_text(arena, q->name, strlen(q->name));
+    stage->name = fe_arena_text(arena, name, strlen(name));
+    const ff_loaded *loaded = ff_library_load(i->engine->library, q->name, FF_NOWHERE, i->report);
+    if (!loaded)
+        return false;
+    const ff_model *model = loaded->model;
+    i->given = fe_arena_alloc(arena, model->param_count * sizeof *i->given);
+    i->presets = fe_arena_alloc(arena, model->param_count * sizeof *i->presets);
+    i->names = fe_arena_alloc(arena, model->param_count * sizeof *i->names);
+    i->feeds = fe_arena_alloc(arena, model->input_count * sizeof *i->feeds);
+    i->serving = fe_arena_alloc(arena, (model->input_count + 1) * sizeof *i->serving);
+    i->refused = fe_arena_alloc(arena, model->output_count * sizeof *i->refused);
+    stage->params = fe_arena_alloc(arena, model->param_count * sizeof *stage->params);
+    stage->results = fe_arena_alloc(arena, model->output_count * sizeof *stage->results);
+    for (size_t k = 0; k < model->output_count; k++)
+        stage->results[k].row = ff_model_output(model, k);
+    stage->loaded = loaded;
+    read_presets(i);
+    return true;
+}
+
+static void allocate(void *of)
+{
+    fe_request *request = of;
+    request->instance = fe_alloc(sizeof *request->instance);
+}
+
+ff_status ff_instance_new(ff_engine *engine, const char *id, ff_instance **instance)
+{
+    fe_request request = {.work = load, .name = id};
+    *instance = NULL;
+    if (fe_engine_call(engine, &engine->heap, allocate, &request) != FF_OK)
+        return FF_NOMEM;
+    ff_instance *i = request.instance;
+    i->engine = engine;
+    i->pipeline = (ff_pipeline){.stages = &i->stage, .count = 1, .memory = &i->memory};
+    i->memory.library = engine->library;
+    i->stage.needed = true;
+    i->stage.instance = &i->object;
+    i->object.stage = &i->stage;
+    ff_status status = fe_handle(&request);
+    if (status == FF_OK)
+        *instance = i;
+    else
+        ff_instance_close(i);
+    return status;
+}
+
+void ff_instance_close(ff_instance *instance)
+{
+    if (!instance)
+        return;
+    fe_heap_close(&instance->heap);
+    fe_free(instance);
+}
+
+/* The row of the parameter; -1 after an error. */
+static int find_param(ff_instance *i, const char *name)
+{
+    const ff_model *model = i->stage.loaded->model;
+    int row = ff_model_find_param(model, name);
+    if (row >= 0)
+        return row;
+    const char **names = fe_alloc((model->param_count + 1) * sizeof *names);
+    for (size_t k = 0; k < model->param_count; k++)
+        names[k] = ff_model_param(model, k)->name;
+    const char *near = ff_nearest(name, names, model->param_count);
+    fe_free(names);
+    fe_refuse(i, name, "it has no parameter \"%.80s\"%s%s%s", name, near ? "; did you mean \"" : "",
+              near ? near : "", near ? "\"?" : "");
+    return -1;
+}
+
+/* Puts a value in the place of those that its group has. */
+static void keep(ff_instance *i, size_t row, ff_value value)
+{
+    const ff_model *model = i->stage.loaded->model;
+    const char *group = ff_model_param(model, row)->group;
+    for (size_t k = 0; k < model->param_count; k++) {
+        const char *other = ff_model_param(model, k)->group;
+        if (k == row || (value.size && group && other && !strcmp(group, other))) {
+            ff_value_clear(&i->given[k]);
+            i->given[k].size = 0;
+        }
+    }
+    i->given[row] = value;
+    i->stale = true;
+}
+
+static bool set(fe_request *q)
+{
+    ff_instance *i = q->instance;
+    int row = find_param(i, q->name);
+    ff_value value = {.size = 0};
+    if (row < 0)
+        return false;
+    const ff_param *param = ff_model_param(i->stage.loaded->model, (size_t)row);
+    const ff_unit *unit = &i->stage.loaded->param_units[row];
+    if (!i->names[row])
+        i->names[row] = fe_pipeline_print(&i->pipeline, "%s.%s", i->stage.name, param->name);
+    const char *name = i->names[row];
+    if ((q->text && !fe_param_read_text(param, unit, name, q->text, &value, i->report)) ||
+        (q->si && !fe_param_take(param, unit, name, q->si, q->count, &value, i->report))) {
+        snprintf(i->item, sizeof i->item, "%s", param->name);
+        return false;
+    }
+    keep(i, (size_t)row, value);
+    return true;
+}
+
+ff_status ff_instance_set(ff_instance *instance, const char *param, const char *text)
+{
+    return fe_handle(&(fe_request){.instance = instance, .work = set, .name = param, .text = text});
+}
+
+ff_status ff_instance_set_reals(ff_instance *instance, const char *param, const double *si,
+                                size_t count)
+{
+    static const double none;
+    return fe_handle(&(fe_request){
+        .instance = instance, .work = set, .name = param, .si = si ? si : &none, .count = count});
+}
+
+bool fe_is_fed(const ff_instance *i, size_t input)
+{
+    const fe_feed *feed = &i->feeds[input];
+    return feed->from || feed->array.data || feed->table;
+}
+
+/* The array of a feed belongs to it. An object that knows that an array is connected need not be
+   made anew for another one. */
+static void connect(ff_instance *i, size_t input, fe_feed feed)
+{
+    fe_feed *old = &i->feeds[input];
+    bool fed = fe_is_fed(i, input), serves = ff_model_input(i->stage.loaded->model, input)->service;
+    fe_free((void *)(uintptr_t)old->array.data);
+    *old = feed;
+    old->array.shape = old->shape;
+    i->stale = i->stale || serves || fed != fe_is_fed(i, input);
+    i->stage.ran = false;
+}
+
+static bool give(fe_request *q)
+{
+    ff_instance *i = q->instance;
+    const ff_model *model = i->stage.loaded->model;
+    int input = ff_model_find_input(model, q->name);
+    const ff_array *array = q->array;
+    fe_feed feed = {.from = NULL};
+    size_t count = 1;
+    if (input < 0 || ff_model_input(model, (size_t)input)->service)
+        return fe_refuse(i, q->name, "it has no input \"%.80s\" for an array", q->name);
+    const ff_dims *dims = &i->stage.loaded->input_dims[input];
+    if (!array || !array->data) {
+        connect(i, (size_t)input, feed);
+        return true;
+    }
+    if (array->rank > dims->rank || array->rank + dims->first_optional < dims->rank)
+        return fe_refuse(i, q->name,
+                         "an array of %u dimensions is given for \"%s\"; it takes \"%s\"",
+                         array->rank, q->name, ff_model_input(model, (size_t)input)->dims);
+    for (uint32_t k = 0; k < array->rank; k++)
+        count *= feed.shape[k] = array->shape[k];
+    double *copy = fe_alloc(count * sizeof *copy);
+    if (count)
+        memcpy(copy, array->data, count * sizeof *copy);
+    feed.array = (ff_array){.data = copy, .rank = array->rank};
+    connect(i, (size_t)input, feed);
+    return true;
+}
+
+ff_status ff_instance_give(ff_instance *instance, const char *input, const ff_array *array)
+{
+    return fe_handle(
+        &(fe_request){.instance = instance, .work = give, .name = input, .array = array});
+}
+
+static bool uses(const ff_instance *i, const ff_instance *other)
+{
+    bool found = i == other;
+    for (size_t k = 0; k < i->stage.loaded->model->input_count && !found; k++)
+        found = i->feeds[k].from && uses(i->feeds[k].from, other);
+    return found;
+}
+
+/* Connects what the other instance offers, or nothing. */
+static bool use(fe_request *q)
+{
+    ff_instance *i = q->instance, *from = q->other;
+    const ff_model *model = i->stage.loaded->model;
+    fe_build b = {.pipeline = &i->pipeline, .report = i->report};
+    bool known = false;
+    for (size_t k = 0; k < model->input_count; k++)
+        known = known || fe_is_on_wire(ff_model_input(model, k)->name, q->name);
+    if (!known)
+        return fe_refuse(i, q->name, "it has no wire \"%.80s\"", q->name);
+    if (from && uses(from, i))
+        return fe_refuse(i, q->name, "%s cannot feed it, since it uses it", from->stage.use);
+    const char *why = from ? fe_wire_misfit(&b, &i->stage, q->name, from->stage.loaded) : NULL;
+    if (why)
+        return fe_refuse(i, q->name, "%s cannot feed its wire \"%s\": it %s", from->stage.use,
+                         q->name, why);
+    for (size_t k = 0; k < model->input_count; k++) {
+        const ff_port *row = ff_model_input(model, k);
+        if (!fe_is_on_wire(row->name, q->name))
+            continue;
+        int output = from ? fe_find_offer(from->stage.loaded, row) : -1;
+        connect(i, k, (fe_feed){.from = output < 0 ? NULL : from, .output = output});
+    }
+    return true;
+}
+
+ff_status ff_instance_use(ff_instance *instance, const char *wire, ff_instance *from)
+{
+    return fe_handle(&(fe_request){.instance = instance, .work = use, .name = wire, .other = from});
+}
+
+static bool serve(fe_request *q)
+{
+    ff_instance *i = q->instance;
+    int input = ff_model_find_input(i->stage.loaded->model, q->name);
+    if (input < 0 || !ff_model_input(i->stage.loaded->model, (size_t)input)->service)
+        return fe_refuse(i, q->name, "it has no service input \"%.80s\"", q->name);
+    connect(i, (size_t)input, (fe_feed){.table = q->table});
+    return true;
+}
+
+ff_status ff_instance_serve(ff_instance *instance, const char *wire, const void *table)
+{
+    return fe_handle(
+        &(fe_request){.instance = instance, .work = serve, .name = wire, .table = table});
+}
+
+/* Whether the wire that replaces the parameter is connected. */
+static bool is_replaced(const ff_instance *i, const ff_param *row)
+{
+    return row->instead &&
+           fe_is_fed(i, (size_t)ff_model_find_input(i->stage.loaded->model, row->instead));
+}
+
+/* Whether the parameter, or another of its group, is given; *required: whether one must be. */
+static bool is_settled(const ff_instance *i, size_t param, bool *required)
+{
+    const ff_model *model = i->stage.loaded->model;
+    const ff_param *row = ff_model_param(model, param);
+    bool given = false, preset = false;
+    *required = false;
+    for (size_t k = row->group ? 0 : param; k < (row->group ? model->param_count : param + 1);
+         k++) {
+        const ff_param *member = ff_model_param(model, k);
+        if (k != param && (!member->group || strcmp(row->group, member->group)))
+            continue;
+        given = given || i->given[k].size;
+        preset = preset || member->preset;
+        *required = *required || (member->flags & FF_REQUIRED && !is_replaced(i, member));
+    }
+    *required = *required && !preset;
+    return given;
+}
+
+/* What each parameter is: given, preset or absent. */
+static bool settle(ff_instance *i)
+{
+    const ff_model *model = i->stage.loaded->model;
+    for (size_t k = 0; k < model->param_count; k++) {
+        const ff_param *row = ff_model_param(model, k);
+        ff_bound *bound = &i->stage.params[k];
+        bool required, given = is_settled(i, k, &required), replaced = is_replaced(i, row);
+        if (replaced && i->given[k].size)
+            return fe_refuse(i, row->name, "\"%s\" is given, and by the wire \"%s\", too",
+                             row->name, row->instead);
+        if (!given && required)
+            return fe_refuse(i, row->name, "\"%s\"%s is missing: %s", row->name,
+                             row->group ? ", or another of its group," : "", row->doc);
+        bound->value = given ? i->given[k] : replaced ? (ff_value){.size = 0} : i->presets[k];
+        bound->present = bound->value.size != 0;
+    }
+    for (size_t k = 0; k < model->input_count; k++) {
+        const ff_port *row = ff_model_input(model, k);
+        if (!fe_is_fed(i, k) && !(row->flags & FF_OPTIONAL))
+            return fe_refuse(i, row->name, "nothing feeds its input \"%s\"", row->name);
+    }
+    return true;
+}
+
+/* Makes the objects whose services it takes; they may have been made anew. */
+static bool make_feeding(ff_instance *i)
+{
+    for (size_t k = 0; k < i->stage.loaded->model->input_count; k++) {
+        fe_feed *feed = &i->feeds[k];
+        if (!feed->from || !ff_model_input(i->stage.loaded->model, k)->service)
+            continue;
+        if (ff_instance_ready(feed->from) < 0)
+            return fe_pass_on(i, feed->from);
+        i->stale = i->stale || feed->version != feed->from->version;
+    }
+    return true;
+}
+
+/* The tables of what it uses, which have been made. */
+static bool wire(ff_instance *i)
+{
+    const ff_model *model = i->stage.loaded->model;
+    bool good = true;
+    memset(i->serving, 0, (model->input_count + 1) * sizeof *i->serving);
+    i->object.mark.services = i->serving;
+    for (size_t k = 0; k < model->input_count && good; k++) {
+        const ff_port *row = ff_model_input(model, k);
+        fe_feed *feed = &i->feeds[k];
+        const void *table = feed->table;
+        if (!fe_is_fed(i, k))
+            continue;
+        if (row->service && feed->from) {
+            feed->version = feed->from->version;
+            table = fe_fetch_service(&feed->from->stage, (uint32_t)feed->output, i->report);
+            if (!table)
+                return false;
+            *fe_end_of_services(&i->object.mark) = &feed->from->object.mark;
+        }
+        good = fe_wire_object(&i->stage, k, table, i->report);
+    }
+    return good;
+}
+
+/* Up to the first parameter that the model refuses, which the message is about. */
+static bool set_all(ff_instance *i)
+{
+    for (size_t k = 0; k < i->stage.loaded->model->param_count; k++)
+        if (!fe_set_param(&i->stage, k, i->report))
+            return false;
+    return true;
+}
+
+bool fe_make_object(ff_instance *i)
+{
+    if (!make_feeding(i))
+        return false;
+    if (i->object.alive && !i->stale)
+        return true;
+    fe_close_instance(&i->stage);
+    i->object.self = NULL;
+    i->stage.ran = false;
+    i->stale = false;
+    i->version++;
+    fe_folder_keep(&i->memory.folder);
+    i->object.watch = &i->observer;
+    i->object.alive = settle(i) && fe_create_object(&i->stage, i->report) && set_all(i) &&
+                      wire(i) && fe_ready_object(&i->stage, i->report);
+    i->object.watch = NULL;
+    fe_check_folder(&i->pipeline, &i->stage, "create, set, wire or ready", i->report);
+    return i->object.alive;
+}
+
+static bool make(fe_request *q)
+{
+    return fe_make_object(q->instance);
+}
+
+ff_status ff_instance_ready(ff_instance *instance)
+{
+    return fe_handle(&(fe_request){.instance = instance, .work = make});
+}
