@@ -5,12 +5,21 @@
 
 #include <stdlib.h>
 
+/* Whichever way the function is left, what ran before it runs after it. */
+static ff_status protect(fe_heap *heap, void (*function)(void *ctx), void *ctx)
+{
+    ff_guard_mark before = ff_guard_current();
+    ff_status status = fe_protected(heap, function, ctx);
+    ff_guard_leave(before);
+    return status;
+}
+
 ff_status fe_engine_call(ff_engine *engine, fe_heap *heap, void (*function)(void *ctx), void *ctx)
 {
     fe_free(engine->said);
     engine->said = NULL;
     engine->message = "";
-    ff_status status = fe_protected(heap, function, ctx);
+    ff_status status = protect(heap, function, ctx);
     if (status == FF_NOMEM)
         engine->message = "out of memory\n";
     return status;
@@ -82,7 +91,7 @@ ff_library *ff_engine_library(ff_engine *engine)
 ff_status ff_protected(void (*function)(void *ctx), void *ctx)
 {
     fe_heap heap = {.blocks = NULL};
-    ff_status status = fe_protected(&heap, function, ctx);
+    ff_status status = protect(&heap, function, ctx);
     fe_heap_close(&heap);
     return status;
 }

@@ -238,6 +238,23 @@ static void fail_cold(const attempt *plan, bool onwards)
     check_true("some failed", at > 100);
 }
 
+static void run_out(void *ctx)
+{
+    ff_guard_enter((ff_guard_mark){.path = ctx});
+    memory.fail_at = memory.calls + 1;
+    ff_report_new();
+}
+
+/* A crash after a call that was left must not be blamed on the plugin that ran in it. */
+static void leave_plugin(void)
+{
+    char path[] = "x.so";
+    memory.onwards = false;
+    check_true("a call is left", ff_protected(run_out, path) == FF_NOMEM);
+    check_true("and its plugin with it", !ff_guard_current().path);
+    memory.fail_at = 0;
+}
+
 /* DIRECTORY-OF-PLUGINS DIRECTORY-OF-FILES FILE STRIDE [open]; stride 0: cold. */
 int main(int argc, char **argv)
 {
@@ -251,5 +268,6 @@ int main(int argc, char **argv)
             fail_cold(&plan, onwards);
         else
             fail_warm(&plan, stride, onwards);
+    leave_plugin();
     return check_done();
 }
