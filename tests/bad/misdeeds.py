@@ -145,6 +145,17 @@ def is_verified(role, place, what, says):
     hold("verify of " + misdeed, done.returncode == 3 and lines, done.stdout)
 
 
+def is_kept_from_the_answer(role, place, what):
+    """What a plugin prints does not stand in the object of --json."""
+    misdeed = f"{role} {place} {what}"
+    done = run(misdeed, "run", "case.yaml", "--json")
+    try:
+        good = json.loads(done.stdout)["status"] == "ok"
+    except ValueError:
+        good = False
+    hold(misdeed, good and done.returncode == 0 and done.stderr == "here I am\n", done.stdout + done.stderr)
+
+
 os.chdir(tempfile.mkdtemp())
 for name, text in ("case.yaml", CASE), ("study.yaml", STUDY):
     with open(name, "w", encoding="utf-8") as stream:
@@ -159,6 +170,9 @@ for role, place in ("law", "eval"), ("stage", "evaluate"):
     for what in ENDS:
         ends_in_a_study(role, place, what)
 for role, places in PLACES.items():
+    for place in places:
+        is_kept_from_the_answer(role, place, "print")
+        is_kept_from_the_answer(role, place, "write")
     for place in places[:-1]:  # at the end of a run nobody looks any more
         for what in SET_BACK:
             is_set_back(role, place, what)

@@ -3,6 +3,7 @@
 #include "catalogue.h"
 
 #include "../results/json.h"
+#include "../terminal/answer.h"
 
 #include <math.h>
 
@@ -99,6 +100,6 @@ void catalogue_print_json(const catalogue *c, bool page, const char *version)
     else
         json_object_set(answer, "models", models);
     json_decref(models);
-    catalogue_print_value(answer, JSON_COMPACT, stdout);
-    putchar('\n');
+    catalogue_print_value(answer, JSON_COMPACT, terminal_answer());
+    fputc('\n', terminal_answer());
 }

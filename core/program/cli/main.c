@@ -4,6 +4,7 @@
 
 #include "../crash/crash.h"
 #include "../memory/memory.h"
+#include "../terminal/answer.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -130,6 +131,8 @@ static int execute(cli_options *options, int argc, char **argv)
     } else if (cli_option(options, "help")) {
         print_help(options->command);
     } else {
+        if (options->json)
+            terminal_answer_begin();
         crash_install(options->json);
         code = options->command->run(options);
     }
@@ -170,7 +173,7 @@ static int close_output(int code)
 {
     bool lost = ferror(stdout) != 0;
     errno = 0;
-    if (fclose(stdout) == 0 && !lost)
+    if (terminal_answer_end() && fclose(stdout) == 0 && !lost)
         return code;
     fprintf(stderr, "flankfilm: the output could not be written%s%s\n", errno ? ": " : "",
             errno ? strerror(errno) : "");

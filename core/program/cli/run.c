@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "../terminal/answer.h"
 #include "../terminal/terminal.h"
 #include "command.h"
 #include "progress.h"
@@ -52,7 +53,7 @@ static int run_session(cli_session *session, const cli_options *options, results
     bool written = folder && results_write_run(&outcome, folder);
     set_status(&outcome); /* writing may have failed */
     if (options->json)
-        results_write_run_json(&outcome, false, stdout);
+        results_write_run_json(&outcome, false, terminal_answer());
     else
         print_outcome(&outcome, written ? directory : NULL);
     json_decref(progress.log);

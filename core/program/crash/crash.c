@@ -4,6 +4,8 @@
 #include "blame.h"
 #include "exits.h"
 
+#include "../terminal/answer.h"
+
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
@@ -63,16 +65,17 @@ static void put_json(const line *sentence)
     static const char head[] = "{\"status\":\"error\",\"exit\":3,\"errors\":[{\"file\":null,"
                                "\"line\":null,\"column\":null,\"message\":\"";
     static const char tail[] = "\",\"hint\":null}],\"warnings\":[]}\n";
-    put(STDOUT_FILENO, head, sizeof head - 1);
+    int file = terminal_answer_file();
+    put(file, head, sizeof head - 1);
     for (size_t i = 0; i < sentence->length; i++) {
         unsigned char c = (unsigned char)sentence->text[i];
         char code[6] = {'\\', 'u', '0', '0', digits[c >> 4], digits[c & 15]};
         if (c < 0x20 || c == '"' || c == '\\')
-            put(STDOUT_FILENO, code, sizeof code);
+            put(file, code, sizeof code);
         else
-            put(STDOUT_FILENO, sentence->text + i, 1);
+            put(file, sentence->text + i, 1);
     }
-    put(STDOUT_FILENO, tail, sizeof tail - 1);
+    put(file, tail, sizeof tail - 1);
 }
 
 /* "oil: the plugin oil.so crashed during evaluate of film: abort". `who` NULL: it may be any that

@@ -3,6 +3,7 @@
 
 #include "../memory/memory.h"
 #include "../study/study.h"
+#include "../terminal/answer.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -58,8 +59,8 @@ json_t *results_json_answer(const char *status, int code, const ff_report *repor
 
 void results_json_print(json_t *object)
 {
-    json_dumpf(object, stdout, JSON_COMPACT | JSON_REAL_PRECISION(RESULTS_JSON_DIGITS));
-    putchar('\n');
+    json_dumpf(object, terminal_answer(), JSON_COMPACT | JSON_REAL_PRECISION(RESULTS_JSON_DIGITS));
+    fputc('\n', terminal_answer());
     json_decref(object);
 }
 

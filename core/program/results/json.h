@@ -16,7 +16,7 @@ json_t *results_json_text(const char *text); /* null for NULL; what is not UTF-8
    "errors" and "warnings" of the report, unless that is NULL. */
 json_t *results_json_answer(const char *status, int code, const ff_report *report);
 
-/* Prints the object to stdout and frees it. */
+/* Prints the object as the answer and frees it. */
 void results_json_print(json_t *object);
 
 /* These describe parts of a stage. */
