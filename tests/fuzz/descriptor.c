@@ -160,6 +160,33 @@ static const void *service(void *self, uint32_t output)
     return self;
 }
 
+enum { NEWER = 0xF2 };
+
+static unsigned last(maker *m)
+{
+    return m->at < m->end ? *--m->end : 0;
+}
+
+/* The members since 1.2 are made of the last bytes, behind a mark: older inputs stay as they are.
+ */
+static void add_newer(maker *m, ff_model *model)
+{
+    if (m->at == m->end || m->end[-1] != NEWER)
+        return;
+    m->end--;
+    model->abi_minor = 2;
+    model->self_size = last(m);
+    model->cost = last(m) < 200 ? 1 : (double)NAN;
+    for (size_t i = 0; model->params && i < model->param_count; i++) {
+        ff_param *row = (void *)((char *)(uintptr_t)model->params + i * model->param_stride);
+        unsigned place = last(m), word = last(m);
+        if (model->param_stride < sizeof *row || model->param_stride % sizeof(void *) != 0)
+            return;
+        row->place = place;
+        row->instead = word < 128 ? NULL : words[word % WORDS];
+    }
+}
+
 static const ff_model *make(maker *m)
 {
     ff_model model = {.abi_major = byte(m) < 250 ? FF_ABI_MAJOR : byte(m),
@@ -179,6 +206,7 @@ static const ff_model *make(maker *m)
     model.params = table(m, &model.param_count, &model.param_stride, sizeof(ff_param), fill_param);
     model.inputs = table(m, &model.input_count, &model.input_stride, sizeof(ff_port), fill_port);
     model.outputs = table(m, &model.output_count, &model.output_stride, sizeof(ff_port), fill_port);
+    add_newer(m, &model);
     model.size = byte(m) < 230 ? sizeof model : 8 * (byte(m) % 40);
     void *exact = piece(m, model.size < sizeof model.size ? sizeof model.size : model.size);
     memcpy(exact, &model, model.size < sizeof model ? model.size : sizeof model);
@@ -200,6 +228,13 @@ static void give_values(const ff_loaded *loaded, maker *m)
         ff_value value;
         if (ff_param_read(row, unit, row->name, root->items[i], &value, report)) {
             must(isfinite(value.real));
+            if (row->place) {
+                void *self = calloc(1, loaded->model->self_size);
+                must(self != NULL);
+                ff_param_place(row, self, &value);
+                ff_param_place(row, self, NULL);
+                free(self);
+            }
             ff_value_clear(&value);
         }
     }

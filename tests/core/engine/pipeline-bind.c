@@ -120,6 +120,20 @@ static attempt replaced(const char *params, const char *others)
     return try_run(text);
 }
 
+/* Rows and descriptors that are longer or shorter than those of this version. */
+static void other_versions(void)
+{
+    attempt a = try_run("pipeline:\n"
+                        "  a: {use: toy/strides, first: 10 m}\n"
+                        "  b: {use: toy/short, second: 20 m}\n");
+    check_good("rows of another length", &a);
+    check_true("longer", try_scalar(&a, "a", "sum") == 12);
+    check_true("shorter", try_scalar(&a, "b", "sum") == 21);
+    check_true("what they lack is not there", !try_param(&a, "b", "first")->row->place &&
+                                                  !try_param(&a, "b", "first")->row->instead);
+    try_close(&a);
+}
+
 static void replaced_by_a_wire(void)
 {
     static const char law[] = "  l: {use: toy/law, gain: 5}\n";
@@ -255,6 +269,7 @@ int main(void)
     groups();
     places();
     replaced_by_a_wire();
+    other_versions();
     layers();
     swaps();
     calibration();

@@ -350,6 +350,18 @@ static void spoil_ports(void)
         outputs[1].dims = "t x?";
     if (is("input-name"))
         inputs[0].name = "level";
+    if (!strncmp(FAULT, "feedback-", 9) && !is("feedback-output") && !is("feedback-service"))
+        inputs[0].flags = inputs[1].flags = FF_OPTIONAL | FF_FEEDBACK;
+    if (is("feedback-one"))
+        inputs[1].flags = FF_OPTIONAL;
+    if (is("feedback-required"))
+        inputs[0].flags = FF_FEEDBACK;
+    if (is("feedback-old"))
+        model.abi_minor = 1;
+    if (is("feedback-output"))
+        outputs[0].flags = FF_FEEDBACK;
+    if (is("feedback-service"))
+        inputs[2].flags = FF_OPTIONAL | FF_FEEDBACK;
     if (is("input-from"))
         inputs[1].from = "toy";
 }
