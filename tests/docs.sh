@@ -25,9 +25,9 @@ cut_blocks() { # PAGE DIRECTORY
         /^```$/ { if (kind == "sh") print "" >to "/all.sh"; else if (kind) close(file); kind = ""; next }
         !kind { next }
         kind == "sh" { print >(to "/all.sh"); next }
-        kind != "c" && kind != "yaml" { next }
+        kind != "c" && kind != "cpp" && kind != "yaml" { next }
         !lines++ {
-            named = match($0, /[a-z-]+\.(c|yaml)/)
+            named = match($0, /[a-z-]+\.(c|cpp|yaml)/)
             file = to "/" (named ? substr($0, RSTART, RLENGTH) : "configs/block-" count "." kind)
             if (kind == "yaml" && /^study:/) {
                 print "format: 1" >file
