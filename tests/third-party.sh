@@ -1,6 +1,6 @@
 #!/bin/sh
 # People who have only the installed program: what `flankfilm new` writes for every kind, and plugins
-# in C, C++ and Fortran, are built by meson, pass `verify` and serve a pipeline.
+# in C, C++, Fortran and Rust, are built by meson, pass `verify` and serve a pipeline.
 # third-party.sh BUILD_DIRECTORY SOURCE_ROOT PREFIX
 set -eu
 build=$1 source=$2 prefix=$3
@@ -51,6 +51,14 @@ cp -r "$source/tests/third-party/yasutomi" "$lab/labs/subprojects/viscosity"
 cp -r "$source/tests/third-party/kuang-yang" "$lab/labs/subprojects/stiffness"
 cp -r "$source/tests/third-party/penalty" "$lab/labs/subprojects/discretisation"
 works "$lab/labs"
+mkdir -p "$lab/more/subprojects" # further laws of the same kinds
+cp -r "$source/tests/third-party/mcewen" "$lab/more/subprojects/viscosity"
+if command -v rustc >/dev/null; then
+    cp -r "$source/tests/third-party/murnaghan" "$lab/more/subprojects/density"
+else
+    echo "density/murnaghan: not tried, there is no rustc"
+fi
+works "$lab/more"
 
 # 5P4E is the same oil by the law from outside and by the card, whose laws share eta0 and alpha*
 moes() {
