@@ -26,6 +26,11 @@
  */
 #define FF_QUANTITY(name, unit, type, member, flags, preset, group, min, max, low, high, doc)      \
     FF_QUANTITY_OR(NULL, name, unit, type, member, flags, preset, group, min, max, low, high, doc)
+/* `wire`, the name of an optional service input, replaces the parameter: ff_param.instead. */
+#define FF_QUANTITY_UNLESS(wire, name, unit, type, member, flags, preset, group, min, max, low,    \
+                           high, doc)                                                              \
+    FF_ROW_UNLESS(wire, name, unit, doc, FF_REAL, flags, preset, NULL, group, min, max, low, high, \
+                  0, 0, FF_PLACE(type, member, double))
 /* `words`, "auto", are accepted beside a number. */
 #define FF_QUANTITY_OR(words, name, unit, type, member, flags, preset, group, min, max, low, high, \
                        doc)                                                                        \
@@ -42,6 +47,12 @@
 #define FF_ONE_OF(words, name, type, member, flags, preset, doc)                                   \
     FF_ROW(name, "", doc, FF_CHOICE, flags, preset, words, NULL, 0, 0, 0, 0, 0, 0,                 \
            FF_PLACE(type, member, int32_t))
+#define FF_ONE_OF_UNLESS(wire, words, name, type, member, flags, preset, doc)                      \
+    FF_ROW_UNLESS(wire, name, "", doc, FF_CHOICE, flags, preset, words, NULL, 0, 0, 0, 0, 0, 0,    \
+                  FF_PLACE(type, member, int32_t))
+#define FF_PHRASE_UNLESS(wire, name, type, member, flags, preset, group, doc)                      \
+    FF_ROW_UNLESS(wire, name, "", doc, FF_TEXT, flags, preset, NULL, group, 0, 0, 0, 0, 0, 0,      \
+                  FF_PLACE(type, member, const char *))
 #define FF_PHRASE(name, type, member, flags, preset, group, doc)                                   \
     FF_ROW(name, "", doc, FF_TEXT, flags, preset, NULL, group, 0, 0, 0, 0, 0, 0,                   \
            FF_PLACE(type, member, const char *))
@@ -55,9 +66,13 @@
 
 #define FF_ROW(name, unit, doc, kind, flags, preset, words, group, min, max, low, high, min_count, \
                max_count, place)                                                                   \
+    FF_ROW_UNLESS(NULL, name, unit, doc, kind, flags, preset, words, group, min, max, low, high,   \
+                  min_count, max_count, place)
+#define FF_ROW_UNLESS(wire, name, unit, doc, kind, flags, preset, words, group, min, max, low,     \
+                      high, min_count, max_count, place)                                           \
     {                                                                                              \
         name, unit, doc, kind, flags, preset, words, group, min, max, low, high, min_count,        \
-            max_count, place, NULL                                                                 \
+            max_count, place, wire                                                                 \
     }
 
 #ifdef __cplusplus

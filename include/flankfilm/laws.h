@@ -18,11 +18,13 @@
 
 /* Properties of a liquid; further ones may follow. */
 enum {
-    FF_LIQUID_LN_ETA0 = 0,             /* ln(viscosity / 1 Pa s) */
-    FF_LIQUID_RHO0 = 1,                /* density, kg/m3 */
-    FF_LIQUID_CONDUCTIVITY = 2,        /* W/(m K) */
-    FF_LIQUID_HEAT_CAPACITY = 3,       /* J/(kg K) */
-    FF_LIQUID_PRESSURE_COEFFICIENT = 4 /* dln(eta)/dp at ambient pressure, 1/Pa */
+    FF_LIQUID_LN_ETA0 = 0,              /* ln(viscosity / 1 Pa s) */
+    FF_LIQUID_RHO0 = 1,                 /* density, kg/m3 */
+    FF_LIQUID_CONDUCTIVITY = 2,         /* W/(m K) */
+    FF_LIQUID_HEAT_CAPACITY = 3,        /* J/(kg K) */
+    FF_LIQUID_PRESSURE_COEFFICIENT = 4, /* dln(eta)/dp at ambient pressure, 1/Pa */
+    FF_LIQUID_REFERENCE_TEMPERATURE =
+        5 /* K, the same at every T: one that the liquid is known at */
 };
 
 typedef struct ff_liquid {

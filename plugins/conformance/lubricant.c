@@ -93,13 +93,21 @@ const conformance_function conformance_functions[] = {
 const size_t conformance_function_count =
     sizeof conformance_functions / sizeof conformance_functions[0];
 
-/* That of water, more or less; of the rest nothing is known. */
+/* An oil that temperature does not change; of its thermal data nothing is known. */
 static ff_status plain_eval(const void *self, int32_t what, size_t n, const double *T,
                             double *value, double *slope)
 {
+    static const double values[] = {[FF_LIQUID_LN_ETA0] = -4,
+                                    [FF_LIQUID_RHO0] = 900,
+                                    [FF_LIQUID_CONDUCTIVITY] = NAN,
+                                    [FF_LIQUID_HEAT_CAPACITY] = NAN,
+                                    [FF_LIQUID_PRESSURE_COEFFICIENT] = 2e-8,
+                                    [FF_LIQUID_REFERENCE_TEMPERATURE] = 313.15};
     (void)self, (void)T;
+    if (what < 0 || what > FF_LIQUID_REFERENCE_TEMPERATURE)
+        return FF_UNSUPPORTED;
     for (size_t i = 0; i < n; i++) {
-        value[i] = what == FF_LIQUID_LN_ETA0 ? -4 : what == FF_LIQUID_RHO0 ? 900 : NAN;
+        value[i] = values[what];
         if (slope)
             slope[i] = isnan(value[i]) ? NAN : 0;
     }

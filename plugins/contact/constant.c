@@ -47,8 +47,8 @@ static const ff_param params[] = {
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
     constant_contact *s = self;
-    (void)input;
-    s->law = service;
+    if (input == CONTACT_LINE_VISCOSITY)
+        s->law = service;
     return FF_OK;
 }
 
@@ -105,9 +105,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     contact_history history;
     double duration = s->duration;
     size_t count = duration > 0 ? 2 : 1;
-    (void)in;
-    ff_status status =
-        contact_history_open(&history, s->host, wanted, count, s->reduced_modulus, s->law);
+    ff_status status = contact_history_open(&history, s->host, wanted, count, s->reduced_modulus,
+                                            s->law, &in[CONTACT_LINE_OIL]);
     for (size_t i = 0; i < count && status == FF_OK; i++) {
         point.time = i == 0 ? 0 : duration;
         status = contact_history_set(&history, i, &point);

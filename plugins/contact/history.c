@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "history.h"
 
+#include "../numerics/isothermal.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -83,13 +85,20 @@ static ff_status film_coefficient(const ff_viscosity *law, double ln_eta0, doubl
     return status;
 }
 
-/* eta0 and alpha* at the reference temperature of the law, which is passed no temperature. */
-static ff_status read_viscosity(contact_history *h, const ff_viscosity *law)
+/* eta0 and alpha* at the temperature of the oil, or, where none is wired, of the law. */
+static ff_status read_viscosity(contact_history *h, const ff_viscosity *law, const ff_array *oil)
 {
+    numerics_viscosity_at at;
     if (!law)
         return ff_failf(h->host, FF_INVALID, "viscosity",
                         "moes_M and moes_L need a viscosity: wire `viscosity` to a stage of that "
                         "kind, or do not ask for them");
+    if (oil[0].data) {
+        ff_status contradiction = numerics_hold_viscosity(h->host, law, oil[1].data, *oil[0].data);
+        if (contradiction != FF_OK)
+            return contradiction;
+        law = numerics_viscosity_make(&at, law, *oil[0].data);
+    }
     double p = 0, ln_eta = 0, slope = 0;
     ff_status status = law->eval(law->self, 1, &p, NULL, &ln_eta, &slope, NULL);
     if (status >= 0)
@@ -102,11 +111,12 @@ static ff_status read_viscosity(contact_history *h, const ff_viscosity *law)
 }
 
 ff_status contact_history_open(contact_history *h, const ff_host *host, uint64_t wanted,
-                               size_t count, double reduced_modulus, const ff_viscosity *law)
+                               size_t count, double reduced_modulus, const ff_viscosity *law,
+                               const ff_array *oil)
 {
     *h = (contact_history){.host = host, .reduced_modulus = reduced_modulus};
     if (wanted & (FF_BIT(CONTACT_MOES_M) | FF_BIT(CONTACT_MOES_L))) {
-        ff_status status = read_viscosity(h, law);
+        ff_status status = read_viscosity(h, law, oil);
         if (status != FF_OK)
             return status;
     }

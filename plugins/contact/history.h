@@ -55,7 +55,8 @@ typedef struct contact_history {
 /* Takes memory for the wanted outputs, `count` instants long. `law` may be NULL when no Moes number
    is wanted. */
 ff_status contact_history_open(contact_history *h, const ff_host *host, uint64_t wanted,
-                               size_t count, double reduced_modulus, const ff_viscosity *law);
+                               size_t count, double reduced_modulus, const ff_viscosity *law,
+                               const ff_array *oil);
 
 /* Sets the wanted outputs of instant i; refuses one with a number that is not finite. */
 ff_status contact_history_set(contact_history *h, size_t i, const contact_point *point);

@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "line-contact.h"
 
+#include "../numerics/isothermal.h"
+
 #include <flankfilm/laws.h>
 
-const ff_port contact_line_inputs[1] = {
+const ff_port contact_line_inputs[CONTACT_LINE_INPUTS] = {
     {.name = "viscosity",
      .unit = "",
      .doc = "viscosity law, for the Moes numbers",
      .dims = "",
      .service = FF_VISCOSITY_ID,
      .flags = FF_OPTIONAL},
+    NUMERICS_OIL_ROWS,
 };
 
 const char contact_line_reference[] =

@@ -46,8 +46,8 @@ static const ff_param params[] = {
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
     table_contact *t = self;
-    (void)input;
-    t->law = service;
+    if (input == CONTACT_LINE_VISCOSITY)
+        t->law = service;
     return FF_OK;
 }
 
@@ -108,9 +108,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const table_contact *t = self;
     contact_history history;
-    (void)in;
     ff_status status = contact_history_open(&history, t->host, wanted, t->file->row_count,
-                                            t->reduced_modulus, t->law);
+                                            t->reduced_modulus, t->law, &in[CONTACT_LINE_OIL]);
     for (size_t i = 0; i < t->file->row_count && status == FF_OK; i++) {
         contact_point point = point_at(t->file, i);
         status = contact_history_set(&history, i, &point);

@@ -264,7 +264,7 @@ static ff_status make_history(const tooth_pair *s, const contact_tooth_path *p, 
     engagement e = {.force = {p->n, count, p->angle, NULL, slopes, pieces},
                     .gap = {p->n, count, p->angle, NULL, slopes + p->n, pieces}};
     status = contact_history_open(&r.history, s->host, wanted, p->count * points,
-                                  p->reduced_modulus, s->law);
+                                  p->reduced_modulus, s->law, p->oil);
     for (size_t k = 0; k < p->count && status == FF_OK; k++) {
         size_t number = p->engagement[k];
         e.number = (double)number;

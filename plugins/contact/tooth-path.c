@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tooth-path.h"
 
+#include "../numerics/isothermal.h"
+
 #include <flankfilm/author.h>
 #include <flankfilm/viscosity.h>
 
@@ -57,6 +59,7 @@ const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS] = {
      .dims = "",
      .service = FF_VISCOSITY_ID,
      .flags = FF_OPTIONAL},
+    NUMERICS_OIL_ROWS,
 };
 
 /* A scalar or the first two of a series, each finite and above 0. */
@@ -157,7 +160,7 @@ ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in,
                                   contact_engagement_choice wanted, contact_tooth_path *p)
 {
     double teeth[2] = {1, 1};
-    *p = (contact_tooth_path){0};
+    *p = (contact_tooth_path){.oil = &in[CONTACT_TOOTH_OIL]};
     ff_status status = read_positive(host, in, CONTACT_TOOTH_FACE_WIDTH, 1, &p->face_width);
     if (status == FF_OK)
         status = read_positive(host, in, CONTACT_TOOTH_TEETH, 2, teeth);

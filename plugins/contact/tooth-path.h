@@ -19,7 +19,8 @@ enum {
     CONTACT_TOOTH_TOOTH_FORCE,
     CONTACT_TOOTH_GAP,
     CONTACT_TOOTH_VISCOSITY,
-    CONTACT_TOOTH_INPUTS
+    CONTACT_TOOTH_OIL, /* two rows */
+    CONTACT_TOOTH_INPUTS = CONTACT_TOOTH_OIL + 2
 };
 
 extern const ff_port contact_tooth_inputs[CONTACT_TOOTH_INPUTS];
@@ -35,7 +36,8 @@ typedef struct contact_tooth_path {
     double pitch;              /* roll angle from one pair to the next, rad */
     double face_width, ratio;  /* omega2 / omega1 */
     double speed, reduced_modulus;
-    double line_force; /* N; 0: not wired */
+    double line_force;   /* N; 0: not wired */
+    const ff_array *oil; /* two rows */
 } contact_tooth_path;
 
 /* Reads and checks; p->engagement is freed by the caller, also after a failure. */

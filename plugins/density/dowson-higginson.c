@@ -7,7 +7,8 @@
 typedef struct dowson_higginson {
     const ff_host *host;
     ff_density service;
-    double rho0; /* kg/m3 */
+    double rho0; /* kg/m3; 1 with a liquid */
+    const ff_liquid *liquid;
     double a, b; /* 1/Pa */
 } dowson_higginson;
 
@@ -17,7 +18,6 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     const dowson_higginson *d = self;
     const double rho0 = d->rho0, a = d->a, b = d->b;
     double lowest = 0;
-    (void)T;
     for (size_t i = 0; i < n; i++)
         lowest = p[i] < lowest ? p[i] : lowest;
     for (size_t i = 0; i < n; i++) {
@@ -34,9 +34,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                 drho_dp[i] = rho0 * a * density_tension_slope(y);
         }
     }
-    for (size_t i = 0; i < n && drho_dT; i++)
-        drho_dT[i] = 0;
-    return 1 + a * lowest < 0.5 ? FF_DOMAIN : FF_OK;
+    return density_end(self, 1 + a * lowest < 0.5 ? FF_DOMAIN : FF_OK, n, T, rho, drho_dp, drho_dT);
 }
 
 static const ff_param params[] = {
@@ -52,4 +50,5 @@ FF_DENSITY_LAW(density_dowson_higginson, dowson_higginson, eval, .id = "density/
                .summary = "density of mineral oil under pressure, at most 35 % denser",
                .reference = "Dowson & Higginson 1966, Elasto-hydrodynamic Lubrication, Pergamon",
                .bibtex = BIB_DowsonHigginson1966, .licence = "GPL-3.0-or-later",
-               .params = FF_TABLE(params), .cost = 4e-3);
+               .params = FF_TABLE(params), .inputs = FF_TABLE(density_inputs), .wire = density_wire,
+               .cost = 4e-3);

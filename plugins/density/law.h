@@ -1,12 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The parameter that every density law has: a member rho0 of its instance, kg/m3. */
+/* What every density law has: rho0, or a liquid that gives it over temperature. */
 #ifndef DENSITY_LAW_H
 #define DENSITY_LAW_H
 
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
 
+/* First members of every law's instance. */
+typedef struct density_law {
+    const ff_host *host;
+    ff_density service;
+    double rho0;             /* kg/m3; 1 with a liquid */
+    const ff_liquid *liquid; /* NULL: none is wired */
+} density_law;
+
 #define DENSITY_RHO0_ROW(type, doc)                                                                \
-    FF_QUANTITY("rho0", "kg/m3", type, rho0, FF_REQUIRED, NULL, NULL, 1, 1e5, 600, 2000, doc)
+    FF_QUANTITY_UNLESS("oil", "rho0", "kg/m3", type, rho0, FF_REQUIRED, NULL, NULL, 1, 1e5, 600,   \
+                       2000, doc)
+
+/* The one input of every law, and `wire`. */
+extern const ff_port density_inputs[1];
+ff_status density_wire(void *self, uint32_t input, const void *service);
+
+/* Ends an eval of a law whose rho/rho0 does not depend on temperature: multiplies by what a liquid
+   gives and fills drho_dT. Derivatives may be NULL. `status` is that of the law. */
+ff_status density_end(const density_law *law, ff_status status, size_t n, const double *T,
+                      double *rho, double *drho_dp, double *drho_dT);
 
 #endif

@@ -13,7 +13,8 @@
 typedef struct tait {
     const ff_host *host;
     ff_density service;
-    double rho0;         /* kg/m3 */
+    double rho0; /* kg/m3; 1 with a liquid */
+    const ff_liquid *liquid;
     double K0, K0_prime; /* Pa, 1 */
     double cap;          /* Pa, where V = 1/2 */
 } tait;
@@ -24,7 +25,6 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     const tait *d = self;
     const double rho0 = d->rho0, K0 = d->K0, k = 1 + d->K0_prime, cap = d->cap;
     double lowest = 0, highest = 0;
-    (void)T;
     for (size_t i = 0; i < n; i++) {
         double q = fmin(fmax(p[i], 0), cap), y = 1 + fmin(p[i], 0) / K0;
         double V = 1 - log(1 + q * k / K0) / k;
@@ -32,12 +32,11 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         rho[i] = rho0 * (p[i] < 0 ? density_tension(y) : 1 / V + slope * (p[i] - q));
         if (drho_dp)
             drho_dp[i] = rho0 * (p[i] < 0 ? density_tension_slope(y) / K0 : slope);
-        if (drho_dT)
-            drho_dT[i] = 0;
         lowest = fmin(lowest, p[i]);
         highest = fmax(highest, p[i]);
     }
-    return 1 + lowest / K0 < 0.5 || highest > cap ? FF_DOMAIN : FF_OK;
+    int outside = 1 + lowest / K0 < 0.5 || highest > cap;
+    return density_end(self, outside ? FF_DOMAIN : FF_OK, n, T, rho, drho_dp, drho_dT);
 }
 
 static const ff_param params[] = {
@@ -60,4 +59,5 @@ FF_DENSITY_LAW(density_tait, tait, eval, .id = "density/tait", .version = "1.0.0
                .summary = "density by the Tait equation of state",
                .reference = "Dymond & Malhotra 1988, Int. J. Thermophysics 9, 941-951",
                .bibtex = BIB_DymondMalhotra1988, .licence = "GPL-3.0-or-later",
-               .params = FF_TABLE(params), .ready = ready, .cost = 1.3e-2);
+               .params = FF_TABLE(params), .inputs = FF_TABLE(density_inputs), .wire = density_wire,
+               .ready = ready, .cost = 1.3e-2);

@@ -103,7 +103,9 @@ static ff_status fill_moments(ehl_estimate *e)
 
 static ff_status read_scene(ehl_estimate *e, const ff_array *in)
 {
-    ff_status status = ehl_read_history(e->host, in, e->light_load, &e->history);
+    ff_status status = ehl_laws_at(&e->isothermal, e->host, &in[EHL_IN_OIL], &e->laws);
+    if (status == FF_OK)
+        status = ehl_read_history(e->host, in, e->light_load, &e->history);
     if (status == FF_OK)
         status = ehl_history_one_way(&e->history, e->host, "a film without a squeeze term");
     if (status != FF_OK)

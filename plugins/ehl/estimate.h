@@ -70,6 +70,7 @@ struct ehl_estimate {
     double inlet, outlet, light_load;
     ehl_inlet_heating heating;
     ehl_laws laws;
+    ehl_isothermal isothermal;
 
     /* of one run */
     ehl_history history;

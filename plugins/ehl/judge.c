@@ -175,13 +175,16 @@ static double estimate_error(const conditions *s, ehl_law_kind kind, const diffe
     return error;
 }
 
-static ehl_laws replace_law(const ehl_laws *laws, ehl_law_kind kind, const void *service)
+/* At the temperature of the others. */
+static ehl_laws replace_law(const ehl_laws *laws, ehl_law_kind kind, const void *service,
+                            ehl_isothermal *at)
 {
     ehl_laws other = *laws;
+    double T = laws->temperature;
     if (kind == EHL_LAW_VISCOSITY)
-        other.viscosity = service;
+        other.viscosity = T > 0 ? numerics_viscosity_make(&at->viscosity, service, T) : service;
     else if (kind == EHL_LAW_DENSITY)
-        other.density = service;
+        other.density = T > 0 ? numerics_density_make(&at->density, service, T) : service;
     else
         other.rheology = service;
     return other;
@@ -211,7 +214,8 @@ ff_status ehl_judge_law(const ff_host *host, const ehl_history *h, const ehl_law
                         ehl_law_kind kind, const void *service, ehl_error_targets w, char *reason,
                         size_t size, ff_assessment *a)
 {
-    const ehl_laws other = replace_law(laws, kind, service);
+    ehl_isothermal at;
+    const ehl_laws other = replace_law(laws, kind, service, &at);
     conditions s = {.history = h};
     ehl_conditions all;
     ehl_oil oil;

@@ -8,6 +8,23 @@ static ff_status worse(ff_status a, ff_status b)
     return a < 0 ? a : b < 0 ? b : a != FF_OK ? a : b;
 }
 
+ff_status ehl_laws_at(ehl_isothermal *at, const ff_host *host, const ff_array *oil, ehl_laws *laws)
+{
+    if (!at->wired.viscosity)
+        at->wired = *laws;
+    *laws = at->wired;
+    if (!oil[0].data)
+        return FF_OK;
+    double T = *oil[0].data;
+    ff_status status = numerics_hold_viscosity(host, laws->viscosity, oil[1].data, T);
+    if (status == FF_OK)
+        status = numerics_hold_density(host, laws->density, oil[2].data, T);
+    laws->viscosity = numerics_viscosity_make(&at->viscosity, laws->viscosity, T);
+    laws->density = numerics_density_make(&at->density, laws->density, T);
+    laws->temperature = T;
+    return status;
+}
+
 ff_status ehl_fluid_oil(const ehl_laws *laws, ehl_oil *oil)
 {
     double p = 0;

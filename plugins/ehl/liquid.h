@@ -3,6 +3,8 @@
 #ifndef EHL_LIQUID_H
 #define EHL_LIQUID_H
 
+#include "../numerics/isothermal.h"
+
 #include <flankfilm/density.h>
 #include <flankfilm/rheology.h>
 #include <flankfilm/viscosity.h>
@@ -11,7 +13,21 @@ typedef struct ehl_laws {
     const ff_viscosity *viscosity;
     const ff_density *density;
     const ff_rheology *rheology; /* NULL: Newtonian */
+    double temperature;          /* K, that of the oil; 0: none, laws answer at their own */
 } ehl_laws;
+
+/* What stands behind the laws of a stage that an oil is wired to. */
+typedef struct ehl_isothermal {
+    ehl_laws wired;
+    numerics_viscosity_at viscosity;
+    numerics_density_at density;
+} ehl_isothermal;
+
+enum { EHL_OIL_ROWS = 3 };
+
+/* Sets the laws to the temperature that the rows of the oil give, if any, and holds them against
+   its viscosity and density. The wired laws are kept at the first call. */
+ff_status ehl_laws_at(ehl_isothermal *at, const ff_host *host, const ff_array *oil, ehl_laws *laws);
 
 /* The liquid at ambient pressure. */
 typedef struct ehl_oil {

@@ -38,9 +38,9 @@
     [EHL_IN_VISCOSITY] = {"viscosity", "", "viscosity of the oil", "", FF_VISCOSITY_ID, 0, NULL},  \
     [EHL_IN_DENSITY] = {"density", "", "density of the oil", "", FF_DENSITY_ID, 0, NULL},          \
     [EHL_IN_RHEOLOGY] =                                                                            \
-        {                                                                                          \
-            "rheology",  "",  "flow under shear; none: Newtonian", "", FF_RHEOLOGY_ID,             \
-            FF_OPTIONAL, NULL}
+        {"rheology",  "",  "flow under shear; none: Newtonian", "", FF_RHEOLOGY_ID,                \
+         FF_OPTIONAL, NULL},                                                                       \
+    [EHL_IN_OIL] = NUMERICS_OIL_ROWS, NUMERICS_OIL_DENSITY_ROW
 
 const ff_port ehl_inputs[EHL_INPUTS] = {
     CONTACT_AND_OIL("with a steady film of its own"),

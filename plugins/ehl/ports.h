@@ -8,7 +8,8 @@
 
 #include <flankfilm/plugin.h>
 
-/* Inputs of every model up to the rheology, then those of the models that solve for the pressure.
+/* Inputs of every model up to the three rows of the oil, then those of the models that solve for
+ * the pressure.
  */
 enum {
     EHL_IN_TIME,
@@ -23,7 +24,8 @@ enum {
     EHL_IN_VISCOSITY,
     EHL_IN_DENSITY,
     EHL_IN_RHEOLOGY,
-    EHL_IN_POSITION,
+    EHL_IN_OIL,
+    EHL_IN_POSITION = EHL_IN_OIL + EHL_OIL_ROWS,
     EHL_IN_HEIGHT_1,
     EHL_IN_HEIGHT_2,
     EHL_IN_RQ_1,
@@ -35,9 +37,9 @@ enum {
     EHL_INPUTS
 };
 
-/* What the estimates have after the rheology. */
+/* What the estimates have after the oil. */
 enum {
-    EHL_ESTIMATE_IN_RQ_1 = EHL_IN_RHEOLOGY + 1,
+    EHL_ESTIMATE_IN_RQ_1 = EHL_IN_OIL + EHL_OIL_ROWS,
     EHL_ESTIMATE_IN_RQ_2,
     EHL_ESTIMATE_IN_ROUGHNESS,
     EHL_ESTIMATE_INPUTS

@@ -287,7 +287,9 @@ ff_status ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     ehl_model *m = self;
     run r = {0};
-    ff_status status = ehl_read_history(m->host, in, m->light_load, &r.history);
+    ff_status status = ehl_laws_at(&m->isothermal, m->host, &in[EHL_IN_OIL], &m->laws);
+    if (status == FF_OK)
+        status = ehl_read_history(m->host, in, m->light_load, &r.history);
     if (status != FF_OK)
         return status;
     if ((wanted & (FF_BIT(EHL_ROLL_ANGLE) | FF_BIT(EHL_H_MIN_LOWEST_AT))) && !in[EHL_IN_ROLL].data)

@@ -36,6 +36,7 @@ typedef struct ehl_model {
     double contact_film, boundary_friction, asperity_hardness, valley_length;
     ehl_inlet_heating heating;
     ehl_laws laws;
+    ehl_isothermal isothermal;
     const ff_film *outside; /* NULL: the solver of `maker` */
     char text[3][32];       /* text and reason belong to the last assessment */
     char reason[400];

@@ -413,7 +413,9 @@ ff_status ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_arra
     ehl_oil oil;
     demand most;
     const int rough = in[EHL_IN_POSITION].data != NULL;
-    ff_status status = ehl_read_history(m->host, in, m->light_load, &history);
+    ff_status status = ehl_laws_at(&m->isothermal, m->host, &in[EHL_IN_OIL], &m->laws);
+    if (status == FF_OK)
+        status = ehl_read_history(m->host, in, m->light_load, &history);
     if (status != FF_OK)
         return status;
     const char *why = why_error_is_unknown(m, &history, wanted, rough);
@@ -444,7 +446,9 @@ ff_status ehl_judge(void *self, uint64_t wanted, uint32_t input, const void *ser
     ehl_history history;
     if (in[EHL_IN_POSITION].data)
         return ehl_judge_rough(m->host);
-    ff_status status = ehl_read_history(m->host, in, m->light_load, &history);
+    ff_status status = ehl_laws_at(&m->isothermal, m->host, &in[EHL_IN_OIL], &m->laws);
+    if (status == FF_OK)
+        status = ehl_read_history(m->host, in, m->light_load, &history);
     return status != FF_OK
                ? status
                : ehl_judge_law(m->host, &history, &m->laws,

@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { PROPERTIES = FF_LIQUID_PRESSURE_COEFFICIENT + 1 };
+enum { PROPERTIES = FF_LIQUID_REFERENCE_TEMPERATURE + 1 };
 
 /* How far from the one temperature of its data an oil still is at it, K. */
 static const double SAME = 0.01;
@@ -116,12 +116,21 @@ static double pressure_coefficient(const lubricant_oil *oil, double T, double *s
     return oil->alpha_scale * alpha;
 }
 
+/* That which the oil runs at by itself, or the nearest to 40 degC of its data. */
+static double reference_temperature(const lubricant_oil *oil, double T, double *slope)
+{
+    (void)T;
+    double nearest = fmin(fmax(313.15, oil->low), oil->high);
+    return constant(isnan(oil->temperature) ? nearest : oil->temperature, slope);
+}
+
 static property *const properties[PROPERTIES] = {
     [FF_LIQUID_LN_ETA0] = ln_eta0,
     [FF_LIQUID_RHO0] = density,
     [FF_LIQUID_CONDUCTIVITY] = conductivity,
     [FF_LIQUID_HEAT_CAPACITY] = heat_capacity,
     [FF_LIQUID_PRESSURE_COEFFICIENT] = pressure_coefficient,
+    [FF_LIQUID_REFERENCE_TEMPERATURE] = reference_temperature,
 };
 
 /* Where ASTM D341 does not hold, all stays as it is where it still does. */

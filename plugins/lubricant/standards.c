@@ -62,13 +62,21 @@ double lubricant_d341_nu(double y, double *slope)
 {
     double lg_Z = pow(10, y), Z = pow(10, lg_Z), z = Z - 0.7, steepness = 1;
     double nu = z - exp(-0.7487 - 3.295 * z + 0.6119 * z * z - 0.3193 * z * z * z);
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 3 && nu < 10; i++) {
         double rest = exp(-1.47 - 1.84 * nu - 0.51 * nu * nu);
         steepness = 1 - (1.84 + 1.02 * nu) * rest; /* dZ/dnu */
         nu -= (nu + 0.7 + rest - Z) / steepness;
     }
     *slope = CST * Z * M_LN10 * lg_Z * M_LN10 / steepness;
     return CST * nu;
+}
+
+/* The line through 40 and 100 degC. */
+double lubricant_d341_between(double nu_40, double nu_100, double T)
+{
+    double warm = lubricant_d341_ordinate(nu_40), hot = lubricant_d341_ordinate(nu_100), slope;
+    double share = log(T / 313.15) / log(373.15 / 313.15);
+    return lubricant_d341_nu(warm + (hot - warm) * share, &slope);
 }
 
 /* rho = rho15 exp(-a (1 + 0.8 a)), a = 0.6278 (T - 15 degC)/rho15: lubricating oils of 800 to 1164

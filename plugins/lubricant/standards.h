@@ -24,6 +24,8 @@ double lubricant_grade_nu_100(int64_t grade, int base);
 double lubricant_d341_ordinate(double nu); /* nu in m2/s */
 /* nu in m2/s, and its slope over y. */
 double lubricant_d341_nu(double y, double *slope);
+/* nu at T (K), m2/s, by the line through two measured viscosities. */
+double lubricant_d341_between(double nu_40, double nu_100, double T);
 #define LUBRICANT_D341_LEAST 0.21e-6 /* m2/s */
 #define LUBRICANT_D341_MOST  20.0
 

@@ -23,7 +23,6 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     const doolittle_tait *d = self;
     const double B = d->B, V_occ = d->V_occ, K0 = d->K0, k = 1 + d->K0_prime;
     const double cap = d->oil.pressure_cap;
-    (void)T;
     for (size_t i = 0; i < n; i++) {
         double q = viscosity_clip(p[i], cap);
         double shrinkage = log(1 + q * k / K0) / k; /* 1 - V */
@@ -34,7 +33,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         if (dln_dp)
             dln_dp[i] = slope;
     }
-    return viscosity_oil_end(&d->oil, n, p, dln_dT);
+    return viscosity_oil_end(&d->oil, n, p, T, ln_eta, dln_dT);
 }
 
 static const ff_param params[] = {
@@ -69,4 +68,5 @@ FF_VISCOSITY_LAW(
     .reference =
         "Doolittle 1951, J. Appl. Phys. 22, 1471-1475; Li & Kahraman 2011, Proc. IMechE J, 740-753",
     .bibtex = BIB_Doolittle1951 "\n" BIB_LiKahraman2011, .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params), .ready = ready, .cost = 8e-3);
+    .params = FF_TABLE(params), .inputs = FF_TABLE(viscosity_inputs), .wire = viscosity_wire,
+    .ready = ready, .cost = 8e-3);

@@ -13,13 +13,12 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                       double *dln_dp, double *dln_dT)
 {
     const isoviscous *v = self;
-    (void)T;
     for (size_t i = 0; i < n; i++) {
         ln_eta[i] = v->oil.ln_eta0;
         if (dln_dp)
             dln_dp[i] = 0;
     }
-    return viscosity_oil_end(&v->oil, n, p, dln_dT);
+    return viscosity_oil_end(&v->oil, n, p, T, ln_eta, dln_dT);
 }
 
 static const ff_param params[] = {
@@ -35,5 +34,6 @@ static ff_status ready(void *self)
 FF_VISCOSITY_LAW(viscosity_isoviscous, isoviscous, eval, .id = "viscosity/isoviscous",
                  .version = "1.0.0", .summary = "viscosity that pressure does not change",
                  .reference = "Martin 1916, Engineering 102, 119-121", .bibtex = BIB_Martin1916,
-                 .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .ready = ready,
+                 .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+                 .inputs = FF_TABLE(viscosity_inputs), .wire = viscosity_wire, .ready = ready,
                  .cost = 6e-4);

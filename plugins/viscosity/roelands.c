@@ -6,6 +6,8 @@
 #include "law.h"
 #include "references.h"
 
+#include "../numerics/liquid.h"
+
 #include <math.h>
 
 typedef struct roelands {
@@ -16,12 +18,75 @@ typedef struct roelands {
     double rise, exponent; /* ln eta0 + 9.67; z, given or found */
 } roelands;
 
+/* What a liquid gives at a point, with slopes over T: L = ln eta0 + 9.67, and z = alpha p0/L where
+   the law is given none. */
+typedef struct isotherm {
+    double rise, rise_T, z, z_T;
+} isotherm;
+
+static void at_point(const roelands *r, const isotherm *at, double p, double out[3])
+{
+    double q = viscosity_clip(p, r->oil.pressure_cap), ln = log(1 + q / r->p0);
+    double power = exp(at->z * ln), steep = at->rise * power / (r->p0 + q);
+    double power_T = power * ln * at->z_T;
+    double slope_T =
+        at->z * (at->rise_T * power + at->rise * power_T) / (r->p0 + q) + at->z_T * steep;
+    out[0] = at->rise - 9.67 + at->rise * (power - 1) + at->z * steep * (p - q);
+    out[1] = at->z * steep;
+    out[2] = at->rise_T * power + at->rise * power_T + slope_T * (p - q);
+}
+
+static ff_status eval_some(const roelands *r, size_t n, const double *p, const double *T,
+                           double *ln_eta, double *dln_dp, double *dln_dT)
+{
+    const ff_liquid *liquid = r->oil.liquid;
+    double ln[NUMERICS_POINTS], ln_T[NUMERICS_POINTS], alpha[NUMERICS_POINTS],
+        alpha_T[NUMERICS_POINTS];
+    ff_status worst = numerics_liquid_values(liquid, FF_LIQUID_LN_ETA0, n, T, ln, ln_T);
+    if (isnan(r->z)) {
+        ff_status status =
+            numerics_liquid_values(liquid, FF_LIQUID_PRESSURE_COEFFICIENT, n, T, alpha, alpha_T);
+        worst = status != FF_OK ? status : worst;
+    }
+    for (size_t i = 0; i < n; i++) {
+        isotherm at = {.rise = fmax(ln[i] + 9.67, 0.1), .z = r->z};
+        at.rise_T = ln[i] + 9.67 > 0.1 ? ln_T[i] : 0;
+        if (isnan(r->z)) {
+            at.z = alpha[i] * r->p0 / at.rise;
+            at.z_T = (alpha_T[i] * r->p0 - at.z * at.rise_T) / at.rise;
+        }
+        double out[3];
+        at_point(r, &at, p[i], out);
+        ln_eta[i] = out[0];
+        if (dln_dp)
+            dln_dp[i] = out[1];
+        if (dln_dT)
+            dln_dT[i] = out[2];
+        worst = p[i] > r->oil.pressure_cap ? FF_DOMAIN : worst;
+    }
+    return worst;
+}
+
+static ff_status eval_liquid(const roelands *r, size_t n, const double *p, const double *T,
+                             double *ln_eta, double *dln_dp, double *dln_dT)
+{
+    ff_status worst = FF_OK;
+    for (size_t from = 0; from < n; from += NUMERICS_POINTS) {
+        size_t count = n - from < NUMERICS_POINTS ? n - from : NUMERICS_POINTS;
+        ff_status status = eval_some(r, count, p + from, T ? T + from : NULL, ln_eta + from,
+                                     dln_dp ? dln_dp + from : NULL, dln_dT ? dln_dT + from : NULL);
+        worst = status != FF_OK ? status : worst;
+    }
+    return worst;
+}
+
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
                       double *dln_dp, double *dln_dT)
 {
     const roelands *r = self;
     const double p0 = r->p0, z = r->exponent, rise = r->rise, cap = r->oil.pressure_cap;
-    (void)T;
+    if (r->oil.liquid)
+        return eval_liquid(r, n, p, T, ln_eta, dln_dp, dln_dT);
     for (size_t i = 0; i < n; i++) {
         double q = viscosity_clip(p[i], cap);
         double power = exp(z * log(1 + q / p0));
@@ -30,15 +95,15 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         if (dln_dp)
             dln_dp[i] = slope;
     }
-    return viscosity_oil_end(&r->oil, n, p, dln_dT);
+    return viscosity_oil_end(&r->oil, n, p, T, ln_eta, dln_dT);
 }
 
 static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(roelands),
-    FF_QUANTITY("z", "1", roelands, z, FF_REQUIRED, NULL, "slope", 0, 2, 0.2, 1.2,
-                "pressure exponent"),
-    FF_QUANTITY("alpha", "1/GPa", roelands, alpha, FF_REQUIRED, NULL, "slope", 0, 1000, 2, 50,
-                "slope of ln(eta) at ambient pressure; gives z = alpha p0/(ln eta0 + 9.67)"),
+    FF_QUANTITY("z", "1", roelands, z, 0, NULL, "slope", 0, 2, 0.2, 1.2, "pressure exponent"),
+    FF_QUANTITY_UNLESS("oil", "alpha", "1/GPa", roelands, alpha, FF_REQUIRED, NULL, "slope", 0,
+                       1000, 2, 50,
+                       "slope of ln(eta) at ambient pressure; gives z = alpha p0/(ln eta0 + 9.67)"),
     FF_QUANTITY("p0", "MPa", roelands, p0, 0, "196 MPa", NULL, 10, 1e4, 190, 200,
                 "pressure constant of the law"),
 };
@@ -49,6 +114,8 @@ static ff_status ready(void *self)
     ff_status status = viscosity_oil_ready(r->host, &r->oil, viscosity_highest_cap);
     if (status != FF_OK)
         return status;
+    if (r->oil.liquid)
+        return isnan(r->z) ? viscosity_alpha_ready(r->host, &r->oil) : FF_OK;
     r->rise = r->oil.ln_eta0 + 9.67;
     if (r->rise <= 0)
         return ff_failf(r->host, FF_INVALID, "eta0",
@@ -65,4 +132,5 @@ FF_VISCOSITY_LAW(
     viscosity_roelands, roelands, eval, .id = "viscosity/roelands", .version = "1.0.0",
     .summary = "viscosity rise that flattens with pressure; all isotherms share one pole",
     .reference = "Roelands 1966, thesis, Technische Hogeschool Delft", .bibtex = BIB_Roelands1966,
-    .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .ready = ready, .cost = 1.1e-2);
+    .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .inputs = FF_TABLE(viscosity_inputs),
+    .wire = viscosity_wire, .ready = ready, .cost = 1.1e-2);

@@ -21,7 +21,6 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     const double change = t->alpha_2 - t->alpha_1, width = t->width, cap = t->oil.pressure_cap;
     const double begin = t->middle - width / 2, end = t->middle + width / 2;
     const double part = width > 0 ? 1 / width : 0;
-    (void)T;
     for (size_t i = 0; i < n; i++) {
         double q = viscosity_clip(p[i], cap);
         double over = q > end ? q - end : 0, in = q > begin ? q - begin : 0;
@@ -34,7 +33,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         if (dln_dp)
             dln_dp[i] = slope;
     }
-    return viscosity_oil_end(&t->oil, n, p, dln_dT);
+    return viscosity_oil_end(&t->oil, n, p, T, ln_eta, dln_dT);
 }
 
 static const ff_param params[] = {
@@ -66,4 +65,5 @@ FF_VISCOSITY_LAW(
     .reference = "Allen, Townsend & Zaretsky 1970, J. Lubrication Technology 92, 145-155; Goglia, "
                  "Cusano & Conry 1984, J. Tribology 106, 104-112",
     .bibtex = BIB_Allen1970 "\n" BIB_Goglia1984, .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params), .ready = ready, .cost = 2.4e-3);
+    .params = FF_TABLE(params), .inputs = FF_TABLE(viscosity_inputs), .wire = viscosity_wire,
+    .ready = ready, .cost = 2.4e-3);

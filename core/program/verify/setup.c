@@ -159,9 +159,25 @@ bool verify_skip_lacking(const verify_setup *setup)
                        verify_setup_lacks(setup));
 }
 
+/* A service that replaces parameters is there in every other draw, so that both ways are tried. */
+static void draw_replacements(verify_setup *setup, verify_random *random)
+{
+    const ff_model *model = setup->context->model;
+    for (size_t k = 0; k < model->input_count; k++) {
+        bool replaces = false;
+        for (size_t i = 0; i < model->param_count; i++) {
+            const char *wire = ff_model_param(model, i)->instead;
+            replaces = replaces || (wire && ff_model_find_input(model, wire) == (int)k);
+        }
+        if (replaces)
+            setup->services[k] = verify_below(random, 2) ? setup->context->laws[k] : NULL;
+    }
+}
+
 void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify_range range)
 {
     const ff_model *model = setup->context->model;
+    draw_replacements(setup, random);
     bool *give = memory_alloc(model->param_count * sizeof *give);
     for (size_t i = 0; i < model->param_count; i++) {
         const ff_param *row = ff_model_param(model, i);

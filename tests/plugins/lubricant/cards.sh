@@ -1,24 +1,42 @@
 #!/bin/sh
-# Each oil of configs/lubricants runs within the range of its data, without a doubt or a warning.
+# Each oil of configs/lubricants runs within the range of its data, without a doubt or a warning, and
+# each of its laws makes a film of it.
 # cards.sh FLANKFILM PLUGIN_DIRECTORY SOURCE_ROOT
 set -eu
 flankfilm=$1 plugins=$2 source=$3
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
-count=0
+oils=0 films=0
+
+fail() { # CARD TEXT
+    echo "$1: $2"
+    exit 1
+}
+
 for card in $(grep -l 'use: lubricant/' "$source"/configs/lubricants/*.yaml); do
     at=$(sed -n 's/^    at: //p' "$card")
-    printf 'format: 1\ninclude: [%s]\npipeline: {oil: {temperature: %s}}\noutputs: ["oil.*"]\n' \
-        "$card" "${at:-60 degC}" >"$lab/oil.yaml"
+    cat >"$lab/oil.yaml" <<EOF
+format: 1
+include: [$card]
+pipeline:
+  oil: {temperature: ${at:-80 degC}}
+  discs: {use: contact/constant, radius: 12.8 mm, entrainment_speed: 4 m/s, load_per_width: 177 N/mm}
+  film: {use: ehl/film-formula, formula: moes}
+outputs: ["oil.*"]
+EOF
     said=$("$flankfilm" run "$lab/oil.yaml" --plugin-path "$plugins" -o "$lab/results" 2>&1)
-    if ! echo "$said" | grep -q 'lubricant/.* good$' || echo "$said" | grep 'warning'; then
-        echo "$card: $said"
-        exit 1
-    fi
-    for value in temperature eta0 rho0 expansion; do
-        echo "$said" | grep -q "^  $value " || { echo "$card: no $value" && exit 1; }
+    echo "$said" | grep -q 'lubricant/.* good$' || fail "$card" "$said"
+    ! echo "$said" | grep -q warning || fail "$card" "$said"
+    for value in temperature eta0 rho0 alpha expansion; do
+        echo "$said" | grep -q "^  $value " || fail "$card" "no $value"
     done
-    count=$((count + 1))
+    for law in $(sed -n 's/^      \(viscosity\/[a-z-]*\):.*/\1/p' "$card"); do
+        said=$("$flankfilm" run "$lab/oil.yaml" --plugin-path "$plugins" -o "$lab/results" \
+            --set viscosity.use="$law" --set outputs=film.h_central 2>&1)
+        echo "$said" | grep -q '^  h_central ' || fail "$card, $law" "$said"
+        films=$((films + 1))
+    done
+    oils=$((oils + 1))
 done
-echo "$count oils"
-[ $count -ge 15 ]
+echo "$oils oils, $films films"
+[ $oils -ge 15 ] && [ $films -ge 60 ]

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Laws at the temperature of a wired oil, for stages that know but one temperature. */
+#ifndef NUMERICS_ISOTHERMAL_H
+#define NUMERICS_ISOTHERMAL_H
+
+#include "liquid.h"
+
+#include <flankfilm/author.h>
+
+/* The input rows oil.temperature, oil.eta0 and oil.rho0, in this order, of a stage that calls laws
+   and should hold them against the oil. A stage that calls no density leaves out the last. */
+#define NUMERICS_OIL_ROWS                                                                          \
+    {"oil.temperature",                                                                            \
+     "K",                                                                                          \
+     "temperature of the oil, which the laws are called with",                                     \
+     "",                                                                                           \
+     NULL,                                                                                         \
+     FF_OPTIONAL,                                                                                  \
+     "lubricant"},                                                                                 \
+    {                                                                                              \
+        "oil.eta0", "Pa s", "viscosity of the oil, which that of the law is held against", "",     \
+            NULL, FF_OPTIONAL, "lubricant"                                                         \
+    }
+#define NUMERICS_OIL_DENSITY_ROW                                                                   \
+    {                                                                                              \
+        "oil.rho0", "kg/m3", "density of the oil, which that of the law is held against", "",      \
+            NULL, FF_OPTIONAL, "lubricant"                                                         \
+    }
+
+/* Offers `law` at T to who passes no temperature. */
+typedef struct numerics_viscosity_at {
+    ff_viscosity service;
+    const ff_viscosity *law;
+    double T;
+} numerics_viscosity_at;
+
+typedef struct numerics_density_at {
+    ff_density service;
+    const ff_density *law;
+    double T;
+} numerics_density_at;
+
+/* Calls eval in parts, with one temperature at all points. */
+static inline ff_status numerics_eval_at(ff_status (*eval)(const void *, size_t, const double *,
+                                                           const double *, double *, double *,
+                                                           double *),
+                                         const void *self, double T, size_t n, const double *p,
+                                         double *value, double *by_p, double *by_T)
+{
+    double same[NUMERICS_POINTS];
+    ff_status worst = FF_OK;
+    for (size_t i = 0; i < NUMERICS_POINTS && i < n; i++)
+        same[i] = T;
+    for (size_t from = 0; from < n && worst >= 0; from += NUMERICS_POINTS) {
+        size_t count = n - from < NUMERICS_POINTS ? n - from : NUMERICS_POINTS;
+        ff_status status = eval(self, count, p + from, same, value + from,
+                                by_p ? by_p + from : NULL, by_T ? by_T + from : NULL);
+        worst = status != FF_OK ? status : worst;
+    }
+    return worst;
+}
+
+static inline ff_status numerics_viscosity_eval_at(const void *self, size_t n, const double *p,
+                                                   const double *T, double *ln_eta, double *dln_dp,
+                                                   double *dln_dT)
+{
+    const numerics_viscosity_at *at = self;
+    if (T)
+        return at->law->eval(at->law->self, n, p, T, ln_eta, dln_dp, dln_dT);
+    return numerics_eval_at(at->law->eval, at->law->self, at->T, n, p, ln_eta, dln_dp, dln_dT);
+}
+
+static inline ff_status numerics_density_eval_at(const void *self, size_t n, const double *p,
+                                                 const double *T, double *rho, double *drho_dp,
+                                                 double *drho_dT)
+{
+    const numerics_density_at *at = self;
+    if (T)
+        return at->law->eval(at->law->self, n, p, T, rho, drho_dp, drho_dT);
+    return numerics_eval_at(at->law->eval, at->law->self, at->T, n, p, rho, drho_dp, drho_dT);
+}
+
+/* The law at T; it lives as long as *at. */
+static inline const ff_viscosity *numerics_viscosity_make(numerics_viscosity_at *at,
+                                                          const ff_viscosity *law, double T)
+{
+    *at = (numerics_viscosity_at){
+        .service = {sizeof at->service, at, numerics_viscosity_eval_at}, .law = law, .T = T};
+    return &at->service;
+}
+
+static inline const ff_density *numerics_density_make(numerics_density_at *at,
+                                                      const ff_density *law, double T)
+{
+    *at = (numerics_density_at){
+        .service = {sizeof at->service, at, numerics_density_eval_at}, .law = law, .T = T};
+    return &at->service;
+}
+
+/* Refuses a law whose value at ambient pressure is more than 1 % off that of the oil. */
+static inline ff_status numerics_hold_against(const ff_host *host, const char *wire,
+                                              const char *name, const char *unit, double by_law,
+                                              double by_oil, double T)
+{
+    if (fabs(by_law - by_oil) <= 0.01 * fabs(by_oil))
+        return FF_OK;
+    return ff_failf(host, FF_INVALID, wire,
+                    "the law and the oil contradict each other: at %g degC %s is %.4g %s by the "
+                    "law and %.4g %s by the oil; wire the oil to the law, or leave it out here "
+                    "(oil: none)",
+                    T - 273.15, name, by_law, unit, by_oil, unit);
+}
+
+static inline ff_status numerics_hold_viscosity(const ff_host *host, const ff_viscosity *law,
+                                                const double *eta0, double T)
+{
+    double p = 0, ln_eta = NAN;
+    if (!eta0)
+        return FF_OK;
+    law->eval(law->self, 1, &p, &T, &ln_eta, NULL, NULL);
+    return numerics_hold_against(host, "viscosity", "eta0", "Pa s", exp(ln_eta), *eta0, T);
+}
+
+static inline ff_status numerics_hold_density(const ff_host *host, const ff_density *law,
+                                              const double *rho0, double T)
+{
+    double p = 0, rho = NAN;
+    if (!rho0)
+        return FF_OK;
+    law->eval(law->self, 1, &p, &T, &rho, NULL, NULL);
+    return numerics_hold_against(host, "density", "rho0", "kg/m3", rho, *rho0, T);
+}
+
+#endif

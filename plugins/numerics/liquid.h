@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A liquid over temperature, seen from a law or from who calls one. */
+#ifndef NUMERICS_LIQUID_H
+#define NUMERICS_LIQUID_H
+
+#include <flankfilm/laws.h>
+
+#include <math.h>
+
+enum { NUMERICS_POINTS = 512 }; /* most points of one call below */
+
+/* Temperature that a law answers for when it is called without one. */
+static inline double numerics_reference_temperature(const ff_liquid *liquid)
+{
+    double any = 0, T = NAN;
+    if (liquid->eval(liquid->self, FF_LIQUID_REFERENCE_TEMPERATURE, 1, &any, &T, NULL) < 0 ||
+        !isfinite(T))
+        T = 313.15;
+    return T;
+}
+
+/* Whether the liquid tells the property at its reference temperature. */
+static inline int numerics_is_known(const ff_liquid *liquid, int32_t property)
+{
+    double T = numerics_reference_temperature(liquid), value = NAN;
+    return liquid->eval(liquid->self, property, 1, &T, &value, NULL) >= 0 && isfinite(value);
+}
+
+/*
+ * Property and slope at n <= NUMERICS_POINTS temperatures; neighbours of one temperature cost but
+ * one evaluation. Without T: at the reference temperature, with FF_DOMAIN. What is not known is 0,
+ * with FF_DOMAIN, since a law owes finite numbers.
+ */
+static inline ff_status numerics_liquid_values(const ff_liquid *liquid, int32_t property, size_t n,
+                                               const double *T, double *value, double *slope)
+{
+    double reference = T ? 0 : numerics_reference_temperature(liquid);
+    ff_status worst = T ? FF_OK : FF_DOMAIN;
+    for (size_t i = 0; i < n; i++) {
+        if (i && (!T || !(T[i] < T[i - 1] || T[i] > T[i - 1]))) {
+            value[i] = value[i - 1];
+            slope[i] = slope[i - 1];
+            continue;
+        }
+        ff_status status =
+            liquid->eval(liquid->self, property, 1, T ? &T[i] : &reference, &value[i], &slope[i]);
+        if (status < 0 || !isfinite(value[i]))
+            value[i] = slope[i] = 0, status = FF_DOMAIN;
+        if (!isfinite(slope[i]))
+            slope[i] = 0;
+        worst = status != FF_OK ? status : worst;
+    }
+    return worst;
+}
+
+#endif
