@@ -103,7 +103,6 @@ static bool judge(const fe_call *call, ff_status status, ff_report *report)
 {
     const ff_stage *stage = call->stage;
     const fe_instance *instance = stage->instance;
-    status = instance->no_room ? FF_NOMEM : status;
     meaning means = meaning_of(status);
     const char *text = instance->text[0] ? instance->text : means.reason;
     char what[700];
@@ -155,6 +154,8 @@ bool fe_call_end(const fe_call *call, ff_status status, ff_report *report)
 {
     const ff_stage *stage = call->stage;
     ff_guard_leave(call->previous);
+    if (stage->instance->no_room)
+        status = FF_NOMEM;
     stage->instance->status = status;
     const char *changed = ff_environment_restore(&call->environment);
     fe_serial_leave(stage->loaded->model);

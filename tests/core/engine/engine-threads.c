@@ -53,6 +53,24 @@ static void run_wrong(worker *w, ff_engine *engine)
     ff_run_close(run);
 }
 
+/* A law and its user by hand: level times 2. */
+static void use_instances(worker *w, ff_engine *engine)
+{
+    ff_instance *law = NULL, *user = NULL;
+    const ff_result *value = NULL;
+    const double gain = w->level;
+    if (ff_instance_new(engine, "toy/law", &law) != FF_OK ||
+        ff_instance_new(engine, "toy/user", &user) != FF_OK ||
+        ff_instance_set_reals(law, "gain", &gain, 1) != FF_OK ||
+        ff_instance_use(user, "law", law) != FF_OK || ff_instance_run(user, NULL) != FF_OK ||
+        ff_instance_result(user, "value", &value) != FF_OK)
+        w->failures++;
+    else
+        w->wrong_sums += value->data[0] != 2 * gain;
+    ff_instance_close(user);
+    ff_instance_close(law);
+}
+
 static void *work(void *ctx)
 {
     worker *w = ctx;
@@ -64,6 +82,7 @@ static void *work(void *ctx)
             w->failures++;
         run_toys(w, engine);
         run_wrong(w, engine);
+        use_instances(w, engine);
         run_toys(w, engine);
         ff_engine_close(engine);
     }

@@ -99,7 +99,7 @@ static long live(void)
 /* What is run, in the directory of the test, and what came of it. */
 typedef struct attempt {
     const char *file;
-    bool open; /* its models are to be chosen */
+    enum { RUN, OPEN, INSTANCES } how; /* OPEN: models are to be chosen */
     ff_status status;
     size_t calls;  /* of the allocator */
     bool lacked;   /* an error says that memory was missing */
@@ -132,6 +132,43 @@ static ff_status run_file(attempt *a, ff_engine *engine)
     return status;
 }
 
+/* Models by hand, some of which use others; the last is none. */
+static ff_status use_instances(attempt *a, ff_engine *engine)
+{
+    enum { ONE, SUM, LAW, USER, TABLE, NONE, COUNT };
+    static const char *const ids[] = {"toy/source", "toy/consumer", "toy/law",
+                                      "toy/user",   "toy/reader",   "toy/no-model"};
+    static const double series[] = {1, 2, 3}, weights[] = {1, 2};
+    static const size_t shape[] = {3};
+    const ff_array array = {.data = series, .shape = shape, .rank = 1};
+    ff_instance *x[COUNT] = {NULL};
+    const ff_result *result;
+    ff_status s = FF_OK, wrong = FF_OK;
+    for (int i = 0; i < NONE && s == FF_OK; i++)
+        s = ff_instance_new(engine, ids[i], &x[i]);
+    if (s == FF_OK && (s = ff_instance_set(x[ONE], "level", "2 mm")) == FF_OK &&
+        (s = ff_instance_set_reals(x[ONE], "weights", weights, 2)) == FF_OK &&
+        (s = ff_instance_use(x[SUM], "source", x[ONE])) == FF_OK &&
+        (s = ff_instance_give(x[SUM], "more.series", &array)) == FF_OK &&
+        (s = ff_instance_run(x[SUM], NULL)) == FF_OK &&
+        (s = ff_instance_result(x[SUM], "sum", &result)) == FF_OK)
+        add_array(a, "sum", result);
+    if (s == FF_OK && (s = ff_instance_set(x[LAW], "gain", "3")) == FF_OK &&
+        (s = ff_instance_use(x[USER], "law", x[LAW])) == FF_OK &&
+        (s = ff_instance_run(x[USER], "value")) == FF_OK &&
+        (s = ff_instance_result(x[USER], "value", &result)) == FF_OK)
+        add_array(a, "user", result);
+    if (s == FF_OK && (s = ff_instance_set(x[TABLE], "file", "levels.csv")) == FF_OK &&
+        (s = ff_instance_run(x[TABLE], NULL)) == FF_OK &&
+        (s = ff_instance_result(x[TABLE], "sum", &result)) == FF_OK)
+        add_array(a, "table", result);
+    if (s == FF_OK && (wrong = ff_instance_set(x[ONE], "level", "2 m/s")) != FF_NOMEM)
+        wrong = ff_instance_new(engine, ids[NONE], &x[NONE]);
+    for (int i = COUNT; i-- > 0;)
+        ff_instance_close(x[i]);
+    return s == FF_OK ? wrong : s;
+}
+
 typedef struct choice {
     attempt *a;
     ff_engine *engine;
@@ -162,7 +199,9 @@ static ff_status run(attempt *a)
     ff_status status = ff_engine_new(&options, &c.engine);
     if (status != FF_OK)
         return status;
-    if (a->open)
+    if (a->how == INSTANCES)
+        status = use_instances(a, c.engine);
+    else if (a->how == OPEN)
         status = ff_protected(run_open_file, &c);
     else
         status = run_file(a, c.engine);
@@ -255,12 +294,15 @@ static void leave_plugin(void)
     memory.fail_at = 0;
 }
 
-/* DIRECTORY-OF-PLUGINS DIRECTORY-OF-FILES FILE STRIDE [open]; stride 0: cold. */
+/* DIRECTORY-OF-PLUGINS DIRECTORY-OF-FILES FILE STRIDE [open|instances]; stride 0: cold. */
 int main(int argc, char **argv)
 {
     if (argc < 5 || chdir(argv[2]) != 0)
         return 2;
-    const attempt plan = {.file = argv[3], .open = argc > 5};
+    const attempt plan = {.file = argv[3],
+                          .how = argc <= 5                  ? RUN
+                                 : !strcmp(argv[5], "open") ? OPEN
+                                                            : INSTANCES};
     size_t stride = (size_t)atoi(argv[4]);
     directory = argv[1];
     for (int onwards = 0; onwards <= 1; onwards++)
