@@ -29,12 +29,12 @@ static bool request(ff_instance *i, const char *words)
 
 static bool is_up_to_date(const ff_instance *i)
 {
-    bool good = i->stage.ran && !i->stale;
+    bool good = i->stage.ran && i->object.alive;
     for (size_t k = 0; k < i->stage.loaded->model->input_count && good; k++) {
         const fe_feed *feed = &i->feeds[k];
         bool serves = ff_model_input(i->stage.loaded->model, k)->service;
         if (feed->from)
-            good = serves ? !feed->from->stale && feed->version == feed->from->version
+            good = serves ? feed->from->object.alive && feed->version == feed->from->version
                           : is_up_to_date(feed->from) && feed->version == feed->from->runs;
     }
     return good;

@@ -42,10 +42,11 @@ static void work(void *of)
     explain(i);
     if (good)
         request->status = status > 0 ? status : FF_OK;
-    else if (ff_report_fault(i->report) == FF_FAULT_PLUGIN)
-        request->status = FF_BUG;
+    else if (status == FF_OK || ff_report_lacked_memory(i->report) ||
+             ff_report_fault(i->report) == FF_FAULT_PLUGIN)
+        request->status = fe_status_of(i->report);
     else
-        request->status = status != FF_OK ? status : FF_INVALID;
+        request->status = status;
 }
 
 ff_status fe_handle(fe_request *request)
@@ -171,11 +172,20 @@ static int find_param(ff_instance *i, const char *name)
     return -1;
 }
 
+/* Ends the object, which is made anew when it is needed: it has what is about to change. */
+static void close_object(ff_instance *i)
+{
+    fe_close_instance(&i->stage);
+    i->object.self = NULL;
+    i->stage.ran = false;
+}
+
 /* Puts a value in the place of those that its group has. */
 static void keep(ff_instance *i, size_t row, ff_value value)
 {
     const ff_model *model = i->stage.loaded->model;
     const char *group = ff_model_param(model, row)->group;
+    close_object(i);
     for (size_t k = 0; k < model->param_count; k++) {
         const char *other = ff_model_param(model, k)->group;
         if (k == row || (value.size && group && other && !strcmp(group, other))) {
@@ -184,7 +194,6 @@ static void keep(ff_instance *i, size_t row, ff_value value)
         }
     }
     i->given[row] = value;
-    i->stale = true;
 }
 
 static bool set(fe_request *q)
@@ -233,10 +242,12 @@ static void connect(ff_instance *i, size_t input, fe_feed feed)
 {
     fe_feed *old = &i->feeds[input];
     bool fed = fe_is_fed(i, input), serves = ff_model_input(i->stage.loaded->model, input)->service;
+    bool feeds = feed.from || feed.array.data || feed.table;
+    if (serves || fed != feeds)
+        close_object(i);
     fe_free((void *)(uintptr_t)old->array.data);
     *old = feed;
     old->array.shape = old->shape;
-    i->stale = i->stale || serves || fed != fe_is_fed(i, input);
     i->stage.ran = false;
 }
 
@@ -392,7 +403,8 @@ static bool make_feeding(ff_instance *i)
             continue;
         if (ff_instance_ready(feed->from) < 0)
             return fe_pass_on(i, feed->from);
-        i->stale = i->stale || feed->version != feed->from->version;
+        if (feed->version != feed->from->version)
+            close_object(i);
     }
     return true;
 }
@@ -435,12 +447,9 @@ bool fe_make_object(ff_instance *i)
 {
     if (!make_feeding(i))
         return false;
-    if (i->object.alive && !i->stale)
+    if (i->object.alive)
         return true;
-    fe_close_instance(&i->stage);
-    i->object.self = NULL;
-    i->stage.ran = false;
-    i->stale = false;
+    close_object(i);
     i->version++;
     fe_folder_keep(&i->memory.folder);
     i->object.watch = &i->observer;

@@ -32,7 +32,6 @@ struct ff_instance {
     fe_feed *feeds;                /* of each input */
     const ff_guard_mark **serving; /* the services that the object may call */
     bool *refused;                 /* of each output: asked for in the last run, and refused */
-    bool stale;                    /* what the object was made from has changed */
     uint64_t version, runs;        /* how often the object was made, and run */
     char item[96], reason[1024];
 };

@@ -175,10 +175,10 @@ ff_status ff_run_quality(const ff_run *run, size_t index, const ff_quality **lin
  *
  * Parameters are checked as those of a file: names, units, limits and counts when they are set,
  * groups and what is required when the model is made, which the first run or service does. Setting
- * a parameter, or connecting an input, after that makes the model anew at the next run or service,
- * and with it those that use it. Beside the statuses above, a call answers with that of the model:
- * FF_DOMAIN where it warned, FF_UNSUPPORTED where it does not serve the request. After an error the
- * instance is as before the call, but for its results.
+ * a parameter, or connecting an input, after that ends the model and its services; the next run or
+ * service makes it anew, and with it those that use it. Beside the statuses above, a call answers
+ * with that of the model: FF_DOMAIN where it warned, FF_UNSUPPORTED where it does not serve the
+ * request. After an error the instance is as before the call, but for its results.
  */
 
 typedef struct ff_instance ff_instance;
@@ -221,7 +221,7 @@ ff_status ff_instance_verdict(const ff_instance *instance, int32_t *verdict);
 ff_status ff_instance_quality(const ff_instance *instance, size_t index, const ff_quality **line);
 
 /* The table of the service of that interface id, "flankfilm.viscosity/1". It lives until the model
-   is made anew. */
+   ends. */
 ff_status ff_instance_service(ff_instance *instance, const char *interface, const void **table);
 /* Calls work(ctx), which calls the service. What goes wrong in there is said to be the model's, as
    is a status other than FF_OK; `action` says in messages what is being done: "its fit". */

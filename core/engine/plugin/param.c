@@ -296,10 +296,19 @@ bool ff_param_read_preset(const ff_param *row, const ff_unit *unit, const char *
     return good;
 }
 
+/* A number stands nowhere. */
+static const ff_node nowhere = {.kind = FF_SCALAR};
+
+static bool refuse_number(const reading *r, double number)
+{
+    char wanted[640];
+    ff_param_expectation(r->row, wanted, sizeof wanted);
+    return refuse(r, &nowhere, NULL, "expected %s, found %g", wanted, number);
+}
+
 /* One number, or one of a list. */
 static bool take_number(const reading *r, double *si)
 {
-    static const ff_node nowhere = {.kind = FF_SCALAR};
     bool whole = r->row->type == FF_INT || r->row->flags & FF_WHOLE;
     if (!isfinite(*si))
         return refuse(r, &nowhere, NULL, "%g is not a number that it can have", *si);
@@ -310,7 +319,6 @@ static bool take_number(const reading *r, double *si)
 
 static bool take_list(const reading *r, const double *si, size_t count, ff_value *value)
 {
-    static const ff_node nowhere = {.kind = FF_SCALAR};
     if (!check_length(r, &nowhere, count))
         return false;
     double *reals = fe_alloc(count * sizeof *reals);
@@ -330,7 +338,6 @@ static bool take_list(const reading *r, const double *si, size_t count, ff_value
 /* A switch, or the rank of a word. */
 static bool take_rank(const reading *r, double number, ff_value *value)
 {
-    static const ff_node nowhere = {.kind = FF_SCALAR};
     const ff_param *row = r->row;
     char word[64];
     bool known = number >= 0 && number < 1000 && number == floor(number);
@@ -339,7 +346,7 @@ static bool take_rank(const reading *r, double number, ff_value *value)
     else
         known = known && ff_word_at(row->choices, (size_t)number, word, sizeof word);
     if (!known)
-        return refuse_kind(r, &nowhere);
+        return refuse_number(r, number);
     value->integer = (int64_t)number;
     if (row->type == FF_CHOICE)
         value->text = fe_copy_text(word, strlen(word));
@@ -349,7 +356,6 @@ static bool take_rank(const reading *r, double number, ff_value *value)
 bool fe_param_take(const ff_param *row, const ff_unit *unit, const char *name, const double *si,
                    size_t count, ff_value *value, ff_report *report)
 {
-    static const ff_node nowhere = {.kind = FF_SCALAR};
     reading r = {.row = row, .unit = unit, .name = name, .report = report};
     double number = count ? si[0] : 0;
     bool good = false;
@@ -363,7 +369,7 @@ bool fe_param_take(const ff_param *row, const ff_unit *unit, const char *name, c
     else if (row->type == FF_REAL || row->type == FF_INT)
         good = take_number(&r, &number);
     else
-        good = refuse_kind(&r, &nowhere);
+        good = refuse_number(&r, number);
     if (good && row->type == FF_REAL)
         value->real = number;
     else if (good && row->type == FF_INT)

@@ -131,6 +131,7 @@ void ff_warn(ff_report *report, ff_place place, const char *format, ...)
 
 void ff_report_append(ff_report *report, const ff_report *other)
 {
+    report->lacked_memory = report->lacked_memory || other->lacked_memory;
     for (size_t i = 0; i < other->count; i++) {
         const ff_message *m = &other->messages[i];
         if (m->severity == FF_ERROR)

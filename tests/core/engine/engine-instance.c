@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One model by hand: parameters, inputs, services, states, and what is refused. */
+#include <flankfilm/engine.h>
+
+#include "../../bad/plugins/toy/toy.h"
+
+#include <check.h>
+
+#include <stdlib.h>
+#include <string.h>
+
+static ff_engine *engine;
+
+static ff_instance *open_model(const char *id)
+{
+    ff_instance *made;
+    check_true(id, ff_instance_new(engine, id, &made) == FF_OK && made);
+    return made;
+}
+
+static ff_instance *open_source(const char *level)
+{
+    ff_instance *source = open_model("toy/source");
+    check_true("a level", ff_instance_set(source, "level", level) == FF_OK);
+    return source;
+}
+
+/* -1: not given */
+static double scalar(const ff_instance *of, const char *output)
+{
+    const ff_result *result;
+    return ff_instance_result(of, output, &result) == FF_OK ? result->data[0] : -1;
+}
+
+static int says(const char *words)
+{
+    return strstr(ff_engine_message(engine), words) != NULL;
+}
+
+static int refuses(ff_instance *of, ff_status status, const char *item, const char *words)
+{
+    return status == FF_INVALID && !strcmp(ff_instance_item(of), item) && says(words) &&
+           strstr(ff_instance_reason(of), words);
+}
+
+static void parameters(void)
+{
+    static const double weights[] = {1, 3}, falling[] = {3, 1}, level = 0.004, huge = 1;
+    ff_instance *s = open_model("toy/source");
+    check_true("no such name",
+               refuses(s, ff_instance_set(s, "levle", "2 mm"), "levle", "did you mean \"level\""));
+    check_true("no unit", refuses(s, ff_instance_set(s, "level", "2"), "level", "unit"));
+    check_true("too large", refuses(s, ff_instance_set(s, "level", "2 m"), "level", "too large"));
+    check_true("too large in SI",
+               refuses(s, ff_instance_set_reals(s, "level", &huge, 1), "level", "too large"));
+    check_true("a falling list", refuses(s, ff_instance_set_reals(s, "weights", falling, 2),
+                                         "weights", "must not decrease"));
+    check_true("no number",
+               refuses(s, ff_instance_set_reals(s, "note", &level, 1), "note", "expected a text"));
+    check_true("a required one", refuses(s, ff_instance_run(s, NULL), "level", "is missing"));
+    check_true("in SI", ff_instance_set_reals(s, "level", &level, 1) == FF_OK && says(""));
+    check_true("lists", ff_instance_set(s, "weights", "[1 kg, 2 kg, 3 kg]") == FF_OK &&
+                            ff_instance_set_reals(s, "weights", weights, 2) == FF_OK);
+    check_true("a warning is no error",
+               ff_instance_set(s, "level", "60 mm") == FF_OK && says("calibrated range"));
+    check_true("as before", ff_instance_set_reals(s, "level", &level, 1) == FF_OK);
+    check_true("runs", ff_instance_run(s, "level speed") == FF_OK);
+    check_near("the level", scalar(s, "level"), 0.004, 0);
+    check_near("a preset", scalar(s, "speed"), 10 * 2 * 3.14159265358979 / 60, 1e-12);
+    check_true("another of the group",
+               ff_instance_set(s, "rate", "3 Hz") == FF_OK && ff_instance_run(s, NULL) == FF_OK);
+    check_near("displaces the preset", scalar(s, "speed"), 0, 0);
+    check_true("unset", ff_instance_set(s, "rate", NULL) == FF_OK &&
+                            ff_instance_run(s, NULL) == FF_OK && scalar(s, "speed") > 1);
+    check_true("a model that refuses",
+               ff_instance_set(s, "answer", "ready") == FF_OK &&
+                   refuses(s, ff_instance_ready(s), "count", "a count of 3 is not to be had"));
+    ff_instance_close(s);
+}
+
+static void outputs(void)
+{
+    ff_instance *s = open_source("2 mm");
+    const ff_result *field;
+    const ff_quality *line;
+    int32_t verdict;
+    check_true("what it refuses by name",
+               ff_instance_run(s, "level never") == FF_UNSUPPORTED && scalar(s, "level") < 0);
+    check_true("what it refuses else", ff_instance_run(s, NULL) == FF_OK);
+    check_true("a field", ff_instance_result(s, "field", &field) == FF_OK && field->rank == 2 &&
+                              field->shape[0] == 3 && !strcmp(field->dims[1], "x"));
+    check_true("not given", ff_instance_result(s, "never", &field) == FF_INVALID && !field);
+    check_true("no such output", refuses(s, ff_instance_run(s, "lvel"), "lvel", "no output"));
+    check_true("quality", ff_instance_run(s, "level") == FF_OK &&
+                              ff_instance_quality(s, 0, &line) == FF_OK &&
+                              !strcmp(line->name, "residual") &&
+                              ff_instance_quality(s, 1, &line) == FF_INVALID);
+    check_near("the same object", scalar(s, "evaluations"), 4, 0);
+    check_true("a bad result is there", ff_instance_set(s, "answer", "bad") == FF_OK &&
+                                            ff_instance_run(s, "level") == FF_OK &&
+                                            ff_instance_verdict(s, &verdict) == FF_OK &&
+                                            verdict == FF_BAD);
+    check_near("another object", scalar(s, "evaluations"), 1, 0);
+    check_true("a failure", ff_instance_set(s, "answer", "noconv") == FF_OK &&
+                                ff_instance_run(s, "level") == FF_NOCONV && says("answer is"));
+    check_near("with results", scalar(s, "level"), 0.002, 0);
+    check_true("a broken plugin", ff_instance_set(s, "answer", "unknown") == FF_OK &&
+                                      ff_instance_run(s, "level") == FF_BUG && says("status 77"));
+    ff_instance_close(s);
+}
+
+static void wires(void)
+{
+    ff_instance *one = open_source("2 mm"), *two = open_source("3 mm");
+    ff_instance *sum = open_model("toy/consumer");
+    double more[] = {1, 2, 3, 4};
+    size_t length = 4;
+    const ff_array array = {.data = more, .shape = &length, .rank = 1};
+    check_true("not fed", refuses(sum, ff_instance_run(sum, NULL), "source.level", "feeds"));
+    check_true("no such wire", refuses(sum, ff_instance_use(sum, "sauce", one), "sauce", "wire"));
+    check_true("no match", refuses(sum, ff_instance_use(sum, "source", sum), "source", "feed"));
+    check_true("a wire", ff_instance_use(sum, "source", one) == FF_OK);
+    check_true("runs what feeds it", ff_instance_run(sum, NULL) == FF_OK);
+    check_near("by it", scalar(sum, "sum"), 3 * 0.002, 1e-15);
+    check_near("for what it takes alone", scalar(one, "wanted"), 3, 0);
+    check_true("again", ff_instance_run(sum, NULL) == FF_OK);
+    check_near("not once more", scalar(one, "evaluations"), 1, 0);
+    check_true("another value", ff_instance_set(one, "level", "5 mm") == FF_OK &&
+                                    ff_instance_run(sum, NULL) == FF_OK);
+    check_near("is taken", scalar(sum, "sum"), 3 * 0.005, 1e-15);
+    check_true("another source",
+               ff_instance_use(sum, "source", two) == FF_OK && ff_instance_run(sum, NULL) == FF_OK);
+    check_near("is used", scalar(sum, "sum"), 3 * 0.003, 1e-15);
+    check_true("an array", ff_instance_give(sum, "more.series", &array) == FF_OK);
+    more[0] = 100;
+    check_true("lengths that differ",
+               refuses(sum, ff_instance_run(sum, NULL), "more.series", "\"t\" is 3 long"));
+    length = 3;
+    check_true("of the length", ff_instance_give(sum, "more.series", &array) == FF_OK);
+    more[1] = 100;
+    check_true("runs", ff_instance_run(sum, NULL) == FF_OK);
+    check_near("a copy", scalar(sum, "sum"), 105 + 3 * 0.003, 1e-15);
+    check_true("the rank", refuses(sum, ff_instance_give(sum, "source.level", &array),
+                                   "source.level", "1 dimensions"));
+    check_true("a failure behind", ff_instance_set(two, "answer", "noconv") == FF_OK &&
+                                       ff_instance_run(sum, NULL) == FF_NOCONV &&
+                                       says("the answer is noconv"));
+    ff_instance_close(two);
+    ff_instance_close(one);
+    ff_instance_close(sum);
+}
+
+static double twice(const void *self, double x)
+{
+    (void)self;
+    return 2 * x;
+}
+
+static ff_status fail(void *ctx)
+{
+    return *(ff_status *)ctx;
+}
+
+static void services(void)
+{
+    static const toy_law own = {sizeof own, NULL, twice};
+    ff_instance *law = open_model("toy/law"), *user = open_model("toy/replaced");
+    const void *table;
+    ff_status bug = FF_BUG, good = FF_OK;
+    check_true("a law without its gain", ff_instance_service(law, TOY_LAW_ID, &table) < 0 &&
+                                             !table && says("\"gain\" is missing"));
+    ff_instance_set(law, "gain", "3");
+    check_true("with it", ff_instance_service(law, TOY_LAW_ID, &table) == FF_OK);
+    const toy_law *toy = table;
+    check_near("the law", toy->eval(toy->self, 2), 6, 0);
+    check_true("no such service", ff_instance_service(law, "toy.rule/1", &table) == FF_INVALID);
+    check_true("neither", refuses(user, ff_instance_ready(user), "gain", "is missing"));
+    ff_instance_use(user, "law", law);
+    check_true("a wire in place of parameters", ff_instance_run(user, "gain absent") == FF_OK);
+    check_near("gives the gain", scalar(user, "gain"), 3, 0);
+    check_near("and all of them", scalar(user, "absent"), 4, 0);
+    ff_instance_set(law, "gain", "4");
+    check_true("another law", ff_instance_run(user, "gain") == FF_OK);
+    check_near("reaches its user", scalar(user, "gain"), 4, 0);
+    ff_instance_set(user, "gain", "1");
+    check_true("both", refuses(user, ff_instance_run(user, "gain"), "gain", "by the wire"));
+    ff_instance_set(user, "gain", NULL);
+    check_true("a table of the caller", ff_instance_serve(user, "law", &own) == FF_OK &&
+                                            ff_instance_run(user, "gain") == FF_OK);
+    check_near("is used", scalar(user, "gain"), 2, 0);
+    check_true("a call", ff_instance_call(law, "its test", fail, &good) == FF_OK);
+    check_true("that fails",
+               ff_instance_call(law, "its test", fail, &bug) == FF_BUG && says("during its test"));
+    ff_instance_close(law);
+    ff_instance_close(user);
+}
+
+static int32_t stop(void *ctx, const ff_stage *stage, double fraction)
+{
+    *(double *)ctx = fraction;
+    return !strcmp(ff_stage_name(stage), "source");
+}
+
+static void watched(void)
+{
+    double share = 0;
+    const ff_observer observer = {.size = sizeof observer, .ctx = &share, .progress = stop};
+    ff_instance *s = open_source("2 mm");
+    ff_instance_set(s, "answer", "progress");
+    ff_instance_observe(s, &observer);
+    check_true("stopped", ff_instance_run(s, "level") == FF_STOPPED);
+    check_near("at half", share, 0.5, 0);
+    ff_instance_observe(s, NULL);
+    check_true("and not", ff_instance_run(s, "level") == FF_OK);
+    check_true("no state", ff_instance_carry(s, s) == FF_UNSUPPORTED);
+    ff_instance_close(s);
+}
+
+int main(void)
+{
+    const char *toys = getenv("FLANKFILM_TEST_BAD");
+    const ff_engine_options options = {sizeof options, &toys, 1};
+    ff_instance *none;
+    check_true("an engine", toys && ff_engine_new(&options, &engine) == FF_OK);
+    check_true("no such model", ff_instance_new(engine, "toy/sorce", &none) == FF_INVALID &&
+                                    !none && says("toy/source"));
+    parameters();
+    outputs();
+    wires();
+    services();
+    watched();
+    ff_engine_close(engine);
+    return check_done();
+}
