@@ -547,7 +547,7 @@ typedef struct ff_bound {
     ff_value value; /* SI; points into memory of the stage */
     ff_place place; /* where it was given; source NULL: the model's preset */
     bool proposed;  /* set by the model itself for the requested accuracy */
-    ff_value first; /* what a proposal replaced; the instance that was asked may still hold it */
+    ff_value first; /* what was replaced, while an object of the model may still hold it */
     const struct ff_wire *wire; /* connected, so that it replaces the parameter; NULL: none */
 } ff_bound;
 
