@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A session with flankfilm in Python, cell by cell; editors that know "# %%" run one at a time.
 
-    python3 example.py        # beside flankfilm.py
+    python3 example.py        # beside the folder flankfilm
 """
 
 # %% One case, and the same with more torque

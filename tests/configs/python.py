@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""configs/python/flankfilm.py against what the program prints and writes; its example runs.
+"""The package in configs/python against what the program prints and writes; its examples run.
 
 python.py FLANKFILM PLUGIN_DIRECTORY SOURCE_ROOT
 """
 import csv
+import gc
 import json
 import os
 import subprocess
@@ -131,12 +132,93 @@ def test_fit():
     check("and refuses what lies outside", raised(lambda: flankfilm.fit("viscosity", data, at=["9 GPa"]), "outside"))
 
 
-def test_example():
-    done = subprocess.run([sys.executable, os.path.join(source, "configs", "python", "example.py")],
-                          capture_output=True, text=True, check=False)
-    check("the example runs", done.returncode == 0 and "to the power of -0.1" in done.stdout)
-    if done.returncode:
-        print(done.stdout, done.stderr)
+def test_engine():
+    engine = flankfilm.Engine()
+    told = flankfilm.run("case.yaml", {"duty.torque": "300 N m"})
+    shares = []
+    run = engine.run("case.yaml", {"duty.torque": "300 N m"}, progress=shares.append)
+    film = run["film.h_min"]
+    check("a run in this process", np.allclose(film.data, told["film.h_min"].data, rtol=1e-11, atol=0))  # JSON has 12 digits
+    check("has the same words", (film.unit, film.dims, film.doc) ==
+          (told["film.h_min"].unit, told["film.h_min"].dims, told["film.h_min"].doc))
+    check("names what it has", set(told.asked) <= set(run) and len(run) == len(list(run)))
+    check("judges it", run.quality["gears"]["pitch_error"]["verdict"] == "good")
+    field = engine.run("case.yaml", {"film.use": "ehl/finite-volume", "film.cells": 64, "film.steps": 40,
+                                     "outputs": ["film.pressure"]}, progress=shares.append)
+    pressure = field["film.pressure"].data
+    check("arrays share the engine's memory", np.shares_memory(pressure, field["film.pressure"].data))
+    check("nobody writes there", not pressure.flags.writeable)
+    check("progress is told", shares and all(0 <= x <= 1 for x in shares))
+    kept, high = pressure[3], float(pressure[3].max())
+    del field, pressure, run, engine
+    gc.collect()
+    check("arrays keep their run", float(kept.max()) == high)
+    engine = flankfilm.Engine()
+    ring = [engine, engine.run("case.yaml"), engine.model("viscosity/barus")]
+    ring.append(ring)
+    del engine, ring
+    gc.collect()
+    check("a cycle of objects is collected", True)  # in whatever order
+
+
+def test_engine_errors():
+    engine = flankfilm.Engine()
+    check("a wrong word", raised(lambda: engine.run("case.yaml", {"duty.torqu": "3 N m"}),
+                                 'unknown key "torqu"; did you mean "torque"?'))
+    check("no file", raised(lambda: engine.run("none.yaml"), "none.yaml"))
+    check("a study is the program's", raised(lambda: engine.run("study.yaml"), "study"))
+    check("no model", raised(lambda: engine.model("viscosity/baru"), "viscosity/barus"))
+    check("no parameter", raised(lambda: engine.model("viscosity/barus", {"alpa": 1e-8}), "alpa"))
+    check("a wrong unit", raised(lambda: engine.model("viscosity/barus", {"alpha": "3 mm"}), "alpha"))
+    check("no law", raised(lambda: engine.model("gear/involute-spur").law(), "not a law"))
+    check("stopped", raised(lambda: engine.run("case.yaml", {"film.use": "ehl/finite-volume"},
+                                               progress=lambda share: True), "stopped", code=1))
+    try:
+        engine.run("case.yaml", {"film.use": "ehl/finite-volume"}, progress=lambda share: 1 // 0)
+        check("an error of one's own passes", False)
+    except ZeroDivisionError:
+        check("an error of one's own passes", True)
+    check("the engine goes on", float(engine.run("case.yaml")["motion.dte_rms"]) > 0)
+
+
+def test_laws():
+    engine = flankfilm.Engine()
+    eta0, alpha = 0.01, 2e-8
+    barus = engine.model("viscosity/barus", {"eta0": eta0, "alpha": alpha}).law()
+    p = np.array([[0, 1e8], [2e8, 3e8]])
+    ln_eta, over_p, over_T = barus(p, slopes=True)
+    check("a viscosity", np.allclose(ln_eta, np.log(eta0) + alpha * p, rtol=1e-14))
+    check("its slopes", np.allclose(over_p, alpha) and not over_T.any() and over_p.shape == p.shape)
+    rho = engine.model("density/incompressible", {"rho0": "870 kg/m3"}).law()
+    check("a density", np.all(rho(p, 300) == 870))
+    flow = engine.model("rheology/ree-eyring", {"tau0": "5 MPa"}).law()
+    psi = flow.flow(ln_eta, 1e-7, 1.0)
+    check("a flow law", np.allclose(psi, np.hypot(np.exp(-ln_eta), 1 / (5e6 * 1e-7)), rtol=1e-12))
+    check("its shear", np.allclose(flow.shear(p, ln_eta, 1e-7, 1.0), 5e6 * np.arcsinh(np.exp(ln_eta) / 5e6 / 1e-7)))
+    grade = engine.model("lubricant/grade", {"grade": "ISO VG 100", "temperature": "40 degC"}).law()
+    ln_eta0, rho0 = (grade(name, 313.15) for name in ("ln_eta0", "rho0"))
+    check("an oil", np.isclose(np.exp(ln_eta0) / rho0, 100e-6, rtol=1e-6))
+
+
+def test_models():
+    engine = flankfilm.Engine()
+    gear = engine.model("gear/involute-spur", {"teeth": [50, 50], "module": 3e-3, "face_width": "20 mm"})
+    out = gear.run("contact_ratio", "teeth")
+    check("a model by hand", list(out["teeth"].data) == [50, 50] and 1 < float(out["contact_ratio"]) < 2)
+    gear.set({"teeth": [20, 20]})
+    fewer = gear.run("contact_ratio")["contact_ratio"]
+    check("set anew", float(fewer) < float(out["contact_ratio"]))
+    duty = engine.model("operating/steady", {"torque": 250.0, "speed": "1500 rpm"}, {"gear": gear})
+    check("wired to another", np.isclose(float(duty.run("mesh_frequency")["mesh_frequency"]), 1500 / 60 * 20))
+
+
+def test_examples():
+    for name, words in {"example.py": "to the power of -0.1", "laws.py": "central film"}.items():
+        done = subprocess.run([sys.executable, os.path.join(source, "configs", "python", name)],
+                              capture_output=True, text=True, check=False)
+        check(name + " runs", done.returncode == 0 and words in done.stdout)
+        if done.returncode:
+            print(done.stdout, done.stderr)
 
 
 with tempfile.TemporaryDirectory() as lab:
@@ -148,7 +230,11 @@ with tempfile.TemporaryDirectory() as lab:
     test_errors()
     test_study()
     test_fit()
-    test_example()
+    test_engine()
+    test_engine_errors()
+    test_laws()
+    test_models()
+    test_examples()
     os.chdir("/")
 print("all well" if not failed else f"{failed} failed")
 sys.exit(failed > 0)
