@@ -13,6 +13,14 @@ static const char *const laws[] = {"viscosity/barus", "viscosity/two-slope", "vi
                                    "viscosity/doolittle-tait"};
 enum { LAWS = sizeof laws / sizeof laws[0] };
 
+static bool needs_others(const ff_model *model)
+{
+    for (size_t i = 0; i < model->input_count; i++)
+        if (!(ff_model_input(model, i)->flags & FF_OPTIONAL))
+            return true;
+    return false;
+}
+
 static bool add_law(fit *f, ff_engine *engine, const char *id)
 {
     const ff_loaded *loaded = ff_library_load(ff_engine_library(engine), id, FF_NOWHERE, f->report);
@@ -20,7 +28,7 @@ static bool add_law(fit *f, ff_engine *engine, const char *id)
     ff_instance *instance;
     if (!loaded)
         return false;
-    if (!serves || loaded->model->input_count)
+    if (!serves || needs_others(loaded->model))
         return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s cannot be fitted: it %s%s",
                         id, serves ? "needs other stages" : "offers no service ",
                         serves ? "" : FF_VISCOSITY_ID);
