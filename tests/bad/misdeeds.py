@@ -21,6 +21,7 @@ ENDS = {
     "crash": "crashed during {}: segmentation fault",
     "null-call": "crashed during {}: segmentation fault",
     "abort": "crashed during {}: abort",
+    "complain": "crashed during {}: abort",
     "divide": "crashed during {}: arithmetic fault",
     "overflow": "crashed during {}: segmentation fault",
     "trap": "crashed during {}: a floating-point trap that it switched on",
@@ -107,7 +108,7 @@ def ends_in_json(role, place, what):
     except (ValueError, IndexError):
         message, good = "", False
     good = good and done.returncode == 3 and all(words in message for words in said)
-    hold(misdeed, good and done.stderr == f"error: {message}\n", f"{done.returncode}: {done.stdout} {done.stderr}")
+    hold(misdeed, good and done.stderr.endswith(f"error: {message}\n"), f"{done.returncode}: {done.stdout} {done.stderr}")
 
 
 def ends_in_words(role, place, what):

@@ -213,9 +213,21 @@ int study_worker_read(study_worker *worker)
     return worker->line[worker->length - 1] == '\n';
 }
 
+/* The first line that says "error: ", without that, or the first of all: libraries may have written
+   before the program did. */
+static char *pick_line(const char *text)
+{
+    static const char mark[] = "error: ";
+    const char *line = text;
+    while (line && strncmp(line, mark, sizeof mark - 1) != 0)
+        line = (line = strchr(line, '\n')) ? line + 1 : NULL;
+    line = line ? line + sizeof mark - 1 : text;
+    return memory_copy_text(line, strcspn(line, "\n"));
+}
+
 char *study_worker_reap(study_worker *worker)
 {
-    char tail[600] = "";
+    char tail[2400] = "";
     int status = 0;
     off_t end = lseek(worker->captured, 0, SEEK_END);
     off_t begin = end > (off_t)sizeof tail - 1 ? end - (off_t)sizeof tail + 1 : 0;
@@ -223,12 +235,10 @@ char *study_worker_reap(study_worker *worker)
         ;
     ssize_t length = pread(worker->captured, tail, sizeof tail - 1, begin);
     tail[length > 0 ? length : 0] = '\0';
-    tail[strcspn(tail, "\n")] = '\0';
     close_files(worker);
     worker->pid = 0;
-    const char *text = !strncmp(tail, "error: ", 7) ? tail + 7 : tail;
-    if (*text)
-        return memory_print_text("%s", text);
+    if (*tail)
+        return pick_line(tail);
     return WIFSIGNALED(status)
                ? memory_print_text("the process was ended by signal %d (%s)", WTERMSIG(status),
                                    strsignal(WTERMSIG(status)))

@@ -36,6 +36,10 @@ static void end(const char *what)
         nothing();
     if (!strcmp(what, "abort"))
         abort();
+    if (!strcmp(what, "complain")) {
+        fputs("terminate called after throwing\n  what(): vector\n", stderr);
+        abort();
+    }
     if (!strcmp(what, "divide"))
         zero = 7 / zero;
     if (!strcmp(what, "overflow"))
