@@ -15,7 +15,9 @@ while read -r fault test reason; do
     code=$?
     first=$(printf '%s\n' "$said" | sed -n '/^not ok/ { s/^not ok [0-9]* - //; s/:.*//; p; q; }')
     why=$(printf '%s\n' "$said" | sed -n '/^# faulty: / { s///; p; q; }')
-    if [ "$test" = - ]; then
+    if [ "$test" = all ]; then
+        [ $code -eq 0 ] && ! printf '%s\n' "$said" | grep '^# untried' && continue
+    elif [ "$test" = - ]; then
         [ $code -eq 0 ] && [ -z "$first" ] && continue
     elif [ $code -eq 3 ] && [ "$first" = "$test" ]; then
         case $why in *"$reason"*) continue ;; esac

@@ -79,6 +79,8 @@ int main(void)
     refuse("foreign", good, 3, 14, "named a table that it has not read", "case.yaml", 3);
     refuse("unit", good, 3, 14, "asked for a table that cannot be read: of the column \"level\"",
            "case.yaml", 3);
+    refuse("nowhere", good, 3, 14, "asked for a table that cannot be read: it gave no path",
+           "case.yaml", 3);
     unlink(path);
     return check_done();
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { USED, CELL, REPLACED, IGNORED, FOREIGN, UNIT, LATE };
+enum { USED, CELL, REPLACED, IGNORED, FOREIGN, UNIT, LATE, NOWHERE };
 
 static const ff_param columns[] = {
     {.name = "level",
@@ -27,7 +27,7 @@ static const ff_param params[] = {
      .doc = "what becomes of it",
      .type = FF_CHOICE,
      .preset = "used",
-     .choices = "used|cell|replaced|ignored|foreign|unit|late"},
+     .choices = "used|cell|replaced|ignored|foreign|unit|late|nowhere"},
 };
 
 static const ff_port outputs[] = {
@@ -65,6 +65,8 @@ static ff_status ready(void *self)
 {
     reader *r = self;
     static const ff_table none = {.size = sizeof none};
+    if (r->how == NOWHERE)
+        return ff_table_read(r->host, NULL, NULL, FF_TABLE(columns), &r->table);
     ff_status status = r->how == UNIT
                            ? ff_table_read(r->host, "file", r->path, FF_TABLE(unknown), &r->table)
                            : ff_table_read(r->host, "file", r->path, FF_TABLE(columns), &r->table);
