@@ -157,7 +157,7 @@ int main(void)
     stage_set(oil, "eta0", eta);
     stage_set(density, "rho0", rho);
     ehl_laws laws = {stage_service(oil, FF_VISCOSITY_ID), stage_service(density, FF_DENSITY_ID),
-                     NULL};
+                     NULL, 0};
     test_steady(&laws, 400);
     test_steady(&laws, 1600);
     stage_close(oil);

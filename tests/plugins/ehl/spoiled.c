@@ -176,7 +176,7 @@ int main(void)
     stage_set(rho, "rho0", 917.8);
     stage_set(flow, "tau0", 5e6);
     ehl_laws laws = {stage_service(oil, FF_VISCOSITY_ID), stage_service(rho, FF_DENSITY_ID),
-                     stage_service(flow, FF_RHEOLOGY_ID)};
+                     stage_service(flow, FF_RHEOLOGY_ID), 0};
     make(&s, &laws);
     test_spoiled(&s);
     test_outputs(&s);
