@@ -19,17 +19,15 @@
 /* kind-checks.c: the model conformance/KIND, which says what models of that kind owe. */
 typedef struct verify_kind_checks {
     const ff_conformance *offer;
-    const ff_loaded *loaded;
-    void *self;
-    bool created; /* `self` is to be destroyed */
+    ff_instance *instance;
 } verify_kind_checks;
 
 /* False when there is no such model, or with an error. `offer` lives until it is closed. */
-bool verify_kind_checks_open(verify_kind_checks *checks, ff_library *library, const char *kind,
+bool verify_kind_checks_open(verify_kind_checks *checks, ff_engine *engine, const char *kind,
                              ff_report *report);
 void verify_kind_checks_close(verify_kind_checks *checks);
 /* For each service input of the model a plain law that the law's kind offers; NULL: none. */
-const void **verify_plain_laws(ff_library *library, const ff_loaded *loaded);
+const void **verify_plain_laws(ff_engine *engine, const ff_loaded *loaded);
 
 /* guarded.c: numbers between guard zones, which show a write outside. */
 typedef struct verify_guarded {
@@ -98,7 +96,7 @@ typedef struct verify_context {
 } verify_context;
 
 /* `loaded` and `outcome` are set. */
-void verify_context_begin(verify_context *context, ff_library *library);
+void verify_context_begin(verify_context *context, ff_engine *engine);
 void verify_watch(verify_context *context);
 /* Fails when the process is not as it was, which the step at hand has done. */
 void verify_check_process(verify_context *context);

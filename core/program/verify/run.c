@@ -64,7 +64,7 @@ static const test any_model[] = {
 typedef struct session {
     const verify_request *request;
     char *root, *id;
-    ff_library *library;
+    ff_engine *engine;
     void (*tell)(void *ctx, size_t number, const verify_result *result);
     void *ctx;
     size_t number;
@@ -132,14 +132,15 @@ static void run_watched(verify_context *context, const test *t, bool watching)
     verify_check_process(context);
 }
 
-static void try_model(verify_context *context, const session *s, ff_library *library, const test *t)
+static void try_model(verify_context *context, const session *s, ff_engine *engine, const test *t)
 {
     const verify_request *request = s->request;
     bool inputs = t->matter == ITS_KIND || t->concern >= WITH_DATA;
-    verify_context_begin(context, library);
+    verify_context_begin(context, engine);
     if (!concerns(t, context->model))
         context->outcome->finding = VERIFY_SKIPPED;
-    else if (request->pipeline && !take_user_run(context, request, library, inputs))
+    else if (request->pipeline &&
+             !take_user_run(context, request, ff_engine_library(engine), inputs))
         return;
     else
         run_watched(context, t, inputs || t->run == verify_test_environment);
@@ -171,13 +172,13 @@ static void run_destructors(verify_context *context)
 static _Noreturn void child(const session *s, const test *t, verify_outcome *outcome)
 {
     verify_context context = {.outcome = outcome};
-    ff_library *library = ff_engine_library(open_engine(s->root));
+    ff_engine *engine = open_engine(s->root);
     verify_step(&context, "loading");
     verify_watch(&context);
-    bool loaded = load(&context, library, s->id);
+    bool loaded = load(&context, ff_engine_library(engine), s->id);
     verify_check_process(&context);
     if (loaded && t->matter != LOADING)
-        try_model(&context, s, library, t);
+        try_model(&context, s, engine, t);
     fflush(stdout);
     outcome->finished = true;
     if (t->matter == LOADING)
@@ -300,7 +301,7 @@ static void try_kind(session *s)
     ff_report *report = ff_report_new();
     char *kind = memory_copy_text(s->id, strcspn(s->id, "/"));
     verify_kind_checks checks;
-    bool known = verify_kind_checks_open(&checks, s->library, kind, report);
+    bool known = verify_kind_checks_open(&checks, s->engine, kind, report);
     for (size_t i = 0; known && i < checks.offer->check_count; i++) {
         size_t offset = i * checks.offer->check_stride;
         const ff_check *check = (const void *)((const char *)checks.offer->checks + offset);
@@ -339,14 +340,13 @@ bool verify_plugin(const verify_request *request,
                         request->path);
     setenv("OPENBLAS_NUM_THREADS", "1", 1); /* a thread that stays is then the model's own */
     setenv("OMP_NUM_THREADS", "1", 1);
-    ff_engine *engine = open_engine(s.root);
-    s.library = ff_engine_library(engine);
+    s.engine = open_engine(s.root);
     if (try(&s, &descriptor) && try(&s, &pipeline)) {
         for (size_t i = 0; i < sizeof any_model / sizeof *any_model; i++)
             try(&s, &any_model[i]);
         try_kind(&s);
     }
-    ff_engine_close(engine);
+    ff_engine_close(s.engine);
     free(s.root);
     free(s.id);
     return s.good;
