@@ -1,7 +1,7 @@
 #!/bin/sh
 # The installed tree is whole without the build: moved elsewhere, read-only, for a user who owns nothing
 # and has an empty environment. The examples of docs/library.md compile against it in C and C++ and print what
-# the program prints; a third party's law is built, verified and run.
+# the program prints, and so does Python; a third party's law is built, verified and run.
 # installed.sh BUILD_DIRECTORY SOURCE_ROOT PREFIX
 set -eu
 build=$1 source=$2 prefix=$3
@@ -64,6 +64,18 @@ lowest=$(stranger "$program" run "$seed" --set 'outputs=[film.h_min]' --json | t
     grep -o '"data":\[[^]]*\]' | tr -d '"dat:[]' | tr , '\n' |
     awk 'NR == 1 || $1 < least { least = $1 } END { printf "%.6g", least }')
 grep -qx "lowest film of the gears $lowest m" "$lab/from-c" || { echo "the program says $lowest" && exit 1; }
+
+# Python sees the engine's own memory, and the same film
+/usr/bin/python3 -c 'import numpy' 2>/dev/null || { echo "needs NumPy" && exit 77; }
+stranger env PYTHONPATH="$lab/moved/share/flankfilm/configs/python" FLANKFILM="$program" /usr/bin/python3 -c '
+import sys
+import numpy as np
+import flankfilm
+run = flankfilm.Engine().run(sys.argv[1], {"outputs": ["film.pressure", "film.h_min"]})
+film, again = (run["film.pressure"].data for _ in range(2))
+assert np.shares_memory(film, again) and film.shape == (1001, 513), film.shape
+print("lowest film of the gears %.6g m" % run["film.h_min"].data.min())' "$seed" >"$lab/from-python"
+tail -n 1 "$lab/from-c" | diff - "$lab/from-python"
 
 # a law of others
 flags=$(env -i PATH=/usr/bin:/bin PKG_CONFIG_PATH="$pc" pkg-config --cflags flankfilm)
