@@ -47,7 +47,8 @@ typedef struct ff_film_contact {
     int32_t order;      /* of the wedge term u d(rho h)/dx that is asked for: 1 or 2 */
     int32_t conserving; /* 1: where p = 0 the share content/(rho h) of the gap is filled, and moves
                            with the oil; 0: nothing is asked of the oil there */
-    const ff_viscosity *viscosity; /* the laws are called with T = NULL */
+    /* The laws answer at the temperature of the run when they are called with T = NULL. */
+    const ff_viscosity *viscosity;
     const ff_density *density;
     const ff_rheology *rheology; /* NULL: Newtonian, psi = 1/eta */
 } ff_film_contact;
