@@ -179,7 +179,10 @@ static void services(void)
     check_true("a wire in place of parameters", ff_instance_run(user, "gain absent") == FF_OK);
     check_near("gives the gain", scalar(user, "gain"), 3, 0);
     check_near("and all of them", scalar(user, "absent"), 4, 0);
+    ff_instance *other = open_model("toy/law"); /* takes the memory of the law that ends */
+    ff_instance_set(other, "gain", "9");
     ff_instance_set(law, "gain", "4");
+    ff_instance_ready(other);
     check_true("another law", ff_instance_run(user, "gain") == FF_OK);
     check_near("reaches its user", scalar(user, "gain"), 4, 0);
     ff_instance_set(user, "gain", "1");
@@ -191,6 +194,7 @@ static void services(void)
     check_true("a call", ff_instance_call(law, "its test", fail, &good) == FF_OK);
     check_true("that fails",
                ff_instance_call(law, "its test", fail, &bug) == FF_BUG && says("during its test"));
+    ff_instance_close(other);
     ff_instance_close(law);
     ff_instance_close(user);
 }
