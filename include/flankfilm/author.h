@@ -164,22 +164,22 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, int i)
     .self_size = sizeof(type), .create = maker
 
 /*
- * The same for laws, with laws.h: models that offer one service and nothing else. The instance has
- * a member `service` beside `host`; create fills it with the functions.
+ * The same for models that offer one service and nothing else. The instance has a member `service`
+ * beside `host`, which create fills with `table`. Laws, with laws.h:
  *
  *   FF_VISCOSITY_LAW(barus_law, barus, eval, .id = "viscosity/barus", ..., .cost = 1e-3);
  */
 #define FF_VISCOSITY_LAW(name, type, eval, ...)                                                    \
-    FF_LAW(name, type, "viscosity", FF_VISCOSITY_ID, "the viscosity law",                          \
-           ((ff_viscosity){sizeof(ff_viscosity), NULL, eval}), __VA_ARGS__)
+    FF_SERVICE_MODEL(name, type, "viscosity", FF_VISCOSITY_ID, "the viscosity law",                \
+                     ((ff_viscosity){sizeof(ff_viscosity), NULL, eval}), __VA_ARGS__)
 #define FF_DENSITY_LAW(name, type, eval, ...)                                                      \
-    FF_LAW(name, type, "density", FF_DENSITY_ID, "the law",                                        \
-           ((ff_density){sizeof(ff_density), NULL, eval}), __VA_ARGS__)
+    FF_SERVICE_MODEL(name, type, "density", FF_DENSITY_ID, "the law",                              \
+                     ((ff_density){sizeof(ff_density), NULL, eval}), __VA_ARGS__)
 #define FF_RHEOLOGY_LAW(name, type, flow, shear, ...)                                              \
-    FF_LAW(name, type, "rheology", FF_RHEOLOGY_ID, "the law",                                      \
-           ((ff_rheology){sizeof(ff_rheology), NULL, flow, shear}), __VA_ARGS__)
+    FF_SERVICE_MODEL(name, type, "rheology", FF_RHEOLOGY_ID, "the law",                            \
+                     ((ff_rheology){sizeof(ff_rheology), NULL, flow, shear}), __VA_ARGS__)
 
-#define FF_LAW(name, type, output, id, doc, table, ...)                                            \
+#define FF_SERVICE_MODEL(name, type, output, id, doc, table, ...)                                  \
     static ff_status name##_create(const ff_host *host, void **self)                               \
     {                                                                                              \
         type *ff_self = calloc(1, sizeof *ff_self);                                                \

@@ -83,16 +83,5 @@ static const ff_check checks[] = {
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
-const ff_model conformance_model = {
-    .size = sizeof conformance_model,
-    .abi_major = FF_ABI_MAJOR,
-    .id = "conformance/contact",
-    .version = "1.0.0",
-    .summary = "what a contact history keeps: kinematics and Hertz",
-    .reference = "Hertz 1881; Johnson 1985, Contact Mechanics",
-    .bibtex = "",
-    .licence = "GPL-3.0-or-later",
-    .outputs = FF_TABLE(conformance_outputs),
-    .create = conformance_create,
-    .service = conformance_service,
-};
+CONFORMANCE_MODEL("contact", "what a contact history keeps: kinematics and Hertz",
+                  "Hertz 1881; Johnson 1985, Contact Mechanics");

@@ -3,7 +3,7 @@
 #include "law-checks.h"
 #include "offer.h"
 
-#include <flankfilm/density.h>
+#include <flankfilm/laws.h>
 
 static ff_status density(const void *table, size_t n, const double *const *in, double speed,
                          double *const *out)
@@ -40,16 +40,6 @@ const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .service = FF_DENSITY_ID,
                                           .plain = &liquid};
 
-const ff_model conformance_model = {
-    .size = sizeof conformance_model,
-    .abi_major = FF_ABI_MAJOR,
-    .id = "conformance/density",
-    .version = "1.0.0",
-    .summary = "what a density law keeps: finite, pure, positive, never falling with pressure",
-    .reference = "",
-    .bibtex = "",
-    .licence = "GPL-3.0-or-later",
-    .outputs = FF_TABLE(conformance_outputs),
-    .create = conformance_create,
-    .service = conformance_service,
-};
+CONFORMANCE_MODEL("density",
+                  "what a density law keeps: finite, pure, positive, never falling with pressure",
+                  "");

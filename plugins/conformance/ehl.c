@@ -4,8 +4,7 @@
 #include "evaluation.h"
 #include "offer.h"
 
-#include <flankfilm/density.h>
-#include <flankfilm/viscosity.h>
+#include <flankfilm/laws.h>
 
 #include <math.h>
 
@@ -233,16 +232,6 @@ static const ff_check checks[] = {
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
-const ff_model conformance_model = {
-    .size = sizeof conformance_model,
-    .abi_major = FF_ABI_MAJOR,
-    .id = "conformance/ehl",
-    .version = "1.0.0",
-    .summary = "what a film solution keeps: balance of load and mass, exact and published films",
-    .reference = "Martin 1916, Engineering 102; Moes 2000, Lubrication and Beyond",
-    .bibtex = "",
-    .licence = "GPL-3.0-or-later",
-    .outputs = FF_TABLE(conformance_outputs),
-    .create = conformance_create,
-    .service = conformance_service,
-};
+CONFORMANCE_MODEL("ehl",
+                  "what a film solution keeps: balance of load and mass, exact and published films",
+                  "Martin 1916, Engineering 102; Moes 2000, Lubrication and Beyond");

@@ -87,16 +87,4 @@ static const ff_check checks[] = {
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
-const ff_model conformance_model = {
-    .size = sizeof conformance_model,
-    .abi_major = FF_ABI_MAJOR,
-    .id = "conformance/gear",
-    .version = "1.0.0",
-    .summary = "what a gear pair keeps: the identities of involutes",
-    .reference = "DIN 3960:1987",
-    .bibtex = "",
-    .licence = "GPL-3.0-or-later",
-    .outputs = FF_TABLE(conformance_outputs),
-    .create = conformance_create,
-    .service = conformance_service,
-};
+CONFORMANCE_MODEL("gear", "what a gear pair keeps: the identities of involutes", "DIN 3960:1987");

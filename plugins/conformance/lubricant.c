@@ -123,16 +123,6 @@ const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .service = FF_LIQUID_ID,
                                           .plain = &plain};
 
-const ff_model conformance_model = {
-    .size = sizeof conformance_model,
-    .abi_major = FF_ABI_MAJOR,
-    .id = "conformance/lubricant",
-    .version = "1.0.0",
-    .summary = "what an oil keeps: finite, pure, positive, a viscosity that falls with temperature",
-    .reference = "",
-    .bibtex = "",
-    .licence = "GPL-3.0-or-later",
-    .outputs = FF_TABLE(conformance_outputs),
-    .create = conformance_create,
-    .service = conformance_service,
-};
+CONFORMANCE_MODEL(
+    "lubricant",
+    "what an oil keeps: finite, pure, positive, a viscosity that falls with temperature", "");

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What every plugin of this kind has alike. It defines the two below, and is built with offer.c. */
+/* What every plugin of this kind has alike. It defines conformance_offer and, by the macro, its
+   descriptor, and is built with offer.c. */
 #ifndef OFFER_H
 #define OFFER_H
 
+#include <flankfilm/author.h>
 #include <flankfilm/conformance.h>
 
 extern const ff_conformance conformance_offer;
@@ -11,5 +13,18 @@ extern const ff_model conformance_model;
 extern const ff_port conformance_outputs[1];
 ff_status conformance_create(const ff_host *host, void **self);
 const void *conformance_service(void *self, uint32_t output);
+
+#define CONFORMANCE_MODEL(kind, text, literature)                                                  \
+    const ff_model conformance_model = {.size = sizeof(ff_model),                                  \
+                                        .abi_major = FF_ABI_MAJOR,                                 \
+                                        .id = "conformance/" kind,                                 \
+                                        .version = "1.0.0",                                        \
+                                        .summary = text,                                           \
+                                        .reference = literature,                                   \
+                                        .bibtex = "",                                              \
+                                        .licence = "GPL-3.0-or-later",                             \
+                                        .outputs = FF_TABLE(conformance_outputs),                  \
+                                        .create = conformance_create,                              \
+                                        .service = conformance_service}
 
 #endif

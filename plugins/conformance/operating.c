@@ -33,16 +33,5 @@ static const ff_check checks[] = {
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks)};
 
-const ff_model conformance_model = {
-    .size = sizeof conformance_model,
-    .abi_major = FF_ABI_MAJOR,
-    .id = "conformance/operating",
-    .version = "1.0.0",
-    .summary = "what an operating point keeps: speed and torque carried to the mesh",
-    .reference = "",
-    .bibtex = "",
-    .licence = "GPL-3.0-or-later",
-    .outputs = FF_TABLE(conformance_outputs),
-    .create = conformance_create,
-    .service = conformance_service,
-};
+CONFORMANCE_MODEL("operating",
+                  "what an operating point keeps: speed and torque carried to the mesh", "");

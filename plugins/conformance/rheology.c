@@ -4,7 +4,7 @@
 #include "law-checks.h"
 #include "offer.h"
 
-#include <flankfilm/rheology.h>
+#include <flankfilm/laws.h>
 
 #include <math.h>
 
@@ -130,16 +130,6 @@ const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .service = FF_RHEOLOGY_ID,
                                           .plain = &newtonian_liquid};
 
-const ff_model conformance_model = {
-    .size = sizeof conformance_model,
-    .abi_major = FF_ABI_MAJOR,
-    .id = "conformance/rheology",
-    .version = "1.0.0",
-    .summary = "what a rheology keeps: finite, pure, shear-thinning, odd in the sliding speed",
-    .reference = "",
-    .bibtex = "",
-    .licence = "GPL-3.0-or-later",
-    .outputs = FF_TABLE(conformance_outputs),
-    .create = conformance_create,
-    .service = conformance_service,
-};
+CONFORMANCE_MODEL("rheology",
+                  "what a rheology keeps: finite, pure, shear-thinning, odd in the sliding speed",
+                  "");

@@ -3,7 +3,7 @@
 #include "law-checks.h"
 #include "offer.h"
 
-#include <flankfilm/viscosity.h>
+#include <flankfilm/laws.h>
 
 static ff_status viscosity(const void *table, size_t n, const double *const *in, double speed,
                            double *const *out)
@@ -39,16 +39,5 @@ const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .service = FF_VISCOSITY_ID,
                                           .plain = &oil};
 
-const ff_model conformance_model = {
-    .size = sizeof conformance_model,
-    .abi_major = FF_ABI_MAJOR,
-    .id = "conformance/viscosity",
-    .version = "1.0.0",
-    .summary = "what a viscosity law keeps: finite, pure, never falling with pressure",
-    .reference = "",
-    .bibtex = "",
-    .licence = "GPL-3.0-or-later",
-    .outputs = FF_TABLE(conformance_outputs),
-    .create = conformance_create,
-    .service = conformance_service,
-};
+CONFORMANCE_MODEL("viscosity",
+                  "what a viscosity law keeps: finite, pure, never falling with pressure", "");

@@ -6,7 +6,7 @@
 #ifndef CONTACT_HISTORY_H
 #define CONTACT_HISTORY_H
 
-#include <flankfilm/viscosity.h>
+#include <flankfilm/laws.h>
 
 #include <stdbool.h>
 

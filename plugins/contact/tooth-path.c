@@ -4,7 +4,7 @@
 #include "../numerics/isothermal.h"
 
 #include <flankfilm/author.h>
-#include <flankfilm/viscosity.h>
+#include <flankfilm/laws.h>
 
 #include <math.h>
 #include <stdlib.h>

@@ -197,52 +197,10 @@ static ff_status run(void *self, const ff_tasks *tasks)
     return status;
 }
 
-static ff_status create(const ff_host *host, void **self)
-{
-    farm *f = calloc(1, sizeof *f);
-    if (!f)
-        return FF_NOMEM;
-    f->host = host;
-    f->service = (ff_executor){.size = sizeof f->service, .self = f, .run = run};
-    *self = f;
-    return FF_OK;
-}
-
-static const void *service(void *self, uint32_t output)
-{
-    farm *f = self;
-    (void)output;
-    return &f->service;
-}
-
-static void destroy(void *self)
-{
-    free(self);
-}
-
-static const ff_port outputs[] = {
-    {.name = "executor", .unit = "", .doc = "a task farm over MPI", .service = FF_EXECUTOR_ID},
-};
-
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = 0,
-    .id = "executor/mpi",
+FF_SERVICE_MODEL(
+    executor_mpi, farm, "executor", FF_EXECUTOR_ID, "a task farm over MPI",
+    ((ff_executor){.size = sizeof(ff_executor), .run = run}), .id = "executor/mpi",
     .version = "1.0.0",
     .summary = "the ranks of an MPI job: mpirun -n 4 flankfilm run FILE --executor mpi",
-    .reference = "",
-    .bibtex = "",
-    .licence = "GPL-3.0-or-later",
-    .params = FF_NO_TABLE,
-    .inputs = FF_NO_TABLE,
-    .outputs = FF_TABLE(outputs),
-    .create = create,
-    .service = service,
-    .destroy = destroy,
-};
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+    .reference = "", .bibtex = "", .licence = "GPL-3.0-or-later");
+FF_EXPORT_MODELS(&executor_mpi);

@@ -1,7 +1,7 @@
 /* @ID@: the least film of a line contact, h_min/R = 2.65 U^0.7 G^0.54 W^-0.13 (Dowson 1968); write
    your film into `evaluate`. */
 #include <flankfilm/author.h>
-#include <flankfilm/viscosity.h>
+#include <flankfilm/laws.h>
 
 #include <math.h>
 #include <stdlib.h>

@@ -9,6 +9,7 @@
 #include "define.h"
 #include "file.h"
 #include "origin.h"
+#include "references.h"
 #include "status.h"
 
 #include <H5public.h>
@@ -145,40 +146,23 @@ static const void *service(void *self, uint32_t output)
     return &((const writer *)self)->table;
 }
 
-static void destroy(void *self)
-{
-    free(self);
-}
-
 static const ff_port outputs[] = {{.name = "writer",
                                    .unit = "",
                                    .doc = "makes files of the results of a run or a study",
                                    .dims = "",
                                    .service = FF_WRITER_ID}};
 
-static const ff_model model = {
-    .size = sizeof(ff_model),
-    .abi_major = FF_ABI_MAJOR,
-    .abi_minor = 0,
+const ff_model writer_netcdf = {
+    FF_HEAD(writer, create),
     .id = "writer/netcdf",
     .version = "1.0.0",
     .summary = "results as one NetCDF-4 file with the attributes of the CF conventions",
     .reference = "Rew, Davis 1990, IEEE Comput. Graph. Appl. 10, 76-82",
-    .bibtex =
-        "@article{RewDavis1990, author={Rew, R. and Davis, G.}, title={{NetCDF}: an interface "
-        "for scientific data access}, journal={IEEE Computer Graphics and Applications}, "
-        "volume={10}, number={4}, pages={76--82}, year={1990}}",
+    .bibtex = BIB_RewDavis1990,
     .licence = "GPL-3.0-or-later",
     .flags = FF_SERIAL, /* the library keeps its open files in global tables */
-    .params = FF_NO_TABLE,
-    .inputs = FF_NO_TABLE,
     .outputs = FF_TABLE(outputs),
-    .create = create,
     .service = service,
-    .destroy = destroy,
+    .destroy = free,
 };
-
-const ff_model *flankfilm_model_v1(void)
-{
-    return &model;
-}
+FF_EXPORT_MODELS(&writer_netcdf);
