@@ -288,12 +288,12 @@ static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_a
     return FF_OK;
 }
 
-FF_MODEL(
-    dynamics_quasi_static, model, .id = "dynamics/quasi-static", .version = "1.0.0",
-    .summary = "no dynamics: the gears stand still in every mesh position",
-    .reference = "Li & Kahraman 2011, Influence of dynamic behaviour on elastohydrodynamic "
-                 "lubrication of spur gears, Proc. IMechE J 225, 740-753, eq. 2 without inertia",
-    .bibtex = BIB_likahraman2011 "\n", .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
-    .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free,
-    .assess = assess);
+FF_MODEL(dynamics_quasi_static, model, .id = "dynamics/quasi-static", .version = "1.0.0",
+         .summary = "no dynamics: the gears stand still in every mesh position",
+         .reference =
+             "Li & Kahraman 2011, Influence of dynamic behaviour on elastohydrodynamic "
+             "lubrication of spur gears, Proc. IMechE J 225, 740-753, eq. 2 without inertia",
+         .bibtex = BIB_likahraman2011 "\n", .licence = "GPL-3.0-or-later",
+         .params = FF_TABLE(params), .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs),
+         .evaluate = evaluate, .destroy = free, .assess = assess);
 FF_EXPORT_MODELS(&dynamics_quasi_static);
