@@ -11,8 +11,9 @@ static void destroy(void *of)
 {
     fe_instance *instance = of;
     const ff_stage *stage = instance->stage;
-    const ff_model *model = stage->loaded->model;
-    if (instance->created && model->destroy) {
+    /* a stage that nothing needs has no model */
+    const ff_model *model = instance->created ? stage->loaded->model : NULL;
+    if (model && model->destroy) {
         fe_serial_enter(model);
         ff_guard_mark previous = fe_enter_model(stage, "destroy");
         model->destroy(instance->self);
