@@ -19,8 +19,9 @@
  * Compile and link with `pkg-config --cflags --libs libflankfilm`. docs/library.md is the guide.
  *
  * Manners: it never prints, exits, forks or changes the locale, the working directory, the
- * floating-point environment or the signal handlers of its process. It has no global state. A model
- * is code of others in this process: one that crashes takes the process along.
+ * floating-point environment or the signal handlers of its process. All that it keeps belongs to an
+ * engine, but for one lock of the process. A model is code of others in this process: one that
+ * crashes takes the process along.
  *
  * Numbers are coherent SI with angles in rad; texts are UTF-8. Growing structs that a caller fills
  * in begin with `size`; those that the library fills in grow at their end.
@@ -83,7 +84,7 @@ typedef struct ff_engine_options {
 ff_status ff_engine_new(const ff_engine_options *options, ff_engine **engine);
 void ff_engine_close(ff_engine *engine); /* NULL is nothing */
 
-/* The errors and warnings of the last call of the engine or of one of its runs, each as
+/* The errors and warnings of the last call of the engine, its runs and its instances, each as
    "FILE:LINE:COLUMN: error: SENTENCE", the line with a caret, and a hint; "" without any. Lives
    until the next of these calls. */
 const char *ff_engine_message(const ff_engine *engine);
@@ -575,32 +576,7 @@ typedef struct ff_feedback {
     double relaxation; /* share of that change which the next round takes; 1: all of it */
 } ff_feedback;
 
-/* A model that a stage could use, and what it says of itself. */
-typedef struct ff_candidate {
-    ff_stage *stage; /* with this model in it; its name and place are the stage's */
-    bool fits;       /* it can be set up, and gives what is needed */
-    bool assessed;   /* the numbers are there */
-    int applies;     /* FF_APPLIES ... */
-    double error, cost;
-    char *reason;    /* the model's own, or what keeps it out */
-    char *proposals; /* "cells: 256, steps: auto", or "" */
-    double judged;   /* the part of the error that the judge of a law adds; 0: none */
-    char *verdict;   /* the reason of that judge; NULL: none */
-} ff_candidate;
-
-/* A stage whose model is chosen at run time, for an accuracy. */
-typedef struct ff_choice {
-    const char *use; /* as written: KIND/auto, or the one model that is tuned */
-    double accuracy;
-    bool refine; /* settings of the file may change, and the best model is taken whatever its error
-                  */
-    ff_candidate *candidates;
-    size_t count;
-    const ff_candidate *chosen; /* NULL: not yet, or none does */
-    /* Of laws, which offer services: the stages that they serve judge them against a reference. */
-    bool serves;
-    const ff_candidate *reference; /* NULL: not known yet, or the candidates serve none */
-} ff_choice;
+typedef struct ff_choice ff_choice;
 
 struct ff_stage {
     char *name;
@@ -657,11 +633,6 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool ev
    the results so far stay readable. */
 bool ff_pipeline_run(ff_pipeline *pipeline, const ff_observer *observer, ff_report *report);
 
-/* True for KIND/auto, which leaves the model to be chosen. */
-bool ff_names_kind_only(const char *use);
-/* Makes the choices, and runs the stages that they depend on alone. True without any choice. */
-bool ff_pipeline_choose(ff_pipeline *pipeline, const ff_observer *observer, ff_report *report);
-
 /* The stage of "stage.name"; NULL: there is none. *name: what stands behind the dot, or "". */
 ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char **name);
 /* The result that feeds input row `input`; NULL: not connected, or a service. */
@@ -689,14 +660,47 @@ const char *const *ff_file_keys(void);
 
 void ff_pipeline_free(ff_pipeline *pipeline);
 
-/*
- * Going: what follows is left out as soon as an instance of one model can take its place.
- */
-
 /* All messages of the last call of the instance, and its model, parameters and times, as those of a
    stage in a pipeline. */
 const ff_report *ff_instance_report(const ff_instance *instance);
 const ff_stage *ff_instance_stage(const ff_instance *instance);
+
+/* Going: the choice of models, which becomes the work of the program alone. */
+
+/* A model that a stage could use, and what it says of itself. */
+typedef struct ff_candidate {
+    ff_stage *stage; /* with this model in it; its name and place are the stage's */
+    bool fits;       /* it can be set up, and gives what is needed */
+    bool assessed;   /* the numbers are there */
+    int applies;     /* FF_APPLIES ... */
+    double error, cost;
+    char *reason;    /* the model's own, or what keeps it out */
+    char *proposals; /* "cells: 256, steps: auto", or "" */
+    double judged;   /* the part of the error that the judge of a law adds; 0: none */
+    char *verdict;   /* the reason of that judge; NULL: none */
+} ff_candidate;
+
+/* A stage whose model is chosen at run time, for an accuracy. */
+struct ff_choice {
+    const char *use; /* as written: KIND/auto, or the one model that is tuned */
+    double accuracy;
+    bool refine; /* settings of the file may change, and the best model is taken whatever its error
+                  */
+    ff_candidate *candidates;
+    size_t count;
+    const ff_candidate *chosen; /* NULL: not yet, or none does */
+    /* Of laws, which offer services: the stages that they serve judge them against a reference. */
+    bool serves;
+    const ff_candidate *reference; /* NULL: not known yet, or the candidates serve none */
+};
+
+/* True for KIND/auto, which leaves the model to be chosen. */
+bool ff_names_kind_only(const char *use);
+/* Makes the choices, and runs the stages that they depend on alone. True without any choice. */
+bool ff_pipeline_choose(ff_pipeline *pipeline, const ff_observer *observer, ff_report *report);
+
+/* For `flankfilm verify`, which calls a model by itself to see what it does, and for handlers of
+   crashes. */
 
 /* The tables that one instance of a model reads through flankfilm.table/1. Starts zeroed. */
 typedef struct ff_tables {
