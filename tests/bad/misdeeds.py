@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Whatever a plugin does, the program ends with a sentence that names it, and never as if all was well.
 
-   misdeeds.py FLANKFILM BAD_PLUGINS
+   misdeeds.py FLANKFILM BAD_PLUGINS [watched]
 """
 import json
 import os
@@ -71,6 +71,9 @@ outputs: [point.ln_eta]
 """
 STUDY = CASE + "study: {sweep: {oil.alpha: [10 1/GPa, 20 1/GPa]}}\n"
 
+watched = sys.argv[3:] == ["watched"]  # by a sanitizer, whose own ends of a thread and of a process differ
+if watched:
+    del ENDS["thread-exit"]
 failures = []
 tried = 0
 
@@ -169,8 +172,7 @@ for role, places in PLACES.items():
         ends_in_words(role, place, "_exit")
 for role, place in ("law", "eval"), ("stage", "evaluate"):
     for what in ENDS:
-        if what != "thread-exit":  # under a sanitizer a worker without its first thread goes on
-            ends_in_a_study(role, place, what)
+        ends_in_a_study(role, place, what)
 for role, places in PLACES.items():
     for place in places:
         is_kept_from_the_answer(role, place, "print")
@@ -187,7 +189,8 @@ for role, places in PLACES.items():
 is_verified("law", "eval", "limit", "changed a resource limit while calling eval")
 is_verified("law", "constructor", "_exit", "ended the program while loading")
 is_verified("law", "eval", "execl", "ended the program while calling eval")
-is_verified("law", "destructor", "crash", "crashed while running its destructors")
+if not watched:
+    is_verified("law", "destructor", "crash", "crashed while running its destructors")
 
 # destructors of an object do not run in the program: all is written by then
 hold("destructor", run("law destructor crash", "run", "case.yaml", "--json").returncode == 0, "it fails")
