@@ -10,7 +10,7 @@ if [ "${1:-}" = test ]; then
     packages="$packages check libsubunit-dev libudunits2-dev openmpi-bin libopenmpi-dev
               slurmctld slurmd slurm-client munge"
     # plugins in other languages; man page and completion
-    packages="$packages g++ gfortran mandoc groff-base fish"
+    packages="$packages g++ gfortran rustc mandoc groff-base fish"
     # counts of instructions
     packages="$packages valgrind"
     # the schema of editors

@@ -4,7 +4,7 @@
 # third-party.sh BUILD_DIRECTORY SOURCE_ROOT PREFIX
 set -eu
 build=$1 source=$2 prefix=$3
-for tool in g++ gfortran; do
+for tool in g++ gfortran rustc; do
     command -v $tool >/dev/null || { echo "needs $tool" && exit 77; }
 done
 lab=$(mktemp -d)
@@ -53,11 +53,7 @@ cp -r "$source/tests/third-party/penalty" "$lab/labs/subprojects/discretisation"
 works "$lab/labs"
 mkdir -p "$lab/more/subprojects" # further laws of the same kinds
 cp -r "$source/tests/third-party/mcewen" "$lab/more/subprojects/viscosity"
-if command -v rustc >/dev/null; then
-    cp -r "$source/tests/third-party/murnaghan" "$lab/more/subprojects/density"
-else
-    echo "density/murnaghan: not tried, there is no rustc"
-fi
+cp -r "$source/tests/third-party/murnaghan" "$lab/more/subprojects/density"
 works "$lab/more"
 
 # 5P4E is the same oil by the law from outside and by the card, whose laws share eta0 and alpha*

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 //! Density of Murnaghan 1944 (Proc. Natl. Acad. Sci. 30, 244-247), rho = rho0 (1 + K' p/K)^(1/K'), in
 //! Rust without a crate. The structs are those of flankfilm/plugin.h 1.0; no panic leaves a function.
-use std::ffi::{c_char, c_void};
+use std::os::raw::{c_char, c_void};
 use std::mem::size_of;
 use std::ptr::{null, null_mut};
 use std::slice::{from_raw_parts, from_raw_parts_mut};
