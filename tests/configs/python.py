@@ -209,6 +209,7 @@ def test_models():
     fewer = gear.run("contact_ratio")["contact_ratio"]
     check("set anew", float(fewer) < float(out["contact_ratio"]))
     duty = engine.model("operating/steady", {"torque": 250.0, "speed": "1500 rpm"}, {"gear": gear})
+    check("wanted outputs are named", raised(gear.run, "name the outputs"))
     check("wired to another", np.isclose(float(duty.run("mesh_frequency")["mesh_frequency"]), 1500 / 60 * 20))
 
 

@@ -249,7 +249,8 @@ class Run(Mapping):
 
 
 class Model:
-    """One model by hand. Texts are read as in a file, "3 mm"; numbers and arrays are SI."""
+    """One model by hand. Texts are read as in a file, "3 mm"; numbers and arrays are SI. `warnings` is
+    what the last call said beside its answer."""
 
     def __init__(self, engine, name):
         self._of, self._library, self.name = engine, engine._library, name
@@ -262,6 +263,7 @@ class Model:
 
     def _hold(self, status):
         self._of._hold(status)
+        self.warnings = _words(self._library.ff_engine_message(self._of._engine))
 
     def set(self, parameters):
         for name, value in parameters.items():
@@ -290,6 +292,8 @@ class Model:
 
     def run(self, *outputs):
         """Runs what feeds the model and then the model: a dictionary of Arrays, which are copies."""
+        if not outputs:
+            raise Error(f"{self.name}: name the outputs that are wanted", 2)
         self._hold(self._library.ff_instance_run(self._model, " ".join(outputs).encode()))
         results = {}
         for name in outputs:
@@ -386,7 +390,8 @@ class _FlowLaw(_Law):
 class _Liquid(_Law):
     """liquid("rho0", T): a property over temperature, NaN where the data do not tell it."""
 
-    PROPERTIES = ("ln_eta0", "rho0", "conductivity", "heat_capacity", "pressure_coefficient")
+    PROPERTIES = ("ln_eta0", "rho0", "conductivity", "heat_capacity", "pressure_coefficient",
+                  "reference_temperature")
 
     def __init__(self, model):
         super().__init__(model, b"flankfilm.liquid/1",
