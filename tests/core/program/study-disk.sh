@@ -21,7 +21,7 @@ mkdir -p "$lab/plugins/toy" "$lab/disk"
 for toy; do
     cp "$toy" "$lab/plugins/toy/${toy##*/cli-toy-}"
 done
-cp "$flankfilm" "$lab/flankfilm"
+cp "$flankfilm" "${flankfilm%/*}/libflankfilm.so.0" "$lab"
 cd "$lab"
 export FLANKFILM_PLUGIN_PATH="$lab/plugins"
 cat >study.yaml <<YAML
