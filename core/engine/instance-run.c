@@ -95,7 +95,7 @@ static bool gather(ff_instance *i, ff_array *in)
         }
         if (!in[k].data)
             in[k] = (ff_array){.data = NULL};
-        else if (in[k].rank > dims->rank || in[k].rank + dims->first_optional < dims->rank)
+        else if (!fe_rank_fits(dims, in[k].rank))
             good = fe_refuse(i, row->name, "\"%s\" is fed with %u dimensions; it takes \"%s\"",
                              row->name, in[k].rank, row->dims);
         else if (!fe_enter_lengths(&all, row->name, dims, in[k].rank, in[k].shape, why, sizeof why))

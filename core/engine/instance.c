@@ -266,7 +266,7 @@ static bool give(fe_request *q)
         connect(i, (size_t)input, feed);
         return true;
     }
-    if (array->rank > dims->rank || array->rank + dims->first_optional < dims->rank)
+    if (!fe_rank_fits(dims, array->rank))
         return fe_refuse(i, q->name,
                          "an array of %u dimensions is given for \"%s\"; it takes \"%s\"",
                          array->rank, q->name, ff_model_input(model, (size_t)input)->dims);

@@ -7,6 +7,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool fe_rank_fits(const ff_dims *dims, uint32_t rank)
+{
+    return rank <= dims->rank && rank + dims->first_optional >= dims->rank;
+}
+
 bool fe_enter_lengths(fe_lengths *all, const char *row, const ff_dims *dims, uint32_t rank,
                       const size_t *shape, char *why, size_t why_size)
 {
@@ -38,7 +43,7 @@ static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size
     const ff_dims *dims = &stage->loaded->input_dims[input];
     const ff_wire *wire = fe_input_wire(stage, input);
     char why[256];
-    if (given->rank > dims->rank || given->rank + dims->first_optional < dims->rank)
+    if (!fe_rank_fits(dims, given->rank))
         return ff_error(report, FF_FAULT_INPUT, wire->place, NULL,
                         "%s.%s: %s gives \"%s\" with %u dimensions, but %s takes it along \"%s\"",
                         stage->name, row->name, pipeline->stages[wire->stage].name,
@@ -49,16 +54,19 @@ static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size
                     stage->name, wire->name, why);
 }
 
-/* What a feedback wire brings from the round before. It is left out when its lengths have changed
-   since. */
-static void take_fed_back(const ff_stage *stage, size_t input, fe_lengths *all, ff_array *in)
+/* What a feedback wire brings from the round before. It is left out, with an error that counts in
+   the last round alone, when it does not belong to what the other wires bring. */
+static void take_fed_back(const ff_pipeline *pipeline, const ff_stage *stage, size_t input,
+                          fe_lengths *all, ff_array *in, ff_report *report)
 {
     const ff_result *fed = &stage->instance->member->fed[input];
-    char why[256];
-    if (fed->data &&
-        fe_enter_lengths(all, ff_model_input(stage->loaded->model, input)->name,
-                         &stage->loaded->input_dims[input], fed->rank, fed->shape, why, sizeof why))
+    size_t known = all->count;
+    if (!fed->data)
+        return;
+    if (check_input(pipeline, stage, input, fed, all, report))
         *in = (ff_array){.data = fed->data, .shape = fed->shape, .rank = fed->rank};
+    else
+        all->count = known;
 }
 
 bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
@@ -79,7 +87,7 @@ bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_arr
     }
     for (size_t i = 0; i < stage->loaded->model->input_count; i++)
         if (stage->instance->member)
-            take_fed_back(stage, i, &all, &in[i]);
+            take_fed_back(pipeline, stage, i, &all, &in[i], report);
     fe_free(all.seen);
     return good;
 }

@@ -123,6 +123,8 @@ typedef struct fe_log_line {
 /* A stage of a loop that runs. */
 typedef struct fe_loop_stage {
     ff_stage *stage;
+    bool first;         /* the first round: nothing is fed back */
+    ff_result *asked;   /* by output row: what is wanted and requested, refused or not */
     ff_result *fed;     /* by input row: what a feedback wire carries, from the round before */
     bool *fed_anew;     /* by input row: it is not what it was then */
     bool *gave_anew;    /* by output row: the same of what the stage gave */
@@ -181,7 +183,10 @@ typedef struct fe_lengths {
     size_t count;
 } fe_lengths;
 
-/* Records the lengths of one array; false, with a clause in why, when a dimension has two. */
+/* Whether an array may have that rank. */
+bool fe_rank_fits(const ff_dims *dims, uint32_t rank);
+/* Records the lengths of one array, whose rank fits; false, with a clause in why, when a dimension
+   has two. */
 bool fe_enter_lengths(fe_lengths *all, const char *row, const ff_dims *dims, uint32_t rank,
                       const size_t *shape, char *why, size_t why_size);
 

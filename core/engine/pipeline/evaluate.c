@@ -26,17 +26,36 @@ static double seconds_of(clockid_t clock)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Whether a stage requires the output, or it closes a loop. */
+static bool must_feed(const ff_pipeline *pipeline, const ff_result *result)
+{
+    for (size_t k = 0; k < pipeline->count; k++) {
+        const ff_stage *stage = &pipeline->stages[k];
+        for (size_t i = 0; stage->needed && stage->loaded && i < stage->loaded->model->input_count;
+             i++)
+            if (ff_feeding_result(pipeline, stage, i) == result &&
+                (fe_is_fed_back(stage, i) ||
+                 !(ff_model_input(stage->loaded->model, i)->flags & FF_OPTIONAL)))
+                return true;
+    }
+    return false;
+}
+
 /*
  * A model may refuse an output that its inputs do not allow. It is dropped when it was not
- * requested by name (but as one of "film.*") and no required input needs it. True when it was
+ * requested by name (but as one of "film.*") and no required input needs it. In the first round of
+ * a loop, which lacks the feedback, one that was requested by name is dropped too. True when it was
  * dropped.
  */
-static bool drop_refused(ff_stage *stage)
+static bool drop_refused(const ff_pipeline *pipeline, ff_stage *stage)
 {
     const fe_instance *instance = stage->instance;
     int output = ff_model_find_output(stage->loaded->model, instance->item);
     if (stage->status != FF_UNSUPPORTED || instance->fault[0] || output < 0 ||
-        !stage->results[output].wanted || stage->results[output].required)
+        !stage->results[output].wanted)
+        return false;
+    if (stage->results[output].required && (!instance->member || !instance->member->first ||
+                                            must_feed(pipeline, &stage->results[output])))
         return false;
     stage->results[output].wanted = stage->results[output].requested = false;
     return true;
@@ -61,7 +80,7 @@ bool fe_evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *i
         stage->work += seconds_of(CLOCK_PROCESS_CPUTIME_ID) - work;
         stage->seconds += seconds_of(CLOCK_MONOTONIC) - start;
         instance->evaluating = false;
-        again = drop_refused(stage);
+        again = drop_refused(pipeline, stage);
         good = fe_call_end(&call, again ? FF_OK : stage->status, report);
         fe_check_folder(pipeline, stage, "evaluate", report);
     } while (again);

@@ -220,7 +220,7 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
         breach(instance, "asked for memory of the service \"%s\"", name);
     else if (result->data)
         breach(instance, "gave the output \"%s\" twice", name);
-    else if (rank > dims->rank || rank + dims->first_optional < dims->rank || (rank && !shape))
+    else if (!fe_rank_fits(dims, rank) || (rank && !shape))
         breach(instance, "gave the output \"%s\" with %u dimensions, but its row says \"%s\"", name,
                rank, result->row->dims);
     else if (!has_room(rank, shape) ||

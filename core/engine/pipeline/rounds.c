@@ -117,6 +117,32 @@ static bool is_fed_anew(const iteration *it, const fe_loop_stage *m)
     return false;
 }
 
+static void ask_for_all(fe_loop_stage *m)
+{
+    for (size_t i = 0; i < m->stage->loaded->model->output_count; i++) {
+        m->stage->results[i].wanted = m->asked[i].wanted;
+        m->stage->results[i].requested = m->asked[i].requested;
+    }
+}
+
+/* Whether the first round dropped an output that must be given. */
+static bool lacks_output(const fe_loop_stage *m)
+{
+    bool lacks = false;
+    for (size_t i = 0; i < m->stage->loaded->model->output_count; i++)
+        lacks =
+            lacks || (m->asked[i].required && m->asked[i].wanted != m->stage->results[i].wanted);
+    return lacks;
+}
+
+static bool is_complete(const iteration *it)
+{
+    bool complete = true;
+    for (size_t i = 0; i < it->count; i++)
+        complete = complete && !lacks_output(&it->members[i]);
+    return complete;
+}
+
 static void hand_on(const ff_report *from, ff_report *to)
 {
     for (size_t i = 0; i < ff_report_count(from); i++)
@@ -138,6 +164,7 @@ static bool evaluate(iteration *it, fe_loop_stage *m)
     ff_report_free(m->report);
     m->report = ff_report_new();
     m->line_count = 0;
+    ask_for_all(m);
     stage->ran = fe_gather_inputs(it->pipeline, stage, in, m->report) &&
                  fe_evaluate(it->pipeline, stage, in, m->report);
     for (size_t i = 0; i < outputs; i++) {
@@ -155,7 +182,8 @@ static bool run_round(iteration *it, bool first)
 {
     for (size_t i = 0; i < it->count; i++) {
         fe_loop_stage *m = &it->members[i];
-        if (!first && !is_fed_anew(it, m))
+        m->first = first;
+        if (!first && !is_fed_anew(it, m) && !lacks_output(m))
             memset(m->gave_anew, 0, m->stage->loaded->model->output_count * sizeof *m->gave_anew);
         else if (!evaluate(it, m))
             return false;
@@ -213,11 +241,12 @@ static bool iterate(iteration *it)
         if (!run_round(it, it->rounds == 0))
             return report_round(it);
         it->residuals[it->rounds] = residual_of(it);
-        settled = it->residuals[it->rounds++] <= feedback->tolerance;
+        settled = it->residuals[it->rounds++] <= feedback->tolerance && is_complete(it);
     }
     for (size_t i = 0; i < it->count; i++) {
         const fe_loop_stage *m = &it->members[i];
         const ff_observer *watch = m->stage->instance->watch;
+        good = ff_report_errors(m->report) == 0 && good;
         hand_on(m->report, it->report);
         for (size_t k = 0; watch && watch->log && k < m->line_count; k++)
             watch->log(watch->ctx, m->stage, m->lines[k].level, m->lines[k].text);
@@ -269,18 +298,23 @@ static void enter(fe_loop_stage *m, ff_stage *stage, const ff_observer *watch)
 {
     const ff_model *model = stage->loaded->model;
     *m = (fe_loop_stage){.stage = stage,
+                         .asked = fe_alloc(model->output_count * sizeof *m->asked),
                          .fed = fe_alloc(model->input_count * sizeof *m->fed),
                          .fed_anew = fe_alloc(model->input_count * sizeof *m->fed_anew),
                          .gave_anew = fe_alloc(model->output_count * sizeof *m->gave_anew)};
     fe_forget_results(stage);
+    memcpy(m->asked, stage->results, model->output_count * sizeof *m->asked);
     stage->instance->member = m;
     stage->instance->watch = watch;
 }
 
 static void leave(fe_loop_stage *m)
 {
+    if (!m->stage->ran)
+        ask_for_all(m);
     for (size_t i = 0; i < m->stage->loaded->model->input_count; i++)
         forget(&m->fed[i]);
+    fe_free(m->asked);
     fe_free(m->fed);
     fe_free(m->fed_anew);
     fe_free(m->gave_anew);

@@ -76,6 +76,7 @@ static bool *mark_feeding(const ff_pipeline *pipeline)
 
 static void begin_run(ff_pipeline *pipeline)
 {
+    fe_folder_keep(&pipeline->memory->folder);
     for (size_t i = 0; i < pipeline->count; i++) {
         pipeline->stages[i].ran = pipeline->stages[i].reused = false;
         pipeline->stages[i].status = FF_OK;

@@ -140,6 +140,21 @@ static void observed(void)
     ff_run_close(run);
 }
 
+static void moved(void)
+{
+    ff_status status;
+    char before[4096], after[4096];
+    ff_run *run = open_run(engine, two_stages, NULL, &status);
+    if (!getcwd(before, sizeof before) || chdir("/") != 0)
+        exit(2);
+    check_true("a caller that goes to another folder", ff_run_start(run, NULL) == FF_OK);
+    check_true("no plugin is blamed", !*ff_engine_message(engine));
+    check_true("stays there", getcwd(after, sizeof after) && !strcmp(after, "/"));
+    ff_run_close(run);
+    if (chdir(before) != 0)
+        exit(2);
+}
+
 static void two_engines(void)
 {
     ff_status one, two;
@@ -167,6 +182,7 @@ int main(void)
     errors();
     refused();
     observed();
+    moved();
     two_engines();
     ff_engine_close(engine);
     unlink(file);

@@ -181,6 +181,50 @@ static void shapes(void)
     try_close(&a);
 }
 
+/* What comes back is left out of each round, and the loop settles without it. */
+static void misfits(void)
+{
+    attempt a = try_run("pipeline:\n"
+                        "  a: {use: loop/linear, base: 1 m, factor: 0.5, back: b}\n"
+                        "  b: {use: loop/linear, base: 0 m, before: a, rows: 2}\n");
+    check_error("a field for a series", &a, 3, 55,
+                "a.back.series: b gives \"series\" with 2 dimensions, but loop/linear takes it "
+                "along \"t\"");
+    check_true("the loop has not run", !try_stage(&a, "a")->ran && !try_stage(&a, "b")->ran);
+    try_close(&a);
+    a = try_run("pipeline:\n"
+                "  s: {use: loop/linear, base: 1 m, points: 2}\n"
+                "  a: {use: loop/linear, base: 1 m, factor: 0.5, before: s, back: b}\n"
+                "  b: {use: loop/linear, base: 0 m, flag: a}\n");
+    check_error("a series of another length", &a, 4, 66,
+                "a.back: the dimension \"t\" is 2 long in \"before.series\", but 3 in "
+                "\"back.series\"");
+    try_close(&a);
+}
+
+static void refused_at_first(void)
+{
+    static const char *const requests[] = {"outputs: [a.returned]\n", "outputs: [a.*]\n"};
+    for (size_t i = 0; i < 2; i++) {
+        attempt a = run_loop(0.5, requests[i]);
+        check_good(i ? "requested as one of all" : "requested by name", &a);
+        check_near("given from the second round on", try_scalar(&a, "a", "returned"), 2, 4e-6);
+        check_true("and in a second run", ff_pipeline_run(a.pipeline, NULL, a.report) &&
+                                              try_result(&a, "a", "returned")->data);
+        try_close(&a);
+    }
+    attempt a = run_loop(0.5, "outputs: [b.returned]\n");
+    check_error("refused in each round", &a, 4, 3, "b.returned (loop/linear): nothing comes back");
+    try_close(&a);
+    a = try_run("pipeline:\n"
+                "  a: {use: loop/linear, base: 1 m, back: b}\n"
+                "  b: {use: loop/linear, base: 0 m, flag: a}\n"
+                "outputs: [b.returned]\n");
+    check_error("refused when the inputs stay the same", &a, 4, 3,
+                "b.returned (loop/linear): nothing comes back");
+    try_close(&a);
+}
+
 static int lines;
 static char last_line[64];
 
@@ -278,6 +322,8 @@ int main(void)
     others();
     several();
     shapes();
+    misfits();
+    refused_at_first();
     what_is_told();
     chained();
     refused();

@@ -11,7 +11,7 @@
 typedef struct loop {
     const ff_host *host;
     double base, gain, factor, share, most, work;
-    int64_t points;
+    int64_t points, rows;
     int32_t warns;
     double evaluations;
     char carried[32];
@@ -27,6 +27,7 @@ static const ff_param params[] = {
     FF_QUANTITY("most", "m", loop, most, 0, "1e300 m", NULL, 0, 0, 0, 0, "above it, no solution"),
     FF_QUANTITY("work", "s", loop, work, 0, "0 s", NULL, 0, 0.1, 0, 0, "wasted in evaluate"),
     FF_COUNT("points", loop, points, 0, "3", NULL, 0, 100, 0, 0, "one less with feedback"),
+    FF_COUNT("rows", loop, rows, 0, "0", NULL, 0, 100, 0, 0, "of the series; 0: it is one"),
     FF_SWITCH("warns", loop, warns, "false", "says that it is out of range"),
 };
 
@@ -44,11 +45,12 @@ enum { BEFORE, BEFORE_SERIES, FLAG, LAW, BACK, BACK_SERIES, MORE };
 
 static const ff_port outputs[] = {
     {"level", "m", "a level", "", NULL, 0, NULL},
-    {"series", "m", "the level over its points", "t", NULL, 0, NULL},
+    {"series", "m", "the level over its points", "row? t", NULL, 0, NULL},
     {"sign", "1", "of the level", "", NULL, 0, NULL},
     {"evaluations", "1", "so far", "", NULL, 0, NULL},
     {"connected", "1", "inputs that are there", "", NULL, 0, NULL},
     {"law", "", "itself as a law", NULL, TOY_LAW_ID, 0, NULL},
+    {"returned", "m", "the level that comes back; refused without", "", NULL, 0, NULL},
 };
 
 static ff_status wire(void *self, uint32_t input, const void *service)
@@ -75,6 +77,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const ff_host *host = l->host;
     double connected = 0;
     char text[32];
+    if (wanted & FF_BIT(6) && !in[BACK].data)
+        return ff_failf(host, FF_UNSUPPORTED, "returned", "nothing comes back");
     waste(l->work);
     for (int i = 0; i < 7; i++)
         connected += in[i].data != NULL;
@@ -94,9 +98,14 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         if (i != 1 && wanted & FF_BIT(i) && ff_put_scalar(host, i, values[i]) != FF_OK)
             return FF_NOMEM;
     size_t count = (size_t)l->points - (l->points > 3 && in[BACK].data);
-    double *series = wanted & FF_BIT(1) ? ff_put_series(host, 1, count) : NULL;
-    for (size_t i = 0; series && i < count; i++)
-        series[i] = level * (double)(i + 1) / (double)count;
+    size_t rows = l->rows ? (size_t)l->rows : 1, shape[] = {rows, count};
+    double *series = wanted & FF_BIT(1)
+                         ? host->output(host->ctx, 1, l->rows ? 2 : 1, l->rows ? shape : &shape[1])
+                         : NULL;
+    for (size_t i = 0; series && i < rows * count; i++)
+        series[i] = level * (double)(i % count + 1) / (double)count;
+    if (wanted & FF_BIT(6) && ff_put_scalar(host, 6, in[BACK].data[0]) != FF_OK)
+        return FF_NOMEM;
     return status;
 }
 
