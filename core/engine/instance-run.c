@@ -194,11 +194,20 @@ ff_status ff_instance_service(ff_instance *instance, const char *interface, cons
         &(fe_request){.instance = instance, .work = fetch, .name = interface, .fetched = table});
 }
 
+static void do_call(void *of)
+{
+    fe_request *q = of;
+    q->status = q->call(q->ctx);
+}
+
+/* Without memory the request is left after fe_call_end, which leaves the model. */
 static bool call(fe_request *q)
 {
     ff_instance *i = q->instance;
     fe_call bracket = fe_call_begin(&i->stage, q->name);
-    return fe_call_end(&bracket, q->call(q->ctx), i->report);
+    if (fe_protected(&i->heap, do_call, q) == FF_NOMEM)
+        i->object.no_memory = true;
+    return fe_call_end(&bracket, q->status, i->report);
 }
 
 ff_status ff_instance_call(ff_instance *instance, const char *action, ff_status (*work)(void *ctx),

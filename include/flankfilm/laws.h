@@ -56,9 +56,6 @@ typedef struct ff_viscosity {
      * p        gauge pressure, Pa, n; below 0 the law continues its tangent at 0
      * T        temperature, K, n; NULL: the reference temperature that the law was given for
      * ln_eta   n;  dln_dp  1/Pa, n, may be NULL;  dln_dT  1/K, n, may be NULL
-     *
-     * All results are finite for every finite argument. FF_OK, or FF_DOMAIN when a point lies
-     * outside the law's range and was continued. Pure; any thread. Arrays never overlap.
      */
     ff_status (*eval)(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
                       double *dln_dp, double *dln_dT);
@@ -74,10 +71,8 @@ typedef struct ff_density {
      * n        number of points
      * p        gauge pressure, Pa, n; below 0 the law continues its tangent at 0
      * T        temperature, K, n; NULL: the reference temperature that the law was given for
-     * rho      kg/m3, n;  drho_dp  kg/(m3 Pa), n, may be NULL;  drho_dT  kg/(m3 K), n, may be NULL
-     *
-     * rho > 0 and all results are finite for every finite argument. FF_OK, or FF_DOMAIN when a
-     * point lies outside the law's range and was continued. Pure; any thread. Arrays never overlap.
+     * rho      kg/m3, n, > 0;  drho_dp  kg/(m3 Pa), n, may be NULL
+     * drho_dT  kg/(m3 K), n, may be NULL
      */
     ff_status (*eval)(const void *self, size_t n, const double *p, const double *T, double *rho,
                       double *drho_dp, double *drho_dT);
@@ -106,9 +101,6 @@ typedef struct ff_rheology {
     /*
      * p        Pa, n (for laws with a limiting stress); ln_eta, h, u_s as above
      * tau      Pa, n
-     *
-     * Both: results are finite for every legal argument. FF_OK, or FF_DOMAIN when a point lies
-     * outside the law's range and was continued. Pure; any thread. Arrays never overlap.
      */
     ff_status (*shear)(const void *self, size_t n, const double *p, const double *ln_eta,
                        const double *h, double u_s, double *tau);

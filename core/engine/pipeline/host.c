@@ -33,50 +33,53 @@ static ff_status host_fail(void *ctx, ff_status status, const char *item, const 
 
 static ff_status protect(fe_instance *instance, void (*function)(void *ctx), void *ctx);
 
-typedef struct log_call {
-    fe_loop_stage *member;
+typedef struct watch_call {
+    fe_instance *instance;
     fe_log_line line;
-} log_call;
+    double fraction;
+    int stop;
+} watch_call;
 
-static void keep_line(void *ctx)
+static void log_line(void *ctx)
 {
-    const log_call *call = ctx;
-    fe_loop_stage *m = call->member;
-    m->lines = fe_resize(m->lines, (m->line_count + 1) * sizeof *m->lines);
-    m->lines[m->line_count++] = call->line;
+    const watch_call *call = ctx;
+    const ff_observer *watch = call->instance->watch;
+    fe_loop_stage *m = call->instance->member;
+    if (m) {
+        m->lines = fe_resize(m->lines, (m->line_count + 1) * sizeof *m->lines);
+        m->lines[m->line_count++] = call->line;
+    } else if (watch && watch->log) {
+        watch->log(watch->ctx, call->instance->stage, call->line.level, call->line.text);
+    }
 }
 
-/* The watch belongs to the program: a fault in it is not the plugin's. */
 static void host_log(void *ctx, int32_t level, const char *text)
 {
     fe_instance *instance = ctx;
-    log_call call = {.member = instance->member, .line = {.level = level}};
-    char *clean = call.line.text;
-    ff_clean_text(clean, sizeof call.line.text, text ? text : "");
-    if (instance->member) {
-        protect(instance, keep_line, &call);
-        return;
-    }
-    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
-    if (instance->watch && instance->watch->log)
-        instance->watch->log(instance->watch->ctx, instance->stage, level, clean);
-    ff_guard_leave(mark);
+    watch_call call = {.instance = instance, .line = {.level = level}};
+    ff_clean_text(call.line.text, sizeof call.line.text, text ? text : "");
+    protect(instance, log_line, &call);
+}
+
+static void tell_progress(void *ctx)
+{
+    watch_call *call = ctx;
+    const ff_observer *watch = call->instance->watch;
+    if (watch && watch->progress)
+        call->stop = watch->progress(watch->ctx, call->instance->stage, call->fraction);
 }
 
 static int32_t host_progress(void *ctx, double fraction)
 {
     fe_instance *instance = ctx;
-    int stop = 0;
-    double share = fraction > 0 ? fmin(fraction, 1) : 0; /* NaN: 0 */
-    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
-    if (instance->watch && instance->watch->progress)
-        stop = instance->watch->progress(instance->watch->ctx, instance->stage, share);
-    ff_guard_leave(mark);
-    return stop;
+    watch_call call = {.instance = instance,
+                       .fraction = fraction > 0 ? fmin(fraction, 1) : 0}; /* NaN: 0 */
+    return protect(instance, tell_progress, &call) == FF_NOMEM || call.stop;
 }
 
-/* Runs a function that allocates. It may not be left across the plugin that called, maybe in a
-   thread of its own: without memory, the call into the plugin is left when it returns. */
+/* Runs a function that allocates, or of the program: a fault in it is not the plugin's. It may not
+   be left across the plugin that called, maybe in a thread of its own: without memory, the call
+   into the plugin is left when it returns. */
 static ff_status protect(fe_instance *instance, void (*function)(void *ctx), void *ctx)
 {
     ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});

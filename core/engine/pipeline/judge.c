@@ -128,12 +128,6 @@ static int law_input(const ff_pipeline *pipeline, const ff_stage *judge, const f
     return -1;
 }
 
-static const void *table_of(const ff_stage *candidate, const ff_port *input)
-{
-    int output = fe_find_offer(candidate->loaded, input);
-    return candidate->loaded->model->service(candidate->instance->self, (uint32_t)output);
-}
-
 /* Adds a verdict on a candidate: the largest error of all judges counts, with its reason. */
 static bool note_verdict(ff_pipeline *pipeline, ff_candidate *c, const ff_stage *judge,
                          const ff_assessment *a, ff_report *report)
@@ -160,21 +154,29 @@ static void dismiss(ff_pipeline *pipeline, ff_candidate *c, const char *reason)
     fe_leave_out(pipeline, c, reason);
 }
 
-static void judge_one(ff_pipeline *pipeline, ff_candidate *c, ff_stage *judge, int input,
-                      const ff_array *in)
+static bool hear(ff_pipeline *pipeline, ff_candidate *c, ff_stage *judge, int input,
+                 const ff_array *in, ff_report *report)
 {
     const ff_model *model = judge->loaded->model;
-    ff_report *captured = ff_report_new();
+    int output = fe_find_offer(c->stage->loaded, ff_model_input(model, (size_t)input));
+    const void *table = fe_fetch_service(c->stage, (uint32_t)output, report);
     ff_assessment a = {.size = sizeof a};
+    if (!table)
+        return false;
     const ff_guard_mark **lent = fe_end_of_services(&judge->instance->mark);
     *lent = &c->stage->instance->mark;
     fe_call call = fe_call_begin(judge, "judge");
     ff_status status =
-        model->judge(judge->instance->self, fe_wanted_of(judge), (uint32_t)input,
-                     table_of(c->stage, ff_model_input(model, (size_t)input)), in, &a);
+        model->judge(judge->instance->self, fe_wanted_of(judge), (uint32_t)input, table, in, &a);
     *lent = NULL;
-    bool good =
-        fe_call_end(&call, status, captured) && note_verdict(pipeline, c, judge, &a, captured);
+    return fe_call_end(&call, status, report) && note_verdict(pipeline, c, judge, &a, report);
+}
+
+static void judge_one(ff_pipeline *pipeline, ff_candidate *c, ff_stage *judge, int input,
+                      const ff_array *in)
+{
+    ff_report *captured = ff_report_new();
+    bool good = hear(pipeline, c, judge, input, in, captured);
     fe_report_require_memory(captured);
     if (!good)
         dismiss(pipeline, c,

@@ -63,6 +63,8 @@ char *fe_built_file(const char *path)
         if (is_there(folder, "plugins/.") && (up == 0 || is_there(folder, "build.ninja")))
             return find(folder, "", path);
         char *slash = strrchr(folder, '/');
+        if (!slash)
+            return NULL;
         known = slash != folder;
         *slash = 0;
     }

@@ -10,6 +10,7 @@
 
 #include <dlfcn.h>
 #include <errno.h>
+#include <fenv.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -294,6 +295,59 @@ static void leave_plugin(void)
     memory.fail_at = 0;
 }
 
+static ff_status lack(void *ctx)
+{
+    (void)ctx;
+    fesetround(FE_UPWARD);
+    memory.fail_at = memory.calls + 1;
+    ff_report_new();
+    return FF_OK;
+}
+
+static void log_nothing(void *ctx, const ff_stage *stage, int32_t level, const char *text)
+{
+    (void)stage, (void)level, (void)text;
+    lack(ctx);
+}
+
+static int32_t go_on(void *ctx, const ff_stage *stage, double fraction)
+{
+    (void)stage, (void)fraction;
+    return lack(ctx);
+}
+
+static void check_left(const char *what, ff_status status)
+{
+    memory.fail_at = 0;
+    check_true(what, status == FF_NOMEM && fegetround() == FE_TONEAREST);
+    fesetround(FE_TONEAREST);
+}
+
+/* The program lacks memory while a model runs, which must be left in order. */
+static void leave_models(void)
+{
+    const ff_engine_options options = {sizeof options, &directory, 1};
+    const ff_observer logs = {.size = sizeof logs, .log = log_nothing};
+    const ff_observer goes_on = {.size = sizeof goes_on, .progress = go_on};
+    ff_engine *engine;
+    ff_instance *x[3];
+    check_true("an engine", ff_engine_new(&options, &engine) == FF_OK);
+    for (int i = 0; i < 3; i++)
+        if (ff_instance_new(engine, "toy/source", &x[i]) != FF_OK ||
+            ff_instance_set(x[i], "level", "2 mm") != FF_OK)
+            check_true("a model", false);
+    ff_instance_observe(x[0], &logs);
+    check_left("in a log", ff_instance_run(x[0], NULL));
+    ff_instance_observe(x[1], &goes_on);
+    ff_instance_set(x[1], "answer", "progress");
+    check_left("in a progress", ff_instance_run(x[1], NULL));
+    check_true("ready", ff_instance_ready(x[2]) == FF_OK);
+    check_left("in a call", ff_instance_call(x[2], "its test", lack, NULL));
+    for (int i = 0; i < 3; i++)
+        ff_instance_close(x[i]);
+    ff_engine_close(engine);
+}
+
 /* DIRECTORY-OF-PLUGINS DIRECTORY-OF-FILES FILE STRIDE [open|instances]; stride 0: cold. */
 int main(int argc, char **argv)
 {
@@ -311,5 +365,7 @@ int main(int argc, char **argv)
         else
             fail_warm(&plan, stride, onwards);
     leave_plugin();
+    if (plan.how == INSTANCES)
+        leave_models();
     return check_done();
 }
