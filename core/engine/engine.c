@@ -14,19 +14,29 @@ static ff_status protect(fe_heap *heap, void (*function)(void *ctx), void *ctx)
     return status;
 }
 
-ff_status fe_engine_call(ff_engine *engine, fe_heap *heap, void (*function)(void *ctx), void *ctx)
+static void be_silent(ff_engine *engine)
 {
     fe_free(engine->said);
     engine->said = NULL;
     engine->message = "";
-    ff_status status = protect(heap, function, ctx);
-    if (status == FF_NOMEM)
-        engine->message = "out of memory\n";
-    return status;
+}
+
+ff_status fe_engine_lack(ff_engine *engine)
+{
+    be_silent(engine);
+    engine->message = "out of memory\n";
+    return FF_NOMEM;
+}
+
+ff_status fe_engine_call(ff_engine *engine, fe_heap *heap, void (*function)(void *ctx), void *ctx)
+{
+    be_silent(engine);
+    return protect(heap, function, ctx) == FF_OK ? FF_OK : fe_engine_lack(engine);
 }
 
 void fe_engine_say(ff_engine *engine, const ff_report *report)
 {
+    be_silent(engine);
     fe_heap *before = fe_heap_use(&engine->heap);
     engine->said = ff_report_text(report, false);
     engine->message = engine->said;

@@ -58,8 +58,7 @@ static bool run_feeding(ff_instance *i, ff_instance *from)
         taken->wanted = true;
         taken->required = taken->required || !(row->flags & FF_OPTIONAL);
     }
-    ff_status status = fe_handle(&(fe_request){.instance = from, .work = run_marked});
-    return status == FF_OK || status == FF_DOMAIN || fe_pass_on(i, from);
+    return fe_pass_on(i, from, fe_handle(&(fe_request){.instance = from, .work = run_marked}));
 }
 
 static bool run_what_feeds(ff_instance *i)
@@ -118,6 +117,8 @@ static bool evaluate(ff_instance *i, const ff_array *in)
     stage->ran = fe_evaluate(&i->pipeline, stage, in, i->report);
     i->pipeline.chained = false;
     i->object.watch = NULL;
+    if (!stage->ran || fe_wants_any(stage))
+        i->evaluated = stage->ran;
     ff_stage_set_state(stage, NULL, 0);
     for (size_t k = 0; k < stage->loaded->model->output_count; k++)
         i->refused[k] = i->refused[k] && !stage->results[k].wanted;
@@ -217,25 +218,40 @@ ff_status ff_instance_call(ff_instance *instance, const char *action, ff_status 
         .instance = instance, .work = call, .name = action, .call = work, .ctx = ctx});
 }
 
+/* The state that the stage left, in the heap in use. What its own next run was given stays. */
+static bool take_state(ff_instance *from, void **state, size_t *size, ff_report *report)
+{
+    ff_stage *stage = &from->stage;
+    void *given = stage->state;
+    size_t given_size = stage->state_size;
+    stage->state = NULL;
+    stage->state_size = 0;
+    from->pipeline.chained = true;
+    bool good = fe_save_state(&from->pipeline, stage, report);
+    from->pipeline.chained = false;
+    *state = stage->state;
+    *size = stage->state_size;
+    stage->state = given;
+    stage->state_size = given_size;
+    return good;
+}
+
 static bool carry(fe_request *q)
 {
     ff_instance *i = q->instance, *from = q->other;
-    bool good =
-        ff_stage_has_state(&i->stage) && from->object.alive && ff_stage_has_state(&from->stage);
-    if (good) {
-        from->pipeline.chained = true;
-        good = fe_save_state(&from->pipeline, &from->stage, i->report);
-        from->pipeline.chained = false;
-        if (!good)
-            return false;
-    }
-    if (!good || !from->stage.state) {
+    void *state = NULL;
+    size_t size = 0;
+    bool there =
+        ff_stage_has_state(&i->stage) && from->evaluated && ff_stage_has_state(&from->stage);
+    if (there && !take_state(from, &state, &size, i->report))
+        return false;
+    if (!state) {
         i->object.status = FF_UNSUPPORTED;
         return fe_refuse(i, "", "%s hands on no state", from->stage.use);
     }
-    ff_stage_set_state(&i->stage, from->stage.state, from->stage.state_size);
-    if (from != i)
-        ff_stage_set_state(&from->stage, NULL, 0);
+    fe_free(i->stage.state);
+    i->stage.state = state;
+    i->stage.state_size = size;
     return true;
 }
 

@@ -23,7 +23,10 @@ static void explain(ff_instance *i)
         ff_tables_print(tables, i->reason, sizeof i->reason);
     else
         snprintf(i->reason, sizeof i->reason, "%s",
-                 i->object.text[0] ? i->object.text : said->text);
+                 i->object.text[0] &&
+                         (said->severity == FF_WARNING || !fe_is_good(i->object.status))
+                     ? i->object.text
+                     : said->text);
     if (!i->item[0])
         snprintf(i->item, sizeof i->item, "%s", tables->errors ? tables->item : i->object.item);
 }
@@ -42,7 +45,7 @@ static void work(void *of)
     explain(i);
     if (good)
         request->status = status > 0 ? status : FF_OK;
-    else if (status == FF_OK || ff_report_lacked_memory(i->report) ||
+    else if (fe_is_good(status) || ff_report_lacked_memory(i->report) ||
              ff_report_fault(i->report) == FF_FAULT_PLUGIN)
         request->status = fe_status_of(i->report);
     else
@@ -54,10 +57,10 @@ ff_status fe_handle(fe_request *request)
     ff_instance *i = request->instance;
     i->item[0] = i->reason[0] = i->object.item[0] = i->object.text[0] = 0;
     i->object.status = FF_OK;
-    if (!i->broken && fe_engine_call(i->engine, &i->heap, work, request) == FF_OK)
-        return request->status;
-    i->broken = true;
-    return FF_NOMEM;
+    if (i->broken)
+        return fe_engine_lack(i->engine);
+    i->broken = fe_engine_call(i->engine, &i->heap, work, request) != FF_OK;
+    return i->broken ? FF_NOMEM : request->status;
 }
 
 bool fe_refuse(ff_instance *i, const char *item, const char *format, ...)
@@ -71,12 +74,14 @@ bool fe_refuse(ff_instance *i, const char *item, const char *format, ...)
     return ff_error(i->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s: %s", i->stage.use, text);
 }
 
-bool fe_pass_on(ff_instance *i, const ff_instance *from)
+bool fe_pass_on(ff_instance *i, const ff_instance *from, ff_status status)
 {
     if (from->broken)
         fe_out_of_memory();
     ff_report_append(i->report, from->report);
-    i->object.status = from->object.status;
+    if (fe_is_good(status))
+        return true;
+    i->object.status = status;
     return false;
 }
 
@@ -177,7 +182,7 @@ static void close_object(ff_instance *i)
 {
     fe_close_instance(&i->stage);
     i->object.self = NULL;
-    i->stage.ran = false;
+    i->stage.ran = i->evaluated = false;
 }
 
 /* Puts a value in the place of those that its group has. */
@@ -226,14 +231,21 @@ ff_status ff_instance_set_reals(ff_instance *instance, const char *param, const 
                                 size_t count)
 {
     static const double none;
-    return fe_handle(&(fe_request){
-        .instance = instance, .work = set, .name = param, .si = si ? si : &none, .count = count});
+    return fe_handle(&(fe_request){.instance = instance,
+                                   .work = set,
+                                   .name = param,
+                                   .si = si ? si : &none,
+                                   .count = si ? count : 0});
+}
+
+static bool feeds(const fe_feed *feed)
+{
+    return feed->from || feed->array.data || feed->table;
 }
 
 bool fe_is_fed(const ff_instance *i, size_t input)
 {
-    const fe_feed *feed = &i->feeds[input];
-    return feed->from || feed->array.data || feed->table;
+    return feeds(&i->feeds[input]);
 }
 
 /* The array of a feed belongs to it. An object that knows that an array is connected need not be
@@ -242,8 +254,7 @@ static void connect(ff_instance *i, size_t input, fe_feed feed)
 {
     fe_feed *old = &i->feeds[input];
     bool fed = fe_is_fed(i, input), serves = ff_model_input(i->stage.loaded->model, input)->service;
-    bool feeds = feed.from || feed.array.data || feed.table;
-    if (serves || fed != feeds)
+    if (serves || fed != feeds(&feed))
         close_object(i);
     fe_free((void *)(uintptr_t)old->array.data);
     *old = feed;
@@ -401,8 +412,8 @@ static bool make_feeding(ff_instance *i)
         fe_feed *feed = &i->feeds[k];
         if (!feed->from || !ff_model_input(i->stage.loaded->model, k)->service)
             continue;
-        if (ff_instance_ready(feed->from) < 0)
-            return fe_pass_on(i, feed->from);
+        if (!fe_pass_on(i, feed->from, ff_instance_ready(feed->from)))
+            return false;
         if (feed->version != feed->from->version)
             close_object(i);
     }

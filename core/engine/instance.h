@@ -32,6 +32,7 @@ struct ff_instance {
     fe_feed *feeds;                /* of each input */
     const ff_guard_mark **serving; /* the services that the object may call */
     bool *refused;                 /* of each output: asked for in the last run, and refused */
+    bool evaluated;                /* the last evaluation of the object was good */
     uint64_t version, runs;        /* how often the object was made, and run */
     char item[96], reason[1024];
 };
@@ -58,7 +59,7 @@ bool fe_refuse(ff_instance *instance, const char *item, const char *format, ...)
 bool fe_is_fed(const ff_instance *instance, size_t input);
 /* Makes the object of the model, unless it is up to date. */
 bool fe_make_object(ff_instance *instance);
-/* Adds the errors of another instance. Returns false. */
-bool fe_pass_on(ff_instance *instance, const ff_instance *from);
+/* Adds the messages of another instance, whose call came to the status. False when that failed. */
+bool fe_pass_on(ff_instance *instance, const ff_instance *from, ff_status status);
 
 #endif

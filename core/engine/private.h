@@ -18,10 +18,19 @@ struct ff_engine {
    until fe_engine_say. FF_OK, or FF_NOMEM, which is said then. */
 ff_status fe_engine_call(ff_engine *engine, fe_heap *heap, void (*function)(void *ctx), void *ctx);
 
+/* The answer of a call of an object that had no memory once. It is said. */
+ff_status fe_engine_lack(ff_engine *engine);
+
 /* Makes the messages of the report the message of the engine. Inside fe_engine_call. */
 void fe_engine_say(ff_engine *engine, const ff_report *report);
 
 /* The status of a call that left these messages. */
 ff_status fe_status_of(const ff_report *report);
+
+/* Whether the values are there: FF_NOCONV and FF_STOPPED are failures above 0. */
+static inline bool fe_is_good(ff_status status)
+{
+    return status == FF_OK || status == FF_DOMAIN;
+}
 
 #endif

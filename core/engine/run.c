@@ -43,12 +43,13 @@ static void forget(void *ctx)
 static ff_status handle(run_call *call)
 {
     ff_run *run = call->run;
-    ff_status status = FF_NOMEM;
-    if (!run->broken && fe_engine_call(run->engine, &run->heap, work, call) == FF_OK)
-        status = fe_status_of(run->report);
-    run->broken = status == FF_NOMEM;
-    if (!run->broken)
-        fe_protected(&run->heap, forget, run);
+    if (run->broken)
+        return fe_engine_lack(run->engine);
+    run->broken = fe_engine_call(run->engine, &run->heap, work, call) != FF_OK;
+    if (run->broken)
+        return FF_NOMEM;
+    ff_status status = fe_status_of(run->report);
+    fe_protected(&run->heap, forget, run);
     return status;
 }
 

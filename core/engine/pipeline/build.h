@@ -31,7 +31,7 @@ typedef struct fe_instance {
     bool no_room;     /* the same for an output, which `text` names */
     ff_tables tables; /* what it has read; their errors are reported before `text` */
     bool evaluating;
-    ff_status status; /* of the last call */
+    ff_status status; /* of the last call; FF_DOMAIN is kept until one fails */
     char item[96];    /* of the last host->fail */
     char text[512];   /* the same */
     char fault[256];  /* how the plugin broke the interface: completes 'the plugin x.so ...' */

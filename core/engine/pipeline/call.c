@@ -156,7 +156,8 @@ bool fe_call_end(const fe_call *call, ff_status status, ff_report *report)
     ff_guard_leave(call->previous);
     if (stage->instance->no_room)
         status = FF_NOMEM;
-    stage->instance->status = status;
+    if (status != FF_OK || stage->instance->status != FF_DOMAIN)
+        stage->instance->status = status;
     const char *changed = ff_environment_restore(&call->environment);
     fe_serial_leave(stage->loaded->model);
     if (stage->instance->no_memory)

@@ -306,6 +306,8 @@ static bool refuse_number(const reading *r, double number)
     return refuse(r, &nowhere, NULL, "expected %s, found %g", wanted, number);
 }
 
+static const double LARGEST_WHOLE = 9007199254740992; /* 2^53 */
+
 /* One number, or one of a list. */
 static bool take_number(const reading *r, double *si)
 {
@@ -314,6 +316,9 @@ static bool take_number(const reading *r, double *si)
         return refuse(r, &nowhere, NULL, "%g is not a number that it can have", *si);
     if (whole && *si != floor(*si))
         return refuse(r, &nowhere, NULL, "%g is not a whole number", *si);
+    if (whole && fabs(*si) > LARGEST_WHOLE)
+        return refuse(r, &nowhere, NULL, "%g is beyond 2^53, up to which whole numbers are exact",
+                      *si);
     return check_range(r, &nowhere, si);
 }
 

@@ -105,8 +105,10 @@ static ff_status call_write(void *ctx)
 static bool call_writer(ff_instance *writer, const ff_view *view, results_target *to)
 {
     call c = {.view = view, .target = to};
-    bool good = ff_instance_service(writer, FF_WRITER_ID, &c.table) >= 0 &&
-                ff_instance_call(writer, "write", call_write, &c) >= 0;
+    ff_status status = ff_instance_service(writer, FF_WRITER_ID, &c.table);
+    if (status == FF_OK || status == FF_DOMAIN)
+        status = ff_instance_call(writer, "write", call_write, &c);
+    bool good = status == FF_OK || status == FF_DOMAIN;
     if (ff_report_errors(to->report) == 0)
         ff_report_append(to->report, ff_instance_report(writer));
     return good && ff_report_errors(to->report) == 0;

@@ -51,7 +51,8 @@ ff_instance *cli_service_open(ff_engine *engine, const cli_options *options, con
     free(id);
     for (size_t i = 0; i < settings.count && good; i++)
         good = set(instance, settings.words[i], report);
-    good = good && ff_instance_service(instance, interface, table) >= 0;
+    ff_status status = good ? ff_instance_service(instance, interface, table) : FF_INVALID;
+    good = status == FF_OK || status == FF_DOMAIN;
     if (instance)
         ff_report_append(report, ff_instance_report(instance));
     if (good)

@@ -192,15 +192,17 @@ static ff_status evaluate(void *ctx)
     const evaluation *e = ctx;
     const ff_viscosity *law = e->table;
     ff_status status = law->eval(law->self, e->n, e->p, e->T, e->ln_eta, NULL, NULL);
-    return status < 0 ? status : FF_OK;
+    return status == FF_DOMAIN ? FF_OK : status;
 }
 
 bool fit_law_eval(fit *f, fit_law *law, const double *values, size_t n, const double *p,
                   const double *T, double *ln_eta)
 {
     evaluation e = {.n = n, .p = p, .T = T, .ln_eta = ln_eta};
-    bool open = set_values(law, values) &&
-                ff_instance_service(law->instance, FF_VISCOSITY_ID, &e.table) >= 0;
+    ff_status status = set_values(law, values)
+                           ? ff_instance_service(law->instance, FF_VISCOSITY_ID, &e.table)
+                           : FF_INVALID;
+    bool open = status == FF_OK || status == FF_DOMAIN;
     bool good = open && ff_instance_call(law->instance, "its fit", evaluate, &e) == FF_OK;
     const ff_report *said = ff_instance_report(law->instance);
     if (!open) {

@@ -197,8 +197,10 @@ static bool run_elsewhere(execution *r, ff_tasks *tasks)
     ff_instance *executor = r->run->executor;
     executor_call call = {.tasks = tasks};
     size_t errors = ff_report_errors(r->report);
-    bool good = ff_instance_service(executor, FF_EXECUTOR_ID, &call.table) >= 0 &&
-                ff_instance_call(executor, "run", call_executor, &call) >= 0;
+    ff_status status = ff_instance_service(executor, FF_EXECUTOR_ID, &call.table);
+    if (status == FF_OK || status == FF_DOMAIN)
+        status = ff_instance_call(executor, "run", call_executor, &call);
+    bool good = status == FF_OK || status == FF_DOMAIN;
     if (ff_report_errors(r->report) > errors)
         return false;
     ff_report_append(r->report, ff_instance_report(executor));

@@ -45,7 +45,8 @@ static int refuses(ff_instance *of, ff_status status, const char *item, const ch
 
 static void parameters(void)
 {
-    static const double weights[] = {1, 3}, falling[] = {3, 1}, level = 0.004, huge = 1;
+    static const double weights[] = {1, 3}, falling[] = {3, 1}, level = 0.004, huge = 1,
+                        beyond = 1e300;
     ff_instance *s = open_model("toy/source");
     check_true("no such name",
                refuses(s, ff_instance_set(s, "levle", "2 mm"), "levle", "did you mean \"level\""));
@@ -53,6 +54,9 @@ static void parameters(void)
     check_true("too large", refuses(s, ff_instance_set(s, "level", "2 m"), "level", "too large"));
     check_true("too large in SI",
                refuses(s, ff_instance_set_reals(s, "level", &huge, 1), "level", "too large"));
+    check_true("too large to be whole",
+               refuses(s, ff_instance_set_reals(s, "count", &beyond, 1), "count", "beyond 2^53"));
+    check_true("no list", refuses(s, ff_instance_set_reals(s, "weights", NULL, 3), "weights", ""));
     check_true("a falling list", refuses(s, ff_instance_set_reals(s, "weights", falling, 2),
                                          "weights", "must not decrease"));
     check_true("no number",
@@ -150,6 +154,69 @@ static void wires(void)
     ff_instance_close(sum);
 }
 
+static void warnings(void)
+{
+    ff_instance *law = open_model("toy/law"), *user = open_model("toy/replaced");
+    ff_instance *one = open_source("2 mm"), *sum = open_model("toy/consumer");
+    size_t length = 2;
+    const ff_array two = {.data = (double[]){1, 2}, .shape = &length, .rank = 1};
+    const void *table;
+    ff_instance_set(law, "gain", "-3");
+    check_true("of ready", ff_instance_service(law, TOY_LAW_ID, &table) == FF_DOMAIN && table);
+    ff_instance_set(law, "gain", "-4");
+    check_true("of a law", ff_instance_use(user, "law", law) == FF_OK &&
+                               ff_instance_run(user, "gain") == FF_OK && says("a gain of -4"));
+    ff_instance_set(law, "gain", "-20");
+    check_true("no warning", ff_instance_run(user, "gain") == FF_NOCONV && says("a gain of -20"));
+    ff_instance_set(one, "answer", "domain");
+    check_true("of what feeds it", ff_instance_use(sum, "source", one) == FF_OK &&
+                                       ff_instance_run(sum, NULL) == FF_OK &&
+                                       says("the answer is domain"));
+    check_true("with an error",
+               ff_instance_give(sum, "more.series", &two) == FF_OK &&
+                   ff_instance_set(one, "level", "3 mm") == FF_OK &&
+                   refuses(sum, ff_instance_run(sum, NULL), "more.series", "\"t\" is 3 long"));
+    ff_instance_set(one, "answer", "nomem");
+    check_true("a model without memory", ff_instance_run(one, "level") == FF_NOMEM);
+    ff_instance_set(one, "answer", NULL);
+    check_true("can go on", ff_instance_run(one, "level") == FF_OK);
+    ff_instance_close(one);
+    ff_instance_close(sum);
+    ff_instance_close(user);
+    ff_instance_close(law);
+}
+
+static void warned_then_refused(void)
+{
+    ff_instance *loop = open_model("loop/linear");
+    size_t lengths[] = {2, 3};
+    const double numbers[] = {1, 2, 3};
+    const ff_array two = {.data = numbers, .shape = &lengths[0], .rank = 1};
+    const ff_array three = {.data = numbers, .shape = &lengths[1], .rank = 1};
+    ff_instance_set(loop, "base", "1 m");
+    ff_instance_set(loop, "points", "0");
+    check_true("ready warns", ff_instance_run(loop, "level") == FF_DOMAIN && says("no points"));
+    ff_instance_give(loop, "before.series", &two);
+    ff_instance_give(loop, "back.series", &three);
+    check_true("an error is no warning",
+               refuses(loop, ff_instance_run(loop, "level"), "back.series", "\"t\" is"));
+    ff_instance_close(loop);
+}
+
+static void states(void)
+{
+    ff_instance *one = open_model("loop/linear"), *two = open_model("loop/linear");
+    ff_instance_set(one, "base", "1 m");
+    ff_instance_set(two, "base", "1 m");
+    check_true("made, but not run",
+               ff_instance_ready(one) == FF_OK && ff_instance_carry(two, one) == FF_UNSUPPORTED);
+    check_true("run", ff_instance_run(one, NULL) == FF_OK && ff_instance_carry(two, one) == FF_OK);
+    ff_instance_close(one);
+    check_true("after its end", ff_instance_run(two, NULL) == FF_OK);
+    check_near("from the state", scalar(two, "evaluations"), 101, 0);
+    ff_instance_close(two);
+}
+
 static double twice(const void *self, double x)
 {
     (void)self;
@@ -231,6 +298,9 @@ int main(void)
     parameters();
     outputs();
     wires();
+    warnings();
+    warned_then_refused();
+    states();
     services();
     watched();
     ff_engine_close(engine);

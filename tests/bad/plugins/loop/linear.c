@@ -59,6 +59,12 @@ static ff_status wire(void *self, uint32_t input, const void *service)
     return FF_OK;
 }
 
+static ff_status ready(void *self)
+{
+    const loop *l = self;
+    return l->points > 0 ? FF_OK : ff_failf(l->host, FF_DOMAIN, NULL, "no points");
+}
+
 static double at(const ff_array *in, double factor)
 {
     return in->data ? factor * in->data[0] : 0;
@@ -139,6 +145,6 @@ static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *t
 FF_MODEL(loop_model, loop, .id = "loop/linear", .version = "1.0.0",
          .summary = "Adds up what is before and what comes back", .reference = "", .bibtex = "",
          .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
-         .outputs = FF_TABLE(outputs), .wire = wire, .evaluate = evaluate, .destroy = free,
-         .service = service, .carry = carry, .assess = assess);
+         .outputs = FF_TABLE(outputs), .wire = wire, .ready = ready, .evaluate = evaluate,
+         .destroy = free, .service = service, .carry = carry, .assess = assess);
 FF_EXPORT_MODELS(&loop_model);

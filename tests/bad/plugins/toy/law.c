@@ -17,6 +17,7 @@ static const ff_port outputs[] = {
 typedef struct law {
     toy_law table;
     double gain;
+    const ff_host *host;
 } law;
 
 static double eval(const void *self, double x)
@@ -27,9 +28,9 @@ static double eval(const void *self, double x)
 static ff_status create(const ff_host *host, void **self)
 {
     law *l = calloc(1, sizeof *l);
-    (void)host;
     if (!l)
         return FF_NOMEM;
+    l->host = host;
     l->table = (toy_law){.size = sizeof l->table, .self = l, .eval = eval};
     *self = l;
     return FF_OK;
@@ -40,6 +41,15 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     (void)param;
     ((law *)self)->gain = value->real;
     return FF_OK;
+}
+
+/* A gain below 0 is out of range; below -10 there is no solution. */
+static ff_status ready(void *self)
+{
+    const law *l = self;
+    return l->gain >= 0 ? FF_OK
+                        : ff_failf(l->host, l->gain < -10 ? FF_NOCONV : FF_DOMAIN, NULL,
+                                   "a gain of %g", l->gain);
 }
 
 static const void *service(void *self, uint32_t output)
@@ -65,6 +75,7 @@ static const ff_model model = {
     .output_stride = sizeof outputs[0],
     .create = create,
     .set = set,
+    .ready = ready,
     .service = service,
     .destroy = free,
 };
