@@ -56,7 +56,8 @@ static void parameters(void)
                refuses(s, ff_instance_set_reals(s, "level", &huge, 1), "level", "too large"));
     check_true("too large to be whole",
                refuses(s, ff_instance_set_reals(s, "count", &beyond, 1), "count", "beyond 2^53"));
-    check_true("no list", refuses(s, ff_instance_set_reals(s, "weights", NULL, 3), "weights", ""));
+    check_true("no list",
+               refuses(s, ff_instance_set_reals(s, "weights", NULL, 3), "weights", "found 0"));
     check_true("a falling list", refuses(s, ff_instance_set_reals(s, "weights", falling, 2),
                                          "weights", "must not decrease"));
     check_true("no number",
@@ -171,7 +172,7 @@ static void warnings(void)
     ff_instance_set(one, "answer", "domain");
     check_true("of what feeds it", ff_instance_use(sum, "source", one) == FF_OK &&
                                        ff_instance_run(sum, NULL) == FF_OK &&
-                                       says("the answer is domain"));
+                                       strstr(ff_instance_reason(sum), "the answer is domain"));
     check_true("with an error",
                ff_instance_give(sum, "more.series", &two) == FF_OK &&
                    ff_instance_set(one, "level", "3 mm") == FF_OK &&
