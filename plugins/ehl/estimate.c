@@ -137,7 +137,7 @@ static ff_status begin(ehl_estimate *e, uint64_t wanted, const ff_array *in)
     if (status != FF_OK)
         return status;
     e->alpha = ehl_oil_alpha(&e->laws, &e->oil);
-    e->out_of_law = 0;
+    e->answered = EHL_LAW_GOOD;
     if (wanted & fields)
         ehl_grid_fit(&e->grid, (size_t)e->cells, e->inlet, e->outlet, &e->history, &e->oil, 0);
     return fill_moments(e);
@@ -219,8 +219,8 @@ static void set_friction(const results *r, ehl_estimate *e, size_t k)
         p[i] = m->p_max * sqrt(1 - s * s);
     }
     e->profile(e, k, STRESS_POINTS, x, h);
-    e->out_of_law |=
-        ehl_fluid_shear(&e->laws, STRESS_POINTS, p, h, m->at.sliding, ln_eta, tau) != FF_OK;
+    ehl_law_note(&e->answered,
+                 ehl_fluid_shear(&e->laws, STRESS_POINTS, p, h, m->at.sliding, ln_eta, tau));
     for (int i = 0; i < STRESS_POINTS; i++)
         sum += tau[i];
     double traction = sum * 2 * a / STRESS_POINTS;
@@ -315,9 +315,7 @@ static void report(const ehl_estimate *e, double lowest, double least_lambda)
     if (lowest < 1e-9)
         host->quality(host->ctx, "continuum", lowest, 1e-9, FF_DOUBTFUL,
                       "outside continuum: the film is thinner than 1 nm, a few molecules");
-    if (e->out_of_law)
-        host->quality(host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
-                      "an oil law was continued outside its range");
+    ehl_law_report(host, e->answered);
 }
 
 ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)

@@ -80,7 +80,7 @@ struct ehl_estimate {
     size_t count;
     ehl_moment *moment;
     double roughness; /* of both flanks, 0: unknown */
-    int out_of_law;
+    ehl_law_answer answered;
     char reason[400]; /* of the last assessment */
 };
 

@@ -97,7 +97,7 @@ static ff_status begin(ehl_estimate *e)
     for (size_t k = 0; k < e->count; k++)
         p[k] = e->moment[k].p_max;
     const ff_density *law = e->laws.density;
-    e->out_of_law |= law->eval(law->self, e->count, p, NULL, f->density, NULL, NULL) != FF_OK;
+    ehl_law_note(&e->answered, law->eval(law->self, e->count, p, NULL, f->density, NULL, NULL));
     for (size_t k = 0; k < e->count; k++)
         f->density[k] /= e->oil.density;
     return FF_OK;

@@ -3,9 +3,32 @@
 
 #include <math.h>
 
+static ehl_law_answer answer_of(ff_status status)
+{
+    return status == FF_OK       ? EHL_LAW_GOOD
+           : status == FF_DOMAIN ? EHL_LAW_CONTINUED
+                                 : EHL_LAW_FAILED;
+}
+
 static ff_status worse(ff_status a, ff_status b)
 {
-    return a < 0 ? a : b < 0 ? b : a != FF_OK ? a : b;
+    return answer_of(b) > answer_of(a) ? b : a;
+}
+
+void ehl_law_note(ehl_law_answer *worst, ff_status status)
+{
+    if (answer_of(status) > *worst)
+        *worst = answer_of(status);
+}
+
+void ehl_law_report(const ff_host *host, ehl_law_answer worst)
+{
+    if (worst == EHL_LAW_CONTINUED)
+        host->quality(host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
+                      "an oil law was continued outside its range");
+    if (worst == EHL_LAW_FAILED)
+        host->quality(host->ctx, "law_range", 1, 0, FF_BAD,
+                      "an oil law failed at a point of the film: its numbers there mean nothing");
 }
 
 ff_status ehl_laws_at(ehl_isothermal *at, const ff_host *host, const ff_array *oil, ehl_laws *laws)

@@ -46,6 +46,12 @@ enum { EHL_LIQUID_ARRAYS = 7 };
 
 ff_status ehl_fluid_oil(const ehl_laws *laws, ehl_oil *oil);
 
+/* The worst that the laws have answered for a film. */
+typedef enum ehl_law_answer { EHL_LAW_GOOD, EHL_LAW_CONTINUED, EHL_LAW_FAILED } ehl_law_answer;
+
+void ehl_law_note(ehl_law_answer *worst, ff_status status);
+void ehl_law_report(const ff_host *host, ehl_law_answer worst); /* a line of the quality record */
+
 /* All of `liquid` at n nodes; h > 0. FF_DOMAIN: a law was continued out of its range. */
 ff_status ehl_fluid_evaluate(const ehl_laws *laws, size_t n, const double *p, const double *h,
                              double sliding, const ehl_liquid *liquid);

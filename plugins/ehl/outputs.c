@@ -146,7 +146,7 @@ static shear shear_of(ehl_results *r, const ehl_march *m)
     double sliding = m->at.sliding, way = (sliding > 0) - (sliding < 0);
     double fluid = 0, asperities = 0;
     ff_status status = ehl_fluid_shear(&eq->laws, count, p, eq->h, sliding, r->ln_eta, r->tau);
-    r->out_of_law |= status != FF_OK;
+    ehl_law_note(&r->laws, status);
     for (size_t i = 0; i < count; i++) {
         fluid += p[i] > 0 && !film->asperity[i] ? r->tau[i] : 0;
         asperities += film->asperity[i] ? p[i] : 0;
@@ -271,7 +271,7 @@ static double record_mass(ehl_results *r, const ehl_march *m)
     double sum = 0, gain = 0, supply = 0;
     double speed = m->at.entrainment + m->step.rate * m->solver->grid->half_width;
     ehl_reynolds_evaluate(eq, &m->step, film);
-    r->out_of_law |= eq->law_status != FF_OK;
+    ehl_law_note(&r->laws, eq->law_status);
     for (size_t i = 1; i + 1 < eq->nodes; i++) {
         if (film->asperity[i]) { /* oil that would be missing even if the cell were emptied */
             double lacking = eq->dx * m->step.rate * (eq->mass[i] - m->state[0].mass[i]);
@@ -387,7 +387,7 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     record_film(r, m);
     record_loss(r, m);
     record_balance(r, m);
-    r->out_of_law |= eq->law_status != FF_OK;
+    ehl_law_note(&r->laws, eq->law_status);
     if (m->rough)
         record_contact(r, m);
     if (film->plastic)

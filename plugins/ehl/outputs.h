@@ -39,7 +39,8 @@ typedef struct ehl_results {
     double tail_share; /* share of the pressure flow's loss that lies upstream of the domain */
     size_t starved;    /* instants without such a loss: the domain begins cavitated */
     double undecided;  /* the solver's counter when the mass was recorded last */
-    int out_of_law, rough;
+    ehl_law_answer laws;
+    int rough;
 } ehl_results;
 
 ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wanted,

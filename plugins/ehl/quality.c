@@ -458,9 +458,7 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     if (r->lowest < 0.999e-9)
         r->host->quality(r->host->ctx, "continuum", r->lowest, 1e-9, FF_DOUBTFUL,
                          "outside continuum: the film is thinner than 1 nm, a few molecules");
-    if (r->out_of_law)
-        r->host->quality(r->host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
-                         "an oil law was continued outside its range");
+    ehl_law_report(r->host, r->laws);
     report_start(r, m);
     if (m->solver->outside)
         r->host->quality(r->host->ctx, "discretisation", 1, 0, FF_GOOD,

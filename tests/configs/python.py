@@ -7,9 +7,11 @@ import csv
 import gc
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
+import threading
 
 try:
     import numpy as np
@@ -178,6 +180,13 @@ def test_engine_errors():
         check("an error of one's own passes", False)
     except ZeroDivisionError:
         check("an error of one's own passes", True)
+    killer = threading.Timer(0.2, os.kill, (os.getpid(), signal.SIGINT))
+    killer.start()
+    try:
+        engine.run("case.yaml", {"film.use": "ehl/finite-volume", "film.cells": 1024, "film.steps": 4000})
+        check("Ctrl-C stops a run", False)
+    except KeyboardInterrupt:
+        check("Ctrl-C stops a run", True)
     check("the engine goes on", float(engine.run("case.yaml")["motion.dte_rms"]) > 0)
 
 
@@ -197,6 +206,8 @@ def test_laws():
     check("its shear", np.allclose(flow.shear(p, ln_eta, 1e-7, 1.0), 5e6 * np.arcsinh(np.exp(ln_eta) / 5e6 / 1e-7)))
     grade = engine.model("lubricant/grade", {"grade": "ISO VG 100", "temperature": "40 degC"}).law()
     ln_eta0, rho0 = (grade(name, 313.15) for name in ("ln_eta0", "rho0"))
+    check("no such property", raised(lambda: engine.model("lubricant/grade", {
+        "grade": "ISO VG 100"}).law()("eta0", 300), "ln_eta0"))
     check("an oil", np.isclose(np.exp(ln_eta0) / rho0, 100e-6, rtol=1e-6))
 
 

@@ -5,10 +5,12 @@ A model is code of others in this process: one that crashes takes Python along. 
 the program instead, which survives that.
 """
 
+import contextlib
 import ctypes
-import ctypes.util
 import glob
 import os
+import signal
+import threading
 from collections.abc import Mapping
 from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_size_t, c_uint32, c_void_p
 
@@ -139,6 +141,19 @@ def _line(q):
     return {"value": q.value, "limit": q.limit, "verdict": VERDICTS[q.verdict], "text": _words(q.text)}
 
 
+@contextlib.contextmanager
+def _interrupts(stopped):
+    """Ctrl-C in the main thread is kept for when the engine has stopped."""
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, lambda *_: stopped.append(KeyboardInterrupt()))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 class Engine:
     """Loads models and runs pipelines in this process. One thread at a time uses an engine with its
     runs and models; engines in different threads work at the same time.
@@ -206,19 +221,20 @@ class Run(Mapping):
         self._of._close(self._run.value)
 
     def _start(self, progress):
-        broken = []
+        stopped = []
 
         def report(_ctx, _stage, share):
             try:
-                return int(bool(progress and progress(share)))
-            except BaseException as error:  # also a pressed Ctrl-C: it must not pass through C
-                broken.append(error)
+                return int(bool(stopped) or bool(progress and progress(share)))
+            except BaseException as error:  # it must not pass through C
+                stopped.append(error)
                 return 1
 
         observer = _Observer(ctypes.sizeof(_Observer), None, _Progress(report), None)
-        status = self._library.ff_run_start(self._run, byref(observer))
-        if broken:
-            raise broken[0]
+        with _interrupts(stopped):
+            status = self._library.ff_run_start(self._run, byref(observer))
+        if stopped:
+            raise stopped[0]
         self._of._hold(status, self)
         self.warnings = _words(self._library.ff_engine_message(self._of._engine))
 
@@ -398,6 +414,8 @@ class _Liquid(_Law):
                          (c_int32, c_size_t, c_void_p, c_void_p, c_void_p))
 
     def __call__(self, name, T, slopes=False):
+        if name not in self.PROPERTIES:
+            raise Error(f"an oil has {', '.join(self.PROPERTIES)}, not {name}", 2)
         (T,) = _like(T)
         value, slope = np.empty_like(T), np.empty_like(T)
         self._call(0, self.PROPERTIES.index(name), T.size, _at(T), _at(value), _at(slope))

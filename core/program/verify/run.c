@@ -5,6 +5,7 @@
 #include "../memory/memory.h"
 
 #include <errno.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -169,10 +170,23 @@ static void run_destructors(verify_context *context)
 #endif
 }
 
+static verify_outcome *watched; /* of the test in this process: a handler takes no argument */
+
+/* A model that forks at each call would fill the machine with copies of the test. */
+static void on_fork(void)
+{
+    snprintf(watched->why, sizeof watched->why, "started another process while %s", watched->step);
+    watched->finding = VERIFY_FAILED;
+    watched->finished = true;
+    _exit(0);
+}
+
 static _Noreturn void child(const session *s, const test *t, verify_outcome *outcome)
 {
     verify_context context = {.outcome = outcome};
     ff_engine *engine = open_engine(s->root);
+    watched = outcome;
+    pthread_atfork(on_fork, NULL, NULL);
     verify_step(&context, "loading");
     verify_watch(&context);
     bool loaded = load(&context, ff_engine_library(engine), s->id);
