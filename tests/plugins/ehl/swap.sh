@@ -1,6 +1,6 @@
 #!/bin/sh
-# One word on the command line swaps the film model of a whole pipeline, and every card of an oil
-# serves it.   swap.sh FLANKFILM SOURCE_ROOT
+# One word on the command line swaps the film model of a whole pipeline, and every card whose laws say
+# the oil serves it; those of an oil stage are tests/plugins/lubricant/cards.sh's.   swap.sh FLANKFILM SOURCE_ROOT
 set -eu
 flankfilm=$1
 source=$2
@@ -24,7 +24,7 @@ awk -v f="$full" -v a="$formula" -v b="$inlet" 'BEGIN {
 }'
 
 # the four laws of a card are one oil: their films differ by less than 6 %, and nothing warns
-for card in "$source"/configs/lubricants/*.yaml; do
+for card in $(grep -L 'use: lubricant/' "$source"/configs/lubricants/*.yaml); do
     cat >"$lab/card.yaml" <<END
 format: 1
 include: [$card]
