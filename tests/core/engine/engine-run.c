@@ -17,7 +17,7 @@ static ff_engine *open_engine(void)
     const char *toys = getenv("FLANKFILM_TEST_BAD");
     ff_engine_options options = {
         .size = sizeof options, .plugin_paths = &toys, .plugin_path_count = 1};
-    ff_engine *made;
+    ff_engine *made = NULL;
     check_true("an engine", toys && ff_engine_new(&options, &made) == FF_OK);
     return made;
 }

@@ -336,6 +336,7 @@ START_TEST(the_report_keeps_the_text)
     ck_assert_ptr_nonnull(strstr(printed, ":2:4: error: \"x\" is not a number\n    2 | 0, x\n"
                                           "      |    ^\n"));
     ck_assert_ptr_nonnull(strstr(printed, ":3:4: error: \"y\" is not a number\n    3 | 1, y\n"));
+    ff_free(printed);
 }
 END_TEST
 

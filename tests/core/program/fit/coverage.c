@@ -79,9 +79,13 @@ static void try_case(const known *c)
     fitting_close(&f);
 }
 
-int main(void)
+static void checks(void)
 {
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
         try_case(&cases[i]);
-    return check_done();
+}
+
+int main(void)
+{
+    return fitting_test(checks);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fitting.h"
+#include "check.h"
 
 #include <flankfilm/viscosity.h>
 #include <stage.h>
@@ -51,6 +52,23 @@ static void write_data(const char *path, const points *data)
         fputc('\n', out);
     }
     fclose(out);
+}
+
+typedef struct work {
+    void (*checks)(void);
+} work;
+
+static void run_checks(void *ctx)
+{
+    const work *w = ctx;
+    w->checks();
+}
+
+int fitting_test(void (*checks)(void))
+{
+    work w = {checks};
+    check_true("memory for all checks", ff_protected(run_checks, &w) == FF_OK);
+    return check_done();
 }
 
 static void forget(fitting *f)

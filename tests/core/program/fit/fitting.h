@@ -20,6 +20,9 @@ typedef struct points {
     const double *p, *eta, *T, *uncertainty, *weight;
 } points;
 
+/* Makes the checks as the program makes its fits; the answer is main's. */
+int fitting_test(void (*checks)(void));
+
 /* Whether the law could be fitted. */
 bool fitting_run(fitting *f, const points *data);
 void fitting_close(fitting *f);

@@ -175,7 +175,7 @@ static void check_no_data(void)
                   "repeats row 7 of the table");
 }
 
-int main(void)
+static void checks(void)
 {
     check_exact();
     check_blind();
@@ -184,5 +184,9 @@ int main(void)
     check_form();
     check_uncertainty();
     check_no_data();
-    return check_done();
+}
+
+int main(void)
+{
+    return fitting_test(checks);
 }
