@@ -17,9 +17,9 @@ meson install -C "$build" --no-rebuild --quiet --destdir "$lab/root" >"$lab/said
     exit 1
 }
 mv "$lab/root$prefix" "$lab/moved"
-mkdir "$lab/work"
-cp -r "$source/tests/third-party/yasutomi" "$lab/work/"
-awk -v to="$lab/work" '
+mkdir "$lab/stranger"
+cp -r "$source/tests/third-party/yasutomi" "$lab/stranger/"
+awk -v to="$lab/stranger" '
     /^```(c|cpp)$/ { open = 1; next }
     /^```$/ { open = 0 }
     open == 1 { match($0, /[a-z]+\.(c|cpp)/); file = to "/" substr($0, RSTART, RLENGTH); open = 2 }
@@ -32,13 +32,13 @@ if grep -rl "$(realpath "$build")" "$lab/moved"; then
     exit 1
 fi
 
-# stranger COMMAND...: in the work folder, as a user without rights, with nothing in the environment
+# stranger COMMAND...: in a folder of his own, as a user without rights, with nothing in the environment
 stranger() {
     if [ "$(id -u)" = 0 ]; then
-        chown -R 65534:65534 "$lab/work"
+        chown -R 65534:65534 "$lab/stranger"
         set -- setpriv --reuid=65534 --regid=65534 --clear-groups "$@"
     fi
-    (cd "$lab/work" && env -i PATH=/usr/bin:/bin "$@")
+    (cd "$lab/stranger" && env -i PATH=/usr/bin:/bin "$@")
 }
 pc=$(dirname "$(find "$lab/moved" -name libflankfilm.pc)")
 flags=$(env -i PATH=/usr/bin:/bin PKG_CONFIG_PATH="$pc" pkg-config --cflags --libs libflankfilm)
@@ -79,8 +79,8 @@ tail -n 1 "$lab/from-c" | diff - "$lab/from-python"
 
 # a law of others
 flags=$(env -i PATH=/usr/bin:/bin PKG_CONFIG_PATH="$pc" pkg-config --cflags flankfilm)
-law=$(ls "$lab/work/yasutomi/"*.c*)
-mkdir "$lab/work/viscosity"
+law=$(ls "$lab/stranger/yasutomi/"*.c*)
+mkdir "$lab/stranger/viscosity"
 # shellcheck disable=SC2086
 stranger c++ -O2 -fPIC -shared -fvisibility=hidden $flags "$law" -o viscosity/yasutomi.so
 stranger "$program" verify viscosity/yasutomi.so >"$lab/said" 2>&1 || { cat "$lab/said" && exit 1; }
