@@ -90,7 +90,7 @@ def _places():
         folder = os.path.dirname(os.path.realpath(_program()[0]))
     except Error:
         folder = None
-    for pattern in (".", "../lib", "../lib/*"):
+    for pattern in (".", "../lib*", "../lib/*"):
         yield from sorted(glob.glob(os.path.join(folder, pattern, "libflankfilm.so.0")) if folder else [])
     yield "libflankfilm.so.0"
 
