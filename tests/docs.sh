@@ -30,7 +30,7 @@ cut_blocks() { # PAGE DIRECTORY
             named = match($0, /[a-z-]+\.(c|cpp|yaml)/)
             file = to "/" (named ? substr($0, RSTART, RLENGTH) : "configs/block-" count "." kind)
             if (kind == "yaml" && /^study:/) {
-                print "format: 1" >file
+                print "format: 2" >file
                 print "include: [li-kahraman-2011.yaml]" >file
             }
         }

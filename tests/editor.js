@@ -85,7 +85,7 @@ async function main() {
     send({ method: 'initialized', params: {} });
     send({ method: 'workspace/didChangeConfiguration', params: { settings: {} } });
 
-    const pipeline = 'format: 1\npipeline:\n';
+    const pipeline = 'format: 2\npipeline:\n';
     const law = '  oil: {use: viscosity/barus, eta0: 5 mPa s, alpha: 11 1/GPa}\n';
     let seen = await open(`${pipeline}${law}outputs: [oil.*]\n|`).diagnostics;
     check('a right file has no findings', seen.length === 0, seen);

@@ -96,7 +96,7 @@ def examples():
 
 
 def wrong_lines():
-    pipeline = "format: 1\npipeline:\n"
+    pipeline = "format: 2\npipeline:\n"
     law = "  oil: {use: viscosity/barus, eta0: 5 mPa s, alpha: 11 1/GPa}\n"
     for name, text, lines, word in (
         ("a right file", law + "outputs: [oil.*]\n", [], ""),

@@ -15,7 +15,7 @@ build() {
 build law viscosity
 build stage lab
 cat >"$lab/case.yaml" <<'END'
-format: 1
+format: 2
 pipeline:
   oil: {use: viscosity/of-1-0, eta0: 10 mPa s, alpha: 20 1/GPa}
   discs: {use: contact/constant, radius: 12 mm, entrainment_speed: 4 m/s, slide_roll_ratio: 0, load_per_width: 100 N/mm}

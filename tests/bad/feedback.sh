@@ -10,7 +10,7 @@ lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 cd "$lab"
 cat >loop.yaml <<'YAML'
-format: 1
+format: 2
 feedback: {tolerance: 1e-9, rounds: 40}
 pipeline:
   a: {use: loop/linear, base: 1 m, factor: 0.5, back: b, work: 1 ms}

@@ -63,7 +63,7 @@ CHANGES = {
 # those that a run finds, too, and sets back
 SET_BACK = ["rounding", "flush", "locale", "folder"]
 
-CASE = """format: 1
+CASE = """format: 2
 pipeline:
   oil: {use: viscosity/misdeed}
   point: {use: misdeed/stage}

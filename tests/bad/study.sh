@@ -11,7 +11,7 @@ cd "$lab"
 printf 'level [mm]\n1\n2\n' >good.csv
 printf 'level [mm]\n1\n-2\n' >below.csv
 cat >tables.yaml <<YAML
-format: 1
+format: 2
 pipeline: {reader: {use: toy/reader, file: good.csv}}
 outputs: [reader.sum]
 study:

@@ -46,7 +46,7 @@ def raised(call, *parts, code=2):
     return False
 
 
-case = """format: 1
+case = """format: 2
 include: [{0}/configs/li-kahraman-2011.yaml]
 pipeline: {{mesh: {{use: stiffness/iso-6336}}, film: {{use: ehl/film-formula}}}}
 outputs: [film.h_min, film.h_min_lowest, film.roll_angle, motion.dte_rms, gears.teeth]

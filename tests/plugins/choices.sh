@@ -23,7 +23,7 @@ tells() {
 }
 
 cat >"$lab/discs.yaml" <<EOF
-format: 1
+format: 2
 include: [$source/configs/lubricants/mil-l-23699-100C.yaml]
 pipeline:
   discs: {use: contact/constant, radius: 20 mm, entrainment_speed: 4 m/s, slide_roll_ratio: 0.01, load_per_width: 100 N/mm}

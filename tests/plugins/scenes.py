@@ -38,7 +38,7 @@ def text_of(scene, source, stages, outputs):
     motion = stages.get('motion') or 'use: dynamics/' + scene['motion']
     damping = ', damping_ratio: 0.04' if 'quasi-static' not in motion else ''
     wire = '' if scene['rheology'] else ', rheology: none'
-    return f"""format: 1
+    return f"""format: 2
 include: [{source}/configs/lubricants/{scene['oil']}.yaml]
 pipeline:
   gears: {{use: gear/involute-spur, teeth: {scene['teeth']}, module: {scene['module']} mm,

@@ -59,13 +59,13 @@ static void check_format(fe_build *b, const ff_node *root)
 {
     const ff_node *format = ff_node_get(root, "format");
     if (!format)
-        ff_error(b->report, FF_FAULT_INPUT, root->place, "write the line \"format: 1\" at its top",
+        ff_error(b->report, FF_FAULT_INPUT, root->place, "write the line \"format: 2\" at its top",
                  "the file does not state its format");
     else if (format->kind != FF_SCALAR)
-        fe_expected(b, format, "format", "1");
-    else if (strcmp(format->text, "1") != 0)
+        fe_expected(b, format, "format", "2");
+    else if (strcmp(format->text, "2") != 0)
         ff_error(b->report, FF_FAULT_INPUT, format->place, NULL,
-                 "format: expected 1, the only one that this version reads, found \"%.40s\"",
+                 "format: expected 2, the only one that this version reads, found \"%.40s\"",
                  format->text);
 }
 

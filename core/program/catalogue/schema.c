@@ -265,7 +265,7 @@ static json_t *whole_schema(const catalogue *c, const char *version)
     json_object_set_new(schema, "definitions", definitions);
     for (const char *const *key = ff_file_keys(); *key; key++)
         json_object_set_new(top, *key, json_true());
-    json_object_set_new(top, "format", json_pack("{s:i}", "const", 1));
+    json_object_set_new(top, "format", json_pack("{s:i}", "const", 2));
     json_object_set_new(top, "title", json_pack("{s:s}", "type", "string"));
     for (const char *const *key = (const char *const[]){"include", "outputs", NULL}; *key; key++)
         json_object_set_new(

@@ -26,7 +26,7 @@ static ff_run *open_run(ff_engine *of, const char *text, const char *const *sets
 {
     ff_run *run;
     FILE *out = fopen(file, "w");
-    fprintf(out, "format: 1\n%s", text);
+    fprintf(out, "format: 2\n%s", text);
     fclose(out);
     *status = ff_run_open(of, file, sets, &run);
     return run;

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Line 1 is "format: 1". */
+/* Line 1 is "format: 2". */
 static const struct {
     const char *text;
     unsigned line, column;
@@ -132,8 +132,8 @@ int main(void)
         try_close(&a);
     }
     format("pipeline: {a: {use: toy/law}}\n", 1, 1, "the file does not state its format");
-    format("format: 2\npipeline: {a: {use: toy/law}}\n", 1, 9, "format: expected 1, the only one");
-    format("format: [1]\npipeline: {a: {use: toy/law}}\n", 1, 9, "expected 1, found a list");
+    format("format: 1\npipeline: {a: {use: toy/law}}\n", 1, 9, "format: expected 2, the only one");
+    format("format: [1]\npipeline: {a: {use: toy/law}}\n", 1, 9, "expected 2, found a list");
     all_in_one_pass();
     return check_done();
 }

@@ -251,7 +251,7 @@ static void files(void)
     const char *const places[] = {try_plugins()};
     attempt a = {.report = ff_report_new(), .library = fe_library_new(places, 1)};
     a.tree = ff_tree_parse("case.yaml", directory,
-                           "format: 1\npipeline:\n"
+                           "format: 2\npipeline:\n"
                            "  a: {use: toy/source, level: 1 mm, table: data.csv}\n",
                            a.report);
     a.pipeline = ff_pipeline_build(a.tree, a.library, false, a.report);

@@ -19,7 +19,7 @@ static attempt begin(const char *text, const char *assignment, bool everything)
 {
     const char *const directories[] = {try_plugins()};
     char whole[8192];
-    snprintf(whole, sizeof whole, "format: 1\n%s", text);
+    snprintf(whole, sizeof whole, "format: 2\n%s", text);
     attempt a = {.report = ff_report_new(), .library = fe_library_new(directories, 1)};
     a.tree = ff_tree_parse("case.yaml", ".", whole, a.report);
     if (assignment)

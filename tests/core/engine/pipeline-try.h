@@ -7,7 +7,7 @@
 
 #include <check.h>
 
-/* A line "format: 1" is put before the text, so that the text's first line is line 2. */
+/* A line "format: 2" is put before the text, so that the text's first line is line 2. */
 typedef struct attempt {
     ff_tree *tree;
     ff_library *library;

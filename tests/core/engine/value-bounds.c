@@ -251,7 +251,7 @@ START_TEST(many_texts_over_two_lines)
 END_TEST
 
 static const char sample[] =
-    "# comment\nformat: 1\ntitle: \"a \\\"pair\\\" \\u00e9\"\nbase: &b {x: 1, y: [2, 3 mm]}\n"
+    "# comment\nformat: 2\ntitle: \"a \\\"pair\\\" \\u00e9\"\nbase: &b {x: 1, y: [2, 3 mm]}\n"
     "pipeline:\n  gears: {use: gear/involute-spur, teeth: [50, 50], module: 3 mm}\n"
     "  oil:\n    <<: *b\n    use: viscosity/barus\n    note: |\n      line one\n\n      größe µm\n"
     "  duty:\n    torque: 250 N m\n    list:\n      - a\n      - {b: 'it''s', c: }\n"

@@ -350,7 +350,7 @@ START_TEST(file_without_permission_is_named)
 END_TEST
 
 static const char two_stages[] =
-    "format: 1\npipeline:\n  duty: {use: operating/steady, torque: 250 "
+    "format: 2\npipeline:\n  duty: {use: operating/steady, torque: 250 "
     "N m}\n  gears: {teeth: [50, 50]}\noutputs: [film.h_min, x]\n";
 
 START_TEST(assignment_replaces_a_value)
@@ -388,7 +388,7 @@ END_TEST
 
 START_TEST(assignment_follows_keys_with_dots)
 {
-    parse("format: 1\nstudy: {sweep: {duty.torque: {points: 2}}}\n");
+    parse("format: 2\nstudy: {sweep: {duty.torque: {points: 2}}}\n");
     ck_assert(ff_tree_set(tree, "study.sweep.duty.torque.points=3", NULL, NULL, report));
     ck_assert(ff_tree_set(tree, "study.sweep.duty.torquem=1", NULL, NULL, report));
     const ff_node *sweep = find("study.sweep");
@@ -400,7 +400,7 @@ END_TEST
 
 START_TEST(assignment_makes_maps_on_the_way)
 {
-    parse("format: 1\n");
+    parse("format: 2\n");
     ck_assert(ff_tree_set(tree, "oil.with.viscosity/barus.eta0=5 cP", "pipeline", top, report));
     check_text("pipeline.oil.with.viscosity/barus.eta0", "5 cP");
     ck_assert_uint_eq(find("pipeline.oil")->rank, 1);
@@ -478,7 +478,7 @@ START_TEST(assignment_path_has_a_depth)
     for (int i = 0; i < 100; i++)
         strcat(text, "a.");
     strcat(text, "a=1");
-    parse("format: 1\n");
+    parse("format: 2\n");
     ck_assert(!ff_tree_set(tree, text, NULL, NULL, report));
     check_error("more than 64 levels deep");
 }

@@ -27,8 +27,8 @@ static void test_input(void)
 {
     cli_write("broken.yaml", "pipeline: {wave: [}\n");
     cli_write("empty.yaml", "");
-    cli_write("typo.yaml", "format: 1\npipeline:\n  wave: {use: toy/wave, amplitud: 2 mm}\n");
-    cli_write("nomodel.yaml", "format: 1\npipeline:\n  wave: {use: toy/nothing}\n");
+    cli_write("typo.yaml", "format: 2\npipeline:\n  wave: {use: toy/wave, amplitud: 2 mm}\n");
+    cli_write("nomodel.yaml", "format: 2\npipeline:\n  wave: {use: toy/nothing}\n");
     expect_failure("$F check missing.yaml", 2, "error", "missing.yaml");
     expect_failure("$F run broken.yaml", 2, "error", "a value is missing before");
     expect_failure("$F check empty.yaml", 2, "error", "there is nothing in it to read");
@@ -44,7 +44,7 @@ static void test_input(void)
                cli_has(cli_text_at(r.json, "errors/0/file"), "typo.yaml") &&
                    json_integer_value(cli_at(r.json, "errors/0/line")) == 3 &&
                    json_integer_value(cli_at(r.json, "errors/0/column")) > 0);
-    cli_write("study.yaml", "format: 1\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
+    cli_write("study.yaml", "format: 2\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
                             "study: {sweep: {}}\n");
     expect_failure("$F run study.yaml", 2, "error", "expected a map from paths to values");
     cli_expect("nothing was written", &r, !cli_exists("results"));
@@ -53,7 +53,7 @@ static void test_input(void)
 /* Values of a sweep are tried by `check`, and errors lie where they are written. */
 static void test_sweep(void)
 {
-    cli_write("sweep.yaml", "format: 1\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
+    cli_write("sweep.yaml", "format: 2\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
                             "study:\n  sweep:\n    wave.amplitude: [1 mm, 3 kg]\n");
     expect_failure("$F check sweep.yaml", 2, "error", "\"3 kg\" is a mass");
     outcome r = cli("$F check sweep.yaml --json");
@@ -61,14 +61,14 @@ static void test_sweep(void)
                cli_has(cli_text_at(r.json, "errors/0/file"), "sweep.yaml") &&
                    json_integer_value(cli_at(r.json, "errors/0/line")) == 6 &&
                    json_integer_value(cli_at(r.json, "errors/0/column")) == 28);
-    cli_write("sweep.yaml", "format: 1\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
+    cli_write("sweep.yaml", "format: 2\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
                             "study:\n  sweep:\n    wave.amplitud: [1 mm, 2 mm]\n");
     expect_failure("$F run sweep.yaml", 2, "error", "did you mean \"amplitude\"?");
     r = cli("$F run sweep.yaml --json");
     cli_expect("the path's place", &r,
                json_integer_value(cli_at(r.json, "errors/0/line")) == 6 &&
                    json_integer_value(cli_at(r.json, "errors/0/column")) == 5);
-    cli_write("sweep.yaml", "format: 1\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
+    cli_write("sweep.yaml", "format: 2\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
                             "study:\n  sweep:\n    wave.amplitude: {from: 1 mm, to: 1 km, points: "
                             "100}\n");
     expect_failure("$F check sweep.yaml", 2, "error", "is too large");
@@ -77,7 +77,7 @@ static void test_sweep(void)
 static void test_plugin(void)
 {
     cli_write("plugins/toy/garbage.so", "this is no shared object\n");
-    cli_write("garbage.yaml", "format: 1\npipeline:\n  g: {use: toy/garbage}\n");
+    cli_write("garbage.yaml", "format: 2\npipeline:\n  g: {use: toy/garbage}\n");
     expect_failure("$F run garbage.yaml", 3, "error", "garbage.so");
     expect_failure("$F check garbage.yaml", 3, "error", "garbage.so");
     expect_failure("$F models toy/garbage", 3, "error", "garbage.so");

@@ -11,7 +11,7 @@ static void test_check(void)
     r = cli("$F check pair.yaml --json");
     cli_expect("check --json", &r,
                r.code == 0 && r.json && json_integer_value(cli_at(r.json, "stages")) == 3);
-    cli_write("idle.yaml", "format: 1\npipeline:\n  a: {use: toy/wave, amplitude: 1 mm}\n"
+    cli_write("idle.yaml", "format: 2\npipeline:\n  a: {use: toy/wave, amplitude: 1 mm}\n"
                            "  b: {use: toy/nothing}\noutputs: [a.total]\n");
     r = cli("$F check idle.yaml");
     cli_expect("check looks at idle stages too", &r,

@@ -13,7 +13,7 @@ static char scratch[32] = "/tmp/flankfilm-cli-";
 static outcome last;
 static char *last_file;
 
-static const char pair[] = "format: 1\n"
+static const char pair[] = "format: 2\n"
                            "title: a pair of toys\n"
                            "pipeline:\n"
                            "  wave: {use: toy/wave, amplitude: 2 mm}\n"

@@ -44,7 +44,7 @@ grep -q '# mesh_frequency: 1250 Hz .*replaced by a later one$' "$lab/shown.yaml"
 mkdir "$lab/case"
 printf 'phase,stiffness [N/m]\n0,4e8\n0.5,6e8\n' >"$lab/case/my mesh: #1.csv"
 cat >"$lab/case/study.yaml" <<EOF
-format: 1
+format: 2
 title: "a: 'b' # \"c\" \\\\ d"
 include: [$source/configs/gears/unity-50.yaml]
 pipeline:

@@ -38,7 +38,7 @@ judge "the card says the range of the data" $?
 [ "$(grep -c . out/residuals.csv)" -eq 14 ]
 judge "a residual for each row" $?
 cat >own.yaml <<END
-format: 1
+format: 2
 include: [$source/configs/li-kahraman-2011.yaml, out/card.yaml]
 pipeline: {film: {use: ehl/film-formula}}
 outputs: [film.h_min]

@@ -12,7 +12,7 @@ import tempfile
 import unittest
 
 RUN = """
-format: 1
+format: 2
 title: 'waves <b>&amp;</b> "quotes" é'
 pipeline:
   wave: {use: toy/wave, amplitude: 2 mm, count: 9, end: doubtful}
@@ -24,7 +24,7 @@ ARGUMENTS = [os.path.abspath(path) for path in sys.argv[1:]]
 
 # Lengths differ between cases, one case in three fails, and two paths share an axis.
 STUDY = """
-format: 1
+format: 2
 title: waves of several lengths
 pipeline:
   wave: {use: toy/wave, amplitude: 2 mm}

@@ -11,7 +11,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
 cat >"$work/pair.yaml" <<END
-format: 1
+format: 2
 include: [$source/configs/gears/unity-50.yaml, $source/configs/lubricants/mil-l-23699-100C.yaml]
 pipeline:
   duty:        {use: operating/steady, torque: 250 N m, mesh_frequency: 1250 Hz}

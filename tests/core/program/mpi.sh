@@ -25,7 +25,7 @@ export ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0" # Open MPI does not give 
 export OMPI_MCA_orte_abort_print_stack=0
 
 cat >study.yaml <<YAML
-format: 1
+format: 2
 pipeline:
   wave: {use: toy/wave, amplitude: 2 mm, work: 60 ms}
   sum: {use: toy/sum, wave: wave}
@@ -90,7 +90,7 @@ echo "in shards, and without mpirun"
 
 # A chain is handed out as a whole.
 cat >chains.yaml <<YAML
-format: 1
+format: 2
 pipeline:
   walk: {use: toy/walk}
 outputs: [walk.place]

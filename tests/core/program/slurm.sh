@@ -135,7 +135,7 @@ for toy; do
 done
 cd "$lab"
 cat >"my study.yaml" <<YAML
-format: 1
+format: 2
 pipeline:
   wave: {use: toy/wave, amplitude: 2 mm, work: 400 ms}
   sum: {use: toy/sum, wave: wave}

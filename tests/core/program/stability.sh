@@ -14,7 +14,7 @@ cd "$lab"
 # map NAME LOADS SPEEDS REST
 map() {
     cat >"$1.yaml" <<YAML
-format: 1
+format: 2
 pipeline: {verge: {use: toy/verge}}
 outputs: [verge.answers]
 study:

@@ -9,7 +9,7 @@ static void write_walk(const char *name, const char *walk, const char *study)
 {
     char text[2048];
     snprintf(text, sizeof text,
-             "format: 1\npipeline:\n  walk: {use: toy/walk%s}\noutputs: [walk.place]\nstudy: %s\n",
+             "format: 2\npipeline:\n  walk: {use: toy/walk%s}\noutputs: [walk.place]\nstudy: %s\n",
              walk, study);
     cli_write(name, text);
 }
@@ -87,7 +87,7 @@ static void test_bad_state(void)
 static void test_nothing_carried(void)
 {
     cli_write("n.yaml",
-              "format: 1\npipeline: {wave: {use: toy/wave, amplitude: 1 mm}}\n"
+              "format: 2\npipeline: {wave: {use: toy/wave, amplitude: 1 mm}}\n"
               "study: {sweep: {wave.amplitude: {from: 1 mm, to: 2 mm, points: 2, follow: up}}}\n");
     outcome r = cli("$F check n.yaml");
     cli_expect("no stage hands on a state", &r,
@@ -101,7 +101,7 @@ static void test_files(void)
     cli("mkdir -p cards");
     cli_write("cards/low.tide.yaml", "pipeline: {wave: {amplitude: 1 mm, count: 2}}\n");
     cli_write("cards/high.yaml", "pipeline: {wave: {amplitude: 3 mm, count: 2}}\n");
-    cli_write("t.yaml", "format: 1\npipeline: {wave: {use: toy/wave, amplitude: 9 mm}}\n"
+    cli_write("t.yaml", "format: 2\npipeline: {wave: {use: toy/wave, amplitude: 9 mm}}\n"
                         "outputs: [wave.total]\n"
                         "study: {sweep: {tide: {include: [cards/low.tide.yaml, cards/high.yaml]}, "
                         "wave.shape: [a]}}\n");
@@ -124,7 +124,7 @@ static void test_files(void)
 static void test_named_stages(void)
 {
     cli_write("s.yaml",
-              "format: 1\npipeline: {wave: {use: toy/wave, amplitude: 9 mm, count: 2}}\n"
+              "format: 2\npipeline: {wave: {use: toy/wave, amplitude: 9 mm, count: 2}}\n"
               "outputs: [wave.total]\n"
               "study:\n  sweep:\n    wave: {calm: {amplitude: 1 mm}, rough: {amplitude: 4 mm}}\n");
     outcome r = cli("$F run s.yaml && cut -d, -f3- results/s/table.csv");

@@ -25,7 +25,7 @@ cp "$flankfilm" "${flankfilm%/*}/libflankfilm.so.0" "$lab"
 cd "$lab"
 export FLANKFILM_PLUGIN_PATH="$lab/plugins"
 cat >study.yaml <<YAML
-format: 1
+format: 2
 pipeline:
   wave: {use: toy/wave, amplitude: 2 mm}
   walk: {use: toy/walk}

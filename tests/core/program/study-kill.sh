@@ -16,7 +16,7 @@ cd "$lab"
 export FLANKFILM_PLUGIN_PATH="$lab/plugins"
 points=$((rounds * 4)) # so many that the last round still finds work
 cat >study.yaml <<YAML
-format: 1
+format: 2
 pipeline:
   wave: {use: toy/wave, amplitude: 2 mm, work: 20 ms}
   sum: {use: toy/sum, wave: wave}
@@ -28,7 +28,7 @@ study:
     wave.count: [8, 16, 32]
 YAML
 cat >chains.yaml <<YAML
-format: 1
+format: 2
 pipeline:
   walk: {use: toy/walk, step: 1 m, work: 10 ms}
 outputs: [walk.place]

@@ -10,7 +10,7 @@ ln -s "$(realpath "$2")" "$lab/plugins/toy/root.so"
 export FLANKFILM_PLUGIN_PATH="$lab/plugins"
 cd "$lab"
 cat >study.yaml <<YAML
-format: 1
+format: 2
 pipeline: {root: {use: toy/root}}
 outputs: [root.value]
 study:

@@ -9,7 +9,7 @@ static void write_study(const char *name, const char *wave, const char *study)
 {
     char text[2048];
     snprintf(text, sizeof text,
-             "format: 1\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm%s}\n"
+             "format: 2\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm%s}\n"
              "  sum: {use: toy/sum, wave: wave}\noutputs: [sum.sum]\nstudy: %s\n",
              wave, study);
     cli_write(name, text);
@@ -118,7 +118,7 @@ static void test_failures(void)
 
 static void test_reuse(void)
 {
-    cli_write("r.yaml", "format: 1\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
+    cli_write("r.yaml", "format: 2\npipeline:\n  wave: {use: toy/wave, amplitude: 2 mm}\n"
                         "  same: {use: toy/wave, amplitude: 1 mm, work: 20 ms}\n"
                         "outputs: [wave.total, same.total]\n"
                         "study: {sweep: {wave.amplitude: [1 mm, 2 mm, 3 mm, 4 mm, 5 mm]}}\n");

@@ -14,7 +14,7 @@ done
 cd "$lab"
 export FLANKFILM_PLUGIN_PATH="$lab/plugins"
 cat >study.yaml <<YAML
-format: 1
+format: 2
 pipeline:
   root: {use: toy/root, blind: 64}
   slow: {use: toy/wave, amplitude: 1 mm, work: 200 ms}

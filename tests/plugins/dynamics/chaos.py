@@ -11,7 +11,7 @@ import sys
 import tempfile
 
 PROGRAM = sys.argv[1]
-PAIR = """format: 1
+PAIR = """format: 2
 pipeline:
   gears:
     {use: gear/involute-spur, teeth: [23, 67], module: 4 mm, face_width: 40 mm,

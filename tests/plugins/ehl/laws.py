@@ -62,7 +62,7 @@ class Runner:
 
     def call(self, command, scene, outputs, sets):
         with open(self.file, 'w') as stream:
-            stream.write(f"""format: 1
+            stream.write(f"""format: 2
 include: [{self.source}/configs/lubricants/{scene['oil']}.yaml]
 pipeline:{scene['stages']}
   film: {{use: ehl/finite-volume, cells: {self.cells}, steps: auto, time_tolerance: 0.02}}

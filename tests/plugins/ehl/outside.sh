@@ -30,7 +30,7 @@ awk '{ off[NR] = $2 / $3 - 1; if (off[NR] < 0) off[NR] = -off[NR] }
      END { exit !(off[1] < 0.08 && off[2] < 0.01 && 4 * off[2] < off[1]) }' "$lab/films"
 
 cat >"$lab/wrong.yaml" <<EOF
-format: 1
+format: 2
 include: [$case]
 pipeline:
   bad:  {use: discretisation/wrong, of: mine, fault: slow}

@@ -47,7 +47,7 @@ class Runner:
 
     def call(self, command, scene, rq, film, outputs):
         with open(self.file, 'w') as stream:
-            stream.write(f"""format: 1
+            stream.write(f"""format: 2
 include: [{self.source}/configs/lubricants/{scene['oil']}.yaml]
 pipeline:{scene['stages']}
   rough: {{use: surface/synthetic, rq: [{rq:.5g} um, {rq:.5g} um], {scene['waves']}}}

@@ -26,7 +26,7 @@ awk -v f="$full" -v a="$formula" -v b="$inlet" 'BEGIN {
 # the four laws of a card are one oil: their films differ by less than 6 %, and nothing warns
 for card in $(grep -L 'use: lubricant/' "$source"/configs/lubricants/*.yaml); do
     cat >"$lab/card.yaml" <<END
-format: 1
+format: 2
 include: [$card]
 pipeline:
   discs: {use: contact/constant, radius: 12.8 mm, entrainment_speed: 4 m/s, slide_roll_ratio: 0.1, load_per_width: 60 N/mm}

@@ -16,7 +16,7 @@ fail() { # CARD TEXT
 for card in $(grep -l 'use: lubricant/' "$source"/configs/lubricants/*.yaml); do
     at=$(sed -n 's/^    at: //p' "$card")
     cat >"$lab/oil.yaml" <<EOF
-format: 1
+format: 2
 include: [$card]
 pipeline:
   oil: {temperature: ${at:-80 degC}}
