@@ -106,7 +106,7 @@ static bool load(fe_request *q)
     name = name ? name + 1 : q->name;
     stage->use = fe_arena_text(arena, q->name, strlen(q->name));
     stage->name = fe_arena_text(arena, name, strlen(name));
-    const ff_loaded *loaded = ff_library_load(i->engine->library, q->name, FF_NOWHERE, i->report);
+    const ff_loaded *loaded = ff_engine_model(i->engine, q->name, FF_NOWHERE, i->report);
     if (!loaded)
         return false;
     const ff_model *model = loaded->model;
@@ -140,7 +140,7 @@ ff_status ff_instance_new(ff_engine *engine, const char *id, ff_instance **insta
     ff_instance *i = request.instance;
     i->engine = engine;
     i->pipeline = (ff_pipeline){.stages = &i->stage, .count = 1, .memory = &i->memory};
-    i->memory.library = engine->library;
+    i->memory.engine = engine;
     i->stage.needed = true;
     i->stage.instance = &i->object;
     i->object.stage = &i->stage;

@@ -3,7 +3,7 @@
 #ifndef FE_INSTANCE_H
 #define FE_INSTANCE_H
 
-#include "private.h"
+#include "plugin/engine.h"
 
 #include "pipeline/build.h"
 

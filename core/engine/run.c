@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Runs: one case of a pipeline from its file to its results. */
-#include "private.h"
+#include "plugin/engine.h"
 
 #include <string.h>
 
@@ -87,7 +87,7 @@ static void open(run_call *call)
     refuse_many(call, ff_tree_root(run->tree));
     if (ff_report_errors(run->report) > 0)
         return;
-    run->pipeline = ff_pipeline_build(run->tree, run->engine->library, false, run->report);
+    run->pipeline = ff_pipeline_build(run->tree, run->engine, false, run->report);
     refuse_choices(call);
 }
 

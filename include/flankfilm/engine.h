@@ -496,23 +496,19 @@ typedef struct ff_loaded {
     ff_dims *output_dims;
 } ff_loaded;
 
-typedef struct ff_library ff_library;
-
-ff_library *ff_engine_library(ff_engine *engine);
-
 /*
  * Returns the model `id`, which is loaded at the first call. NULL after an error: it was not found
  * (FF_FAULT_INPUT when the id looks like a misspelt one, else FF_FAULT_PLUGIN), is not a shared
  * object, or has a wrong ABI or a bad table. `place` is where the user named it.
  */
-const ff_loaded *ff_library_load(ff_library *library, const char *id, ff_place place,
+const ff_loaded *ff_engine_model(ff_engine *engine, const char *id, ff_place place,
                                  ff_report *report);
 
-/* Sorted ids of all models that can be found, without loading one. Freed with the library. */
-const char *const *ff_library_ids(ff_library *library, size_t *count);
+/* Sorted ids of all models that can be found, without loading one. */
+const char *const *ff_engine_ids(ff_engine *engine, size_t *count);
 
 /* The first file of that name in the directories of plugins, freed by the caller, or NULL. */
-char *ff_library_file(const ff_library *library, const char *name);
+char *ff_engine_file(const ff_engine *engine, const char *name);
 
 /*
  * Reads `node` by the row's type into *value: SI, inside the physical limits; a warning when
@@ -624,10 +620,10 @@ struct ff_pipeline {
  * Reads the file's `format`, `title`, `pipeline` and `outputs`, loads the models that are needed
  * (with `everything` all of them, as `check` wants), binds parameters, wires stages and
  * calls their `ready`. All errors of the file go to the report in one pass. NULL only when nothing
- * can be shown; with errors in the report the pipeline must not be run. The tree and the library
+ * can be shown; with errors in the report the pipeline must not be run. The tree and the engine
  * outlive the pipeline.
  */
-ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool everything,
+ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool everything,
                                ff_report *report);
 
 /* Runs what is needed; observer may be NULL. False when a stage failed: the report says why, and

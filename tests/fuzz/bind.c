@@ -1,21 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Binding: a document becomes a pipeline of the toy models of tests/bad, and runs if it is legal.
  */
-#include "../../core/engine/plugin/library.h"
-
 #include "fuzz.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-    static ff_library *library; /* models stay loaded */
+    static ff_engine *engine; /* models stay loaded */
     const char *toys = getenv("FLANKFILM_FUZZ_TOYS");
     must(toys != NULL);
-    if (!library)
-        library = fe_library_new(&toys, 1);
+    ff_engine_options options = {
+        .size = sizeof options, .plugin_paths = &toys, .plugin_path_count = 1};
+    must(engine || ff_engine_new(&options, &engine) == FF_OK);
     char *text = fuzz_text(data, size);
     ff_report *report = ff_report_new();
     ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
-    ff_pipeline *pipeline = ff_pipeline_build(tree, library, size % 2, report);
+    ff_pipeline *pipeline = ff_pipeline_build(tree, engine, size % 2, report);
     if (pipeline && ff_report_errors(report) == 0)
         must(ff_pipeline_run(pipeline, NULL, report) == (ff_report_errors(report) == 0));
     else

@@ -244,18 +244,24 @@ static void give_values(const ff_loaded *loaded, maker *m)
     free(rest);
 }
 
+static void check(void *ctx)
+{
+    maker *m = ctx;
+    char why[1024] = "";
+    ff_loaded loaded = {.model = make(m), .path = "fuzz.so"};
+    if (fe_model_check(&loaded, "kind/model", why, sizeof why))
+        give_values(&loaded, m);
+    else
+        must(why[0] && memchr(why, 0, sizeof why) != NULL);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static maker m;
-    fe_arena memory = {NULL};
-    char why[1024] = "";
+    fe_heap heap = {NULL};
     m = (maker){.at = data, .end = data + size};
-    ff_loaded loaded = {.model = make(&m), .path = "fuzz.so"};
-    if (fe_model_check(&loaded, "kind/model", &memory, why, sizeof why))
-        give_values(&loaded, &m);
-    else
-        must(why[0] && memchr(why, 0, sizeof why) != NULL);
-    fe_arena_free(&memory);
+    must(fe_protected(&heap, check, &m) == FF_OK);
+    fe_heap_close(&heap);
     for (size_t i = 0; i < m.count; i++)
         free(m.pieces[i]);
     return 0;

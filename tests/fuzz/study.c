@@ -5,12 +5,12 @@
 
 #include "../../core/program/study/study.h"
 
-static void lay(const study_definition *study, size_t index, const char *text, ff_library *library)
+static void lay(const study_definition *study, size_t index, const char *text, ff_engine *engine)
 {
     ff_report *report = ff_report_new();
     ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
     study_overlay(study, index, NULL, 0, tree, report);
-    ff_pipeline_free(ff_pipeline_build(tree, library, true, report));
+    ff_pipeline_free(ff_pipeline_build(tree, engine, true, report));
     fuzz_print(report);
     ff_report_free(report);
     ff_tree_free(tree);
@@ -24,7 +24,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     ff_engine_options options = {
         .size = sizeof options, .plugin_paths = &toys, .plugin_path_count = 1};
     must(engine || ff_engine_new(&options, &engine) == FF_OK);
-    ff_library *library = ff_engine_library(engine);
     char *text = fuzz_text(data, size);
     ff_report *report = ff_report_new();
     ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
@@ -35,7 +34,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     size_t chains = good ? study_chains(study) : 0;
     must(!good || chains * study_chain_length(study) == study->count);
     for (size_t i = 0; i < chains && i < 3; i++) {
-        lay(study, study_chain_case(study, i * (chains - 1) / 2, 0), text, library);
+        lay(study, study_chain_case(study, i * (chains - 1) / 2, 0), text, engine);
         for (size_t k = 0; k < study->varied_count; k++)
             must(study_value(study, k, i * (chains - 1) / 2) != NULL);
     }

@@ -61,8 +61,7 @@ static const char *other_owner(const binding *k, const char *path)
     const char *owner = NULL;
     ff_report *captured = ff_report_new();
     for (size_t i = 0; with && with->kind == FF_MAP && i < with->count && !owner; i++) {
-        const ff_loaded *other =
-            ff_library_load(k->b->library, with->keys[i], FF_NOWHERE, captured);
+        const ff_loaded *other = ff_engine_model(k->b->engine, with->keys[i], FF_NOWHERE, captured);
         if (other && other != k->loaded && ff_model_find_param(other->model, path) >= 0)
             owner = with->keys[i];
     }
@@ -274,7 +273,7 @@ static void check_sets(fe_build *b, ff_stage *stage)
                         "a map of parameters");
         } else if (b->everything && strcmp(id, stage->use) != 0) {
             binding k = {.b = b, .stage = stage, .id = id};
-            k.loaded = ff_library_load(b->library, id, with->key_places[i], b->report);
+            k.loaded = ff_engine_model(b->engine, id, with->key_places[i], b->report);
             if (k.loaded)
                 bind_model(&k);
         }

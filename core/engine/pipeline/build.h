@@ -40,12 +40,12 @@ typedef struct fe_instance {
 struct fe_pipeline_memory {
     fe_folder folder; /* the working directory */
     fe_arena arena;
-    ff_library *library;
+    ff_engine *engine;
 };
 
 typedef struct fe_build {
     ff_pipeline *pipeline;
-    ff_library *library;
+    ff_engine *engine;
     ff_report *report;
     bool everything;
     const ff_node *accuracy; /* of the file, for all stages that choose; NULL: none */

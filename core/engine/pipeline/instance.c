@@ -164,7 +164,7 @@ void fe_close_instance(ff_stage *stage)
 
 bool fe_reopen(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
 {
-    fe_build b = {.pipeline = pipeline, .library = pipeline->memory->library, .report = report};
+    fe_build b = {.pipeline = pipeline, .engine = pipeline->memory->engine, .report = report};
     fe_close_instance(stage);
     stage->instance->self = NULL;
     fe_open_instance(&b, stage);

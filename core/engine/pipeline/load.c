@@ -53,7 +53,7 @@ static bool is_choosing(fe_build *b, const ff_stage *stage)
     if (!ff_node_get(stage->node, own_rows[FE_ACCURACY].name))
         return false;
     ff_report *captured = ff_report_new();
-    const ff_loaded *loaded = ff_library_load(b->library, stage->use, FF_NOWHERE, captured);
+    const ff_loaded *loaded = ff_engine_model(b->engine, stage->use, FF_NOWHERE, captured);
     ff_report_free(captured);
     return loaded && ff_model_find_param(loaded->model, own_rows[FE_ACCURACY].name) < 0;
 }
@@ -211,7 +211,7 @@ static tables begin_tables(fe_build *b, ff_stage *stage)
 
 static bool load_model(fe_build *b, ff_stage *stage)
 {
-    stage->loaded = ff_library_load(b->library, stage->use, stage->use_place, b->report);
+    stage->loaded = ff_engine_model(b->engine, stage->use, stage->use_place, b->report);
     if (!stage->loaded)
         return false;
     const ff_model *model = stage->loaded->model;
@@ -253,7 +253,7 @@ static bool load_candidates(fe_build *b, ff_stage *stage)
 {
     fe_arena *arena = &b->pipeline->memory->arena;
     size_t count, kind = strcspn(stage->use, "/") + 1;
-    const char *const *ids = ff_library_ids(b->library, &count);
+    const char *const *ids = ff_engine_ids(b->engine, &count);
     bool all = ff_names_kind_only(stage->use), some = false;
     if (stage->instance->broken)
         return false;

@@ -32,7 +32,7 @@ static void bind(fe_build *b, ff_stage *stage)
         fe_bind_candidates(b, stage);
 }
 
-ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool everything,
+ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool everything,
                                ff_report *report)
 {
     const ff_node *root = ff_tree_root(tree);
@@ -40,10 +40,10 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_library *library, bool ev
         return NULL;
     ff_pipeline *pipeline = fe_alloc(sizeof *pipeline);
     pipeline->memory = fe_alloc(sizeof *pipeline->memory);
-    pipeline->memory->library = library;
+    pipeline->memory->engine = engine;
     fe_folder_keep(&pipeline->memory->folder);
     fe_build b = {.pipeline = pipeline,
-                  .library = library,
+                  .engine = engine,
                   .report = report,
                   .everything = everything,
                   .accuracy = ff_node_get(root, "accuracy")};

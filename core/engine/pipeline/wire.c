@@ -104,7 +104,7 @@ static bool refuse_none(fe_build *b, const ff_stage *stage, const ff_wire *wire,
 {
     const char *needs = wire_needs(b, stage, wire), *installed = "";
     size_t count;
-    const char *const *ids = ff_library_ids(b->library, &count);
+    const char *const *ids = ff_engine_ids(b->engine, &count);
     if (!*needs)
         return true;
     for (size_t i = 0; i < count; i++)

@@ -3,11 +3,7 @@
 #ifndef FE_PLUGIN_PRIVATE_H
 #define FE_PLUGIN_PRIVATE_H
 
-#include <flankfilm/engine.h>
-
-#include "../value/memory.h"
-
-#include <stdbool.h>
+#include "engine.h"
 
 /* Whether the file is as long as its header says. On failure, `why` is a clause that completes 'the
    plugin x.so ...'. */
@@ -21,21 +17,14 @@ bool fe_entry_find(void *object, const char *id, const ff_model **model, char *w
 /* Checks the descriptor of loaded->model, calling none of its functions, and reads the units and
    dimensions of its rows. A descriptor or rows of an older version are replaced by copies of
    today's length. On failure, `why` is a clause that completes 'the plugin x.so ...'. */
-bool fe_model_check(ff_loaded *loaded, const char *id, fe_arena *memory, char *why,
-                    size_t why_size);
+bool fe_model_check(ff_loaded *loaded, const char *id, char *why, size_t why_size);
 
 /* Whether it is "kind/name" of lower-case letters, digits and hyphens, which can be part of a path.
  */
 bool fe_id_is_legal(const char *id);
 
-/* Directories in the order in which they are searched. */
-typedef struct fe_search_path {
-    char **directories;
-    size_t count;
-} fe_search_path;
-
+/* Those of the options come first. */
 void fe_search_path_new(fe_search_path *search, const char *const *given, size_t count);
-void fe_search_path_free(fe_search_path *search);
 
 /* Returns the first file of that id, or NULL, and in *tried the names that were tried. The caller
    frees both. */

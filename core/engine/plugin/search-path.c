@@ -54,7 +54,6 @@ static void add_own(fe_search_path *search, char *directory)
 
 void fe_search_path_new(fe_search_path *search, const char *const *given, size_t count)
 {
-    *search = (fe_search_path){.count = 0};
     for (size_t i = 0; i < count; i++)
         add(search, fe_print_text("%s", given[i]));
     add_list(search, secure_getenv("FLANKFILM_PLUGIN_PATH"));
@@ -62,13 +61,6 @@ void fe_search_path_new(fe_search_path *search, const char *const *given, size_t
     add_own(search, fe_installed_file(FE_PLUGIN_FOLDER));
     add(search, fe_copy_text(FE_PLUGIN_DIR, strlen(FE_PLUGIN_DIR)));
     add_own(search, fe_built_file("plugins"));
-}
-
-void fe_search_path_free(fe_search_path *search)
-{
-    for (size_t i = 0; i < search->count; i++)
-        fe_free(search->directories[i]);
-    fe_free(search->directories);
 }
 
 char *fe_search_path_find(const fe_search_path *search, const char *id, char **tried)

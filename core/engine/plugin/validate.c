@@ -445,12 +445,11 @@ static bool check_column(checking *c, size_t index)
 }
 
 /* Copies rows that are shorter than this version's; what they lack is 0. */
-static const ff_param *lengthen_rows(const void *rows, size_t count, size_t *stride,
-                                     fe_arena *memory)
+static const ff_param *lengthen_rows(const void *rows, size_t count, size_t *stride)
 {
     if (*stride >= sizeof(ff_param) || count == 0)
         return rows;
-    ff_param *longer = fe_arena_alloc(memory, count * sizeof *longer);
+    ff_param *longer = fe_alloc(count * sizeof *longer);
     for (size_t i = 0; i < count; i++)
         memcpy(&longer[i], (const char *)rows + i * *stride, *stride);
     *stride = sizeof *longer;
@@ -458,32 +457,31 @@ static const ff_param *lengthen_rows(const void *rows, size_t count, size_t *str
 }
 
 /* The descriptor with all members of this version. */
-static const ff_model *complete(const ff_model *model, fe_arena *memory)
+static const ff_model *complete(const ff_model *model)
 {
-    ff_model *whole = fe_arena_alloc(memory, sizeof *whole);
+    ff_model *whole = fe_alloc(sizeof *whole);
     memcpy(whole, model, model->size < sizeof *whole ? model->size : sizeof *whole);
     whole->size = sizeof *whole;
     if (!FF_HAS(model, column_stride))
         whole->column_count = 0;
-    whole->params = lengthen_rows(whole->params, whole->param_count, &whole->param_stride, memory);
-    whole->columns =
-        lengthen_rows(whole->columns, whole->column_count, &whole->column_stride, memory);
+    whole->params = lengthen_rows(whole->params, whole->param_count, &whole->param_stride);
+    whole->columns = lengthen_rows(whole->columns, whole->column_count, &whole->column_stride);
     return whole;
 }
 
-bool fe_model_check(ff_loaded *loaded, const char *id, fe_arena *memory, char *why, size_t why_size)
+bool fe_model_check(ff_loaded *loaded, const char *id, char *why, size_t why_size)
 {
     checking c = {.model = loaded->model, .why = why, .why_size = why_size};
     if (!check_version(&c) || !check_tables(&c))
         return false;
-    const ff_model *model = c.model = loaded->model = complete(loaded->model, memory);
+    const ff_model *model = c.model = loaded->model = complete(loaded->model);
     if (!check_model(&c, id))
         return false;
-    loaded->param_units = fe_arena_alloc(memory, model->param_count * sizeof(ff_unit));
-    loaded->input_units = fe_arena_alloc(memory, model->input_count * sizeof(ff_unit));
-    loaded->output_units = fe_arena_alloc(memory, model->output_count * sizeof(ff_unit));
-    loaded->input_dims = fe_arena_alloc(memory, model->input_count * sizeof(ff_dims));
-    loaded->output_dims = fe_arena_alloc(memory, model->output_count * sizeof(ff_dims));
+    loaded->param_units = fe_alloc(model->param_count * sizeof(ff_unit));
+    loaded->input_units = fe_alloc(model->input_count * sizeof(ff_unit));
+    loaded->output_units = fe_alloc(model->output_count * sizeof(ff_unit));
+    loaded->input_dims = fe_alloc(model->input_count * sizeof(ff_dims));
+    loaded->output_dims = fe_alloc(model->output_count * sizeof(ff_dims));
     bool good = true;
     for (size_t i = 0; i < model->param_count && good; i++)
         good = check_param(&c, i, &loaded->param_units[i]);

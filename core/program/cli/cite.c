@@ -18,7 +18,7 @@ static void add_varied(catalogue *models, cli_session *session)
             const ff_loaded *loaded =
                 ff_names_kind_only(id)
                     ? NULL
-                    : ff_library_load(session->library, id, FF_NOWHERE, session->report);
+                    : ff_engine_model(session->engine, id, FF_NOWHERE, session->report);
             if (loaded)
                 catalogue_add(models, id, loaded, "study", session->report);
         }

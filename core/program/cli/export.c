@@ -51,11 +51,11 @@ static const form *find_form(const char *name)
 }
 
 /* False with an error when one of the program's own was meant, and there is no such model. */
-static bool check_name(const char *name, ff_library *library, ff_report *report)
+static bool check_name(const char *name, ff_engine *engine, ff_report *report)
 {
     const char *names[FORMS];
     size_t count;
-    const char *const *ids = ff_library_ids(library, &count);
+    const char *const *ids = ff_engine_ids(engine, &count);
     char *id = memory_print_text("%s%s", kind, name);
     bool known = false;
     for (size_t i = 0; i < count; i++)
@@ -151,7 +151,7 @@ static bool run(const cli_options *options, const char *name, const char *stem, 
         good = ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                         "--with %s: %s takes no parameters", settings.words[0], name);
     else if (good && !own)
-        good = check_name(name, ff_engine_library(engine), target->report) &&
+        good = check_name(name, engine, target->report) &&
                (writer = open_writer(engine, options, name, &to, target->report));
     good = good && write_to(&to, writer, view, options, stem, target);
     ff_instance_close(writer);

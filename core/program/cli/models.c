@@ -11,15 +11,15 @@
 
 /* Lists all models, or those of one kind. The report gets the errors of models that cannot be
    loaded; it may be NULL. */
-static void list(catalogue *models, ff_library *library, const char *kind, ff_report *report)
+static void list(catalogue *models, ff_engine *engine, const char *kind, ff_report *report)
 {
     size_t count = 0, length = kind ? strlen(kind) : 0;
-    const char *const *ids = ff_library_ids(library, &count);
+    const char *const *ids = ff_engine_ids(engine, &count);
     for (size_t i = 0; i < count; i++) {
         ff_report *captured = report ? report : ff_report_new();
         if (!kind || (!strncmp(ids[i], kind, length) && ids[i][length] == '/'))
-            catalogue_add(models, ids[i], ff_library_load(library, ids[i], FF_NOWHERE, captured),
-                          "", captured);
+            catalogue_add(models, ids[i], ff_engine_model(engine, ids[i], FF_NOWHERE, captured), "",
+                          captured);
         if (!report)
             ff_report_free(captured);
     }
@@ -40,12 +40,11 @@ int cli_models(const cli_options *options)
     const char *id = options->operand;
     ff_report *report = ff_report_new();
     ff_engine *engine = cli_engine_new(options);
-    ff_library *library = ff_engine_library(engine);
     catalogue models = {.count = 0};
     int code = EXIT_SUCCESS;
-    list(&models, library, id, NULL);
+    list(&models, engine, id, NULL);
     bool page = id && models.count == 0;
-    const ff_loaded *loaded = page ? ff_library_load(library, id, FF_NOWHERE, report) : NULL;
+    const ff_loaded *loaded = page ? ff_engine_model(engine, id, FF_NOWHERE, report) : NULL;
     if (loaded)
         catalogue_add(&models, id, loaded, "", report);
     if (!id && models.count == 0)
@@ -68,10 +67,9 @@ int cli_schema(const cli_options *options)
 {
     ff_report *report = ff_report_new();
     ff_engine *engine = cli_engine_new(options);
-    ff_library *library = ff_engine_library(engine);
     catalogue models = {.count = 0};
     const char *path = options->operand;
-    list(&models, library, NULL, report);
+    list(&models, engine, NULL, report);
     FILE *out = path ? fopen(path, "w") : stdout;
     if (out)
         catalogue_print_schema(&models, CLI_VERSION, out);

@@ -66,14 +66,14 @@ static bool write_file(const char *folder, const char *name, const char *templat
 
 /* Finds the template of the kind, "<kind>.template.c", or the general one, "template.c", in the
    directories of plugins. *own: it is that of the kind. NULL after an error. */
-static char *find_template(const ff_library *library, const char *kind, const char *ending,
-                           bool *own, ff_report *report)
+static char *find_template(const ff_engine *engine, const char *kind, const char *ending, bool *own,
+                           ff_report *report)
 {
     char *name = memory_print_text("%s.template.%s", kind, ending);
-    char *path = ff_library_file(library, name), *general = strstr(name, ".template.") + 1;
+    char *path = ff_engine_file(engine, name), *general = strstr(name, ".template.") + 1;
     *own = path != NULL;
     if (!path)
-        path = ff_library_file(library, general);
+        path = ff_engine_file(engine, general);
     if (!path)
         ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
                  "--plugin-path and FLANKFILM_PLUGIN_PATH add directories",
@@ -84,15 +84,15 @@ static char *find_template(const ff_library *library, const char *kind, const ch
 
 /* Whether the first model of the kind is a law, which is verified with random parameters; a stage
    needs the inputs of a real run. */
-static bool is_law(ff_library *library, const char *kind)
+static bool is_law(ff_engine *engine, const char *kind)
 {
     size_t count = 0, length = strlen(kind);
-    const char *const *ids = ff_library_ids(library, &count);
+    const char *const *ids = ff_engine_ids(engine, &count);
     ff_report *captured = ff_report_new();
     const ff_loaded *loaded = NULL;
     for (size_t i = 0; i < count && !loaded; i++)
         if (!strncmp(ids[i], kind, length) && ids[i][length] == '/')
-            loaded = ff_library_load(library, ids[i], FF_NOWHERE, captured);
+            loaded = ff_engine_model(engine, ids[i], FF_NOWHERE, captured);
     ff_report_free(captured);
     return loaded && loaded->model->output_count > 0 && ff_model_output(loaded->model, 0)->service;
 }
@@ -102,8 +102,7 @@ static bool write_all(const cli_options *options, const char *folder, ff_report 
     const char *id = options->operand, *name = strchr(id, '/') + 1;
     char *kind = memory_copy_text(id, strcspn(id, "/"));
     ff_engine *engine = cli_engine_new(options);
-    ff_library *library = ff_engine_library(engine);
-    char *inputs = is_law(library, kind)
+    char *inputs = is_law(engine, kind)
                        ? memory_copy_text("", 0)
                        : memory_print_text(", '--pipeline', files('%s.yaml')", name);
     const word words[] = {
@@ -113,7 +112,7 @@ static bool write_all(const cli_options *options, const char *folder, ff_report 
         {c, "c"}, {yaml, "yaml"}, {"meson.build", "meson.build"}, {"README.md", "md"}};
     bool good = true, own[4];
     for (size_t i = 0; i < 4 && good; i++) {
-        char *template = find_template(library, kind, files[i][1], &own[i], report);
+        char *template = find_template(engine, kind, files[i][1], &own[i], report);
         good = template && write_file(folder, files[i][0], template, words, report);
         ff_free(template);
     }

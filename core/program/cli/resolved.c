@@ -175,7 +175,7 @@ void cli_print_resolved(const cli_session *session, const cli_options *options)
         ff_tree_set(tree, options->sets[i], "pipeline", ff_file_keys(), captured);
     if (session->study->request)
         ff_tree_put(tree, "outputs", session->study->request);
-    ff_pipeline *pipeline = ff_pipeline_build(tree, session->library, false, captured);
+    ff_pipeline *pipeline = ff_pipeline_build(tree, session->engine, false, captured);
     if (ff_tree_root(tree)) /* the file can still be read */
         print_tree(tree, pipeline, options->operand);
     ff_pipeline_free(pipeline);

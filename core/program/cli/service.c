@@ -32,7 +32,7 @@ static bool set(ff_instance *instance, const char *assignment, ff_report *report
 static bool serves(ff_engine *engine, const char *id, const char *option, const char *interface,
                    ff_report *report)
 {
-    const ff_loaded *loaded = ff_library_load(ff_engine_library(engine), id, FF_NOWHERE, report);
+    const ff_loaded *loaded = ff_engine_model(engine, id, FF_NOWHERE, report);
     return loaded && (ff_model_find_service(loaded->model, interface) >= 0 ||
                       ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                                "%s cannot be used for --%s: it does not offer the service \"%s\"",

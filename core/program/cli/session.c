@@ -36,7 +36,7 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
     ff_report *captured = ff_report_new();
     ff_tree *tree = ff_tree_load(options->operand, captured);
     study_overlay(session->study, index, options->sets, options->set_count, tree, captured);
-    ff_pipeline_free(ff_pipeline_build(tree, session->library, true, captured));
+    ff_pipeline_free(ff_pipeline_build(tree, session->engine, true, captured));
     for (size_t i = 0; i < ff_report_count(captured); i++) {
         const ff_message *m = ff_report_at(captured, i);
         ff_source source = m->place.source ? *m->place.source : (ff_source){0};
@@ -88,11 +88,10 @@ bool cli_session_open(cli_session *session, const cli_options *options, bool eve
     for (size_t i = 0; i < options->set_count; i++)
         ff_tree_set(session->tree, options->sets[i], "pipeline", ff_file_keys(), session->report);
     session->engine = cli_engine_new(options);
-    session->library = ff_engine_library(session->engine);
     if (!open_study(session, options))
         return false;
     session->pipeline =
-        ff_pipeline_build(session->tree, session->library, everything, session->report);
+        ff_pipeline_build(session->tree, session->engine, everything, session->report);
     warn_of_follow(session);
     if (session->study && session->pipeline)
         study_check(session->study, session->pipeline, session->report);

@@ -10,7 +10,6 @@ typedef struct cli_session {
     ff_report *report;
     ff_tree *tree;
     ff_engine *engine;
-    ff_library *library;     /* of the engine */
     ff_pipeline *pipeline;   /* may be NULL after errors; of a study: its first case */
     study_definition *study; /* NULL: a single case */
 } cli_session;

@@ -53,7 +53,7 @@ static void describe(void *ctx, const study_definition *study, FILE *out)
                               .sets = (const char *const *)t->options->sets,
                               .set_count = t->options->set_count,
                               .pipeline = t->session->pipeline,
-                              .library = t->session->library};
+                              .engine = t->session->engine};
     results_write_study_json(&of, study, out);
 }
 
@@ -84,7 +84,7 @@ static study_run run_of(const cli_session *session, const cli_options *options, 
                      .file = options->operand,
                      .sets = options->sets,
                      .set_count = options->set_count,
-                     .library = session->library,
+                     .engine = session->engine,
                      .directory = directory,
                      .jobs = options->jobs ? options->jobs
                              : executor    ? 1

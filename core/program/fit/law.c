@@ -23,7 +23,7 @@ static bool needs_others(const ff_model *model)
 
 static bool add_law(fit *f, ff_engine *engine, const char *id)
 {
-    const ff_loaded *loaded = ff_library_load(ff_engine_library(engine), id, FF_NOWHERE, f->report);
+    const ff_loaded *loaded = ff_engine_model(engine, id, FF_NOWHERE, f->report);
     bool serves = loaded && ff_model_find_service(loaded->model, FF_VISCOSITY_ID) >= 0;
     ff_instance *instance;
     if (!loaded)

@@ -117,7 +117,7 @@ static json_t *list_other_models(const results_study *of, const study_definition
         for (size_t i = 0; dot && !strcmp(dot, ".use") && i < study->points[varied->axis]; i++) {
             ff_report *silent = ff_report_new();
             const ff_loaded *loaded =
-                ff_library_load(of->library, study_varied_value(varied, i), FF_NOWHERE, silent);
+                ff_engine_model(of->engine, study_varied_value(varied, i), FF_NOWHERE, silent);
             if (loaded)
                 json_object_set_new(models, loaded->model->id,
                                     json_pack("{s:o, s:o}", "reference",

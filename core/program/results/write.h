@@ -58,7 +58,7 @@ typedef struct results_study {
     const char *const *sets;
     size_t set_count;
     const ff_pipeline *pipeline; /* of its first case */
-    ff_library *library;
+    ff_engine *engine;
 } results_study;
 
 /* Writes the axes of a study and the stages of its first case as one JSON object. */

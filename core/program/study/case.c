@@ -60,7 +60,7 @@ void study_case_open(study_case *c, const study_run *run, size_t index)
     *c = (study_case){.report = ff_report_new()};
     c->tree = ff_tree_load(run->file, c->report);
     study_overlay(study, index, run->sets, run->set_count, c->tree, c->report);
-    c->pipeline = ff_pipeline_build(c->tree, run->library, false, c->report);
+    c->pipeline = ff_pipeline_build(c->tree, run->engine, false, c->report);
     uint64_t fingerprint = hash_assignments(study, index);
     if (study_case_is_good(c)) {
         study_measure_want(study, c->pipeline);

@@ -155,7 +155,7 @@ typedef struct study_run {
     const char *file; /* each case reads it anew */
     const char **sets;
     size_t set_count;
-    ff_library *library;
+    ff_engine *engine;
     const char *directory;
     size_t jobs;
     ff_instance *executor; /* offers FF_EXECUTOR_ID; NULL: workers of this process run all cases */

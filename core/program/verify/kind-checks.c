@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool can_be_found(ff_library *library, const char *id)
+static bool can_be_found(ff_engine *engine, const char *id)
 {
     size_t count;
-    const char *const *ids = ff_library_ids(library, &count);
+    const char *const *ids = ff_engine_ids(engine, &count);
     for (size_t i = 0; i < count; i++)
         if (!strcmp(ids[i], id))
             return true;
@@ -19,12 +19,11 @@ static bool can_be_found(ff_library *library, const char *id)
 bool verify_kind_checks_open(verify_kind_checks *checks, ff_engine *engine, const char *kind,
                              ff_report *report)
 {
-    ff_library *library = ff_engine_library(engine);
     const void *offer = NULL;
     char *id = memory_print_text("%s/%s", FF_CONFORMANCE_KIND, kind);
     *checks = (verify_kind_checks){.offer = NULL};
     bool known =
-        can_be_found(library, id) && ff_library_load(library, id, FF_NOWHERE, report) != NULL;
+        can_be_found(engine, id) && ff_engine_model(engine, id, FF_NOWHERE, report) != NULL;
     if (known && ff_instance_new(engine, id, &checks->instance) == FF_OK)
         ff_instance_service(checks->instance, FF_CONFORMANCE_ID, &offer);
     if (known && !offer)

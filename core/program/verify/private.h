@@ -153,8 +153,8 @@ bool verify_inputs_are_unchanged(const verify_setup *setup, double **copies, con
 
 /* user-run.c: takes the parameters of the stage of the user's pipeline that uses the model and,
    with `run`, what the other stages feed it. False with errors in the report. */
-bool verify_take_user_run(verify_context *context, const verify_request *request,
-                          ff_library *library, bool run, ff_report *report);
+bool verify_take_user_run(verify_context *context, const verify_request *request, ff_engine *engine,
+                          bool run, ff_report *report);
 
 /* instance.c: one instance of the model, and its host. */
 typedef struct verify_instance {

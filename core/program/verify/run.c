@@ -93,10 +93,10 @@ static bool concerns(const test *t, const ff_model *model)
 }
 
 /* A warning at loading fails the test, too: the loader has undone what it is about. */
-static bool load(verify_context *context, ff_library *library, const char *id)
+static bool load(verify_context *context, ff_engine *engine, const char *id)
 {
     ff_report *report = ff_report_new();
-    context->loaded = ff_library_load(library, id, FF_NOWHERE, report);
+    context->loaded = ff_engine_model(engine, id, FF_NOWHERE, report);
     if (ff_report_count(report))
         verify_outcome_set(context->outcome, VERIFY_FAILED, ff_report_at(report, 0)->text);
     ff_report_free(report);
@@ -104,12 +104,12 @@ static bool load(verify_context *context, ff_library *library, const char *id)
 }
 
 /* Inputs cost a run of the pipeline; parameters do not. */
-static bool take_user_run(verify_context *context, const verify_request *request,
-                          ff_library *library, bool inputs)
+static bool take_user_run(verify_context *context, const verify_request *request, ff_engine *engine,
+                          bool inputs)
 {
     ff_report *report = ff_report_new();
     verify_step(context, "running %s", request->pipeline);
-    bool good = verify_take_user_run(context, request, library, inputs, report);
+    bool good = verify_take_user_run(context, request, engine, inputs, report);
     char *why = memory_print_text("%s: %s", request->pipeline,
                                   ff_report_count(report) ? ff_report_at(report, 0)->text
                                                           : "it cannot be used");
@@ -140,8 +140,7 @@ static void try_model(verify_context *context, const session *s, ff_engine *engi
     verify_context_begin(context, engine);
     if (!concerns(t, context->model))
         context->outcome->finding = VERIFY_SKIPPED;
-    else if (request->pipeline &&
-             !take_user_run(context, request, ff_engine_library(engine), inputs))
+    else if (request->pipeline && !take_user_run(context, request, engine, inputs))
         return;
     else
         run_watched(context, t, inputs || t->run == verify_test_environment);
@@ -189,7 +188,7 @@ static _Noreturn void child(const session *s, const test *t, verify_outcome *out
     pthread_atfork(on_fork, NULL, NULL);
     verify_step(&context, "loading");
     verify_watch(&context);
-    bool loaded = load(&context, ff_engine_library(engine), s->id);
+    bool loaded = load(&context, engine, s->id);
     verify_check_process(&context);
     if (loaded && t->matter != LOADING)
         try_model(&context, s, engine, t);

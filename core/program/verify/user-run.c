@@ -41,8 +41,8 @@ static bool take_stage(verify_context *context, const ff_pipeline *pipeline, con
     return true;
 }
 
-bool verify_take_user_run(verify_context *context, const verify_request *request,
-                          ff_library *library, bool run, ff_report *report)
+bool verify_take_user_run(verify_context *context, const verify_request *request, ff_engine *engine,
+                          bool run, ff_report *report)
 {
     const ff_model *model = context->model;
     ff_tree *tree = ff_tree_load(request->pipeline, report);
@@ -57,7 +57,7 @@ bool verify_take_user_run(verify_context *context, const verify_request *request
     if (data)
         ff_tree_set(tree, outputs, "pipeline", ff_file_keys(), report);
     free(outputs);
-    ff_pipeline *pipeline = ff_pipeline_build(tree, library, !data, report);
+    ff_pipeline *pipeline = ff_pipeline_build(tree, engine, !data, report);
     return pipeline && ff_report_errors(report) == 0 &&
            (!run || !data || ff_pipeline_run(pipeline, NULL, report)) &&
            take_stage(context, pipeline, name);

@@ -182,7 +182,7 @@ static void run_open_file(void *ctx)
     choice *c = ctx;
     c->report = ff_report_new();
     ff_tree *tree = ff_tree_load(c->a->file, c->report);
-    ff_pipeline *p = ff_pipeline_build(tree, ff_engine_library(c->engine), false, c->report);
+    ff_pipeline *p = ff_pipeline_build(tree, c->engine, false, c->report);
     if (p && ff_report_errors(c->report) == 0 && ff_pipeline_run(p, NULL, c->report))
         for (size_t i = 0; i < p->count; i++)
             for (size_t k = 0; p->stages[i].ran && k < p->stages[i].loaded->model->output_count;

@@ -15,16 +15,25 @@ const char *try_plugins(void)
     return directory ? directory : "tests/bad/plugins";
 }
 
+ff_engine *try_engine(const char *const *directories, size_t count)
+{
+    const ff_engine_options options = {sizeof options, directories, count};
+    ff_engine *engine;
+    if (ff_engine_new(&options, &engine) != FF_OK)
+        exit(2);
+    return engine;
+}
+
 static attempt begin(const char *text, const char *assignment, bool everything)
 {
     const char *const directories[] = {try_plugins()};
     char whole[8192];
     snprintf(whole, sizeof whole, "format: 2\n%s", text);
-    attempt a = {.report = ff_report_new(), .library = fe_library_new(directories, 1)};
+    attempt a = {.report = ff_report_new(), .engine = try_engine(directories, 1)};
     a.tree = ff_tree_parse("case.yaml", ".", whole, a.report);
     if (assignment)
         ff_tree_set(a.tree, assignment, "pipeline", ff_file_keys(), a.report);
-    a.pipeline = ff_pipeline_build(a.tree, a.library, everything, a.report);
+    a.pipeline = ff_pipeline_build(a.tree, a.engine, everything, a.report);
     return a;
 }
 
@@ -50,7 +59,7 @@ void try_close(attempt *a)
 {
     ff_pipeline_free(a->pipeline);
     ff_tree_free(a->tree);
-    fe_library_free(a->library);
+    ff_engine_close(a->engine);
     ff_report_free(a->report);
 }
 

@@ -3,14 +3,14 @@
 #ifndef PIPELINE_TRY_H
 #define PIPELINE_TRY_H
 
-#include "../../../core/engine/plugin/library.h"
+#include <flankfilm/engine.h>
 
 #include <check.h>
 
 /* A line "format: 2" is put before the text, so that the text's first line is line 2. */
 typedef struct attempt {
     ff_tree *tree;
-    ff_library *library;
+    ff_engine *engine;
     ff_report *report;
     ff_pipeline *pipeline; /* may be NULL */
 } attempt;
@@ -21,6 +21,9 @@ attempt try_build_set(const char *text, const char *assignment, bool everything)
 /* Builds as `run` does and runs. */
 attempt try_run(const char *text);
 void try_close(attempt *a);
+
+/* With these directories of plugins before all others. */
+ff_engine *try_engine(const char *const *directories, size_t count);
 
 /* The directory of the fixtures' kinds. */
 const char *try_plugins(void);

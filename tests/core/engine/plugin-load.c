@@ -11,8 +11,8 @@
 
 static attempt load_from(const char *directory, const char *id, const ff_loaded **loaded)
 {
-    attempt a = {.report = ff_report_new(), .library = fe_library_new(&directory, 1)};
-    *loaded = ff_library_load(a.library, id, FF_NOWHERE, a.report);
+    attempt a = {.report = ff_report_new(), .engine = try_engine(&directory, 1)};
+    *loaded = ff_engine_model(a.engine, id, FF_NOWHERE, a.report);
     return a;
 }
 
@@ -118,13 +118,13 @@ static void loads_once(void)
     attempt a = load_from(try_plugins(), "toy/source", &first);
     check_true("a healthy model loads", first && ff_report_count(a.report) == 0);
     check_true("the second time gives the same",
-               ff_library_load(a.library, "toy/source", FF_NOWHERE, a.report) == first);
+               ff_engine_model(a.engine, "toy/source", FF_NOWHERE, a.report) == first);
     check_true("rows are found by name", first && ff_model_find_param(first->model, "share") == 2 &&
                                              ff_model_find_param(first->model, "shar") == -1);
     check_true("optional leading dimension",
                first && first->output_dims[6].first_optional && first->output_dims[6].rank == 2);
     size_t count;
-    const char *const *ids = ff_library_ids(a.library, &count);
+    const char *const *ids = ff_engine_ids(a.engine, &count);
     bool sorted = true, found = false;
     for (size_t i = 0; i < count; i++) {
         sorted = sorted && (i == 0 || strcmp(ids[i - 1], ids[i]) < 0);
@@ -138,7 +138,7 @@ static void several_models(void)
 {
     const ff_loaded *first;
     attempt a = load_from(try_plugins(), "toy/several", &first);
-    const ff_loaded *wide = ff_library_load(a.library, "toy/wide", FF_NOWHERE, a.report);
+    const ff_loaded *wide = ff_engine_model(a.engine, "toy/wide", FF_NOWHERE, a.report);
     check_true("both models of an object load", ff_report_count(a.report) == 0);
     check_true("each by its own id", first && wide && !strcmp(first->model->id, "toy/several") &&
                                          !strcmp(wide->model->id, "toy/wide"));
@@ -245,17 +245,17 @@ static void order_of_search(void)
     FILE *file = fopen(path, "w");
     if (!file || fclose(file) != 0)
         exit(2);
-    attempt a = {.report = ff_report_new(), .library = fe_library_new(both, 2)};
-    loaded = ff_library_load(a.library, "toy/law", FF_NOWHERE, a.report);
+    attempt a = {.report = ff_report_new(), .engine = try_engine(both, 2)};
+    loaded = ff_engine_model(a.engine, "toy/law", FF_NOWHERE, a.report);
     check_error("the first file found is the one used", &a, 0, 0, "is empty");
     check_true("what stands behind it is not looked at", !loaded);
-    loaded = ff_library_load(a.library, "toy/source", FF_NOWHERE, a.report);
+    loaded = ff_engine_model(a.engine, "toy/source", FF_NOWHERE, a.report);
     check_true("the second directory is searched", loaded != NULL);
     try_close(&a);
     setenv("FLANKFILM_PLUGIN_PATH", try_plugins(), 1);
-    a = (attempt){.report = ff_report_new(), .library = fe_library_new(NULL, 0)};
+    a = (attempt){.report = ff_report_new(), .engine = try_engine(NULL, 0)};
     check_true("FLANKFILM_PLUGIN_PATH is searched",
-               ff_library_load(a.library, "toy/law", FF_NOWHERE, a.report) != NULL);
+               ff_engine_model(a.engine, "toy/law", FF_NOWHERE, a.report) != NULL);
     try_close(&a);
     unsetenv("FLANKFILM_PLUGIN_PATH");
     char link[300], target[4096];
@@ -264,9 +264,9 @@ static void order_of_search(void)
     snprintf(link, sizeof link, "%s/plugins", path);
     bool linked = realpath(try_plugins(), target) && symlink(target, link) == 0;
     setenv("XDG_DATA_HOME", home, 1);
-    a = (attempt){.report = ff_report_new(), .library = fe_library_new(NULL, 0)};
+    a = (attempt){.report = ff_report_new(), .engine = try_engine(NULL, 0)};
     check_true("the user's data directory is searched",
-               linked && ff_library_load(a.library, "toy/law", FF_NOWHERE, a.report) != NULL);
+               linked && ff_engine_model(a.engine, "toy/law", FF_NOWHERE, a.report) != NULL);
     try_close(&a);
 }
 

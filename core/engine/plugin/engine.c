@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* The engine itself: its models, and the message of its last call. */
-#include "plugin/library.h"
+/* The engine itself: its life, and the message of its last call. */
 #include "private.h"
 
 #include <stdlib.h>
@@ -62,8 +61,8 @@ static void find_models(void *ctx)
     const new_call *call = ctx;
     const ff_engine_options *o = call->options;
     bool listed = o && FF_HAS(o, plugin_path_count);
-    call->engine->library =
-        fe_library_new(listed ? o->plugin_paths : NULL, listed ? o->plugin_path_count : 0);
+    fe_search_path_new(&call->engine->search, listed ? o->plugin_paths : NULL,
+                       listed ? o->plugin_path_count : 0);
 }
 
 ff_status ff_engine_new(const ff_engine_options *options, ff_engine **engine)
@@ -91,11 +90,6 @@ void ff_engine_close(ff_engine *engine)
 const char *ff_engine_message(const ff_engine *engine)
 {
     return engine->message;
-}
-
-ff_library *ff_engine_library(ff_engine *engine)
-{
-    return engine->library;
 }
 
 ff_status ff_protected(void (*function)(void *ctx), void *ctx)

@@ -1,16 +1,26 @@
 /* SPDX-License-Identifier: MIT */
-/* Shared by the files of the public face: how a call is bracketed and says what went wrong. */
-#ifndef FE_ENGINE_PRIVATE_H
-#define FE_ENGINE_PRIVATE_H
+/* An engine: its models, and how a call of it is bracketed and says what went wrong. */
+#ifndef FE_ENGINE_H
+#define FE_ENGINE_H
 
 #include <flankfilm/engine.h>
 
-#include "value/memory.h"
+#include "../value/memory.h"
+
+/* Directories in the order in which they are searched. */
+typedef struct fe_search_path {
+    char **directories;
+    size_t count;
+} fe_search_path;
 
 struct ff_engine {
-    fe_heap heap;
-    ff_library *library;
-    char *said;          /* by the last call, in the heap; NULL: nothing */
+    fe_heap heap; /* of all that it keeps */
+    fe_search_path search;
+    ff_loaded **models; /* that were loaded */
+    size_t count;
+    char **ids; /* of all that can be found; NULL: they were not looked for yet */
+    size_t id_count;
+    char *said;          /* by the last call; NULL: nothing */
     const char *message; /* that, or a constant text */
 };
 

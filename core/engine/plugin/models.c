@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: MIT */
+/* The models of an engine: those that can be found, and those that were loaded. */
+#include "folder.h"
+#include "private.h"
+#include "serial.h"
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Works with the memory of the engine. */
+static void protect(ff_engine *engine, void (*work)(void *ctx), void *ctx)
+{
+    if (fe_protected(&engine->heap, work, ctx) == FF_NOMEM)
+        fe_out_of_memory();
+}
+
+static void list(void *ctx)
+{
+    ff_engine *engine = ctx;
+    engine->ids = fe_search_path_list(&engine->search, &engine->id_count);
+}
+
+const char *const *ff_engine_ids(ff_engine *engine, size_t *count)
+{
+    if (!engine->ids)
+        protect(engine, list, engine);
+    *count = engine->id_count;
+    return (const char *const *)engine->ids;
+}
+
+char *ff_engine_file(const ff_engine *engine, const char *name)
+{
+    for (size_t i = 0; i < engine->search.count; i++) {
+        char *path = fe_print_text("%s/%s", engine->search.directories[i], name);
+        if (access(path, R_OK) == 0)
+            return path;
+        fe_free(path);
+    }
+    return NULL;
+}
+
+/* The message of the dynamic linker without the path, which our sentence names already. */
+static const char *linker_words(const char *path)
+{
+    const char *words = dlerror();
+    size_t length = strlen(path);
+    if (words && !strncmp(words, path, length) && !strncmp(words + length, ": ", 2))
+        words += length + 2;
+    return words ? words : "for a reason that the linker does not tell";
+}
+
+/*
+ * RTLD_LOCAL keeps one plugin's names from another's; the object stays for good, since unloading
+ * breaks what it registered; RTLD_DEEPBIND would give it an allocator of its own.
+ * Without memory the linker often gives another reason. So it is asked twice: what is wrong with
+ * the file is so again.
+ */
+static void *open_file(const char *path, char *why, size_t why_size)
+{
+    char first[1024];
+    void *object = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (object)
+        return object;
+    snprintf(first, sizeof first, "cannot be loaded: %s", linker_words(path));
+    object = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (object)
+        return object;
+    snprintf(why, why_size, "cannot be loaded: %s", linker_words(path));
+    if (strcmp(first, why) != 0 || strstr(why, strerror(ENOMEM)))
+        fe_out_of_memory();
+    return NULL;
+}
+
+/* A model that is being loaded. */
+typedef struct loading {
+    ff_engine *engine;
+    const char *id;
+    ff_place place;
+    ff_report *report;
+    ff_loaded *loaded;
+    bool good;
+    char why[1024]; /* it is not */
+} loading;
+
+static void open_object(void *ctx)
+{
+    loading *l = ctx;
+    if (!fe_elf_check(l->loaded->path, l->why, sizeof l->why))
+        return;
+    void *object = open_file(l->loaded->path, l->why, sizeof l->why);
+    l->good = object && fe_entry_find(object, l->id, &l->loaded->model, l->why, sizeof l->why) &&
+              fe_model_check(l->loaded, l->id, l->why, sizeof l->why);
+}
+
+/* False after an error. */
+static bool load_file(loading *l, char *path)
+{
+    char clean[1024];
+    ff_environment environment;
+    fe_folder folder;
+    l->loaded = fe_alloc(sizeof *l->loaded);
+    l->loaded->path = path;
+    ff_environment_keep(&environment);
+    fe_folder_keep(&folder);
+    ff_guard_mark previous = ff_guard_enter((ff_guard_mark){.path = path, .action = "load"});
+    fe_serial_enter(NULL);
+    ff_status status = fe_protected(&l->engine->heap, open_object, l);
+    fe_serial_leave(NULL);
+    ff_guard_leave(previous);
+    const char *changed = ff_environment_restore(&environment);
+    changed = fe_folder_restore(&folder) ? "changed the working directory" : changed;
+    if (status == FF_NOMEM)
+        fe_out_of_memory();
+    if (changed)
+        ff_warn(l->report, l->place, "the plugin %s %s when it was loaded; this was set back", path,
+                changed);
+    if (l->good)
+        return true;
+    ff_clean_text(clean, sizeof clean, l->why);
+    return ff_error(l->report, FF_FAULT_PLUGIN, l->place, NULL, "the plugin %s %s", path, clean);
+}
+
+/* The model with the nearest id, or of that name in any kind; NULL: there is none. */
+static const char *meant(ff_engine *engine, const char *id)
+{
+    size_t count;
+    const char *const *ids = ff_engine_ids(engine, &count);
+    const char *near = ff_nearest(id, ids, count);
+    for (size_t i = 0; i < count && !near; i++)
+        if (!strcmp(strchr(ids[i], '/') + 1, id))
+            near = ids[i];
+    return near;
+}
+
+static void report_absence(const loading *l, const char *tried)
+{
+    const char *near = meant(l->engine, l->id);
+    char *hint =
+        fe_print_text("looked for %s; --plugin-path and FLANKFILM_PLUGIN_PATH add directories",
+                      tried[0] ? tried : "it in no directory at all");
+    ff_error(l->report, near ? FF_FAULT_INPUT : FF_FAULT_PLUGIN, l->place, hint,
+             "there is no model \"%s\"%s%s%s", l->id, near ? "; did you mean \"" : "",
+             near ? near : "", near ? "\"?" : "");
+    fe_free(hint);
+}
+
+static void load(void *ctx)
+{
+    loading *l = ctx;
+    ff_engine *engine = l->engine;
+    char *tried;
+    char *path = fe_search_path_find(&engine->search, l->id, &tried);
+    if (!path)
+        report_absence(l, tried);
+    fe_free(tried);
+    if (!path || !load_file(l, path))
+        return;
+    engine->models = fe_resize(engine->models, (engine->count + 1) * sizeof *engine->models);
+    engine->models[engine->count++] = l->loaded;
+}
+
+const ff_loaded *ff_engine_model(ff_engine *engine, const char *id, ff_place place,
+                                 ff_report *report)
+{
+    if (!fe_id_is_legal(id)) {
+        const char *near = meant(engine, id);
+        ff_error(report, FF_FAULT_INPUT, place, NULL,
+                 "\"%.100s\" does not name a model: a model is written kind/name, in lower-case "
+                 "letters, "
+                 "digits and hyphens%s%s%s",
+                 id, near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "");
+        return NULL;
+    }
+    for (size_t i = 0; i < engine->count; i++)
+        if (!strcmp(engine->models[i]->model->id, id))
+            return engine->models[i];
+    loading l = {.engine = engine, .id = id, .place = place, .report = report};
+    protect(engine, load, &l);
+    return l.good ? l.loaded : NULL;
+}
