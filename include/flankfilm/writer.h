@@ -109,6 +109,8 @@ typedef struct ff_view_case {
     double seconds;      /* NaN: unknown */
     const ff_view_quality *const *quality;
     size_t quality_count;
+    const char *verdict; /* "good", "doubtful", "bad", "failed"; "" when it has not run */
+    const char *reasons; /* the lines that are not good, the worst first: "inlet heating, lambda" */
 } ff_view_case;
 
 /* A figure that the study has drawn of itself. */
@@ -148,6 +150,8 @@ typedef struct ff_view {
 
     const ff_view_drawing *const *drawings;
     size_t drawing_count;
+    const char
+        *summary; /* of the verdicts: "12 good, 104 doubtful (inlet heating 88, lambda 61)" */
 } ff_view;
 
 /* Where the files go. They appear under their names when `write` has returned FF_OK, all together;

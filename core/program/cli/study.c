@@ -46,7 +46,7 @@ static void tell_progress(void *ctx, const study_counters *counters)
         fputc('\n', stderr);
 }
 
-static void describe(void *ctx, const study_definition *study, FILE *out)
+static void describe(void *ctx, const study_definition *study, const study_tally *tally, FILE *out)
 {
     const teller *t = ctx;
     const results_study of = {.file = t->options->operand,
@@ -54,7 +54,7 @@ static void describe(void *ctx, const study_definition *study, FILE *out)
                               .set_count = t->options->set_count,
                               .pipeline = t->session->pipeline,
                               .engine = t->session->engine};
-    results_write_study_json(&of, study, out);
+    results_write_study_json(&of, study, tally, out);
 }
 
 /* A line of the study's driver. */
@@ -121,25 +121,36 @@ json_t *cli_json_savings(const study_reuse_counts *savings)
                      savings->saved);
 }
 
-/* Of a study whose number of cases its driver leaves open, that is not told. */
+/* The last line. Of a study whose number of cases its driver leaves open, that is not told. */
+static void tell_verdicts(const study_definition *study, const study_counters *counters)
+{
+    char *verdicts = study_tally_text(&counters->tally);
+    printf("%zu ", counters->done);
+    if (!study->driver || !*study_further(study))
+        printf("of %zu ", counters->total);
+    fputs("cases done", stdout);
+    if (counters->before)
+        printf(", %zu of them before", counters->before);
+    if (*verdicts)
+        printf(": %s", verdicts);
+    if (counters->failed)
+        fputs("; \"reason\" in the table says why", stdout);
+    putchar('\n');
+    free(verdicts);
+}
+
 static void tell_end(const study_definition *study, const study_counters *counters, bool good,
                      const char *directory, ff_report *report)
 {
     char *files = study->driver ? study_files(study) : memory_print_text("%s", "");
     terminal_print_messages(report, stderr, terminal_colour(stderr));
-    printf("%zu ", counters->done);
-    if (!study->driver || !*study_further(study))
-        printf("of %zu ", counters->total);
-    printf("cases done, %zu of them before", counters->before);
-    if (counters->failed && (!study->driver || study_verdict(study) < 0))
-        printf("; %zu failed, see \"reason\" in the table", counters->failed);
-    putchar('\n');
     cli_print_savings(&counters->savings);
     if (good && *files)
         printf("results in %s: %stable.csv\n", directory, files);
     else if (good)
         printf("results in %s/table.csv\n", directory);
     free(files);
+    tell_verdicts(study, counters);
 }
 
 static void answer_end(const study_definition *study, const study_counters *counters, int code,
@@ -153,6 +164,7 @@ static void answer_end(const study_definition *study, const study_counters *coun
                   (json_int_t)counters->done, "before", (json_int_t)counters->before, "failed",
                   (json_int_t)counters->failed, "stages", cli_json_savings(&counters->savings),
                   "directory", results_json_text(directory)));
+    study_tally_describe(&counters->tally, answer);
     if (study->driver && study_facts(study))
         json_object_update(answer, study_facts(study));
     results_json_print(answer);
@@ -216,6 +228,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
     if (study->driver && !driven && good && counters.leads && !options->json)
         tell_rest(study);
     ff_instance_close(run.executor);
+    study_tally_free(&counters.tally);
     free(directory);
     return code;
 }

@@ -4,6 +4,7 @@
 #include "../memory/memory.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 void report_put_text(FILE *out, const char *text)
 {
@@ -34,6 +35,13 @@ void report_put_cell(FILE *out, const char *text)
     fputs("<td>", out);
     report_put_text(out, text);
     fputs("</td>", out);
+}
+
+void report_put_badge(FILE *out, const char *verdict)
+{
+    const char *colour = strcmp(verdict, "failed") != 0 ? verdict : "bad";
+    if (*verdict)
+        fprintf(out, "<span class=\"badge %s\">%s</span>", colour, verdict);
 }
 
 void report_part_begin(report_page *page, report_part *part)

@@ -19,6 +19,9 @@ typedef struct report_page {
 void report_put_text(FILE *out, const char *text);
 void report_put_cell(FILE *out, const char *text); /* the same in a cell of a table */
 
+/* Writes a verdict in its colour; "" writes nothing. */
+void report_put_badge(FILE *out, const char *verdict);
+
 /* A part of the page that is kept only when it holds a figure. */
 typedef struct report_part {
     FILE *page;

@@ -44,13 +44,13 @@ static worst find_worst(const ff_view *view, const ff_view_quality *of)
 static void write_line(report_page *page, const worst *w)
 {
     FILE *out = page->out;
-    const char *verdict = ff_verdict_name(w->line->verdict);
     fputs("<tr>", out);
     report_put_cell(out, page->view->stages[w->line->stage]->name);
     report_put_cell(out, w->line->name);
     put_number(out, w->line->value);
     put_number(out, w->line->limit);
-    fprintf(out, "<td><span class=\"badge %s\">%s</span>", verdict, verdict);
+    fputs("<td>", out);
+    report_put_badge(out, ff_verdict_name(w->line->verdict));
     if (page->view->study)
         fprintf(out, " %zu of %zu, as in case %zu", w->count, w->total, w->index + 1);
     fputs("</td>", out);

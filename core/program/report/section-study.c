@@ -338,9 +338,11 @@ static void write_table_row(report_page *page, size_t index)
                                        ff_view_point(view, index, view->axes[a]->dimension), text));
         fputs("</td>", page->out);
     }
+    report_put_cell(page->out, view->cases[index]->status);
     fputs("<td>", page->out);
-    report_put_text(page->out, view->cases[index]->status);
+    report_put_badge(page->out, view->cases[index]->verdict);
     fputs("</td>", page->out);
+    report_put_cell(page->out, view->cases[index]->reasons);
     for (size_t v = 0; v < view->variable_count; v++) {
         if (view->variables[v]->rank != 0)
             continue;
@@ -368,7 +370,7 @@ static void write_table(report_page *page)
         report_put_text(page->out, view->axes[a]->path);
         fputs("</th>", page->out);
     }
-    fputs("<th>status</th>", page->out);
+    fputs("<th>status</th><th>verdict</th><th>because of</th>", page->out);
     for (size_t v = 0; v < view->variable_count; v++)
         if (view->variables[v]->rank == 0) {
             fputs("<th>", page->out);

@@ -128,22 +128,47 @@ static void count_verdicts(const ff_view *view, size_t counts[3])
         }
 }
 
-static void write_quality_row(report_page *page)
+static void write_checks(report_page *page)
 {
     size_t counts[3] = {0};
     count_verdicts(page->view, counts);
-    int32_t worst = counts[FF_BAD] ? FF_BAD : counts[FF_DOUBTFUL] ? FF_DOUBTFUL : FF_GOOD;
-    fprintf(page->out,
-            "<tr><th scope=\"row\">Quality of the numbers</th><td></td><td><span class=\"badge "
-            "%s\">%s</span></td><td><a href=\"#quality\">%zu checks good, %zu doubtful, %zu "
-            "bad</a></td></tr>\n",
-            ff_verdict_name(worst), ff_verdict_name(worst), counts[FF_GOOD], counts[FF_DOUBTFUL],
-            counts[FF_BAD]);
+    fprintf(page->out, "<a href=\"#quality\">%zu checks good, %zu doubtful, %zu bad</a>",
+            counts[FF_GOOD], counts[FF_DOUBTFUL], counts[FF_BAD]);
+}
+
+/* The verdict of a run, with what the lines say that are not good. */
+static void write_judgement(report_page *page)
+{
+    const ff_view_case *c = page->view->cases[0];
+    char number[REPORT_TEXT_SIZE];
+    size_t listed = 0;
+    fputs("<p class=\"judgement\">", page->out);
+    report_put_badge(page->out, c->verdict);
+    fputs(" ", page->out);
+    write_checks(page);
+    fputs("</p>\n", page->out);
+    for (size_t i = 0; i < c->quality_count; i++) {
+        const ff_view_quality *line = c->quality[i];
+        if (line->verdict == FF_GOOD)
+            continue;
+        fputs(listed++ ? "<li>" : "<ul>\n<li>", page->out);
+        report_put_text(page->out, page->view->stages[line->stage]->name);
+        fputs(".", page->out);
+        report_put_text(page->out, line->name);
+        report_number_text(line->value, number);
+        fprintf(page->out, " = %s, held to ", number);
+        report_number_text(line->limit, number);
+        fprintf(page->out, "%s%s", number, *line->text ? ": " : "");
+        report_put_text(page->out, line->text);
+        fputs("</li>\n", page->out);
+    }
+    fputs(listed ? "</ul>\n" : "", page->out);
 }
 
 static void write_run(report_page *page)
 {
     const ff_view *view = page->view;
+    write_judgement(page);
     fputs("<table class=\"verdict\"><thead><tr><th>quantity</th><th>stage</th><th>value</th>"
           "<th>where</th></tr></thead><tbody>\n",
           page->out);
@@ -151,7 +176,6 @@ static void write_run(report_page *page)
         for (size_t v = 0; v < view->variable_count; v++)
             if (!strcmp(view->variables[v]->output, rows[r].output) && view->variables[v]->rank < 2)
                 write_row(page, &rows[r], v);
-    write_quality_row(page);
     fputs("</tbody></table>\n", page->out);
 }
 
@@ -196,18 +220,16 @@ static void write_span(report_page *page, size_t variable)
 static void write_study(report_page *page)
 {
     const ff_view *view = page->view;
-    size_t good = 0, idle = 0, scalars = 0, counts[3] = {0};
-    for (size_t c = 0; c < view->case_count; c++) {
-        good += !strcmp(view->cases[c]->status, "ok");
-        idle += !strcmp(view->cases[c]->status, "not run");
-    }
-    count_verdicts(view, counts);
-    fprintf(page->out, "<p>%zu cases: %zu ok, %zu failed", view->case_count, good,
-            view->case_count - good - idle);
+    size_t idle = 0, scalars = 0;
+    for (size_t c = 0; c < view->case_count; c++)
+        idle += !*view->cases[c]->verdict;
+    fprintf(page->out, "<p class=\"judgement\">%zu cases: ", view->case_count);
+    report_put_text(page->out, view->summary);
     if (idle > 0)
-        fprintf(page->out, ", %zu not run", idle);
-    fprintf(page->out, ". Quality: %zu checks good, %zu doubtful, %zu bad.</p>\n", counts[FF_GOOD],
-            counts[FF_DOUBTFUL], counts[FF_BAD]);
+        fprintf(page->out, "%s%zu not run", *view->summary ? ", " : "", idle);
+    fputs("; ", page->out);
+    write_checks(page);
+    fputs("</p>\n", page->out);
     for (size_t v = 0; v < view->variable_count; v++)
         scalars += view->variables[v]->rank == 0;
     if (scalars == 0)

@@ -99,7 +99,7 @@ static bool write_scalars(table *t)
     for (size_t v = 0; v < view->variable_count; v++)
         if (view->variables[v]->rank == 0)
             put_head(t->out, view->variables[v]->name, view->variables[v]->unit);
-    fputs(",reason,command\n", t->out);
+    fputs(",verdict,reasons,reason,command\n", t->out);
     for (size_t c = 0; c < view->case_count && good; c++) {
         put_axes(t, c);
         fputc(',', t->out);
@@ -107,6 +107,8 @@ static bool write_scalars(table *t)
         fputc(',', t->out);
         put_number(t->out, view->cases[c]->seconds);
         good = put_scalars(t, c);
+        fprintf(t->out, ",%s,", view->cases[c]->verdict);
+        put_text(t->out, view->cases[c]->reasons);
         fputc(',', t->out);
         put_text(t->out, view->cases[c]->reason);
         fputc(',', t->out);

@@ -129,7 +129,8 @@ static json_t *list_other_models(const results_study *of, const study_definition
     return models;
 }
 
-void results_write_study_json(const results_study *of, const study_definition *study, FILE *out)
+void results_write_study_json(const results_study *of, const study_definition *study,
+                              const study_tally *tally, FILE *out)
 {
     json_t *lengths = json_array(), *sets = json_array(), *docs = json_object();
     for (size_t i = 0; i < study->axis_count; i++)
@@ -142,6 +143,8 @@ void results_write_study_json(const results_study *of, const study_definition *s
                   "sets", sets, "lengths", lengths, "axes", describe_axes(of, study), "stages",
                   describe_stages(of->pipeline, docs), "models", list_other_models(of, study));
     json_object_set_new(all, "docs", docs);
+    if (tally)
+        study_tally_describe(tally, all);
     json_dumpf(all, out, JSON_COMPACT | JSON_REAL_PRECISION(17));
     fputc('\n', out);
     json_decref(all);

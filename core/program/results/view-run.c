@@ -24,8 +24,10 @@ static int verdict_of(const json_t *text)
                                           : FF_BAD;
 }
 
-/* Adds the quality and the time of the stages that ran. */
-static void add_stages(results_reader *reader, ff_view_case *c, const json_t *stages)
+/* Adds the quality and the time of the stages that ran; the lines to `judged`, too, as the record
+   of a case has them. */
+static void add_stages(results_reader *reader, ff_view_case *c, const json_t *stages,
+                       json_t *judged)
 {
     results_rows rows = {.rows = NULL};
     json_t *stage, *line;
@@ -38,9 +40,17 @@ static void add_stages(results_reader *reader, ff_view_case *c, const json_t *st
         if (!of || !json_is_true(json_object_get(stage, "ran")))
             continue;
         c->seconds += json_number_value(json_object_get(stage, "seconds"));
-        json_object_foreach(json_object_get(stage, "quality"), name, line) results_view_add_quality(
-            reader, &rows, of, name, json_object_get(line, "value"), json_object_get(line, "limit"),
-            verdict_of(json_object_get(line, "verdict")), json_object_get(line, "text"));
+        json_t *lines = json_object(), *value, *limit;
+        json_object_foreach(json_object_get(stage, "quality"), name, line)
+        {
+            int verdict = verdict_of(json_object_get(line, "verdict"));
+            value = json_object_get(line, "value");
+            limit = json_object_get(line, "limit");
+            results_view_add_quality(reader, &rows, of, name, value, limit, verdict,
+                                     json_object_get(line, "text"));
+            json_object_set_new(lines, name, json_pack("[O?, O?, i]", value, limit, verdict));
+        }
+        json_object_set_new(judged, of, lines);
     }
     c->quality_count = rows.count;
     c->quality = results_view_take_rows(reader, &rows);
@@ -68,6 +78,10 @@ bool results_view_read_run(results_reader *reader)
     add_outputs(reader, json_object_get(root, "outputs"), reader->per_case[0].outputs,
                 FF_VIEW_ASKED);
     add_outputs(reader, json_object_get(root, "computed"), reader->per_case[0].outputs, 0);
-    add_stages(reader, c, json_object_get(root, "stages"));
+    json_t *record = json_pack("{s:O?, s:{}, s:s}", "status", json_object_get(root, "status"),
+                               "quality", "key", "");
+    add_stages(reader, c, json_object_get(root, "stages"), json_object_get(record, "quality"));
+    results_view_judge(reader, c, 1, record);
+    json_decref(record);
     return true;
 }

@@ -159,6 +159,7 @@ static void add_case(results_reader *reader, size_t index, const json_t *record,
     add_outputs(reader, docs, json_object_get(record, "outputs"), of->outputs);
     add_outputs(reader, docs, json_object_get(record, "arrays"), of->outputs);
     add_quality(reader, c, json_object_get(record, "quality"));
+    results_view_judge(reader, c, index + 1, record);
 }
 
 /* Takes what arrays are plotted against from the first case that has any. */

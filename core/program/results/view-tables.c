@@ -18,6 +18,21 @@ void *results_view_add_row(results_reader *reader, results_rows *rows, size_t si
     return rows->rows[rows->count++] = memory_arena_alloc(&reader->arena, size);
 }
 
+void results_view_judge(results_reader *reader, ff_view_case *c, size_t number,
+                        const json_t *record)
+{
+    c->verdict = c->reasons = "";
+    if (!record)
+        return;
+    study_judgement judgement = study_judge_record(record);
+    char *reasons = study_judgement_text(&judgement);
+    c->verdict = study_verdict_name(judgement.verdict);
+    c->reasons = memory_arena_text(&reader->arena, reasons, strlen(reasons));
+    free(reasons);
+    study_judgement_free(&judgement);
+    study_tally_add(&reader->tally, number, record);
+}
+
 const void *results_view_take_rows(results_reader *reader, results_rows *rows)
 {
     size_t size = rows->count * sizeof *rows->rows;

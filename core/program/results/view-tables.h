@@ -30,6 +30,7 @@ typedef struct results_reader {
     size_t arrays_case;      /* the case of `arrays`; view.case_count: none */
     results_case *per_case;  /* one for each case of the view */
     json_t *index;           /* {variable: its index in view.variables} */
+    study_tally tally;       /* of the cases that have run */
     results_rows facts, citations, stages, axes, variables, cases, drawings;
 } results_reader;
 
@@ -50,6 +51,10 @@ void results_view_set_against(results_reader *reader, const char *name, const js
 void results_view_add_quality(results_reader *reader, results_rows *rows, const char *stage,
                               const char *name, const json_t *value, const json_t *limit,
                               int verdict, const json_t *text);
+
+/* Judges a case by its record, which is NULL when it has not run. */
+void results_view_judge(results_reader *reader, ff_view_case *c, size_t number,
+                        const json_t *record);
 
 /* view-run.c and view-study.c: fill in the view; false after an error. */
 bool results_view_read_run(results_reader *reader);

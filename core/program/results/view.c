@@ -170,6 +170,10 @@ static void finish_view(results_reader *reader)
     view->cases = results_view_take_rows(reader, &reader->cases);
     view->drawing_count = reader->drawings.count;
     view->drawings = results_view_take_rows(reader, &reader->drawings);
+    char *summary = study_tally_text(&reader->tally);
+    view->summary = memory_arena_text(&reader->arena, summary, strlen(summary));
+    free(summary);
+    study_tally_free(&reader->tally);
     reader->arrays_case = view->case_count;
 }
 

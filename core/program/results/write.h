@@ -61,7 +61,9 @@ typedef struct results_study {
     ff_engine *engine;
 } results_study;
 
-/* Writes the axes of a study and the stages of its first case as one JSON object. */
-void results_write_study_json(const results_study *of, const study_definition *study, FILE *out);
+/* Writes the axes of a study, the stages of its first case and, unless the tally is NULL, how far
+   its cases can be trusted, as one JSON object. */
+void results_write_study_json(const results_study *of, const study_definition *study,
+                              const study_tally *tally, FILE *out);
 
 #endif

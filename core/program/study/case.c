@@ -126,6 +126,14 @@ json_t *study_case_set(const study_definition *study, size_t index)
     return set;
 }
 
+/* Adds the verdict, as far as the record tells it, for scripts that read the journal. */
+static void add_judgement(json_t *record)
+{
+    study_judgement judgement = study_judge_record(record);
+    study_judgement_add(&judgement, record);
+    study_judgement_free(&judgement);
+}
+
 json_t *study_case_record(const study_run *run, size_t index, const char *key, const char *status,
                           const char *reason)
 {
@@ -136,6 +144,7 @@ json_t *study_case_record(const study_run *run, size_t index, const char *key, c
         json_object_set_new(record, "reason", text ? text : json_string("not in UTF-8"));
         json_object_set_new(record, "command", command_of(run, index));
     }
+    add_judgement(record);
     return record;
 }
 
@@ -276,6 +285,7 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
     json_t *record = study_case_record(run, index, c->key, status_of(c->report), reason);
     free(reason);
     add_quality(record, c->pipeline);
+    add_judgement(record);
     if (good && !keep_results(c, run, index, record)) {
         json_decref(setups);
         json_decref(parameters);

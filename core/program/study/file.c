@@ -32,14 +32,14 @@ bool study_write_file(const char *directory, const char *name, const char *text,
     return good;
 }
 
-bool study_describe(const study_run *run, ff_report *report)
+bool study_describe(const study_run *run, const study_tally *tally, ff_report *report)
 {
     char *text = NULL;
     size_t length = 0;
     if (!run->describe)
         return true;
     FILE *out = memory_require(open_memstream(&text, &length));
-    run->describe(run->ctx, run->described, out);
+    run->describe(run->ctx, run->described, tally, out);
     fclose(out);
     bool good = study_write_file(run->directory, study_description, text, NULL, report);
     free(text);

@@ -33,10 +33,10 @@ void study_savings_add(study_reuse_counts *savings, const json_t *record);
 /* file.c: writes a text file in the study's directory; hint may be NULL. */
 bool study_write_file(const char *directory, const char *name, const char *text, const char *hint,
                       ff_report *report);
-/* Writes the description of the study beside its journal. */
-bool study_describe(const study_run *run, ff_report *report);
+/* Writes the description of the study beside its journal; `tally` as in study_run.describe. */
+bool study_describe(const study_run *run, const study_tally *tally, ff_report *report);
 
-/* table.c: writes table.csv; needs the keys of all cases. */
+/* table.c: writes table.csv and the description with the verdicts; needs the keys of all cases. */
 bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_report *report);
 
 #endif

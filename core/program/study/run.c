@@ -52,7 +52,7 @@ static int32_t begin_leading(void *ctx)
     r->counters->total = first < chains ? (chains - first - 1) / run->shards + 1 : 0;
     r->counters->total *= study_chain_length(run->study);
     r->open = study_journal_open(&r->journal, run, r->report);
-    if (r->open && !study_describe(run, r->report)) {
+    if (r->open && !study_describe(run, NULL, r->report)) {
         study_journal_close(&r->journal);
         r->open = false;
     }
@@ -95,8 +95,10 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
     r->counters->before += known;
     r->counters->done++;
     r->counters->failed += !good;
-    json_t *record = known ? NULL : json_loads(text, 0, NULL);
-    study_savings_add(&r->counters->savings, record);
+    json_t *record = known ? json_incref(json_object_get(r->done, key)) : json_loads(text, 0, NULL);
+    if (!known)
+        study_savings_add(&r->counters->savings, record);
+    study_tally_add(&r->counters->tally, index + 1, record);
     json_decref(record);
     return known || good || !r->run->fail_fast;
 }

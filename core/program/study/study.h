@@ -9,8 +9,7 @@
 #include <flankfilm/engine.h>
 
 #include "../memory/memory.h"
-
-struct json_t;
+#include "judgement.h"
 
 /* A path with the values that it takes along one axis. */
 typedef struct study_varied {
@@ -145,6 +144,7 @@ typedef struct study_counters {
     size_t failed; /* cases of those done that failed */
     double seconds;
     study_reuse_counts savings; /* of the cases done in this run */
+    study_tally tally;          /* of the cases done; to be freed by study_tally_free */
 } study_counters;
 
 enum { STUDY_KEY_SIZE = 20 }; /* bytes of the key of a case, with its end */
@@ -170,9 +170,10 @@ typedef struct study_run {
 
     /* Writes the files of a case with series or fields into a directory. */
     bool (*write)(const ff_pipeline *pipeline, const char *directory, ff_report *report);
-    /* Describes the study for those who read its directory. */
+    /* Describes the study for those who read its directory; `tally` is of all its cases, NULL while
+       they are not all done. */
     const study_definition *described;
-    void (*describe)(void *ctx, const study_definition *study, FILE *out);
+    void (*describe)(void *ctx, const study_definition *study, const study_tally *tally, FILE *out);
     void (*say)(void *ctx, int indent, const char *line);        /* prints a line of a driver */
     void (*progress)(void *ctx, const study_counters *counters); /* about every second */
     void *ctx;
@@ -186,7 +187,7 @@ bool study_execute(const study_run *run, study_counters *counters, ff_report *re
    writes the table of those that ran and the files of the driver. */
 bool study_drive(const study_run *run, study_counters *counters, ff_report *report);
 /* What came of a study with a driver: members for `run --json`, or NULL. */
-struct json_t *study_facts(const study_definition *study);
+json_t *study_facts(const study_definition *study);
 /* Its verdict, FF_GOOD or FF_BAD; -1 when its cases decide. */
 int study_verdict(const study_definition *study);
 /* Returns the names of its files, "map.csv, map.svg, ", to be freed. */
@@ -209,9 +210,9 @@ extern const char study_description[]; /* written by study_run.describe */
 
 /* Returns {key: record} of all journals in the directory, which may be missing. A key has its last
    record that is ok, else its last one. */
-struct json_t *study_journal_read(const char *directory);
+json_t *study_journal_read(const char *directory);
 
-struct json_t *study_json_real(double value); /* null for a number that is not finite */
+json_t *study_json_real(double value); /* null for a number that is not finite */
 
 /* Continues an FNV-1a hash of 64 bits with the contents of a file. */
 #define STUDY_HASH_START UINT64_C(0xcbf29ce484222325)

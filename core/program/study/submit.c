@@ -54,7 +54,7 @@ size_t study_submit(study_context *context, const study_setting *settings, size_
     return list->count++;
 }
 
-static void add_counters(study_counters *sum, const study_counters *part)
+static void add_counters(study_counters *sum, study_counters *part)
 {
     sum->leads = part->leads;
     sum->total += part->total;
@@ -66,6 +66,7 @@ static void add_counters(study_counters *sum, const study_counters *part)
     sum->savings.reused += part->savings.reused;
     sum->savings.spent += part->savings.spent;
     sum->savings.saved += part->savings.saved;
+    study_tally_merge(&sum->tally, &part->tally);
 }
 
 bool study_run_submitted(study_context *context, size_t begin, size_t end)
@@ -116,6 +117,5 @@ bool study_write_submitted(study_context *context)
     run.study = &context->list;
     if (!context->grid)
         run.described = &context->list;
-    return study_describe(&run, context->report) &&
-           study_table_write(&run, context->keys, context->report);
+    return study_table_write(&run, context->keys, context->report);
 }

@@ -62,7 +62,18 @@ static void put_head(FILE *out, const study_definition *study, const char *const
     }
     json_object_foreach(columns, name, unit)
         fprintf(out, ",%s [%s]", name, json_string_value(unit));
-    fputs(",reason\n", out);
+    fputs(",verdict,reasons,reason\n", out);
+}
+
+/* Two cells, which are empty for a case that has not run. */
+static void put_judgement(FILE *out, const json_t *record)
+{
+    study_judgement judgement = study_judge_record(record);
+    char *reasons = study_judgement_text(&judgement);
+    fprintf(out, ",%s,", record ? study_verdict_name(judgement.verdict) : "");
+    put_cell(out, record ? reasons : "", record ? strlen(reasons) : 0);
+    free(reasons);
+    study_judgement_free(&judgement);
 }
 
 static void put_row(FILE *out, const study_definition *study, const char *const *units,
@@ -87,6 +98,7 @@ static void put_row(FILE *out, const study_definition *study, const char *const 
         if (pair)
             fprintf(out, "%.12g", json_number_value(json_array_get(pair, 1)));
     }
+    put_judgement(out, record);
     fputc(',', out);
     put_cell(out, reason ? reason : "", reason ? strlen(reason) : 0);
     fputc('\n', out);
@@ -128,6 +140,12 @@ bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_re
     bool good =
         study_write_file(run->directory, "table.csv", text,
                          "the journal has all cases; the same command writes the table", report);
+    study_tally tally = {.cases = NULL};
+    for (size_t i = 0; i < study->count; i++)
+        if (json_object_get(records, keys[i]))
+            study_tally_add(&tally, i + 1, json_object_get(records, keys[i]));
+    good = good && study_describe(run, &tally, report);
+    study_tally_free(&tally);
     json_decref(columns);
     json_decref(records);
     free(units);

@@ -17,7 +17,8 @@ static const char *last_word(const char *path)
 /* The last word of the path where no other axis has the same, else the path. */
 static const char *axis_name(const ff_view *view, size_t a)
 {
-    static const char *const taken[] = {"use", "status", "seconds", "reason", "command", "point"};
+    static const char *const taken[] = {"use",     "status", "seconds", "reason",
+                                        "command", "point",  "verdict", "reasons"};
     const char *path = view->axes[a]->path, *word = last_word(path);
     bool clear = *word && !strchr("0123456789", *word);
     for (size_t i = 0; i < sizeof taken / sizeof *taken; i++)

@@ -28,7 +28,7 @@ typedef struct writer_nc_file {
     writer_nc_dim *dimensions;
     size_t dimension_count;
     int *variables;
-    int case_status, seconds, reason, command;
+    int case_status, case_verdict, seconds, reasons, reason, command;
     const char *states[WRITER_NC_STATES];
     size_t state_count;
     int *quality, *verdicts; /* of each line of `lines` */

@@ -5,14 +5,60 @@
 #include <stdlib.h>
 #include <string.h>
 
-static size_t longest_text(const ff_view *view, bool command)
+typedef const char *(*text_of)(const ff_view_case *c);
+
+static const char *reason_of(const ff_view_case *c)
+{
+    return c->reason;
+}
+
+static const char *command_of(const ff_view_case *c)
+{
+    return c->command;
+}
+
+static const char *reasons_of(const ff_view_case *c)
+{
+    return FF_HAS(c, reasons) && c->reasons ? c->reasons : "";
+}
+
+static size_t longest_text(const ff_view *view, text_of text)
 {
     size_t longest = 0;
     for (size_t c = 0; c < view->case_count; c++) {
-        size_t length = strlen(command ? view->cases[c]->command : view->cases[c]->reason);
+        size_t length = strlen(text(view->cases[c]));
         longest = length > longest ? length : longest;
     }
     return longest;
+}
+
+static const char *const verdicts[] = {"good", "doubtful", "bad", "failed"};
+enum { VERDICTS = sizeof verdicts / sizeof *verdicts };
+
+/* The number of a verdict; -1 for a case that has not run. */
+static signed char verdict_of(const ff_view_case *c)
+{
+    for (signed char i = 0; FF_HAS(c, verdict) && c->verdict && i < VERDICTS; i++)
+        if (!strcmp(verdicts[i], c->verdict))
+            return i;
+    return -1;
+}
+
+static void define_verdict(writer_nc_file *f, int rank)
+{
+    static const signed char values[] = {-1, 0, 1, 2, 3};
+    f->case_verdict = writer_nc_define_numbers(f, "verdict", NC_BYTE, f->study, rank);
+    writer_nc_text(f, f->case_verdict, "long_name", "how far the case can be trusted");
+    writer_nc_text(f, f->case_verdict, "flag_meanings", "none good doubtful bad failed");
+    if (f->status == FF_OK)
+        writer_nc_good(f, nc_put_att_schar(f->nc, f->case_verdict, "flag_values", NC_BYTE,
+                                           VERDICTS + 1, values));
+    f->reasons = -1;
+    size_t longest = longest_text(f->view, reasons_of);
+    if (!longest)
+        return;
+    f->reasons = writer_nc_define_texts(f, "reasons", f->study, rank, longest);
+    writer_nc_text(f, f->reasons, "long_name", "the checks that are not good, the worst first");
 }
 
 static size_t find_state(const writer_nc_file *f, const char *status)
@@ -56,12 +102,15 @@ void writer_nc_define_status(writer_nc_file *f)
             f, nc_put_att_schar(f->nc, f->case_status, "flag_values", NC_BYTE, count, values));
     f->seconds = writer_nc_define_numbers(f, "seconds", NC_DOUBLE, f->study, rank);
     writer_nc_text(f, f->seconds, "long_name", "time that the case took");
+    define_verdict(f, rank);
     f->reason = f->command = -1;
-    if (!longest_text(f->view, false))
+    if (!longest_text(f->view, reason_of))
         return;
-    f->reason = writer_nc_define_texts(f, "reason", f->study, rank, longest_text(f->view, false));
+    f->reason =
+        writer_nc_define_texts(f, "reason", f->study, rank, longest_text(f->view, reason_of));
     writer_nc_text(f, f->reason, "long_name", "why the case failed");
-    f->command = writer_nc_define_texts(f, "command", f->study, rank, longest_text(f->view, true));
+    f->command =
+        writer_nc_define_texts(f, "command", f->study, rank, longest_text(f->view, command_of));
     writer_nc_text(f, f->command, "long_name", "runs the case again, alone");
 }
 
@@ -142,6 +191,9 @@ void writer_nc_write_status(writer_nc_file *f, size_t index, const writer_nc_sla
     const signed char byte = (signed char)(state < f->state_count ? state : f->state_count - 1);
     writer_nc_good(f, nc_put_vara_schar(f->nc, f->case_status, at->start, at->count, &byte));
     writer_nc_good(f, nc_put_vara_double(f->nc, f->seconds, at->start, at->count, &c->seconds));
+    const signed char verdict = verdict_of(c);
+    writer_nc_good(f, nc_put_vara_schar(f->nc, f->case_verdict, at->start, at->count, &verdict));
+    write_text(f, index, f->reasons, reasons_of(c));
     write_text(f, index, f->reason, c->reason);
     write_text(f, index, f->command, c->command);
 }

@@ -18,12 +18,14 @@ static void test_ways(void)
 {
     write_walk("w.yaml", "", "{sweep: {walk.step: {from: 1 m, to: 4 m, points: 4, follow: both}}}");
     outcome r = cli("$F run w.yaml -j 2 && cut -d, -f1,3- results/w/table.csv");
-    cli_expect("up and down", &r,
-               r.code == 0 &&
-                   cli_has(r.out, "case,status,follow,walk.step [m],walk.place [m],reason\n"
-                                  "1,ok,up,1,1,\n2,ok,up,2,2.75,\n3,ok,up,3,5.0625,\n"
-                                  "4,ok,up,4,7.796875,\n5,ok,down,1,5.875,\n6,ok,down,2,6.5,\n"
-                                  "7,ok,down,3,6,\n8,ok,down,4,4,\n"));
+    cli_expect(
+        "up and down", &r,
+        r.code == 0 &&
+            cli_has(r.out,
+                    "case,status,follow,walk.step [m],walk.place [m],verdict,reasons,reason\n"
+                    "1,ok,up,1,1,good,,\n2,ok,up,2,2.75,good,,\n3,ok,up,3,5.0625,good,,\n"
+                    "4,ok,up,4,7.796875,good,,\n5,ok,down,1,5.875,good,,\n6,ok,down,2,6.5,good,,\n"
+                    "7,ok,down,3,6,good,,\n8,ok,down,4,4,good,,\n"));
     cli_expect("nothing is taken over", &r, cli_has(r.out, "stages: 8 computed"));
     r = cli("$F run w.yaml && $F plan w.yaml");
     cli_expect("resumes", &r,
@@ -31,9 +33,10 @@ static void test_ways(void)
                    cli_has(r.out, "1 m ... 4 m, each starts from its neighbour\n"));
     write_walk("v.yaml", "", "{sweep: {walk.step: {from: 4 m, to: 1 m, points: 4, follow: down}}}");
     r = cli("$F run v.yaml -o results/w && cut -d, -f3- results/w/table.csv");
-    cli_expect("one way alone; the larger value is up", &r,
-               cli_has(r.out, "\nok,4,4,\nok,3,6,\nok,2,6.5,\nok,1,5.875,\n") &&
-                   cli_has(r.out, "4 of 4 cases done, 4 of them before"));
+    cli_expect(
+        "one way alone; the larger value is up", &r,
+        cli_has(r.out, "\nok,4,4,good,,\nok,3,6,good,,\nok,2,6.5,good,,\nok,1,5.875,good,,\n") &&
+            cli_has(r.out, "4 of 4 cases done, 4 of them before"));
 }
 
 static void test_shards(void)
@@ -59,7 +62,7 @@ static void test_crash(void)
                    cli_has(r.out, "\nok,2,2.75\ncrashed,3,\nok,4,6.0625\nok,5,9.546875\n"));
     r = cli("$F run c.yaml -j 1");
     cli_expect("a failure stays one", &r,
-               cli_has(r.out, "5 of 5 cases done, 5 of them before; 1 failed"));
+               cli_has(r.out, "5 of 5 cases done, 5 of them before: 4 good, 1 failed (crashed 1)"));
     r = cli("grep -c \"run 'c.yaml' --rerun failed -o 'results/c'\" results/c/journal.jsonl");
     cli_expect("the command repeats the case where it stands", &r, cli_has(r.out, "1\n"));
     r = cli("$F run c.yaml -o clean --set 'walk.trap=0 m'; head -n 2 clean/journal.jsonl >keep; "
@@ -76,12 +79,12 @@ static void test_bad_state(void)
                "{sweep: {walk.step: {from: 1 m, to: 2 m, points: 2, follow: up}}}");
     outcome r = cli("$F run b.yaml; cut -d, -f3- results/b/table.csv");
     cli_expect("a state that is too large", &r,
-               cli_has(r.out, "\nplugin fault,1,walk: the plugin ") &&
+               cli_has(r.out, "\nplugin fault,1,failed,plugin fault,walk: the plugin ") &&
                    cli_has(r.out, "gave a state of 1048577 bytes; at most 1048576 are possible\n"));
     write_walk("b.yaml", ", bulk: 0",
                "{sweep: {walk.step: {from: 1 m, to: 2 m, points: 2, follow: up}}}");
     r = cli("$F run b.yaml -o none && cut -d, -f3- none/table.csv");
-    cli_expect("none at all", &r, cli_has(r.out, "\nok,1,1,\nok,2,2,\n"));
+    cli_expect("none at all", &r, cli_has(r.out, "\nok,1,1,good,,\nok,2,2,good,,\n"));
 }
 
 static void test_nothing_carried(void)
@@ -107,12 +110,14 @@ static void test_files(void)
                         "wave.shape: [a]}}\n");
     outcome r = cli("$F run t.yaml && cut -d, -f3- results/t/table.csv");
     cli_expect("files are called by their names", &r,
-               cli_has(r.out, "status,tide,wave.shape,wave.total [m],reason\n"
-                              "ok,low,a,0.000479425538604,\nok,high,a,0.00143827661581,\n"));
+               cli_has(r.out,
+                       "status,tide,wave.shape,wave.total [m],verdict,reasons,reason\n"
+                       "ok,low,a,0.000479425538604,good,,\nok,high,a,0.00143827661581,good,,\n"));
     r = cli("cd cards && $F run ../t.yaml -o away --set 'wave.amplitude=2 mm' && "
             "cut -d, -f3- away/table.csv");
-    cli_expect("--set stands above the files, whose place is the study's", &r,
-               cli_has(r.out, "ok,low,a,0.000958851077208,\nok,high,a,0.000958851077208,\n"));
+    cli_expect(
+        "--set stands above the files, whose place is the study's", &r,
+        cli_has(r.out, "ok,low,a,0.000958851077208,good,,\nok,high,a,0.000958851077208,good,,\n"));
     r = cli("$F explain t.yaml --set 'wave.amplitude=2 mm'");
     cli_expect("explain, too", &r,
                cli_has(r.out, "2 mm") && cli_has(r.out, "stages: 2 computed in "));
@@ -128,9 +133,12 @@ static void test_named_stages(void)
               "outputs: [wave.total]\n"
               "study:\n  sweep:\n    wave: {calm: {amplitude: 1 mm}, rough: {amplitude: 4 mm}}\n");
     outcome r = cli("$F run s.yaml && cut -d, -f3- results/s/table.csv");
-    cli_expect("stages are called by their names", &r,
-               cli_has(r.out, "status,wave,wave.total [m],reason\nok,calm,0.000479425538604,\n"
-                              "ok,rough,0.00191770215442,\n"));
+    cli_expect(
+        "stages are called by their names", &r,
+        cli_has(
+            r.out,
+            "status,wave,wave.total [m],verdict,reasons,reason\nok,calm,0.000479425538604,good,,\n"
+            "ok,rough,0.00191770215442,good,,\n"));
 }
 
 static void test_changes(void)

@@ -24,7 +24,7 @@ YAML
 "$flankfilm" run study.yaml -o out >said
 "$flankfilm" report out >said
 grep -q 'data:image/svg+xml' out/report.html
-grep -q '<p>6 cases: 6 ok, 0 failed\. ' out/report.html # levels that were not needed are none
+grep -q '<p class="judgement">6 cases: 6 good; ' out/report.html # levels that were not needed are none
 grep -q 'reference 1, 200<' out/report.html
 if grep ', ,\|, <' out/report.html; then exit 1; fi
 if grep '>case<.*</text>' out/report.html; then exit 1; fi # no figure over the numbers of cases

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * How far a run, or a case of a study, can be trusted: the worst verdict of its quality lines, or
+ * that it failed, with the lines that are not good as its reasons.
+ */
+#ifndef STUDY_JUDGEMENT_H
+#define STUDY_JUDGEMENT_H
+
+#include <flankfilm/engine.h>
+
+#include <jansson.h>
+
+/* FF_GOOD, FF_DOUBTFUL and FF_BAD, and a case without numbers that no line calls bad. */
+enum { STUDY_CASE_FAILED = FF_BAD + 1, STUDY_VERDICTS };
+
+typedef struct study_judgement {
+    int verdict;
+    char **reasons; /* in words, the worst first: "inlet heating" */
+    size_t count;
+} study_judgement;
+
+const char *study_verdict_name(int verdict); /* "good", "doubtful", "bad", "failed" */
+
+/* Judges the record of a case by its status and its lines, which records of every version have. */
+study_judgement study_judge_record(const json_t *record);
+/* Judges what a pipeline has computed; `failed` says that the run ended with an error. */
+study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed);
+void study_judgement_free(study_judgement *judgement);
+char *study_judgement_text(const study_judgement *judgement); /* "a, b", to be freed */
+/* Adds "verdict" and "reasons" to an object. */
+void study_judgement_add(const study_judgement *judgement, json_t *object);
+
+/* The judgements of many cases. */
+enum { STUDY_MOST_JUDGED = 10000 }; /* cases that are listed one by one */
+typedef struct study_tally {
+    size_t counts[STUDY_VERDICTS];
+    json_t *reasons[STUDY_VERDICTS]; /* {reason: number of cases}; NULL while there are none */
+    json_t *cases; /* [{case, key, verdict, reasons}]; NULL while there are none */
+} study_tally;
+
+/* Adds a case by its number, from 1 on, and its record. */
+void study_tally_add(study_tally *tally, size_t number, const json_t *record);
+/* Adds the cases of `part`, which is emptied. */
+void study_tally_merge(study_tally *tally, study_tally *part);
+void study_tally_free(study_tally *tally);
+/* Returns "12 good, 104 doubtful (inlet heating 88, lambda 61)", to be freed; the most frequent
+   reasons come first. */
+char *study_tally_text(const study_tally *tally);
+/* Adds "verdict", the worst one, "counts" {good, doubtful, bad, failed}, "reasons" [{reason,
+   verdict, cases}], the most frequent first, and "judged", a list of the cases in their order; that
+   is null when there are more than STUDY_MOST_JUDGED. */
+void study_tally_describe(const study_tally *tally, json_t *object);
+
+#endif

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Each case of a study has its verdict and its reasons in the table, the journal, the JSON, the last
+line and the page, and a bad case counts as failed."""
+import csv
+import json
+import re
+
+import lab
+
+# Of seven cases 1 and 2 are good, 3 to 5 doubtful, twice for "residual" and once for "law", one is
+# bad and one fails.
+STUDY = """
+format: 2
+pipeline:
+  verge: {use: toy/verge}
+  wave: {use: toy/wave, amplitude: 2 mm}
+outputs: [verge.answer, wave.total]
+study:
+  zip:
+    verge.speed: [1 m/s, 1.5 m/s, 2.5 m/s, 2.2 m/s, 0.1 m/s, 1 m/s, 4 m/s]
+    wave.end: [good, good, good, doubtful, good, bad, good]
+"""
+COUNTS = {"good": 2, "doubtful": 3, "bad": 1, "failed": 1}
+VERDICTS = ["good", "good", "doubtful", "doubtful", "doubtful", "bad", "failed"]
+REASONS = [[], [], ["residual"], ["residual"], ["law"], ["residual"], []]
+WORDS = "2 good, 3 doubtful (residual 2, law 1), 1 bad (residual 1), 1 failed"
+
+
+def checksum(data):
+    """FNV-1a of 64 bits."""
+    value = 0xCBF29CE484222325
+    for byte in data:
+        value = (value ^ byte) * 0x100000001B3 % 2**64
+    return f"{value:016x}"
+
+
+class Verdicts(lab.Lab):
+    def write(self, name, text):
+        with open(name, "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def run_study(self, name, *words):
+        self.write(name + ".yaml", STUDY)
+        return self.call("run", name + ".yaml", "-o", name, *words, code=4)
+
+    def check_json(self, answer):
+        self.assertEqual(answer["verdict"], "failed")
+        self.assertEqual(answer["counts"], COUNTS)
+        self.assertEqual(answer["reasons"], [
+            {"reason": "residual", "verdict": "doubtful", "cases": 2},
+            {"reason": "law", "verdict": "doubtful", "cases": 1},
+            {"reason": "residual", "verdict": "bad", "cases": 1}])
+        self.assertEqual([case["case"] for case in answer["judged"]], list(range(1, 8)))
+        self.assertEqual([case["verdict"] for case in answer["judged"]], VERDICTS)
+        self.assertEqual([case["reasons"] for case in answer["judged"]], REASONS)
+
+    def test_terminal(self):
+        for workers in "1", "3":
+            said = self.run_study("told-" + workers, "-j", workers)
+            self.assertEqual(said.splitlines()[-1],
+                             f"7 of 7 cases done: {WORDS}; \"reason\" in the table says why")
+        self.assertIn(f"7 of 7 cases done, 7 of them before: {WORDS}", self.run_study("told-1"))
+
+    def test_files(self):
+        self.run_study("kept", "-j", "2")
+        with open("kept/table.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["verdict"] for row in rows], VERDICTS)
+        self.assertEqual([row["reasons"] for row in rows], [", ".join(r) for r in REASONS])
+        with open("kept/journal.jsonl", encoding="utf-8") as file:
+            records = {record["case"]: record for record in map(json.loads, file)}
+        self.assertEqual([records[i + 1]["verdict"] for i in range(7)], VERDICTS)
+        self.assertEqual([records[i + 1]["reasons"] for i in range(7)], REASONS)
+        self.check_json(self.read("kept/study.json"))
+        self.check_json(json.loads(self.run_study("kept", "--json")))
+
+    def test_page(self):
+        self.run_study("shown")
+        self.call("report", "shown")
+        with open("shown/report.html", encoding="utf-8") as file:
+            page = file.read()
+        self.assertIn(f"<h2>Verdict</h2>\n<p class=\"judgement\">7 cases: {WORDS}; ", page)
+        cells = re.findall(r'<td><span class="badge \w+">(\w+)</span></td><td>([^<]*)</td>', page)
+        self.assertEqual(cells, [(v, ", ".join(r)) for v, r in zip(VERDICTS, REASONS)])
+
+    def test_worst_first(self):
+        """Of two lines the one further beyond its limit comes first, whatever their order."""
+        self.write("two.yaml", STUDY.replace("0.1 m/s", "0.002 m/s").replace(
+            "good, bad, good]", "doubtful, bad, good]"))
+        self.call("run", "two.yaml", code=4)
+        case = self.read("results/two/study.json")["judged"][4]
+        self.assertEqual(case["reasons"], ["residual", "law"])
+        self.write("two.yaml", STUDY.replace("0.1 m/s", "1e-9 m/s").replace(
+            "good, bad, good]", "doubtful, bad, good]"))
+        self.call("run", "two.yaml", code=4)
+        case = self.read("results/two/study.json")["judged"][4]
+        self.assertEqual(case["reasons"], ["law", "residual"])
+
+    def test_old_journal(self):
+        """Records of versions that wrote no verdict have the lines it is made of."""
+        self.run_study("old")
+        with open("old/journal.jsonl", encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        with open("old/journal.jsonl", "w", encoding="utf-8") as file:
+            for line in lines:
+                body = re.sub(r'"verdict":"\w+","reasons":\[[^]]*\],?', "", line)
+                self.assertNotEqual(body, line)
+                body = re.sub(r',?"sum":"\w+"}$', "", body)
+                file.write(f'{body},"sum":"{checksum(body.encode())}"}}\n')
+        self.assertIn(f"7 of 7 cases done, 7 of them before: {WORDS}", self.run_study("old"))
+        self.check_json(self.read("old/study.json"))
+
+    def test_other_studies(self):
+        studies = {
+            "sample": "sample: {sobol: 4}, sweep: {verge.speed: {from: 2.1 m/s, to: 2.9 m/s}}",
+            "stability": "stability: {axes: {verge.speed: [1 m/s, 2.5 m/s]}, outputs: [verge.answer], "
+                         "refine: [verge.cells]}",
+            "tradeoff": "tradeoff: {outputs: [verge.answer], accuracy: 1 %, repeats: 1, "
+                        "reference: {verge.cells: 100, refine: [verge.cells]}, "
+                        "candidates: [{verge.speed: 2.5 m/s}, {verge.cells: 10}]}",
+        }
+        for name, study in studies.items():
+            self.write(name + ".yaml", STUDY[:STUDY.index("study:")] + f"study: {{{study}}}\n")
+            said = self.call("run", name + ".yaml")
+            self.assertIn("doubtful (residual ", said.splitlines()[-1])
+            with open(f"results/{name}/table.csv", newline="", encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+            self.assertIn(("doubtful", "residual"), [(r["verdict"], r["reasons"]) for r in rows])
+            counts = self.read(f"results/{name}/study.json")["counts"]
+            self.assertEqual(sum(counts.values()), len(rows))
+            self.assertEqual(counts["doubtful"], sum(r["verdict"] == "doubtful" for r in rows))
+
+    def test_exports(self):
+        self.run_study("out")
+        self.call("export", "out", "--to", "csv", "-o", "tables")
+        with open("tables/scalars.csv", newline="", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["verdict"] for row in rows], VERDICTS)
+        self.assertEqual([row["reasons"] for row in rows], [", ".join(r) for r in REASONS])
+
+
+lab.main()
