@@ -6,6 +6,26 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The row of the output; -1 after an error. */
+static int find_output(ff_instance *i, const char *name)
+{
+    const ff_model *model = i->stage.loaded->model;
+    const char **names = fe_alloc((model->output_count + 1) * sizeof *names);
+    size_t count = 0;
+    int found = -1;
+    for (size_t k = 0; k < model->output_count && found < 0; k++) {
+        const ff_port *row = ff_model_output(model, k);
+        if (!row->service && !strcmp(row->name, name))
+            found = (int)k;
+        else if (!row->service)
+            names[count++] = row->name;
+    }
+    if (found < 0)
+        fe_refuse_name(i, "output", name, names, count);
+    fe_free(names);
+    return found;
+}
+
 /* Requests the outputs that the words name, or all of them. False for an unknown name. */
 static bool request(ff_instance *i, const char *words)
 {
@@ -18,9 +38,9 @@ static bool request(ff_instance *i, const char *words)
     while (words && *(words += strspn(words, " "))) {
         size_t length = strcspn(words, " ");
         snprintf(name, sizeof name, "%.*s", (int)length, words);
-        int output = ff_model_find_output(model, name);
-        if (output < 0 || i->stage.results[output].row->service)
-            return fe_refuse(i, name, "it has no output \"%s\"", name);
+        int output = find_output(i, name);
+        if (output < 0)
+            return false;
         i->stage.results[output].wanted = i->stage.results[output].required = true;
         words += length;
     }
@@ -67,8 +87,8 @@ static bool run_what_feeds(ff_instance *i)
         ff_instance *from = i->feeds[k].from;
         if (!from || ff_model_input(i->stage.loaded->model, k)->service)
             continue;
-        bool there =
-            from->stage.results[i->feeds[k].output].data || from->refused[i->feeds[k].output];
+        bool there = from->stage.results[i->feeds[k].output].data ||
+                     from->stage.results[i->feeds[k].output].refused;
         if (!(there && is_up_to_date(from)) && !run_feeding(i, from))
             return false;
     }
@@ -107,8 +127,6 @@ static bool gather(ff_instance *i, ff_array *in)
 static bool evaluate(ff_instance *i, const ff_array *in)
 {
     ff_stage *stage = &i->stage;
-    for (size_t k = 0; k < stage->loaded->model->output_count; k++)
-        i->refused[k] = stage->results[k].wanted;
     i->runs++;
     stage->seconds = stage->work = 0;
     fe_folder_keep(&i->memory.folder);
@@ -120,30 +138,37 @@ static bool evaluate(ff_instance *i, const ff_array *in)
     if (!stage->ran || fe_wants_any(stage))
         i->evaluated = stage->ran;
     ff_stage_set_state(stage, NULL, 0);
-    for (size_t k = 0; k < stage->loaded->model->output_count; k++)
-        i->refused[k] = i->refused[k] && !stage->results[k].wanted;
     if (stage->status != FF_OK)
         i->object.status = stage->status;
     return stage->ran;
+}
+
+/* From here on the results of the run before do not count. */
+static void begin(ff_instance *i)
+{
+    i->failed = true;
+    i->stage.ran = false;
 }
 
 /* Runs for the outputs that are marked as wanted. */
 static bool run_marked(fe_request *q)
 {
     ff_instance *i = q->instance;
+    begin(i);
     if (!run_what_feeds(i) || !fe_make_object(i)) {
         fe_forget_results(&i->stage);
         return false;
     }
     ff_array *in = fe_alloc((i->stage.loaded->model->input_count + 1) * sizeof *in);
     fe_forget_results(&i->stage);
-    bool good = gather(i, in) && evaluate(i, in);
+    i->failed = !(gather(i, in) && evaluate(i, in));
     fe_free(in);
-    return good;
+    return !i->failed;
 }
 
 static bool run(fe_request *q)
 {
+    begin(q->instance);
     return request(q->instance, q->text) && run_marked(q);
 }
 
@@ -152,28 +177,62 @@ ff_status ff_instance_run(ff_instance *instance, const char *outputs)
     return fe_handle(&(fe_request){.instance = instance, .work = run, .text = outputs});
 }
 
+/* Why there are no results at all. */
+static const char *why_not(const ff_instance *i)
+{
+    if (i->failed)
+        return "the last run failed";
+    return i->runs ? "a parameter or an input has changed since the last run"
+                   : "the instance has not run yet";
+}
+
+static bool refuse_result(fe_request *q)
+{
+    ff_instance *i = q->instance;
+    int row = find_output(i, q->name);
+    return row >= 0 &&
+           fe_refuse(i, q->name, "the output \"%s\" is not there: %s", q->name,
+                     !i->stage.ran                   ? why_not(i)
+                     : i->stage.results[row].refused ? "the model refused it in the last run"
+                                                     : "the last run was not asked for it");
+}
+
+/* Says why there is no answer: the messages alone change. */
+static ff_status refuse(const ff_instance *i, bool (*work)(fe_request *q), const char *name)
+{
+    return fe_handle(
+        &(fe_request){.instance = (ff_instance *)(uintptr_t)i, .work = work, .name = name});
+}
+
 ff_status ff_instance_result(const ff_instance *i, const char *output, const ff_result **result)
 {
     int row = ff_model_find_output(i->stage.loaded->model, output);
-    bool given = !i->broken && row >= 0 && i->stage.results[row].data;
-    *result = given ? &i->stage.results[row] : NULL;
-    return given ? FF_OK : FF_INVALID;
+    bool there = !i->broken && i->stage.ran && row >= 0 && i->stage.results[row].data;
+    *result = there ? &i->stage.results[row] : NULL;
+    return there ? FF_OK : refuse(i, refuse_result, output);
 }
 
 ff_status ff_instance_quality(const ff_instance *i, size_t index, const ff_quality **line)
 {
-    bool there = !i->broken && index < i->stage.quality_count;
+    bool there = !i->broken && (i->stage.ran || i->failed) && index < i->stage.quality_count;
     *line = there ? &i->stage.quality[index] : NULL;
     return there ? FF_OK : FF_INVALID;
+}
+
+static bool refuse_verdict(fe_request *q)
+{
+    return fe_refuse(q->instance, "", "there is no verdict: %s", why_not(q->instance));
 }
 
 ff_status ff_instance_verdict(const ff_instance *i, int32_t *verdict)
 {
     const ff_quality *line;
-    *verdict = FF_GOOD;
+    *verdict = i->stage.ran ? FF_GOOD : FF_BAD;
+    if (i->broken || !(i->stage.ran || i->failed))
+        return refuse(i, refuse_verdict, "");
     for (size_t k = 0; ff_instance_quality(i, k, &line) == FF_OK; k++)
         *verdict = line->verdict > *verdict ? line->verdict : *verdict;
-    return i->broken ? FF_NOMEM : FF_OK;
+    return FF_OK;
 }
 
 static bool fetch(fe_request *q)
@@ -206,8 +265,10 @@ static bool call(fe_request *q)
 {
     ff_instance *i = q->instance;
     fe_call bracket = fe_call_begin(&i->stage, q->name);
+    i->object.watch = &i->observer;
     if (fe_protected(&i->heap, do_call, q) == FF_NOMEM)
         i->object.no_memory = true;
+    i->object.watch = NULL;
     return fe_call_end(&bracket, q->status, i->report);
 }
 
@@ -287,4 +348,9 @@ const ff_report *ff_instance_report(const ff_instance *i)
 const ff_stage *ff_instance_stage(const ff_instance *i)
 {
     return &i->stage;
+}
+
+void ff_instance_watch(ff_instance *i, const ff_hooks *hooks)
+{
+    i->object.hooks = hooks;
 }

@@ -74,6 +74,14 @@ bool fe_refuse(ff_instance *i, const char *item, const char *format, ...)
     return ff_error(i->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s: %s", i->stage.use, text);
 }
 
+bool fe_refuse_name(ff_instance *i, const char *what, const char *name, const char *const *names,
+                    size_t count)
+{
+    const char *near = ff_nearest(name, names, count);
+    return fe_refuse(i, name, "it has no %s \"%.80s\"%s%s%s", what, name,
+                     near ? "; did you mean \"" : "", near ? near : "", near ? "\"?" : "");
+}
+
 bool fe_pass_on(ff_instance *i, const ff_instance *from, ff_status status)
 {
     if (from->broken)
@@ -115,7 +123,6 @@ static bool load(fe_request *q)
     i->names = fe_arena_alloc(arena, model->param_count * sizeof *i->names);
     i->feeds = fe_arena_alloc(arena, model->input_count * sizeof *i->feeds);
     i->serving = fe_arena_alloc(arena, (model->input_count + 1) * sizeof *i->serving);
-    i->refused = fe_arena_alloc(arena, model->output_count * sizeof *i->refused);
     stage->params = fe_arena_alloc(arena, model->param_count * sizeof *stage->params);
     stage->results = fe_arena_alloc(arena, model->output_count * sizeof *stage->results);
     for (size_t k = 0; k < model->output_count; k++)
@@ -170,10 +177,8 @@ static int find_param(ff_instance *i, const char *name)
     const char **names = fe_alloc((model->param_count + 1) * sizeof *names);
     for (size_t k = 0; k < model->param_count; k++)
         names[k] = ff_model_param(model, k)->name;
-    const char *near = ff_nearest(name, names, model->param_count);
+    fe_refuse_name(i, "parameter", name, names, model->param_count);
     fe_free(names);
-    fe_refuse(i, name, "it has no parameter \"%.80s\"%s%s%s", name, near ? "; did you mean \"" : "",
-              near ? near : "", near ? "\"?" : "");
     return -1;
 }
 
@@ -256,7 +261,7 @@ static void connect(ff_instance *i, size_t input, fe_feed feed)
     bool fed = fe_is_fed(i, input), serves = ff_model_input(i->stage.loaded->model, input)->service;
     if (serves || fed != feeds(&feed))
         close_object(i);
-    fe_free((void *)(uintptr_t)old->array.data);
+    fe_free_numbers(&i->object, old->array.data);
     *old = feed;
     old->array.shape = old->shape;
     i->stage.ran = false;
@@ -283,7 +288,7 @@ static bool give(fe_request *q)
                          array->rank, q->name, ff_model_input(model, (size_t)input)->dims);
     for (uint32_t k = 0; k < array->rank; k++)
         count *= feed.shape[k] = array->shape[k];
-    double *copy = fe_alloc(count * sizeof *copy);
+    double *copy = fe_numbers(&i->object, ff_model_input(model, (size_t)input), count);
     if (count)
         memcpy(copy, array->data, count * sizeof *copy);
     feed.array = (ff_array){.data = copy, .rank = array->rank};
@@ -448,6 +453,7 @@ static bool wire(ff_instance *i)
 /* Up to the first parameter that the model refuses, which the message is about. */
 static bool set_all(ff_instance *i)
 {
+    fe_place_params(&i->stage);
     for (size_t k = 0; k < i->stage.loaded->model->param_count; k++)
         if (!fe_set_param(&i->stage, k, i->report))
             return false;
@@ -464,7 +470,7 @@ bool fe_make_object(ff_instance *i)
     i->version++;
     fe_folder_keep(&i->memory.folder);
     i->object.watch = &i->observer;
-    i->object.alive = settle(i) && fe_create_object(&i->stage, i->report) && set_all(i) &&
+    i->object.alive = fe_create_object(&i->stage, i->report) && settle(i) && set_all(i) &&
                       wire(i) && fe_ready_object(&i->stage, i->report);
     i->object.watch = NULL;
     fe_check_folder(&i->pipeline, &i->stage, "create, set, wire or ready", i->report);

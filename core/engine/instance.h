@@ -31,8 +31,8 @@ struct ff_instance {
     char **names;                  /* of each, for messages: "barus.alpha"; NULL: not needed yet */
     fe_feed *feeds;                /* of each input */
     const ff_guard_mark **serving; /* the services that the object may call */
-    bool *refused;                 /* of each output: asked for in the last run, and refused */
     bool evaluated;                /* the last evaluation of the object was good */
+    bool failed;                   /* the last run was not */
     uint64_t version, runs;        /* how often the object was made, and run */
     char item[96], reason[1024];
 };
@@ -56,6 +56,9 @@ ff_status fe_handle(fe_request *request);
 
 /* Reports 'barus: <text>' with the item at fault. Returns false. */
 bool fe_refuse(ff_instance *instance, const char *item, const char *format, ...) FF_PRINTF(3, 4);
+/* Reports that it has no such parameter or output, with the nearest of its names. Returns false. */
+bool fe_refuse_name(ff_instance *instance, const char *what, const char *name,
+                    const char *const *names, size_t count);
 bool fe_is_fed(const ff_instance *instance, size_t input);
 /* Makes the object of the model, unless it is up to date. */
 bool fe_make_object(ff_instance *instance);

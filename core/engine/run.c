@@ -11,6 +11,7 @@ struct ff_run {
     ff_report *report; /* of the call that is being made */
     ff_pipeline *pipeline;
     bool broken; /* it had no memory once, and can only be closed */
+    bool started, failed;
 };
 
 /* The arguments of a call, and what it answers. */
@@ -19,7 +20,6 @@ typedef struct run_call {
     const char *text;        /* a file, or the path of a result */
     const char *const *sets; /* NULL-terminated, or NULL */
     const ff_observer *observer;
-    const ff_result *result;
     void (*work)(struct run_call *call);
 } run_call;
 
@@ -133,36 +133,60 @@ static void start(run_call *call)
 ff_status ff_run_start(ff_run *run, const ff_observer *observer)
 {
     run_call call = {.run = run, .observer = observer, .work = start};
+    run->started = true;
     ff_status status = handle(&call);
+    run->failed = status != FF_OK;
     for (size_t i = 0; !run->broken && i < run->pipeline->count; i++)
         if (run->pipeline->stages[i].status == FF_STOPPED && status != FF_OK)
             return FF_STOPPED;
     return status;
 }
 
-static void find(run_call *call)
+/* Whether the stage has results, which are whole. */
+static bool is_done(const ff_stage *stage)
 {
-    ff_run *run = call->run;
+    return stage->ran || stage->reused;
+}
+
+/* The result of that path; NULL: it was not computed. */
+static const ff_result *find(const ff_run *run, const char *path)
+{
+    const char *name;
+    const ff_stage *stage = ff_stage_of(run->pipeline, path, &name);
+    int output = stage && is_done(stage) ? ff_model_find_output(stage->loaded->model, name) : -1;
+    return output >= 0 && stage->results[output].data ? &stage->results[output] : NULL;
+}
+
+static const char *why_not(const ff_run *run, const ff_stage *stage, const ff_result *result)
+{
+    if (!run->started)
+        return "the run has not been started";
+    if (result && result->refused)
+        return "the model does not give it for these inputs";
+    if (!result || !result->wanted)
+        return "`outputs` of the file does not ask for it";
+    return stage->status == FF_OK ? "what feeds its stage failed" : "its stage failed";
+}
+
+static void refuse_result(run_call *call)
+{
+    const ff_run *run = call->run;
     const char *name;
     const ff_stage *stage = ff_stage_of(run->pipeline, call->text, &name);
-    int output = stage && stage->loaded ? ff_model_find_output(stage->loaded->model, name) : -1;
-    if (stage && (output >= 0 || !stage->loaded))
-        call->result = output < 0 ? NULL : &stage->results[output];
-    else
+    const ff_model *model = stage && stage->loaded ? stage->loaded->model : NULL;
+    int output = model ? ff_model_find_output(model, name) : -1;
+    if (!stage || (model && (output < 0 || ff_model_output(model, (size_t)output)->service)))
         ff_error(run->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "there is no result \"%.80s\"",
                  call->text);
-    if (ff_report_errors(run->report) == 0 && (!call->result || !call->result->data))
-        ff_error(run->report, FF_FAULT_INPUT, FF_NOWHERE,
-                 "the list `outputs` of the file asks for it", "%.80s was not computed",
-                 call->text);
+    else
+        ff_error(run->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%.80s was not computed: %s",
+                 call->text, why_not(run, stage, output < 0 ? NULL : &stage->results[output]));
 }
 
 ff_status ff_run_result(ff_run *run, const char *path, const ff_result **result)
 {
-    run_call call = {.run = run, .text = path, .work = find};
-    ff_status status = handle(&call);
-    *result = status == FF_OK ? call.result : NULL;
-    return status;
+    *result = run->broken ? NULL : find(run, path);
+    return *result ? FF_OK : handle(&(run_call){.run = run, .text = path, .work = refuse_result});
 }
 
 ff_status ff_run_output(const ff_run *run, size_t index, const char **stage,
@@ -172,7 +196,7 @@ ff_status ff_run_output(const ff_run *run, size_t index, const char **stage,
     *result = NULL;
     for (size_t i = 0; !run->broken && i < run->pipeline->count; i++) {
         const ff_stage *s = &run->pipeline->stages[run->pipeline->order[i]];
-        for (size_t k = 0; s->results && k < s->loaded->model->output_count; k++)
+        for (size_t k = 0; is_done(s) && k < s->loaded->model->output_count; k++)
             if (s->results[k].data && index-- == 0) {
                 *stage = s->name;
                 *result = &s->results[k];
@@ -196,13 +220,21 @@ ff_status ff_run_quality(const ff_run *run, size_t index, const ff_quality **lin
     return FF_INVALID;
 }
 
+static void refuse_verdict(run_call *call)
+{
+    ff_error(call->run->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
+             "there is no verdict: the run has not been started");
+}
+
 ff_status ff_run_verdict(const ff_run *run, int32_t *verdict)
 {
     const ff_quality *line;
-    *verdict = FF_GOOD;
+    *verdict = run->started && !run->failed ? FF_GOOD : FF_BAD;
+    if (run->broken || !run->started)
+        return handle(&(run_call){.run = (ff_run *)(uintptr_t)run, .work = refuse_verdict});
     for (size_t i = 0; ff_run_quality(run, i, &line) == FF_OK; i++)
         *verdict = line->verdict > *verdict ? line->verdict : *verdict;
-    return run->broken ? FF_NOMEM : FF_OK;
+    return FF_OK;
 }
 
 const char *ff_stage_name(const ff_stage *stage)

@@ -124,7 +124,8 @@ typedef struct ff_observer {
 const char *ff_stage_name(const ff_stage *stage);
 
 /* Runs the stages that the requested outputs need, each once. The observer is borrowed for the call
-   and may be NULL. After FF_NOCONV and FF_STOPPED the results so far can be read. */
+   and may be NULL. After FF_NOCONV and FF_STOPPED the results of the stages that ended well can be
+   read, also where their quality is bad. */
 ff_status ff_run_start(ff_run *run, const ff_observer *observer);
 
 enum { FF_MAX_RANK = 4 };
@@ -140,9 +141,11 @@ typedef struct ff_result {
     bool wanted;    /* requested, or needed by another stage */
     bool requested; /* by the file */
     bool required;  /* must be given: requested by name, or for a required input */
+    bool refused;   /* by the model, for these inputs */
 } ff_result;
 
-/* The result "stage.output". FF_INVALID: there is no such output, or it was not computed. */
+/* The result "stage.output". FF_INVALID: there is no such output, or it was not computed, and the
+   message says why. An answer leaves the message as it was. */
 ff_status ff_run_result(ff_run *run, const char *path, const ff_result **result);
 /* The results that were computed, in the order of the run, and the names of their stages;
    FF_INVALID beyond the last. */
@@ -157,8 +160,8 @@ typedef struct ff_quality {
     const char *text; /* or NULL */
 } ff_quality;
 
-/* The worst verdict of the stages that ran, and their quality lines, in the order of the run;
-   FF_INVALID beyond the last. */
+/* The worst verdict of the stages that ran, FF_BAD when the run failed, FF_INVALID before it; and
+   their quality lines, in the order of the run, FF_INVALID beyond the last. */
 ff_status ff_run_verdict(const ff_run *run, int32_t *verdict);
 ff_status ff_run_quality(const ff_run *run, size_t index, const ff_quality **line);
 
@@ -214,11 +217,15 @@ ff_status ff_instance_ready(ff_instance *instance);
    model refuses for its inputs. A result that cannot be trusted is FF_OK: see the verdict. */
 ff_status ff_instance_run(ff_instance *instance, const char *outputs);
 
-/* An output of the last run. FF_INVALID: there is no such output, or it was not given. It lives
-   until the instance runs again, also for another instance, or is closed. */
+/* An output of the last run, whatever has since become of what feeds the instance. FF_INVALID:
+   there is no such output, or it is not there, and the message says why: the instance has not run,
+   the run failed or was not asked for it, or a parameter or an input has changed since. An answer
+   leaves the message as it was. It lives until the instance runs again, also for another instance,
+   or is closed. */
 ff_status ff_instance_result(const ff_instance *instance, const char *output,
                              const ff_result **result);
-/* The worst verdict of the last run, and its quality lines; FF_INVALID beyond the last. */
+/* The worst verdict of the last run, FF_BAD when it failed, FF_INVALID without one; and its quality
+   lines, FF_INVALID beyond the last. */
 ff_status ff_instance_verdict(const ff_instance *instance, int32_t *verdict);
 ff_status ff_instance_quality(const ff_instance *instance, size_t index, const ff_quality **line);
 
@@ -661,6 +668,24 @@ void ff_pipeline_free(ff_pipeline *pipeline);
    stage in a pipeline. */
 const ff_report *ff_instance_report(const ff_instance *instance);
 const ff_stage *ff_instance_stage(const ff_instance *instance);
+
+/* What watches an instance at work; all functions are there. */
+typedef struct ff_hooks {
+    size_t size;
+    void *ctx; /* first argument of every function below */
+    /* Memory of the caller's for the numbers of an input that is given or of an output, zeroed. It
+       is in use until the same row asks again, or the instance is closed. NULL: there is none. */
+    double *(*numbers)(void *ctx, const ff_port *row, size_t count);
+    /* After create, before parameters reach the model. NULL, or what ends it: a clause that
+       completes 'the plugin ...'. */
+    const char *(*created)(void *ctx, void *self);
+    /* After each call into the model, before what it must leave alone is set back; explained: it
+       said why. */
+    void (*returned)(void *ctx, const char *action, ff_status status, bool explained);
+} ff_hooks;
+
+/* From the first call of the instance on; borrowed until it is closed. */
+void ff_instance_watch(ff_instance *instance, const ff_hooks *hooks);
 
 /* Going: the choice of models, which becomes the work of the program alone. */
 

@@ -24,6 +24,7 @@ typedef struct fe_instance {
     const ff_stage *entering; /* the feeding stage that is being sorted */
 
     const ff_observer *watch;
+    const ff_hooks *hooks;        /* or NULL */
     struct fe_loop_stage *member; /* of a loop that runs; NULL: of none */
     fe_heap *heap;                /* of what the functions of the host allocate */
     fe_resource open;             /* `self`, from create to destroy */
@@ -135,6 +136,9 @@ typedef struct fe_loop_stage {
 
 /* host.c: the functions that a model may call. */
 void fe_host_init(fe_instance *instance);
+/* Memory for the numbers of an input or output row. */
+double *fe_numbers(const fe_instance *instance, const ff_port *row, size_t count);
+void fe_free_numbers(const fe_instance *instance, const double *numbers);
 void fe_forget_results(ff_stage *stage);
 
 /* read.c: format, title and the stages with their `use`. False when there are no stages. */
@@ -163,6 +167,7 @@ void fe_bind_stage(fe_build *b, ff_stage *stage);
 void fe_open_instance(fe_build *b, ff_stage *stage);
 /* The steps of it; false after an error. */
 bool fe_create_object(ff_stage *stage, ff_report *report);
+void fe_place_params(const ff_stage *stage); /* those that have a place */
 bool fe_set_param(ff_stage *stage, size_t param,
                   ff_report *report); /* unless it is absent or has a place */
 bool fe_wire_object(ff_stage *stage, size_t input, const void *service, ff_report *report);

@@ -158,6 +158,10 @@ bool fe_call_end(const fe_call *call, ff_status status, ff_report *report)
         status = FF_NOMEM;
     if (status != FF_OK || stage->instance->status != FF_DOMAIN)
         stage->instance->status = status;
+    const ff_hooks *hooks = stage->instance->hooks;
+    if (hooks)
+        hooks->returned(hooks->ctx, call->action, status,
+                        stage->instance->text[0] || stage->instance->tables.errors);
     const char *changed = ff_environment_restore(&call->environment);
     fe_serial_leave(stage->loaded->model);
     if (stage->instance->no_memory)

@@ -58,6 +58,7 @@ static bool drop_refused(const ff_pipeline *pipeline, ff_stage *stage)
                                             must_feed(pipeline, &stage->results[output])))
         return false;
     stage->results[output].wanted = stage->results[output].requested = false;
+    stage->results[output].refused = true;
     return true;
 }
 
@@ -66,6 +67,8 @@ bool fe_evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *i
 {
     fe_instance *instance = stage->instance;
     bool good, again;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
+        stage->results[i].refused = false;
     do {
         fe_forget_results(stage);
         stage->status = FF_OK;

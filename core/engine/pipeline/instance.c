@@ -23,19 +23,27 @@ static void destroy(void *of)
     instance->created = instance->alive = false;
 }
 
-/* Fills in the members behind `place`. */
-static void place(const ff_stage *stage)
+void fe_place_params(const ff_stage *stage)
 {
-    const ff_model *model = stage->loaded->model;
-    fe_instance *instance = stage->instance;
-    if (model->self_size && !instance->self)
-        snprintf(instance->fault, sizeof instance->fault,
-                 "gave no instance to take its parameters");
-    for (size_t i = 0; i < model->param_count && !instance->fault[0]; i++) {
+    for (size_t i = 0; i < stage->loaded->model->param_count; i++) {
         const ff_bound *param = &stage->params[i];
         if (param->row->place)
-            ff_param_place(param->row, instance->self, param->present ? &param->value : NULL);
+            ff_param_place(param->row, stage->instance->self,
+                           param->present ? &param->value : NULL);
     }
+}
+
+/* Notes what keeps its parameters from being placed. */
+static void inspect(fe_instance *instance)
+{
+    const ff_hooks *hooks = instance->hooks;
+    const char *fault = NULL;
+    if (instance->stage->loaded->model->self_size && !instance->self)
+        fault = "gave no instance to take its parameters";
+    else if (hooks)
+        fault = hooks->created(hooks->ctx, instance->self);
+    if (fault && !instance->fault[0])
+        snprintf(instance->fault, sizeof instance->fault, "%s", fault);
 }
 
 bool fe_create_object(ff_stage *stage, ff_report *report)
@@ -47,7 +55,7 @@ bool fe_create_object(ff_stage *stage, ff_report *report)
     instance->created = status == FF_OK || status == FF_DOMAIN;
     fe_resource_add(&instance->open, destroy, instance);
     if (instance->created)
-        place(stage);
+        inspect(instance);
     return fe_call_end(&call, status, report);
 }
 
@@ -67,6 +75,7 @@ bool fe_set_param(ff_stage *stage, size_t param, ff_report *report)
 static bool set(ff_stage *stage, ff_report *report)
 {
     bool good = true;
+    fe_place_params(stage);
     for (size_t i = 0; i < stage->loaded->model->param_count; i++)
         good = fe_set_param(stage, i, report) && good;
     return good;

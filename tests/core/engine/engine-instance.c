@@ -26,7 +26,7 @@ static ff_instance *open_source(const char *level)
 }
 
 /* -1: not given */
-static double scalar(const ff_instance *of, const char *output)
+static double scalar(ff_instance *of, const char *output)
 {
     const ff_result *result;
     return ff_instance_result(of, output, &result) == FF_OK ? result->data[0] : -1;
@@ -108,9 +108,53 @@ static void outputs(void)
     check_near("another object", scalar(s, "evaluations"), 1, 0);
     check_true("a failure", ff_instance_set(s, "answer", "noconv") == FF_OK &&
                                 ff_instance_run(s, "level") == FF_NOCONV && says("answer is"));
-    check_near("with results", scalar(s, "level"), 0.002, 0);
+    check_true("leaves no result", scalar(s, "level") < 0 && says("the last run failed"));
+    check_true("and is bad", ff_instance_verdict(s, &verdict) == FF_OK && verdict == FF_BAD);
     check_true("a broken plugin", ff_instance_set(s, "answer", "unknown") == FF_OK &&
                                       ff_instance_run(s, "level") == FF_BUG && says("status 77"));
+    ff_instance_close(s);
+}
+
+static int lacks(ff_instance *of, const char *output, const char *words)
+{
+    const ff_result *result;
+    return refuses(of, ff_instance_result(of, output, &result), output, words) && !result;
+}
+
+static void missing_outputs(void)
+{
+    ff_instance *s = open_source("2 mm"), *sum = open_model("toy/consumer");
+    const ff_quality *line;
+    const ff_result *result;
+    const double weights[] = {1, 2, 3, 4};
+    const size_t length = 4;
+    const ff_array array = {.data = weights, .shape = &length, .rank = 1};
+    int32_t verdict = FF_GOOD;
+    check_true("before the run", lacks(s, "level", "has not run yet"));
+    check_true("nor a verdict", ff_instance_verdict(s, &verdict) == FF_INVALID &&
+                                    verdict == FF_BAD && says("has not run yet"));
+    check_true("a misspelt output", lacks(s, "levle", "did you mean \"level\""));
+    ff_instance_run(s, "level");
+    check_true("not asked for", lacks(s, "field", "was not asked for it"));
+    check_true("another one is there", scalar(s, "level") > 0);
+    ff_instance_run(s, NULL);
+    check_true("refused", lacks(s, "never", "the model refused it"));
+    ff_instance_set(s, "level", "3 mm");
+    check_true("a parameter has changed",
+               lacks(s, "level", "has changed since") &&
+                   ff_instance_verdict(s, &verdict) == FF_INVALID &&
+                   ff_instance_quality(s, 0, &line) == FF_INVALID);
+    ff_instance_run(s, "level");
+    check_true("an unknown output",
+               ff_instance_run(s, "lvel") == FF_INVALID && lacks(s, "level", "the last run failed"));
+    ff_instance_use(sum, "source", s);
+    check_true("all is well", ff_instance_run(sum, NULL) == FF_OK &&
+                                  ff_instance_result(sum, "sum", &result) == FF_OK);
+    ff_instance_give(sum, "more.series", &array);
+    check_true("an input has changed", lacks(sum, "sum", "has changed since"));
+    check_true("and does not fit", ff_instance_run(sum, NULL) == FF_INVALID &&
+                                       lacks(sum, "sum", "the last run failed"));
+    ff_instance_close(sum);
     ff_instance_close(s);
 }
 
@@ -298,6 +342,7 @@ int main(void)
                                     !none && says("toy/source"));
     parameters();
     outputs();
+    missing_outputs();
     wires();
     warnings();
     warned_then_refused();

@@ -59,7 +59,9 @@ static void results(void)
     check_true("a file is read", status == FF_OK && run && says("") && !*ff_engine_message(engine));
     check_true("nothing is there before the run",
                ff_run_result(run, "sum.sum", &result) == FF_INVALID && !result &&
-                   says("sum.sum was not computed"));
+                   says("sum.sum was not computed: the run has not been started"));
+    check_true("nor a verdict", ff_run_verdict(run, &verdict) == FF_INVALID &&
+                                    verdict == FF_BAD && says("has not been started"));
     check_true("a run", ff_run_start(run, NULL) == FF_OK);
     check_near("a result, as set", scalar(run, "sum.sum"), 0.02, 1e-15);
     check_true("a field", ff_run_result(run, "one.field", &result) == FF_OK && result->rank == 2 &&
@@ -69,6 +71,8 @@ static void results(void)
     check_true("no such result", ff_run_result(run, "sum.nothing", &result) == FF_INVALID &&
                                      says("there is no result \"sum.nothing\""));
     check_true("no such stage", ff_run_result(run, "none.sum", &result) == FF_INVALID);
+    check_true("not asked for", ff_run_result(run, "one.rare", &result) == FF_INVALID &&
+                                    says("`outputs` of the file does not ask for it"));
     check_true("a verdict", ff_run_verdict(run, &verdict) == FF_OK && verdict == FF_GOOD);
     check_true("a quality line", ff_run_quality(run, 0, &line) == FF_OK &&
                                      !strcmp(line->stage, "one") && line->name[0]);
@@ -97,6 +101,37 @@ static void errors(void)
     check_true("a plugin at fault", ff_run_start(run, NULL) == FF_BUG && says("the plugin "));
     ff_run_close(run);
     ff_run_close(NULL);
+}
+
+/* What a run that failed has left, and what not. */
+static void failed(void)
+{
+    static const char file_of_two[] =
+        "pipeline:\n"
+        "  good: {use: toy/source, level: 1 mm}\n"
+        "  one: {use: toy/source, level: 2 mm, answer: noconv}\n"
+        "  sum: {use: toy/consumer, source: one}\n"
+        "outputs: [sum.sum, one.level, \"good.*\"]\n";
+    ff_status status;
+    const ff_result *result;
+    const char *stage;
+    int32_t verdict = FF_GOOD;
+    bool good = true;
+    ff_run *run = open_run(engine, file_of_two, NULL, &status);
+    check_true("fails", ff_run_start(run, NULL) == FF_NOCONV);
+    check_near("what ended well is there", scalar(run, "good.level"), 1e-3, 0);
+    check_true("what the model refuses", ff_run_result(run, "good.never", &result) == FF_INVALID &&
+                                             says("does not give it for these inputs"));
+    check_true("what failed is not", ff_run_result(run, "one.level", &result) == FF_INVALID &&
+                                         !result && says("its stage failed"));
+    check_true("nor what it feeds", ff_run_result(run, "sum.sum", &result) == FF_INVALID &&
+                                        says("what feeds its stage failed"));
+    check_true("the verdict is bad",
+               ff_run_verdict(run, &verdict) == FF_OK && verdict == FF_BAD);
+    for (size_t i = 0; ff_run_output(run, i, &stage, &result) == FF_OK; i++)
+        good = good && !strcmp(stage, "good");
+    check_true("the list has whole results alone", good);
+    ff_run_close(run);
 }
 
 static void refused(void)
@@ -180,6 +215,7 @@ int main(void)
     engine = open_engine();
     results();
     errors();
+    failed();
     refused();
     observed();
     moved();
