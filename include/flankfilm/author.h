@@ -111,6 +111,19 @@ FF_UNUSED FF_PRINTF(4, 5) static ff_status
     return host->fail(host->ctx, status, item, text);
 }
 
+/* host->serves, for each row that holds; `holds` is a condition on the settings. */
+typedef struct ff_serving {
+    int holds;
+    const char *item, *outputs, *by, *text;
+} ff_serving;
+
+FF_UNUSED static void ff_serve(const ff_host *host, const ff_serving *rows, size_t count)
+{
+    for (size_t i = 0; i < count && FF_HAS(host, serves); i++)
+        if (rows[i].holds)
+            host->serves(host->ctx, rows[i].item, rows[i].outputs, rows[i].by, rows[i].text);
+}
+
 /* Gives a scalar output. */
 FF_UNUSED static ff_status ff_put_scalar(const ff_host *host, uint32_t output, double value)
 {

@@ -196,6 +196,14 @@ typedef struct ff_host {
        no bit in `wanted`. From ready on: non-zero when the user wrote parameter row `param`. */
     int32_t (*wanted)(void *ctx, uint32_t output);
     int32_t (*given)(void *ctx, uint32_t param);
+
+    /* Since 1.2; in ready. With these settings the parameter `item`, or the input or wire, serves
+       the outputs in the list alone, "film|pressure"; "": none. `by`: the parameter or wire that
+       says the same thing in its place, or NULL. `text`: why, or NULL: "the time steps are equal".
+       So the program names what a user wrote in vain, and refuses what stands in two places. What
+       no call names serves all outputs. */
+    void (*serves)(void *ctx, const char *item, const char *outputs, const char *by,
+                   const char *text);
 } ff_host;
 
 /* Flags of a model. */

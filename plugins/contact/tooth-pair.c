@@ -42,6 +42,15 @@ static const ff_param params[] = {
         "the most engagements that `all` takes; of a longer motion as many, spread over all of it"),
 };
 
+static ff_status ready(void *self)
+{
+    const tooth_pair *s = self;
+    const ff_serving rows[] = {
+        {s->engagements.one >= 0, "max_engagements", "", NULL, "engagement names one of them"}};
+    ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
+    return FF_OK;
+}
+
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
     tooth_pair *s = self;
@@ -310,4 +319,5 @@ FF_MODEL(contact_tooth_pair, tooth_pair, .id = "contact/tooth-pair", .version = 
                       "Astrophys. 239, 443 (interpolation)",
          .bibtex = BIB_likahraman2011 "\n" BIB_steffen1990, .licence = "GPL-3.0-or-later",
          .params = FF_TABLE(params), .inputs = FF_TABLE(contact_tooth_inputs),
-         .outputs = FF_TABLE(contact_outputs), .wire = wire, .evaluate = evaluate, .destroy = free);
+         .outputs = FF_TABLE(contact_outputs), .wire = wire, .ready = ready, .evaluate = evaluate,
+         .destroy = free);

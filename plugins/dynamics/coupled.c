@@ -63,7 +63,8 @@ static const ff_param params[] = {
 /* GSL's own handler would end the program; all its returns are checked here. */
 static ff_status ready(void *self)
 {
-    (void)self;
+    const model *m = self;
+    dynamics_tell_servings(m->host, &m->inertia, m->zeta);
     gsl_set_error_handler_off();
     return FF_OK;
 }

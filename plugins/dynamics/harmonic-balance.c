@@ -64,6 +64,8 @@ static ff_status ready(void *self)
     model *m = self;
     m->harmonics = dynamics_count_or_auto(m->harmonics_given);
     m->samples = dynamics_count_or_auto(m->samples_given);
+    dynamics_tell_servings(m->host, &m->inertia, m->zeta);
+    dynamics_tell_atlas(m->host, DYNAMICS_ATLAS_OUTPUTS);
     if (m->damping != DYNAMICS_DAMPING_ALWAYS)
         return ff_failf(m->host, FF_UNSUPPORTED, "damping",
                         "a damper that lets go in the gap makes the mesh force jump, which a "

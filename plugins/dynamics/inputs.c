@@ -136,6 +136,26 @@ static ff_status check_scalars(const ff_host *host, const ff_array *in)
     return FF_OK;
 }
 
+void dynamics_tell_servings(const ff_host *host, const dynamics_inertia *inertia, double zeta)
+{
+    const char *mass = name_of(DYNAMICS_IN_EQUIVALENT_MASS);
+    const ff_serving rows[] = {
+        {inertia->equivalent_mass > 0, mass, "", "equivalent_mass",
+         "equivalent_mass is given in place of the gear's inertia"},
+        {inertia->natural_frequency > 0, mass, "", "natural_frequency",
+         "natural_frequency is given in place of the gear's inertia"},
+        {!(zeta > 0) && !isnan(zeta), "damping", "", NULL, "damping_ratio is 0"},
+    };
+    ff_serve(host, rows, sizeof rows / sizeof rows[0]);
+}
+
+void dynamics_tell_atlas(const ff_host *host, const char *outputs)
+{
+    const ff_serving rows[] = {{1, "atlas.from", outputs, NULL, NULL},
+                               {1, "atlas.to", outputs, NULL, NULL}};
+    ff_serve(host, rows, sizeof rows / sizeof rows[0]);
+}
+
 ff_status dynamics_natural_frequency(const ff_host *host, const dynamics_inertia *inertia,
                                      const ff_array *gear_mass, double stiffness, double *frequency)
 {

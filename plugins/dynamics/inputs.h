@@ -74,6 +74,16 @@ static inline size_t dynamics_count_or_auto(int64_t value)
 /* Fills in the ends of an atlas that are not given (0), Hz, by the natural frequency. */
 ff_status dynamics_atlas_bounds(const ff_host *host, double natural, double *from, double *to);
 
+/* Says that an inertia of the user's stands in place of the gear's, and that without damping it is
+   all one when the damper acts; `zeta` NaN: the model has no such choice. In ready. */
+void dynamics_tell_servings(const ff_host *host, const dynamics_inertia *inertia, double zeta);
+
+/* Says that the ends of the atlas serve these outputs alone. In ready. */
+#define DYNAMICS_ATLAS_OUTPUTS                                                                     \
+    "stable_motions|atlas_frequency|atlas_rms|atlas_stable|atlas_branch|atlas_floquet_max|"        \
+    "fold_frequency|fold_branch|doubling_frequency|doubling_branch"
+void dynamics_tell_atlas(const ff_host *host, const char *outputs);
+
 /* The natural frequency of the linear system at the mean stiffness, sqrt(k/m)/(2 pi), Hz; 0: no
    mass is known. */
 ff_status dynamics_natural_frequency(const ff_host *host, const dynamics_inertia *inertia,

@@ -91,7 +91,16 @@ static ff_status ready(void *self)
     if (m->atlas_from > 0 && m->atlas_to > 0 && m->atlas_to <= m->atlas_from)
         return ff_failf(m->host, FF_INVALID, "atlas.to", "must be above atlas.from, %g Hz",
                         m->atlas_from);
-    return set_branch(m);
+    ff_status status = set_branch(m);
+    const ff_serving rows[] = {
+        {!m->by_name, "search_speeds", DYNAMICS_ATLAS_OUTPUTS, NULL, NULL},
+        {!m->by_name, "search_starts", DYNAMICS_ATLAS_OUTPUTS, NULL, NULL},
+    };
+    dynamics_tell_servings(m->host, &m->inertia, m->zeta);
+    ff_serve(m->host, rows, sizeof rows / sizeof rows[0]);
+    if (!m->by_name)
+        dynamics_tell_atlas(m->host, DYNAMICS_ATLAS_OUTPUTS);
+    return status;
 }
 
 /* All that one evaluation works on. */

@@ -33,10 +33,25 @@ double ehl_estimate_moes(const ehl_estimate *e, const ehl_instant *at)
     return ehl_moes_film(at, e->history.modulus, &oil);
 }
 
+ff_status ehl_estimate_ready(void *self)
+{
+    static const char field_rows[] = "x|film|pressure";
+    const ehl_estimate *e = self;
+    const ff_serving rows[] = {
+        {1, "cells", field_rows, NULL, NULL},
+        {1, "inlet", field_rows, NULL, NULL},
+        {1, "outlet", field_rows, NULL, NULL},
+        {e->rough, "gear.roughness", "", "surface", "the surface has a roughness of its own"},
+    };
+    ff_serve(e->host, rows, sizeof rows / sizeof rows[0]);
+    return FF_OK;
+}
+
 ff_status ehl_estimate_wire(void *self, uint32_t input, const void *service)
 {
     ehl_estimate *e = self;
     ehl_wire_law(&e->laws, input, service);
+    e->rough = e->rough || input == EHL_ESTIMATE_IN_RQ_1;
     return FF_OK;
 }
 

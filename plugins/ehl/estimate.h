@@ -68,6 +68,7 @@ struct ehl_estimate {
 
     int64_t cells, steps; /* steps -1: the times of the history */
     double inlet, outlet, light_load;
+    int rough; /* a surface is wired */
     ehl_inlet_heating heating;
     ehl_laws laws;
     ehl_isothermal isothermal;
@@ -93,6 +94,7 @@ ff_status ehl_estimate_assess(ehl_estimate *e, uint64_t wanted, const ff_array *
 ff_status ehl_estimate_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
                              const ff_array *in, ff_assessment *a);
 
+ff_status ehl_estimate_ready(void *self);
 ff_status ehl_estimate_wire(void *self, uint32_t input, const void *service);
 ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in);
 

@@ -391,6 +391,7 @@ static const ff_model inlet_analysis_model = {
     .output_stride = sizeof ehl_estimate_outputs[0],
     .create = create,
     .wire = ehl_estimate_wire,
+    .ready = ehl_estimate_ready,
     .evaluate = ehl_estimate_evaluate,
     .destroy = free,
     .assess = assess,

@@ -70,8 +70,8 @@ static const ff_param params[] = {
     .size = sizeof(ff_model), .abi_major = FF_ABI_MAJOR, .abi_minor = 2,                           \
     .self_size = sizeof(ehl_model), .version = "1.0.0", .licence = "GPL-3.0-or-later",             \
     .params = FF_TABLE(params), .inputs = ehl_inputs, .input_stride = sizeof ehl_inputs[0],        \
-    .outputs = FF_TABLE(ehl_outputs), .wire = ehl_wire, .evaluate = ehl_evaluate,                  \
-    .judge = ehl_judge, .destroy = ehl_destroy
+    .outputs = FF_TABLE(ehl_outputs), .wire = ehl_wire, .ready = ehl_ready,                        \
+    .evaluate = ehl_evaluate, .judge = ehl_judge, .destroy = ehl_destroy
 
 static const ff_model finite_volume;
 

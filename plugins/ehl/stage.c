@@ -39,6 +39,32 @@ ff_status ehl_wire(void *self, uint32_t input, const void *service)
         m->outside = service;
     else
         ehl_wire_law(&m->laws, input, service);
+    m->rough = m->rough || input == EHL_IN_POSITION;
+    return FF_OK;
+}
+
+ff_status ehl_ready(void *self)
+{
+    static const char smooth[] = "the flanks are smooth: no surface is wired",
+                      ignored[] = "roughness is ignored";
+    const ehl_model *m = self;
+    const int flat = !m->rough || m->roughness == EHL_IGNORED;
+    const char *why = m->rough ? ignored : smooth;
+    const ff_serving rows[] = {
+        {m->steps > 0, "time_tolerance", "", NULL, "the time steps are given, and equal"},
+        {!m->rough, "roughness", "", NULL, smooth},
+        {flat, "contact_film", "", NULL, why},
+        {flat, "boundary_friction", "", NULL, why},
+        {flat, "asperity_hardness", "", NULL, why},
+        {flat, "valleys", "", NULL, why},
+        {flat || m->valleys != EHL_VENTILATED, "valley_length", "", NULL,
+         flat ? why : "valleys is sealed"},
+        {!flat && m->cavitation != EHL_CONSERVING, "cavitation", "", NULL,
+         "rough flanks take mass-conserving"},
+        {!flat && m->wedge > 0, "wedge", "", NULL, "rough flanks take the first order"},
+        {m->rough, "gear.roughness", "", "surface", "the surface has a roughness of its own"},
+    };
+    ff_serve(m->host, rows, sizeof rows / sizeof rows[0]);
     return FF_OK;
 }
 

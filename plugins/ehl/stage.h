@@ -14,6 +14,7 @@
 ff_status ehl_create(const ff_host *host, const ff_model *model, ehl_solver_maker *maker,
                      void **self);
 ff_status ehl_wire(void *self, uint32_t input, const void *service);
+ff_status ehl_ready(void *self);
 ff_status ehl_evaluate(void *self, uint64_t wanted, const ff_array *in);
 /* step_cost returns the seconds that a step takes with that many cells. */
 ff_status ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
@@ -38,6 +39,7 @@ typedef struct ehl_model {
     ehl_laws laws;
     ehl_isothermal isothermal;
     const ff_film *outside; /* NULL: the solver of `maker` */
+    int rough;              /* a surface is wired */
     char text[3][32];       /* text and reason belong to the last assessment */
     char reason[400];
     ff_proposal proposals[4];

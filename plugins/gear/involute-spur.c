@@ -123,9 +123,43 @@ static ff_status set_discs(spur *s)
     return FF_OK;
 }
 
+/* What serves a few outputs alone: a stage that takes others leaves it unread. */
+static void tell_servings(const spur *s)
+{
+    static const char form[] = "profile_roll|profile_deviation";
+    const int tip = ff_of_both(&s->flank_spec.tip.amount, 0) > 0 ||
+                    ff_of_both(&s->flank_spec.tip.amount, 1) > 0;
+    const int root = ff_of_both(&s->flank_spec.root.amount, 0) > 0 ||
+                     ff_of_both(&s->flank_spec.root.amount, 1) > 0;
+    const ff_serving rows[] = {
+        {1, "stations", "roll_angle|radius_1|radius_2", NULL, NULL},
+        {isnan(s->spec.backlash), "backlash_measure", "", NULL, "backlash is not given"},
+        {1, "inertia", "inertia|equivalent_mass", NULL, NULL},
+        {1, "tip_relief", form, NULL, NULL},
+        {1, "tip_relief_start", form, NULL, NULL},
+        {1, "tip_relief_shape", form, NULL, NULL},
+        {!tip, "tip_relief_start", "", NULL, "tip_relief is 0"},
+        {!tip, "tip_relief_shape", "", NULL, "tip_relief is 0"},
+        {1, "root_relief", form, NULL, NULL},
+        {1, "root_relief_start", form, NULL, NULL},
+        {1, "root_relief_shape", form, NULL, NULL},
+        {!root, "root_relief_start", "", NULL, "root_relief is 0"},
+        {!root, "root_relief_shape", "", NULL, "root_relief is 0"},
+        {1, "crowning", form, NULL, NULL},
+        {1, "profile_slope", form, NULL, NULL},
+        {1, "profile_file", form, NULL, NULL},
+        {1, "pitch_error", "pitch_deviation_1", NULL, NULL},
+        {1, "pitch_error_2", "pitch_deviation_2", NULL, NULL},
+        {1, "roughness_rq", "roughness", NULL, NULL},
+        {1, "roughness_ra", "roughness", NULL, NULL},
+    };
+    ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
+}
+
 static ff_status ready(void *self)
 {
     spur *s = self;
+    tell_servings(s);
     ff_status status = gear_spur_pair_make(s->host, &s->spec, &s->pair);
     if (status == FF_OK)
         status = set_discs(s);

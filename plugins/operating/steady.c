@@ -58,6 +58,13 @@ static const ff_port outputs[] = {
 static ff_status ready(void *self)
 {
     const steady *s = self;
+    const ff_serving rows[] = {
+        {1, "torque", "torque|line_force", NULL, NULL},
+        {1, "speed", "speed|mesh_frequency", NULL, NULL},
+        {1, "mesh_frequency", "speed|mesh_frequency", NULL, NULL},
+        {1, "oil_temperature", "oil_temperature", NULL, NULL},
+    };
+    ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
     if ((s->speed > 0) == (s->mesh_frequency > 0))
         return ff_failf(s->host, FF_INVALID, s->speed > 0 ? "mesh_frequency" : "speed",
                         "give one of speed and mesh_frequency, above 0");

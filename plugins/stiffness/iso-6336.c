@@ -48,6 +48,14 @@ static const ff_param params[] = {
     STIFFNESS_MESH_CYCLE_ROW,
 };
 
+static ff_status ready(void *self)
+{
+    const iso_model *m = self;
+    const ff_serving rows[] = {{!m->shape, "ramp", "", NULL, "shape is rectangular"}};
+    ff_serve(m->host, rows, sizeof rows / sizeof rows[0]);
+    return FF_OK;
+}
+
 /* Of mesh_cycle. */
 static ff_status set(void *self, uint32_t param, const ff_value *value)
 {
@@ -232,5 +240,5 @@ FF_MODEL(
         "ISO 6336-1:2019, Calculation of load capacity of spur and helical gears, clause 9",
     .bibtex = BIB_iso6336_1, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
     .inputs = FF_TABLE(stiffness_inputs), .outputs = FF_TABLE(stiffness_outputs), .set = set,
-    .evaluate = evaluate, .destroy = free, .assess = assess);
+    .ready = ready, .evaluate = evaluate, .destroy = free, .assess = assess);
 FF_EXPORT_MODELS(&stiffness_iso_6336);

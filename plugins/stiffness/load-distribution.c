@@ -94,6 +94,20 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     return FF_OK;
 }
 
+static ff_status ready(void *self)
+{
+    static const char text[] = "compliance is analytical";
+    const distribution *m = self;
+    const int beam = m->teeth.compliance == STIFFNESS_ANALYTICAL;
+    const ff_serving rows[] = {
+        {beam, "elements_per_tooth", "", NULL, text},
+        {beam, "neighbour_coupling", "", NULL, text},
+        {beam, "fillet_radius", "", NULL, text},
+    };
+    ff_serve(m->host, rows, sizeof rows / sizeof rows[0]);
+    return FF_OK;
+}
+
 static ff_status check_range(const distribution *m, const stiffness_path *e)
 {
     if (e->contact_ratio <= highest_contact_ratio)
@@ -258,6 +272,7 @@ const ff_model stiffness_load_distribution = {
     .inputs = FF_TABLE(stiffness_inputs),
     .outputs = FF_TABLE(stiffness_outputs),
     .set = set,
+    .ready = ready,
     .evaluate = evaluate,
     .destroy = destroy,
     .assess = assess,

@@ -76,6 +76,12 @@ static void destroy(void *self)
 
 static ff_status ready(void *self)
 {
+    const stiffness_table *t = self;
+    const ff_serving rows[] = {
+        {t->interpolation != FITTED, "tolerance", "", NULL, "interpolation is not fitted"},
+        {t->interpolation != FITTED, "corners", "", NULL, "interpolation is not fitted"},
+    };
+    ff_serve(t->host, rows, sizeof rows / sizeof rows[0]);
     return stiffness_table_samples(self);
 }
 

@@ -14,6 +14,8 @@ typedef struct binding {
     const char *id;
     bool chosen; /* it is the stage's model; else another one under `with` */
     fe_setting *settings;
+    const ff_node *before; /* the model that another one has replaced, which had... */
+    const char *left;      /* ... these, and the new one does not take them: 'x (a.yaml:1:2), y' */
 } binding;
 
 /* "atlas" holds the parameter or wire "atlas.from". */
@@ -86,6 +88,79 @@ static void refuse_key(binding *k, const char *path, ff_place place)
              k->stage->name, path, *advice ? "" : " for ", *advice ? "" : k->id, advice);
 }
 
+/* The model that the node was written for, before another one replaced it: an earlier `use`, of a
+   model that knows the path. NULL: none, so that the key is the new model's or a mistake. */
+static const ff_loaded *owner_before(binding *k, const ff_node *node, const char *path,
+                                     const ff_node **before)
+{
+    const ff_node *use = ff_node_get(k->stage->node, "use");
+    ff_report *captured = ff_report_new();
+    const ff_loaded *owner = NULL;
+    for (; use && use->replaced && !owner; use = use->replaced) {
+        *before = use->replaced;
+        if (fe_latest_rank(node) >= use->rank || use->replaced->kind != FF_SCALAR)
+            break;
+        owner = ff_engine_model(k->b->engine, use->replaced->text, FF_NOWHERE, captured);
+        if (owner && ff_model_find_param(owner->model, path) < 0 && !is_wire(owner->model, path) &&
+            !is_map(owner->model, path))
+            owner = NULL;
+    }
+    ff_report_free(captured);
+    return owner;
+}
+
+static void leave_out(binding *k, const char *path, ff_place place, const ff_node *before)
+{
+    k->before = before;
+    k->left = fe_join(k->b->pipeline, k->left ? k->left : "",
+                      fe_pipeline_print(k->b->pipeline, "\"%s\" (%s)", path,
+                                        fe_place_text(k->b->pipeline, place)));
+}
+
+/* A key that the model does not know. */
+static void judge_key(binding *k, const char *path, const ff_node *value, ff_place place)
+{
+    const ff_node *before = NULL;
+    if (k->chosen && owner_before(k, value, path, &before))
+        leave_out(k, path, place, before);
+    else
+        refuse_key(k, path, place);
+}
+
+/* What was written for the model before, under a name that the new one has too, is left out where
+   the new one cannot take it: another unit, another word. */
+static void leave_misfit(binding *k, size_t index)
+{
+    const ff_param *row = ff_model_param(k->loaded->model, index);
+    const ff_node *node = k->settings[index].node, *before = NULL;
+    const ff_loaded *owner = node ? owner_before(k, node, row->name, &before) : NULL;
+    int old = owner ? ff_model_find_param(owner->model, row->name) : -1;
+    if (old < 0)
+        return;
+    ff_report *now = ff_report_new(), *then = ff_report_new();
+    ff_value value;
+    if (ff_param_read(row, &k->loaded->param_units[index], row->name, node, &value, now))
+        ff_value_clear(&value);
+    if (ff_param_read(ff_model_param(owner->model, (size_t)old), &owner->param_units[old],
+                      row->name, node, &value, then))
+        ff_value_clear(&value);
+    if (ff_report_errors(now) > 0 && ff_report_errors(then) == 0) {
+        leave_out(k, row->name, node->place, before);
+        k->settings[index] = (fe_setting){.wire = k->settings[index].wire};
+    }
+    ff_report_free(now);
+    ff_report_free(then);
+}
+
+static void warn_of_left(binding *k)
+{
+    if (k->left)
+        ff_warn(k->b->report, k->stage->use_place,
+                "%s: %s cannot take what is written for %s (%s), and it is left out: %s",
+                k->stage->name, k->id, k->before->text,
+                fe_place_text(k->b->pipeline, k->before->place), k->left);
+}
+
 /* `prefix` is "" or "atlas."; `own`: the map is the stage's own, which has `use` and `with`, too. A
    key with a dot is refused, since a dot stands for a map within a map. */
 static void check_keys(binding *k, const ff_node *map, const char *prefix, bool own)
@@ -96,12 +171,13 @@ static void check_keys(binding *k, const ff_node *map, const char *prefix, bool 
         const ff_node *value = map->items[i];
         const char *path = fe_pipeline_print(k->b->pipeline, "%s%s", prefix, key);
         bool plain = !strchr(key, '.');
-        if (!strncmp(key, "x-", 2) || (own && (!strcmp(key, "use") || !strcmp(key, "with"))))
+        if (!strncmp(key, "x-", 2) || (own && (!strcmp(key, "use") || !strcmp(key, "with"))) ||
+            fe_is_taken_away(value))
             continue;
         if (plain && (ff_model_find_param(model, path) >= 0 || is_wire(model, path)))
             continue;
         if (!plain || !is_map(model, path))
-            refuse_key(k, path, map->key_places[i]);
+            judge_key(k, path, value, map->key_places[i]);
         else if (value->kind != FF_MAP)
             fe_expected(k->b, value,
                         fe_pipeline_print(k->b->pipeline, "%s.%s", k->stage->name, path), "a map");
@@ -129,9 +205,6 @@ static void settle_replaced(binding *k, const ff_param *row, const fe_setting *s
 {
     const ff_wire *wire = setting->wire;
     const ff_stage *from = &k->b->pipeline->stages[wire->stage];
-    char origin[512];
-    ff_bound_origin(&(ff_bound){.place = wire->automatic ? from->place : wire->place}, origin,
-                    sizeof origin);
     if (setting->node)
         ff_error(k->b->report, FF_FAULT_INPUT, setting->node->place,
                  fe_pipeline_print(k->b->pipeline,
@@ -139,7 +212,8 @@ static void settle_replaced(binding *k, const ff_param *row, const fe_setting *s
                                    row->name, wire->name),
                  "%s.%s: the stage \"%s\" gives this by the wire \"%s\" (%s), so that it stands "
                  "in two places",
-                 k->stage->name, row->name, from->name, wire->name, origin);
+                 k->stage->name, row->name, from->name, wire->name,
+                 fe_place_text(k->b->pipeline, wire->automatic ? from->place : wire->place));
 }
 
 /* A wire takes the place of the parameter, or would once the model under `with` is chosen. */
@@ -149,16 +223,53 @@ static bool may_be_replaced(const binding *k, size_t index)
            (!k->chosen && ff_model_param(k->loaded->model, index)->instead);
 }
 
-/* Of the given members of a group, the one of the latest layer stays; two in it are an error. */
+/* Two members of a group contradict each other where both stand in files; an assignment replaces
+   the other, and so does the stage's own key one in a set under `with`. */
+static bool contradict(const binding *k, const fe_setting *a, const fe_setting *b)
+{
+    const uint64_t later = a->priority > b->priority ? a->priority : b->priority;
+    return later / 2 <= k->b->file_rank ? a->priority % 2 == b->priority % 2
+                                        : a->priority == b->priority;
+}
+
+static bool is_later(const fe_setting *a, const fe_setting *b)
+{
+    const ff_place *at = &a->node->place, *other = &b->node->place;
+    if (a->priority != b->priority)
+        return a->priority > b->priority;
+    return at->line != other->line ? at->line > other->line : at->column > other->column;
+}
+
+static void refuse_both(const binding *k, const fe_setting *one, const fe_setting *other)
+{
+    const ff_model *model = k->loaded->model;
+    ff_pipeline *pipeline = k->b->pipeline;
+    const fe_setting *last = is_later(one, other) ? one : other;
+    const fe_setting *first = last == one ? other : one;
+    const char *name = ff_model_param(model, (size_t)(last - k->settings))->name;
+    const char *with = ff_model_param(model, (size_t)(first - k->settings))->name;
+    ff_error(k->b->report, FF_FAULT_INPUT, last->node->place,
+             first->priority == last->priority
+                 ? NULL
+                 : fe_pipeline_print(
+                       pipeline, "an empty value takes away what an included file says: %s:", with),
+             "%s: only one of \"%s\" (%s) and \"%s\" (%s) may be given", k->stage->name, with,
+             fe_place_text(pipeline, first->node->place), name,
+             fe_place_text(pipeline, last->node->place));
+}
+
+/* Of the given members of a group, the one of the latest layer stays, unless two contradict each
+   other. */
 static void settle_group(binding *k, const ff_param *row)
 {
     const ff_model *model = k->loaded->model;
-    const char *names = "", *given = NULL, *instead = "";
+    const char *names = "", *instead = "";
     bool required = false, preset = false;
-    uint64_t latest = 0;
+    const fe_setting *given = NULL;
     for (size_t i = 0; i < model->param_count; i++)
-        if (same_group(row, ff_model_param(model, i)) && k->settings[i].priority > latest)
-            latest = k->settings[i].priority;
+        if (same_group(row, ff_model_param(model, i)) && k->settings[i].node &&
+            (!given || k->settings[i].priority > given->priority))
+            given = &k->settings[i];
     for (size_t i = 0; i < model->param_count; i++) {
         const ff_param *member = ff_model_param(model, i);
         fe_setting *setting = &k->settings[i];
@@ -170,14 +281,11 @@ static void settle_group(binding *k, const ff_param *row)
         preset = preset || member->preset;
         if (member->instead)
             instead = fe_pipeline_print(k->b->pipeline, ", or the wire \"%s\"", member->instead);
-        if (setting->priority < latest)
-            setting->node = NULL;
-        if (setting->node && given)
-            ff_error(k->b->report, FF_FAULT_INPUT, setting->node->place, NULL,
-                     "%s: only one of \"%s\" and \"%s\" may be given", k->stage->name, given,
-                     member->name);
-        else if (setting->node)
-            given = member->name;
+        if (setting == given || !setting->node)
+            continue;
+        if (contradict(k, setting, given))
+            refuse_both(k, setting, given);
+        setting->node = NULL;
     }
     for (size_t i = 0; given && i < model->param_count; i++)
         k->settings[i].displaced |= same_group(row, ff_model_param(model, i));
@@ -242,6 +350,8 @@ static void bind_model(binding *k)
     for (size_t i = 0; i < model->param_count; i++) {
         k->settings[i] = fe_find_setting(k->stage, k->id, ff_model_param(model, i)->name);
         k->settings[i].wire = find_replacing(k, ff_model_param(model, i));
+        if (k->chosen && !k->stage->instance->candidate)
+            leave_misfit(k, i);
     }
     for (size_t i = 0; i < model->param_count; i++)
         settle_row(k, i);
@@ -253,10 +363,28 @@ static void bind_model(binding *k)
             ff_value_clear(&unused.value);
         }
     }
+    warn_of_left(k);
     fe_free(k->settings);
 }
 
-/* Checks the form of `with` and, when everything is checked, the sets of the other models. */
+/* A model under `with`. One that is not installed here may be elsewhere: a run does without it. */
+static const ff_loaded *load_offered(fe_build *b, const char *id, ff_place place)
+{
+    ff_report *captured = ff_report_new();
+    const ff_loaded *loaded = ff_engine_model(b->engine, id, place, captured);
+    for (size_t i = 0; i < ff_report_count(captured); i++) {
+        const ff_message *m = ff_report_at(captured, i);
+        if (b->everything || m->fault == FF_FAULT_INPUT)
+            fe_hand_on(m, b->report);
+        else
+            ff_warn(b->report, m->place, "%s", m->text);
+    }
+    ff_report_free(captured);
+    return loaded;
+}
+
+/* Checks the form of `with`, and the sets of the models that are not in use: they are offers, which
+   the next --set may take. */
 static void check_sets(fe_build *b, ff_stage *stage)
 {
     const ff_node *with = ff_node_get(stage->node, "with");
@@ -271,9 +399,9 @@ static void check_sets(fe_build *b, ff_stage *stage)
             fe_expected(b, with->items[i],
                         fe_pipeline_print(b->pipeline, "%s.with.%s", stage->name, id),
                         "a map of parameters");
-        } else if (b->everything && strcmp(id, stage->use) != 0) {
+        } else if (strcmp(id, stage->use) != 0) {
             binding k = {.b = b, .stage = stage, .id = id};
-            k.loaded = ff_engine_model(b->engine, id, with->key_places[i], b->report);
+            k.loaded = load_offered(b, id, with->key_places[i]);
             if (k.loaded)
                 bind_model(&k);
         }

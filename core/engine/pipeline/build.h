@@ -9,6 +9,11 @@
 #include "../value/report.h"
 #include "../value/tables.h"
 
+/* What a model says of a parameter or an input by host->serves. */
+typedef struct fe_serving {
+    char *item, *outputs, *by, *text; /* `by` and `text` are "" where there is none */
+} fe_serving;
+
 /* The object of the model of a stage, and what building has found out about it. */
 typedef struct fe_instance {
     ff_host host; /* given to the model; outlives `self` */
@@ -31,6 +36,9 @@ typedef struct fe_instance {
     bool no_memory;   /* a function of the host had none: the call is left when it returns */
     bool no_room;     /* the same for an output, which `text` names */
     ff_tables tables; /* what it has read; their errors are reported before `text` */
+    fe_serving *servings;
+    size_t serving_count;
+    bool *read; /* by output row: what is requested depends on it; NULL before unread.c */
     bool evaluating;
     ff_status status; /* of the last call; FF_DOMAIN is kept until one fails */
     char item[96];    /* of the last host->fail */
@@ -50,6 +58,7 @@ typedef struct fe_build {
     ff_report *report;
     bool everything;
     const ff_node *accuracy; /* of the file, for all stages that choose; NULL: none */
+    uint32_t file_rank;      /* of the file's layer: that of an assignment is higher */
 } fe_build;
 
 /* messages.c: texts that live as long as the pipeline. */
@@ -58,7 +67,8 @@ char *fe_pipeline_print(ff_pipeline *pipeline, const char *format, ...)
 const char *fe_join(ff_pipeline *pipeline, const char *list, const char *word); /* "a, b" */
 /* '; did you mean "x"?' or "". */
 const char *fe_did_you_mean(fe_build *b, const char *word, const char *const *words, size_t count);
-const char *fe_found(const ff_node *node); /* "a map", ..., "nothing" */
+const char *fe_found(const ff_node *node);                        /* "a map", ..., "nothing" */
+const char *fe_place_text(ff_pipeline *pipeline, ff_place place); /* "pair.yaml:12:5", "--set" */
 /* Reports '<where>: expected <what>, found a list' at the node. Returns false. */
 bool fe_expected(fe_build *b, const ff_node *node, const char *where, const char *what);
 
@@ -78,6 +88,9 @@ typedef struct fe_setting {
     const ff_wire *wire; /* connected, and replaces the parameter; NULL: none */
 } fe_setting;
 
+uint32_t fe_latest_rank(const ff_node *node); /* of the layers that say something in it */
+/* An empty value takes away what an earlier layer says. */
+bool fe_is_taken_away(const ff_node *node);
 fe_setting fe_find_setting(const ff_stage *stage, const char *model, const char *path);
 
 /* ports.c */
@@ -140,6 +153,7 @@ void fe_host_init(fe_instance *instance);
 double *fe_numbers(const fe_instance *instance, const ff_port *row, size_t count);
 void fe_free_numbers(const fe_instance *instance, const double *numbers);
 void fe_forget_results(ff_stage *stage);
+void fe_forget_servings(fe_instance *instance);
 
 /* read.c: format, title and the stages with their `use`. False when there are no stages. */
 bool fe_read_stages(fe_build *b, const ff_node *root);
@@ -148,6 +162,8 @@ ff_stage *fe_find_stage(fe_build *b, const char *name, ff_place place, const cha
 
 /* load.c: loads the stage's model, or all that it could choose; false after an error. */
 bool fe_load_stage(fe_build *b, ff_stage *stage);
+/* Reports what is wrong with the accuracy of the file, whether a stage chooses or not. */
+void fe_check_accuracy(fe_build *b);
 /* The first parameters of a stage that chooses. */
 enum { FE_ACCURACY, FE_ONLY, FE_REFINE, FE_OWN_ROWS };
 void fe_leave_out(ff_pipeline *pipeline, ff_candidate *c, const char *reason);
@@ -251,6 +267,9 @@ void fe_read_feedback(fe_build *b, const ff_node *feedback);
    side. */
 void fe_find_loops(fe_build *b);
 ff_loop *fe_loop_of(const ff_pipeline *pipeline, const ff_stage *stage); /* NULL: in none */
+
+/* unread.c: warns of what the file says in vain, and refuses what it says in two places. */
+void fe_check_unread(fe_build *b, const ff_node *outputs);
 
 /* order.c: which stages run, why, and in which order. */
 void fe_mark_needed(ff_pipeline *pipeline);

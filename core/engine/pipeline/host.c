@@ -166,6 +166,97 @@ static int32_t host_given(void *ctx, uint32_t param)
     return 0;
 }
 
+static bool has_input(const ff_model *model, const char *item)
+{
+    for (size_t i = 0; i < model->input_count; i++)
+        if (fe_is_on_wire(ff_model_input(model, i)->name, item))
+            return true;
+    return false;
+}
+
+/* A word of the list that is not an output; NULL: there is none. */
+static const char *unknown_output(const ff_model *model, const char *list, char *word, size_t size)
+{
+    for (const char *at = list; *at; at += *at == '|') {
+        size_t length = strcspn(at, "|");
+        snprintf(word, size, "%.*s", (int)length, at);
+        if (ff_model_find_output(model, word) < 0)
+            return word;
+        at += length;
+    }
+    return NULL;
+}
+
+typedef struct serves_call {
+    fe_instance *instance;
+    const char *item, *outputs, *by, *text;
+} serves_call;
+
+static char *copy_text(const char *text)
+{
+    char clean[512];
+    ff_clean_text(clean, sizeof clean, text ? text : "");
+    return fe_print_text("%s", clean);
+}
+
+static void free_serving(fe_serving *serving)
+{
+    fe_free(serving->item);
+    fe_free(serving->outputs);
+    fe_free(serving->by);
+    fe_free(serving->text);
+}
+
+/* The last call for an item holds. */
+static void keep_serving(void *ctx)
+{
+    const serves_call *call = ctx;
+    fe_instance *instance = call->instance;
+    size_t i = 0;
+    while (i < instance->serving_count && strcmp(instance->servings[i].item, call->item) != 0)
+        i++;
+    fe_serving serving = {.item = copy_text(call->item),
+                          .outputs = copy_text(call->outputs),
+                          .by = copy_text(call->by),
+                          .text = copy_text(call->text)};
+    if (i < instance->serving_count) {
+        free_serving(&instance->servings[i]);
+    } else {
+        instance->servings = fe_resize(instance->servings, (i + 1) * sizeof *instance->servings);
+        instance->serving_count++;
+    }
+    instance->servings[i] = serving;
+}
+
+static void host_serves(void *ctx, const char *item, const char *outputs, const char *by,
+                        const char *text)
+{
+    fe_instance *instance = ctx;
+    const ff_model *model = instance->stage->loaded->model;
+    serves_call call = {instance, item ? item : "", outputs ? outputs : "", by, text};
+    char word[96];
+    const char *wrong = unknown_output(model, call.outputs, word, sizeof word);
+    if (ff_model_find_param(model, call.item) < 0 && !has_input(model, call.item))
+        breach(instance, "said what \"%.60s\" serves, which it does not have", call.item);
+    else if (by && ff_model_find_param(model, by) < 0 && !has_input(model, by))
+        breach(instance, "said that \"%.60s\" is replaced by \"%.60s\", which it does not have",
+               call.item, by);
+    else if (wrong)
+        breach(instance, "said that \"%.60s\" serves the output \"%.60s\", which it does not have",
+               call.item, wrong);
+    else
+        protect(instance, keep_serving, &call);
+}
+
+void fe_forget_servings(fe_instance *instance)
+{
+    for (size_t i = 0; i < instance->serving_count; i++)
+        free_serving(&instance->servings[i]);
+    fe_free(instance->servings);
+    instance->servings = NULL;
+    instance->serving_count = 0;
+}
+
 /* False for more numbers than the memory of the machine holds: the shape is wrong. */
 static bool has_room(uint32_t rank, const size_t *shape)
 {
@@ -252,23 +343,16 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
     return call.data;
 }
 
-static char *clean_copy(const char *text)
-{
-    char clean[512];
-    ff_clean_text(clean, sizeof clean, text);
-    return fe_print_text("%s", clean);
-}
-
 void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
                     const char *text)
 {
     stage->quality = fe_resize(stage->quality, (stage->quality_count + 1) * sizeof *stage->quality);
     ff_quality line = {.stage = stage->name,
-                       .name = clean_copy(name),
+                       .name = copy_text(name),
                        .value = value,
                        .limit = limit,
                        .verdict = verdict,
-                       .text = text && text[0] ? clean_copy(text) : NULL};
+                       .text = text && text[0] ? copy_text(text) : NULL};
     stage->quality[stage->quality_count++] = line;
 }
 
@@ -317,6 +401,7 @@ void fe_host_init(fe_instance *instance)
         .extension = host_extension,
         .wanted = host_wanted,
         .given = host_given,
+        .serves = host_serves,
     };
 }
 

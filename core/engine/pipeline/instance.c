@@ -168,6 +168,7 @@ void fe_close_instance(ff_stage *stage)
     fe_resource_remove(&instance->open);
     destroy(instance);
     ff_tables_free(&instance->tables);
+    fe_forget_servings(instance);
     instance->mark.services = NULL;
 }
 

@@ -44,6 +44,17 @@ bool ff_names_kind_only(const char *use)
     return length > ending && !strcmp(use + length - ending, auto_ending);
 }
 
+void fe_check_accuracy(fe_build *b)
+{
+    const ff_param *row = &own_rows[FE_ACCURACY];
+    ff_unit unit;
+    char why[64];
+    ff_value value;
+    if (b->accuracy && ff_unit_parse(row->unit, &unit, why, sizeof why) &&
+        ff_param_read(row, &unit, "accuracy", b->accuracy, &value, b->report))
+        ff_value_clear(&value);
+}
+
 static bool is_choosing(fe_build *b, const ff_stage *stage)
 {
     if (stage->instance->candidate)

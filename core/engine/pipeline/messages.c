@@ -44,6 +44,13 @@ bool fe_expected(fe_build *b, const ff_node *node, const char *where, const char
                     where, what, fe_found(node));
 }
 
+const char *fe_place_text(ff_pipeline *pipeline, ff_place place)
+{
+    if (!place.source || place.line == 0 || !strcmp(place.source->name, "--set"))
+        return place.source ? place.source->name : "preset";
+    return fe_pipeline_print(pipeline, "%s:%u:%u", place.source->name, place.line, place.column);
+}
+
 void fe_hand_on(const ff_message *m, ff_report *report)
 {
     if (m->severity == FF_ERROR)

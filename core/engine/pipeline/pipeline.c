@@ -46,7 +46,10 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool ever
                   .engine = engine,
                   .report = report,
                   .everything = everything,
+                  .file_rank = root->rank,
                   .accuracy = ff_node_get(root, "accuracy")};
+    if (b.accuracy && fe_is_taken_away(b.accuracy))
+        b.accuracy = NULL;
     if (!fe_read_stages(&b, root)) {
         ff_pipeline_free(pipeline);
         return NULL;
@@ -67,8 +70,10 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool ever
         else if (stage->params && !stage->instance->broken)
             fe_open_instance(&b, stage);
     }
+    fe_check_accuracy(&b);
     warn_of_accuracy(&b);
     warn_of_feedback(&b, ff_node_get(root, "feedback"));
+    fe_check_unread(&b, ff_node_get(root, "outputs"));
     return pipeline;
 }
 

@@ -84,6 +84,12 @@ static bool check_name(fe_build *b, const char *name, ff_place place)
     static const char letters[] = "0123456789-"
                                   "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
     size_t length = strlen(name);
+    for (size_t i = 0; i < TOP_KEYS; i++)
+        if (!strcmp(name, top_keys[i]))
+            return ff_error(b->report, FF_FAULT_INPUT, place, NULL,
+                            "a stage cannot be called \"%s\": --set %s means the key of that "
+                            "name at the top of the file",
+                            name, name);
     if (!strcmp(name, "none"))
         return ff_error(b->report, FF_FAULT_INPUT, place, NULL,
                         "a stage cannot be called \"none\": the word leaves a wire unconnected");

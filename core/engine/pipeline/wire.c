@@ -120,6 +120,31 @@ static bool refuse_none(fe_build *b, const ff_stage *stage, const ff_wire *wire,
                     why_not);
 }
 
+static bool is_kind_installed(fe_build *b, const char *use)
+{
+    char kind[64];
+    size_t count;
+    const char *const *ids = ff_engine_ids(b->engine, &count);
+    snprintf(kind, sizeof kind, "%.*s", (int)strcspn(use, "/"), use);
+    for (size_t i = 0; i < count; i++)
+        if (is_of_kind(ids[i], kind))
+            return true;
+    return false;
+}
+
+/* A stage of a kind that no model is of, whose error is reported: it may be the one that is meant
+   to feed a wire. */
+static bool is_some_kind_unknown(fe_build *b)
+{
+    bool some = false;
+    for (size_t i = 0; i < b->pipeline->count; i++) {
+        ff_stage *stage = &b->pipeline->stages[i];
+        if (stage->use && !stage->loaded && !is_kind_installed(b, stage->use))
+            some = !fe_load_stage(b, stage) || some;
+    }
+    return some;
+}
+
 /* Connects the only stage of the wire's kinds that can feed it; false after an error. */
 static bool link_automatic(fe_build *b, const ff_stage *stage, ff_wire *wire, const char *kinds)
 {
@@ -143,6 +168,8 @@ static bool link_automatic(fe_build *b, const ff_stage *stage, ff_wire *wire, co
             fitting = fe_join(b->pipeline, fitting, from->name);
         }
     }
+    if (known && count == 0 && *wire_needs(b, stage, wire) && is_some_kind_unknown(b))
+        return false;
     if (known && count == 0)
         return refuse_none(b, stage, wire, kinds, why_not);
     if (known && count == 1)

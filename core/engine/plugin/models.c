@@ -129,9 +129,10 @@ static const char *meant(ff_engine *engine, const char *id)
 {
     size_t count;
     const char *const *ids = ff_engine_ids(engine, &count);
-    const char *near = ff_nearest(id, ids, count);
+    const char *near = ff_nearest(id, ids, count), *slash = strchr(id, '/');
+    const char *name = slash ? slash + 1 : id;
     for (size_t i = 0; i < count && !near; i++)
-        if (!strcmp(strchr(ids[i], '/') + 1, id))
+        if (!strcmp(strchr(ids[i], '/') + 1, name))
             near = ids[i];
     return near;
 }

@@ -97,6 +97,8 @@ void fe_node_set_rank(ff_node *node, uint32_t rank)
 
 ff_node *fe_node_merge(ff_tree *tree, ff_node *base, ff_node *later)
 {
+    if (base && (base->kind != FF_MAP || later->kind != FF_MAP))
+        later->replaced = fe_node_is_empty(base) ? base->replaced : base;
     if (!base || base->kind != FF_MAP || later->kind != FF_MAP)
         return later;
     for (size_t i = 0; i < later->count; i++) {

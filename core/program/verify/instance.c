@@ -140,6 +140,12 @@ static int32_t host_given(void *ctx, uint32_t param)
     return 0;
 }
 
+static void host_serves(void *ctx, const char *item, const char *outputs, const char *by,
+                        const char *text)
+{
+    (void)ctx, (void)item, (void)outputs, (void)by, (void)text; /* of no instance by itself */
+}
+
 static ff_status wire(verify_instance *instance, const verify_setup *setup)
 {
     const ff_model *model = instance->context->model;
@@ -192,7 +198,8 @@ ff_status verify_instance_create(verify_instance *instance, const verify_setup *
                                .progress = host_progress,
                                .extension = host_extension,
                                .wanted = host_wanted,
-                               .given = host_given};
+                               .given = host_given,
+                               .serves = host_serves};
     ff_status status = model->create(&instance->host, &instance->self);
     instance->created = status == FF_OK;
     return status;

@@ -76,6 +76,7 @@ FIELD(ff_host, progress, 56, 8);
 FIELD(ff_host, extension, 64, 8);
 FIELD(ff_host, wanted, 72, 8); /* since 1.2 */
 FIELD(ff_host, given, 80, 8);  /* since 1.2 */
+FIELD(ff_host, serves, 88, 8); /* since 1.2 */
 
 GROWING(ff_model, 200);
 FIELD(ff_model, size, 0, 8);

@@ -150,11 +150,11 @@ static void replaced_by_a_wire(void)
     try_close(&a);
     a = replaced("law: l, gain: 3", law);
     check_error("both: at the parameter", &a, 4, 40,
-                "gives this by the wire \"law\" (case.yaml:4)");
+                "gives this by the wire \"law\" (case.yaml:4:31)");
     check_error("both: what to do", &a, 4, 40, "or leave the wire unconnected: law: none");
     try_close(&a);
     a = replaced("far: 1 m", law);
-    check_error("both: wired by itself", &a, 4, 31, "by the wire \"law\" (case.yaml:3)");
+    check_error("both: wired by itself", &a, 4, 31, "by the wire \"law\" (case.yaml:3:3)");
     try_close(&a);
     a = replaced("law: none, gain: 3, far: 1 m", law);
     check_good("the wire left unconnected", &a);
@@ -174,7 +174,8 @@ static void groups(void)
     check_near("preset of a group", value_of("count: 3", "speed"), 10 * 2 * M_PI / 60, 1e-12);
     check_true("a member that is given drops the preset", isnan(value_of("rate: 5 Hz", "speed")));
     attempt a = with_line("rate: 5 Hz\n    speed: 6 rpm");
-    check_error("two of a group", &a, 6, 11, "only one of \"speed\" and \"rate\" may be given");
+    check_error("two of a group", &a, 7, 12,
+                "only one of \"rate\" (case.yaml:6:11) and \"speed\" (case.yaml:7:12) may");
     try_close(&a);
     a = try_build_set("pipeline:\n  a: {use: toy/source, level: 2 mm, rate: 5 Hz}\n",
                       "a.speed=7 rpm", false);

@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * Names what a file says in vain: of stages that do not run, and of parameters and wires that serve
+ * no requested output as their models say (host->serves). What is said in two places is refused.
+ */
+#include "build.h"
+
+#include "../plugin/param.h"
+
+#include <stdio.h>
+#include <string.h>
+
+/* What the model of the stage has said of the item; NULL: nothing, so that it serves all outputs.
+ * `item` is a parameter or an input, which may be named by its wire. */
+static const fe_serving *serving_of(const ff_stage *stage, const char *item)
+{
+    const fe_instance *instance = stage->instance;
+    for (size_t i = 0; i < instance->serving_count; i++) {
+        const char *named = instance->servings[i].item;
+        bool param = ff_model_find_param(stage->loaded->model, named) >= 0;
+        if (param ? !strcmp(named, item) : fe_is_on_wire(item, named))
+            return &instance->servings[i];
+    }
+    return NULL;
+}
+
+/* The stage that feeds an input, and the number of its output; NULL: none. */
+static ff_stage *feeding(const ff_pipeline *pipeline, const ff_stage *stage, size_t input,
+                         size_t *output)
+{
+    const ff_wire *wire = stage->wire_count ? fe_input_wire(stage, input) : NULL;
+    ff_stage *from = wire && wire->stage >= 0 ? &pipeline->stages[wire->stage] : NULL;
+    int offer = from && from->loaded
+                    ? fe_find_offer(from->loaded, ff_model_input(stage->loaded->model, input))
+                    : -1;
+    *output = (size_t)offer;
+    return offer < 0 ? NULL : from;
+}
+
+/* Marks an output that a requested one depends on, and the outputs behind it. */
+static void mark_read(const ff_pipeline *pipeline, ff_stage *stage, size_t output)
+{
+    bool *read = stage->instance->read;
+    if (!read || read[output])
+        return;
+    read[output] = true;
+    for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
+        const char *name = ff_model_input(stage->loaded->model, i)->name;
+        size_t offer;
+        ff_stage *from = feeding(pipeline, stage, i, &offer);
+        const fe_serving *serving = from ? serving_of(stage, name) : NULL;
+        if (from &&
+            (!serving || fe_word_find(serving->outputs, stage->results[output].row->name) >= 0))
+            mark_read(pipeline, from, offer);
+    }
+}
+
+static bool reads_any(const ff_stage *stage, const char *outputs)
+{
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
+        if (stage->instance->read[i] &&
+            (!outputs || fe_word_find(outputs, stage->results[i].row->name) >= 0))
+            return true;
+    return false;
+}
+
+/* Where a parameter or a wire of the stage is written; source NULL: it is not. */
+static ff_place written_at(const fe_build *b, const ff_stage *stage, const char *item)
+{
+    int param = ff_model_find_param(stage->loaded->model, item);
+    if (param >= 0)
+        return stage->params[param].place;
+    for (size_t i = 0; i < stage->wire_count; i++)
+        if (!strcmp(stage->wires[i].name, item) && stage->wires[i].stage >= 0)
+            return stage->wires[i].automatic ? b->pipeline->stages[stage->wires[i].stage].place
+                                             : stage->wires[i].place;
+    return FF_NOWHERE;
+}
+
+/* Of an output that no requested one depends on: why a stage that takes it does not use it. */
+static const fe_serving *excuse_of(const fe_build *b, const ff_stage *from, size_t output,
+                                   const ff_stage **taker)
+{
+    for (size_t k = 0; k < b->pipeline->count; k++) {
+        const ff_stage *stage = &b->pipeline->stages[k];
+        for (size_t i = 0;
+             stage->needed && stage->instance->read && i < stage->loaded->model->input_count; i++) {
+            size_t offer;
+            const fe_serving *serving =
+                feeding(b->pipeline, stage, i, &offer) == from && offer == output
+                    ? serving_of(stage, ff_model_input(stage->loaded->model, i)->name)
+                    : NULL;
+            *taker = stage;
+            if (serving && (*serving->text || *serving->by))
+                return serving;
+        }
+    }
+    return NULL;
+}
+
+/* The parameter at `place` is said once more by what `serving` names, of the stage `by`. */
+static bool refuse_twice(fe_build *b, const ff_stage *stage, const fe_serving *said, ff_place place,
+                         const ff_stage *by, const fe_serving *serving)
+{
+    ff_place other = *serving->by ? written_at(b, by, serving->by) : FF_NOWHERE;
+    if (!other.source)
+        return false;
+    ff_error(b->report, FF_FAULT_INPUT, place,
+             fe_pipeline_print(b->pipeline,
+                               "leave one of both out; an empty value takes it away: "
+                               "--set %s.%s=",
+                               stage->name, said->item),
+             "%s.%s and %s.%s (%s) say the same thing in two places%s%s", stage->name, said->item,
+             by->name, serving->by, fe_place_text(b->pipeline, other), *serving->text ? ": " : "",
+             serving->text);
+    return true;
+}
+
+/* "profile_roll" or "profile_deviation": of the list "profile_roll|profile_deviation". */
+static const char *list_outputs(fe_build *b, const char *outputs)
+{
+    const char *text = "";
+    for (const char *at = outputs; *at; at += *at == '|') {
+        size_t length = strcspn(at, "|");
+        text = fe_pipeline_print(b->pipeline, "%s%s\"%.*s\"", text, *text ? " or " : "",
+                                 (int)length, at);
+        at += length;
+    }
+    return text;
+}
+
+static void check_serving(fe_build *b, const ff_stage *stage, const fe_serving *said)
+{
+    ff_place place = written_at(b, stage, said->item);
+    const ff_stage *taker = NULL;
+    const fe_serving *excuse = NULL;
+    int param = ff_model_find_param(stage->loaded->model, said->item);
+    if (!place.source || reads_any(stage, said->outputs) ||
+        refuse_twice(b, stage, said, place, stage, said))
+        return;
+    for (size_t i = 0; i < stage->loaded->model->output_count && !excuse; i++)
+        if (fe_word_find(said->outputs, stage->results[i].row->name) >= 0)
+            excuse = excuse_of(b, stage, i, &taker);
+    if (excuse && param >= 0 && refuse_twice(b, stage, said, place, taker, excuse))
+        return;
+    if (*said->text)
+        ff_warn(b->report, place, "%s.%s changes nothing: %s", stage->name, said->item, said->text);
+    else if (excuse && *excuse->text)
+        ff_warn(b->report, place, "%s.%s changes nothing: %s: %s", stage->name, said->item,
+                taker->name, excuse->text);
+    else if (*said->outputs)
+        ff_warn(b->report, place, "%s.%s changes nothing: no requested output depends on %s of %s",
+                stage->name, said->item, list_outputs(b, said->outputs), stage->name);
+    else
+        ff_warn(b->report, place, "%s.%s changes nothing with these settings", stage->name,
+                said->item);
+}
+
+/* A stage that runs since others take what it gives, of which nothing counts. */
+static void warn_of_stage(fe_build *b, const ff_stage *stage)
+{
+    const ff_stage *taker = NULL;
+    const fe_serving *excuse = NULL;
+    for (size_t i = 0; i < stage->loaded->model->output_count && !excuse; i++)
+        excuse = excuse_of(b, stage, i, &taker);
+    ff_warn(b->report, stage->place,
+            "%s: no requested output depends on what this stage gives%s%s%s%s", stage->name,
+            excuse && *excuse->text ? ": " : "", excuse && *excuse->text ? taker->name : "",
+            excuse && *excuse->text ? ": " : "", excuse ? excuse->text : "");
+}
+
+/* What assignments say of a stage that does not run. */
+static void warn_of_assigned(fe_build *b, const ff_stage *stage, const ff_node *node,
+                             const char *path)
+{
+    for (size_t i = 0; node->kind == FF_MAP && i < node->count; i++)
+        warn_of_assigned(b, stage, node->items[i],
+                         fe_pipeline_print(b->pipeline, "%s.%s", path, node->keys[i]));
+    if (node->kind != FF_MAP && node->rank > b->file_rank)
+        ff_warn(b->report, node->place,
+                "%s changes nothing: the stage \"%s\" does not run, since no requested output "
+                "needs it",
+                path, stage->name);
+}
+
+static void warn_of_idle(fe_build *b, const ff_node *outputs)
+{
+    const char *names = "";
+    size_t count = 0;
+    for (size_t i = 0; i < b->pipeline->count; i++) {
+        const ff_stage *stage = &b->pipeline->stages[i];
+        if (stage->needed || fe_latest_rank(stage->node) < b->file_rank)
+            continue; /* what an included file offers may stay unused */
+        names = fe_join(b->pipeline, names,
+                        fe_pipeline_print(b->pipeline, "%s (%s)", stage->name,
+                                          fe_place_text(b->pipeline, stage->place)));
+        count++;
+        warn_of_assigned(b, stage, stage->node, stage->name);
+    }
+    if (count > 0)
+        ff_warn(b->report, outputs ? outputs->place : FF_NOWHERE,
+                "%s not run, since no requested output needs %s, and what %s in the file changes "
+                "nothing: %s",
+                count == 1 ? "one stage does" : "some stages do", count == 1 ? "it" : "them",
+                count == 1 ? "it says" : "they say", names);
+}
+
+void fe_check_unread(fe_build *b, const ff_node *outputs)
+{
+    ff_pipeline *pipeline = b->pipeline;
+    if (ff_report_errors(b->report) > 0)
+        return;
+    for (size_t i = 0; i < pipeline->count; i++) {
+        ff_stage *stage = &pipeline->stages[i];
+        if (stage->needed)
+            stage->instance->read = fe_arena_alloc(
+                &pipeline->memory->arena, stage->loaded->model->output_count * sizeof(bool) + 1);
+    }
+    for (size_t i = 0; i < pipeline->count; i++)
+        for (size_t k = 0;
+             pipeline->stages[i].needed && k < pipeline->stages[i].loaded->model->output_count; k++)
+            if (pipeline->stages[i].results[k].requested)
+                mark_read(pipeline, &pipeline->stages[i], k);
+    warn_of_idle(b, outputs);
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        if (!stage->needed || stage->choice)
+            continue;
+        if (!reads_any(stage, NULL))
+            warn_of_stage(b, stage);
+        for (size_t k = 0; reads_any(stage, NULL) && k < stage->instance->serving_count; k++)
+            check_serving(b, stage, &stage->instance->servings[k]);
+    }
+}
