@@ -32,7 +32,9 @@
  *   FF_NOCONV    the run failed: no convergence, no solution, a result that cannot be trusted;
  *   FF_STOPPED   an observer stopped the run;
  *   FF_NOMEM     out of memory; the objects that took part can only be closed. Where the message
- *                names a model, that lacked it, and they can be used as after FF_NOCONV.
+ *                names a model, that lacked it, and they can be used as after FF_NOCONV. What
+ *                libraries of shipped models do without memory, FFTW's abort among it, stands in
+ *                docs/library.md.
  * ff_engine_message says why.
  *
  * Ownership: who makes an object closes it, what was made from an engine before the engine. What is

@@ -133,17 +133,20 @@ static ff_status sweep(const dynamics_flow *flow, double from, double to, size_t
     return FF_OK;
 }
 
-/* Finds the stable motion in which the flanks never part; 0: there is none. */
-static int find_full_contact(const dynamics_flow *flow, double lambda, dynamics_attractor *a)
+/* Finds the stable motion in which the flanks never part; FF_NOCONV: there is none. */
+static ff_status find_full_contact(const dynamics_flow *flow, double lambda, dynamics_attractor *a)
 {
     double T = dynamics_cycle_duration(lambda);
     a->orbit = (dynamics_orbit){.period = 1, .lambda = lambda};
-    if (!dynamics_full_contact(flow->excitation, T, 1e-8, &a->orbit.x[0], &a->orbit.x[1]) ||
-        !dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &a->orbit))
-        return 0;
+    ff_status status =
+        dynamics_full_contact(flow->excitation, T, 1e-8, &a->orbit.x[0], &a->orbit.x[1]);
+    if (status != FF_OK)
+        return status;
+    if (!dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &a->orbit))
+        return FF_NOCONV;
     a->period = 1;
     memcpy(a->x, a->orbit.x, sizeof a->x);
-    return 1;
+    return FF_OK;
 }
 
 /* Follows a periodic motion from the damping of `excitation` to `zeta` by Newton's method; 0: it is
@@ -188,8 +191,9 @@ static ff_status sweep_and_attract(const dynamics_flow *flow, const sweep_start 
     excitation.zeta = fmax(zeta, least_damping);
     if (host->progress(host->ctx, 0))
         return FF_STOPPED;
-    ff_status status = FF_OK;
-    if (!way->seeks_contact || !find_full_contact(&damped, search->lambda, a)) {
+    ff_status status =
+        way->seeks_contact ? find_full_contact(&damped, search->lambda, a) : FF_NOCONV;
+    if (status == FF_NOCONV) {
         status = sweep(&damped, way->from, exp(search->lambda), way->start, host, a->x);
         if (status == FF_OK && !dynamics_attract(&damped, search, a))
             status = FF_NOCONV;

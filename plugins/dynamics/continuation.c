@@ -236,14 +236,16 @@ static int solve_at_rest(path *p)
     return 1;
 }
 
-/* The lower branch is the motion without separation where there is a stable one; 0: there is none.
- */
-static int solve_in_full_contact(path *p)
+/* The lower branch is the motion without separation where there is a stable one; FF_NOCONV: there
+   is none. */
+static ff_status solve_in_full_contact(path *p)
 {
     double delta, rate, w = p->request->w;
-    return !p->request->from_above &&
-           dynamics_full_contact(p->request->excitation, 2 * M_PI / w, 1e-9, &delta, &rate) &&
-           start_in_contact(p, w);
+    if (p->request->from_above)
+        return FF_NOCONV;
+    ff_status status =
+        dynamics_full_contact(p->request->excitation, 2 * M_PI / w, 1e-9, &delta, &rate);
+    return status != FF_OK ? status : start_in_contact(p, w) ? FF_OK : FF_NOCONV;
 }
 
 ff_status dynamics_continuation_follow(const dynamics_continuation_request *request,
@@ -262,9 +264,7 @@ ff_status dynamics_continuation_follow(const dynamics_continuation_request *requ
             start_in_contact(&p, request->w)
                 ? FF_OK
                 : fail_because(result, "a linear system without damping has none at resonance");
-    else if (solve_in_full_contact(&p))
-        status = FF_OK;
-    else
+    else if ((status = solve_in_full_contact(&p)) == FF_NOCONV)
         status = sweep_to_speed(&p, result);
     if (status == FF_NOCONV && !request->from_above && start_in_contact(&p, request->w)) {
         result->lost = 1;

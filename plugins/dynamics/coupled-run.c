@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "coupled-run.h"
 
+#include "../numerics/integrator.h"
 #include "bracket.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
 
 /* The longest step, in radians of the highest frequency. */
 static const double longest_step = 0.5;
@@ -45,8 +43,7 @@ typedef struct regime {
 
 struct dynamics_coupled_run {
     const dynamics_coupled *pair;
-    gsl_odeiv2_step *step;
-    gsl_odeiv2_control *control;
+    numerics_integrator gsl;
     gsl_odeiv2_system system;
     double y[DYNAMICS_COUPLED_SIZE];
     size_t count;
@@ -191,9 +188,8 @@ dynamics_coupled_run *dynamics_coupled_run_new(const dynamics_coupled *pair, dou
     run->pair = pair;
     run->longest = longest_step / highest_frequency(pair);
     run->system = (gsl_odeiv2_system){derivative, NULL, DYNAMICS_COUPLED_SIZE, run};
-    run->step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, DYNAMICS_COUPLED_SIZE);
-    run->control = gsl_odeiv2_control_standard_new(tolerance, round_off, 1, 0);
-    if (run->step && run->control && make_stretches(run))
+    if (numerics_integrator_make(&run->gsl, DYNAMICS_COUPLED_SIZE, tolerance, round_off) &&
+        make_stretches(run))
         return run;
     dynamics_coupled_run_free(run);
     return NULL;
@@ -203,10 +199,7 @@ void dynamics_coupled_run_free(dynamics_coupled_run *run)
 {
     if (!run)
         return;
-    if (run->step)
-        gsl_odeiv2_step_free(run->step);
-    if (run->control)
-        gsl_odeiv2_control_free(run->control);
+    numerics_integrator_free(&run->gsl);
     free(run->stretches);
     free(run);
 }
@@ -280,7 +273,7 @@ static void gates_at(const dynamics_coupled_run *run, double t, const double *y,
 static void attempt(dynamics_coupled_run *run, double h, double *y, double *error)
 {
     memcpy(y, run->y, sizeof run->y);
-    if (gsl_odeiv2_step_apply(run->step, run->t, h, y, error, NULL, NULL, &run->system))
+    if (gsl_odeiv2_step_apply(run->gsl.step, run->t, h, y, error, NULL, NULL, &run->system))
         y[0] = NAN;
     error[DYNAMICS_TAKEN] = 0;
     run->steps++;
@@ -390,7 +383,7 @@ static int advance_to(dynamics_coupled_run *run, double end)
             return 0;
         next = h;
         int adjusted =
-            gsl_odeiv2_control_hadjust(run->control, run->step, y, error, no_slope, &next);
+            gsl_odeiv2_control_hadjust(run->gsl.control, run->gsl.step, y, error, no_slope, &next);
         if (adjusted == GSL_ODEIV_HADJ_DEC && h > 1e-9) {
             run->h = next;
             continue;

@@ -5,7 +5,6 @@
 
 #include <flankfilm/author.h>
 
-#include <gsl/gsl_errno.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -60,12 +59,10 @@ static const ff_param params[] = {
         "distance to the periodic motion at which it has settled, over the static deflection"),
 };
 
-/* GSL's own handler would end the program; all its returns are checked here. */
 static ff_status ready(void *self)
 {
     const model *m = self;
     dynamics_tell_servings(m->host, &m->inertia, m->zeta);
-    gsl_set_error_handler_off();
     return FF_OK;
 }
 

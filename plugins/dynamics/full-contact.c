@@ -24,12 +24,14 @@ static int fixed_point(const double *after, double *delta, double *rate)
 }
 
 /* Whether the flanks of the pair with its gap touch all along the cycle that starts there. */
-static int stays_in_contact(const dynamics_excitation *excitation, double T, double tolerance,
-                            double delta, double rate)
+static ff_status stays_in_contact(const dynamics_excitation *excitation, double T, double tolerance,
+                                  double delta, double rate)
 {
     dynamics_oscillator *o = dynamics_oscillator_new(excitation, tolerance, 1, DYNAMICS_MOTION);
     int touches = 0;
-    if (o && delta > excitation->half_gap) {
+    if (!o)
+        return FF_NOMEM;
+    if (delta > excitation->half_gap) {
         dynamics_oscillator_start(o, T, delta, rate);
         dynamics_clocks clocks;
         touches = dynamics_oscillator_cycle(o, T, NULL);
@@ -37,25 +39,24 @@ static int stays_in_contact(const dynamics_excitation *excitation, double T, dou
         touches = touches && clocks.parted == 0 && clocks.back == 0;
     }
     dynamics_oscillator_free(o);
-    return touches;
+    return touches ? FF_OK : FF_NOCONV;
 }
 
-int dynamics_full_contact(const dynamics_excitation *excitation, double T, double tolerance,
-                          double *delta, double *rate)
+ff_status dynamics_full_contact(const dynamics_excitation *excitation, double T, double tolerance,
+                                double *delta, double *rate)
 {
     dynamics_excitation closed = *excitation; /* the same springs without a gap */
     closed.half_gap = 0;
     dynamics_oscillator *o =
         dynamics_oscillator_new(&closed, tolerance, 1, DYNAMICS_MOTION_AND_VARIATION);
-    int found = 0;
-    if (o) {
-        *delta = dynamics_rest_deflection(&closed);
-        *rate = 0;
-        dynamics_oscillator_start(o, T, *delta, *rate);
-        found = dynamics_oscillator_cycle(o, T, NULL) &&
+    if (!o)
+        return FF_NOMEM;
+    *delta = dynamics_rest_deflection(&closed);
+    *rate = 0;
+    dynamics_oscillator_start(o, T, *delta, *rate);
+    int found = dynamics_oscillator_cycle(o, T, NULL) &&
                 fixed_point(dynamics_oscillator_state(o), delta, rate);
-        *delta += excitation->half_gap;
-    }
+    *delta += excitation->half_gap;
     dynamics_oscillator_free(o);
-    return found && stays_in_contact(excitation, T, tolerance, *delta, *rate);
+    return found ? stays_in_contact(excitation, T, tolerance, *delta, *rate) : FF_NOCONV;
 }

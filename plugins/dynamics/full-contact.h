@@ -6,9 +6,11 @@
 
 #include "excitation.h"
 
-/* Finds its state at phase 0, before the node. 0: there is none, it is not stable, or memory ran
-   out. T is the duration of a mesh cycle, `tolerance` the error per step. */
-int dynamics_full_contact(const dynamics_excitation *excitation, double T, double tolerance,
-                          double *delta, double *rate);
+#include <flankfilm/plugin.h>
+
+/* Finds its state at phase 0, before the node. FF_NOCONV: there is none, or it is not stable. T is
+ * the duration of a mesh cycle, `tolerance` the error per step. */
+ff_status dynamics_full_contact(const dynamics_excitation *excitation, double T, double tolerance,
+                                double *delta, double *rate);
 
 #endif

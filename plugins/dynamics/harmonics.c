@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "harmonics.h"
 
+#include "../numerics/room.h"
+
 #include <complex.h>
 #include <math.h>
 #include <stdlib.h>
@@ -114,11 +116,11 @@ dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation
     b->excitation = excitation;
     b->harmonics = harmonics;
     b->samples = samples;
-    b->k = fftw_alloc_real(samples);
-    b->e = fftw_alloc_real(samples);
-    b->time = fftw_alloc_real(samples);
+    b->k = numerics_fftw_array(samples, sizeof(double));
+    b->e = numerics_fftw_array(samples, sizeof(double));
+    b->time = numerics_fftw_array(samples, sizeof(double));
     b->edges = malloc(2 * samples * sizeof *b->edges);
-    b->spectrum = fftw_alloc_complex(samples / 2 + 1);
+    b->spectrum = numerics_fftw_array(samples / 2 + 1, sizeof *b->spectrum);
     b->e_series = malloc(size * sizeof(double));
     b->cosine = malloc((2 * harmonics + 1) * sizeof(double));
     b->sine = malloc((2 * harmonics + 1) * sizeof(double));
@@ -128,7 +130,8 @@ dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation
     b->jacobian = malloc(size * size * sizeof(double));
     b->pivot = malloc(size * sizeof *b->pivot);
     if (b->k && b->e && b->time && b->edges && b->spectrum && b->e_series && b->cosine && b->sine &&
-        b->residual && b->trial && b->try && b->jacobian && b->pivot) {
+        b->residual && b->trial && b->try && b->jacobian && b->pivot &&
+        numerics_has_room(numerics_fftw_room(samples))) {
         pthread_mutex_lock(&planner);
         b->to_time = fftw_plan_dft_c2r_1d((int)samples, b->spectrum, b->time, FFTW_ESTIMATE);
         b->to_spectrum = fftw_plan_dft_r2c_1d((int)samples, b->time, b->spectrum, FFTW_ESTIMATE);
@@ -152,11 +155,11 @@ void dynamics_harmonics_free(dynamics_harmonics *b)
     if (b->to_spectrum)
         fftw_destroy_plan(b->to_spectrum);
     pthread_mutex_unlock(&planner);
-    fftw_free(b->k);
-    fftw_free(b->e);
-    fftw_free(b->time);
+    free(b->k);
+    free(b->e);
+    free(b->time);
     free(b->edges);
-    fftw_free(b->spectrum);
+    free(b->spectrum);
     free(b->e_series);
     free(b->cosine);
     free(b->sine);

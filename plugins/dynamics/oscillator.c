@@ -1,15 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "oscillator.h"
 
+#include "../numerics/integrator.h"
 #include "bracket.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <gsl/gsl_errno.h>
-#include <gsl/gsl_odeiv2.h>
 
 /* The longest step, in radians of the stiffest mesh: it holds at most one turning point. */
 static const double longest_step = 0.5;
@@ -27,8 +25,7 @@ static const double slip = 1e-6;
 
 struct dynamics_oscillator {
     const dynamics_excitation *excitation;
-    gsl_odeiv2_step *step;
-    gsl_odeiv2_control *control;
+    numerics_integrator gsl;
     gsl_odeiv2_system system;
     double y[DYNAMICS_STATE_SIZE];
     int side;    /* 1: driving flanks touch, -1: back flanks, 0: neither */
@@ -93,9 +90,7 @@ dynamics_oscillator *dynamics_oscillator_new(const dynamics_excitation *excitati
     o->refine = refine;
     o->longest = longest_step / refine / sqrt(excitation->k_max);
     o->system = (gsl_odeiv2_system){derivative, NULL, components, o};
-    o->step = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, components);
-    o->control = gsl_odeiv2_control_standard_new(tolerance, round_off, 1, 0);
-    if (o->step && o->control)
+    if (numerics_integrator_make(&o->gsl, components, tolerance, round_off))
         return o;
     dynamics_oscillator_free(o);
     return NULL;
@@ -105,10 +100,7 @@ void dynamics_oscillator_free(dynamics_oscillator *o)
 {
     if (!o)
         return;
-    if (o->step)
-        gsl_odeiv2_step_free(o->step);
-    if (o->control)
-        gsl_odeiv2_control_free(o->control);
+    numerics_integrator_free(&o->gsl);
     free(o);
 }
 
@@ -213,7 +205,7 @@ static int find_gates(const dynamics_oscillator *o, double t, const double *y, g
 static void attempt(dynamics_oscillator *o, double h, double *y, double *error)
 {
     memcpy(y, o->y, sizeof o->y);
-    gsl_odeiv2_step_apply(o->step, o->t, h, y, error, NULL, NULL, &o->system);
+    gsl_odeiv2_step_apply(o->gsl.step, o->t, h, y, error, NULL, NULL, &o->system);
     for (int i = DYNAMICS_MOTION; i < DYNAMICS_STATE_SIZE; i++)
         error[i] = 0;
     o->steps++;
@@ -360,7 +352,8 @@ static int advance_to(dynamics_oscillator *o, double end)
         gate which = {0};
         attempt(o, h, y, error);
         double next = h;
-        int adjusted = gsl_odeiv2_control_hadjust(o->control, o->step, y, error, no_slope, &next);
+        int adjusted =
+            gsl_odeiv2_control_hadjust(o->gsl.control, o->gsl.step, y, error, no_slope, &next);
         if (adjusted == GSL_ODEIV_HADJ_DEC && h > 1e-9) {
             o->h = next;
             continue;

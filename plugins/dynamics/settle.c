@@ -182,11 +182,15 @@ ff_status dynamics_settle(dynamics_oscillator *o, const dynamics_excitation *exc
         return status;
     double frequency = 2 * M_PI / how->T, from = dynamics_sweep_from(how->branch, frequency);
     double delta, rate;
+    ff_status contact = FF_NOCONV;
+    if (how->from <= 0 && how->branch == DYNAMICS_BRANCH_LOWER)
+        contact = dynamics_full_contact(excitation, how->T, how->step_tolerance, &delta, &rate);
+    if (contact == FF_NOMEM)
+        return contact;
     if (how->from > 0) {
         dynamics_oscillator_start(o, 2 * M_PI / how->from, how->start[0], how->start[1]);
         status = sweep(o, excitation, how->host, how->from, frequency, 0);
-    } else if (how->branch == DYNAMICS_BRANCH_LOWER &&
-               dynamics_full_contact(excitation, how->T, how->step_tolerance, &delta, &rate)) {
+    } else if (contact == FF_OK) {
         dynamics_oscillator_start(o, how->T, delta, rate);
     } else {
         start_at_rest(o, excitation, 2 * M_PI / from);

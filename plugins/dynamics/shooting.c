@@ -275,14 +275,17 @@ static void describe_jump(model *m, const job *j, const dynamics_jump *jump)
 }
 
 /* Whether the motion is that of the linear pair, whose flanks never part. */
-static int is_linear(const job *j, const dynamics_orbit *orbit)
+static ff_status find_linear(const job *j, const dynamics_orbit *orbit, int *linear)
 {
     double x[2];
-    return orbit->period == 1 &&
-           dynamics_full_contact(&j->excitation, dynamics_cycle_duration(j->lambda), 1e-8, &x[0],
-                                 &x[1]) &&
-           hypot(x[0] - orbit->x[0], x[1] - orbit->x[1]) <
-               1e-6 * dynamics_state_unit(&j->excitation, x);
+    *linear = 0;
+    if (orbit->period != 1)
+        return FF_OK;
+    ff_status status = dynamics_full_contact(&j->excitation, dynamics_cycle_duration(j->lambda),
+                                             1e-8, &x[0], &x[1]);
+    *linear = status == FF_OK && hypot(x[0] - orbit->x[0], x[1] - orbit->x[1]) <
+                                     1e-6 * dynamics_state_unit(&j->excitation, x);
+    return status == FF_NOCONV ? FF_OK : status;
 }
 
 /* The motion itself is exact to round-off; what can be wrong is which of several motions it is. */
@@ -291,6 +294,7 @@ static ff_status assess_motion(model *m, job *j, ff_assessment *a)
     const double half_per_cent = 0.005;
     dynamics_attractor motion = {.period = DYNAMICS_APERIODIC};
     dynamics_jump jump = {0};
+    int linear;
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
     if (dynamics_cycle_duration(j->lambda) > dynamics_longest_cycle)
         return fail_too_slow(j);
@@ -309,6 +313,8 @@ static ff_status assess_motion(model *m, job *j, ff_assessment *a)
         status = dynamics_find_jump(&n, &motion, &jump);
     if (status == FF_OK && motion.period > 0 && !m->by_name && !jump.near)
         status = dynamics_find_fold_of_another(&n, &motion, &jump);
+    if (status == FF_OK)
+        status = find_linear(j, &motion.orbit, &linear);
     if (status != FF_OK)
         return status;
     const int chaotic = motion.period == DYNAMICS_APERIODIC &&
@@ -333,9 +339,8 @@ static ff_status assess_motion(model *m, job *j, ff_assessment *a)
             m->reason, sizeof m->reason,
             "exact to round-off; %s; period %d, largest multiplier %.3g, no fold within 0.5 %% of "
             "the speed",
-            is_linear(j, &motion.orbit) ? "linear: the flanks never part"
-                                        : "non-linear: the flanks part",
-            motion.period, dynamics_largest_multiplier(&motion.orbit));
+            linear ? "linear: the flanks never part" : "non-linear: the flanks part", motion.period,
+            dynamics_largest_multiplier(&motion.orbit));
     return FF_OK;
 }
 

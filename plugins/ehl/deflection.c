@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "deflection.h"
 
+#include "../numerics/room.h"
+
 #include <fftw3.h>
 #include <math.h>
 #include <pthread.h>
@@ -55,10 +57,10 @@ ehl_fft *ehl_fft_create(size_t nodes, const double *d)
     f->nodes = nodes;
     f->length = 2 * last;
     pthread_mutex_lock(&planner);
-    f->line = fftw_alloc_real(f->length);
-    f->spectrum = fftw_alloc_real(half);
-    f->image = fftw_alloc_complex(half);
-    if (f->line && f->spectrum && f->image) {
+    f->line = numerics_fftw_array(f->length, sizeof *f->line);
+    f->spectrum = numerics_fftw_array(half, sizeof *f->spectrum);
+    f->image = numerics_fftw_array(half, sizeof *f->image);
+    if (f->line && f->spectrum && f->image && numerics_has_room(numerics_fftw_room(f->length))) {
         /* an estimated plan depends on the length alone, so that results repeat to the last bit */
         f->forward = fftw_plan_dft_r2c_1d((int)f->length, f->line, f->image, FFTW_ESTIMATE);
         f->backward = fftw_plan_dft_c2r_1d((int)f->length, f->image, f->line, FFTW_ESTIMATE);
@@ -100,8 +102,8 @@ void ehl_fft_destroy(ehl_fft *f)
     fftw_destroy_plan(f->forward);
     fftw_destroy_plan(f->backward);
     pthread_mutex_unlock(&planner);
-    fftw_free(f->line);
-    fftw_free(f->spectrum);
-    fftw_free(f->image);
+    free(f->line);
+    free(f->spectrum);
+    free(f->image);
     free(f);
 }

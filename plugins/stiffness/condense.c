@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "condense.h"
 
+#include "../numerics/room.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <suitesparse/cholmod.h>
@@ -194,7 +196,11 @@ int stiffness_condense(stiffness_condensed *c, const stiffness_sector *sector,
     *c = (stiffness_condensed){.loads = loads};
     cholmod_start(&w.common);
     w.common.print = 0;
-    if (!number_freedoms(&w) || !allocate(&w, c))
+    /* the one that is best for plane elements; without memory for it CHOLMOD would take another
+       one, whose answer is not the same to the last bit */
+    w.common.nmethods = 1;
+    w.common.method[0].ordering = CHOLMOD_AMD;
+    if (!number_freedoms(&w) || !allocate(&w, c) || !numerics_has_room(numerics_openmp_room()))
         goto out;
     c->side = w.side;
     for (size_t e = 0; e < sector->elements; e++) {

@@ -15,6 +15,8 @@
 
 #include <flankfilm/author.h>
 
+#include <gsl/gsl_errno.h>
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -76,6 +78,7 @@ static ff_status create(const ff_host *host, void **self)
     if (!m)
         return FF_NOMEM;
     m->host = m->teeth.host = host;
+    gsl_set_error_handler_off(); /* it would end the process for want of memory */
     m->teeth.rule = gsl_integration_glfixed_table_alloc(NODES);
     if (!m->teeth.rule) {
         destroy(m);

@@ -16,6 +16,8 @@
 
 #include <flankfilm/author.h>
 
+#include <gsl/gsl_errno.h>
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -67,6 +69,7 @@ static ff_status create(const ff_host *host, void **self)
     if (!s)
         return FF_NOMEM;
     s->host = host;
+    gsl_set_error_handler_off(); /* it would end the process for want of memory */
     s->rule = gsl_integration_glfixed_table_alloc(NODES);
     s->check_rule = gsl_integration_glfixed_table_alloc(NODES_OF_CHECK);
     if (!s->rule || !s->check_rule) {
