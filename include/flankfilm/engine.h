@@ -408,7 +408,7 @@ struct ff_node {
     bool quoted;   /* scalar written in quotes */
     uint32_t rank; /* layer: included files first, the file itself, then each --set; higher wins */
     const ff_node *replaced; /* what an earlier layer had in its place; NULL: nothing */
-    size_t count;  /* children of a sequence or map */
+    size_t count;            /* children of a sequence or map */
     ff_node **items;
     char **keys;          /* map */
     ff_place *key_places; /* map */

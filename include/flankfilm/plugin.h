@@ -197,11 +197,11 @@ typedef struct ff_host {
     int32_t (*wanted)(void *ctx, uint32_t output);
     int32_t (*given)(void *ctx, uint32_t param);
 
-    /* Since 1.2; in ready. With these settings the parameter `item`, or the input or wire, serves
-       the outputs in the list alone, "film|pressure"; "": none. `by`: the parameter or wire that
-       says the same thing in its place, or NULL. `text`: why, or NULL: "the time steps are equal".
-       So the program names what a user wrote in vain, and refuses what stands in two places. What
-       no call names serves all outputs. */
+    /* Since 1.2; in ready. With these settings the parameter `item`, or the input or wire, or the
+       column "file.time" of a table, serves the outputs in the list alone, "film|pressure"; "":
+       none. `by`: the parameter or wire that says the same thing in its place, or NULL. `text`:
+       why, or NULL: "the time steps are equal". So the program names what a user wrote in vain, and
+       refuses what stands in two places. What no call names serves all outputs. */
     void (*serves)(void *ctx, const char *item, const char *outputs, const char *by,
                    const char *text);
 } ff_host;

@@ -77,12 +77,14 @@ static void destroy(void *self)
 static ff_status ready(void *self)
 {
     const stiffness_table *t = self;
+    ff_status status = stiffness_table_samples(self);
     const ff_serving rows[] = {
+        {t->share && t->load_share == RIGID, "file.load_share", "", NULL, "load_share is rigid"},
         {t->interpolation != FITTED, "tolerance", "", NULL, "interpolation is not fitted"},
         {t->interpolation != FITTED, "corners", "", NULL, "interpolation is not fitted"},
     };
     ff_serve(t->host, rows, sizeof rows / sizeof rows[0]);
-    return stiffness_table_samples(self);
+    return status;
 }
 
 static bool curve_make(const stiffness_table *t, const double *value, curve *c)

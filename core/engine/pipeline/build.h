@@ -154,6 +154,8 @@ double *fe_numbers(const fe_instance *instance, const ff_port *row, size_t count
 void fe_free_numbers(const fe_instance *instance, const double *numbers);
 void fe_forget_results(ff_stage *stage);
 void fe_forget_servings(fe_instance *instance);
+/* The parameter that names the table of a column, of "file.time"; -1: there is none. */
+int fe_find_table(const ff_model *model, const char *item);
 
 /* read.c: format, title and the stages with their `use`. False when there are no stages. */
 bool fe_read_stages(fe_build *b, const ff_node *root);

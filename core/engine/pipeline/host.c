@@ -166,8 +166,11 @@ static int32_t host_given(void *ctx, uint32_t param)
     return 0;
 }
 
-static bool has_input(const ff_model *model, const char *item)
+/* A parameter, a column of the table that one names ("file.time"), an input or a wire. */
+static bool has_item(const ff_model *model, const char *item)
 {
+    if (ff_model_find_param(model, item) >= 0 || fe_find_table(model, item) >= 0)
+        return true;
     for (size_t i = 0; i < model->input_count; i++)
         if (fe_is_on_wire(ff_model_input(model, i)->name, item))
             return true;
@@ -236,9 +239,9 @@ static void host_serves(void *ctx, const char *item, const char *outputs, const 
     serves_call call = {instance, item ? item : "", outputs ? outputs : "", by, text};
     char word[96];
     const char *wrong = unknown_output(model, call.outputs, word, sizeof word);
-    if (ff_model_find_param(model, call.item) < 0 && !has_input(model, call.item))
+    if (!has_item(model, call.item))
         breach(instance, "said what \"%.60s\" serves, which it does not have", call.item);
-    else if (by && ff_model_find_param(model, by) < 0 && !has_input(model, by))
+    else if (by && !has_item(model, by))
         breach(instance, "said that \"%.60s\" is replaced by \"%.60s\", which it does not have",
                call.item, by);
     else if (wrong)

@@ -10,6 +10,18 @@
 #include <stdio.h>
 #include <string.h>
 
+int fe_find_table(const ff_model *model, const char *item)
+{
+    char name[96];
+    const char *dot = strchr(item, '.');
+    snprintf(name, sizeof name, "%.*s", (int)strcspn(item, "."), item);
+    int param = dot ? ff_model_find_param(model, name) : -1;
+    for (size_t i = 0; param >= 0 && i < ff_model_columns(model); i++)
+        if (!strcmp(ff_model_column(model, i)->name, dot + 1))
+            return ff_model_param(model, (size_t)param)->type == FF_FILE ? param : -1;
+    return -1;
+}
+
 /* What the model of the stage has said of the item; NULL: nothing, so that it serves all outputs.
  * `item` is a parameter or an input, which may be named by its wire. */
 static const fe_serving *serving_of(const ff_stage *stage, const char *item)
@@ -68,6 +80,7 @@ static bool reads_any(const ff_stage *stage, const char *outputs)
 static ff_place written_at(const fe_build *b, const ff_stage *stage, const char *item)
 {
     int param = ff_model_find_param(stage->loaded->model, item);
+    param = param < 0 ? fe_find_table(stage->loaded->model, item) : param;
     if (param >= 0)
         return stage->params[param].place;
     for (size_t i = 0; i < stage->wire_count; i++)
@@ -116,14 +129,14 @@ static bool refuse_twice(fe_build *b, const ff_stage *stage, const fe_serving *s
     return true;
 }
 
-/* "profile_roll" or "profile_deviation": of the list "profile_roll|profile_deviation". */
+/* "x", "film" or "pressure": of the list "x|film|pressure". */
 static const char *list_outputs(fe_build *b, const char *outputs)
 {
     const char *text = "";
     for (const char *at = outputs; *at; at += *at == '|') {
         size_t length = strcspn(at, "|");
-        text = fe_pipeline_print(b->pipeline, "%s%s\"%.*s\"", text, *text ? " or " : "",
-                                 (int)length, at);
+        const char *before = !*text ? "" : at[length] ? ", " : " or ";
+        text = fe_pipeline_print(b->pipeline, "%s%s\"%.*s\"", text, before, (int)length, at);
         at += length;
     }
     return text;

@@ -132,14 +132,14 @@ static bool is_kind_installed(fe_build *b, const char *use)
     return false;
 }
 
-/* A stage of a kind that no model is of, whose error is reported: it may be the one that is meant
-   to feed a wire. */
+/* A stage without a model, or of a kind that no model is of, whose error is reported: it may be the
+   one that is meant to feed a wire. */
 static bool is_some_kind_unknown(fe_build *b)
 {
     bool some = false;
     for (size_t i = 0; i < b->pipeline->count; i++) {
         ff_stage *stage = &b->pipeline->stages[i];
-        if (stage->use && !stage->loaded && !is_kind_installed(b, stage->use))
+        if (!stage->use || (!stage->loaded && !is_kind_installed(b, stage->use)))
             some = !fe_load_stage(b, stage) || some;
     }
     return some;

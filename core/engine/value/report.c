@@ -47,13 +47,19 @@ void ff_report_free(ff_report *report)
     fe_free(report);
 }
 
+/* A source may be read twice: by a file, and by a case of its study. */
+static bool same_source(const ff_source *a, const ff_source *b)
+{
+    return a == b || (a && b && a->length == b->length && !strcmp(a->name, b->name) &&
+                      !memcmp(a->text, b->text, a->length));
+}
+
 /* The report's own copy of a temporary source. */
 static const ff_source *keep_source(ff_report *report, const ff_source *source)
 {
     for (size_t i = 0; i < report->source_count; i++) {
         const ff_source *own = report->sources[i];
-        if (own == source || (own->length == source->length && !strcmp(own->name, source->name) &&
-                              !memcmp(own->text, source->text, own->length)))
+        if (same_source(own, source))
             return own;
     }
     report->sources =
@@ -72,9 +78,9 @@ static bool is_known(const ff_report *report, const ff_message *message)
     const ff_place *place = &message->place;
     for (size_t i = 0; i < report->count; i++) {
         const ff_message *m = &report->messages[i];
-        if (m->place.source == place->source && m->place.line == place->line &&
-            m->place.column == place->column && m->severity == message->severity &&
-            !strcmp(m->text, message->text))
+        if (m->place.line == place->line && m->place.column == place->column &&
+            m->severity == message->severity && !strcmp(m->text, message->text) &&
+            same_source(m->place.source, place->source))
             return true;
     }
     return false;

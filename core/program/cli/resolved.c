@@ -70,17 +70,21 @@ static char *print_value(const ff_bound *bound, const ff_node *node, const char 
 }
 
 /* Prints a value; one that a later layer, or another parameter of its group, has replaced is a
-   comment. */
+   comment, as is the empty one that takes a value away. */
 static void print_leaf(const ff_stage *stage, const ff_node *node, const char *key,
                        const char *path, int indent)
 {
     const ff_bound *bound = find_bound(stage, path);
+    bool away = bound && node->replaced && node->kind == FF_SCALAR && !*node->text;
     bool replaced = bound && (bound->place.source != node->place.source ||
                               bound->place.line != node->place.line ||
                               bound->place.column != node->place.column);
     char origin[512], *text = print_value(bound, node, path);
     ff_bound_origin(&(ff_bound){.place = node->place}, origin, sizeof origin);
-    char *note = memory_print_text("%s%s", origin, replaced ? ", replaced by a later one" : "");
+    char *note = memory_print_text("%s%s", origin,
+                                   away       ? ", taken away"
+                                   : replaced ? ", replaced by a later one"
+                                              : "");
     print_line(indent, replaced, key, text, note);
     free(note);
     free(text);

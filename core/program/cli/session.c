@@ -30,8 +30,9 @@ static bool open_study(cli_session *session, const cli_options *options)
     return true;
 }
 
-/* Adds the errors of a case to the report. */
-static void try_case(cli_session *session, const cli_options *options, size_t index)
+/* Adds the messages of that severity of a case to the report. */
+static void try_case(cli_session *session, const cli_options *options, size_t index,
+                     ff_severity severity)
 {
     ff_report *captured = ff_report_new();
     ff_tree *tree = ff_tree_load(options->operand, captured);
@@ -43,15 +44,21 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
         ff_place place = m->place;
         source.temporary = true; /* it is freed with the tree */
         place.source = place.source ? &source : NULL;
+        if (m->severity != severity)
+            continue;
         if (m->severity == FF_ERROR)
             ff_error(session->report, m->fault, place, m->hint, "%s", m->text);
+        else
+            ff_warn(session->report, place, "%s", m->text);
     }
     ff_tree_free(tree);
     ff_report_free(captured);
 }
 
-/* Tries each value of each axis once, or the end of a range, with the other axes at their first. */
-static void try_values(cli_session *session, const cli_options *options)
+/* Tries each value of each axis once, or the end of a range, with the other axes at their first. A
+   case that cannot be is an error of a check alone; a model that cannot take all that the file says
+   is named by a run, too. */
+static void try_values(cli_session *session, const cli_options *options, bool everything)
 {
     const study_definition *study = session->study;
     for (size_t k = 0; k < study->varied_count; k++) {
@@ -59,9 +66,14 @@ static void try_values(cli_session *session, const cli_options *options)
         size_t last = study->points[varied->axis] - 1, stride = 1;
         for (size_t a = varied->axis + 1; a < study->axis_count; a++)
             stride *= study->points[a];
-        for (size_t i = varied->values || varied->names ? 1 : last; i > 0 && i <= last; i++)
-            if (ff_report_errors(session->report) < MOST_ERRORS)
-                try_case(session, options, i * stride);
+        const char *dot = strrchr(varied->path, '.');
+        bool swaps = dot && !strcmp(dot, ".use");
+        for (size_t i = varied->values || varied->names ? 1 : last; i > 0 && i <= last; i++) {
+            if (everything && ff_report_errors(session->report) < MOST_ERRORS)
+                try_case(session, options, i * stride, FF_ERROR);
+            if (swaps)
+                try_case(session, options, i * stride, FF_WARNING);
+        }
     }
 }
 
@@ -95,9 +107,8 @@ bool cli_session_open(cli_session *session, const cli_options *options, bool eve
     warn_of_follow(session);
     if (session->study && session->pipeline)
         study_check(session->study, session->pipeline, session->report);
-    if (session->study && !session->study->driver && everything &&
-        ff_report_errors(session->report) == 0)
-        try_values(session, options);
+    if (session->study && !session->study->driver && ff_report_errors(session->report) == 0)
+        try_values(session, options, everything);
     return session->pipeline && ff_report_errors(session->report) == 0;
 }
 

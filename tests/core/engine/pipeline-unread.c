@@ -43,6 +43,14 @@ static void parameters(void)
     try_close(&a);
 }
 
+static void columns(void)
+{
+    static const char p[] = "  p: {use: toy/frugal, table: /dev/../etc/hostname, fixed: true}\n";
+    attempt a = with_outputs(p, "p.shape");
+    check_warning("a column of a table", &a, 3, 31, "p.table.depth changes nothing: fixed is on");
+    try_close(&a);
+}
+
 static void through_stages(void)
 {
     attempt a = with_outputs("  p: {use: toy/frugal, form: 1, finish: 2}\n"
@@ -170,6 +178,7 @@ static void names(void)
 int main(void)
 {
     parameters();
+    columns();
     through_stages();
     idle_stages();
     swaps();

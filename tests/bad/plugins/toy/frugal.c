@@ -7,6 +7,7 @@ typedef struct frugal {
     const ff_host *host;
     double form, finish, step;
     int32_t fixed, wrong;
+    const char *table;
 } frugal;
 
 static const ff_param params[] = {
@@ -14,7 +15,12 @@ static const ff_param params[] = {
     FF_QUANTITY("finish", "1", frugal, finish, 0, NULL, NULL, 0, 0, 0, 0, "what shade is made of"),
     FF_QUANTITY("step", "1", frugal, step, 0, "1", NULL, 0, 0, 0, 0, "unless fixed"),
     FF_SWITCH("fixed", frugal, fixed, "false", "then step serves nothing"),
+    FF_PATH("table", frugal, table, 0, NULL, "with a column that fixed leaves unread"),
     FF_SWITCH("wrong", frugal, wrong, "false", "then it names a parameter that it does not have"),
+};
+
+static const ff_param columns[] = {
+    FF_ROW("depth", "m", "of anything", FF_REALS, 0, NULL, NULL, NULL, 0, 0, 0, 0, 0, 0, 0),
 };
 
 static const ff_port inputs[] = {
@@ -46,6 +52,7 @@ static ff_status ready(void *self)
         {1, "form", "shape", NULL, NULL},
         {1, "finish", "shade", NULL, NULL},
         {f->fixed, "step", "", NULL, "fixed is on"},
+        {f->fixed && f->table, "table.depth", "", NULL, "fixed is on"},
         {1, "before.shape", "shape", NULL, NULL},
         {1, "before.shade", "shade", NULL, NULL},
         {!isnan(f->finish), "before.shade", "", "finish", "finish is given"},
@@ -67,5 +74,6 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 FF_MODEL(frugal_model, frugal, .id = "toy/frugal", .version = "1.0.0",
          .summary = "a shape and a shade", .reference = "", .bibtex = "",
          .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
-         .outputs = FF_TABLE(outputs), .ready = ready, .evaluate = evaluate, .destroy = free);
+         .outputs = FF_TABLE(outputs), .ready = ready, .evaluate = evaluate, .destroy = free,
+         .columns = FF_TABLE(columns));
 FF_EXPORT_MODELS(&frugal_model);
