@@ -498,7 +498,8 @@ typedef struct ff_dims {
  */
 typedef struct ff_loaded {
     const ff_model *model;
-    char *path; /* of the shared object */
+    char *path;     /* of the shared object */
+    uint64_t build; /* hash of its bytes */
     ff_unit *param_units;
     ff_unit *input_units;
     ff_unit *output_units;

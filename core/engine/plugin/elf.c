@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 /*
  * dlopen maps a file, and reading behind the end of a truncated one ends the program with a bus
- * error. So the extent that the file states is compared with its size first.
+ * error. So the extent that the file states is compared with its size first. On the way the file is
+ * hashed, which tells one build of a plugin from another.
  */
 #include "private.h"
 
@@ -14,15 +15,14 @@
 #include <unistd.h>
 
 /* NULL, or what is wrong. A cut takes the table of sections first, which is at the end. */
-static const char *find_fault(int file)
+static const char *find_fault(int file, struct stat *status)
 {
     static const char cut[] = "is not a complete shared object: it was cut short";
     const unsigned char class = sizeof(void *) == 8 ? ELFCLASS64 : ELFCLASS32;
-    struct stat status;
     ElfW(Ehdr) head = {0};
-    if (fstat(file, &status) != 0 || !S_ISREG(status.st_mode))
+    if (fstat(file, status) != 0 || !S_ISREG(status->st_mode))
         return "is not a file";
-    uint64_t size = (uint64_t)status.st_size;
+    uint64_t size = (uint64_t)status->st_size;
     if (size == 0)
         return "is empty";
     ssize_t got = pread(file, &head, sizeof head, 0);
@@ -38,7 +38,25 @@ static const char *find_fault(int file)
     return head.e_type == ET_DYN ? NULL : "is not a shared object";
 }
 
-bool fe_elf_check(const char *path, char *why, size_t why_size)
+/* As FNV-1a, but over words of eight bytes, whose high bits must reach the low ones. */
+static uint64_t hash_file(int file)
+{
+    uint64_t block[2048], hash = UINT64_C(0xcbf29ce484222325);
+    off_t at = 0;
+    ssize_t got;
+    while ((got = pread(file, block, sizeof block, at)) > 0) {
+        size_t words = ((size_t)got + 7) / 8;
+        memset((char *)block + got, 0, 8 * words - (size_t)got);
+        for (size_t i = 0; i < words; i++) {
+            hash = (hash ^ block[i]) * UINT64_C(0x9e3779b97f4a7c15);
+            hash ^= hash >> 32;
+        }
+        at += got;
+    }
+    return hash ^ (uint64_t)at;
+}
+
+bool fe_elf_check(const char *path, fe_object_file *checked, char *why, size_t why_size)
 {
     /* O_NONBLOCK: opening a pipe of that name must not block */
     int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
@@ -46,9 +64,19 @@ bool fe_elf_check(const char *path, char *why, size_t why_size)
         snprintf(why, why_size, "cannot be opened: %s", fe_errno_text());
         return false;
     }
-    const char *fault = find_fault(file);
+    const char *fault = find_fault(file, &checked->status);
+    checked->hash = fault ? 0 : hash_file(file);
     close(file);
     if (fault)
         snprintf(why, why_size, "%s", fault);
     return !fault;
+}
+
+bool fe_elf_is_same(const char *path, const fe_object_file *checked)
+{
+    const struct stat *then = &checked->status;
+    struct stat now;
+    return stat(path, &now) == 0 && now.st_dev == then->st_dev && now.st_ino == then->st_ino &&
+           now.st_size == then->st_size && now.st_mtim.tv_sec == then->st_mtim.tv_sec &&
+           now.st_mtim.tv_nsec == then->st_mtim.tv_nsec;
 }

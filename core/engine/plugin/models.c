@@ -89,9 +89,15 @@ typedef struct loading {
 static void open_object(void *ctx)
 {
     loading *l = ctx;
-    if (!fe_elf_check(l->loaded->path, l->why, sizeof l->why))
+    fe_object_file file;
+    if (!fe_elf_check(l->loaded->path, &file, l->why, sizeof l->why))
         return;
     void *object = open_file(l->loaded->path, l->why, sizeof l->why);
+    l->loaded->build = file.hash;
+    if (object && !fe_elf_is_same(l->loaded->path, &file)) {
+        snprintf(l->why, sizeof l->why, "was replaced while it was loaded; run the command again");
+        return;
+    }
     l->good = object && fe_entry_find(object, l->id, &l->loaded->model, l->why, sizeof l->why) &&
               fe_model_check(l->loaded, l->id, l->why, sizeof l->why);
 }

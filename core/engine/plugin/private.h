@@ -5,9 +5,20 @@
 
 #include "engine.h"
 
+#include <sys/stat.h>
+
+/* A file that was checked. */
+typedef struct fe_object_file {
+    struct stat status;
+    uint64_t hash; /* of its bytes */
+} fe_object_file;
+
 /* Whether the file is as long as its header says. On failure, `why` is a clause that completes 'the
    plugin x.so ...'. */
-bool fe_elf_check(const char *path, char *why, size_t why_size);
+bool fe_elf_check(const char *path, fe_object_file *checked, char *why, size_t why_size);
+
+/* Whether the path still names the file that was checked, unchanged. */
+bool fe_elf_is_same(const char *path, const fe_object_file *checked);
 
 /* The model of that id that the object exports: NULL where its only one is. On failure false, and
    `why` is a clause that completes 'the plugin x.so ...'. */

@@ -86,6 +86,7 @@ static study_run run_of(const cli_session *session, const cli_options *options, 
                      .set_count = options->set_count,
                      .engine = session->engine,
                      .directory = directory,
+                     .pipeline = session->pipeline,
                      .jobs = options->jobs ? options->jobs
                              : executor    ? 1
                                            : count_cores(),

@@ -123,8 +123,7 @@ json_t *results_json_origin(const ff_pipeline *pipeline, const ff_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     char build[20];
-    snprintf(build, sizeof build, "%016llx",
-             (unsigned long long)study_hash_file(STUDY_HASH_START, stage->loaded->path));
+    snprintf(build, sizeof build, "%016llx", (unsigned long long)stage->loaded->build);
     return json_pack("{s:o, s:s, s:o, s:o, s:o, s:o}", "version", results_json_text(model->version),
                      "build", build, "reference", results_json_text(model->reference), "bibtex",
                      results_json_text(model->bibtex), "parameters", results_json_params(stage),

@@ -22,6 +22,9 @@ typedef struct study_reuse {
     char name[20]; /* of that file */
 } study_reuse;
 
+/* Removes all that is kept in the directory of a study, given by its descriptor. */
+void study_reuse_clear(int study);
+
 /* Callbacks of ff_observer, whose ctx is a study_reuse. */
 bool study_reuse_recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage);
 void study_reuse_keep(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage);
@@ -64,6 +67,9 @@ json_t *study_case_parameters(const study_case *c, const json_t *setups, json_t 
 /* Prints how the case differs from a record; `parameters` describes the setups of that. */
 void study_setup_compare(const study_case *c, const json_t *record, const json_t *parameters,
                          FILE *out);
+
+/* Warns of each plugin that is another build than those of the records. */
+void study_setup_warn_rebuilt(const study_run *run, const json_t *records, ff_report *report);
 
 /* choices.c: returns {stage: {use, model, accuracy, promised, settings: {parameter: value}}} of the
    stages that have chosen a model: what it takes to choose the same again. */

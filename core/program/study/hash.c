@@ -23,7 +23,7 @@ static uint64_t hash_number(uint64_t hash, uint64_t number)
 }
 
 /* The model reports a file that cannot be read. */
-uint64_t study_hash_file(uint64_t hash, const char *path)
+static uint64_t hash_file(uint64_t hash, const char *path)
 {
     unsigned char block[4096];
     size_t length;
@@ -50,7 +50,7 @@ static uint64_t hash_param(uint64_t hash, const ff_bound *bound)
     if (value->count)
         hash = study_hash(hash, value->reals, value->count * sizeof *value->reals);
     if (bound->row->type == FF_FILE && value->text)
-        return study_hash_file(hash, value->text);
+        return hash_file(hash, value->text);
     return study_hash_text(hash, value->text);
 }
 
@@ -59,6 +59,7 @@ uint64_t study_hash_setup(const ff_stage *stage)
     const ff_model *model = stage->loaded->model;
     uint64_t hash = study_hash_text(STUDY_HASH_START, model->id);
     hash = study_hash_text(hash, model->version);
+    hash = hash_number(hash, stage->loaded->build);
     for (size_t i = 0; i < model->param_count; i++)
         hash = hash_param(hash, &stage->params[i]);
     for (size_t i = 0; i < model->output_count; i++)

@@ -6,6 +6,7 @@
 #include "case.h"
 #include "hash.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
@@ -129,6 +130,19 @@ static bool read_kept(int fd, const ff_pipeline *pipeline, const ff_stage *stage
         fclose(in);
     free(text);
     return good;
+}
+
+void study_reuse_clear(int study)
+{
+    int fd = openat(study, "stages", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *list = fd < 0 ? NULL : fdopendir(fd);
+    const struct dirent *item;
+    while (list && (item = readdir(list)))
+        unlinkat(dirfd(list), item->d_name, 0);
+    if (list)
+        closedir(list);
+    else if (fd >= 0)
+        close(fd);
 }
 
 bool study_reuse_recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)

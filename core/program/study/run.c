@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Runs a study: hands out cases and writes their answers to the journal. */
+#include "case.h"
 #include "chain.h"
 #include "journal.h"
 #include "workers.h"
@@ -40,6 +41,14 @@ static size_t end_of_chains(const study_run *run)
     return run->end ? run->end : study_chains(run->study);
 }
 
+/* Before the first case: no kept result of a stage is taken over when all are to run again. */
+static void begin_results(execution *r)
+{
+    study_setup_warn_rebuilt(r->run, r->done, r->report);
+    if (r->run->rerun == STUDY_RERUN_ALL)
+        study_reuse_clear(r->journal.directory);
+}
+
 static int32_t begin_leading(void *ctx)
 {
     execution *r = ctx;
@@ -58,6 +67,8 @@ static int32_t begin_leading(void *ctx)
     }
     if (r->open) {
         r->done = study_journal_read(run->directory);
+        if (run->begin == 0)
+            begin_results(r);
         r->keys = run->keys ? run->keys : memory_alloc(total * sizeof *r->keys);
         r->next = run->begin + first;
         r->start = r->reported = study_seconds_now();

@@ -25,6 +25,14 @@ json_t *study_case_setups(const study_case *c)
     return setups;
 }
 
+static const char build_name[] = "build of the plugin";
+enum { BUILD_SIZE = 17 };
+
+static void print_build(const ff_stage *stage, char *text)
+{
+    snprintf(text, BUILD_SIZE, "%016llx", (unsigned long long)stage->loaded->build);
+}
+
 static json_t *describe_setup(const ff_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
@@ -33,6 +41,8 @@ static json_t *describe_setup(const ff_stage *stage)
     size_t used = 0;
     json_object_set_new(values, "use", json_string(model->id));
     json_object_set_new(values, "version of the model", json_string(model->version));
+    print_build(stage, text);
+    json_object_set_new(values, build_name, json_string(text));
     for (size_t i = 0; i < model->param_count; i++) {
         if (!stage->params[i].present)
             continue;
@@ -114,4 +124,44 @@ void study_setup_compare(const study_case *c, const json_t *record, const json_t
     json_decref(setups);
     json_decref(seen);
     json_decref(now);
+}
+
+/* {model: {build of its plugin: true}} of all that the records describe. */
+static json_t *builds_of(const json_t *records)
+{
+    json_t *builds = json_object(), *record, *values;
+    const char *key, *hash;
+    json_object_foreach((json_t *)(size_t)records, key, record)
+        json_object_foreach(json_object_get(record, "parameters"), hash, values)
+    {
+        const char *model = json_string_value(json_object_get(values, "use"));
+        const char *build = json_string_value(json_object_get(values, build_name));
+        if (!model || !build)
+            continue;
+        if (!json_object_get(builds, model))
+            json_object_set_new(builds, model, json_object());
+        json_object_set_new(json_object_get(builds, model), build, json_true());
+    }
+    return builds;
+}
+
+void study_setup_warn_rebuilt(const study_run *run, const json_t *records, ff_report *report)
+{
+    json_t *builds = builds_of(records);
+    for (size_t i = 0; run->pipeline && i < run->pipeline->count; i++) {
+        const ff_stage *stage = &run->pipeline->stages[i];
+        if (!stage->needed || !stage->loaded)
+            continue;
+        char build[BUILD_SIZE];
+        json_t *known = json_object_get(builds, stage->loaded->model->id);
+        print_build(stage, build);
+        if (!known || json_object_get(known, build))
+            continue;
+        ff_warn(report, stage->use_place,
+                "%s: the plugin %s is another build than that of the results in %s: their cases "
+                "run anew",
+                stage->name, stage->loaded->path, run->directory);
+        json_object_set_new(known, build, json_true());
+    }
+    json_decref(builds);
 }

@@ -157,6 +157,8 @@ typedef struct study_run {
     size_t set_count;
     ff_engine *engine;
     const char *directory;
+    const ff_pipeline *pipeline; /* of the file, whose plugins are compared with those of earlier
+                                    runs; NULL: they are not */
     size_t jobs;
     ff_instance *executor; /* offers FF_EXECUTOR_ID; NULL: workers of this process run all cases */
     size_t shard, shards;  /* this run does shard number `shard`, from 1 to `shards` */
@@ -214,9 +216,8 @@ json_t *study_journal_read(const char *directory);
 
 json_t *study_json_real(double value); /* null for a number that is not finite */
 
-/* Continues an FNV-1a hash of 64 bits with the contents of a file. */
+/* Start of an FNV-1a hash of 64 bits. */
 #define STUDY_HASH_START UINT64_C(0xcbf29ce484222325)
-uint64_t study_hash_file(uint64_t hash, const char *path);
 
 /* Makes a directory and those above it; true when it exists already. */
 bool study_make_path(const char *path);
