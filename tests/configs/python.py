@@ -85,6 +85,51 @@ def test_run():
     check("lists are handed over", list(other["gears.teeth"]) == [49, 51] and other.path is None)
 
 
+def test_fields():
+    """Fields come from files, which are mapped; numpy writes the same ones."""
+    sets = {"film": "{use: ehl/finite-volume, cells: 128, steps: 100}", "outputs": ["film.film", "film.x"]}
+    here, gone = flankfilm.run("case.yaml", sets, directory="fields"), flankfilm.run("case.yaml", sets)
+    film = gone["film.film"]
+    place = film.data.base.filename
+    check("a field", film.dims == ("t", "x") and film.data.shape == (101, 129) and film.unit == "m")
+    check("is mapped", isinstance(film.data.base, np.memmap) and os.path.exists(place))
+    check("the same in a directory", film.data.tobytes() == here["film.film"].data.tobytes() and
+          film.data.tobytes() == np.load("fields/film.film.npy").tobytes())
+    film.data[0] = 1
+    check("may be changed in memory alone", flankfilm.open("fields")["film.film"].data[0, 0] < 1e-3)
+    del gone
+    gc.collect()
+    check("outlives its temporary file", not os.path.exists(place) and film.data[1].max() < 1e-3)
+
+    def bad(what, *parts, array=None, data=None, pickled=False):
+        if array is not None:
+            np.save("fields/film.film.npy", array, allow_pickle=pickled)
+        else:
+            with open("fields/film.film.npy", "wb") as file:
+                file.write(data)
+        check(what, raised(lambda: flankfilm.open("fields")["film.film"], "film.film.npy cannot be read",
+                           *parts, code=None))
+
+    good = np.array(here["film.film"].data)
+    with open("fields/film.film.npy", "rb") as file:
+        whole = file.read()
+    np.save("twin.npy", good)
+    with open("twin.npy", "rb") as file:
+        check("numpy writes the same bytes", file.read() == whole)
+    del here
+    gc.collect()
+    bad("a field that is cut off", data=whole[:-8])
+    bad("no field at all", data=b"t,x\n" * 1000)
+    bad("nothing", data=b"")
+    bad("big-endian", ">f8", array=good.astype(">f8"))
+    bad("single precision", "<f4", array=good.astype("<f4"))
+    bad("Fortran order", "Fortran order", array=np.asfortranarray(good))
+    bad("another shape", "(129, 101)", array=good.reshape(129, 101))
+    bad("pickled objects", array=good.astype(object), pickled=True)
+    os.remove("fields/film.film.npy")
+    check("a field that is gone", raised(lambda: flankfilm.open("fields")["film.film"], "No such file", code=None))
+
+
 def test_errors():
     check("a wrong word", raised(lambda: flankfilm.run("case.yaml", {"duty.torqu": "3 N m"}),
                                  'unknown key "torqu"; did you mean "torque"?'))
@@ -92,7 +137,7 @@ def test_errors():
                                 "duty.torque", "viscosity/no", code=3))
     check("no file", raised(lambda: flankfilm.run("none.yaml"), "none.yaml"))
     check("no results", raised(lambda: flankfilm.open("."), "no results of flankfilm", code=None))
-    check("a file that is right", flankfilm.check("case.yaml") is None)
+    check("a file that is right", flankfilm.check("case.yaml") is False)
     try:
         flankfilm.open("here")["film.h_mi"]
         check("a name that is not there", False)
@@ -239,6 +284,7 @@ with tempfile.TemporaryDirectory() as lab:
         with open(name + ".yaml", "w") as file:
             file.write(text)
     test_run()
+    test_fields()
     test_errors()
     test_study()
     test_fit()

@@ -7,6 +7,7 @@ import os
 import shlex
 import shutil
 import subprocess
+import tempfile
 from collections.abc import Mapping
 
 import numpy as np
@@ -14,22 +15,45 @@ import numpy as np
 from .arrays import Array, Error
 
 
-def _array(entry):
-    """Of {"unit", "value"} or {"unit", "dims", "shape", "data"}; null is NaN."""
+def _map(path, shape):
+    """The numbers of a .npy file, which are read as they are used; writing to them leaves it as it is."""
+    try:
+        data = np.lib.format.open_memmap(path, mode="c") if np.prod(shape) else np.empty(shape)
+    except (OSError, ValueError) as error:
+        raise Error(f"{path} cannot be read: {error}") from None
+    if data.dtype != np.dtype("<f8"):
+        raise Error(f"{path} cannot be read: its numbers are of the type {data.dtype.str}, not <f8")
+    if not data.flags.c_contiguous:
+        raise Error(f"{path} cannot be read: its numbers are in Fortran order, not in C order")
+    if data.shape != tuple(shape):
+        raise Error(f"{path} cannot be read: its shape is {data.shape}, not {tuple(shape)}")
+    return data
+
+
+def _array(entry, directory):
+    """Of {"unit", "value"} or {"unit", "dims", "shape", "data" or "file"}; null is NaN."""
     doc, against = entry.get("doc") or "", entry.get("against") or ()
-    if "data" not in entry:
+    if "file" in entry:
+        name = entry["file"]
+        if not name or name != os.path.basename(name) or name.startswith("."):
+            raise Error(f"{directory}: \"{name}\" is not the name of a file beside its results")
+        data = _map(os.path.join(directory, name), entry["shape"])
+    elif "data" in entry:
+        data = np.array(entry["data"], dtype=float).reshape(entry["shape"])
+    else:
         value = entry.get("value")
         return Array(np.nan if value is None else float(value), entry["unit"], (), doc)
-    data = np.array(entry["data"], dtype=float).reshape(entry["shape"])
     return Array(data, entry["unit"], entry["dims"], doc, against)
 
 
 class Result(Mapping):
     """A run: a mapping of "stage.output" to Array. `asked` are the names that the file asks for,
-    `quality` has the lines of each stage, `json` all that the program said."""
+    `quality` has the lines of each stage, `json` all that the program said. Fields are mapped from
+    their files, so that those that nobody uses take neither time nor memory."""
 
-    def __init__(self, answer, path=None):
+    def __init__(self, answer, path=None, keep=None):
         self.json, self.path = answer, path
+        self._keep = keep  # a temporary directory, which goes with the last who uses it
         self.title, self.status = answer.get("title"), answer.get("status")
         self.asked = list(answer.get("outputs") or {})
         self.warnings = [w["message"] for w in answer.get("warnings") or ()]
@@ -41,8 +65,11 @@ class Result(Mapping):
         if name not in self._arrays:
             if name not in self._entries:
                 raise KeyError(f"{name}: the results have {', '.join(self._entries)}")
-            self._arrays[name] = _array(self._entries[name])
+            self._arrays[name] = _array(self._entries[name], self._place())
         return self._arrays[name]
+
+    def _place(self):
+        return self.path or (self._keep.name if self._keep else ".")
 
     def __iter__(self):
         return iter(self._entries)
@@ -111,11 +138,11 @@ class Study(Mapping):
 
     def case(self, index):
         """The arrays of one case, by its number from 0: a dictionary."""
-        place = os.path.join(self.path, "cases", self.table["key"][index], "arrays.json")
-        if not os.path.exists(place):
+        place = os.path.join(self.path, "cases", self.table["key"][index])
+        if not os.path.exists(os.path.join(place, "arrays.json")):
             return {}
-        with _file(place) as file:
-            return {k: _array(e) for k, e in json.load(file)["outputs"].items()}
+        with _file(place, "arrays.json") as file:
+            return {k: _array(e, place) for k, e in json.load(file)["outputs"].items()}
 
     def _load(self):
         if self._arrays is None:
@@ -227,17 +254,25 @@ def run(file, sets=None, directory=None, jobs=None):
     Result or a Study. With `directory` the results are also written there; those of a study always
     are. Failed cases of a study do not raise: see Study.status."""
     words = ["run", os.fspath(file), *_sets(sets)]
-    words += ["-o", os.fspath(directory)] if directory else []
     words += ["-j", jobs] if jobs else []
-    answer = _call(*words)
+    keep = None
+    if directory is None and not check(file, sets):
+        keep = tempfile.TemporaryDirectory(prefix="flankfilm-")
+    place = os.fspath(directory) if directory else keep.name if keep else None
+    try:
+        answer = _call(*words, *(["-o", place] if place else []))
+    except Error as error:
+        if error.result:  # what it has left
+            error.result.path, error.result._keep = directory, keep
+        raise
     if "cases" in answer:
         return Study(answer["directory"])
-    return Result(answer, directory)
+    return Result(answer, directory, keep)
 
 
 def check(file, sets=None):
-    """Raises what is wrong with the file, and runs nothing."""
-    _call("check", os.fspath(file), *_sets(sets))
+    """Raises what is wrong with the file, and runs nothing. Says whether it is a study."""
+    return _call("check", os.fspath(file), *_sets(sets))["study"]
 
 
 def fit(kind, data, laws=(), at=(), sets=None, directory=None):

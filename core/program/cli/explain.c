@@ -273,6 +273,7 @@ static void confirm(cli_session *session, const cli_options *options)
         json_t *answer = results_json_answer("ok", EXIT_SUCCESS, session->report);
         json_object_set_new(answer, "stages", json_integer((json_int_t)stages));
         json_object_set_new(answer, "cases", json_integer((json_int_t)cases));
+        json_object_set_new(answer, "study", json_boolean(session->study));
         results_json_print(answer);
         return;
     }

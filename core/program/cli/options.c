@@ -61,6 +61,8 @@ static const option_row rows[] = {
     {"fail-fast", 0, NULL, "run", "end a study at the first case that fails", OPTIONAL, NULL},
     {"json", 0, NULL, "run plan check explain fit models report export verify",
      "print one JSON object, all values in SI, and nothing else", OPTIONAL, NULL},
+    {"arrays", 0, NULL, "run",
+     "with --json, of a single case: also print arrays of more than 10000 numbers", OPTIONAL, NULL},
     {"yaml", 0, NULL, "explain",
      "print the file with its includes and --set worked in, each value with its origin", OPTIONAL,
      NULL},

@@ -53,7 +53,8 @@ static int run_session(cli_session *session, const cli_options *options, results
     bool written = folder && results_write_run(&outcome, folder);
     set_status(&outcome); /* writing may have failed */
     if (options->json)
-        results_write_run_json(&outcome, false, terminal_answer());
+        results_write_answer(&outcome, written ? directory : NULL,
+                             cli_option(options, "arrays") != NULL, terminal_answer());
     else
         print_outcome(&outcome, written ? directory : NULL);
     json_decref(progress.log);

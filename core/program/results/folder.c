@@ -31,6 +31,7 @@ struct results_folder {
     size_t count;
     FILE *stream;        /* of the file that is being written */
     const char *writing; /* its name */
+    const char *last;    /* the name of the file that was begun last; NULL: there is none */
     ff_report *report;
     bool failed; /* the report says why */
     bool sync;
@@ -231,6 +232,7 @@ FILE *results_folder_begin(results_folder *folder, const char *stem, const char 
         snprintf(name, sizeof name, "%s-%d%s", stem, i, suffix);
     entry *made = add_entry(folder, name);
     made->fresh = true;
+    folder->last = made->name;
     return open_part(folder, made->name);
 }
 
@@ -263,14 +265,19 @@ static void remove_stale(results_folder *folder)
     folder->count = kept;
 }
 
-/* At any moment the manifest names all result files that are there. */
+/* At any moment the manifest names all result files that are there, and the file that was begun
+   last is there only together with those that belong to it. */
 bool results_folder_commit(results_folder *folder)
 {
     close_part(folder);
     write_manifest(folder);
+    if (!folder->failed && folder->last)
+        unlinkat(folder->fd, folder->last, 0);
     for (size_t i = 0; i < folder->count; i++)
-        if (folder->entries[i].fresh)
+        if (folder->entries[i].fresh && folder->entries[i].name != folder->last)
             rename_part(folder, folder->entries[i].name);
+    if (folder->last)
+        rename_part(folder, folder->last);
     if (folder->failed) {
         count_files(folder, true);
         return false;

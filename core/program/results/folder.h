@@ -2,7 +2,8 @@
 /*
  * A result directory. It is ours when it holds ".flankfilm", which lists the result files in it.
  * All files of a run are written under temporary names, then renamed together; files of an earlier
- * run that the new one does not write are removed. Anything else in it is left alone.
+ * run that the new one does not write are removed. Anything else in it is left alone. The file that
+ * was begun last goes first and comes last: where it is, all others are, and belong to it.
  */
 #ifndef RESULTS_FOLDER_H
 #define RESULTS_FOLDER_H

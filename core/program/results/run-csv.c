@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "number.h"
 #include "write.h"
 
 #include <math.h>
@@ -9,9 +8,8 @@ enum { CSV_DIGITS = 10, MOST_COLUMNS = 64 /* outputs of a model */ };
 
 static void write_number(double value, FILE *stream)
 {
-    char text[RESULTS_NUMBER_SIZE];
     if (isfinite(value))
-        fwrite_unlocked(text, 1, results_number_print(value, CSV_DIGITS, text), stream);
+        fprintf(stream, "%.*g", CSV_DIGITS, value == 0 ? 0 : value); /* no -0 */
     else
         fputs("nan", stream);
 }
@@ -30,7 +28,8 @@ static const char *main_dim(const ff_stage *stage)
 static bool is_series(const ff_stage *stage, size_t output, const char *dim)
 {
     const ff_result *result = &stage->results[output];
-    return result->data && result->rank == 1 && strcmp(result->dims[0], dim) == 0;
+    return result->data && result->rank == 1 && !results_has_file(result) &&
+           strcmp(result->dims[0], dim) == 0;
 }
 
 /* Writes all series along one dimension. */
@@ -88,47 +87,6 @@ static void write_scalars(const ff_stage *stage, results_folder *folder)
     }
 }
 
-/* The first row holds the axis of the columns, the first column that of the rows. */
-static void write_field(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
-                        FILE *stream)
-{
-    const ff_result *field = &stage->results[output], *axes[2];
-    const double *at = field->data;
-    for (uint32_t i = 0; i < 2; i++) {
-        const char *dim = field->dims[i];
-        axes[i] = results_axis(pipeline, stage, dim, field->shape[i], NULL, "s");
-        fprintf(stream, "%s%s [%s]", i ? " \\ " : "", axes[i] ? axes[i]->row->name : dim,
-                axes[i] ? axes[i]->row->unit : "index");
-    }
-    for (size_t j = 0; j < field->shape[1]; j++) {
-        fputc_unlocked(',', stream);
-        write_number(axes[1] ? axes[1]->data[j] : (double)j, stream);
-    }
-    fputc('\n', stream);
-    for (size_t i = 0; i < field->shape[0]; i++) {
-        write_number(axes[0] ? axes[0]->data[i] : (double)i, stream);
-        for (size_t j = 0; j < field->shape[1]; j++) {
-            fputc_unlocked(',', stream);
-            write_number(*at++, stream);
-        }
-        fputc_unlocked('\n', stream);
-    }
-}
-
-static void write_fields(const ff_pipeline *pipeline, const ff_stage *stage, results_folder *folder)
-{
-    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const ff_result *result = &stage->results[i];
-        char suffix[128];
-        if (!result->data || !result->requested || result->rank != 2)
-            continue;
-        snprintf(suffix, sizeof suffix, "-%s.csv", result->row->name);
-        FILE *stream = results_folder_begin(folder, stage->name, suffix);
-        if (stream)
-            write_field(pipeline, stage, i, stream);
-    }
-}
-
 void results_write_run_csv(const ff_pipeline *pipeline, results_folder *folder)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
@@ -137,6 +95,5 @@ void results_write_run_csv(const ff_pipeline *pipeline, results_folder *folder)
             continue;
         write_all_series(stage, folder);
         write_scalars(stage, folder);
-        write_fields(pipeline, stage, folder);
     }
 }

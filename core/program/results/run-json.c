@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "json.h"
-#include "number.h"
 #include "write.h"
 
 #include "../memory/memory.h"
@@ -10,33 +9,18 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Arrays are written as they are: a JSON node for each number would cost many times as much. */
-static void write_array(const ff_result *result, FILE *stream)
-{
-    char text[RESULTS_NUMBER_SIZE];
-    for (size_t i = 0; i < result->count; i++) {
-        fputc_unlocked(i ? ',' : '[', stream);
-        if (isfinite(result->data[i]))
-            fwrite_unlocked(
-                text, 1, results_number_print(result->data[i], RESULTS_JSON_DIGITS, text), stream);
-        else
-            fputs("null", stream);
-    }
-    fputs(result->count ? "]" : "[]", stream);
-}
-
-/* Writes the members of an object without its braces, and frees it. */
-static void write_members(json_t *object, FILE *stream)
-{
-    json_dumpf(object, stream,
-               JSON_COMPACT | JSON_EMBED | JSON_REAL_PRECISION(RESULTS_JSON_DIGITS));
-    json_decref(object);
-}
-
 static json_t *describe_scalar(const ff_result *result)
 {
     return json_pack("{s:s, s:o}", "unit", result->row->unit, "value",
                      study_json_real(result->data[0]));
+}
+
+static json_t *list_numbers(const ff_result *result)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < result->count; i++)
+        json_array_append_new(list, study_json_real(result->data[i]));
+    return list;
 }
 
 static json_t *describe_array(const ff_stage *stage, size_t output)
@@ -77,45 +61,63 @@ static json_t *axes_of(const ff_pipeline *pipeline, const ff_stage *stage, size_
     return list;
 }
 
-static void write_output(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
-                         FILE *stream)
+/* Whether an array is not part of the object. */
+static bool is_elsewhere(const ff_result *result, results_arrays arrays)
 {
-    const ff_result *result = &stage->results[output];
-    fprintf(stream, "\"%s.%s\":{", stage->name, result->row->name); /* plain words */
-    json_t *head = result->rank ? describe_array(stage, output) : describe_scalar(result);
-    json_object_set_new(head, "doc", results_json_text(result->row->doc));
-    if (result->rank)
-        json_object_set_new(head, "against", axes_of(pipeline, stage, output));
-    write_members(head, stream);
-    if (result->rank) {
-        fputs(",\"data\":", stream);
-        write_array(result, stream);
-    }
-    fputc('}', stream);
+    return arrays == RESULTS_IN_FILES
+               ? results_has_file(result)
+               : arrays != RESULTS_ALL_HERE && result->count > RESULTS_LONGEST_TEXT;
 }
 
-/* Writes what the file requests; or, of what was computed on the way, the scalars and series. */
-static void write_outputs(const ff_pipeline *pipeline, bool requested, FILE *stream)
+static json_t *describe_output(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
+                               results_arrays arrays)
 {
-    const char *gap = "";
+    const ff_result *result = &stage->results[output];
+    json_t *entry = result->rank ? describe_array(stage, output) : describe_scalar(result);
+    json_object_set_new(entry, "doc", results_json_text(result->row->doc));
+    if (result->rank)
+        json_object_set_new(entry, "against", axes_of(pipeline, stage, output));
+    if (result->rank && is_elsewhere(result, arrays)) {
+        char *file = memory_print_text("%s.%s.npy", stage->name, result->row->name);
+        json_object_set_new(entry, "file",
+                            arrays == RESULTS_LONG_ABSENT ? json_null() : json_string(file));
+        free(file);
+    } else if (result->rank) {
+        json_object_set_new(entry, "data", list_numbers(result));
+    }
+    return entry;
+}
+
+/* Describes what the file requests; or, of what was computed on the way, the scalars and series. */
+static json_t *describe_outputs(const ff_pipeline *pipeline, bool requested, results_arrays arrays)
+{
+    json_t *outputs = json_object();
     for (size_t s = 0; s < pipeline->count; s++) {
         const ff_stage *stage = &pipeline->stages[s];
         for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
             const ff_result *result = &stage->results[i];
             if (!result->data || result->requested != requested || (!requested && result->rank > 1))
                 continue;
-            fputs(gap, stream);
-            write_output(pipeline, stage, i, stream);
-            gap = ",";
+            char *name = memory_print_text("%s.%s", stage->name, result->row->name);
+            json_object_set_new(outputs, name, describe_output(pipeline, stage, i, arrays));
+            free(name);
         }
     }
+    return outputs;
+}
+
+/* Writes the object on a line, and frees it. */
+static void write_object(json_t *object, FILE *stream)
+{
+    json_dumpf(object, stream, JSON_COMPACT | JSON_REAL_PRECISION(RESULTS_JSON_DIGITS));
+    fputc('\n', stream);
+    json_decref(object);
 }
 
 void results_write_arrays_json(const ff_pipeline *pipeline, FILE *stream)
 {
-    fputs("{\"outputs\":{", stream);
-    write_outputs(pipeline, true, stream);
-    fputs("}}\n", stream);
+    write_object(json_pack("{s:o}", "outputs", describe_outputs(pipeline, true, RESULTS_IN_FILES)),
+                 stream);
 }
 
 const char *results_status_name(const ff_stage *stage)
@@ -169,26 +171,44 @@ static json_t *describe_stage(const ff_pipeline *pipeline, const ff_stage *stage
     return entry;
 }
 
-void results_write_run_json(const results_outcome *outcome, bool details, FILE *stream)
+static json_t *describe_head(const results_outcome *outcome)
 {
-    const ff_pipeline *pipeline = outcome->pipeline;
     json_t *head = results_json_answer(outcome->status, outcome->exit_code, outcome->report);
-    json_t *stages = json_array();
-    json_object_set_new(head, "title", results_json_text(pipeline->title));
+    json_object_set_new(head, "title", results_json_text(outcome->pipeline->title));
     json_object_set_new(head, "file", results_json_text(outcome->file));
-    if (details)
-        json_object_set_new(head, "facts", results_json_facts(outcome->file));
+    return head;
+}
+
+static json_t *describe_stages(const ff_pipeline *pipeline, bool details)
+{
+    json_t *stages = json_array();
     for (size_t i = 0; i < pipeline->count; i++)
         json_array_append_new(stages, describe_stage(pipeline, &pipeline->stages[i], details));
-    fputc('{', stream);
-    write_members(head, stream);
-    fputs(",\"outputs\":{", stream);
-    write_outputs(pipeline, true, stream);
-    if (details) {
-        fputs("},\"computed\":{", stream);
-        write_outputs(pipeline, false, stream);
-    }
-    fputs("},", stream);
-    write_members(json_pack("{s:o, s:O}", "stages", stages, "log", outcome->log), stream);
-    fputs("}\n", stream);
+    return stages;
+}
+
+void results_write_run_json(const results_outcome *outcome, FILE *stream)
+{
+    const ff_pipeline *pipeline = outcome->pipeline;
+    json_t *all = describe_head(outcome);
+    json_object_set_new(all, "facts", results_json_facts(outcome->file));
+    json_object_set_new(all, "outputs", describe_outputs(pipeline, true, RESULTS_IN_FILES));
+    json_object_set_new(all, "computed", describe_outputs(pipeline, false, RESULTS_IN_FILES));
+    json_object_set_new(all, "stages", describe_stages(pipeline, true));
+    json_object_set(all, "log", outcome->log);
+    write_object(all, stream);
+}
+
+void results_write_answer(const results_outcome *outcome, const char *directory, bool all_arrays,
+                          FILE *stream)
+{
+    json_t *all = describe_head(outcome);
+    results_arrays arrays = all_arrays  ? RESULTS_ALL_HERE
+                            : directory ? RESULTS_LONG_IN_FILES
+                                        : RESULTS_LONG_ABSENT;
+    json_object_set_new(all, "directory", results_json_text(directory));
+    json_object_set_new(all, "outputs", describe_outputs(outcome->pipeline, true, arrays));
+    json_object_set_new(all, "stages", describe_stages(outcome->pipeline, false));
+    json_object_set(all, "log", outcome->log);
+    write_object(all, stream);
 }

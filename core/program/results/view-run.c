@@ -58,12 +58,11 @@ static void add_stages(results_reader *reader, ff_view_case *c, const json_t *st
 
 bool results_view_read_run(results_reader *reader)
 {
-    errno = 0;
-    if (!results_document_open(&reader->run, reader->directory, "result.json"))
+    json_t *root = results_view_read_json(reader, "result.json");
+    if (!root)
         return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE, "run the case again",
                         "%s/result.json cannot be read%s%s", reader->path, errno ? ": " : "",
                         errno ? strerror(errno) : "");
-    const json_t *root = reader->run.root;
     results_view_add_head(reader, root);
     ff_view_case *c = results_view_add_row(reader, &reader->cases, sizeof *c);
     *c = (ff_view_case){
@@ -83,5 +82,6 @@ bool results_view_read_run(results_reader *reader)
     add_stages(reader, c, json_object_get(root, "stages"), json_object_get(record, "quality"));
     results_view_judge(reader, c, 1, record);
     json_decref(record);
+    json_decref(root);
     return true;
 }

@@ -165,21 +165,21 @@ static void add_case(results_reader *reader, size_t index, const json_t *record,
 /* Takes what arrays are plotted against from the first case that has any. */
 static void read_against(results_reader *reader)
 {
-    results_document arrays = {.text = NULL};
+    json_t *arrays = NULL;
     const char *name;
     json_t *entry;
-    for (size_t i = 0; i < reader->view.case_count && !arrays.root; i++) {
+    for (size_t i = 0; i < reader->view.case_count && !arrays; i++) {
         bool any = false;
         json_object_foreach(reader->per_case[i].outputs, name, entry) any =
             any || json_object_get(entry, "shape");
         char *path = memory_print_text("cases/%s/arrays.json", reader->per_case[i].key);
         if (any)
-            results_document_open(&arrays, reader->directory, path);
+            arrays = results_view_read_json(reader, path);
         free(path);
     }
-    json_object_foreach(json_object_get(arrays.root, "outputs"), name, entry)
+    json_object_foreach(json_object_get(arrays, "outputs"), name, entry)
         results_view_set_against(reader, name, entry);
-    results_document_close(&arrays);
+    json_decref(arrays);
 }
 
 static bool refuse(results_reader *reader, const char *what)
@@ -191,19 +191,19 @@ static bool refuse(results_reader *reader, const char *what)
 
 bool results_view_read_study(results_reader *reader)
 {
-    results_document study;
     const char *model;
     json_t *entry;
     size_t i;
     bool good = true;
-    if (!results_document_open(&study, reader->directory, study_description))
+    json_t *study = results_view_read_json(reader, study_description);
+    if (!study)
         return refuse(reader, errno ? "is not there" : "is not a description of a study");
     reader->view.study = 1;
-    results_view_add_head(reader, study.root);
-    good = read_lengths(reader, json_object_get(study.root, "lengths"));
-    json_array_foreach(json_object_get(study.root, "axes"), i, entry) good =
+    results_view_add_head(reader, study);
+    good = read_lengths(reader, json_object_get(study, "lengths"));
+    json_array_foreach(json_object_get(study, "axes"), i, entry) good =
         good && add_axis(reader, entry);
-    json_object_foreach(json_object_get(study.root, "models"), model, entry)
+    json_object_foreach(json_object_get(study, "models"), model, entry)
         results_view_add_citation(reader, model, entry);
     if (good) {
         json_t *records = study_journal_read(reader->path);
@@ -212,10 +212,10 @@ bool results_view_read_study(results_reader *reader)
         read_keys(reader);
         for (i = 0; i < reader->view.case_count; i++)
             add_case(reader, i, json_object_get(records, reader->per_case[i].key),
-                     json_object_get(study.root, "docs"));
+                     json_object_get(study, "docs"));
         json_decref(records);
         read_against(reader);
     }
-    results_document_close(&study);
+    json_decref(study);
     return good || refuse(reader, "is not a description of a study");
 }

@@ -2,6 +2,8 @@
 /* Fills the tables of a view from the JSON that a run or a study left. */
 #include "view-tables.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +12,21 @@ const char *results_view_text(results_reader *reader, const json_t *text)
 {
     const char *value = json_string_value(text);
     return value ? memory_arena_text(&reader->arena, value, strlen(value)) : "";
+}
+
+json_t *results_view_read_json(const results_reader *reader, const char *name)
+{
+    int fd = openat(reader->directory, name, O_RDONLY | O_CLOEXEC);
+    FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
+    if (!stream)
+        return NULL;
+    json_t *root = json_loadf(stream, 0, NULL);
+    fclose(stream);
+    errno = 0;
+    if (json_is_object(root))
+        return root;
+    json_decref(root);
+    return NULL;
 }
 
 void *results_view_add_row(results_reader *reader, results_rows *rows, size_t size)

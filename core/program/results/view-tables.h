@@ -3,8 +3,6 @@
 #ifndef RESULTS_VIEW_TABLES_H
 #define RESULTS_VIEW_TABLES_H
 
-#include "document.h"
-
 #include "../study/study.h"
 
 #include <flankfilm/writer.h>
@@ -15,7 +13,7 @@ typedef struct results_rows {
 } results_rows;
 
 typedef struct results_case {
-    json_t *outputs;          /* {name: {unit, value} or {unit, dims, shape, data}}, owned */
+    json_t *outputs; /* {name: {unit, value} or {unit, dims, shape, data or file}}, owned */
     char key[STUDY_KEY_SIZE]; /* of a study: its files are in cases/<key> */
 } results_case;
 
@@ -25,15 +23,17 @@ typedef struct results_reader {
     memory_arena arena;
     const char *path;
     int directory;
-    results_document run;    /* of a single run */
-    results_document arrays; /* of a study: those of the case that was read last */
-    size_t arrays_case;      /* the case of `arrays`; view.case_count: none */
-    results_case *per_case;  /* one for each case of the view */
-    json_t *index;           /* {variable: its index in view.variables} */
-    study_tally tally;       /* of the cases that have run */
+    json_t *arrays;         /* of a study: what arrays.json says of the case that was read last */
+    size_t arrays_case;     /* the case of `arrays`; view.case_count: none */
+    results_case *per_case; /* one for each case of the view */
+    json_t *index;          /* {variable: its index in view.variables} */
+    study_tally tally;      /* of the cases that have run */
     results_rows facts, citations, stages, axes, variables, cases, drawings;
 } results_reader;
 
+/* Reads a file of the directory, or of one below it: an object; NULL with errno, which is 0 when it
+   is none. */
+json_t *results_view_read_json(const results_reader *reader, const char *name);
 const char *results_view_text(results_reader *reader,
                               const json_t *text); /* "" when it is not a text */
 void *results_view_add_row(results_reader *reader, results_rows *rows, size_t size);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "view.h"
+#include "npy.h"
 #include "view-tables.h"
 
 #include <dirent.h>
@@ -29,24 +30,25 @@ static int32_t shape_of(void *ctx, size_t variable, size_t index, size_t shape[4
     return !entry || rank > 4 ? -1 : (int32_t)rank;
 }
 
-/* Returns the document with the arrays of a case; NULL after an error. */
-static const results_document *arrays_of(results_reader *reader, size_t index)
+/* Returns what is known of an array: where its numbers are. NULL after an error. */
+static const json_t *array_of(results_reader *reader, size_t index, const char *variable)
 {
     if (!reader->view.study)
-        return &reader->run;
-    if (reader->arrays_case == index)
-        return &reader->arrays;
-    char *name = memory_print_text("cases/%s/arrays.json", reader->per_case[index].key);
-    results_document_close(&reader->arrays);
-    errno = 0;
-    bool good = results_document_open(&reader->arrays, reader->directory, name);
-    reader->arrays_case = good ? index : reader->view.case_count;
-    if (!good)
-        ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
-                 "flankfilm run with --rerun all writes it anew", "%s/%s cannot be read%s%s",
-                 reader->path, name, errno ? ": " : "", errno ? strerror(errno) : "");
-    free(name);
-    return good ? &reader->arrays : NULL;
+        return json_object_get(reader->per_case[index].outputs, variable);
+    if (reader->arrays_case != index) {
+        char *name = memory_print_text("cases/%s/arrays.json", reader->per_case[index].key);
+        json_decref(reader->arrays);
+        reader->arrays = results_view_read_json(reader, name);
+        reader->arrays_case = reader->arrays ? index : reader->view.case_count;
+        if (!reader->arrays)
+            ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
+                     "flankfilm run with --rerun all writes it anew", "%s/%s cannot be read%s%s",
+                     reader->path, name, errno ? ": " : "", errno ? strerror(errno) : "");
+        free(name);
+        if (!reader->arrays)
+            return NULL;
+    }
+    return json_object_get(json_object_get(reader->arrays, "outputs"), variable);
 }
 
 typedef struct loaded {
@@ -54,30 +56,77 @@ typedef struct loaded {
     double data[];
 } loaded;
 
-/* Reads the numbers of an array; NULL after an error. Each number takes a byte of text at least. */
-static loaded *read_array(results_reader *reader, size_t index, const char *name,
-                          const json_t *entry, double count)
+static loaded *make_loaded(size_t count)
 {
-    const results_document *document = arrays_of(reader, index);
-    if (!document)
+    loaded *made = memory_alloc(sizeof *made + count * sizeof made->data[0]);
+    return made;
+}
+
+/* Reads a list of `count` numbers, with NaN for null. */
+static loaded *read_list(const json_t *data, double count)
+{
+    if (!json_is_array(data) || (double)json_array_size(data) != count)
         return NULL;
-    const json_t *outputs = json_object_get(document->root, "outputs");
-    const json_t *data =
-        json_object_get(reader->view.study ? json_object_get(outputs, name) : entry, "data");
-    bool fits = count <= (double)document->length;
-    loaded *made = memory_alloc(sizeof *made + (fits ? (size_t)count : 0) * sizeof made->data[0]);
-    if (fits && results_document_read_numbers(document, data, (size_t)count, made->data))
-        return made;
-    ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
-             "the numbers of %s in %s cannot be read", name, reader->path);
-    free(made);
-    return NULL;
+    loaded *made = make_loaded((size_t)count);
+    for (size_t i = 0; i < (size_t)count; i++) {
+        const json_t *number = json_array_get(data, i);
+        made->data[i] = json_is_number(number) ? json_number_value(number) : (double)NAN;
+        if (!json_is_number(number) && !json_is_null(number)) {
+            free(made);
+            return NULL;
+        }
+    }
+    return made;
+}
+
+/* Reads the file of an array, which stands beside the one that names it. */
+static loaded *read_file(results_reader *reader, size_t index, const char *file,
+                         const size_t shape[4], uint32_t rank)
+{
+    char why[RESULTS_NPY_WHY] = "that is not the name of a file beside it";
+    const char *key = reader->per_case[index].key;
+    char *name = reader->view.study ? memory_print_text("cases/%s/%s", key, file)
+                                    : memory_print_text("%s", file);
+    bool plain = *file && *file != '.' && !strchr(file, '/');
+    int fd = plain ? results_npy_open(reader->directory, name, shape, rank, why) : -1;
+    size_t count = 1; /* the file has as many numbers, so that they fit */
+    for (uint32_t i = 0; i < rank; i++)
+        count *= shape[i];
+    loaded *made = fd >= 0 ? make_loaded(count) : NULL;
+    if (made && !results_npy_read(fd, made->data, count)) {
+        snprintf(why, sizeof why, "%s", strerror(errno));
+        free(made);
+        made = NULL;
+    }
+    if (!made)
+        ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE, "run the case again",
+                 "%s/%s cannot be read: %s", reader->path, name, why);
+    free(name);
+    return made;
+}
+
+/* Reads the numbers of an array; NULL after an error. */
+static loaded *read_array(results_reader *reader, size_t index, const char *name,
+                          const size_t shape[4], uint32_t rank)
+{
+    const json_t *entry = array_of(reader, index, name);
+    const char *file = json_string_value(json_object_get(entry, "file"));
+    double count = 1;
+    for (uint32_t i = 0; i < rank; i++)
+        count *= (double)shape[i];
+    if (file)
+        return read_file(reader, index, file, shape, rank);
+    loaded *made = read_list(json_object_get(entry, "data"), count);
+    if (!made && (entry || !reader->view.study || reader->arrays))
+        ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
+                 "the numbers of %s in %s cannot be read", name, reader->path);
+    return made;
 }
 
 static loaded *read_scalar(const json_t *entry)
 {
     const json_t *value = json_object_get(entry, "value");
-    loaded *made = memory_alloc(sizeof *made + sizeof made->data[0]);
+    loaded *made = make_loaded(1);
     made->data[0] = json_is_number(value) ? json_number_value(value) : (double)NAN;
     return made;
 }
@@ -88,14 +137,12 @@ static ff_status load(void *ctx, size_t variable, size_t index, ff_array *array)
     const json_t *entry = entry_of(reader, variable, index);
     size_t shape[4] = {0};
     int32_t rank = shape_of(reader, variable, index, shape);
-    double count = 1;
     *array = (ff_array){.data = NULL};
     if (rank < 0)
         return FF_OK;
-    for (int32_t i = 0; i < rank; i++)
-        count *= (double)shape[i];
     const char *name = reader->view.variables[variable]->name;
-    loaded *made = rank ? read_array(reader, index, name, entry, count) : read_scalar(entry);
+    loaded *made =
+        rank ? read_array(reader, index, name, shape, (uint32_t)rank) : read_scalar(entry);
     if (!made)
         return FF_NOCONV;
     memcpy(made->shape, shape, sizeof shape);
@@ -220,8 +267,7 @@ void results_view_close(const ff_view *view)
     for (size_t i = 0; reader->per_case && i < view->case_count; i++)
         json_decref(reader->per_case[i].outputs);
     free(reader->per_case);
-    results_document_close(&reader->run);
-    results_document_close(&reader->arrays);
+    json_decref(reader->arrays);
     json_decref(reader->index);
     if (reader->directory >= 0)
         close(reader->directory);

@@ -17,23 +17,41 @@ typedef struct results_outcome {
     json_t *log; /* messages of the models: [{stage, level, text}] */
 } results_outcome;
 
-/* Writes the files of a run: result.json and the tables. False with an error in the folder's
-   report. */
+/* Arrays of more numbers are not written as text. */
+enum { RESULTS_LONGEST_TEXT = 10000 };
+
+/* Whether a result has a file of its own: a field, or a series that is too long for text. */
+bool results_has_file(const ff_result *result);
+
+/* Where an answer in JSON has arrays: of those in files it says the name, shape, dims and unit. */
+typedef enum {
+    RESULTS_IN_FILES,    /* all that have a file of their own */
+    RESULTS_LONG_ABSENT, /* those that are too long for text are in no file, either */
+    RESULTS_LONG_IN_FILES,
+    RESULTS_ALL_HERE /* none */
+} results_arrays;
+
+/* Writes the files of a run: result.json, the tables and the fields. False with an error in the
+   folder's report. */
 bool results_write_run(const results_outcome *outcome, results_folder *folder);
-/* Writes the files of a case of a study: arrays.json and the tables. False with an error. */
+/* Writes the files of a case of a study: arrays.json, the tables and the fields. False with an
+   error. */
 bool results_write_case(const ff_pipeline *pipeline, const char *directory, ff_report *report);
 
-/* Writes result.json, one JSON object. With details it also says what each stage was made of, and
-   has scalars and series that were computed on the way. */
-void results_write_run_json(const results_outcome *outcome, bool details, FILE *stream);
+/* Writes result.json, one JSON object: what the file asks for, what each stage was made of, and
+   scalars and series that were computed on the way. */
+void results_write_run_json(const results_outcome *outcome, FILE *stream);
+/* Writes the answer of a run, one JSON object with what the file asks for. `directory` is where the
+   results are, or NULL. */
+void results_write_answer(const results_outcome *outcome, const char *directory, bool all_arrays,
+                          FILE *stream);
 /* Writes arrays.json: the "outputs" alone, which are the same whenever and wherever they are
    computed. */
 void results_write_arrays_json(const ff_pipeline *pipeline, FILE *stream);
 
 /*
  * <stage>.csv holds the series along the first dimension of the model's table of outputs,
- * <stage>-<dimension>.csv those along another, <stage>-scalars.csv the scalars, and
- * <stage>-<output>.csv a requested field: a row per first dimension, a column per second one.
+ * <stage>-<dimension>.csv those along another, and <stage>-scalars.csv the scalars.
  */
 void results_write_run_csv(const ff_pipeline *pipeline, results_folder *folder);
 

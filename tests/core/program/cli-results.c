@@ -71,8 +71,8 @@ static void test_files(void)
     outcome r = cli("$F run pair.yaml -o deep/er --set outputs='[wave.field, wave.level]' "
                     "--set wave.count=3 && ls -A deep/er");
     cli_expect("exactly these files", &r,
-               cli_has(r.out, ".flankfilm\nresult.json\nwave-field.csv\nwave-point.csv\n"
-                              "wave-scalars.csv\nwave-x.csv\nwave.csv\n"));
+               cli_has(r.out, ".flankfilm\nresult.json\nwave-point.csv\n"
+                              "wave-scalars.csv\nwave-x.csv\nwave.csv\nwave.field.npy\n"));
     check_true("series", strcmp(cli_read("deep/er/wave.csv"),
                                 "time [s],height [m]\n0,0\n0.001,0.0009588510772\n"
                                 "0.002,0.00168294197\n") == 0);
@@ -80,13 +80,10 @@ static void test_files(void)
                strcmp(cli_read("deep/er/wave-point.csv"), "level [1]\n0\n1\n") == 0);
     check_true("scalars", cli_has(cli_read("deep/er/wave-scalars.csv"),
                                   "name,value,unit\ntotal,0.002641793047,m\ncost,3,1\n"));
-    check_true("field with both axes",
-               cli_has(cli_read("deep/er/wave-field.csv"),
-                       "time [s] \\ x [m],0,1e-05,2e-05,3e-05\n"
-                       "0,0.0006666666667,0.001333333333,0.002,0.002666666667\n0.001,"));
     r = cli("cat deep/er/result.json");
     cli_expect("result.json", &r,
-               r.json && json_array_size(cli_at(r.json, "outputs/wave.field/data")) == 12 &&
+               r.json && !cli_at(r.json, "outputs/wave.field/data") &&
+                   strcmp(cli_text_at(r.json, "outputs/wave.field/file"), "wave.field.npy") == 0 &&
                    json_integer_value(cli_at(r.json, "outputs/wave.field/shape/1")) == 4);
     cli_expect(
         "parameters with origin", &r,
@@ -95,12 +92,41 @@ static void test_files(void)
             strcmp(cli_text_at(r.json, "stages/0/parameters/amplitude/text"), "2 mm") == 0);
 }
 
+/* Arrays of more than 10000 numbers stand in no text. */
+static void test_long(void)
+{
+    const char *args = "run pair.yaml --json --set wave.count=10001 --set "
+                       "outputs=wave.height";
+    char line[400];
+    snprintf(line, sizeof line, "$F %s -o long", args);
+    outcome r = cli(line);
+    cli_expect("a long series is named", &r,
+               r.json && !cli_at(r.json, "outputs/wave.height/data") &&
+                   !strcmp(cli_text_at(r.json, "outputs/wave.height/file"), "wave.height.npy") &&
+                   !strcmp(cli_text_at(r.json, "directory"), "long") && strlen(r.out) < 20000);
+    check_true("and stands in no table", !cli_exists("long/wave.csv"));
+    r = cli("wc -c <long/wave.height.npy; wc -c <long/wave.time.npy; cat long/result.json | wc -c");
+    cli_expect("but in a file, asked for or not", &r, cli_has(r.out, "80136\n80136\n"));
+    snprintf(line, sizeof line, "$F %s", args);
+    r = cli(line);
+    cli_expect("no file without a directory", &r,
+               r.json && json_is_null(cli_at(r.json, "outputs/wave.height/file")) &&
+                   json_is_null(cli_at(r.json, "directory")));
+    snprintf(line, sizeof line, "$F %s --arrays", args);
+    r = cli(line);
+    cli_expect("--arrays", &r,
+               json_array_size(cli_at(r.json, "outputs/wave.height/data")) == 10001);
+    r = cli("$F run pair.yaml --json --set wave.count=10000 --set outputs=wave.height");
+    cli_expect("10000 numbers are printed", &r,
+               json_array_size(cli_at(r.json, "outputs/wave.height/data")) == 10000);
+}
+
 static void test_again(void)
 {
     outcome r = cli("$F run pair.yaml -o again --set outputs='[wave.field]' && "
                     "echo note >again/note.txt && $F run pair.yaml -o again");
     cli_expect("a directory of ours is used again", &r, r.code == 0);
-    cli_expect("nothing of the earlier run is left", &r, !cli_exists("again/wave-field.csv"));
+    cli_expect("nothing of the earlier run is left", &r, !cli_exists("again/wave.field.npy"));
     cli_expect("what is not ours stays", &r, cli_exists("again/note.txt"));
     r = cli("$F run pair.yaml -o again --set wave.end=fail");
     cli_expect("a failed run says so in its directory", &r,
@@ -142,6 +168,7 @@ int main(int argc, char **argv)
     test_json();
     test_summary();
     test_files();
+    test_long();
     test_again();
     test_full_disk();
     test_in_use();

@@ -36,7 +36,7 @@ static const ff_param params[] = {
      .type = FF_INT,
      .preset = "8",
      .min = 1,
-     .max = 4096},
+     .max = 20000},
     {.name = "work", .unit = "s", .doc = "how long to seem busy", .type = FF_REAL, .preset = "0 s"},
     {.name = "end",
      .unit = "",

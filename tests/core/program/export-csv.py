@@ -13,8 +13,7 @@ class Csv(lab.Lab):
 
     def test_run(self):
         self.call("export", "run", "--to", "csv", "-o", "out")
-        json = self.read("run/result.json")
-        outputs = {**json["outputs"], **json["computed"]}
+        outputs = self.outputs("run")
         scalars = self.table("out/scalars.csv")
         self.assertEqual(len(scalars), 1)
         self.assertEqual(float(scalars[0]["sum.sum [m]"]), outputs["sum.sum"]["value"])

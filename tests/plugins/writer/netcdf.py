@@ -26,7 +26,7 @@ class Run(lab.Lab):
         self.json = self.read("run/result.json")
 
     def test_values(self):
-        outputs = {**self.json["outputs"], **self.json["computed"]}
+        outputs = self.outputs("run")
         self.assertIn("wave.time", outputs)
         for name, entry in outputs.items():
             values = self.data[name].values

@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fields stand in .npy files: what is read of one that is not as result.json says is a sentence."""
+import json
+import os
+import shutil
+import struct
+
+import lab
+
+FIELD = "{'descr': '<f8', 'fortran_order': False, 'shape': (9, 10), }"
+
+
+def npy(header=FIELD, numbers=90, version=b"\1\0", order="<"):
+    """The bytes of a file."""
+    text = header.ljust(117) + "\n"
+    return (b"\x93NUMPY" + version + struct.pack("<H", len(text)) + text.encode("ascii") +
+            struct.pack(f"{order}{numbers}d", *range(numbers)))
+
+
+class Fields(lab.Lab):
+    def put(self, data, name="bad"):
+        """A copy of the run with another field."""
+        shutil.rmtree(name, ignore_errors=True)
+        shutil.copytree("run", name)
+        os.remove(f"{name}/wave.field.npy")
+        if data is not None:
+            with open(f"{name}/wave.field.npy", "wb") as file:
+                file.write(data)
+
+    def refused(self, data, sentence):
+        self.put(data)
+        for words in ((), ("--json",)):
+            said = self.call("export", "bad", "--to", "csv", "-o", "out", *words, code=2)
+            self.assertIn("bad/wave.field.npy cannot be read: " + sentence,
+                          json.loads(said)["errors"][0]["message"] if words else said)
+        self.assertFalse(os.path.exists("out/wave-t-x.csv"))
+
+    def test_good(self):
+        self.put(npy())
+        self.call("export", "bad", "--to", "csv", "-o", "good")
+        with open("good/wave-t-x.csv", encoding="utf-8") as file:
+            last = file.read().splitlines()[-1]
+        self.assertTrue(last.endswith(",89"), last)
+        self.put(npy("{'shape':(9,10),'fortran_order':False,'descr':'<f8'}"))
+        self.call("export", "bad", "--to", "csv", "-o", "good")
+
+    def test_not_finite(self):
+        self.put(npy(numbers=88) + struct.pack("<2d", float("inf"), float("nan")))
+        self.call("export", "bad", "--to", "csv", "-o", "good")
+        with open("good/wave-t-x.csv", encoding="utf-8") as file:
+            lines = file.read().splitlines()
+        self.assertTrue(all(line.endswith(",nan") for line in lines[-2:]), lines[-2:])
+
+    def test_missing(self):
+        self.refused(None, "No such file or directory")
+
+    def test_cut_off(self):
+        whole = npy()
+        for length, sentence in ((len(whole) - 1, f"it has {len(whole) - 1} bytes where its shape takes 848"),
+                                 (128, "it has 128 bytes where"), (127, "it ends within its header"),
+                                 (9, "it is not a .npy file"), (0, "it is not a .npy file")):
+            self.refused(whole[:length], sentence)
+        self.refused(whole + b"\0", "it has 849 bytes where its shape takes 848")
+
+    def test_foreign(self):
+        self.refused(b"t,x\n" * 300, "it is not a .npy file")
+        self.refused(npy(version=b"\2\0"), "it is of version 2.0 of the format, not 1.0")
+        self.refused(b"\x93NUMPY\1\0\xff\xff" + bytes(70000), "its header is longer than")
+        self.refused(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (9, 10), }"),
+                     "its numbers are of the type '<f4', not '<f8'")
+        self.refused(npy("nothing"), "its numbers are of the type , not '<f8'")
+
+    def test_big_endian(self):
+        self.refused(npy(FIELD.replace("<", ">"), order=">"), "its numbers are big-endian")
+
+    def test_fortran_order(self):
+        self.refused(npy(FIELD.replace("False", "True")), "its numbers are in Fortran order")
+
+    def test_pickled(self):
+        self.refused(npy(FIELD.replace("<f8", "|O")), "it holds pickled objects, which are never read")
+
+    def test_shape(self):
+        self.refused(npy(FIELD.replace("(9, 10)", "(10, 9)")), "its shape is (10, 9), not (9, 10)")
+        self.refused(npy(FIELD.replace("(9, 10)", "(90,)")), "its shape is (90,), not (9, 10)")
+        self.refused(npy(FIELD.replace("(9, 10)", "(9, 100)")), "its shape is (9, 100), not (9, 10)")
+
+    def test_huge_shape(self):
+        """What result.json says is not believed before the size of the file is known."""
+        self.put(npy(FIELD.replace("(9, 10)", "(4000000000, 4000000000)")))
+        told = self.read("bad/result.json")
+        told["outputs"]["wave.field"]["shape"] = [4000000000, 4000000000]
+        with open("bad/result.json", "w", encoding="utf-8") as file:
+            json.dump(told, file)
+        self.assertIn("where its shape takes", self.call("export", "bad", "--to", "csv", code=2))
+
+    def test_not_a_file(self):
+        self.put(None)
+        os.mkfifo("bad/wave.field.npy")
+        self.assertIn("it is not a file", self.call("export", "bad", "--to", "csv", code=2))
+
+    def test_names(self):
+        """A name in result.json leads nowhere else."""
+        self.put(npy())
+        os.replace("bad/wave.field.npy", "elsewhere.npy")
+        told = self.read("bad/result.json")
+        for name in ("../elsewhere.npy", os.path.abspath("elsewhere.npy"), "", ".hidden"):
+            told["outputs"]["wave.field"]["file"] = name
+            with open("bad/result.json", "w", encoding="utf-8") as file:
+                json.dump(told, file)
+            said = self.call("export", "bad", "--to", "csv", code=2)
+            self.assertIn("is not the name of a file beside it", said)
+
+    def test_of_a_study(self):
+        name = f"study/cases/{self.records()[0]['key']}/wave.field.npy"
+        with open(name, "rb") as file:
+            whole = file.read()
+        with open(name, "wb") as file:
+            file.write(whole[:-8])
+        said = self.call("export", "study", "--to", "csv", "-o", "out", code=2)
+        self.assertIn(name + " cannot be read: it has", said)
+        with open(name, "wb") as file:
+            file.write(whole)
+
+    def test_each_once(self):
+        """No field is in the text of a run, and none in two files."""
+        entries = {k: e for k, e in self.read("run/result.json")["outputs"].items() if "file" in e}
+        self.assertEqual({k: e["file"] for k, e in entries.items()}, {"wave.field": "wave.field.npy"})
+        self.assertEqual([name for name in os.listdir("run") if "field" in name], ["wave.field.npy"])
+
+
+lab.main()
