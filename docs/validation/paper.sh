@@ -14,6 +14,7 @@ trap 'rm -rf "$work"' EXIT
 export FLANKFILM_TEST_PLUGINS="$build/plugins"
 export FLANKFILM_TEST_SOURCE="$here/../.."
 
+. "$here/field.sh"
 run() { # NAME FILE [--set ...]
     name=$1 file=$2
     shift 2
@@ -35,6 +36,13 @@ digest() { # AWK-FILE ...; with what all of them share
     for file; do shift; set -- "$@" -f "$here/$file"; done
     awk -v in_="$work" -v quick="$quick" -v seeds="$seeds" -v stage="$stage" -v parts_of_k="$parts" -f "$here/csv.awk" -f "$here/paper.awk" "$@" < /dev/null
 }
+fields() { # NAME: those of the films as text
+    for npy in "$work/$1"/film*.film.npy "$work/$1"/film*.pressure.npy; do
+        npy=${npy##*/}
+        stage=${npy%%.*} output=${npy#*.}
+        field "$work/$1" "$stage" "${output%.npy}"
+    done
+}
 seeds="2011 2012 2013 2014 2015 2016 2017 2018" # of the surfaces; the first one is drawn
 fields="film.film, film.pressure, film.x, film.roll_angle"
 static="film_static.film, film_static.pressure, film_static.x, film_static.roll_angle"
@@ -45,10 +53,12 @@ rough="film.h_min, film.p_max, film.contact_ratio, film.asperity_load_share, fil
 for point in I II III; do
     at $point $point "$here/paper.yaml"
     at $point $point-fields "$here/paper.yaml" --set "outputs=[$fields, $static]"
+    fields $point-fields
 done
 at I fine "$here/paper.yaml" --set film.cells=1024 --set film.steps=2000 --set 'outputs=[film.h_min, film.roll_angle]'
 at I coarse "$here/paper.yaml" --set film_static.steps=125 --set 'outputs=[film_static.h_min, film_static.roll_angle]'
 at I step "$here/paper.yaml" --set static.load_ramp='0 deg' --set tooth.load_ramp='0 deg' --set "outputs=[$fields, $static]"
+fields step
 run atlas "$here/dynamics.yaml" --set mesh.use=stiffness/load-distribution --set motion.max_period=1
 # harmonics 1 to 3 of this k(t), whole and in parts of their size
 parts="1 0.5 0.35 0.25 0.15"
@@ -71,11 +81,12 @@ for point in I II III; do
         else
             at $point "$name" "$here/paper-rough.yaml" --set flanks.seed="$seed"
         fi
+        fields "$name"
         for field in "$work/$name"/film*-film.csv "$work/$name"/film*-pressure.csv; do
             awk -v point=$point -f "$here/paper-keep.awk" "$work/positions" "$field" > "$work/kept"
             mv "$work/kept" "$field"
         done
-        rm -f "$work/$name/result.json"
+        rm -f "$work/$name"/*.npy
     done
 done
 at I finer "$here/paper-rough.yaml" --set flanks.shortest='5 um' --set film.cells=1024 \
