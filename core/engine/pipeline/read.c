@@ -42,8 +42,10 @@ ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char 
     return NULL;
 }
 
-static void check_top_keys(fe_build *b, const ff_node *root)
+/* False where the stages themselves stand under a misspelt key. */
+static bool check_top_keys(fe_build *b, const ff_node *root)
 {
+    bool good = true;
     for (size_t i = 0; i < root->count; i++) {
         const char *key = root->keys[i];
         const char *near = ff_nearest(key, top_keys, TOP_KEYS);
@@ -52,7 +54,9 @@ static void check_top_keys(fe_build *b, const ff_node *root)
         ff_error(b->report, FF_FAULT_INPUT, root->key_places[i],
                  "keys of your own begin with \"x-\"; stages belong under \"pipeline\"",
                  "unknown key \"%.80s\"%s", key, fe_did_you_mean(b, key, top_keys, TOP_KEYS));
+        good = good && !(near && !strcmp(near, "pipeline"));
     }
+    return good;
 }
 
 static void check_format(fe_build *b, const ff_node *root)
@@ -153,9 +157,11 @@ bool fe_read_stages(fe_build *b, const ff_node *root)
     ff_pipeline *pipeline = b->pipeline;
     fe_arena *arena = &pipeline->memory->arena;
     const ff_node *map = ff_node_get(root, "pipeline");
-    check_top_keys(b, root);
+    bool good = check_top_keys(b, root);
     check_format(b, root);
     read_title(b, root);
+    if (!good)
+        return false;
     if (!map)
         return ff_error(b->report, FF_FAULT_INPUT, root->place, NULL,
                         "the file has no \"pipeline\": a map from names to stages");

@@ -85,6 +85,21 @@ static void request_default(fe_build *b)
     fe_free(feeds);
 }
 
+/* The entry is of a stage that an entry before it has looked for in vain, too. */
+static bool is_missed_again(const fe_build *b, const ff_node *outputs, size_t index)
+{
+    const ff_node *item = outputs->items[index];
+    const char *name;
+    size_t length = item->kind == FF_SCALAR ? strcspn(item->text, ".") : 0, i = 0;
+    if (length == 0 || ff_stage_of(b->pipeline, item->text, &name))
+        return false;
+    while (i < index && (outputs->items[i]->kind != FF_SCALAR ||
+                         strcspn(outputs->items[i]->text, ".") != length ||
+                         strncmp(outputs->items[i]->text, item->text, length) != 0))
+        i++;
+    return i < index;
+}
+
 void fe_request_outputs(fe_build *b, const ff_node *outputs)
 {
     if (!outputs)
@@ -99,5 +114,6 @@ void fe_request_outputs(fe_build *b, const ff_node *outputs)
                  "outputs: the list is empty, so that nothing would run");
     else
         for (size_t i = 0; i < outputs->count; i++)
-            read_request(b, outputs->items[i]);
+            if (!is_missed_again(b, outputs, i))
+                read_request(b, outputs->items[i]);
 }

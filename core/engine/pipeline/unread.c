@@ -182,18 +182,21 @@ static void warn_of_stage(fe_build *b, const ff_stage *stage)
             excuse && *excuse->text ? ": " : "", excuse ? excuse->text : "");
 }
 
-/* What assignments say of a stage that does not run. */
-static void warn_of_assigned(fe_build *b, const ff_stage *stage, const ff_node *node,
+/* What assignments say of a stage that does not run; true: something. */
+static bool warn_of_assigned(fe_build *b, const ff_stage *stage, const ff_node *node,
                              const char *path)
 {
+    bool some = node->kind != FF_MAP && node->rank > b->file_rank;
     for (size_t i = 0; node->kind == FF_MAP && i < node->count; i++)
-        warn_of_assigned(b, stage, node->items[i],
-                         fe_pipeline_print(b->pipeline, "%s.%s", path, node->keys[i]));
-    if (node->kind != FF_MAP && node->rank > b->file_rank)
+        some = warn_of_assigned(b, stage, node->items[i],
+                                fe_pipeline_print(b->pipeline, "%s.%s", path, node->keys[i])) ||
+               some;
+    if (node->kind != FF_MAP && some)
         ff_warn(b->report, node->place,
                 "%s changes nothing: the stage \"%s\" does not run, since no requested output "
                 "needs it",
                 path, stage->name);
+    return some;
 }
 
 static void warn_of_idle(fe_build *b, const ff_node *outputs)
@@ -204,11 +207,12 @@ static void warn_of_idle(fe_build *b, const ff_node *outputs)
         const ff_stage *stage = &b->pipeline->stages[i];
         if (stage->needed || fe_latest_rank(stage->node) < b->file_rank)
             continue; /* what an included file offers may stay unused */
+        if (warn_of_assigned(b, stage, stage->node, stage->name))
+            continue;
         names = fe_join(b->pipeline, names,
                         fe_pipeline_print(b->pipeline, "%s (%s)", stage->name,
                                           fe_place_text(b->pipeline, stage->place)));
         count++;
-        warn_of_assigned(b, stage, stage->node, stage->name);
     }
     if (count > 0)
         ff_warn(b->report, outputs ? outputs->place : FF_NOWHERE,

@@ -88,9 +88,8 @@ static void idle_stages(void)
     check_warning("a stage that does not run", &a, 5, 10, "b (case.yaml:4:3)");
     try_close(&a);
     a = try_build_set(text, "b.share=0.1", false);
-    check_true(
-        "an assignment to it",
-        try_says(&a, FF_WARNING, 1, 9, "b.share changes nothing: the stage \"b\" does not run"));
+    check_warning("an assignment to it", &a, 1, 9,
+                  "b.share changes nothing: the stage \"b\" does not run");
     try_close(&a);
 }
 
@@ -172,6 +171,15 @@ static void names(void)
                   false);
     check_error("a kind that there is not", &a, 3, 12, "did you mean \"toy/source\"?");
     check_true("says all", ff_report_errors(a.report) == 1);
+    try_close(&a);
+    a = try_build("pipelin:\n  a: {use: toy/source, level: 1 mm}\noutputs: [a.level]\n", false);
+    check_error("the stages under a misspelt key", &a, 2, 1, "did you mean \"pipeline\"?");
+    check_true("that is all", ff_report_errors(a.report) == 1);
+    try_close(&a);
+    a = try_build("pipeline:\n  a: {use: toy/source, level: 1 mm}\noutputs: [b.level, b.field]\n",
+                  false);
+    check_error("a stage that is not there", &a, 4, 11, "there is no stage \"b\"");
+    check_true("once", ff_report_errors(a.report) == 1);
     try_close(&a);
 }
 
