@@ -214,7 +214,8 @@ static void warn_of_idle(fe_build *b, const ff_node *outputs)
                                           fe_place_text(b->pipeline, stage->place)));
         count++;
     }
-    if (count > 0)
+    bool chosen = outputs && outputs->rank > b->file_rank; /* for this run, or by a study */
+    if (count > 0 && !chosen)
         ff_warn(b->report, outputs ? outputs->place : FF_NOWHERE,
                 "%s not run, since no requested output needs %s, and what %s in the file changes "
                 "nothing: %s",

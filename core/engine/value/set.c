@@ -176,6 +176,7 @@ bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, cons
 void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node)
 {
     ff_node *root = tree->root, *copy = fe_node_copy(tree, node);
+    fe_node_set_rank(copy, tree->ranks++);
     size_t at = fe_map_find(root, key);
     if (at < root->count)
         root->items[at] = copy;
