@@ -24,7 +24,7 @@ echo "Building the program and its models, which takes one core some two minutes
 step ninja -C build flankfilm $(ninja -C build -t targets all | sed -n 's/^\(plugins\/.*\.so\): .*/\1/p')
 
 # of what the program says here is the part on the films
-said=$(build/flankfilm run configs/li-kahraman-2011.yaml -o results/li-kahraman-2011 "$@")
+said=$(build/flankfilm run configs/li-kahraman-2011.yaml "$@")
 printf '%s\n' "$said" | awk 'BEGIN { RS = ""; ORS = "\n\n" } NR == 1 || /^(Stages|film_static|film)\n/'
 results=${said##*results in }
 cat <<END

@@ -226,7 +226,7 @@ static char *list_run(const ff_pipeline *pipeline)
     return ran;
 }
 
-static void explain(cli_session *session, const cli_options *options)
+static int explain(cli_session *session, const cli_options *options)
 {
     const ff_pipeline *pipeline = session->pipeline;
     json_t *stages = json_array();
@@ -253,7 +253,7 @@ static void explain(cli_session *session, const cli_options *options)
     if (options->json) {
         results_json_print(answer);
         free(ran);
-        return;
+        return code;
     }
     terminal_print_messages(session->report, stderr, terminal_colour(stderr));
     print_plan(pipeline, options->operand, stages);
@@ -264,35 +264,43 @@ static void explain(cli_session *session, const cli_options *options)
         printf("\nthe cases of the study so far: ");
     cli_print_savings(&savings);
     json_decref(answer);
+    return code;
 }
 
-static void confirm(cli_session *session, const cli_options *options)
+/* With --strict a warning is an error of the input. */
+static int confirm(cli_session *session, const cli_options *options)
 {
     size_t stages = session->pipeline->count, cases = session->study ? session->study->count : 1;
+    bool strict = cli_is_strict_about(options, false, session->report);
+    int code = strict ? FF_FAULT_INPUT : EXIT_SUCCESS;
     if (options->json) {
-        json_t *answer = results_json_answer("ok", EXIT_SUCCESS, session->report);
+        json_t *answer = results_json_answer(strict ? "error" : "ok", code, session->report);
         json_object_set_new(answer, "stages", json_integer((json_int_t)stages));
         json_object_set_new(answer, "cases", json_integer((json_int_t)cases));
         json_object_set_new(answer, "study", json_boolean(session->study));
         results_json_print(answer);
-        return;
+        return code;
     }
     terminal_print_messages(session->report, stderr, terminal_colour(stderr)); /* warnings */
+    if (strict) {
+        fprintf(stderr, "--strict: a warning counts as an error\n");
+        return code;
+    }
     printf("%s: ok (%zu stage%s", options->operand, stages, stages == 1 ? "" : "s");
     const char *tried = session->study && session->study->driver
                             ? "; first of %zu cases)\n"
                             : "; %zu cases, each value once)\n";
     printf(session->study ? tried : ")\n", cases);
+    return code;
 }
 
 static int with_session(const cli_options *options, bool everything,
-                        void (*tell)(cli_session *, const cli_options *))
+                        int (*tell)(cli_session *, const cli_options *))
 {
     cli_session session;
     int code = EXIT_SUCCESS;
     if (cli_session_open(&session, options, everything)) {
-        tell(&session, options);
-        code = ff_report_fault(session.report);
+        code = tell(&session, options);
     } else {
         code = cli_refuse(session.report, options, "nothing was run");
     }
@@ -305,10 +313,11 @@ int cli_check(const cli_options *options)
     return with_session(options, true, confirm);
 }
 
-static void resolve(cli_session *session, const cli_options *options)
+static int resolve(cli_session *session, const cli_options *options)
 {
     terminal_print_messages(session->report, stderr, terminal_colour(stderr)); /* warnings */
     cli_print_resolved(session, options);
+    return ff_report_fault(session->report);
 }
 
 int cli_explain(const cli_options *options)

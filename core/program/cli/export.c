@@ -7,6 +7,7 @@
 #include "../report/report.h"
 #include "../results/export-csv.h"
 #include "../results/json.h"
+#include "../results/made.h"
 #include "../results/target.h"
 #include "../results/view.h"
 #include "../terminal/terminal.h"
@@ -133,9 +134,12 @@ static bool write_to(const form *to, ff_instance *writer, const ff_view *view,
 {
     target->path = options->directory ? memory_print_text("%s", options->directory)
                                       : default_path(options->operand, stem, to);
-    return results_target_open(target, !*to->suffix) &&
-           (to->write ? to->write(view, target) : call_writer(writer, view, target)) &&
-           results_target_commit(target);
+    bool good = results_target_open(target, !*to->suffix) &&
+                (to->write ? to->write(view, target) : call_writer(writer, view, target));
+    if (good)
+        results_made_note(options->operand, target->path,
+                          target->part ? target->part : target->path);
+    return good && results_target_commit(target);
 }
 
 static bool run(const cli_options *options, const char *name, const char *stem, ff_engine *engine,

@@ -6,6 +6,7 @@
 #include "summary.h"
 
 #include "../memory/memory.h"
+#include "../results/earlier.h"
 #include "../results/write.h"
 
 #include <stdlib.h>
@@ -20,8 +21,40 @@ static void set_status(results_outcome *outcome)
                                                            : "failed";
 }
 
-/* `directory` is where the results are, or NULL. */
-static void print_outcome(const results_outcome *outcome, const char *directory)
+/* What a run leaves in its directory, and what it found there. */
+typedef struct place {
+    char *directory;        /* NULL: nothing is written */
+    results_folder *folder; /* NULL when there is none */
+    char *replaced;         /* how the inputs differ of the results that are replaced, or NULL */
+    char *removed;          /* what was made of those and is gone, or NULL */
+    bool written;
+} place;
+
+static void print_place(const place *to)
+{
+    putchar('\n');
+    if (to->written && to->replaced && *to->replaced)
+        printf("earlier results of this directory are replaced (%s)\n", to->replaced);
+    if (to->removed && *to->removed)
+        printf("removed there, since it showed those: %s\n", to->removed);
+    if (to->written)
+        printf("results in %s\n", to->directory);
+    else if (to->replaced)
+        printf("the earlier results in %s stay\n", to->directory);
+}
+
+/* Says in the answer what print_place says to people. */
+static void warn_of_replaced(const place *to, ff_report *report)
+{
+    if (to->written && to->replaced && *to->replaced)
+        ff_warn(report, FF_NOWHERE, "earlier results of \"%s\" are replaced (%s)", to->directory,
+                to->replaced);
+    if (to->removed && *to->removed)
+        ff_warn(report, FF_NOWHERE, "removed from \"%s\", since it showed earlier results: %s",
+                to->directory, to->removed);
+}
+
+static void print_outcome(const results_outcome *outcome, const place *to)
 {
     cli_print_summary(outcome);
     fflush(stdout);
@@ -29,14 +62,25 @@ static void print_outcome(const results_outcome *outcome, const char *directory)
         fputc('\n', stderr);
         terminal_print_messages(outcome->report, stderr, terminal_colour(stderr));
     }
-    if (directory)
-        printf("\nresults in %s\n", directory);
-    if (outcome->exit_code != EXIT_SUCCESS)
+    if (to->written || to->replaced)
+        print_place(to);
+    if (ff_report_errors(outcome->report) > 0)
         fprintf(stderr, "the run %s\n", cli_interrupted() ? "was stopped" : "failed");
+    else if (outcome->exit_code != EXIT_SUCCESS)
+        fprintf(stderr, "--strict: a doubtful answer or a warning counts as a failure\n");
 }
 
-static int run_session(cli_session *session, const cli_options *options, results_folder *folder,
-                       const char *directory)
+static void count_doubts(results_outcome *outcome, const cli_options *options)
+{
+    study_judgement judgement = study_judge_pipeline(outcome->pipeline, false);
+    if (outcome->exit_code == EXIT_SUCCESS &&
+        cli_is_strict_about(options, judgement.verdict != FF_GOOD, outcome->report))
+        outcome->exit_code = FF_FAULT_RUN;
+    study_judgement_free(&judgement);
+}
+
+static int run_session(cli_session *session, const cli_options *options, const results_input *input,
+                       place *to)
 {
     cli_progress progress;
     cli_progress_begin(&progress, session->report);
@@ -47,25 +91,43 @@ static int run_session(cli_session *session, const cli_options *options, results
 
     results_outcome outcome = {.pipeline = session->pipeline,
                                .report = session->report,
-                               .file = options->operand,
+                               .input = input,
                                .log = progress.log};
     set_status(&outcome);
-    bool written = folder && results_write_run(&outcome, folder);
+    count_doubts(&outcome, options);
+    bool kept = to->replaced && cli_interrupted(); /* what is there is worth more */
+    to->written =
+        to->folder && !kept && results_write_run(&outcome, to->directory, to->folder, &to->removed);
     set_status(&outcome); /* writing may have failed */
-    if (options->json)
-        results_write_answer(&outcome, written ? directory : NULL,
+    count_doubts(&outcome, options);
+    if (options->json) {
+        warn_of_replaced(to, session->report);
+        results_write_answer(&outcome, to->written ? to->directory : NULL,
                              cli_option(options, "arrays") != NULL, terminal_answer());
-    else
-        print_outcome(&outcome, written ? directory : NULL);
+    } else {
+        print_outcome(&outcome, to);
+    }
     json_decref(progress.log);
     return outcome.exit_code;
+}
+
+/* False after an error. */
+static bool open_place(place *to, const results_input *input, ff_report *report)
+{
+    if (!to->directory)
+        return true;
+    to->folder = results_folder_open(to->directory, report);
+    return to->folder && results_earlier_check(to->directory, input, &to->replaced, report);
 }
 
 int cli_run(const cli_options *options)
 {
     cli_session session;
-    results_folder *folder = NULL;
-    char *directory = NULL;
+    place to = {.directory = NULL};
+    results_input input = {.file = options->operand,
+                           .sets = options->sets,
+                           .set_count = options->set_count,
+                           .replace = cli_option(options, "replace") != NULL};
     int code;
     bool good = cli_session_open(&session, options, false);
     if (good && session.study) {
@@ -76,16 +138,18 @@ int cli_run(const cli_options *options)
     if (good && cli_option(options, "executor"))
         good = ff_error(session.report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                         "%s has no study: there is nothing to spread", options->operand);
-    if (options->directory)
-        directory = memory_print_text("%s", options->directory);
-    else if (!options->json)
-        directory = cli_default_directory(options->operand);
-    if (good && (!directory || (folder = results_folder_open(directory, session.report))))
-        code = run_session(&session, options, folder, directory);
+    if (options->directory || !options->json)
+        to.directory = cli_run_directory(options);
+    input.pipeline = session.pipeline;
+    input.key = good ? results_input_key(session.pipeline) : 0;
+    if (good && open_place(&to, &input, session.report))
+        code = run_session(&session, options, &input, &to);
     else
         code = cli_refuse(session.report, options, "nothing was run");
-    results_folder_free(folder);
-    free(directory);
+    results_folder_free(to.folder);
+    free(to.replaced);
+    free(to.removed);
+    free(to.directory);
     cli_session_close(&session);
     return code;
 }

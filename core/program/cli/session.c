@@ -5,7 +5,9 @@
 
 #include "../memory/memory.h"
 #include "../results/json.h"
+#include "../study/hash.h"
 
+#include <ctype.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -140,7 +142,7 @@ ff_engine *cli_engine_new(const cli_options *options)
     return memory_require(engine);
 }
 
-char *cli_default_directory(const char *file)
+static char *default_directory(const char *file)
 {
     const char *slash = strrchr(file, '/');
     const char *name = slash ? slash + 1 : file;
@@ -153,7 +155,51 @@ char *cli_default_directory(const char *file)
 char *cli_study_directory(const cli_options *options)
 {
     return options->directory ? memory_print_text("%s", options->directory)
-                              : cli_default_directory(options->operand);
+                              : default_directory(options->operand);
+}
+
+/* Adds ",duty.speed=3000rpm" to a name, in characters that no shell minds. */
+static void add_setting(FILE *name, const char *set)
+{
+    static const char prefix[] = "pipeline.";
+    if (!strncmp(set, prefix, sizeof prefix - 1))
+        set += sizeof prefix - 1;
+    putc(',', name);
+    for (; *set; set++)
+        if (isalnum((unsigned char)*set) || strchr("._+=-", *set))
+            putc(*set, name);
+        else if (*set != ' ')
+            putc('-', name);
+}
+
+char *cli_run_directory(const cli_options *options)
+{
+    enum { LONGEST = 160 };
+    char *base = cli_study_directory(options), *name = NULL;
+    size_t length = 0, start = strlen(base);
+    if (options->directory)
+        return base;
+    FILE *stream = memory_require(open_memstream(&name, &length));
+    uint64_t hash = STUDY_HASH_START;
+    fputs(base, stream);
+    for (size_t i = 0; i < options->set_count; i++) {
+        add_setting(stream, options->sets[i]);
+        hash = study_hash_text(hash, options->sets[i]);
+    }
+    fclose(stream);
+    free(base);
+    if (length <= start + LONGEST)
+        return name;
+    char *cut = memory_print_text("%.*s,%08x", (int)start + LONGEST, name, (unsigned)hash);
+    free(name);
+    return cut;
+}
+
+bool cli_is_strict_about(const cli_options *options, bool doubtful, const ff_report *report)
+{
+    for (size_t i = 0; i < ff_report_count(report); i++)
+        doubtful = doubtful || ff_report_at(report, i)->severity == FF_WARNING;
+    return doubtful && cli_option(options, "strict");
 }
 
 int cli_refuse(const ff_report *report, const cli_options *options, const char *ending)

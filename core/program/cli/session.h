@@ -23,10 +23,15 @@ bool cli_session_open(cli_session *session, const cli_options *options, bool eve
 bool cli_choose_models(cli_session *session);
 void cli_session_close(cli_session *session);
 
-/* results/<name of the file without its ending>, freed by the caller. */
-char *cli_default_directory(const char *file);
-/* Where the results of a study are, freed by the caller. */
+/* Where the results of a run are: -o, or results/<name of the file without its ending>, with what
+   --set says behind it, so that a variant stands beside what it varies. Freed by the caller. */
+char *cli_run_directory(const cli_options *options);
+/* Where those of a study are, whose directory keeps the cases of all variants. Freed by the caller.
+ */
 char *cli_study_directory(const cli_options *options);
+
+/* Whether --strict is given and something was doubtful or warned of. */
+bool cli_is_strict_about(const cli_options *options, bool doubtful, const ff_report *report);
 
 /* Prints the errors, as JSON or with `ending` below them, and returns their exit code. */
 int cli_refuse(const ff_report *report, const cli_options *options, const char *ending);

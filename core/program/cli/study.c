@@ -6,6 +6,7 @@
 
 #include "../memory/memory.h"
 #include "../results/json.h"
+#include "../results/made.h"
 #include "../results/write.h"
 
 #include <flankfilm/executor.h>
@@ -26,6 +27,12 @@ static size_t count_cores(void)
 typedef struct teller {
     const cli_session *session;
     const cli_options *options;
+    results_input input;
+    const char *directory;
+    bool driven; /* the driver of the study, when it has one, has run */
+    bool entered;
+    char *replaced; /* how the inputs differ of what earlier runs left, or NULL */
+    char *removed;  /* what was made of that and is gone, or NULL */
     bool terminal;
     double told; /* s into the run */
 } teller;
@@ -49,12 +56,25 @@ static void tell_progress(void *ctx, const study_counters *counters)
 static void describe(void *ctx, const study_definition *study, const study_tally *tally, FILE *out)
 {
     const teller *t = ctx;
-    const results_study of = {.file = t->options->operand,
-                              .sets = (const char *const *)t->options->sets,
-                              .set_count = t->options->set_count,
-                              .pipeline = t->session->pipeline,
-                              .engine = t->session->engine};
+    const results_study of = {.input = &t->input, .engine = t->session->engine};
     results_write_study_json(&of, study, tally, out);
+}
+
+/* A table stands for the run that wrote it: until this one ends there is none. The cases stay in
+   the journal, whatever the inputs. A driver comes here with each batch of its cases. */
+static bool enter(void *ctx, ff_report *report)
+{
+    teller *t = ctx;
+    if (t->entered)
+        return true;
+    if (!results_earlier_check_study(t->directory, &t->input, &t->replaced, report))
+        return false;
+    char *table = memory_print_text("%s/table.csv", t->directory);
+    unlink(table);
+    free(table);
+    t->removed = results_made_remove(t->directory);
+    t->entered = true;
+    return true;
 }
 
 /* A line of the study's driver. */
@@ -122,6 +142,13 @@ json_t *cli_json_savings(const study_reuse_counts *savings)
                      savings->saved);
 }
 
+/* Its driver has not run: these are the cases that were known. */
+static void tell_rest(const study_definition *study)
+{
+    printf("these are %s; the rest is done by a run in one process, which takes them over\n",
+           study_cases(study));
+}
+
 /* The last line. Of a study whose number of cases its driver leaves open, that is not told. */
 static void tell_verdicts(const study_definition *study, const study_counters *counters)
 {
@@ -140,17 +167,25 @@ static void tell_verdicts(const study_definition *study, const study_counters *c
     free(verdicts);
 }
 
-static void tell_end(const study_definition *study, const study_counters *counters, bool good,
-                     const char *directory, ff_report *report)
+static void tell_end(const teller *t, const study_counters *counters, bool good, ff_report *report)
 {
+    const study_definition *study = t->session->study;
+    const char *directory = t->directory;
     char *files = study->driver ? study_files(study) : memory_print_text("%s", "");
     terminal_print_messages(report, stderr, terminal_colour(stderr));
     cli_print_savings(&counters->savings);
+    if (t->replaced)
+        printf("the table of an earlier run is replaced (%s); its cases stay in the journal\n",
+               t->replaced);
+    if (t->removed && *t->removed)
+        printf("removed, since it showed earlier results: %s\n", t->removed);
     if (good && *files)
         printf("results in %s: %stable.csv\n", directory, files);
     else if (good)
         printf("results in %s/table.csv\n", directory);
     free(files);
+    if (good && study->driver && !t->driven)
+        tell_rest(study);
     tell_verdicts(study, counters);
 }
 
@@ -182,21 +217,39 @@ static bool settle_driver(const study_run *run, bool *driven, ff_report *report)
                     "costs are measured, one case at a time: it cannot be spread");
 }
 
-/* Its driver has not run: these are the cases that were known. */
-static void tell_rest(const study_definition *study)
+/* The files of its driver go when its cases change, as what was made of results does. */
+static void note_files(const study_definition *study, const char *directory)
 {
-    printf("these are %s; the rest is done by a run in one process, which takes them over\n",
-           study_cases(study));
+    char *files = study_files(study), *rest = NULL;
+    for (char *name = strtok_r(files, ", ", &rest); name; name = strtok_r(NULL, ", ", &rest)) {
+        char *path = memory_print_text("%s/%s", directory, name);
+        results_made_note(directory, path, path);
+        free(path);
+    }
+    free(files);
 }
 
 int cli_run_study(cli_session *session, const cli_options *options)
 {
     char *directory = cli_study_directory(options);
+    char input[20];
     study_run run = run_of(session, options, directory);
-    teller t = {.session = session, .options = options, .terminal = isatty(STDERR_FILENO) != 0};
+    teller t = {.session = session,
+                .options = options,
+                .input = {.file = options->operand,
+                          .sets = options->sets,
+                          .set_count = options->set_count,
+                          .pipeline = session->pipeline,
+                          .key = results_input_key(session->pipeline),
+                          .replace = cli_option(options, "replace") != NULL},
+                .directory = directory,
+                .terminal = isatty(STDERR_FILENO) != 0};
+    snprintf(input, sizeof input, "%016llx", (unsigned long long)t.input.key);
+    run.input = input;
     study_counters counters = {.total = 0};
     const void *table;
     run.progress = options->json ? NULL : tell_progress;
+    run.enter = enter;
     run.describe = describe;
     run.say = say;
     run.ctx = &t;
@@ -210,11 +263,13 @@ int cli_run_study(cli_session *session, const cli_options *options)
         return code;
     }
     const study_definition *study = session->study;
-    bool driven, settled = settle_driver(&run, &driven, session->report);
+    bool settled = settle_driver(&run, &t.driven, session->report), driven = t.driven;
     bool good = settled && (driven ? study_drive(&run, &counters, session->report)
                                    : study_execute(&run, &counters, session->report));
     int verdict = driven ? study_verdict(study) : -1;
     bool bad = verdict < 0 ? counters.failed > 0 : verdict == FF_BAD;
+    bad = bad ||
+          cli_is_strict_about(options, counters.tally.counts[FF_DOUBTFUL] > 0, session->report);
     int code = !good ? ff_report_fault(session->report) : bad ? CLI_EXIT_CASES : EXIT_SUCCESS;
     if (t.terminal && run.progress)
         fputs("\r\033[K", stderr);
@@ -223,13 +278,15 @@ int cli_run_study(cli_session *session, const cli_options *options)
     else if (counters.leads && options->json)
         answer_end(study, &counters, code, directory, session->report);
     else if (counters.leads)
-        tell_end(study, &counters, good, directory, session->report);
+        tell_end(&t, &counters, good, session->report);
     else
         terminal_print_messages(session->report, stderr, terminal_colour(stderr));
-    if (study->driver && !driven && good && counters.leads && !options->json)
-        tell_rest(study);
+    if (good && driven)
+        note_files(study, directory);
     ff_instance_close(run.executor);
     study_tally_free(&counters.tally);
+    free(t.replaced);
+    free(t.removed);
     free(directory);
     return code;
 }

@@ -215,7 +215,7 @@ void cli_print_summary(const results_outcome *outcome)
     const ff_pipeline *pipeline = outcome->pipeline;
     paper page = {.colour = terminal_colour(stdout)};
     char title[400];
-    ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : outcome->file);
+    ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : outcome->input->file);
     paint(&page, "1", title);
     putchar('\n');
     page.heading = "Stages";

@@ -12,11 +12,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { LONGEST_NAME = 255 };
+enum { LONGEST_NAME = 255, LONGEST_PART = LONGEST_NAME + 20 };
 
 static const char manifest[] = ".flankfilm";
 static const char manifest_head[] = "flankfilm result directory; its files:\n";
-static const char part[] = ".part";
+static const char head[] = ".flankfilm.", part[] = ".part"; /* around a temporary name */
 
 typedef struct entry {
     char *name;
@@ -76,8 +76,8 @@ static void note_failure(results_folder *folder, const char *name)
 /* Opens the temporary file of `name`. */
 static FILE *open_part(results_folder *folder, const char *name)
 {
-    char temporary[LONGEST_NAME + sizeof part];
-    snprintf(temporary, sizeof temporary, "%s%s", name, part);
+    char temporary[LONGEST_PART];
+    snprintf(temporary, sizeof temporary, "%s%s%s", head, name, part);
     int fd = openat(folder->fd, temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     folder->writing = name;
     folder->stream = fd < 0 ? NULL : fdopen(fd, "w");
@@ -102,8 +102,8 @@ static void close_part(results_folder *folder)
 /* Gives the temporary file its name, unless something failed. */
 static void rename_part(results_folder *folder, const char *name)
 {
-    char temporary[LONGEST_NAME + sizeof part];
-    snprintf(temporary, sizeof temporary, "%s%s", name, part);
+    char temporary[LONGEST_PART];
+    snprintf(temporary, sizeof temporary, "%s%s%s", head, name, part);
     const entry *at = find_entry(folder, name);
     if (!folder->failed && at && at->path && !results_file_sync(at->path))
         note_failure(folder, name);
@@ -125,7 +125,7 @@ static void write_manifest(results_folder *folder)
 /* Reads the names of the earlier results; false when the directory has no manifest of ours. */
 static bool read_manifest(results_folder *folder)
 {
-    int fd = openat(folder->fd, manifest, O_RDONLY | O_CLOEXEC);
+    int fd = folder->fd < 0 ? -1 : openat(folder->fd, manifest, O_RDONLY | O_CLOEXEC);
     FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
     if (!stream)
         return false;
@@ -140,6 +140,14 @@ static bool read_manifest(results_folder *folder)
     return ours;
 }
 
+/* Whether it is a temporary name. */
+static bool is_part(const char *name)
+{
+    size_t length = strlen(name), tail = sizeof part - 1;
+    return strncmp(name, head, sizeof head - 1) == 0 && length > tail &&
+           strcmp(name + length - tail, part) == 0;
+}
+
 /* Counts the files in the directory, without the temporary ones when those are removed. */
 static size_t count_files(const results_folder *folder, bool remove_parts)
 {
@@ -147,14 +155,11 @@ static size_t count_files(const results_folder *folder, bool remove_parts)
     DIR *directory = opendir(folder->path);
     const struct dirent *item;
     while (directory && (item = readdir(directory))) {
-        size_t length = strlen(item->d_name), tail = sizeof part - 1;
-        bool is_part = length > tail && strcmp(item->d_name + length - tail, part) == 0;
-        if (remove_parts && is_part)
+        if (is_part(item->d_name) && remove_parts)
             unlinkat(folder->fd, item->d_name, 0);
         else
             count += strcmp(item->d_name, ".") != 0 && strcmp(item->d_name, "..") != 0 &&
-                     strcmp(item->d_name, ".flankfilm.part") !=
-                         0; /* a run that was killed may have left it */
+                     !is_part(item->d_name); /* a run that was killed may have left it */
     }
     if (directory)
         closedir(directory);
@@ -239,12 +244,13 @@ FILE *results_folder_begin(results_folder *folder, const char *stem, const char 
 const char *results_folder_path(results_folder *folder, const char *name)
 {
     size_t length = strlen(name);
-    if (length == 0 || length >= LONGEST_NAME - sizeof part || name[0] == '.' || strchr(name, '/'))
+    if (length == 0 || length >= LONGEST_NAME - sizeof head - sizeof part || name[0] == '.' ||
+        strchr(name, '/'))
         return NULL;
     entry *made = add_entry(folder, name);
     made->fresh = true;
     if (!made->path)
-        made->path = memory_print_text("%s/%s%s", folder->path, name, part);
+        made->path = memory_print_text("%s/%s%s%s", folder->path, head, name, part);
     return made->path;
 }
 
@@ -263,6 +269,12 @@ static void remove_stale(results_folder *folder)
         }
     }
     folder->count = kept;
+}
+
+bool results_folder_end(results_folder *folder)
+{
+    close_part(folder);
+    return !folder->failed;
 }
 
 /* At any moment the manifest names all result files that are there, and the file that was begun
@@ -285,4 +297,22 @@ bool results_folder_commit(results_folder *folder)
     remove_stale(folder);
     write_manifest(folder);
     return !folder->failed;
+}
+
+bool results_folder_remove(const char *path)
+{
+    results_folder folder = {.path = memory_print_text("%s", path),
+                             .fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
+    bool ours = read_manifest(&folder);
+    for (size_t i = 0; ours && i < folder.count; i++)
+        unlinkat(folder.fd, folder.entries[i].name, 0);
+    if (ours)
+        unlinkat(folder.fd, manifest, 0);
+    for (size_t i = 0; i < folder.count; i++)
+        free(folder.entries[i].name);
+    free(folder.entries);
+    free(folder.path);
+    if (folder.fd >= 0)
+        close(folder.fd);
+    return ours && rmdir(path) == 0;
 }

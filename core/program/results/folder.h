@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A result directory. It is ours when it holds ".flankfilm", which lists the result files in it.
- * All files of a run are written under temporary names, then renamed together; files of an earlier
- * run that the new one does not write are removed. Anything else in it is left alone. The file that
- * was begun last goes first and comes last: where it is, all others are, and belong to it.
+ * All files of a run are written under temporary names, ".flankfilm.<name>.part", then renamed
+ * together; files of an earlier run that the new one does not write are removed. The file that was
+ * begun last is removed first and gets its name last: a directory of ours without it is of a run
+ * that was broken off. Anything else in it is left alone.
  */
 #ifndef RESULTS_FOLDER_H
 #define RESULTS_FOLDER_H
@@ -34,8 +35,14 @@ const char *results_folder_path(results_folder *folder, const char *name);
 /* Forces a file to the disk. */
 bool results_file_sync(const char *path);
 
+/* Ends the last file. False, with an error in the report, when one could not be written. */
+bool results_folder_end(results_folder *folder);
+/* Removes the result files in a directory of ours, and the directory when nothing else is in it.
+   False when it is still there. */
+bool results_folder_remove(const char *path);
+
 /* Gives the files their names. False, with an error in the report, when one could not be written:
-   then the earlier results are still in place. */
+   then the earlier results are still in place, unless it was a rename that failed. */
 bool results_folder_commit(results_folder *folder);
 
 #endif

@@ -12,7 +12,9 @@
 
 json_t *results_json_text(const char *text)
 {
-    json_t *string = text ? json_string(text) : json_null();
+    if (!text)
+        return json_null();
+    json_t *string = json_string(text);
     if (string)
         return string;
     size_t size = strlen(text) + 1;
@@ -23,9 +25,24 @@ json_t *results_json_text(const char *text)
     return string;
 }
 
+json_t *results_json_key(uint64_t key)
+{
+    char text[20];
+    snprintf(text, sizeof text, "%016llx", (unsigned long long)key);
+    return json_string(text);
+}
+
 static json_t *number_or_null(uint32_t number)
 {
     return number ? json_integer(number) : json_null();
+}
+
+static json_t *describe_message(const ff_place *place, const char *text, const char *hint)
+{
+    return json_pack("{s:o, s:o, s:o, s:o, s:o}", "file",
+                     results_json_text(place->source ? place->source->name : NULL), "line",
+                     number_or_null(place->line), "column", number_or_null(place->column),
+                     "message", results_json_text(text), "hint", results_json_text(hint));
 }
 
 static json_t *list_messages(const ff_report *report, ff_severity severity)
@@ -33,15 +50,9 @@ static json_t *list_messages(const ff_report *report, ff_severity severity)
     json_t *list = json_array();
     for (size_t i = 0; i < ff_report_count(report); i++) {
         const ff_message *message = ff_report_at(report, i);
-        const ff_place *place = &message->place;
         if (message->severity == severity)
-            json_array_append_new(
-                list,
-                json_pack("{s:o, s:o, s:o, s:o, s:o}", "file",
-                          results_json_text(place->source ? place->source->name : NULL), "line",
-                          number_or_null(place->line), "column", number_or_null(place->column),
-                          "message", results_json_text(message->text), "hint",
-                          results_json_text(message->hint)));
+            json_array_append_new(list,
+                                  describe_message(&message->place, message->text, message->hint));
     }
     return list;
 }
@@ -55,6 +66,24 @@ json_t *results_json_answer(const char *status, int code, const ff_report *repor
         json_object_set_new(answer, "warnings", list_messages(report, FF_WARNING));
     }
     return answer;
+}
+
+void results_json_add_doubts(json_t *answer, const ff_pipeline *pipeline)
+{
+    json_t *list = json_object_get(answer, "warnings");
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[pipeline->order[i]];
+        for (size_t k = 0; k < stage->quality_count; k++) {
+            const ff_quality *line = &stage->quality[k];
+            if (line->verdict != FF_DOUBTFUL)
+                continue;
+            char *text = memory_print_text("%s: doubtful: %s is %.3g, held to %.3g%s%s",
+                                           stage->name, line->name, line->value, line->limit,
+                                           line->text ? ": " : "", line->text ? line->text : "");
+            json_array_append_new(list, describe_message(&stage->place, text, NULL));
+            free(text);
+        }
+    }
 }
 
 void results_json_print(json_t *object)

@@ -10,11 +10,16 @@
 /* The digits of every number: 17 would mostly show rounding errors. */
 enum { RESULTS_JSON_DIGITS = 12 };
 
+json_t *results_json_key(uint64_t key);      /* 16 hexadecimal digits */
 json_t *results_json_text(const char *text); /* null for NULL; what is not UTF-8 is replaced */
 
 /* {"flankfilm": version, "status": status, "exit": code}, the start of every answer; with the
    "errors" and "warnings" of the report, unless that is NULL. */
 json_t *results_json_answer(const char *status, int code, const ff_report *report);
+
+/* Adds the lines of a pipeline that are doubtful to the "warnings" of an answer, each at the place
+   of its stage. */
+void results_json_add_doubts(json_t *answer, const ff_pipeline *pipeline);
 
 /* Prints the object as the answer and frees it. */
 void results_json_print(json_t *object);

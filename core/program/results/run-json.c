@@ -171,11 +171,31 @@ static json_t *describe_stage(const ff_pipeline *pipeline, const ff_stage *stage
     return entry;
 }
 
+static void add_judgement(json_t *head, const results_outcome *outcome)
+{
+    bool failed = strcmp(outcome->status, "ok") != 0;
+    study_judgement judgement = study_judge_pipeline(outcome->pipeline, failed);
+    study_judgement_add(&judgement, head);
+    study_judgement_free(&judgement);
+    results_json_add_doubts(head, outcome->pipeline);
+}
+
+static void add_input(json_t *head, const results_input *input)
+{
+    json_t *sets = json_array();
+    for (size_t i = 0; i < input->set_count; i++)
+        json_array_append_new(sets, results_json_text(input->sets[i]));
+    json_object_set_new(head, "facts", results_json_facts(input->file));
+    json_object_set_new(head, "key", results_json_key(input->key));
+    json_object_set_new(head, "sets", sets);
+}
+
 static json_t *describe_head(const results_outcome *outcome)
 {
     json_t *head = results_json_answer(outcome->status, outcome->exit_code, outcome->report);
     json_object_set_new(head, "title", results_json_text(outcome->pipeline->title));
-    json_object_set_new(head, "file", results_json_text(outcome->file));
+    add_judgement(head, outcome);
+    json_object_set_new(head, "file", results_json_text(outcome->input->file));
     return head;
 }
 
@@ -191,7 +211,7 @@ void results_write_run_json(const results_outcome *outcome, FILE *stream)
 {
     const ff_pipeline *pipeline = outcome->pipeline;
     json_t *all = describe_head(outcome);
-    json_object_set_new(all, "facts", results_json_facts(outcome->file));
+    add_input(all, outcome->input);
     json_object_set_new(all, "outputs", describe_outputs(pipeline, true, RESULTS_IN_FILES));
     json_object_set_new(all, "computed", describe_outputs(pipeline, false, RESULTS_IN_FILES));
     json_object_set_new(all, "stages", describe_stages(pipeline, true));

@@ -72,7 +72,7 @@ static json_t *describe_axes(const results_study *of, const study_definition *st
             json_array_append_new(words, results_json_text(study_varied_value(varied, i)));
         json_t *axis = json_pack("{s:o, s:I, s:o}", "path", results_json_text(varied->path),
                                  "dimension", (json_int_t)varied->axis, "words", words);
-        bool is_number = find_param(of->pipeline, varied->path, &row, &unit);
+        bool is_number = find_param(of->input->pipeline, varied->path, &row, &unit);
         json_t *name = is_number ? si_unit(unit) : NULL;
         json_t *values =
             name ? numbers_in_si(varied, study->points[varied->axis], row, unit) : NULL;
@@ -135,14 +135,15 @@ void results_write_study_json(const results_study *of, const study_definition *s
     json_t *lengths = json_array(), *sets = json_array(), *docs = json_object();
     for (size_t i = 0; i < study->axis_count; i++)
         json_array_append_new(lengths, json_integer((json_int_t)study->points[i]));
-    for (size_t i = 0; i < of->set_count; i++)
-        json_array_append_new(sets, results_json_text(of->sets[i]));
-    json_t *all =
-        json_pack("{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title",
-                  results_json_text(of->pipeline->title), "facts", results_json_facts(of->file),
-                  "sets", sets, "lengths", lengths, "axes", describe_axes(of, study), "stages",
-                  describe_stages(of->pipeline, docs), "models", list_other_models(of, study));
+    for (size_t i = 0; i < of->input->set_count; i++)
+        json_array_append_new(sets, results_json_text(of->input->sets[i]));
+    json_t *all = json_pack(
+        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title",
+        results_json_text(of->input->pipeline->title), "facts", results_json_facts(of->input->file),
+        "sets", sets, "lengths", lengths, "axes", describe_axes(of, study), "stages",
+        describe_stages(of->input->pipeline, docs), "models", list_other_models(of, study));
     json_object_set_new(all, "docs", docs);
+    json_object_set_new(all, "key", results_json_key(of->input->key));
     if (tally)
         study_tally_describe(tally, all);
     json_dumpf(all, out, JSON_COMPACT | JSON_REAL_PRECISION(17));

@@ -85,8 +85,8 @@ static void read_keys(results_reader *reader)
 }
 
 /* Finds the cases of an unfinished study by what their records assign; a later record replaces an
-   earlier one. */
-static void match_records(results_reader *reader, json_t *records)
+   earlier one. Records of a file that has been changed since are of other cases. */
+static void match_records(results_reader *reader, json_t *records, const json_t *input)
 {
     const char *key;
     json_t *record;
@@ -96,6 +96,9 @@ static void match_records(results_reader *reader, json_t *records)
         if (number < 1 || number > reader->view.case_count || strlen(key) >= STUDY_KEY_SIZE)
             continue;
         results_case *of = &reader->per_case[number - 1];
+        const json_t *own = json_object_get(record, "input");
+        if (input && own && !json_equal(input, own))
+            continue;
         json_t *set = assignments_of(reader, number - 1);
         if (json_equal(set, json_object_get(record, "set")))
             snprintf(of->key, sizeof of->key, "%s", key);
@@ -208,7 +211,7 @@ bool results_view_read_study(results_reader *reader)
     if (good) {
         json_t *records = study_journal_read(reader->path);
         reader->per_case = memory_alloc(reader->view.case_count * sizeof *reader->per_case);
-        match_records(reader, records);
+        match_records(reader, records, json_object_get(study, "key"));
         read_keys(reader);
         for (i = 0; i < reader->view.case_count; i++)
             add_case(reader, i, json_object_get(records, reader->per_case[i].key),

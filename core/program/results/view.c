@@ -238,9 +238,12 @@ static bool read_directory(results_reader *reader)
     }
     if (faccessat(reader->directory, "result.json", F_OK, 0) == 0)
         return results_view_read_run(reader);
+    bool begun = faccessat(reader->directory, ".flankfilm", F_OK, 0) == 0;
     return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
-                    "name the directory that a run has written",
-                    "\"%s\" holds no results of flankfilm", path);
+                    begun ? "run it again" : "name the directory that a run has written",
+                    begun ? "the run that writes \"%s\" has not ended, or was broken off"
+                          : "\"%s\" holds no results of flankfilm",
+                    path);
 }
 
 const ff_view *results_view_open(const char *directory, ff_report *report)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "write.h"
+#include "made.h"
 #include "npy.h"
 
 #include "../memory/memory.h"
@@ -30,13 +31,17 @@ static void write_arrays(const ff_pipeline *pipeline, results_folder *folder)
     }
 }
 
-bool results_write_run(const results_outcome *outcome, results_folder *folder)
+bool results_write_run(const results_outcome *outcome, const char *directory,
+                       results_folder *folder, char **removed)
 {
     results_write_run_csv(outcome->pipeline, folder);
     write_arrays(outcome->pipeline, folder);
     FILE *stream = results_folder_begin(folder, "result", ".json");
     if (stream)
         results_write_run_json(outcome, stream);
+    if (!results_folder_end(folder))
+        return results_folder_commit(folder); /* which clears up */
+    *removed = results_made_remove(directory);
     return results_folder_commit(folder);
 }
 

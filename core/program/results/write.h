@@ -4,6 +4,7 @@
 #define RESULTS_WRITE_H
 
 #include "../study/study.h"
+#include "earlier.h"
 #include "folder.h"
 
 #include <jansson.h>
@@ -11,7 +12,7 @@
 typedef struct results_outcome {
     const ff_pipeline *pipeline;
     const ff_report *report;
-    const char *file;   /* as the user named it */
+    const results_input *input;
     const char *status; /* "ok", "failed", "stopped", "error" */
     int exit_code;
     json_t *log; /* messages of the models: [{stage, level, text}] */
@@ -31,9 +32,11 @@ typedef enum {
     RESULTS_ALL_HERE /* none */
 } results_arrays;
 
-/* Writes the files of a run: result.json, the tables and the fields. False with an error in the
-   folder's report. */
-bool results_write_run(const results_outcome *outcome, results_folder *folder);
+/* Writes the files of a run to the folder in a directory: result.json, the tables and the fields.
+   Sets `removed` to the names of what was made of earlier results there and is gone with them, to
+   be freed. False with an error in the folder's report. */
+bool results_write_run(const results_outcome *outcome, const char *directory,
+                       results_folder *folder, char **removed);
 /* Writes the files of a case of a study: arrays.json, the tables and the fields. False with an
    error. */
 bool results_write_case(const ff_pipeline *pipeline, const char *directory, ff_report *report);
@@ -72,10 +75,7 @@ const ff_stage *results_stage_of(const ff_pipeline *pipeline, const ff_result *r
 
 /* What a study is made of, for study.json. */
 typedef struct results_study {
-    const char *file; /* as the user named it */
-    const char *const *sets;
-    size_t set_count;
-    const ff_pipeline *pipeline; /* of its first case */
+    const results_input *input; /* its pipeline is that of the first case */
     ff_engine *engine;
 } results_study;
 

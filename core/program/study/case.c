@@ -144,6 +144,8 @@ json_t *study_case_record(const study_run *run, size_t index, const char *key, c
         json_object_set_new(record, "reason", text ? text : json_string("not in UTF-8"));
         json_object_set_new(record, "command", command_of(run, index));
     }
+    if (run->input)
+        json_object_set_new(record, "input", json_string(run->input));
     add_judgement(record);
     return record;
 }

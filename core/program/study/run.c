@@ -61,7 +61,8 @@ static int32_t begin_leading(void *ctx)
     r->counters->total = first < chains ? (chains - first - 1) / run->shards + 1 : 0;
     r->counters->total *= study_chain_length(run->study);
     r->open = study_journal_open(&r->journal, run, r->report);
-    if (r->open && !study_describe(run, NULL, r->report)) {
+    if (r->open && ((run->enter && !run->enter(run->ctx, r->report)) ||
+                    !study_describe(run, NULL, r->report))) {
         study_journal_close(&r->journal);
         r->open = false;
     }

@@ -167,11 +167,16 @@ typedef struct study_run {
     enum study_rerun rerun;
     bool fail_fast;
 
+    const char *input; /* the key of the file's own inputs, which each record keeps; may be NULL */
+
     char (*keys)[STUDY_KEY_SIZE]; /* filled in with the key of each case that ran or was known; NULL
                                      when the caller does not need them */
 
     /* Writes the files of a case with series or fields into a directory. */
     bool (*write)(const ff_pipeline *pipeline, const char *directory, ff_report *report);
+    /* Looks, with the directory locked, at what is there, and removes what was made of it; false
+       after an error. NULL: nothing is looked at. */
+    bool (*enter)(void *ctx, ff_report *report);
     /* Describes the study for those who read its directory; `tally` is of all its cases, NULL while
        they are not all done. */
     const study_definition *described;

@@ -32,7 +32,7 @@ static void test_ways(void)
                cli_has(r.out, "8 of 8 cases done, 8 of them before") &&
                    cli_has(r.out, "1 m ... 4 m, each starts from its neighbour\n"));
     write_walk("v.yaml", "", "{sweep: {walk.step: {from: 4 m, to: 1 m, points: 4, follow: down}}}");
-    r = cli("$F run v.yaml -o results/w && cut -d, -f3- results/w/table.csv");
+    r = cli("$F run v.yaml -o results/w --replace && cut -d, -f3- results/w/table.csv");
     cli_expect(
         "one way alone; the larger value is up", &r,
         cli_has(r.out, "\nok,4,4,good,,\nok,3,6,good,,\nok,2,6.5,good,,\nok,1,5.875,good,,\n") &&

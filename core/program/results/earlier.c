@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "earlier.h"
+#include "json.h"
+
+#include "../memory/memory.h"
+#include "../study/hash.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { MOST_TOLD = 4 };
+
+uint64_t results_input_key(const ff_pipeline *pipeline)
+{
+    uint64_t *fingerprints = memory_alloc((pipeline->count + 1) * sizeof *fingerprints);
+    uint64_t key = study_fingerprint(pipeline, fingerprints);
+    free(fingerprints);
+    return key;
+}
+
+/* A file that was moved or renamed is not there any more, and counts as the same. */
+static bool is_other_file(const char *recorded, const char *file)
+{
+    struct stat then, now;
+    return recorded && stat(recorded, &then) == 0 && stat(file, &now) == 0 &&
+           (then.st_dev != now.st_dev || then.st_ino != now.st_ino);
+}
+
+/* Differences, of which the first are told. */
+typedef struct differences {
+    char *text;
+    size_t count;
+} differences;
+
+static void add_difference(differences *all, const char *name, const char *param,
+                           const char *before, const char *now)
+{
+    all->count++;
+    if (all->count > MOST_TOLD)
+        return;
+    char *longer = memory_print_text("%s%s%s%s%s: %s -> %s", all->text, *all->text ? ", " : "",
+                                     name, *param ? "." : "", param, before, now);
+    free(all->text);
+    all->text = longer;
+}
+
+static const char *text_of(const json_t *object, const char *key, const char *otherwise)
+{
+    const char *text = json_string_value(json_object_get(object, key));
+    return text ? text : otherwise;
+}
+
+static void compare_params(differences *all, const char *stage, const json_t *before,
+                           const json_t *now)
+{
+    static const char none[] = "not given";
+    const char *name;
+    json_t *param;
+    json_object_foreach((json_t *)(size_t)now, name, param)
+    {
+        const char *was = text_of(json_object_get(before, name), "text", none);
+        if (strcmp(was, text_of(param, "text", none)) != 0)
+            add_difference(all, stage, name, was, text_of(param, "text", none));
+    }
+    json_object_foreach((json_t *)(size_t)before, name, param) if (!json_object_get(now, name))
+        add_difference(all, stage, name, text_of(param, "text", none), none);
+}
+
+static const json_t *find_stage(const json_t *stages, const char *name)
+{
+    size_t i;
+    const json_t *stage;
+    json_array_foreach(stages, i,
+                       stage) if (!strcmp(text_of(stage, "stage", ""), name)) return stage;
+    return NULL;
+}
+
+static void compare_stage(differences *all, const ff_pipeline *pipeline, const ff_stage *stage,
+                          const json_t *before)
+{
+    const char *model = before ? text_of(before, "model", "") : "absent";
+    json_t *origin = results_json_origin(pipeline, stage);
+    if (!stage->choice && strcmp(model, stage->use) != 0)
+        add_difference(all, stage->name, "use", model, stage->use);
+    else if (!stage->choice)
+        compare_params(all, stage->name, json_object_get(before, "parameters"),
+                       json_object_get(origin, "parameters"));
+    const char *build = text_of(origin, "build", "");
+    if (!strcmp(model, stage->use) && strcmp(text_of(before, "build", build), build) != 0)
+        add_difference(all, stage->name, "", "another build of its plugin", "that of now");
+    json_decref(origin);
+}
+
+/* Returns how the inputs of the stages differ from what an earlier run described, to be freed. */
+static char *compare(const json_t *root, const results_input *input)
+{
+    differences all = {.text = memory_print_text("%s", "")};
+    const json_t *stages = json_object_get(root, "stages");
+    for (size_t i = 0; i < input->pipeline->count; i++) {
+        const ff_stage *stage = &input->pipeline->stages[i];
+        if (stage->needed && stage->loaded)
+            compare_stage(&all, input->pipeline, stage, find_stage(stages, stage->name));
+    }
+    if (all.count == 0) {
+        free(all.text);
+        return memory_print_text("other outputs, or other contents of a file that a stage reads");
+    }
+    if (all.count <= MOST_TOLD)
+        return all.text;
+    char *text = memory_print_text("%s and %zu more", all.text, all.count - MOST_TOLD);
+    free(all.text);
+    return text;
+}
+
+static bool check(const char *directory, const char *name, const results_input *input, bool *same,
+                  char **replaced, ff_report *report)
+{
+    char key[20], *path = memory_print_text("%s/%s", directory, name);
+    json_t *root = json_load_file(path, 0, NULL);
+    free(path);
+    *replaced = NULL;
+    if (!json_is_object(root)) {
+        json_decref(root);
+        return true;
+    }
+    snprintf(key, sizeof key, "%016llx", (unsigned long long)input->key);
+    const char *recorded =
+        json_string_value(json_object_get(json_object_get(root, "facts"), "file"));
+    *same = !strcmp(text_of(root, "key", ""), key);
+    bool other = !*same && is_other_file(recorded, input->file);
+    if (other && !input->replace)
+        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
+                 "name another directory with -o, or give --replace",
+                 "\"%s\" holds the results of another file, %s", directory, recorded);
+    else
+        *replaced = *same ? memory_print_text("%s", "") : compare(root, input);
+    if (other && input->replace) {
+        char *text = memory_print_text("they were of %s", recorded);
+        free(*replaced);
+        *replaced = text;
+    }
+    json_decref(root);
+    return !other || input->replace;
+}
+
+bool results_earlier_check(const char *directory, const results_input *input, char **replaced,
+                           ff_report *report)
+{
+    bool same;
+    return check(directory, "result.json", input, &same, replaced, report);
+}
+
+bool results_earlier_check_study(const char *directory, const results_input *input, char **replaced,
+                                 ff_report *report)
+{
+    bool same = false;
+    bool good = check(directory, "study.json", input, &same, replaced, report);
+    if (same) {
+        free(*replaced);
+        *replaced = NULL;
+    }
+    return good;
+}
