@@ -3,6 +3,7 @@
 
 #include "blame.h"
 #include "exits.h"
+#include "hunger.h"
 
 #include "../terminal/answer.h"
 
@@ -12,6 +13,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <ucontext.h>
 #include <unistd.h>
 
@@ -59,13 +61,16 @@ static void put(int file, const char *text, size_t length)
     }
 }
 
-static void put_json(const line *sentence)
+static void put_json(const line *sentence, int exit_code)
 {
     static const char digits[] = "0123456789abcdef";
-    static const char head[] = "{\"status\":\"error\",\"exit\":3,\"errors\":[{\"file\":null,"
+    static const char start[] = "{\"status\":\"error\",\"exit\":";
+    static const char head[] = ",\"errors\":[{\"file\":null,"
                                "\"line\":null,\"column\":null,\"message\":\"";
     static const char tail[] = "\",\"hint\":null}],\"warnings\":[]}\n";
     int file = terminal_answer_file();
+    put(file, start, sizeof start - 1);
+    put(file, &digits[exit_code], 1);
     put(file, head, sizeof head - 1);
     for (size_t i = 0; i < sentence->length; i++) {
         unsigned char c = (unsigned char)sentence->text[i];
@@ -76,6 +81,51 @@ static void put_json(const line *sentence)
             put(file, sentence->text + i, 1);
     }
     put(file, tail, sizeof tail - 1);
+}
+
+static _Noreturn void report(const line *sentence, int code)
+{
+    put(STDERR_FILENO, "error: ", 7);
+    put(STDERR_FILENO, sentence->text, sentence->length);
+    put(STDERR_FILENO, "\n", 1);
+    if (owes_json)
+        put_json(sentence, code);
+    crash_leave(code);
+}
+
+static void add_mebibytes(line *l, size_t bytes)
+{
+    char text[24];
+    size_t at = sizeof text - 1, number = (bytes + 1048575) / 1048576;
+    text[at] = '\0';
+    do
+        text[--at] = (char)('0' + number % 10);
+    while ((number /= 10) > 0);
+    add(l, text + at);
+    add(l, " MiB");
+}
+
+/* A library that a plugin calls asks for memory again and again, and would do so for ever. */
+static void on_hunger(size_t bytes)
+{
+    ff_guard_mark running = ff_guard_current();
+    struct rlimit limit;
+    line sentence = {.length = 0};
+    if (!running.path || atomic_flag_test_and_set(&dying))
+        return;
+    if (running.stage) {
+        add(&sentence, running.stage);
+        add(&sentence, ": ");
+    }
+    add(&sentence, "out of memory: a library that the plugin ");
+    add(&sentence, running.path);
+    add(&sentence, " calls cannot get ");
+    add_mebibytes(&sentence, bytes);
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+        add(&sentence, "; the address space of the process is limited to ");
+        add_mebibytes(&sentence, limit.rlim_cur);
+    }
+    report(&sentence, FF_FAULT_RUN);
 }
 
 /* "oil: the plugin oil.so crashed during evaluate of film: abort". `who` NULL: it may be any that
@@ -107,12 +157,7 @@ static _Noreturn void die(const ff_guard_mark *running, const ff_guard_mark *who
     }
     add(&sentence, ": ");
     add(&sentence, detail);
-    put(STDERR_FILENO, "error: ", 7);
-    put(STDERR_FILENO, sentence.text, sentence.length);
-    put(STDERR_FILENO, "\n", 1);
-    if (owes_json)
-        put_json(&sentence);
-    crash_leave(FF_FAULT_PLUGIN);
+    report(&sentence, FF_FAULT_PLUGIN);
 }
 
 /* What happened in a thread of which it is not known that a plugin runs there: the plugin may have
@@ -230,6 +275,7 @@ void crash_install(bool json)
     for (int i = 0; i < FAULTS; i++)
         sigaction(fault_signals[i], &action, &before[i]);
     crash_exits_watch(on_end);
+    crash_hunger_watch(on_hunger);
     pthread_atfork(on_fork, NULL, NULL);
     atexit(on_exit_call);
     at_quick_exit(on_exit_call);

@@ -352,6 +352,8 @@ static bool read_sample(reading *r, const ff_node *map)
     return true;
 }
 
+enum { LEAST_MEMORY = 16 /* MiB, for what a worker keeps of its cases */ };
+
 bool study_read_limits(study_definition *study, const ff_node *node, ff_report *report)
 {
     reading whole = {.study = study, .report = report}, *r = &whole;
@@ -369,9 +371,9 @@ bool study_read_limits(study_definition *study, const ff_node *node, ff_report *
     if (memory &&
         (memory->kind != FF_SCALAR ||
          !ff_quantity_parse(memory->text, &one, "1", &r->study->memory_limit, why, sizeof why) ||
-         !(r->study->memory_limit >= 1)))
-        return refuse(r, memory->place, NULL, "expected a number of MiB for each worker",
-                      "memory_limit");
+         !(r->study->memory_limit >= LEAST_MEMORY)))
+        return refuse(r, memory->place, "linear algebra alone may take 128 MiB at once",
+                      "expected a number of MiB for each worker, 16 at least", "memory_limit");
     r->study->memory_limit *= 1048576;
     return true;
 }

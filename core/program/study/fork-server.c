@@ -67,6 +67,7 @@ static _Noreturn void serve(const study_run *run, int from, int to)
             !study_write_all(to, pool.answer, head.size))
             break;
     }
+    study_pool_kill(&pool);
     _exit(0);
 }
 

@@ -39,6 +39,13 @@ void study_pool_close(study_pool *pool)
     free(pool->answer);
 }
 
+void study_pool_kill(const study_pool *pool)
+{
+    for (size_t i = 0; pool->workers && i < pool->run->jobs; i++)
+        if (pool->workers[i].pid)
+            study_worker_kill(&pool->workers[i]);
+}
+
 /* Gives the worker the next case of its chain. */
 static void send_next_case(study_pool *pool, study_worker *worker)
 {
@@ -142,14 +149,15 @@ static int check_time(study_pool *pool, study_worker *worker, size_t *task)
     double limit = pool->run->study->time_limit;
     if (!worker->busy || !(limit > 0) || study_seconds_now() - worker->since < limit)
         return FF_TASK_NONE;
-    kill(worker->pid, SIGKILL);
+    study_worker_kill(worker);
     free(study_worker_reap(worker));
     return record_crash(pool, worker, "time limit",
                         memory_print_text("the case took longer than its limit of %.6g s", limit),
                         task);
 }
 
-static int poll_worker(study_pool *pool, size_t i, size_t *task)
+/* `quiet`: no worker has written anything. */
+static int poll_worker(study_pool *pool, size_t i, bool quiet, size_t *task)
 {
     study_worker *worker = &pool->workers[i];
     int state = FF_TASK_NONE;
@@ -161,6 +169,9 @@ static int poll_worker(study_pool *pool, size_t i, size_t *task)
     }
     if (state == FF_TASK_NONE && worker->pid && pool->polled[i].revents)
         state = read_answer(pool, worker, task);
+    if (state == FF_TASK_NONE && worker->busy && worker->pid && quiet &&
+        study_worker_is_gone(worker))
+        state = record_crash(pool, worker, "crashed", study_worker_reap(worker), task);
     if (state == FF_TASK_NONE && worker->pid)
         state = check_time(pool, worker, task);
     return state;
@@ -179,10 +190,11 @@ int study_pool_wait(study_pool *pool, int milliseconds, size_t *task)
     pool->polled[jobs] = (struct pollfd){.fd = pool->extra_fd, .events = POLLIN};
     if (milliseconds > 200)
         milliseconds = limit > 0 && limit < 1 ? 1 + (int)(limit * 200) : 200;
-    if (poll(pool->polled, jobs + 1, milliseconds) < 0)
+    int ready = poll(pool->polled, jobs + 1, milliseconds);
+    if (ready < 0)
         memset(pool->polled, 0, jobs * sizeof *pool->polled);
     for (size_t n = 0; n < jobs; n++) {
-        int state = poll_worker(pool, pool->turn++ % jobs, task);
+        int state = poll_worker(pool, pool->turn++ % jobs, ready == 0, task);
         if (state != FF_TASK_NONE)
             return state;
     }

@@ -25,14 +25,16 @@ typedef struct execution {
     double start, reported;
 } execution;
 
-static volatile sig_atomic_t interrupts, leading;
+static volatile sig_atomic_t interrupts, last_signal, leading;
 
 static void on_interrupt(int number)
 {
     static const char text[] = "\nfinishing the cases at hand; once more to end at once\n";
-    (void)number;
-    interrupts = 1;
-    if (leading && write(STDERR_FILENO, text, sizeof text - 1) < 0)
+    last_signal = number;
+    interrupts = interrupts + 1;
+    if (interrupts > 1)
+        signal(number, SIG_DFL); /* an executor may not come back to see it */
+    if (leading && interrupts == 1 && write(STDERR_FILENO, text, sizeof text - 1) < 0)
         return; /* stderr is closed; nothing can be done */
 }
 
@@ -152,6 +154,17 @@ static void show_progress(execution *r)
     r->run->progress(r->run->ctx, r->counters);
 }
 
+/* After a second signal: ends with it, and with all workers and what these have started. */
+static _Noreturn void end_at_once(execution *r)
+{
+    study_pool_kill(&r->pool);
+    if (r->run->executor)
+        study_fork_server_end(&r->fork_server);
+    signal(last_signal, SIG_DFL);
+    raise(last_signal);
+    _exit(FF_FAULT_RUN);
+}
+
 static int32_t wait_for_answer(void *ctx, int32_t milliseconds, size_t *task, const void **answer,
                                size_t *size)
 {
@@ -161,6 +174,8 @@ static int32_t wait_for_answer(void *ctx, int32_t milliseconds, size_t *task, co
     r->pool.ending = r->ending || interrupts;
     int state = forked ? study_fork_server_wait(&r->fork_server, milliseconds, task)
                        : study_pool_wait(&r->pool, milliseconds, task);
+    if (interrupts > 1)
+        end_at_once(r);
     if (state > 0) {
         *answer = forked ? r->fork_server.answer : r->pool.answer;
         *size = strlen(*answer) + 1;
@@ -266,9 +281,9 @@ static void find_keys(execution *r)
 
 static void catch_interrupts(struct sigaction before[2])
 {
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction action = {.sa_handler = on_interrupt};
     sigemptyset(&action.sa_mask);
-    interrupts = leading = 0;
+    interrupts = last_signal = leading = 0;
     sigaction(SIGINT, &action, &before[0]);
     sigaction(SIGTERM, &action, &before[1]);
 }

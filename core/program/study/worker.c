@@ -44,6 +44,23 @@ static void limit_memory(const study_run *run)
         setrlimit(RLIMIT_AS, &limit);
 }
 
+/* Bounds what a plugin that starts processes without end can do: the user may have so many more
+   processes and threads than the machine has now. */
+static void limit_processes(void)
+{
+    enum { MORE = 4096 };
+    unsigned long tasks = 0;
+    struct rlimit limit;
+    FILE *stream = fopen("/proc/loadavg", "re");
+    bool known = stream && fscanf(stream, "%*f %*f %*f %*u/%lu", &tasks) == 1;
+    if (stream)
+        fclose(stream);
+    if (!known || getrlimit(RLIMIT_NPROC, &limit) != 0 || limit.rlim_cur <= tasks + MORE)
+        return;
+    limit.rlim_cur = tasks + MORE;
+    setrlimit(RLIMIT_NPROC, &limit);
+}
+
 bool study_write_all(int fd, const void *data, size_t size)
 {
     for (const char *at = data; size > 0;) {
@@ -119,6 +136,7 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     static study_reuse_stats stats[MOST_STAGES];
     size_t index;
     int null = open("/dev/null", O_RDWR);
+    setpgid(0, 0); /* what a plugin starts is ended with the worker */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     signal(SIGINT, SIG_IGN);
     signal(SIGTERM, SIG_IGN); /* the process that leads the run decides when to end */
@@ -126,6 +144,7 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     dup2(null, STDOUT_FILENO);
     dup2(worker->captured, STDERR_FILENO);
     limit_memory(run);
+    limit_processes();
     if (run->study->measure)
         study_measure_pin();
     char *path = memory_print_text("%s/stages", run->directory);
@@ -182,8 +201,10 @@ bool study_worker_start(study_worker *worker, const study_run *run, const json_t
     worker->from = from[0];
     worker->busy = false;
     worker->length = 0;
-    if (worker->pid > 0)
+    if (worker->pid > 0) {
+        setpgid(worker->pid, worker->pid); /* it may not have come to it yet */
         return true;
+    }
     worker->pid = 0;
     close_files(worker);
     return false;
@@ -225,12 +246,29 @@ static char *pick_line(const char *text)
     return memory_copy_text(line, strcspn(line, "\n"));
 }
 
+void study_worker_kill(const study_worker *worker)
+{
+    kill(worker->pid, SIGKILL);
+    kill(-worker->pid, SIGKILL);
+}
+
+bool study_worker_is_gone(const study_worker *worker)
+{
+    siginfo_t info = {.si_pid = 0};
+    return waitid(P_PID, (id_t)worker->pid, &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+           info.si_pid == worker->pid;
+}
+
 char *study_worker_reap(study_worker *worker)
 {
+    siginfo_t info;
     char tail[2400] = "";
     int status = 0;
     off_t end = lseek(worker->captured, 0, SEEK_END);
     off_t begin = end > (off_t)sizeof tail - 1 ? end - (off_t)sizeof tail + 1 : 0;
+    while (waitid(P_PID, (id_t)worker->pid, &info, WEXITED | WNOWAIT) < 0 && errno == EINTR)
+        ;
+    kill(-worker->pid, SIGKILL); /* while its number is still its own */
     while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR)
         ;
     ssize_t length = pread(worker->captured, tail, sizeof tail - 1, begin);

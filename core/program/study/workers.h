@@ -34,7 +34,12 @@ int study_worker_read(study_worker *worker);
 /* Opens a pair of pipes; writes all of the data. False after an error. */
 bool study_open_pipes(int to[2], int from[2]);
 bool study_write_all(int fd, const void *data, size_t size);
-/* Waits for the end of a worker and returns why it ended, to be freed. */
+/* Ends a worker and what its plugins have started. */
+void study_worker_kill(const study_worker *worker);
+/* Whether it has ended, although a process that it started may hold its pipe. */
+bool study_worker_is_gone(const study_worker *worker);
+/* Waits for the end of a worker, ends what its plugins have started, and returns why it ended, to
+ * be freed. */
 char *study_worker_reap(study_worker *worker);
 
 /* pool.c */
@@ -59,7 +64,8 @@ typedef struct study_pool {
 } study_pool;
 
 void study_pool_open(study_pool *pool, const study_run *run, json_t *done);
-void study_pool_close(study_pool *pool); /* waits for the running cases */
+void study_pool_close(study_pool *pool);      /* waits for the running cases */
+void study_pool_kill(const study_pool *pool); /* ends all workers, at once */
 /* Starts the next chain; at most run->jobs may run at a time. */
 void study_pool_start_chain(study_pool *pool, size_t chain);
 /* Waits at most 0.2 s. Returns FF_TASK_NONE, or with pool->answer set FF_TASK_ANSWER or, when the

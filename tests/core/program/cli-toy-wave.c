@@ -7,11 +7,12 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <time.h>
 
 enum { AMPLITUDE, COUNT, WORK, END, FACTORS, SHAPE };
 enum { TOTAL, TIME, HEIGHT, X, FIELD, LEVEL, LENGTHS };
-enum { GOOD, DOUBTFUL, BAD, FAIL, INVALID, NOISY, DEAF, QUIT, CRASH, SEGV, EAT };
+enum { GOOD, DOUBTFUL, BAD, FAIL, INVALID, NOISY, DEAF, QUIT, CRASH, SEGV, EAT, SPAWN, STARVE };
 
 typedef struct wave {
     const ff_host *host;
@@ -43,7 +44,7 @@ static const ff_param params[] = {
      .doc = "how the evaluation ends",
      .type = FF_CHOICE,
      .preset = "good",
-     .choices = "good|doubtful|bad|fail|invalid|noisy|deaf|quit|crash|segv|eat"},
+     .choices = "good|doubtful|bad|fail|invalid|noisy|deaf|quit|crash|segv|eat|spawn|starve"},
     {.name = "factors",
      .unit = "1",
      .doc = "a list that nothing depends on",
@@ -147,6 +148,16 @@ static ff_status eat(const wave *w)
     return whole ? FF_OK : w->host->fail(w->host->ctx, FF_NOMEM, NULL, "nothing left to eat");
 }
 
+/* Asks for memory for ever, as some libraries do. */
+static ff_status starve(void)
+{
+    void *at;
+    do
+        at = mmap(NULL, (size_t)1 << 47, PROT_READ, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    while (at == MAP_FAILED);
+    return FF_OK;
+}
+
 static ff_status judge(const wave *w)
 {
     const ff_host *host = w->host;
@@ -176,7 +187,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const wave *w = self;
     (void)in;
-    ff_status status = work(w);
+    if (w->end == SPAWN && system("sleep 60 </dev/null >/dev/null 2>&1 & echo $! >child") != 0)
+        return FF_NOCONV;
+    ff_status status = w->end == STARVE ? starve() : work(w);
     if (status == FF_OK)
         status = give_series(w);
     if (status == FF_OK && wanted & FF_BIT(FIELD))

@@ -1,0 +1,90 @@
+#!/bin/sh
+# How a study ends whose cases do not end by themselves: a second signal ends it at once, a limit of
+# the address space with a sentence, and processes that a plugin has started do not outlive it.
+#   study-ends.sh FLANKFILM SANITIZED TOYS...
+set -eu
+flankfilm=$(realpath "$1") sanitized=$2
+shift 2
+lab=$(mktemp -d)
+trap 'rm -rf "$lab"' EXIT
+mkdir -p "$lab/plugins/toy"
+for toy; do
+    name=${toy##*/cli-toy-}
+    ln -s "$(realpath "$toy")" "$lab/plugins/toy/$name"
+done
+cd "$lab"
+export FLANKFILM_PLUGIN_PATH="$lab/plugins"
+is_gone() { # PID: it has ended, or waits for its parent to notice
+    state=$(sed -n 's/^State:\t\(.\).*/\1/p' "/proc/$1/status" 2>/dev/null || true)
+    [ -z "$state" ] || [ "$state" = Z ]
+}
+wait_for() { # FILE
+    tries=200
+    while [ ! -s "$1" ] && [ "$tries" -gt 0 ]; do
+        sleep 0.05
+        tries=$((tries - 1))
+    done
+    [ -s "$1" ]
+}
+ends() { # PID: within two seconds
+    tries=40
+    while ! is_gone "$1" && [ "$tries" -gt 0 ]; do
+        sleep 0.05
+        tries=$((tries - 1))
+    done
+    is_gone "$1" || { echo "process $1 goes on"; kill -9 "$1"; exit 1; }
+}
+
+write_study() { # NAME PARAMETERS LIMIT
+    cat >"$1.yaml" <<YAML
+format: 2
+pipeline: {wave: {use: toy/wave, amplitude: 2 mm, $2}}
+outputs: [wave.total]
+study: {sweep: {wave.amplitude: [1 mm]}$3}
+YAML
+}
+
+# a case that takes a minute, and has started a process
+write_study long 'work: 60 s, end: spawn' ''
+"$flankfilm" run long.yaml -o long -j1 >said 2>&1 &
+run=$!
+wait_for child
+child=$(cat child)
+if is_gone "$child"; then exit 1; fi
+kill -TERM "$run"
+sleep 0.5
+if is_gone "$run"; then echo 'the first signal ends it'; exit 1; fi
+kill -TERM "$run"
+ends "$run"
+ends "$child"
+grep -q 'once more to end at once' said
+code=0
+wait "$run" || code=$?
+[ "$code" -eq 143 ]
+rm child
+
+# likewise at the limit of a case, and at its end
+for how in 'work: 60 s/, time_limit: 1 s' 'work: 0 s/'; do
+    write_study limit "${how%%/*}, end: spawn" "${how#*/}"
+    "$flankfilm" run limit.yaml -o "limit-${#how}" -j1 >said 2>&1 || true
+    ends "$(cat child)"
+    rm child
+done
+
+[ "$sanitized" = none ] || exit 0 # a sanitizer needs all of the address space
+cat >alone.yaml <<YAML
+format: 2
+pipeline: {wave: {use: toy/wave, amplitude: 2 mm, end: starve}}
+outputs: [wave.total]
+YAML
+says='wave: out of memory: a library that the plugin .*toy/wave.so calls cannot get 134217728 MiB'
+code=0
+timeout 20 "$flankfilm" run alone.yaml -o alone --json >answer 2>said || code=$?
+[ "$code" -eq 1 ]
+grep -q "^error: $says" said
+grep -q '"exit": *1,.*"message":"wave: out of memory' answer
+write_study starve 'end: starve' ', memory_limit: 300'
+code=0
+timeout 20 "$flankfilm" run starve.yaml -o starve -j1 >said 2>&1 || code=$?
+[ "$code" -eq 4 ]
+grep -q "$says; the address space of the process is limited to [0-9]* MiB" starve/table.csv
