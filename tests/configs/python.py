@@ -7,6 +7,7 @@ import csv
 import gc
 import json
 import os
+import pathlib
 import signal
 import subprocess
 import sys
@@ -269,6 +270,74 @@ def test_models():
     check("wired to another", np.isclose(float(duty.run("mesh_frequency")["mesh_frequency"]), 1500 / 60 * 20))
 
 
+def test_arguments():
+    """A careless user: numbers of numpy, one text for a list of them, things of another sort."""
+    engine = flankfilm.Engine(plugins)
+    plain_run = engine.run("case.yaml", {"duty.torque": "300 N m", "gears.teeth": [49, 51]})
+    same = engine.run(pathlib.Path("case.yaml"), {
+        "duty.torque": np.str_("300 N m"), "gears.teeth": np.array([49, 51]), "film.use": "ehl/film-formula"})
+    check("numbers of numpy in a run", np.array_equal(plain_run["film.h_min"].data, same["film.h_min"].data))
+    check("and in the program's", list(flankfilm.run("case.yaml", {
+        "gears.teeth": (np.int64(49), 51), "outputs": ["gears.teeth"]})["gears.teeth"]) == [49, 51])
+    check("one of them", raised(lambda: engine.run("case.yaml", {"gears.teeth": np.float64(49.5)}), "gears.teeth"))
+    barus = engine.model("viscosity/barus", {"eta0": np.float32(0.01), "alpha": np.array(2e-8)})
+    check("and of a model", np.isclose(barus.law()(np.float64(1e8)), np.log(0.01) + 2))
+    gear = engine.model("gear/involute-spur", {"teeth": ["50", "50"], "module": np.float64(3e-3),
+                                               "face_width": "20 mm"})
+    check("texts in a list", float(gear.run("contact_ratio")["contact_ratio"]) > 1)
+    check("one directory", isinstance(flankfilm.Engine(pathlib.Path(plugins)), flankfilm.Engine))
+    check("no directory", raised(lambda: flankfilm.Engine([3]), "plugin_paths: expected a path, found an int"))
+    check("no list", raised(lambda: flankfilm.Engine(3), "plugin_paths: expected"))
+    check("one law to fit", raised(lambda: flankfilm.fit("viscosity", os.path.join(
+        source, "configs", "measured", "pao-b.csv"), laws="viscosity/no", at="80 degC"), "viscosity/no", code=3))
+    calls = {
+        "no file": (lambda: engine.run(None), "file: expected a path, found a NoneType"),
+        "nor for the program": (lambda: flankfilm.run(3), "file: expected a path"),
+        "sets in a list": (lambda: engine.run("case.yaml", ["duty.torque=3 N m"]),
+                           "sets: expected a dictionary, found a list"),
+        "a key that is no text": (lambda: flankfilm.check("case.yaml", {3: 4}), "sets: expected a name, found an int"),
+        "a value that is none": (lambda: engine.run("case.yaml", {"duty.torque": object()}), "duty.torque: expected"),
+        "nor in a list": (lambda: flankfilm.check("case.yaml", {"gears.teeth": [1j]}), "gears.teeth: expected"),
+        "progress": (lambda: engine.run("case.yaml", progress=3), "progress: expected a function"),
+        "a model's name": (lambda: engine.model(3), "model: expected a name"),
+        "parameters": (lambda: engine.model("viscosity/barus", ["alpha"]), "parameters: expected a dictionary"),
+        "no number": (lambda: barus.set({"alpha": None}), "alpha: expected numbers, found a NoneType"),
+        "a complex one": (lambda: barus.set({"alpha": 1j}), "alpha: expected numbers"),
+        "ragged lists": (lambda: gear.set({"teeth": [[1], [2, 3]]}), "teeth: expected numbers"),
+        "a wire to a text": (lambda: engine.model("ehl/film-formula").use({"viscosity": "barus"}),
+                             "viscosity: expected a model"),
+        "a wire to another engine": (lambda: flankfilm.Engine().model("ehl/film-formula").use({"viscosity": barus}),
+                                     "viscosity: expected a model of the same engine"),
+        "an input": (lambda: engine.model("ehl/film-formula").give({"contact.t": "now"}), "contact.t: expected numbers"),
+        "outputs in a list": (lambda: gear.run(["contact_ratio"]), "an output: expected a name"),
+        "a pressure": (lambda: barus.law()("high"), "p: expected numbers, found a str"),
+        "no pressure": (lambda: barus.law()(None), "p: expected numbers"),
+        "shapes": (lambda: barus.law()([1, 2, 3], [300, 400]), "p (3,), T (2,)"),
+        "a sliding speed": (lambda: engine.model("rheology/newtonian").law().flow(-4, 1e-7, [1, 2]), "u_s: expected one"),
+        "results": (lambda: flankfilm.open(None), "path: expected a path"),
+    }
+    for what, (call, says) in calls.items():
+        check(what, raised(call, says))
+    try:
+        plain_run["film.h_mi"]
+        check("a result that is not there", False)
+    except KeyError as error:
+        check("a result that is not there", "there is no result" in str(error) and "film.h_min" in str(error))
+
+
+def test_read_only():
+    """A view of the engine's memory stays read-only."""
+    film = flankfilm.Engine().run("case.yaml")["film.h_min"].data
+    for writable in film, film.view(), film.base:
+        try:
+            writable.setflags(write=True)
+            check("nobody can write there", False)
+        except ValueError:
+            check("nobody can write there", True)
+        except AttributeError:  # the buffer itself
+            check("nobody can write there", memoryview(writable).readonly)
+
+
 def test_examples():
     for name, words in {"example.py": "to the power of -0.1", "laws.py": "central film"}.items():
         done = subprocess.run([sys.executable, os.path.join(source, "configs", "python", name)],
@@ -292,6 +361,8 @@ with tempfile.TemporaryDirectory() as lab:
     test_engine_errors()
     test_laws()
     test_models()
+    test_arguments()
+    test_read_only()
     test_examples()
     os.chdir("/")
 print("all well" if not failed else f"{failed} failed")

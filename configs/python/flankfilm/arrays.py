@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers with their unit and dimensions, and what is raised."""
 
+import os
+from collections.abc import Mapping
+
 import numpy as np
 
 
@@ -11,6 +14,56 @@ class Error(Exception):
     def __init__(self, text, code=None, errors=(), result=None):
         super().__init__(text)
         self.code, self.errors, self.result = code, list(errors), result
+
+
+def wrong(name, wanted, found):
+    """The Error for an argument: 'sets: expected a dictionary, found a list'."""
+    kind = type(found).__name__
+    return Error(f"{name}: expected {wanted}, found {'an' if kind[0] in 'aeiou' else 'a'} {kind}", 2)
+
+
+def as_items(name, mapping):
+    """The items of a dictionary with names as keys, which may be None."""
+    mapping = {} if mapping is None else mapping
+    if not isinstance(mapping, Mapping):
+        raise wrong(name, "a dictionary", mapping)
+    for key in mapping:
+        as_name(name, key)
+    return mapping.items()
+
+
+def as_name(name, value):
+    if not isinstance(value, str):
+        raise wrong(name, "a name", value)
+    return value
+
+
+def as_list(name, value):
+    """A list of texts, of which one may stand alone."""
+    if isinstance(value, (str, os.PathLike)):
+        return [value]
+    try:
+        return list(value)
+    except TypeError:
+        raise wrong(name, "a text or a list of texts", value) from None
+
+
+def as_path(name, value):
+    try:
+        return os.fspath(value)
+    except TypeError:
+        raise wrong(name, "a path", value) from None
+
+
+def as_numbers(name, value):
+    """The value as an array of doubles."""
+    try:
+        array = np.asarray(value)
+    except ValueError:  # lists of different lengths
+        array = None
+    if array is None or array.dtype.kind not in "biuf":
+        raise wrong(name, "numbers", value)
+    return np.ascontiguousarray(array, dtype=float).reshape(array.shape)
 
 
 class Array:

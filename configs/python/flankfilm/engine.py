@@ -16,8 +16,8 @@ from ctypes import POINTER, byref, c_char_p, c_double, c_int32, c_size_t, c_uint
 
 import numpy as np
 
-from .arrays import Array, Error
-from .program import _program, _text
+from .arrays import Array, Error, as_items, as_list, as_name, as_numbers, as_path, wrong
+from .program import _program, as_text, assignments
 
 VERDICTS = ("good", "doubtful", "bad")
 STOPPED, INVALID, NOMEM, BUG = 3, -1, -2, -4
@@ -120,12 +120,11 @@ def _words(text):
 
 def _array(result, owner):
     """An Array that shares the engine's memory, which `owner` keeps."""
-    memory = (c_double * result.count).from_address(result.data) if result.count else []
-    if result.count:
-        memory.owner = owner
-    data = np.frombuffer(memory) if result.count else np.empty(0)
+    memory = (c_double * max(result.count, 1)).from_address(result.data)
+    memory.owner = owner
+    # of a buffer that is read-only, so that nobody can make the array writable
+    data = np.frombuffer(memoryview(memory).toreadonly(), count=result.count)
     data = data.reshape(tuple(result.shape[:result.rank]))
-    data.flags.writeable = False
     dims = [_words(name) for name in result.dims[:result.rank]]
     return Array(data, _words(result.row[0].unit), dims, _words(result.row[0].doc))
 
@@ -158,12 +157,13 @@ class Engine:
     """Loads models and runs pipelines in this process. One thread at a time uses an engine with its
     runs and models; engines in different threads work at the same time.
 
-    plugin_paths  directories that are searched for models before all others"""
+    plugin_paths  a directory, or a list of them, that is searched for models before all others"""
 
     def __init__(self, plugin_paths=()):
         self._engine, self._library = c_void_p(), _load()
         self._open = {}  # the function that closes each run and model, by its handle
-        paths = [os.fsencode(path) for path in plugin_paths]
+        paths = [os.fsencode(as_path("plugin_paths", path))
+                 for path in as_list("plugin_paths", plugin_paths)]
         options = _Options(ctypes.sizeof(_Options), (c_char_p * len(paths))(*paths), len(paths))
         if self._library.ff_engine_new(byref(options), byref(self._engine)):
             raise MemoryError
@@ -184,17 +184,22 @@ class Engine:
         if status == NOMEM:
             raise MemoryError
         if status < 0 or status > 1:
-            text = _words(self._library.ff_engine_message(self._engine)).rstrip()
-            raise Error(text, _code(status), result=result)
+            raise Error(self._message(), _code(status), result=result)
+
+    def _message(self):
+        return _words(self._library.ff_engine_message(self._engine)).rstrip()
 
     def run(self, file, sets=None, progress=None):
-        """Runs the case of a file with `sets` laid over it, {"duty.torque": "300 N m"}. `progress`
-        is called with the share of the work of the stage at hand, and stops the run by answering
-        True. A file with a study, an accuracy or a model left open is refused: flankfilm.run."""
-        words = [f"{path}={_text(value)}".encode() for path, value in (sets or {}).items()]
+        """Runs the case of a file with `sets` laid over it, {"duty.torque": "300 N m"}: texts, numbers
+        in SI where the parameter has no unit, lists, also those of numpy. `progress` is called with
+        the share of the work of the stage at hand, and stops the run by answering True. A file with
+        a study, an accuracy or a model left open is refused: flankfilm.run."""
+        words = [text.encode() for text in assignments(sets)]
         handle = c_void_p()
+        if progress is not None and not callable(progress):
+            raise wrong("progress", "a function", progress)
         self._hold(self._library.ff_run_open(
-            self._engine, os.fsencode(file), (c_char_p * (len(words) + 1))(*words), byref(handle)))
+            self._engine, os.fsencode(as_path("file", file)), (c_char_p * (len(words) + 1))(*words), byref(handle)))
         run = Run(self, handle)
         run._start(progress)
         return run
@@ -247,8 +252,8 @@ class Run(Mapping):
 
     def __getitem__(self, name):
         result = POINTER(_Result)()
-        if self._library.ff_run_result(self._run, name.encode(), byref(result)):
-            raise KeyError(f"{name}: the run has {', '.join(self)}")
+        if self._library.ff_run_result(self._run, str(name).encode(), byref(result)):
+            raise KeyError(f"{self._of._message()}; the run has {', '.join(self)}")
         return _array(result[0], self)
 
     def __iter__(self):
@@ -271,7 +276,8 @@ class Model:
     def __init__(self, engine, name):
         self._of, self._library, self.name = engine, engine._library, name
         self._model, self._used = c_void_p(), {}
-        self._hold(self._library.ff_instance_new(engine._engine, name.encode(), byref(self._model)))
+        self._hold(self._library.ff_instance_new(engine._engine, as_name("model", name).encode(),
+                                                 byref(self._model)))
         engine._open[self._model.value] = self._library.ff_instance_close
 
     def __del__(self):
@@ -282,26 +288,29 @@ class Model:
         self.warnings = _words(self._library.ff_engine_message(self._of._engine))
 
     def set(self, parameters):
-        for name, value in parameters.items():
-            if isinstance(value, (str, bool)):
-                status = self._library.ff_instance_set(self._model, name.encode(), _text(value).encode())
+        for name, value in as_items("parameters", parameters):
+            texts = isinstance(value, (list, tuple)) and any(isinstance(v, str) for v in value)
+            if texts or isinstance(value, (str, bool, np.bool_, os.PathLike)):
+                status = self._library.ff_instance_set(self._model, name.encode(),
+                                                       as_text(name, value).encode())
             else:
-                numbers = np.ascontiguousarray(value, dtype=float).ravel()
+                numbers = as_numbers(name, value).ravel()
                 status = self._library.ff_instance_set_reals(
                     self._model, name.encode(), numbers.ctypes.data, numbers.size)
             self._hold(status)
 
     def use(self, wires):
         """Feeds wires by other models: film.use({"viscosity": barus})."""
-        for name, model in wires.items():
+        for name, model in as_items("wires", wires):
+            if not isinstance(model, Model) or model._of is not self._of:
+                raise wrong(name, "a model of the same engine", model)
             self._hold(self._library.ff_instance_use(self._model, name.encode(), model._model))
             self._used[name] = model  # lives as long as this one
 
     def give(self, inputs):
         """Feeds inputs by numbers in SI: film.give({"contact.load_per_width": load})."""
-        for name, value in inputs.items():
-            numbers = np.ascontiguousarray(value, dtype=float)
-            numbers = numbers.reshape(np.shape(value))
+        for name, value in as_items("inputs", inputs):
+            numbers = as_numbers(name, value)
             shape = (c_size_t * max(numbers.ndim, 1))(*numbers.shape)
             array = _InputArray(numbers.ctypes.data, shape, numbers.ndim)
             self._hold(self._library.ff_instance_give(self._model, name.encode(), byref(array)))
@@ -310,6 +319,8 @@ class Model:
         """Runs what feeds the model and then the model: a dictionary of Arrays, which are copies."""
         if not outputs:
             raise Error(f"{self.name}: name the outputs that are wanted", 2)
+        for name in outputs:
+            as_name(f"{self.name}: an output", name)
         self._hold(self._library.ff_instance_run(self._model, " ".join(outputs).encode()))
         results = {}
         for name in outputs:
@@ -332,12 +343,24 @@ class Model:
         return _LAWS[kind](self)
 
 
-def _like(*arrays):
+def _like(**arrays):
     """The arrays as doubles of one common shape; None stays None."""
-    given = [a for a in arrays if a is not None]
-    shape = np.broadcast_shapes(*(np.shape(a) for a in given))
-    return [None if a is None else np.ascontiguousarray(np.broadcast_to(np.asarray(a, float), shape))
-            for a in arrays]
+    given = {name: as_numbers(name, a) for name, a in arrays.items() if a is not None}
+    try:
+        shape = np.broadcast_shapes(*(a.shape for a in given.values()))
+    except ValueError:
+        shapes = ", ".join(f"{name} {a.shape}" for name, a in given.items())
+        raise Error(f"arrays that do not fit each other: {shapes}", 2) from None
+    return [np.array(np.broadcast_to(given[name], shape), order="C") if name in given else None
+            for name in arrays]
+
+
+def _one(name, value):
+    """A number."""
+    number = as_numbers(name, value)
+    if number.size != 1:
+        raise wrong(name, "one number", value)
+    return float(number.reshape(()))
 
 
 def _at(array):
@@ -369,21 +392,29 @@ class _Law:
 
 
 class _PressureLaw(_Law):
-    """law(p, T): viscosity laws give ln(eta / 1 Pa s), density laws rho. `slopes=True` adds the
-    derivatives over p and T. T None is the temperature that the law was given for."""
+    """law(p, T): viscosity laws give ln(eta / 1 Pa s), density laws rho, kg/m3, at the pressure p, Pa,
+    and the temperature T, K; T None is the temperature that the law was given for. `slopes=True`
+    gives three arrays: that, and its derivatives over p and T."""
 
     def __init__(self, model, interface):
         super().__init__(model, interface, (c_size_t, *[c_void_p] * 5))
 
     def __call__(self, p, T=None, slopes=False):
-        p, T = _like(p, T)
+        if p is None:
+            raise wrong("p", "numbers", p)
+        p, T = _like(p=p, T=T)
         value, over_p, over_T = (np.empty_like(p) for _ in range(3))
         self._call(0, p.size, _at(p), _at(T), _at(value), _at(over_p), _at(over_T))
         return (value, over_p, over_T) if slopes else value
 
 
 class _FlowLaw(_Law):
-    """law.flow(ln_eta, h, u_s): the fluidity psi, 1/(Pa s); law.shear(p, ln_eta, h, u_s): tau, Pa."""
+    """How shear changes the flow in a film. Of both functions, points may be arrays of one shape:
+
+    ln_eta  ln(eta / 1 Pa s) of the liquid at rest, from a viscosity law
+    h       the thickness of the film there, m, above 0
+    u_s     the sliding speed u_1 - u_2 of the surfaces, m/s, one number; the stress has its sign
+    p       the pressure, Pa"""
 
     def __init__(self, model):
         super().__init__(model, b"flankfilm.rheology/1",
@@ -391,20 +422,33 @@ class _FlowLaw(_Law):
                          (c_size_t, c_void_p, c_void_p, c_void_p, c_double, c_void_p))
 
     def flow(self, ln_eta, h, u_s, slopes=False):
-        ln_eta, h = _like(ln_eta, h)
+        """The fluidity psi, 1/(Pa s), that the pressure flow sees: 1/eta of a Newtonian liquid.
+        `slopes=True` gives three arrays: that, and its derivatives over ln_eta and h."""
+        ln_eta, h = _like(ln_eta=ln_eta, h=h)
+        u_s = _one("u_s", u_s)
         psi, over_ln_eta, over_h = (np.empty_like(h) for _ in range(3))
         self._call(0, h.size, _at(ln_eta), _at(h), u_s, _at(psi), _at(over_ln_eta), _at(over_h))
         return (psi, over_ln_eta, over_h) if slopes else psi
 
     def shear(self, p, ln_eta, h, u_s):
-        p, ln_eta, h = _like(p, ln_eta, h)
+        """The mean shear stress of the film, Pa."""
+        p, ln_eta, h = _like(p=p, ln_eta=ln_eta, h=h)
+        u_s = _one("u_s", u_s)
         tau = np.empty_like(h)
         self._call(1, h.size, _at(p), _at(ln_eta), _at(h), u_s, _at(tau))
         return tau
 
 
 class _Liquid(_Law):
-    """liquid("rho0", T): a property over temperature, NaN where the data do not tell it."""
+    """liquid("rho0", T): a property of the oil at ambient pressure over the temperature T, K; NaN where
+    its data do not tell it. `slopes=True` gives two arrays: that, and its derivative over T.
+
+    "ln_eta0"                ln(eta / 1 Pa s)
+    "rho0"                   density, kg/m3
+    "conductivity"           thermal, W/(m K)
+    "heat_capacity"          J/(kg K)
+    "pressure_coefficient"   dln(eta)/dp, 1/Pa
+    "reference_temperature"  that the oil was given for, K, whatever T is"""
 
     PROPERTIES = ("ln_eta0", "rho0", "conductivity", "heat_capacity", "pressure_coefficient",
                   "reference_temperature")
@@ -415,8 +459,8 @@ class _Liquid(_Law):
 
     def __call__(self, name, T, slopes=False):
         if name not in self.PROPERTIES:
-            raise Error(f"an oil has {', '.join(self.PROPERTIES)}, not {name}", 2)
-        (T,) = _like(T)
+            raise Error(f"an oil has {', '.join(self.PROPERTIES)}; it has no \"{name}\"", 2)
+        (T,) = _like(T=T)
         value, slope = np.empty_like(T), np.empty_like(T)
         self._call(0, self.PROPERTIES.index(name), T.size, _at(T), _at(value), _at(slope))
         return (value, slope) if slopes else value

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from .arrays import Array, Error
+from .arrays import Array, Error, as_items, as_list, as_path, wrong
 
 
 def _map(path, shape):
@@ -199,7 +199,7 @@ _open = open
 
 def open(path):  # as in xarray or gzip
     """The Result or Study of a directory that `flankfilm run` has written."""
-    path = os.fspath(path)
+    path = as_path("path", path)
     if os.path.exists(os.path.join(path, "study.json")):
         return Study(path)
     if not os.path.exists(os.path.join(path, "result.json")):
@@ -216,15 +216,30 @@ def _program():
     return found
 
 
-def _text(value):
+def as_text(name, value):
     """As YAML has it."""
+
+    def plain(value):  # of numpy, whose numbers are none to json
+        if isinstance(value, (np.ndarray, np.generic, Array)):
+            return np.asarray(value).tolist()
+        if isinstance(value, os.PathLike):
+            return os.fspath(value)
+        raise wrong(name, "a text, a number, a list or a dictionary", value)
+
     if isinstance(value, (list, tuple)):
-        return "[" + ", ".join(_text(v) for v in value) + "]"
-    return value if isinstance(value, str) else json.dumps(value)
+        return "[" + ", ".join(as_text(name, v) for v in value) + "]"
+    if isinstance(value, (np.ndarray, np.generic, Array, os.PathLike)):
+        return as_text(name, plain(value))
+    return value if isinstance(value, str) else json.dumps(value, default=plain)
+
+
+def assignments(sets):
+    """What `sets` says, as --set takes it: "film.cells=512"."""
+    return [f"{key}={as_text(key, value)}" for key, value in as_items("sets", sets)]
 
 
 def _sets(sets):
-    return [word for path, value in (sets or {}).items() for word in ("--set", f"{path}={_text(value)}")]
+    return [word for text in assignments(sets) for word in ("--set", text)]
 
 
 def _call(*words):
@@ -253,14 +268,14 @@ def run(file, sets=None, directory=None, jobs=None):
     """Runs a case or a study with `sets` laid over it, {"duty.torque": "300 N m"}, and gives a
     Result or a Study. With `directory` the results are also written there; those of a study always
     are. Failed cases of a study do not raise: see Study.status."""
-    words = ["run", os.fspath(file), *_sets(sets)]
-    words += ["-j", jobs] if jobs else []
+    line = ["run", as_path("file", file), *_sets(sets)]
+    line += ["-j", jobs] if jobs else []
     keep = None
     if directory is None and not check(file, sets):
         keep = tempfile.TemporaryDirectory(prefix="flankfilm-")
-    place = os.fspath(directory) if directory else keep.name if keep else None
+    place = as_path("directory", directory) if directory else keep.name if keep else None
     try:
-        answer = _call(*words, *(["-o", place] if place else []))
+        answer = _call(*line, *(["-o", place] if place else []))
     except Error as error:
         if error.result:  # what it has left
             error.result.path, error.result._keep = directory, keep
@@ -272,13 +287,13 @@ def run(file, sets=None, directory=None, jobs=None):
 
 def check(file, sets=None):
     """Raises what is wrong with the file, and runs nothing. Says whether it is a study."""
-    return _call("check", os.fspath(file), *_sets(sets))["study"]
+    return _call("check", as_path("file", file), *_sets(sets))["study"]
 
 
 def fit(kind, data, laws=(), at=(), sets=None, directory=None):
     """Parameters of laws from measured data, as the dictionary that `flankfilm fit --json` prints."""
-    words = ["fit", kind, os.fspath(data), *_sets(sets)]
-    words += [word for law in laws for word in ("--law", law)]
-    words += [word for value in at for word in ("--at", value)]
-    words += ["-o", os.fspath(directory)] if directory else []
-    return _call(*words)
+    line = ["fit", kind, as_path("data", data), *_sets(sets)]
+    line += [word for law in as_list("laws", laws) for word in ("--law", law)]
+    line += [word for value in as_list("at", at) for word in ("--at", value)]
+    line += ["-o", as_path("directory", directory)] if directory else []
+    return _call(*line)
