@@ -187,7 +187,7 @@ for role, places in PLACES.items():
     for place in places:
         is_verified(role, place, "folder", CHANGES["folder"])
 is_verified("law", "eval", "limit", "changed a resource limit while calling eval")
-is_verified("law", "constructor", "_exit", "ended the program while loading")
+is_verified("law", "constructor", "_exit", "ended the program during load: it called _exit(), while loading")
 is_verified("law", "eval", "execl", "ended the program while calling eval")
 if not watched:
     is_verified("law", "destructor", "crash", "crashed while running its destructors")

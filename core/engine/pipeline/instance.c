@@ -38,11 +38,13 @@ static void inspect(fe_instance *instance)
 {
     const ff_hooks *hooks = instance->hooks;
     const char *fault = NULL;
+    if (instance->fault[0])
+        return;
     if (instance->stage->loaded->model->self_size && !instance->self)
         fault = "gave no instance to take its parameters";
     else if (hooks)
         fault = hooks->created(hooks->ctx, instance->self);
-    if (fault && !instance->fault[0])
+    if (fault)
         snprintf(instance->fault, sizeof instance->fault, "%s", fault);
 }
 

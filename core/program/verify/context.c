@@ -17,6 +17,7 @@ void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const c
 
 void verify_context_begin(verify_context *context, ff_engine *engine)
 {
+    context->engine = engine;
     context->model = context->loaded->model;
     context->laws = verify_plain_laws(engine, context->loaded);
     context->random = (verify_random){42};

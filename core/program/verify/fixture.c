@@ -5,6 +5,7 @@
 #include "../memory/memory.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* A fixture, and what the check has changed for the instances that it opens. */
@@ -80,7 +81,6 @@ static int32_t give(void *ctx, const char *input, uint32_t rank, const size_t *s
             continue;
         f->inputs_changed[i] = f->any_change = true;
         changed->inputs[i] = (ff_array){.data = NULL};
-        changed->memory[i] = (verify_guarded){.data = NULL};
         if (input && data)
             verify_setup_give(changed, i, data, rank, shape);
     }
@@ -145,11 +145,11 @@ static void *open_instance(void *ctx)
     verify_step(f->context, "create, set and ready");
     for (int i = 0; i < (f->context->given ? 1 : TRIES); i++) {
         made->setup = make_setup(f);
-        if (verify_setup_lacks(made->setup)) {
-            verify_skip_lacking(made->setup);
+        if (!verify_setup_can_be_used(made->setup, false))
             return NULL;
-        }
-        if (verify_instance_open(&made->instance, made->setup) == FF_OK) {
+        bool whole = verify_setup_is_complete(made->setup);
+        if (verify_is_good(whole ? verify_instance_open(&made->instance, made->setup)
+                                 : verify_instance_new(&made->instance, made->setup))) {
             verify_step(f->context, "%s", last);
             return made;
         }
@@ -161,47 +161,61 @@ static void *open_instance(void *ctx)
     return NULL;
 }
 
-static const void *service(void *ctx, void *instance, uint32_t output)
+typedef struct service_call {
+    const verify_instance *instance;
+    uint32_t output;
+    const void *table;
+} service_call;
+
+static ff_status call_service(void *ctx)
 {
-    verify_context *context = ((fixture *)ctx)->context;
-    verify_step(context, "service");
-    return context->model->service(((opened *)instance)->instance.self, output);
+    service_call *call = ctx;
+    call->table = call->instance->model->service(call->instance->self, call->output);
+    return FF_OK;
 }
 
-/* The bits of the outputs that the words name. */
-static uint64_t named(const ff_model *model, const char *words)
+static const void *service(void *ctx, void *instance, uint32_t output)
 {
-    uint64_t bits = 0;
-    while (*words) {
+    verify_step(((fixture *)ctx)->context, "service");
+    service_call call = {.instance = &((opened *)instance)->instance, .output = output};
+    verify_instance_call(&((opened *)instance)->instance, "service", call_service, &call);
+    return call.table;
+}
+
+/* Those of the words that name an output of data, but for one. */
+static char *known_words(const ff_model *model, const char *words, const char *refused)
+{
+    char *known = memory_print_text("%s", ""), word[64];
+    for (; *words; words += strspn(words, " ")) {
         size_t length = strcspn(words, " ");
-        for (size_t i = 0; i < model->output_count && i < 64; i++) {
-            const ff_port *row = ff_model_output(model, i);
-            if (!row->service && strlen(row->name) == length && !strncmp(row->name, words, length))
-                bits |= UINT64_C(1) << i;
-        }
-        words += length + strspn(words + length, " ");
+        snprintf(word, sizeof word, "%.*s", (int)length, words);
+        words += length;
+        int output = ff_model_find_output(model, word);
+        if (output < 0 || ff_model_output(model, (size_t)output)->service || !strcmp(word, refused))
+            continue;
+        char *longer = memory_print_text("%s %s", known, word);
+        free(known);
+        known = longer;
     }
-    return bits;
+    return known;
 }
 
 static ff_status evaluate(void *ctx, void *instance, const char *wanted)
 {
     opened *made = instance;
     const ff_model *model = ((fixture *)ctx)->context->model;
-    uint64_t bits = wanted ? named(model, wanted) : verify_data_outputs(model);
-    ff_status status = FF_UNSUPPORTED;
-    if (!verify_setup_is_complete(made->setup)) {
-        snprintf(made->instance.text, sizeof made->instance.text,
-                 "an input has nothing to feed it");
-        return FF_INVALID;
-    }
-    while (status == FF_UNSUPPORTED && bits) {
-        status = verify_instance_evaluate(&made->instance, bits, made->setup);
-        int refused = ff_model_find_output(model, made->instance.item);
-        if (status != FF_UNSUPPORTED || refused < 0 || refused > 63 || !(bits >> refused & 1))
+    char *words = wanted ? known_words(model, wanted, "") : NULL;
+    ff_status status = verify_instance_run(&made->instance, words, made->setup);
+    while (status == FF_UNSUPPORTED && words) {
+        char *fewer = known_words(model, words, ff_instance_item(made->instance.made));
+        bool refused = strcmp(fewer, words) != 0;
+        free(words);
+        words = fewer;
+        if (!refused || !*words)
             break;
-        bits &= ~(UINT64_C(1) << refused);
+        status = verify_instance_run(&made->instance, words, made->setup);
     }
+    free(words);
     return status;
 }
 
@@ -209,14 +223,13 @@ static ff_array array(void *ctx, void *instance, const char *name)
 {
     const ff_model *model = ((fixture *)ctx)->context->model;
     opened *made = instance;
-    int input = ff_model_find_input(model, name), output = ff_model_find_output(model, name);
+    const ff_result *result;
+    int input = ff_model_find_input(model, name);
     if (input >= 0)
         return made->setup->inputs[input];
-    if (output < 0 || !made->instance.outputs[output].data)
+    if (ff_instance_result(made->instance.made, name, &result) != FF_OK)
         return (ff_array){.data = NULL};
-    return (ff_array){.data = made->instance.outputs[output].data,
-                      .shape = made->instance.shapes[output],
-                      .rank = made->instance.ranks[output]};
+    return (ff_array){.data = result->data, .shape = result->shape, .rank = result->rank};
 }
 
 static const char *why(void *ctx, void *instance)

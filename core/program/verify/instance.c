@@ -1,4 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One instance of the model under test, which the engine makes and runs under watch. */
 #include "private.h"
 
 #include "../memory/memory.h"
@@ -18,284 +19,203 @@ __attribute__((format(printf, 2, 3))) static void breach(verify_instance *instan
     va_end(args);
 }
 
-static ff_status host_fail(void *ctx, ff_status status, const char *item, const char *text)
+static double *numbers(void *ctx, const ff_port *row, size_t count)
 {
     verify_instance *instance = ctx;
-    snprintf(instance->item, sizeof instance->item, "%s", item ? item : "");
-    snprintf(instance->text, sizeof instance->text, "%s", text ? text : "");
-    return status;
-}
-
-static void host_log(void *ctx, int32_t level, const char *text)
-{
-    (void)level;
-    if (!text)
-        breach(ctx, "logged no text");
-}
-
-/* Lengths that the rows of the stage share are the business of the caller. */
-static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_t *shape)
-{
-    verify_instance *instance = ctx;
-    const ff_model *model = instance->context->model;
-    size_t count = 1;
-    if (!instance->evaluating || index >= model->output_count) {
-        breach(instance, "asked for memory of output row %u %s", index,
-               instance->evaluating ? "which it does not have" : "outside of evaluate");
-        return NULL;
+    verify_guarded *memory = instance->outputs;
+    size_t i = 0;
+    while (i < instance->model->output_count && ff_model_output(instance->model, i) != row)
+        i++;
+    if (i == instance->model->output_count) {
+        memory = instance->inputs;
+        for (i = 0; ff_model_input(instance->model, i) != row;)
+            i++;
     }
-    const ff_dims *dims = &instance->context->loaded->output_dims[index];
-    const char *name = ff_model_output(model, index)->name;
-    if (instance->outputs[index].data)
-        breach(instance, "gave the output \"%s\" twice", name);
-    else if (rank > dims->rank || rank + dims->first_optional < dims->rank)
-        breach(instance, "gave the output \"%s\" with %u dimensions", name, rank);
-    for (uint32_t i = 0; i < rank && !instance->breach[0]; i++)
-        count *= instance->shapes[index][i] = shape[i];
-    if (instance->breach[0] || count > (size_t)1 << 27)
-        return NULL;
-    instance->ranks[index] = rank;
-    instance->outputs[index] = verify_guarded_new(count);
-    memset(instance->outputs[index].data, 0, count * sizeof(double));
-    return instance->outputs[index].data;
+    verify_guarded_free(&memory[i]);
+    memory[i] = verify_guarded_new(count);
+    memset(memory[i].data, 0, count * sizeof(double));
+    return memory[i].data;
 }
 
-static void host_quality(void *ctx, const char *name, double value, double limit, int32_t verdict,
-                         const char *text)
-{
-    (void)value, (void)limit, (void)text;
-    if (!name || !name[0] || verdict < FF_GOOD || verdict > FF_BAD)
-        breach(ctx, "gave a quality line without a name or with an unknown verdict");
-}
-
-static int32_t host_progress(void *ctx, double fraction)
+static const char *created(void *ctx, void *self)
 {
     verify_instance *instance = ctx;
-    (void)fraction;
+    size_t needed = instance->model->self_size;
+    instance->created = true;
+    instance->self = self;
+    instance->room = verify_allocation_room(self);
+    if (instance->room && instance->room < needed)
+        breach(instance, "gives an instance of %zu bytes, but its self_size is %zu", instance->room,
+               needed);
+    if (instance->breach[0])
+        return instance->breach;
+    return instance->bare ? "is not needed any further" : NULL;
+}
+
+/* While it works, a model may be stopped or doubt its numbers without a word. */
+static bool owes_reason(const char *action, ff_status status)
+{
+    static const char *const work[] = {"evaluate", "assess", "judge"};
+    for (size_t i = 0; i < sizeof work / sizeof *work; i++)
+        if (!strcmp(action, work[i]) && (status == FF_STOPPED || status == FF_DOMAIN))
+            return false;
+    return status != FF_OK && status != FF_NOMEM;
+}
+
+static void returned(void *ctx, const char *action, ff_status status, bool explained)
+{
+    verify_instance *instance = ctx;
+    if (!explained && owes_reason(action, status))
+        breach(instance, "gave the status %d and no reason during %s", status, action);
+    verify_check_process(instance->context);
+}
+
+static int32_t progress(void *ctx, const ff_stage *stage, double fraction)
+{
+    verify_instance *instance = ctx;
+    (void)stage, (void)fraction;
     if (instance->stop_at > 0 && verify_now() > instance->stop_at)
         instance->asked_to_stop = true;
     return instance->asked_to_stop;
 }
 
-/* A table that cannot be read is a failure of the instance, too. */
-static ff_status table_status(verify_instance *instance, ff_status status)
+static void log_line(void *ctx, const ff_stage *stage, int32_t level, const char *text)
 {
-    char why[300];
-    if (status == FF_BUG)
-        breach(instance,
-               "asked for an impossible table, or reported a fault in one that it has not read");
-    if (!instance->tables.errors)
-        return status;
-    ff_tables_print(&instance->tables, why, sizeof why);
-    return host_fail(instance, status, instance->tables.item, why);
+    (void)stage, (void)level;
+    if (!text[0])
+        breach(ctx, "logged no text");
 }
 
-static ff_status table_read(void *ctx, const char *item, const char *path, const ff_param *rows,
-                            size_t count, size_t stride, const ff_table **table)
+/* Keeps why the last call failed, for when the instance is closed: of a fault the whole sentence.
+ */
+static ff_status note(verify_instance *instance, ff_status status)
 {
-    verify_instance *instance = ctx;
-    return table_status(instance,
-                        ff_tables_read(&instance->tables, item, path, rows, count, stride, table));
+    const ff_message *first = ff_report_first(ff_instance_report(instance->made));
+    const char *text = status == FF_BUG && first ? first->text : ff_instance_reason(instance->made);
+    snprintf(instance->text, sizeof instance->text, "%s", status == FF_OK ? "" : text);
+    return status;
 }
 
-static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t column,
-                            const char *text)
+static ff_status set(const verify_instance *instance, const ff_param *row, const ff_value *value)
 {
-    verify_instance *instance = ctx;
-    return table_status(instance,
-                        ff_tables_fail(&instance->tables, table, row, column, text ? text : ""));
+    double number = row->type == FF_REAL ? value->real : (double)value->integer;
+    if (value->text)
+        return ff_instance_set(instance->made, row->name, value->text);
+    if (row->type == FF_REALS)
+        return ff_instance_set_reals(instance->made, row->name, value->reals, value->count);
+    return ff_instance_set_reals(instance->made, row->name, &number, 1);
 }
 
-static const void *host_extension(void *ctx, const char *id)
+/* Gives the arrays of the setup. */
+static ff_status feed(const verify_instance *instance, const verify_setup *setup)
 {
-    static const ff_table_reader tables = {sizeof tables, table_read, table_fail};
-    (void)ctx;
-    return id && !strcmp(id, FF_TABLE_ID) ? &tables : NULL;
-}
-
-bool verify_is_wanted(const verify_instance *instance, size_t output)
-{
-    const ff_model *model = instance->context->model;
-    if (output < 64)
-        return instance->wanted >> output & 1;
-    return instance->wanted == verify_data_outputs(model) &&
-           !ff_model_output(model, output)->service;
-}
-
-static int32_t host_wanted(void *ctx, uint32_t output)
-{
-    verify_instance *instance = ctx;
-    if (output < instance->context->model->output_count)
-        return verify_is_wanted(instance, output);
-    breach(instance, "asked whether output row %u is wanted, which it does not have", output);
-    return 0;
-}
-
-static int32_t host_given(void *ctx, uint32_t param)
-{
-    verify_instance *instance = ctx;
-    if (param < instance->context->model->param_count)
-        return instance->values[param].size && instance->values[param].given;
-    breach(instance, "asked whether parameter row %u was given, which it does not have", param);
-    return 0;
-}
-
-static void host_serves(void *ctx, const char *item, const char *outputs, const char *by,
-                        const char *text)
-{
-    (void)ctx, (void)item, (void)outputs, (void)by, (void)text; /* of no instance by itself */
-}
-
-static ff_status wire(verify_instance *instance, const verify_setup *setup)
-{
-    const ff_model *model = instance->context->model;
     ff_status status = FF_OK;
-    for (size_t i = 0; i < model->input_count && model->wire && status == FF_OK; i++) {
-        const char *service = ff_model_input(model, i)->service;
-        const void *table = service ? setup->services[i] : NULL;
-        if (table || (!service && setup->inputs[i].data))
-            status = model->wire(instance->self, (uint32_t)i, table);
+    for (size_t i = 0; i < instance->model->input_count && status == FF_OK; i++) {
+        const ff_port *row = ff_model_input(instance->model, i);
+        if (!row->service)
+            status = ff_instance_give(instance->made, row->name, &setup->inputs[i]);
     }
     return status;
 }
 
-/* Fills in the members behind `place`, unless they are known to lie outside of the instance. */
-static ff_status place(verify_instance *instance, const verify_setup *setup)
+ff_status verify_instance_new(verify_instance *instance, const verify_setup *setup)
 {
-    const ff_model *model = instance->context->model;
-    instance->room = verify_allocation_room(instance->self);
-    if (!instance->self)
-        breach(instance, "gave no instance to take its parameters");
-    else if (instance->room && instance->room < model->self_size)
-        breach(instance, "gives an instance of %zu bytes, but its self_size is %zu", instance->room,
-               model->self_size);
-    if (instance->breach[0])
-        return FF_BUG;
-    for (size_t i = 0; i < model->param_count; i++)
-        if (ff_model_param(model, i)->place)
-            ff_param_place(ff_model_param(model, i), instance->self,
-                           setup->values[i].size ? &setup->values[i] : NULL);
-    return FF_OK;
+    verify_context *context = setup->context;
+    *instance = (verify_instance){
+        .context = context,
+        .hooks = {sizeof instance->hooks, instance, numbers, created, returned},
+    };
+    const ff_observer observer = {
+        .size = sizeof observer, .ctx = instance, .progress = progress, .log = log_line};
+    ff_status status = ff_instance_new(context->engine, context->model->id, &instance->made);
+    memory_require(instance->made); /* the model has been loaded */
+    const ff_model *model = instance->model = ff_instance_stage(instance->made)->loaded->model;
+    instance->inputs = memory_alloc((model->input_count + 1) * sizeof *instance->inputs);
+    instance->outputs = memory_alloc((model->output_count + 1) * sizeof *instance->outputs);
+    ff_instance_watch(instance->made, &instance->hooks);
+    ff_instance_observe(instance->made, &observer);
+    for (size_t i = 0; i < model->param_count && status == FF_OK; i++)
+        if (setup->values[i].size)
+            status = set(instance, ff_model_param(model, i), &setup->values[i]);
+    for (size_t i = 0; i < model->input_count && status == FF_OK; i++)
+        if (setup->services[i])
+            status = ff_instance_serve(instance->made, ff_model_input(model, i)->name,
+                                       setup->services[i]);
+    return note(instance, status == FF_OK ? feed(instance, setup) : status);
 }
 
-ff_status verify_instance_create(verify_instance *instance, const verify_setup *setup)
+bool verify_instance_create(verify_instance *instance, verify_context *context)
 {
-    const ff_model *model = setup->context->model;
-    *instance = (verify_instance){
-        .context = setup->context,
-        .values = setup->values,
-        .outputs = memory_alloc((model->output_count + 1) * sizeof *instance->outputs),
-        .shapes = memory_alloc((model->output_count + 1) * sizeof *instance->shapes),
-        .ranks = memory_alloc((model->output_count + 1) * sizeof *instance->ranks),
-    };
-    instance->host = (ff_host){.size = sizeof instance->host,
-                               .abi_minor = FF_ABI_MINOR,
-                               .ctx = instance,
-                               .fail = host_fail,
-                               .log = host_log,
-                               .output = host_output,
-                               .quality = host_quality,
-                               .progress = host_progress,
-                               .extension = host_extension,
-                               .wanted = host_wanted,
-                               .given = host_given,
-                               .serves = host_serves};
-    ff_status status = model->create(&instance->host, &instance->self);
-    instance->created = status == FF_OK;
-    return status;
+    verify_instance_new(instance, verify_setup_new(context));
+    instance->bare = true;
+    ff_status status = note(instance, ff_instance_ready(instance->made));
+    if (instance->breach[0])
+        return verify_fail(context, "it %s", instance->breach);
+    return status != FF_BUG || instance->created || verify_fail(context, "%s", instance->text);
 }
 
 ff_status verify_instance_open(verify_instance *instance, const verify_setup *setup)
 {
-    const ff_model *model = setup->context->model;
-    ff_status status = verify_instance_create(instance, setup);
-    if (status == FF_OK && model->self_size)
-        status = place(instance, setup);
-    for (size_t i = 0; i < model->param_count && status == FF_OK; i++)
-        if (setup->values[i].size && !ff_model_param(model, i)->place)
-            status = model->set(instance->self, (uint32_t)i, &setup->values[i]);
-    if (status == FF_OK)
-        status = wire(instance, setup);
-    const char *missing = verify_setup_missing(setup);
-    if (status == FF_OK && missing) {
-        snprintf(instance->text, sizeof instance->text, "%s is needed", missing);
-        return FF_INVALID;
+    ff_status status = verify_instance_new(instance, setup);
+    return status == FF_OK ? note(instance, ff_instance_ready(instance->made)) : status;
+}
+
+ff_status verify_instance_run(verify_instance *instance, const char *outputs,
+                              const verify_setup *setup)
+{
+    ff_status status = feed(instance, setup);
+    return note(instance, status == FF_OK ? ff_instance_run(instance->made, outputs) : status);
+}
+
+ff_status verify_instance_call(verify_instance *instance, const char *function,
+                               ff_status (*work)(void *ctx), void *ctx)
+{
+    return note(instance, ff_instance_call(instance->made, function, work, ctx));
+}
+
+/* Whether what the engine handed to the model is as it was. */
+static bool inputs_are_unchanged(const verify_instance *instance, const char *function,
+                                 const verify_setup *setup)
+{
+    for (size_t i = 0; i < instance->model->input_count; i++) {
+        const verify_guarded *input = &instance->inputs[i];
+        if (setup->inputs[i].data && input->data &&
+            (!verify_is_intact(input->data, input->count) ||
+             memcmp(setup->inputs[i].data, input->data, input->count * sizeof(double)) != 0))
+            return verify_fail(setup->context, "%s changed its input \"%s\"", function,
+                               ff_model_input(instance->model, i)->name);
     }
-    return status == FF_OK && model->ready ? model->ready(instance->self) : status;
+    return true;
 }
 
-static void forget(verify_instance *instance)
+bool verify_instance_is_sound(const verify_instance *instance, const char *function,
+                              ff_status status, const verify_setup *setup)
 {
-    for (size_t i = 0; instance->outputs && i < instance->context->model->output_count; i++)
-        verify_guarded_free(&instance->outputs[i]);
-}
-
-ff_status verify_instance_evaluate(verify_instance *instance, uint64_t wanted,
-                                   const verify_setup *setup)
-{
-    forget(instance);
-    instance->text[0] = instance->item[0] = 0;
-    instance->wanted = wanted;
-    instance->evaluating = true;
-    ff_status status = instance->context->model->evaluate(instance->self, wanted, setup->inputs);
-    instance->evaluating = false;
-    return status;
+    verify_context *c = setup->context;
+    if (!inputs_are_unchanged(instance, function, setup))
+        return false;
+    if (instance->breach[0])
+        return verify_fail(c, "it %s", instance->breach);
+    if (status == FF_BUG)
+        return verify_fail(c, "%s", instance->text);
+    for (size_t i = 0; i < instance->model->output_count; i++) {
+        const verify_guarded *output = &instance->outputs[i];
+        if (output->data && !verify_is_intact(output->data, output->count))
+            return verify_fail(c, "%s wrote outside the array \"%s\" of %zu numbers", function,
+                               ff_model_output(instance->model, i)->name, output->count);
+    }
+    return true;
 }
 
 void verify_instance_close(verify_instance *instance)
 {
-    if (instance->created && instance->context->model->destroy)
-        instance->context->model->destroy(instance->self);
-    instance->created = false;
-    ff_tables_free(&instance->tables);
-    forget(instance);
+    ff_instance_close(instance->made);
+    instance->made = NULL;
+    for (size_t i = 0; instance->inputs && i < instance->model->input_count; i++)
+        verify_guarded_free(&instance->inputs[i]);
+    for (size_t i = 0; instance->outputs && i < instance->model->output_count; i++)
+        verify_guarded_free(&instance->outputs[i]);
+    free(instance->inputs);
     free(instance->outputs);
-    free(instance->shapes);
-    free(instance->ranks);
-    instance->outputs = NULL;
-    instance->shapes = NULL;
-    instance->ranks = NULL;
-}
-
-verify_setup *verify_open_accepted(verify_context *context, verify_instance *instance, bool quietly)
-{
-    enum { TRIES = 400 };
-    verify_setup *setup = context->given;
-    for (int i = 0; i < TRIES; i++) {
-        if (!context->given)
-            setup = verify_setup_new(context);
-        if (!context->given)
-            verify_setup_draw_params(setup, &context->random, VERIFY_CALIBRATED);
-        if (!context->given && verify_setup_lacks(setup)) {
-            if (!quietly)
-                verify_skip_lacking(setup);
-            return NULL;
-        }
-        verify_step(context, "create, set and ready");
-        if (verify_instance_open(instance, setup) == FF_OK)
-            return setup;
-        verify_instance_close(instance);
-        if (context->given)
-            break;
-    }
-    if (!quietly)
-        verify_skip(context,
-                    "no parameters were found that it accepts%s%s; --pipeline FILE gives some",
-                    instance->text[0] ? ": " : "", instance->text);
-    return NULL;
-}
-
-bool verify_outputs_agree(verify_context *c, const verify_instance *a, const verify_instance *b,
-                          const char *when)
-{
-    for (size_t i = 0; i < c->model->output_count; i++) {
-        const verify_guarded *x = &a->outputs[i], *y = &b->outputs[i];
-        if (!x->data && !y->data)
-            continue;
-        if (!x->data || !y->data || x->count != y->count ||
-            memcmp(x->data, y->data, x->count * sizeof(double)) != 0)
-            return verify_fail(c, "the output \"%s\" differs %s",
-                               ff_model_output(c->model, i)->name, when);
-    }
-    return true;
+    instance->inputs = instance->outputs = NULL;
 }

@@ -60,6 +60,9 @@ void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const c
 
 enum { VERIFY_SIGNALS = 32, VERIFY_LIMITS = RLIM_NLIMITS };
 
+/* run.c: an engine that finds the plugins of the folder before all others. */
+ff_engine *verify_open_engine(const char *root);
+
 /* process.c: what of the process a model must leave alone beside arithmetic and locale. */
 typedef struct verify_process {
     struct sigaction signals[VERIFY_SIGNALS];
@@ -81,6 +84,8 @@ const char *verify_process_changed(const verify_process *was);
 
 /* context.c: one test of one model. */
 typedef struct verify_context {
+    const char *root; /* the folder of the plugins */
+    ff_engine *engine;
     const ff_loaded *loaded;
     const ff_model *model; /* under test */
     const void **laws;     /* of each service input a plain law; NULL: none */
@@ -121,8 +126,8 @@ typedef struct verify_setup {
     ff_value *values;      /* of each parameter; size 0: not set */
     ff_array *inputs;      /* of each input row */
     const void **services; /* the table of a service input; NULL: not connected */
-    verify_guarded *memory;
     size_t (*shapes)[FF_MAX_RANK];
+    const char *lacks; /* a required file that could not be drawn; NULL: none */
 } verify_setup;
 
 /* Parameters in their calibrated range; anywhere in their physical limits, and at them; or in the
@@ -135,60 +140,72 @@ double verify_draw_number(const ff_param *row, verify_random *random, verify_ran
 /* table.c: the path of a file with the columns of the model and other numbers at each call, which
    lasts as long as the process; NULL: it states none. */
 const char *verify_make_table(verify_context *context);
-/* The name of a required parameter that has no value; NULL: none. */
-const char *verify_setup_lacks(const verify_setup *setup);
-/* Skips the test for that reason. Returns false. */
-bool verify_skip_lacking(const verify_setup *setup);
+/* Whether all that is required could be drawn; else the test is skipped, unless `quietly`. */
+bool verify_setup_can_be_used(const verify_setup *setup, bool quietly);
 void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify_range range);
 void verify_setup_draw_inputs(verify_setup *setup, verify_random *random);
 void verify_setup_give(verify_setup *setup, size_t input, const double *data, uint32_t rank,
                        const size_t *shape);
-/* A parameter that ready may count on, since it is required or has a preset, and that is missing.
- */
-const char *verify_setup_missing(const verify_setup *setup);
 bool verify_setup_is_complete(const verify_setup *setup); /* every required input is there */
-double **verify_copy_inputs(const verify_setup *setup);
-/* Compares the inputs with the copies, which are freed. `function` was called in between. */
-bool verify_inputs_are_unchanged(const verify_setup *setup, double **copies, const char *function);
 
 /* user-run.c: takes the parameters of the stage of the user's pipeline that uses the model and,
    with `run`, what the other stages feed it. False with errors in the report. */
 bool verify_take_user_run(verify_context *context, const verify_request *request, ff_engine *engine,
                           bool run, ff_report *report);
 
-/* instance.c: one instance of the model, and its host. */
+/* instance.c: one instance of the model, which the engine makes and runs under watch. */
 typedef struct verify_instance {
-    ff_host host;
-    const verify_context *context;
+    verify_context *context;
+    ff_instance *made;
+    const ff_model *model; /* as the engine of the instance has it */
+    ff_hooks hooks;
+    bool bare, created;
     void *self;
-    bool created;
-    size_t room; /* bytes that were allocated for `self`; 0: not known */
-    bool evaluating;
-    uint64_t wanted;         /* by evaluate; rows from 64 on only with all others */
-    verify_guarded *outputs; /* of each row */
-    size_t (*shapes)[FF_MAX_RANK];
-    uint32_t *ranks;
-    const ff_value *values;   /* of each parameter, the setup's; size 0: not set */
-    char item[96], text[300]; /* of the last failure */
-    ff_tables tables;         /* that it has read */
-    char breach[200];         /* of the interface: completes 'it ...' */
-    double stop_at;           /* progress asks to stop from then on */
+    size_t room;                      /* bytes that were allocated for `self`; 0: not known */
+    verify_guarded *inputs, *outputs; /* the memory of each row */
+    char text[700];                   /* why the last call failed; "" */
+    char breach[400];                 /* of the interface: completes 'it ...' */
+    double stop_at;                   /* progress asks to stop from then on */
     bool asked_to_stop;
 } verify_instance;
 
-/* create alone. To be closed whatever the status is. */
-ff_status verify_instance_create(verify_instance *instance, const verify_setup *setup);
-/* create, set, wire, ready; `setup` has all that is required. To be closed likewise. */
+/* An instance with the parameters, laws and inputs of the setup, of which the model knows nothing
+   yet. To be closed whatever the status is, like those below. */
+ff_status verify_instance_new(verify_instance *instance, const verify_setup *setup);
+/* create alone, of an instance without parameters. False after a failure. */
+bool verify_instance_create(verify_instance *instance, verify_context *context);
+/* create, set, wire, ready. */
 ff_status verify_instance_open(verify_instance *instance, const verify_setup *setup);
-/* The outputs stay until the next call. */
-ff_status verify_instance_evaluate(verify_instance *instance, uint64_t wanted,
-                                   const verify_setup *setup);
-bool verify_is_wanted(const verify_instance *instance, size_t output);
+/* Evaluates for the outputs named, with the inputs of the setup; NULL: for all that the model does
+   not refuse. */
+ff_status verify_instance_run(verify_instance *instance, const char *outputs,
+                              const verify_setup *setup);
+/* Calls work(ctx), which calls that function of the model. */
+ff_status verify_instance_call(verify_instance *instance, const char *function,
+                               ff_status (*work)(void *ctx), void *ctx);
+/* Fails when the function, which came to that status, broke the interface, found a fault of its
+   own, or wrote where it must not. */
+bool verify_instance_is_sound(const verify_instance *instance, const char *function,
+                              ff_status status, const verify_setup *setup);
 void verify_instance_close(verify_instance *instance);
-/* Opens an instance with parameters that the model accepts: those of the user, or random ones. NULL
-   when none were found, which is a skip unless `quietly`. */
+
+/* search.c: what the model works with. */
+
+static inline bool verify_is_good(ff_status status)
+{
+    return status == FF_OK || status == FF_DOMAIN;
+}
+
+/* Opens an instance with parameters that the model accepts, those of the user or random ones, and
+   inputs. NULL when none were found, which is a skip unless `quietly`. */
 verify_setup *verify_open_accepted(verify_context *context, verify_instance *instance,
                                    bool quietly);
+/* Opens an instance and finds inputs that it can work with. *served: the names of the outputs that
+   it then gives. NULL when there are none. */
+verify_setup *verify_find_work(verify_context *context, verify_instance *instance, char **served);
+/* The same with the outputs found one by one until the time is up; false after a failure. */
+bool verify_find_served(verify_context *context, verify_instance *instance,
+                        const verify_setup *setup, char **served, double end);
 /* Fails unless the outputs of both are the same to the bit. */
 bool verify_outputs_agree(verify_context *context, const verify_instance *a,
                           const verify_instance *b, const char *when);

@@ -146,8 +146,7 @@ static void try_model(verify_context *context, const session *s, ff_engine *engi
         run_watched(context, t, inputs || t->run == verify_test_environment);
 }
 
-/* The folder of the plugin comes before the search path. */
-static ff_engine *open_engine(const char *root)
+ff_engine *verify_open_engine(const char *root)
 {
     const char *const roots[] = {root};
     ff_engine_options options = {
@@ -182,8 +181,8 @@ static void on_fork(void)
 
 static _Noreturn void child(const session *s, const test *t, verify_outcome *outcome)
 {
-    verify_context context = {.outcome = outcome};
-    ff_engine *engine = open_engine(s->root);
+    verify_context context = {.outcome = outcome, .root = s->root};
+    ff_engine *engine = verify_open_engine(s->root);
     watched = outcome;
     pthread_atfork(on_fork, NULL, NULL);
     verify_step(&context, "loading");
@@ -211,7 +210,8 @@ static void first_words(FILE *capture, char *out, size_t size)
 static void conclude(verify_outcome *outcome, int status, bool late, FILE *capture,
                      const verify_request *request, verify_result *result)
 {
-    char words[200];
+    static const char told[] = "error: "; /* by the handler of crashes */
+    char words[380];
     first_words(capture, words, sizeof words);
     result->finding = outcome->finding;
     snprintf(result->why, sizeof result->why, "%s", outcome->why);
@@ -224,6 +224,9 @@ static void conclude(verify_outcome *outcome, int status, bool late, FILE *captu
     else if (WIFSIGNALED(status))
         snprintf(result->why, sizeof result->why, "crashed while %s: %s", outcome->step,
                  strsignal(WTERMSIG(status)));
+    else if (!outcome->finished && !strncmp(words, told, strlen(told)))
+        snprintf(result->why, sizeof result->why, "%s, while %s", words + strlen(told),
+                 outcome->step);
     else if (!outcome->finished)
         snprintf(result->why, sizeof result->why, "ended the program while %s: %s", outcome->step,
                  words[0] ? words : "it called exit(), or the like");
@@ -353,7 +356,7 @@ bool verify_plugin(const verify_request *request,
                         request->path);
     setenv("OPENBLAS_NUM_THREADS", "1", 1); /* a thread that stays is then the model's own */
     setenv("OMP_NUM_THREADS", "1", 1);
-    s.engine = open_engine(s.root);
+    s.engine = verify_open_engine(s.root);
     if (try(&s, &descriptor) && try(&s, &pipeline)) {
         for (size_t i = 0; i < sizeof any_model / sizeof *any_model; i++)
             try(&s, &any_model[i]);

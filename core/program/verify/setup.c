@@ -16,7 +16,6 @@ verify_setup *verify_setup_new(verify_context *context)
     setup->context = context;
     setup->values = memory_alloc(model->param_count * sizeof *setup->values);
     setup->inputs = memory_alloc(model->input_count * sizeof *setup->inputs);
-    setup->memory = memory_alloc(model->input_count * sizeof *setup->memory);
     setup->shapes = memory_alloc(model->input_count * sizeof *setup->shapes);
     setup->services = memory_alloc(model->input_count * sizeof *setup->services);
     for (size_t i = 0; i < model->input_count; i++)
@@ -53,8 +52,8 @@ static void draw_reals(const verify_setup *setup, size_t param, verify_random *r
     value->reals = reals;
 }
 
-static void draw_value(const verify_setup *setup, size_t param, verify_random *random,
-                       verify_range range, ff_value *value)
+static void draw_value(verify_setup *setup, size_t param, verify_random *random, verify_range range,
+                       ff_value *value)
 {
     const ff_param *row = ff_model_param(setup->context->model, param);
     char word[64];
@@ -62,7 +61,8 @@ static void draw_value(const verify_setup *setup, size_t param, verify_random *r
     *value = (ff_value){.size = sizeof *value, .given = 1};
     while (row->choices && ff_word_at(row->choices, words, word, sizeof word))
         words++;
-    if (words && (row->type == FF_CHOICE || verify_below(random, 4) == 0)) {
+    bool must = row->type == FF_CHOICE || (row->type == FF_TEXT && range != VERIFY_PHYSICAL);
+    if (words && (must || verify_below(random, 4) == 0)) {
         value->integer = (int64_t)verify_below(random, words);
         ff_word_at(row->choices, (size_t)value->integer, word, sizeof word);
         value->text = strdup(word);
@@ -79,8 +79,10 @@ static void draw_value(const verify_setup *setup, size_t param, verify_random *r
     } else if (row->flags & FF_REQUIRED) {
         value->text = verify_make_table(setup->context);
     }
-    if (row->type == FF_FILE && !value->text)
+    if (row->type == FF_FILE && !value->text) {
         value->size = 0;
+        setup->lacks = row->flags & FF_REQUIRED ? row->name : setup->lacks;
+    }
 }
 
 /* Of a group's members that may be drawn, the one to give: drawn with equal chance. */
@@ -127,36 +129,23 @@ static bool is_replaced(const verify_setup *setup, const ff_param *row)
     return input >= 0 && setup->services[input];
 }
 
-static bool group_is_given(const verify_setup *setup, const char *group)
+bool verify_setup_can_be_used(const verify_setup *setup, bool quietly)
 {
     const ff_model *model = setup->context->model;
-    for (size_t i = 0; i < model->param_count; i++) {
-        const char *other = ff_model_param(model, i)->group;
-        if (other && !strcmp(other, group) && setup->values[i].size)
-            return true;
+    const ff_port *law = NULL;
+    for (size_t i = 0; i < model->input_count && !law; i++) {
+        const ff_port *row = ff_model_input(model, i);
+        law = row->service && !(row->flags & FF_OPTIONAL) && !setup->services[i] ? row : NULL;
     }
-    return false;
-}
-
-const char *verify_setup_lacks(const verify_setup *setup)
-{
-    const ff_model *model = setup->context->model;
-    for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *row = ff_model_param(model, i);
-        bool given = setup->values[i].size || is_replaced(setup, row) ||
-                     (row->group && group_is_given(setup, row->group));
-        if (row->flags & FF_REQUIRED && !given)
-            return row->name;
-    }
-    return NULL;
-}
-
-bool verify_skip_lacking(const verify_setup *setup)
-{
-    return verify_skip(setup->context,
-                       "it requires \"%s\", and states no columns of which a file could be made; "
-                       "--pipeline FILE gives one",
-                       verify_setup_lacks(setup));
+    if (setup->lacks && !quietly)
+        verify_skip(setup->context,
+                    "it requires \"%s\", and states no columns of which a file could be made; "
+                    "--pipeline FILE gives one",
+                    setup->lacks);
+    else if (law && !quietly)
+        verify_skip(setup->context, "it requires \"%s\", and no model %s/KIND has a plain %s",
+                    law->name, FF_CONFORMANCE_KIND, law->service);
+    return !setup->lacks && !law;
 }
 
 /* A service that replaces parameters is there in every other draw, so that both ways are tried. */
@@ -192,41 +181,11 @@ void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify
             give[chosen] = true;
     }
     for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *row = ff_model_param(model, i);
-        const char *message;
         setup->values[i].size = 0;
-        if (is_replaced(setup, row))
-            continue;
-        if (give[i])
+        if (give[i] && !is_replaced(setup, ff_model_param(model, i)))
             draw_value(setup, i, random, range, &setup->values[i]);
-        else if (row->preset && (!row->group || (range == VERIFY_REQUIRED && has_preset(model, i))))
-            verify_read_param(setup->context, i, NULL, &setup->values[i], &message);
     }
     free(give);
-}
-
-static bool has_member(const verify_setup *setup, const char *group)
-{
-    const ff_model *model = setup->context->model;
-    for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *row = ff_model_param(model, i);
-        if (row->group && !strcmp(row->group, group) && setup->values[i].size)
-            return true;
-    }
-    return false;
-}
-
-const char *verify_setup_missing(const verify_setup *setup)
-{
-    const ff_model *model = setup->context->model;
-    for (size_t i = 0; i < model->param_count; i++) {
-        const ff_param *row = ff_model_param(model, i);
-        bool counted_on = row->preset || row->flags & FF_REQUIRED;
-        bool there = row->group ? has_member(setup, row->group) : setup->values[i].size > 0;
-        if (counted_on && !there && !is_replaced(setup, row))
-            return row->name;
-    }
-    return NULL;
 }
 
 void verify_setup_give(verify_setup *setup, size_t input, const double *data, uint32_t rank,
@@ -235,12 +194,9 @@ void verify_setup_give(verify_setup *setup, size_t input, const double *data, ui
     size_t count = 1;
     for (uint32_t i = 0; i < rank; i++)
         count *= setup->shapes[input][i] = shape[i];
-    verify_guarded_free(&setup->memory[input]);
-    setup->memory[input] = verify_guarded_new(count);
-    if (count)
-        memcpy(setup->memory[input].data, data, count * sizeof *data);
-    setup->inputs[input] =
-        (ff_array){.data = setup->memory[input].data, .shape = setup->shapes[input], .rank = rank};
+    double *copy = memory_alloc((count + 1) * sizeof *copy);
+    memcpy(copy, data, count * sizeof *copy);
+    setup->inputs[input] = (ff_array){.data = copy, .shape = setup->shapes[input], .rank = rank};
 }
 
 /* Equal names, equal lengths. */
@@ -296,34 +252,4 @@ bool verify_setup_is_complete(const verify_setup *setup)
             return false;
     }
     return true;
-}
-
-double **verify_copy_inputs(const verify_setup *setup)
-{
-    size_t inputs = setup->context->model->input_count;
-    double **copies = memory_alloc((inputs + 1) * sizeof *copies);
-    for (size_t i = 0; i < inputs; i++) {
-        size_t size = setup->memory[i].count * sizeof(double);
-        copies[i] = setup->memory[i].data ? memory_alloc(size + 1) : NULL;
-        if (copies[i])
-            memcpy(copies[i], setup->memory[i].data, size);
-    }
-    return copies;
-}
-
-bool verify_inputs_are_unchanged(const verify_setup *setup, double **copies, const char *function)
-{
-    const ff_model *model = setup->context->model;
-    bool good = true;
-    for (size_t i = 0; i < model->input_count; i++) {
-        const verify_guarded *input = &setup->memory[i];
-        if (copies[i] && good &&
-            (!verify_is_intact(input->data, input->count) ||
-             memcmp(copies[i], input->data, input->count * sizeof(double)) != 0))
-            good = verify_fail(setup->context, "%s changed its input \"%s\"", function,
-                               ff_model_input(model, i)->name);
-        free(copies[i]);
-    }
-    free(copies);
-    return good;
 }

@@ -58,47 +58,51 @@ bool verify_test_places(verify_context *c)
     if (!verify_allocations_redirect(c->model))
         return verify_skip(c, "its calls of malloc cannot be redirected");
     verify_step(c, "create");
-    verify_instance_open(&instance, verify_setup_new(c));
-    bool good = !instance.breach[0] || verify_fail(c, "it %s", instance.breach);
+    bool good = verify_instance_create(&instance, c);
     if (good && !instance.room)
         verify_skip(c, "its instances are not from malloc: their size cannot be seen");
     verify_instance_close(&instance);
     return good;
 }
 
-/* create, set, ready, service, destroy; true when all were good. */
-static bool live(verify_context *c, const verify_setup *setup, ff_status *status)
+static ff_status call_services(void *ctx)
 {
-    const ff_model *model = c->model;
+    const verify_instance *instance = ctx;
+    for (size_t i = 0; i < instance->model->output_count; i++)
+        if (ff_model_output(instance->model, i)->service)
+            instance->model->service(instance->self, (uint32_t)i);
+    return FF_OK;
+}
+
+/* create, set, ready, service, destroy; true when all were good. */
+static bool live(const verify_setup *setup)
+{
     verify_instance instance;
-    *status = verify_instance_open(&instance, setup);
-    for (size_t i = 0; i < model->output_count && *status == FF_OK; i++)
-        if (ff_model_output(model, i)->service)
-            model->service(instance.self, (uint32_t)i);
+    ff_status status = verify_instance_open(&instance, setup);
+    if (verify_is_good(status))
+        status = verify_instance_call(&instance, "service", call_services, &instance);
+    bool good = verify_instance_is_sound(&instance, "create or ready", status, setup);
     verify_instance_close(&instance);
-    return !instance.breach[0] || verify_fail(c, "it %s", instance.breach);
+    return good;
 }
 
 bool verify_test_life(verify_context *c)
 {
     const ff_model *model = c->model;
-    verify_setup *bare = verify_setup_new(c);
     verify_instance instance, second;
-    ff_status status;
     verify_step(c, "destroying NULL");
     if (model->destroy)
         model->destroy(NULL);
     verify_step(c, "create and destroy without set");
-    bool good = verify_instance_create(&instance, bare) != FF_OK || !instance.breach[0] ||
-                verify_fail(c, "it %s", instance.breach);
+    bool good = verify_instance_create(&instance, c);
     verify_instance_close(&instance);
     verify_step(c, "create, set, ready, service, destroy");
     verify_setup *setup = verify_open_accepted(c, &instance, true); /* what can be tried is */
     if (setup) { /* two at once, the older one destroyed first */
-        status = verify_instance_open(&second, setup);
+        ff_status status = verify_instance_open(&second, setup);
         verify_instance_close(&instance);
         verify_instance_close(&second);
-        if (status != FF_OK)
+        if (!verify_is_good(status))
             good = verify_fail(c, "a second instance beside the first gave the status %d: %s",
                                status, second.text);
     }
@@ -116,7 +120,6 @@ bool verify_test_leaks(verify_context *c)
 {
     enum { WARM = 50, LIVES = 1000, SLACK = 8 * LIVES };
     verify_instance instance;
-    ff_status status;
     verify_setup *setup = verify_open_accepted(c, &instance, false);
     if (!setup)
         return false;
@@ -127,7 +130,7 @@ bool verify_test_leaks(verify_context *c)
     for (; lives < LIVES && (lives <= WARM || verify_now() < end); lives++) {
         if (lives == WARM)
             before = in_use();
-        if (!live(c, setup, &status))
+        if (!live(setup))
             return false;
     }
     size_t after = in_use(), grown = after > before ? after - before : 0;
@@ -136,18 +139,6 @@ bool verify_test_leaks(verify_context *c)
     if (grown * LIVES > (size_t)(lives - WARM) * SLACK)
         return verify_fail(c, "%d instances left %zu bytes behind", lives - WARM, grown);
     return true;
-}
-
-/* Names the row at fault when it says so; `item` is a parameter, an output or a wire. */
-static bool check_reason(verify_context *c, const verify_instance *instance, ff_status status,
-                         const char *what)
-{
-    if (status < FF_BUG || status > FF_STOPPED)
-        return verify_fail(c, "%s gave the unknown status %d", what, status);
-    if (status == FF_BUG)
-        return verify_fail(c, "%s found a fault of its own: %s", what, instance->text);
-    return status == FF_OK || status == FF_NOMEM || instance->text[0] ||
-           verify_fail(c, "%s gave the status %d and no reason", what, status);
 }
 
 bool verify_test_allocations(verify_context *c)
@@ -168,8 +159,8 @@ bool verify_test_allocations(verify_context *c)
         ff_status status = verify_instance_open(&instance, setup);
         bool struck = verify_allocations_made() >= nth;
         verify_allocations_fail(0);
+        good = verify_instance_is_sound(&instance, "ready", status, setup);
         verify_instance_close(&instance);
-        good = check_reason(c, &instance, status, "a failing allocation");
         if (!struck)
             break;
     }
@@ -185,11 +176,12 @@ bool verify_test_limits(verify_context *c)
         verify_setup *setup = verify_setup_new(c);
         verify_instance instance;
         verify_setup_draw_params(setup, &c->random, i % 2 ? VERIFY_PHYSICAL : VERIFY_CALIBRATED);
-        if (verify_setup_lacks(setup))
-            return verify_skip_lacking(setup);
+        verify_setup_draw_inputs(setup, &c->random);
+        if (!verify_setup_can_be_used(setup, false))
+            return false;
         verify_step(c, "set and ready with random parameters, draw %d", i);
         ff_status status = verify_instance_open(&instance, setup);
-        good = check_reason(c, &instance, status, "a set of random parameters");
+        good = verify_instance_is_sound(&instance, "ready", status, setup);
         verify_instance_close(&instance);
     }
     return good;
@@ -197,23 +189,16 @@ bool verify_test_limits(verify_context *c)
 
 bool verify_test_environment(verify_context *c)
 {
-    const ff_model *model = c->model;
     verify_instance instance;
     verify_setup *setup = verify_open_accepted(c, &instance, false);
-    uint64_t wanted = verify_data_outputs(model);
     instance.stop_at = verify_now() + 1;
     if (!setup)
         return false;
     verify_step(c, "evaluate");
-    if (wanted) {
-        verify_setup_draw_inputs(setup, &c->random); /* a given pipeline was not run for this */
-        if (verify_setup_is_complete(setup))
-            verify_instance_evaluate(&instance, wanted, setup);
-    }
+    if (verify_data_outputs(c->model))
+        verify_instance_run(&instance, NULL, setup);
     verify_step(c, "service");
-    for (size_t k = 0; k < model->output_count; k++)
-        if (ff_model_output(model, k)->service)
-            model->service(instance.self, (uint32_t)k);
+    verify_instance_call(&instance, "service", call_services, &instance);
     verify_step(c, "destroy");
     verify_instance_close(&instance);
     return true;

@@ -19,6 +19,16 @@ static const char *find_stage(const ff_node *root, const char *id, ff_report *re
     return NULL;
 }
 
+/* Whether something feeds the wire of that name. */
+static bool is_connected(const ff_stage *stage, const char *wire)
+{
+    for (size_t i = 0; i < stage->wire_count; i++)
+        if (!strcmp(stage->wires[i].name, wire))
+            return stage->wires[i].stage >= 0;
+    return false;
+}
+
+/* Plain laws stand for those that feed the stage. */
 static bool take_stage(verify_context *context, const ff_pipeline *pipeline, const char *name)
 {
     const ff_model *model = context->model;
@@ -29,12 +39,14 @@ static bool take_stage(verify_context *context, const ff_pipeline *pipeline, con
         return false;
     context->given = verify_setup_new(context);
     for (size_t i = 0; i < model->param_count; i++)
-        if (stage->params[i].present) {
+        if (stage->params[i].present && stage->params[i].value.given) {
             context->given->values[i] = stage->params[i].value;
             context->given->values[i].size = sizeof(ff_value);
         }
     for (size_t i = 0; i < model->input_count; i++) {
         const ff_result *result = ff_feeding_result(pipeline, stage, i);
+        if (!is_connected(stage, ff_model_input(model, i)->name))
+            context->given->services[i] = NULL;
         if (result && result->data)
             verify_setup_give(context->given, i, result->data, result->rank, result->shape);
     }
