@@ -54,7 +54,10 @@
     FF_ROW_UNLESS(wire, name, "", doc, FF_TEXT, flags, preset, NULL, group, 0, 0, 0, 0, 0, 0,      \
                   FF_PLACE(type, member, const char *))
 #define FF_PHRASE(name, type, member, flags, preset, group, doc)                                   \
-    FF_ROW(name, "", doc, FF_TEXT, flags, preset, NULL, group, 0, 0, 0, 0, 0, 0,                   \
+    FF_PHRASE_LIKE(NULL, name, type, member, flags, preset, group, doc)
+/* `examples`, "ISO VG 46|ISO VG 220", are texts that the model takes. */
+#define FF_PHRASE_LIKE(examples, name, type, member, flags, preset, group, doc)                    \
+    FF_ROW(name, "", doc, FF_TEXT, flags, preset, examples, group, 0, 0, 0, 0, 0, 0,               \
            FF_PLACE(type, member, const char *))
 #define FF_PATH(name, type, member, flags, group, doc)                                             \
     FF_ROW(name, "", doc, FF_FILE, flags, NULL, NULL, group, 0, 0, 0, 0, 0, 0,                     \

@@ -78,7 +78,8 @@ typedef struct ff_param {
     uint32_t flags;      /* FF_REQUIRED | ... */
     const char *preset;  /* default as a user would write it, "20 deg"; NULL: none. In a group it
                             applies when no member is given */
-    const char *choices; /* "linear|cubic"; on FF_REAL and FF_INT: words accepted beside a number */
+    const char *choices; /* "linear|cubic"; on FF_REAL and FF_INT: words accepted beside a number;
+                            since 1.2 on FF_TEXT: examples that the model takes, "ISO VG 220" */
     const char *group;   /* at most one parameter of a group may be given; NULL: no group */
     double min, max;     /* physical limits, refused outside; hold when min < max */
     double low, high;    /* calibrated range, warned outside; holds when low < high */

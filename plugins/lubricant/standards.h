@@ -7,6 +7,10 @@
 
 /* Rank of "ISO VG 220" among the grades of ISO 3448 that gear oils come in; -1: no such grade. */
 int64_t lubricant_grade_find(const char *text);
+#define LUBRICANT_GRADE_NAMES                                                                      \
+    "ISO VG 10|ISO VG 15|ISO VG 22|ISO VG 32|ISO VG 46|ISO VG 68|ISO VG 100|ISO VG 150|ISO VG "    \
+    "220|"                                                                                         \
+    "ISO VG 320|ISO VG 460|ISO VG 680|ISO VG 1000|ISO VG 1500"
 #define LUBRICANT_GRADES "ISO VG 10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000 or 1500"
 
 /* Base oils; LUBRICANT_BASES has their names in this order. */

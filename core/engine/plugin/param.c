@@ -65,8 +65,8 @@ void ff_param_expectation(const ff_param *row, char *out, size_t size)
     else if (row->type == FF_REAL && !bare)
         snprintf(what, sizeof what, "a number with a unit such as \"3 %s\"", row->unit);
     print_words(row->choices, words, sizeof words);
-    snprintf(out, size, "%s%s%s", what, row->choices && row->type != FF_CHOICE ? " or " : "",
-             words);
+    const char *before = row->type == FF_TEXT ? ", such as " : row->type == FF_CHOICE ? "" : " or ";
+    snprintf(out, size, "%s%s%s", what, row->choices ? before : "", words);
 }
 
 /* Reports an error about the parameter at the node; hint may be NULL. */

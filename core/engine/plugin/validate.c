@@ -197,8 +197,9 @@ static bool check_words(const checking *c, const ff_param *row)
         double number;
         const char *end;
         size_t length = strlen(word);
-        if (length == 0 || length >= LONGEST_NAME || !fe_text_is_clean(word) ||
-            strpbrk(word, " \"'[]{},:#") || ff_number_parse(word, &number, &end))
+        bool plain = length > 0 && length < LONGEST_NAME && fe_text_is_clean(word);
+        if (!plain || (row->type != FF_TEXT &&
+                       (strpbrk(word, " \"'[]{},:#") || ff_number_parse(word, &number, &end))))
             return fault(c, "has the choice \"%s\" for the parameter \"%s\", which is not a word",
                          word, c->name);
         if (fe_word_find(row->choices, word) != (int)i)
@@ -215,7 +216,7 @@ static bool is_range(double from, double to)
 
 static bool check_param_row(const checking *c, const ff_param *row)
 {
-    bool chosen = row->type == FF_CHOICE || row->type == FF_REAL || row->type == FF_INT;
+    bool chosen = row->type >= FF_REAL && row->type <= FF_TEXT && row->type != FF_BOOL;
     bool apart = row->min < row->max && row->low < row->high &&
                  (row->low > row->max || row->high < row->min);
     bool idle = row->type == FF_FILE || ((row->flags & FF_REQUIRED) && !row->group);

@@ -39,7 +39,11 @@ void catalogue_print_type(const ff_param *row, char *out, size_t size)
         snprintf(out, size, "one of %s", choices);
     else
         snprintf(out, size, "%s%s%s%s%s%s", count, catalogue_type_name(row), has_unit ? " in " : "",
-                 has_unit ? row->unit : "", *choices ? ", or " : "", choices);
+                 has_unit ? row->unit : "",
+                 !*choices              ? ""
+                 : row->type == FF_TEXT ? ", such as "
+                                        : ", or ",
+                 choices);
 }
 
 void catalogue_print_limits(const ff_param *row, char *out, size_t size)

@@ -73,13 +73,21 @@ static json_t *list_schema(const ff_param *row)
     return schema;
 }
 
-static json_t *choice_schema(const ff_param *row)
+static json_t *list_choices(const ff_param *row)
 {
     json_t *words = json_array();
     char word[64];
     for (size_t i = 0; ff_word_at(row->choices, i, word, sizeof word); i++)
         json_array_append_new(words, json_string(word));
-    return json_pack("{s:o}", "enum", words);
+    return words;
+}
+
+static json_t *text_schema(const ff_param *row)
+{
+    json_t *schema = json_pack("{s:[s, s]}", "type", "string", "number");
+    if (row->choices)
+        json_object_set_new(schema, "examples", list_choices(row));
+    return schema;
 }
 
 static json_t *value_schema(const ff_param *row)
@@ -92,11 +100,11 @@ static json_t *value_schema(const ff_param *row)
     case FF_BOOL:
         return json_pack("{s:s}", "type", "boolean");
     case FF_CHOICE:
-        return choice_schema(row);
+        return json_pack("{s:o}", "enum", list_choices(row));
     case FF_REALS:
         return list_schema(row);
     default:
-        return json_pack("{s:[s, s]}", "type", "string", "number");
+        return text_schema(row);
     }
 }
 
