@@ -185,7 +185,7 @@ static const void *service(void *ctx, void *instance, uint32_t output)
 /* Those of the words that name an output of data, but for one. */
 static char *known_words(const ff_model *model, const char *words, const char *refused)
 {
-    char *known = memory_print_text("%s", ""), word[64];
+    char *known = memory_copy_text("", 0), word[64];
     for (; *words; words += strspn(words, " ")) {
         size_t length = strcspn(words, " ");
         snprintf(word, sizeof word, "%.*s", (int)length, words);

@@ -52,14 +52,14 @@ static const char *created(void *ctx, void *self)
     return instance->bare ? "is not needed any further" : NULL;
 }
 
-/* While it works, a model may be stopped or doubt its numbers without a word. */
+/* A model may be stopped while it works, and doubt what it has evaluated, without a word. */
 static bool owes_reason(const char *action, ff_status status)
 {
-    static const char *const work[] = {"evaluate", "assess", "judge"};
-    for (size_t i = 0; i < sizeof work / sizeof *work; i++)
-        if (!strcmp(action, work[i]) && (status == FF_STOPPED || status == FF_DOMAIN))
-            return false;
-    return status != FF_OK && status != FF_NOMEM;
+    bool evaluates = !strcmp(action, "evaluate");
+    bool asked = !strcmp(action, "assess") || !strcmp(action, "judge");
+    if (status == FF_STOPPED)
+        return !evaluates && !asked;
+    return status == FF_DOMAIN ? !evaluates : status != FF_OK && status != FF_NOMEM;
 }
 
 static void returned(void *ctx, const char *action, ff_status status, bool explained)

@@ -45,7 +45,7 @@ bool verify_find_served(verify_context *c, verify_instance *instance, const veri
                         char **served, double end)
 {
     const ff_result *result;
-    *served = memory_print_text("%s", "");
+    *served = memory_copy_text("", 0);
     for (size_t i = 0; i < c->model->output_count && verify_now() < end; i++) {
         const ff_port *row = ff_model_output(c->model, i);
         if (row->service)
@@ -66,7 +66,7 @@ bool verify_find_served(verify_context *c, verify_instance *instance, const veri
 static char *list_given(const verify_instance *instance)
 {
     const ff_result *result;
-    char *given = memory_print_text("%s", "");
+    char *given = memory_copy_text("", 0);
     for (size_t i = 0; i < instance->model->output_count; i++) {
         const char *name = ff_model_output(instance->model, i)->name;
         if (ff_instance_result(instance->made, name, &result) == FF_OK)
