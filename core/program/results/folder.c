@@ -254,10 +254,10 @@ const char *results_folder_path(results_folder *folder, const char *name)
     return made->path;
 }
 
-/* Removes the earlier files that this run has not written. */
-static void remove_stale(results_folder *folder)
+/* Removes the earlier files that this run has not written; false when there are none. */
+static bool remove_stale(results_folder *folder)
 {
-    size_t kept = 0;
+    size_t kept = 0, before = folder->count;
     for (size_t i = 0; i < folder->count; i++) {
         entry *at = &folder->entries[i];
         if (at->fresh) {
@@ -269,6 +269,7 @@ static void remove_stale(results_folder *folder)
         }
     }
     folder->count = kept;
+    return kept < before;
 }
 
 bool results_folder_end(results_folder *folder)
@@ -294,8 +295,10 @@ bool results_folder_commit(results_folder *folder)
         count_files(folder, true);
         return false;
     }
-    remove_stale(folder);
-    write_manifest(folder);
+    if (remove_stale(folder))
+        write_manifest(folder);
+    if (!folder->failed && folder->sync && fsync(folder->fd) != 0) /* the names */
+        note_failure(folder, folder->last ? folder->last : manifest);
     return !folder->failed;
 }
 
