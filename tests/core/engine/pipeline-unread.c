@@ -4,7 +4,10 @@
 #include "pipeline-try.h"
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 static void check_warning(const char *what, const attempt *a, unsigned line, unsigned column,
                           const char *phrase)
@@ -158,6 +161,43 @@ static void offers(void)
     try_close(&a);
 }
 
+/* A text that includes card.yaml, in a directory of its own. */
+static attempt with_card(const char *card, const char *text)
+{
+    char directory[64], path[128];
+    snprintf(directory, sizeof directory, "/tmp/flankfilm-unread-%d", (int)getpid());
+    snprintf(path, sizeof path, "%s/card.yaml", directory);
+    FILE *file = mkdir(directory, 0700) == 0 ? fopen(path, "w") : NULL;
+    if (!file || fputs(card, file) < 0 || fclose(file) != 0)
+        exit(2);
+    const char *const places[] = {try_plugins()};
+    attempt a = {.report = ff_report_new(), .engine = try_engine(places, 1)};
+    a.tree = ff_tree_parse("case.yaml", directory, text, a.report);
+    a.pipeline = ff_pipeline_build(a.tree, a.engine, false, a.report);
+    remove(path);
+    remove(directory);
+    return a;
+}
+
+static void cards(void)
+{
+    static const char card[] = "pipeline:\n  a: {use: toy/source, level: 1 mm, rate: 5 Hz}\n";
+    attempt a = with_card(card, "format: 2\ninclude: card.yaml\npipeline: {a: {speed: 6 rpm}}\n");
+    check_error("two of a group in two files", &a, 3, 23, "only one of \"rate\" (");
+    check_error("with both places", &a, 3, 23, "card.yaml:2:43) and \"speed\" (case.yaml:3:23)");
+    check_error("and what to do", &a, 3, 23, "takes away what an included file says: rate:");
+    try_close(&a);
+    a = with_card(card, "format: 2\ninclude: card.yaml\npipeline: {a: {speed: 6 rpm, rate: }}\n");
+    check_good("taken away", &a);
+    check_true("the one of the file holds", try_param(&a, "a", "speed")->value.given == 1);
+    try_close(&a);
+    a = with_card("pipeline:\n  b: {use: toy/source, level: 1 mm}\n",
+                  "format: 2\ninclude: card.yaml\n"
+                  "pipeline: {a: {use: toy/source, level: 1 mm}}\noutputs: [a.level]\n");
+    check_true("a stage of a card may stay unused", ff_report_count(a.report) == 0);
+    try_close(&a);
+}
+
 static void names(void)
 {
     attempt a = try_build("pipeline:\n  feedback: {use: toy/source, level: 1 mm}\n", false);
@@ -192,6 +232,7 @@ int main(void)
     swaps();
     empty_values();
     offers();
+    cards();
     names();
     return check_done();
 }
