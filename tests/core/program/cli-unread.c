@@ -44,7 +44,8 @@ static void test_swap(void)
     r = cli("$F run walk.yaml --set a.use=toy/wave --set a.step= --json");
     cli_expect("taken away before", &r,
                r.code == 0 && json_array_size(cli_at(r.json, "warnings")) == 0);
-    cli_write("both.yaml", "format: 2\ninclude: walk.yaml\n"
+    cli_write("both.yaml", "format: 2\ninclude: walk.yaml\noutputs: [\"a.*\"]\n"
+                           "pipeline: {c: {use: toy/walk}}\n"
                            "study: {sweep: {a.use: [toy/walk, toy/wave]}}\n");
     r = cli("$F check both.yaml");
     cli_expect("by a sweep, in a check", &r, r.code == 0 && cli_has(r.err, left));
@@ -53,6 +54,9 @@ static void test_swap(void)
     cli_expect("and in a run, once", &r,
                r.code == 0 && told && !cli_has(told + 1, left) &&
                    cli_has(r.out, "2 of 2 cases done"));
+    const char *idle = strstr(r.err, "c (both.yaml:4:12)");
+    cli_expect("what all cases have in vain is said once", &r,
+               idle && !cli_has(idle + 1, "c (both.yaml:4:12)"));
     r = cli("$F explain walk.yaml --yaml --set a.step=");
     cli_expect("what was taken away", &r, cli_has(r.out, "--set, taken away"));
 }

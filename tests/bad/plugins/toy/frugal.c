@@ -5,7 +5,7 @@
 
 typedef struct frugal {
     const ff_host *host;
-    double form, finish, step;
+    double form, finish, step, note;
     int32_t fixed, wrong;
     const char *table;
 } frugal;
@@ -14,6 +14,7 @@ static const ff_param params[] = {
     FF_QUANTITY("form", "1", frugal, form, 0, NULL, NULL, 0, 0, 0, 0, "what shape is made of"),
     FF_QUANTITY("finish", "1", frugal, finish, 0, NULL, NULL, 0, 0, 0, 0, "what shade is made of"),
     FF_QUANTITY("step", "1", frugal, step, 0, "1", NULL, 0, 0, 0, 0, "unless fixed"),
+    FF_QUANTITY("note", "kg", frugal, note, 0, NULL, NULL, 0, 0, 0, 0, "a text in toy/source"),
     FF_SWITCH("fixed", frugal, fixed, "false", "then step serves nothing"),
     FF_PATH("table", frugal, table, 0, NULL, "with a column that fixed leaves unread"),
     FF_SWITCH("wrong", frugal, wrong, "false", "then it names a parameter that it does not have"),
