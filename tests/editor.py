@@ -109,7 +109,7 @@ def wrong_lines():
         seen = findings(pipeline + text)
         check(f"{name}: found on its line", [at for at, _ in seen] == lines
               and all(word in message for _, message in seen), seen)
-    seen = [at for at, _ in findings("format: 2\npipelin:\n")]
+    seen = [at for at, _ in findings("format: 1\npipelin:\n")]
     check("the top of a file is looked at", seen == [0, 1], seen)
 
 
