@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page of every example, computed coarsely, is written, has a verdict and no empty figure.
+
+  pages.py FLANKFILM PLUGINS CONFIGS
+"""
+import glob
+import os
+import re
+import subprocess
+import sys
+import tempfile
+
+flankfilm, plugins, configs = map(os.path.abspath, sys.argv[1:])
+os.environ["FLANKFILM_PLUGIN_PATH"] = plugins
+faults = []
+
+# What a figure draws: a curve of several points, points, or an image. Frames and keys do not count.
+DRAWN = re.compile(r'<path class="curve[^>]* data-label="[^"]*" d="M[^"]*L|<circle cx|<image |<img ')
+WRONG = re.compile(r"\bundefined\b|\bnan\b|\binf\b|\(null\)|<td></td><td class=\"number\"></td>", re.IGNORECASE)
+
+
+def coarse(text):
+    """Settings that make the films of a file cheap."""
+    words = []
+    for stage in re.findall(r"^ +(\w+): *{use: ehl/(?:finite-volume|control-volume)", text, re.MULTILINE):
+        words += ["--set", f"{stage}.cells=128", "--set", f"{stage}.steps=100"]
+    return words
+
+
+def call(*words):
+    return subprocess.run([flankfilm, *words], capture_output=True, text=True, check=False, timeout=100)
+
+
+def look(name, path):
+    with open(path, encoding="utf-8") as file:
+        page = file.read().split("<script>")[0]
+    figures = re.findall(r"<figure.*?</figure>", page, re.DOTALL)
+    found = [f"says {match.group()}" for match in WRONG.finditer(re.sub(r"<style.*?</style>", "", page, flags=re.DOTALL))]
+    found += ["has an empty figure: " + figure[:120] for figure in figures if not DRAWN.search(figure)]
+    if not re.search(r'<p class="judgement"><span class="badge (good|doubtful|bad)">', page):
+        found.append("has no verdict")
+    faults.extend(f"{name} {what}" for what in found)
+    print(f"{name}: {len(figures)} figures, {len(found)} faults")
+
+
+files = sorted(glob.glob(configs + "/*.yaml"))
+with tempfile.TemporaryDirectory() as lab:
+    os.chdir(lab)
+    for file in files:
+        name = os.path.basename(file)
+        with open(file, encoding="utf-8") as stream:
+            ran = call("run", file, "-o", name, *coarse(stream.read()))
+        done = call("report", name)
+        if ran.returncode not in (0, 1) or done.returncode:
+            faults.append(f"{name}: run {ran.returncode}, report {done.returncode}: {ran.stderr}{done.stderr}")
+        else:
+            look(name, name + "/report.html")
+if len(files) < 10:
+    faults.append(f"only {len(files)} files in {configs}")
+print("\n".join(faults))
+sys.exit(bool(faults))
