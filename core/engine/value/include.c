@@ -17,6 +17,7 @@ typedef struct file {
     const struct file *parent; /* the file that includes it, or NULL */
     ff_place place;            /* of its name in the parent */
     const char *path;
+    const char *hint; /* for the case that it cannot be read, or NULL */
     struct stat info;
     int level;
 } file;
@@ -25,7 +26,7 @@ static ff_node *load(file *f);
 
 static void *refuse(const file *f, const char *why)
 {
-    ff_error(f->report, FF_FAULT_INPUT, f->place, NULL, "cannot read \"%s\": %s", f->path, why);
+    ff_error(f->report, FF_FAULT_INPUT, f->place, f->hint, "cannot read \"%s\": %s", f->path, why);
     return NULL;
 }
 
@@ -78,6 +79,20 @@ static char *shipped(const char *path)
     return found;
 }
 
+/* A copy of an example that is not where it was: a file of "../gears" is among the examples. The
+   caller frees it. NULL: it is not. */
+static char *hint_above(const char *path)
+{
+    const char *below = path;
+    while (!strncmp(below, "../", 3))
+        below += 3;
+    char *found = below > path ? shipped(below) : NULL;
+    char *hint =
+        found ? fe_print_text("among the examples there is \"%s\": write it so", below) : NULL;
+    fe_free(found);
+    return hint;
+}
+
 static ff_node *load_entry(const file *f, const ff_node *entry)
 {
     if (entry->kind != FF_SCALAR || *entry->text == '\0') {
@@ -86,18 +101,21 @@ static ff_node *load_entry(const file *f, const ff_node *entry)
                  entry->kind == FF_SCALAR ? "nothing" : fe_kind_name(entry->kind));
         return NULL;
     }
-    char *path = ff_path_beside(entry->place.source->directory, entry->text), *other;
+    char *path = ff_path_beside(entry->place.source->directory, entry->text), *other, *hint = NULL;
     if (access(path, F_OK) != 0 && (other = shipped(entry->text))) {
         fe_free(path);
         path = other;
-    }
+    } else if (access(path, F_OK) != 0)
+        hint = hint_above(entry->text);
     file inner = {.tree = f->tree,
                   .report = f->report,
                   .parent = f,
                   .place = entry->place,
                   .path = path,
+                  .hint = hint,
                   .level = f->level + 1};
     ff_node *node = load(&inner);
+    fe_free(hint);
     fe_free(path);
     return node;
 }

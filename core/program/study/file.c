@@ -3,7 +3,9 @@
  */
 #include "journal.h"
 
+#include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -44,4 +46,24 @@ bool study_describe(const study_run *run, const study_tally *tally, ff_report *r
     bool good = study_write_file(run->directory, study_description, text, NULL, report);
     free(text);
     return good;
+}
+
+void study_remove_parts(int directory)
+{
+    static const char end[] = ".part";
+    const char *const heads[] = {study_description, "table.csv"};
+    int fd = openat(directory, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *list = fd < 0 ? NULL : fdopendir(fd);
+    const struct dirent *item;
+    while (list && (item = readdir(list)))
+        for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) {
+            size_t length = strlen(item->d_name), head = strlen(heads[i]);
+            if (length > head + sizeof end && !strncmp(item->d_name, heads[i], head) &&
+                !strcmp(item->d_name + length - (sizeof end - 1), end))
+                unlinkat(dirfd(list), item->d_name, 0);
+        }
+    if (list)
+        closedir(list);
+    else if (fd >= 0)
+        close(fd);
 }

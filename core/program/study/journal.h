@@ -36,6 +36,10 @@ bool study_write_file(const char *directory, const char *name, const char *text,
 /* Writes the description of the study beside its journal; `tally` as in study_run.describe. */
 bool study_describe(const study_run *run, const study_tally *tally, ff_report *report);
 
+/* Removes what a run that was killed had begun to write there; no other run may use the directory.
+ */
+void study_remove_parts(int directory);
+
 /* table.c: writes table.csv and the description with the verdicts; needs the keys of all cases. */
 bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_report *report);
 

@@ -47,6 +47,8 @@ static size_t end_of_chains(const study_run *run)
 static void begin_results(execution *r)
 {
     study_setup_warn_rebuilt(r->run, r->done, r->report);
+    if (r->run->shards == 1)
+        study_remove_parts(r->journal.directory);
     if (r->run->rerun == STUDY_RERUN_ALL)
         study_reuse_clear(r->journal.directory);
 }

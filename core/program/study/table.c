@@ -137,9 +137,12 @@ bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_re
     for (size_t i = 0; i < study->count; i++)
         put_row(out, study, units, i, keys[i], json_object_get(records, keys[i]), columns);
     fclose(out);
-    bool good =
-        study_write_file(run->directory, "table.csv", text,
-                         "the journal has all cases; the same command writes the table", report);
+    bool good = study_write_file(
+        run->directory, "table.csv", text,
+        access(marker, F_OK) == 0
+            ? "the journal has all cases; the same command writes the table"
+            : "the directory was removed while the study ran, and its journal with it",
+        report);
     study_tally tally = {.cases = NULL};
     for (size_t i = 0; i < study->count; i++)
         if (json_object_get(records, keys[i]))
