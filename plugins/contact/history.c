@@ -88,22 +88,26 @@ static ff_status film_coefficient(const ff_viscosity *law, double ln_eta0, doubl
 /* eta0 and alpha* at the temperature of the oil, or, where none is wired, of the law. */
 static ff_status read_viscosity(contact_history *h, const ff_viscosity *law, const ff_array *oil)
 {
+    numerics_answers answers = {.status = FF_OK};
     numerics_viscosity_at at;
+    double T = oil[0].data ? *oil[0].data : NAN;
     if (!law)
         return ff_failf(h->host, FF_INVALID, "viscosity",
                         "moes_M and moes_L need a viscosity: wire `viscosity` to a stage of that "
                         "kind, or do not ask for them");
+    law = numerics_viscosity_make(&at, law, T, &answers);
     if (oil[0].data) {
-        ff_status contradiction = numerics_hold_viscosity(h->host, law, oil[1].data, *oil[0].data);
+        ff_status contradiction = numerics_hold_viscosity(h->host, law, oil[1].data, T);
         if (contradiction != FF_OK)
-            return contradiction;
-        law = numerics_viscosity_make(&at, law, *oil[0].data);
+            return numerics_answers_end(&answers, h->host, contradiction);
     }
     double p = 0, ln_eta = 0, slope = 0;
     ff_status status = law->eval(law->self, 1, &p, NULL, &ln_eta, &slope, NULL);
     if (status >= 0)
         status = film_coefficient(law, ln_eta, slope, &h->alpha);
     h->eta0 = exp(ln_eta);
+    if (answers.status != FF_OK)
+        return numerics_answers_end(&answers, h->host, status);
     if (status < 0 || !(h->eta0 > 0 && isfinite(h->eta0) && h->alpha >= 0 && isfinite(h->alpha)))
         return ff_failf(h->host, status < 0 ? status : FF_INVALID, "viscosity",
                         "the viscosity law gives no usable viscosity");

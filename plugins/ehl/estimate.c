@@ -333,10 +333,9 @@ static void report(const ehl_estimate *e, double lowest, double least_lambda)
     ehl_law_report(host, e->answered);
 }
 
-ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
+static ff_status evaluate(ehl_estimate *e, uint64_t wanted, const ff_array *in)
 {
     enum { BETWEEN = 1024 };
-    ehl_estimate *e = self;
     results r = {.host = e->host, .wanted = wanted, .lowest = HUGE_VAL, .least_lambda = HUGE_VAL};
     uint64_t rolling = FF_BIT(EHL_ESTIMATE_ROLL_ANGLE) | FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST_AT);
     if ((wanted & rolling) && !in[EHL_IN_ROLL].data)
@@ -363,6 +362,12 @@ ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
     free(e->moment);
     e->moment = NULL;
     return status;
+}
+
+ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    ehl_estimate *e = self;
+    return numerics_answers_end(&e->isothermal.answers, e->host, evaluate(e, wanted, in));
 }
 
 static ehl_error_targets error_targets_of(uint64_t wanted)

@@ -180,13 +180,13 @@ static ehl_laws replace_law(const ehl_laws *laws, ehl_law_kind kind, const void 
                             ehl_isothermal *at)
 {
     ehl_laws other = *laws;
-    double T = laws->temperature;
+    double T = laws->temperature > 0 ? laws->temperature : NAN;
     if (kind == EHL_LAW_VISCOSITY)
-        other.viscosity = T > 0 ? numerics_viscosity_make(&at->viscosity, service, T) : service;
+        other.viscosity = numerics_viscosity_make(&at->viscosity, service, T, &at->answers);
     else if (kind == EHL_LAW_DENSITY)
-        other.density = T > 0 ? numerics_density_make(&at->density, service, T) : service;
+        other.density = numerics_density_make(&at->density, service, T, &at->answers);
     else
-        other.rheology = service;
+        other.rheology = ehl_rheology_make(&at->rheology, service, &at->answers);
     return other;
 }
 
@@ -214,7 +214,7 @@ ff_status ehl_judge_law(const ff_host *host, const ehl_history *h, const ehl_law
                         ehl_law_kind kind, const void *service, ehl_error_targets w, char *reason,
                         size_t size, ff_assessment *a)
 {
-    ehl_isothermal at;
+    ehl_isothermal at = {.answers = {.status = FF_OK}};
     const ehl_laws other = replace_law(laws, kind, service, &at);
     conditions s = {.history = h};
     ehl_conditions all;
@@ -228,6 +228,8 @@ ff_status ehl_judge_law(const ff_host *host, const ehl_history *h, const ehl_law
         status = find_effect(&s, laws, &than);
     if (status == FF_OK && s.count > 0)
         status = find_effect(&s, &other, &e);
+    if (at.answers.status != FF_OK)
+        return ff_failf(host, FF_UNSUPPORTED, NULL, "%s", at.answers.text);
     if (status != FF_OK || s.count == 0)
         return ff_failf(host, status == FF_OK ? FF_UNSUPPORTED : status, NULL,
                         "the inlet of the contact has no film to compare the laws by");

@@ -3,22 +3,16 @@
 
 #include <math.h>
 
-static ehl_law_answer answer_of(ff_status status)
-{
-    return status == FF_OK       ? EHL_LAW_GOOD
-           : status == FF_DOMAIN ? EHL_LAW_CONTINUED
-                                 : EHL_LAW_FAILED;
-}
-
+/* Of FF_OK and FF_DOMAIN the latter, of others the first. */
 static ff_status worse(ff_status a, ff_status b)
 {
-    return answer_of(b) > answer_of(a) ? b : a;
+    return a == FF_OK || (a == FF_DOMAIN && b != FF_OK) ? b : a;
 }
 
 void ehl_law_note(ehl_law_answer *worst, ff_status status)
 {
-    if (answer_of(status) > *worst)
-        *worst = answer_of(status);
+    if (status != FF_OK)
+        *worst = EHL_LAW_CONTINUED;
 }
 
 void ehl_law_report(const ff_host *host, ehl_law_answer worst)
@@ -26,26 +20,73 @@ void ehl_law_report(const ff_host *host, ehl_law_answer worst)
     if (worst == EHL_LAW_CONTINUED)
         host->quality(host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
                       "an oil law was continued outside its range");
-    if (worst == EHL_LAW_FAILED)
-        host->quality(host->ctx, "law_range", 1, 0, FF_BAD,
-                      "an oil law failed at a point of the film: its numbers there mean nothing");
+}
+
+static int are_numbers(size_t n, const double *ln_eta, const double *h, double u_s)
+{
+    int good = isfinite(u_s) && numerics_are_finite(n, ln_eta) && numerics_are_finite(n, h);
+    for (size_t i = 0; i < n && good; i++)
+        good = h[i] > 0;
+    return good;
+}
+
+static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
+                      double *psi, double *psi_l, double *psi_h)
+{
+    const ehl_rheology_at *at = self;
+    ff_status status = at->law->flow(at->law->self, n, ln_eta, h, u_s, psi, psi_l, psi_h);
+    if ((status == FF_OK || status == FF_DOMAIN) && numerics_are_finite(n, psi))
+        return status;
+    if ((status == FF_OK || status == FF_DOMAIN) && !are_numbers(n, ln_eta, h, u_s))
+        return status;
+    return numerics_answer_note(at->answers,
+                                &(numerics_answer){"rheology", "psi", status, n, NULL, psi, NULL});
+}
+
+static ff_status shear(const void *self, size_t n, const double *p, const double *ln_eta,
+                       const double *h, double u_s, double *tau)
+{
+    const ehl_rheology_at *at = self;
+    ff_status status = at->law->shear(at->law->self, n, p, ln_eta, h, u_s, tau);
+    if ((status == FF_OK || status == FF_DOMAIN) &&
+        (numerics_are_finite(n, tau) || !are_numbers(n, ln_eta, h, u_s)))
+        return status;
+    return numerics_answer_note(at->answers,
+                                &(numerics_answer){"rheology", "tau", status, n, p, tau, NULL});
+}
+
+const ff_rheology *ehl_rheology_make(ehl_rheology_at *at, const ff_rheology *law,
+                                     numerics_answers *answers)
+{
+    *at = (ehl_rheology_at){
+        .service = {sizeof at->service, at, flow, shear}, .law = law, .answers = answers};
+    return law ? &at->service : NULL;
+}
+
+int ehl_laws_failed(const ehl_laws *laws)
+{
+    return laws->answers && laws->answers->status != FF_OK;
 }
 
 ff_status ehl_laws_at(ehl_isothermal *at, const ff_host *host, const ff_array *oil, ehl_laws *laws)
 {
     if (!at->wired.viscosity)
         at->wired = *laws;
-    *laws = at->wired;
+    double T = oil[0].data ? *oil[0].data : NAN;
+    at->answers.status = FF_OK;
+    *laws = (ehl_laws){
+        .viscosity = numerics_viscosity_make(&at->viscosity, at->wired.viscosity, T, &at->answers),
+        .density = numerics_density_make(&at->density, at->wired.density, T, &at->answers),
+        .rheology = ehl_rheology_make(&at->rheology, at->wired.rheology, &at->answers),
+        .answers = &at->answers,
+    };
     if (!oil[0].data)
         return FF_OK;
-    double T = *oil[0].data;
+    laws->temperature = T;
     ff_status status = numerics_hold_viscosity(host, laws->viscosity, oil[1].data, T);
     if (status == FF_OK)
         status = numerics_hold_density(host, laws->density, oil[2].data, T);
-    laws->viscosity = numerics_viscosity_make(&at->viscosity, laws->viscosity, T);
-    laws->density = numerics_density_make(&at->density, laws->density, T);
-    laws->temperature = T;
-    return status;
+    return numerics_answers_end(&at->answers, host, status);
 }
 
 ff_status ehl_fluid_oil(const ehl_laws *laws, ehl_oil *oil)

@@ -12,21 +12,32 @@
 typedef struct ehl_laws {
     const ff_viscosity *viscosity;
     const ff_density *density;
-    const ff_rheology *rheology; /* NULL: Newtonian */
-    double temperature;          /* K, that of the oil; 0: none, laws answer at their own */
+    const ff_rheology *rheology;     /* NULL: Newtonian */
+    double temperature;              /* K, that of the oil; 0: none, laws answer at their own */
+    const numerics_answers *answers; /* what they failed to answer; NULL: nobody looks */
 } ehl_laws;
 
-/* What stands behind the laws of a stage that an oil is wired to. */
+typedef struct ehl_rheology_at {
+    ff_rheology service;
+    const ff_rheology *law;
+    numerics_answers *answers;
+} ehl_rheology_at;
+
+/* What stands behind the laws of a stage: at one temperature, where an oil is wired, and held to
+   what a law owes. */
 typedef struct ehl_isothermal {
     ehl_laws wired;
     numerics_viscosity_at viscosity;
     numerics_density_at density;
+    ehl_rheology_at rheology;
+    numerics_answers answers;
 } ehl_isothermal;
 
 enum { EHL_OIL_ROWS = 3 };
 
 /* Sets the laws to the temperature that the rows of the oil give, if any, and holds them against
-   its viscosity and density. The wired laws are kept at the first call. */
+   its viscosity and density. The wired laws are kept at the first call. What they fail to answer is
+   in at->answers: the stage ends with numerics_answers_end. */
 ff_status ehl_laws_at(ehl_isothermal *at, const ff_host *host, const ff_array *oil, ehl_laws *laws);
 
 /* The liquid at ambient pressure. */
@@ -44,10 +55,17 @@ typedef struct ehl_liquid {
 
 enum { EHL_LIQUID_ARRAYS = 7 };
 
+/* The law, held to what it owes; it lives as long as *at. */
+const ff_rheology *ehl_rheology_make(ehl_rheology_at *at, const ff_rheology *law,
+                                     numerics_answers *answers);
+
+/* Whether one of the laws has failed, so that no film can be had. */
+int ehl_laws_failed(const ehl_laws *laws);
+
 ff_status ehl_fluid_oil(const ehl_laws *laws, ehl_oil *oil);
 
 /* The worst that the laws have answered for a film. */
-typedef enum ehl_law_answer { EHL_LAW_GOOD, EHL_LAW_CONTINUED, EHL_LAW_FAILED } ehl_law_answer;
+typedef enum ehl_law_answer { EHL_LAW_GOOD, EHL_LAW_CONTINUED } ehl_law_answer;
 
 void ehl_law_note(ehl_law_answer *worst, ff_status status);
 void ehl_law_report(const ff_host *host, ehl_law_answer worst); /* a line of the quality record */

@@ -309,9 +309,8 @@ static ff_status read_roughness(const ehl_model *m, uint64_t wanted, const ff_ar
     return status;
 }
 
-ff_status ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
+static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
 {
-    ehl_model *m = self;
     run r = {0};
     ff_status status = ehl_laws_at(&m->isothermal, m->host, &in[EHL_IN_OIL], &m->laws);
     if (status == FF_OK)
@@ -340,4 +339,10 @@ ff_status ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
         ehl_inlet_heating_report(m->host, &m->heating, &r.whole, &m->laws, &r.oil);
     run_destroy(&r);
     return status;
+}
+
+ff_status ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    ehl_model *m = self;
+    return numerics_answers_end(&m->isothermal.answers, m->host, evaluate(m, wanted, in));
 }

@@ -252,6 +252,8 @@ static ff_status solve_with_positive_gap(ehl_march *m, const ehl_step *step, con
                                          int limit)
 {
     ff_status status = m->solver->solve(m->solver, step, &m->trial.film, limit);
+    if (ehl_laws_failed(&m->solver->reynolds->laws))
+        return FF_BUG; /* no shorter step will do */
     if (status == FF_OK && !(ehl_thinnest(m, at->radius, &m->trial.film) > 0))
         status = FF_NOCONV;
     return status;

@@ -3,6 +3,7 @@
 #ifndef NUMERICS_ISOTHERMAL_H
 #define NUMERICS_ISOTHERMAL_H
 
+#include "answers.h"
 #include "liquid.h"
 
 #include <flankfilm/author.h>
@@ -27,17 +28,19 @@
             NULL, FF_OPTIONAL, "lubricant"                                                         \
     }
 
-/* Offers `law` at T to who passes no temperature. */
+/* Offers `law` at T to who passes no temperature, and keeps what it fails to answer. */
 typedef struct numerics_viscosity_at {
     ff_viscosity service;
     const ff_viscosity *law;
-    double T;
+    double T; /* NaN: at its own */
+    numerics_answers *answers;
 } numerics_viscosity_at;
 
 typedef struct numerics_density_at {
     ff_density service;
     const ff_density *law;
     double T;
+    numerics_answers *answers;
 } numerics_density_at;
 
 /* Calls eval in parts, with one temperature at all points. */
@@ -49,6 +52,8 @@ static inline ff_status numerics_eval_at(ff_status (*eval)(const void *, size_t,
 {
     double same[NUMERICS_POINTS];
     ff_status worst = FF_OK;
+    if (isnan(T))
+        return eval(self, n, p, NULL, value, by_p, by_T);
     for (size_t i = 0; i < NUMERICS_POINTS && i < n; i++)
         same[i] = T;
     for (size_t from = 0; from < n && worst >= 0; from += NUMERICS_POINTS) {
@@ -65,9 +70,12 @@ static inline ff_status numerics_viscosity_eval_at(const void *self, size_t n, c
                                                    double *dln_dT)
 {
     const numerics_viscosity_at *at = self;
-    if (T)
-        return at->law->eval(at->law->self, n, p, T, ln_eta, dln_dp, dln_dT);
-    return numerics_eval_at(at->law->eval, at->law->self, at->T, n, p, ln_eta, dln_dp, dln_dT);
+    const ff_viscosity *law = at->law;
+    ff_status status =
+        T ? law->eval(law->self, n, p, T, ln_eta, dln_dp, dln_dT)
+          : numerics_eval_at(law->eval, law->self, at->T, n, p, ln_eta, dln_dp, dln_dT);
+    return numerics_answer_note(
+        at->answers, &(numerics_answer){"viscosity", "ln_eta", status, n, p, ln_eta, dln_dp});
 }
 
 static inline ff_status numerics_density_eval_at(const void *self, size_t n, const double *p,
@@ -75,25 +83,34 @@ static inline ff_status numerics_density_eval_at(const void *self, size_t n, con
                                                  double *drho_dT)
 {
     const numerics_density_at *at = self;
-    if (T)
-        return at->law->eval(at->law->self, n, p, T, rho, drho_dp, drho_dT);
-    return numerics_eval_at(at->law->eval, at->law->self, at->T, n, p, rho, drho_dp, drho_dT);
+    const ff_density *law = at->law;
+    ff_status status =
+        T ? law->eval(law->self, n, p, T, rho, drho_dp, drho_dT)
+          : numerics_eval_at(law->eval, law->self, at->T, n, p, rho, drho_dp, drho_dT);
+    return numerics_answer_note(at->answers,
+                                &(numerics_answer){"density", "rho", status, n, p, rho, NULL});
 }
 
-/* The law at T; it lives as long as *at. */
+/* The law at T, which lives as long as *at; NaN: at its own temperature. */
 static inline const ff_viscosity *numerics_viscosity_make(numerics_viscosity_at *at,
-                                                          const ff_viscosity *law, double T)
+                                                          const ff_viscosity *law, double T,
+                                                          numerics_answers *answers)
 {
-    *at = (numerics_viscosity_at){
-        .service = {sizeof at->service, at, numerics_viscosity_eval_at}, .law = law, .T = T};
+    *at = (numerics_viscosity_at){.service = {sizeof at->service, at, numerics_viscosity_eval_at},
+                                  .law = law,
+                                  .T = T,
+                                  .answers = answers};
     return &at->service;
 }
 
 static inline const ff_density *numerics_density_make(numerics_density_at *at,
-                                                      const ff_density *law, double T)
+                                                      const ff_density *law, double T,
+                                                      numerics_answers *answers)
 {
-    *at = (numerics_density_at){
-        .service = {sizeof at->service, at, numerics_density_eval_at}, .law = law, .T = T};
+    *at = (numerics_density_at){.service = {sizeof at->service, at, numerics_density_eval_at},
+                                .law = law,
+                                .T = T,
+                                .answers = answers};
     return &at->service;
 }
 
@@ -117,7 +134,9 @@ static inline ff_status numerics_hold_viscosity(const ff_host *host, const ff_vi
     double p = 0, ln_eta = NAN;
     if (!eta0)
         return FF_OK;
-    law->eval(law->self, 1, &p, &T, &ln_eta, NULL, NULL);
+    ff_status status = law->eval(law->self, 1, &p, &T, &ln_eta, NULL, NULL);
+    if (status != FF_OK && status != FF_DOMAIN)
+        return status;
     return numerics_hold_against(host, "viscosity", "eta0", "Pa s", exp(ln_eta), *eta0, T);
 }
 
@@ -127,7 +146,9 @@ static inline ff_status numerics_hold_density(const ff_host *host, const ff_dens
     double p = 0, rho = NAN;
     if (!rho0)
         return FF_OK;
-    law->eval(law->self, 1, &p, &T, &rho, NULL, NULL);
+    ff_status status = law->eval(law->self, 1, &p, &T, &rho, NULL, NULL);
+    if (status != FF_OK && status != FF_DOMAIN)
+        return status;
     return numerics_hold_against(host, "density", "rho0", "kg/m3", rho, *rho0, T);
 }
 

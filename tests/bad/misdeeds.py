@@ -69,6 +69,12 @@ pipeline:
   point: {use: misdeed/stage}
 outputs: [point.ln_eta]
 """
+FILM = """format: 2
+pipeline:
+  oil: {use: viscosity/misdeed}
+  density: {use: density/incompressible, rho0: 850 kg/m3}
+  discs: {use: contact/constant, radius: 12.8 mm, entrainment_speed: 4 m/s, slide_roll_ratio: 0.1, load_per_width: 177 N/mm}
+"""
 STUDY = CASE + "study: {sweep: {oil.alpha: [10 1/GPa, 20 1/GPa]}}\n"
 
 watched = sys.argv[3:] == ["watched"]  # by a sanitizer, whose own ends of a thread and of a process differ
@@ -160,6 +166,15 @@ def is_kept_from_the_answer(role, place, what):
     hold(misdeed, good and done.returncode == 0 and done.stderr == "here I am\n", done.stdout + done.stderr)
 
 
+def fails_film(what, film, code, says):
+    """What a law answers wrongly is the law's, with the pressure, whatever film asks."""
+    with open("film.yaml", "w", encoding="utf-8") as stream:
+        stream.write(FILM + f"  film: {{use: ehl/{film}, viscosity: oil}}\noutputs: [film.h_min, film.friction_coefficient]\n")
+    done = run(f"law eval {what}", "run", "film.yaml", "-o", "film")
+    good = done.returncode == code and FILES["law"] in done.stderr and says in done.stderr
+    hold(f"{what} in {film}", good, f"{done.returncode}: {done.stdout} {done.stderr}")
+
+
 os.chdir(tempfile.mkdtemp())
 for name, text in ("case.yaml", CASE), ("study.yaml", STUDY):
     with open(name, "w", encoding="utf-8") as stream:
@@ -180,6 +195,19 @@ for role, places in PLACES.items():
     for place in places[:-1]:  # at the end of a run nobody looks any more
         for what in SET_BACK:
             is_set_back(role, place, what)
+for film in "finite-volume, cells: 96", "control-volume, cells: 96", "film-formula", "inlet-analysis":
+    fails_film("infinity", film, 3, "it gave ln_eta inf at 0.3")
+    fails_film("no-number", film, 3, "nan at 0.3")
+    fails_film("status -77", film, 3, "it gave the status -77")
+    fails_film("status 99", film, 3, "it gave the status 99")
+    fails_film("status 2", film, 1, "the law found no ln_eta")
+done = run("law eval status -77", "run", "case.yaml")
+hold("-77 in a stage", done.returncode == 3 and FILES["law"] in done.stderr and "unknown status -77" in done.stderr, done.stderr)
+done = run("", "run", "case.yaml", "--plugin-path", "nowhere")
+hold("no such folder", done.returncode == 2 and "there is no directory nowhere" in done.stderr, done.stderr)
+done = run("", "run", "case.yaml", "--set", "oil.use=viscosity/strange")
+hold("no such model", done.returncode == 2 and 'no model "viscosity/strange"' in done.stderr and "viscosity/misdeed" in done.stderr, done.stderr)
+
 hold("verify of nothing", run("", "verify", FILES["law"]).returncode == 0, "it fails")
 for what, says in CHANGES.items():
     is_verified("law", "eval", what, says)

@@ -4,7 +4,9 @@
 
 #include "../plugin/serial.h"
 
+#include <stddef.h>
 #include <stdio.h>
+#include <string.h>
 
 const ff_guard_mark **fe_end_of_services(const ff_guard_mark *mark)
 {
@@ -25,11 +27,18 @@ ff_guard_mark fe_enter_model(const ff_stage *stage, const char *action)
     return ff_guard_enter(*mark);
 }
 
+static fe_instance *instance_of(const ff_guard_mark *mark)
+{
+    return (fe_instance *)((char *)(uintptr_t)mark - offsetof(fe_instance, mark));
+}
+
 fe_call fe_call_begin(const ff_stage *stage, const char *action)
 {
     fe_instance *instance = stage->instance;
     fe_call call = {.stage = stage, .action = action};
     instance->item[0] = instance->text[0] = instance->fault[0] = 0;
+    for (const ff_guard_mark **s = instance->mark.services; s && *s; s++)
+        instance_of(*s)->text[0] = 0;
     instance->no_room = false;
     fe_tables_forget(&instance->tables);
     fe_serial_enter(stage->loaded->model);
@@ -99,13 +108,61 @@ static bool tell_table(const ff_stage *stage, ff_report *report)
     return false;
 }
 
+/* The stage behind the service input of that name; NULL: there is none, or it is no such input. */
+static const ff_stage *server_of(const ff_stage *stage, const char *item)
+{
+    const ff_model *model = stage->loaded->model;
+    const ff_guard_mark **services = stage->instance->mark.services;
+    for (size_t i = 0; i < model->input_count; i++) {
+        const ff_port *row = ff_model_input(model, i);
+        for (size_t k = 0; row->service && !strcmp(row->name, item) && services && services[k]; k++)
+            if (fe_find_offer(instance_of(services[k])->stage->loaded, row) >= 0)
+                return instance_of(services[k])->stage;
+    }
+    return NULL;
+}
+
+/* Writes what the services have said, while the call ran, of why they fail: " (mine: not so)". */
+static void print_words_of_services(const ff_stage *stage, char *out, size_t size)
+{
+    const ff_guard_mark **services = stage->instance->mark.services;
+    size_t at = 0;
+    out[0] = 0;
+    for (size_t k = 0; services && services[k] && at < size; k++) {
+        const fe_instance *server = instance_of(services[k]);
+        if (server->text[0])
+            at += (size_t)snprintf(out + at, size - at, " (%s: %s)", server->stage->name,
+                                   server->text);
+    }
+}
+
+/* The plugin at fault is the stage's own, or that of the service that it complains of. */
+static bool tell_fault(const fe_call *call, ff_status status, const char *text, ff_report *report)
+{
+    const ff_stage *stage = call->stage, *server = server_of(stage, stage->instance->item);
+    char what[1400], others[600];
+    if (status == FF_BUG && server) {
+        snprintf(what, sizeof what, "failed %s (%s), which it serves as %s: %s", stage->name,
+                 stage->use, stage->instance->item, text);
+        return fe_plugin_fault(server, report, what);
+    }
+    ff_guard_print_services(&stage->instance->mark, ", or one that serves it (", others,
+                            sizeof others);
+    if (status == FF_BUG)
+        snprintf(what, sizeof what, "found a fault of its own during %s: %s", call->action, text);
+    else
+        snprintf(what, sizeof what, "%s%sgave the unknown status %d during %s: %s",
+                 others[0] ? others + 2 : "", others[0] ? "), " : "", status, call->action, text);
+    return fe_plugin_fault(stage, report, what);
+}
+
 static bool judge(const fe_call *call, ff_status status, ff_report *report)
 {
-    const ff_stage *stage = call->stage;
+    const ff_stage *stage = call->stage, *server = NULL;
     const fe_instance *instance = stage->instance;
     meaning means = meaning_of(status);
     const char *text = instance->text[0] ? instance->text : means.reason;
-    char what[700];
+    char words[800];
     bool known = false;
     if (instance->fault[0])
         return fe_plugin_fault(stage, report, instance->fault);
@@ -115,19 +172,17 @@ static bool judge(const fe_call *call, ff_status status, ff_report *report)
         fe_report_note_no_memory(report);
     if (instance->tables.errors)
         return tell_table(stage, report);
-    if (means.fault == FF_FAULT_PLUGIN) {
-        if (status == FF_BUG)
-            snprintf(what, sizeof what, "found a fault of its own during %s: %s", call->action,
-                     text);
-        else
-            snprintf(what, sizeof what, "gave the unknown status %d during %s: %s", status,
-                     call->action, text);
-        return fe_plugin_fault(stage, report, what);
-    }
+    if (means.fault == FF_FAULT_PLUGIN)
+        return tell_fault(call, status, text, report);
     ff_place place = instance->item[0] ? place_of(stage, instance->item, &known) : stage->place;
+    print_words_of_services(stage, words, sizeof words);
+    if (means.fault == FF_FAULT_RUN && instance->item[0])
+        server = server_of(stage, instance->item);
     if (status != FF_DOMAIN)
-        return ff_error(report, means.fault, place, NULL, "%s%s%s (%s): %s", stage->name,
-                        known ? "." : "", known ? instance->item : "", stage->use, text);
+        return ff_error(report, means.fault, place, NULL, "%s%s%s (%s): %s%s%s%s%s%s", stage->name,
+                        known ? "." : "", known ? instance->item : "", stage->use, text, words,
+                        server ? "; it is served by " : "", server ? server->name : "",
+                        server ? ": the plugin " : "", server ? server->loaded->path : "");
     ff_warn(report, place, "%s: %s", stage->name, text);
     return true;
 }

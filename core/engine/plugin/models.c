@@ -143,15 +143,36 @@ static const char *meant(ff_engine *engine, const char *id)
     return near;
 }
 
+/* The models of the kind of `id`: "ehl/a, ehl/b"; "": there are none. To be freed. */
+static char *models_of_kind(ff_engine *engine, const char *id)
+{
+    size_t count, length = strcspn(id, "/") + 1;
+    const char *const *ids = ff_engine_ids(engine, &count);
+    char *list = fe_print_text("%s", "");
+    for (size_t i = 0; i < count; i++) {
+        if (strncmp(ids[i], id, length) != 0)
+            continue;
+        char *longer = fe_print_text("%s%s%s", list, list[0] ? ", " : "", ids[i]);
+        fe_free(list);
+        list = longer;
+    }
+    return list;
+}
+
 static void report_absence(const loading *l, const char *tried)
 {
     const char *near = meant(l->engine, l->id);
+    char *others = models_of_kind(l->engine, l->id);
     char *hint =
         fe_print_text("looked for %s; --plugin-path and FLANKFILM_PLUGIN_PATH add directories",
                       tried[0] ? tried : "it in no directory at all");
-    ff_error(l->report, near ? FF_FAULT_INPUT : FF_FAULT_PLUGIN, l->place, hint,
-             "there is no model \"%s\"%s%s%s", l->id, near ? "; did you mean \"" : "",
-             near ? near : "", near ? "\"?" : "");
+    if (near)
+        ff_error(l->report, FF_FAULT_INPUT, l->place, hint,
+                 "there is no model \"%s\"; did you mean \"%s\"?", l->id, near);
+    else
+        ff_error(l->report, FF_FAULT_INPUT, l->place, hint, "there is no model \"%s\"%s%s", l->id,
+                 others[0] ? "; of its kind there are " : "", others);
+    fe_free(others);
     fe_free(hint);
 }
 

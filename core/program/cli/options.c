@@ -9,6 +9,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 typedef enum { OPTIONAL, REPEATABLE, REQUIRED } occurrence;
 
@@ -267,6 +268,16 @@ static bool check_missing(const cli_options *options)
     return true;
 }
 
+static bool check_plugin_paths(const cli_options *options)
+{
+    struct stat status;
+    for (size_t i = 0; i < options->plugin_path_count; i++)
+        if (stat(options->plugin_paths[i], &status) != 0 || !S_ISDIR(status.st_mode))
+            return cli_wrong_usage(options, "--plugin-path: there is no directory %s",
+                                   options->plugin_paths[i]);
+    return true;
+}
+
 bool cli_options_parse(cli_options *options, int argc, char **argv)
 {
     struct option table[ROWS + 1] = {{0}};
@@ -303,7 +314,7 @@ bool cli_options_parse(cli_options *options, int argc, char **argv)
     options->set_count = cli_option_words(options, "set").count;
     options->plugin_paths = cli_option_words(options, "plugin-path").words;
     options->plugin_path_count = cli_option_words(options, "plugin-path").count;
-    return cli_option(options, "help") || check_missing(options);
+    return cli_option(options, "help") || (check_plugin_paths(options) && check_missing(options));
 }
 
 void cli_options_free(cli_options *options)

@@ -100,7 +100,8 @@ static void names(void)
 {
     refuses("toy/surce", FF_FAULT_INPUT, "did you mean \"toy/source\"?");
     refuses("toy/surce", FF_FAULT_INPUT, "/toy/surce.so");
-    refuses("toy/nothing-near", FF_FAULT_PLUGIN, "there is no model");
+    refuses("toy/nothing-near", FF_FAULT_INPUT, "of its kind there are toy/");
+    refuses("toys/nothing-near", FF_FAULT_INPUT, "there is no model \"toys/nothing-near\"");
     refuses("../toy/source", FF_FAULT_INPUT, "does not name a model");
     refuses("toy/source.so", FF_FAULT_INPUT, "does not name a model");
     refuses("toy/../toy/source", FF_FAULT_INPUT, "does not name a model");

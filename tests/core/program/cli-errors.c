@@ -34,11 +34,11 @@ static void test_input(void)
     expect_failure("$F check empty.yaml", 2, "error", "there is nothing in it to read");
     expect_failure("$F check typo.yaml", 2, "error", "amplitud");
     expect_failure("$F explain typo.yaml", 2, "error", "amplitud");
-    expect_failure("$F run nomodel.yaml", 3, "error", "toy/nothing");
+    expect_failure("$F run nomodel.yaml", 2, "error", "toy/nothing");
     expect_failure("$F run pair.yaml --set wave.amplitude=2", 2, "error", "amplitude");
     expect_failure("$F run pair.yaml --set wave.amplitude='20 mm'", 2, "error", "amplitude");
     expect_failure("$F run pair.yaml --set nonsense", 2, "error", "needs a \"=\"");
-    expect_failure("$F models toy/nothing", 3, "error", "toy/nothing");
+    expect_failure("$F models toy/nothing", 2, "error", "toy/nothing");
     outcome r = cli("$F check typo.yaml --json");
     cli_expect("an error knows its place", &r,
                cli_has(cli_text_at(r.json, "errors/0/file"), "typo.yaml") &&

@@ -7,10 +7,32 @@ static const char role[] = "law";
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
 
+#include <math.h>
+#include <stdbool.h>
+
 typedef struct law {
     ff_viscosity service;
     double alpha;
 } law;
+
+/* What the law says above 0.3 GPa instead of `right`. */
+static double answer(double right)
+{
+    const char *misdeed = getenv("FLANKFILM_MISDEED");
+    return !misdeed                                 ? right
+           : !strcmp(misdeed, "law eval infinity")  ? INFINITY
+           : !strcmp(misdeed, "law eval no-number") ? NAN
+                                                    : right;
+}
+
+/* "law eval status -77": -77. */
+static ff_status status_of_eval(void)
+{
+    static const char begin[] = "law eval status ";
+    const char *misdeed = getenv("FLANKFILM_MISDEED");
+    bool asked = misdeed && !strncmp(misdeed, begin, sizeof begin - 1);
+    return asked ? atoi(misdeed + sizeof begin - 1) : FF_OK;
+}
 
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
                       double *dln_dp, double *dln_dT)
@@ -19,13 +41,13 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     (void)T;
     misbehave("eval");
     for (size_t i = 0; i < n; i++) {
-        ln_eta[i] = -5 + l->alpha * p[i];
+        ln_eta[i] = p[i] > 0.3e9 ? answer(-5 + l->alpha * p[i]) : -5 + l->alpha * p[i];
         if (dln_dp)
             dln_dp[i] = l->alpha;
         if (dln_dT)
             dln_dT[i] = 0;
     }
-    return FF_OK;
+    return status_of_eval();
 }
 
 static const ff_param params[] = {{.name = "alpha",

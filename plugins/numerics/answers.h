@@ -1,0 +1,103 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Holds laws to what they owe: FF_OK or FF_DOMAIN, and finite numbers at every finite pressure. */
+#ifndef NUMERICS_ANSWERS_H
+#define NUMERICS_ANSWERS_H
+
+#include <flankfilm/plugin.h>
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The first answer of a law to a stage that was not what a law owes. */
+typedef struct numerics_answers {
+    ff_status status; /* FF_OK: all were; FF_BUG, FF_NOCONV, FF_NOMEM */
+    const char *wire; /* of the law: "viscosity" */
+    char text[160];
+} numerics_answers;
+
+/* What a law was asked, and answered. */
+typedef struct numerics_answer {
+    const char *wire, *name; /* "viscosity", "ln_eta" */
+    ff_status status;
+    size_t n;
+    const double *p;              /* Pa, or NULL */
+    const double *value, *slopes; /* n of both; slopes may be NULL */
+} numerics_answer;
+
+/* The sum of n numbers, in lanes that work at once. It is finite only if all numbers are. */
+static inline double numerics_lane_sum(size_t n, const double *x)
+{
+    enum { LANES = 8 };
+    double lane[LANES] = {0}, sum = 0;
+    size_t i = 0;
+    for (; i + LANES <= n; i += LANES)
+        for (size_t k = 0; k < LANES; k++)
+            lane[k] += x[i + k];
+    for (size_t k = 0; k < LANES; k++)
+        sum += lane[k];
+    for (; i < n; i++)
+        sum += x[i];
+    return sum;
+}
+
+/* Whether all numbers are finite; 0 may also mean that their sum is not. */
+static inline int numerics_are_finite(size_t n, const double *x)
+{
+    return isfinite(numerics_lane_sum(n, x));
+}
+
+/* Keeps what is wrong with the answer, if it is the first such one; the status that the law then
+   has. What is asked at a pressure that is no number is not the law's to answer. */
+static inline ff_status numerics_answer_fault(numerics_answers *a, const numerics_answer *x)
+{
+    size_t i = 0;
+    int lawful = x->status == FF_OK || x->status == FF_DOMAIN;
+    ff_status status = x->status == FF_NOCONV || x->status == FF_NOMEM ? x->status : FF_BUG;
+    while (lawful && i < x->n &&
+           ((isfinite(x->value[i]) && (!x->slopes || isfinite(x->slopes[i]))) ||
+            (x->p && !isfinite(x->p[i]))))
+        i++;
+    if (lawful && i == x->n)
+        return x->status;
+    if (a->status != FF_OK)
+        return a->status;
+    a->status = status;
+    a->wire = x->wire;
+    char at[64] = "", many[64] = "";
+    if (x->p && (lawful || x->n == 1))
+        snprintf(at, sizeof at, " at %.4g GPa", 1e-9 * x->p[i]);
+    else if (x->p && x->n > 1)
+        snprintf(at, sizeof at, " among %zu pressures from %.4g GPa on", x->n, 1e-9 * x->p[0]);
+    if (lawful)
+        snprintf(many, sizeof many, "%s%s %g", isfinite(x->value[i]) ? "the slope of " : "",
+                 x->name, isfinite(x->value[i]) ? x->slopes[i] : x->value[i]);
+    if (lawful)
+        snprintf(a->text, sizeof a->text, "it gave %s%s; a law owes finite numbers", many, at);
+    else if (status == FF_NOMEM)
+        snprintf(a->text, sizeof a->text, "it ran out of memory%s", at);
+    else if (status == FF_NOCONV)
+        snprintf(a->text, sizeof a->text, "the law found no %s%s", x->name, at);
+    else
+        snprintf(a->text, sizeof a->text, "it gave the status %d%s; a law gives FF_OK or FF_DOMAIN",
+                 (int)x->status, at);
+    return status;
+}
+
+static inline ff_status numerics_answer_note(numerics_answers *a, const numerics_answer *x)
+{
+    if ((x->status == FF_OK || x->status == FF_DOMAIN) && numerics_are_finite(x->n, x->value) &&
+        (!x->slopes || numerics_are_finite(x->n, x->slopes)))
+        return x->status;
+    return numerics_answer_fault(a, x);
+}
+
+/* The status of a stage whose laws these are: theirs, if one of them failed. */
+static inline ff_status numerics_answers_end(numerics_answers *a, const ff_host *host,
+                                             ff_status status)
+{
+    return a->status == FF_OK ? status : host->fail(host->ctx, a->status, a->wire, a->text);
+}
+
+#endif
