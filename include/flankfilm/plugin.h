@@ -175,8 +175,7 @@ typedef struct ff_host {
     void *ctx; /* first argument of every function below */
 
     /* Says why; returns `status`, so that `return host->fail(...)` reads well. `item`: the
-       parameter, input or output at fault, or NULL. The core adds file, line and column. FF_BUG
-       with a service input: the plugin behind it is at fault. */
+       parameter, input or output at fault, or NULL. The core adds file, line and column. */
     ff_status (*fail)(void *ctx, ff_status status, const char *item, const char *text);
     void (*log)(void *ctx, int32_t level, const char *text);
 

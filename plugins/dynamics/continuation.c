@@ -58,15 +58,16 @@ static size_t settling_cycles(const dynamics_excitation *excitation, double w)
 }
 
 /* Integrates from (delta, rate), which become the state at the end, and makes the last mesh cycle a
-   guess of the series. */
-static int guess_in_time(path *p, double w, double *delta, double *rate)
+   guess of the series. FF_NOCONV: the motion grows without bound, or takes too many steps. */
+static ff_status guess_in_time(path *p, double w, double *delta, double *rate)
 {
     const dynamics_excitation *excitation = p->request->excitation;
     double T = 2 * M_PI / w, cap = dynamics_amplitude_cap(excitation);
     dynamics_record record = {0};
     dynamics_oscillator *o = dynamics_oscillator_new(excitation, 1e-7, 1, DYNAMICS_MOTION);
-    int good = o && dynamics_record_init(&record, excitation, dynamics_harmonics_samples(p->b), 1);
-    if (good) {
+    int there = o && dynamics_record_init(&record, excitation, dynamics_harmonics_samples(p->b), 1);
+    int good = there;
+    if (there) {
         const double *y = dynamics_oscillator_state(o);
         dynamics_oscillator_start(o, T, *delta, *rate);
         for (size_t i = settling_cycles(excitation, w); i-- > 0 && good;)
@@ -81,7 +82,7 @@ static int guess_in_time(path *p, double w, double *delta, double *rate)
     }
     dynamics_record_free(&record);
     dynamics_oscillator_free(o);
-    return good;
+    return good ? FF_OK : there ? FF_NOCONV : FF_NOMEM;
 }
 
 /* Whether Newton's method finds a motion near the guess p->z, which it replaces. */
@@ -113,7 +114,10 @@ static ff_status settle_near(path *p, double w, double delta, double rate,
         }
         if (request->host->progress(request->host->ctx, 0.5))
             return FF_STOPPED;
-        if (!guess_in_time(p, w, &delta, &rate))
+        ff_status status = guess_in_time(p, w, &delta, &rate);
+        if (status == FF_NOMEM)
+            return status;
+        if (status != FF_OK)
             break;
         p->z[p->n] = log(w);
         if (solve_near_guess(p, w))
