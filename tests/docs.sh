@@ -71,8 +71,8 @@ echo "$lines lines of shell, $blocks blocks of YAML"
 
 # what the page on plugins prints is a law: with beta = 0 it is that of Barus
 cd "$lab/plugins"
-film() { flankfilm run lab-oil.yaml --plugin-path lab --json --set oil.beta="$1" --set oil.use="$2" | grep -o '"data":\[[^]]*\]'; }
+film() { flankfilm run lab-oil.yaml --plugin-path lab --json --set oil.beta="$1" --set viscosity.use="$2" | grep -o '"data":\[[^]]*\]'; }
 film '0 1/GPa2' viscosity/lab-oil >own
 sed -i 's/, beta: -2 1.GPa2//' lab-oil.yaml
-flankfilm run lab-oil.yaml --json --set oil.use=viscosity/barus | grep -o '"data":\[[^]]*\]' >barus
+flankfilm run lab-oil.yaml --json --set viscosity.use=viscosity/barus | grep -o '"data":\[[^]]*\]' >barus
 diff own barus

@@ -86,15 +86,15 @@ async function main() {
     send({ method: 'workspace/didChangeConfiguration', params: { settings: {} } });
 
     const pipeline = 'format: 2\npipeline:\n';
-    const law = '  oil: {use: viscosity/barus, eta0: 5 mPa s, alpha: 11 1/GPa}\n';
-    let seen = await open(`${pipeline}${law}outputs: [oil.*]\n|`).diagnostics;
+    const law = '  viscosity: {use: viscosity/barus, eta0: 5 mPa s, alpha: 11 1/GPa}\n';
+    let seen = await open(`${pipeline}${law}outputs: [viscosity.*]\n|`).diagnostics;
     check('a right file has no findings', seen.length === 0, seen);
 
     seen = await open(`${pipeline}${law}  rho:\n    use: density/tait\n    rho0: 918 kg/m3\n    K_0: 1 GPa\n|`).diagnostics;
     check('a wrong key is found on its line', seen.length === 1 && seen[0].range.start.line === 7 && /K_0/.test(seen[0].message), seen);
     seen = await open(`${pipeline}  oil:\n    use: viscosity/barus\n    eta0: 5\n    alpha: 11 1/GPa\n|`).diagnostics;
     check('a number without its unit is found on its line', seen.length === 1 && seen[0].range.start.line === 5, seen);
-    seen = await open(`${pipeline}  oil: {use: viscosity/brus}\n|`).diagnostics;
+    seen = await open(`${pipeline}  viscosity: {use: viscosity/brus}\n|`).diagnostics;
     check('a model that is none is found', seen.length === 1 && seen[0].range.start.line === 3, seen);
     seen = await open(`${pipeline}  mesh: {use: stiffness/iso-6336, shape: round}\nx-own: {any: thing}\n|`).diagnostics;
     check('a word that is no choice is found, a key of the user\'s own is not', seen.length === 1 && seen[0].range.start.line === 3, seen);

@@ -97,12 +97,12 @@ def examples():
 
 def wrong_lines():
     pipeline = "format: 2\npipeline:\n"
-    law = "  oil: {use: viscosity/barus, eta0: 5 mPa s, alpha: 11 1/GPa}\n"
+    law = "  viscosity: {use: viscosity/barus, eta0: 5 mPa s, alpha: 11 1/GPa}\n"
     for name, text, lines, word in (
-        ("a right file", law + "outputs: [oil.*]\n", [], ""),
+        ("a right file", law + "outputs: [viscosity.*]\n", [], ""),
         ("a wrong key", law + "  rho:\n    use: density/tait\n    rho0: 918 kg/m3\n    K_0: 1 GPa\n", [6], "K_0"),
         ("a number without its unit", "  oil:\n    use: viscosity/barus\n    eta0: 5\n    alpha: 11 1/GPa\n", [4], "5"),
-        ("a model that is none", "  oil: {use: viscosity/brus}\n", [2], "brus"),
+        ("a model that is none", "  viscosity: {use: viscosity/brus}\n", [2], "brus"),
         ("a word that is no choice, and a key of the user's own",
          "  mesh: {use: stiffness/iso-6336, shape: round}\nx-own: {any: thing}\n", [2], "round"),
     ):

@@ -69,7 +69,7 @@ complete_bash() { # WORD...: what is offered for the last one
 }
 [ "$(complete_bash flankfilm expla)" = explain ]
 [ "$(complete_bash flankfilm run --fail)" = --fail-fast ]
-[ "$(complete_bash flankfilm run x.yaml --set oil.use = viscosity/b)" = viscosity/barus ]
+[ "$(complete_bash flankfilm run x.yaml --set viscosity.use = viscosity/b)" = viscosity/barus ]
 [ "$(complete_bash flankfilm models viscosity/b)" = viscosity/barus ]
 [ "$(complete_bash flankfilm new visc)" = viscosity/ ]
 [ "$(complete_bash flankfilm help mod)" = models ]

@@ -20,7 +20,7 @@ run() { # NAME [--set ...]
     }
 }
 
-"$build/tests/plugins/viscosity/test-viscosity-card-fit" print mil-l-23699-100C.yaml |
+"$build/tests/plugins/viscosity/test-viscosity-card-fit" print mil-l-23699.yaml |
     sed -n '/^p \[/,$p' > "$work/laws.csv"
 for speed in 1250 2085 2375; do
     for formula in moes dowson-higginson dowson-toyoda pan-hamrock; do

@@ -165,7 +165,7 @@ function figure2(  i, e) {
     row("eq. (11) with V_occ = 0.6132 and K0' = 10.076 goes through the points that Bair et al. measured", \
         F("eta/eta0 = %.3g, %.3g, %.3g, %.3g at 0.2, 0.4, 0.6, 1 GPa", ratio[2], ratio[4], ratio[6], ratio[10]), \
         "their points were known", -1)
-    say("eta0, B and K0 are not legible in the text at hand, nor are the points. `configs/lubricants/mil-l-23699-100C.yaml` " \
+    say("eta0, B and K0 are not legible in the text at hand, nor are the points. `configs/lubricants/mil-l-23699.yaml` " \
         "says where its values come from. The other laws of the card share eta0 and the film-forming coefficient.")
 }
 # one row for the motion from f_n/n down

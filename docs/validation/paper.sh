@@ -48,7 +48,7 @@ fields="film.film, film.pressure, film.x, film.roll_angle"
 static="film_static.film, film_static.pressure, film_static.x, film_static.roll_angle"
 rough="film.h_min, film.p_max, film.contact_ratio, film.asperity_load_share, film.yield_share, film.lambda_ratio, film.friction_coefficient"
 
-"$build/tests/plugins/viscosity/test-viscosity-card-fit" print mil-l-23699-100C.yaml |
+"$build/tests/plugins/viscosity/test-viscosity-card-fit" print mil-l-23699.yaml |
     sed -n '/^p \[/,$p' > "$work/laws.csv"
 for point in I II III; do
     at $point $point "$here/paper.yaml"

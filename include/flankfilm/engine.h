@@ -303,7 +303,7 @@ typedef struct ff_message {
     int fault; /* of an error: FF_FAULT_INPUT, ... */
     ff_place place;
     char *text; /* one sentence */
-    char *hint; /* what to do about it, or NULL */
+    char *hint; /* what to do about it, or NULL; of several lines when it begins with a line end */
 } ff_message;
 
 /* A growing list of messages. Equal messages at the same place are kept once; beyond 1000, errors

@@ -16,7 +16,8 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                       double *drho_dp, double *drho_dT)
 {
     const dowson_higginson *d = self;
-    const double rho0 = d->rho0, a = d->a, b = d->b;
+    const density_ambient ambient = density_begin(self, n, T);
+    const double rho0 = ambient.rho0, a = d->a, b = d->b;
     double lowest = 0;
     for (size_t i = 0; i < n; i++)
         lowest = p[i] < lowest ? p[i] : lowest;
@@ -34,7 +35,8 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                 drho_dp[i] = rho0 * a * density_tension_slope(y);
         }
     }
-    return density_end(self, 1 + a * lowest < 0.5 ? FF_DOMAIN : FF_OK, n, T, rho, drho_dp, drho_dT);
+    return density_end(self, &ambient, 1 + a * lowest < 0.5 ? FF_DOMAIN : FF_OK, n, T, rho, drho_dp,
+                       drho_dT);
 }
 
 static const ff_param params[] = {

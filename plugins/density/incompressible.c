@@ -7,13 +7,14 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                       double *drho_dp, double *drho_dT)
 {
     const density_law *law = self;
+    const density_ambient ambient = density_begin(self, n, T);
     (void)p;
     for (size_t i = 0; i < n; i++) {
-        rho[i] = law->rho0;
+        rho[i] = ambient.rho0;
         if (drho_dp)
             drho_dp[i] = 0;
     }
-    return density_end(law, FF_OK, n, T, rho, drho_dp, drho_dT);
+    return density_end(law, &ambient, FF_OK, n, T, rho, drho_dp, drho_dT);
 }
 
 static const ff_param params[] = {

@@ -20,16 +20,29 @@ ff_status density_wire(void *self, uint32_t input, const void *service)
     return FF_OK;
 }
 
-ff_status density_end(const density_law *law, ff_status status, size_t n, const double *T,
-                      double *rho, double *drho_dp, double *drho_dT)
+density_ambient density_begin(const void *self, size_t n, const double *T)
+{
+    const density_law *law = self;
+    density_ambient ambient = {.rho0 = law->rho0, .status = FF_OK};
+    if (law->liquid && n > 0) {
+        ambient.varies = !numerics_is_uniform(n, T);
+        if (!ambient.varies)
+            ambient.status = numerics_liquid_values(law->liquid, FF_LIQUID_RHO0, 1, T,
+                                                    &ambient.rho0, &ambient.slope);
+    }
+    return ambient;
+}
+
+/* rho is that of rho0 = 1. */
+static ff_status multiply(const ff_liquid *liquid, size_t n, const double *T, double *rho,
+                          double *drho_dp, double *drho_dT)
 {
     double rho0[NUMERICS_POINTS], slope[NUMERICS_POINTS];
-    for (size_t i = 0; i < n && drho_dT; i++)
-        drho_dT[i] = 0;
-    for (size_t from = 0; from < n && law->liquid; from += NUMERICS_POINTS) {
+    ff_status worst = FF_OK;
+    for (size_t from = 0; from < n; from += NUMERICS_POINTS) {
         size_t count = n - from < NUMERICS_POINTS ? n - from : NUMERICS_POINTS;
-        ff_status worse = numerics_liquid_values(law->liquid, FF_LIQUID_RHO0, count,
-                                                 T ? T + from : NULL, rho0, slope);
+        ff_status status =
+            numerics_liquid_values(liquid, FF_LIQUID_RHO0, count, T + from, rho0, slope);
         for (size_t i = 0; i < count; i++) {
             if (drho_dT)
                 drho_dT[from + i] = slope[i] * rho[from + i];
@@ -37,7 +50,18 @@ ff_status density_end(const density_law *law, ff_status status, size_t n, const 
                 drho_dp[from + i] *= rho0[i];
             rho[from + i] *= rho0[i];
         }
-        status = worse != FF_OK ? worse : status;
+        worst = status != FF_OK ? status : worst;
     }
-    return status;
+    return worst;
+}
+
+ff_status density_end(const density_law *law, const density_ambient *ambient, ff_status status,
+                      size_t n, const double *T, double *rho, double *drho_dp, double *drho_dT)
+{
+    ff_status of_liquid = ambient->status;
+    if (ambient->varies)
+        of_liquid = multiply(law->liquid, n, T, rho, drho_dp, drho_dT);
+    for (size_t i = 0; drho_dT && !ambient->varies && i < n; i++)
+        drho_dT[i] = ambient->slope / ambient->rho0 * rho[i];
+    return of_liquid != FF_OK ? of_liquid : status;
 }

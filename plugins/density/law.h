@@ -22,9 +22,19 @@ typedef struct density_law {
 extern const ff_port density_inputs[1];
 ff_status density_wire(void *self, uint32_t input, const void *service);
 
+/* The liquid at ambient pressure, for the points of one eval. */
+typedef struct density_ambient {
+    double rho0, slope; /* kg/m3, and over T; 1 and 0 where T differs from point to point */
+    int varies;         /* it does: density_end multiplies by rho0 */
+    ff_status status;
+} density_ambient;
+
+density_ambient density_begin(const void *law, size_t n, const double *T);
+
 /* Ends an eval of a law whose rho/rho0 does not depend on temperature: multiplies by what a liquid
-   gives and fills drho_dT. Derivatives may be NULL. `status` is that of the law. */
-ff_status density_end(const density_law *law, ff_status status, size_t n, const double *T,
-                      double *rho, double *drho_dp, double *drho_dT);
+   gives, where it has not yet, and fills drho_dT. Derivatives may be NULL. `status` is that of the
+   law. */
+ff_status density_end(const density_law *law, const density_ambient *ambient, ff_status status,
+                      size_t n, const double *T, double *rho, double *drho_dp, double *drho_dT);
 
 #endif

@@ -23,7 +23,8 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                       double *drho_dp, double *drho_dT)
 {
     const tait *d = self;
-    const double rho0 = d->rho0, K0 = d->K0, k = 1 + d->K0_prime, cap = d->cap;
+    const density_ambient ambient = density_begin(self, n, T);
+    const double rho0 = ambient.rho0, K0 = d->K0, k = 1 + d->K0_prime, cap = d->cap;
     double lowest = 0, highest = 0;
     for (size_t i = 0; i < n; i++) {
         double q = fmin(fmax(p[i], 0), cap), y = 1 + fmin(p[i], 0) / K0;
@@ -36,7 +37,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         highest = fmax(highest, p[i]);
     }
     int outside = 1 + lowest / K0 < 0.5 || highest > cap;
-    return density_end(self, outside ? FF_DOMAIN : FF_OK, n, T, rho, drho_dp, drho_dT);
+    return density_end(self, &ambient, outside ? FF_DOMAIN : FF_OK, n, T, rho, drho_dp, drho_dT);
 }
 
 static const ff_param params[] = {

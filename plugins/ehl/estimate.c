@@ -303,9 +303,12 @@ static ff_status set_scalars(const results *r, const ehl_estimate *e)
                             ehl_lowest_mean(&r->engagements),
                             ehl_lowest_spread(&r->engagements),
                             r->engagements.count};
-    for (uint32_t k = EHL_ESTIMATE_H_MIN_LOWEST; k < EHL_ESTIMATE_OUTPUTS; k++)
+    for (uint32_t k = EHL_ESTIMATE_H_MIN_LOWEST; k <= EHL_ESTIMATE_ENGAGEMENTS_JUDGED; k++)
         if (wants(r, k) && ff_put_scalar(r->host, k, value[k - EHL_ESTIMATE_H_MIN_LOWEST]) != FF_OK)
             return FF_NOMEM;
+    if (wants(r, EHL_ESTIMATE_ALPHA_STAR) &&
+        ehl_put_alpha_star(r->host, EHL_ESTIMATE_ALPHA_STAR, &e->laws) != FF_OK)
+        return FF_NOMEM;
     for (size_t i = 0; r->x && i < e->grid.nodes; i++) {
         double x = e->grid.first + (double)i * e->grid.dx;
         r->x[e->history.mirrored ? e->grid.nodes - 1 - i : i] = e->history.mirrored ? -x : x;

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "liquid.h"
 
+#include <flankfilm/author.h>
+
 #include <math.h>
+#include <stdbool.h>
 
 /* Of FF_OK and FF_DOMAIN the latter, of others the first. */
 static ff_status worse(ff_status a, ff_status b)
@@ -150,4 +153,47 @@ double ehl_oil_alpha(const ehl_laws *laws, const ehl_oil *oil)
         ln_eta = ln_next;
     }
     return p < highest ? 1 / sum : 0;
+}
+
+static double ln_eta_at(const ff_viscosity *law, double p, double *slope)
+{
+    double ln_eta = NAN;
+    law->eval(law->self, 1, &p, NULL, &ln_eta, slope, NULL);
+    return ln_eta;
+}
+
+/* An integral by whole steps and by halves, both exact where ln(eta) is linear. */
+typedef struct integral {
+    double coarse, fine, rise; /* rise: ln(eta/eta0) that it got to */
+} integral;
+
+/* Steps of a twentieth in ln(eta) up to a rise of 40, beyond which less than 1e-17 is left. */
+static integral integrate_fluidity(const ff_viscosity *law)
+{
+    const double highest = 1e11;
+    double p = 0, slope = 0, before = ln_eta_at(law, 0, &slope), ln_eta0 = before;
+    integral sum = {0, 0, 0};
+    while (p < highest && sum.rise < 40 && isfinite(before)) {
+        double dp = fmin(fmin(0.05 / fmax(slope, 1e-12), 2e6 + p / 20), highest - p);
+        double middle = ln_eta_at(law, p + dp / 2, NULL), after = ln_eta_at(law, p + dp, &slope);
+        sum.coarse += ehl_fluidity_integral(dp, before - ln_eta0, after - ln_eta0);
+        sum.fine += ehl_fluidity_integral(dp / 2, before - ln_eta0, middle - ln_eta0) +
+                    ehl_fluidity_integral(dp / 2, middle - ln_eta0, after - ln_eta0);
+        p += dp;
+        before = after;
+        sum.rise = after - ln_eta0;
+    }
+    return sum;
+}
+
+ff_status ehl_put_alpha_star(const ff_host *host, uint32_t output, const ehl_laws *laws)
+{
+    const integral sum = integrate_fluidity(laws->viscosity);
+    bool rises = sum.rise >= 40;
+    /* the error of halves is a third of their difference from the whole, which is taken off */
+    double error = fabs(sum.fine - sum.coarse) / 3, whole = sum.fine + (sum.fine - sum.coarse) / 3;
+    host->quality(host->ctx, "alpha_star_error", rises ? error / whole : 0, 1e-3,
+                  !rises || error <= 1e-3 * whole ? FF_GOOD : FF_DOUBTFUL,
+                  "of alpha_star, relative: quadrature by whole steps against halves");
+    return ff_put_scalar(host, output, rises ? 1 / whole : 0);
 }

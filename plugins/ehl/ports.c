@@ -191,6 +191,10 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
     [EHL_CONVOLUTIONS] = {"convolutions", "1", "deflections of a pressure in all", "", NULL, 0,
                           NULL},
     [EHL_STEPS_CUT] = {"steps_cut", "1", "time steps that had to be cut", "", NULL, 0, NULL},
+    [EHL_ALPHA_STAR] = {"alpha_star", "1/Pa",
+                        "film-forming pressure coefficient of the law with its oil, 1/int eta0/eta "
+                        "dp; 0: the viscosity does not rise",
+                        "", NULL, 0, NULL},
 };
 
 const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS] = {
@@ -268,6 +272,11 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
                                           NULL, 0, NULL},
     [EHL_ESTIMATE_ENGAGEMENTS_JUDGED] = {"engagements_judged", "1",
                                          "engagements that the results are of", "", NULL, 0, NULL},
+    [EHL_ESTIMATE_ALPHA_STAR] =
+        {"alpha_star", "1/Pa",
+         "film-forming pressure coefficient of the law with its oil, 1/int eta0/eta "
+         "dp; 0: the viscosity does not rise",
+         "", NULL, 0, NULL},
 };
 
 ff_status ehl_read_history(const ff_host *host, const ff_array *in, double light_load,

@@ -6,8 +6,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { PROPERTIES = FF_LIQUID_REFERENCE_TEMPERATURE + 1 };
-
 /* How far from the one temperature of its data an oil still is at it, K. */
 static const double SAME = 0.01;
 
@@ -124,7 +122,7 @@ static double reference_temperature(const lubricant_oil *oil, double T, double *
     return constant(isnan(oil->temperature) ? nearest : oil->temperature, slope);
 }
 
-static property *const properties[PROPERTIES] = {
+static property *const properties[LUBRICANT_PROPERTIES] = {
     [FF_LIQUID_LN_ETA0] = ln_eta0,
     [FF_LIQUID_RHO0] = density,
     [FF_LIQUID_CONDUCTIVITY] = conductivity,
@@ -148,11 +146,16 @@ static ff_status eval(const void *self, int32_t what, size_t n, const double *T,
 {
     const lubricant_oil *oil = self;
     ff_status status = FF_OK;
-    if (what < 0 || what >= PROPERTIES)
+    if (what < 0 || what >= LUBRICANT_PROPERTIES)
         return FF_UNSUPPORTED;
     for (size_t i = 0; i < n; i++) {
         double ignored;
-        value[i] = value_at(oil, what, T[i], slope ? &slope[i] : &ignored);
+        bool run = !(T[i] < oil->run_temperature) && !(T[i] > oil->run_temperature) &&
+                   !isnan(oil->run_temperature);
+        double *to = slope ? &slope[i] : &ignored;
+        value[i] = run ? oil->run_value[what] : value_at(oil, what, T[i], to);
+        if (run)
+            *to = oil->run_slope[what];
         if (T[i] < oil->low - SAME || T[i] > oil->high + SAME)
             status = FF_DOMAIN;
     }
@@ -198,6 +201,13 @@ static ff_status find_alpha(lubricant_oil *oil)
     return FF_OK;
 }
 
+void lubricant_keep_run(lubricant_oil *oil, double T)
+{
+    for (int32_t what = 0; what < LUBRICANT_PROPERTIES; what++)
+        oil->run_value[what] = value_at(oil, what, T, &oil->run_slope[what]);
+    oil->run_temperature = T;
+}
+
 double lubricant_density(const lubricant_oil *oil, double T)
 {
     double slope;
@@ -216,6 +226,7 @@ ff_status lubricant_oil_ready(lubricant_oil *oil)
         if (!isnan(twice[i].given) && table_of(oil, twice[i].what))
             return ff_failf(oil->host, FF_INVALID, twice[i].name,
                             "the table has a column %s already", twice[i].name);
+    oil->run_temperature = NAN;
     oil->service = (ff_liquid){.size = sizeof oil->service, .self = oil, .eval = eval};
     find_limits(oil);
     return find_alpha(oil);

@@ -13,6 +13,8 @@
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
 
+enum { LUBRICANT_PROPERTIES = FF_LIQUID_REFERENCE_TEMPERATURE + 1 };
+
 /* An instance of both models. NaN, -1 and NULL: not given. */
 typedef struct lubricant_oil {
     const ff_host *host;
@@ -29,6 +31,9 @@ typedef struct lubricant_oil {
 
     double coldest, hottest; /* K, that ASTM D341 holds in; set by lubricant_oil_ready */
     double alpha_scale;      /* of the base's correlation; NaN: alpha is not known from it */
+
+    /* What it is at the temperature of the run, which films ask for over and over; NaN: no run. */
+    double run_temperature, run_value[LUBRICANT_PROPERTIES], run_slope[LUBRICANT_PROPERTIES];
 } lubricant_oil;
 
 /* The rows that both models have. */
@@ -61,6 +66,8 @@ extern const ff_port lubricant_outputs[8];
 ff_status lubricant_oil_ready(lubricant_oil *oil);
 /* The viscosity by ASTM D341 from those at 40 and 100 degC, m2/s. */
 ff_status lubricant_oil_ready_from(lubricant_oil *oil, double nu_40, double nu_100);
+/* Evaluates all properties at the temperature of the run; between runs the service stays pure. */
+void lubricant_keep_run(lubricant_oil *oil, double T);
 /* kg/m3 at T, once density_15 or a table of the density is there. */
 double lubricant_density(const lubricant_oil *oil, double T);
 ff_status lubricant_evaluate(void *self, uint64_t wanted, const ff_array *in);

@@ -38,7 +38,7 @@ static ff_status find_temperature(const lubricant_oil *oil, const ff_array *in, 
 {
     const ff_host *host = oil->host;
     bool wired = in && in->data, given = !isnan(oil->temperature);
-    if (wired && given)
+    if (wired && given && fabs(in->data[0] - oil->temperature) > 1e-6)
         return ff_failf(host, FF_INVALID, "temperature",
                         "the temperature stands in two places: here %g degC, and oil_temperature "
                         "of the operating stage, %g degC; leave this one out",
@@ -92,9 +92,11 @@ static void judge(const lubricant_oil *oil, double T)
 
 ff_status lubricant_evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    const lubricant_oil *oil = self;
+    lubricant_oil *oil = self;
     double T = 0;
     ff_status status = find_temperature(oil, in, &T);
+    if (status == FF_OK)
+        lubricant_keep_run(oil, T);
     if (status == FF_OK && wanted & FF_BIT(OUT_TEMPERATURE))
         status = ff_put_scalar(oil->host, OUT_TEMPERATURE, T);
     for (uint32_t i = OUT_VALUES; i < 8 && status == FF_OK; i++)

@@ -32,34 +32,31 @@
 typedef struct numerics_viscosity_at {
     ff_viscosity service;
     const ff_viscosity *law;
-    double T; /* NaN: at its own */
+    double T[NUMERICS_POINTS]; /* all the same; NaN: at its own */
     numerics_answers *answers;
 } numerics_viscosity_at;
 
 typedef struct numerics_density_at {
     ff_density service;
     const ff_density *law;
-    double T;
+    double T[NUMERICS_POINTS];
     numerics_answers *answers;
 } numerics_density_at;
 
 /* Calls eval in parts, with one temperature at all points. */
-static inline ff_status numerics_eval_at(ff_status (*eval)(const void *, size_t, const double *,
-                                                           const double *, double *, double *,
-                                                           double *),
-                                         const void *self, double T, size_t n, const double *p,
-                                         double *value, double *by_p, double *by_T)
+static inline ff_status
+numerics_eval_at(ff_status (*eval)(const void *, size_t, const double *, const double *, double *,
+                                   double *, double *),
+                 const void *self, const double T[NUMERICS_POINTS], size_t n, const double *p,
+                 double *value, double *by_p, double *by_T)
 {
-    double same[NUMERICS_POINTS];
     ff_status worst = FF_OK;
-    if (isnan(T))
+    if (isnan(T[0]))
         return eval(self, n, p, NULL, value, by_p, by_T);
-    for (size_t i = 0; i < NUMERICS_POINTS && i < n; i++)
-        same[i] = T;
     for (size_t from = 0; from < n && worst >= 0; from += NUMERICS_POINTS) {
         size_t count = n - from < NUMERICS_POINTS ? n - from : NUMERICS_POINTS;
-        ff_status status = eval(self, count, p + from, same, value + from,
-                                by_p ? by_p + from : NULL, by_T ? by_T + from : NULL);
+        ff_status status = eval(self, count, p + from, T, value + from, by_p ? by_p + from : NULL,
+                                by_T ? by_T + from : NULL);
         worst = status != FF_OK ? status : worst;
     }
     return worst;
@@ -96,10 +93,11 @@ static inline const ff_viscosity *numerics_viscosity_make(numerics_viscosity_at 
                                                           const ff_viscosity *law, double T,
                                                           numerics_answers *answers)
 {
-    *at = (numerics_viscosity_at){.service = {sizeof at->service, at, numerics_viscosity_eval_at},
-                                  .law = law,
-                                  .T = T,
-                                  .answers = answers};
+    at->service = (ff_viscosity){sizeof at->service, at, numerics_viscosity_eval_at};
+    at->law = law;
+    at->answers = answers;
+    for (size_t i = 0; i < NUMERICS_POINTS; i++)
+        at->T[i] = T;
     return &at->service;
 }
 
@@ -107,10 +105,11 @@ static inline const ff_density *numerics_density_make(numerics_density_at *at,
                                                       const ff_density *law, double T,
                                                       numerics_answers *answers)
 {
-    *at = (numerics_density_at){.service = {sizeof at->service, at, numerics_density_eval_at},
-                                .law = law,
-                                .T = T,
-                                .answers = answers};
+    at->service = (ff_density){sizeof at->service, at, numerics_density_eval_at};
+    at->law = law;
+    at->answers = answers;
+    for (size_t i = 0; i < NUMERICS_POINTS; i++)
+        at->T[i] = T;
     return &at->service;
 }
 

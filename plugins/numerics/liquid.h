@@ -6,8 +6,9 @@
 #include <flankfilm/laws.h>
 
 #include <math.h>
+#include <string.h>
 
-enum { NUMERICS_POINTS = 512 }; /* most points of one call below */
+enum { NUMERICS_POINTS = 1024 }; /* most points of one call below */
 
 /* Temperature that a law answers for when it is called without one. */
 static inline double numerics_reference_temperature(const ff_liquid *liquid)
@@ -24,6 +25,12 @@ static inline int numerics_is_known(const ff_liquid *liquid, int32_t property)
 {
     double T = numerics_reference_temperature(liquid), value = NAN;
     return liquid->eval(liquid->self, property, 1, &T, &value, NULL) >= 0 && isfinite(value);
+}
+
+/* Whether all points have one temperature, so that one evaluation of the liquid does. */
+static inline int numerics_is_uniform(size_t n, const double *T)
+{
+    return !T || n < 2 || !memcmp(T, T + 1, (n - 1) * sizeof *T);
 }
 
 /*

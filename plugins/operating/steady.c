@@ -20,9 +20,8 @@ static const ff_param params[] = {
                 "speed of gear 1"),
     FF_QUANTITY("mesh_frequency", "Hz", steady, mesh_frequency, FF_REQUIRED, NULL, "speed", 1e-4,
                 1e9, 0, 0, "tooth meshes per second, in place of the speed; needs a gear"),
-    FF_QUANTITY("oil_temperature", "degC", steady, oil_temperature, 0, "40 degC", NULL, -150, 500,
-                0, 0,
-                "temperature of the oil that enters the mesh, handed to stages that ask for it"),
+    FF_QUANTITY("oil_temperature", "degC", steady, oil_temperature, 0, NULL, NULL, -150, 500, 0, 0,
+                "temperature of the oil that enters the mesh; a stage that reads it asks for it"),
 };
 
 enum { IN_TEETH, IN_BASE_RADIUS };
@@ -111,6 +110,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
             return status;
         value[OUT_LINE_FORCE] = s->torque / gear;
     }
+    if (wanted & FF_BIT(OUT_OIL_TEMPERATURE) && isnan(s->oil_temperature))
+        return ff_failf(s->host, FF_UNSUPPORTED, "oil_temperature",
+                        "oil_temperature is missing, and a stage reads it: give the temperature of "
+                        "the oil that enters the mesh");
     for (uint32_t i = 0; i <= OUT_OIL_TEMPERATURE && status == FF_OK; i++)
         if (wanted & FF_BIT(i))
             status = ff_put_scalar(s->host, i, value[i]);

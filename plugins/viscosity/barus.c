@@ -5,11 +5,14 @@
 
 #include "../numerics/liquid.h"
 
+#include <math.h>
+#include <stdbool.h>
+
 typedef struct barus {
     const ff_host *host;
     ff_viscosity service;
     viscosity_oil oil;
-    double alpha; /* 1/Pa */
+    double alpha; /* 1/Pa; NaN: that of the oil */
 } barus;
 
 /* The coefficient of the liquid changes with temperature, too. */
@@ -38,29 +41,35 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                       double *dln_dp, double *dln_dT)
 {
     const barus *b = self;
-    const ff_liquid *liquid = b->oil.liquid;
-    const double alpha = liquid ? 0 : b->alpha;
+    const viscosity_ambient ambient = viscosity_oil_begin(&b->oil, n, T);
+    const ff_liquid *liquid = isnan(b->alpha) ? b->oil.liquid : NULL;
+    double alpha = liquid ? 0 : b->alpha, slope;
+    ff_status rise = FF_OK;
+    bool at_once = liquid && !ambient.varies && !dln_dT && n > 0;
+    if (at_once)
+        rise = numerics_liquid_values(liquid, FF_LIQUID_PRESSURE_COEFFICIENT, 1, T, &alpha, &slope);
     for (size_t i = 0; i < n; i++) {
-        ln_eta[i] = b->oil.ln_eta0 + alpha * p[i];
+        ln_eta[i] = ambient.ln_eta0 + alpha * p[i];
         if (dln_dp)
             dln_dp[i] = alpha;
     }
-    ff_status status = viscosity_oil_end(&b->oil, n, p, T, ln_eta, dln_dT);
-    ff_status rise = liquid ? add_rise(liquid, n, p, T, ln_eta, dln_dp, dln_dT) : FF_OK;
+    ff_status status = viscosity_oil_end(&b->oil, &ambient, n, p, T, ln_eta, dln_dT);
+    if (liquid && !at_once)
+        rise = add_rise(liquid, n, p, T, ln_eta, dln_dp, dln_dT);
     return status != FF_OK ? status : rise;
 }
 
 static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(barus),
-    FF_QUANTITY_UNLESS("oil", "alpha", "1/GPa", barus, alpha, FF_REQUIRED, NULL, NULL, 0, 1000, 2,
-                       50, "pressure-viscosity coefficient"),
+    FF_QUANTITY("alpha", "1/GPa", barus, alpha, 0, NULL, NULL, 0, 1000, 2, 50,
+                "pressure-viscosity coefficient; without it that of the oil at its temperature"),
 };
 
 static ff_status ready(void *self)
 {
     barus *b = self;
-    ff_status status = viscosity_alpha_ready(b->host, &b->oil);
-    return status != FF_OK ? status : viscosity_oil_ready(b->host, &b->oil, viscosity_highest_cap);
+    viscosity_oil_ready(&b->oil, viscosity_highest_cap);
+    return isnan(b->alpha) ? viscosity_alpha_ready(b->host, &b->oil, "") : FF_OK;
 }
 
 FF_VISCOSITY_LAW(

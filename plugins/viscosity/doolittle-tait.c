@@ -21,6 +21,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                       double *dln_dp, double *dln_dT)
 {
     const doolittle_tait *d = self;
+    const viscosity_ambient ambient = viscosity_oil_begin(&d->oil, n, T);
     const double B = d->B, V_occ = d->V_occ, K0 = d->K0, k = 1 + d->K0_prime;
     const double cap = d->oil.pressure_cap;
     for (size_t i = 0; i < n; i++) {
@@ -29,11 +30,11 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         double free = 1 - shrinkage - V_occ;        /* V - V_occ */
         double scale = B * V_occ / free;
         double slope = scale / free / (K0 + q * k);
-        ln_eta[i] = d->oil.ln_eta0 + scale * shrinkage / (1 - V_occ) + slope * (p[i] - q);
+        ln_eta[i] = ambient.ln_eta0 + scale * shrinkage / (1 - V_occ) + slope * (p[i] - q);
         if (dln_dp)
             dln_dp[i] = slope;
     }
-    return viscosity_oil_end(&d->oil, n, p, T, ln_eta, dln_dT);
+    return viscosity_oil_end(&d->oil, &ambient, n, p, T, ln_eta, dln_dT);
 }
 
 static const ff_param params[] = {
@@ -53,12 +54,12 @@ static ff_status ready(void *self)
     doolittle_tait *d = self;
     double k = 1 + d->K0_prime;
     double pole = d->K0 * expm1((1 - d->V_occ) * k) / k; /* V = V_occ */
-    ff_status status = viscosity_oil_ready(d->host, &d->oil, fmin(viscosity_highest_cap, pole / 2));
-    if (status == FF_OK && d->oil.pressure_cap > 0.9 * pole)
+    viscosity_oil_ready(&d->oil, fmin(viscosity_highest_cap, pole / 2));
+    if (d->oil.pressure_cap > 0.9 * pole)
         return ff_failf(d->host, FF_INVALID, "pressure_cap",
                         "the free volume ends at %g GPa; the cap must be below 0.9 of that",
                         1e-9 * pole);
-    return status;
+    return FF_OK;
 }
 
 FF_VISCOSITY_LAW(

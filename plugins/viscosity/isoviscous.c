@@ -13,12 +13,13 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                       double *dln_dp, double *dln_dT)
 {
     const isoviscous *v = self;
+    const viscosity_ambient ambient = viscosity_oil_begin(&v->oil, n, T);
     for (size_t i = 0; i < n; i++) {
-        ln_eta[i] = v->oil.ln_eta0;
+        ln_eta[i] = ambient.ln_eta0;
         if (dln_dp)
             dln_dp[i] = 0;
     }
-    return viscosity_oil_end(&v->oil, n, p, T, ln_eta, dln_dT);
+    return viscosity_oil_end(&v->oil, &ambient, n, p, T, ln_eta, dln_dT);
 }
 
 static const ff_param params[] = {
@@ -28,7 +29,8 @@ static const ff_param params[] = {
 static ff_status ready(void *self)
 {
     isoviscous *v = self;
-    return viscosity_oil_ready(v->host, &v->oil, viscosity_highest_cap);
+    viscosity_oil_ready(&v->oil, viscosity_highest_cap);
+    return FF_OK;
 }
 
 FF_VISCOSITY_LAW(viscosity_isoviscous, isoviscous, eval, .id = "viscosity/isoviscous",

@@ -6,47 +6,13 @@
 #include <math.h>
 #include <string.h>
 
-/* eta0 = nu rho from the figures of a data sheet. */
-static ff_status find_eta0(const ff_host *host, const viscosity_oil *oil, double *eta0)
-{
-    int64_t grade = oil->grade ? lubricant_grade_find(oil->grade) : -1;
-    if (oil->grade && grade < 0)
-        return ff_failf(host, FF_INVALID, "grade", "no grade \"%.40s\"; there is %s", oil->grade,
-                        LUBRICANT_GRADES);
-    double nu_40 = grade < 0 ? oil->nu_40 : lubricant_grade_nu_40(grade);
-    double nu_100 = oil->nu_100;
-    if (isnan(nu_100) && grade >= 0)
-        nu_100 = lubricant_grade_nu_100(grade, oil->base);
-    if (isnan(nu_100))
-        return ff_failf(host, FF_INVALID, "nu_100", "nu_40 needs nu_100 beside it");
-    if (nu_100 >= nu_40)
-        return ff_failf(host, FF_INVALID, "nu_100",
-                        "nu_100 is %g cSt, but must be below the %g cSt at 40 degC", 1e6 * nu_100,
-                        1e6 * nu_40);
-    if (isnan(oil->temperature))
-        return ff_failf(host, FF_INVALID, "temperature",
-                        "temperature is missing: a grade or nu_40 needs it to find eta0");
-    double T = oil->temperature, slope;
-    double density_15 =
-        isnan(oil->density_15) ? lubricant_base_density_15(oil->base) : oil->density_15;
-    *eta0 =
-        lubricant_d341_between(nu_40, nu_100, T) * lubricant_d1250_density(density_15, T, &slope);
-    if (!(*eta0 >= 1e-5 && *eta0 <= 1e6))
-        return ff_failf(host, FF_INVALID, "temperature",
-                        "ASTM D341 gives no usable viscosity at %g degC for %g cSt at 40 and "
-                        "%g cSt at 100 degC",
-                        T - 273.15, 1e6 * nu_40, 1e6 * nu_100);
-    return FF_OK;
-}
-
-const ff_port viscosity_inputs[1] = {
-    {.name = "oil",
-     .unit = "",
-     .doc = "the oil over temperature, in place of what here says which oil it is",
-     .dims = "",
-     .service = FF_LIQUID_ID,
-     .flags = FF_OPTIONAL,
-     .from = "lubricant"}};
+const ff_port viscosity_inputs[1] = {{.name = "oil",
+                                      .unit = "",
+                                      .doc = "the oil over temperature, in place of eta0",
+                                      .dims = "",
+                                      .service = FF_LIQUID_ID,
+                                      .flags = FF_OPTIONAL,
+                                      .from = "lubricant"}};
 
 ff_status viscosity_wire(void *self, uint32_t input, const void *service)
 {
@@ -55,25 +21,24 @@ ff_status viscosity_wire(void *self, uint32_t input, const void *service)
     return FF_OK;
 }
 
-ff_status viscosity_oil_ready(const ff_host *host, viscosity_oil *oil, double auto_cap)
+void viscosity_oil_ready(viscosity_oil *oil, double auto_cap)
 {
-    double eta0 = oil->liquid ? 1 : oil->eta0;
-    ff_status status = isnan(eta0) ? find_eta0(host, oil, &eta0) : FF_OK;
-    if (status != FF_OK)
-        return status;
-    oil->ln_eta0 = log(eta0);
+    oil->ln_eta0 = oil->liquid ? 0 : log(oil->eta0);
     if (isnan(oil->pressure_cap))
         oil->pressure_cap = auto_cap;
-    return FF_OK;
 }
 
-ff_status viscosity_alpha_ready(const ff_host *host, const viscosity_oil *oil)
+ff_status viscosity_alpha_ready(const ff_host *host, const viscosity_oil *oil, const char *other)
 {
-    if (!oil->liquid || numerics_is_known(oil->liquid, FF_LIQUID_PRESSURE_COEFFICIENT))
+    if (!oil->liquid)
+        return ff_failf(host, FF_INVALID, "alpha",
+                        "alpha%s is missing, and there is no oil that tells it", other);
+    if (numerics_is_known(oil->liquid, FF_LIQUID_PRESSURE_COEFFICIENT))
         return FF_OK;
-    return ff_failf(host, FF_INVALID, "oil",
-                    "the pressure coefficient of the oil is not known: give it alpha and alpha_at, "
-                    "or a base oil");
+    return ff_failf(host, FF_INVALID, "alpha",
+                    "alpha%s is missing, and the oil does not tell its pressure coefficient; give "
+                    "it here, or alpha and alpha_at, or a base oil, to the oil",
+                    other);
 }
 
 static ff_status add_liquid(const ff_liquid *liquid, size_t n, const double *T, double *ln_eta,
@@ -95,16 +60,28 @@ static ff_status add_liquid(const ff_liquid *liquid, size_t n, const double *T, 
     return worst;
 }
 
-ff_status viscosity_oil_end(const viscosity_oil *oil, size_t n, const double *p, const double *T,
-                            double *ln_eta, double *dln_dT)
+viscosity_ambient viscosity_oil_begin(const viscosity_oil *oil, size_t n, const double *T)
+{
+    viscosity_ambient ambient = {.ln_eta0 = oil->ln_eta0, .status = FF_OK};
+    if (oil->liquid && n > 0) {
+        ambient.varies = !numerics_is_uniform(n, T);
+        if (!ambient.varies)
+            ambient.status = numerics_liquid_values(oil->liquid, FF_LIQUID_LN_ETA0, 1, T,
+                                                    &ambient.ln_eta0, &ambient.slope);
+    }
+    return ambient;
+}
+
+ff_status viscosity_oil_end(const viscosity_oil *oil, const viscosity_ambient *ambient, size_t n,
+                            const double *p, const double *T, double *ln_eta, double *dln_dT)
 {
     double highest = 0;
-    ff_status status = FF_OK;
+    ff_status status = ambient->status;
     for (size_t i = 0; i < n; i++)
         highest = p[i] > highest ? p[i] : highest;
-    if (oil->liquid)
+    if (ambient->varies)
         status = add_liquid(oil->liquid, n, T, ln_eta, dln_dT);
-    else if (dln_dT)
-        memset(dln_dT, 0, n * sizeof *dln_dT);
+    for (size_t i = 0; dln_dT && !ambient->varies && i < n; i++)
+        dln_dT[i] = ambient->slope;
     return highest > oil->pressure_cap ? FF_DOMAIN : status;
 }

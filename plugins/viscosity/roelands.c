@@ -19,7 +19,7 @@ typedef struct roelands {
 } roelands;
 
 /* What a liquid gives at a point, with slopes over T: L = ln eta0 + 9.67, and z = alpha p0/L where
-   the law is given none. */
+   the law is given no z. */
 typedef struct isotherm {
     double rise, rise_T, z, z_T;
 } isotherm;
@@ -42,8 +42,9 @@ static ff_status eval_some(const roelands *r, size_t n, const double *p, const d
     const ff_liquid *liquid = r->oil.liquid;
     double ln[NUMERICS_POINTS], ln_T[NUMERICS_POINTS], alpha[NUMERICS_POINTS],
         alpha_T[NUMERICS_POINTS];
+    const int from_oil = isnan(r->z) && isnan(r->alpha);
     ff_status worst = numerics_liquid_values(liquid, FF_LIQUID_LN_ETA0, n, T, ln, ln_T);
-    if (isnan(r->z)) {
+    if (from_oil) {
         ff_status status =
             numerics_liquid_values(liquid, FF_LIQUID_PRESSURE_COEFFICIENT, n, T, alpha, alpha_T);
         worst = status != FF_OK ? status : worst;
@@ -52,8 +53,9 @@ static ff_status eval_some(const roelands *r, size_t n, const double *p, const d
         isotherm at = {.rise = fmax(ln[i] + 9.67, 0.1), .z = r->z};
         at.rise_T = ln[i] + 9.67 > 0.1 ? ln_T[i] : 0;
         if (isnan(r->z)) {
-            at.z = alpha[i] * r->p0 / at.rise;
-            at.z_T = (alpha_T[i] * r->p0 - at.z * at.rise_T) / at.rise;
+            double slope = from_oil ? alpha[i] : r->alpha, slope_T = from_oil ? alpha_T[i] : 0;
+            at.z = slope * r->p0 / at.rise;
+            at.z_T = (slope_T * r->p0 - at.z * at.rise_T) / at.rise;
         }
         double out[3];
         at_point(r, &at, p[i], out);
@@ -80,30 +82,55 @@ static ff_status eval_liquid(const roelands *r, size_t n, const double *p, const
     return worst;
 }
 
+/* rise and exponent at the one temperature of all points. */
+static ff_status take_isotherm(const roelands *r, const double *T, double *rise, double *z)
+{
+    double ln, alpha = r->alpha, slope;
+    ff_status status = numerics_liquid_values(r->oil.liquid, FF_LIQUID_LN_ETA0, 1, T, &ln, &slope);
+    if (isnan(r->z) && isnan(r->alpha)) {
+        ff_status other = numerics_liquid_values(r->oil.liquid, FF_LIQUID_PRESSURE_COEFFICIENT, 1,
+                                                 T, &alpha, &slope);
+        status = other != FF_OK ? other : status;
+    }
+    *rise = fmax(ln + 9.67, 0.1);
+    *z = isnan(r->z) ? alpha * r->p0 / *rise : r->z;
+    return status;
+}
+
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
                       double *dln_dp, double *dln_dT)
 {
     const roelands *r = self;
-    const double p0 = r->p0, z = r->exponent, rise = r->rise, cap = r->oil.pressure_cap;
-    if (r->oil.liquid)
+    const double p0 = r->p0, cap = r->oil.pressure_cap;
+    double z = r->exponent, rise = r->rise, highest = 0;
+    ff_status status = FF_OK;
+    if (r->oil.liquid && (n == 0 || dln_dT || !numerics_is_uniform(n, T)))
         return eval_liquid(r, n, p, T, ln_eta, dln_dp, dln_dT);
+    if (r->oil.liquid)
+        status = take_isotherm(r, T, &rise, &z);
+    const double ln_eta0 = r->oil.liquid ? rise - 9.67 : r->oil.ln_eta0;
     for (size_t i = 0; i < n; i++) {
         double q = viscosity_clip(p[i], cap);
         double power = exp(z * log(1 + q / p0));
         double slope = rise * z * power / (p0 + q);
-        ln_eta[i] = r->oil.ln_eta0 + rise * (power - 1) + slope * (p[i] - q);
+        ln_eta[i] = ln_eta0 + rise * (power - 1) + slope * (p[i] - q);
         if (dln_dp)
             dln_dp[i] = slope;
     }
-    return viscosity_oil_end(&r->oil, n, p, T, ln_eta, dln_dT);
+    for (size_t i = 0; i < n; i++)
+        highest = p[i] > highest ? p[i] : highest;
+    for (size_t i = 0; dln_dT && i < n; i++)
+        dln_dT[i] = 0;
+    return highest > cap ? FF_DOMAIN : status;
 }
 
 static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(roelands),
     FF_QUANTITY("z", "1", roelands, z, 0, NULL, "slope", 0, 2, 0.2, 1.2, "pressure exponent"),
-    FF_QUANTITY_UNLESS("oil", "alpha", "1/GPa", roelands, alpha, FF_REQUIRED, NULL, "slope", 0,
-                       1000, 2, 50,
-                       "slope of ln(eta) at ambient pressure; gives z = alpha p0/(ln eta0 + 9.67)"),
+    FF_QUANTITY(
+        "alpha", "1/GPa", roelands, alpha, 0, NULL, "slope", 0, 1000, 2, 50,
+        "slope of ln(eta) at ambient pressure; gives z = alpha p0/(ln eta0 + 9.67); without "
+        "both that of the oil"),
     FF_QUANTITY("p0", "MPa", roelands, p0, 0, "196 MPa", NULL, 10, 1e4, 190, 200,
                 "pressure constant of the law"),
 };
@@ -111,11 +138,14 @@ static const ff_param params[] = {
 static ff_status ready(void *self)
 {
     roelands *r = self;
-    ff_status status = viscosity_oil_ready(r->host, &r->oil, viscosity_highest_cap);
-    if (status != FF_OK)
-        return status;
+    viscosity_oil_ready(&r->oil, viscosity_highest_cap);
+    if (isnan(r->z) && isnan(r->alpha)) {
+        ff_status status = viscosity_alpha_ready(r->host, &r->oil, " or z");
+        if (status != FF_OK)
+            return status;
+    }
     if (r->oil.liquid)
-        return isnan(r->z) ? viscosity_alpha_ready(r->host, &r->oil) : FF_OK;
+        return FF_OK;
     r->rise = r->oil.ln_eta0 + 9.67;
     if (r->rise <= 0)
         return ff_failf(r->host, FF_INVALID, "eta0",

@@ -18,6 +18,7 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                       double *dln_dp, double *dln_dT)
 {
     const two_slope *t = self;
+    const viscosity_ambient ambient = viscosity_oil_begin(&t->oil, n, T);
     const double change = t->alpha_2 - t->alpha_1, width = t->width, cap = t->oil.pressure_cap;
     const double begin = t->middle - width / 2, end = t->middle + width / 2;
     const double part = width > 0 ? 1 / width : 0;
@@ -28,12 +29,12 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
         /* at a transition of width 0 the upper slope holds */
         double share = q >= end ? 1 : inside * part;
         double slope = t->alpha_1 + change * share;
-        ln_eta[i] = t->oil.ln_eta0 + t->alpha_1 * q + change * (over + inside * inside * part / 2) +
-                    slope * (p[i] - q);
+        ln_eta[i] = ambient.ln_eta0 + t->alpha_1 * q +
+                    change * (over + inside * inside * part / 2) + slope * (p[i] - q);
         if (dln_dp)
             dln_dp[i] = slope;
     }
-    return viscosity_oil_end(&t->oil, n, p, T, ln_eta, dln_dT);
+    return viscosity_oil_end(&t->oil, &ambient, n, p, T, ln_eta, dln_dT);
 }
 
 static const ff_param params[] = {
@@ -56,7 +57,8 @@ static ff_status ready(void *self)
                         "the transition would begin below ambient pressure: its width, %g GPa, "
                         "must not exceed twice p_transition, %g GPa",
                         1e-9 * t->width, 1e-9 * t->middle);
-    return viscosity_oil_ready(t->host, &t->oil, viscosity_highest_cap);
+    viscosity_oil_ready(&t->oil, viscosity_highest_cap);
+    return FF_OK;
 }
 
 FF_VISCOSITY_LAW(

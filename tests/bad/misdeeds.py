@@ -11,7 +11,7 @@ import tempfile
 
 flankfilm, plugins = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
 FILES = {"law": plugins + "/viscosity/misdeed.so", "stage": plugins + "/misdeed/stage.so"}
-STAGES = {"law": "oil", "stage": "point"}
+STAGES = {"law": "viscosity", "stage": "point"}
 PLACES = {
     "law": ["constructor", "entry", "create", "set", "ready", "service", "eval", "destroy"],
     "stage": ["constructor", "entry", "create", "set", "wire", "ready", "evaluate", "destroy"],
@@ -65,17 +65,17 @@ SET_BACK = ["rounding", "flush", "locale", "folder"]
 
 CASE = """format: 2
 pipeline:
-  oil: {use: viscosity/misdeed}
+  viscosity: {use: viscosity/misdeed}
   point: {use: misdeed/stage}
 outputs: [point.ln_eta]
 """
 FILM = """format: 2
 pipeline:
-  oil: {use: viscosity/misdeed}
+  viscosity: {use: viscosity/misdeed}
   density: {use: density/incompressible, rho0: 850 kg/m3}
   discs: {use: contact/constant, radius: 12.8 mm, entrainment_speed: 4 m/s, slide_roll_ratio: 0.1, load_per_width: 177 N/mm}
 """
-STUDY = CASE + "study: {sweep: {oil.alpha: [10 1/GPa, 20 1/GPa]}}\n"
+STUDY = CASE + "study: {sweep: {viscosity.alpha: [10 1/GPa, 20 1/GPa]}}\n"
 
 watched = sys.argv[3:] == ["watched"]  # by a sanitizer, whose own ends of a thread and of a process differ
 if watched:
@@ -169,7 +169,7 @@ def is_kept_from_the_answer(role, place, what):
 def fails_film(what, film, code, says):
     """What a law answers wrongly is the law's, with the pressure, whatever film asks."""
     with open("film.yaml", "w", encoding="utf-8") as stream:
-        stream.write(FILM + f"  film: {{use: ehl/{film}, viscosity: oil}}\noutputs: [film.h_min, film.friction_coefficient]\n")
+        stream.write(FILM + f"  film: {{use: ehl/{film}}}\noutputs: [film.h_min, film.friction_coefficient]\n")
     done = run(f"law eval {what}", "run", "film.yaml", "-o", "film")
     good = done.returncode == code and FILES["law"] in done.stderr and says in done.stderr
     hold(f"{what} in {film}", good, f"{done.returncode}: {done.stdout} {done.stderr}")
@@ -205,7 +205,7 @@ done = run("law eval status -77", "run", "case.yaml")
 hold("-77 in a stage", done.returncode == 3 and FILES["law"] in done.stderr and "unknown status -77" in done.stderr, done.stderr)
 done = run("", "run", "case.yaml", "--plugin-path", "nowhere")
 hold("no such folder", done.returncode == 2 and "there is no directory nowhere" in done.stderr, done.stderr)
-done = run("", "run", "case.yaml", "--set", "oil.use=viscosity/strange")
+done = run("", "run", "case.yaml", "--set", "viscosity.use=viscosity/strange")
 hold("no such model", done.returncode == 2 and 'no model "viscosity/strange"' in done.stderr and "viscosity/misdeed" in done.stderr, done.stderr)
 
 hold("verify of nothing", run("", "verify", FILES["law"]).returncode == 0, "it fails")

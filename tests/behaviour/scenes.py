@@ -28,9 +28,9 @@ SCENES = {
                            'rough={use: surface/sinusoidal, amplitude: 0.1 um, wavelength: 100 um}']),
     'dent': (DISCS, ['film.cells=128', 'discs.duration=1 ms', 'film.steps=100',
                      'rough={use: surface/dent, depth: 0.2 um, width: 50 um}']),
-    **{law: (DISCS, ['film.cells=128', f'oil.use=viscosity/{law}'])
+    **{law: (DISCS, ['film.cells=128', f'viscosity.use=viscosity/{law}'])
        for law in ('barus', 'roelands', 'two-slope', 'isoviscous')},
-    **{law: (DISCS, ['film.cells=128', f'rho.use=density/{law}']) for law in ('incompressible', 'tait')},
+    **{law: (DISCS, ['film.cells=128', f'density.use=density/{law}']) for law in ('incompressible', 'tait')},
     **{law: (DISCS, ['film.cells=128', f'flow.use=rheology/{law}']) for law in ('newtonian', 'carreau')},
 }
 
@@ -45,7 +45,7 @@ COARSE = {
     'lubricants-by-laws': ['film.cells=64', 'film.steps=100'],
     'speed-sweep': ['study.sweep.duty.mesh_frequency.points=19'],
     'stability-alpha': ['film.cells=256', 'study.stability.axes.discs.load_per_width.points=3',
-                        'study.stability.axes.oil.alpha.points=3'],
+                        'study.stability.axes.viscosity.alpha.points=3'],
     'stability-cycle': ['study.stability.axes.film.steps={from: 125, to: 250, points: 2}',
                         'study.stability.axes.film.cells={from: 64, to: 128, points: 2}'],
     'stability-dynamics': ['study.stability.axes.duty.mesh_frequency.points=2',
@@ -85,7 +85,7 @@ WRONG = (
     'study={sweep: {}}', 'study={sweep: {duty.torque: [1 N m, 2]}}', 'study={sweep: {duty.torqe: [1 N m]}}',
     'study={nothing: {}}', 'study={sweep: {duty.torque: {from: 1 N m, to: 2 N m}}}', 'include=nothing.yaml',
     'title=', 'x-own=1', 'unknown=1', 'film=', 'film={use: ehl/finite-volume, contact: tooth, use: 1}', 'film.x=',
-    'oil.alpha=11 1/GPa', 'oil.eta0=5', 'flow.tau0=5e9 MPa', '=1', 'film', 'pair.use=gear/involute-spur',
+    'viscosity.alpha=11 1/GPa', 'viscosity.eta0=5', 'flow.tau0=5e9 MPa', '=1', 'film', 'pair.use=gear/involute-spur',
 )
 
 # Commands on files: {name} is that without its folder and ending, {coarse} what COARSE says of it.

@@ -55,11 +55,11 @@ outputs: [film.h_min, film.h_min_lowest, film.roll_angle, motion.dte_rms, gears.
 study = case + """study:
   sweep:
     duty.torque: [100 N m, -1 N m, 300 N m]
-    oil.use: [viscosity/barus, viscosity/roelands]
+    viscosity.use: [viscosity/barus, viscosity/roelands]
 """
 follow = case + """study:
   sweep: {duty.mesh_frequency: {from: 2000 Hz, to: 3000 Hz, points: 3, follow: both}}
-  zip: {gears.face_width: [20 mm, 30 mm], oil.use: [viscosity/barus, viscosity/roelands]}
+  zip: {gears.face_width: [20 mm, 30 mm], viscosity.use: [viscosity/barus, viscosity/roelands]}
 """
 
 
@@ -134,7 +134,7 @@ def test_fields():
 def test_errors():
     check("a wrong word", raised(lambda: flankfilm.run("case.yaml", {"duty.torqu": "3 N m"}),
                                  'unknown key "torqu"; did you mean "torque"?'))
-    check("two at once", raised(lambda: flankfilm.check("case.yaml", {"duty.torque": 3, "oil.use": "viscosity/no"}),
+    check("two at once", raised(lambda: flankfilm.check("case.yaml", {"duty.torque": 3, "viscosity.use": "viscosity/no"}),
                                 "duty.torque", "viscosity/no", code=3))
     check("no file", raised(lambda: flankfilm.run("none.yaml"), "none.yaml"))
     check("no results", raised(lambda: flankfilm.open("."), "no results of flankfilm", code=None))
@@ -151,14 +151,14 @@ def test_errors():
 
 def test_study():
     s = flankfilm.run("study.yaml", directory="study", jobs=2)
-    check("its shape", s.shape == (3, 2) and s.dims == ["torque", "oil.use"])
+    check("its shape", s.shape == (3, 2) and s.dims == ["torque", "viscosity.use"])
     check("what is varied", list(s.axes["torque"]) == [100, -1, 300] and s.axes["torque"].unit == "N m" and
-          list(s.axes["oil.use"]) == ["viscosity/barus", "viscosity/roelands"])
+          list(s.axes["viscosity.use"]) == ["viscosity/barus", "viscosity/roelands"])
     check("failed cases", list(s.status[1]) == ["invalid"] * 2 and "too small" in s.reason[1, 0])
     rms, film = s["motion.dte_rms"], s["film.h_min"]
-    check("a scalar over the study", rms.dims == ("torque", "oil.use") and np.isnan(rms[1]).all())
-    check("a series over the study", film.dims == ("torque", "oil.use", "t") and film.data.shape[:2] == (3, 2))
-    one = flankfilm.run("case.yaml", {"duty.torque": "300 N m", "oil.use": "viscosity/roelands"})
+    check("a scalar over the study", rms.dims == ("torque", "viscosity.use") and np.isnan(rms[1]).all())
+    check("a series over the study", film.dims == ("torque", "viscosity.use", "t") and film.data.shape[:2] == (3, 2))
+    one = flankfilm.run("case.yaml", {"duty.torque": "300 N m", "viscosity.use": "viscosity/roelands"})
     check("a case of it", np.allclose(film[2, 1], one["film.h_min"].data, rtol=1e-11, atol=0))
     check("and its scalars", np.isclose(float(rms[2, 1]), float(one["motion.dte_rms"]), rtol=1e-11))
     with open("study/table.csv", newline="") as file:

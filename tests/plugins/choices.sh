@@ -24,11 +24,12 @@ tells() {
 
 cat >"$lab/discs.yaml" <<EOF
 format: 2
-include: [$source/configs/lubricants/mil-l-23699-100C.yaml]
+include: [$source/configs/lubricants/mil-l-23699.yaml]
 pipeline:
+  oil: {temperature: 100 degC}
   discs: {use: contact/constant, radius: 20 mm, entrainment_speed: 4 m/s, slide_roll_ratio: 0.01, load_per_width: 100 N/mm}
-  oil:   {use: viscosity/auto}
-  rho:   {use: density/auto}
+  viscosity:   {use: viscosity/auto}
+  density:   {use: density/auto}
   flow:  {use: rheology/auto}
   film:  {use: ehl/auto, accuracy: 5 %}
 outputs: [film.h_min_lowest]
@@ -38,21 +39,21 @@ soft="--set discs.reduced_modulus=0.05GPa --set discs.load_per_width=0.5N/mm"
 gears="$source/configs/auto.yaml --set mesh.use=stiffness/iso-6336"
 
 # isoviscous or piezoviscous
-tells oil viscosity/doolittle-tait "L 5.7: elastic, piezoviscous; eta up to exp(0) of eta0" "$discs"
+tells viscosity viscosity/doolittle-tait "L 5.7: elastic, piezoviscous; eta up to exp(0) of eta0" "$discs"
 # shellcheck disable=SC2086
-tells oil viscosity/isoviscous "elastic, isoviscous; eta up to exp(0) of eta0" "$discs" $soft
+tells viscosity viscosity/isoviscous "elastic, isoviscous; eta up to exp(0) of eta0" "$discs" $soft
 # incompressible or not
-tells rho density/dowson-higginson "denser by 0 % at 0.4" "$discs" --set 'outputs=[film.h_central]'
+tells density density/dowson-higginson "denser by 0 % at 0.4" "$discs" --set 'outputs=[film.h_central]'
 # shellcheck disable=SC2086
-tells rho density/incompressible "moves the film by" "$discs" $soft
+tells density density/incompressible "moves the film by" "$discs" $soft
 # Newtonian or Eyring: by the shear stress, and by what is asked for
 tells flow rheology/newtonian "by the reference" "$discs"
 tells flow rheology/ree-eyring "MPa, by the reference" "$discs" --set 'outputs=[film.friction_coefficient]' \
     --set discs.slide_roll_ratio=0.3 --set film.accuracy='30 %'
 # rigid or elastic
-tells film ehl/film-formula "rigid, isoviscous; steady" "$discs" --set oil.use=viscosity/isoviscous \
+tells film ehl/film-formula "rigid, isoviscous; steady" "$discs" --set viscosity.use=viscosity/isoviscous \
     --set discs.load_per_width=0.5N/mm
-tells film ehl/finite-volume "elastic, isoviscous; steady" "$discs" --set oil.use=viscosity/isoviscous
+tells film ehl/finite-volume "elastic, isoviscous; steady" "$discs" --set viscosity.use=viscosity/isoviscous
 # steady or transient
 # shellcheck disable=SC2086
 tells film ehl/finite-volume "a film that is steady at every instant misses" $gears

@@ -8,8 +8,10 @@ import random
 import subprocess
 import tempfile
 
-OILS = ['iso-vg-220-80C', 'mil-l-23699-100C', 'sae-30-80C', 'vg-100-pao-80C', 'pao-b-80C',
-        'santotrac-50-80C', 'vg-100-naphthenic-80C', 'cardiff-reference']
+OILS = ['gear-oil-mineral', 'mil-l-23699', 'sae-30', 'vg-100-pao', 'pao-b',
+        'santotrac-50', 'vg-100-naphthenic', 'cardiff-reference']
+# at which the laws of their cards were fitted
+TEMPERATURES = {oil: '100 degC' if oil in ('mil-l-23699', 'cardiff-reference') else '80 degC' for oil in OILS}
 LAWS = ['roelands', 'barus', 'doolittle-tait']
 
 
@@ -43,11 +45,12 @@ include: [{source}/configs/lubricants/{scene['oil']}.yaml]
 pipeline:
   gears: {{use: gear/involute-spur, teeth: {scene['teeth']}, module: {scene['module']} mm,
            face_width: {scene['width']:.3f} mm, backlash: {0.04 * scene['module']:.4f} mm}}
-  duty: {{use: operating/steady, torque: {scene['torque']:.5g} N m, speed: {scene['rpm']:.5g} rpm}}
+  duty: {{use: operating/steady, torque: {scene['torque']:.5g} N m, speed: {scene['rpm']:.5g} rpm,
+          oil_temperature: {TEMPERATURES[scene['oil']]}}}
   mesh: {{{stages.get('mesh', 'use: stiffness/potential-energy')}}}
   motion: {{{motion}{damping}}}
   tooth: {{use: contact/tooth-pair, load: motion}}
-  oil: {{use: viscosity/{scene['law']}}}
+  viscosity: {{use: viscosity/{scene['law']}}}
   film: {{{stages.get('film', 'use: ehl/film-formula')}{wire}}}
 outputs: [{', '.join(outputs)}]
 """

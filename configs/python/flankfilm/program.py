@@ -97,7 +97,7 @@ class Study(Mapping):
     """A study: a mapping of "stage.output" to Array whose first dimensions are what is varied. What
     a case lacks is NaN; arrays of different lengths are padded with NaN.
 
-    axes     the values of each dimension, by its name ("mesh_frequency", "oil.use")
+    axes     the values of each dimension, by its name ("mesh_frequency", "viscosity.use")
     status   of each case, in the shape of the study; reason likewise
     table    the columns of table.csv as they are"""
 

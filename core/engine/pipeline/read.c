@@ -2,6 +2,8 @@
 /* Reads the top of a file and the names and models of its stages. */
 #include "build.h"
 
+#include "../value/tree.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -63,13 +65,15 @@ static void check_format(fe_build *b, const ff_node *root)
 {
     const ff_node *format = ff_node_get(root, "format");
     if (!format)
-        ff_error(b->report, FF_FAULT_INPUT, root->place, "write the line \"format: 2\" at its top",
+        ff_error(b->report, FF_FAULT_INPUT, root->place,
+                 "write the line \"format: " FE_FORMAT "\" at its top",
                  "the file does not state its format");
     else if (format->kind != FF_SCALAR)
-        fe_expected(b, format, "format", "2");
-    else if (strcmp(format->text, "2") != 0)
+        fe_expected(b, format, "format", FE_FORMAT);
+    else if (strcmp(format->text, FE_FORMAT) != 0)
         ff_error(b->report, FF_FAULT_INPUT, format->place, NULL,
-                 "format: expected 2, the only one that this version reads, found \"%.40s\"",
+                 "format: expected " FE_FORMAT
+                 ", the only one that this version reads, found \"%.40s\"",
                  format->text);
 }
 

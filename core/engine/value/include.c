@@ -145,6 +145,17 @@ static bool load_includes(const file *f, ff_node *map, ff_node **base)
     return fe_node_is_empty(named) || load_named(f, named, base);
 }
 
+/* A file that is included may leave out its format; that of the first file counts for all. */
+static void check_format(const file *f, const ff_node *root)
+{
+    const ff_node *format = ff_node_get(root, "format");
+    if (f->parent && format && format->kind == FF_SCALAR && strcmp(format->text, FE_FORMAT) != 0)
+        ff_error(f->report, FF_FAULT_INPUT, format->place, NULL,
+                 "format: expected " FE_FORMAT
+                 ", the only one that this version reads, found \"%.40s\"",
+                 format->text);
+}
+
 /* Reads a source with what it includes. NULL when any part of it cannot be read. */
 static ff_node *read_source(const file *f, const ff_source *source)
 {
@@ -159,7 +170,10 @@ static ff_node *read_source(const file *f, const ff_source *source)
                  "expected a map at the top, found %s", fe_kind_name(root->kind));
         return NULL;
     }
-    if (!root || !load_includes(f, root, &base))
+    if (!root)
+        return NULL;
+    check_format(f, root);
+    if (!load_includes(f, root, &base))
         return NULL;
     fe_node_set_rank(root, f->tree->ranks++);
     return fe_node_merge(f->tree, base, root);

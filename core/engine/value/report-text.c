@@ -122,6 +122,23 @@ static void print_line(printer *p, const ff_place *place)
     add(p, "\n");
 }
 
+/* A hint that begins with a line end has several lines, as what is to be written instead. */
+static void print_hint(printer *p, const char *hint)
+{
+    const char *end = hint + strlen(hint);
+    bool lines = *hint == '\n';
+    uint32_t code;
+    add(p, lines ? "hint:" : "hint: ");
+    for (size_t n; hint < end; hint += n) {
+        n = fe_char_read(hint, end, &code);
+        if (lines && code == '\n')
+            add(p, "\n");
+        else
+            print_char(p, hint, n, code);
+    }
+    add(p, "\n");
+}
+
 static void print_message(printer *p, const ff_message *m)
 {
     static const char *const names[] = {"error: ", "warning: "};
@@ -141,11 +158,8 @@ static void print_message(printer *p, const ff_message *m)
     add(p, "\n");
     if (place->source && place->line > 0)
         print_line(p, place);
-    if (m->hint) {
-        add(p, "hint: ");
-        print_text(p, m->hint);
-        add(p, "\n");
-    }
+    if (m->hint)
+        print_hint(p, m->hint);
 }
 
 typedef struct entry {

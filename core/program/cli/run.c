@@ -4,6 +4,7 @@
 #include "command.h"
 #include "progress.h"
 #include "summary.h"
+#include "swap.h"
 
 #include "../memory/memory.h"
 #include "../results/earlier.h"
@@ -142,6 +143,8 @@ int cli_run(const cli_options *options)
         to.directory = cli_run_directory(options);
     input.pipeline = session.pipeline;
     input.key = good ? results_input_key(session.pipeline) : 0;
+    if (good && !options->json)
+        cli_print_swaps(&session, options);
     if (good && open_place(&to, &input, session.report))
         code = run_session(&session, options, &input, &to);
     else

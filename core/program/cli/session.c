@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Opening the file that a command is given. */
 #include "session.h"
+
 #include "../terminal/terminal.h"
+#include "oil.h"
 
 #include "../memory/memory.h"
 #include "../results/json.h"
+#include "../rewrite/rewrite.h"
 #include "../study/hash.h"
 
 #include <ctype.h>
@@ -32,14 +35,9 @@ static bool open_study(cli_session *session, const cli_options *options)
     return true;
 }
 
-/* Adds the messages of that severity of a case to the report. */
-static void try_case(cli_session *session, const cli_options *options, size_t index,
-                     ff_severity severity)
+/* Adds the messages of that severity of another report, whose sources may be freed before. */
+static void copy_messages(cli_session *session, const ff_report *captured, ff_severity severity)
 {
-    ff_report *captured = ff_report_new();
-    ff_tree *tree = ff_tree_load(options->operand, captured);
-    study_overlay(session->study, index, options->sets, options->set_count, tree, captured);
-    ff_pipeline_free(ff_pipeline_build(tree, session->engine, true, captured));
     for (size_t i = 0; i < ff_report_count(captured); i++) {
         const ff_message *m = ff_report_at(captured, i);
         ff_source source = m->place.source ? *m->place.source : (ff_source){0};
@@ -53,6 +51,22 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
         else
             ff_warn(session->report, place, "%s", m->text);
     }
+}
+
+void cli_copy_errors(cli_session *session, const ff_report *captured)
+{
+    copy_messages(session, captured, FF_ERROR);
+}
+
+/* Adds the messages of that severity of a case to the report. */
+static void try_case(cli_session *session, const cli_options *options, size_t index,
+                     ff_severity severity)
+{
+    ff_report *captured = ff_report_new();
+    ff_tree *tree = ff_tree_load(options->operand, captured);
+    study_overlay(session->study, index, options->sets, options->set_count, tree, captured);
+    ff_pipeline_free(ff_pipeline_build(tree, session->engine, true, captured));
+    copy_messages(session, captured, severity);
     ff_tree_free(tree);
     ff_report_free(captured);
 }
@@ -79,6 +93,21 @@ static void try_values(cli_session *session, const cli_options *options, bool ev
     }
 }
 
+/* Of a study its first case. */
+static void check_oil(cli_session *session, const cli_options *options)
+{
+    ff_report *captured = ff_report_new();
+    ff_tree *tree = ff_tree_load(options->operand, captured);
+    if (session->study && session->study->overlay_first)
+        study_overlay(session->study, 0, options->sets, options->set_count, tree, captured);
+    for (size_t i = 0; !session->study && i < options->set_count; i++)
+        ff_tree_set(tree, options->sets[i], "pipeline", ff_file_keys(), captured);
+    if (!session->study || session->study->overlay_first)
+        cli_check_oil(session, tree);
+    ff_tree_free(tree);
+    ff_report_free(captured);
+}
+
 static void warn_of_follow(const cli_session *session)
 {
     const ff_pipeline *pipeline = session->pipeline;
@@ -93,9 +122,8 @@ static void warn_of_follow(const cli_session *session)
                 "changes nothing");
 }
 
-bool cli_session_open(cli_session *session, const cli_options *options, bool everything)
+static bool open_file(cli_session *session, const cli_options *options, bool everything)
 {
-    *session = (cli_session){.report = ff_report_new()};
     session->tree = ff_tree_load(options->operand, session->report);
     if (!ff_tree_root(session->tree))
         return false;
@@ -107,11 +135,27 @@ bool cli_session_open(cli_session *session, const cli_options *options, bool eve
     session->pipeline =
         ff_pipeline_build(session->tree, session->engine, everything, session->report);
     warn_of_follow(session);
+    if (session->pipeline && ff_report_errors(session->report) == 0)
+        cli_check_temperatures(session);
     if (session->study && session->pipeline)
         study_check(session->study, session->pipeline, session->report);
     if (session->study && !session->study->driver && ff_report_errors(session->report) == 0)
         try_values(session, options, everything);
+    if (everything && session->pipeline && ff_report_errors(session->report) == 0)
+        check_oil(session, options);
     return session->pipeline && ff_report_errors(session->report) == 0;
+}
+
+bool cli_session_open(cli_session *session, const cli_options *options, bool everything)
+{
+    *session = (cli_session){.report = ff_report_new()};
+    if (open_file(session, options, everything))
+        return true;
+    ff_report *instead = ff_report_new(); /* of a file of format 1 the one error that helps */
+    bool old = rewrite_old_format(options->operand, options->sets, options->set_count, instead);
+    ff_report_free(old ? session->report : instead);
+    session->report = old ? instead : session->report;
+    return false;
 }
 
 bool cli_choose_models(cli_session *session)

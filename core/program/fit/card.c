@@ -34,11 +34,13 @@ static void print_head(FILE *out, const fit *f, const fit_law *best)
             fprintf(out, "# %-28s %5zu %8.3g %+11.3g %+7.1f\n", f->laws[i].id,
                     f->laws[i].free_count, 100 * f->laws[i].rms, 100 * f->laws[i].largest,
                     f->laws[i].criterion - best->criterion);
-    fprintf(out,
-            "#\n# The data end at %.4g GPa. From there on, pressure_cap, ln(eta) goes on as a\n"
-            "# straight line, and a run that gets there warns that it left the range of the law.\n"
-            "# Intervals are of 95 %% confidence.\n",
-            1e-9 * f->data.highest);
+    fprintf(
+        out,
+        "#\n# The data end at %.4g GPa. From there on, pressure_cap, ln(eta) goes on as a\n"
+        "# straight line, and a run that gets there warns that it left the range of the law.\n"
+        "# Intervals are of 95 %% confidence. eta0 stands in the laws: for a pipeline without a\n"
+        "# stage of an oil.\n",
+        1e-9 * f->data.highest);
 }
 
 /* "5.006 mPa s" */
@@ -86,7 +88,7 @@ void fit_write_card(const fit *f, FILE *out)
 {
     const fit_law *best = fit_best(f);
     print_head(out, f, best);
-    fprintf(out, "pipeline:\n  oil:\n    use: %s\n    with:\n", best->id);
+    fprintf(out, "pipeline:\n  viscosity:\n    use: %s\n    with:\n", best->id);
     for (size_t i = 0; i < f->law_count; i++)
         if (!*f->laws[i].why)
             print_law(out, &f->laws[i]);

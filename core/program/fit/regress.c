@@ -61,21 +61,21 @@ static bool same_group(const ff_param *a, const ff_param *b)
     return a->group && b->group && !strcmp(a->group, b->group);
 }
 
-/* A required parameter is found, of a group of which one is required the first number, unless the
+/* A parameter without a preset is found, of a group of which one is required the first number, unless the
    user has chosen. */
 static bool is_free(const fit_law *law, size_t index)
 {
     const fit_param *param = &law->params[index];
     if (param->row->type != FF_REAL || param->asked != FIT_PRESET)
         return param->asked == FIT_FREE;
-    bool required = param->row->flags & FF_REQUIRED;
+    bool required = !param->row->preset;
     for (size_t i = 0; i < law->param_count; i++) {
         const fit_param *other = &law->params[i];
         if (i == index || !same_group(param->row, other->row))
             continue;
         if (other->asked != FIT_PRESET || (i < index && other->row->type == FF_REAL))
             return false;
-        required = required || other->row->flags & FF_REQUIRED;
+        required = required && !other->row->preset;
     }
     return required;
 }

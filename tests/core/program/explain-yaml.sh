@@ -29,12 +29,12 @@ for file in configs/*.yaml configs/studies/*.yaml; do
 done
 
 # layers: a later value replaces another of its group, a set another model's
-same_run configs/line-contact.yaml --set film.cells=64 --set oil.use=viscosity/barus \
-    --set 'oil.alpha=12.345678901 1/GPa'
+same_run configs/line-contact.yaml --set film.cells=64 --set viscosity.use=viscosity/barus \
+    --set 'viscosity.alpha=12.345678901 1/GPa'
 grep -q 'alpha: 12.345678901 1/GPa  *# --set$' "$lab/shown.yaml"
-grep -q '# alpha: 11.0 1/GPa .*mil-l-23699-100C.yaml:37, replaced by a later one$' "$lab/shown.yaml"
+grep -q '# alpha: 11.0 1/GPa .*mil-l-23699.yaml:[0-9]*, replaced by a later one$' "$lab/shown.yaml"
 grep -q '# tolerance: .* # preset$' "$lab/shown.yaml"
-grep -q '# viscosity: oil  *# automatic$' "$lab/shown.yaml"
+grep -q '# viscosity: viscosity  *# automatic$' "$lab/shown.yaml"
 gears='--set mesh.use=stiffness/iso-6336 --set outputs=[motion.dte_rms]'
 # shellcheck disable=SC2086
 same_run configs/li-kahraman-2011.yaml $gears --set 'duty.speed=1500 rpm'

@@ -39,18 +39,21 @@ judge "the card says the range of the data" $?
 judge "a residual for each row" $?
 cat >own.yaml <<END
 format: 2
-include: [$source/configs/li-kahraman-2011.yaml, out/card.yaml]
-pipeline: {film: {use: ehl/film-formula}}
+include: [out/card.yaml]
+pipeline:
+  discs: {use: contact/constant, radius: 12.8 mm, entrainment_speed: 4 m/s, load_per_width: 177 N/mm}
+  density: {use: density/dowson-higginson, rho0: 819 kg/m3}
+  film: {use: ehl/film-formula}
 outputs: [film.h_min]
 END
 "$flankfilm" run own.yaml -o film >said 2>&1
 judge "a run with the card" $?
 for law in barus two-slope doolittle-tait; do
-    "$flankfilm" check own.yaml --set oil.use=viscosity/$law >said 2>&1
+    "$flankfilm" check own.yaml --set viscosity.use=viscosity/$law >said 2>&1
     judge "the card's set for $law" $?
 done
-"$flankfilm" run "$source/configs/li-kahraman-2011.yaml" --set include=out/card.yaml \
-    --set film.cells=64 --set film.steps=50 --set duty.torque="600 N m" --set 'outputs=[film.h_min]' -o past >said 2>&1
+"$flankfilm" run own.yaml --set film.use=ehl/finite-volume --set film.cells=128 \
+    --set discs.load_per_width="900 N/mm" -o past >said 2>&1
 tr '\n' ' ' <said | tr -s ' ' | grep -q "an oil law was continued outside its range"
 judge "a run beyond the data is told" $?
 

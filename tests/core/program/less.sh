@@ -12,9 +12,9 @@ trap 'rm -rf "$work"' EXIT
 
 cat >"$work/pair.yaml" <<END
 format: 2
-include: [$source/configs/gears/unity-50.yaml, $source/configs/lubricants/mil-l-23699-100C.yaml]
+include: [$source/configs/gears/unity-50.yaml, $source/configs/lubricants/mil-l-23699.yaml]
 pipeline:
-  duty:        {use: operating/steady, torque: 250 N m, mesh_frequency: 1250 Hz}
+  duty:        {use: operating/steady, torque: 250 N m, mesh_frequency: 1250 Hz, oil_temperature: 100 degC}
   mesh:        {use: stiffness/iso-6336}
   motion:      {use: dynamics/shooting, damping_ratio: 0.01, natural_frequency: 3242 Hz}
   static:      {use: contact/tooth-pair, load: mesh}

@@ -19,9 +19,11 @@ import subprocess
 import sys
 import tempfile
 
-OILS = ['iso-vg-220-80C', 'mil-l-23699-100C', 'sae-30-80C', 'vg-100-pao-80C', 'pao-b-80C',
-        'santotrac-50-80C', 'vg-100-naphthenic-80C', 'cardiff-reference', '5p4e-100C']
-LAWS = {'oil': 'viscosity', 'rho': 'density', 'flow': 'rheology'}
+OILS = ['gear-oil-mineral', 'mil-l-23699', 'sae-30', 'vg-100-pao', 'pao-b',
+        'santotrac-50', 'vg-100-naphthenic', 'cardiff-reference', '5p4e']
+# at which the laws of their cards were fitted
+TEMPERATURES = {oil: '100 degC' if oil in ('mil-l-23699', 'cardiff-reference', '5p4e') else '80 degC' for oil in OILS}
+LAWS = {'viscosity': 'viscosity', 'density': 'density', 'flow': 'rheology'}
 OUTPUTS = {'film': ['h_min_lowest', 'h_min', 'h_central', 'time'], 'friction': ['traction', 'time'],
            'pressure': ['p_max_highest']}
 ALL = sorted({name for names in OUTPUTS.values() for name in names})
@@ -39,7 +41,8 @@ def draw(seed):
         scene['stages'] = f"""
   discs: {{use: contact/constant, radius: {radius:.4g} mm, entrainment_speed: {speed:.4g} m/s,
            slide_roll_ratio: {10 ** r.uniform(-3, 0):.3g}, load_per_width: {load:.5g} N/mm,
-           reduced_modulus: {modulus:.5g} GPa}}"""
+           reduced_modulus: {modulus:.5g} GPa}}
+  oil: {{temperature: {TEMPERATURES[scene['oil']]}}}"""
     else:
         teeth, module = r.randint(18, 50), r.choice([2, 3, 4, 6])
         pressure = 10 ** r.uniform(math.log10(0.25), math.log10(1.5))
@@ -49,7 +52,8 @@ def draw(seed):
         rpm = max(speed, 3) * 1e3 / (teeth * module / 2) * 60 / (2 * math.pi)
         scene['stages'] = f"""
   gears: {{use: gear/involute-spur, teeth: [{teeth}, {teeth}], module: {module} mm, face_width: 20 mm}}
-  duty: {{use: operating/steady, torque: {torque:.5g} N m, speed: {rpm:.5g} rpm}}
+  duty: {{use: operating/steady, torque: {torque:.5g} N m, speed: {rpm:.5g} rpm,
+         oil_temperature: {TEMPERATURES[scene['oil']]}}}
   mesh: {{use: stiffness/iso-6336}}
   tooth: {{use: contact/tooth-pair, load: mesh}}"""
     return scene

@@ -13,8 +13,8 @@ fail() { # CARD TEXT
     exit 1
 }
 
-for card in $(grep -l 'use: lubricant/' "$source"/configs/lubricants/*.yaml); do
-    at=$(sed -n 's/^    at: //p' "$card")
+for card in $(ls "$source"/configs/lubricants/*.yaml); do
+    at=$(sed -n 's/.*[{ ]at: \([^,}]*\).*/\1/p' "$card")
     cat >"$lab/oil.yaml" <<EOF
 format: 2
 include: [$card]
@@ -22,7 +22,7 @@ pipeline:
   oil: {temperature: ${at:-80 degC}}
   discs: {use: contact/constant, radius: 12.8 mm, entrainment_speed: 4 m/s, load_per_width: 177 N/mm}
   film: {use: ehl/film-formula, formula: moes}
-outputs: ["oil.*"]
+outputs: ["oil.*", film.h_central]
 EOF
     said=$("$flankfilm" run "$lab/oil.yaml" --plugin-path "$plugins" -o "$lab/results" 2>&1)
     echo "$said" | grep -q 'lubricant/.* good$' || fail "$card" "$said"

@@ -21,24 +21,9 @@ static void refuse(const char *id, const char *const set[][2], const char *item)
 
 int main(void)
 {
-    refuse(
-        "viscosity/isoviscous",
-        (const char *const[][2]){{"grade", "ISO VG 221"}, {"temperature", "80 degC"}, {NULL, NULL}},
-        "grade");
-    refuse("viscosity/isoviscous", (const char *const[][2]){{"grade", "ISO VG 220"}, {NULL, NULL}},
-           "temperature");
-    refuse("viscosity/isoviscous",
-           (const char *const[][2]){{"nu_40", "220 cSt"}, {"temperature", "80 degC"}, {NULL, NULL}},
-           "nu_100");
-    refuse("viscosity/isoviscous",
-           (const char *const[][2]){
-               {"nu_40", "20 cSt"}, {"nu_100", "20 cSt"}, {"temperature", "80 degC"}, {NULL, NULL}},
-           "nu_100");
-    refuse(
-        "viscosity/isoviscous",
-        (const char *const[][2]){
-            {"nu_40", "1e5 cSt"}, {"nu_100", "1 cSt"}, {"temperature", "-40 degC"}, {NULL, NULL}},
-        "temperature");
+    refuse("viscosity/barus", (const char *const[][2]){{"eta0", "5 mPa s"}, {NULL, NULL}}, "alpha");
+    refuse("viscosity/roelands", (const char *const[][2]){{"eta0", "5 mPa s"}, {NULL, NULL}},
+           "alpha");
     refuse("viscosity/roelands",
            (const char *const[][2]){{"eta0", "1e-5 Pa s"}, {"z", "0.6"}, {NULL, NULL}}, "eta0");
     refuse("viscosity/roelands",

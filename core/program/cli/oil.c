@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What `check` finds of an oil that a run would refuse: a temperature that stands in two places,
+ * and laws that contradict the oil. Evaluates the stages of the oil and what feeds them, no others.
+ */
+#include "oil.h"
+
+#include "../memory/memory.h"
+
+#include <flankfilm/laws.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const char *const asked[] = {"temperature", "eta0", "rho0"};
+enum { TEMPERATURE, ETA0, RHO0, ASKED };
+
+static bool is_oil(const ff_stage *stage)
+{
+    const ff_model *model = stage->loaded ? stage->loaded->model : NULL;
+    if (!model || !stage->needed || ff_model_find_service(model, FF_LIQUID_ID) < 0)
+        return false;
+    for (size_t i = 0; i < ASKED; i++)
+        if (ff_model_find_output(model, asked[i]) < 0)
+            return false;
+    return true;
+}
+
+/* "outputs=[oil.temperature, ...]" of all oils; NULL: there is none. */
+static char *request(const ff_pipeline *pipeline)
+{
+    char *text = memory_print_text("outputs=[");
+    size_t count = 0;
+    for (size_t k = 0; k < pipeline->count; k++)
+        for (size_t i = 0; is_oil(&pipeline->stages[k]) && i < ASKED; i++) {
+            char *longer = memory_print_text("%s%s%s.%s", text, count++ ? ", " : "",
+                                             pipeline->stages[k].name, asked[i]);
+            free(text);
+            text = longer;
+        }
+    if (count) {
+        char *whole = memory_print_text("%s]", text);
+        free(text);
+        return whole;
+    }
+    free(text);
+    return NULL;
+}
+
+/* The law as its stage has it, with its own parameters alone. */
+static ff_instance *make_law(ff_engine *engine, const ff_stage *stage)
+{
+    ff_instance *law;
+    if (ff_instance_new(engine, stage->use, &law) != FF_OK)
+        return NULL;
+    for (size_t i = 0; i < stage->loaded->model->param_count; i++) {
+        const ff_bound *bound = &stage->params[i];
+        const ff_value *value = &bound->value;
+        double number = bound->row->type == FF_REAL ? value->real : (double)value->integer;
+        if (!bound->present)
+            continue;
+        if (bound->row->type == FF_TEXT || bound->row->type == FF_FILE)
+            ff_instance_set(law, bound->row->name, value->text);
+        else if (bound->row->type == FF_REALS)
+            ff_instance_set_reals(law, bound->row->name, value->reals, value->count);
+        else
+            ff_instance_set_reals(law, bound->row->name, &number, 1);
+    }
+    return law;
+}
+
+/* eta0 or rho0 by the law at T; NaN: it does not tell. */
+static double ask_law(ff_instance *law, int what, double T)
+{
+    double p = 0, value = NAN;
+    const void *table;
+    if (ff_instance_service(law, what == ETA0 ? FF_VISCOSITY_ID : FF_DENSITY_ID, &table) != FF_OK)
+        return NAN;
+    if (what == ETA0) {
+        const ff_viscosity *viscosity = table;
+        viscosity->eval(viscosity->self, 1, &p, &T, &value, NULL, NULL);
+        return exp(value);
+    }
+    const ff_density *density = table;
+    density->eval(density->self, 1, &p, &T, &value, NULL, NULL);
+    return value;
+}
+
+/* The place of the parameter of that name; of the stage where it has none. */
+static ff_place place_of(const ff_stage *stage, const char *param)
+{
+    int at = ff_model_find_param(stage->loaded->model, param);
+    return at >= 0 && stage->params[at].place.source ? stage->params[at].place : stage->place;
+}
+
+static double scalar(const ff_stage *oil, int what)
+{
+    const ff_result *result = &oil->results[ff_model_find_output(oil->loaded->model, asked[what])];
+    return result->data ? *result->data : NAN;
+}
+
+static void hold(cli_session *session, const ff_stage *law, const ff_stage *oil, int what)
+{
+    static const char *const units[] = {"", "Pa s", "kg/m3"};
+    ff_instance *alone = make_law(session->engine, law);
+    double T = scalar(oil, TEMPERATURE), by_oil = scalar(oil, what);
+    double by_law = alone ? ask_law(alone, what, T) : NAN;
+    ff_instance_close(alone);
+    if (!isfinite(by_law) || !isfinite(by_oil) || fabs(by_law - by_oil) <= 0.01 * fabs(by_oil))
+        return;
+    char there[200];
+    ff_message_print(&(ff_message){.place = oil->place, .text = ""}, there, sizeof there);
+    ff_error(session->report, FF_FAULT_INPUT, place_of(law, asked[what]),
+             "wire the oil to the law, or leave it out where both are used (oil: none)",
+             "%s: the law and the oil contradict each other: at %g degC %s is %.4g %s by the law "
+             "and %.4g %s by the oil, the stage \"%s\" (%.*s)",
+             law->name, T - 273.15, asked[what], by_law, units[what], by_oil, units[what],
+             oil->name, (int)(strlen(there) > 2 ? strlen(there) - 2 : 0), there);
+}
+
+static const ff_stage *stage_on(const ff_pipeline *pipeline, const ff_stage *stage,
+                                const char *wire)
+{
+    for (size_t i = 0; i < stage->wire_count; i++)
+        if (!strcmp(stage->wires[i].name, wire) && stage->wires[i].stage >= 0)
+            return &pipeline->stages[stage->wires[i].stage];
+    return NULL;
+}
+
+/* The laws of a stage that uses them beside an oil. One that takes the oil cannot contradict it. */
+static void hold_laws(cli_session *session, const ff_pipeline *oils, const ff_stage *user)
+{
+    static const char *const wires[] = {NULL, "viscosity", "density"};
+    const ff_stage *oil = stage_on(session->pipeline, user, "oil");
+    const char *rest;
+    const ff_stage *known = oil ? ff_stage_of(oils, oil->name, &rest) : NULL;
+    for (int what = ETA0; known && known->ran && what < ASKED; what++) {
+        const ff_stage *law = stage_on(session->pipeline, user, wires[what]);
+        if (law && law->loaded && law->params && !stage_on(session->pipeline, law, "oil"))
+            hold(session, law, known, what);
+    }
+}
+
+/* The value that the file gives; NULL: none. */
+static const ff_bound *given(const ff_stage *stage, const char *param)
+{
+    int at = stage && stage->loaded && stage->params
+                 ? ff_model_find_param(stage->loaded->model, param)
+                 : -1;
+    return at >= 0 && stage->params[at].present && stage->params[at].row->type == FF_REAL
+               ? &stage->params[at]
+               : NULL;
+}
+
+void cli_check_temperatures(cli_session *session)
+{
+    for (size_t i = 0; i < session->pipeline->count; i++) {
+        const ff_stage *oil = &session->pipeline->stages[i];
+        if (!is_oil(oil))
+            continue;
+        const ff_stage *duty = stage_on(session->pipeline, oil, "operating");
+        const ff_bound *own = given(oil, "temperature"), *there = given(duty, "oil_temperature");
+        char place[512];
+        if (!own || !there || fabs(own->value.real - there->value.real) <= 1e-6)
+            continue;
+        ff_bound_origin(there, place, sizeof place);
+        ff_error(session->report, FF_FAULT_INPUT, own->place, "leave this one out",
+                 "%s.temperature: the temperature of the oil stands in two places: here %g degC, "
+                 "and as %s.oil_temperature %g degC (%s)",
+                 oil->name, own->value.real - 273.15, duty->name, there->value.real - 273.15,
+                 place);
+    }
+}
+
+void cli_check_oil(cli_session *session, ff_tree *tree)
+{
+    char *outputs = request(session->pipeline);
+    if (!outputs)
+        return;
+    ff_report *captured = ff_report_new();
+    ff_tree_set(tree, outputs, "pipeline", ff_file_keys(), captured);
+    ff_pipeline *oils = ff_pipeline_build(tree, session->engine, false, captured);
+    if (oils && ff_report_errors(captured) == 0)
+        ff_pipeline_run(oils, NULL, captured);
+    cli_copy_errors(session, captured);
+    for (size_t i = 0; ff_report_errors(captured) == 0 && i < session->pipeline->count; i++)
+        if (session->pipeline->stages[i].needed && session->pipeline->stages[i].loaded)
+            hold_laws(session, oils, &session->pipeline->stages[i]);
+    ff_pipeline_free(oils);
+    ff_report_free(captured);
+    free(outputs);
+}
