@@ -117,8 +117,8 @@ int main(void)
     stage_set(oil, "alpha", 11e-9);
     stage_set(rho, "rho0", 917.8);
     stage_set(flow, "tau0", 5e6);
-    ehl_laws newtonian = {stage_service(oil, FF_VISCOSITY_ID), stage_service(rho, FF_DENSITY_ID),
-                          NULL, 0};
+    ehl_laws newtonian = {.viscosity = stage_service(oil, FF_VISCOSITY_ID),
+                          .density = stage_service(rho, FF_DENSITY_ID)};
     ehl_laws eyring = newtonian;
     eyring.rheology = stage_service(flow, FF_RHEOLOGY_ID);
     srand(3);

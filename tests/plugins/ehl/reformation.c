@@ -156,8 +156,8 @@ int main(void)
           *density = stage_open("density/incompressible");
     stage_set(oil, "eta0", eta);
     stage_set(density, "rho0", rho);
-    ehl_laws laws = {stage_service(oil, FF_VISCOSITY_ID), stage_service(density, FF_DENSITY_ID),
-                     NULL, 0};
+    ehl_laws laws = {.viscosity = stage_service(oil, FF_VISCOSITY_ID),
+                     .density = stage_service(density, FF_DENSITY_ID)};
     test_steady(&laws, 400);
     test_steady(&laws, 1600);
     stage_close(oil);

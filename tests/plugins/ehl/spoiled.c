@@ -175,8 +175,9 @@ int main(void)
     stage_set(oil, "alpha", 11e-9);
     stage_set(rho, "rho0", 917.8);
     stage_set(flow, "tau0", 5e6);
-    ehl_laws laws = {stage_service(oil, FF_VISCOSITY_ID), stage_service(rho, FF_DENSITY_ID),
-                     stage_service(flow, FF_RHEOLOGY_ID), 0};
+    ehl_laws laws = {.viscosity = stage_service(oil, FF_VISCOSITY_ID),
+                     .density = stage_service(rho, FF_DENSITY_ID),
+                     .rheology = stage_service(flow, FF_RHEOLOGY_ID)};
     make(&s, &laws);
     test_spoiled(&s);
     test_outputs(&s);
