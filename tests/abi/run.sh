@@ -3,7 +3,7 @@
 # docs/abi.md has a section for today's version and names every public header.
 # run.sh FLANKFILM SOURCE_ROOT
 set -eu
-flankfilm=$1 source=$2
+flankfilm=$(realpath "$1") source=$2
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 

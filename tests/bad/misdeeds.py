@@ -205,8 +205,8 @@ done = run("law eval status -77", "run", "case.yaml")
 hold("-77 in a stage", done.returncode == 3 and FILES["law"] in done.stderr and "unknown status -77" in done.stderr, done.stderr)
 done = run("", "run", "case.yaml", "--plugin-path", "nowhere")
 hold("no such folder", done.returncode == 2 and "there is no directory nowhere" in done.stderr, done.stderr)
-done = run("", "run", "case.yaml", "--set", "viscosity.use=viscosity/strange")
-hold("no such model", done.returncode == 2 and 'no model "viscosity/strange"' in done.stderr and "viscosity/misdeed" in done.stderr, done.stderr)
+done = run("", "run", "case.yaml", "--set", "viscosity.use=viscosity/quixotic-zz")
+hold("no such model", done.returncode == 2 and 'no model "viscosity/quixotic-zz"' in done.stderr and "viscosity/misdeed" in done.stderr, done.stderr)
 
 hold("verify of nothing", run("", "verify", FILES["law"]).returncode == 0, "it fails")
 for what, says in CHANGES.items():

@@ -367,14 +367,15 @@ static void bind_model(binding *k)
     fe_free(k->settings);
 }
 
-/* A model under `with`. One that is not installed here may be elsewhere: a run does without it. */
+/* A model under `with`. One that is not here may be elsewhere: a run does without it, and says so.
+ */
 static const ff_loaded *load_offered(fe_build *b, const char *id, ff_place place)
 {
     ff_report *captured = ff_report_new();
     const ff_loaded *loaded = ff_engine_model(b->engine, id, place, captured);
     for (size_t i = 0; i < ff_report_count(captured); i++) {
         const ff_message *m = ff_report_at(captured, i);
-        if (b->everything || m->fault == FF_FAULT_INPUT)
+        if (b->everything)
             fe_hand_on(m, b->report);
         else
             ff_warn(b->report, m->place, "%s", m->text);
@@ -393,11 +394,12 @@ static void check_sets(fe_build *b, ff_stage *stage)
                     "a map from models to their parameters");
     for (size_t i = 0; with && with->kind == FF_MAP && i < with->count; i++) {
         const char *id = with->keys[i];
+        const ff_node *set = with->items[i];
+        bool empty = set->kind == FF_SCALAR && !*set->text; /* as {} */
         if (!strncmp(id, "x-", 2))
             continue;
-        if (with->items[i]->kind != FF_MAP) {
-            fe_expected(b, with->items[i],
-                        fe_pipeline_print(b->pipeline, "%s.with.%s", stage->name, id),
+        if (set->kind != FF_MAP && !empty) {
+            fe_expected(b, set, fe_pipeline_print(b->pipeline, "%s.with.%s", stage->name, id),
                         "a map of parameters");
         } else if (strcmp(id, stage->use) != 0) {
             binding k = {.b = b, .stage = stage, .id = id};

@@ -173,21 +173,18 @@ void cli_check_temperatures(cli_session *session)
     }
 }
 
-void cli_check_oil(cli_session *session, ff_tree *tree)
+void cli_check_oil(cli_session *session, ff_tree *tree, ff_report *report)
 {
     char *outputs = request(session->pipeline);
     if (!outputs)
         return;
-    ff_report *captured = ff_report_new();
-    ff_tree_set(tree, outputs, "pipeline", ff_file_keys(), captured);
-    ff_pipeline *oils = ff_pipeline_build(tree, session->engine, false, captured);
-    if (oils && ff_report_errors(captured) == 0)
-        ff_pipeline_run(oils, NULL, captured);
-    cli_copy_errors(session, captured);
-    for (size_t i = 0; ff_report_errors(captured) == 0 && i < session->pipeline->count; i++)
+    ff_tree_set(tree, outputs, "pipeline", ff_file_keys(), report);
+    ff_pipeline *oils = ff_pipeline_build(tree, session->engine, false, report);
+    if (oils && ff_report_errors(report) == 0)
+        ff_pipeline_run(oils, NULL, report);
+    for (size_t i = 0; ff_report_errors(report) == 0 && i < session->pipeline->count; i++)
         if (session->pipeline->stages[i].needed && session->pipeline->stages[i].loaded)
             hold_laws(session, oils, &session->pipeline->stages[i]);
     ff_pipeline_free(oils);
-    ff_report_free(captured);
     free(outputs);
 }

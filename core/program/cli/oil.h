@@ -9,7 +9,8 @@
 void cli_check_temperatures(cli_session *session);
 
 /* Reports what a run of the pipeline would refuse of its oils. `tree`: the same file once more,
-   which is changed. */
-void cli_check_oil(cli_session *session, ff_tree *tree);
+   which is changed. What is wrong about the oils themselves goes to `report`, whose sources are the
+   tree's. */
+void cli_check_oil(cli_session *session, ff_tree *tree, ff_report *report);
 
 #endif

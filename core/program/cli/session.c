@@ -53,11 +53,6 @@ static void copy_messages(cli_session *session, const ff_report *captured, ff_se
     }
 }
 
-void cli_copy_errors(cli_session *session, const ff_report *captured)
-{
-    copy_messages(session, captured, FF_ERROR);
-}
-
 /* Adds the messages of that severity of a case to the report. */
 static void try_case(cli_session *session, const cli_options *options, size_t index,
                      ff_severity severity)
@@ -102,8 +97,12 @@ static void check_oil(cli_session *session, const cli_options *options)
         study_overlay(session->study, 0, options->sets, options->set_count, tree, captured);
     for (size_t i = 0; !session->study && i < options->set_count; i++)
         ff_tree_set(tree, options->sets[i], "pipeline", ff_file_keys(), captured);
-    if (!session->study || session->study->overlay_first)
-        cli_check_oil(session, tree);
+    if (!session->study || session->study->overlay_first) {
+        ff_report *found = ff_report_new();
+        cli_check_oil(session, tree, found);
+        copy_messages(session, found, FF_ERROR);
+        ff_report_free(found);
+    }
     ff_tree_free(tree);
     ff_report_free(captured);
 }

@@ -23,9 +23,6 @@ bool cli_session_open(cli_session *session, const cli_options *options, bool eve
 bool cli_choose_models(cli_session *session);
 void cli_session_close(cli_session *session);
 
-/* Adds the errors of another report, whose sources may be freed before. */
-void cli_copy_errors(cli_session *session, const ff_report *captured);
-
 /* Where the results of a run are: -o, or results/<name of the file without its ending>, with what
    --set says behind it, so that a variant stands beside what it varies. Freed by the caller. */
 char *cli_run_directory(const cli_options *options);

@@ -61,8 +61,8 @@ static bool same_group(const ff_param *a, const ff_param *b)
     return a->group && b->group && !strcmp(a->group, b->group);
 }
 
-/* A parameter without a preset is found, of a group of which one is required the first number, unless the
-   user has chosen. */
+/* A parameter without a preset is found, of a group of which one is required the first number,
+   unless the user has chosen. */
 static bool is_free(const fit_law *law, size_t index)
 {
     const fit_param *param = &law->params[index];

@@ -23,6 +23,8 @@ enum { RESULTS_LONGEST_TEXT = 10000 };
 
 /* Whether a result has a file of its own: a field, or a series that is too long for text. */
 bool results_has_file(const ff_result *result);
+/* Writes <stage>.<output>.npy: of all that the file asks for and of series on the way. */
+void results_write_arrays(const ff_pipeline *pipeline, results_folder *folder);
 
 /* Where an answer in JSON has arrays: of those in files it says the name, shape, dims and unit. */
 typedef enum {

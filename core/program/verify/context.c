@@ -1,11 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "private.h"
 
+#include "../memory/memory.h"
+
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
+
+ff_engine *verify_open_engine(const char *root)
+{
+    const char *const roots[] = {root};
+    ff_engine_options options = {
+        .size = sizeof options, .plugin_paths = roots, .plugin_path_count = 1};
+    ff_engine *engine;
+    ff_engine_new(&options, &engine);
+    return memory_require(engine);
+}
 
 void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const char *why)
 {

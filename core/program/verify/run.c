@@ -146,16 +146,6 @@ static void try_model(verify_context *context, const session *s, ff_engine *engi
         run_watched(context, t, inputs || t->run == verify_test_environment);
 }
 
-ff_engine *verify_open_engine(const char *root)
-{
-    const char *const roots[] = {root};
-    ff_engine_options options = {
-        .size = sizeof options, .plugin_paths = roots, .plugin_path_count = 1};
-    ff_engine *engine;
-    ff_engine_new(&options, &engine);
-    return memory_require(engine);
-}
-
 /* The program itself does without them, but other programs that use the library may not. */
 static void run_destructors(verify_context *context)
 {

@@ -140,13 +140,12 @@ static void missing_outputs(void)
     ff_instance_run(s, NULL);
     check_true("refused", lacks(s, "never", "the model refused it"));
     ff_instance_set(s, "level", "3 mm");
-    check_true("a parameter has changed",
-               lacks(s, "level", "has changed since") &&
-                   ff_instance_verdict(s, &verdict) == FF_INVALID &&
-                   ff_instance_quality(s, 0, &line) == FF_INVALID);
+    check_true("a parameter has changed", lacks(s, "level", "has changed since") &&
+                                              ff_instance_verdict(s, &verdict) == FF_INVALID &&
+                                              ff_instance_quality(s, 0, &line) == FF_INVALID);
     ff_instance_run(s, "level");
-    check_true("an unknown output",
-               ff_instance_run(s, "lvel") == FF_INVALID && lacks(s, "level", "the last run failed"));
+    check_true("an unknown output", ff_instance_run(s, "lvel") == FF_INVALID &&
+                                        lacks(s, "level", "the last run failed"));
     ff_instance_use(sum, "source", s);
     check_true("all is well", ff_instance_run(sum, NULL) == FF_OK &&
                                   ff_instance_result(sum, "sum", &result) == FF_OK);

@@ -60,8 +60,8 @@ static void results(void)
     check_true("nothing is there before the run",
                ff_run_result(run, "sum.sum", &result) == FF_INVALID && !result &&
                    says("sum.sum was not computed: the run has not been started"));
-    check_true("nor a verdict", ff_run_verdict(run, &verdict) == FF_INVALID &&
-                                    verdict == FF_BAD && says("has not been started"));
+    check_true("nor a verdict", ff_run_verdict(run, &verdict) == FF_INVALID && verdict == FF_BAD &&
+                                    says("has not been started"));
     check_true("a run", ff_run_start(run, NULL) == FF_OK);
     check_near("a result, as set", scalar(run, "sum.sum"), 0.02, 1e-15);
     check_true("a field", ff_run_result(run, "one.field", &result) == FF_OK && result->rank == 2 &&
@@ -106,12 +106,11 @@ static void errors(void)
 /* What a run that failed has left, and what not. */
 static void failed(void)
 {
-    static const char file_of_two[] =
-        "pipeline:\n"
-        "  good: {use: toy/source, level: 1 mm}\n"
-        "  one: {use: toy/source, level: 2 mm, answer: noconv}\n"
-        "  sum: {use: toy/consumer, source: one}\n"
-        "outputs: [sum.sum, one.level, \"good.*\"]\n";
+    static const char file_of_two[] = "pipeline:\n"
+                                      "  good: {use: toy/source, level: 1 mm}\n"
+                                      "  one: {use: toy/source, level: 2 mm, answer: noconv}\n"
+                                      "  sum: {use: toy/consumer, source: one}\n"
+                                      "outputs: [sum.sum, one.level, \"good.*\"]\n";
     ff_status status;
     const ff_result *result;
     const char *stage;
@@ -126,8 +125,7 @@ static void failed(void)
                                          !result && says("its stage failed"));
     check_true("nor what it feeds", ff_run_result(run, "sum.sum", &result) == FF_INVALID &&
                                         says("what feeds its stage failed"));
-    check_true("the verdict is bad",
-               ff_run_verdict(run, &verdict) == FF_OK && verdict == FF_BAD);
+    check_true("the verdict is bad", ff_run_verdict(run, &verdict) == FF_OK && verdict == FF_BAD);
     for (size_t i = 0; ff_run_output(run, i, &stage, &result) == FF_OK; i++)
         good = good && !strcmp(stage, "good");
     check_true("the list has whole results alone", good);

@@ -88,7 +88,7 @@ static void test_spellings(void)
         "$F check -- pair.yaml",
         "POSIXLY_CORRECT=1 $F check pair.yaml --set wave.amplitude='3 mm'",
         "$F check --set=wave.amplitude='3 mm' pair.yaml",
-        "unset FLANKFILM_PLUGIN_PATH; $F check pair.yaml --plugin-path no --plugin-path plugins",
+        "unset FLANKFILM_PLUGIN_PATH; $F check pair.yaml --plugin-path . --plugin-path plugins",
     };
     for (size_t i = 0; i < sizeof lines / sizeof lines[0]; i++) {
         outcome r = cli(lines[i]);

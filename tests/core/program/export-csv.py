@@ -77,7 +77,7 @@ class Errors(lab.Lab):
     def test_no_writer(self):
         said = self.call("export", "run", "--to", "cvs", code=2)
         self.assertIn('there is no writer "cvs"; did you mean "csv"?', said)
-        said = self.call("export", "run", "--to", "clay", code=3)
+        said = self.call("export", "run", "--to", "clay", code=2)
         self.assertIn('there is no model "writer/clay"', said)
         said = self.call("export", "run", "--to", "toy/wave", code=2)
         self.assertIn('does not offer the service "flankfilm.writer/1"', said)

@@ -115,7 +115,7 @@ echo "each rank has worked"
 
 expect 2 "$flankfilm" run study.yaml -o plugins --executor mpi
 grep -q 'not results of a study' said
-expect 3 "$flankfilm" run study.yaml --executor smoke-signals
+expect 2 "$flankfilm" run study.yaml --executor smoke-signals
 grep -q 'there is no model "executor/smoke-signals"' said
 expect 2 "$flankfilm" run study.yaml --set study= --executor mpi
 grep -q 'has no study' said

@@ -72,8 +72,7 @@ static void test_zip_and_use(void)
     cli_expect(
         "whole stages, and models", &r,
         cli_has(r.out, "\n4\n") && cli_has(r.out, ",toy/sum,0.000479425538604,good,,\n") &&
-            cli_has(r.out,
-                    ",toy/nothing,,failed,invalid,\"there is no model \"\"toy/nothing\"\""));
+            cli_has(r.out, ",toy/nothing,,failed,invalid,\"there is no model \"\"toy/nothing\"\""));
 }
 
 static void test_series(void)

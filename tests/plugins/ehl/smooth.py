@@ -50,6 +50,7 @@ class Runner:
             stream.write(f"""format: 2
 include: [{self.source}/configs/lubricants/{scene['oil']}.yaml]
 pipeline:{scene['stages']}
+  oil: {{temperature: {laws.TEMPERATURES[scene['oil']]}}}
   rough: {{use: surface/synthetic, rq: [{rq:.5g} um, {rq:.5g} um], {scene['waves']}}}
   film: {{use: ehl/finite-volume, {film}}}
 outputs: [{', '.join('film.' + name for name in outputs)}]

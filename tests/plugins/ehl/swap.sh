@@ -37,7 +37,7 @@ outputs: [film.h_central, film.friction_coefficient]
 END
     "$flankfilm" check "$lab/card.yaml" --set viscosity.use=viscosity/isoviscous --set flow.use=rheology/newtonian >"$lab/log"
     for law in doolittle-tait roelands two-slope barus; do
-        "$flankfilm" run "$lab/card.yaml" --set viscosity.use=viscosity/$law --set flow.use=rheology/carreau --json -o "$lab/out" \
+        "$flankfilm" run "$lab/card.yaml" --set viscosity.use=viscosity/$law --set flow.use=rheology/carreau --json -o "$lab/$law" --replace \
             2>>"$lab/warnings" |
             sed 's/.*"film.h_central":{[^}]*"data": *\[\([-0-9.e]*\).*/\1/'
     done | awk -v card="$(basename "$card")" '

@@ -43,6 +43,7 @@ static void drive_open(drive *d, const char *film)
     stage_set_text(d->gear, "face_width", "20 mm");
     stage_set_text(d->gear, "roughness_rq", "0.05 um");
     stage_set_text(d->duty, "torque", "250 N m");
+    stage_set_text(d->duty, "oil_temperature", "40 degC");
     stage_set_text(d->duty, "mesh_frequency", "1250 Hz");
     stage_set_text(d->oil, "eta0", "5.006 mPa s");
     stage_set_text(d->oil, "alpha", "11.03 1/GPa");

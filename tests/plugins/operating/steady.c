@@ -12,6 +12,7 @@ static stage *open_duty(const char *param, const char *text)
 {
     stage *duty = stage_open("operating/steady");
     stage_set_text(duty, "torque", "250 N m");
+    stage_set_text(duty, "oil_temperature", "40 degC");
     if (param)
         stage_set_text(duty, param, text);
     return duty;

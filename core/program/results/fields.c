@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "npy.h"
+#include "write.h"
+
+#include "../memory/memory.h"
+
+#include <stdlib.h>
+
+bool results_has_file(const ff_result *result)
+{
+    return result->rank > 1 || result->count > RESULTS_LONGEST_TEXT;
+}
+
+void results_write_arrays(const ff_pipeline *pipeline, results_folder *folder)
+{
+    for (size_t s = 0; s < pipeline->count; s++) {
+        const ff_stage *stage = &pipeline->stages[s];
+        for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
+            const ff_result *result = &stage->results[i];
+            if (!result->data || !results_has_file(result) ||
+                (!result->requested && result->rank > 1))
+                continue;
+            char *stem = memory_print_text("%s.%s", stage->name, result->row->name);
+            FILE *stream = results_folder_begin(folder, stem, ".npy");
+            if (stream)
+                results_npy_write(stream, result->data, result->shape, result->rank);
+            free(stem);
+        }
+    }
+}
