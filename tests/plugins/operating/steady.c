@@ -65,6 +65,19 @@ static void check_without_gear(void)
     stage_close(duty);
 }
 
+/* The temperature of the oil has no preset: who reads it is told where it is missing. */
+static void check_without_temperature(void)
+{
+    stage *duty = stage_open("operating/steady");
+    stage_set_text(duty, "torque", "250 N m");
+    stage_set_text(duty, "speed", "1500 rpm");
+    check_true("nobody reads it", stage_run_wanted(duty, "torque speed") == FF_OK);
+    check_true("it is asked for", stage_run_wanted(duty, "oil_temperature") == FF_UNSUPPORTED &&
+                                      !strcmp(stage_why_item(duty), "oil_temperature") &&
+                                      strstr(stage_why(duty), "oil_temperature is missing"));
+    stage_close(duty);
+}
+
 static void check_refusals(void)
 {
     stage *duty = open_duty(NULL, NULL);
@@ -86,6 +99,7 @@ int main(void)
     check_point("2085 Hz", 2085, 2502);
     check_point("2375 Hz", 2375, 2850);
     check_without_gear();
+    check_without_temperature();
     check_refusals();
     return check_done();
 }
