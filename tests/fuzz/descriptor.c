@@ -258,7 +258,7 @@ static void check(void *ctx)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static maker m;
-    fe_heap heap = {NULL};
+    fe_heap heap = {0};
     m = (maker){.at = data, .end = data + size};
     must(fe_protected(&heap, check, &m) == FF_OK);
     fe_heap_close(&heap);

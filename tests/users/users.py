@@ -3,6 +3,7 @@
 
     users.py FLANKFILM PLUGIN_DIRECTORY SOURCE_ROOT
 """
+import contextlib
 import glob
 import json
 import math
@@ -31,6 +32,15 @@ FEW = {
               'study.tradeoff.repeats=1', 'film.steps=50'],
 }
 QUICK = ['mesh.use=stiffness/iso-6336']
+
+
+@contextlib.contextmanager
+def laboratory():
+    """A folder with the examples in it, which a build outside of the sources does not find by itself."""
+    with tempfile.TemporaryDirectory() as lab:
+        for name in 'gears', 'lubricants':
+            os.symlink(os.path.join(source, 'configs', name), os.path.join(lab, name))
+        yield lab
 
 
 def check(what, good, said=''):
@@ -78,7 +88,7 @@ def fresh(lab):
 
 
 def old_gives_new(name):
-    with tempfile.TemporaryDirectory() as lab:
+    with laboratory() as lab:
         fresh(lab)
         code, out, said = flankfilm(lab, 'check', name + '.yaml')
         check(f'{name}: one error', code == 2 and 'format 1 is read no more' in said and '1 error;' in said, said)
@@ -125,7 +135,7 @@ def values(lab, path, sets=()):
 
 
 def a_swap_is_of_the_law_alone():
-    with tempfile.TemporaryDirectory() as lab:
+    with laboratory() as lab:
         fresh(lab)
         paste(lab, flankfilm(lab, 'check', 'pair.yaml')[2])
         own = values(lab, 'pair.yaml', COARSE)
@@ -144,7 +154,7 @@ def a_swap_is_of_the_law_alone():
 
 
 def assignments_are_told():
-    with tempfile.TemporaryDirectory() as lab:
+    with laboratory() as lab:
         fresh(lab)
         _, _, said = flankfilm(lab, 'run', 'pair.yaml', sets=['oil.use=viscosity/barus', 'oil.temperature=80 degC'])
         check('a law', '--set oil.use is written --set viscosity.use now' in said, said)
@@ -176,7 +186,7 @@ OTHERS = {
 
 def others_are_rewritten():
     for name, (text, holds) in OTHERS.items():
-        with tempfile.TemporaryDirectory() as lab:
+        with laboratory() as lab:
             write(lab, text)
             code, _, said = flankfilm(lab, 'check', 'old.yaml')
             check(f'{name}: refused', code == 2 and holds in said, said)
@@ -197,14 +207,14 @@ BROKEN = ['format: 1\n', 'format: 1\npipeline: 3\n', 'format: 1\npipeline: [a]\n
 
 def broken_ones_end_in_a_sentence():
     for text in BROKEN:
-        with tempfile.TemporaryDirectory() as lab:
+        with laboratory() as lab:
             write(lab, text)
             code, out, said = flankfilm(lab, 'check', 'old.yaml')
             check(f'{text!r}: code {code}', code == 2 and 'error' in said, out + said)
 
 
 def a_new_file_over_an_old_one():
-    with tempfile.TemporaryDirectory() as lab:
+    with laboratory() as lab:
         fresh(lab)
         write(lab, 'format: 2\ninclude: pair.yaml\n', 'mine.yaml')
         code, _, said = flankfilm(lab, 'check', 'mine.yaml')

@@ -75,9 +75,12 @@ done
 touch limit-10/study.json.7.part limit-10/table.csv.12345.part limit-10/own.part
 "$flankfilm" run limit.yaml -o limit-10 -j1 >said 2>&1
 [ "$(cd limit-10 && ls | grep part)" = own.part ]
-printf 'format: 2\ninclude: [../gears/unity-50.yaml]\npipeline: {}\n' >copied.yaml
-if "$flankfilm" check copied.yaml >said 2>&1; then exit 1; fi
-grep -qF 'hint: among the examples there is "gears/unity-50.yaml": write it so' said
+# a build outside of the sources knows no examples
+if [ -d "${flankfilm%/*}/../configs" ]; then
+    printf 'format: 2\ninclude: [../gears/unity-50.yaml]\npipeline: {}\n' >copied.yaml
+    if "$flankfilm" check copied.yaml >said 2>&1; then exit 1; fi
+    grep -qF 'hint: among the examples there is "gears/unity-50.yaml": write it so' said
+fi
 
 [ "$sanitized" = none ] || exit 0 # a sanitizer needs all of the address space
 cat >alone.yaml <<YAML
