@@ -143,7 +143,7 @@ static const char *meant(ff_engine *engine, const char *id)
     return near;
 }
 
-/* The models of the kind of `id`: "ehl/a, ehl/b"; "": there are none. To be freed. */
+/* The models of the kind of `id`: "kind/a, kind/b"; "": there are none. To be freed. */
 static char *models_of_kind(ff_engine *engine, const char *id)
 {
     size_t count, length = strcspn(id, "/") + 1;
