@@ -83,7 +83,7 @@ static void open(run_call *call)
     if (!ff_tree_root(run->tree))
         return;
     for (const char *const *set = call->sets; set && *set; set++)
-        ff_tree_set(run->tree, *set, "pipeline", ff_file_keys(), run->report);
+        ff_tree_set(run->tree, *set, NULL, NULL, run->report);
     refuse_many(call, ff_tree_root(run->tree));
     if (ff_report_errors(run->report) > 0)
         return;

@@ -20,7 +20,7 @@
  *
  * Manners: it never prints, exits, forks or changes the locale, the working directory, the
  * floating-point environment or the signal handlers of its process. All that it keeps belongs to an
- * engine, but for one lock of the process. A model is code of others in this process: one that
+ * engine, but for the locks of serial models. A model is code of others in this process: one that
  * crashes takes the process along.
  *
  * Numbers are coherent SI with angles in rad; texts are UTF-8. Growing structs that a caller fills
@@ -258,7 +258,8 @@ const char *ff_instance_item(const ff_instance *instance);
  */
 
 /* Calls function(ctx). Without memory the call is left, what was made in it and not freed goes, and
-   the answer is FF_NOMEM; else it is FF_OK. */
+   the answer is FF_NOMEM; else it is FF_OK. Calls may nest: what a plugin calls does its work in
+   one, so that the plugin is not left, nor blamed for what goes wrong in there. */
 ff_status ff_protected(void (*function)(void *ctx), void *ctx);
 
 /* Frees what is said to be freed by the caller. NULL is nothing. */
@@ -434,18 +435,15 @@ ff_tree *ff_tree_parse(const char *name, const char *directory, const char *text
 
 /*
  * Applies "a.b.c=value": the value is read as YAML, maps on the way are made, a list index is
- * ".0". `prefix` (or NULL) names the map that a path starts in unless its first word is one of
- * `top` (a NULL-terminated list). Places of such values point into the assignment itself.
- * "include=FILE", or a list of files, merges files into the tree.
+ * ".0". A path starts among the stages unless its first word may stand at the top of a file.
+ * "include=FILE", or a list of files, merges files into the tree. `path` and `value` are the places
+ * of both where a file says them; NULL: they point into the assignment itself.
  */
-bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, const char *const *top,
+bool ff_tree_set(ff_tree *tree, const char *assignment, const ff_place *path, const ff_place *value,
                  ff_report *report);
 
-/* The same for an assignment that stands in a file: places of its path and of its value there, or
-   NULL. */
-bool ff_tree_set_at(ff_tree *tree, const char *assignment, const ff_place *path,
-                    const ff_place *place, const char *prefix, const char *const *top,
-                    ff_report *report);
+/* The words that may stand at the top of a file: "format", "title", ...; NULL-terminated. */
+const char *const *ff_file_keys(void);
 
 /* Puts a copy of a node of the tree, places and all, under a key of its root. */
 void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node);
@@ -460,29 +458,13 @@ char *ff_path_beside(const char *directory, const char *path);
 
 /* Tables of numbers from text files; flankfilm/table.h describes the format. */
 
-typedef struct ff_columns {
-    ff_table table; /* the view of a model */
-    ff_source source;
-    size_t count; /* columns that were asked for */
-    const ff_param **asked;
-    ff_unit *units; /* their rows' */
-    size_t rows;
-    double **values; /* in SI, of each column; NULL: the file lacks it */
-    uint32_t *lines; /* of each row */
-    ff_place *heads; /* of each column in the header */
-    size_t *fields;  /* of each column: which field of a line */
-    size_t width;    /* fields of a line */
-    char separator;  /* of the header; ' ': any blanks */
-} ff_columns;
-
-/* Reports everything that is wrong, up to 20 errors; false after one. The columns must be freed
-   either way. */
-bool ff_columns_read(ff_columns *columns, const char *path, const ff_param *rows, size_t count,
-                     size_t stride, ff_report *report);
-void ff_columns_free(ff_columns *columns);
+/* Reports everything that is wrong, up to 20 errors; NULL after one. Freed by ff_columns_free. */
+const ff_table *ff_columns_read(const char *path, const ff_param *rows, size_t count, size_t stride,
+                                ff_report *report);
+void ff_columns_free(const ff_table *table); /* NULL is nothing */
 
 /* The place of a field; a row or column of SIZE_MAX stands for all of them. */
-ff_place ff_columns_place(const ff_columns *columns, size_t row, size_t column);
+ff_place ff_columns_place(const ff_table *table, size_t row, size_t column);
 
 /* Models. Each is loaded once, checked in full, and never unloaded. */
 
@@ -663,9 +645,6 @@ void ff_add_quality(ff_stage *stage, const char *name, double value, double limi
 
 /* The parameters under `feedback`. */
 const ff_param *ff_feedback_rows(size_t *count);
-/* The words that may stand at the top of a file: "format", "title", ...; NULL-terminated. */
-const char *const *ff_file_keys(void);
-
 void ff_pipeline_free(ff_pipeline *pipeline);
 
 /* All messages of the last call of the instance, and its model, parameters and times, as those of a
@@ -754,10 +733,6 @@ typedef struct ff_guard_mark {
     const struct ff_guard_mark **services; /* that it may call; NULL-ended, or NULL */
 } ff_guard_mark;
 
-/* Which code runs from here on. Calls may nest: what ff_guard_enter returns is given to
-   ff_guard_leave. */
-ff_guard_mark ff_guard_enter(ff_guard_mark mark);
-void ff_guard_leave(ff_guard_mark previous);
 ff_guard_mark ff_guard_current(void); /* may be called in a handler of signals */
 /* Writes '<before>oil: the plugin oil.so, rho: the plugin rho.so' of all services that the running
    code may call; "" without any. May be called in a handler of signals. */

@@ -33,13 +33,13 @@ static const ff_param rows[] = {
 };
 enum { TIME, ANGLE, LENGTH, GEAR, COLUMNS };
 
-static void check_cell(const ff_columns *c, size_t row, size_t column)
+static void check_cell(const ff_table *c, size_t row, size_t column)
 {
-    double value = c->table.columns[column][row];
+    double value = c->columns[column][row];
     ff_place place = ff_columns_place(c, row, column);
     must(isfinite(value));
-    must(place.line == c->table.lines[row] && place.column >= 1 && place.width >= 1);
-    must(column != TIME || row == 0 || value >= c->table.columns[TIME][row - 1]);
+    must(place.line == c->lines[row] && place.column >= 1 && place.width >= 1);
+    must(column != TIME || row == 0 || value >= c->columns[TIME][row - 1]);
     must(column != LENGTH || (value > 0 && value <= 1));
     must(column != GEAR || (floor(value) == value && value >= 1 && value <= 2));
 }
@@ -51,17 +51,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     must(file >= 0 && (!size || write(file, data, size) == (ssize_t)size));
     snprintf(path, sizeof path, "/proc/self/fd/%d", file);
     ff_report *report = ff_report_new();
-    ff_columns c;
-    bool good = ff_columns_read(&c, path, rows, COLUMNS, sizeof *rows, report);
+    const ff_table *c = ff_columns_read(path, rows, COLUMNS, sizeof *rows, report);
     close(file);
-    must(good == (ff_report_errors(report) == 0));
-    must(!good || (c.table.row_count > 0 && c.table.columns[TIME]));
-    for (size_t k = 0; good && k < COLUMNS; k++)
-        for (size_t i = 0; c.values[k] && i < c.rows; i++)
-            check_cell(&c, i, k);
-    for (size_t i = 0; i < COLUMNS + 2; i++) /* whatever was read so far */
-        ff_columns_place(&c, c.rows - i, i);
-    ff_columns_free(&c);
+    must((c != NULL) == (ff_report_errors(report) == 0));
+    must(!c || (c->row_count > 0 && c->columns[TIME]));
+    for (size_t k = 0; c && k < COLUMNS; k++)
+        for (size_t i = 0; c->columns[k] && i < c->row_count; i++)
+            check_cell(c, i, k);
+    for (size_t i = 0; c && i < COLUMNS + 2; i++)
+        ff_columns_place(c, c->row_count - i, i);
+    ff_columns_free(c);
     fuzz_print(report);
     ff_report_free(report);
     return 0;

@@ -5,6 +5,8 @@
 #define FE_BUILD_H
 
 #include "../plugin/folder.h"
+#include "../plugin/guard.h"
+#include "../plugin/serial.h"
 #include "../value/memory.h"
 #include "../value/report.h"
 #include "../value/tables.h"
@@ -24,6 +26,7 @@ typedef struct fe_instance {
     bool candidate; /* `stage` is that of a candidate */
     ff_stage *stage;
     ff_guard_mark mark; /* its own code, and the services that it is wired to */
+    fe_serial alone;    /* the lock of its object */
 
     enum { FE_NEW, FE_ENTERED, FE_SORTED } sorting;
     const ff_stage *entering; /* the feeding stage that is being sorted */
@@ -110,6 +113,7 @@ const char *fe_pass_requests(const ff_stage *from, ff_stage *to);
 typedef struct fe_call {
     const ff_stage *stage;
     const char *action;
+    fe_serial alone; /* all locks of the call */
     ff_environment environment;
     ff_guard_mark previous;
 } fe_call;

@@ -2,8 +2,6 @@
 /* Turns the outcome of a call into a model into messages with places in the user's file. */
 #include "build.h"
 
-#include "../plugin/serial.h"
-
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -24,12 +22,21 @@ ff_guard_mark fe_enter_model(const ff_stage *stage, const char *action)
                             .action = action,
                             .code = (const void *)(uintptr_t)stage->loaded->model->create,
                             .services = mark->services};
-    return ff_guard_enter(*mark);
+    return fe_guard_enter(*mark);
 }
 
 static fe_instance *instance_of(const ff_guard_mark *mark)
 {
     return (fe_instance *)((char *)(uintptr_t)mark - offsetof(fe_instance, mark));
+}
+
+/* Of the object, and of the services that it may call. */
+static fe_serial locks_of(const ff_guard_mark *mark)
+{
+    fe_serial locks = instance_of(mark)->alone;
+    for (const ff_guard_mark *const *service = mark->services; service && *service; service++)
+        locks |= locks_of(*service);
+    return locks;
 }
 
 fe_call fe_call_begin(const ff_stage *stage, const char *action)
@@ -41,7 +48,8 @@ fe_call fe_call_begin(const ff_stage *stage, const char *action)
         instance_of(*s)->text[0] = 0;
     instance->no_room = false;
     fe_tables_forget(&instance->tables);
-    fe_serial_enter(stage->loaded->model);
+    call.alone = locks_of(&instance->mark);
+    fe_serial_enter(call.alone);
     ff_environment_keep(&call.environment);
     call.previous = fe_enter_model(stage, action);
     return call;
@@ -208,7 +216,7 @@ void fe_check_folder(const ff_pipeline *pipeline, const ff_stage *stage, const c
 bool fe_call_end(const fe_call *call, ff_status status, ff_report *report)
 {
     const ff_stage *stage = call->stage;
-    ff_guard_leave(call->previous);
+    fe_guard_leave(call->previous);
     if (stage->instance->no_room)
         status = FF_NOMEM;
     if (status != FF_OK || stage->instance->status != FF_DOMAIN)
@@ -218,7 +226,7 @@ bool fe_call_end(const fe_call *call, ff_status status, ff_report *report)
         hooks->returned(hooks->ctx, call->action, status,
                         stage->instance->text[0] || stage->instance->tables.errors);
     const char *changed = ff_environment_restore(&call->environment);
-    fe_serial_leave(stage->loaded->model);
+    fe_serial_leave(call->alone);
     if (stage->instance->no_memory)
         fe_out_of_memory();
     if (changed)

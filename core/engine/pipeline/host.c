@@ -82,9 +82,9 @@ static int32_t host_progress(void *ctx, double fraction)
    into the plugin is left when it returns. */
 static ff_status protect(fe_instance *instance, void (*function)(void *ctx), void *ctx)
 {
-    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
+    ff_guard_mark mark = fe_guard_enter((ff_guard_mark){.path = NULL});
     ff_status status = fe_protected(instance->heap, function, ctx);
-    ff_guard_leave(mark);
+    fe_guard_leave(mark);
     instance->no_memory = instance->no_memory || status == FF_NOMEM;
     return status;
 }

@@ -3,7 +3,6 @@
 #include "build.h"
 
 #include "../plugin/param.h"
-#include "../plugin/serial.h"
 
 #include <stdio.h>
 
@@ -14,11 +13,11 @@ static void destroy(void *of)
     /* a stage that nothing needs has no model */
     const ff_model *model = instance->created ? stage->loaded->model : NULL;
     if (model && model->destroy) {
-        fe_serial_enter(model);
+        fe_serial_enter(instance->alone);
         ff_guard_mark previous = fe_enter_model(stage, "destroy");
         model->destroy(instance->self);
-        ff_guard_leave(previous);
-        fe_serial_leave(model);
+        fe_guard_leave(previous);
+        fe_serial_leave(instance->alone);
     }
     instance->created = instance->alive = false;
 }
@@ -52,6 +51,7 @@ bool fe_create_object(ff_stage *stage, ff_report *report)
 {
     fe_instance *instance = stage->instance;
     fe_host_init(instance);
+    instance->alone = fe_serial_of(stage->loaded->model);
     fe_call call = fe_call_begin(stage, "create");
     ff_status status = stage->loaded->model->create(&instance->host, &instance->self);
     instance->created = status == FF_OK || status == FF_DOMAIN;

@@ -9,15 +9,6 @@
 
 enum { MOST_STAGES = 1000, LONGEST_NAME = 64 };
 
-static const char *const top_keys[] = {"format", "title",    "include",  "pipeline", "outputs",
-                                       "study",  "accuracy", "feedback", NULL};
-enum { TOP_KEYS = sizeof top_keys / sizeof top_keys[0] - 1 };
-
-const char *const *ff_file_keys(void)
-{
-    return top_keys;
-}
-
 ff_stage *fe_find_stage(fe_build *b, const char *name, ff_place place, const char *where)
 {
     ff_pipeline *pipeline = b->pipeline;
@@ -48,14 +39,18 @@ ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char 
 static bool check_top_keys(fe_build *b, const ff_node *root)
 {
     bool good = true;
+    const char *const *known = ff_file_keys();
+    size_t count = 0;
+    while (known[count])
+        count++;
     for (size_t i = 0; i < root->count; i++) {
         const char *key = root->keys[i];
-        const char *near = ff_nearest(key, top_keys, TOP_KEYS);
+        const char *near = ff_nearest(key, known, count);
         if (!strncmp(key, "x-", 2) || (near && !strcmp(near, key)))
             continue;
         ff_error(b->report, FF_FAULT_INPUT, root->key_places[i],
                  "keys of your own begin with \"x-\"; stages belong under \"pipeline\"",
-                 "unknown key \"%.80s\"%s", key, fe_did_you_mean(b, key, top_keys, TOP_KEYS));
+                 "unknown key \"%.80s\"%s", key, fe_did_you_mean(b, key, known, count));
         good = good && !(near && !strcmp(near, "pipeline"));
     }
     return good;
@@ -92,8 +87,8 @@ static bool check_name(fe_build *b, const char *name, ff_place place)
     static const char letters[] = "0123456789-"
                                   "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_";
     size_t length = strlen(name);
-    for (size_t i = 0; i < TOP_KEYS; i++)
-        if (!strcmp(name, top_keys[i]))
+    for (const char *const *key = ff_file_keys(); *key; key++)
+        if (!strcmp(name, *key))
             return ff_error(b->report, FF_FAULT_INPUT, place, NULL,
                             "a stage cannot be called \"%s\": --set %s means the key of that "
                             "name at the top of the file",
@@ -126,13 +121,13 @@ static const char *meant(fe_build *b, const ff_stage *stage, const ff_node *map)
 
 static void read_use(fe_build *b, ff_stage *stage, const ff_node *map)
 {
-    const ff_node *use = ff_node_get(stage->node, "use");
+    const ff_node *node = stage->node, *use = ff_node_get(node, "use");
     stage->use_place = use ? use->place : stage->place;
-    if (stage->node->kind != FF_MAP)
-        ff_error(b->report, FF_FAULT_INPUT, stage->node->place,
+    if (node->kind != FF_MAP)
+        ff_error(b->report, FF_FAULT_INPUT, node->place,
                  "write for example NAME: {use: KIND/MODEL}",
                  "%s: expected a map that says which model it uses, found %s", stage->name,
-                 fe_found(stage->node));
+                 fe_found(node));
     else if (!use)
         ff_error(b->report, FF_FAULT_INPUT, stage->place, "add use: KIND/MODEL",
                  "%s: the stage does not say which model it uses%s", stage->name,
@@ -150,8 +145,8 @@ static void read_stage(fe_build *b, const ff_node *map, size_t index)
     ff_stage *stage = &pipeline->stages[pipeline->count++];
     stage->name = fe_pipeline_print(pipeline, "%s", map->keys[index]);
     stage->place = map->key_places[index];
-    stage->node = map->items[index];
     stage->instance = fe_arena_alloc(&pipeline->memory->arena, sizeof *stage->instance);
+    stage->node = map->items[index];
     stage->instance->stage = stage;
     read_use(b, stage, map);
 }

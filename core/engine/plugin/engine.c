@@ -4,12 +4,13 @@
 
 #include <stdlib.h>
 
-/* Whichever way the function is left, what ran before it runs after it. */
+/* No plugin's code runs in there. Whichever way the function is left, what ran before it runs after
+   it. */
 static ff_status protect(fe_heap *heap, void (*function)(void *ctx), void *ctx)
 {
-    ff_guard_mark before = ff_guard_current();
+    ff_guard_mark before = fe_guard_enter((ff_guard_mark){.path = NULL});
     ff_status status = fe_protected(heap, function, ctx);
-    ff_guard_leave(before);
+    fe_guard_leave(before);
     return status;
 }
 

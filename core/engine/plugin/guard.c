@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: MIT */
-#include <flankfilm/engine.h>
+#include "guard.h"
 
 #include <string.h>
 
 /* With this model of access nothing is allocated when a signal handler is the first to read it. */
 static _Thread_local ff_guard_mark running __attribute__((tls_model("initial-exec")));
 
-ff_guard_mark ff_guard_enter(ff_guard_mark mark)
+ff_guard_mark fe_guard_enter(ff_guard_mark mark)
 {
     ff_guard_mark previous = running;
     running = mark;
     return previous;
 }
 
-void ff_guard_leave(ff_guard_mark previous)
+void fe_guard_leave(ff_guard_mark previous)
 {
     running = previous;
 }

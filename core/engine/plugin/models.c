@@ -112,11 +112,11 @@ static bool load_file(loading *l, char *path)
     l->loaded->path = path;
     ff_environment_keep(&environment);
     fe_folder_keep(&folder);
-    ff_guard_mark previous = ff_guard_enter((ff_guard_mark){.path = path, .action = "load"});
-    fe_serial_enter(NULL);
+    ff_guard_mark previous = fe_guard_enter((ff_guard_mark){.path = path, .action = "load"});
+    fe_serial_enter(FE_SERIAL_LOADING);
     ff_status status = fe_protected(&l->engine->heap, open_object, l);
-    fe_serial_leave(NULL);
-    ff_guard_leave(previous);
+    fe_serial_leave(FE_SERIAL_LOADING);
+    fe_guard_leave(previous);
     const char *changed = ff_environment_restore(&environment);
     changed = fe_folder_restore(&folder) ? "changed the working directory" : changed;
     if (status == FF_NOMEM)

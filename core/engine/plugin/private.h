@@ -4,6 +4,7 @@
 #define FE_PLUGIN_PRIVATE_H
 
 #include "engine.h"
+#include "guard.h"
 
 #include <sys/stat.h>
 

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-static int find(const ff_columns *c, fe_field name)
+static int find(const fe_columns *c, fe_field name)
 {
     size_t length = (size_t)(name.end - name.at);
     for (size_t k = 0; k < c->count; k++)
@@ -17,7 +17,7 @@ static int find(const ff_columns *c, fe_field name)
 }
 
 /* "time [s]", as a header names the column. */
-static void print_head(const ff_columns *c, size_t k, char *out, size_t size)
+static void print_head(const fe_columns *c, size_t k, char *out, size_t size)
 {
     bool bare = ff_unit_is_dimensionless(&c->units[k]) && strcmp(c->asked[k]->unit, "%") != 0;
     snprintf(out, size, "%s%s%s%s", c->asked[k]->name, bare ? "" : " [",
@@ -26,7 +26,7 @@ static void print_head(const ff_columns *c, size_t k, char *out, size_t size)
 
 static bool refuse_name(const fe_column_reader *r, fe_field head, const char *word)
 {
-    const ff_columns *c = r->c;
+    const fe_columns *c = r->c;
     const char *names[FE_MOST_FIELDS];
     char list[800] = "", name[160], hint[1000];
     size_t count = c->count < FE_MOST_FIELDS ? c->count : FE_MOST_FIELDS, used = 0;
@@ -48,7 +48,7 @@ static bool refuse_name(const fe_column_reader *r, fe_field head, const char *wo
 static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const char *open,
                       const char *word)
 {
-    ff_columns *c = r->c;
+    fe_columns *c = r->c;
     size_t k = (size_t)r->column_of[index];
     char unit[80] = "", why[200], example[160];
     print_head(c, k, example, sizeof example);
@@ -76,7 +76,7 @@ static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const ch
 /* "pressure [GPa]" */
 static bool read_head(fe_column_reader *r, size_t index, fe_field head)
 {
-    ff_columns *c = r->c;
+    fe_columns *c = r->c;
     const char *open = memchr(head.at, '[', (size_t)(head.end - head.at));
     fe_field name = fe_field_trim(head.at, open ? open : head.end);
     char word[80];
@@ -92,14 +92,14 @@ static bool read_head(fe_column_reader *r, size_t index, fe_field head)
     return read_unit(r, index, head, open, word);
 }
 
-static bool same_group(const ff_columns *c, size_t i, size_t k)
+static bool same_group(const fe_columns *c, size_t i, size_t k)
 {
     const char *a = c->asked[i]->group, *b = c->asked[k]->group;
     return i == k || (a && b && !strcmp(a, b));
 }
 
 /* Counts the columns of the file in the group of k; *first: k is the first row of the group. */
-static size_t count_group(const ff_columns *c, size_t k, bool *first)
+static size_t count_group(const fe_columns *c, size_t k, bool *first)
 {
     size_t given = 0;
     *first = true;
@@ -112,7 +112,7 @@ static size_t count_group(const ff_columns *c, size_t k, bool *first)
 
 static bool refuse_missing(const fe_column_reader *r, size_t k, fe_field line)
 {
-    const ff_columns *c = r->c;
+    const fe_columns *c = r->c;
     char names[500], name[160];
     size_t used = 0;
     for (size_t i = k; i < c->count && used < sizeof names; i++) {
@@ -128,7 +128,7 @@ static bool refuse_missing(const fe_column_reader *r, size_t k, fe_field line)
 /* Required columns are there, and at most one column of each group. */
 static bool check_heads(const fe_column_reader *r, fe_field line)
 {
-    const ff_columns *c = r->c;
+    const fe_columns *c = r->c;
     bool good = true, first;
     for (size_t k = 0; k < c->count; k++) {
         if (count_group(c, k, &first) == 0 && first && c->asked[k]->flags & FF_REQUIRED)
@@ -144,7 +144,7 @@ static bool check_heads(const fe_column_reader *r, fe_field line)
 
 bool fe_column_heads_read(fe_column_reader *r, fe_field line)
 {
-    ff_columns *c = r->c;
+    fe_columns *c = r->c;
     fe_field fields[FE_MOST_FIELDS];
     c->separator = fe_line_separator(line);
     c->width = fe_line_split(line, c->separator, fields);

@@ -97,7 +97,7 @@ size_t fe_line_split(fe_field line, char separator, fe_field fields[FE_MOST_FIEL
     }
 }
 
-size_t fe_row_split(const ff_columns *c, fe_field line, fe_field fields[FE_MOST_FIELDS])
+size_t fe_row_split(const fe_columns *c, fe_field line, fe_field fields[FE_MOST_FIELDS])
 {
     bool parted =
         c->separator != ' ' && memchr(line.at, c->separator, (size_t)(line.end - line.at));
@@ -115,8 +115,9 @@ char fe_line_separator(fe_field line)
     return *s;
 }
 
-ff_place ff_columns_place(const ff_columns *c, size_t row, size_t column)
+ff_place ff_columns_place(const ff_table *table, size_t row, size_t column)
 {
+    const fe_columns *c = (const fe_columns *)(const void *)table;
     fe_field fields[FE_MOST_FIELDS], text = {NULL, NULL};
     const char *end, *begin;
     bool known = column < c->count && c->values[column];

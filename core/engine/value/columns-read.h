@@ -7,9 +7,25 @@
 
 enum { FE_MOST_FIELDS = 100, FE_NO_COLUMN = -1 };
 
+/* A table, and where in which text it stands. */
+typedef struct fe_columns {
+    ff_table table; /* the view of a model, which points to the rest */
+    ff_source source;
+    size_t count; /* columns that were asked for */
+    const ff_param **asked;
+    ff_unit *units; /* their rows' */
+    size_t rows;
+    double **values; /* in SI, of each column; NULL: the file lacks it */
+    uint32_t *lines; /* of each row */
+    ff_place *heads; /* of each column in the header */
+    size_t *fields;  /* of each column: which field of a line */
+    size_t width;    /* fields of a line */
+    char separator;  /* of the header; ' ': any blanks */
+} fe_columns;
+
 /* The state of reading one table. */
 typedef struct fe_column_reader {
-    ff_columns *c;
+    fe_columns *c;
     ff_report *report;
     int column_of[FE_MOST_FIELDS]; /* rank of the column that was asked for, or FE_NO_COLUMN */
     ff_unit unit_of[FE_MOST_FIELDS];
@@ -29,7 +45,7 @@ fe_field fe_field_trim(const char *at, const char *end);
 size_t fe_line_split(fe_field line, char separator, fe_field fields[FE_MOST_FIELDS]);
 /* Splits a line as the header was split. Without that separator in it, the first one that gives as
    many fields as the header has is used. */
-size_t fe_row_split(const ff_columns *columns, fe_field line, fe_field fields[FE_MOST_FIELDS]);
+size_t fe_row_split(const fe_columns *columns, fe_field line, fe_field fields[FE_MOST_FIELDS]);
 char fe_line_separator(fe_field line); /* of a header */
 /* The place of a part of the line that is being read; at NULL: of the whole file. */
 ff_place fe_column_place(const fe_column_reader *reader, fe_field text);

@@ -59,7 +59,7 @@ static bool check_text(fe_column_reader *r)
                              "this is not a text file: it has a zero byte here");
 }
 
-static void print_value(const ff_columns *c, size_t k, double si, char out[80])
+static void print_value(const fe_columns *c, size_t k, double si, char out[80])
 {
     ff_quantity_print(si, &c->units[k], c->asked[k]->unit, out, 80);
 }
@@ -77,7 +77,7 @@ static bool check_limits(const fe_column_reader *r, size_t k, double *si, fe_fie
 /* Checks a number against the flags of its column. */
 static bool check_flags(const fe_column_reader *r, size_t k, size_t row, fe_field text)
 {
-    const ff_columns *c = r->c;
+    const fe_columns *c = r->c;
     const ff_param *asked = c->asked[k];
     double si = c->values[k][row];
     char value[80], before[80];
@@ -93,7 +93,7 @@ static bool check_flags(const fe_column_reader *r, size_t k, size_t row, fe_fiel
 
 static bool read_number(fe_column_reader *r, size_t index, fe_field text, size_t row)
 {
-    ff_columns *c = r->c;
+    fe_columns *c = r->c;
     size_t k = (size_t)r->column_of[index];
     const char *end = text.at, *name = c->asked[k]->name;
     double number = 0;
@@ -115,7 +115,7 @@ static bool read_number(fe_column_reader *r, size_t index, fe_field text, size_t
 
 static void make_room(fe_column_reader *r)
 {
-    ff_columns *c = r->c;
+    fe_columns *c = r->c;
     if (c->rows < r->room)
         return;
     r->room = 2 * c->rows + 64;
@@ -128,7 +128,7 @@ static void make_room(fe_column_reader *r)
 /* False when reading on would serve nothing. */
 static bool read_row(fe_column_reader *r, fe_field line)
 {
-    ff_columns *c = r->c;
+    fe_columns *c = r->c;
     fe_field fields[FE_MOST_FIELDS];
     if (c->rows == r->most)
         return fe_column_refuse(r, line, NULL, "the table has more than %zu rows", r->most);
@@ -149,7 +149,7 @@ static bool read_row(fe_column_reader *r, fe_field line)
 
 static bool take_rows(fe_column_reader *r, const ff_param *rows, size_t count, size_t stride)
 {
-    ff_columns *c = r->c;
+    fe_columns *c = r->c;
     char why[200];
     c->count = count;
     c->asked = fe_alloc(count * sizeof *c->asked);
@@ -173,7 +173,7 @@ static bool take_rows(fe_column_reader *r, const ff_param *rows, size_t count, s
 
 static bool check_count(const fe_column_reader *r)
 {
-    const ff_columns *c = r->c;
+    const fe_columns *c = r->c;
     bool good = true;
     if (c->width == 0)
         return fe_column_refuse(r, whole, NULL,
@@ -188,38 +188,49 @@ static bool check_count(const fe_column_reader *r)
     return good;
 }
 
-bool ff_columns_read(ff_columns *c, const char *path, const ff_param *rows, size_t count,
-                     size_t stride, ff_report *report)
+static bool read_columns(fe_column_reader *r, const char *path)
 {
-    fe_column_reader r = {.c = c, .report = report};
-    size_t before = ff_report_errors(report);
-    *c = (ff_columns){.count = 0};
-    if (!take_rows(&r, rows, count, stride) || !load(&r, path) || !check_text(&r))
+    const ff_source *source = &r->c->source;
+    if (!load(r, path) || !check_text(r))
         return false;
-    const char *stop = c->source.text + c->source.length;
+    const char *stop = source->text + source->length;
+    size_t before = ff_report_errors(r->report);
     bool good = true;
-    for (const char *at = c->source.text, *end; good && at < stop; at = end + 1) {
+    for (const char *at = source->text, *end; good && at < stop; at = end + 1) {
         end = memchr(at, '\n', (size_t)(stop - at));
         end = end ? end : stop;
-        r.line++;
-        r.begin = at;
+        r->line++;
+        r->begin = at;
         fe_field line = fe_field_trim(at, end);
         if (line.at == line.end || *line.at == '#')
             continue;
-        good = c->width ? read_row(&r, line) : fe_column_heads_read(&r, line);
-        good = good && ff_report_errors(report) < before + MOST_ERRORS;
+        good = r->c->width ? read_row(r, line) : fe_column_heads_read(r, line);
+        good = good && ff_report_errors(r->report) < before + MOST_ERRORS;
     }
-    if (!good || !check_count(&r) || ff_report_errors(report) > before)
-        return false;
+    return good && check_count(r) && ff_report_errors(r->report) == before;
+}
+
+const ff_table *ff_columns_read(const char *path, const ff_param *rows, size_t count, size_t stride,
+                                ff_report *report)
+{
+    fe_columns *c = fe_alloc(sizeof *c);
+    fe_column_reader r = {.c = c, .report = report};
+    bool good = take_rows(&r, rows, count, stride) && read_columns(&r, path);
     c->table = (ff_table){.size = sizeof c->table,
                           .row_count = c->rows,
                           .columns = (const double *const *)c->values,
                           .lines = c->lines};
-    return true;
+    if (good)
+        return &c->table;
+    ff_columns_free(&c->table);
+    return NULL;
 }
 
-void ff_columns_free(ff_columns *c)
+void ff_columns_free(const ff_table *table)
 {
+    fe_columns *c = (fe_columns *)(uintptr_t)table;
+    if (!c)
+        return;
     for (size_t k = 0; k < c->count; k++)
         fe_free(c->values[k]);
     fe_free(c->asked);
@@ -231,5 +242,5 @@ void ff_columns_free(ff_columns *c)
     fe_free(c->source.name);
     fe_free(c->source.text);
     fe_free(c->source.directory);
-    *c = (ff_columns){.count = 0};
+    fe_free(c);
 }

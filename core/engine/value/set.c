@@ -99,10 +99,17 @@ static bool apply(walk *w, const ff_source *source, const char *at, const char *
     return true;
 }
 
-static bool is_one_of(const char *word, size_t length, const char *const *words)
+const char *const *ff_file_keys(void)
 {
-    for (; words && *words; words++)
-        if (strlen(*words) == length && !memcmp(*words, word, length))
+    static const char *const keys[] = {"format", "title",    "include",  "pipeline", "outputs",
+                                       "study",  "accuracy", "feedback", NULL};
+    return keys;
+}
+
+static bool is_file_key(const char *word, size_t length)
+{
+    for (const char *const *key = ff_file_keys(); *key; key++)
+        if (strlen(*key) == length && !memcmp(*key, word, length))
             return true;
     return false;
 }
@@ -132,9 +139,8 @@ static void relocate(ff_node *node, const ff_place *place)
     }
 }
 
-bool ff_tree_set_at(ff_tree *tree, const char *assignment, const ff_place *path,
-                    const ff_place *place, const char *prefix, const char *const *top,
-                    ff_report *report)
+bool ff_tree_set(ff_tree *tree, const char *assignment, const ff_place *path, const ff_place *place,
+                 ff_report *report)
 {
     size_t length = strlen(assignment), errors = ff_report_errors(report);
     bool fits = length <= FE_MOST_TEXT;
@@ -150,27 +156,20 @@ bool ff_tree_set_at(ff_tree *tree, const char *assignment, const ff_place *path,
     while (end > at && end[-1] == ' ')
         end--;
     size_t first = strcspn(at, ".= ");
-    static const char *const include[] = {"include", NULL};
     ff_node *value = read_value(tree, source, equals, report);
     if (!value || !tree->root || ff_report_errors(report) > errors)
         return false;
-    if (is_one_of(at, first, include) && at + first == end)
+    if (at + first == end && !strncmp(at, "include=", first + 1))
         return fe_node_include(tree, value, report);
     if (place)
         relocate(value, place);
     walk w = {
         .tree = tree, .report = report, .rank = tree->ranks++, .at = path, .slot = &tree->root};
     fe_node_set_rank(value, w.rank);
-    if (prefix && !is_one_of(at, first, top) &&
-        !step(&w, fe_arena_text(&tree->arena, prefix, strlen(prefix)), whole, false))
+    if (!is_file_key(at, first) &&
+        !step(&w, fe_arena_text(&tree->arena, "pipeline", strlen("pipeline")), whole, false))
         return false;
     return apply(&w, source, at, end, value);
-}
-
-bool ff_tree_set(ff_tree *tree, const char *assignment, const char *prefix, const char *const *top,
-                 ff_report *report)
-{
-    return ff_tree_set_at(tree, assignment, NULL, NULL, prefix, top, report);
 }
 
 void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node)

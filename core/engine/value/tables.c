@@ -7,14 +7,14 @@
 #include <string.h>
 
 struct fe_kept_table {
-    ff_columns columns;
+    const ff_table *table; /* NULL: it could not be read */
     char *item;
     struct fe_kept_table *next;
 };
 
 static void free_table(struct fe_kept_table *kept)
 {
-    ff_columns_free(&kept->columns);
+    ff_columns_free(kept->table);
     fe_free(kept->item);
     fe_free(kept);
 }
@@ -25,15 +25,17 @@ ff_status ff_tables_read(ff_tables *tables, const char *item, const char *path,
     struct fe_kept_table *kept = fe_alloc(sizeof *kept);
     fe_tables_forget(tables);
     ff_report *report = ff_report_new();
-    bool good = path ? ff_columns_read(&kept->columns, path, rows, count, stride, report)
-                     : ff_error(report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL, "it gave no path");
+    if (path)
+        kept->table = ff_columns_read(path, rows, count, stride, report);
+    else
+        ff_error(report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL, "it gave no path");
     item = item ? item : "";
     kept->item = fe_copy_text(item, strlen(item));
     kept->next = tables->kept;
     tables->kept = kept; /* also one that failed: the error names its item */
     tables->item = kept->item;
-    *table = good ? &kept->columns.table : NULL;
-    if (good) {
+    *table = kept->table;
+    if (kept->table) {
         ff_report_free(report);
         return FF_OK;
     }
@@ -46,14 +48,14 @@ ff_status ff_tables_fail(ff_tables *tables, const ff_table *table, size_t row, s
 {
     fe_tables_forget(tables);
     struct fe_kept_table *kept = tables->kept;
-    while (kept && &kept->columns.table != table)
+    while (kept && kept->table != table)
         kept = kept->next;
-    if (!kept)
+    if (!table || !kept)
         return FF_BUG;
     tables->item = kept->item;
     tables->errors = ff_report_new();
-    ff_error(tables->errors, FF_FAULT_INPUT, ff_columns_place(&kept->columns, row, column), NULL,
-             "%s", text);
+    ff_error(tables->errors, FF_FAULT_INPUT, ff_columns_place(table, row, column), NULL, "%s",
+             text);
     return FF_INVALID;
 }
 

@@ -82,24 +82,80 @@ typedef struct call {
     const void *table;
     const ff_view *view;
     results_target *target;
+    bool no_memory; /* to give the writer what it asked for */
+
+    const char *name; /* of the file that it asks for, or NULL */
+    const char *path; /* where that is; NULL: nowhere */
+
+    size_t variable, index; /* of the array that it asks for */
+    ff_array *array;
+    ff_status status;
 } call;
+
+/* The writer, which may have files open, is not left without memory: it is told. */
+static bool find(call *c, void (*function)(void *ctx))
+{
+    bool found = ff_protected(function, c) == FF_OK;
+    c->no_memory = c->no_memory || !found;
+    return found;
+}
+
+static void find_path(void *ctx)
+{
+    call *c = ctx;
+    results_target *to = c->target;
+    c->path = to->folder ? c->name ? results_folder_path(to->folder, c->name) : NULL : to->part;
+    if (!c->path)
+        ff_error(to->report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL,
+                 "the writer asked for a file of the name \"%s\"", c->name ? c->name : "");
+}
 
 static const char *path_of(void *ctx, const char *name)
 {
-    results_target *to = ctx;
-    const char *path = to->folder ? name ? results_folder_path(to->folder, name) : NULL : to->part;
-    if (!path)
-        ff_error(to->report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL,
-                 "the writer asked for a file of the name \"%s\"", name ? name : "");
-    return path;
+    call *c = ctx;
+    c->name = name;
+    return find(c, find_path) ? c->path : NULL;
+}
+
+static void load_array(void *ctx)
+{
+    call *c = ctx;
+    c->status = c->view->load(c->view->ctx, c->variable, c->index, c->array);
+}
+
+static ff_status load(void *ctx, size_t variable, size_t index, ff_array *array)
+{
+    call *c = ctx;
+    c->variable = variable;
+    c->index = index;
+    c->array = array;
+    *array = (ff_array){.data = NULL};
+    return find(c, load_array) ? c->status : FF_NOMEM;
+}
+
+static int32_t shape_of(void *ctx, size_t variable, size_t index, size_t shape[4])
+{
+    const call *c = ctx;
+    return c->view->shape(c->view->ctx, variable, index, shape);
+}
+
+static void release(void *ctx, ff_array *array)
+{
+    const call *c = ctx;
+    c->view->release(c->view->ctx, array);
 }
 
 static ff_status call_write(void *ctx)
 {
     const call *c = ctx;
     const ff_writer *writer = c->table;
-    const ff_target target = {.size = sizeof target, .ctx = c->target, .path = path_of};
-    return writer->write(writer->self, c->view, &target);
+    const ff_target target = {.size = sizeof target, .ctx = ctx, .path = path_of};
+    ff_view view = *c->view;
+    view.ctx = ctx;
+    view.shape = shape_of;
+    view.load = load;
+    view.release = release;
+    return writer->write(writer->self, &view, &target);
 }
 
 /* What the view reported comes before what the writer made of it. */
@@ -109,6 +165,8 @@ static bool call_writer(ff_instance *writer, const ff_view *view, results_target
     ff_status status = ff_instance_service(writer, FF_WRITER_ID, &c.table);
     if (status == FF_OK || status == FF_DOMAIN)
         status = ff_instance_call(writer, "write", call_write, &c);
+    if (c.no_memory)
+        memory_require(NULL);
     bool good = status == FF_OK || status == FF_DOMAIN;
     if (ff_report_errors(to->report) == 0)
         ff_report_append(to->report, ff_instance_report(writer));

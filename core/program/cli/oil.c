@@ -178,7 +178,7 @@ void cli_check_oil(cli_session *session, ff_tree *tree, ff_report *report)
     char *outputs = request(session->pipeline);
     if (!outputs)
         return;
-    ff_tree_set(tree, outputs, "pipeline", ff_file_keys(), report);
+    ff_tree_set(tree, outputs, NULL, NULL, report);
     ff_pipeline *oils = ff_pipeline_build(tree, session->engine, false, report);
     if (oils && ff_report_errors(report) == 0)
         ff_pipeline_run(oils, NULL, report);

@@ -176,7 +176,7 @@ void cli_print_resolved(const cli_session *session, const cli_options *options)
     ff_report *captured = ff_report_new(); /* stages may lack what the cases bring */
     ff_tree *tree = ff_tree_load(options->operand, captured);
     for (size_t i = 0; i < options->set_count; i++)
-        ff_tree_set(tree, options->sets[i], "pipeline", ff_file_keys(), captured);
+        ff_tree_set(tree, options->sets[i], NULL, NULL, captured);
     if (session->study->request)
         ff_tree_put(tree, "outputs", session->study->request);
     ff_pipeline *pipeline = ff_pipeline_build(tree, session->engine, false, captured);

@@ -96,7 +96,7 @@ static void check_oil(cli_session *session, const cli_options *options)
     if (session->study && session->study->overlay_first)
         study_overlay(session->study, 0, options->sets, options->set_count, tree, captured);
     for (size_t i = 0; !session->study && i < options->set_count; i++)
-        ff_tree_set(tree, options->sets[i], "pipeline", ff_file_keys(), captured);
+        ff_tree_set(tree, options->sets[i], NULL, NULL, captured);
     if (!session->study || session->study->overlay_first) {
         ff_report *found = ff_report_new();
         cli_check_oil(session, tree, found);
@@ -127,7 +127,7 @@ static bool open_file(cli_session *session, const cli_options *options, bool eve
     if (!ff_tree_root(session->tree))
         return false;
     for (size_t i = 0; i < options->set_count; i++)
-        ff_tree_set(session->tree, options->sets[i], "pipeline", ff_file_keys(), session->report);
+        ff_tree_set(session->tree, options->sets[i], NULL, NULL, session->report);
     session->engine = cli_engine_new(options);
     if (!open_study(session, options))
         return false;

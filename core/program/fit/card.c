@@ -25,7 +25,7 @@ static void print_range(FILE *out, const fit_data *d)
 static void print_head(FILE *out, const fit *f, const fit_law *best)
 {
     fputs("# Fitted to ", out);
-    print_name(out, f->columns.source.name);
+    print_name(out, f->path);
     fputs(" by flankfilm fit:\n# ", out);
     print_range(out, &f->data);
     fprintf(out, ".\n#\n# %-28s %5s %8s %11s %7s\n", "law", "found", "rms %", "largest %", "AICc");

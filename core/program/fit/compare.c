@@ -90,7 +90,7 @@ static json_t *describe_law(const fit *f, const fit_law *law)
     json_t *entry = json_pack("{s:s, s:o, s:I, s:o, s:o, s:I, s:o, s:o, s:o}", "law", law->id,
                               "parameters", params, "found", (json_int_t)law->free_count, "rms",
                               json_number(law->rms), "largest", json_number(law->largest),
-                              "largest_line", (json_int_t)f->columns.lines[law->largest_row],
+                              "largest_line", (json_int_t)f->table->lines[law->largest_row],
                               "criterion", json_number(law->criterion), "correlation",
                               describe_correlation(law), "note", results_json_text(law->note));
     if (!isnan(law->asked))
@@ -103,15 +103,15 @@ json_t *fit_facts(const fit *f)
     json_t *laws = json_array(), *range = json_object();
     for (size_t k = 0; k < FIT_COLUMNS; k++) {
         double low, high;
-        if (!f->columns.values[k])
+        if (!f->table->columns[k])
             continue;
         fit_range(f, k, &low, &high);
-        json_object_set_new(range, f->columns.asked[k]->name,
+        json_object_set_new(range, f->rows[k].name,
                             json_pack("[o, o]", json_number(low), json_number(high)));
     }
     for (size_t i = 0; i < f->law_count; i++)
         json_array_append_new(laws, describe_law(f, &f->laws[i]));
-    return json_pack("{s:o, s:I, s:o, s:s, s:s, s:o}", "data",
-                     results_json_text(f->columns.source.name), "rows", (json_int_t)f->columns.rows,
-                     "range", range, "best", fit_best(f)->id, "criterion", "AICc", "laws", laws);
+    return json_pack("{s:o, s:I, s:o, s:s, s:s, s:o}", "data", results_json_text(f->path), "rows",
+                     (json_int_t)f->table->row_count, "range", range, "best", fit_best(f)->id,
+                     "criterion", "AICc", "laws", laws);
 }

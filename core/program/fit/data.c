@@ -65,13 +65,13 @@ static void list_isotherms(const double *T, size_t n, char *out, size_t size)
 /* Copies the rows of the temperature that was asked for, or all rows. */
 static void copy_rows(const fit *f, fit_data *d)
 {
-    const double *T = f->columns.values[FIT_TEMPERATURE];
-    for (size_t i = 0; i < f->columns.rows; i++) {
+    const double *T = f->table->columns[FIT_TEMPERATURE];
+    for (size_t i = 0; i < f->table->row_count; i++) {
         if (T && fabs(T[i] - f->at[FIT_TEMPERATURE]) > ISOTHERM)
             continue; /* no row is left out where nothing was asked: NaN */
         d->row[d->n] = i;
-        d->p[d->n] = f->columns.values[FIT_PRESSURE][i];
-        d->ln_eta[d->n] = log(f->columns.values[FIT_VISCOSITY][i]);
+        d->p[d->n] = f->table->columns[FIT_PRESSURE][i];
+        d->ln_eta[d->n] = log(f->table->columns[FIT_VISCOSITY][i]);
         if (T)
             d->T[d->n] = T[i];
         d->highest = d->n ? fmax(d->highest, d->p[d->n]) : d->p[0];
@@ -82,7 +82,7 @@ static void copy_rows(const fit *f, fit_data *d)
 /* The weights are 1/u^2, or as given, or 1, scaled to a mean of 1. */
 static void compute_weights(const fit *f, fit_data *d)
 {
-    const double *u = f->columns.values[FIT_UNCERTAINTY], *w = f->columns.values[FIT_WEIGHT];
+    const double *u = f->table->columns[FIT_UNCERTAINTY], *w = f->table->columns[FIT_WEIGHT];
     double sum = 0;
     for (size_t i = 0; i < d->n; i++) {
         d->root[i] = u ? 1 / u[d->row[i]] : w ? sqrt(w[d->row[i]]) : 1;
@@ -131,7 +131,7 @@ static size_t find_duplicate(const fit_data *d, size_t i)
 
 static ff_place place_of(const fit *f, size_t row, size_t column)
 {
-    return ff_columns_place(&f->columns, row, column);
+    return ff_columns_place(f->table, row, column);
 }
 
 static bool check_rows(const fit *f, const fit_data *d)
@@ -164,8 +164,8 @@ static bool check_rows(const fit *f, const fit_data *d)
 static bool select_rows(fit *f)
 {
     fit_data *d = &f->data;
-    size_t n = f->columns.rows;
-    const double *T = f->columns.values[FIT_TEMPERATURE];
+    size_t n = f->table->row_count;
+    const double *T = f->table->columns[FIT_TEMPERATURE];
     char list[120];
     if (n > MOST_ROWS)
         return ff_error(f->report, FF_FAULT_INPUT, place_of(f, SIZE_MAX, SIZE_MAX), NULL,
@@ -189,14 +189,20 @@ static bool select_rows(fit *f)
 
 bool fit_read(fit *f, const char *path)
 {
-    return ff_columns_read(&f->columns, path, columns, FIT_COLUMNS, sizeof columns[0], f->report);
+    char why[200];
+    f->path = path;
+    f->rows = columns;
+    for (size_t k = 0; k < FIT_COLUMNS; k++)
+        ff_unit_parse(columns[k].unit, &f->units[k], why, sizeof why);
+    f->table = ff_columns_read(path, columns, FIT_COLUMNS, sizeof columns[0], f->report);
+    return f->table != NULL;
 }
 
 void fit_range(const fit *f, size_t column, double *low, double *high)
 {
-    const double *values = f->columns.values[column];
+    const double *values = f->table->columns[column];
     *low = *high = values[0];
-    for (size_t i = 1; i < f->columns.rows; i++) {
+    for (size_t i = 1; i < f->table->row_count; i++) {
         *low = fmin(*low, values[i]);
         *high = fmax(*high, values[i]);
     }
@@ -205,15 +211,14 @@ void fit_range(const fit *f, size_t column, double *low, double *high)
 /* --at: a value of the column that has its dimension; it must lie inside the data. */
 static bool set_condition(fit *f, const char *text)
 {
-    const ff_columns *c = &f->columns;
     char why[300] = "";
-    for (size_t k = 0; k < c->count; k++) {
+    for (size_t k = 0; k < FIT_COLUMNS; k++) {
         double low, high, si;
-        const ff_param *row = c->asked[k];
-        if (k == FIT_VISCOSITY || ff_unit_is_dimensionless(&c->units[k]) ||
-            !ff_quantity_parse(text, &c->units[k], row->unit, &si, why, sizeof why))
+        const ff_param *row = &f->rows[k];
+        if (k == FIT_VISCOSITY || ff_unit_is_dimensionless(&f->units[k]) ||
+            !ff_quantity_parse(text, &f->units[k], row->unit, &si, why, sizeof why))
             continue;
-        if (!c->values[k])
+        if (!f->table->columns[k])
             return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                             "--at \"%s\" asks for a %s, but the data have no such column", text,
                             row->name);
@@ -223,8 +228,8 @@ static bool set_condition(fit *f, const char *text)
         if (si >= low - slack && si <= high + slack)
             return true;
         char first[64], last[64];
-        ff_quantity_print(low, &c->units[k], row->unit, first, sizeof first);
-        ff_quantity_print(high, &c->units[k], row->unit, last, sizeof last);
+        ff_quantity_print(low, &f->units[k], row->unit, first, sizeof first);
+        ff_quantity_print(high, &f->units[k], row->unit, last, sizeof last);
         return ff_error(f->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                         "--at \"%s\" lies outside the data, whose %s goes from %s to %s: a fit "
                         "says nothing beyond",

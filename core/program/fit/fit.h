@@ -67,7 +67,10 @@ typedef struct fit_data {
 /* Starts zeroed but for the report; what is wrong goes there. */
 typedef struct fit {
     ff_report *report;
-    ff_columns columns;     /* the file of the data */
+    const char *path;      /* the file of the data */
+    const ff_table *table; /* its numbers */
+    const ff_param *rows;  /* of its columns */
+    ff_unit units[FIT_COLUMNS];
     double at[FIT_COLUMNS]; /* where the user asks; NaN: nowhere */
     ff_tree *settings;      /* what the user says of parameters */
     bool named;             /* the user has named the laws: each of them must be fitted */

@@ -140,16 +140,13 @@ static bool check_groups(const fit *f, const fit_law *law)
     return true;
 }
 
-bool fit_set(fit *f, const char *const *sets, size_t count)
+/* Applies what stands at the place of the stages: parameters, or laws with theirs. */
+static bool set_all(fit *f, const ff_node *map)
 {
     bool good = true;
-    f->settings = ff_tree_parse("--set", ".", "{}", f->report);
-    for (size_t i = 0; i < count && good; i++)
-        good = ff_tree_set(f->settings, sets[i], NULL, ff_file_keys(), f->report);
-    const ff_node *root = ff_tree_root(f->settings);
-    for (size_t i = 0; root && i < root->count && good; i++) {
-        const ff_node *node = root->items[i];
-        const fit_law *only = find_law(f, root->keys[i]);
+    for (size_t i = 0; i < map->count && good; i++) {
+        const ff_node *node = map->items[i];
+        const fit_law *only = find_law(f, map->keys[i]);
         if (only && node->kind != FF_MAP)
             return ff_error(f->report, FF_FAULT_INPUT, node->place, NULL,
                             "%s is a law: name a parameter of it, %s.NAME=VALUE", only->id,
@@ -157,8 +154,22 @@ bool fit_set(fit *f, const char *const *sets, size_t count)
         for (size_t k = 0; only && k < node->count; k++)
             good = set_param(f, node->keys[k], node->items[k], only) && good;
         if (!only)
-            good = set_param(f, root->keys[i], node, NULL);
+            good = set_param(f, map->keys[i], node, NULL);
     }
+    return good;
+}
+
+bool fit_set(fit *f, const char *const *sets, size_t count)
+{
+    bool good = true;
+    f->settings = ff_tree_parse("--set", ".", "{}", f->report);
+    for (size_t i = 0; i < count && good; i++)
+        good = ff_tree_set(f->settings, sets[i], NULL, NULL, f->report);
+    const ff_node *root = good ? ff_tree_root(f->settings) : NULL;
+    for (size_t i = 0; root && i < root->count && good; i++)
+        good = strcmp(root->keys[i], "pipeline") != 0
+                   ? set_param(f, root->keys[i], root->items[i], NULL)
+                   : set_all(f, root->items[i]);
     for (size_t i = 0; i < f->law_count && good; i++)
         good = check_groups(f, &f->laws[i]);
     return good;
@@ -241,6 +252,6 @@ void fit_free(fit *f)
     free(f->data.ln_eta);
     free(f->data.root);
     free(f->data.row);
-    ff_columns_free(&f->columns);
+    ff_columns_free(f->table);
     ff_tree_free(f->settings);
 }

@@ -11,17 +11,16 @@ enum { NAME = 28, PARAM = 18, VALUE = 20 };
 
 static void print_data(const fit *f)
 {
-    const ff_columns *c = &f->columns;
-    printf("%s: %zu rows", c->source.name, c->rows);
+    printf("%s: %zu rows", f->path, f->table->row_count);
     for (size_t k = 0; k < FIT_COLUMNS; k++) {
         char first[64], last[64];
         double low, high;
-        if (!c->values[k])
+        if (!f->table->columns[k])
             continue;
         fit_range(f, k, &low, &high);
-        ff_quantity_print(low, &c->units[k], c->asked[k]->unit, first, sizeof first);
-        ff_quantity_print(high, &c->units[k], c->asked[k]->unit, last, sizeof last);
-        printf(", %s %s", c->asked[k]->name, first);
+        ff_quantity_print(low, &f->units[k], f->rows[k].unit, first, sizeof first);
+        ff_quantity_print(high, &f->units[k], f->rows[k].unit, last, sizeof last);
+        printf(", %s %s", f->rows[k].name, first);
         if (strcmp(first, last) != 0)
             printf(" to %s", last);
     }
@@ -38,7 +37,6 @@ static bool was_asked(const fit *f)
 
 static void print_table(const fit *f)
 {
-    const ff_columns *c = &f->columns;
     double best = fit_best(f)->criterion;
     bool asked = was_asked(f);
     printf("%-*s %5s %9s %22s %9s%s\n", NAME, "law", "found", "rms", "largest", "AICc",
@@ -49,11 +47,11 @@ static void print_table(const fit *f)
         if (*law->why)
             continue;
         snprintf(largest, sizeof largest, "%+.3g %% in line %u", 100 * law->largest,
-                 c->lines[law->largest_row]);
+                 f->table->lines[law->largest_row]);
         printf("%-*s %5zu %7.3g %% %22s %+9.1f", NAME, law->id, law->free_count, 100 * law->rms,
                largest, law->criterion - best);
-        ff_quantity_print(law->asked, &c->units[FIT_VISCOSITY], c->asked[FIT_VISCOSITY]->unit,
-                          value, sizeof value);
+        ff_quantity_print(law->asked, &f->units[FIT_VISCOSITY], f->rows[FIT_VISCOSITY].unit, value,
+                          sizeof value);
         printf("%s%s\n", asked ? "  " : "", asked ? value : "");
     }
 }

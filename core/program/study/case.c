@@ -48,7 +48,7 @@ void study_overlay(const study_definition *study, size_t index, const char *cons
         if (path && v->values)
             place = &v->values->items[study_rank(study, v->axis, index)]->place;
         if (*text && ff_tree_root(tree))
-            ff_tree_set_at(tree, text, path, place, "pipeline", ff_file_keys(), report);
+            ff_tree_set(tree, text, path, place, report);
     }
     if (study->request && ff_tree_root(tree))
         ff_tree_put(tree, "outputs", study->request);

@@ -22,6 +22,7 @@ typedef struct execution {
     study_fork_server fork_server; /* with an executor */
     size_t next;                   /* the next chain to hand out, which is a task of the executor */
     bool ending;                   /* no more cases are handed out */
+    bool no_memory;                /* so that an executor was told to end */
     double start, reported;
 } execution;
 
@@ -53,10 +54,18 @@ static void begin_results(execution *r)
         study_reuse_clear(r->journal.directory);
 }
 
-static int32_t begin_leading(void *ctx)
+/* What an executor calls, which is not left without memory: it is told that all is over. */
+static bool protect(execution *r, void (*function)(void *ctx), void *ctx)
+{
+    bool done = ff_protected(function, ctx) == FF_OK;
+    r->no_memory = r->no_memory || !done;
+    r->ending = r->ending || !done;
+    return done;
+}
+
+static void open_journal(void *ctx)
 {
     execution *r = ctx;
-    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
     const study_run *run = r->run;
     size_t total = run->study->count, first = run->shard - 1;
     size_t chains = end_of_chains(run) - run->begin;
@@ -80,8 +89,12 @@ static int32_t begin_leading(void *ctx)
     } else {
         r->counters->total = 0;
     }
-    ff_guard_leave(mark);
-    return r->open ? 0 : -1;
+}
+
+static int32_t begin_leading(void *ctx)
+{
+    execution *r = ctx;
+    return protect(r, open_journal, r) && r->open ? 0 : -1;
 }
 
 static int32_t next_chain(void *ctx, size_t *task)
@@ -119,15 +132,24 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
     return known || good || !r->run->fail_fast;
 }
 
-static void note_answer(void *ctx, const void *answer, size_t size)
+/* What wait_for_answer and note_answer are about. */
+typedef struct answer_call {
+    execution *r;
+    const char *text;
+    size_t size, task;
+    int32_t milliseconds;
+    int state;
+} answer_call;
+
+static void read_answer(void *ctx)
 {
-    execution *r = ctx;
-    const char *text = answer;
+    const answer_call *call = ctx;
+    execution *r = call->r;
+    const char *text = call->text;
     char key[STUDY_KEY_SIZE], verdict;
     size_t index;
     int length = 0;
-    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
-    bool whole = r->keys && size > 0 && text[size - 1] == '\0' &&
+    bool whole = r->keys && call->size > 0 && text[call->size - 1] == '\0' &&
                  sscanf(text, "%zu %19s %c%n", &index, key, &verdict, &length) == 3 &&
                  index < r->run->study->count && text[length] == ' ';
     if (!whole)
@@ -135,7 +157,12 @@ static void note_answer(void *ctx, const void *answer, size_t size)
                  "the answer to a case cannot be read");
     if (!whole || !record_answer(r, index, key, verdict, text + length + 1))
         r->ending = true;
-    ff_guard_leave(mark);
+}
+
+static void note_answer(void *ctx, const void *answer, size_t size)
+{
+    answer_call call = {.r = ctx, .text = answer, .size = size};
+    protect(call.r, read_answer, &call);
 }
 
 static void start_chain(void *ctx, size_t task)
@@ -167,24 +194,32 @@ static _Noreturn void end_at_once(execution *r)
     _exit(FF_FAULT_RUN);
 }
 
+static void take_answer(void *ctx)
+{
+    answer_call *call = ctx;
+    execution *r = call->r;
+    bool forked = r->run->executor != NULL;
+    r->pool.ending = r->ending || interrupts;
+    call->state = forked ? study_fork_server_wait(&r->fork_server, call->milliseconds, &call->task)
+                         : study_pool_wait(&r->pool, call->milliseconds, &call->task);
+    if (interrupts > 1)
+        end_at_once(r);
+    if (call->state > 0)
+        call->text = forked ? r->fork_server.answer : r->pool.answer;
+    show_progress(r);
+}
+
 static int32_t wait_for_answer(void *ctx, int32_t milliseconds, size_t *task, const void **answer,
                                size_t *size)
 {
-    execution *r = ctx;
-    ff_guard_mark mark = ff_guard_enter((ff_guard_mark){.path = NULL});
-    bool forked = r->run->executor != NULL;
-    r->pool.ending = r->ending || interrupts;
-    int state = forked ? study_fork_server_wait(&r->fork_server, milliseconds, task)
-                       : study_pool_wait(&r->pool, milliseconds, task);
-    if (interrupts > 1)
-        end_at_once(r);
-    if (state > 0) {
-        *answer = forked ? r->fork_server.answer : r->pool.answer;
-        *size = strlen(*answer) + 1;
+    answer_call call = {.r = ctx, .milliseconds = milliseconds, .state = FF_TASK_GONE};
+    protect(call.r, take_answer, &call);
+    *task = call.task;
+    if (call.text) {
+        *answer = call.text;
+        *size = strlen(call.text) + 1;
     }
-    show_progress(r);
-    ff_guard_leave(mark);
-    return state;
+    return call.state;
 }
 
 /* Runs all cases by workers of this process. */
@@ -203,6 +238,8 @@ static bool run_here(execution *r)
         int state = wait_for_answer(r, 1000, &task, &answer, &size);
         if (state > 0)
             note_answer(r, answer, size);
+        if (r->no_memory)
+            memory_require(NULL);
         busy -= state == FF_TASK_OVER;
     }
     study_pool_close(&r->pool);
@@ -231,6 +268,8 @@ static bool run_elsewhere(execution *r, ff_tasks *tasks)
     ff_status status = ff_instance_service(executor, FF_EXECUTOR_ID, &call.table);
     if (status == FF_OK || status == FF_DOMAIN)
         status = ff_instance_call(executor, "run", call_executor, &call);
+    if (r->no_memory)
+        memory_require(NULL);
     bool good = status == FF_OK || status == FF_DOMAIN;
     if (ff_report_errors(r->report) > errors)
         return false;

@@ -77,14 +77,14 @@ bool verify_take_user_run(verify_context *context, const verify_request *request
     ff_tree *tree = ff_tree_load(request->pipeline, report);
     bool good = ff_tree_root(tree) && ff_report_errors(report) == 0;
     for (size_t i = 0; i < request->set_count && good; i++)
-        good = ff_tree_set(tree, request->sets[i], "pipeline", ff_file_keys(), report);
+        good = ff_tree_set(tree, request->sets[i], NULL, NULL, report);
     const char *name = good ? find_stage(ff_tree_root(tree), model->id, report) : NULL;
     if (!name)
         return false;
     bool data = verify_data_outputs(model); /* a law has none, and no output asks for it */
     char *outputs = memory_print_text("outputs=[%s.*]", name);
     if (data)
-        ff_tree_set(tree, outputs, "pipeline", ff_file_keys(), report);
+        ff_tree_set(tree, outputs, NULL, NULL, report);
     free(outputs);
     ff_pipeline *pipeline = ff_pipeline_build(tree, engine, !data, report);
     return pipeline && ff_report_errors(report) == 0 &&

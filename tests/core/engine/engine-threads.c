@@ -6,6 +6,7 @@
 #include <check.h>
 
 #include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,8 +18,11 @@ typedef struct worker {
     pthread_t thread;
     int level; /* mm */
     int wrong_sums, wrong_messages, failures;
-    double others; /* instances of a serial model that ran at the same time */
+    double others; /* calls of a serial object that ran at the same time */
 } worker;
+
+static const char *const sides[] = {"toy/left", "toy/right"}; /* each a serial object */
+static atomic_int inside;                                     /* sides that run */
 
 static double scalar(worker *w, ff_run *run, const char *path)
 {
@@ -71,6 +75,52 @@ static void use_instances(worker *w, ff_engine *engine)
     ff_instance_close(law);
 }
 
+/* One side uses the service of the other: in each second thread it is the other way round. */
+static void take_turns(worker *w, ff_engine *engine)
+{
+    ff_instance *own = NULL, *other = NULL;
+    const ff_result *others;
+    if (ff_instance_new(engine, sides[w->level % 2], &own) != FF_OK ||
+        ff_instance_new(engine, sides[(w->level + 1) % 2], &other) != FF_OK ||
+        ff_instance_use(own, "other", other) != FF_OK)
+        w->failures++;
+    for (int i = 0; i < ROUNDS && w->failures == 0; i++)
+        if (ff_instance_run(own, "others") != FF_OK ||
+            ff_instance_result(own, "others", &others) != FF_OK)
+            w->failures++;
+        else
+            w->others += others->data[0];
+    ff_instance_close(own);
+    ff_instance_close(other);
+}
+
+/* Stays in the call until the other side is in one, too. */
+static int32_t meet(void *ctx, const ff_stage *stage, double fraction)
+{
+    (void)ctx, (void)stage, (void)fraction;
+    atomic_fetch_add(&inside, 1);
+    for (int i = 0; i < 20000 && atomic_load(&inside) < 2; i++)
+        usleep(1000);
+    return atomic_load(&inside) < 2;
+}
+
+static void *run_side(void *ctx)
+{
+    worker *w = ctx;
+    const char *directory = getenv("FLANKFILM_TEST_BAD");
+    const ff_engine_options options = {sizeof options, &directory, 1};
+    const ff_observer observer = {.size = sizeof observer, .progress = meet};
+    ff_engine *engine = NULL;
+    ff_instance *side = NULL;
+    w->failures = ff_engine_new(&options, &engine) != FF_OK ||
+                  ff_instance_new(engine, sides[w->level], &side) != FF_OK ||
+                  ff_instance_observe(side, &observer) != FF_OK ||
+                  ff_instance_run(side, "others") != FF_OK;
+    ff_instance_close(side);
+    ff_engine_close(engine);
+    return NULL;
+}
+
 static void *work(void *ctx)
 {
     worker *w = ctx;
@@ -83,30 +133,41 @@ static void *work(void *ctx)
         run_toys(w, engine);
         run_wrong(w, engine);
         use_instances(w, engine);
+        take_turns(w, engine);
         run_toys(w, engine);
         ff_engine_close(engine);
     }
     return NULL;
 }
 
+/* Each in a thread of its own, until all have ended. */
+static void start(worker *workers, int count, int first, void *(*function)(void *ctx))
+{
+    for (int i = 0; i < count; i++) {
+        workers[i].level = first + i;
+        if (pthread_create(&workers[i].thread, NULL, function, &workers[i]) != 0)
+            exit(2);
+    }
+    for (int i = 0; i < count; i++)
+        pthread_join(workers[i].thread, NULL);
+}
+
 int main(void)
 {
-    static worker workers[THREADS];
+    static worker workers[THREADS], both[2];
     char folder[4096];
     snprintf(folder, sizeof folder, "%s/tests/core/engine/scenes", getenv("FLANKFILM_TEST_SOURCE"));
     if (chdir(folder) != 0)
         return 2;
+    start(workers, THREADS, 1, work);
     for (int i = 0; i < THREADS; i++) {
-        workers[i].level = i + 1;
-        if (pthread_create(&workers[i].thread, NULL, work, &workers[i]) != 0)
-            return 2;
-    }
-    for (int i = 0; i < THREADS; i++) {
-        pthread_join(workers[i].thread, NULL);
         check_true("every call answered", workers[i].failures == 0);
         check_true("with its own numbers", workers[i].wrong_sums == 0);
         check_true("and its own messages", workers[i].wrong_messages == 0);
         check_true("a serial model ran alone", workers[i].others == 0);
     }
+    start(both, 2, 0, run_side);
+    check_true("two serial objects run beside each other",
+               both[0].failures + both[1].failures == 0);
     return check_done();
 }

@@ -32,7 +32,7 @@ static attempt begin(const char *text, const char *assignment, bool everything)
     attempt a = {.report = ff_report_new(), .engine = try_engine(directories, 1)};
     a.tree = ff_tree_parse("case.yaml", ".", whole, a.report);
     if (assignment)
-        ff_tree_set(a.tree, assignment, "pipeline", ff_file_keys(), a.report);
+        ff_tree_set(a.tree, assignment, NULL, NULL, a.report);
     a.pipeline = ff_pipeline_build(a.tree, a.engine, everything, a.report);
     return a;
 }

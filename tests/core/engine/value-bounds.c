@@ -349,7 +349,7 @@ START_TEST(mutated_assignments)
         put(starts[round % 5]);
         mutate(&state);
         size_t errors = ff_report_errors(report);
-        bool done = ff_tree_set(tree, text, "pipeline", NULL, report);
+        bool done = ff_tree_set(tree, text, NULL, NULL, report);
         ck_assert(done == (ff_report_errors(report) == errors));
         count_nodes(ff_tree_root(tree));
         ff_tree_free(tree);

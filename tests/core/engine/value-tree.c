@@ -13,8 +13,6 @@ static ff_report *report;
 static ff_tree *tree;
 static char folder[64];
 
-static const char *const top[] = {"format", "title", "pipeline", "outputs", NULL};
-
 static void set_up(void)
 {
     report = ff_report_new();
@@ -157,12 +155,12 @@ END_TEST
 
 START_TEST(alias_is_a_copy)
 {
-    parse("a: &a {x: [1, 2]}\nb: *a\npipeline: {}\n");
+    parse("study: &a {x: [1, 2]}\noutputs: *a\npipeline: {}\n");
     check_no_errors();
-    ck_assert(ff_tree_set(tree, "b.x.0=9", NULL, NULL, report));
-    check_text("b.x.0", "9");
-    check_text("a.x.0", "1");
-    check_place(find("b.x.1")->place, 1, 15, 1);
+    ck_assert(ff_tree_set(tree, "outputs.x.0=9", NULL, NULL, report));
+    check_text("outputs.x.0", "9");
+    check_text("study.x.0", "1");
+    check_place(find("outputs.x.1")->place, 1, 19, 1);
 }
 END_TEST
 
@@ -234,7 +232,7 @@ START_TEST(includes_lie_under_the_file)
     ck_assert_uint_lt(find("only")->rank, find("oil.eta0")->rank);
     ck_assert_uint_lt(find("oil.eta0")->rank, find("oil.b")->rank);
     ck_assert(ff_tree_set(tree, "oil.c=1", NULL, NULL, report));
-    ck_assert_uint_lt(find("oil.b")->rank, find("oil.c")->rank);
+    ck_assert_uint_lt(find("oil.b")->rank, find("pipeline.oil.c")->rank);
 }
 END_TEST
 
@@ -356,7 +354,7 @@ static const char two_stages[] =
 START_TEST(assignment_replaces_a_value)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "duty.torque=300 N m", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "duty.torque=300 N m", NULL, NULL, report));
     check_text("pipeline.duty.torque", "300 N m");
     check_text("pipeline.duty.use", "operating/steady");
     check_no_errors();
@@ -366,9 +364,9 @@ END_TEST
 START_TEST(assignment_starts_at_the_top_for_top_words)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "pipeline.duty.torque=1 N m", "pipeline", top, report));
-    ck_assert(ff_tree_set(tree, "title=a: b", "pipeline", top, report));
-    ck_assert(ff_tree_set(tree, "outputs=[film.p_max]", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "pipeline.duty.torque=1 N m", NULL, NULL, report));
+    ck_assert(ff_tree_set(tree, "title=a: b", NULL, NULL, report));
+    ck_assert(ff_tree_set(tree, "outputs=[film.p_max]", NULL, NULL, report));
     check_text("pipeline.duty.torque", "1 N m");
     check_text("title.a", "b");
     ck_assert_uint_eq(find("outputs")->count, 1);
@@ -378,8 +376,8 @@ END_TEST
 START_TEST(assignment_reaches_into_lists)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "gears.teeth.1=25", "pipeline", top, report));
-    ck_assert(ff_tree_set(tree, "outputs.0=film.p_max", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "gears.teeth.1=25", NULL, NULL, report));
+    ck_assert(ff_tree_set(tree, "outputs.0=film.p_max", NULL, NULL, report));
     check_text("pipeline.gears.teeth.0", "50");
     check_text("pipeline.gears.teeth.1", "25");
     check_text("outputs.0", "film.p_max");
@@ -401,7 +399,7 @@ END_TEST
 START_TEST(assignment_makes_maps_on_the_way)
 {
     parse("format: 2\n");
-    ck_assert(ff_tree_set(tree, "oil.with.viscosity/barus.eta0=5 cP", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "oil.with.viscosity/barus.eta0=5 cP", NULL, NULL, report));
     check_text("pipeline.oil.with.viscosity/barus.eta0", "5 cP");
     ck_assert_uint_eq(find("pipeline.oil")->rank, 1);
 }
@@ -410,7 +408,7 @@ END_TEST
 START_TEST(assignment_of_a_map_merges)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "duty={torque: 1 N m, speed: 3 rpm}", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "duty={torque: 1 N m, speed: 3 rpm}", NULL, NULL, report));
     check_text("pipeline.duty.use", "operating/steady");
     check_text("pipeline.duty.torque", "1 N m");
     check_text("pipeline.duty.speed", "3 rpm");
@@ -420,9 +418,9 @@ END_TEST
 START_TEST(assignment_may_be_empty_or_hold_equals)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "title=", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "title=", NULL, NULL, report));
     check_text("title", "");
-    ck_assert(ff_tree_set(tree, "title = a=b", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "title = a=b", NULL, NULL, report));
     check_text("title", "a=b");
 }
 END_TEST
@@ -430,7 +428,7 @@ END_TEST
 START_TEST(assignment_places_point_into_it)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "düty.torque=\"3 N\"", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "düty.torque=\"3 N\"", NULL, NULL, report));
     const ff_node *node = find("pipeline.düty.torque");
     ck_assert_str_eq(node->place.source->name, "--set");
     ck_assert_str_eq(node->place.source->text, "düty.torque=\"3 N\"");
@@ -465,7 +463,7 @@ START_TEST(assignment_is_refused)
 {
     parse(two_stages);
     const char *assignment = bad_assignments[_i].assignment;
-    ck_assert(!ff_tree_set(tree, assignment, "pipeline", top, report));
+    ck_assert(!ff_tree_set(tree, assignment, NULL, NULL, report));
     check_error(bad_assignments[_i].words);
     ck_assert_uint_eq(ff_report_at(report, 0)->place.column, bad_assignments[_i].column);
     ck_assert_str_eq(ff_report_at(report, 0)->place.source->name, "--set");

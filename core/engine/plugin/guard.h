@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: MIT */
+/* Which code runs from here on, for ff_guard_current. Calls may nest: what fe_guard_enter returns
+   is given to fe_guard_leave. */
+#ifndef FE_GUARD_H
+#define FE_GUARD_H
+
+#include <flankfilm/engine.h>
+
+ff_guard_mark fe_guard_enter(ff_guard_mark mark);
+void fe_guard_leave(ff_guard_mark previous);
+
+#endif
