@@ -433,6 +433,10 @@ ff_tree *ff_tree_load(const char *path, ff_report *report);
 ff_tree *ff_tree_parse(const char *name, const char *directory, const char *text,
                        ff_report *report);
 
+/* The tree as it is now, to be changed by itself; it points into the first one, which outlives it.
+ */
+ff_tree *ff_tree_copy(const ff_tree *tree);
+
 /*
  * Applies "a.b.c=value": the value is read as YAML, maps on the way are made, a list index is
  * ".0". A path starts among the stages unless its first word may stand at the top of a file.

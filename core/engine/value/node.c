@@ -133,6 +133,38 @@ ff_source *fe_tree_source(ff_tree *tree, const char *name, const char *directory
     return source;
 }
 
+/* A copy that stands in the same layers and remembers what the node replaced. */
+static ff_node *copy_layers(ff_tree *tree, const ff_node *node)
+{
+    ff_node *copy = fe_arena_alloc(&tree->arena, sizeof *copy);
+    size_t room = 1;
+    *copy = *node;
+    while (room < node->count) /* as fe_node_add leaves it */
+        room *= 2;
+    if (node->kind == FF_SCALAR || node->count == 0)
+        return copy;
+    copy->items = fe_arena_alloc(&tree->arena, room * sizeof *copy->items);
+    for (size_t i = 0; i < node->count; i++)
+        copy->items[i] = copy_layers(tree, node->items[i]);
+    if (node->kind != FF_MAP)
+        return copy;
+    copy->keys = fe_arena_alloc(&tree->arena, room * sizeof *copy->keys);
+    copy->key_places = fe_arena_alloc(&tree->arena, room * sizeof *copy->key_places);
+    memcpy(copy->keys, node->keys, node->count * sizeof *copy->keys);
+    memcpy(copy->key_places, node->key_places, node->count * sizeof *copy->key_places);
+    return copy;
+}
+
+ff_tree *ff_tree_copy(const ff_tree *tree)
+{
+    ff_tree *copy = fe_alloc(sizeof *copy);
+    copy->nodes = tree->nodes;
+    copy->files = tree->files;
+    copy->ranks = tree->ranks;
+    copy->root = tree->root ? copy_layers(copy, tree->root) : NULL;
+    return copy;
+}
+
 const ff_node *ff_tree_root(const ff_tree *tree)
 {
     return tree->root;

@@ -54,11 +54,23 @@ void study_overlay(const study_definition *study, size_t index, const char *cons
         ff_tree_put(tree, "outputs", study->request);
 }
 
+ff_tree *study_case_tree(const char *file)
+{
+    ff_report *report = ff_report_new();
+    ff_tree *tree = ff_tree_load(file, report);
+    if (ff_report_count(report) > 0 || !ff_tree_root(tree)) {
+        ff_tree_free(tree);
+        tree = NULL;
+    }
+    ff_report_free(report);
+    return tree;
+}
+
 void study_case_open(study_case *c, const study_run *run, size_t index)
 {
     const study_definition *study = run->study;
     *c = (study_case){.report = ff_report_new()};
-    c->tree = ff_tree_load(run->file, c->report);
+    c->tree = run->tree ? ff_tree_copy(run->tree) : ff_tree_load(run->file, c->report);
     study_overlay(study, index, run->sets, run->set_count, c->tree, c->report);
     c->pipeline = ff_pipeline_build(c->tree, run->engine, false, c->report);
     uint64_t fingerprint = hash_assignments(study, index);

@@ -47,6 +47,9 @@ typedef struct study_case {
     char from[20];        /* hash of those states */
 } study_case;
 
+/* Reads the file of a study for its cases; NULL when there is anything to say of it, which is said
+   of each case then. */
+ff_tree *study_case_tree(const char *file);
 void study_case_open(study_case *c, const study_run *run, size_t index);
 void study_case_close(study_case *c);
 json_t *study_case_set(const study_definition *study, size_t index); /* {path: value} */

@@ -81,9 +81,13 @@ static void count_case(survey *s, study_chain *chain, size_t index)
     study_case_close(&c);
 }
 
-void study_preview(const study_run *run, study_plan *plan)
+void study_preview(const study_run *given, study_plan *plan)
 {
+    study_run own = *given;
+    const study_run *run = &own;
     const study_definition *study = run->study;
+    ff_tree *tree = study_case_tree(own.file);
+    own.tree = tree;
     survey s = {.run = run, .plan = plan};
     size_t chains = 0;
     study_chain chain = {0};
@@ -108,6 +112,7 @@ void study_preview(const study_run *run, study_plan *plan)
     json_decref(s.records);
     json_decref(s.by_set);
     json_decref(s.parameters);
+    ff_tree_free(tree);
 }
 
 static void add_seconds(size_t *count, double *sum, const json_t *seconds)

@@ -349,12 +349,16 @@ static void finish_run(execution *r)
     study_journal_close(&r->journal);
 }
 
-bool study_execute(const study_run *run, study_counters *counters, ff_report *report)
+bool study_execute(const study_run *given, study_counters *counters, ff_report *report)
 {
+    study_run own = *given;
+    const study_run *run = &own;
     execution r = {.run = run, .report = report, .counters = counters};
     struct sigaction before[2];
     *counters = (study_counters){.total = 0};
     catch_interrupts(before);
+    ff_tree *tree = study_case_tree(own.file);
+    own.tree = tree;
     run_cases(&r);
     sigaction(SIGINT, &before[0], NULL);
     sigaction(SIGTERM, &before[1], NULL);
@@ -363,5 +367,6 @@ bool study_execute(const study_run *run, study_counters *counters, ff_report *re
     json_decref(r.done);
     if (!run->keys)
         free(r.keys);
+    ff_tree_free(tree);
     return ff_report_errors(report) == 0;
 }

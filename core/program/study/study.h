@@ -152,7 +152,8 @@ enum { STUDY_KEY_SIZE = 20 }; /* bytes of the key of a case, with its end */
 /* What to run, and how. */
 typedef struct study_run {
     const study_definition *study;
-    const char *file; /* each case reads it anew */
+    const char *file;
+    const ff_tree *tree; /* the file, of which each case changes a copy; NULL: each reads it anew */
     const char **sets;
     size_t set_count;
     ff_engine *engine;

@@ -415,6 +415,26 @@ START_TEST(assignment_of_a_map_merges)
 }
 END_TEST
 
+START_TEST(copy_changes_by_itself)
+{
+    parse(two_stages);
+    ck_assert(ff_tree_set(tree, "duty.torque=5 N m", "pipeline", top, report));
+    ff_tree *first = tree, *copy = ff_tree_copy(first);
+    ck_assert(ff_tree_set(copy, "duty.torque=7 N m", "pipeline", top, report));
+    ck_assert(ff_tree_set(copy, "duty.more=1", "pipeline", top, report));
+    check_text("pipeline.duty.torque", "5 N m");
+    ck_assert_ptr_null(ff_node_get(find("pipeline.duty"), "more"));
+    tree = copy;
+    check_text("pipeline.duty.torque", "7 N m");
+    check_text("pipeline.duty.more", "1");
+    const ff_node *torque = find("pipeline.duty.torque");
+    ck_assert_str_eq(torque->replaced->text, "5 N m");
+    ck_assert_uint_eq(torque->rank, torque->replaced->rank + 1);
+    ff_tree_free(copy);
+    tree = first;
+}
+END_TEST
+
 START_TEST(assignment_may_be_empty_or_hold_equals)
 {
     parse(two_stages);
@@ -530,6 +550,7 @@ int main(void)
         &assignment_follows_keys_with_dots,
         &assignment_makes_maps_on_the_way,
         &assignment_of_a_map_merges,
+        &copy_changes_by_itself,
         &assignment_may_be_empty_or_hold_equals,
         &assignment_places_point_into_it,
         &assignment_path_has_a_depth,
