@@ -433,8 +433,7 @@ ff_tree *ff_tree_load(const char *path, ff_report *report);
 ff_tree *ff_tree_parse(const char *name, const char *directory, const char *text,
                        ff_report *report);
 
-/* The tree as it is now, to be changed by itself; it points into the first one, which outlives it.
- */
+/* The tree as it is now, to be changed by itself; it points into the first, which outlives it. */
 ff_tree *ff_tree_copy(const ff_tree *tree);
 
 /*

@@ -418,10 +418,10 @@ END_TEST
 START_TEST(copy_changes_by_itself)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "duty.torque=5 N m", "pipeline", top, report));
+    ck_assert(ff_tree_set(tree, "duty.torque=5 N m", NULL, NULL, report));
     ff_tree *first = tree, *copy = ff_tree_copy(first);
-    ck_assert(ff_tree_set(copy, "duty.torque=7 N m", "pipeline", top, report));
-    ck_assert(ff_tree_set(copy, "duty.more=1", "pipeline", top, report));
+    ck_assert(ff_tree_set(copy, "duty.torque=7 N m", NULL, NULL, report));
+    ck_assert(ff_tree_set(copy, "duty.more=1", NULL, NULL, report));
     check_text("pipeline.duty.torque", "5 N m");
     ck_assert_ptr_null(ff_node_get(find("pipeline.duty"), "more"));
     tree = copy;
