@@ -153,6 +153,16 @@ def a_swap_is_of_the_law_alone():
             check(f'{law}: it is another law', (moved > 1e-3) == (law != 'roelands'))
 
 
+def verify_says_it_too():
+    with laboratory() as lab:
+        fresh(lab)
+        law = os.path.join(plugins, 'viscosity', 'roelands.so')
+        r = subprocess.run([program, 'verify', law, '--pipeline', 'pair.yaml'], cwd=lab, capture_output=True,
+                           text=True, timeout=60)
+        code, said = r.returncode, r.stderr
+        check('verify: one error with the new file', code == 2 and '1 error;' in said and '# ---- pair.yaml' in said, said)
+
+
 def assignments_are_told():
     with laboratory() as lab:
         fresh(lab)
@@ -164,6 +174,23 @@ def assignments_are_told():
 def write(lab, text, name='old.yaml'):
     with open(os.path.join(lab, name), 'w', encoding='utf-8') as out:
         out.write(text)
+
+
+def one_after_the_other():
+    """The file that others include is of format 2 already when they are rewritten."""
+    with laboratory() as lab:
+        fresh(lab)
+        paste(lab, flankfilm(lab, 'check', 'pair.yaml')[2])
+        with open(os.path.join(lab, 'pair.yaml'), encoding='utf-8') as stream:
+            pair = stream.read()
+        for name in 'map', 'oils', 'stab', 'tol':
+            _, _, said = flankfilm(lab, 'check', name + '.yaml')
+            check(f'{name}: itself alone', said.count('# ---- ') == 1 and 'left as it is' not in said, said)
+            paste(lab, said)
+            code, out, said = flankfilm(lab, 'check', name + '.yaml')
+            check(f'{name}: the new file is right', code == 0, out + said)
+        with open(os.path.join(lab, 'pair.yaml'), encoding='utf-8') as stream:
+            check('pair: left alone', stream.read() == pair)
 
 
 LINE = '  discs: {use: contact/constant, radius: 12.8 mm, entrainment_speed: 4 m/s, load_per_width: 177 N/mm}\n' \
@@ -178,6 +205,11 @@ OTHERS = {
     'bare': ('format: 1\npipeline:\n  oil: {use: viscosity/barus, eta0: 5 mPa s, alpha: 11 1/GPa}\n'
              '  rho: {use: density/dowson-higginson, rho0: 870 kg/m3}\n' + LINE, 'viscosity: {use: viscosity/barus, eta0'),
     'card': ('format: 1\ninclude: [lubricants/mil-l-23699-100C.yaml]\npipeline:\n' + LINE, 'temperature: 100 degC'),
+    'several laws': ('format: 1\npipeline:\n  oil: {use: viscosity/roelands, grade: ISO VG 220, temperature: 80 degC}\n'
+                     '  other: {use: viscosity/barus, grade: ISO VG 320, temperature: 80 degC}\n'
+                     '  rho: {use: density/dowson-higginson, rho0: 870 kg/m3}\n' + LINE.replace(
+                         'load_per_width: 177 N/mm', 'load_per_width: 177 N/mm, viscosity: oil').replace(
+                             'viscosity: oil}', 'viscosity: oil, oil: none}'), 'oil_oil: {use: lubricant/grade'),
     'flow style': ('format: 1\ninclude: [lubricants/sae-30-80C.yaml]\npipeline: {discs: {use: contact/constant, '
                    'radius: 12.8 mm, entrainment_speed: 4 m/s, load_per_width: 177 N/mm}, '
                    'film: {use: ehl/film-formula, viscosity: oil}}\noutputs: [film.h_central]\n', 'sae-30.yaml'),
@@ -226,7 +258,9 @@ check('all files have cheap cases', names == sorted(FEW))
 for each in names:
     old_gives_new(each)
 a_swap_is_of_the_law_alone()
+verify_says_it_too()
 assignments_are_told()
+one_after_the_other()
 others_are_rewritten()
 broken_ones_end_in_a_sentence()
 a_new_file_over_an_old_one()

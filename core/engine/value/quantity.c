@@ -125,6 +125,17 @@ static bool read_unit(const char *text, ff_unit *unit, const char *wanted, const
     return false;
 }
 
+/* "min^-1" of a rotational speed is that of drawings: revolutions. As a frequency it stays one. */
+static bool is_per_minute(const char *text, const ff_unit *row)
+{
+    static const ff_unit turning = {.power = {0, 0, -1, 0, 1}};
+    static const char *const names[] = {"min^-1", "min-1", "1/min", "/min"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        if (!strcmp(text, names[i]))
+            return ff_unit_same_dimension(row, &turning);
+    return false;
+}
+
 bool ff_quantity_parse(const char *text, const ff_unit *row, const char *row_text, double *si,
                        char *why, size_t why_size)
 {
@@ -146,7 +157,7 @@ bool ff_quantity_parse(const char *text, const ff_unit *row, const char *row_tex
     if (*part == '\0' && !ff_unit_is_dimensionless(row))
         return refuse(&r, "has no unit; write for example \"%.*s %s\"", (int)(rest - r.text),
                       r.text, row_text);
-    if (*part != '\0' && !read_unit(part, &unit, wanted, &r))
+    if (*part != '\0' && !read_unit(is_per_minute(part, row) ? "rpm" : part, &unit, wanted, &r))
         return false;
     double value = ff_unit_to_si(&unit, number);
     if (!isfinite(value))

@@ -104,10 +104,36 @@ static void print_page(const catalogue_entry *entry)
     printf("\nlicence  %s\nfile     %s\n", model->licence, entry->file);
 }
 
+/* Models that the program itself uses, and no stage can. */
+static bool is_tool(const char *id)
+{
+    static const char *const kinds[] = {"conformance/", "executor/", "writer/"};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (!strncmp(id, kinds[i], strlen(kinds[i])))
+            return true;
+    return false;
+}
+
+/* Lists those that are tools or those that are not, the heading before the first. */
+static void print_list(const catalogue *c, bool tools, const char *heading)
+{
+    const char *before = NULL;
+    for (size_t i = 0; i < c->count; i++) {
+        if (is_tool(c->entries[i].id) != tools)
+            continue;
+        if (!before)
+            fputs(heading, stdout);
+        print_entry(&c->entries[i], before);
+        before = c->entries[i].id;
+    }
+}
+
 void catalogue_print_text(const catalogue *c, bool page)
 {
     if (page)
         print_page(&c->entries[0]);
-    for (size_t i = 0; !page && i < c->count; i++)
-        print_entry(&c->entries[i], i ? c->entries[i - 1].id : NULL);
+    if (!page) {
+        print_list(c, false, "");
+        print_list(c, true, "\nNot for a pipeline: of verify, --executor, export and --with\n");
+    }
 }

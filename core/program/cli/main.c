@@ -9,6 +9,7 @@
 #include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <poll.h>
 #include <signal.h>
 #include <string.h>
 #include <unistd.h>
@@ -170,13 +171,23 @@ static void hold_standard_streams(void)
             _exit(FF_FAULT_RUN);
 }
 
+/* Whether nobody reads stdout any more, as behind "| head". */
+static bool is_abandoned(void)
+{
+    struct pollfd out = {.fd = STDOUT_FILENO, .events = POLLOUT};
+    return poll(&out, 1, 0) == 1 && (out.revents & POLLERR);
+}
+
 /* Output that could not be written makes the run fail, whatever else went well. */
 static int close_output(int code)
 {
+    bool abandoned = is_abandoned();
     bool lost = ferror(stdout) != 0;
     errno = 0;
     if (terminal_answer_end() && fclose(stdout) == 0 && !lost)
         return code;
+    if (abandoned)
+        return FF_FAULT_RUN;
     fprintf(stderr, "flankfilm: the output could not be written%s%s\n", errno ? ": " : "",
             errno ? strerror(errno) : "");
     return FF_FAULT_RUN;

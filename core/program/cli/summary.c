@@ -126,6 +126,18 @@ static void print_shape(const ff_stage *stage, size_t output, char *out, size_t 
                                result->dims[i]);
 }
 
+/* The values of both gears, "[0.35, -0.1]": no series. */
+static bool print_pair(const ff_result *result, char *out, size_t size)
+{
+    if (result->rank != 1 || result->count != 2)
+        return false;
+    double a = result->data[0], b = result->data[1];
+    results_readable unit = results_readable_unit(result->row->unit, fmax(fabs(a), fabs(b)));
+    snprintf(out, size, "[%.5g, %.5g]%s%s", a * unit.factor, b * unit.factor, *unit.unit ? " " : "",
+             unit.unit);
+    return true;
+}
+
 /* One line: name, value or range; where the extremes of a series lie, the shape of a field, or what
    a scalar means. */
 static void print_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
@@ -134,12 +146,13 @@ static void print_result(const ff_pipeline *pipeline, const ff_stage *stage, siz
     const ff_result *result = &stage->results[output];
     char value[96] = "(none)", text[256] = "";
     size_t least = 0, greatest = 0;
-    if (result->count > 0) {
+    bool pair = print_pair(result, value, sizeof value);
+    if (result->count > 0 && !pair) {
         find_extremes(result, &least, &greatest);
         print_range(result, result->data[least], result->data[greatest], value, sizeof value);
     }
     bool from_end_to_end = least == 0 && greatest + 1 == result->count;
-    if (result->rank == 0)
+    if (result->rank == 0 || pair)
         snprintf(text, sizeof text, "%s", result->row->doc);
     else if (result->rank > 1)
         print_shape(stage, output, text, sizeof text);

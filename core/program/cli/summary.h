@@ -4,7 +4,7 @@
 
 #include "../results/write.h"
 
-/* What a person wants to read of a run, on stdout, at most TERMINAL_WIDTH columns wide. */
+/* What a person wants to read of a run, on stdout, as wide as the terminal. */
 void cli_print_summary(const results_outcome *outcome);
 
 #endif

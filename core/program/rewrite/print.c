@@ -92,6 +92,24 @@ static void print_rest(const char *name, char **lines, int indent, FILE *out)
     *lines = NULL;
 }
 
+/* Of several laws each keeps its name, and has a stage for its oil. */
+static void print_law_of_several(printing *p, const char *name, const ff_node *node, int indent)
+{
+    rewrite_stages s;
+    char *oil = memory_print_text("%s_oil", name);
+    if (rewrite_is_viscosity(p->world, name, node))
+        rewrite_split_of_several(p->world, name, oil, node, &s);
+    else
+        rewrite_split_density_of_several(p->world, node, &s);
+    print_part(oil, &s.oil, indent, p->out);
+    print_part(name, &s.viscosity, indent, p->out);
+    print_part(name, &s.density, indent, p->out);
+    if (s.remarks)
+        fputs(s.remarks, p->remarks);
+    free(oil);
+    rewrite_free_stages(&s);
+}
+
 static void print_law(printing *p, const char *name, const ff_node *node, int indent)
 {
     rewrite_stages s;
@@ -110,7 +128,8 @@ static void print_law(printing *p, const char *name, const ff_node *node, int in
 
 static bool is_law(const printing *p, const char *name, const ff_node *node)
 {
-    return p->world->mode == REWRITE_OIL && node->kind == FF_MAP &&
+    bool moves = p->world->mode == REWRITE_OIL || p->world->mode == REWRITE_EACH;
+    return moves && node->kind == FF_MAP &&
            (rewrite_is_viscosity(p->world, name, node) || rewrite_is_density(p->world, name, node));
 }
 
@@ -148,7 +167,10 @@ static void print_operating(printing *p, const char *name, const ff_node *node, 
 static void print_stage(printing *p, const char *name, const ff_node *node, int indent)
 {
     if (is_law(p, name, node)) {
-        print_law(p, name, node, indent);
+        if (p->world->mode == REWRITE_EACH)
+            print_law_of_several(p, name, node, indent);
+        else
+            print_law(p, name, node, indent);
     } else if (is_operating(p, name) && node->kind == FF_MAP && node->count) {
         print_operating(p, name, node, indent);
     } else {
@@ -338,8 +360,9 @@ static char *find_operating(const printing *p)
     bool last = p->file == &world->files[world->count - 1];
     if (!world->operating || world->oil_temperature)
         return NULL;
-    for (size_t i = 0;
-         world->mode == REWRITE_OIL && stages && stages->kind == FF_MAP && i < stages->count; i++) {
+    for (size_t i = 0; (world->mode == REWRITE_OIL || world->mode == REWRITE_EACH) && stages &&
+                       stages->kind == FF_MAP && i < stages->count;
+         i++) {
         rewrite_stages s;
         if (!rewrite_is_viscosity(world, stages->keys[i], stages->items[i]))
             continue;
@@ -425,6 +448,22 @@ static void print_top(printing *p)
     }
 }
 
+/* The stages of laws that are left to the user. */
+static void remark_left(printing *p)
+{
+    const ff_node *stages = ff_node_get(p->file->root, "pipeline");
+    if (p->file->current || !stages || stages->kind != FF_MAP)
+        return;
+    for (size_t i = 0; i < stages->count; i++) {
+        if (!rewrite_is_viscosity(p->world, stages->keys[i], stages->items[i]))
+            continue;
+        fprintf(p->remarks,
+                "left as it is, one of several viscosity laws: %s (line %u); write a stage of the "
+                "kind lubricant for its oil, and here the line oil: STAGE\n",
+                stages->keys[i], (unsigned)stages->key_places[i].line);
+    }
+}
+
 void rewrite_print_file(const rewrite_world *world, const rewrite_file *file, FILE *out)
 {
     char *body = NULL, *remarks = NULL;
@@ -435,10 +474,18 @@ void rewrite_print_file(const rewrite_world *world, const rewrite_file *file, FI
     p.operating = find_operating(&p);
     p.oil = find_oil(&p);
     p.gear = find_gear(&p);
-    if (world->several)
-        fputs("left as it is: several laws of viscosity; give each a stage of the kind lubricant, "
-              "and the line oil: STAGE\n",
+    if (world->others && world->mode == REWRITE_NONE)
+        remark_left(&p);
+    if (world->mode == REWRITE_EACH && file == &world->files[world->count - 1])
+        fputs("several viscosity laws: what takes one takes its oil, too; write there, where it is "
+              "asked for, oil: NAME_oil or oil: none\n",
               p.remarks);
+    rewrite_world plain =
+        *world; /* a file of format 2 is printed as it is, but for what it lacks */
+    if (file->current) {
+        plain.mode = REWRITE_NONE;
+        p.world = &plain;
+    }
     print_top(&p);
     fclose(p.out);
     fclose(p.remarks);

@@ -8,7 +8,7 @@
 
 #include <stdio.h>
 
-enum { REWRITE_FILES = 32 };
+enum { REWRITE_FILES = 32, REWRITE_LAWS = 16 };
 
 /* A card of format 1, which said the oil at one temperature under each law. */
 typedef struct rewrite_card {
@@ -25,12 +25,14 @@ typedef struct rewrite_file {
     ff_tree *tree;       /* NULL: it cannot be read */
     const ff_node *root; /* or NULL */
     bool old;            /* it says format: 1 */
+    bool current;        /* it is of format 2 */
 } rewrite_file;
 
 /* How the oil is said in format 2. */
 typedef enum rewrite_mode {
     REWRITE_NONE, /* there is nothing to move */
     REWRITE_OIL,  /* by a stage */
+    REWRITE_EACH, /* by a stage for each of several viscosity laws */
     REWRITE_BARE  /* by eta0 and rho0 of the laws, since no temperature is known */
 } rewrite_mode;
 
@@ -39,15 +41,16 @@ typedef struct rewrite_world {
     rewrite_file files[REWRITE_FILES];
     size_t count;
     const char *viscosity, *density; /* old names of the stages of the laws; NULL: none */
-    bool several;                    /* more than one viscosity law: nothing can be moved */
-    bool shipped;                    /* an example is included, whose stages have new names */
-    bool has_losses, has_grade;      /* a grade or nu_40 */
-    bool has_oil;                    /* a stage of an oil already */
-    const char *operating;           /* name of the stage; NULL: none */
-    const char *oil_temperature;     /* that the operating stage is given; or NULL */
-    bool has_surface;                /* a stage of rough flanks */
-    const char *rough_gear;          /* the stage that says a roughness, too; or NULL */
-    const char *roughness;           /* its parameter */
+    const char *other[REWRITE_LAWS]; /* further viscosity laws */
+    size_t others;
+    bool shipped;                /* an example is included, whose stages have new names */
+    bool has_losses, has_grade;  /* a grade or nu_40 */
+    bool has_oil;                /* a stage of an oil already */
+    const char *operating;       /* name of the stage; NULL: none */
+    const char *oil_temperature; /* that the operating stage is given; or NULL */
+    bool has_surface;            /* a stage of rough flanks */
+    const char *rough_gear;      /* the stage that says a roughness, too; or NULL */
+    const char *roughness;       /* its parameter */
     const rewrite_card *card;
     const char *law;                       /* the viscosity model in use; or NULL */
     const char *eta0, *temperature, *rho0; /* as the laws in use have them; or NULL */
@@ -79,6 +82,11 @@ typedef struct rewrite_stages {
 } rewrite_stages;
 
 void rewrite_split_viscosity(const rewrite_world *world, const ff_node *node, rewrite_stages *to);
+/* Of several viscosity laws: the law takes its own oil by the name, or keeps its eta0. */
+void rewrite_split_of_several(const rewrite_world *world, const char *name, const char *oil,
+                              const ff_node *node, rewrite_stages *to);
+void rewrite_split_density_of_several(const rewrite_world *world, const ff_node *node,
+                                      rewrite_stages *to);
 void rewrite_split_density(const ff_node *node, rewrite_stages *to);
 void rewrite_free_stages(rewrite_stages *stages);
 

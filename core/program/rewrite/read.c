@@ -98,6 +98,12 @@ static bool has_lubricant(const ff_node *root)
     return false;
 }
 
+/* Whether the file is of format 2, or a part of such a one. */
+static bool is_new(const ff_node *root)
+{
+    return !says_one(root) && (ff_node_get(root, "format") || has_lubricant(root));
+}
+
 static rewrite_file *add_file(rewrite_world *world, const char *path)
 {
     rewrite_file *file = &world->files[world->count++];
@@ -119,6 +125,17 @@ static void read_shipped(rewrite_world *world, const char *directory, const char
 
 static bool read_file(rewrite_world *world, const char *path, int level);
 
+/* What a file of format 2 includes is its own matter. */
+static void note_oil(rewrite_world *world, size_t first, const char *path)
+{
+    bool in_cards = strstr(path, "lubricants/") != NULL;
+    for (size_t i = first; i < world->count; i++)
+        if (has_lubricant(world->files[i].root) && !world->files[i].old) {
+            world->has_oil = world->has_oil || in_cards;
+            world->shipped = world->shipped || !in_cards;
+        }
+}
+
 static void read_included(rewrite_world *world, const char *directory, const char *path, int level)
 {
     char *beside = ff_path_beside(directory, path);
@@ -130,12 +147,6 @@ static void read_included(rewrite_world *world, const char *directory, const cha
         else
             read_shipped(world, directory, path);
     }
-    for (size_t i = count; i < world->count; i++)
-        if (has_lubricant(world->files[i].root) && !world->files[i].old) {
-            bool in_cards = strstr(path, "lubricants/") != NULL;
-            world->has_oil = world->has_oil || in_cards;
-            world->shipped = world->shipped || !in_cards;
-        }
     ff_free(beside);
 }
 
@@ -151,8 +162,12 @@ static bool read_file(rewrite_world *world, const char *path, int level)
     bool list = named && named->kind == FF_SEQUENCE;
     for (size_t i = 0; named && i < (list ? named->count : 1); i++) {
         const ff_node *entry = list ? named->items[i] : named;
-        if (entry->kind == FF_SCALAR && *entry->text)
+        size_t count = world->count;
+        if (entry->kind == FF_SCALAR && *entry->text) {
             read_included(world, directory, entry->text, level);
+            if (!is_new(root))
+                note_oil(world, count, entry->text);
+        }
     }
     free(directory);
     if (world->count < REWRITE_FILES) {
@@ -161,6 +176,7 @@ static bool read_file(rewrite_world *world, const char *path, int level)
         file->tree = tree;
         file->root = root;
         file->old = says_one(root);
+        file->current = is_new(root);
         return true;
     }
     ff_tree_free(tree);
@@ -187,9 +203,9 @@ static void note_law(rewrite_world *world, const ff_node *node)
         world->has_grade = true;
 }
 
-static void note_stage(rewrite_world *world, const char *name, const ff_node *node)
+/* What the stage says that is no law. */
+static void note_other(rewrite_world *world, const char *name, const ff_node *node)
 {
-    const ff_node *value;
     if (has_kind(node, "operating/"))
         world->operating = name;
     if (world->operating && !strcmp(name, world->operating) && scalar(node, "oil_temperature"))
@@ -205,9 +221,28 @@ static void note_stage(rewrite_world *world, const char *name, const ff_node *no
     }
     if (has_kind(node, "losses/"))
         world->has_losses = true;
+    if (has_kind(node, "lubricant/") && scalar(node, "temperature"))
+        world->temperature = scalar(node, "temperature");
+}
+
+/* A viscosity law beside the first one. */
+static void note_other_law(rewrite_world *world, const char *name)
+{
+    if (!world->viscosity)
+        return;
+    for (size_t i = 0; i < world->others; i++)
+        if (!strcmp(name, world->other[i]))
+            return;
+    if (world->others < REWRITE_LAWS)
+        world->other[world->others++] = name;
+}
+
+static void note_law_stage(rewrite_world *world, const char *name, const ff_node *node)
+{
+    const ff_node *value;
     if (rewrite_is_viscosity(world, name, node)) {
-        world->several =
-            world->several || (world->viscosity && strcmp(name, world->viscosity) != 0);
+        if (!world->viscosity || strcmp(name, world->viscosity) != 0)
+            note_other_law(world, name);
         world->viscosity = world->viscosity ? world->viscosity : name;
         note_law(world, node);
     } else if (rewrite_is_density(world, name, node)) {
@@ -225,20 +260,25 @@ static void note_stages(rewrite_world *world)
     }
     for (size_t k = 0; k < world->count; k++) {
         const ff_node *stages = ff_node_get(world->files[k].root, "pipeline");
-        bool example = !world->files[k].text;
-        for (size_t i = 0; stages && stages->kind == FF_MAP && i < stages->count; i++)
-            if (!example || has_kind(stages->items[i], "operating/") ||
-                has_kind(stages->items[i], "losses/"))
-                note_stage(world, stages->keys[i], stages->items[i]);
-        world->has_oil = world->has_oil || (!example && has_lubricant(world->files[k].root));
+        const rewrite_file *file = &world->files[k];
+        for (size_t i = 0; stages && stages->kind == FF_MAP && i < stages->count; i++) {
+            const ff_node *node = stages->items[i];
+            if (file->text || has_kind(node, "operating/") || has_kind(node, "losses/"))
+                note_other(world, stages->keys[i], node);
+            if (file->text && !file->current)
+                note_law_stage(world, stages->keys[i], node);
+        }
+        world->has_oil = world->has_oil || (file->old && has_lubricant(file->root));
     }
 }
 
 static rewrite_mode find_mode(const rewrite_world *world)
 {
     bool warm = world->temperature || world->oil_temperature;
-    if (!world->viscosity || world->has_oil || world->several)
+    if (!world->viscosity || world->has_oil)
         return REWRITE_NONE;
+    if (world->others)
+        return world->card || world->shipped ? REWRITE_NONE : REWRITE_EACH;
     if (world->has_grade || world->card || world->shipped || (world->eta0 && warm))
         return REWRITE_OIL;
     return REWRITE_BARE;

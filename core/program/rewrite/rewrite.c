@@ -26,7 +26,7 @@ static void print_files(const rewrite_world *world, FILE *out)
         const rewrite_file *file = &world->files[i];
         char *text = NULL;
         size_t length = 0;
-        if (!file->text)
+        if (!file->text || (file->current && i + 1 < world->count))
             continue;
         FILE *stream = memory_require(open_memstream(&text, &length));
         rewrite_print_file(world, file, stream);
@@ -52,7 +52,8 @@ static void print_sets(const rewrite_world *world, const char *const *sets, size
             fprintf(out, "\n--set %.*s is written --set %s now", (int)head, sets[i], path);
         free(path);
     }
-    if (world->mode != REWRITE_NONE && strcmp(world->viscosity, "viscosity") != 0)
+    bool one = world->mode == REWRITE_OIL || world->mode == REWRITE_BARE;
+    if (one && strcmp(world->viscosity, "viscosity") != 0)
         fprintf(out, "\nAnother law: --set viscosity.use=viscosity/barus, no longer %s.use",
                 world->viscosity);
 }

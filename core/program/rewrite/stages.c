@@ -33,6 +33,9 @@ static bool is_law(const char *kind, const char *name, const char *known, const 
 
 bool rewrite_is_viscosity(const rewrite_world *world, const char *name, const ff_node *node)
 {
+    for (size_t i = 0; i < world->others; i++)
+        if (is_law("viscosity/", name, world->other[i], node))
+            return true;
     return is_law("viscosity/", name, world->viscosity, node);
 }
 
@@ -255,6 +258,43 @@ void rewrite_split_viscosity(const rewrite_world *world, const ff_node *node, re
     to->remarks = end(&remarks);
 }
 
+/* A value of the law's own, which must not have an oil beside it. */
+static void add_without_oil(lines *law, const char *key, const ff_node *value)
+{
+    if (value) {
+        add_node(law, key, value);
+        add(law, "oil", "none");
+    }
+}
+
+void rewrite_split_of_several(const rewrite_world *world, const char *name, const char *oil,
+                              const ff_node *node, rewrite_stages *to)
+{
+    bool has_oil = rewrite_value(world, node, "grade") || rewrite_value(world, node, "nu_40");
+    rewrite_world alone = *world;
+    lines law, remarks;
+    alone.temperature = alone.oil_temperature = alone.rho0 = NULL;
+    begin(&law);
+    begin(&remarks);
+    rewrite_split_viscosity(&alone, node, to);
+    if (to->viscosity.own)
+        fputs(to->viscosity.own, law.out);
+    free(to->viscosity.own);
+    if (has_oil) {
+        add(&law, "oil", oil);
+        fputs(to->remarks ? to->remarks : "", remarks.out);
+    } else {
+        free(to->oil.own);
+        to->oil.own = NULL;
+        add_without_oil(&law, "eta0", rewrite_value(world, node, "eta0"));
+        if (rewrite_value(world, node, "temperature"))
+            fprintf(remarks.out, "left out: temperature of %s, whose eta0 holds at one\n", name);
+    }
+    free(to->remarks);
+    to->viscosity.own = end(&law);
+    to->remarks = end(&remarks);
+}
+
 static bool is_rho0(const char *key)
 {
     return !strcmp(key, "rho0");
@@ -264,6 +304,18 @@ void rewrite_split_density(const ff_node *node, rewrite_stages *to)
 {
     *to = (rewrite_stages){0};
     split_law(node, is_rho0, &to->density);
+}
+
+void rewrite_split_density_of_several(const rewrite_world *world, const ff_node *node,
+                                      rewrite_stages *to)
+{
+    lines law;
+    rewrite_split_density(node, to);
+    begin(&law);
+    fputs(to->density.own ? to->density.own : "", law.out);
+    add_without_oil(&law, "rho0", rewrite_value(world, node, "rho0"));
+    free(to->density.own);
+    to->density.own = end(&law);
 }
 
 void rewrite_free_stages(rewrite_stages *s)

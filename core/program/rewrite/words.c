@@ -20,6 +20,15 @@ static bool is(const char *text, size_t length, const char *name)
     return name && strlen(name) == length && !memcmp(text, name, length);
 }
 
+/* Whether it is the name of one of several viscosity laws. */
+static bool is_one_of(const rewrite_world *world, const char *text, size_t length)
+{
+    bool found = is(text, length, world->viscosity);
+    for (size_t i = 0; i < world->others; i++)
+        found = found || is(text, length, world->other[i]);
+    return found;
+}
+
 /* "oil.temperature", "oil.z", "rho.a". */
 void rewrite_print_path(const rewrite_world *world, const char *path, size_t length, FILE *out)
 {
@@ -28,7 +37,10 @@ void rewrite_print_path(const rewrite_world *world, const char *path, size_t len
     char key[32] = "";
     if (dot && rest - 1 < sizeof key)
         memcpy(key, dot + 1, rest - 1);
-    if (world->mode == REWRITE_NONE || !dot) {
+    if (world->mode == REWRITE_EACH && is_one_of(world, path, head) && rewrite_is_of_oil(key) &&
+        strcmp(key, "eta0") != 0) {
+        fprintf(out, "%.*s_oil%.*s", (int)head, path, (int)rest, dot);
+    } else if (world->mode == REWRITE_NONE || world->mode == REWRITE_EACH || !dot) {
         fwrite(path, 1, length, out);
     } else if (is(path, head, world->viscosity)) {
         bool oil = world->mode == REWRITE_OIL && rewrite_is_of_oil(key);
@@ -76,7 +88,7 @@ static void print_word(const rewrite_world *world, const char *text, const char 
                        size_t length, FILE *out)
 {
     const rewrite_card *card = card_of(word, length);
-    bool moves = world->mode != REWRITE_NONE;
+    bool moves = world->mode == REWRITE_OIL || world->mode == REWRITE_BARE;
     if (card)
         fprintf(out, "%.*s%s", (int)(length - strlen(card->old)), word, card->now);
     else if (moves && is(word, length, world->viscosity) && stands_after(text, word, "viscosity"))

@@ -3,7 +3,10 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
+
+enum { USUAL_WIDTH = 100, LEAST_WIDTH = 40 };
 
 bool terminal_colour(FILE *stream)
 {
@@ -11,6 +14,14 @@ bool terminal_colour(FILE *stream)
     const char *terminal = getenv("TERM");
     return isatty(fileno(stream)) && !(refusal && *refusal) &&
            !(terminal && strcmp(terminal, "dumb") == 0);
+}
+
+int terminal_width(void)
+{
+    struct winsize size;
+    if (!isatty(STDOUT_FILENO) || ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || !size.ws_col)
+        return USUAL_WIDTH;
+    return size.ws_col < LEAST_WIDTH ? LEAST_WIDTH : size.ws_col;
 }
 
 void terminal_print_messages(const ff_report *report, FILE *stream, bool colour)
@@ -32,10 +43,11 @@ static int columns_of(const char *text, size_t length)
 void terminal_print_wrapped(const char *text, int column, int indent)
 {
     const char *gap = "";
+    int width = terminal_width();
     while (*text) {
         size_t length = strcspn(text, " \n");
         int columns = columns_of(text, length);
-        if (*gap && column + 1 + columns > TERMINAL_WIDTH) {
+        if (*gap && column + 1 + columns > width) {
             printf("\n%*s", indent, "");
             column = indent;
             gap = "";
@@ -52,8 +64,9 @@ void terminal_print_wrapped(const char *text, int column, int indent)
 void terminal_print_cut(const char *text, int column)
 {
     size_t length = strlen(text);
-    bool fits = column + columns_of(text, length) <= TERMINAL_WIDTH;
-    while (!fits && length > 0 && column + columns_of(text, length) + 3 > TERMINAL_WIDTH)
+    int width = terminal_width();
+    bool fits = column + columns_of(text, length) <= width;
+    while (!fits && length > 0 && column + columns_of(text, length) + 3 > width)
         length--;
     printf("%.*s%s\n", (int)length, text, fits ? "" : "...");
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Text for people: lines of at most TERMINAL_WIDTH columns, colour. */
+/* Text for people: lines as wide as the terminal, colour. */
 #ifndef TERMINAL_H
 #define TERMINAL_H
 
@@ -8,7 +8,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-enum { TERMINAL_WIDTH = 100 };
+/* Columns of stdout: those of the terminal, 100 where it is none. */
+int terminal_width(void);
 
 /* Whether colour is welcome there: a terminal, and no NO_COLOR. */
 bool terminal_colour(FILE *stream);

@@ -91,6 +91,14 @@ static void test_colour(void)
     expect("a dumb terminal", !cli_has(text, "\033["));
 }
 
+static void test_width(void)
+{
+    on_terminal("stty cols 60 <&1; $F models toy/wave", 0);
+    expect("a narrow terminal", cli_has(text, "number of points, with which the\r\n"));
+    on_terminal("stty cols 150 <&1; $F models toy/wave", 0);
+    expect("a wide terminal", cli_has(text, "work would grow in a model that computes something"));
+}
+
 static void test_progress(void)
 {
     int code = on_terminal("exec $F run pair.yaml --json --set wave.work='0.9 s' >file", 0);
@@ -122,6 +130,7 @@ int main(int argc, char **argv)
 {
     cli_open(argc, argv);
     test_colour();
+    test_width();
     test_progress();
     test_interrupt();
     return cli_close();
