@@ -263,9 +263,12 @@ int cli_run_study(cli_session *session, const cli_options *options)
         return code;
     }
     const study_definition *study = session->study;
+    study_signals before;
+    study_signals_catch(&before);
     bool settled = settle_driver(&run, &t.driven, session->report), driven = t.driven;
     bool good = settled && (driven ? study_drive(&run, &counters, session->report)
                                    : study_execute(&run, &counters, session->report));
+    study_signals_restore(&before);
     int verdict = driven ? study_verdict(study) : -1;
     bool bad = verdict < 0 ? counters.failed > 0 : verdict == FF_BAD;
     bad = bad ||

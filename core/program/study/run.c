@@ -33,8 +33,11 @@ static void on_interrupt(int number)
     static const char text[] = "\nfinishing the cases at hand; once more to end at once\n";
     last_signal = number;
     interrupts = interrupts + 1;
-    if (interrupts > 1)
+    if (interrupts > 1) {
         signal(number, SIG_DFL); /* an executor may not come back to see it */
+        if (!leading)
+            raise(number);
+    }
     if (leading && interrupts == 1 && write(STDERR_FILENO, text, sizeof text - 1) < 0)
         return; /* stderr is closed; nothing can be done */
 }
@@ -320,15 +323,6 @@ static void find_keys(execution *r)
     study_chain_free(&chain);
 }
 
-static void catch_interrupts(struct sigaction before[2])
-{
-    struct sigaction action = {.sa_handler = on_interrupt};
-    sigemptyset(&action.sa_mask);
-    interrupts = last_signal = leading = 0;
-    sigaction(SIGINT, &action, &before[0]);
-    sigaction(SIGTERM, &action, &before[1]);
-}
-
 /* Ends the run in the leading process when all cases are answered. */
 static void finish_run(execution *r)
 {
@@ -354,14 +348,11 @@ bool study_execute(const study_run *given, study_counters *counters, ff_report *
     study_run own = *given;
     const study_run *run = &own;
     execution r = {.run = run, .report = report, .counters = counters};
-    struct sigaction before[2];
     *counters = (study_counters){.total = 0};
-    catch_interrupts(before);
     ff_tree *tree = study_case_tree(own.file);
     own.tree = tree;
     run_cases(&r);
-    sigaction(SIGINT, &before[0], NULL);
-    sigaction(SIGTERM, &before[1], NULL);
+    leading = 0;
     if (r.open)
         finish_run(&r);
     json_decref(r.done);
@@ -369,4 +360,19 @@ bool study_execute(const study_run *given, study_counters *counters, ff_report *
         free(r.keys);
     ff_tree_free(tree);
     return ff_report_errors(report) == 0;
+}
+
+void study_signals_catch(study_signals *before)
+{
+    struct sigaction action = {.sa_handler = on_interrupt};
+    sigemptyset(&action.sa_mask);
+    interrupts = last_signal = leading = 0;
+    sigaction(SIGINT, &action, &before->interrupt);
+    sigaction(SIGTERM, &action, &before->terminate);
+}
+
+void study_signals_restore(const study_signals *before)
+{
+    sigaction(SIGINT, &before->interrupt, NULL);
+    sigaction(SIGTERM, &before->terminate, NULL);
 }

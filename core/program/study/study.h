@@ -8,6 +8,8 @@
 
 #include <flankfilm/engine.h>
 
+#include <signal.h>
+
 #include "../memory/memory.h"
 #include "judgement.h"
 
@@ -186,6 +188,16 @@ typedef struct study_run {
     void (*progress)(void *ctx, const study_counters *counters); /* about every second */
     void *ctx;
 } study_run;
+
+/* What SIGINT and SIGTERM did before. */
+typedef struct study_signals {
+    struct sigaction interrupt, terminate;
+} study_signals;
+
+/* From here on the first of these signals lets the cases at hand finish, also between the rounds of
+   a driver, which runs several lots of cases; the second ends at once. */
+void study_signals_catch(study_signals *before);
+void study_signals_restore(const study_signals *before);
 
 /* Runs what is not done yet, then writes table.csv. Failed cases are only counted; the report gets
    what keeps the study from going on. */
