@@ -261,7 +261,7 @@ static void connect(ff_instance *i, size_t input, fe_feed feed)
     bool fed = fe_is_fed(i, input), serves = ff_model_input(i->stage.loaded->model, input)->service;
     if (serves || fed != feeds(&feed))
         close_object(i);
-    fe_free_numbers(&i->object, old->array.data);
+    ff_guarded_free(old->array.data, fe_count(&old->array));
     *old = feed;
     old->array.shape = old->shape;
     i->stage.ran = false;
@@ -288,7 +288,7 @@ static bool give(fe_request *q)
                          array->rank, q->name, ff_model_input(model, (size_t)input)->dims);
     for (uint32_t k = 0; k < array->rank; k++)
         count *= feed.shape[k] = array->shape[k];
-    double *copy = fe_numbers(&i->object, ff_model_input(model, (size_t)input), count);
+    double *copy = ff_guarded_new(count);
     if (count)
         memcpy(copy, array->data, count * sizeof *copy);
     feed.array = (ff_array){.data = copy, .rank = array->rank};

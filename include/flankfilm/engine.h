@@ -655,13 +655,16 @@ void ff_pipeline_free(ff_pipeline *pipeline);
 const ff_report *ff_instance_report(const ff_instance *instance);
 const ff_stage *ff_instance_stage(const ff_instance *instance);
 
+/* Numbers between guard zones, zeroed: what a model writes into. NULL: there is no memory. */
+double *ff_guarded_new(size_t count);
+/* Where somebody has written outside of them: "before", "behind"; NULL: nowhere. */
+const char *ff_guarded_breach(const double *numbers, size_t count);
+void ff_guarded_free(const double *numbers, size_t count);
+
 /* What watches an instance at work; all functions are there. */
 typedef struct ff_hooks {
     size_t size;
     void *ctx; /* first argument of every function below */
-    /* Memory of the caller's for the numbers of an input that is given or of an output, zeroed. It
-       is in use until the same row asks again, or the instance is closed. NULL: there is none. */
-    double *(*numbers)(void *ctx, const ff_port *row, size_t count);
     /* After create, before parameters reach the model. NULL, or what ends it: a clause that
        completes 'the plugin ...'. */
     const char *(*created)(void *ctx, void *self);

@@ -75,7 +75,25 @@ pipeline:
   density: {use: density/incompressible, rho0: 850 kg/m3}
   discs: {use: contact/constant, radius: 12.8 mm, entrainment_speed: 4 m/s, slide_roll_ratio: 0.1, load_per_width: 177 N/mm}
 """
-STUDY = CASE + "study: {sweep: {viscosity.alpha: [10 1/GPa, 20 1/GPa]}}\n"
+CHAIN = """format: 2
+pipeline:
+  viscosity: {use: viscosity/misdeed}
+  early: {use: misdeed/stage, pressure: 0.4 GPa}
+  point: {use: misdeed/stage, first: early}
+outputs: [early.ln_eta, point.series]
+"""
+# what a stage writes where it must not: who is blamed, and for what
+WRITES = {
+    "before 1": ("early", 'wrote before the array of its output "series" during evaluate'),
+    "before 100": ("early", 'wrote before the array of its output "series" during evaluate'),
+    "behind 1": ("early", 'wrote behind the array of its output "series" during evaluate'),
+    "behind 128": ("early", 'wrote behind the array of its output "series" during evaluate'),
+    "input 3": ("point", 'changed its input "first.series"'),
+    "input -1": ("point", 'wrote before the array of its input "first.series"'),
+    "input 40": ("point", 'wrote behind the array of its input "first.series"'),
+}
+SWEEP = "study: {sweep: {viscosity.alpha: [10 1/GPa, 20 1/GPa]}}\n"
+STUDY = CASE + SWEEP
 
 watched = sys.argv[3:] == ["watched"]  # by a sanitizer, whose own ends of a thread and of a process differ
 if watched:
@@ -138,6 +156,21 @@ def ends_in_a_study(role, place, what):
     hold(misdeed + " in a study", good, f"{done.returncode}: {done.stdout} {done.stderr} {table}")
 
 
+def writes_outside(what, stage, says):
+    """One sentence, in a study a failed case; of the other stages the results are kept."""
+    done = run(f"stage evaluate {what}", "run", "chain.yaml", "--json")
+    answer = json.loads(done.stdout)
+    message = answer["errors"][0]["message"]
+    good = done.returncode == 3 and len(answer["errors"]) == 1 and answer["exit"] == 3
+    good = good and message.startswith(f"{stage}: the plugin {FILES['stage']}, or one that serves it (") and message.endswith(says)
+    good = good and ("ln_eta" in str(answer["outputs"])) == (stage == "point")
+    hold(what, good, done.stdout + done.stderr)
+    done = run(f"stage evaluate {what}", "run", "chains.yaml", "-j1", "-o", what.replace(" ", ""))
+    with open(what.replace(" ", "") + "/table.csv", encoding="utf-8") as stream:
+        table = stream.read()
+    hold(what + " in a study", done.returncode == 4 and table.count(says.replace('"', '""')) == 2, done.stdout + done.stderr + table)
+
+
 def is_set_back(role, place, what):
     """A warning names the plugin, and the results are where they are said to be."""
     misdeed = f"{role} {place} {what}"
@@ -176,7 +209,7 @@ def fails_film(what, film, code, says):
 
 
 os.chdir(tempfile.mkdtemp())
-for name, text in ("case.yaml", CASE), ("study.yaml", STUDY):
+for name, text in ("case.yaml", CASE), ("study.yaml", STUDY), ("chain.yaml", CHAIN), ("chains.yaml", CHAIN + SWEEP):
     with open(name, "w", encoding="utf-8") as stream:
         stream.write(text)
 hold("nothing", run("", "run", "case.yaml", "--json").returncode == 0, "it fails")
@@ -188,6 +221,8 @@ for role, places in PLACES.items():
 for role, place in ("law", "eval"), ("stage", "evaluate"):
     for what in ENDS:
         ends_in_a_study(role, place, what)
+for what, (stage, says) in WRITES.items():
+    writes_outside(what, stage, says)
 for role, places in PLACES.items():
     for place in places:
         is_kept_from_the_answer(role, place, "print")

@@ -69,6 +69,51 @@ static void take_fed_back(const ff_pipeline *pipeline, const ff_stage *stage, si
         all->count = known;
 }
 
+size_t fe_count(const ff_array *array)
+{
+    size_t count = array->data ? 1 : 0;
+    for (uint32_t i = 0; array->data && i < array->rank; i++)
+        count *= array->shape[i];
+    return count;
+}
+
+static uint64_t sum_of(const ff_array *array)
+{
+    uint64_t sum = 0, word;
+    for (size_t i = 0; i < fe_count(array); i++) {
+        memcpy(&word, &array->data[i], sizeof word);
+        sum = (sum ^ word ^ sum >> 32) * 0x9e3779b97f4a7c15;
+    }
+    return sum;
+}
+
+uint64_t *fe_sum_inputs(const ff_stage *stage, const ff_array *in)
+{
+    size_t count = stage->loaded->model->input_count;
+    uint64_t *sums = fe_alloc(count * sizeof *sums);
+    for (size_t i = 0; i < count; i++)
+        sums[i] = sum_of(&in[i]);
+    return sums;
+}
+
+bool fe_check_inputs(const ff_stage *stage, const ff_array *in, const uint64_t *sums,
+                     ff_report *report)
+{
+    char what[256];
+    for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
+        const char *name = ff_model_input(stage->loaded->model, i)->name;
+        const char *where = in[i].data ? ff_guarded_breach(in[i].data, fe_count(&in[i])) : NULL;
+        if (where)
+            snprintf(what, sizeof what, "wrote %s the array of its input \"%s\"", where, name);
+        else if (sums[i] != sum_of(&in[i]))
+            snprintf(what, sizeof what, "changed its input \"%s\"", name);
+        else
+            continue;
+        return fe_shared_fault(stage, report, what);
+    }
+    return true;
+}
+
 bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
                       ff_report *report)
 {

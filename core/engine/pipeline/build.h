@@ -131,6 +131,8 @@ void fe_check_folder(const ff_pipeline *pipeline, const ff_stage *stage, const c
                      ff_report *report);
 /* Reports 'the plugin x.so <what>' at the stage's model. Returns false. */
 bool fe_plugin_fault(const ff_stage *stage, ff_report *report, const char *what);
+/* The same where a model that serves it may have done it. */
+bool fe_shared_fault(const ff_stage *stage, ff_report *report, const char *what);
 
 /* A line that a stage of a loop has logged: it is handed on after the last round. */
 typedef struct fe_log_line {
@@ -153,9 +155,6 @@ typedef struct fe_loop_stage {
 
 /* host.c: the functions that a model may call. */
 void fe_host_init(fe_instance *instance);
-/* Memory for the numbers of an input or output row. */
-double *fe_numbers(const fe_instance *instance, const ff_port *row, size_t count);
-void fe_free_numbers(const fe_instance *instance, const double *numbers);
 void fe_forget_results(ff_stage *stage);
 void fe_forget_servings(fe_instance *instance);
 /* The parameter that names the table of a column, of "file.time"; -1: there is none. */
@@ -216,6 +215,13 @@ bool fe_rank_fits(const ff_dims *dims, uint32_t rank);
    has two. */
 bool fe_enter_lengths(fe_lengths *all, const char *row, const ff_dims *dims, uint32_t rank,
                       const size_t *shape, char *why, size_t why_size);
+
+size_t fe_count(const ff_array *array); /* of its numbers; no data: 0 */
+/* One number for each array of `in`, which changes with what the array holds. */
+uint64_t *fe_sum_inputs(const ff_stage *stage, const ff_array *in);
+/* Reports what the stage's model has written of its inputs, or about them, since. False then. */
+bool fe_check_inputs(const ff_stage *stage, const ff_array *in, const uint64_t *sums,
+                     ff_report *report);
 
 /* What feeds the stage, one array per input row. False when a feeding stage has not run,
    which is known already, or with an error. */

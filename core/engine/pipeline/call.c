@@ -99,6 +99,32 @@ bool fe_plugin_fault(const ff_stage *stage, ff_report *report, const char *what)
                     stage->name, stage->loaded->path, what);
 }
 
+bool fe_shared_fault(const ff_stage *stage, ff_report *report, const char *what)
+{
+    char services[700];
+    ff_guard_print_services(&stage->instance->mark, ", or one that serves it (", services,
+                            sizeof services);
+    return ff_error(report, FF_FAULT_PLUGIN, stage->use_place, NULL, "%s: the plugin %s%s%s %s",
+                    stage->name, stage->loaded->path, services, services[0] ? ")," : "", what);
+}
+
+/* False after an error: the model has written outside of an output. */
+static bool check_outputs(const fe_call *call, ff_report *report)
+{
+    const ff_stage *stage = call->stage;
+    char what[256];
+    for (size_t i = 0; stage->results && i < stage->loaded->model->output_count; i++) {
+        const ff_result *result = &stage->results[i];
+        const char *where = result->data ? ff_guarded_breach(result->data, result->count) : NULL;
+        if (!where)
+            continue;
+        snprintf(what, sizeof what, "wrote %s the array of its output \"%s\" during %s", where,
+                 result->row->name, call->action);
+        return fe_shared_fault(stage, report, what);
+    }
+    return true;
+}
+
 /* Reports the errors of a table that the model read. */
 static bool tell_table(const ff_stage *stage, ff_report *report)
 {
@@ -148,20 +174,19 @@ static void print_words_of_services(const ff_stage *stage, char *out, size_t siz
 static bool tell_fault(const fe_call *call, ff_status status, const char *text, ff_report *report)
 {
     const ff_stage *stage = call->stage, *server = server_of(stage, stage->instance->item);
-    char what[1400], others[600];
+    char what[1400];
     if (status == FF_BUG && server) {
         snprintf(what, sizeof what, "failed %s (%s), which it serves as %s: %s", stage->name,
                  stage->use, stage->instance->item, text);
         return fe_plugin_fault(server, report, what);
     }
-    ff_guard_print_services(&stage->instance->mark, ", or one that serves it (", others,
-                            sizeof others);
-    if (status == FF_BUG)
+    if (status == FF_BUG) {
         snprintf(what, sizeof what, "found a fault of its own during %s: %s", call->action, text);
-    else
-        snprintf(what, sizeof what, "%s%sgave the unknown status %d during %s: %s",
-                 others[0] ? others + 2 : "", others[0] ? "), " : "", status, call->action, text);
-    return fe_plugin_fault(stage, report, what);
+        return fe_plugin_fault(stage, report, what);
+    }
+    snprintf(what, sizeof what, "gave the unknown status %d during %s: %s", status, call->action,
+             text);
+    return fe_shared_fault(stage, report, what);
 }
 
 static bool judge(const fe_call *call, ff_status status, ff_report *report)
@@ -231,5 +256,6 @@ bool fe_call_end(const fe_call *call, ff_status status, ff_report *report)
         fe_out_of_memory();
     if (changed)
         warn_of_change(stage, changed, call->action, report);
-    return judge(call, status, report);
+    bool intact = check_outputs(call, report);
+    return judge(call, status, report) && intact;
 }

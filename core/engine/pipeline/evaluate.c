@@ -62,8 +62,9 @@ static bool drop_refused(const ff_pipeline *pipeline, ff_stage *stage)
     return true;
 }
 
-bool fe_evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
-                 ff_report *report)
+/* Again without what it refuses. */
+static bool call_model(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
+                       ff_report *report)
 {
     fe_instance *instance = stage->instance;
     bool good, again;
@@ -87,5 +88,15 @@ bool fe_evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *i
         good = fe_call_end(&call, again ? FF_OK : stage->status, report);
         fe_check_folder(pipeline, stage, "evaluate", report);
     } while (again);
+    return good;
+}
+
+bool fe_evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
+                 ff_report *report)
+{
+    uint64_t *sums = fe_sum_inputs(stage, in);
+    bool good = call_model(pipeline, stage, in, report);
+    good = fe_check_inputs(stage, in, sums, report) && good;
+    fe_free(sums);
     return good && fe_check_results(stage, report);
 }

@@ -270,22 +270,6 @@ static bool has_room(uint32_t rank, const size_t *shape)
     return product <= most;
 }
 
-double *fe_numbers(const fe_instance *instance, const ff_port *row, size_t count)
-{
-    const ff_hooks *hooks = instance->hooks;
-    double *numbers =
-        hooks ? hooks->numbers(hooks->ctx, row, count) : fe_alloc(count * sizeof *numbers);
-    if (!numbers)
-        fe_out_of_memory();
-    return numbers;
-}
-
-void fe_free_numbers(const fe_instance *instance, const double *numbers)
-{
-    if (!instance->hooks)
-        fe_free((void *)(uintptr_t)numbers);
-}
-
 double *ff_result_fill(ff_stage *stage, size_t output, uint32_t rank, const size_t *shape)
 {
     ff_result *result = &stage->results[output];
@@ -296,7 +280,7 @@ double *ff_result_fill(ff_stage *stage, size_t output, uint32_t rank, const size
         count *= result->shape[i] = shape[i];
         result->dims[i] = dims->name[i + absent];
     }
-    double *data = fe_numbers(stage->instance, result->row, count);
+    double *data = ff_guarded_new(count);
     result->rank = rank;
     result->count = count;
     result->data = data;
@@ -411,7 +395,7 @@ void fe_host_init(fe_instance *instance)
 void fe_forget_results(ff_stage *stage)
 {
     for (size_t i = 0; stage->results && i < stage->loaded->model->output_count; i++) {
-        fe_free_numbers(stage->instance, stage->results[i].data);
+        ff_guarded_free(stage->results[i].data, stage->results[i].count);
         stage->results[i].data = NULL;
     }
     for (size_t i = 0; i < stage->quality_count; i++) {

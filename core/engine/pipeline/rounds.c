@@ -70,7 +70,7 @@ static double residual_of(const iteration *it)
 
 static void forget(ff_result *result)
 {
-    fe_free((void *)result->data);
+    ff_guarded_free(result->data, result->count);
 }
 
 /* Replaces what a feedback wire carries. True when that is not what it carried. */
@@ -78,7 +78,7 @@ static bool feed(ff_result *fed, const ff_result *given, double relaxation)
 {
     ff_result next = *given;
     bool relaxed = relaxation < 1 && same_shape(fed, given);
-    double *data = given->data ? fe_alloc(given->count * sizeof *data) : NULL;
+    double *data = given->data ? ff_guarded_new(given->count) : NULL;
     for (size_t i = 0; data && i < given->count; i++)
         data[i] =
             relaxed ? fed->data[i] + relaxation * (given->data[i] - fed->data[i]) : given->data[i];

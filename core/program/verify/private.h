@@ -29,16 +29,6 @@ void verify_kind_checks_close(verify_kind_checks *checks);
 /* For each service input of the model a plain law that the law's kind offers; NULL: none. */
 const void **verify_plain_laws(ff_engine *engine, const ff_loaded *loaded);
 
-/* guarded.c: numbers between guard zones, which show a write outside. */
-typedef struct verify_guarded {
-    double *data;
-    size_t count;
-} verify_guarded;
-
-verify_guarded verify_guarded_new(size_t count);         /* holds NaN */
-bool verify_is_intact(const double *data, size_t count); /* the zones about them */
-void verify_guarded_free(verify_guarded *guarded);
-
 /* random.c: Splitmix64, which gives the same numbers in every run. */
 typedef struct verify_random {
     uint64_t state;
@@ -161,11 +151,10 @@ typedef struct verify_instance {
     ff_hooks hooks;
     bool bare, created;
     void *self;
-    size_t room;                      /* bytes that were allocated for `self`; 0: not known */
-    verify_guarded *inputs, *outputs; /* the memory of each row */
-    char text[700];                   /* why the last call failed; "" */
-    char breach[400];                 /* of the interface: completes 'it ...' */
-    double stop_at;                   /* progress asks to stop from then on */
+    size_t room;      /* bytes that were allocated for `self`; 0: not known */
+    char text[700];   /* why the last call failed; "" */
+    char breach[400]; /* of the interface: completes 'it ...' */
+    double stop_at;   /* progress asks to stop from then on */
     bool asked_to_stop;
 } verify_instance;
 
@@ -183,10 +172,9 @@ ff_status verify_instance_run(verify_instance *instance, const char *outputs,
 /* Calls work(ctx), which calls that function of the model. */
 ff_status verify_instance_call(verify_instance *instance, const char *function,
                                ff_status (*work)(void *ctx), void *ctx);
-/* Fails when the function, which came to that status, broke the interface, found a fault of its
-   own, or wrote where it must not. */
-bool verify_instance_is_sound(const verify_instance *instance, const char *function,
-                              ff_status status, const verify_setup *setup);
+/* Fails when a call, which came to that status, broke the interface, found a fault of its own, or
+   wrote where it must not. */
+bool verify_instance_is_sound(const verify_instance *instance, ff_status status);
 void verify_instance_close(verify_instance *instance);
 
 /* search.c: what the model works with. */

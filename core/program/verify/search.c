@@ -52,7 +52,7 @@ bool verify_find_served(verify_context *c, verify_instance *instance, const veri
             continue;
         verify_step(c, "evaluate with \"%s\" alone wanted", row->name);
         ff_status status = verify_instance_run(instance, row->name, setup);
-        if (!verify_instance_is_sound(instance, "evaluate", status, setup))
+        if (!verify_instance_is_sound(instance, status))
             return false;
         if (ff_instance_result(instance->made, row->name, &result) == FF_OK)
             add_word(served, row->name);
@@ -87,7 +87,7 @@ verify_setup *verify_find_work(verify_context *c, verify_instance *instance, cha
             instance->stop_at = verify_now() + PATIENCE;
         verify_step(c, "evaluate");
         ff_status status = verify_instance_run(instance, NULL, setup);
-        if (!verify_instance_is_sound(instance, "evaluate", status, setup))
+        if (!verify_instance_is_sound(instance, status))
             return NULL;
         *served = list_given(instance);
         if (status == FF_UNSUPPORTED && !verify_find_served(c, instance, setup, served, INFINITY))

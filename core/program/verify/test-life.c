@@ -81,7 +81,7 @@ static bool live(const verify_setup *setup)
     ff_status status = verify_instance_open(&instance, setup);
     if (verify_is_good(status))
         status = verify_instance_call(&instance, "service", call_services, &instance);
-    bool good = verify_instance_is_sound(&instance, "create or ready", status, setup);
+    bool good = verify_instance_is_sound(&instance, status);
     verify_instance_close(&instance);
     return good;
 }
@@ -159,7 +159,7 @@ bool verify_test_allocations(verify_context *c)
         ff_status status = verify_instance_open(&instance, setup);
         bool struck = verify_allocations_made() >= nth;
         verify_allocations_fail(0);
-        good = verify_instance_is_sound(&instance, "ready", status, setup);
+        good = verify_instance_is_sound(&instance, status);
         verify_instance_close(&instance);
         if (!struck)
             break;
@@ -181,7 +181,7 @@ bool verify_test_limits(verify_context *c)
             return false;
         verify_step(c, "set and ready with random parameters, draw %d", i);
         ff_status status = verify_instance_open(&instance, setup);
-        good = verify_instance_is_sound(&instance, "ready", status, setup);
+        good = verify_instance_is_sound(&instance, status);
         verify_instance_close(&instance);
     }
     return good;

@@ -46,22 +46,55 @@ static ff_status call_model(void *ctx)
                                               q->setup->services[q->input], call->in, a);
 }
 
-/* With the arrays that the engine has taken, between guard zones. */
-static answer ask(verify_instance *instance, const question *q)
+static size_t count_of(const ff_array *array)
 {
-    size_t inputs = instance->model->input_count;
+    size_t count = 1;
+    for (uint32_t i = 0; i < array->rank; i++)
+        count *= array->shape[i];
+    return count;
+}
+
+/* Copies of the inputs, between guard zones. */
+static ff_array *copy_inputs(const verify_setup *setup, size_t inputs)
+{
     ff_array *in = memory_alloc((inputs + 1) * sizeof *in);
     for (size_t i = 0; i < inputs; i++) {
-        in[i] = q->setup->inputs[i];
-        in[i].data = in[i].data ? instance->inputs[i].data : NULL;
+        in[i] = setup->inputs[i];
+        if (!in[i].data)
+            continue;
+        double *copy = memory_require(ff_guarded_new(count_of(&in[i])));
+        memcpy(copy, in[i].data, count_of(&in[i]) * sizeof *copy);
+        in[i].data = copy;
     }
+    return in;
+}
+
+/* Frees the copies, which must be as they were made. */
+static void check_inputs(ff_array *in, const question *q)
+{
+    const ff_model *model = q->setup->context->model;
+    for (size_t i = 0; i < model->input_count; i++) {
+        const double *was = q->setup->inputs[i].data;
+        size_t count = count_of(&in[i]);
+        if (was && (ff_guarded_breach(in[i].data, count) ||
+                    memcmp(was, in[i].data, count * sizeof *was) != 0))
+            verify_fail(q->setup->context, "%s changed its input \"%s\"", q->function,
+                        ff_model_input(model, i)->name);
+        ff_guarded_free(in[i].data, count);
+    }
+    free(in);
+}
+
+static answer ask(verify_instance *instance, const question *q)
+{
+    ff_array *in = copy_inputs(q->setup, instance->model->input_count);
     asking call = {
         .instance = instance, .q = q, .in = in, .got = {.a = {.size = sizeof call.got.a}}};
     instance->stop_at = verify_now() + PATIENCE;
     call.got.status = verify_instance_call(instance, q->function, call_model, &call);
     snprintf(call.got.reason, sizeof call.got.reason, "%s",
              call.got.a.reason ? call.got.a.reason : "");
-    free(in);
+    check_inputs(in, q);
     return call.got;
 }
 
@@ -82,7 +115,7 @@ static bool check_answer(verify_context *c, const verify_instance *instance, con
                          const answer *got)
 {
     const ff_assessment *a = &got->a;
-    if (!verify_instance_is_sound(instance, q->function, got->status, q->setup))
+    if (!verify_instance_is_sound(instance, got->status))
         return false;
     if (got->status != FF_OK)
         return true;

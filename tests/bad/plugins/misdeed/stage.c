@@ -7,6 +7,9 @@ static const char role[] = "stage";
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
 
+#include <stdbool.h>
+#include <stdint.h>
+
 typedef struct stage {
     const ff_host *host;
     const ff_viscosity *law;
@@ -22,9 +25,13 @@ static const ff_param params[] = {{.name = "pressure",
                                    .low = 0.1,
                                    .high = 2}};
 static const ff_port inputs[] = {
-    {.name = "viscosity", .unit = "", .doc = "the law", .dims = "", .service = FF_VISCOSITY_ID}};
+    {.name = "viscosity", .unit = "", .doc = "the law", .dims = "", .service = FF_VISCOSITY_ID},
+    {.name = "first.series", .unit = "1", .doc = "of another", .dims = "n", .flags = FF_OPTIONAL}};
 static const ff_port outputs[] = {
-    {.name = "ln_eta", .unit = "1", .doc = "what it says", .dims = ""}};
+    {.name = "ln_eta", .unit = "1", .doc = "what it says", .dims = ""},
+    {.name = "series", .unit = "1", .doc = "1, 2, 3, ...", .dims = "n"},
+};
+enum { LENGTH = 40 };
 
 static ff_status create(const ff_host *host, void **self)
 {
@@ -47,8 +54,8 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
 
 static ff_status wire(void *self, uint32_t input, const void *service)
 {
-    (void)input;
-    ((stage *)self)->law = service;
+    if (input == 0)
+        ((stage *)self)->law = service;
     misbehave("wire");
     return FF_OK;
 }
@@ -60,13 +67,41 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
+/* "stage evaluate behind 3": the third number behind the series. */
+static bool writes(const char *where, long *offset)
+{
+    const char *misdeed = getenv("FLANKFILM_MISDEED");
+    size_t length = strlen(where);
+    bool asked = misdeed && !strncmp(misdeed, where, length);
+    *offset = asked ? strtol(misdeed + length, NULL, 10) : 0;
+    return asked;
+}
+
+static ff_status give_series(const stage *s, const ff_array *given)
+{
+    long at;
+    double *series = s->host->output(s->host->ctx, 1, 1, (const size_t[]){LENGTH});
+    if (!series)
+        return FF_NOMEM;
+    for (int i = 0; i < LENGTH; i++)
+        series[i] = i + 1;
+    if (writes("stage evaluate before ", &at))
+        series[-at] = 1;
+    if (writes("stage evaluate behind ", &at))
+        series[LENGTH - 1 + at] = 1;
+    if (given->data && writes("stage evaluate input ", &at))
+        ((double *)(uintptr_t)given->data)[at] = 1;
+    return FF_OK;
+}
+
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stage *s = self;
     double ln_eta;
-    (void)wanted, (void)in;
     ff_status status = s->law->eval(s->law->self, 1, &s->pressure, NULL, &ln_eta, NULL, NULL);
     misbehave("evaluate");
+    if (status == FF_OK && wanted & 2)
+        status = give_series(s, &in[1]);
     return status == FF_OK ? ff_put_scalar(s->host, 0, ln_eta) : status;
 }
 
