@@ -10,10 +10,6 @@
 
 #include <fftw3.h>
 #include <lapacke.h>
-#include <pthread.h>
-
-/* FFTW's planner is one per process and not thread-safe; running a plan is. */
-static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
 
 /* The motion passes an edge of the gap between the neighbouring samples i and j. The trapezium rule
    misses `area` at the kink of the force; the two samples share it. after_i and after_j are its
@@ -132,10 +128,9 @@ dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation
     if (b->k && b->e && b->time && b->edges && b->spectrum && b->e_series && b->cosine && b->sine &&
         b->residual && b->trial && b->try && b->jacobian && b->pivot &&
         numerics_has_room(numerics_fftw_room(samples))) {
-        pthread_mutex_lock(&planner);
+        fftw_make_planner_thread_safe(); /* it is one per process, and other plugins plan, too */
         b->to_time = fftw_plan_dft_c2r_1d((int)samples, b->spectrum, b->time, FFTW_ESTIMATE);
         b->to_spectrum = fftw_plan_dft_r2c_1d((int)samples, b->time, b->spectrum, FFTW_ESTIMATE);
-        pthread_mutex_unlock(&planner);
     }
     if (!b->to_time || !b->to_spectrum) {
         dynamics_harmonics_free(b);
@@ -149,12 +144,8 @@ void dynamics_harmonics_free(dynamics_harmonics *b)
 {
     if (!b)
         return;
-    pthread_mutex_lock(&planner);
-    if (b->to_time)
-        fftw_destroy_plan(b->to_time);
-    if (b->to_spectrum)
-        fftw_destroy_plan(b->to_spectrum);
-    pthread_mutex_unlock(&planner);
+    fftw_destroy_plan(b->to_time);
+    fftw_destroy_plan(b->to_spectrum);
     free(b->k);
     free(b->e);
     free(b->time);

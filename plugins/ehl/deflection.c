@@ -5,7 +5,6 @@
 
 #include <fftw3.h>
 #include <math.h>
-#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -45,9 +44,6 @@ struct ehl_fft {
     fftw_complex *image;
 };
 
-/* FFTW's planner is one per process and not thread-safe; running a plan is. */
-static pthread_mutex_t planner = PTHREAD_MUTEX_INITIALIZER;
-
 ehl_fft *ehl_fft_create(size_t nodes, const double *d)
 {
     ehl_fft *f = calloc(1, sizeof *f);
@@ -56,16 +52,15 @@ ehl_fft *ehl_fft_create(size_t nodes, const double *d)
     size_t last = nodes - 1, half = last + 1; /* length/2 + 1 */
     f->nodes = nodes;
     f->length = 2 * last;
-    pthread_mutex_lock(&planner);
     f->line = numerics_fftw_array(f->length, sizeof *f->line);
     f->spectrum = numerics_fftw_array(half, sizeof *f->spectrum);
     f->image = numerics_fftw_array(half, sizeof *f->image);
     if (f->line && f->spectrum && f->image && numerics_has_room(numerics_fftw_room(f->length))) {
+        fftw_make_planner_thread_safe(); /* it is one per process, and other plugins plan, too */
         /* an estimated plan depends on the length alone, so that results repeat to the last bit */
         f->forward = fftw_plan_dft_r2c_1d((int)f->length, f->line, f->image, FFTW_ESTIMATE);
         f->backward = fftw_plan_dft_c2r_1d((int)f->length, f->image, f->line, FFTW_ESTIMATE);
     }
-    pthread_mutex_unlock(&planner);
     if (!f->forward || !f->backward) {
         ehl_fft_destroy(f);
         return NULL;
@@ -98,10 +93,8 @@ void ehl_fft_destroy(ehl_fft *f)
 {
     if (!f)
         return;
-    pthread_mutex_lock(&planner);
     fftw_destroy_plan(f->forward);
     fftw_destroy_plan(f->backward);
-    pthread_mutex_unlock(&planner);
     free(f->line);
     free(f->spectrum);
     free(f->image);
