@@ -13,6 +13,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from .arrays import Array, Error, as_items, as_list, as_path, wrong
+from .logs import FORMAT, Logs, records_of
 
 
 def _map(path, shape):
@@ -105,6 +106,8 @@ class Study(Mapping):
         self.path = path
         with _file(path, "study.json") as file:
             about = json.load(file)
+        if about.get("format", 1) != FORMAT:
+            raise Error(f"{path}: its files are of format {about.get('format', 1)} of studies, not {FORMAT}")
         with _file(path, "table.csv") as file:
             rows = list(csv.reader(file))
         self.title, self.shape = about.get("title"), tuple(about["lengths"])
@@ -120,7 +123,10 @@ class Study(Mapping):
             name, _, unit = h.partition(" [")
             if unit and "." in name and name not in {a["path"] for a in about["axes"]}:
                 self._columns[name] = (h, unit.rstrip("]"))
-        self._arrays = None
+        keys = set(self.table["key"])
+        self._records, self._logs = {k: r for k, r in records_of(path).items() if k in keys}, Logs(path)
+        self._stacked = dict.fromkeys(n for r in self._records.values() for n in r.get("arrays") or ())
+        self._docs = about.get("docs") or {}
 
     def _name_axes(self, axes):
         self.axes, self.dims = {}, []
@@ -137,47 +143,46 @@ class Study(Mapping):
                 self.axes[name if len(mine) == 1 else a["path"]] = axis
 
     def case(self, index):
-        """The arrays of one case, by its number from 0: a dictionary."""
-        place = os.path.join(self.path, "cases", self.table["key"][index])
-        if not os.path.exists(os.path.join(place, "arrays.json")):
-            return {}
-        with _file(place, "arrays.json") as file:
-            return {k: _array(e, place) for k, e in json.load(file)["outputs"].items()}
+        """The arrays of one case, by its number from 0: a dictionary. They are mapped from the logs."""
+        record = self._records.get(self.table["key"][index]) or {}
+        return {name: Array(self._logs.read(record, name), entry[0], entry[1], self._docs.get(name) or "",
+                            entry[4] if len(entry) > 4 else [""] * len(entry[1]))
+                for name, entry in (record.get("arrays") or {}).items()}
 
-    def _load(self):
-        if self._arrays is None:
-            self._arrays = [self.case(i) for i in range(len(self._rows))]
-        return self._arrays
+    def _part(self, index, name):
+        """The numbers of one case; None where it has none."""
+        record = self._records.get(self.table["key"][index]) or {}
+        if name in (record.get("arrays") or {}):
+            return self._logs.read(record, name)
+        scalar = (record.get("outputs") or {}).get(name)  # a series of one number
+        return None if scalar is None else np.array(np.nan if scalar[1] is None else scalar[1], dtype=float)
 
     def _stack(self, name):
-        parts = [case.get(name) for case in self._load()]
-        some = [p for p in parts if p is not None]
-        rank = max(p.data.ndim for p in some)
-        model = next(p for p in some if p.data.ndim == rank)
-        shape = tuple(max(p.data.shape[-rank + k] if p.data.ndim == rank else 1 for p in some)
-                      for k in range(rank))
-        data = np.full((len(parts), *shape), np.nan)
-        for k, part in enumerate(parts):
+        entries = [e for r in self._records.values() for n, e in (r.get("arrays") or {}).items() if n == name]
+        model = max(entries, key=lambda e: len(e[1]))
+        rank = len(model[1])
+        shape = tuple(max([1, *(e[2][k - rank] for e in entries if len(e[1]) >= rank - k)]) for k in range(rank))
+        data = np.full((len(self._rows), *shape), np.nan)
+        for k in range(len(self._rows)):
+            part = self._part(k, name)
             if part is not None:
-                full = part.data.reshape((1,) * (rank - part.data.ndim) + part.data.shape)
+                full = part.reshape((1,) * (rank - part.ndim) + part.shape)
                 data[(k, *(slice(n) for n in full.shape))] = full
-        dims = (*self.dims, *model.dims)
-        return Array(data.reshape(*self.shape, *shape), model.unit, dims, model.doc, model.against)
+        against = model[4] if len(model) > 4 else [""] * rank
+        return Array(data.reshape(*self.shape, *shape), model[0], (*self.dims, *model[1]),
+                     self._docs.get(name) or "", against)
 
     def __getitem__(self, name):
-        if name in self._columns:
+        if name in self._columns and name not in self._stacked:
             head, unit = self._columns[name]
             data = np.array([_number(text) for text in self.table[head]]).reshape(self.shape)
             return Array(data, unit, self.dims)
-        if name not in set(self):
+        if name not in self._stacked:
             raise KeyError(f"{name}: the study has {', '.join(self)}")
         return self._stack(name)
 
     def __iter__(self):
-        seen = dict.fromkeys(self._columns)
-        for case in self._load():
-            seen.update(dict.fromkeys(k for k, a in case.items() if a.dims))
-        return iter(seen)
+        return iter({**self._columns, **self._stacked})
 
     def __len__(self):
         return sum(1 for _ in self)

@@ -116,7 +116,7 @@ static study_run run_of(const cli_session *session, const cli_options *options, 
                               : options->rerun_failed ? STUDY_RERUN_FAILED
                                                       : STUDY_RERUN_NONE,
                      .fail_fast = cli_option(options, "fail-fast") != NULL,
-                     .write = results_write_case};
+                     .against = results_against};
     if (!options->shards)
         cli_shard_find(&run, executor != NULL, session->report);
     if (!options->shards && run.shards > 1 && !options->json && !executor)
@@ -355,7 +355,8 @@ int cli_plan_study(const cli_options *options)
                         "explain says what a single case would run", "%s has no study",
                         options->operand);
     study_run run = good ? run_of(&session, options, directory) : (study_run){0};
-    good = good && ff_report_errors(session.report) == 0;
+    good = good && ff_report_errors(session.report) == 0 &&
+           study_check_format(directory, session.report);
     if (good)
         study_preview(&run, &plan);
     if (!good) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "npy.h"
+#include "../arrays/npy.h"
 #include "write.h"
 
 #include "../memory/memory.h"
@@ -23,7 +23,7 @@ void results_write_arrays(const ff_pipeline *pipeline, results_folder *folder)
             char *stem = memory_print_text("%s.%s", stage->name, result->row->name);
             FILE *stream = results_folder_begin(folder, stem, ".npy");
             if (stream)
-                results_npy_write(stream, result->data, result->shape, result->rank);
+                arrays_npy_write(stream, result->data, result->shape, result->rank);
             free(stem);
         }
     }

@@ -7,6 +7,8 @@
 
 #include <jansson.h>
 
+enum { RESULTS_FORMAT = 1 /* of result.json, which tells it */ };
+
 /* The digits of every number: 17 would mostly show rounding errors. */
 enum { RESULTS_JSON_DIGITS = 12 };
 

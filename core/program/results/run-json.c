@@ -43,8 +43,7 @@ static bool is_axis(const ff_stage *stage, size_t output)
             !strcmp(row->name, stage->results[output].dims[0]));
 }
 
-/* Names what each dimension is plotted against: "gears.roll_angle", or "". */
-static json_t *axes_of(const ff_pipeline *pipeline, const ff_stage *stage, size_t output)
+json_t *results_against(const ff_pipeline *pipeline, const ff_stage *stage, size_t output)
 {
     const ff_result *result = &stage->results[output];
     json_t *list = json_array();
@@ -76,7 +75,7 @@ static json_t *describe_output(const ff_pipeline *pipeline, const ff_stage *stag
     json_t *entry = result->rank ? describe_array(stage, output) : describe_scalar(result);
     json_object_set_new(entry, "doc", results_json_text(result->row->doc));
     if (result->rank)
-        json_object_set_new(entry, "against", axes_of(pipeline, stage, output));
+        json_object_set_new(entry, "against", results_against(pipeline, stage, output));
     if (result->rank && is_elsewhere(result, arrays)) {
         char *file = memory_print_text("%s.%s.npy", stage->name, result->row->name);
         json_object_set_new(entry, "file",
@@ -112,12 +111,6 @@ static void write_object(json_t *object, FILE *stream)
     json_dumpf(object, stream, JSON_COMPACT | JSON_REAL_PRECISION(RESULTS_JSON_DIGITS));
     fputc('\n', stream);
     json_decref(object);
-}
-
-void results_write_arrays_json(const ff_pipeline *pipeline, FILE *stream)
-{
-    write_object(json_pack("{s:o}", "outputs", describe_outputs(pipeline, true, RESULTS_IN_FILES)),
-                 stream);
 }
 
 const char *results_status_name(const ff_stage *stage)
@@ -211,6 +204,7 @@ void results_write_run_json(const results_outcome *outcome, FILE *stream)
 {
     const ff_pipeline *pipeline = outcome->pipeline;
     json_t *all = describe_head(outcome);
+    json_object_set_new(all, "format", json_integer(RESULTS_FORMAT));
     add_input(all, outcome->input);
     json_object_set_new(all, "outputs", describe_outputs(pipeline, true, RESULTS_IN_FILES));
     json_object_set_new(all, "computed", describe_outputs(pipeline, false, RESULTS_IN_FILES));

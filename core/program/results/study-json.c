@@ -138,7 +138,7 @@ void results_write_study_json(const results_study *of, const study_definition *s
     for (size_t i = 0; i < of->input->set_count; i++)
         json_array_append_new(sets, results_json_text(of->input->sets[i]));
     json_t *all = json_pack(
-        "{s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "title",
+        "{s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:o}", "format", STUDY_FORMAT, "title",
         results_json_text(of->input->pipeline->title), "facts", results_json_facts(of->input->file),
         "sets", sets, "lengths", lengths, "axes", describe_axes(of, study), "stages",
         describe_stages(of->input->pipeline, docs), "models", list_other_models(of, study));

@@ -1,18 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads the directory of a single run, where result.json holds everything. */
+#include "json.h"
 #include "view-tables.h"
 
 #include <errno.h>
 #include <string.h>
 
-static void add_outputs(results_reader *reader, json_t *outputs, json_t *all, uint32_t flags)
+static void add_outputs(results_reader *reader, json_t *outputs, uint32_t flags)
 {
     const char *name;
     json_t *entry;
     json_object_foreach(outputs, name, entry)
     {
-        results_view_add_variable(reader, name, entry, json_object_get(entry, "doc"), flags);
-        json_object_set(all, name, entry);
+        const results_entry told = {.unit = json_object_get(entry, "unit"),
+                                    .dims = json_object_get(entry, "dims"),
+                                    .shape = json_object_get(entry, "shape"),
+                                    .against = json_object_get(entry, "against"),
+                                    .doc = json_object_get(entry, "doc")};
+        results_output *made = results_view_add_output(reader, name, &told, flags);
+        if (made)
+            made->entry = entry;
     }
 }
 
@@ -58,11 +65,17 @@ static void add_stages(results_reader *reader, ff_view_case *c, const json_t *st
 
 bool results_view_read_run(results_reader *reader)
 {
-    json_t *root = results_view_read_json(reader, "result.json");
+    json_t *root = reader->root = results_view_read_json(reader, "result.json");
     if (!root)
         return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE, "run the case again",
                         "%s/result.json cannot be read%s%s", reader->path, errno ? ": " : "",
                         errno ? strerror(errno) : "");
+    json_int_t format = json_integer_value(json_object_get(root, "format"));
+    if (format > RESULTS_FORMAT)
+        return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
+                        "read it with a newer flankfilm",
+                        "%s/result.json is of format %lld; this flankfilm reads up to %d",
+                        reader->path, (long long)format, RESULTS_FORMAT);
     results_view_add_head(reader, root);
     ff_view_case *c = results_view_add_row(reader, &reader->cases, sizeof *c);
     *c = (ff_view_case){
@@ -73,15 +86,13 @@ bool results_view_read_run(results_reader *reader)
         .command = "",
     };
     reader->per_case = memory_alloc(sizeof *reader->per_case);
-    reader->per_case[0].outputs = json_object();
-    add_outputs(reader, json_object_get(root, "outputs"), reader->per_case[0].outputs,
-                FF_VIEW_ASKED);
-    add_outputs(reader, json_object_get(root, "computed"), reader->per_case[0].outputs, 0);
+    add_outputs(reader, json_object_get(root, "outputs"), FF_VIEW_ASKED);
+    add_outputs(reader, json_object_get(root, "computed"), 0);
+    results_view_take_outputs(reader, &reader->per_case[0]);
     json_t *record = json_pack("{s:O?, s:{}, s:s}", "status", json_object_get(root, "status"),
                                "quality", "key", "");
     add_stages(reader, c, json_object_get(root, "stages"), json_object_get(record, "quality"));
     results_view_judge(reader, c, 1, record);
     json_decref(record);
-    json_decref(root);
     return true;
 }

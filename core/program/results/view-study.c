@@ -106,29 +106,37 @@ static void match_records(results_reader *reader, json_t *records, const json_t 
     }
 }
 
-/* Brings [unit, value] or [unit, dims, shape] into the form that a run has. */
-static json_t *entry_of_pair(const json_t *pair)
-{
-    json_t *entry = json_object();
-    json_object_set(entry, "unit", json_array_get(pair, 0));
-    if (json_array_size(pair) == 2)
-        json_object_set(entry, "value", json_array_get(pair, 1));
-    else {
-        json_object_set(entry, "dims", json_array_get(pair, 1));
-        json_object_set(entry, "shape", json_array_get(pair, 2));
-    }
-    return entry;
-}
-
-static void add_outputs(results_reader *reader, const json_t *docs, json_t *outputs, json_t *all)
+/* Adds scalars: [unit, value]. */
+static void add_scalars(results_reader *reader, const json_t *docs, json_t *outputs)
 {
     const char *name;
     json_t *pair;
     json_object_foreach(outputs, name, pair)
     {
-        json_t *entry = entry_of_pair(pair);
-        results_view_add_variable(reader, name, entry, json_object_get(docs, name), FF_VIEW_ASKED);
-        json_object_set_new(all, name, entry);
+        const json_t *value = json_array_get(pair, 1);
+        const results_entry told = {.unit = json_array_get(pair, 0),
+                                    .doc = json_object_get(docs, name)};
+        results_output *made = results_view_add_output(reader, name, &told, FF_VIEW_ASKED);
+        if (made)
+            made->value = json_is_number(value) ? json_number_value(value) : (double)NAN;
+    }
+}
+
+/* Adds arrays: [unit, dims, shape, offset, against]. */
+static void add_arrays(results_reader *reader, const json_t *docs, json_t *arrays)
+{
+    const char *name;
+    json_t *entry;
+    json_object_foreach(arrays, name, entry)
+    {
+        const results_entry told = {.unit = json_array_get(entry, 0),
+                                    .dims = json_array_get(entry, 1),
+                                    .shape = json_array_get(entry, 2),
+                                    .against = json_array_get(entry, 4),
+                                    .doc = json_object_get(docs, name)};
+        results_output *made = results_view_add_output(reader, name, &told, FF_VIEW_ASKED);
+        if (made)
+            made->offset = (off_t)json_integer_value(json_array_get(entry, 3));
     }
 }
 
@@ -153,36 +161,18 @@ static void add_case(results_reader *reader, size_t index, const json_t *record,
     results_case *of = &reader->per_case[index];
     *c = (ff_view_case){
         .size = sizeof *c,
-        .status = status ? results_view_text(reader, status) : "not run",
+        .status = status ? results_view_shared_text(reader, json_string_value(status)) : "not run",
         .reason = results_view_text(reader, json_object_get(record, "reason")),
         .command = results_view_text(reader, json_object_get(record, "command")),
         .seconds = seconds ? json_number_value(seconds) : (double)NAN,
     };
-    of->outputs = json_object();
-    add_outputs(reader, docs, json_object_get(record, "outputs"), of->outputs);
-    add_outputs(reader, docs, json_object_get(record, "arrays"), of->outputs);
+    add_scalars(reader, docs, json_object_get(record, "outputs"));
+    add_arrays(reader, docs, json_object_get(record, "arrays"));
+    results_view_take_outputs(reader, of);
+    of->log = results_view_shared_text(
+        reader, json_string_value(json_array_get(json_object_get(record, "log"), 0)));
     add_quality(reader, c, json_object_get(record, "quality"));
     results_view_judge(reader, c, index + 1, record);
-}
-
-/* Takes what arrays are plotted against from the first case that has any. */
-static void read_against(results_reader *reader)
-{
-    json_t *arrays = NULL;
-    const char *name;
-    json_t *entry;
-    for (size_t i = 0; i < reader->view.case_count && !arrays; i++) {
-        bool any = false;
-        json_object_foreach(reader->per_case[i].outputs, name, entry) any =
-            any || json_object_get(entry, "shape");
-        char *path = memory_print_text("cases/%s/arrays.json", reader->per_case[i].key);
-        if (any)
-            arrays = results_view_read_json(reader, path);
-        free(path);
-    }
-    json_object_foreach(json_object_get(arrays, "outputs"), name, entry)
-        results_view_set_against(reader, name, entry);
-    json_decref(arrays);
 }
 
 static bool refuse(results_reader *reader, const char *what)
@@ -198,6 +188,8 @@ bool results_view_read_study(results_reader *reader)
     json_t *entry;
     size_t i;
     bool good = true;
+    if (!study_check_format(reader->path, reader->report))
+        return false;
     json_t *study = results_view_read_json(reader, study_description);
     if (!study)
         return refuse(reader, errno ? "is not there" : "is not a description of a study");
@@ -217,7 +209,6 @@ bool results_view_read_study(results_reader *reader)
             add_case(reader, i, json_object_get(records, reader->per_case[i].key),
                      json_object_get(study, "docs"));
         json_decref(records);
-        read_against(reader);
     }
     json_decref(study);
     return good || refuse(reader, "is not a description of a study");

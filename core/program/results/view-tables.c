@@ -14,6 +14,18 @@ const char *results_view_text(results_reader *reader, const json_t *text)
     return value ? memory_arena_text(&reader->arena, value, strlen(value)) : "";
 }
 
+const char *results_view_shared_text(results_reader *reader, const char *text)
+{
+    if (!text)
+        return "";
+    const json_t *known = json_object_get(reader->texts, text);
+    if (known)
+        return (const char *)(intptr_t)json_integer_value(known);
+    const char *copy = memory_arena_text(&reader->arena, text, strlen(text));
+    json_object_set_new(reader->texts, text, json_integer((json_int_t)(intptr_t)copy));
+    return copy;
+}
+
 json_t *results_view_read_json(const results_reader *reader, const char *name)
 {
     int fd = openat(reader->directory, name, O_RDONLY | O_CLOEXEC);
@@ -175,43 +187,68 @@ static const char *const *copy_names(results_reader *reader, const json_t *names
     return copy;
 }
 
-void results_view_add_variable(results_reader *reader, const char *name, const json_t *entry,
-                               const json_t *doc, uint32_t flags)
+/* Returns the index of the variable, which is added when it is new; -1 for what is none. */
+static json_int_t add_variable(results_reader *reader, const char *name, const results_entry *entry,
+                               uint32_t flags)
 {
-    const json_t *dims = json_object_get(entry, "dims"),
-                 *known = json_object_get(reader->index, name);
+    const json_t *known = json_object_get(reader->index, name);
     const char *dot = strchr(name, '.');
-    size_t rank = json_array_size(dims);
+    size_t rank = json_array_size(entry->dims);
+    json_int_t at = known ? json_integer_value(known) : (json_int_t)reader->variables.count;
+    ff_view_variable *row = known ? reader->variables.rows[at] : NULL;
     if (!dot || rank > 4)
-        return;
-    ff_view_variable *row = known ? reader->variables.rows[json_integer_value(known)] : NULL;
+        return -1;
     if (row && row->rank >= rank)
-        return;
+        return at;
     if (!row) {
-        json_object_set_new(reader->index, name, json_integer((json_int_t)reader->variables.count));
+        json_object_set_new(reader->index, name, json_integer(at));
         row = results_view_add_row(reader, &reader->variables, sizeof *row);
         *row = (ff_view_variable){
             .size = sizeof *row,
             .name = memory_arena_text(&reader->arena, name, strlen(name)),
             .output = memory_arena_text(&reader->arena, dot + 1, strlen(dot + 1)),
             .stage = find_stage(reader, name, (size_t)(dot - name)),
-            .unit = results_view_text(reader, json_object_get(entry, "unit")),
-            .doc = results_view_text(reader, doc),
+            .unit = results_view_text(reader, entry->unit),
+            .doc = results_view_text(reader, entry->doc),
             .flags = flags,
         };
     }
     row->rank = (uint32_t)rank;
-    row->dims = copy_names(reader, dims, rank);
-    row->against = copy_names(reader, json_object_get(entry, "against"), rank);
+    row->dims = copy_names(reader, entry->dims, rank);
+    row->against = copy_names(reader, entry->against, rank);
+    return at;
 }
 
-void results_view_set_against(results_reader *reader, const char *name, const json_t *entry)
+results_output *results_view_add_output(results_reader *reader, const char *name,
+                                        const results_entry *entry, uint32_t flags)
 {
-    const json_t *known = json_object_get(reader->index, name),
-                 *against = json_object_get(entry, "against");
-    ff_view_variable *row = known ? reader->variables.rows[json_integer_value(known)] : NULL;
-    if (row && json_array_size(against) == row->rank)
-        row->against = copy_names(reader, against, row->rank);
+    json_int_t variable = add_variable(reader, name, entry, flags);
+    size_t rank = json_array_size(entry->shape);
+    if (variable < 0 || rank > 4)
+        return NULL;
+    if (reader->output_count == reader->output_room) {
+        reader->output_room = reader->output_room ? 2 * reader->output_room : 16;
+        reader->outputs =
+            memory_resize(reader->outputs, reader->output_room * sizeof *reader->outputs);
+    }
+    size_t *shape = rank ? memory_arena_alloc(&reader->arena, rank * sizeof *shape) : NULL;
+    for (size_t i = 0; i < rank; i++)
+        shape[i] = (size_t)json_integer_value(json_array_get(entry->shape, i));
+    results_output *made = &reader->outputs[reader->output_count++];
+    *made =
+        (results_output){.variable = (uint32_t)variable, .rank = (uint32_t)rank, .shape = shape};
+    return made;
+}
+
+void results_view_take_outputs(results_reader *reader, results_case *of)
+{
+    size_t size = reader->output_count * sizeof *reader->outputs;
+    results_output *kept = memory_arena_alloc(&reader->arena, size);
+    if (size)
+        memcpy(kept, reader->outputs, size);
+    of->outputs = kept;
+    of->output_count = reader->output_count;
+    reader->output_count = 0;
 }
 
 void results_view_add_quality(results_reader *reader, results_rows *rows, const char *stage,
@@ -222,8 +259,8 @@ void results_view_add_quality(results_reader *reader, results_rows *rows, const 
     *row = (ff_view_quality){
         .size = sizeof *row,
         .stage = find_stage(reader, stage, strlen(stage)),
-        .name = memory_arena_text(&reader->arena, name, strlen(name)),
-        .text = results_view_text(reader, text),
+        .name = results_view_shared_text(reader, name),
+        .text = results_view_shared_text(reader, json_string_value(text)),
         .value = json_is_number(value) ? json_number_value(value) : (double)NAN,
         .limit = json_is_number(limit) ? json_number_value(limit) : (double)NAN,
         .verdict = verdict,

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "view.h"
-#include "npy.h"
 #include "view-tables.h"
 
 #include <dirent.h>
@@ -12,43 +11,23 @@
 #include <string.h>
 #include <unistd.h>
 
-static const json_t *entry_of(const results_reader *reader, size_t variable, size_t index)
+static const results_output *output_of(const results_reader *reader, size_t variable, size_t index)
 {
-    const ff_view *view = &reader->view;
-    if (variable >= view->variable_count || index >= view->case_count)
+    if (index >= reader->view.case_count)
         return NULL;
-    return json_object_get(reader->per_case[index].outputs, view->variables[variable]->name);
+    const results_case *of = &reader->per_case[index];
+    for (size_t i = 0; i < of->output_count; i++)
+        if (of->outputs[i].variable == variable)
+            return &of->outputs[i];
+    return NULL;
 }
 
 static int32_t shape_of(void *ctx, size_t variable, size_t index, size_t shape[4])
 {
-    const json_t *entry = entry_of(ctx, variable, index),
-                 *lengths = json_object_get(entry, "shape");
-    size_t rank = json_array_size(lengths);
-    for (size_t i = 0; i < rank && i < 4; i++)
-        shape[i] = (size_t)json_integer_value(json_array_get(lengths, i));
-    return !entry || rank > 4 ? -1 : (int32_t)rank;
-}
-
-/* Returns what is known of an array: where its numbers are. NULL after an error. */
-static const json_t *array_of(results_reader *reader, size_t index, const char *variable)
-{
-    if (!reader->view.study)
-        return json_object_get(reader->per_case[index].outputs, variable);
-    if (reader->arrays_case != index) {
-        char *name = memory_print_text("cases/%s/arrays.json", reader->per_case[index].key);
-        json_decref(reader->arrays);
-        reader->arrays = results_view_read_json(reader, name);
-        reader->arrays_case = reader->arrays ? index : reader->view.case_count;
-        if (!reader->arrays)
-            ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
-                     "flankfilm run with --rerun all writes it anew", "%s/%s cannot be read%s%s",
-                     reader->path, name, errno ? ": " : "", errno ? strerror(errno) : "");
-        free(name);
-        if (!reader->arrays)
-            return NULL;
-    }
-    return json_object_get(json_object_get(reader->arrays, "outputs"), variable);
+    const results_output *output = output_of(ctx, variable, index);
+    for (uint32_t i = 0; output && i < output->rank; i++)
+        shape[i] = output->shape[i];
+    return output ? (int32_t)output->rank : -1;
 }
 
 typedef struct loaded {
@@ -79,74 +58,99 @@ static loaded *read_list(const json_t *data, double count)
     return made;
 }
 
-/* Reads the file of an array, which stands beside the one that names it. */
-static loaded *read_file(results_reader *reader, size_t index, const char *file,
-                         const size_t shape[4], uint32_t rank)
+static size_t count_of(const results_output *output)
 {
-    char why[RESULTS_NPY_WHY] = "that is not the name of a file beside it";
-    const char *key = reader->per_case[index].key;
-    char *name = reader->view.study ? memory_print_text("cases/%s/%s", key, file)
-                                    : memory_print_text("%s", file);
+    size_t count = 1;
+    for (uint32_t i = 0; i < output->rank; i++)
+        count *= output->shape[i];
+    return count;
+}
+
+/* Reads the file of an array, which stands beside the one that names it. */
+static loaded *read_file(results_reader *reader, const results_output *output, const char *file)
+{
+    char why[ARRAYS_WHY] = "that is not the name of a file beside it";
     bool plain = *file && *file != '.' && !strchr(file, '/');
-    int fd = plain ? results_npy_open(reader->directory, name, shape, rank, why) : -1;
-    size_t count = 1; /* the file has as many numbers, so that they fit */
-    for (uint32_t i = 0; i < rank; i++)
-        count *= shape[i];
+    int fd =
+        plain ? arrays_npy_open(reader->directory, file, output->shape, output->rank, why) : -1;
+    size_t count = count_of(output); /* the file has as many numbers, so that they fit */
     loaded *made = fd >= 0 ? make_loaded(count) : NULL;
-    if (made && !results_npy_read(fd, made->data, count)) {
+    if (made && !arrays_npy_read(fd, made->data, count)) {
         snprintf(why, sizeof why, "%s", strerror(errno));
         free(made);
         made = NULL;
     }
     if (!made)
         ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE, "run the case again",
-                 "%s/%s cannot be read: %s", reader->path, name, why);
-    free(name);
+                 "%s/%s cannot be read: %s", reader->path, file, why);
     return made;
+}
+
+/* Reads an array of a study from the log of its case. */
+static loaded *read_record(results_reader *reader, size_t index, const results_output *output)
+{
+    char why[ARRAYS_WHY];
+    const results_case *of = &reader->per_case[index];
+    const char *name = reader->view.variables[output->variable]->name;
+    arrays_label label = {.key = of->key, .output = name, .rank = output->rank};
+    memcpy(label.shape, output->shape, output->rank * sizeof *output->shape);
+    bool good = arrays_reader_has(&reader->logs, of->log, output->offset, &label, why);
+    loaded *made = good ? make_loaded(count_of(output)) : NULL;
+    good =
+        good && arrays_reader_read(&reader->logs, of->log, output->offset, &label, made->data, why);
+    if (good)
+        return made;
+    ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
+             "flankfilm run with --rerun all writes it anew",
+             "%s of case %zu, in %s/%s, cannot be "
+             "read: %s",
+             name, index + 1, reader->path, of->log, why);
+    free(made);
+    return NULL;
 }
 
 /* Reads the numbers of an array; NULL after an error. */
-static loaded *read_array(results_reader *reader, size_t index, const char *name,
-                          const size_t shape[4], uint32_t rank)
+static loaded *read_array(results_reader *reader, size_t index, const results_output *output)
 {
-    const json_t *entry = array_of(reader, index, name);
-    const char *file = json_string_value(json_object_get(entry, "file"));
+    const char *file = json_string_value(json_object_get(output->entry, "file"));
     double count = 1;
-    for (uint32_t i = 0; i < rank; i++)
-        count *= (double)shape[i];
+    for (uint32_t i = 0; i < output->rank; i++)
+        count *= (double)output->shape[i];
+    if (reader->view.study)
+        return read_record(reader, index, output);
     if (file)
-        return read_file(reader, index, file, shape, rank);
-    loaded *made = read_list(json_object_get(entry, "data"), count);
-    if (!made && (entry || !reader->view.study || reader->arrays))
+        return read_file(reader, output, file);
+    loaded *made = read_list(json_object_get(output->entry, "data"), count);
+    if (!made)
         ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
-                 "the numbers of %s in %s cannot be read", name, reader->path);
+                 "the numbers of %s in %s cannot be read",
+                 reader->view.variables[output->variable]->name, reader->path);
     return made;
 }
 
-static loaded *read_scalar(const json_t *entry)
+static loaded *read_scalar(const results_output *output)
 {
-    const json_t *value = json_object_get(entry, "value");
+    const json_t *value = json_object_get(output->entry, "value");
     loaded *made = make_loaded(1);
-    made->data[0] = json_is_number(value) ? json_number_value(value) : (double)NAN;
+    made->data[0] = !output->entry          ? output->value
+                    : json_is_number(value) ? json_number_value(value)
+                                            : (double)NAN;
     return made;
 }
 
 static ff_status load(void *ctx, size_t variable, size_t index, ff_array *array)
 {
     results_reader *reader = ctx;
-    const json_t *entry = entry_of(reader, variable, index);
-    size_t shape[4] = {0};
-    int32_t rank = shape_of(reader, variable, index, shape);
+    const results_output *output = output_of(reader, variable, index);
     *array = (ff_array){.data = NULL};
-    if (rank < 0)
+    if (!output)
         return FF_OK;
-    const char *name = reader->view.variables[variable]->name;
-    loaded *made =
-        rank ? read_array(reader, index, name, shape, (uint32_t)rank) : read_scalar(entry);
+    loaded *made = output->rank ? read_array(reader, index, output) : read_scalar(output);
     if (!made)
         return FF_NOCONV;
-    memcpy(made->shape, shape, sizeof shape);
-    *array = (ff_array){.data = made->data, .shape = made->shape, .rank = (uint32_t)rank};
+    if (output->rank)
+        memcpy(made->shape, output->shape, output->rank * sizeof *output->shape);
+    *array = (ff_array){.data = made->data, .shape = made->shape, .rank = output->rank};
     return FF_OK;
 }
 
@@ -221,7 +225,6 @@ static void finish_view(results_reader *reader)
     view->summary = memory_arena_text(&reader->arena, summary, strlen(summary));
     free(summary);
     study_tally_free(&reader->tally);
-    reader->arrays_case = view->case_count;
 }
 
 static bool read_directory(results_reader *reader)
@@ -232,6 +235,7 @@ static bool read_directory(results_reader *reader)
         return ff_error(reader->report, FF_FAULT_INPUT, FF_NOWHERE,
                         "name the directory that a run has written", "\"%s\" cannot be opened: %s",
                         path, strerror(errno));
+    arrays_reader_open(&reader->logs, reader->directory);
     if (faccessat(reader->directory, study_marker, F_OK, 0) == 0) {
         read_drawings(reader);
         return results_view_read_study(reader);
@@ -253,6 +257,7 @@ const ff_view *results_view_open(const char *directory, ff_report *report)
     reader->path = directory;
     reader->directory = -1;
     reader->index = json_object();
+    reader->texts = json_object();
     reader->view.title = "";
     bool good = read_directory(reader);
     finish_view(reader);
@@ -267,11 +272,12 @@ void results_view_close(const ff_view *view)
     if (!view)
         return;
     results_reader *reader = view->ctx;
-    for (size_t i = 0; reader->per_case && i < view->case_count; i++)
-        json_decref(reader->per_case[i].outputs);
     free(reader->per_case);
-    json_decref(reader->arrays);
+    free(reader->outputs);
+    arrays_reader_close(&reader->logs);
+    json_decref(reader->root);
     json_decref(reader->index);
+    json_decref(reader->texts);
     if (reader->directory >= 0)
         close(reader->directory);
     memory_arena_free(&reader->arena);

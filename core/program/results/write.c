@@ -15,19 +15,3 @@ bool results_write_run(const results_outcome *outcome, const char *directory,
     *removed = results_made_remove(directory);
     return results_folder_commit(folder);
 }
-
-bool results_write_case(const ff_pipeline *pipeline, const char *directory, ff_report *report)
-{
-    results_folder *folder = results_folder_open(directory, report);
-    if (!folder)
-        return false;
-    results_folder_sync(folder);
-    results_write_run_csv(pipeline, folder);
-    results_write_arrays(pipeline, folder);
-    FILE *stream = results_folder_begin(folder, "arrays", ".json");
-    if (stream)
-        results_write_arrays_json(pipeline, stream);
-    bool good = results_folder_commit(folder);
-    results_folder_free(folder);
-    return good;
-}

@@ -39,10 +39,6 @@ typedef enum {
    be freed. False with an error in the folder's report. */
 bool results_write_run(const results_outcome *outcome, const char *directory,
                        results_folder *folder, char **removed);
-/* Writes the files of a case of a study: arrays.json, the tables and the fields. False with an
-   error. */
-bool results_write_case(const ff_pipeline *pipeline, const char *directory, ff_report *report);
-
 /* Writes result.json, one JSON object: what the file asks for, what each stage was made of, and
    scalars and series that were computed on the way. */
 void results_write_run_json(const results_outcome *outcome, FILE *stream);
@@ -50,9 +46,8 @@ void results_write_run_json(const results_outcome *outcome, FILE *stream);
    results are, or NULL. */
 void results_write_answer(const results_outcome *outcome, const char *directory, bool all_arrays,
                           FILE *stream);
-/* Writes arrays.json: the "outputs" alone, which are the same whenever and wherever they are
-   computed. */
-void results_write_arrays_json(const ff_pipeline *pipeline, FILE *stream);
+/* Names what each dimension of an output is plotted against: "gears.roll_angle", or "". */
+json_t *results_against(const ff_pipeline *pipeline, const ff_stage *stage, size_t output);
 
 /*
  * <stage>.csv holds the series along the first dimension of the model's table of outputs,

@@ -205,24 +205,10 @@ static void add_quality(json_t *record, const ff_pipeline *pipeline)
     json_object_set_new(record, "quality", all);
 }
 
-/* Returns [unit, dims, shape] of an array, whose numbers are in a file of the case. */
-static json_t *describe_array(const ff_stage *stage, size_t output)
-{
-    const ff_result *result = &stage->results[output];
-    json_t *dims = json_array(), *shape = json_array();
-    for (uint32_t i = 0; i < result->rank; i++) {
-        json_array_append_new(dims, json_string(result->dims[i]));
-        json_array_append_new(shape, json_integer((json_int_t)result->shape[i]));
-    }
-    return json_pack("[s, o, o]", result->row->unit, dims, shape);
-}
-
-/* Adds the requested scalars, and how long each stage took or that it was reused. True when there
-   are arrays. */
-static bool add_results(json_t *record, const ff_pipeline *pipeline)
+/* Adds the requested scalars, and how long each stage took or that it was reused. */
+static void add_results(json_t *record, const ff_pipeline *pipeline)
 {
     json_t *outputs = json_object(), *seconds = json_object(), *reused = json_object();
-    json_t *arrays = json_object();
     json_t *chosen = json_object();
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];
@@ -235,14 +221,11 @@ static bool add_results(json_t *record, const ff_pipeline *pipeline)
                             json_real(stage->seconds));
         for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
             const ff_result *result = &stage->results[k];
-            if (!result->requested || !result->data)
+            if (!result->requested || !result->data || study_is_array(result))
                 continue;
             snprintf(name, sizeof name, "%s.%s", stage->name, result->row->name);
-            if (result->rank > 0)
-                json_object_set_new(arrays, name, describe_array(stage, k));
-            else
-                json_object_set_new(outputs, name,
-                                    json_pack("[s, f]", result->row->unit, result->data[0]));
+            json_object_set_new(outputs, name,
+                                json_pack("[s, f]", result->row->unit, result->data[0]));
         }
     }
     json_object_set_new(record, "outputs", outputs);
@@ -253,27 +236,15 @@ static bool add_results(json_t *record, const ff_pipeline *pipeline)
         json_object_set_new(record, "choices", study_choices_record(pipeline));
     }
     json_decref(chosen);
-    bool any = json_object_size(arrays) > 0;
-    if (any)
-        json_object_set(record, "arrays", arrays);
-    json_decref(arrays);
-    return any;
 }
 
-/* Adds the results to the record, and writes series and fields to files. False after an error. */
-static bool keep_results(study_case *c, const study_run *run, size_t index, json_t *record)
+/* Adds the results to the record, and keeps arrays. False after an error. */
+static bool keep_results(study_case *c, const study_run *run, size_t index, json_t *record,
+                         study_memory *memory)
 {
-    bool series = add_results(record, c->pipeline);
-    if (run->study->measure) {
-        json_object_del(record, "arrays"); /* a measured study has its own file for arrays */
-        return study_measure_record(c, run, index, record);
-    }
-    if (!series)
-        return true;
-    char *path = memory_print_text("%s/cases/%s", run->directory, c->key);
-    bool written = run->write(c->pipeline, path, c->report);
-    free(path);
-    return written;
+    add_results(record, c->pipeline);
+    return run->study->measure ? study_measure_record(c, run, index, record)
+                               : study_arrays_keep(&memory->arrays, c, record);
 }
 
 json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_memory *memory)
@@ -300,7 +271,7 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
     free(reason);
     add_quality(record, c->pipeline);
     add_judgement(record);
-    if (good && !keep_results(c, run, index, record)) {
+    if (good && !keep_results(c, run, index, record, memory)) {
         json_decref(setups);
         json_decref(parameters);
         json_decref(record);

@@ -5,6 +5,8 @@
 
 #include "study.h"
 
+#include "../arrays/log.h"
+
 #include <jansson.h>
 
 /* reuse.c keeps results of stages on disk, for other cases and runs with the same inputs. */
@@ -29,10 +31,34 @@ void study_reuse_clear(int study);
 bool study_reuse_recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage);
 void study_reuse_keep(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage);
 
+/* arrays.c */
+typedef struct study_shared { /* by a worker with the process that started it */
+    char key[STUDY_KEY_SIZE]; /* of the case that it runs */
+    unsigned log;             /* number of its log under an executor; 0: it has none */
+    off_t end;                /* of its log, after the last case that was kept */
+} study_shared;
+
+typedef struct study_arrays { /* where a worker keeps arrays */
+    const study_run *run;
+    study_shared *shared;
+    size_t slot;   /* number of the worker */
+    int directory; /* descriptor of the directory of the study; -1: the log is not open yet */
+    arrays_log log;
+    char name[STUDY_NAME_SIZE]; /* of the log */
+} study_arrays;
+
+/* Appends the requested arrays of a case to the log, forces them to the disk and adds to the record
+   where they are. False with an error in c->report. */
+struct study_case;
+bool study_arrays_keep(study_arrays *arrays, const struct study_case *c, json_t *record);
+/* As study_journal_read, without the cases whose arrays are lost. */
+json_t *study_arrays_read_done(const char *directory);
+
 /* case.c */
 typedef struct study_memory { /* what a worker keeps from case to case */
     int directory; /* descriptor of the directory with results of stages; -1 when none is kept */
     study_reuse_stats *stats;
+    study_arrays arrays;
     json_t *seen; /* {hash of a setup: true} of the setups that an earlier record of this worker
                      describes */
 } study_memory;
@@ -57,7 +83,7 @@ bool study_case_is_good(const study_case *c);                        /* whether 
 /* Returns a record without outputs; reason may be NULL. */
 json_t *study_case_record(const study_run *run, size_t index, const char *key, const char *status,
                           const char *reason);
-/* Runs the case; NULL, with an error in c->report, when its files could not be written. */
+/* Runs the case; NULL, with an error in c->report, when its arrays could not be kept. */
 json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_memory *memory);
 /* Returns the text of the first error, to be freed; with its place when that is in a table, which
    the text does not name. */

@@ -48,6 +48,25 @@ bool study_describe(const study_run *run, const study_tally *tally, ff_report *r
     return good;
 }
 
+bool study_check_format(const char *directory, ff_report *report)
+{
+    char *path = memory_print_text("%s/%s", directory, study_description);
+    json_t *study = json_load_file(path, 0, NULL);
+    const json_t *told = json_object_get(study, "format");
+    json_int_t format = told ? json_integer_value(told) : 1;
+    bool good =
+        !study || format == STUDY_FORMAT ||
+        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
+                 format < STUDY_FORMAT
+                     ? "name another directory with -o, or read it with that flankfilm"
+                     : "read it with a newer flankfilm",
+                 "\"%s\" is of %s flankfilm: its files are of format %lld, not %d", directory,
+                 format < STUDY_FORMAT ? "an older" : "a newer", (long long)format, STUDY_FORMAT);
+    json_decref(study);
+    free(path);
+    return good;
+}
+
 void study_remove_parts(int directory)
 {
     static const char end[] = ".part";

@@ -176,20 +176,28 @@ static bool claim_directory(const char *path, ff_report *report)
                     path, strerror(errno));
 }
 
+void study_journal_name(const study_run *run, char name[STUDY_NAME_SIZE])
+{
+    if (run->shards == 1)
+        snprintf(name, STUDY_NAME_SIZE, "journal.jsonl");
+    else
+        snprintf(name, STUDY_NAME_SIZE, "journal.%zu-of-%zu.jsonl", run->shard, run->shards);
+}
+
 static bool open_files(study_journal *journal, const study_run *run, ff_report *report)
 {
     static const char hint[] = "name another directory with -o";
     const char *path = run->directory;
-    char name[64] = "journal.jsonl";
+    char name[STUDY_NAME_SIZE];
     bool alone = run->shards == 1;
-    if (!alone)
-        snprintf(name, sizeof name, "journal.%zu-of-%zu.jsonl", run->shard, run->shards);
+    study_journal_name(run, name);
     if (study_make_path(path))
         journal->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (journal->directory >= 0 && !lock_file(journal->directory, alone ? LOCK_EX : LOCK_SH))
         return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, hint,
                         "another run is using the result directory \"%s\"", path);
-    if (journal->directory >= 0 && !claim_directory(path, report))
+    if (journal->directory >= 0 &&
+        (!claim_directory(path, report) || !study_check_format(path, report)))
         return false;
     if (journal->directory >= 0)
         journal->fd =

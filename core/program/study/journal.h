@@ -15,6 +15,8 @@ typedef struct study_journal {
     double synced; /* when it was last forced to the disk */
 } study_journal;
 
+/* Prints the name of the journal of this shard. */
+void study_journal_name(const study_run *run, char name[STUDY_NAME_SIZE]);
 /* Locks the directory and this shard's journal in it, and drops an unfinished last line. */
 bool study_journal_open(study_journal *journal, const study_run *run, ff_report *report);
 bool study_journal_append(study_journal *journal, const char *line, size_t length,

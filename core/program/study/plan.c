@@ -92,7 +92,7 @@ void study_preview(const study_run *given, study_plan *plan)
     size_t chains = 0;
     study_chain chain = {0};
     *plan = (study_plan){.seconds = -1};
-    s.records = study_journal_read(run->directory);
+    s.records = study_arrays_read_done(run->directory);
     index_records(&s);
     for (size_t k = run->shard - 1; k < study_chains(study); k += run->shards) {
         study_chain_begin(&chain, k);

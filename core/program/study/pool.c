@@ -14,6 +14,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 void study_pool_open(study_pool *pool, const study_run *run, json_t *done)
@@ -33,6 +34,8 @@ void study_pool_close(study_pool *pool)
             free(study_worker_reap(worker));
         }
         free(worker->line);
+        if (worker->shared)
+            munmap(worker->shared, sizeof *worker->shared);
     }
     free(pool->workers);
     free(pool->polled);
@@ -76,7 +79,7 @@ void study_pool_start_chain(study_pool *pool, size_t chain)
 static int finish_case(study_pool *pool, study_worker *worker, char verdict, const char *rest,
                        size_t *task)
 {
-    const char *key = worker->key && worker->key[0] ? worker->key : "-";
+    const char *key = worker->shared && worker->shared->key[0] ? worker->shared->key : "-";
     free(pool->answer);
     pool->answer =
         memory_print_text("%zu %.*s %c %s", worker->index, STUDY_KEY_SIZE, key, verdict, rest);
@@ -107,9 +110,9 @@ static int record_crash(study_pool *pool, study_worker *worker, const char *stat
         free(reason);
         return FF_TASK_NONE;
     }
-    if (!worker->key[0]) /* the worker died while it built the case */
-        snprintf(worker->key, STUDY_KEY_SIZE, "case-%zu", worker->index + 1);
-    memcpy(key, worker->key, sizeof key);
+    if (!worker->shared->key[0]) /* the worker died while it built the case */
+        snprintf(worker->shared->key, STUDY_KEY_SIZE, "case-%zu", worker->index + 1);
+    memcpy(key, worker->shared->key, sizeof key);
     key[STUDY_KEY_SIZE - 1] = '\0';
     json_t *record = study_case_record(pool->run, worker->index, key, status, reason);
     char *line = study_journal_line(record);
@@ -132,13 +135,13 @@ static int read_answer(study_pool *pool, study_worker *worker, size_t *task)
     if (line[0] == '!')
         return finish_case(pool, worker, STUDY_VERDICT_FATAL, line + 1, task);
     if (line[0] == '=') {
-        bool good = study_record_is_ok(json_object_get(pool->done, worker->key));
+        bool good = study_record_is_ok(json_object_get(pool->done, worker->shared->key));
         return finish_case(pool, worker, good ? STUDY_VERDICT_KNOWN : STUDY_VERDICT_KNOWN_BAD, "",
                            task);
     }
     json_t *record = json_loadb(line, worker->length, 0, NULL);
     bool good = study_record_is_ok(record);
-    keep_record(pool, worker->key, record);
+    keep_record(pool, worker->shared->key, record);
     json_decref(record);
     return finish_case(pool, worker, good ? STUDY_VERDICT_GOOD : STUDY_VERDICT_FAILED, line, task);
 }

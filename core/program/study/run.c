@@ -83,7 +83,7 @@ static void open_journal(void *ctx)
         r->open = false;
     }
     if (r->open) {
-        r->done = study_journal_read(run->directory);
+        r->done = study_arrays_read_done(run->directory);
         if (run->begin == 0)
             begin_results(r);
         r->keys = run->keys ? run->keys : memory_alloc(total * sizeof *r->keys);

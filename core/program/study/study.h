@@ -149,7 +149,11 @@ typedef struct study_counters {
     study_tally tally;          /* of the cases done; to be freed by study_tally_free */
 } study_counters;
 
-enum { STUDY_KEY_SIZE = 20 }; /* bytes of the key of a case, with its end */
+enum {
+    STUDY_KEY_SIZE = 20,  /* bytes of the key of a case, with its end */
+    STUDY_NAME_SIZE = 64, /* bytes of the name of a journal or a log */
+    STUDY_FORMAT = 2      /* of the files of a study, which study.json tells */
+};
 
 /* What to run, and how. */
 typedef struct study_run {
@@ -175,8 +179,9 @@ typedef struct study_run {
     char (*keys)[STUDY_KEY_SIZE]; /* filled in with the key of each case that ran or was known; NULL
                                      when the caller does not need them */
 
-    /* Writes the files of a case with series or fields into a directory. */
-    bool (*write)(const ff_pipeline *pipeline, const char *directory, ff_report *report);
+    /* Returns the names of what each dimension of an array is plotted against, "" for its index;
+       NULL: none is noted. */
+    json_t *(*against)(const ff_pipeline *pipeline, const ff_stage *stage, size_t output);
     /* Looks, with the directory locked, at what is there, and removes what was made of it; false
        after an error. NULL: nothing is looked at. */
     bool (*enter)(void *ctx, ff_report *report);
@@ -231,6 +236,12 @@ extern const char study_description[]; /* written by study_run.describe */
 /* Returns {key: record} of all journals in the directory, which may be missing. A key has its last
    record that is ok, else its last one. */
 json_t *study_journal_read(const char *directory);
+
+/* Refuses a directory whose files are of another format; one without a study is good. */
+bool study_check_format(const char *directory, ff_report *report);
+
+/* Whether a result goes to a log instead of the journal. */
+bool study_is_array(const ff_result *result);
 
 json_t *study_json_real(double value); /* null for a number that is not finite */
 

@@ -111,7 +111,7 @@ static bool run_case(const study_worker *worker, const study_run *run, size_t in
     reach_case(chain, run, index, done);
     study_case_open(&c, run, index);
     study_chain_enter(chain, run->study, &c);
-    memcpy(worker->key, c.key, sizeof c.key);
+    memcpy(worker->shared->key, c.key, sizeof c.key);
     char *line = NULL;
     json_t *record = json_object_get(done, c.key);
     if (study_case_is_settled(&c, record, run->rerun)) {
@@ -142,7 +142,7 @@ static void keep_memory(void)
 }
 
 static _Noreturn void serve_cases(const study_worker *worker, const study_run *run,
-                                  const json_t *done, int from, int to)
+                                  const json_t *done, size_t slot, int from, int to)
 {
     static study_reuse_stats stats[MOST_STAGES];
     size_t index;
@@ -163,7 +163,12 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     mkdir(path, 0777); /* it may be there */
     int stages = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     free(path);
-    study_memory memory = {.directory = stages, .stats = stats, .seen = json_object()};
+    study_memory memory = {
+        .directory = stages,
+        .stats = stats,
+        .arrays = {.run = run, .shared = worker->shared, .slot = slot, .directory = -1},
+        .seen = json_object(),
+    };
     study_chain chain = {0};
     while (read(from, &index, sizeof index) == sizeof index) {
         if (ftruncate(STDERR_FILENO, 0) != 0 ||
@@ -184,13 +189,13 @@ bool study_worker_start(study_worker *worker, const study_run *run, const json_t
                         const study_worker *all, size_t count)
 {
     int to[2], from[2];
-    if (!worker->key) {
-        worker->key =
-            mmap(NULL, STUDY_KEY_SIZE, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-        if (worker->key == MAP_FAILED)
-            worker->key = NULL;
+    if (!worker->shared) {
+        worker->shared = mmap(NULL, sizeof *worker->shared, PROT_READ | PROT_WRITE,
+                              MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        if (worker->shared == MAP_FAILED)
+            worker->shared = NULL;
     }
-    if (!worker->key || !study_open_pipes(to, from))
+    if (!worker->shared || !study_open_pipes(to, from))
         return false;
     worker->captured = memfd_create("flankfilm", MFD_CLOEXEC);
     fcntl(worker->captured, F_SETFL, O_APPEND);
@@ -205,7 +210,7 @@ bool study_worker_start(study_worker *worker, const study_run *run, const json_t
             }
         close(to[1]);
         close(from[0]);
-        serve_cases(worker, run, done, to[0], from[1]);
+        serve_cases(worker, run, done, (size_t)(worker - all) + 1, to[0], from[1]);
     }
     close(to[0]);
     close(from[1]);
@@ -224,7 +229,7 @@ bool study_worker_start(study_worker *worker, const study_run *run, const json_t
 
 bool study_worker_send_case(study_worker *worker, size_t index)
 {
-    worker->key[0] = '\0';
+    worker->shared->key[0] = '\0';
     worker->busy = true;
     worker->index = index;
     worker->since = study_seconds_now();

@@ -3,7 +3,7 @@
 #ifndef STUDY_WORKERS_H
 #define STUDY_WORKERS_H
 
-#include "study.h"
+#include "case.h"
 
 #include <flankfilm/executor.h>
 #include <jansson.h>
@@ -20,7 +20,7 @@ typedef struct study_worker {
     double since;
     char *line; /* the answer as far as it has been read */
     size_t length;
-    char *key; /* of the case that it runs, in memory that both processes share */
+    study_shared *shared; /* in memory that both processes share */
 } study_worker;
 
 /* Starts a worker process, which skips cases that `done` holds. It closes the pipes of the `count`

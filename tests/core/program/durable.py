@@ -63,7 +63,7 @@ def finished(lines):
 class Durable(lab.Lab):
     def traced(self, *words, code=0):
         """The calls that change a file, in their order."""
-        line = ["strace", "-f", "-y", "-s", "400", "-o", "trace", "-e", "trace=" + ",".join("?" + c for c in CHANGES),
+        line = ["strace", "-f", "-y", "-s", "4000", "-o", "trace", "-e", "trace=" + ",".join("?" + c for c in CHANGES),
                 self.program, *words]
         done = subprocess.run(line, capture_output=True, text=True, check=False)
         if "ptrace" in done.stderr:
@@ -123,26 +123,48 @@ class Durable(lab.Lab):
     def test_study(self):
         calls = self.traced("run", "study.yaml", "-o", "traced-study", "-j", "2", code=4)
         used = self.check_names(calls)
-        self.assertLessEqual({"openat", "write", "renameat", "flock", "fsync"}, used)
-        self.assertGreater(self.check_renames([c for c in calls if "/stages" not in str(c)], True), 20)
+        self.assertLessEqual({"openat", "write", "pwrite64", "renameat", "flock", "fsync", "fdatasync"}, used)
+        self.assertGreater(self.check_renames([c for c in calls if "/stages" not in str(c)], True), 1)
         journal = [c.name for c in calls if c.paths and c.paths[0].endswith("/journal.jsonl") and
                    c.name in ("write", "fdatasync")]
         self.assertEqual(journal[-1], "fdatasync")
 
     def test_order(self):
-        """A record comes into the journal after all files of its case have their names."""
-        calls = self.traced("run", "study.yaml", "-o", "order", "-j", "1", code=4)
-        moved = set()
-        records = 0
+        """A line comes into the journal after the log that it names was forced to the disk up to there,
+        and the name of that log, too; nothing in a log is written twice."""
+        calls = self.traced("run", "study.yaml", "-o", "order", "-j", "2", code=4)
+        place, end, synced, named = os.path.realpath("order"), {}, {}, set()
+        lines = 0
         for call in calls:
-            if call.name.startswith("rename") and call.names[-1] == "arrays.json":
-                moved.add(os.path.basename(call.paths[0]))
-            if call.name == "write" and call.paths[0].endswith("/journal.jsonl"):
-                for key in re.findall(r'\\"key\\":\\"(\w+)\\"', call.words):
-                    records += 1
-                    self.assertTrue(key in moved or '\\"failed\\"' in call.words, (key, call))
-        self.assertGreater(records, 1)
-        self.assertEqual(len(moved), 4)
+            path = call.paths[0] if call.paths else ""
+            if call.name == "pwrite64" and path.endswith(".log"):
+                offset = int(call.words.rsplit(",", 1)[1])
+                self.assertEqual(offset, end.get(path, 0), call)
+                end[path] = offset + int(call.code)
+            elif call.name == "ftruncate" and path.endswith(".log"):
+                self.assertNotIn(path, end)
+            elif call.name == "fdatasync" and path in end:
+                synced[path] = end[path]
+            elif call.name == "fsync" and path == place:
+                named.update(end)
+            elif call.name == "write" and path.endswith("/journal.jsonl"):
+                for log, until in re.findall(r'\\"log\\":\[\\"([\w.]+)\\",(\d+)\]', call.words):
+                    log, lines = os.path.join(place, log), lines + 1
+                    self.assertGreaterEqual(synced.get(log, 0), int(until), call)
+                    self.assertIn(log, named)
+        self.assertEqual(lines, 4)
+
+    def test_resumed(self):
+        """What no line of the journal names is cut off, once, before anything is appended."""
+        self.traced("run", "study.yaml", "-o", "cut", "-j", "1", code=4)
+        with open("cut/arrays.1.log", "ab") as file:
+            file.write(bytes(1000))
+        whole = os.path.getsize("cut/arrays.1.log") - 1000
+        calls = self.traced("run", "study.yaml", "-o", "cut", "-j", "1", "--set", "wave.shape=b", code=4)
+        log = [c for c in calls if c.paths and c.paths[0].endswith("/arrays.1.log")]
+        self.assertEqual([c.words.rsplit(",", 1)[1].strip() for c in log if c.name == "ftruncate"], [str(whole)])
+        first = [c for c in log if c.name in ("ftruncate", "pwrite64")][:2]
+        self.assertEqual([c.name for c in first], ["ftruncate", "pwrite64"])
 
 
 lab.main()

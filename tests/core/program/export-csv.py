@@ -106,8 +106,9 @@ class Errors(lab.Lab):
             with open("study/" + name, encoding="utf-8") as source:
                 with open("half/" + name, "w", encoding="utf-8") as copy:
                     copy.writelines(source.readlines()[:2])
-        self.call("export", "half", "--to", "csv", "-o", "half-out", code=2)  # no cases/
-        os.symlink(os.path.abspath("study/cases"), "half/cases")
+        self.assertIn("half/arrays.1.log, cannot be read: No such file",
+                      self.call("export", "half", "--to", "csv", "-o", "half-out", code=2))
+        os.symlink(os.path.abspath("study/arrays.1.log"), "half/arrays.1.log")
         self.call("export", "half", "--to", "csv", "-o", "half-out")
         with open("half-out/scalars.csv", encoding="utf-8") as file:
             self.assertEqual(file.read().count("not run"), 4)

@@ -110,17 +110,6 @@ class Fields(lab.Lab):
             said = self.call("export", "bad", "--to", "csv", code=2)
             self.assertIn("is not the name of a file beside it", said)
 
-    def test_of_a_study(self):
-        name = f"study/cases/{self.records()[0]['key']}/wave.field.npy"
-        with open(name, "rb") as file:
-            whole = file.read()
-        with open(name, "wb") as file:
-            file.write(whole[:-8])
-        said = self.call("export", "study", "--to", "csv", "-o", "out", code=2)
-        self.assertIn(name + " cannot be read: it has", said)
-        with open(name, "wb") as file:
-            file.write(whole)
-
     def test_each_once(self):
         """No field is in the text of a run, and none in two files."""
         entries = {k: e for k, e in self.read("run/result.json")["outputs"].items() if "file" in e}

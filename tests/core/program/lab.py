@@ -89,13 +89,24 @@ class Lab(unittest.TestCase):
 
     @classmethod
     def arrays(cls, record):
-        return cls.outputs(f"study/cases/{record['key']}", "arrays.json")
+        """The arrays of a case as entries of a run, from its log."""
+        found = {}
+        for name, entry in record["arrays"].items():
+            unit, dims, shape, offset = entry[:4]
+            with open(f"study/{record['log'][0]}", "rb") as file:
+                file.seek(offset)
+                length, key, start = struct.unpack("<Q24sQ", file.read(40))
+                rest = file.read(length - 40)
+            output, body = rest[:start - 40], rest[start - 40:-8]
+            assert key.rstrip(b"\0").decode() == record["key"] and output.rstrip(b"\0").decode() == name
+            found[name] = {"unit": unit, "dims": dims, "shape": shape, "data": cls.body(body, shape)}
+        return found
 
     @classmethod
-    def outputs(cls, directory, name="result.json"):
+    def outputs(cls, directory):
         """The entries of all outputs, each array with its numbers as "data"."""
-        told = cls.read(f"{directory}/{name}")
-        found = {**told["outputs"], **told.get("computed", {})}
+        told = cls.read(f"{directory}/result.json")
+        found = {**told["outputs"], **told["computed"]}
         for entry in found.values():
             if "file" in entry:
                 entry["data"] = cls.numbers(f"{directory}/{entry['file']}", entry["shape"])
@@ -105,10 +116,14 @@ class Lab(unittest.TestCase):
     def numbers(name, shape):
         """What stands in a .npy file, which says so without numpy."""
         with open(name, "rb") as file:
-            magic, length = struct.unpack("<8sH", file.read(10))
-            header = ast.literal_eval(file.read(length).decode("ascii"))
-            body = file.read()
-        assert magic == b"\x93NUMPY\1\0" and (10 + length) % 64 == 0, name
+            return Lab.body(file.read(), shape)
+
+    @staticmethod
+    def body(text, shape):
+        """The numbers of what stands in such a file."""
+        magic, length = struct.unpack("<8sH", text[:10])
+        header, body = ast.literal_eval(text[10:10 + length].decode("ascii")), text[10 + length:]
+        assert magic == b"\x93NUMPY\1\0" and (10 + length) % 64 == 0, text[:10]
         assert header == {"descr": "<f8", "fortran_order": False, "shape": tuple(shape)}, header
         return list(struct.unpack(f"<{math.prod(shape)}d", body))
 

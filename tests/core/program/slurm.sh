@@ -178,5 +178,8 @@ for part in 1 2 3 4; do
 done
 grep -q 'the study was stopped' "log/part-$late.out"
 cmp calm/table.csv "my results/table.csv"
-diff -r calm/cases "my results/cases"
+for results in calm "my results"; do
+    "$flankfilm" export "$results" --to csv -o "$results-csv"
+done
+cmp calm-csv/wave-t.csv "my results-csv/wave-t.csv"
 echo "40 cases as without Slurm"

@@ -1,10 +1,10 @@
 #!/bin/sh
-# A study that is killed again and again ends with the results of one that is left alone, bit for
-# bit.   study-kill.sh ROUNDS FLANKFILM TOYS...
+# A study that is killed again and again, evenly over its cases, ends with the results of one that is
+# left alone, bit for bit.   study-kill.sh ROUNDS CASES FLANKFILM TOYS...
 set -eu
-rounds=$1
-flankfilm=$(realpath "$2")
-shift 2
+rounds=$1 cases=$2
+flankfilm=$(realpath "$3")
+shift 3
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 mkdir -p "$lab/plugins/toy"
@@ -14,44 +14,48 @@ for toy; do
 done
 cd "$lab"
 export FLANKFILM_PLUGIN_PATH="$lab/plugins"
-points=$((rounds * 4)) # so many that the last round still finds work
 cat >study.yaml <<YAML
 format: 2
 pipeline:
-  wave: {use: toy/wave, amplitude: 2 mm, work: 20 ms}
+  wave: {use: toy/wave, amplitude: 2 mm}
   sum: {use: toy/sum, wave: wave}
   slow: {use: toy/wave, amplitude: 1 mm, work: 30 ms}
-outputs: [sum.*, wave.height, slow.total]
+outputs: [sum.*, wave.height, wave.field, slow.total]
 study:
   sweep:
-    wave.amplitude: {from: 1 mm, to: 4 mm, points: $points}
-    wave.count: [8, 16, 32]
+    wave.amplitude: {from: 1 mm, to: 4 mm, points: $((cases / 4))}
+    wave.count: [1, 8, 16, 32]
 YAML
 cat >chains.yaml <<YAML
 format: 2
 pipeline:
-  walk: {use: toy/walk, step: 1 m, work: 10 ms}
+  walk: {use: toy/walk, step: 1 m, work: 1 ms}
 outputs: [walk.place]
 study:
   sweep:
     walk.foot: [1, 2, 3]
-    walk.step: {from: 0.1 m, to: 0.7 m, points: $((2 * points)), follow: both}
+    walk.step: {from: 0.1 m, to: 0.7 m, points: $((rounds * 8)), follow: both}
 YAML
 
-# kill STUDY CASES
+finished() { cat "killed-$1/journal.jsonl" 2>/dev/null | wc -l; }
+
+# kill STUDY CASES: in round k when k of ROUNDS + 1 parts are done, and some milliseconds later
 seed=1
 kill_again() {
     "$flankfilm" run "$1.yaml" -j 2 -o "calm-$1" >calm.out
     round=0
     kills=0
     while [ "$round" -lt "$rounds" ]; do
+        round=$((round + 1))
         "$flankfilm" run "$1.yaml" -j 2 -o "killed-$1" >killed.out 2>killed.err &
         run=$!
+        while kill -0 "$run" 2>/dev/null && [ "$(finished "$1")" -lt $(($2 * round / (rounds + 1))) ]; do
+            sleep 0.005
+        done
         seed=$(((seed * 1103515245 + 12345) % 2147483648))
-        sleep "0.$(printf %03d $((seed / 65536 % 200)))"
+        sleep "0.0$(printf %02d $((seed / 65536 % 20)))"
         if kill -9 "$run" 2>/dev/null; then kills=$((kills + 1)); fi
         wait "$run" 2>/dev/null || true
-        round=$((round + 1))
     done
     "$flankfilm" run "$1.yaml" -j 2 -o "killed-$1" | tee killed.out
     grep -q "^$2 of $2 cases done" killed.out
@@ -59,15 +63,17 @@ kill_again() {
     [ "$kills" -gt 0 ]
     cmp "calm-$1/table.csv" "killed-$1/table.csv"
 }
-kill_again study $((3 * points))
-diff -r calm-study/cases killed-study/cases
-[ "$(ls killed-study/cases | wc -l)" -eq $((3 * points)) ]
+kill_again study "$cases"
+for run in calm killed; do "$flankfilm" export $run-study --to csv -o $run-csv; done
+for file in wave-t.csv wave-t-x.csv sum-t.csv; do cmp calm-csv/$file killed-csv/$file; done
+ls killed-study
+[ "$(ls killed-study | wc -l)" -eq 6 ] # two logs among them
 
-kill_again chains $((12 * points))
+kill_again chains $((6 * rounds * 8))
 states() {
     sed -n 's/.*"key":"\([^"]*\)".*"state":{\([^}]*\)}.*/\1 \2/p' "$1/journal.jsonl" | sort -u
 }
 states calm-chains >calm.states
 states killed-chains >killed.states
 cmp calm.states killed.states
-[ "$(wc -l <killed.states)" -eq $((12 * points)) ]
+[ "$(wc -l <killed.states)" -eq $((6 * rounds * 8)) ]

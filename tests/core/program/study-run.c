@@ -78,8 +78,10 @@ static void test_zip_and_use(void)
 static void test_series(void)
 {
     outcome r = cli("$F run s.yaml --set outputs='[wave.*, wave.field]' -o series; "
-                    "ls series/cases | wc -l; ls series/cases/*/wave.field.npy | wc -l");
-    cli_expect("a directory for each case", &r, cli_has(r.out, "\n9\n9\n"));
+                    "LC_ALL=C ls -A series; grep -c '\"log\":' series/journal.jsonl");
+    cli_expect("no file for a case", &r,
+               cli_has(r.out, "\n.flankfilm-study\narrays.1.log\n") &&
+                   cli_has(r.out, "\nstudy.json\ntable.csv\n9\n"));
 }
 
 static void test_failures(void)

@@ -31,12 +31,10 @@ static size_t print_shape(const size_t *shape, uint32_t rank, char *out, size_t 
     return length + (size_t)snprintf(out + length, size - length, ")");
 }
 
-void results_npy_write(FILE *stream, const double *data, const size_t *shape, uint32_t rank)
+size_t arrays_npy_header(const size_t *shape, uint32_t rank, char header[ARRAYS_NPY_HEADER])
 {
-    char header[PREAMBLE + 4 * ALIGNMENT], *text = header + PREAMBLE;
-    size_t room = sizeof header - PREAMBLE, count = 1;
-    for (uint32_t i = 0; i < rank; i++)
-        count *= shape[i];
+    char *text = header + PREAMBLE;
+    size_t room = ARRAYS_NPY_HEADER - PREAMBLE;
     size_t length =
         (size_t)snprintf(text, room, "{'descr': '<f8', 'fortran_order': False, 'shape': ");
     length += print_shape(shape, rank, text + length, room - length);
@@ -49,6 +47,15 @@ void results_npy_write(FILE *stream, const double *data, const size_t *shape, ui
     header[MAGIC + 1] = 0;
     header[MAGIC + 2] = (char)((total - PREAMBLE) % 256);
     header[MAGIC + 3] = (char)((total - PREAMBLE) / 256);
+    return total;
+}
+
+void arrays_npy_write(FILE *stream, const double *data, const size_t *shape, uint32_t rank)
+{
+    char header[ARRAYS_NPY_HEADER];
+    size_t total = arrays_npy_header(shape, rank, header), count = 1;
+    for (uint32_t i = 0; i < rank; i++)
+        count *= shape[i];
     setvbuf(stream, NULL, _IONBF, 0);
     if (fwrite(header, 1, total, stream) == total && count)
         fwrite(data, sizeof *data, count, stream);
@@ -93,41 +100,40 @@ static bool is_shape(const char *found, const char *expected)
 }
 
 /* Says in `why` what is wrong with a header, if anything. */
-static bool check_header(const char *header, const char *shape, char why[RESULTS_NPY_WHY])
+static bool check_header(const char *header, const char *shape, char why[ARRAYS_WHY])
 {
     const char *type = value_of(header, "descr"), *order = value_of(header, "fortran_order"),
                *found = value_of(header, "shape");
     if (strncmp(type, "'<f8'", 5) == 0 && strncmp(order, "False", 5) == 0 && is_shape(found, shape))
         return true;
     if (strncmp(type, "'|O", 3) == 0)
-        snprintf(why, RESULTS_NPY_WHY, "it holds pickled objects, which are never read");
+        snprintf(why, ARRAYS_WHY, "it holds pickled objects, which are never read");
     else if (strncmp(type, "'>f8'", 5) == 0)
-        snprintf(why, RESULTS_NPY_WHY, "its numbers are big-endian ('>f8'), not '<f8'");
+        snprintf(why, ARRAYS_WHY, "its numbers are big-endian ('>f8'), not '<f8'");
     else if (strncmp(type, "'<f8'", 5) != 0)
-        snprintf(why, RESULTS_NPY_WHY, "its numbers are of the type %.*s, not '<f8'",
+        snprintf(why, ARRAYS_WHY, "its numbers are of the type %.*s, not '<f8'",
                  (int)strcspn(type, ",}\n"), type);
     else if (strncmp(order, "False", 5) != 0)
-        snprintf(why, RESULTS_NPY_WHY, "its numbers are in Fortran order, not in C order");
+        snprintf(why, ARRAYS_WHY, "its numbers are in Fortran order, not in C order");
     else
-        snprintf(why, RESULTS_NPY_WHY, "its shape is %.*s), not %s", (int)strcspn(found, ")}\n"),
-                 found, shape);
+        snprintf(why, ARRAYS_WHY, "its shape is %.*s), not %s", (int)strcspn(found, ")}\n"), found,
+                 shape);
     return false;
 }
 
 /* Reads the header; false when the file is not such a one. */
-static bool read_header(int fd, char header[LONGEST_HEADER], size_t *length,
-                        char why[RESULTS_NPY_WHY])
+static bool read_header(int fd, char header[LONGEST_HEADER], size_t *length, char why[ARRAYS_WHY])
 {
     unsigned char start[PREAMBLE];
     if (!read_fully(fd, start, sizeof start) || memcmp(start, magic, MAGIC) != 0)
-        snprintf(why, RESULTS_NPY_WHY, "it is not a .npy file");
+        snprintf(why, ARRAYS_WHY, "it is not a .npy file");
     else if (start[MAGIC] != 1 || start[MAGIC + 1] != 0)
-        snprintf(why, RESULTS_NPY_WHY, "it is of version %d.%d of the format, not 1.0",
-                 start[MAGIC], start[MAGIC + 1]);
+        snprintf(why, ARRAYS_WHY, "it is of version %d.%d of the format, not 1.0", start[MAGIC],
+                 start[MAGIC + 1]);
     else if ((*length = start[MAGIC + 2] + 256U * start[MAGIC + 3]) >= LONGEST_HEADER)
-        snprintf(why, RESULTS_NPY_WHY, "its header is longer than %d bytes", LONGEST_HEADER);
+        snprintf(why, ARRAYS_WHY, "its header is longer than %d bytes", LONGEST_HEADER);
     else if (!read_fully(fd, header, *length))
-        snprintf(why, RESULTS_NPY_WHY, "it ends within its header");
+        snprintf(why, ARRAYS_WHY, "it ends within its header");
     else
         return true;
     return false;
@@ -135,7 +141,7 @@ static bool read_header(int fd, char header[LONGEST_HEADER], size_t *length,
 
 /* Whether the file has as many bytes as its shape says. */
 static bool check_size(const struct stat *info, size_t before, const size_t *shape, uint32_t rank,
-                       char why[RESULTS_NPY_WHY])
+                       char why[ARRAYS_WHY])
 {
     double expected = sizeof(double);
     for (uint32_t i = 0; i < rank; i++)
@@ -143,43 +149,49 @@ static bool check_size(const struct stat *info, size_t before, const size_t *sha
     expected += (double)before;
     if ((double)info->st_size == expected)
         return true;
-    snprintf(why, RESULTS_NPY_WHY, "it has %.0f bytes where its shape takes %.0f",
-             (double)info->st_size, expected);
+    snprintf(why, ARRAYS_WHY, "it has %.0f bytes where its shape takes %.0f", (double)info->st_size,
+             expected);
     return false;
 }
 
-static bool check_file(int fd, const size_t *shape, uint32_t rank, char why[RESULTS_NPY_WHY])
+static bool check_file(int fd, const size_t *shape, uint32_t rank, char why[ARRAYS_WHY])
 {
     char header[LONGEST_HEADER] = "", expected[4 * 24];
     size_t length = 0;
     struct stat info;
     print_shape(shape, rank, expected, sizeof expected);
     if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode)) {
-        snprintf(why, RESULTS_NPY_WHY, "it is not a file");
+        snprintf(why, ARRAYS_WHY, "it is not a file");
         return false;
     }
     return read_header(fd, header, &length, why) && check_header(header, expected, why) &&
            check_size(&info, PREAMBLE + length, shape, rank, why);
 }
 
-int results_npy_open(int directory, const char *name, const size_t *shape, uint32_t rank,
-                     char why[RESULTS_NPY_WHY])
+int arrays_npy_open(int directory, const char *name, const size_t *shape, uint32_t rank,
+                    char why[ARRAYS_WHY])
 {
     int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* no pipe can hold it */
     if (fd < 0)
-        snprintf(why, RESULTS_NPY_WHY, "%s", strerror(errno));
+        snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
     if (fd < 0 || check_file(fd, shape, rank, why))
         return fd;
     close(fd);
     return -1;
 }
 
-bool results_npy_read(int fd, double *out, size_t count)
+void arrays_npy_clean(double *numbers, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(numbers[i]))
+            numbers[i] = (double)NAN;
+}
+
+bool arrays_npy_read(int fd, double *out, size_t count)
 {
     bool good = read_fully(fd, out, count * sizeof *out);
-    for (size_t i = 0; good && i < count; i++)
-        if (!isfinite(out[i]))
-            out[i] = (double)NAN;
+    if (good)
+        arrays_npy_clean(out, count);
     close(fd);
     return good;
 }

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* CRC-32 of IEEE 802.3, as zlib, gzip and PNG have it. */
+#ifndef ARRAYS_CHECKSUM_H
+#define ARRAYS_CHECKSUM_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* The sums of each byte that is followed by up to seven zeros. */
+typedef struct arrays_checksum {
+    uint32_t table[8][256];
+} arrays_checksum;
+
+void arrays_checksum_prepare(arrays_checksum *checksum);
+/* Goes on from the sum of what came before; that of nothing is 0. */
+uint32_t arrays_checksum_add(const arrays_checksum *checksum, uint32_t sum, const void *data,
+                             size_t size);
+
+#endif

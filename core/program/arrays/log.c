@@ -1,0 +1,98 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Appends to a log of arrays. */
+#include "record.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static bool write_at(int fd, const void *data, size_t size, off_t at)
+{
+    const char *from = data;
+    while (size > 0) {
+        ssize_t written = pwrite(fd, from, size, at);
+        if (written < 0 && errno != EINTR)
+            return false;
+        from += written > 0 ? written : 0;
+        at += written > 0 ? written : 0;
+        size -= written > 0 ? (size_t)written : 0;
+    }
+    return true;
+}
+
+/* A log that is new, or was broken off within its title, gets one. */
+static bool write_title(arrays_log *log, int directory)
+{
+    char title[ARRAYS_LOG_HEAD];
+    arrays_log_title(title);
+    log->end = ARRAYS_LOG_HEAD;
+    return ftruncate(log->fd, 0) == 0 && write_at(log->fd, title, sizeof title, 0) &&
+           fdatasync(log->fd) == 0 && fsync(directory) == 0;
+}
+
+/* Cuts off what follows the end; false with what is wrong, which is "" when errno says it. A log
+   that has lost its end, by no fault of ours, goes on where it stops. */
+static bool enter_log(arrays_log *log, int directory, off_t end, char why[ARRAYS_WHY])
+{
+    struct stat info;
+    char title[ARRAYS_LOG_HEAD];
+    *why = '\0';
+    if (fstat(log->fd, &info) != 0)
+        return false;
+    if (info.st_size < ARRAYS_LOG_HEAD)
+        return write_title(log, directory);
+    if (!arrays_read_at(log->fd, title, sizeof title, 0) || !arrays_log_check_title(title, why))
+        return false;
+    log->end = end < info.st_size ? end : info.st_size / 8 * 8;
+    if (log->end < ARRAYS_LOG_HEAD)
+        log->end = ARRAYS_LOG_HEAD;
+    return log->end == info.st_size || ftruncate(log->fd, log->end) == 0;
+}
+
+bool arrays_log_open(arrays_log *log, int directory, const char *name, off_t end, bool fresh,
+                     char why[ARRAYS_WHY])
+{
+    int flags = O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | (fresh ? O_EXCL : 0);
+    log->fd = openat(directory, name, flags, 0666);
+    arrays_checksum_prepare(&log->checksum);
+    *why = '\0';
+    if (log->fd >= 0 && enter_log(log, directory, end, why))
+        return true;
+    int cause = errno;
+    if (!*why)
+        snprintf(why, ARRAYS_WHY, "%s", strerror(cause));
+    arrays_log_close(log);
+    errno = cause;
+    return false;
+}
+
+bool arrays_log_append(arrays_log *log, const arrays_label *label, const double *data,
+                       off_t *offset)
+{
+    arrays_head head;
+    arrays_head_make(&head, label);
+    size_t size = head.count * sizeof *data;
+    off_t at = *offset = log->end;
+    uint64_t sum = arrays_checksum_add(&log->checksum, 0, head.bytes, head.size);
+    sum = arrays_checksum_add(&log->checksum, (uint32_t)sum, data, size);
+    bool good = write_at(log->fd, head.bytes, head.size, at) &&
+                write_at(log->fd, data, size, at + (off_t)head.size) &&
+                write_at(log->fd, &sum, sizeof sum, at + (off_t)(head.size + size));
+    if (good)
+        log->end = at + (off_t)(head.size + size + sizeof sum);
+    return good;
+}
+
+bool arrays_log_sync(const arrays_log *log)
+{
+    return fdatasync(log->fd) == 0;
+}
+
+void arrays_log_close(arrays_log *log)
+{
+    if (log->fd >= 0)
+        close(log->fd);
+    log->fd = -1;
+}

@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Each worker appends the arrays of its cases to a log of its own. The record of a case says in the
+ * journal which log it is, where that ends after the case, and for each array [unit, dims, shape,
+ * offset of its record, what it is plotted against].
+ */
+#include "case.h"
+#include "journal.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const char log_head[] = "\"log\":[\""; /* as it stands in a line of the journal */
+
+/* A series of one number counts as a scalar. */
+bool study_is_array(const ff_result *result)
+{
+    return result->rank > 1 || (result->rank == 1 && result->count != 1);
+}
+
+/* Finds where the last record ends that the journal names. The lines are but searched: a line that
+   does not count can only make less be cut off. */
+static off_t find_end(int directory, const study_run *run, const char *name)
+{
+    char journal[STUDY_NAME_SIZE], *line = NULL;
+    size_t size = 0, length = strlen(name);
+    off_t end = 0;
+    study_journal_name(run, journal);
+    int fd = openat(directory, journal, O_RDONLY | O_CLOEXEC);
+    FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
+    while (stream && getline(&line, &size, stream) > 0) {
+        const char *at = strstr(line, log_head);
+        at = at ? at + sizeof log_head - 1 : "";
+        if (strncmp(at, name, length) != 0 || strncmp(at + length, "\",", 2) != 0)
+            continue;
+        off_t named = strtoll(at + length + 2, NULL, 10);
+        end = named > end ? named : end;
+    }
+    free(line);
+    if (stream)
+        fclose(stream);
+    return end;
+}
+
+/* A log that no other process writes to: whoever holds the lock on the journal has its workers
+   number theirs. Under an executor, of whose processes none knows of the others, each makes a new
+   one; workers of an earlier run may not have ended everywhere. */
+static bool open_log(study_arrays *arrays, char why[ARRAYS_WHY])
+{
+    const study_run *run = arrays->run;
+    study_shared *shared = arrays->shared;
+    arrays->directory = open(run->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (arrays->directory < 0) {
+        snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
+        return false;
+    }
+    if (!run->executor) {
+        int length = snprintf(arrays->name, sizeof arrays->name, "arrays.%zu.log", arrays->slot);
+        if (run->shards > 1)
+            length = snprintf(arrays->name, sizeof arrays->name, "arrays.%zu-of-%zu.%zu.log",
+                              run->shard, run->shards, arrays->slot);
+        (void)length;
+        off_t end = shared->end ? shared->end : find_end(arrays->directory, run, arrays->name);
+        return arrays_log_open(&arrays->log, arrays->directory, arrays->name, end, false, why);
+    }
+    bool fresh = shared->log == 0, good;
+    do {
+        shared->log += fresh;
+        snprintf(arrays->name, sizeof arrays->name, "arrays.farm-%u.log", shared->log);
+        good =
+            arrays_log_open(&arrays->log, arrays->directory, arrays->name, shared->end, fresh, why);
+    } while (!good && fresh && errno == EEXIST);
+    return good;
+}
+
+static json_t *describe(const study_run *run, const ff_pipeline *pipeline, const ff_stage *stage,
+                        size_t output, off_t offset)
+{
+    const ff_result *result = &stage->results[output];
+    json_t *dims = json_array(), *shape = json_array();
+    for (uint32_t i = 0; i < result->rank; i++) {
+        json_array_append_new(dims, json_string(result->dims[i]));
+        json_array_append_new(shape, json_integer((json_int_t)result->shape[i]));
+    }
+    json_t *entry = json_pack("[s, o, o, I]", result->row->unit, dims, shape, (json_int_t)offset);
+    json_t *against = run->against ? run->against(pipeline, stage, output) : NULL, *name;
+    size_t i;
+    bool any = false;
+    json_array_foreach(against, i, name) any = any || *json_string_value(name);
+    if (any)
+        json_array_append(entry, against);
+    json_decref(against);
+    return entry;
+}
+
+/* Appends an array and describes it; false with what is wrong. */
+static bool keep_one(study_arrays *arrays, const study_case *c, const ff_stage *stage,
+                     size_t output, json_t *all, char why[ARRAYS_WHY])
+{
+    const ff_result *result = &stage->results[output];
+    char name[ARRAYS_LONGEST_OUTPUT + 1];
+    off_t offset;
+    snprintf(name, sizeof name, "%s.%s", stage->name, result->row->name);
+    arrays_label label = {.key = c->key, .output = name, .rank = result->rank};
+    memcpy(label.shape, result->shape, sizeof label.shape);
+    if (arrays->directory < 0 && !open_log(arrays, why))
+        return false;
+    if (!arrays_log_append(&arrays->log, &label, result->data, &offset)) {
+        snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
+        return false;
+    }
+    json_object_set_new(all, name, describe(arrays->run, c->pipeline, stage, output, offset));
+    return true;
+}
+
+static bool keep_all(study_arrays *arrays, const study_case *c, json_t *all, char why[ARRAYS_WHY])
+{
+    for (size_t i = 0; i < c->pipeline->count; i++) {
+        const ff_stage *stage = &c->pipeline->stages[i];
+        for (size_t k = 0; stage->ran && k < stage->loaded->model->output_count; k++) {
+            const ff_result *result = &stage->results[k];
+            if (result->requested && result->data && study_is_array(result) &&
+                !keep_one(arrays, c, stage, k, all, why))
+                return false;
+        }
+    }
+    if (json_object_size(all) == 0 || arrays_log_sync(&arrays->log))
+        return true;
+    snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
+    return false;
+}
+
+bool study_arrays_keep(study_arrays *arrays, const study_case *c, json_t *record)
+{
+    char why[ARRAYS_WHY] = "";
+    json_t *all = json_object();
+    bool good = keep_all(arrays, c, all, why);
+    if (good && json_object_size(all)) {
+        arrays->shared->end = arrays->log.end;
+        json_object_set(record, "arrays", all);
+        json_object_set_new(record, "log",
+                            json_pack("[s, I]", arrays->name, (json_int_t)arrays->log.end));
+    }
+    json_decref(all);
+    return good ||
+           ff_error(c->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "%s/%s could not be written: %s",
+                    arrays->run->directory, arrays->name, why);
+}
+
+/* Whether the log is as long as the record says; `sizes` keeps the lengths of logs. */
+static bool has_arrays(int directory, const json_t *record, json_t *sizes)
+{
+    const json_t *log = json_object_get(record, "log");
+    const char *name = json_string_value(json_array_get(log, 0));
+    struct stat info;
+    if (!log)
+        return true;
+    if (!name || strchr(name, '/'))
+        return false;
+    const json_t *size = json_object_get(sizes, name);
+    if (!size) {
+        bool there = directory >= 0 && fstatat(directory, name, &info, 0) == 0;
+        json_object_set_new(sizes, name, json_integer(there ? (json_int_t)info.st_size : 0));
+        size = json_object_get(sizes, name);
+    }
+    return json_integer_value(size) >= json_integer_value(json_array_get(log, 1));
+}
+
+json_t *study_arrays_read_done(const char *directory)
+{
+    json_t *records = study_journal_read(directory), *sizes = json_object(), *record;
+    int fd = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    const char *key;
+    void *next;
+    json_object_foreach_safe(records, next, key, record) if (!has_arrays(fd, record, sizes))
+        json_object_del(records, key);
+    if (fd >= 0)
+        close(fd);
+    json_decref(sizes);
+    return records;
+}
