@@ -165,6 +165,23 @@ def test_study():
         rows = list(csv.DictReader(file))
     check("the table", s.table["motion.dte_rms [m]"] == [row["motion.dte_rms [m]"] for row in rows])
     check("all names", set(s) >= {"film.h_min", "motion.dte_rms"})
+    check("a case", np.array_equal(s.case(0)["film.h_min"].data, film[0, 0]) and s.case(2) == {})
+    check("is mapped", s.case(0)["film.h_min"].data.base is not None)
+    check("with its axis", film.against == ("film.roll_angle",) and s["film.roll_angle"].data.shape == film.data.shape)
+    log = "study/" + next(n for n in os.listdir("study") if n.endswith(".log"))
+    with open(log, "r+b") as file:
+        file.seek(-200, os.SEEK_END)
+        byte = file.read(1)
+        file.seek(-1, os.SEEK_CUR)
+        file.write(bytes([byte[0] ^ 1]))
+    check("a byte that was changed", raised(lambda: [flankfilm.open("study").case(i) for i in range(6)],
+                                            log, "does not have its checksum", code=None))
+    os.truncate(log, os.path.getsize(log) - 1)
+    check("a log that is cut off", raised(lambda: [flankfilm.open("study").case(i) for i in range(6)],
+                                          log, "is cut off", code=None))
+    os.remove(log)
+    check("a log that is gone", raised(lambda: [flankfilm.open("study").case(i) for i in range(6)],
+                                       log, "No such file", code=None))
     f = flankfilm.run("follow.yaml", directory="follow")
     check("chains and what varies together", f.dims == ["follow", "mesh_frequency", "point"] and
           list(f.axes["gears.face_width"]) == [0.02, 0.03] and f["motion.dte_rms"].data.shape == (2, 3, 2))

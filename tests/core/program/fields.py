@@ -110,6 +110,64 @@ class Fields(lab.Lab):
             said = self.call("export", "bad", "--to", "csv", code=2)
             self.assertIn("is not the name of a file beside it", said)
 
+    def test_log_cut_off(self):
+        """A record that has lost its end is a sentence, and a case that runs anew."""
+        self.call("run", "study.yaml", "-o", "lost", "-j", "1", code=4)
+        self.call("export", "lost", "--to", "csv", "-o", "lost-whole")
+        os.truncate("lost/arrays.1.log", os.path.getsize("lost/arrays.1.log") - 1)
+        said = self.call("export", "lost", "--to", "csv", "-o", "lost-csv", code=2)
+        self.assertRegex(said, r"wave\.\w+ of case \d+, in lost/arrays\.1\.log, cannot be read: the record at byte \d+, "
+                               r"of \d+ bytes, is cut off")
+        self.assertIn("3 done, 2 failed, 1 to run", self.call("plan", "study.yaml", "-o", "lost"))
+        self.call("run", "study.yaml", "-o", "lost", "-j", "1", code=4)
+        self.call("export", "lost", "--to", "csv", "-o", "lost-csv")
+        for name in "wave-t.csv", "wave-t-x.csv":
+            with open("lost-csv/" + name, "rb") as found, open("lost-whole/" + name, "rb") as whole:
+                self.assertEqual(found.read(), whole.read())
+
+    def test_log_changed(self):
+        self.call("run", "study.yaml", "-o", "flipped", "-j", "1", code=4)
+        with open("flipped/arrays.1.log", "r+b") as file:
+            file.seek(-100, os.SEEK_END)
+            byte = file.read(1)
+            file.seek(-1, os.SEEK_CUR)
+            file.write(bytes([byte[0] ^ 1]))
+        said = self.call("export", "flipped", "--to", "csv", "-o", "flipped-csv", code=2)
+        self.assertIn("does not have its checksum", said)
+        self.call("run", "study.yaml", "-o", "flipped", "-j", "1", "--rerun", "all", code=4)
+        self.call("export", "flipped", "--to", "csv", "-o", "flipped-csv")
+
+    def test_formats(self):
+        """Studies of an older or a newer flankfilm, and runs of a newer one, are refused."""
+        self.call("run", "study.yaml", "-o", "other", "-j", "1", code=4)
+        for format, sentence in ((1, "is of an older flankfilm: its files are of format 1, not 2"),
+                                 (3, "is of a newer flankfilm: its files are of format 3, not 2")):
+            told = {**self.read("other/study.json"), "format": format}
+            with open("other/study.json", "w", encoding="utf-8") as file:
+                json.dump(told, file)
+            for words in (["run", "study.yaml", "-o", "other"], ["plan", "study.yaml", "-o", "other"],
+                          ["report", "other"], ["export", "other", "--to", "csv"]):
+                self.assertIn(sentence, self.call(*words, code=2))
+        self.put(npy())
+        told = {**self.read("bad/result.json"), "format": 2}
+        with open("bad/result.json", "w", encoding="utf-8") as file:
+            json.dump(told, file)
+        self.assertIn("bad/result.json is of format 2; this flankfilm reads up to 1",
+                      self.call("export", "bad", "--to", "csv", code=2))
+
+    def test_series_of_one(self):
+        """One number is a scalar, in the table and in what is exported; among longer series it is one of them."""
+        self.call("run", "run.yaml", "-o", "one", "--set", "study={sweep: {wave.count: [1]}}",
+                  "--set", "outputs=[wave.height]")
+        self.assertEqual([n for n in os.listdir("one") if n.endswith(".log")], [])
+        with open("one/table.csv", encoding="utf-8") as file:
+            self.assertIn(",wave.height [m],", file.readline())
+        self.call("run", "run.yaml", "-o", "mixed", "--set", "study={sweep: {wave.count: [1, 2]}}",
+                  "--set", "outputs=[wave.height]")
+        self.call("export", "mixed", "--to", "csv", "-o", "mixed-csv")
+        with open("mixed-csv/wave-t.csv", encoding="utf-8") as file:
+            self.assertEqual([line.split(",")[:3] for line in file][1:], [["1", "1", "0"], ["2", "2", "0"], ["2", "2", "1"]])
+
     def test_each_once(self):
         """No field is in the text of a run, and none in two files."""
         entries = {k: e for k, e in self.read("run/result.json")["outputs"].items() if "file" in e}

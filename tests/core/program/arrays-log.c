@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A log of arrays that is broken off or changed at any byte: what is read is right or a sentence,
+   and who goes on with it leaves the same bytes as if nothing had happened. */
+#include "../../../core/program/arrays/log.h"
+
+#include <check.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { RECORDS = 3, MOST = 4096 };
+
+static const double numbers[] = {1, -2.5, 3e300, 5e-324, (double)INFINITY, (double)NAN};
+static const arrays_label labels[RECORDS] = {
+    {.key = "0123456789abcdef", .output = "film.h", .shape = {2, 3}, .rank = 2},
+    {.key = "0123456789abcdef", .output = "film.none", .shape = {0}, .rank = 1},
+    {.key = "fedcba9876543210", .output = "film.h_min", .shape = {6}, .rank = 1},
+};
+
+typedef struct lab {
+    int directory;
+    off_t at[RECORDS + 1]; /* where the records begin and the last one ends */
+    char bytes[MOST];      /* of the log */
+} lab;
+
+static bool has(const char *why, const char *words)
+{
+    return strstr(why, words) != NULL;
+}
+
+static void put(const lab *l, const char *bytes, size_t size)
+{
+    int fd = openat(l->directory, "log", O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    check_true("the log is there", fd >= 0 && write(fd, bytes, size) == (ssize_t)size);
+    close(fd);
+}
+
+static size_t get(const lab *l, char bytes[MOST])
+{
+    int fd = openat(l->directory, "log", O_RDONLY);
+    ssize_t size = fd < 0 ? 0 : read(fd, bytes, MOST);
+    close(fd);
+    return size > 0 ? (size_t)size : 0;
+}
+
+/* Reads a record as those do who read results; `why` is "" when it can be read. */
+static void read_record(const lab *l, const arrays_label *label, off_t at, char why[ARRAYS_WHY],
+                        double out[6])
+{
+    arrays_reader reader;
+    arrays_reader_open(&reader, l->directory);
+    *why = '\0';
+    if (arrays_reader_has(&reader, "log", at, label, why) &&
+        arrays_reader_read(&reader, "log", at, label, out, why))
+        *why = '\0';
+    arrays_reader_close(&reader);
+}
+
+static void append(const lab *l, size_t first, off_t end, off_t at[RECORDS + 1])
+{
+    arrays_log log;
+    char why[ARRAYS_WHY];
+    check_true(why, arrays_log_open(&log, l->directory, "log", end, false, why));
+    for (size_t i = first; i < RECORDS; i++)
+        check_true("it is appended", arrays_log_append(&log, &labels[i], numbers, &at[i]));
+    at[RECORDS] = log.end;
+    check_true("and synced", arrays_log_sync(&log));
+    arrays_log_close(&log);
+}
+
+static void test_sums(void)
+{
+    arrays_checksum sums;
+    static const char text[] = "123456789, and some more of it";
+    arrays_checksum_prepare(&sums);
+    check_true("the check value", arrays_checksum_add(&sums, 0, text, 9) == 0xCBF43926);
+    for (size_t i = 0; i < sizeof text; i++) {
+        uint32_t sum = arrays_checksum_add(&sums, 0, text, i);
+        check_true("in two parts", arrays_checksum_add(&sums, sum, text + i, sizeof text - i) ==
+                                       arrays_checksum_add(&sums, 0, text, sizeof text));
+    }
+}
+
+static void test_reading(const lab *l)
+{
+    double out[6];
+    char why[ARRAYS_WHY];
+    for (size_t i = 0; i < RECORDS; i++) {
+        read_record(l, &labels[i], l->at[i], why, out);
+        check_true(why, !*why);
+    }
+    check_true("the numbers", memcmp(out, numbers, 4 * sizeof *out) == 0);
+    check_true("what is not finite is NaN", isnan(out[4]) && isnan(out[5]));
+    arrays_label other = labels[2];
+    other.output = "film.h_max";
+    read_record(l, &other, l->at[2], why, out);
+    check_true("of another output", has(why, "is of another array"));
+    other = labels[2];
+    other.shape[0] = 5;
+    read_record(l, &other, l->at[2], why, out);
+    check_true("of another shape", *why);
+    other.shape[0] = SIZE_MAX / 2;
+    read_record(l, &other, l->at[2], why, out);
+    check_true("of a shape that no log has", has(why, "is cut off"));
+    read_record(l, &labels[2], l->at[2] + 4, why, out);
+    check_true("between records", has(why, "is cut off"));
+}
+
+/* Each byte of the last record at which a process can be killed, and beyond. */
+static void test_torn(const lab *l)
+{
+    char why[ARRAYS_WHY], left[MOST];
+    double out[6];
+    off_t at[RECORDS + 1];
+    for (off_t size = l->at[2]; size < l->at[3]; size++) {
+        put(l, l->bytes, (size_t)size);
+        read_record(l, &labels[2], l->at[2], why, out);
+        check_true("a record that is cut off", has(why, "is cut off"));
+        append(l, 2, l->at[2], at);
+        check_true("the same bytes again",
+                   get(l, left) == (size_t)l->at[3] && !memcmp(left, l->bytes, (size_t)l->at[3]));
+    }
+    for (off_t size = 0; size < ARRAYS_LOG_HEAD; size++) {
+        put(l, l->bytes, (size_t)size);
+        append(l, 0, 0, at);
+        check_true("a torn title",
+                   get(l, left) == (size_t)l->at[3] && !memcmp(left, l->bytes, (size_t)l->at[3]));
+    }
+}
+
+static void test_changed(const lab *l)
+{
+    char why[ARRAYS_WHY], bytes[MOST];
+    double out[6];
+    for (off_t i = l->at[2]; i < l->at[3]; i++) {
+        memcpy(bytes, l->bytes, sizeof bytes);
+        bytes[i] = (char)(bytes[i] ^ 1 << i % 8);
+        put(l, bytes, (size_t)l->at[3]);
+        read_record(l, &labels[2], l->at[2], why, out);
+        check_true("a byte that was changed", has(why, "does not have its checksum"));
+        read_record(l, &labels[0], l->at[0], why, out);
+        check_true("leaves the others", !*why);
+    }
+}
+
+static void test_formats(const lab *l)
+{
+    char why[ARRAYS_WHY], bytes[MOST];
+    double out[6];
+    arrays_log log;
+    memcpy(bytes, l->bytes, sizeof bytes);
+    *strchr(bytes, '1') = '2';
+    put(l, bytes, (size_t)l->at[3]);
+    read_record(l, &labels[0], l->at[0], why, out);
+    check_true("a newer log", has(why, "format 2 of such logs; this flankfilm reads 1"));
+    check_true("is not gone on with", !arrays_log_open(&log, l->directory, "log", 0, false, why) &&
+                                          has(why, "format 2") &&
+                                          get(l, bytes) == (size_t)l->at[3]);
+    put(l, "something else that is as long as the title of a log has to be, and longer", 74);
+    read_record(l, &labels[0], l->at[0], why, out);
+    check_true("no log", has(why, "it is not a log of arrays"));
+    check_true("of its own",
+               !arrays_log_open(&log, l->directory, "log", 0, true, why) && errno == EEXIST);
+}
+
+int main(void)
+{
+    char path[] = "/tmp/flankfilm-log-XXXXXX";
+    lab l = {.directory = mkdtemp(path) ? open(path, O_RDONLY | O_DIRECTORY) : -1};
+    check_true("there is a place", l.directory >= 0);
+    append(&l, 0, 0, l.at);
+    check_true("the log", get(&l, l.bytes) == (size_t)l.at[RECORDS]);
+    test_sums();
+    test_reading(&l);
+    test_torn(&l);
+    test_changed(&l);
+    test_formats(&l);
+    unlinkat(l.directory, "log", 0);
+    close(l.directory);
+    check_true("nothing is left", rmdir(path) == 0);
+    return check_done();
+}
