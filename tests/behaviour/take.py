@@ -8,10 +8,14 @@ import shlex
 import shutil
 import struct
 import subprocess
+import sys
 from math import prod
 from pathlib import Path
 
 import scenes
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / 'core/program'))
+import records  # pylint: disable=wrong-import-position
 
 HERE = Path(__file__).resolve().parent
 PATIENCE = 600  # s of the clock for one command
@@ -178,7 +182,7 @@ class Take:
     def cases(self, name):
         """Scalars and quality of each case of a study, from its journal, which has all their digits."""
         path, lines = self.work / f'out-{name}/journal.jsonl', []
-        for row in map(json.loads, path.read_text().splitlines() if path.exists() else ['{"case": "nothing was run"}']):
+        for row in records.read(path) if path.exists() else [{'case': 'nothing was run'}]:
             case = f'{row.get("case")} {row.get("status")}'
             lines += [f'{case} {key} {exact(value)}' for key, (_, value) in row.get('outputs', {}).items()]
             lines += [f'{case} {stage}.{key} {exact(q[0])} {exact(q[1])}'

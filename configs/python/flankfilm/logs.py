@@ -17,10 +17,19 @@ FORMAT = 2  # of the files of a study
 TITLE = b"flankfilm arrays, format 1".ljust(63) + b"\n"
 
 
+def filled(form, values):
+    """A record's form with the values of a line in the places of None."""
+    if isinstance(form, dict):
+        return {key: filled(item, values) for key, item in form.items()}
+    if isinstance(form, list):
+        return [filled(item, values) for item in form]
+    return next(values) if form is None else form
+
+
 def records_of(path):
     """{key: record} of all journals of a study. A line that was broken off does not count; of the
     lines of a case the last one that is ok does."""
-    records = {}
+    records, forms = {}, {}
     for name in sorted(os.listdir(path)):
         if not (name.startswith("journal") and name.endswith(".jsonl")):
             continue
@@ -30,6 +39,13 @@ def records_of(path):
                     record = json.loads(line)
                 except ValueError:
                     continue
+                form = record.get("form")
+                if "is" in record:
+                    forms[form] = record.pop("is")
+                if form is not None:
+                    if form not in forms:
+                        continue
+                    record.update(filled(forms[form], iter(record.pop("values"))))
                 key = record.get("key")
                 if key and (record["status"] == "ok" or records.get(key, record)["status"] != "ok"):
                     records[key] = record

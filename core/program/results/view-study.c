@@ -3,6 +3,8 @@
  */
 #include "view-tables.h"
 
+#include "../study/records.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -84,26 +86,35 @@ static void read_keys(results_reader *reader)
         fclose(stream);
 }
 
-/* Finds the cases of an unfinished study by what their records assign; a later record replaces an
-   earlier one. Records of a file that has been changed since are of other cases. */
-static void match_records(results_reader *reader, json_t *records, const json_t *input)
+/* Finds the cases of an unfinished study that the table does not have, by what their records
+   assign; a later record replaces an earlier one. Records of a file that has been changed since are
+   of other cases. */
+static void match_records(results_reader *reader, study_records *records, const json_t *input)
 {
-    const char *key;
+    uint64_t *ranks = memory_alloc((reader->view.case_count + 1) * sizeof *ranks), rank;
+    bool *listed = memory_alloc((reader->view.case_count + 1) * sizeof *listed);
+    size_t at = 0, missing = 0;
     json_t *record;
-    json_object_foreach(records, key, record)
-    {
+    for (size_t i = 0; i < reader->view.case_count; i++)
+        missing += !(listed[i] = reader->per_case[i].key[0]);
+    for (; missing && (record = study_records_next(records, &at, &rank)); json_decref(record)) {
+        const char *key = json_string_value(json_object_get(record, "key"));
         size_t number = (size_t)json_integer_value(json_object_get(record, "case"));
-        if (number < 1 || number > reader->view.case_count || strlen(key) >= STUDY_KEY_SIZE)
-            continue;
-        results_case *of = &reader->per_case[number - 1];
         const json_t *own = json_object_get(record, "input");
-        if (input && own && !json_equal(input, own))
+        if (number < 1 || number > reader->view.case_count || strlen(key) >= STUDY_KEY_SIZE ||
+            listed[number - 1] || rank < ranks[number - 1] ||
+            (input && own && !json_equal(input, own)))
             continue;
         json_t *set = assignments_of(reader, number - 1);
-        if (json_equal(set, json_object_get(record, "set")))
+        if (json_equal(set, json_object_get(record, "set"))) {
+            results_case *of = &reader->per_case[number - 1];
             snprintf(of->key, sizeof of->key, "%s", key);
+            ranks[number - 1] = rank;
+        }
         json_decref(set);
     }
+    free(ranks);
+    free(listed);
 }
 
 /* Adds scalars: [unit, value]. */
@@ -201,14 +212,16 @@ bool results_view_read_study(results_reader *reader)
     json_object_foreach(json_object_get(study, "models"), model, entry)
         results_view_add_citation(reader, model, entry);
     if (good) {
-        json_t *records = study_journal_read(reader->path);
+        study_records *records = study_records_open(reader->path, false);
         reader->per_case = memory_alloc(reader->view.case_count * sizeof *reader->per_case);
-        match_records(reader, records, json_object_get(study, "key"));
         read_keys(reader);
-        for (i = 0; i < reader->view.case_count; i++)
-            add_case(reader, i, json_object_get(records, reader->per_case[i].key),
-                     json_object_get(study, "docs"));
-        json_decref(records);
+        match_records(reader, records, json_object_get(study, "key"));
+        for (i = 0; i < reader->view.case_count; i++) {
+            json_t *record = study_records_get(records, reader->per_case[i].key);
+            add_case(reader, i, record, json_object_get(study, "docs"));
+            json_decref(record);
+        }
+        study_records_close(records);
     }
     json_decref(study);
     return good || refuse(reader, "is not a description of a study");

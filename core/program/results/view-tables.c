@@ -58,8 +58,9 @@ void results_view_judge(results_reader *reader, ff_view_case *c, size_t number,
     c->verdict = study_verdict_name(judgement.verdict);
     c->reasons = memory_arena_text(&reader->arena, reasons, strlen(reasons));
     free(reasons);
+    const char *key = json_string_value(json_object_get(record, "key"));
+    study_tally_add(&reader->tally, number, key ? key : "", &judgement);
     study_judgement_free(&judgement);
-    study_tally_add(&reader->tally, number, record);
 }
 
 const void *results_view_take_rows(results_reader *reader, results_rows *rows)

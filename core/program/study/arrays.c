@@ -11,7 +11,6 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 static const char log_head[] = "\"log\":[\""; /* as it stands in a line of the journal */
@@ -149,37 +148,4 @@ bool study_arrays_keep(study_arrays *arrays, const study_case *c, json_t *record
     return good ||
            ff_error(c->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "%s/%s could not be written: %s",
                     arrays->run->directory, arrays->name, why);
-}
-
-/* Whether the log is as long as the record says; `sizes` keeps the lengths of logs. */
-static bool has_arrays(int directory, const json_t *record, json_t *sizes)
-{
-    const json_t *log = json_object_get(record, "log");
-    const char *name = json_string_value(json_array_get(log, 0));
-    struct stat info;
-    if (!log)
-        return true;
-    if (!name || strchr(name, '/'))
-        return false;
-    const json_t *size = json_object_get(sizes, name);
-    if (!size) {
-        bool there = directory >= 0 && fstatat(directory, name, &info, 0) == 0;
-        json_object_set_new(sizes, name, json_integer(there ? (json_int_t)info.st_size : 0));
-        size = json_object_get(sizes, name);
-    }
-    return json_integer_value(size) >= json_integer_value(json_array_get(log, 1));
-}
-
-json_t *study_arrays_read_done(const char *directory)
-{
-    json_t *records = study_journal_read(directory), *sizes = json_object(), *record;
-    int fd = open(directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    const char *key;
-    void *next;
-    json_object_foreach_safe(records, next, key, record) if (!has_arrays(fd, record, sizes))
-        json_object_del(records, key);
-    if (fd >= 0)
-        close(fd);
-    json_decref(sizes);
-    return records;
 }

@@ -6,6 +6,7 @@
 #include "hash.h"
 #include "journal.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -205,6 +206,12 @@ static void add_quality(json_t *record, const ff_pipeline *pipeline)
     json_object_set_new(record, "quality", all);
 }
 
+/* To the microsecond, which no clock here is better than. */
+static json_t *json_seconds(double seconds)
+{
+    return json_real(round(seconds * 1e6) / 1e6);
+}
+
 /* Adds the requested scalars, and how long each stage took or that it was reused. */
 static void add_results(json_t *record, const ff_pipeline *pipeline)
 {
@@ -218,7 +225,7 @@ static void add_results(json_t *record, const ff_pipeline *pipeline)
         if (stage->choice)
             json_object_set_new(chosen, stage->name, json_string(stage->use));
         json_object_set_new(stage->reused ? reused : seconds, stage->name,
-                            json_real(stage->seconds));
+                            json_seconds(stage->seconds));
         for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
             const ff_result *result = &stage->results[k];
             if (!result->requested || !result->data || study_is_array(result))
@@ -255,8 +262,8 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
                          .held = -1};
     ff_observer watch = {.recall = study_reuse_recall, .keep = study_reuse_keep, .ctx = &reuse};
     double start = study_seconds_now();
-    json_t *setups = study_case_setups(c); /* running may drop outputs that a model refuses */
-    json_t *parameters = study_case_parameters(c, setups, memory->seen);
+    /* running may drop outputs that a model refuses */
+    json_t *parameters = study_case_parameters(c, memory->seen);
     if (study_case_is_good(c)) {
         const study_measure *measure = run->study->measure;
         bool *fresh = measure ? study_measure_fresh(measure, c->pipeline) : NULL;
@@ -272,14 +279,12 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
     add_quality(record, c->pipeline);
     add_judgement(record);
     if (good && !keep_results(c, run, index, record, memory)) {
-        json_decref(setups);
         json_decref(parameters);
         json_decref(record);
         return NULL;
     }
     study_chain_record_states(c, record);
-    json_object_set_new(record, "setups", setups);
     json_object_set_new(record, "parameters", parameters);
-    json_object_set_new(record, "seconds", json_real(study_seconds_now() - start));
+    json_object_set_new(record, "seconds", json_seconds(study_seconds_now() - start));
     return record;
 }

@@ -3,6 +3,7 @@
 #ifndef STUDY_CASE_H
 #define STUDY_CASE_H
 
+#include "records.h"
 #include "study.h"
 
 #include "../arrays/log.h"
@@ -51,16 +52,15 @@ typedef struct study_arrays { /* where a worker keeps arrays */
    where they are. False with an error in c->report. */
 struct study_case;
 bool study_arrays_keep(study_arrays *arrays, const struct study_case *c, json_t *record);
-/* As study_journal_read, without the cases whose arrays are lost. */
-json_t *study_arrays_read_done(const char *directory);
 
 /* case.c */
 typedef struct study_memory { /* what a worker keeps from case to case */
     int directory; /* descriptor of the directory with results of stages; -1 when none is kept */
     study_reuse_stats *stats;
     study_arrays arrays;
-    json_t *seen; /* {hash of a setup: true} of the setups that an earlier record of this worker
+    json_t *seen; /* {stage, model and build: true} of the setups that a record of this worker
                      describes */
+    json_t *said; /* the forms that its records have said */
 } study_memory;
 
 typedef struct study_case {
@@ -90,15 +90,15 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
 char *study_first_error(const ff_report *report);
 
 /* setup.c */
-json_t *study_case_setups(const study_case *c); /* {stage: hash of its setup} */
-/* {hash: {parameter: value}} of setups that `seen` does not hold yet. */
-json_t *study_case_parameters(const study_case *c, const json_t *setups, json_t *seen);
-/* Prints how the case differs from a record; `parameters` describes the setups of that. */
-void study_setup_compare(const study_case *c, const json_t *record, const json_t *parameters,
-                         FILE *out);
-
+/* {stage: {parameter: value}} of all stages, when one of them has a model that `seen` does not hold
+   yet; else {}. */
+json_t *study_case_parameters(const study_case *c, json_t *seen);
+/* Prints how the case differs from what was described, in ways that the study does not vary. */
+void study_setup_compare(const study_case *c, const study_definition *study,
+                         const json_t *described, FILE *out);
 /* Warns of each plugin that is another build than those of the records. */
-void study_setup_warn_rebuilt(const study_run *run, const json_t *records, ff_report *report);
+void study_setup_warn_rebuilt(const study_run *run, const study_records *records,
+                              ff_report *report);
 
 /* choices.c: returns {stage: {use, model, accuracy, promised, settings: {parameter: value}}} of the
    stages that have chosen a model: what it takes to choose the same again. */

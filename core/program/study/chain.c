@@ -97,11 +97,16 @@ void study_chain_pass(study_chain *chain, const study_case *c, const json_t *rec
     chain->states = states;
 }
 
-bool study_case_is_settled(const study_case *c, const json_t *record, enum study_rerun rerun)
+bool study_case_is_settled(const study_case *c, study_records *records, enum study_rerun rerun)
 {
+    bool settled = study_state_is_settled(study_records_state(records, c->key), rerun);
+    if (!settled || !c->states)
+        return settled;
+    json_t *record = study_records_get(records, c->key);
     const char *from = json_string_value(json_object_get(record, "from"));
-    return study_record_is_settled(record, rerun) &&
-           (!c->states || !from || !strcmp(from, c->from));
+    settled = !from || !strcmp(from, c->from);
+    json_decref(record);
+    return settled;
 }
 
 static int digit_of(char c)

@@ -4,6 +4,7 @@
 #define STUDY_CHAIN_H
 
 #include "case.h"
+#include "records.h"
 
 /* A position in a chain; {0} before the first study_chain_begin. */
 typedef struct study_chain {
@@ -25,7 +26,7 @@ void study_chain_pass(study_chain *chain, const study_case *c, const json_t *rec
 /* Puts the states into the stages before a run, and into the record after it. */
 void study_chain_restore_states(const study_case *c);
 void study_chain_record_states(const study_case *c, json_t *record);
-/* As study_record_is_settled, and the recorded case started from the same states. */
-bool study_case_is_settled(const study_case *c, const json_t *record, enum study_rerun rerun);
+/* As study_state_is_settled, and the recorded case started from the same states. */
+bool study_case_is_settled(const study_case *c, study_records *records, enum study_rerun rerun);
 
 #endif

@@ -15,7 +15,7 @@ void study_context_free(study_context *context)
         study_definition_free(context->expanded[i]);
     for (size_t i = 0; i < context->file_count; i++)
         free(context->files[i].text);
-    json_decref(context->records);
+    study_records_close(context->records);
     json_decref(context->facts);
     free(context->list.varied);
     free(context->expanded);

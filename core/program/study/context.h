@@ -107,7 +107,7 @@ typedef struct study_context {
 
     const study_run *run; /* NULL while nothing may run */
     study_counters *counters;
-    json_t *records;
+    study_records *records;
     json_t *facts; /* members for `run --json`, or NULL */
     study_result_file files[STUDY_RESULT_FILES];
     size_t file_count;

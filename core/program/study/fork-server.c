@@ -39,7 +39,7 @@ static bool has_input(int fd, int milliseconds)
 /* Called with the first chain, since the leading process has made the directory by then. */
 static void open_pool(study_pool *pool, const study_run *run, int from)
 {
-    study_pool_open(pool, run, study_arrays_read_done(run->directory));
+    study_pool_open(pool, run, study_records_open(run->directory, true));
     pool->extra_fd = from;
 }
 

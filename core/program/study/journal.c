@@ -3,6 +3,7 @@
    checksum. */
 #include "journal.h"
 
+#include "form.h"
 #include "hash.h"
 
 #include <dirent.h>
@@ -38,73 +39,46 @@ bool study_record_is_ok(const json_t *record)
     return status && !strcmp(status, "ok");
 }
 
-bool study_record_is_settled(const json_t *record, enum study_rerun rerun)
+bool study_state_is_settled(enum study_state state, enum study_rerun rerun)
 {
-    return record && (rerun == STUDY_RERUN_NONE ||
-                      (rerun == STUDY_RERUN_FAILED && study_record_is_ok(record)));
+    return state != STUDY_UNKNOWN &&
+           (rerun == STUDY_RERUN_NONE || (rerun == STUDY_RERUN_FAILED && state == STUDY_OK));
 }
 
-char *study_journal_line(const json_t *record)
+char *study_journal_line(const json_t *record, json_t *said)
 {
-    char *text = json_dumps(record, JSON_COMPACT | JSON_REAL_PRECISION(17));
-    size_t length = text ? strlen(text) - 1 : 0; /* without the closing brace */
-    uint64_t sum = study_hash(STUDY_HASH_START, text, length);
-    char *line = memory_print_text("%.*s%s%016llx\"}\n", (int)length, text, sum_head,
-                                   (unsigned long long)sum);
-    free(text);
-    return line;
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = memory_require(open_memstream(&text, &length));
+    study_form_write(record, said, out);
+    fflush(out);
+    fprintf(out, "%s%016llx\"}\n", sum_head,
+            (unsigned long long)study_hash(STUDY_HASH_START, text, length));
+    fclose(out);
+    return text;
 }
 
-/* Returns NULL for a line that is incomplete or was changed. */
-static json_t *parse_line(const char *line, size_t length)
+bool study_line_is_whole(const char *line, size_t length)
 {
     char sum[40];
     if (length <= SUM_TAIL || line[length - 1] != '\n')
-        return NULL;
+        return false;
     size_t body = length - SUM_TAIL;
     snprintf(sum, sizeof sum, "%s%016llx\"}\n", sum_head,
              (unsigned long long)study_hash(STUDY_HASH_START, line, body));
-    return memcmp(line + body, sum, SUM_TAIL) ? NULL : json_loadb(line, length - 1, 0, NULL);
+    return !memcmp(line + body, sum, SUM_TAIL);
 }
 
-static void read_journal(int directory, const char *name, json_t *records)
+json_t *study_line_parse(const char *line, size_t length)
 {
-    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC);
-    FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
-    char *line = NULL;
-    size_t size = 0;
-    ssize_t length;
-    while (stream && (length = getline(&line, &size, stream)) > 0) {
-        json_t *record = parse_line(line, (size_t)length);
-        const char *key = json_string_value(json_object_get(record, "key"));
-        bool better = key && (study_record_is_ok(record) ||
-                              !study_record_is_ok(json_object_get(records, key)));
-        if (better)
-            json_object_set(records, key, record);
-        json_decref(record);
-    }
-    free(line);
-    if (stream)
-        fclose(stream);
+    return study_line_is_whole(line, length) ? json_loadb(line, length - 1, 0, NULL) : NULL;
 }
 
-static bool is_journal(const char *name)
+bool study_line_is_ok(const char *line)
 {
-    size_t length = strlen(name);
-    return !strncmp(name, "journal", 7) && length > 6 && !strcmp(name + length - 6, ".jsonl");
-}
-
-json_t *study_journal_read(const char *directory)
-{
-    json_t *records = json_object();
-    DIR *list = opendir(directory);
-    const struct dirent *item;
-    while (list && (item = readdir(list)))
-        if (is_journal(item->d_name))
-            read_journal(dirfd(list), item->d_name, records);
-    if (list)
-        closedir(list);
-    return records;
+    static const char head[] = "\"status\":\"ok\"";
+    const char *status = strstr(line, "\"status\":");
+    return status && !strncmp(status, head, sizeof head - 1);
 }
 
 bool study_make_path(const char *path)

@@ -3,6 +3,7 @@
 #ifndef STUDY_JOURNAL_H
 #define STUDY_JOURNAL_H
 
+#include "records.h"
 #include "study.h"
 
 #include <jansson.h>
@@ -22,12 +23,17 @@ bool study_journal_open(study_journal *journal, const study_run *run, ff_report 
 bool study_journal_append(study_journal *journal, const char *line, size_t length,
                           ff_report *report);
 void study_journal_close(study_journal *journal);
-/* Returns the record as a line with its checksum, to be freed. */
-char *study_journal_line(const json_t *record);
+/* Returns the record as a line with its checksum, to be freed; `said` as in study_form_write. */
+char *study_journal_line(const json_t *record, json_t *said);
+/* Whether the line is complete and was not changed. */
+bool study_line_is_whole(const char *line, size_t length);
+/* Returns what such a line says, to be released; NULL for another one. */
+json_t *study_line_parse(const char *line, size_t length);
+bool study_line_is_ok(const char *line); /* whether the record of a line is */
 
 bool study_record_is_ok(const json_t *record);
-/* Whether a run would not repeat the case; record may be NULL. */
-bool study_record_is_settled(const json_t *record, enum study_rerun rerun);
+/* Whether a run would not repeat a case with such a record. */
+bool study_state_is_settled(enum study_state state, enum study_rerun rerun);
 
 /* Adds what the stages of a case have cost and saved; record may be NULL. */
 void study_savings_add(study_reuse_counts *savings, const json_t *record);

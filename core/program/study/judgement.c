@@ -111,6 +111,26 @@ study_judgement study_judge_record(const json_t *record)
     return judge(&all, !status || strcmp(status, "ok") != 0, plain ? NULL : status);
 }
 
+bool study_judgement_read(study_judgement *judgement, const json_t *object)
+{
+    const char *verdict = json_string_value(json_object_get(object, "verdict"));
+    const json_t *reasons = json_object_get(object, "reasons");
+    size_t i;
+    json_t *reason;
+    *judgement = (study_judgement){.verdict = FF_GOOD};
+    while (verdict && judgement->verdict < STUDY_VERDICTS &&
+           strcmp(study_verdict_name(judgement->verdict), verdict) != 0)
+        judgement->verdict++;
+    if (!verdict || !json_is_array(reasons) || judgement->verdict == STUDY_VERDICTS)
+        return false;
+    json_array_foreach(reasons, i, reason)
+    {
+        const char *text = json_string_value(reason);
+        add_reason(judgement, memory_copy_text(text ? text : "", text ? strlen(text) : 0));
+    }
+    return true;
+}
+
 study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed)
 {
     doubts all = {0};
@@ -159,24 +179,23 @@ static void count_reason(json_t **reasons, const char *reason, json_int_t cases)
 }
 
 static void list_case(study_tally *tally, const study_judgement *judgement, size_t number,
-                      const json_t *key)
+                      const char *key)
 {
     tally->cases = tally->cases ? tally->cases : json_array();
     if (json_array_size(tally->cases) > STUDY_MOST_JUDGED)
         return;
-    json_t *entry = json_pack("{s:I, s:O}", "case", (json_int_t)number, "key", key);
+    json_t *entry = json_pack("{s:I, s:s}", "case", (json_int_t)number, "key", key);
     study_judgement_add(judgement, entry);
     json_array_append_new(tally->cases, entry);
 }
 
-void study_tally_add(study_tally *tally, size_t number, const json_t *record)
+void study_tally_add(study_tally *tally, size_t number, const char *key,
+                     const study_judgement *judgement)
 {
-    study_judgement judgement = study_judge_record(record);
-    tally->counts[judgement.verdict]++;
-    for (size_t i = 0; i < judgement.count; i++)
-        count_reason(&tally->reasons[judgement.verdict], judgement.reasons[i], 1);
-    list_case(tally, &judgement, number, json_object_get(record, "key"));
-    study_judgement_free(&judgement);
+    tally->counts[judgement->verdict]++;
+    for (size_t i = 0; i < judgement->count; i++)
+        count_reason(&tally->reasons[judgement->verdict], judgement->reasons[i], 1);
+    list_case(tally, judgement, number, key);
 }
 
 void study_tally_merge(study_tally *tally, study_tally *part)

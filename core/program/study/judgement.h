@@ -23,6 +23,8 @@ const char *study_verdict_name(int verdict); /* "good", "doubtful", "bad", "fail
 
 /* Judges the record of a case by its status and its lines, which records of every version have. */
 study_judgement study_judge_record(const json_t *record);
+/* Takes what study_judgement_add added; false when there is none. */
+bool study_judgement_read(study_judgement *judgement, const json_t *object);
 /* Judges what a pipeline has computed; `failed` says that the run ended with an error. */
 study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed);
 void study_judgement_free(study_judgement *judgement);
@@ -38,8 +40,9 @@ typedef struct study_tally {
     json_t *cases; /* [{case, key, verdict, reasons}]; NULL while there are none */
 } study_tally;
 
-/* Adds a case by its number, from 1 on, and its record. */
-void study_tally_add(study_tally *tally, size_t number, const json_t *record);
+/* Adds a case by its number, from 1 on, and its key. */
+void study_tally_add(study_tally *tally, size_t number, const char *key,
+                     const study_judgement *judgement);
 /* Adds the cases of `part`, which is emptied. */
 void study_tally_merge(study_tally *tally, study_tally *part);
 void study_tally_free(study_tally *tally);

@@ -99,13 +99,14 @@ static void read_costs(const json_t *record, study_outcome *outcome)
 static const study_outcome *read_outcome(study_context *context, const char *key)
 {
     study_outcome *outcome = memory_arena_alloc(&context->arena, sizeof *outcome);
-    const json_t *record = json_object_get(context->records, key);
+    json_t *record = context->records ? study_records_get(context->records, key) : NULL;
     outcome->key = memory_arena_text(&context->arena, key, strlen(key));
     outcome->status = record ? text_of(context, json_object_get(record, "status")) : "not run";
     outcome->reason = text_of(context, json_object_get(record, "reason"));
     read_outputs(context, record, outcome);
     read_quality(context, record, outcome);
     read_costs(record, outcome);
+    json_decref(record);
     return outcome;
 }
 

@@ -1,57 +1,105 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Finds what a run would do, and what earlier runs have saved. */
 #include "chain.h"
+#include "hash.h"
 #include "journal.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* A case of an earlier run, by its assignments. */
+typedef struct earlier_case {
+    uint64_t set;  /* hash of the assignments */
+    uint64_t rank; /* of its record */
+    char key[STUDY_KEY_SIZE];
+} earlier_case;
+
 /* Counts case by case what is done. */
 typedef struct survey {
     const study_run *run;
     study_plan *plan;
-    json_t *records;
-    json_t *by_set; /* {assignments of a case: its record}, to find a case whose key has changed */
-    json_t *parameters; /* {hash: values} of all setups */
+    study_records *records;
+    earlier_case *earlier; /* sorted; made when a case is found whose key has changed */
+    size_t earlier_count;
     double spent;
     size_t timed;
 } survey;
 
-static char *print_set(const json_t *set)
+static uint64_t hash_set(const json_t *set)
 {
-    return json_dumps(set, JSON_COMPACT | JSON_SORT_KEYS);
+    char *text = json_dumps(set, JSON_COMPACT | JSON_SORT_KEYS);
+    uint64_t hash = study_hash_text(STUDY_HASH_START, text);
+    free(text);
+    return hash;
 }
 
-static void index_records(survey *s)
+static int by_set(const void *a, const void *b)
 {
-    const char *key;
+    const earlier_case *one = a, *other = b;
+    if (one->set != other->set)
+        return one->set < other->set ? -1 : 1;
+    return one->rank < other->rank ? -1 : one->rank > other->rank;
+}
+
+static void index_earlier(survey *s)
+{
+    size_t at = 0;
+    uint64_t rank;
     json_t *record;
-    s->by_set = json_object();
-    s->parameters = json_object();
-    json_object_foreach(s->records, key, record)
-    {
-        char *set = print_set(json_object_get(record, "set"));
-        if (set)
-            json_object_set(s->by_set, set, record);
-        json_object_update(s->parameters, json_object_get(record, "parameters"));
-        free(set);
+    s->earlier = memory_alloc((study_records_count(s->records) + 1) * sizeof *s->earlier);
+    while ((record = study_records_next(s->records, &at, &rank))) {
+        earlier_case *made = &s->earlier[s->earlier_count++];
+        *made = (earlier_case){.set = hash_set(json_object_get(record, "set")), .rank = rank};
+        snprintf(made->key, sizeof made->key, "%s",
+                 json_string_value(json_object_get(record, "key")));
+        json_decref(record);
     }
+    qsort(s->earlier, s->earlier_count, sizeof *s->earlier, by_set);
+}
+
+/* Returns the last record with the assignments of the case, to be released; NULL: none has them. */
+static json_t *find_earlier(survey *s, size_t index)
+{
+    json_t *set = study_case_set(s->run->study, index);
+    uint64_t wanted = hash_set(set);
+    size_t low = 0, high;
+    json_decref(set);
+    if (!s->earlier)
+        index_earlier(s);
+    high = s->earlier_count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (s->earlier[middle].set <= wanted)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low > 0 && s->earlier[low - 1].set == wanted
+               ? study_records_get(s->records, s->earlier[low - 1].key)
+               : NULL;
+}
+
+static void count_seconds(survey *s, const json_t *record)
+{
+    const json_t *seconds = json_object_get(record, "seconds");
+    s->spent += json_number_value(seconds);
+    s->timed += seconds != NULL;
 }
 
 /* Counts a case that was done with the same assignments but has another key now; for the first of
    them, prints what has changed. */
 static void explain_change(survey *s, const study_case *c, size_t index)
 {
-    json_t *set = study_case_set(s->run->study, index);
-    char *text = print_set(set);
-    const json_t *record = text ? json_object_get(s->by_set, text) : NULL;
-    s->spent += json_number_value(json_object_get(record, "seconds"));
-    s->timed += json_object_get(record, "seconds") != NULL;
+    json_t *record = find_earlier(s, index);
+    count_seconds(s, record);
     if (record && s->plan->again++ == 0 && study_case_is_good(c)) {
+        const char *input = json_string_value(json_object_get(record, "input"));
         FILE *out = fmemopen(s->plan->changed, sizeof s->plan->changed, "w");
         if (out) {
-            study_setup_compare(c, record, s->parameters, out);
+            study_setup_compare(
+                c, s->run->study,
+                json_object_get(study_records_described(s->records), input ? input : ""), out);
             fclose(out);
         }
         size_t length = strnlen(s->plan->changed, sizeof s->plan->changed - 1);
@@ -59,25 +107,27 @@ static void explain_change(survey *s, const study_case *c, size_t index)
             length--; /* drops an incomplete last line */
         s->plan->changed[length] = '\0';
     }
-    free(text);
-    json_decref(set);
+    json_decref(record);
 }
 
 static void count_case(survey *s, study_chain *chain, size_t index)
 {
+    enum { TIMED = 10000 }; /* records that are looked at for how long a case takes */
     study_plan *plan = s->plan;
     study_case c;
     study_case_open(&c, s->run, index);
     study_chain_enter(chain, s->run->study, &c);
-    const json_t *record = json_object_get(s->records, c.key);
-    plan->done += study_record_is_ok(record);
-    plan->failed += record && !study_record_is_ok(record);
-    if (!record)
+    enum study_state state = study_records_state(s->records, c.key);
+    bool read = state != STUDY_UNKNOWN && (c.states || s->timed < TIMED);
+    json_t *record = read ? study_records_get(s->records, c.key) : NULL;
+    plan->done += state == STUDY_OK;
+    plan->failed += state == STUDY_NOT_OK;
+    if (state == STUDY_UNKNOWN)
         explain_change(s, &c, index);
-    plan->left += !study_record_is_settled(record, s->run->rerun);
-    s->spent += json_number_value(json_object_get(record, "seconds"));
-    s->timed += json_object_get(record, "seconds") != NULL;
+    plan->left += !study_state_is_settled(state, s->run->rerun);
+    count_seconds(s, record);
     study_chain_pass(chain, &c, record);
+    json_decref(record);
     study_case_close(&c);
 }
 
@@ -92,13 +142,11 @@ void study_preview(const study_run *given, study_plan *plan)
     size_t chains = 0;
     study_chain chain = {0};
     *plan = (study_plan){.seconds = -1};
-    s.records = study_arrays_read_done(run->directory);
-    index_records(&s);
+    s.records = study_records_open(run->directory, true);
     for (size_t k = run->shard - 1; k < study_chains(study); k += run->shards) {
         study_chain_begin(&chain, k);
         chains++;
-        if (!json_object_size(
-                s.records)) { /* without records all cases are left: none need be built */
+        if (study_records_count(s.records) == 0) { /* all cases are left: none need be built */
             plan->left += study_chain_length(study);
             continue;
         }
@@ -109,9 +157,8 @@ void study_preview(const study_run *given, study_plan *plan)
         plan->seconds = s.spent / (double)s.timed * (double)plan->left /
                         fmax(1, fmin((double)run->jobs, (double)chains));
     study_chain_free(&chain);
-    json_decref(s.records);
-    json_decref(s.by_set);
-    json_decref(s.parameters);
+    study_records_close(s.records);
+    free(s.earlier);
     ff_tree_free(tree);
 }
 
@@ -135,10 +182,13 @@ void study_savings_add(study_reuse_counts *savings, const json_t *record)
 study_reuse_counts study_savings(const char *directory)
 {
     study_reuse_counts savings = {0};
-    const char *key;
+    size_t at = 0;
     json_t *record;
-    json_t *records = study_journal_read(directory);
-    json_object_foreach(records, key, record) study_savings_add(&savings, record);
-    json_decref(records);
+    study_records *records = study_records_open(directory, false);
+    while ((record = study_records_next(records, &at, NULL))) {
+        study_savings_add(&savings, record);
+        json_decref(record);
+    }
+    study_records_close(records);
     return savings;
 }

@@ -17,9 +17,9 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-void study_pool_open(study_pool *pool, const study_run *run, json_t *done)
+void study_pool_open(study_pool *pool, const study_run *run, study_records *done)
 {
-    *pool = (study_pool){.run = run, .done = done, .extra_fd = -1};
+    *pool = (study_pool){.run = run, .done = done, .said = json_object(), .extra_fd = -1};
     pool->workers = memory_alloc(run->jobs * sizeof *pool->workers);
     pool->polled = memory_alloc((run->jobs + 1) * sizeof *pool->polled);
 }
@@ -40,6 +40,7 @@ void study_pool_close(study_pool *pool)
     free(pool->workers);
     free(pool->polled);
     free(pool->answer);
+    json_decref(pool->said);
 }
 
 void study_pool_kill(const study_pool *pool)
@@ -94,11 +95,14 @@ static int finish_case(study_pool *pool, study_worker *worker, char verdict, con
     return FF_TASK_ANSWER;
 }
 
-/* Keeps the record, since another worker may have to go on with the chain. */
-static void keep_record(study_pool *pool, const char *key, json_t *record)
+/* Keeps the record of a line, since another worker may have to go on with the chain. */
+static void keep_record(study_pool *pool, const char *key, const char *line)
 {
-    if (study_chain_length(pool->run->study) > 1)
-        json_object_set(pool->done, key, record);
+    if (study_chain_length(pool->run->study) == 1)
+        return;
+    json_t *record = study_records_take(pool->done, line, strlen(line));
+    study_records_keep(pool->done, key, record);
+    json_decref(record);
 }
 
 /* Records that the worker of a case is gone, or was ended because it took too long. */
@@ -115,8 +119,8 @@ static int record_crash(study_pool *pool, study_worker *worker, const char *stat
     memcpy(key, worker->shared->key, sizeof key);
     key[STUDY_KEY_SIZE - 1] = '\0';
     json_t *record = study_case_record(pool->run, worker->index, key, status, reason);
-    char *line = study_journal_line(record);
-    keep_record(pool, key, record);
+    char *line = study_journal_line(record, pool->said);
+    keep_record(pool, key, line);
     int state = finish_case(pool, worker, STUDY_VERDICT_FAILED, line, task);
     json_decref(record);
     free(line);
@@ -135,14 +139,12 @@ static int read_answer(study_pool *pool, study_worker *worker, size_t *task)
     if (line[0] == '!')
         return finish_case(pool, worker, STUDY_VERDICT_FATAL, line + 1, task);
     if (line[0] == '=') {
-        bool good = study_record_is_ok(json_object_get(pool->done, worker->shared->key));
+        bool good = study_records_state(pool->done, worker->shared->key) == STUDY_OK;
         return finish_case(pool, worker, good ? STUDY_VERDICT_KNOWN : STUDY_VERDICT_KNOWN_BAD, "",
                            task);
     }
-    json_t *record = json_loadb(line, worker->length, 0, NULL);
-    bool good = study_record_is_ok(record);
-    keep_record(pool, worker->shared->key, record);
-    json_decref(record);
+    bool good = study_line_is_ok(line);
+    keep_record(pool, worker->shared->key, line);
     return finish_case(pool, worker, good ? STUDY_VERDICT_GOOD : STUDY_VERDICT_FAILED, line, task);
 }
 

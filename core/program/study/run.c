@@ -15,8 +15,8 @@ typedef struct execution {
     ff_report *report;
     study_counters *counters;
     study_journal journal;
-    bool open;    /* whether the journal is open */
-    json_t *done; /* records of earlier runs */
+    bool open;           /* whether the journal is open */
+    study_records *done; /* of earlier runs, and of this one where cases form chains */
     char (*keys)[STUDY_KEY_SIZE];
     study_pool pool;               /* without an executor: the workers of this process */
     study_fork_server fork_server; /* with an executor */
@@ -83,7 +83,7 @@ static void open_journal(void *ctx)
         r->open = false;
     }
     if (r->open) {
-        r->done = study_arrays_read_done(run->directory);
+        r->done = study_records_open(run->directory, true);
         if (run->begin == 0)
             begin_results(r);
         r->keys = run->keys ? run->keys : memory_alloc(total * sizeof *r->keys);
@@ -127,10 +127,12 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
     r->counters->before += known;
     r->counters->done++;
     r->counters->failed += !good;
-    json_t *record = known ? json_incref(json_object_get(r->done, key)) : json_loads(text, 0, NULL);
-    if (!known)
-        study_savings_add(&r->counters->savings, record);
-    study_tally_add(&r->counters->tally, index + 1, record);
+    json_t *record = known ? NULL : study_records_take(r->done, text, strlen(text));
+    study_judgement judgement =
+        known ? study_records_judge(r->done, key) : study_judge_record(record);
+    study_savings_add(&r->counters->savings, record);
+    study_tally_add(&r->counters->tally, index + 1, key, &judgement);
+    study_judgement_free(&judgement);
     json_decref(record);
     return known || good || !r->run->fail_fast;
 }
@@ -355,7 +357,7 @@ bool study_execute(const study_run *given, study_counters *counters, ff_report *
     leading = 0;
     if (r.open)
         finish_run(&r);
-    json_decref(r.done);
+    study_records_close(r.done);
     if (!run->keys)
         free(r.keys);
     ff_tree_free(tree);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Describes the setup of each stage once in the journal, so that a later run can say what has
+/* Describes each stage with its model once in the journal, so that a later run can say what has
    changed. */
 #include "case.h"
 #include "hash.h"
@@ -9,20 +9,6 @@
 bool study_case_is_good(const study_case *c)
 {
     return c->pipeline && ff_report_errors(c->report) == 0;
-}
-
-json_t *study_case_setups(const study_case *c)
-{
-    json_t *setups = json_object();
-    char text[20];
-    for (size_t i = 0; study_case_is_good(c) && i < c->pipeline->count; i++) {
-        const ff_stage *stage = &c->pipeline->stages[i];
-        if (!stage->needed)
-            continue;
-        snprintf(text, sizeof text, "%016llx", (unsigned long long)study_hash_setup(stage));
-        json_object_set_new(setups, stage->name, json_string(text));
-    }
-    return setups;
 }
 
 static const char build_name[] = "build of the plugin";
@@ -58,25 +44,51 @@ static json_t *describe_setup(const ff_stage *stage)
     return values;
 }
 
-json_t *study_case_parameters(const study_case *c, const json_t *setups, json_t *seen)
+/* Notes each stage with its model; false when `seen` has all of them. */
+static bool is_new(const study_case *c, json_t *seen)
 {
-    json_t *parameters = json_object(), *setup;
-    const char *name;
-    json_object_foreach((json_t *)(size_t)setups, name, setup)
-    {
-        const char *hash = json_string_value(setup);
-        if (json_object_get(seen, hash))
+    bool any = false;
+    for (size_t i = 0; study_case_is_good(c) && i < c->pipeline->count; i++) {
+        const ff_stage *stage = &c->pipeline->stages[i];
+        char name[400], build[BUILD_SIZE];
+        if (!stage->needed)
             continue;
-        for (size_t i = 0; i < c->pipeline->count; i++)
-            if (!strcmp(c->pipeline->stages[i].name, name))
-                json_object_set_new(parameters, hash, describe_setup(&c->pipeline->stages[i]));
-        json_object_set_new(seen, hash, json_true());
+        print_build(stage, build);
+        snprintf(name, sizeof name, "%.160s %.160s %s", stage->name, stage->loaded->model->id,
+                 build);
+        any = any || !json_object_get(seen, name);
+        json_object_set_new(seen, name, json_true());
+    }
+    return any;
+}
+
+json_t *study_case_parameters(const study_case *c, json_t *seen)
+{
+    json_t *parameters = json_object();
+    bool any = is_new(c, seen);
+    for (size_t i = 0; any && i < c->pipeline->count; i++) {
+        const ff_stage *stage = &c->pipeline->stages[i];
+        if (stage->needed)
+            json_object_set_new(parameters, stage->name, describe_setup(stage));
     }
     return parameters;
 }
 
-/* Writes a line for each value that differs. */
-static void write_changes(FILE *out, const char *stage, const json_t *before, const json_t *now)
+/* Whether the study gives the parameter of the stage to its cases. */
+static bool is_varied(const study_definition *study, const char *stage, const char *name)
+{
+    char path[400], whole[420];
+    bool found = false;
+    snprintf(path, sizeof path, "%.160s.%.200s", stage, name);
+    snprintf(whole, sizeof whole, "pipeline.%s", path);
+    for (size_t k = 0; k < study->varied_count && !found; k++)
+        found = !strcmp(study->varied[k].path, path) || !strcmp(study->varied[k].path, whole);
+    return found;
+}
+
+/* Writes a line for each value that differs, and the study does not vary. */
+static void write_changes(FILE *out, const study_definition *study, const char *stage,
+                          const json_t *before, const json_t *now)
 {
     static const char absent[] = "not given";
     const char *name;
@@ -84,55 +96,64 @@ static void write_changes(FILE *out, const char *stage, const json_t *before, co
     json_object_foreach((json_t *)(size_t)now, name, value)
     {
         const char *old = json_string_value(json_object_get(before, name));
-        if (!old || strcmp(old, json_string_value(value)) != 0)
+        if ((!old || strcmp(old, json_string_value(value)) != 0) && !is_varied(study, stage, name))
             fprintf(out, "%s.%s: %s -> %s\n", stage, name, old ? old : absent,
                     json_string_value(value));
     }
-    json_object_foreach((json_t *)(size_t)before, name, value) if (!json_object_get(now, name))
-        fprintf(out, "%s.%s: %s -> %s\n", stage, name, json_string_value(value), absent);
+    json_object_foreach((json_t *)(size_t)before, name, value)
+    {
+        if (!json_object_get(now, name) && !is_varied(study, stage, name))
+            fprintf(out, "%s.%s: %s -> %s\n", stage, name, json_string_value(value), absent);
+    }
 }
 
-void study_setup_compare(const study_case *c, const json_t *record, const json_t *parameters,
-                         FILE *out)
+/* What was said of the stage, with its model if that was told, else with the last one. */
+static const json_t *find_described(const json_t *described, const ff_stage *stage)
 {
-    json_t *setups = study_case_setups(c), *seen = json_object(), *now, *hash;
-    const json_t *old = json_object_get(record, "setups");
-    const char *stage;
-    bool some = false;
-    now = study_case_parameters(c, setups, seen);
-    json_object_foreach(setups, stage, hash)
+    const char *name;
+    json_t *values;
+    const json_t *found = NULL;
+    size_t length = strlen(stage->name);
+    json_object_foreach((json_t *)(size_t)described, name, values)
     {
-        const char *before = json_string_value(json_object_get(old, stage));
-        const json_t *values = before ? json_object_get(parameters, before) : NULL;
-        long start = ftell(out);
-        if (before && !strcmp(before, json_string_value(hash)))
+        if (strncmp(name, stage->name, length) != 0 || name[length] != ' ')
             continue;
-        some = true;
-        if (!before)
-            fprintf(out, "%s: it did not run\n", stage);
-        else if (values)
-            write_changes(out, stage, values, json_object_get(now, json_string_value(hash)));
-        if (ftell(out) == start)
-            fprintf(out, "%s: %s\n", stage,
-                    values ? "what stands in its files, or digits that are not shown"
-                           : "its parameters");
+        found = values;
+        if (!strcmp(name + length + 1, stage->loaded->model->id))
+            break;
     }
-    if (!some)
+    return found;
+}
+
+void study_setup_compare(const study_case *c, const study_definition *study,
+                         const json_t *described, FILE *out)
+{
+    long start = ftell(out);
+    for (size_t i = 0; i < c->pipeline->count; i++) {
+        const ff_stage *stage = &c->pipeline->stages[i];
+        const json_t *before = stage->needed ? find_described(described, stage) : NULL;
+        if (before) {
+            json_t *now = describe_setup(stage);
+            write_changes(out, study, stage->name, before, now);
+            json_decref(now);
+        } else if (stage->needed) {
+            fprintf(out, "%s: it did not run\n", stage->name);
+        }
+    }
+    if (ftell(out) == start)
         fputs(c->states ? "the cases before them in their chain\n"
-                        : "which stage feeds which, or the outputs\n",
+                        : "what stands in files, digits that are not shown, or which stage feeds "
+                          "which\n",
               out);
-    json_decref(setups);
-    json_decref(seen);
-    json_decref(now);
 }
 
 /* {model: {build of its plugin: true}} of all that the records describe. */
-static json_t *builds_of(const json_t *records)
+static json_t *builds_of(const study_records *records)
 {
-    json_t *builds = json_object(), *record, *values;
-    const char *key, *hash;
-    json_object_foreach((json_t *)(size_t)records, key, record)
-        json_object_foreach(json_object_get(record, "parameters"), hash, values)
+    json_t *builds = json_object(), *stages, *values;
+    const char *input, *stage;
+    json_object_foreach((json_t *)(size_t)study_records_described(records), input, stages)
+        json_object_foreach(stages, stage, values)
     {
         const char *model = json_string_value(json_object_get(values, "use"));
         const char *build = json_string_value(json_object_get(values, build_name));
@@ -145,7 +166,7 @@ static json_t *builds_of(const json_t *records)
     return builds;
 }
 
-void study_setup_warn_rebuilt(const study_run *run, const json_t *records, ff_report *report)
+void study_setup_warn_rebuilt(const study_run *run, const study_records *records, ff_report *report)
 {
     json_t *builds = builds_of(records);
     for (size_t i = 0; run->pipeline && i < run->pipeline->count; i++) {

@@ -233,10 +233,6 @@ void study_preview(const study_run *run, study_plan *plan);
 extern const char study_marker[];      /* its presence makes a directory that of a study */
 extern const char study_description[]; /* written by study_run.describe */
 
-/* Returns {key: record} of all journals in the directory, which may be missing. A key has its last
-   record that is ok, else its last one. */
-json_t *study_journal_read(const char *directory);
-
 /* Refuses a directory whose files are of another format; one without a study is good. */
 bool study_check_format(const char *directory, ff_report *report);
 

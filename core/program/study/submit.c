@@ -86,8 +86,8 @@ bool study_run_submitted(study_context *context, size_t begin, size_t end)
     add_counters(context->counters, &counters);
     if (!good)
         return false;
-    json_decref(context->records);
-    context->records = study_journal_read(context->run->directory);
+    study_records_close(context->records);
+    context->records = study_records_open(context->run->directory, false);
     return true;
 }
 

@@ -66,18 +66,17 @@ static void put_head(FILE *out, const study_definition *study, const char *const
 }
 
 /* Two cells, which are empty for a case that has not run. */
-static void put_judgement(FILE *out, const json_t *record)
+static void put_judgement(FILE *out, const study_judgement *judgement)
 {
-    study_judgement judgement = study_judge_record(record);
-    char *reasons = study_judgement_text(&judgement);
-    fprintf(out, ",%s,", record ? study_verdict_name(judgement.verdict) : "");
-    put_cell(out, record ? reasons : "", record ? strlen(reasons) : 0);
+    char *reasons = judgement ? study_judgement_text(judgement) : NULL;
+    fprintf(out, ",%s,", judgement ? study_verdict_name(judgement->verdict) : "");
+    put_cell(out, reasons ? reasons : "", reasons ? strlen(reasons) : 0);
     free(reasons);
-    study_judgement_free(&judgement);
 }
 
 static void put_row(FILE *out, const study_definition *study, const char *const *units,
-                    size_t index, const char *key, const json_t *record, json_t *columns)
+                    size_t index, const char *key, const json_t *record,
+                    const study_judgement *judgement, json_t *columns)
 {
     const char *status = json_string_value(json_object_get(record, "status"));
     const char *reason = json_string_value(json_object_get(record, "reason")), *name;
@@ -98,22 +97,33 @@ static void put_row(FILE *out, const study_definition *study, const char *const 
         if (pair)
             fprintf(out, "%.12g", json_number_value(json_array_get(pair, 1)));
     }
-    put_judgement(out, record);
+    put_judgement(out, record ? judgement : NULL);
     fputc(',', out);
     put_cell(out, reason ? reason : "", reason ? strlen(reason) : 0);
     fputc('\n', out);
 }
 
 /* Returns {name: unit} of every output that some case gave, in the order of the cases. */
-static json_t *find_columns(const study_definition *study, const json_t *records,
+static json_t *find_columns(const study_definition *study, study_records *records,
                             char (*keys)[STUDY_KEY_SIZE])
 {
-    json_t *columns = json_object(), *pair;
+    json_t *columns = json_object(), *pair, *known = json_object();
     const char *name;
-    for (size_t i = 0; i < study->count; i++)
-        json_object_foreach(json_object_get(json_object_get(records, keys[i]), "outputs"), name,
-                            pair) if (!json_object_get(columns, name))
-            json_object_set(columns, name, json_array_get(pair, 0));
+    for (size_t i = 0; i < study->count; i++) {
+        const char *form = study_records_form(records, keys[i]);
+        if (json_object_get(known, form)) /* outputs and units are a part of the form */
+            continue;
+        if (*form)
+            json_object_set_new(known, form, json_true());
+        json_t *record = study_records_get(records, keys[i]);
+        json_object_foreach(json_object_get(record, "outputs"), name, pair)
+        {
+            if (!json_object_get(columns, name))
+                json_object_set(columns, name, json_array_get(pair, 0));
+        }
+        json_decref(record);
+    }
+    json_decref(known);
     return columns;
 }
 
@@ -125,7 +135,7 @@ bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_re
     if (lock >= 0)
         flock(lock, LOCK_EX); /* so that of shards that end together the last one writes the table,
                                  with all cases */
-    json_t *records = study_journal_read(run->directory);
+    study_records *records = study_records_open(run->directory, false);
     json_t *columns = find_columns(study, records, keys);
     const char **units = memory_alloc(study->varied_count * sizeof *units);
     char *text = NULL;
@@ -134,8 +144,16 @@ bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_re
     for (size_t k = 0; k < study->varied_count; k++)
         units[k] = common_unit(study, &study->varied[k]);
     put_head(out, study, units, columns);
-    for (size_t i = 0; i < study->count; i++)
-        put_row(out, study, units, i, keys[i], json_object_get(records, keys[i]), columns);
+    study_tally tally = {.cases = NULL};
+    for (size_t i = 0; i < study->count; i++) {
+        json_t *record = study_records_get(records, keys[i]);
+        study_judgement judgement = study_judge_record(record);
+        put_row(out, study, units, i, keys[i], record, &judgement, columns);
+        if (record)
+            study_tally_add(&tally, i + 1, keys[i], &judgement);
+        study_judgement_free(&judgement);
+        json_decref(record);
+    }
     fclose(out);
     bool good = study_write_file(
         run->directory, "table.csv", text,
@@ -143,14 +161,10 @@ bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_re
             ? "the journal has all cases; the same command writes the table"
             : "the directory was removed while the study ran, and its journal with it",
         report);
-    study_tally tally = {.cases = NULL};
-    for (size_t i = 0; i < study->count; i++)
-        if (json_object_get(records, keys[i]))
-            study_tally_add(&tally, i + 1, json_object_get(records, keys[i]));
     good = good && study_describe(run, &tally, report);
     study_tally_free(&tally);
     json_decref(columns);
-    json_decref(records);
+    study_records_close(records);
     free(units);
     free(marker);
     free(text);

@@ -87,7 +87,7 @@ bool study_open_pipes(int to[2], int from[2])
 
 /* Moves to the place of the case in its chain; the states of earlier cases that this process did
    not run are in their records. */
-static void reach_case(study_chain *chain, const study_run *run, size_t index, const json_t *done)
+static void reach_case(study_chain *chain, const study_run *run, size_t index, study_records *done)
 {
     size_t position, number;
     if (!study_is_chained(run->study))
@@ -99,13 +99,15 @@ static void reach_case(study_chain *chain, const study_run *run, size_t index, c
         study_case c;
         study_case_open(&c, run, study_chain_case(run->study, number, chain->position));
         study_chain_enter(chain, run->study, &c);
-        study_chain_pass(chain, &c, json_object_get(done, c.key));
+        json_t *record = study_records_get(done, c.key);
+        study_chain_pass(chain, &c, record);
+        json_decref(record);
         study_case_close(&c);
     }
 }
 
 static bool run_case(const study_worker *worker, const study_run *run, size_t index,
-                     const json_t *done, study_memory *memory, study_chain *chain, int to)
+                     study_records *done, study_memory *memory, study_chain *chain, int to)
 {
     study_case c;
     reach_case(chain, run, index, done);
@@ -113,14 +115,14 @@ static bool run_case(const study_worker *worker, const study_run *run, size_t in
     study_chain_enter(chain, run->study, &c);
     memcpy(worker->shared->key, c.key, sizeof c.key);
     char *line = NULL;
-    json_t *record = json_object_get(done, c.key);
-    if (study_case_is_settled(&c, record, run->rerun)) {
+    json_t *record = NULL;
+    if (study_case_is_settled(&c, done, run->rerun)) {
         line = memory_print_text("=\n");
-        json_incref(record);
+        record = c.states ? study_records_get(done, c.key) : NULL;
     } else {
         record = study_case_run(&c, run, index, memory);
         char *why = record ? NULL : study_first_error(c.report);
-        line = record ? study_journal_line(record) : memory_print_text("!%s\n", why);
+        line = record ? study_journal_line(record, memory->said) : memory_print_text("!%s\n", why);
         free(why);
     }
     bool sent = study_write_all(to, line, strlen(line));
@@ -142,7 +144,7 @@ static void keep_memory(void)
 }
 
 static _Noreturn void serve_cases(const study_worker *worker, const study_run *run,
-                                  const json_t *done, size_t slot, int from, int to)
+                                  study_records *done, size_t slot, int from, int to)
 {
     static study_reuse_stats stats[MOST_STAGES];
     size_t index;
@@ -168,6 +170,7 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
         .stats = stats,
         .arrays = {.run = run, .shared = worker->shared, .slot = slot, .directory = -1},
         .seen = json_object(),
+        .said = json_object(),
     };
     study_chain chain = {0};
     while (read(from, &index, sizeof index) == sizeof index) {
@@ -185,7 +188,7 @@ static void close_files(study_worker *worker)
     close(worker->captured);
 }
 
-bool study_worker_start(study_worker *worker, const study_run *run, const json_t *done,
+bool study_worker_start(study_worker *worker, const study_run *run, study_records *done,
                         const study_worker *all, size_t count)
 {
     int to[2], from[2];

@@ -4,6 +4,7 @@
 #define STUDY_WORKERS_H
 
 #include "case.h"
+#include "records.h"
 
 #include <flankfilm/executor.h>
 #include <jansson.h>
@@ -25,7 +26,7 @@ typedef struct study_worker {
 
 /* Starts a worker process, which skips cases that `done` holds. It closes the pipes of the `count`
    workers in `all`. */
-bool study_worker_start(study_worker *worker, const study_run *run, const json_t *done,
+bool study_worker_start(study_worker *worker, const study_run *run, study_records *done,
                         const study_worker *all, size_t count);
 bool study_worker_send_case(study_worker *worker, size_t index);
 /* Returns 1 when the answer in worker->line is complete, 0 when it is not yet, -1 when the worker
@@ -53,7 +54,8 @@ enum study_case_verdict {
 
 typedef struct study_pool {
     const study_run *run;
-    json_t *done;          /* records of earlier runs, and of this one where cases form chains */
+    study_records *done;   /* of earlier runs, and of this one where cases form chains */
+    json_t *said;          /* the forms that records of cases that crashed have said */
     bool ending;           /* chains are broken off after the running case */
     int extra_fd;          /* a further file descriptor whose input ends the waiting; -1 for none */
     study_worker *workers; /* run->jobs of them */
@@ -63,7 +65,7 @@ typedef struct study_pool {
     char *answer;
 } study_pool;
 
-void study_pool_open(study_pool *pool, const study_run *run, json_t *done);
+void study_pool_open(study_pool *pool, const study_run *run, study_records *done);
 void study_pool_close(study_pool *pool);      /* waits for the running cases */
 void study_pool_kill(const study_pool *pool); /* ends all workers, at once */
 /* Starts the next chain; at most run->jobs may run at a time. */

@@ -14,6 +14,8 @@ import sys
 import tempfile
 import unittest
 
+import records
+
 RUN = """
 format: 2
 title: 'waves <b>&amp;</b> "quotes" é'
@@ -83,8 +85,7 @@ class Lab(unittest.TestCase):
     @staticmethod
     def records():
         """The journal's record of each case, in their order."""
-        with open("study/journal.jsonl", encoding="utf-8") as file:
-            found = {record["case"]: record for record in map(json.loads, file)}
+        found = {record["case"]: record for record in records.read("study/journal.jsonl")}
         return [found[number] for number in sorted(found)]
 
     @classmethod

@@ -48,7 +48,7 @@ expect() {
 
 # the journal does not fit
 ./flankfilm run study.yaml -j 2 -o roomy >out
-mount -t tmpfs -o size=48k tmpfs disk
+mount -t tmpfs -o size=32k tmpfs disk
 expect 1 "the journal could not be written: No space left on device" \
     ./flankfilm run study.yaml -j 2 -o disk/full
 before=$(wc -l <disk/full/journal.jsonl)

@@ -4,6 +4,7 @@
 set -eu
 rounds=$1 cases=$2
 flankfilm=$(realpath "$3")
+records=$(dirname "$(realpath "$0")")/records.py
 shift 3
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
@@ -71,7 +72,7 @@ ls killed-study
 
 kill_again chains $((6 * rounds * 8))
 states() {
-    sed -n 's/.*"key":"\([^"]*\)".*"state":{\([^}]*\)}.*/\1 \2/p' "$1/journal.jsonl" | sort -u
+    python3 "$records" "$1/journal.jsonl" | sed -n 's/.*"key":"\([^"]*\)".*"state":{\([^}]*\)}.*/\1 \2/p' | sort -u
 }
 states calm-chains >calm.states
 states killed-chains >killed.states

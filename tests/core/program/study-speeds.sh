@@ -4,6 +4,7 @@
 set -eu
 flankfilm=$1
 studies=$2/configs/studies
+records=$(dirname "$0")/records.py
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 
@@ -11,7 +12,7 @@ trap 'rm -rf "$lab"' EXIT
 run() {
     "$flankfilm" run "$studies/$1.yaml" -j 2 -o "$lab/$1"
     [ "$(grep -c ',ok,' "$lab/$1/table.csv")" -eq "$2" ]
-    computed=$(sed 's/.*"stages":{\([^}]*\)}.*/\1/' "$lab/$1/journal.jsonl" | grep -c '"mesh"')
+    computed=$(python3 "$records" "$lab/$1/journal.jsonl" | sed 's/.*"stages":{\([^}]*\)}.*/\1/' | grep -c '"mesh"')
     echo "$1: $computed load distributions for $2 cases"
     [ "$computed" -eq "$3" ]
 }

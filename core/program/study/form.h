@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What records have in common is said once. The form of a record is the record without its numbers
+ * and without the texts of its own; null stands in their places. A line of the journal names the
+ * form and lists the values that fill those places, in their order; the first line of each worker
+ * with a form says it, too:
+ *   {"case":1,"key":"...","status":"ok","form":"HASH","is":{...},"values":[...],"sum":"..."}
+ * "log" and "parameters" stand beside the form.
+ */
+#ifndef STUDY_FORM_H
+#define STUDY_FORM_H
+
+#include <jansson.h>
+#include <stddef.h>
+#include <stdio.h>
+
+enum { STUDY_FORM_NAME = 17 }; /* bytes of the hash that names a form, with its end */
+
+/* Writes the record as a line without its last brace. `said` has the names of the forms that the
+   process has said, and gets this one. */
+void study_form_write(const json_t *record, json_t *said, FILE *out);
+
+/* Returns the record of a line with a form; NULL when the values do not fill it. */
+json_t *study_form_fill(const json_t *form, const json_t *line);
+
+/* Where the values of a member of the form, "stages", begin among all, and how many there are. */
+void study_form_find(const json_t *form, const char *member, size_t *first, size_t *count);
+
+#endif
