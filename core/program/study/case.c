@@ -249,9 +249,12 @@ static void add_results(json_t *record, const ff_pipeline *pipeline)
 static bool keep_results(study_case *c, const study_run *run, size_t index, json_t *record,
                          study_memory *memory)
 {
+    const study_measure *measure = run->study->measure;
     add_results(record, c->pipeline);
-    return run->study->measure ? study_measure_record(c, run, index, record)
-                               : study_arrays_keep(&memory->arrays, c, record);
+    if (measure)
+        study_measure_record(c, run->study, record);
+    bool repeats = measure && measure->repeat[index] > 0; /* which gives the same arrays */
+    return repeats || study_arrays_keep(&memory->arrays, c, record);
 }
 
 json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_memory *memory)

@@ -113,9 +113,7 @@ void study_measure_pin(void);
 void study_measure_want(const study_definition *study, const ff_pipeline *pipeline);
 /* Returns for each stage whether it is evaluated in every case; to be freed. */
 bool *study_measure_fresh(const study_measure *measure, const ff_pipeline *pipeline);
-/* Adds what was measured to the record, and writes the requested outputs to a file. */
-bool study_measure_record(const study_case *c, const study_run *run, size_t index, json_t *record);
-/* Returns the outputs of that file: {output: {unit, rank, values, along, at}}; NULL without one. */
-json_t *study_measure_values(const char *directory, const char *key);
+/* Adds what was measured to the record. */
+void study_measure_record(const study_case *c, const study_definition *study, json_t *record);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Records of a measured case the work of the stages in which cases differ, and the requested
- * outputs with what they are plotted against.
+ * Records of a measured case the work of the stages in which cases differ, and what its requested
+ * series are plotted against, which is kept with them.
  */
 #include "case.h"
 #include "hash.h"
@@ -10,7 +10,6 @@
 #include <sched.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 uint64_t study_measure_fingerprint(uint64_t fingerprint, size_t repeat)
 {
@@ -94,13 +93,12 @@ static bool is_rising(const ff_result *result)
     return result->count > 1 && result->data[result->count - 1] > result->data[0];
 }
 
-static const ff_result *find_axis(const study_measure *m, const ff_stage *stage,
-                                  const ff_result *self)
+static ff_result *find_axis(const study_measure *m, const ff_stage *stage, const ff_result *self)
 {
-    const ff_result *best = NULL;
+    ff_result *best = NULL;
     int rank = 0;
     for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
-        const ff_result *result = &stage->results[k];
+        ff_result *result = &stage->results[k];
         int here = result->data && result->rank == 1 && result->count == self->count
                        ? rank_as_axis(m, result, self)
                        : 0;
@@ -112,72 +110,35 @@ static const ff_result *find_axis(const study_measure *m, const ff_stage *stage,
     return best;
 }
 
-static json_t *numbers_of(const ff_result *result)
-{
-    json_t *list = json_array();
-    for (size_t i = 0; i < result->count; i++)
-        json_array_append_new(list, study_json_real(result->data[i]));
-    return list;
-}
-
-/* Adds {output: {unit, rank, values, along, at}}; the last two only for a series that is plotted
-   against another. */
-static void add_output(const study_measure *m, const ff_pipeline *pipeline, const char *path,
-                       json_t *all)
+/* Adds {output: name of the series of its stage that it is plotted against}, and has that series
+   kept. */
+static void add_axis(const study_measure *m, const ff_pipeline *pipeline, const char *path,
+                     json_t *all)
 {
     const ff_stage *stage;
     const ff_result *result = find_result(pipeline, path, &stage);
-    if (!result || !result->data)
+    ff_result *axis =
+        result && result->data && result->rank == 1 ? find_axis(m, stage, result) : NULL;
+    if (!axis)
         return;
-    const ff_result *axis = result->rank == 1 ? find_axis(m, stage, result) : NULL;
-    json_t *one = json_pack("{s:s, s:i, s:o}", "unit", result->row->unit, "rank", (int)result->rank,
-                            "values", numbers_of(result));
-    if (axis)
-        json_object_update_new(
-            one, json_pack("{s:s, s:o}", "along", axis->row->name, "at", numbers_of(axis)));
-    json_object_set_new(all, path, one);
+    axis->requested = true;
+    json_object_set_new(all, path, json_string(axis->row->name));
 }
 
-/* The file counts only once the journal has the line of the case. */
-static bool write_values(const json_t *values, const char *directory, const char *key,
-                         ff_report *report)
+void study_measure_record(const study_case *c, const study_definition *study, json_t *record)
 {
-    char *folder = memory_print_text("%s/values", directory),
-         *name = memory_print_text("%s.json", key);
-    char *text = json_dumps(values, JSON_COMPACT | JSON_REAL_PRECISION(17));
-    mkdir(folder, 0777); /* it may be there */
-    bool good = text && study_write_file(folder, name, text, NULL, report);
-    free(folder);
-    free(name);
-    free(text);
-    return good;
-}
-
-bool study_measure_record(const study_case *c, const study_run *run, size_t index, json_t *record)
-{
-    const study_measure *m = run->study->measure;
+    const study_measure *m = study->measure;
     const ff_pipeline *pipeline = c->pipeline;
     bool *fresh = study_measure_fresh(m, pipeline);
-    json_t *values = json_object(), *work = json_object();
+    json_t *along = json_object(), *work = json_object();
     for (size_t i = 0; i < m->request->count; i++)
-        add_output(m, pipeline, m->request->items[i]->text, values);
-    for (size_t i = 0; i < run->study->extra_count; i++)
-        add_output(m, pipeline, run->study->extras[i], values);
+        add_axis(m, pipeline, m->request->items[i]->text, along);
+    for (size_t i = 0; i < study->extra_count; i++)
+        add_axis(m, pipeline, study->extras[i], along);
     for (size_t i = 0; i < pipeline->count; i++)
         if (fresh[i] && pipeline->stages[i].ran)
             json_object_set_new(work, pipeline->stages[i].name,
                                 json_real(pipeline->stages[i].work));
-    json_object_set_new(record, "measured", json_pack("{s:o}", "work", work));
+    json_object_set_new(record, "measured", json_pack("{s:o, s:o}", "work", work, "along", along));
     free(fresh);
-    bool written = m->repeat[index] > 0 || write_values(values, run->directory, c->key, c->report);
-    json_decref(values);
-    return written;
-}
-
-json_t *study_measure_values(const char *directory, const char *key)
-{
-    char *path = memory_print_text("%s/values/%s.json", directory, key);
-    json_t *values = json_load_file(path, 0, NULL);
-    free(path);
-    return values;
 }

@@ -4,8 +4,10 @@
 
 #include "case.h"
 
+#include <fcntl.h>
 #include <math.h>
 #include <string.h>
+#include <unistd.h>
 
 static double number_of(const json_t *value)
 {
@@ -18,52 +20,75 @@ static const char *text_of(study_context *context, const json_t *value)
     return memory_arena_text(&context->arena, text ? text : "", text ? strlen(text) : 0);
 }
 
-static const double *numbers_of(study_context *context, const json_t *list, size_t *count)
+/* Reads an array of a case from its log; NULL when there is none, or after an error. */
+static const double *read_array(study_context *context, arrays_reader *reader, const json_t *record,
+                                const char *name, size_t *rank, size_t *count)
 {
-    *count = json_array_size(list);
-    double *values = memory_arena_alloc(&context->arena, (*count + 1) * sizeof *values);
-    for (size_t i = 0; i < *count; i++)
-        values[i] = number_of(json_array_get(list, i));
-    return values;
+    const json_t *entry = json_object_get(json_object_get(record, "arrays"), name),
+                 *shape = json_array_get(entry, 2), *log = json_object_get(record, "log");
+    const char *file = json_string_value(json_array_get(log, 0));
+    off_t offset = (off_t)json_integer_value(json_array_get(entry, 3));
+    arrays_label label = {.key = json_string_value(json_object_get(record, "key")), .output = name};
+    char why[ARRAYS_WHY];
+    if (!entry || !file || !label.key || json_array_size(shape) > 4)
+        return NULL;
+    *count = 1;
+    for (; label.rank < json_array_size(shape); label.rank++) {
+        label.shape[label.rank] = (size_t)json_integer_value(json_array_get(shape, label.rank));
+        *count *= label.shape[label.rank];
+    }
+    *rank = label.rank;
+    double *values = arrays_reader_has(reader, file, offset, &label, why)
+                         ? memory_arena_alloc(&context->arena, (*count + 1) * sizeof *values)
+                         : NULL;
+    if (values && arrays_reader_read(reader, file, offset, &label, values, why))
+        return values;
+    ff_error(context->report, FF_FAULT_INPUT, FF_NOWHERE,
+             "flankfilm run with --rerun all writes it anew", "%s/%s cannot be read: %s",
+             context->run->directory, file, why);
+    return NULL;
 }
 
-/* Reads an output from the case's file of values, else a scalar from the record. */
-static study_output read_output(study_context *context, const json_t *record, const json_t *values,
+/* Reads an array with what it is plotted against, or a scalar. */
+static study_output read_output(study_context *context, arrays_reader *reader, const json_t *record,
                                 const char *name)
 {
     const json_t *pair = json_object_get(json_object_get(record, "outputs"), name);
-    const json_t *one = json_object_get(values, name), *at = json_object_get(one, "at");
-    const json_t *own = json_object_get(one, "values");
-    size_t points = 0;
-    study_output output = {.rank = (size_t)json_integer_value(json_object_get(one, "rank")),
-                           .along = text_of(context, json_object_get(one, "along"))};
-    if (own)
-        output.values = numbers_of(context, own, &output.count);
-    if (at)
-        output.at = numbers_of(context, at, &points);
-    if (at && points != output.count)
-        output.at = NULL;
-    if (!own && pair) {
+    const json_t *along = json_object_get(json_object_get(record, "measured"), "along");
+    study_output output = {.along = text_of(context, json_object_get(along, name))};
+    size_t points = 0, rank = 0;
+    if (pair) {
         double *scalar = memory_arena_alloc(&context->arena, sizeof *scalar);
         *scalar = number_of(json_array_get(pair, 1));
         output.values = scalar;
         output.count = 1;
+        return output;
     }
+    output.values = read_array(context, reader, record, name, &output.rank, &output.count);
+    if (!output.values || !*output.along)
+        return output;
+    const char *axis =
+        study_context_format(context, "%.*s.%s", (int)strcspn(name, "."), name, output.along);
+    output.at = read_array(context, reader, record, axis, &rank, &points);
+    if (points != output.count)
+        output.at = NULL;
     return output;
 }
 
 static void read_outputs(study_context *context, const json_t *record, study_outcome *outcome)
 {
     size_t own = context->output_count, count = own + context->extra_count;
-    json_t *values = study_record_is_ok(record) && context->measured
-                         ? study_measure_values(context->run->directory, outcome->key)
-                         : NULL;
+    int directory = open(context->run->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    arrays_reader reader;
+    arrays_reader_open(&reader, directory);
     outcome->outputs = memory_arena_alloc(&context->arena, (count + 1) * sizeof *outcome->outputs);
     for (size_t i = 0; i < count; i++)
         outcome->outputs[i] =
-            read_output(context, record, values,
+            read_output(context, &reader, record,
                         i < own ? context->outputs[i]->text : context->extras[i - own]);
-    json_decref(values);
+    arrays_reader_close(&reader);
+    if (directory >= 0)
+        close(directory);
 }
 
 /* Reads the lines [value, limit, verdict, text] of all stages. */

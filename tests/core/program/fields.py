@@ -125,6 +125,15 @@ class Fields(lab.Lab):
             with open("lost-csv/" + name, "rb") as found, open("lost-whole/" + name, "rb") as whole:
                 self.assertEqual(found.read(), whole.read())
 
+    def test_crashes(self):
+        """Workers that follow each other in one place go on with one log."""
+        self.call("run", "run.yaml", "-o", "crashes", "-j", "1", "--set", "outputs=[wave.height]", "--set",
+                  "study={sweep: {wave.amplitude: [1 mm, 2 mm, 3 mm, 4 mm], wave.end: [good, crash]}}", code=4)
+        self.assertEqual([n for n in os.listdir("crashes") if n.endswith(".log")], ["arrays.1.log"])
+        self.call("export", "crashes", "--to", "csv", "-o", "crashes-csv")
+        with open("crashes-csv/wave-t.csv", encoding="utf-8") as file:
+            self.assertEqual(len(file.readlines()), 1 + 4 * 9)
+
     def test_log_changed(self):
         self.call("run", "study.yaml", "-o", "flipped", "-j", "1", code=4)
         with open("flipped/arrays.1.log", "r+b") as file:
