@@ -31,11 +31,12 @@ static bool has(const char *why, const char *words)
     return strstr(why, words) != NULL;
 }
 
-static void put(const lab *l, const char *bytes, size_t size)
+static bool put(const lab *l, const char *bytes, size_t size)
 {
     int fd = openat(l->directory, "log", O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    check_true("the log is there", fd >= 0 && write(fd, bytes, size) == (ssize_t)size);
+    bool good = fd >= 0 && write(fd, bytes, size) == (ssize_t)size;
     close(fd);
+    return good;
 }
 
 static size_t get(const lab *l, char bytes[MOST])
@@ -59,16 +60,27 @@ static void read_record(const lab *l, const arrays_label *label, off_t at, char 
     arrays_reader_close(&reader);
 }
 
-static void append(const lab *l, size_t first, off_t end, off_t at[RECORDS + 1])
+static bool append(const lab *l, size_t first, off_t end, off_t at[RECORDS + 1])
 {
     arrays_log log;
     char why[ARRAYS_WHY];
-    check_true(why, arrays_log_open(&log, l->directory, "log", end, false, why));
-    for (size_t i = first; i < RECORDS; i++)
-        check_true("it is appended", arrays_log_append(&log, &labels[i], numbers, &at[i]));
+    bool good = arrays_log_open(&log, l->directory, "log", end, false, why);
+    for (size_t i = first; good && i < RECORDS; i++)
+        good = arrays_log_append(&log, &labels[i], numbers, &at[i]);
     at[RECORDS] = log.end;
-    check_true("and synced", arrays_log_sync(&log));
+    good = good && arrays_log_sync(&log);
     arrays_log_close(&log);
+    return good;
+}
+
+/* Cuts the log to a size and appends what is missing: whether it has the same bytes again. */
+static bool mends(const lab *l, off_t size, size_t first, off_t end)
+{
+    char left[MOST];
+    off_t at[RECORDS + 1];
+    return put(l, l->bytes, (size_t)size) && append(l, first, end, at) &&
+           get(l, left) == (size_t)l->at[RECORDS] &&
+           !memcmp(left, l->bytes, (size_t)l->at[RECORDS]);
 }
 
 static void test_sums(void)
@@ -77,11 +89,13 @@ static void test_sums(void)
     static const char text[] = "123456789, and some more of it";
     arrays_checksum_prepare(&sums);
     check_true("the check value", arrays_checksum_add(&sums, 0, text, 9) == 0xCBF43926);
+    bool same = true;
     for (size_t i = 0; i < sizeof text; i++) {
         uint32_t sum = arrays_checksum_add(&sums, 0, text, i);
-        check_true("in two parts", arrays_checksum_add(&sums, sum, text + i, sizeof text - i) ==
-                                       arrays_checksum_add(&sums, 0, text, sizeof text));
+        same = same && arrays_checksum_add(&sums, sum, text + i, sizeof text - i) ==
+                           arrays_checksum_add(&sums, 0, text, sizeof text);
     }
+    check_true("in two parts", same);
 }
 
 static void test_reading(const lab *l)
@@ -90,7 +104,7 @@ static void test_reading(const lab *l)
     char why[ARRAYS_WHY];
     for (size_t i = 0; i < RECORDS; i++) {
         read_record(l, &labels[i], l->at[i], why, out);
-        check_true(why, !*why);
+        check_true(*why ? why : "a record", !*why);
     }
     check_true("the numbers", memcmp(out, numbers, 4 * sizeof *out) == 0);
     check_true("what is not finite is NaN", isnan(out[4]) && isnan(out[5]));
@@ -109,41 +123,40 @@ static void test_reading(const lab *l)
     check_true("between records", has(why, "is cut off"));
 }
 
-/* Each byte of the last record at which a process can be killed, and beyond. */
+/* Each byte of the title and of the last record at which a process can be killed. */
 static void test_torn(const lab *l)
 {
-    char why[ARRAYS_WHY], left[MOST];
+    char why[ARRAYS_WHY];
     double out[6];
-    off_t at[RECORDS + 1];
+    bool told = true, same = true;
     for (off_t size = l->at[2]; size < l->at[3]; size++) {
-        put(l, l->bytes, (size_t)size);
+        same = mends(l, size, 2, l->at[2]) && same;
+        told = put(l, l->bytes, (size_t)size) && told;
         read_record(l, &labels[2], l->at[2], why, out);
-        check_true("a record that is cut off", has(why, "is cut off"));
-        append(l, 2, l->at[2], at);
-        check_true("the same bytes again",
-                   get(l, left) == (size_t)l->at[3] && !memcmp(left, l->bytes, (size_t)l->at[3]));
+        told = told && has(why, "is cut off");
     }
-    for (off_t size = 0; size < ARRAYS_LOG_HEAD; size++) {
-        put(l, l->bytes, (size_t)size);
-        append(l, 0, 0, at);
-        check_true("a torn title",
-                   get(l, left) == (size_t)l->at[3] && !memcmp(left, l->bytes, (size_t)l->at[3]));
-    }
+    for (off_t size = 0; size < ARRAYS_LOG_HEAD; size++)
+        same = mends(l, size, 0, 0) && same;
+    check_true("a record that is cut off is a sentence", told);
+    check_true("who goes on leaves the same bytes", same);
 }
 
 static void test_changed(const lab *l)
 {
     char why[ARRAYS_WHY], bytes[MOST];
     double out[6];
+    bool told = true, others = true;
     for (off_t i = l->at[2]; i < l->at[3]; i++) {
         memcpy(bytes, l->bytes, sizeof bytes);
         bytes[i] = (char)(bytes[i] ^ 1 << i % 8);
-        put(l, bytes, (size_t)l->at[3]);
+        told = put(l, bytes, (size_t)l->at[3]) && told;
         read_record(l, &labels[2], l->at[2], why, out);
-        check_true("a byte that was changed", has(why, "does not have its checksum"));
+        told = told && has(why, "does not have its checksum");
         read_record(l, &labels[0], l->at[0], why, out);
-        check_true("leaves the others", !*why);
+        others = others && !*why;
     }
+    check_true("a byte that was changed is a sentence", told);
+    check_true("and leaves the others", others);
 }
 
 static void test_formats(const lab *l)
@@ -171,8 +184,7 @@ int main(void)
     char path[] = "/tmp/flankfilm-log-XXXXXX";
     lab l = {.directory = mkdtemp(path) ? open(path, O_RDONLY | O_DIRECTORY) : -1};
     check_true("there is a place", l.directory >= 0);
-    append(&l, 0, 0, l.at);
-    check_true("the log", get(&l, l.bytes) == (size_t)l.at[RECORDS]);
+    check_true("the log", append(&l, 0, 0, l.at) && get(&l, l.bytes) == (size_t)l.at[RECORDS]);
     test_sums();
     test_reading(&l);
     test_torn(&l);
