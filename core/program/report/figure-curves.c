@@ -293,8 +293,11 @@ static void write_line(report_page *page, const frame *f, const report_curve *cu
 
 static void write_dots(report_page *page, const frame *f, const report_curve *curve)
 {
+    enum { MOST_DOTS = 2000 };
+    size_t step = curve->count / MOST_DOTS + 1;
+    page->thinned = page->thinned || step > 1;
     fprintf(page->out, "<g class=\"dot c%d\">", curve->colour % COLOURS);
-    for (size_t i = 0; i < curve->count; i++)
+    for (size_t i = 0; i < curve->count; i += step)
         if (isfinite(curve->x[i]) && isfinite(curve->y[i]))
             fprintf(page->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"2.5\"/>",
                     place_x(f, curve->x[i]), place_y(f, curve->y[i]));

@@ -5,7 +5,10 @@
 
 #include <math.h>
 
-enum { LEFT = 78, RIGHT = 120, TOP = 10, BELOW = 46, PLOT = 280, STOPS = 9, MOST = 64 };
+enum { LEFT = 78, RIGHT = 120, TOP = 10, BELOW = 46, PLOT = 280, STOPS = 9 };
+
+/* Rows and columns of a map; on a page that has grown to 2 MB, fewer. */
+enum { MOST = 64, MOST_THEN = 24, LONG_PAGE = 2000000 };
 
 static void colour_of(double share, int rgb[3])
 {
@@ -82,7 +85,8 @@ void report_map_write(report_page *page, const report_map *map)
 {
     FILE *out = page->out;
     const double low = map->low, high = map->high;
-    size_t step_x = map->columns / MOST + 1, step_y = map->rows / MOST + 1;
+    size_t most = ftell(out) > LONG_PAGE ? MOST_THEN : MOST;
+    size_t step_x = map->columns / most + 1, step_y = map->rows / most + 1;
     double cell_x = (double)(REPORT_FIGURE_WIDTH - RIGHT - LEFT) / (double)map->columns;
     double cell_y = (double)PLOT / (double)map->rows;
     if (!(low <= high))
