@@ -22,6 +22,13 @@ static bool write_at(int fd, const void *data, size_t size, off_t at)
     return true;
 }
 
+/* Forces the names in a directory to the disk. Where that cannot be asked for, names are kept
+   without being asked, or never. */
+static bool sync_names(int directory)
+{
+    return fsync(directory) == 0 || errno == EINVAL;
+}
+
 /* A log that is new, or was broken off within its title, gets one. */
 static bool write_title(arrays_log *log, int directory)
 {
@@ -29,7 +36,7 @@ static bool write_title(arrays_log *log, int directory)
     arrays_log_title(title);
     log->end = ARRAYS_LOG_HEAD;
     return ftruncate(log->fd, 0) == 0 && write_at(log->fd, title, sizeof title, 0) &&
-           fdatasync(log->fd) == 0 && fsync(directory) == 0;
+           fdatasync(log->fd) == 0 && sync_names(directory);
 }
 
 /* Cuts off what follows the end; false with what is wrong, which is "" when errno says it. A log

@@ -211,6 +211,7 @@ bool results_view_read_study(results_reader *reader)
         good && add_axis(reader, entry);
     json_object_foreach(json_object_get(study, "models"), model, entry)
         results_view_add_citation(reader, model, entry);
+    json_object_del(study, "axes"); /* which name all cases, and have been copied */
     if (good) {
         study_records *records = study_records_open(reader->path, false);
         reader->per_case = memory_alloc(reader->view.case_count * sizeof *reader->per_case);
