@@ -44,7 +44,7 @@ static const double viscosity_highest_cap = 10e9;
 void viscosity_oil_ready(viscosity_oil *oil, double auto_cap);
 
 /* Refuses a law without a pressure coefficient, where no liquid is wired that tells it. `other`:
-   what would do in its place, or NULL. */
+   what would do in its place, " or z"; "": nothing. */
 ff_status viscosity_alpha_ready(const ff_host *host, const viscosity_oil *oil, const char *other);
 
 /* Pressure at which the law itself is evaluated; from there on ln(eta) follows the tangent. */

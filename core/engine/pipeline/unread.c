@@ -244,9 +244,10 @@ void fe_check_unread(fe_build *b, const ff_node *outputs)
         const ff_stage *stage = &pipeline->stages[i];
         if (!stage->needed || stage->choice)
             continue;
-        if (!reads_any(stage, NULL))
+        bool some = reads_any(stage, NULL);
+        if (!some)
             warn_of_stage(b, stage);
-        for (size_t k = 0; reads_any(stage, NULL) && k < stage->instance->serving_count; k++)
+        for (size_t k = 0; some && k < stage->instance->serving_count; k++)
             check_serving(b, stage, &stage->instance->servings[k]);
     }
 }

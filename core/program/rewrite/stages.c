@@ -92,17 +92,13 @@ static void add(lines *l, const char *key, const char *text)
     fprintf(l->out, "%s: %s\n", key, text);
 }
 
-/* The keys of a map that stay with the law; false when there is none. */
-static bool add_rest(lines *l, const ff_node *map, bool (*leaves)(const char *))
+/* The keys of a map that stay with the law. */
+static void add_rest(lines *l, const ff_node *map, bool (*leaves)(const char *))
 {
-    size_t count = 0;
     for (size_t i = 0; i < map->count; i++)
         if (strcmp(map->keys[i], "use") != 0 && strcmp(map->keys[i], "with") != 0 &&
-            !leaves(map->keys[i])) {
+            !leaves(map->keys[i]))
             add_node(l, map->keys[i], map->items[i]);
-            count++;
-        }
-    return count > 0;
 }
 
 static void add_set(lines *l, const char *law, const ff_node *set, bool (*leaves)(const char *))
@@ -187,13 +183,13 @@ static const char *text_of(const ff_node *node)
 /* eta0 was that at the temperature of the law, or of the operating stage. */
 static void add_one_point(const rewrite_world *world, const char *eta0, lines *oil, lines *remarks)
 {
-    const char *T = world->temperature       ? world->temperature
-                    : world->oil_temperature ? world->oil_temperature
-                                             : world->card->temperature;
+    const char *T = world->oil_temperature ? world->oil_temperature
+                    : world->temperature   ? world->temperature
+                                           : world->card->temperature;
     const char *rho0 = world->rho0 ? world->rho0 : world->card ? world->card->density : NULL;
     add(oil, "use", "lubricant/measured");
     add(oil, "eta0", eta0);
-    add(oil, "at", world->oil_temperature ? world->oil_temperature : T);
+    add(oil, "at", T);
     if (rho0)
         add(oil, "density", rho0);
     else

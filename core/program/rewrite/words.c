@@ -49,10 +49,10 @@ void rewrite_print_path(const rewrite_world *world, const char *path, size_t len
         else
             fprintf(out, "%s%.*s", oil ? "oil" : "viscosity", (int)rest, dot);
     } else if (is(path, head, world->density)) {
-        bool oil = world->mode == REWRITE_OIL && !strcmp(key, "rho0");
-        fprintf(out, "%.*s", oil ? 11 : (int)(7 + rest), oil ? "oil.density" : "density");
-        if (!oil)
-            fwrite(dot, 1, rest, out);
+        if (world->mode == REWRITE_OIL && !strcmp(key, "rho0"))
+            fputs("oil.density", out);
+        else
+            fprintf(out, "density%.*s", (int)rest, dot);
     } else {
         fwrite(path, 1, length, out);
     }

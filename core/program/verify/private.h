@@ -50,7 +50,7 @@ void verify_outcome_set(verify_outcome *outcome, verify_finding finding, const c
 
 enum { VERIFY_SIGNALS = 32, VERIFY_LIMITS = RLIM_NLIMITS };
 
-/* run.c: an engine that finds the plugins of the folder before all others. */
+/* context.c: an engine that finds the plugins of the folder before all others. */
 ff_engine *verify_open_engine(const char *root);
 
 /* process.c: what of the process a model must leave alone beside arithmetic and locale. */
