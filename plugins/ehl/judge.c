@@ -181,6 +181,7 @@ static ehl_laws replace_law(const ehl_laws *laws, ehl_law_kind kind, const void 
 {
     ehl_laws other = *laws;
     double T = laws->temperature > 0 ? laws->temperature : NAN;
+    other.answers = &at->answers;
     if (kind == EHL_LAW_VISCOSITY)
         other.viscosity = numerics_viscosity_make(&at->viscosity, service, T, &at->answers);
     else if (kind == EHL_LAW_DENSITY)

@@ -138,13 +138,34 @@ double ehl_fluidity_integral(double step, double left, double right)
     return step * exp(-left) * mean;
 }
 
-/* Rows of a tenth in ln(eta) up to a rise of 40; from there on the tangent. */
+/* Of an integration by steps of a twentieth in ln(eta) up to a rise of 40, which would go on for
+   ever where the values of a law do not follow its slopes. */
+enum { MOST_STEPS = 100000 };
+
+/* False when there were too many steps, which is noted as a fault of the law. */
+static bool is_bounded(const ehl_laws *laws, size_t steps, double p, double slope)
+{
+    numerics_answers *answers = laws->answers;
+    if (steps < MOST_STEPS)
+        return true;
+    if (answers && answers->status == FF_OK) {
+        answers->status = FF_BUG;
+        answers->wire = "viscosity";
+        snprintf(answers->text, sizeof answers->text,
+                 "ln_eta does not follow its slope, which is %.4g 1/GPa at %.4g GPa", 1e9 * slope,
+                 1e-9 * p);
+    }
+    return false;
+}
+
+/* Steps of a twentieth in ln(eta) up to a rise of 40; from there on the tangent. */
 double ehl_oil_alpha(const ehl_laws *laws, const ehl_oil *oil)
 {
     const ff_viscosity *v = laws->viscosity;
     const double highest = 1e11;
     double p = 0, ln_eta = oil->ln_viscosity, slope = oil->alpha, sum = 0;
-    while (p < highest && ln_eta - oil->ln_viscosity < 40) {
+    size_t steps = 0;
+    while (p < highest && ln_eta - oil->ln_viscosity < 40 && is_bounded(laws, steps++, p, slope)) {
         double dp = fmin(fmin(0.05 / fmax(slope, 1e-12), 2e7 + p / 20), highest - p);
         double next = p + dp, ln_next;
         v->eval(v->self, 1, &next, NULL, &ln_next, &slope, NULL);
@@ -168,12 +189,15 @@ typedef struct integral {
 } integral;
 
 /* Steps of a twentieth in ln(eta) up to a rise of 40, beyond which less than 1e-17 is left. */
-static integral integrate_fluidity(const ff_viscosity *law)
+static integral integrate_fluidity(const ehl_laws *laws)
 {
+    const ff_viscosity *law = laws->viscosity;
     const double highest = 1e11;
+    size_t steps = 0;
     double p = 0, slope = 0, before = ln_eta_at(law, 0, &slope), ln_eta0 = before;
     integral sum = {0, 0, 0};
-    while (p < highest && sum.rise < 40 && isfinite(before)) {
+    while (p < highest && sum.rise < 40 && isfinite(before) &&
+           is_bounded(laws, steps++, p, slope)) {
         double dp = fmin(fmin(0.05 / fmax(slope, 1e-12), 2e6 + p / 20), highest - p);
         double middle = ln_eta_at(law, p + dp / 2, NULL), after = ln_eta_at(law, p + dp, &slope);
         sum.coarse += ehl_fluidity_integral(dp, before - ln_eta0, after - ln_eta0);
@@ -188,7 +212,7 @@ static integral integrate_fluidity(const ff_viscosity *law)
 
 ff_status ehl_put_alpha_star(const ff_host *host, uint32_t output, const ehl_laws *laws)
 {
-    const integral sum = integrate_fluidity(laws->viscosity);
+    const integral sum = integrate_fluidity(laws);
     bool rises = sum.rise >= 40;
     /* the error of halves is a third of their difference from the whole, which is taken off */
     double error = fabs(sum.fine - sum.coarse) / 3, whole = sum.fine + (sum.fine - sum.coarse) / 3;

@@ -12,9 +12,9 @@
 typedef struct ehl_laws {
     const ff_viscosity *viscosity;
     const ff_density *density;
-    const ff_rheology *rheology;     /* NULL: Newtonian */
-    double temperature;              /* K, that of the oil; 0: none, laws answer at their own */
-    const numerics_answers *answers; /* what they failed to answer; NULL: nobody looks */
+    const ff_rheology *rheology; /* NULL: Newtonian */
+    double temperature;          /* K, that of the oil; 0: none, laws answer at their own */
+    numerics_answers *answers;   /* what they failed to answer; NULL: nobody looks */
 } ehl_laws;
 
 typedef struct ehl_rheology_at {

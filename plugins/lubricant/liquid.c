@@ -150,8 +150,7 @@ static ff_status eval(const void *self, int32_t what, size_t n, const double *T,
         return FF_UNSUPPORTED;
     for (size_t i = 0; i < n; i++) {
         double ignored;
-        bool run = !(T[i] < oil->run_temperature) && !(T[i] > oil->run_temperature) &&
-                   !isnan(oil->run_temperature);
+        bool run = T[i] <= oil->run_temperature && T[i] >= oil->run_temperature; /* no NaN is */
         double *to = slope ? &slope[i] : &ignored;
         value[i] = run ? oil->run_value[what] : value_at(oil, what, T[i], to);
         if (run)

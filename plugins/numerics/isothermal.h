@@ -85,7 +85,7 @@ static inline ff_status numerics_density_eval_at(const void *self, size_t n, con
         T ? law->eval(law->self, n, p, T, rho, drho_dp, drho_dT)
           : numerics_eval_at(law->eval, law->self, at->T, n, p, rho, drho_dp, drho_dT);
     return numerics_answer_note(at->answers,
-                                &(numerics_answer){"density", "rho", status, n, p, rho, NULL});
+                                &(numerics_answer){"density", "rho", status, n, p, rho, drho_dp});
 }
 
 /* The law at T, which lives as long as *at; NaN: at its own temperature. */

@@ -44,7 +44,7 @@ static inline ff_status numerics_liquid_values(const ff_liquid *liquid, int32_t 
     double reference = T ? 0 : numerics_reference_temperature(liquid);
     ff_status worst = T ? FF_OK : FF_DOMAIN;
     for (size_t i = 0; i < n; i++) {
-        if (i && (!T || !(T[i] < T[i - 1] || T[i] > T[i - 1]))) {
+        if (i && (!T || (T[i] <= T[i - 1] && T[i] >= T[i - 1]))) {
             value[i] = value[i - 1];
             slope[i] = slope[i - 1];
             continue;

@@ -70,21 +70,36 @@ static ff_instance *make_law(ff_engine *engine, const ff_stage *stage)
     return law;
 }
 
+typedef struct question {
+    int what;
+    double T;
+    const void *table; /* of the law */
+    double answer;
+} question;
+
+static ff_status ask(void *ctx)
+{
+    question *q = ctx;
+    const double p = 0;
+    if (q->what == ETA0) {
+        const ff_viscosity *viscosity = q->table;
+        return viscosity->eval(viscosity->self, 1, &p, &q->T, &q->answer, NULL, NULL);
+    }
+    const ff_density *density = q->table;
+    return density->eval(density->self, 1, &p, &q->T, &q->answer, NULL, NULL);
+}
+
 /* eta0 or rho0 by the law at T; NaN: it does not tell. */
 static double ask_law(ff_instance *law, int what, double T)
 {
-    double p = 0, value = NAN;
-    const void *table;
-    if (ff_instance_service(law, what == ETA0 ? FF_VISCOSITY_ID : FF_DENSITY_ID, &table) != FF_OK)
+    question q = {.what = what, .T = T, .answer = NAN};
+    const char *id = what == ETA0 ? FF_VISCOSITY_ID : FF_DENSITY_ID;
+    if (ff_instance_service(law, id, &q.table) != FF_OK)
         return NAN;
-    if (what == ETA0) {
-        const ff_viscosity *viscosity = table;
-        viscosity->eval(viscosity->self, 1, &p, &T, &value, NULL, NULL);
-        return exp(value);
-    }
-    const ff_density *density = table;
-    density->eval(density->self, 1, &p, &T, &value, NULL, NULL);
-    return value;
+    ff_status status = ff_instance_call(law, "eval", ask, &q);
+    if (status != FF_OK && status != FF_DOMAIN)
+        return NAN;
+    return what == ETA0 ? exp(q.answer) : q.answer;
 }
 
 /* The place of the parameter of that name; of the stage where it has none. */

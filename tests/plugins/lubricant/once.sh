@@ -1,9 +1,9 @@
 #!/bin/sh
 # The oil stands once: what contradicts it is an error that shows both; a swap of the law moves nothing
 # of the oil.
-# once.sh FLANKFILM PLUGIN_DIRECTORY SOURCE_ROOT
+# once.sh FLANKFILM PLUGIN_DIRECTORY SOURCE_ROOT BAD_PLUGINS
 set -eu
-flankfilm=$1 plugins=$2 source=$3
+flankfilm=$1 plugins=$2 source=$3 bad=$4
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 
@@ -60,3 +60,8 @@ for value in temperature eta0 rho0 alpha; do
 done
 grep -q "^  h_central " "$lab/roelands"
 grep -q "^  h_central " "$lab/barus"
+
+# a law that crashes while `check` holds it against the oil is named
+said=$(FLANKFILM_MISDEED="law eval crash" "$flankfilm" check "$source/configs/one-oil.yaml" --plugin-path "$plugins" \
+    --plugin-path "$bad" --set viscosity.use=viscosity/misdeed 2>&1) && code=0 || code=$?
+[ "$code" = 3 ] && echo "$said" | grep -q "the plugin $bad/viscosity/misdeed.so crashed during eval" || { echo "$code: $said" && exit 1; }

@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a law answers wrongly is noted as its fault, and no integration over it goes on for ever. */
+#include "check.h"
+
+#include "../../../plugins/ehl/liquid.h"
+
+#include <math.h>
+#include <string.h>
+
+/* 15 1/GPa with slopes of 1e21 1/GPa, or none that is a number above 0.1 GPa. */
+typedef enum { STEEP, NO_NUMBER } fault;
+
+static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *value,
+                      double *by_p, double *by_T)
+{
+    const fault *f = self;
+    (void)T, (void)by_T;
+    for (size_t i = 0; i < n; i++) {
+        value[i] = -5 + 15e-9 * p[i];
+        if (by_p)
+            by_p[i] = *f == STEEP ? 1e12 : p[i] > 1e8 ? NAN : 15e-9;
+    }
+    return FF_OK;
+}
+
+static void test_steep(void)
+{
+    const fault steep = STEEP;
+    const ff_viscosity law = {sizeof law, &steep, eval};
+    numerics_answers answers = {.status = FF_OK};
+    const ehl_laws laws = {.viscosity = &law, .answers = &answers};
+    const ehl_oil oil = {.ln_viscosity = -5, .alpha = 1e12};
+    ehl_oil_alpha(&laws, &oil);
+    check_true("values that do not follow their slopes", answers.status == FF_BUG);
+    check_true("of which law", !strcmp(answers.wire, "viscosity"));
+}
+
+static void test_slopes(void)
+{
+    const fault none = NO_NUMBER;
+    const ff_viscosity viscosity = {sizeof viscosity, &none, eval};
+    const ff_density density = {sizeof density, &none, eval};
+    const double p[] = {0, 2e8};
+    double value[2], slope[2];
+    numerics_answers answers[2] = {{.status = FF_OK}, {.status = FF_OK}};
+    numerics_viscosity_at viscosity_at;
+    numerics_density_at density_at;
+    const ff_viscosity *v = numerics_viscosity_make(&viscosity_at, &viscosity, NAN, &answers[0]);
+    const ff_density *d = numerics_density_make(&density_at, &density, NAN, &answers[1]);
+    check_true("the slope of a viscosity",
+               v->eval(v->self, 2, p, NULL, value, slope, NULL) == FF_BUG);
+    check_true("the slope of a density",
+               d->eval(d->self, 2, p, NULL, value, slope, NULL) == FF_BUG);
+    check_true("which",
+               !strcmp(answers[1].text,
+                       "it gave the slope of rho nan at 0.2 GPa; a law owes finite numbers"));
+}
+
+static ff_status linear(const void *self, int32_t property, size_t n, const double *T,
+                        double *value, double *slope)
+{
+    (void)self, (void)property;
+    for (size_t i = 0; i < n; i++) {
+        value[i] = 2 * T[i];
+        slope[i] = 2;
+    }
+    return FF_OK;
+}
+
+/* A temperature that is no number has no value of its neighbour's, nor gives it one. */
+static void test_temperatures(void)
+{
+    const ff_liquid liquid = {.size = sizeof liquid, .eval = linear};
+    const double T[] = {300, NAN, 300, 300};
+    double value[4], slope[4];
+    ff_status status = numerics_liquid_values(&liquid, FF_LIQUID_LN_ETA0, 4, T, value, slope);
+    check_true("outside", status == FF_DOMAIN);
+    check_near("before", value[0], 600, 0);
+    check_near("there", value[1], 0, 0);
+    check_near("behind", value[2], 600, 0);
+    check_near("next", value[3], 600, 0);
+}
+
+int main(void)
+{
+    test_steep();
+    test_slopes();
+    test_temperatures();
+    return check_done();
+}
