@@ -210,6 +210,12 @@ OTHERS = {
                      '  rho: {use: density/dowson-higginson, rho0: 870 kg/m3}\n' + LINE.replace(
                          'load_per_width: 177 N/mm', 'load_per_width: 177 N/mm, viscosity: oil').replace(
                              'viscosity: oil}', 'viscosity: oil, oil: none}'), 'oil_oil: {use: lubricant/grade'),
+    'temperature of a law': ('format: 1\npipeline:\n  oil: {use: viscosity/roelands, grade: ISO VG 220, temperature: 60 degC}\n'
+                             '  rho: {use: density/dowson-higginson}\n  gears: {use: gear/involute-spur, teeth: [30, 40], '
+                             'module: 4 mm, pressure_angle: 20 deg, face_width: 20 mm}\n  duty: {use: operating/steady, '
+                             'torque: 100 N m, speed: 1000 rpm}\n  mesh: {use: stiffness/iso-6336}\n  tooth: {use: '
+                             'contact/tooth-pair, load: mesh}\n  film: {use: ehl/film-formula}\noutputs: [film.h_central]\n',
+                             'oil_temperature: 60 degC'),
     'flow style': ('format: 1\ninclude: [lubricants/sae-30-80C.yaml]\npipeline: {discs: {use: contact/constant, '
                    'radius: 12.8 mm, entrainment_speed: 4 m/s, load_per_width: 177 N/mm}, '
                    'film: {use: ehl/film-formula, viscosity: oil}}\noutputs: [film.h_central]\n', 'sae-30.yaml'),

@@ -187,6 +187,22 @@ static const char *status_of(const ff_report *report)
                                     : "plugin fault";
 }
 
+/* Adds what the case is warned of, none without: its own values and models, not what nothing reads,
+   which holds for the whole study. */
+static void add_warnings(json_t *record, const ff_report *report, json_t *logged)
+{
+    json_t *warnings = json_array();
+    for (size_t i = 0; i < ff_report_count(report); i++) {
+        const ff_message *m = ff_report_at(report, i);
+        if (m->severity == FF_WARNING && !strstr(m->text, " changes nothing"))
+            json_array_append_new(warnings, json_string(m->text));
+    }
+    json_array_extend(warnings, logged);
+    if (json_array_size(warnings))
+        json_object_set(record, "warnings", warnings);
+    json_decref(warnings);
+}
+
 /* Adds {stage: {name: [value, limit, verdict, text]}}. */
 static void add_quality(json_t *record, const ff_pipeline *pipeline)
 {
@@ -257,13 +273,22 @@ static bool keep_results(study_case *c, const study_run *run, size_t index, json
     return repeats || study_arrays_keep(&memory->arrays, c, record);
 }
 
+static void note_warning(void *ctx, const ff_stage *stage, int32_t level, const char *text)
+{
+    const study_reuse *reuse = ctx;
+    if (level == FF_LOG_WARNING)
+        json_array_append_new(reuse->warnings, json_sprintf("%s: %s", stage->name, text));
+}
+
 json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_memory *memory)
 {
     study_reuse reuse = {.directory = memory->directory,
                          .fingerprints = c->fingerprints,
                          .stats = memory->stats,
+                         .warnings = json_array(),
                          .held = -1};
-    ff_observer watch = {.recall = study_reuse_recall, .keep = study_reuse_keep, .ctx = &reuse};
+    ff_observer watch = {
+        .log = note_warning, .recall = study_reuse_recall, .keep = study_reuse_keep, .ctx = &reuse};
     double start = study_seconds_now();
     /* running may drop outputs that a model refuses */
     json_t *parameters = study_case_parameters(c, memory->seen);
@@ -280,6 +305,8 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
     json_t *record = study_case_record(run, index, c->key, status_of(c->report), reason);
     free(reason);
     add_quality(record, c->pipeline);
+    add_warnings(record, c->report, reuse.warnings);
+    json_decref(reuse.warnings);
     add_judgement(record);
     if (good && !keep_results(c, run, index, record, memory)) {
         json_decref(parameters);

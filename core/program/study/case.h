@@ -21,6 +21,7 @@ typedef struct study_reuse {
     const uint64_t *fingerprints; /* of this case, one for each stage */
     study_reuse_stats *stats;     /* one for each stage */
     const bool *fresh; /* whether each stage must be computed anew; NULL when none must */
+    json_t *warnings;  /* that models log; what has some is computed anew in each case */
     int held; /* descriptor of the locked file of the stage that is being computed; -1 for none */
     char name[20]; /* of that file */
 } study_reuse;

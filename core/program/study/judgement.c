@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A quality line that is not good. */
+/* A quality line that is not good, or a warning. */
 typedef struct doubt {
     char *words;
     int verdict;
@@ -55,6 +55,30 @@ static void add_doubt(doubts *all, const char *name, double value, double limit,
         free(made.words);
         return;
     }
+    all->lines = memory_resize(all->lines, (all->count + 1) * sizeof *all->lines);
+    all->lines[all->count++] = made;
+}
+
+/* "film.z outside its calibrated range" of "film.z: 3 is outside the calibrated range, ...", else
+   the first clause: what differs between cases is left out, so that they can be counted. */
+static char *words_of_warning(const char *text)
+{
+    static const char range[] = " is outside the calibrated range";
+    size_t name = strcspn(text, ":");
+    if (strstr(text + name, range))
+        return memory_print_text("%.*s outside its calibrated range", (int)name, text);
+    return memory_copy_text(text, strcspn(text, ",;("));
+}
+
+/* A warning is a reason to look, which leaves the verdict as it is. */
+static void add_warning(doubts *all, const char *text)
+{
+    doubt made = {words_of_warning(text), FF_GOOD, 0};
+    for (size_t i = 0; i < all->count; i++)
+        if (!strcmp(all->lines[i].words, made.words)) {
+            free(made.words);
+            return;
+        }
     all->lines = memory_resize(all->lines, (all->count + 1) * sizeof *all->lines);
     all->lines[all->count++] = made;
 }
@@ -107,6 +131,10 @@ study_judgement study_judge_record(const json_t *record)
             add_doubt(&all, name, number_of(json_array_get(line, 0)),
                       number_of(json_array_get(line, 1)),
                       (int)json_integer_value(json_array_get(line, 2)));
+    json_t *warning;
+    size_t i;
+    json_array_foreach(json_object_get(record, "warnings"), i, warning)
+        add_warning(&all, json_is_string(warning) ? json_string_value(warning) : "a warning");
     bool plain = !status || !strcmp(status, "failed"); /* that alone says nothing of the cause */
     return judge(&all, !status || strcmp(status, "ok") != 0, plain ? NULL : status);
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * How far a run, or a case of a study, can be trusted: the worst verdict of its quality lines, or
- * that it failed, with the lines that are not good as its reasons.
+ * that it failed, with the lines that are not good and the warnings as its reasons.
  */
 #ifndef STUDY_JUDGEMENT_H
 #define STUDY_JUDGEMENT_H
@@ -21,7 +21,8 @@ typedef struct study_judgement {
 
 const char *study_verdict_name(int verdict); /* "good", "doubtful", "bad", "failed" */
 
-/* Judges the record of a case by its status and its lines, which records of every version have. */
+/* Judges the record of a case by its status, lines and warnings, which records of every version
+ * have. */
 study_judgement study_judge_record(const json_t *record);
 /* Takes what study_judgement_add added; false when there is none. */
 bool study_judgement_read(study_judgement *judgement, const json_t *object);

@@ -210,6 +210,7 @@ void study_reuse_keep(void *ctx, const ff_pipeline *pipeline, const ff_stage *st
     reuse->stats[index].seconds = seconds;
     if (reuse->held < 0)
         return;
+    good = good && json_array_size(reuse->warnings) == 0;
     size_t kept = good && seconds >= worth_keeping ? write_kept(reuse->held, pipeline, stage) : 0;
     reuse->stats[index].idle += kept;
     if (kept == 0)

@@ -169,6 +169,17 @@ class Directory(lab.Lab):
         self.assertEqual([",not run," in row for row in rows[1:]], [True] * 5)
         self.assertIn("6 cases: 1 good, 5 not run; ", self.page("results/sweep"))
 
+    def test_unfinished_study_of_the_same_cases(self):
+        """What they were before the file changed is not what they are: the sweep alone does not tell."""
+        self.write("sweep.yaml", SWEEP)
+        self.call("run", "sweep.yaml")
+        self.write("sweep.yaml", SWEEP.replace("2 mm", "4 mm, work: 20 s"))
+        process = self.start("run", "sweep.yaml", "-j", "1")
+        time.sleep(0.5)
+        process.kill()
+        process.wait()
+        self.assertIn("3 cases: 3 not run", self.page("results/sweep"))
+
     def page(self, directory):
         self.call("report", directory)
         with open(directory + "/report.html", encoding="utf-8") as file:

@@ -55,6 +55,22 @@ class Verdicts(lab.Lab):
         self.assertEqual([case["verdict"] for case in answer["judged"]], VERDICTS)
         self.assertEqual([case["reasons"] for case in answer["judged"]], REASONS)
 
+    def test_warnings_are_reasons(self):
+        """What a single run is warned of, in each case whose value it concerns."""
+        self.write("warned.yaml", STUDY.replace("  zip:", "  sweep:").split("    verge.speed")[0] +
+                   "    wave.amplitude: [2 mm, 7 mm, 6 mm]\n")
+        said = self.call("run", "warned.yaml", "-o", "warned")
+        self.assertIn("3 of 3 cases done: 3 good (wave.amplitude outside its calibrated range 2)", said)
+        with open("warned/table.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual([row["reasons"] for row in rows], ["", *["wave.amplitude outside its calibrated range"] * 2])
+        with open("warned/journal.jsonl", encoding="utf-8") as file:
+            records = [json.loads(line) for line in file]
+        self.assertEqual([len(r.get("warnings", [])) for r in sorted(records, key=lambda r: r["case"])], [0, 1, 1])
+        self.call("report", "warned")
+        with open("warned/report.html", encoding="utf-8") as file:
+            self.assertIn("wave.amplitude outside its calibrated range 2", file.read())
+
     def test_terminal(self):
         for workers in "1", "3":
             said = self.run_study("told-" + workers, "-j", workers)

@@ -53,6 +53,10 @@ static void all_laws(const char *film)
                           (const char *const[][2]){
                               {"z", "0.5"}, {"pressure_cap", "90 GPa"}, {NULL, NULL}}),
                roelands_half(196e6), 1e-6);
+    check_near("Barus that rises by 10 at 100 GPa, too little for a film-forming one",
+               alpha_star(film, "viscosity/barus",
+                          (const char *const[][2]){{"alpha", "0.1 1/GPa"}, {NULL, NULL}}),
+               0, 0);
     check_near("isoviscous",
                alpha_star(film, "viscosity/isoviscous", (const char *const[][2]){{NULL, NULL}}), 0,
                0);
