@@ -228,6 +228,20 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
+/* An inertia makes the natural frequency alone. */
+static ff_status ready(void *self)
+{
+    const model *m = self;
+    static const ff_serving rows[] = {
+        {1, "equivalent_mass", "natural_frequency", NULL, NULL},
+        {1, "natural_frequency", "natural_frequency", NULL, NULL},
+        {1, "gear.equivalent_mass", "natural_frequency", NULL, NULL},
+    };
+    ff_serve(m->host, rows, sizeof rows / sizeof rows[0]);
+    dynamics_tell_servings(m->host, &m->inertia, NAN);
+    return FF_OK;
+}
+
 /* The error of what is wanted: of the transmission error, relative to its alternating part, or of
    the forces. The linear estimate does not know that the stiffness changes along the cycle, so that
    a third is added. On twelve random pairs and speeds the force differed from that of
@@ -295,5 +309,5 @@ FF_MODEL(dynamics_quasi_static, model, .id = "dynamics/quasi-static", .version =
              "lubrication of spur gears, Proc. IMechE J 225, 740-753, eq. 2 without inertia",
          .bibtex = BIB_likahraman2011 "\n", .licence = "GPL-3.0-or-later",
          .params = FF_TABLE(params), .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs),
-         .evaluate = evaluate, .destroy = free, .assess = assess);
+         .ready = ready, .evaluate = evaluate, .destroy = free, .assess = assess);
 FF_EXPORT_MODELS(&dynamics_quasi_static);

@@ -38,12 +38,15 @@ static ff_status flow(const void *self, size_t n, const double *ln_eta, const do
 {
     const ehl_rheology_at *at = self;
     ff_status status = at->law->flow(at->law->self, n, ln_eta, h, u_s, psi, psi_l, psi_h);
-    if ((status == FF_OK || status == FF_DOMAIN) && numerics_are_finite(n, psi))
+    int finite = numerics_are_finite(n, psi) && (!psi_l || numerics_are_finite(n, psi_l)) &&
+                 (!psi_h || numerics_are_finite(n, psi_h));
+    if ((status == FF_OK || status == FF_DOMAIN) && finite)
         return status;
     if ((status == FF_OK || status == FF_DOMAIN) && !are_numbers(n, ln_eta, h, u_s))
         return status;
-    return numerics_answer_note(at->answers,
-                                &(numerics_answer){"rheology", "psi", status, n, NULL, psi, NULL});
+    const double *slopes = psi_l && !numerics_are_finite(n, psi_l) ? psi_l : psi_h;
+    return numerics_answer_note(
+        at->answers, &(numerics_answer){"rheology", "psi", status, n, NULL, psi, slopes});
 }
 
 static ff_status shear(const void *self, size_t n, const double *p, const double *ln_eta,

@@ -6,10 +6,15 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* So many instants without a film, and so large a share of those asked for, are no accident: the
+   steps would be cut for ever. */
+enum { MOST_FAILURES = 200, FAILING_SHARE = 5 };
+
 typedef struct outside {
     ehl_fft *fft;
     ff_film_contact contact;
     void *solver;
+    size_t asked, failed; /* instants */
 } outside;
 
 static void deflect(ehl_solver *s, const double *p, double *v)
@@ -67,6 +72,12 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     s->rescaling = 0;
     if (status < 0)
         return status;
+    o->asked++;
+    o->failed += status != FF_OK;
+    if (o->failed > MOST_FAILURES && o->failed > o->asked / FAILING_SHARE) {
+        s->gave_up = 1;
+        return FF_UNSUPPORTED;
+    }
     s->no_film |= status == FF_OK && !is_film(&state, s->grid->nodes);
     if (status != FF_OK || s->no_film)
         return FF_NOCONV;

@@ -20,6 +20,7 @@ typedef struct ehl_solver {
     double modulus;         /* E', Pa */
     double tolerance;       /* relative change of pressure in the last step */
     int no_film;            /* what came from outside was no film: not a number, or p at the ends */
+    int gave_up;            /* outside found no film too often */
     const ff_film *outside; /* the discretisation of another stage, for ehl_outside; NULL: none */
     ehl_counters counters;
     double rescaling; /* of the pressure to its load, at the end of the last solution */

@@ -204,6 +204,12 @@ static ff_status explain(const ehl_model *m, const run *r, ff_status status, dou
     ehl_instant at = ehl_history_at(&r->history, time);
     char roll[64] = "", good[128] = "";
     const double molecule = 0.5e-9; /* Israelachvili 2011 */
+    if (r->solver.gave_up)
+        return ff_failf(m->host, FF_NOCONV, "discretisation",
+                        "at time %.6g s the discretisation had found no film at more than a fifth "
+                        "of the instants that it was asked for, however short the steps: more "
+                        "cells, or another discretisation, may help",
+                        time);
     if (status != FF_NOCONV)
         return status;
     if (r->solver.no_film)

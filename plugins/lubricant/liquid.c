@@ -237,6 +237,7 @@ ff_status lubricant_oil_ready_from(lubricant_oil *oil, double nu_40, double nu_1
         return ff_failf(oil->host, FF_INVALID, "nu_100",
                         "nu_100 is %g cSt, but must be below the %g cSt at 40 degC", 1e6 * nu_100,
                         1e6 * nu_40);
+    oil->viscosity_index = lubricant_viscosity_index(nu_40, nu_100);
     double x[2] = {log(313.15), log(373.15)};
     double y[2] = {lubricant_d341_ordinate(nu_40), lubricant_d341_ordinate(nu_100)};
     oil->low = 273.15;

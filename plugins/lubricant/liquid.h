@@ -30,6 +30,7 @@ typedef struct lubricant_oil {
     double low, high;          /* K, that the data reach */
 
     double coldest, hottest; /* K, that ASTM D341 holds in; set by lubricant_oil_ready */
+    double viscosity_index;  /* of nu_40 and nu_100; 0 or NaN: it has none */
     double alpha_scale;      /* of the base's correlation; NaN: alpha is not known from it */
 
     /* What it is at the temperature of the run, which films ask for over and over; NaN: no run. */

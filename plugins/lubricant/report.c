@@ -2,6 +2,8 @@
 /* What an oil is at the temperature that it runs at. */
 #include "liquid.h"
 
+#include "standards.h"
+
 #include <math.h>
 
 static const double ZERO = 273.15; /* degC in K */
@@ -88,6 +90,12 @@ static void judge(const lubricant_oil *oil, double T)
              oil->low - ZERO, oil->high - ZERO);
     oil->host->quality(oil->host->ctx, "extrapolation", beyond, 0,
                        beyond > 0 ? FF_DOUBTFUL : FF_GOOD, beyond > 0 ? text : NULL);
+    double index = oil->viscosity_index;
+    if (index < LUBRICANT_LEAST_INDEX || index > LUBRICANT_MOST_INDEX)
+        oil->host->quality(oil->host->ctx, "viscosity_index", index,
+                           index < 0 ? LUBRICANT_LEAST_INDEX : LUBRICANT_MOST_INDEX, FF_DOUBTFUL,
+                           "by ASTM D2270, of the viscosities at 40 and 100 degC; no oil has that: "
+                           "is one of them of another oil, or in another unit?");
 }
 
 ff_status lubricant_evaluate(void *self, uint64_t wanted, const ff_array *in)

@@ -21,6 +21,11 @@ enum { LUBRICANT_MINERAL, LUBRICANT_PAO, LUBRICANT_ESTER, LUBRICANT_PAG, LUBRICA
 double lubricant_grade_nu_40(int64_t grade);
 double lubricant_grade_nu_100(int64_t grade, int base);
 
+/* By ASTM D2270; NaN below 2 cSt at 100 degC, where it has none. */
+double lubricant_viscosity_index(double nu_40, double nu_100);
+#define LUBRICANT_LEAST_INDEX (-100.0) /* polyphenyl ethers have some -70 */
+#define LUBRICANT_MOST_INDEX  400.0    /* glycols and oils with improvers have up to 300 */
+
 /*
  * ASTM D341: y = lg lg Z, Z = nu + 0.7 + exp(-1.47 - 1.84 nu - 0.51 nu^2), nu in cSt, is a straight
  * line over lg T. It holds from 0.21 to 2e7 cSt.

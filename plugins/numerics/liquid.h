@@ -33,10 +33,17 @@ static inline int numerics_is_uniform(size_t n, const double *T)
     return !T || n < 2 || !memcmp(T, T + 1, (n - 1) * sizeof *T);
 }
 
+/* Of FF_OK and FF_DOMAIN the latter, of others the first. */
+static inline ff_status numerics_worse(ff_status a, ff_status b)
+{
+    return a == FF_OK || (a == FF_DOMAIN && b != FF_OK) ? b : a;
+}
+
 /*
  * Property and slope at n <= NUMERICS_POINTS temperatures; neighbours of one temperature cost but
  * one evaluation. Without T: at the reference temperature, with FF_DOMAIN. What is not known is 0,
- * with FF_DOMAIN, since a law owes finite numbers.
+ * with FF_DOMAIN, since a law owes finite numbers. A liquid that fails, or gives a slope that is no
+ * number, is no such case: its status is returned, FF_BUG for the slope.
  */
 static inline ff_status numerics_liquid_values(const ff_liquid *liquid, int32_t property, size_t n,
                                                const double *T, double *value, double *slope)
@@ -51,11 +58,15 @@ static inline ff_status numerics_liquid_values(const ff_liquid *liquid, int32_t 
         }
         ff_status status =
             liquid->eval(liquid->self, property, 1, T ? &T[i] : &reference, &value[i], &slope[i]);
-        if (status < 0 || !isfinite(value[i]))
-            value[i] = slope[i] = 0, status = FF_DOMAIN;
-        if (!isfinite(slope[i]))
-            slope[i] = 0;
-        worst = status != FF_OK ? status : worst;
+        int fails = status != FF_OK && status != FF_DOMAIN && status != FF_UNSUPPORTED;
+        int unknown = status == FF_UNSUPPORTED || isnan(value[i]);
+        if (!fails && !unknown && !isfinite(value[i] + slope[i]))
+            status = FF_BUG, fails = 1;
+        if (fails || unknown)
+            value[i] = slope[i] = 0;
+        if (unknown && !fails)
+            status = FF_DOMAIN;
+        worst = numerics_worse(worst, status);
     }
     return worst;
 }

@@ -312,7 +312,7 @@ static bool read_sweep(reading *r, const ff_node *map)
         else if (node->kind == FF_SEQUENCE && node->count > 0)
             add_list(r, map->keys[i], node, add_axis(r, node->count));
         else
-            good = refuse(r, node->place, NULL,
+            good = refuse(r, node->place, "of one value: [VALUE]; an axis is not taken away",
                           "expected a list of values, or {from: ..., to: ..., points: ...}",
                           map->keys[i]);
     }

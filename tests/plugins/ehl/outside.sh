@@ -36,12 +36,14 @@ pipeline:
   bad:  {use: discretisation/wrong, of: mine, fault: slow}
   film: {discretisation: bad}
 EOF
-for fault in slow no-squeeze thick soft light lazy suction nan; do
+for fault in slow no-squeeze thick soft light lazy suction nan stubborn talking; do
     status=0
     "$flankfilm" run "$lab/wrong.yaml" --plugin-path "$folder" --set bad.fault="$fault" -o "$lab/$fault" \
         >"$lab/$fault.said" 2>&1 || status=$?
     why=$(grep -m 1 -o 'film\.[a-z_]* = [^ ]*, held to [^ ]*: bad' "$lab/$fault.said" ||
-        grep -m 1 -o 'gave something that is not a film' "$lab/$fault.said" || true)
+        grep -m 1 -o 'gave something that is not a film' "$lab/$fault.said" ||
+        grep -m 1 -o 'had found no film at more than a fifth of the instants' "$lab/$fault.said" ||
+        grep -m 1 -o '(bad: the sweep 7 diverges)' "$lab/$fault.said" || true)
     echo "$fault: exit $status, $why"
     [ "$status" -eq 1 ] && [ -n "$why" ] || {
         cat "$lab/$fault.said"

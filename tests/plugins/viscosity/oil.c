@@ -3,11 +3,14 @@
 #include "check.h"
 #include "stage.h"
 
+#include "../../../plugins/numerics/isothermal.h"
+
 #include <flankfilm/laws.h>
 
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { POINTS = 600 };
 
@@ -165,8 +168,64 @@ static void densities_take_the_oil(void)
     stage_close(oil);
 }
 
+/* A liquid that fails below 300 K, and gives a slope that is no number above 400 K. */
+static ff_status answer_badly(const void *self, int32_t what, size_t n, const double *T,
+                              double *value, double *slope)
+{
+    (void)self;
+    (void)what;
+    for (size_t i = 0; i < n; i++) {
+        value[i] = log(0.01);
+        if (slope)
+            slope[i] = T[i] > 400 ? NAN : -0.04;
+        if (T[i] < 300)
+            return FF_NOMEM;
+    }
+    return FF_OK;
+}
+
+static void tells_of_an_oil_that_fails(void)
+{
+    const ff_liquid bad = {sizeof bad, NULL, answer_badly};
+    double T[] = {290, 350, 410}, value, slope;
+    check_true("an oil without memory", numerics_liquid_values(&bad, FF_LIQUID_LN_ETA0, 1, &T[0],
+                                                               &value, &slope) == FF_NOMEM);
+    check_true("an oil",
+               numerics_liquid_values(&bad, FF_LIQUID_LN_ETA0, 1, &T[1], &value, &slope) == FF_OK);
+    check_true("a slope of an oil",
+               numerics_liquid_values(&bad, FF_LIQUID_LN_ETA0, 1, &T[2], &value, &slope) == FF_BUG);
+}
+
+/* A density whose slope is no number. */
+static ff_status steepen(const void *self, size_t n, const double *p, const double *T, double *rho,
+                         double *drho_dp, double *drho_dT)
+{
+    (void)self, (void)p, (void)T, (void)drho_dT;
+    for (size_t i = 0; i < n; i++) {
+        rho[i] = 850;
+        if (drho_dp)
+            drho_dp[i] = NAN;
+    }
+    return FF_OK;
+}
+
+static void slopes_of_a_density_are_held(void)
+{
+    static numerics_density_at at;
+    const ff_density law = {sizeof law, NULL, steepen};
+    numerics_answers answers = {.status = FF_OK};
+    const ff_density *held = numerics_density_make(&at, &law, 350, &answers);
+    double p = 1e9, rho, slope;
+    held->eval(held->self, 1, &p, NULL, &rho, NULL, NULL);
+    check_true("a value alone", answers.status == FF_OK);
+    held->eval(held->self, 1, &p, NULL, &rho, &slope, NULL);
+    check_true("a slope", answers.status == FF_BUG && strstr(answers.text, "the slope of rho nan"));
+}
+
 int main(void)
 {
+    tells_of_an_oil_that_fails();
+    slopes_of_a_density_are_held();
     for (size_t k = 0; k < LAWS; k++) {
         is_the_law_of_its_oil(k);
         slopes_agree(k);

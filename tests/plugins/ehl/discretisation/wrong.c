@@ -6,7 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { SLOW, NO_SQUEEZE, THICK, SOFT, LIGHT, LAZY, SUCTION, NAN_PRESSURE };
+enum { SLOW, NO_SQUEEZE, THICK, SOFT, LIGHT, LAZY, SUCTION, NAN_PRESSURE, STUBBORN, TALKING };
 
 typedef struct wrong {
     const ff_host *host;
@@ -21,6 +21,7 @@ typedef struct solver {
     ff_film_contact contact;
     ff_viscosity viscosity;
     void *solver;
+    size_t calls;
 } solver;
 
 static ff_status thick(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
@@ -63,6 +64,10 @@ static ff_status solve(void *self, const ff_film_instant *instant, ff_film_state
     ff_film_instant at = *instant;
     if (w->fault == LAZY)
         return FF_OK;
+    if (w->fault == TALKING && instant->past)
+        return ff_failf(w->host, FF_NOCONV, NULL, "the sweep %d diverges", 7);
+    if (w->fault == STUBBORN && instant->past && s->calls++ % 3)
+        return FF_NOCONV;
     if (w->fault == SLOW)
         at.entrainment *= 0.9;
     if (w->fault == NO_SQUEEZE) {
@@ -127,7 +132,7 @@ static const ff_param params[] = {
      .doc = "what is wrong",
      .type = FF_CHOICE,
      .flags = FF_REQUIRED,
-     .choices = "slow|no-squeeze|thick|soft|light|lazy|suction|nan"},
+     .choices = "slow|no-squeeze|thick|soft|light|lazy|suction|nan|stubborn|talking"},
 };
 
 static const ff_port inputs[] = {
