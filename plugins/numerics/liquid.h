@@ -42,8 +42,8 @@ static inline ff_status numerics_worse(ff_status a, ff_status b)
 /*
  * Property and slope at n <= NUMERICS_POINTS temperatures; neighbours of one temperature cost but
  * one evaluation. Without T: at the reference temperature, with FF_DOMAIN. What is not known is 0,
- * with FF_DOMAIN, since a law owes finite numbers. A liquid that fails, or gives a slope that is no
- * number, is no such case: its status is returned, FF_BUG for the slope.
+ * with FF_DOMAIN, since a law owes finite numbers. So is a slope that is not known. A liquid that
+ * fails, or whose numbers are infinite, is no such case: its status is returned, or FF_BUG.
  */
 static inline ff_status numerics_liquid_values(const ff_liquid *liquid, int32_t property, size_t n,
                                                const double *T, double *value, double *slope)
@@ -60,10 +60,12 @@ static inline ff_status numerics_liquid_values(const ff_liquid *liquid, int32_t 
             liquid->eval(liquid->self, property, 1, T ? &T[i] : &reference, &value[i], &slope[i]);
         int fails = status != FF_OK && status != FF_DOMAIN && status != FF_UNSUPPORTED;
         int unknown = status == FF_UNSUPPORTED || isnan(value[i]);
-        if (!fails && !unknown && !isfinite(value[i] + slope[i]))
+        if (!fails && !unknown && (isinf(value[i]) || isinf(slope[i])))
             status = FF_BUG, fails = 1;
         if (fails || unknown)
             value[i] = slope[i] = 0;
+        if (isnan(slope[i]))
+            slope[i] = 0;
         if (unknown && !fails)
             status = FF_DOMAIN;
         worst = numerics_worse(worst, status);

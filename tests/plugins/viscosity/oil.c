@@ -168,7 +168,7 @@ static void densities_take_the_oil(void)
     stage_close(oil);
 }
 
-/* A liquid that fails below 300 K, and gives a slope that is no number above 400 K. */
+/* A liquid that fails below 300 K, and has an infinite slope above 400 K. */
 static ff_status answer_badly(const void *self, int32_t what, size_t n, const double *T,
                               double *value, double *slope)
 {
@@ -177,7 +177,7 @@ static ff_status answer_badly(const void *self, int32_t what, size_t n, const do
     for (size_t i = 0; i < n; i++) {
         value[i] = log(0.01);
         if (slope)
-            slope[i] = T[i] > 400 ? NAN : -0.04;
+            slope[i] = T[i] > 400 ? HUGE_VAL : -0.04;
         if (T[i] < 300)
             return FF_NOMEM;
     }
