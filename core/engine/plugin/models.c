@@ -6,9 +6,11 @@
 
 #include <dlfcn.h>
 #include <errno.h>
+#include <libintl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
 /* Works with the memory of the engine. */
@@ -53,6 +55,16 @@ static const char *linker_words(const char *path)
     return words ? words : "for a reason that the linker does not tell";
 }
 
+/* Whether the linker lacked memory. Where it cannot map a file it does not say why: there is no
+   memory left for that, or no program may be run from its file system. */
+static bool is_of_memory(const char *path, const char *words)
+{
+    struct statvfs system;
+    const char *unmapped = dgettext("libc", "failed to map segment from shared object");
+    return strstr(words, strerror(ENOMEM)) ||
+           (strstr(words, unmapped) && statvfs(path, &system) == 0 && !(system.f_flag & ST_NOEXEC));
+}
+
 /*
  * RTLD_LOCAL keeps one plugin's names from another's; the object stays for good, since unloading
  * breaks what it registered; RTLD_DEEPBIND would give it an allocator of its own.
@@ -70,7 +82,7 @@ static void *open_file(const char *path, char *why, size_t why_size)
     if (object)
         return object;
     snprintf(why, why_size, "cannot be loaded: %s", linker_words(path));
-    if (strcmp(first, why) != 0 || strstr(why, strerror(ENOMEM)))
+    if (strcmp(first, why) != 0 || is_of_memory(path, why))
         fe_out_of_memory();
     return NULL;
 }

@@ -4,130 +4,20 @@
  * in the dynamic linker and in the models. The run answers that it lacked memory, or rightly;
  * nothing is left behind, and the next run is good.
  */
-#include <flankfilm/engine.h>
+#include "attempt.h"
+#include "failing-allocator.h"
 
 #include <check.h>
 
 #include <dlfcn.h>
-#include <errno.h>
 #include <fenv.h>
-#include <link.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
-
-/* What the allocator does, and has done. */
-static struct {
-    size_t calls, fail_at; /* the first that fails; 0: none */
-    bool onwards;          /* and all later ones */
-    size_t spared;         /* calls, not among them, by libraries of which none may fail */
-    long live;             /* blocks */
-} memory;
-
-enum { MOST_MORTAL = 8 };
-
-/* Code of libraries that end the process themselves when they get no memory. */
-static struct {
-    const char *begin, *end;
-} mortal[MOST_MORTAL];
-
-void *__libc_malloc(size_t size);
-void *__libc_calloc(size_t count, size_t size);
-void *__libc_realloc(void *old, size_t size);
-void *__libc_memalign(size_t alignment, size_t size);
-void __libc_free(void *old);
-
-#define PUBLIC __attribute__((visibility("default")))
-
-static bool refuses(const void *caller)
-{
-    for (size_t i = 0; mortal[i].begin; i++)
-        if ((const char *)caller >= mortal[i].begin && (const char *)caller < mortal[i].end) {
-            memory.spared++;
-            return false;
-        }
-    memory.calls++;
-    bool refused = memory.fail_at > 0 && (memory.onwards ? memory.calls >= memory.fail_at
-                                                         : memory.calls == memory.fail_at);
-    if (refused)
-        errno = ENOMEM;
-    return refused;
-}
-
-static void *count(void *made)
-{
-    memory.live += made != NULL;
-    return made;
-}
-
-PUBLIC void *malloc(size_t size)
-{
-    return refuses(__builtin_return_address(0)) ? NULL : count(__libc_malloc(size));
-}
-
-PUBLIC void *calloc(size_t number, size_t size)
-{
-    return refuses(__builtin_return_address(0)) ? NULL : count(__libc_calloc(number, size));
-}
-
-PUBLIC void *realloc(void *old, size_t size)
-{
-    if (refuses(__builtin_return_address(0)))
-        return NULL;
-    void *made = __libc_realloc(old, size);
-    memory.live += (made != NULL) - (old != NULL && (made || size == 0));
-    return made;
-}
-
-PUBLIC void *memalign(size_t alignment, size_t size)
-{
-    return refuses(__builtin_return_address(0)) ? NULL : count(__libc_memalign(alignment, size));
-}
-
-PUBLIC void *aligned_alloc(size_t alignment, size_t size)
-{
-    return refuses(__builtin_return_address(0)) ? NULL : count(__libc_memalign(alignment, size));
-}
-
-PUBLIC int posix_memalign(void **made, size_t alignment, size_t size)
-{
-    *made = refuses(__builtin_return_address(0)) ? NULL : count(__libc_memalign(alignment, size));
-    return *made ? 0 : ENOMEM;
-}
-
-PUBLIC void free(void *old)
-{
-    memory.live -= old != NULL;
-    __libc_free(old);
-}
-
-static int note_mortal(struct dl_phdr_info *info, size_t size, void *ctx)
-{
-    static const char *const names[] = {"/libfftw3.so", "/libgomp.so"};
-    size_t *found = ctx;
-    (void)size;
-    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
-        for (int i = 0; strstr(info->dlpi_name, names[k]) && i < info->dlpi_phnum; i++) {
-            const ElfW(Phdr) *p = &info->dlpi_phdr[i];
-            if (p->p_type != PT_LOAD || !(p->p_flags & PF_X) || *found + 1 == MOST_MORTAL)
-                continue;
-            mortal[*found].begin = (const char *)info->dlpi_addr + p->p_vaddr;
-            mortal[*found].end = mortal[*found].begin + p->p_memsz;
-            ++*found;
-        }
-    return 0;
-}
-
-/* Of the libraries that are loaded. */
-static void spare_mortal(void)
-{
-    size_t found = 0;
-    dl_iterate_phdr(note_mortal, &found);
-}
 
 /* The blocks in use, without the error that the dynamic linker keeps for each thread. */
 static long live(void)
@@ -136,130 +26,12 @@ static long live(void)
     return memory.live;
 }
 
-/* What is run, in the directory of the test, and what came of it. */
-typedef struct attempt {
-    const char *file;
-    enum { RUN, OPEN, INSTANCES } how; /* OPEN: models are to be chosen */
-    bool spares;                       /* what FFTW and libgomp allocate */
-    ff_status status;
-    size_t calls;  /* of the allocator */
-    bool lacked;   /* an error says that memory was missing */
-    double answer; /* over all numbers and messages */
-} attempt;
-
-static const char *directory;
-
-static void add_array(attempt *a, const char *name, const ff_result *result)
-{
-    for (size_t n = 0; n < result->count; n++)
-        a->answer += (double)(name[0] + name[1]) * result->data[n];
-}
-
-/* A file whose models are known. */
-static ff_status run_file(attempt *a, ff_engine *engine)
-{
-    ff_run *run;
-    const char *name;
-    const ff_result *result;
-    const ff_quality *line;
-    ff_status status = ff_run_open(engine, a->file, NULL, &run);
-    if (status == FF_OK)
-        status = ff_run_start(run, NULL);
-    for (size_t i = 0; status == FF_OK && ff_run_output(run, i, &name, &result) == FF_OK; i++)
-        add_array(a, name, result);
-    for (size_t i = 0; status == FF_OK && ff_run_quality(run, i, &line) == FF_OK; i++)
-        a->answer += 1e3 * line->limit;
-    ff_run_close(run);
-    return status;
-}
-
-/* Models by hand, some of which use others; the last is none. */
-static ff_status use_instances(attempt *a, ff_engine *engine)
-{
-    enum { ONE, SUM, LAW, USER, TABLE, NONE, COUNT };
-    static const char *const ids[] = {"toy/source", "toy/consumer", "toy/law",
-                                      "toy/user",   "toy/reader",   "toy/no-model"};
-    static const double series[] = {1, 2, 3}, weights[] = {1, 2};
-    static const size_t shape[] = {3};
-    const ff_array array = {.data = series, .shape = shape, .rank = 1};
-    ff_instance *x[COUNT] = {NULL};
-    const ff_result *result;
-    ff_status s = FF_OK, wrong = FF_OK;
-    for (int i = 0; i < NONE && s == FF_OK; i++)
-        s = ff_instance_new(engine, ids[i], &x[i]);
-    if (s == FF_OK && (s = ff_instance_set(x[ONE], "level", "2 mm")) == FF_OK &&
-        (s = ff_instance_set_reals(x[ONE], "weights", weights, 2)) == FF_OK &&
-        (s = ff_instance_use(x[SUM], "source", x[ONE])) == FF_OK &&
-        (s = ff_instance_give(x[SUM], "more.series", &array)) == FF_OK &&
-        (s = ff_instance_run(x[SUM], NULL)) == FF_OK &&
-        (s = ff_instance_result(x[SUM], "sum", &result)) == FF_OK)
-        add_array(a, "sum", result);
-    if (s == FF_OK && (s = ff_instance_set(x[LAW], "gain", "3")) == FF_OK &&
-        (s = ff_instance_use(x[USER], "law", x[LAW])) == FF_OK &&
-        (s = ff_instance_run(x[USER], "value")) == FF_OK &&
-        (s = ff_instance_result(x[USER], "value", &result)) == FF_OK)
-        add_array(a, "user", result);
-    if (s == FF_OK && (s = ff_instance_set(x[TABLE], "file", "levels.csv")) == FF_OK &&
-        (s = ff_instance_run(x[TABLE], NULL)) == FF_OK &&
-        (s = ff_instance_result(x[TABLE], "sum", &result)) == FF_OK)
-        add_array(a, "table", result);
-    if (s == FF_OK && (wrong = ff_instance_set(x[ONE], "level", "2 m/s")) != FF_NOMEM)
-        wrong = ff_instance_new(engine, ids[NONE], &x[NONE]);
-    for (int i = COUNT; i-- > 0;)
-        ff_instance_close(x[i]);
-    return s == FF_OK ? wrong : s;
-}
-
-typedef struct choice {
-    attempt *a;
-    ff_engine *engine;
-    ff_report *report;
-} choice;
-
-/* A file that leaves models open, as the program runs it. */
-static void run_open_file(void *ctx)
-{
-    choice *c = ctx;
-    c->report = ff_report_new();
-    ff_tree *tree = ff_tree_load(c->a->file, c->report);
-    ff_pipeline *p = ff_pipeline_build(tree, c->engine, false, c->report);
-    if (p && ff_report_errors(c->report) == 0 && ff_pipeline_run(p, NULL, c->report))
-        for (size_t i = 0; i < p->count; i++)
-            for (size_t k = 0; p->stages[i].ran && k < p->stages[i].loaded->model->output_count;
-                 k++)
-                if (p->stages[i].results[k].data)
-                    add_array(c->a, p->stages[i].name, &p->stages[i].results[k]);
-    c->a->lacked = ff_report_lacked_memory(c->report);
-}
-
-/* The status of the run; the answer has the length of the message, too. */
-static ff_status run(attempt *a)
-{
-    const ff_engine_options options = {sizeof options, &directory, 1};
-    choice c = {.a = a};
-    ff_status status = ff_engine_new(&options, &c.engine);
-    if (status != FF_OK)
-        return status;
-    if (a->how == INSTANCES)
-        status = use_instances(a, c.engine);
-    else if (a->how == OPEN)
-        status = ff_protected(run_open_file, &c);
-    else
-        status = run_file(a, c.engine);
-    a->answer += 1e6 * (double)strlen(ff_engine_message(c.engine));
-    ff_engine_close(c.engine);
-    return status == FF_OK && a->lacked ? FF_NOMEM : status;
-}
-
 static attempt try_run(const attempt *plan, size_t fail_at, bool onwards)
 {
-    attempt a = *plan;
-    memory.calls = 0;
     memory.fail_at = fail_at;
     memory.onwards = onwards;
-    a.status = run(&a);
+    attempt a = attempt_run(plan);
     memory.fail_at = 0;
-    a.calls = memory.calls;
     return a;
 }
 
@@ -304,14 +76,11 @@ typedef struct sweep {
 /* Fails allocations that a run makes when the models are loaded, as far as the process comes. */
 static void sweep_on(sweep *s, const attempt *plan, bool onwards)
 {
-    attempt good = try_run(plan, 0, false); /* loads what stays */
-    if (plan->spares) {
-        spare_mortal();
-        memory.spared = 0;
-        good = try_run(plan, 0, false);
-        s->spared = memory.spared;
-    }
-    s->wrong = s->wrong || (plan->spares && good.status != FF_OK);
+    try_run(plan, 0, false); /* loads what stays */
+    memory.spared = 0;
+    attempt good = try_run(plan, 0, false);
+    s->spared = memory.spared;
+    s->wrong = s->wrong || (memory.spares && good.status != FF_OK);
     for (size_t round = 1;; round++) {
         s->at = draw_next(&s->next);
         long before = live();
@@ -352,32 +121,104 @@ static void fail_warm(const attempt *plan, draw start, bool onwards)
     }
     printf("%s: %zu failed%s, of one in %zu\n", plan->file, s->failed,
            onwards ? " with all later ones" : "", start.stride);
-    if (plan->spares)
-        printf("    none of the %zu that FFTW and libgomp make\n", s->spared);
+    if (memory.spares)
+        printf("    none of the %zu that FFTW, libgomp and the linker make\n", s->spared);
     check_true("no wrong answer, and nothing left behind", !s->wrong);
-    check_true("some failed", s->failed > 20);
+    check_true("some failed", s->failed > 0);
     munmap(s, sizeof *s);
 }
 
-/* Fails each while models are loaded, which a process does once. */
-static void fail_cold(const attempt *plan, bool onwards)
+/* What a process that loads models tells the one that waits for it. */
+typedef struct loading {
+    attempt good, failed, next;
+    int end; /* how the process ended */
+} loading;
+
+/* In a process without models: the attempt fails, the next one is good. */
+static void load_once(loading *l, const attempt *plan, size_t at, bool onwards)
 {
-    enum { GOOD, WRONG, BEYOND };
-    int answer = GOOD;
-    size_t at = 1;
-    for (; answer != BEYOND; at++) {
-        int status = 0;
+    fflush(stdout);
+    if (fork() == 0) {
+        l->failed = try_run(plan, at, onwards);
+        l->next = try_run(plan, 0, false);
+        _exit(0);
+    }
+    wait(&l->end);
+}
+
+static bool is_right(const loading *l)
+{
+    return l->end == 0 && agree(&l->failed, &l->good) && l->next.status == l->good.status &&
+           l->next.answer == l->good.answer;
+}
+
+/* Fails allocations while models are loaded, which a process does once. */
+static void fail_cold(const attempt *plan, draw start, bool onwards)
+{
+    loading *l = mmap(NULL, sizeof *l, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (l == MAP_FAILED)
+        abort();
+    load_once(l, plan, 0, onwards);
+    l->good = l->failed;
+    check_true("a good answer", is_right(l) && l->good.status == FF_OK);
+    size_t failed = 0;
+    for (size_t at; (at = draw_next(&start)) <= l->good.opening; failed++) {
+        load_once(l, plan, at, onwards);
+        if (is_right(l))
+            continue;
+        tell("wrong while models are loaded", plan->file, at, onwards);
+        printf("    the process ended with %d, the attempt with %d, %.17g, the next one with %d, "
+               "%.17g; a good one with %.17g\n",
+               l->end, l->failed.status, l->failed.answer, l->next.status, l->next.answer,
+               l->good.answer);
+    }
+    printf("%s: %zu failed%s in the loading of models, of one in %zu\n", plan->file, failed,
+           onwards ? " with all later ones" : "", start.stride);
+    check_true("some failed", failed > 0);
+    munmap(l, sizeof *l);
+}
+
+/* Gives the next attempt so much address space; 0: as much as there is. */
+static void limit_space(size_t bytes)
+{
+    size_t pages = 0;
+    struct rlimit limit;
+    FILE *file = fopen("/proc/self/statm", "r");
+    if (!file || fscanf(file, "%zu", &pages) != 1 || getrlimit(RLIMIT_AS, &limit) != 0)
+        exit(2);
+    fclose(file);
+    limit.rlim_cur = bytes ? pages * (size_t)sysconf(_SC_PAGESIZE) + bytes : limit.rlim_max;
+    setrlimit(RLIMIT_AS, &limit);
+}
+
+/* The models and their libraries find ever more address space, until there is enough. */
+static void fail_space(const attempt *plan, size_t step)
+{
+    attempt short_plan = *plan;
+    short_plan.only_loads = true;
+    loading *l = mmap(NULL, sizeof *l, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (l == MAP_FAILED)
+        abort();
+    load_once(l, plan, 0, false);
+    l->good = l->failed;
+    l->failed.status = FF_NOMEM;
+    size_t tries = 0, wrong = 0;
+    for (size_t room = step; l->failed.status != FF_OK && tries < 1000; room += step, tries++) {
         fflush(stdout);
         if (fork() == 0) {
-            attempt failed = try_run(plan, at, onwards), next = try_run(plan, 0, false);
-            _exit(!agree(&failed, &next) ? WRONG : failed.calls < at ? BEYOND : GOOD);
+            limit_space(room);
+            l->failed = try_run(&short_plan, 0, false);
+            limit_space(0);
+            l->next = try_run(plan, 0, false);
+            _exit(0);
         }
-        wait(&status);
-        answer = WIFEXITED(status) ? WEXITSTATUS(status) : WRONG;
-        if (answer == WRONG)
-            tell("wrong while models are loaded", plan->file, at, onwards);
+        wait(&l->end);
+        wrong += l->end != 0 || (l->failed.status != FF_OK && l->failed.status != FF_NOMEM) ||
+                 l->next.status != l->good.status || l->next.answer != l->good.answer;
     }
-    check_true("some failed", at > 100);
+    printf("%s: %zu times without space\n", plan->file, tries - 1);
+    check_true("lack of memory is said, and passes", tries > 1 && wrong == 0);
+    munmap(l, sizeof *l);
 }
 
 static ff_status lack(void *ctx)
@@ -411,9 +252,9 @@ static void check_left(const char *what, ff_status status)
 }
 
 /* The program lacks memory while a model runs, which must be left in order. */
-static void leave_models(void)
+static void leave_models(const char *plugins)
 {
-    const ff_engine_options options = {sizeof options, &directory, 1};
+    const ff_engine_options options = {sizeof options, &plugins, 1};
     const ff_observer logs = {.size = sizeof logs, .log = log_nothing};
     const ff_observer goes_on = {.size = sizeof goes_on, .progress = go_on};
     ff_engine *engine;
@@ -435,30 +276,38 @@ static void leave_models(void)
     ff_engine_close(engine);
 }
 
-/* DIRECTORY-OF-PLUGINS DIRECTORY-OF-FILES FILE STRIDE [open|instances|models [SEED]]; stride 0:
-   cold; models: the shipped ones, which use libraries that end the process. */
+/* DIRECTORY-OF-PLUGINS DIRECTORY-OF-FILES FILE STRIDE [SEED] WORD...: open, instances or stages say
+   how the file is run; cold: allocations fail while models are loaded; space: they find so many KiB
+   of address space, twice as many, and so on; shipped: the models use
+   libraries that end the process. */
 int main(int argc, char **argv)
 {
     if (argc < 5 || chdir(argv[2]) != 0)
         return 2;
-    const char *how = argc > 5 ? argv[5] : "";
-    const attempt plan = {.file = argv[3],
-                          .how = !strcmp(how, "open")        ? OPEN
-                                 : !strcmp(how, "instances") ? INSTANCES
-                                                             : RUN,
-                          .spares = !strcmp(how, "models")};
-    const draw start = {.stride = (size_t)atoi(argv[4]),
-                        .begin = 1,
-                        .seed = argc > 6 ? strtoull(argv[6], NULL, 10) : 1};
-    directory = argv[1];
+    attempt plan = {.plugins = argv[1], .file = argv[3], .how = RUN};
+    draw start = {.stride = (size_t)atoi(argv[4]), .begin = 1, .seed = 1};
+    bool cold = false, space = false;
+    for (int i = 5; i < argc; i++) {
+        bool open = !strcmp(argv[i], "open"), stages = !strcmp(argv[i], "stages");
+        plan.how = open                            ? OPEN
+                   : stages                        ? STAGES
+                   : !strcmp(argv[i], "instances") ? INSTANCES
+                                                   : plan.how;
+        cold = cold || !strcmp(argv[i], "cold");
+        space = space || !strcmp(argv[i], "space");
+        memory.spares = memory.spares || !strcmp(argv[i], "shipped");
+        if (atoi(argv[i]) > 0)
+            start.seed = strtoull(argv[i], NULL, 10);
+    }
     setenv("OPENBLAS_NUM_THREADS", "1", 1); /* the count of allocations is then always the same */
     setenv("OMP_THREAD_LIMIT", "1", 1);
-    for (int onwards = 0; onwards <= 1; onwards++)
-        if (start.stride == 0)
-            fail_cold(&plan, onwards);
-        else
-            fail_warm(&plan, start, onwards);
+    if (!attempt_prepare(&plan))
+        return 2;
+    if (space)
+        fail_space(&plan, start.stride * 1024);
+    for (int onwards = 0; onwards <= 1 && !space; onwards++)
+        (cold ? fail_cold : fail_warm)(&plan, start, onwards);
     if (plan.how == INSTANCES)
-        leave_models();
+        leave_models(plan.plugins);
     return check_done();
 }
