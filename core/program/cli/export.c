@@ -10,10 +10,12 @@
 #include "../results/made.h"
 #include "../results/target.h"
 #include "../results/view.h"
+#include "../study/study.h"
 #include "../terminal/terminal.h"
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static const char kind[] = "writer/";
 
@@ -187,12 +189,28 @@ static ff_instance *open_writer(ff_engine *engine, const cli_options *options, c
     return writer;
 }
 
+/* A directory of results would lose them: its files are replaced together. */
+static bool holds_no_run(const char *path, ff_report *report)
+{
+    const char *const names[] = {"result.json", study_description};
+    bool free_of_them = true;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        char *file = memory_print_text("%s/%s", path, names[i]);
+        free_of_them = free_of_them && access(file, F_OK) != 0;
+        free(file);
+    }
+    return free_of_them ||
+           ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "name another directory with -o",
+                    "\"%s\" holds the results of a run or a study", path);
+}
+
 static bool write_to(const form *to, ff_instance *writer, const ff_view *view,
                      const cli_options *options, const char *stem, results_target *target)
 {
     target->path = options->directory ? memory_print_text("%s", options->directory)
                                       : default_path(options->operand, stem, to);
-    bool good = results_target_open(target, !*to->suffix) &&
+    bool good = (*to->suffix || holds_no_run(target->path, target->report)) &&
+                results_target_open(target, !*to->suffix) &&
                 (to->write ? to->write(view, target) : call_writer(writer, view, target));
     if (good)
         results_made_note(options->operand, target->path,

@@ -90,6 +90,13 @@ class Errors(lab.Lab):
         self.call("export", "run", "--to", "csv", "-o", "foreign", code=2)
         self.assertEqual(os.listdir("foreign"), ["note"])
 
+    def test_directory_of_results(self):
+        for directory in "run", "study":
+            before = sorted(os.listdir(directory))
+            said = self.call("export", "run", "--to", "csv", "-o", directory, code=2)
+            self.assertIn(f'"{directory}" holds the results of a run or a study', said)
+            self.assertEqual(sorted(os.listdir(directory)), before)
+
     def test_broken_json(self):
         os.mkdir("broken")
         with open("broken/result.json", "w", encoding="utf-8") as file:
