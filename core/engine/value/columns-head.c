@@ -151,6 +151,8 @@ bool fe_column_heads_read(fe_column_reader *r, fe_field line)
     if (c->width > FE_MOST_FIELDS)
         return fe_column_refuse(r, line, NULL, "the header names more than %d columns",
                                 FE_MOST_FIELDS);
+    if (!fe_line_is_closed(r, c->width, fields))
+        return false;
     bool good = true;
     for (size_t i = 0; i < c->width; i++)
         good = read_head(r, i, fields[i]) && good;

@@ -56,13 +56,48 @@ bool fe_column_refuse(const fe_column_reader *r, fe_field text, const char *hint
     return ff_error(r->report, FF_FAULT_INPUT, fe_column_place(r, text), hint, "%s", sentence);
 }
 
-/* Where blanks separate the fields, a name and its unit are still one field: "time [s]". */
-static const char *field_end(const char *at, const char *end, char separator)
+static bool has(const char *at, const char *end, char c)
 {
+    return memchr(at, c, (size_t)(end - at));
+}
+
+/* Behind the quote that closes the one at `at`; one that is written twice stands for itself. */
+static const char *skip_quoted(const char *at, const char *end)
+{
+    for (at++; at < end; at++) {
+        bool twice = at + 1 < end && at[1] == '"';
+        if (*at == '"' && !twice)
+            return at + 1;
+        at += *at == '"';
+    }
+    return end;
+}
+
+/* Where that character stands first, but within quotes; `end`: nowhere. */
+static const char *find(const char *at, const char *end, char wanted)
+{
+    bool fresh = true; /* a quote here opens a quoted field */
+    while (at < end) {
+        bool quoted = fresh && *at == '"';
+        if (!quoted && *at == wanted)
+            return at;
+        fresh = strchr(separators, *at);
+        at = quoted ? skip_quoted(at, end) : at + 1;
+    }
+    return end;
+}
+
+/* Where blanks separate the fields, a name and its unit are still one field: "time [s]". */
+static const char *field_end(const char *at, const char *end, char separator, bool quotes)
+{
+    if (separator != ' ' && quotes)
+        return find(at, end, separator);
     if (separator != ' ') {
         const char *stop = memchr(at, separator, (size_t)(end - at));
         return stop ? stop : end;
     }
+    if (at < end && *at == '"')
+        at = skip_quoted(at, end);
     for (int depth = 0; at < end; at++) {
         const char *next = at;
         while (next < end && is_blank(*next) && depth <= 0)
@@ -75,7 +110,7 @@ static const char *field_end(const char *at, const char *end, char separator)
     return at;
 }
 
-/* Spreadsheets and R quote texts; a quoted field cannot hold a separator here. */
+/* Spreadsheets and R quote texts. None that is read holds a quote itself. */
 static fe_field unquote(fe_field field)
 {
     bool quoted = field.end - field.at >= 2 && *field.at == '"' && field.end[-1] == '"';
@@ -85,10 +120,11 @@ static fe_field unquote(fe_field field)
 size_t fe_line_split(fe_field line, char separator, fe_field fields[FE_MOST_FIELDS])
 {
     size_t count = 0;
+    bool quotes = has(line.at, line.end, '"');
     for (const char *at = line.at, *end;; at = end + 1) {
         while (separator == ' ' && at < line.end && is_blank(*at))
             at++;
-        end = field_end(at, line.end, separator);
+        end = field_end(at, line.end, separator, quotes);
         if (count < FE_MOST_FIELDS)
             fields[count] = unquote(fe_field_trim(at, end));
         count++;
@@ -97,10 +133,22 @@ size_t fe_line_split(fe_field line, char separator, fe_field fields[FE_MOST_FIEL
     }
 }
 
+bool fe_line_is_closed(const fe_column_reader *r, size_t count, const fe_field *fields)
+{
+    for (size_t i = 0; i < count && i < FE_MOST_FIELDS; i++) {
+        const char *at = fields[i].at;
+        if (fields[i].end - at > 1 && at[0] == '"' && at[1] != '"')
+            return fe_column_refuse(r, fields[i],
+                                    "a quote within quotes is written twice, and a field ends "
+                                    "with its line",
+                                    "this field begins with a quote, but does not end with it");
+    }
+    return true;
+}
+
 size_t fe_row_split(const fe_columns *c, fe_field line, fe_field fields[FE_MOST_FIELDS])
 {
-    bool parted =
-        c->separator != ' ' && memchr(line.at, c->separator, (size_t)(line.end - line.at));
+    bool parted = c->separator != ' ' && has(line.at, line.end, c->separator);
     for (const char *s = separators; *s && !parted; s++)
         if (fe_line_split(line, *s, fields) == c->width)
             return c->width;
@@ -110,7 +158,7 @@ size_t fe_row_split(const fe_columns *c, fe_field line, fe_field fields[FE_MOST_
 char fe_line_separator(fe_field line)
 {
     const char *s = separators;
-    while (*s != ' ' && !memchr(line.at, *s, (size_t)(line.end - line.at)))
+    while (*s != ' ' && find(line.at, line.end, *s) == line.end)
         s++;
     return *s;
 }

@@ -43,6 +43,8 @@ typedef struct fe_field {
 fe_field fe_field_trim(const char *at, const char *end);
 /* Splits a line into fields; those beyond FE_MOST_FIELDS are counted, but not kept. */
 size_t fe_line_split(fe_field line, char separator, fe_field fields[FE_MOST_FIELDS]);
+/* False after an error: a field among these begins with a quote that does not end it. */
+bool fe_line_is_closed(const fe_column_reader *reader, size_t count, const fe_field *fields);
 /* Splits a line as the header was split. Without that separator in it, the first one that gives as
    many fields as the header has is used. */
 size_t fe_row_split(const fe_columns *columns, fe_field line, fe_field fields[FE_MOST_FIELDS]);

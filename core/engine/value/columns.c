@@ -138,6 +138,8 @@ static bool read_row(fe_column_reader *r, fe_field line)
     for (size_t k = 0; k < c->count; k++)
         if (c->values[k])
             c->values[k][row] = 0; /* until it is read */
+    if (!fe_line_is_closed(r, count, fields))
+        return true;
     if (count != c->width)
         fe_column_refuse(r, line, NULL, "%zu field%s in this line, but %zu in the header", count,
                          count == 1 ? "" : "s", c->width);

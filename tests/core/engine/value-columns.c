@@ -96,6 +96,9 @@ static const form forms[] = {
     {"\xef\xbb\xbftime [s], angle [deg]\n0, 10\n0.5, 20\n"},
     {"\"time [s]\",\"angle [deg]\",\"x-who\"\n0,10,\"Ada\"\n\"0.5\",20,\"\"\n"},
     {"\"time [s]\" \"angle [deg]\"\n0 10\n0.5 20\n"},
+    {"\"x-who; where\",time [s],angle [deg]\n\"b, c\",0,10\n\"a \"\"b\"\", c\",0.5,20\n"},
+    {"time [s], angle [deg], \"x-a; b\"\n0, 10, \"\"\"so, so\"\"\"\n0.5, 20, 5\" or 6\"\n"},
+    {"time [s] angle [deg] x-who\n0 10 \"Ada L.\"\n0.5 20 \"\"\n"},
     {"# a remark\n\n \t\ntime [s], angle [deg]\n# more\n0, 10\n\n0.5, 20\n#"},
     {"time [s], angle [mrad], x-who, x-when [day]\n0, 174.53292519943295, Ada, 3\n"
      "5e-1, 349.0658503988659, , none\n"},
@@ -212,6 +215,9 @@ static const refusal refusals[] = {
     {"time [s], length [mm]\n0, 0\n", "length must be above 0 um, but is 0 um", 2, 4, 1},
     {"time [s], length [m]\n0, 1\n", "length must be below 1e+06 um, but is 1e+06 um", 2, 4, 1},
     {"time [s], angle [deg], gear\n0, 1, 1.5\n", "gear must be a whole number", 2, 7, 3},
+    {HEAD "0, \"1\n", "this field begins with a quote, but does not end with it", 2, 4, 2},
+    {HEAD "\"0\"5, 1\n", "this field begins with a quote, but does not end with it", 2, 1, 4},
+    {"time [s], \"angle [deg]\n0, 1\n", "this field begins with a quote, but", 1, 11, 12},
     {HEAD "1, 1\n0.5, 1\n", "time must not decrease, but 0.5 s follows 1 s", 3, 1, 3},
 };
 
