@@ -3,7 +3,9 @@
 
 #include <dlfcn.h>
 #include <link.h>
-#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 #include <unwind.h>
 
 enum { MOST_SERVICES = 16 /* that use services */ };
@@ -56,12 +58,32 @@ const ff_guard_mark *crash_address_blame(const void *address, const ff_guard_mar
     return object && !is_this_program(object) ? owner(running, object, 0) : NULL;
 }
 
+bool crash_address_is_in(const void *address, const char *path)
+{
+    const struct link_map *object = object_of(address);
+    return object && !strcmp(object->l_name, path);
+}
+
 const ff_guard_mark *crash_stack_blame(const crash_stack *stack, const ff_guard_mark *running)
 {
     const ff_guard_mark *found = NULL;
     for (size_t i = 0; i < stack->count && !found; i++)
         found = crash_address_blame(stack->at[i], running);
     return found;
+}
+
+const char *crash_stack_library(const crash_stack *stack, const ff_guard_mark *running)
+{
+    const struct link_map *libc = object_of((const void *)(uintptr_t)exit);
+    size_t i = 0;
+    while (i < stack->count && object_of(stack->at[i]) != libc)
+        i++;
+    while (i < stack->count && object_of(stack->at[i]) == libc)
+        i++;
+    const struct link_map *caller = i < stack->count ? object_of(stack->at[i]) : NULL;
+    bool library =
+        caller && running->code && !is_this_program(caller) && !owner(running, caller, 0);
+    return library ? caller->l_name : NULL;
 }
 
 const ff_guard_mark *crash_stack_blame_caller(const crash_stack *stack,

@@ -5,6 +5,8 @@
 
 #include <flankfilm/engine.h>
 
+#include <stdbool.h>
+
 enum { CRASH_DEEPEST_STACK = 64 };
 
 /* The innermost addresses of code on the stack of a thread. */
@@ -24,7 +26,14 @@ const ff_guard_mark *crash_stack_blame(const crash_stack *stack, const ff_guard_
 const ff_guard_mark *crash_stack_blame_caller(const crash_stack *stack,
                                               const ff_guard_mark *running);
 
-/* The same of one address. */
+/* The path of the library of a plugin that has called libc, where the stack ends in a call of
+   exit(); NULL: it was not a library. */
+const char *crash_stack_library(const crash_stack *stack, const ff_guard_mark *running);
+
+/* Whether the address lies in the object of that path. */
+bool crash_address_is_in(const void *address, const char *path);
+
+/* The same as crash_stack_blame of one address. */
 const ff_guard_mark *crash_address_blame(const void *address, const ff_guard_mark *running);
 
 #endif

@@ -4,6 +4,7 @@
 #include "blame.h"
 #include "exits.h"
 #include "hunger.h"
+#include "meddling.h"
 
 #include "../terminal/answer.h"
 
@@ -23,7 +24,8 @@ static pthread_t main_thread; /* calls the plugins */
 static _Atomic(const char *) foreign_verb;
 static const char *foreign_detail;
 static crash_stack foreign_stack;
-static const char crashed[] = " crashed during ", ended[] = " ended the program during ";
+static const char crashed[] = " crashed during ", ended[] = " ended the program during ",
+                  broke[] = " broke the rules during ";
 static atomic_flag dying = ATOMIC_FLAG_INIT;
 
 enum { FAULTS = 5 };
@@ -105,11 +107,21 @@ static void add_mebibytes(line *l, size_t bytes)
     add(l, " MiB");
 }
 
+/* "; the address space of the process is limited to 98 MiB", where it is. Returns whether. */
+static bool add_limit(line *l)
+{
+    struct rlimit limit;
+    if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
+        return false;
+    add(l, "; the address space of the process is limited to ");
+    add_mebibytes(l, limit.rlim_cur);
+    return true;
+}
+
 /* A library that a plugin calls asks for memory again and again, and would do so for ever. */
 static void on_hunger(size_t bytes)
 {
     ff_guard_mark running = ff_guard_current();
-    struct rlimit limit;
     line sentence = {.length = 0};
     if (!running.path || atomic_flag_test_and_set(&dying))
         return;
@@ -121,21 +133,15 @@ static void on_hunger(size_t bytes)
     add(&sentence, running.path);
     add(&sentence, " calls cannot get ");
     add_mebibytes(&sentence, bytes);
-    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
-        add(&sentence, "; the address space of the process is limited to ");
-        add_mebibytes(&sentence, limit.rlim_cur);
-    }
+    add_limit(&sentence);
     report(&sentence, FF_FAULT_RUN);
 }
 
 /* "oil: the plugin oil.so crashed during evaluate of film: abort". `who` NULL: it may be any that
    takes part. */
-static _Noreturn void die(const ff_guard_mark *running, const ff_guard_mark *who, const char *verb,
+static line make_sentence(const ff_guard_mark *running, const ff_guard_mark *who, const char *verb,
                           const char *detail)
 {
-    if (atomic_flag_test_and_set(&dying))
-        for (;;)
-            pause(); /* another thread reports the fault */
     line sentence = {.length = 0};
     char services[700] = "";
     if (!who)
@@ -157,7 +163,35 @@ static _Noreturn void die(const ff_guard_mark *running, const ff_guard_mark *who
     }
     add(&sentence, ": ");
     add(&sentence, detail);
+    return sentence;
+}
+
+/* Of several threads with a fault one reports it. */
+static void be_first(void)
+{
+    if (atomic_flag_test_and_set(&dying))
+        for (;;)
+            pause();
+}
+
+static _Noreturn void die(const ff_guard_mark *running, const ff_guard_mark *who, const char *verb,
+                          const char *detail)
+{
+    be_first();
+    line sentence = make_sentence(running, who, verb, detail);
     report(&sentence, FF_FAULT_PLUGIN);
+}
+
+/* A library of the plugin has called exit(): for want of memory, where that is limited. */
+static _Noreturn void die_of_library(const ff_guard_mark *running, const crash_stack *stack,
+                                     const char *library)
+{
+    be_first();
+    line sentence =
+        make_sentence(running, crash_stack_blame(stack, running), ended, "its library ");
+    add(&sentence, library);
+    add(&sentence, " called exit()");
+    report(&sentence, add_limit(&sentence) ? FF_FAULT_RUN : FF_FAULT_PLUGIN);
 }
 
 /* What happened in a thread of which it is not known that a plugin runs there: the plugin may have
@@ -236,6 +270,9 @@ static void on_exit_call(void)
     crash_stack stack;
     ff_guard_mark running = ff_guard_current();
     crash_stack_read(&stack, NULL);
+    const char *library = running.path ? crash_stack_library(&stack, &running) : NULL;
+    if (library)
+        die_of_library(&running, &stack, library);
     if (running.path)
         die(&running, crash_stack_blame(&stack, &running), ended, detail);
     ask_main_thread(&stack, ended, detail);
@@ -251,6 +288,18 @@ static void on_end(const char *function, const void *caller)
         die(&running, who, ended, strcat(detail, function));
 }
 
+/* While an object is loaded, the libraries that come with it may set up what they need. */
+static void on_meddling(const char *function, const void *caller, bool ends)
+{
+    char detail[64] = "it called ";
+    ff_guard_mark running = ff_guard_current();
+    const ff_guard_mark *who = running.path ? crash_address_blame(caller, &running) : NULL;
+    if (!who || (!running.code && !crash_address_is_in(caller, running.path)))
+        return;
+    strcat(strcat(detail, function), "()");
+    die(&running, who, ends ? ended : broke, detail);
+}
+
 static void on_fork(void)
 {
     crash_stack stack;
@@ -260,7 +309,7 @@ static void on_fork(void)
     crash_stack_read(&stack, NULL);
     const ff_guard_mark *who = crash_stack_blame_caller(&stack, &running);
     if (who)
-        die(&running, who, " broke the rules during ", "it called fork()");
+        die(&running, who, broke, "it called fork()");
 }
 
 void crash_install(bool json)
@@ -275,6 +324,7 @@ void crash_install(bool json)
     for (int i = 0; i < FAULTS; i++)
         sigaction(fault_signals[i], &action, &before[i]);
     crash_exits_watch(on_end);
+    crash_meddling_watch(on_meddling);
     crash_hunger_watch(on_hunger);
     pthread_atfork(on_fork, NULL, NULL);
     atexit(on_exit_call);

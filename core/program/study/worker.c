@@ -174,7 +174,7 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     };
     study_chain chain = {0};
     while (read(from, &index, sizeof index) == sizeof index) {
-        if (ftruncate(STDERR_FILENO, 0) != 0 ||
+        if (ftruncate(worker->captured, 0) != 0 ||
             !run_case(worker, run, index, done, &memory, &chain, to))
             break;
     }

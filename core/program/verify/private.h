@@ -66,6 +66,8 @@ typedef struct verify_process {
     uint64_t variables; /* a hash of the environment */
     long children;      /* differs once there was one more */
     size_t threads;
+    int priority;
+    bool has_timers; /* of timer_create */
 } verify_process;
 
 void verify_process_look(verify_process *process);

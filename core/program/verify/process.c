@@ -20,6 +20,16 @@ static size_t count_threads(void)
     return count;
 }
 
+/* Of timer_create. */
+static bool has_timers(void)
+{
+    FILE *list = fopen("/proc/self/timers", "re");
+    bool any = list && fgetc(list) != EOF;
+    if (list)
+        fclose(list);
+    return any;
+}
+
 /* FNV-1a over "NAME=value" of all. */
 static uint64_t hash_variables(void)
 {
@@ -63,6 +73,8 @@ void verify_process_look(verify_process *process)
     process->variables = hash_variables();
     process->children = children();
     process->threads = count_threads();
+    process->priority = getpriority(PRIO_PROCESS, 0);
+    process->has_timers = has_timers();
 }
 
 /* A thread that was waited for may still be listed for a moment. */
@@ -122,6 +134,10 @@ const char *verify_process_changed(const verify_process *was)
         if (was->limits[i].rlim_cur != is.limits[i].rlim_cur ||
             was->limits[i].rlim_max != is.limits[i].rlim_max)
             return "changed a resource limit";
+    if (was->priority != is.priority)
+        return "changed the priority of the process";
+    if (is.has_timers && !was->has_timers)
+        return "set a timer that sends a signal";
     if (was->variables != is.variables)
         return "changed the environment variables";
     if (was->children != is.children)

@@ -5,6 +5,8 @@
 #include <flankfilm/writer.h>
 
 #include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 typedef struct hoarder {
     const ff_host *host;
@@ -32,7 +34,7 @@ static void give_back(hoard *all)
     }
 }
 
-static ff_status write(void *self, const ff_view *view, const ff_target *target)
+static ff_status write_all(void *self, const ff_view *view, const ff_target *target)
 {
     const char *path = target->path(target->ctx, "data.txt");
     FILE *file = path ? fopen(path, "w") : NULL;
@@ -42,11 +44,11 @@ static ff_status write(void *self, const ff_view *view, const ff_target *target)
         return FF_BUG;
     none = before;
     none.rlim_cur = 0;
-    setrlimit(RLIMIT_AS, &none);
+    syscall(SYS_setrlimit, RLIMIT_AS, &none); /* setrlimit itself is refused */
     hoard *all = take_all();
     path = target->path(target->ctx, "no/name");
     give_back(all);
-    setrlimit(RLIMIT_AS, &before);
+    syscall(SYS_setrlimit, RLIMIT_AS, &before);
     fclose(file);
     file = fopen("closed", "w");
     if (file)
@@ -55,7 +57,7 @@ static ff_status write(void *self, const ff_view *view, const ff_target *target)
 }
 
 FF_SERVICE_MODEL(model, hoarder, "writer", FF_WRITER_ID, "a writer",
-                 ((ff_writer){sizeof(ff_writer), NULL, "", write}), .id = "writer/hoarder",
+                 ((ff_writer){sizeof(ff_writer), NULL, "", write_all}), .id = "writer/hoarder",
                  .version = "1.0.0", .summary = "Takes all memory", .reference = "", .bibtex = "",
                  .licence = "GPL-3.0-or-later");
 FF_EXPORT_MODELS(&model);

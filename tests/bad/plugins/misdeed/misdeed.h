@@ -4,18 +4,108 @@
 #ifndef MISDEED_H
 #define MISDEED_H
 
+#include <assert.h>
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fenv.h>
 #include <locale.h>
 #include <pthread.h>
 #include <signal.h>
+#include <spawn.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
+#include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
+
+/* What the compiler must not see through, and results that nobody asks for. */
+static int *volatile nowhere;
+static void *volatile somewhere;
+static volatile int zero;
+static volatile double real;
+
+static void write_null(void)
+{
+    *nowhere = 1;
+}
+
+static void read_null(void)
+{
+    zero = *nowhere;
+}
+
+static void call_null(void)
+{
+    static void (*volatile nothing)(void);
+    nothing();
+}
+
+static void write_wild(void)
+{
+    *(volatile int *)(uintptr_t)(0x123456789000u + (unsigned)zero) = 1;
+}
+
+static void write_constant(void)
+{
+    somewhere = (void *)(uintptr_t) "constant";
+    *(volatile char *)somewhere = 1;
+}
+
+static void touch_beyond_file(void)
+{
+    int file = memfd_create("empty", MFD_CLOEXEC);
+    volatile char *mapped = mmap(NULL, 4096, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    mapped[0] = 1;
+}
+
+static void run_illegal(void)
+{
+    __builtin_trap();
+}
+
+static void divide(void)
+{
+    zero = 7 / zero;
+}
+
+static void trap(void)
+{
+    feenableexcept(FE_DIVBYZERO);
+    real = 1 / real;
+}
+
+/* What C++ does with an exception that nobody catches. */
+static void complain(void)
+{
+    fputs("terminate called after throwing\n  what(): vector\n", stderr);
+    abort();
+}
+
+static void fail_assertion(void)
+{
+    assert(zero);
+}
+
+static void free_twice(void)
+{
+    somewhere = malloc(40000);
+    void *same = somewhere;
+    free(somewhere);
+    free(same);
+}
+
+static void free_inside(void)
+{
+    somewhere = malloc(100);
+    somewhere = (char *)somewhere + 8;
+    free(somewhere);
+}
 
 static int overflow(volatile int depth)
 {
@@ -23,49 +113,281 @@ static int overflow(volatile int depth)
     return depth < 0 ? room[0] : overflow(depth + 1) + room[depth % 4096];
 }
 
-/* Ends of the program. */
-static void end(const char *what)
+static void overflow_stack(void)
 {
-    static int *volatile nowhere;
-    static void (*volatile nothing)(void);
-    static volatile int zero;
-    static volatile double real;
-    if (!strcmp(what, "crash"))
-        *nowhere = 1;
-    if (!strcmp(what, "null-call"))
-        nothing();
-    if (!strcmp(what, "abort"))
-        abort();
-    if (!strcmp(what, "complain")) {
-        fputs("terminate called after throwing\n  what(): vector\n", stderr);
-        abort();
-    }
-    if (!strcmp(what, "divide"))
-        zero = 7 / zero;
-    if (!strcmp(what, "overflow"))
-        zero = overflow(1);
-    if (!strcmp(what, "trap")) {
-        feenableexcept(FE_DIVBYZERO);
-        real = 1 / real;
-    }
-    if (!strcmp(what, "exit"))
-        exit(0);
-    if (!strcmp(what, "quick-exit"))
-        quick_exit(0);
-    if (!strcmp(what, "_exit"))
+    zero = overflow(1);
+}
+
+static void call_exit(void)
+{
+    exit(0);
+}
+
+static void call_quick_exit(void)
+{
+    quick_exit(0);
+}
+
+static void call_underscore_exit(void)
+{
+    _exit(0);
+}
+
+static void call_exit_of_c99(void)
+{
+    _Exit(0);
+}
+
+static void call_exit_group(void)
+{
+    zero = (int)syscall(SYS_exit_group, 0);
+}
+
+static void call_execl(void)
+{
+    zero = execl("/bin/true", "true", (char *)NULL);
+}
+
+static void call_execvp(void)
+{
+    zero = execvp("true", (char *[]){"true", NULL});
+}
+
+static void call_execve(void)
+{
+    zero = execve("/bin/true", (char *[]){"true", NULL}, (char *[]){NULL});
+}
+
+static void exit_thread(void)
+{
+    pthread_exit(NULL);
+}
+
+static void in_thread(void *(*work)(void *nothing))
+{
+    pthread_t thread;
+    if (pthread_create(&thread, NULL, work, NULL) == 0)
+        pthread_join(thread, NULL);
+}
+
+static void *write_null_there(void *nothing)
+{
+    *nowhere = 1;
+    return nothing;
+}
+
+static void *abort_there(void *nothing)
+{
+    abort();
+    return nothing;
+}
+
+static void crash_in_thread(void)
+{
+    in_thread(write_null_there);
+}
+
+static void abort_in_thread(void)
+{
+    in_thread(abort_there);
+}
+
+static void call_fork(void)
+{
+    zero = fork();
+}
+
+static void call_vfork(void)
+{
+    if (vfork() == 0)
         _exit(0);
-    if (!strcmp(what, "_Exit"))
-        _Exit(0);
-    if (!strcmp(what, "exit-group"))
-        zero = (int)syscall(SYS_exit_group, 0);
-    if (!strcmp(what, "execl"))
-        zero = execl("/bin/true", "true", (char *)NULL);
-    if (!strcmp(what, "execvp"))
-        zero = execvp("true", (char *[]){"true", NULL});
-    if (!strcmp(what, "thread-exit"))
-        pthread_exit(NULL);
-    if (!strcmp(what, "fork"))
-        zero = fork();
+}
+
+static void call_system(void)
+{
+    zero = system("true");
+}
+
+static void call_popen(void)
+{
+    somewhere = popen("true", "r");
+}
+
+static void call_spawn(void)
+{
+    pid_t child;
+    zero = posix_spawn(&child, "/bin/true", NULL, NULL, (char *[]){"true", NULL}, (char *[]){NULL});
+}
+
+static void raise_term(void)
+{
+    raise(SIGTERM);
+}
+
+static void kill_itself(void)
+{
+    kill(getpid(), SIGKILL);
+}
+
+static void stop_itself(void)
+{
+    kill(getpid(), SIGSTOP);
+}
+
+static void kill_group(void)
+{
+    killpg(0, SIGHUP);
+}
+
+static void kill_thread(void)
+{
+    pthread_kill(pthread_self(), SIGUSR2);
+}
+
+static void round_up(void)
+{
+    fesetround(FE_UPWARD);
+}
+
+static void flush_to_zero(void)
+{
+    __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | 0x8040);
+}
+
+static void set_locale(void)
+{
+    setlocale(LC_ALL, "C.UTF-8");
+}
+
+static void change_folder(void)
+{
+    zero = chdir("/");
+}
+
+static void set_umask(void)
+{
+    umask(0177);
+}
+
+static void ignore_term(void)
+{
+    signal(SIGTERM, SIG_IGN);
+}
+
+static void set_action(void)
+{
+    sigaction(SIGINT, &(struct sigaction){.sa_handler = SIG_IGN}, NULL);
+}
+
+static void block_signals(void)
+{
+    sigset_t all;
+    sigfillset(&all);
+    pthread_sigmask(SIG_BLOCK, &all, NULL);
+}
+
+static void block_process(void)
+{
+    sigset_t all;
+    sigfillset(&all);
+    sigprocmask(SIG_BLOCK, &all, NULL);
+}
+
+static void take_stack(void)
+{
+    sigaltstack(&(stack_t){.ss_flags = SS_DISABLE}, NULL);
+}
+
+static void limit_files(void)
+{
+    setrlimit(RLIMIT_NOFILE, &(struct rlimit){64, 64});
+}
+
+static void limit_stack(void)
+{
+    prlimit(0, RLIMIT_STACK, &(struct rlimit){1 << 20, 1 << 20}, NULL);
+}
+
+static void be_nice(void)
+{
+    zero = nice(1);
+}
+
+static void lower_priority(void)
+{
+    setpriority(PRIO_PROCESS, 0, 1);
+}
+
+static void set_variable(void)
+{
+    setenv("MISDEED_WAS_HERE", "1", 1);
+}
+
+static void put_variable(void)
+{
+    static char variable[] = "MISDEED_WAS_HERE=1";
+    putenv(variable);
+}
+
+static void unset_variable(void)
+{
+    unsetenv("PATH");
+}
+
+static void clear_variables(void)
+{
+    clearenv();
+}
+
+static void close_output(void)
+{
+    close(STDOUT_FILENO);
+}
+
+static void close_input(void)
+{
+    close(STDIN_FILENO);
+}
+
+static void redirect(void)
+{
+    zero = dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
+}
+
+static void set_alarm(void)
+{
+    alarm(1000);
+}
+
+static void set_timer(void)
+{
+    setitimer(ITIMER_PROF, &(struct itimerval){.it_value = {.tv_sec = 1000}}, NULL);
+}
+
+static void make_timer(void)
+{
+    timer_t timer;
+    timer_create(CLOCK_MONOTONIC, NULL, &timer);
+}
+
+static void leave_session(void)
+{
+    setsid();
+}
+
+static void leave_group(void)
+{
+    setpgid(0, 0);
+}
+
+static void print(void)
+{
+    puts("here I am");
+}
+
+static void write_output(void)
+{
+    zero = (int)write(STDOUT_FILENO, "here I am\n", 10);
 }
 
 static void *wait_for_ever(void *nothing)
@@ -75,52 +397,182 @@ static void *wait_for_ever(void *nothing)
     return nothing;
 }
 
-static volatile int result; /* of calls that nobody asks for theirs */
+static void leave_thread(void)
+{
+    pthread_t thread;
+    zero = pthread_create(&thread, NULL, wait_for_ever, NULL);
+}
 
-/* Changes of what the whole process has. */
-static void change(const char *what)
+static void loop(void)
+{
+    while (!zero)
+        ;
+}
+
+static void hoard(void)
+{
+    for (size_t size = (size_t)1 << 24; (somewhere = malloc(size)) != NULL;)
+        memset(somewhere, 1, size);
+    abort();
+}
+
+/* libc's own function, past the definitions of the program. */
+static void *libc(const char *name)
+{
+    return dlsym(dlopen("libc.so.6", RTLD_NOW | RTLD_NOLOAD), name);
+}
+
+static void hide_umask(void)
+{
+    ((mode_t(*)(mode_t))(uintptr_t)libc("umask"))(0177);
+}
+
+static void hide_handler(void)
+{
+    ((__sighandler_t(*)(int, __sighandler_t))(uintptr_t)libc("signal"))(SIGTERM, SIG_IGN);
+}
+
+static void hide_mask(void)
 {
     sigset_t all;
-    pthread_t thread;
-    struct rlimit limit = {64, 64};
     sigfillset(&all);
-    if (!strcmp(what, "rounding"))
-        fesetround(FE_UPWARD);
-    if (!strcmp(what, "flush"))
-        __builtin_ia32_ldmxcsr(__builtin_ia32_stmxcsr() | 0x8040);
-    if (!strcmp(what, "locale"))
-        setlocale(LC_ALL, "C.UTF-8");
-    if (!strcmp(what, "folder"))
-        result = chdir("/");
-    if (!strcmp(what, "umask"))
-        umask(0177);
-    if (!strcmp(what, "handler"))
-        signal(SIGTERM, SIG_IGN);
-    if (!strcmp(what, "mask"))
-        pthread_sigmask(SIG_BLOCK, &all, NULL);
-    if (!strcmp(what, "stack"))
-        sigaltstack(&(stack_t){.ss_flags = SS_DISABLE}, NULL);
-    if (!strcmp(what, "close"))
-        close(STDOUT_FILENO);
-    if (!strcmp(what, "redirect"))
-        result = dup2(open("/dev/null", O_WRONLY), STDERR_FILENO);
-    if (!strcmp(what, "limit"))
-        setrlimit(RLIMIT_NOFILE, &limit);
-    if (!strcmp(what, "variable"))
-        setenv("MISDEED_WAS_HERE", "1", 1);
-    if (!strcmp(what, "clear"))
-        clearenv();
-    if (!strcmp(what, "timer"))
-        alarm(1000);
-    if (!strcmp(what, "child"))
-        result = system("true");
-    if (!strcmp(what, "thread"))
-        result = pthread_create(&thread, NULL, wait_for_ever, NULL);
-    if (!strcmp(what, "print"))
-        puts("here I am");
-    if (!strcmp(what, "write"))
-        result = (int)write(STDOUT_FILENO, "here I am\n", 10);
+    ((int (*)(int, const sigset_t *, sigset_t *))(uintptr_t)libc("sigprocmask"))(SIG_BLOCK, &all,
+                                                                                 NULL);
 }
+
+static void hide_stack(void)
+{
+    const stack_t none = {.ss_flags = SS_DISABLE};
+    ((int (*)(const stack_t *, stack_t *))(uintptr_t)libc("sigaltstack"))(&none, NULL);
+}
+
+static void hide_overflow(void)
+{
+    hide_stack();
+    overflow_stack();
+}
+
+static void hide_limit(void)
+{
+    const struct rlimit limit = {64, 64};
+    ((int (*)(int, const struct rlimit *))(uintptr_t)libc("setrlimit"))(RLIMIT_NOFILE, &limit);
+}
+
+static void hide_variable(void)
+{
+    ((int (*)(const char *, const char *, int))(uintptr_t)libc("setenv"))("MISDEED_WAS_HERE", "1",
+                                                                          1);
+}
+
+static void hide_clear(void)
+{
+    ((int (*)(void))(uintptr_t)libc("clearenv"))();
+}
+
+static void hide_close(void)
+{
+    ((int (*)(int))(uintptr_t)libc("close"))(STDOUT_FILENO);
+}
+
+static void hide_redirect(void)
+{
+    ((int (*)(int, int))(uintptr_t)libc("dup2"))(open("/dev/null", O_WRONLY), STDERR_FILENO);
+}
+
+static void hide_timer(void)
+{
+    ((unsigned (*)(unsigned))(uintptr_t)libc("alarm"))(1000);
+}
+
+static void hide_child(void)
+{
+    zero = ((int (*)(const char *))(uintptr_t)libc("system"))("true");
+}
+
+static const struct {
+    const char *name;
+    void (*commit)(void);
+} misdeeds[] = {
+    {"crash", write_null},
+    {"read-null", read_null},
+    {"null-call", call_null},
+    {"wild", write_wild},
+    {"constant", write_constant},
+    {"bus", touch_beyond_file},
+    {"illegal", run_illegal},
+    {"divide", divide},
+    {"trap", trap},
+    {"abort", abort},
+    {"complain", complain},
+    {"assert", fail_assertion},
+    {"free-twice", free_twice},
+    {"free-inside", free_inside},
+    {"overflow", overflow_stack},
+    {"exit", call_exit},
+    {"quick-exit", call_quick_exit},
+    {"_exit", call_underscore_exit},
+    {"_Exit", call_exit_of_c99},
+    {"exit-group", call_exit_group},
+    {"execl", call_execl},
+    {"execvp", call_execvp},
+    {"execve", call_execve},
+    {"thread-exit", exit_thread},
+    {"thread-crash", crash_in_thread},
+    {"thread-abort", abort_in_thread},
+    {"fork", call_fork},
+    {"vfork", call_vfork},
+    {"child", call_system},
+    {"popen", call_popen},
+    {"spawn", call_spawn},
+    {"raise", raise_term},
+    {"kill", kill_itself},
+    {"stop", stop_itself},
+    {"killpg", kill_group},
+    {"thread-kill", kill_thread},
+    {"rounding", round_up},
+    {"flush", flush_to_zero},
+    {"locale", set_locale},
+    {"folder", change_folder},
+    {"umask", set_umask},
+    {"handler", ignore_term},
+    {"action", set_action},
+    {"mask", block_signals},
+    {"process-mask", block_process},
+    {"stack", take_stack},
+    {"limit", limit_files},
+    {"stack-limit", limit_stack},
+    {"nice", be_nice},
+    {"priority", lower_priority},
+    {"variable", set_variable},
+    {"put-variable", put_variable},
+    {"unset-variable", unset_variable},
+    {"clear", clear_variables},
+    {"close", close_output},
+    {"close-input", close_input},
+    {"redirect", redirect},
+    {"timer", set_alarm},
+    {"interval", set_timer},
+    {"new-timer", make_timer},
+    {"session", leave_session},
+    {"group", leave_group},
+    {"print", print},
+    {"write", write_output},
+    {"thread", leave_thread},
+    {"loop", loop},
+    {"hoard", hoard},
+    {"hidden-umask", hide_umask},
+    {"hidden-handler", hide_handler},
+    {"hidden-mask", hide_mask},
+    {"hidden-stack", hide_stack},
+    {"hidden-overflow", hide_overflow},
+    {"hidden-limit", hide_limit},
+    {"hidden-variable", hide_variable},
+    {"hidden-clear", hide_clear},
+    {"hidden-close", hide_close},
+    {"hidden-redirect", hide_redirect},
+    {"hidden-timer", hide_timer},
+    {"hidden-child", hide_child},
+};
 
 /* Once in a process, which is enough. */
 static void misbehave(const char *where)
@@ -129,12 +581,13 @@ static void misbehave(const char *where)
     const char *misdeed = getenv("FLANKFILM_MISDEED");
     char begin[64];
     size_t length = (size_t)snprintf(begin, sizeof begin, "%s %s ", role, where);
-    if (!misdeed || strncmp(misdeed, begin, length) != 0)
+    if (!misdeed || strncmp(misdeed, begin, length) != 0 || done++)
         return;
-    if (done++)
-        return;
-    end(&misdeed[length]);
-    change(&misdeed[length]);
+    for (size_t i = 0; i < sizeof misdeeds / sizeof misdeeds[0]; i++)
+        if (!strcmp(&misdeed[length], misdeeds[i].name)) {
+            misdeeds[i].commit();
+            return;
+        }
 }
 
 __attribute__((constructor)) static void begin_object(void)
