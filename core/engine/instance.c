@@ -12,7 +12,7 @@
 /* Keeps why the call failed or warned. */
 static void explain(ff_instance *i)
 {
-    const ff_tables *tables = &i->object.tables;
+    const fe_tables *tables = &i->object.tables;
     const ff_message *said = ff_report_first(i->report);
     if (!said && ff_report_count(i->report))
         said = ff_report_at(i->report, 0);
@@ -20,7 +20,7 @@ static void explain(ff_instance *i)
         return;
     fe_engine_say(i->engine, i->report);
     if (tables->errors)
-        ff_tables_print(tables, i->reason, sizeof i->reason);
+        fe_tables_print(tables, i->reason, sizeof i->reason);
     else
         snprintf(i->reason, sizeof i->reason, "%s",
                  i->object.text[0] &&

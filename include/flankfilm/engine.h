@@ -523,10 +523,6 @@ void ff_value_clear(ff_value *value);
 /* What the row expects: 'a number with a unit such as "3 mm"'. */
 void ff_param_expectation(const ff_param *row, char *out, size_t size);
 
-/* Writes the value into the member that the row names by `place`; NULL: it was not given. Texts and
-   lists are not copied: they live until the instance is destroyed. */
-void ff_param_place(const ff_param *row, void *self, const ff_value *value);
-
 /*
  * A pipeline: the stages of one YAML file, their parameters, their wires, and their results.
  *
@@ -712,22 +708,6 @@ bool ff_pipeline_choose(ff_pipeline *pipeline, const ff_observer *observer, ff_r
 
 /* For `flankfilm verify`, which calls a model by itself to see what it does, and for handlers of
    crashes. */
-
-/* The tables that one instance of a model reads through flankfilm.table/1. Starts zeroed. */
-typedef struct ff_tables {
-    struct fe_kept_table *kept;
-    ff_report *errors; /* why the last call failed; NULL: it did not */
-    const char *item;  /* the item that the last call was about */
-} ff_tables;
-
-ff_status ff_tables_read(ff_tables *tables, const char *item, const char *path,
-                         const ff_param *rows, size_t count, size_t stride, const ff_table **table);
-/* FF_BUG for a table that was not read here. */
-ff_status ff_tables_fail(ff_tables *tables, const ff_table *table, size_t row, size_t column,
-                         const char *text);
-/* "load.csv:3:7: time must not decrease", of the first error. */
-void ff_tables_print(const ff_tables *tables, char *out, size_t size);
-void ff_tables_free(ff_tables *tables); /* all of it; may be used again */
 
 /* Which plugin's code is running, for handlers of crashes. Each thread knows its own: a thread that
    a plugin started knows nothing, and the one that waits for it has the answer. */

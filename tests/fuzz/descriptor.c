@@ -6,6 +6,7 @@
  */
 #include "fuzz.h"
 
+#include "../../core/engine/plugin/param.h"
 #include "../../core/engine/plugin/private.h"
 
 #include <math.h>
@@ -231,8 +232,8 @@ static void give_values(const ff_loaded *loaded, maker *m)
             if (row->place) {
                 void *self = calloc(1, loaded->model->self_size);
                 must(self != NULL);
-                ff_param_place(row, self, &value);
-                ff_param_place(row, self, NULL);
+                fe_param_place(row, self, &value);
+                fe_param_place(row, self, NULL);
                 free(self);
             }
             ff_value_clear(&value);

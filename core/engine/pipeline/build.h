@@ -38,7 +38,7 @@ typedef struct fe_instance {
     fe_resource open;             /* `self`, from create to destroy */
     bool no_memory;   /* a function of the host had none: the call is left when it returns */
     bool no_room;     /* the same for an output, which `text` names */
-    ff_tables tables; /* what it has read; their errors are reported before `text` */
+    fe_tables tables; /* what it has read; their errors are reported before `text` */
     fe_serving *servings;
     size_t serving_count;
     bool *read; /* by output row: what is requested depends on it; NULL before unread.c */

@@ -128,7 +128,7 @@ static bool check_outputs(const fe_call *call, ff_report *report)
 /* Reports the errors of a table that the model read. */
 static bool tell_table(const ff_stage *stage, ff_report *report)
 {
-    const ff_tables *tables = &stage->instance->tables;
+    const fe_tables *tables = &stage->instance->tables;
     char what[700];
     for (size_t i = 0; i < ff_report_count(tables->errors); i++) {
         const ff_message *m = ff_report_at(tables->errors, i);

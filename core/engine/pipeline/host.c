@@ -90,7 +90,7 @@ static ff_status protect(fe_instance *instance, void (*function)(void *ctx), voi
 }
 
 typedef struct table_call {
-    ff_tables *tables;
+    fe_tables *tables;
     const char *item, *text; /* the path, or what is wrong */
     const ff_param *rows;
     size_t count, stride;
@@ -102,7 +102,7 @@ typedef struct table_call {
 static void read_table(void *ctx)
 {
     table_call *call = ctx;
-    call->status = ff_tables_read(call->tables, call->item, call->text, call->rows, call->count,
+    call->status = fe_tables_read(call->tables, call->item, call->text, call->rows, call->count,
                                   call->stride, &call->table);
 }
 
@@ -124,7 +124,7 @@ static ff_status table_read(void *ctx, const char *item, const char *path, const
 static void fail_table(void *ctx)
 {
     table_call *call = ctx;
-    call->status = ff_tables_fail(call->tables, call->table, call->row, call->column, call->text);
+    call->status = fe_tables_fail(call->tables, call->table, call->row, call->column, call->text);
 }
 
 static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t column,

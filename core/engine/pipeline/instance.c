@@ -30,7 +30,7 @@ void fe_place_params(const ff_stage *stage)
     for (size_t i = 0; i < stage->loaded->model->param_count; i++) {
         const ff_bound *param = &stage->params[i];
         if (param->row->place)
-            ff_param_place(param->row, stage->instance->self,
+            fe_param_place(param->row, stage->instance->self,
                            param->present ? &param->value : NULL);
     }
 }
@@ -172,7 +172,7 @@ void fe_close_instance(ff_stage *stage)
         fe_close_instance(stage->choice->candidates[i].stage);
     fe_resource_remove(&instance->open);
     destroy(instance);
-    ff_tables_free(&instance->tables);
+    fe_tables_free(&instance->tables);
     fe_forget_servings(instance);
     instance->mark.services = NULL;
 }

@@ -20,4 +20,8 @@ fe_member fe_param_member(int32_t type);
 
 int fe_word_find(const char *words, const char *word); /* rank in "a|b|c"; -1: not there */
 
+/* Writes the value into the member that the row names by `place`; NULL: it was not given. Texts and
+   lists are not copied: they live until the instance is destroyed. */
+void fe_param_place(const ff_param *row, void *self, const ff_value *value);
+
 #endif

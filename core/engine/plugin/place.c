@@ -30,7 +30,7 @@ static void write(const ff_param *row, void *self, const void *value)
     memcpy((char *)self + row->place - 1, value, fe_param_member(row->type).size);
 }
 
-void ff_param_place(const ff_param *row, void *self, const ff_value *value)
+void fe_param_place(const ff_param *row, void *self, const ff_value *value)
 {
     static const ff_value not_given = {.real = NAN, .integer = -1};
     bool word = value && value->text && (row->type == FF_REAL || row->type == FF_INT);

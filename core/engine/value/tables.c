@@ -19,7 +19,7 @@ static void free_table(struct fe_kept_table *kept)
     fe_free(kept);
 }
 
-ff_status ff_tables_read(ff_tables *tables, const char *item, const char *path,
+ff_status fe_tables_read(fe_tables *tables, const char *item, const char *path,
                          const ff_param *rows, size_t count, size_t stride, const ff_table **table)
 {
     struct fe_kept_table *kept = fe_alloc(sizeof *kept);
@@ -43,7 +43,7 @@ ff_status ff_tables_read(ff_tables *tables, const char *item, const char *path,
     return ff_report_fault(report) == FF_FAULT_PLUGIN ? FF_BUG : FF_INVALID;
 }
 
-ff_status ff_tables_fail(ff_tables *tables, const ff_table *table, size_t row, size_t column,
+ff_status fe_tables_fail(fe_tables *tables, const ff_table *table, size_t row, size_t column,
                          const char *text)
 {
     fe_tables_forget(tables);
@@ -59,23 +59,23 @@ ff_status ff_tables_fail(ff_tables *tables, const ff_table *table, size_t row, s
     return FF_INVALID;
 }
 
-void ff_tables_print(const ff_tables *tables, char *out, size_t size)
+void fe_tables_print(const fe_tables *tables, char *out, size_t size)
 {
     ff_message_print(ff_report_at(tables->errors, 0), out, size);
 }
 
-void fe_tables_forget(ff_tables *tables)
+void fe_tables_forget(fe_tables *tables)
 {
     ff_report_free(tables->errors);
     tables->errors = NULL;
 }
 
-void ff_tables_free(ff_tables *tables)
+void fe_tables_free(fe_tables *tables)
 {
     fe_tables_forget(tables);
     for (struct fe_kept_table *kept = tables->kept, *next; kept; kept = next) {
         next = kept->next;
         free_table(kept);
     }
-    *tables = (ff_tables){.kept = NULL};
+    *tables = (fe_tables){.kept = NULL};
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Tables of numbers: what is read, and what is refused at which place. */
-#include <flankfilm/engine.h>
+#include "../../../core/engine/value/tables.h"
 
 #include "value-check.h"
 
@@ -348,29 +348,29 @@ END_TEST
 
 START_TEST(tables_of_an_instance)
 {
-    ff_tables tables = {.kept = NULL};
+    fe_tables tables = {.kept = NULL};
     const ff_table *first, *second, *third;
     char why[200], expected[200];
     write_bytes(HEAD "0, 1\n", strlen(HEAD) + 5);
-    ck_assert(ff_tables_read(&tables, "one", path, rows, COLUMNS, sizeof *rows, &first) == FF_OK);
+    ck_assert(fe_tables_read(&tables, "one", path, rows, COLUMNS, sizeof *rows, &first) == FF_OK);
     write_bytes(HEAD "0, 2\n1, 2\n", strlen(HEAD) + 10);
-    ck_assert(ff_tables_read(&tables, "two", path, rows, COLUMNS, sizeof *rows, &second) == FF_OK);
+    ck_assert(fe_tables_read(&tables, "two", path, rows, COLUMNS, sizeof *rows, &second) == FF_OK);
     ck_assert(first->row_count == 1 && second->row_count == 2 && !tables.errors);
-    ck_assert(ff_tables_read(&tables, "none", "/no/such/file", rows, COLUMNS, sizeof *rows,
+    ck_assert(fe_tables_read(&tables, "none", "/no/such/file", rows, COLUMNS, sizeof *rows,
                              &third) == FF_INVALID);
     ck_assert(!third && tables.errors && !strcmp(tables.item, "none"));
-    ck_assert(ff_tables_fail(&tables, first, 0, ANGLE, "too small") == FF_INVALID);
-    ff_tables_print(&tables, why, sizeof why);
+    ck_assert(fe_tables_fail(&tables, first, 0, ANGLE, "too small") == FF_INVALID);
+    fe_tables_print(&tables, why, sizeof why);
     snprintf(expected, sizeof expected, "%s:2:4: too small", path);
     ck_assert_str_eq(why, expected);
     ck_assert_str_eq(tables.item, "one");
-    ck_assert(ff_tables_fail(&tables, second, 7, 99, "all of it") == FF_INVALID);
-    ff_tables_print(&tables, why, sizeof why);
+    ck_assert(fe_tables_fail(&tables, second, 7, 99, "all of it") == FF_INVALID);
+    fe_tables_print(&tables, why, sizeof why);
     snprintf(expected, sizeof expected, "%s: all of it", path);
     ck_assert_str_eq(why, expected);
-    ck_assert(ff_tables_fail(&tables, &(ff_table){.size = 0}, 0, 0, "whose?") == FF_BUG);
+    ck_assert(fe_tables_fail(&tables, &(ff_table){.size = 0}, 0, 0, "whose?") == FF_BUG);
     ck_assert(!tables.errors);
-    ff_tables_free(&tables);
+    fe_tables_free(&tables);
 }
 END_TEST
 
