@@ -130,7 +130,8 @@ counts = collections.Counter()
 
 
 def run(misdeed, *args):
-    environment = dict(os.environ, FLANKFILM_MISDEED=misdeed, FLANKFILM_PLUGIN_PATH=plugins)
+    limit = {"FLANKFILM_VERIFY_LIMIT": "2"} if misdeed.endswith(" stop") else {}  # s for each of its tests
+    environment = dict(os.environ, **limit, FLANKFILM_MISDEED=misdeed, FLANKFILM_PLUGIN_PATH=plugins)
     return subprocess.run([flankfilm, *args], env=environment, capture_output=True, text=True, timeout=120)
 
 
@@ -171,7 +172,8 @@ def all_in(words, text):
 
 def values(table):
     """The columns of a study's table that hold numbers of the case."""
-    return [line.split(",")[:5] for line in table.splitlines()]
+    rows = [line.split(",")[:5] for line in table.splitlines()]
+    return rows[:1] + [row[:4] + [round(float(row[4] or "nan"), 12)] for row in rows[1:] if len(row) == 5]
 
 
 def is_told(role, place, what, command, done, directory):
@@ -184,7 +186,7 @@ def is_told(role, place, what, command, done, directory):
         return "2 failed" in done.stdout and all(table.count(word) == 2 for word in words)
     if command == "verify":  # which calls laws past the engine, and sees what has come of it
         said = [line for line in done.stdout.split("\n") if line.startswith("# faulty: ")]
-        came = ["crashed while", "ended the program", "started another process", "changed", "closed or replaced", "set a timer"]
+        came = ["crashed while", "ended the program", "started another process", "changed", "closed or replaced", "set a timer", "took", "hang"]
         if place == "eval" and what in UNDONE:
             return done.returncode == 0
         return done.returncode == 3 and any(words[-1].split(": ")[-1] in line or any(word in line for word in came) for line in said)
@@ -193,7 +195,7 @@ def is_told(role, place, what, command, done, directory):
 
 def is_right(what, command, done, directory):
     """The answer is that of a run without a misdeed, where it is said to be."""
-    if what == "hidden-close":  # nothing can be written then, which is said; by whom, nobody knows
+    if what == "hidden-close" and done.returncode != 0:  # nothing can be written then; who did it, nobody knows
         return done.returncode == 1 and "the output could not be written" in done.stderr
     if command == "json":
         return done.returncode == 0 and answer(done).get("outputs") == answers["json"]

@@ -14,12 +14,9 @@ static void destroy(void *of)
     const ff_model *model = instance->created ? stage->loaded->model : NULL;
     if (model && model->destroy) {
         fe_serial_enter(instance->alone);
-        ff_environment environment;
-        ff_environment_keep(&environment);
         ff_guard_mark previous = fe_enter_model(stage, "destroy");
         model->destroy(instance->self);
         fe_guard_leave(previous);
-        ff_environment_restore(&environment); /* the next case is to be as if alone */
         fe_serial_leave(instance->alone);
     }
     instance->created = instance->alive = false;
