@@ -270,6 +270,10 @@ def never_ends(role, place, what, says):
 def refuses_places():
     done = run("law eval status -77", "run", "case.yaml")
     hold("-77 in a stage", done.returncode == 3 and all_in([FILES["law"], "unknown status -77"], done.stderr), done.stderr)
+    os.makedirs("near/viscosity")
+    os.symlink(FILES["law"], "near/viscosity/misdeed.so")
+    done = run("law constructor folder", "run", "case.yaml", "--plugin-path", "near")
+    hold("a folder, by a relative path", done.returncode == 0 and "changed the working directory" in done.stderr, done.stderr)
     done = run("", "run", "case.yaml", "--plugin-path", "nowhere")
     hold("no such folder", done.returncode == 2 and "there is no directory nowhere" in done.stderr, done.stderr)
     done = run("", "run", "case.yaml", "--set", "viscosity.use=viscosity/quixotic-zz")

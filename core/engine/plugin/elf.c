@@ -72,11 +72,12 @@ bool fe_elf_check(const char *path, fe_object_file *checked, char *why, size_t w
     return !fault;
 }
 
-bool fe_elf_is_same(const char *path, const fe_object_file *checked)
+bool fe_elf_is_same(int folder, const char *path, const fe_object_file *checked)
 {
     const struct stat *then = &checked->status;
     struct stat now;
-    return stat(path, &now) == 0 && now.st_dev == then->st_dev && now.st_ino == then->st_ino &&
-           now.st_size == then->st_size && now.st_mtim.tv_sec == then->st_mtim.tv_sec &&
+    return fstatat(folder, path, &now, 0) == 0 && now.st_dev == then->st_dev &&
+           now.st_ino == then->st_ino && now.st_size == then->st_size &&
+           now.st_mtim.tv_sec == then->st_mtim.tv_sec &&
            now.st_mtim.tv_nsec == then->st_mtim.tv_nsec;
 }

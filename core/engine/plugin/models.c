@@ -6,6 +6,7 @@
 
 #include <dlfcn.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <libintl.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -104,9 +105,13 @@ static void open_object(void *ctx)
     fe_object_file file;
     if (!fe_elf_check(l->loaded->path, &file, l->why, sizeof l->why))
         return;
+    int folder = open(".", O_PATH | O_DIRECTORY | O_CLOEXEC); /* a constructor may leave it */
     void *object = open_file(l->loaded->path, l->why, sizeof l->why);
     l->loaded->build = file.hash;
-    if (object && !fe_elf_is_same(l->loaded->path, &file)) {
+    bool same = fe_elf_is_same(folder < 0 ? AT_FDCWD : folder, l->loaded->path, &file);
+    if (folder >= 0)
+        close(folder);
+    if (object && !same) {
         snprintf(l->why, sizeof l->why, "was replaced while it was loaded; run the command again");
         return;
     }

@@ -18,8 +18,9 @@ typedef struct fe_object_file {
    plugin x.so ...'. */
 bool fe_elf_check(const char *path, fe_object_file *checked, char *why, size_t why_size);
 
-/* Whether the path still names the file that was checked, unchanged. */
-bool fe_elf_is_same(const char *path, const fe_object_file *checked);
+/* Whether the path, seen from the folder of that descriptor, still names the file that was checked,
+   unchanged. */
+bool fe_elf_is_same(int folder, const char *path, const fe_object_file *checked);
 
 /* The model of that id that the object exports: NULL where its only one is. On failure false, and
    `why` is a clause that completes 'the plugin x.so ...'. */
