@@ -4,11 +4,13 @@
   python3 tests/circles BUILD
 
 One file uses another when it needs a function or a variable that the other defines, as `nm` reads it from the objects of
-the build. A folder uses another when one of its files does, or includes one of its headers. The folders of the engine
-use each other in one direction alone: that is asked for by name, too.
+the build; a function that libc has, too, is libc's, also where the program defines it for plugins. A folder uses another
+when one of its files does, or includes one of its headers. The folders of the engine use each other in one direction
+alone: that is asked for by name, too.
 """
 
 import collections
+import ctypes
 import json
 import re
 import subprocess
@@ -33,6 +35,7 @@ def find_objects(build):
 def read_symbols(objects):
     """{name: the file that defines it}, {file: names that it needs}"""
     files = {str(path): file for file, path in objects.items()}
+    libc = ctypes.CDLL('libc.so.6')
     defined, needed = {}, collections.defaultdict(set)
     output = subprocess.run(['nm', '-A', '-g', '-P', *files], check=True, capture_output=True, text=True).stdout
     for line in output.splitlines():
@@ -40,7 +43,7 @@ def read_symbols(objects):
         file = files[path.rstrip(':')]
         if kind == 'U':
             needed[file].add(name)
-        else:
+        elif not hasattr(libc, name):
             defined[name] = file
     return defined, needed
 

@@ -13,7 +13,7 @@ static bool write_at(int fd, const void *data, size_t size, off_t at)
     const char *from = data;
     while (size > 0) {
         ssize_t written = pwrite(fd, from, size, at);
-        if (written < 0 && errno != EINTR)
+        if (written == 0 || (written < 0 && errno != EINTR))
             return false;
         from += written > 0 ? written : 0;
         at += written > 0 ? written : 0;

@@ -128,9 +128,12 @@ study_judgement study_judge_record(const json_t *record)
     json_t *lines, *line;
     json_object_foreach(json_object_get(record, "quality"), stage, lines)
         json_object_foreach(lines, name, line)
-            add_doubt(&all, name, number_of(json_array_get(line, 0)),
-                      number_of(json_array_get(line, 1)),
-                      (int)json_integer_value(json_array_get(line, 2)));
+    {
+        json_int_t verdict = json_integer_value(json_array_get(line, 2));
+        bool known = verdict >= FF_GOOD && verdict <= FF_BAD; /* to this version */
+        add_doubt(&all, name, number_of(json_array_get(line, 0)),
+                  number_of(json_array_get(line, 1)), known ? (int)verdict : FF_BAD);
+    }
     json_t *warning;
     size_t i;
     json_array_foreach(json_object_get(record, "warnings"), i, warning)
