@@ -448,6 +448,10 @@ bool ff_tree_set(ff_tree *tree, const char *assignment, const ff_place *path, co
 /* The words that may stand at the top of a file: "format", "title", ...; NULL-terminated. */
 const char *const *ff_file_keys(void);
 
+/* Gives a plain value another one in its place, in the layer that it has; its place in the file is
+   forgotten. False: the value or what the path leads to is none, and the tree is as before. */
+bool ff_tree_change(ff_tree *tree, const char *assignment);
+
 /* Puts a copy of a node of the tree, places and all, under a key of its root. */
 void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node);
 
@@ -617,6 +621,15 @@ struct ff_pipeline {
  */
 ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool everything,
                                ff_report *report);
+
+/*
+ * Goes on with other values: "stage.parameter=value", which change the tree that the pipeline was
+ * built from, too. All objects are made anew, and the pipeline is as one built from that tree.
+ * False: an assignment says something else than a plain value of a parameter that had one, or it is
+ * worth a message; then the pipeline is of no more use, and building another one says why.
+ */
+bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const *assignments,
+                        size_t count);
 
 /* Runs what is needed; observer may be NULL. False when a stage failed: the report says why, and
    the results so far stay readable. */

@@ -172,6 +172,52 @@ bool ff_tree_set(ff_tree *tree, const char *assignment, const ff_place *path, co
     return apply(&w, source, at, end, value);
 }
 
+/* The node behind the words up to `end`; NULL: there is none. */
+static ff_node *find(ff_tree *tree, const char *at, const char *end)
+{
+    walk w = {.tree = tree, .slot = &tree->root};
+    for (bool last = false; !last; at++) {
+        const char *stop = at + word_length(&w, at, end);
+        char *word = fe_copy_text(at, (size_t)(stop - at));
+        size_t index = (*w.slot)->kind == FF_MAP ? fe_map_find(*w.slot, word) : 0;
+        fe_free(word);
+        if ((*w.slot)->kind != FF_MAP || index == (*w.slot)->count)
+            return NULL;
+        w.slot = &(*w.slot)->items[index];
+        last = stop == end;
+        at = stop;
+    }
+    return *w.slot;
+}
+
+static bool is_plain(const ff_node *node)
+{
+    return node && node->kind == FF_SCALAR && !fe_node_is_empty(node);
+}
+
+bool ff_tree_change(ff_tree *tree, const char *assignment)
+{
+    size_t length = strlen(assignment);
+    if (length > FE_MOST_TEXT || !strchr(assignment, '='))
+        return false;
+    const ff_source *source = fe_tree_source(tree, "--set", ".", assignment, length);
+    const char *equals = strchr(source->text, '=');
+    ff_report *unused = ff_report_new();
+    char *whole =
+        fe_print_text("%s%s", strncmp(assignment, "pipeline.", 9) ? "pipeline." : "", source->text);
+    ff_node *node = find(tree, whole, strchr(whole, '='));
+    const ff_node *value = is_plain(node) ? read_value(tree, source, equals, unused) : NULL;
+    bool good = is_plain(value) && ff_report_count(unused) == 0;
+    if (good) {
+        node->text = value->text;
+        node->quoted = value->quoted;
+        node->place = value->place;
+    }
+    fe_free(whole);
+    ff_report_free(unused);
+    return good;
+}
+
 void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node)
 {
     ff_node *root = tree->root, *copy = fe_node_copy(tree, node);

@@ -67,13 +67,77 @@ ff_tree *study_case_tree(const char *file)
     return tree;
 }
 
-void study_case_open(study_case *c, const study_run *run, size_t index)
+void study_kept_free(study_kept *kept)
+{
+    ff_pipeline_free(kept->pipeline);
+    ff_tree_free(kept->tree);
+    *kept = (study_kept){.pipeline = NULL};
+}
+
+/* Whether one path leads to the other, or both to one place: then their order counts. */
+static bool paths_meet(const char *one, const char *other)
+{
+    static const char top[] = "pipeline.";
+    one += strncmp(one, top, sizeof top - 1) ? 0 : sizeof top - 1;
+    other += strncmp(other, top, sizeof top - 1) ? 0 : sizeof top - 1;
+    size_t a = strlen(one), b = strlen(other), shorter = a < b ? a : b;
+    return !strncmp(one, other, shorter) && (a == b || (a < b ? other : one)[shorter] == '.');
+}
+
+/* Lists what differs between two cases; false where that is more than values. */
+static bool list_changes(const study_definition *study, size_t from, size_t to, const char **list,
+                         size_t *count)
+{
+    *count = 0;
+    for (size_t k = 0; k < study->varied_count; k++) {
+        const char *old = study_assignment(study, k, from), *now = study_assignment(study, k, to);
+        for (size_t l = 0; l < k; l++)
+            if (paths_meet(study->varied[k].path, study->varied[l].path))
+                return false;
+        if (!strcmp(old, now))
+            continue;
+        if (!*old || !*now || is_file(old) || is_file(now))
+            return false;
+        list[(*count)++] = now;
+    }
+    return true;
+}
+
+/* Goes on with the pipeline of the case before; false when there is none, or it will not do. */
+static bool take_kept(study_case *c, const study_run *run, size_t index, study_kept *kept)
+{
+    enum { MOST_CHANGES = 200 };
+    const study_definition *study = run->study;
+    size_t count;
+    if (!kept->pipeline)
+        return false;
+    const char **changes = memory_alloc((study->varied_count + 1) * sizeof *changes);
+    bool good = kept->changes < MOST_CHANGES &&
+                list_changes(study, kept->index, index, changes, &count) &&
+                ff_pipeline_change(kept->pipeline, kept->tree, changes, count);
+    free(changes);
+    if (!good) {
+        study_kept_free(kept);
+        return false;
+    }
+    c->tree = kept->tree;
+    c->pipeline = kept->pipeline;
+    kept->tree = NULL;
+    kept->pipeline = NULL;
+    kept->changes++;
+    return true;
+}
+
+void study_case_open(study_case *c, const study_run *run, size_t index, study_kept *kept)
 {
     const study_definition *study = run->study;
-    *c = (study_case){.report = ff_report_new()};
-    c->tree = run->tree ? ff_tree_copy(run->tree) : ff_tree_load(run->file, c->report);
-    study_overlay(study, index, run->sets, run->set_count, c->tree, c->report);
-    c->pipeline = ff_pipeline_build(c->tree, run->engine, false, c->report);
+    bool keeps = kept && run->tree && !study->measure && study_chain_length(study) == 1;
+    *c = (study_case){.report = ff_report_new(), .kept = keeps ? kept : NULL, .index = index};
+    if (!keeps || !take_kept(c, run, index, kept)) {
+        c->tree = run->tree ? ff_tree_copy(run->tree) : ff_tree_load(run->file, c->report);
+        study_overlay(study, index, run->sets, run->set_count, c->tree, c->report);
+        c->pipeline = ff_pipeline_build(c->tree, run->engine, false, c->report);
+    }
     uint64_t fingerprint = hash_assignments(study, index);
     if (study_case_is_good(c)) {
         study_measure_want(study, c->pipeline);
@@ -87,8 +151,17 @@ void study_case_open(study_case *c, const study_run *run, size_t index)
 
 void study_case_close(study_case *c)
 {
-    ff_pipeline_free(c->pipeline);
-    ff_tree_free(c->tree);
+    /* what was said of a stage that does not change would not be said again */
+    if (c->kept && c->pipeline && ff_report_count(c->report) == 0) {
+        c->kept->tree = c->tree;
+        c->kept->pipeline = c->pipeline;
+        c->kept->index = c->index;
+    } else {
+        ff_pipeline_free(c->pipeline);
+        ff_tree_free(c->tree);
+        if (c->kept)
+            c->kept->changes = 0;
+    }
     ff_report_free(c->report);
     free(c->fingerprints);
 }

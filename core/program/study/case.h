@@ -55,6 +55,17 @@ struct study_case;
 bool study_arrays_keep(study_arrays *arrays, const struct study_case *c, json_t *record);
 
 /* case.c */
+/* The pipeline of the last case, which the next one goes on with where they differ in plain values.
+   Starts zeroed. */
+typedef struct study_kept {
+    ff_tree *tree;
+    ff_pipeline *pipeline; /* NULL: there is none */
+    size_t index;          /* of that case */
+    size_t changes;        /* since it was built: its memory grows by each */
+} study_kept;
+
+void study_kept_free(study_kept *kept);
+
 typedef struct study_memory { /* what a worker keeps from case to case */
     int directory; /* descriptor of the directory with results of stages; -1 when none is kept */
     study_reuse_stats *stats;
@@ -62,9 +73,12 @@ typedef struct study_memory { /* what a worker keeps from case to case */
     json_t *seen; /* {stage, model and build: true} of the setups that a record of this worker
                      describes */
     json_t *said; /* the forms that its records have said */
+    study_kept kept;
 } study_memory;
 
 typedef struct study_case {
+    study_kept *kept; /* where its pipeline goes when it is closed; NULL: nowhere */
+    size_t index;
     ff_report *report;
     ff_tree *tree;
     ff_pipeline *pipeline; /* may be NULL after errors */
@@ -77,7 +91,8 @@ typedef struct study_case {
 /* Reads the file of a study for its cases; NULL when there is anything to say of it, which is said
    of each case then. */
 ff_tree *study_case_tree(const char *file);
-void study_case_open(study_case *c, const study_run *run, size_t index);
+/* `kept` may be NULL. */
+void study_case_open(study_case *c, const study_run *run, size_t index, study_kept *kept);
 void study_case_close(study_case *c);
 json_t *study_case_set(const study_definition *study, size_t index); /* {path: value} */
 bool study_case_is_good(const study_case *c);                        /* whether it can be run */

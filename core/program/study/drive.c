@@ -316,7 +316,7 @@ static bool open_cases(const study_context *context, const study_run *run)
         if (context->repeats[i] > 0 || (wrong.source && wrong.source == place.source &&
                                         wrong.line == place.line && wrong.column == place.column))
             continue;
-        study_case_open(&c, run, i);
+        study_case_open(&c, run, i, NULL);
         if (!study_case_is_good(&c)) {
             char *why = study_first_error(c.report);
             good = ff_error(context->report, FF_FAULT_INPUT, place, NULL, "%s: %s: %s",

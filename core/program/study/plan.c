@@ -22,6 +22,7 @@ typedef struct survey {
     study_records *records;
     earlier_case *earlier; /* sorted; made when a case is found whose key has changed */
     size_t earlier_count;
+    study_kept kept;
     double spent;
     size_t timed;
 } survey;
@@ -115,7 +116,7 @@ static void count_case(survey *s, study_chain *chain, size_t index)
     enum { TIMED = 10000 }; /* records that are looked at for how long a case takes */
     study_plan *plan = s->plan;
     study_case c;
-    study_case_open(&c, s->run, index);
+    study_case_open(&c, s->run, index, &s->kept);
     study_chain_enter(chain, s->run->study, &c);
     enum study_state state = study_records_state(s->records, c.key);
     bool read = state != STUDY_UNKNOWN && (c.states || s->timed < TIMED);
@@ -157,6 +158,7 @@ void study_preview(const study_run *given, study_plan *plan)
         plan->seconds = s.spent / (double)s.timed * (double)plan->left /
                         fmax(1, fmin((double)run->jobs, (double)chains));
     study_chain_free(&chain);
+    study_kept_free(&s.kept);
     study_records_close(s.records);
     free(s.earlier);
     ff_tree_free(tree);

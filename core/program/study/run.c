@@ -308,6 +308,7 @@ static void find_keys(execution *r)
 {
     const study_run *run = r->run;
     study_chain chain = {0};
+    study_kept kept = {0};
     size_t length = study_chain_length(run->study);
     for (size_t i = 0; i < run->study->count; i++) {
         size_t index = study_chain_case(run->study, i / length, i % length);
@@ -315,7 +316,7 @@ static void find_keys(execution *r)
         if (i % length == 0)
             study_chain_begin(&chain, i / length);
         if (!r->keys[index][0]) {
-            study_case_open(&c, run, index);
+            study_case_open(&c, run, index, &kept);
             study_chain_enter(&chain, run->study, &c);
             memcpy(r->keys[index], c.key, sizeof c.key);
             study_case_close(&c);
@@ -323,6 +324,7 @@ static void find_keys(execution *r)
         memcpy(chain.key, r->keys[index], sizeof chain.key);
     }
     study_chain_free(&chain);
+    study_kept_free(&kept);
 }
 
 /* Ends the run in the leading process when all cases are answered. */

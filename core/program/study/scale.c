@@ -39,7 +39,7 @@ void study_scale_parameters(study_context *context, size_t number, const char *c
     study_run run = *context->run;
     study_case c;
     run.study = &context->list;
-    study_case_open(&c, &run, number);
+    study_case_open(&c, &run, number, NULL);
     bool good = study_case_is_good(&c);
     for (size_t k = 0; k < count; k++) {
         size_t param = SIZE_MAX;

@@ -97,7 +97,7 @@ static void reach_case(study_chain *chain, const study_run *run, size_t index, s
         study_chain_begin(chain, number);
     while (chain->position < position) {
         study_case c;
-        study_case_open(&c, run, study_chain_case(run->study, number, chain->position));
+        study_case_open(&c, run, study_chain_case(run->study, number, chain->position), NULL);
         study_chain_enter(chain, run->study, &c);
         json_t *record = study_records_get(done, c.key);
         study_chain_pass(chain, &c, record);
@@ -111,7 +111,7 @@ static bool run_case(const study_worker *worker, const study_run *run, size_t in
 {
     study_case c;
     reach_case(chain, run, index, done);
-    study_case_open(&c, run, index);
+    study_case_open(&c, run, index, &memory->kept);
     study_chain_enter(chain, run->study, &c);
     memcpy(worker->shared->key, c.key, sizeof c.key);
     char *line = NULL;

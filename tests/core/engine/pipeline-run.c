@@ -47,6 +47,37 @@ static void results(void)
     try_close(&a);
 }
 
+/* A pipeline that goes on with other values answers as one that is built with them, and from
+   objects of its own; what is no plain value of a parameter needs another pipeline. */
+static void changes(void)
+{
+    static const char *const values[] = {"one.level=3 mm", "pipeline.law.gain=5"};
+    static const char *const others[] = {
+        "one.level=[1 mm]",     "one.use=toy/law", "one.levels=1 mm",
+        "none.level=1 mm",      "sum.source=one",  "one.level=",
+        "one.level=3 furlongs", "title=x",         "one.level"};
+    attempt a = try_run("pipeline:\n"
+                        "  one: {use: toy/source, level: 2 mm, count: 5}\n"
+                        "  sum: {use: toy/consumer, source: one}\n"
+                        "  law: {use: toy/law, gain: 3}\n"
+                        "  user: {use: toy/user}\n"
+                        "outputs: [sum.sum, one.evaluations, user.value]\n");
+    check_good("a run before the change", &a);
+    check_true("other values", ff_pipeline_change(a.pipeline, a.tree, values, 2) &&
+                                   ff_pipeline_run(a.pipeline, NULL, a.report));
+    check_near("what the changed one feeds", try_scalar(&a, "sum", "sum"), 0.015, 1e-15);
+    check_true("its service", try_scalar(&a, "user", "value") == 10);
+    check_true("all objects are new", try_scalar(&a, "one", "evaluations") == 1);
+    try_close(&a);
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        a = try_build("pipeline: {one: {use: toy/source, level: 2 mm}, sum: {use: toy/consumer, "
+                      "source: one}}\noutputs: [sum.sum]\n",
+                      false);
+        check_true(others[i], !ff_pipeline_change(a.pipeline, a.tree, &others[i], 1));
+        try_close(&a);
+    }
+}
+
 /* toy/wide gives each output its rank, and the last one the number of those wanted. */
 static void many_outputs(void)
 {
@@ -189,6 +220,7 @@ static void watched(void)
 int main(void)
 {
     results();
+    changes();
     many_outputs();
     shapes();
     lengths_of_inputs();

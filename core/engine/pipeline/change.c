@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: MIT */
+/* A pipeline that goes on with other values of parameters: its stages and wires stay. */
+#include "build.h"
+
+#include <string.h>
+
+/* The stage whose parameter the assignment gives; NULL: it says something else. */
+static ff_stage *find_target(const ff_pipeline *pipeline, const char *assignment)
+{
+    static const char top[] = "pipeline.";
+    const char *name, *equals = strchr(assignment, '=');
+    if (!equals)
+        return NULL;
+    if (!strncmp(assignment, top, sizeof top - 1))
+        assignment += sizeof top - 1;
+    char *path = fe_copy_text(assignment, (size_t)(equals - assignment));
+    ff_stage *stage = ff_stage_of(pipeline, path, &name);
+    bool fits = stage && stage->needed && stage->loaded &&
+                ff_model_find_param(stage->loaded->model, name) >= 0;
+    fe_free(path);
+    return fits ? stage : NULL;
+}
+
+/* What a run may leave behind: choices, and outputs that were refused. */
+static bool is_as_built(const ff_pipeline *pipeline)
+{
+    bool good = true;
+    for (size_t i = 0; i < pipeline->count && good; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        good = !stage->choice;
+        for (size_t k = 0; good && stage->needed && k < stage->loaded->model->output_count; k++)
+            good = !stage->results[k].refused;
+    }
+    return good;
+}
+
+static void bind_anew(fe_build *b, ff_stage *stage)
+{
+    for (size_t i = 0; i < stage->loaded->model->param_count; i++) {
+        ff_value_clear(&stage->params[i].value);
+        ff_value_clear(&stage->params[i].first);
+    }
+    fe_bind_stage(b, stage);
+}
+
+/* Makes all objects anew: none remembers the case before. */
+static void open_anew(fe_build *b, const bool *changed)
+{
+    ff_pipeline *pipeline = b->pipeline;
+    for (size_t i = pipeline->count; i-- > 0;) {
+        ff_stage *stage = &pipeline->stages[pipeline->order[i]];
+        fe_close_instance(stage);
+        stage->instance->self = NULL;
+    }
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (changed[i])
+            bind_anew(b, &pipeline->stages[i]);
+    for (size_t i = 0; i < pipeline->count && ff_report_errors(b->report) == 0; i++) {
+        ff_stage *stage = &pipeline->stages[pipeline->order[i]];
+        if (stage->params)
+            fe_open_instance(b, stage);
+    }
+}
+
+bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const *assignments,
+                        size_t count)
+{
+    const ff_node *root = ff_tree_root(tree);
+    bool *changed = fe_alloc((pipeline->count + 1) * sizeof *changed);
+    bool good = is_as_built(pipeline);
+    for (size_t i = 0; i < count && good; i++) {
+        const ff_stage *stage = find_target(pipeline, assignments[i]);
+        good = stage && ff_tree_change(tree, assignments[i]);
+        if (good)
+            changed[stage - pipeline->stages] = true;
+    }
+    if (good) {
+        fe_build b = {.pipeline = pipeline,
+                      .engine = pipeline->memory->engine,
+                      .report = ff_report_new(),
+                      .file_rank = root->rank,
+                      .accuracy = ff_node_get(root, "accuracy")};
+        fe_folder_keep(&pipeline->memory->folder);
+        open_anew(&b, changed);
+        fe_check_unread(&b, ff_node_get(root, "outputs"));
+        good = ff_report_count(b.report) == 0;
+        ff_report_free(b.report);
+    }
+    fe_free(changed);
+    return good;
+}
