@@ -71,6 +71,24 @@ for how in 'work: 60 s/, time_limit: 1 s' 'work: 0 s/'; do
     rm child
 done
 
+# a limit below what the program itself takes would fail every case
+write_study little 'work: 0 s' ', memory_limit: 8'
+code=0
+"$flankfilm" run little.yaml -o little >said 2>&1 || code=$?
+[ "$code" -eq 2 ]
+grep -q '^little.yaml:4:.*expected a number of MiB for each worker, 16 at least' said
+
+# its directory removed while it runs
+write_study removed 'work: 1 s' ''
+"$flankfilm" run removed.yaml -o removed -j1 >said 2>&1 &
+run=$!
+wait_for removed/study.json
+rm -r removed
+code=0
+wait "$run" || code=$?
+[ "$code" -eq 1 ]
+grep -q 'the directory was removed while the study ran, and its journal with it' said
+
 # what a killed run had begun to write is gone after the next one, and a missing example is named
 touch limit-10/study.json.7.part limit-10/table.csv.12345.part limit-10/own.part
 "$flankfilm" run limit.yaml -o limit-10 -j1 >said 2>&1
