@@ -186,7 +186,7 @@ def is_told(role, place, what, command, done, directory):
         return "2 failed" in done.stdout and all(table.count(word) == 2 for word in words)
     if command == "verify":  # which calls laws past the engine, and sees what has come of it
         said = [line for line in done.stdout.split("\n") if line.startswith("# faulty: ")]
-        came = ["crashed while", "ended the program", "started another process", "changed", "closed or replaced", "set a timer", "took", "hang"]
+        came = ["crashed while", "ended the program", "started another process", "changed", "closed or replaced", "set a timer", "took", "hung while"]
         if place == "eval" and what in UNDONE:
             return done.returncode == 0
         return done.returncode == 3 and any(words[-1].split(": ")[-1] in line or any(word in line for word in came) for line in said)

@@ -159,6 +159,11 @@ static ff_status starve(void)
     return FF_OK;
 }
 
+__attribute__((no_sanitize("undefined"))) static void write_nowhere(const wave *w)
+{
+    *w->nowhere = 1;
+}
+
 static ff_status judge(const wave *w)
 {
     const ff_host *host = w->host;
@@ -174,7 +179,7 @@ static ff_status judge(const wave *w)
     if (w->end == CRASH)
         abort();
     if (w->end == SEGV)
-        *w->nowhere = 1;
+        write_nowhere(w);
     if (w->end == EAT)
         return eat(w);
     if (w->end == FAIL)
