@@ -11,7 +11,7 @@ shift 2
 
 mkdir -p "$work/$target" "$work/toys/toy" "tests/fuzz/found/$target"
 case $target in
-study) more='core/engine/*.c core/program/study/*.c core/program/memory/*.c' libraries='-ljansson' ;;
+study) more='core/engine/*.c core/program/study/*.c core/program/arrays/*.c core/program/memory/*.c' libraries='-ljansson' ;;
 *) more='' libraries='' ;;
 esac
 flags="-g -O1 -std=c11 -D_GNU_SOURCE -Iinclude"
@@ -24,7 +24,7 @@ clang $flags -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined
 if [ "$target" = bind ] || [ "$target" = study ]; then
     for toy in tests/bad/plugins/toy/*.c; do
         # shellcheck disable=SC2086
-        clang $flags -fPIC -shared -fvisibility=hidden "$toy" \
+        clang $flags -DSIDE='"mutual"' -fPIC -shared -fvisibility=hidden "$toy" \
             -o "$work/toys/toy/$(basename "$toy" .c).so"
     done
 fi
