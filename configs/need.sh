@@ -18,7 +18,7 @@ if [ "${1:-}" = test ]; then
     # NetCDF as users read it, and a browser for the report
     packages="$packages python3-xarray python3-netcdf4 chromium"
     # the examples in other languages
-    packages="$packages python3-numpy octave octave-netcdf"
+    packages="$packages python3-numpy python3-scipy octave octave-netcdf"
 fi
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

@@ -356,7 +356,8 @@ def test_read_only():
 
 
 def test_examples():
-    for name, words in {"example.py": "to the power of -0.1", "laws.py": "central film"}.items():
+    for name, words in {"example.py": "to the power of -0.1", "laws.py": "central film",
+                        "optimise.py": "9.8 um of relief"}.items():
         done = subprocess.run([sys.executable, os.path.join(source, "configs", "python", name)],
                               capture_output=True, text=True, check=False)
         check(name + " runs", done.returncode == 0 and words in done.stdout)

@@ -5,6 +5,9 @@
 
 #include "../../core/program/study/study.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 static void lay(const study_definition *study, size_t index, const char *text, ff_engine *engine)
 {
     ff_report *report = ff_report_new();
@@ -14,6 +17,30 @@ static void lay(const study_definition *study, size_t index, const char *text, f
     fuzz_print(report);
     ff_report_free(report);
     ff_tree_free(tree);
+}
+
+/* The same bytes as a table of cases. */
+static void read_table(const uint8_t *data, size_t size)
+{
+    char document[80];
+    int file = memfd_create("table", MFD_CLOEXEC);
+    must(file >= 0 && write(file, data, size) == (ssize_t)size);
+    snprintf(document, sizeof document, "study: {cases: /proc/self/fd/%d}", file);
+    ff_report *report = ff_report_new();
+    ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", document, report);
+    study_definition *study = study_read(ff_node_get(ff_tree_root(tree), "study"), report);
+    bool good = study && ff_report_errors(report) == 0;
+    must(!good || study->count > 0);
+    for (size_t i = 0; good && i < study->count; i++)
+        for (size_t k = 0; k < study->varied_count; k++)
+            must(study_value(study, k, i) != NULL);
+    if (good)
+        study_overlay(study, study->count - 1, NULL, 0, tree, report);
+    fuzz_print(report);
+    study_free(study);
+    ff_report_free(report);
+    ff_tree_free(tree);
+    close(file);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
@@ -39,6 +66,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
             must(study_value(study, k, i * (chains - 1) / 2) != NULL);
     }
     fuzz_print(report);
+    read_table(data, size);
     study_free(study);
     ff_report_free(report);
     ff_tree_free(tree);

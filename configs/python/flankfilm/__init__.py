@@ -9,6 +9,11 @@ The program, in a process of its own, runs any file: a case, a study, a file wit
     s = flankfilm.open("results/speed-sweep")
     s["motion.dte_rms"].data, s.axes["mesh_frequency"].data
 
+A script may make up the cases of a durable study one after the other.
+
+    with flankfilm.Rows("case.yaml", ["duty.torque [N m]"], "results/least") as rows:
+        rows.ask(300)["outputs"]["film.h_min_lowest"]
+
 The engine, in this process, runs a case, a model or a law without any file in between.
 
     engine = flankfilm.Engine()
@@ -24,6 +29,7 @@ where FLANKFILM_LIBRARY says.
 from .arrays import Array, Error
 from .engine import Engine, Model, Run
 from .program import Result, Study, check, fit, open, run
+from .rows import Rows
 
-__all__ = ["Array", "Engine", "Error", "Model", "Result", "Run", "Study", "check", "fit", "open",
-           "run"]
+__all__ = ["Array", "Engine", "Error", "Model", "Result", "Rows", "Run", "Study", "check", "fit",
+           "open", "run"]

@@ -287,8 +287,10 @@ static int confirm(cli_session *session, const cli_options *options)
         return code;
     }
     printf("%s: ok (%zu stage%s", options->operand, stages, stages == 1 ? "" : "s");
-    const char *tried = session->study && session->study->driver
-                            ? "; first of %zu cases)\n"
+    const char *tried = session->study && session->study->driver    ? "; first of %zu cases)\n"
+                        : session->study && session->study->streams ? ")\n"
+                        : cases > CLI_MOST_ROWS && session->study->rows
+                            ? "; %zu cases, the first 1000 of them and the last)\n"
                             : "; %zu cases, each value once)\n";
     printf(session->study ? tried : ")\n", cases);
     return code;

@@ -27,7 +27,9 @@ static bool open_study(cli_session *session, const cli_options *options)
     if (ff_report_errors(session->report) > errors)
         return false;
     setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
-    if (!session->study->overlay_first)     /* the first case may be the one that fails */
+    if (session->study->streams)            /* no case is known yet */
+        return true;
+    if (!session->study->overlay_first) /* the first case may be the one that fails */
         ff_tree_put(session->tree, "outputs", session->study->request);
     else
         study_overlay(session->study, 0, options->sets, options->set_count, session->tree,
@@ -78,9 +80,12 @@ static void try_values(cli_session *session, const cli_options *options, bool ev
         for (size_t a = varied->axis + 1; a < study->axis_count; a++)
             stride *= study->points[a];
         const char *dot = strrchr(varied->path, '.');
-        bool swaps = dot && !strcmp(dot, ".use");
-        for (size_t i = varied->values || varied->names ? 1 : last; i > 0 && i <= last; i++) {
-            if (everything && ff_report_errors(session->report) < MOST_ERRORS)
+        bool swaps = dot && !strcmp(dot, ".use"), listed = varied->values || varied->names;
+        bool whole = everything && (!varied->places || k == 0); /* a row is tried once */
+        for (size_t i = listed || varied->places ? 1 : last; i > 0 && i <= last; i++) {
+            if (varied->places && i == CLI_MOST_ROWS)
+                i = last;
+            if (whole && ff_report_errors(session->report) < MOST_ERRORS)
                 try_case(session, options, i * stride, FF_ERROR);
             if (swaps)
                 try_case(session, options, i * stride, FF_WARNING);

@@ -6,6 +6,9 @@
 #include "../study/study.h"
 #include "options.h"
 
+/* So many rows of a table of cases are tried by a check, and the last one. */
+enum { CLI_MOST_ROWS = 1000 };
+
 typedef struct cli_session {
     ff_report *report;
     ff_tree *tree;

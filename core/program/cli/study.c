@@ -8,6 +8,9 @@
 #include "../results/json.h"
 #include "../results/made.h"
 #include "../results/write.h"
+#include "../study/case.h"
+#include "../study/rows.h"
+#include "../terminal/answer.h"
 
 #include <flankfilm/executor.h>
 #include <sched.h>
@@ -77,6 +80,32 @@ static bool enter(void *ctx, ff_report *report)
     return true;
 }
 
+/* Whoever feeds rows has what came of them before he sends the next. Nobody left to read it is the
+   end, as of any program in a pipe. */
+static void answer_row(void *ctx, size_t index, const json_t *record, bool known)
+{
+    const teller *t = ctx;
+    json_t *set = study_case_set(t->session->study, index);
+    if (!cli_answer_row(index, set, record, known))
+        raise(SIGTERM);
+    json_decref(set);
+}
+
+/* Reads which paths the rows will set. */
+static bool begin_rows(study_run *run, const cli_options *options, ff_report *report)
+{
+    const study_definition *study = run->study;
+    if (!study->streams)
+        return true;
+    if (options->shards || run->executor)
+        return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "write the rows to a file",
+                        "study: cases: rows of standard input cannot be spread");
+    if (!options->json)
+        terminal_answer_begin();
+    run->answer = answer_row;
+    return study_rows_begin(study->rows, report);
+}
+
 /* A line of the study's driver. */
 static void say(void *ctx, int indent, const char *line)
 {
@@ -117,7 +146,7 @@ static study_run run_of(const cli_session *session, const cli_options *options, 
                                                       : STUDY_RERUN_NONE,
                      .fail_fast = cli_option(options, "fail-fast") != NULL,
                      .against = results_against};
-    if (!options->shards)
+    if (!options->shards && !session->study->streams)
         cli_shard_find(&run, executor != NULL, session->report);
     if (!options->shards && run.shards > 1 && !options->json && !executor)
         fprintf(stderr, "shard %zu/%zu, from Slurm\n", run.shard, run.shards);
@@ -256,7 +285,7 @@ int cli_run_study(cli_session *session, const cli_options *options)
     if (cli_option(options, "executor"))
         run.executor = cli_service_open(session->engine, options, "executor", FF_EXECUTOR_ID,
                                         &table, session->report);
-    if (ff_report_errors(session->report) > 0) {
+    if (ff_report_errors(session->report) > 0 || !begin_rows(&run, options, session->report)) {
         int code = cli_refuse(session->report, options, "nothing was run");
         ff_instance_close(run.executor);
         free(directory);
@@ -315,6 +344,10 @@ static void print_plan(const study_run *run, const study_plan *plan)
     const study_definition *study = run->study;
     const study_reuse_counts savings = study_savings(run->directory);
     const char *further = study_further(study);
+    if (study->streams) {
+        puts("cases as rows of standard input list them");
+        return;
+    }
     printf("%zu %s%s%s\n", study->count, study_cases(study), *further ? ", " : "", further);
     print_varied(study);
     if (run->shards > 1)

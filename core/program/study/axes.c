@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads what stands under `study:` into axes with their points. */
-#include "study.h"
+#include "rows.h"
 #include "yaml.h"
 
 #include <math.h>
@@ -395,7 +395,8 @@ static bool finish_axes(reading *r, const ff_node *node)
     return !too_many(r, node->place, cases);
 }
 
-const char *const study_keys[] = {"sweep", "zip", "sample", "time_limit", "memory_limit", NULL};
+const char *const study_keys[] = {"sweep",      "zip",          "sample", "cases",
+                                  "time_limit", "memory_limit", NULL};
 
 /* Allocates memory for the paths, and for the axes of a sample and of `follow: both`. */
 static void begin_axes(reading *r, size_t paths)
@@ -410,7 +411,12 @@ static void begin_axes(reading *r, size_t paths)
 static bool read_all(reading *r, const ff_node *node)
 {
     const ff_node *sweep = ff_node_get(node, "sweep"), *zip = ff_node_get(node, "zip");
-    const ff_node *sample = ff_node_get(node, "sample");
+    const ff_node *sample = ff_node_get(node, "sample"), *cases = ff_node_get(node, "cases");
+    if (cases && (sweep || zip || sample))
+        return refuse(r, cases->place, "write two files",
+                      "a study either lists its cases or sweeps", "cases");
+    if (cases)
+        return study_rows_read(r->study, cases, r->report);
     if (node->kind != FF_MAP || (!sweep && !zip))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
@@ -436,6 +442,8 @@ study_definition *study_read(const ff_node *node, ff_report *report)
     reading r = {.study = study, .report = report};
     if (study_read_limits(study, node, report) && read_all(&r, node))
         return study;
+    if (study->rows) /* the table stays, which messages quote */
+        return study;
     study_definition_free(study);
     return NULL;
 }
@@ -444,6 +452,7 @@ void study_definition_free(study_definition *study)
 {
     if (!study)
         return;
+    study_rows_free(study->rows);
     memory_arena_free(&study->arena);
     free(study);
 }
@@ -463,8 +472,10 @@ const char *study_assignment(const study_definition *study, size_t k, size_t ind
 
 const char *study_varied_value(const study_varied *varied, size_t point)
 {
+    const char *assignment = varied->assignments[point];
     return varied->names ? varied->names[point]
-                         : varied->assignments[point] + strlen(varied->path) + 1;
+           : *assignment ? assignment + strlen(varied->path) + 1
+                         : "";
 }
 
 const char *study_value(const study_definition *study, size_t k, size_t index)

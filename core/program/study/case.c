@@ -5,6 +5,7 @@
 #include "chain.h"
 #include "hash.h"
 #include "journal.h"
+#include "rows.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -16,7 +17,7 @@ static uint64_t hash_assignments(const study_definition *study, size_t index)
     uint64_t hash = study_hash_text(STUDY_HASH_START, "not built");
     for (size_t k = 0; k < study->varied_count; k++)
         hash = study_hash_text(hash, study_assignment(study, k, index));
-    return hash;
+    return study->streams ? study_hash_text(hash, study_rows_text(study->rows, index)) : hash;
 }
 
 static bool is_file(const char *assignment)
@@ -46,6 +47,11 @@ void study_overlay(const study_definition *study, size_t index, const char *cons
     for (size_t i = 0; (text = assignment_at(study, index, sets, set_count, i)); i++) {
         const study_varied *v = i >= n + set_count ? &study->varied[i - n - set_count] : NULL;
         const ff_place *path = v && v->place.source ? &v->place : NULL, *place = path;
+        const study_place *cell = path && v->places ? &v->places[index] : NULL;
+        ff_place in_table =
+            cell ? (ff_place){path->source, cell->line, cell->column, cell->width} : FF_NOWHERE;
+        if (cell)
+            place = &in_table;
         if (path && v->values)
             place = &v->values->items[study_rank(study, v->axis, index)]->place;
         if (*text && ff_tree_root(tree))
@@ -53,6 +59,8 @@ void study_overlay(const study_definition *study, size_t index, const char *cons
     }
     if (study->request && ff_tree_root(tree))
         ff_tree_put(tree, "outputs", study->request);
+    if (study->streams)
+        study_rows_check(study->rows, index, report);
 }
 
 ff_tree *study_case_tree(const char *file)
@@ -89,6 +97,8 @@ static bool list_changes(const study_definition *study, size_t from, size_t to, 
                          size_t *count)
 {
     *count = 0;
+    if (study->streams && !study_rows_check(study->rows, to, NULL))
+        return false;
     for (size_t k = 0; k < study->varied_count; k++) {
         const char *old = study_assignment(study, k, from), *now = study_assignment(study, k, to);
         for (size_t l = 0; l < k; l++)

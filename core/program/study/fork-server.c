@@ -18,18 +18,6 @@ typedef struct answer_head {
     int state;
 } answer_head;
 
-static bool read_all(int fd, void *data, size_t size)
-{
-    for (char *at = data; size > 0;) {
-        ssize_t got = read(fd, at, size);
-        if (got == 0 || (got < 0 && errno != EINTR))
-            return false;
-        at += got > 0 ? got : 0;
-        size -= got > 0 ? (size_t)got : 0;
-    }
-    return true;
-}
-
 static bool has_input(int fd, int milliseconds)
 {
     struct pollfd polled = {.fd = fd, .events = POLLIN};
@@ -53,7 +41,7 @@ static _Noreturn void serve(const study_run *run, int from, int to)
     signal(SIGUSR1, SIG_IGN);
     for (;;) {
         if (!pool.workers || has_input(from, 0)) {
-            if (!read_all(from, &task, sizeof task))
+            if (!study_read_all(from, &task, sizeof task))
                 break;
             if (!pool.workers)
                 open_pool(&pool, run, from);
@@ -102,10 +90,10 @@ int study_fork_server_wait(study_fork_server *server, int milliseconds, size_t *
     answer_head head;
     if (!has_input(server->from, milliseconds))
         return FF_TASK_NONE;
-    if (!read_all(server->from, &head, sizeof head))
+    if (!study_read_all(server->from, &head, sizeof head))
         return FF_TASK_GONE;
     server->answer = memory_resize(server->answer, head.size);
-    if (!read_all(server->from, server->answer, head.size))
+    if (!study_read_all(server->from, server->answer, head.size))
         return FF_TASK_GONE;
     *task = head.task;
     return head.state;

@@ -64,7 +64,7 @@ static void send_next_case(study_pool *pool, study_worker *worker)
         return;
     }
     /* If the worker has just died, reading its answer will show that. */
-    study_worker_send_case(worker, index);
+    study_worker_send_case(worker, pool->run, index);
 }
 
 void study_pool_start_chain(study_pool *pool, size_t chain)

@@ -3,6 +3,7 @@
 #include "case.h"
 #include "chain.h"
 #include "journal.h"
+#include "rows.h"
 #include "workers.h"
 
 #include <signal.h>
@@ -18,6 +19,7 @@ typedef struct execution {
     bool open;           /* whether the journal is open */
     study_records *done; /* of earlier runs, and of this one where cases form chains */
     char (*keys)[STUDY_KEY_SIZE];
+    size_t room;                   /* of keys, for the rows of standard input */
     study_pool pool;               /* without an executor: the workers of this process */
     study_fork_server fork_server; /* with an executor */
     size_t next;                   /* the next chain to hand out, which is a task of the executor */
@@ -100,9 +102,24 @@ static int32_t begin_leading(void *ctx)
     return protect(r, open_journal, r) && r->open ? 0 : -1;
 }
 
+/* Takes the next row of standard input, if it has come. */
+static void take_row(execution *r)
+{
+    const study_definition *study = r->run->study;
+    if (study_rows_next(study->rows) > 0 && study->count > r->room) {
+        size_t room = 2 * study->count;
+        r->keys = memory_resize(r->keys, room * sizeof *r->keys);
+        memset(r->keys + r->room, 0, (room - r->room) * sizeof *r->keys);
+        r->room = room;
+    }
+    r->counters->total = study->count;
+}
+
 static int32_t next_chain(void *ctx, size_t *task)
 {
     execution *r = ctx;
+    if (r->open && !r->ending && !interrupts && r->run->study->streams)
+        take_row(r);
     if (!r->open || r->ending || interrupts || r->next >= end_of_chains(r->run))
         return 0;
     *task = r->next;
@@ -127,10 +144,15 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
     r->counters->before += known;
     r->counters->done++;
     r->counters->failed += !good;
-    json_t *record = known ? NULL : study_records_take(r->done, text, strlen(text));
+    bool told = r->run->answer != NULL;
+    json_t *record = !known ? study_records_take(r->done, text, strlen(text))
+                     : told ? study_records_get(r->done, key)
+                            : NULL;
     study_judgement judgement =
         known ? study_records_judge(r->done, key) : study_judge_record(record);
-    study_savings_add(&r->counters->savings, record);
+    if (told)
+        r->run->answer(r->run->ctx, index, record, known);
+    study_savings_add(&r->counters->savings, known ? NULL : record);
     study_tally_add(&r->counters->tally, index + 1, key, &judgement);
     study_judgement_free(&judgement);
     json_decref(record);
@@ -227,6 +249,21 @@ static int32_t wait_for_answer(void *ctx, int32_t milliseconds, size_t *task, co
     return call.state;
 }
 
+static bool expects_row(const execution *r)
+{
+    const study_definition *study = r->run->study;
+    return study->streams && !r->ending && !interrupts && !study_rows_ended(study->rows);
+}
+
+/* Waits for a row; false when none will come. */
+static bool await_row(const execution *r)
+{
+    if (!expects_row(r))
+        return false;
+    study_rows_wait();
+    return true;
+}
+
 /* Runs all cases by workers of this process. */
 static bool run_here(execution *r)
 {
@@ -238,8 +275,11 @@ static bool run_here(execution *r)
     for (;;) {
         for (; busy < r->run->jobs && next_chain(r, &task); busy++)
             start_chain(r, task);
-        if (busy == 0)
+        if (busy == 0 && !await_row(r))
             break;
+        r->pool.extra_fd = busy < r->run->jobs && expects_row(r) ? STUDY_ROWS_FD : -1;
+        if (busy == 0)
+            continue;
         int state = wait_for_answer(r, 1000, &task, &answer, &size);
         if (state > 0)
             note_answer(r, answer, size);
@@ -340,6 +380,10 @@ static void finish_run(execution *r)
              ff_report_errors(r->report) == 0)
         ff_error(r->report, FF_FAULT_PLUGIN, FF_NOWHERE, "the same command goes on with the rest",
                  "the executor left %zu cases undone", r->counters->total - r->counters->done);
+    if (run->study->streams && study_rows_are_cut(run->study->rows))
+        ff_error(r->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
+                 "study: cases: row %zu of standard input is longer than 1 MiB",
+                 run->study->count + 1);
     if (ff_report_errors(r->report) == 0 && !run->end) {
         find_keys(r);
         study_table_write(run, r->keys, r->report);

@@ -13,6 +13,13 @@
 #include "../memory/memory.h"
 #include "judgement.h"
 
+/* Where a value stands in a table, whose lines and columns count from 1. */
+typedef struct study_place {
+    uint32_t line, column, width;
+} study_place;
+
+typedef struct study_rows study_rows;
+
 /* A path with the values that it takes along one axis. */
 typedef struct study_varied {
     const char *path; /* as --set takes it, or a name for what the axis varies */
@@ -22,6 +29,7 @@ typedef struct study_varied {
     const char **names;    /* of the points; NULL when their values are their names */
     ff_place place;        /* of the path in its file; its source is NULL when no file has it */
     const ff_node *values; /* one for each point; NULL when the program made the values */
+    study_place *places;   /* of the values in the table that has the path; NULL: it is none */
 } study_varied;
 
 /* What measure.c records of each case beside its scalars: series, and the cost. */
@@ -57,6 +65,8 @@ typedef struct study_definition {
     size_t extra_count;
     const study_measure *measure; /* NULL when nothing is measured */
     struct study_driver *driver;  /* NULL when all cases are known from the start */
+    study_rows *rows;             /* the table that lists the cases, or NULL */
+    bool streams; /* its rows come from standard input while the study runs; none is there yet */
     bool overlay_first; /* the pipeline is checked with the first case laid over the file */
     memory_arena arena;
 } study_definition;
@@ -175,6 +185,9 @@ typedef struct study_run {
     bool fail_fast;
 
     const char *input; /* the key of the file's own inputs, which each record keeps; may be NULL */
+
+    /* Tells what came of a row of standard input, as soon as the journal has it. */
+    void (*answer)(void *ctx, size_t index, const json_t *record, bool known);
 
     char (*keys)[STUDY_KEY_SIZE]; /* filled in with the key of each case that ran or was known; NULL
                                      when the caller does not need them */

@@ -39,7 +39,7 @@ static const char *unit_of(const char *value, size_t *digits)
 static const char *common_unit(const study_definition *study, const study_varied *varied)
 {
     size_t digits;
-    if (varied->names)
+    if (varied->names || study->points[varied->axis] == 0)
         return NULL;
     const char *unit = unit_of(study_varied_value(varied, 0), &digits);
     for (size_t i = 1; unit && i < study->points[varied->axis]; i++) {

@@ -8,6 +8,7 @@
 
 #include "chain.h"
 #include "journal.h"
+#include "rows.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -143,6 +144,35 @@ static void keep_memory(void)
     mallopt(M_MMAP_THRESHOLD, MMAP);
 }
 
+bool study_read_all(int fd, void *data, size_t size)
+{
+    for (char *at = data; size > 0;) {
+        ssize_t got = read(fd, at, size);
+        if (got == 0 || (got < 0 && errno != EINTR))
+            return false;
+        at += got > 0 ? got : 0;
+        size -= got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+static bool take_case(const study_run *run, int from, size_t *index)
+{
+    size_t length;
+    if (!study_read_all(from, index, sizeof *index))
+        return false;
+    if (!run->study->streams)
+        return true;
+    if (!study_read_all(from, &length, sizeof length))
+        return false;
+    char *row = memory_alloc(length + 1);
+    bool whole = study_read_all(from, row, length);
+    if (whole)
+        study_rows_put(run->study->rows, *index, row);
+    free(row);
+    return whole;
+}
+
 static _Noreturn void serve_cases(const study_worker *worker, const study_run *run,
                                   study_records *done, size_t slot, int from, int to)
 {
@@ -175,7 +205,7 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     study_chain chain = {0};
     ff_environment environment;
     ff_environment_keep(&environment);
-    while (read(from, &index, sizeof index) == sizeof index) {
+    while (take_case(run, from, &index)) {
         ff_environment_restore(&environment); /* destroy may have left it changed */
         if (ftruncate(worker->captured, 0) != 0 ||
             !run_case(worker, run, index, done, &memory, &chain, to))
@@ -233,14 +263,20 @@ bool study_worker_start(study_worker *worker, const study_run *run, study_record
     return false;
 }
 
-bool study_worker_send_case(study_worker *worker, size_t index)
+/* A number, and the text of the row when the worker may not know it. */
+bool study_worker_send_case(study_worker *worker, const study_run *run, size_t index)
 {
+    const study_definition *study = run->study;
+    const char *row = study->streams ? study_rows_text(study->rows, index) : NULL;
+    size_t length = row ? strlen(row) : 0;
     worker->shared->key[0] = '\0';
     worker->busy = true;
     worker->index = index;
     worker->since = study_seconds_now();
     worker->length = 0;
-    return write(worker->to, &index, sizeof index) == sizeof index;
+    return study_write_all(worker->to, &index, sizeof index) &&
+           (!row || (study_write_all(worker->to, &length, sizeof length) &&
+                     study_write_all(worker->to, row, length)));
 }
 
 int study_worker_read(study_worker *worker)

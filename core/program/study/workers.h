@@ -28,13 +28,14 @@ typedef struct study_worker {
    workers in `all`. */
 bool study_worker_start(study_worker *worker, const study_run *run, study_records *done,
                         const study_worker *all, size_t count);
-bool study_worker_send_case(study_worker *worker, size_t index);
+bool study_worker_send_case(study_worker *worker, const study_run *run, size_t index);
 /* Returns 1 when the answer in worker->line is complete, 0 when it is not yet, -1 when the worker
    is gone. */
 int study_worker_read(study_worker *worker);
-/* Opens a pair of pipes; writes all of the data. False after an error. */
+/* Opens a pair of pipes; writes or reads all of the data. False after an error, or at the end. */
 bool study_open_pipes(int to[2], int from[2]);
 bool study_write_all(int fd, const void *data, size_t size);
+bool study_read_all(int fd, void *data, size_t size);
 /* Ends a worker and what its plugins have started. */
 void study_worker_kill(const study_worker *worker);
 /* Whether it has ended, although a process that it started may hold its pipe. */

@@ -1,0 +1,577 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "rows.h"
+
+#include "yaml.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum {
+    MOST_FIELDS = 1000,
+    MOST_ROWS = 1000000,
+    LONGEST_ROW = 1 << 20,
+    LARGEST_FILE = 1 << 28,
+    MOST_ERRORS = 20,
+    BLOCK = 1 << 16
+};
+
+/* A part of a line, without its quotes and the blanks around it. */
+typedef struct field {
+    char *text;
+    uint32_t column, width; /* in characters */
+    bool quoted;
+} field;
+
+typedef struct line {
+    field *fields;
+    size_t count;
+    const char *fault; /* why it cannot be split, or NULL */
+} line;
+
+typedef struct column {
+    size_t varied; /* SIZE_MAX: the user's own */
+    char *unit;    /* of numbers without one, or "" */
+} column;
+
+struct study_rows {
+    study_definition *study;
+    ff_source source;
+    char separator;
+    column *columns;
+    size_t column_count;
+    size_t room;
+    uint32_t at; /* the line that was read last */
+    /* standard input alone */
+    bool streams, ended, cut;
+    char **texts; /* of the rows, for other processes */
+    char *buffer;
+    size_t length, taken;
+};
+
+static bool is_blank(char c)
+{
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+static uint32_t count_characters(const char *from, const char *to)
+{
+    uint32_t count = 0;
+    for (; from < to; from++)
+        count += ((unsigned char)*from & 0xc0) != 0x80;
+    return count;
+}
+
+/* The first of the separators that stands outside of quotes; 0: there is none. */
+static char find_separator(const char *text)
+{
+    bool quoted = false;
+    for (; *text; text++) {
+        quoted = quoted != (*text == '"');
+        if (!quoted && strchr(";,\t", *text))
+            return *text;
+    }
+    return '\0';
+}
+
+/* Copies a quoted field, whose quotes are written twice; returns what follows it, NULL when it has
+   no end. */
+static const char *read_quoted(const char *at, char *out)
+{
+    for (at++; *at; at++) {
+        if (*at == '"' && at[1] != '"') {
+            *out = '\0';
+            return at + 1;
+        }
+        at += *at == '"';
+        *out++ = *at;
+    }
+    return NULL;
+}
+
+/* Reads the field at `at`; returns its end, NULL after a fault. */
+static const char *read_field(line *l, const char *begin, const char *at, char separator)
+{
+    field *f = &l->fields[l->count++];
+    while (is_blank(*at) && *at != separator)
+        at++;
+    const char *first = at, *end;
+    f->quoted = *at == '"';
+    if (f->quoted) {
+        f->text = memory_alloc(strlen(at) + 1);
+        end = at = read_quoted(at, f->text);
+        l->fault = at ? NULL : "a quote is opened and not closed on its line";
+        while (at && is_blank(*at) && *at != separator)
+            at++;
+        if (at && *at && *at != separator)
+            l->fault = "something follows the closing quote";
+    } else {
+        while (*at && *at != separator)
+            at++;
+        for (end = at; end > first && is_blank(end[-1]);)
+            end--;
+        f->text = memory_copy_text(first, (size_t)(end - first));
+    }
+    f->column = 1 + count_characters(begin, first);
+    f->width = count_characters(first, end ? end : first + strlen(first));
+    return l->fault ? NULL : at;
+}
+
+static line split(const char *text, char separator)
+{
+    size_t most = 1;
+    for (const char *at = text; *at; at++)
+        most += *at == separator;
+    line l = {.fields =
+                  memory_alloc((most > MOST_FIELDS ? MOST_FIELDS + 1 : most) * sizeof(field))};
+    const char *at = text;
+    do {
+        if (l.count > MOST_FIELDS)
+            return l;
+        at = read_field(&l, text, at, separator);
+    } while (at && *at && *at++ == separator);
+    return l;
+}
+
+static void line_free(line *l)
+{
+    for (size_t i = 0; i < l->count; i++)
+        free(l->fields[i].text);
+    free(l->fields);
+}
+
+static bool says_nothing(const char *text)
+{
+    while (is_blank(*text))
+        text++;
+    return !*text || *text == '#';
+}
+
+static ff_place place_of(const study_rows *rows, const field *f)
+{
+    return (ff_place){&rows->source, rows->at, f ? f->column : 1, f ? f->width : 0};
+}
+
+static bool refuse(const study_rows *rows, const field *f, ff_report *report, const char *hint,
+                   const char *text)
+{
+    return ff_error(report, FF_FAULT_INPUT, place_of(rows, f), hint, "%s", text);
+}
+
+/* Splits "duty.torque [N m]" into path and unit. */
+static bool read_head(study_rows *rows, field *f, column *c, ff_report *report)
+{
+    char why[200];
+    ff_unit unit;
+    char *open = strchr(f->text, '['), *close = open ? strrchr(open, ']') : NULL;
+    c->varied = SIZE_MAX;
+    c->unit = memory_copy_text("", 0);
+    if (!strncmp(f->text, "x-", 2))
+        return true;
+    if (open && (!close || close[1] || open == f->text))
+        return refuse(rows, f, report, "write duty.torque [N m]",
+                      "expected a path, and a unit in brackets");
+    if (open) {
+        free(c->unit);
+        c->unit = memory_copy_text(open + 1, (size_t)(close - open - 1));
+        while (open > f->text && is_blank(open[-1]))
+            open--;
+        *open = '\0';
+        if (!ff_unit_parse(c->unit, &unit, why, sizeof why))
+            return ff_error(report, FF_FAULT_INPUT, place_of(rows, f), NULL,
+                            "the unit \"%.40s\" %s", c->unit, why);
+    }
+    return (*f->text && !strchr(f->text, '=')) ||
+           refuse(rows, f, report, "a path such as duty.torque, as --set takes it",
+                  "a column needs a name");
+}
+
+static bool add_column(study_rows *rows, field *f, column *c, ff_report *report)
+{
+    study_definition *study = rows->study;
+    if (!read_head(rows, f, c, report))
+        return false;
+    if (!strncmp(f->text, "x-", 2))
+        return true;
+    for (size_t k = 0; k < study->varied_count; k++)
+        if (!strcmp(study->varied[k].path, f->text))
+            return ff_error(report, FF_FAULT_INPUT, place_of(rows, f), NULL,
+                            "%.200s has two columns", f->text);
+    c->varied = study->varied_count++;
+    study->varied[c->varied] =
+        (study_varied){.path = memory_arena_text(&study->arena, f->text, strlen(f->text)),
+                       .place = rows->streams ? FF_NOWHERE : place_of(rows, f),
+                       .axis = 0};
+    return true;
+}
+
+static bool read_heads(study_rows *rows, const char *text, ff_report *report)
+{
+    size_t errors = ff_report_errors(report);
+    rows->separator = find_separator(text);
+    line l = split(text, rows->separator);
+    if (l.fault)
+        refuse(rows, &l.fields[l.count - 1], report, NULL, l.fault);
+    else if (l.count > MOST_FIELDS)
+        refuse(rows, NULL, report, NULL, "there are more than 1000 columns");
+    rows->columns = memory_alloc(l.count * sizeof *rows->columns);
+    rows->study->varied =
+        memory_arena_alloc(&rows->study->arena, l.count * sizeof *rows->study->varied);
+    for (size_t i = 0; ff_report_errors(report) == errors && i < l.count; i++, rows->column_count++)
+        add_column(rows, &l.fields[i], &rows->columns[i], report);
+    line_free(&l);
+    return ff_report_errors(report) == errors &&
+           (rows->study->varied_count > 0 ||
+            refuse(rows, NULL, report, NULL, "no column names a path of the pipeline"));
+}
+
+/* Makes room for a row of that number. */
+static void make_room(study_rows *rows, size_t index)
+{
+    study_definition *study = rows->study;
+    if (index < rows->room)
+        return;
+    size_t was = rows->room, room = rows->room = was * 2 > index ? was * 2 : index + 64;
+    for (size_t k = 0; k < study->varied_count; k++) {
+        study_varied *v = &study->varied[k];
+        v->assignments = memory_resize(v->assignments, room * sizeof *v->assignments);
+        v->places = memory_resize(v->places, room * sizeof *v->places);
+        for (size_t i = was; i < room; i++)
+            v->assignments[i] = "";
+    }
+    if (rows->streams) {
+        rows->texts = memory_resize(rows->texts, room * sizeof *rows->texts);
+        memset(rows->texts + was, 0, (room - was) * sizeof *rows->texts);
+    }
+}
+
+/* A file is looked for beside the table. */
+static char *assignment_of(const study_rows *rows, const column *c, const field *f)
+{
+    const char *path = rows->study->varied[c->varied].path, *end;
+    double number;
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = memory_require(open_memstream(&text, &length));
+    fprintf(out, "%s=", path);
+    if (!strcmp(path, "include")) {
+        char *beside = ff_path_beside(rows->source.directory, f->text);
+        study_yaml_print_text(beside, true, out);
+        ff_free(beside);
+    } else {
+        bool bare = *c->unit && ff_number_parse(f->text, &number, &end) && !*end;
+        fprintf(out, "%s%s%s", f->text, bare ? " " : "", bare ? c->unit : "");
+    }
+    fclose(out);
+    return text;
+}
+
+static const char *keep(study_rows *rows, char *text)
+{
+    const char *kept = memory_arena_text(&rows->study->arena, text, strlen(text));
+    free(text);
+    return kept;
+}
+
+/* Says why the fields are no case; false when they are one. *f: what it is about, or NULL. */
+static bool is_amiss(const study_rows *rows, const line *l, const field **f, char *why, size_t size)
+{
+    bool many = l->count > rows->column_count;
+    *f = l->fault ? &l->fields[l->count - 1] : many ? &l->fields[rows->column_count] : NULL;
+    if (!l->fault && l->count == rows->column_count)
+        return false;
+    if (l->fault)
+        snprintf(why, size, "%s", l->fault);
+    else
+        snprintf(why, size, "it has %zu fields, and the first line names %zu columns", l->count,
+                 rows->column_count);
+    return true;
+}
+
+static bool refuse_row(const study_rows *rows, const line *l, ff_report *report)
+{
+    char why[120];
+    const field *f;
+    if (!is_amiss(rows, l, &f, why, sizeof why))
+        return true;
+    return report &&
+           ff_error(report, FF_FAULT_INPUT, rows->streams ? FF_NOWHERE : place_of(rows, f),
+                    l->fault ? NULL : "a field that holds the separator is written in quotes", "%s",
+                    why);
+}
+
+/* Takes what a line assigns into the row of that number; nothing when it is no case. */
+static void take_row(study_rows *rows, size_t index, const line *l)
+{
+    make_room(rows, index);
+    for (size_t i = 0; !l->fault && l->count == rows->column_count && i < l->count; i++) {
+        const column *c = &rows->columns[i];
+        const field *f = &l->fields[i];
+        if (c->varied == SIZE_MAX)
+            continue;
+        study_varied *v = &rows->study->varied[c->varied];
+        v->places[index] = (study_place){rows->at, f->column, f->width};
+        v->assignments[index] = *f->text || f->quoted ? keep(rows, assignment_of(rows, c, f)) : "";
+    }
+}
+
+static study_rows *rows_new(study_definition *study, const char *name, const char *directory)
+{
+    study_rows *rows = memory_alloc(sizeof *rows);
+    *rows = (study_rows){.study = study,
+                         .source = {.name = memory_copy_text(name, strlen(name)),
+                                    .text = memory_copy_text("", 0),
+                                    .directory = memory_copy_text(directory, strlen(directory))}};
+    study->rows = rows;
+    study->points = memory_arena_alloc(&study->arena, sizeof *study->points);
+    study->points[0] = 0;
+    study->axis_count = study->followed = study->direction = 1;
+    return rows;
+}
+
+void study_rows_free(study_rows *rows)
+{
+    if (!rows)
+        return;
+    for (size_t k = 0; k < rows->study->varied_count; k++) {
+        free(rows->study->varied[k].assignments);
+        free(rows->study->varied[k].places);
+    }
+    for (size_t i = 0; i < rows->column_count; i++)
+        free(rows->columns[i].unit);
+    for (size_t i = 0; rows->texts && i < rows->room; i++)
+        free(rows->texts[i]);
+    free(rows->columns);
+    free(rows->texts);
+    free(rows->buffer);
+    free(rows->source.name);
+    free(rows->source.text);
+    free(rows->source.directory);
+    free(rows);
+}
+
+/* Reads a regular file whole; NULL with errno, which is 0 for what is none or too large. */
+static char *read_file(const char *path, size_t *length)
+{
+    struct stat info;
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    char *text = NULL;
+    *length = 0;
+    if (fd < 0)
+        return NULL;
+    errno = 0;
+    if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_size <= LARGEST_FILE) {
+        ssize_t got = 1;
+        text = memory_alloc((size_t)info.st_size + 1);
+        while (*length < (size_t)info.st_size && got > 0) {
+            got = read(fd, text + *length, (size_t)info.st_size - *length);
+            *length += got > 0 ? (size_t)got : 0;
+        }
+        text[*length] = '\0';
+    }
+    int cause = errno;
+    close(fd);
+    errno = cause;
+    return text;
+}
+
+static const char *skip_mark(const char *text)
+{
+    return !strncmp(text, "\xef\xbb\xbf", 3) ? text + 3 : text;
+}
+
+static bool add_row(study_rows *rows, const char *text, ff_report *report)
+{
+    study_definition *study = rows->study;
+    if (study->count == MOST_ROWS)
+        return refuse(rows, NULL, report, NULL, "at most 1000000 cases are possible");
+    line l = split(text, rows->separator);
+    refuse_row(rows, &l, report);
+    take_row(rows, study->count, &l);
+    line_free(&l);
+    study->points[0] = ++study->count;
+    return true;
+}
+
+/* Reads the lines of the file; all that is wrong is reported, up to a number of errors. */
+static bool read_lines(study_rows *rows, ff_report *report)
+{
+    size_t errors = ff_report_errors(report);
+    bool good = true;
+    for (const char *at = skip_mark(rows->source.text); good && *at;) {
+        size_t length = strcspn(at, "\n");
+        rows->at++;
+        char *text = memory_copy_text(at, length);
+        if (!says_nothing(text))
+            good = rows->columns ? add_row(rows, text, report) : read_heads(rows, text, report);
+        free(text);
+        good = good && ff_report_errors(report) < errors + MOST_ERRORS;
+        at += length + (at[length] == '\n');
+    }
+    return ff_report_errors(report) == errors;
+}
+
+static bool read_table(study_definition *study, const ff_node *node, ff_report *report)
+{
+    char *path = ff_path_beside(node->place.source->directory, node->text);
+    char *slash = strrchr(path, '/');
+    char *directory = slash ? memory_copy_text(path, (size_t)(slash - path) + (slash == path))
+                            : memory_copy_text(".", 1);
+    size_t length;
+    char *text = read_file(path, &length);
+    int cause = errno;
+    study_rows *rows = rows_new(study, path, directory);
+    bool good = text != NULL;
+    free(directory);
+    if (!text) {
+        ff_error(report, FF_FAULT_INPUT, node->place, NULL, "study: cases: %.300s: %s", path,
+                 cause ? strerror(cause) : "expected a file of at most 256 MiB");
+    } else {
+        free(rows->source.text);
+        rows->source.text = text;
+        rows->source.length = length;
+        good = strlen(text) == length ? read_lines(rows, report)
+                                      : refuse(rows, NULL, report, NULL,
+                                               "the file holds a character 0: it is no text");
+        if (good && study->count == 0)
+            good = ff_error(report, FF_FAULT_INPUT, node->place,
+                            "the first line names paths, each further line is a case",
+                            "study: cases: %.300s has no case", path);
+    }
+    ff_free(path);
+    study->overlay_first = good;
+    return good;
+}
+
+bool study_rows_read(study_definition *study, const ff_node *node, ff_report *report)
+{
+    if (node->kind != FF_SCALAR || !*node->text)
+        return ff_error(report, FF_FAULT_INPUT, node->place, "write cases: cases.csv",
+                        "study: cases: expected the name of a file, or - for standard input");
+    if (strcmp(node->text, "-") != 0)
+        return read_table(study, node, report);
+    rows_new(study, "standard input", ".")->streams = true;
+    study->streams = true;
+    return true;
+}
+
+/* Takes the next line out of the buffer; NULL when it has not come whole. */
+static char *take_line(study_rows *rows)
+{
+    const char *from = rows->buffer ? rows->buffer + rows->taken : "";
+    size_t left = rows->length - rows->taken;
+    const char *end = left ? memchr(from, '\n', left) : NULL;
+    if (!end && !(rows->ended && left))
+        return NULL;
+    size_t length = end ? (size_t)(end - from) : left;
+    char *text = memory_copy_text(from, length);
+    for (size_t i = 0; i < length; i++)
+        text[i] = text[i] ? text[i] : '\1'; /* which no value may hold either */
+    rows->taken += length + (end != NULL);
+    rows->at++;
+    return text;
+}
+
+static void fill_buffer(study_rows *rows)
+{
+    size_t left = rows->length - rows->taken;
+    if (rows->taken)
+        memmove(rows->buffer, rows->buffer + rows->taken, left);
+    rows->length = left;
+    rows->taken = 0;
+    rows->buffer = memory_resize(rows->buffer, left + BLOCK);
+    ssize_t got = read(STUDY_ROWS_FD, rows->buffer + left, BLOCK);
+    rows->length += got > 0 ? (size_t)got : 0;
+    rows->cut = rows->length > LONGEST_ROW + BLOCK && !memchr(rows->buffer, '\n', rows->length);
+    rows->length = rows->cut ? 0 : rows->length;
+    rows->ended = got == 0 || (got < 0 && errno != EINTR && errno != EAGAIN) || rows->cut;
+}
+
+static bool has_come(int milliseconds)
+{
+    struct pollfd polled = {.fd = STUDY_ROWS_FD, .events = POLLIN};
+    return poll(&polled, 1, milliseconds) > 0;
+}
+
+bool study_rows_begin(study_rows *rows, ff_report *report)
+{
+    for (;;) {
+        char *text = take_line(rows);
+        const char *first = text && rows->at == 1 ? skip_mark(text) : text;
+        bool found = first && !says_nothing(first);
+        bool good = found && read_heads(rows, first, report);
+        free(text);
+        if (found)
+            return good;
+        if (!text && rows->ended)
+            return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
+                            "the first line names paths, each further line is a case",
+                            "study: cases: standard input ended before its first line");
+        if (!text && has_come(-1))
+            fill_buffer(rows);
+    }
+}
+
+int study_rows_next(study_rows *rows)
+{
+    study_definition *study = rows->study;
+    for (;;) {
+        char *text = take_line(rows);
+        if (text && !says_nothing(text) && study->count < MOST_ROWS) {
+            study_rows_put(rows, study->count, text);
+            free(text);
+            return 1;
+        }
+        free(text);
+        if (text)
+            continue;
+        if (rows->ended)
+            return -1;
+        if (!has_come(0))
+            return 0;
+        fill_buffer(rows);
+    }
+}
+
+void study_rows_wait(void)
+{
+    has_come(-1);
+}
+
+bool study_rows_ended(const study_rows *rows)
+{
+    return rows->ended && rows->taken == rows->length;
+}
+
+const char *study_rows_text(const study_rows *rows, size_t index)
+{
+    return rows->texts[index];
+}
+
+void study_rows_put(study_rows *rows, size_t index, const char *text)
+{
+    line l = split(text, rows->separator);
+    take_row(rows, index, &l);
+    line_free(&l);
+    free(rows->texts[index]);
+    rows->texts[index] = memory_copy_text(text, strlen(text));
+    if (index >= rows->study->count)
+        rows->study->points[0] = rows->study->count = index + 1;
+}
+
+bool study_rows_check(const study_rows *rows, size_t index, ff_report *report)
+{
+    line l = split(rows->texts[index], rows->separator);
+    bool good = refuse_row(rows, &l, report);
+    line_free(&l);
+    return good;
+}
+
+bool study_rows_are_cut(const study_rows *rows)
+{
+    return rows->cut;
+}
