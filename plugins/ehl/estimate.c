@@ -151,7 +151,8 @@ static ff_status begin(ehl_estimate *e, uint64_t wanted, const ff_array *in)
         status = read_roughness(e, wanted, in);
     if (status != FF_OK)
         return status;
-    e->alpha = ehl_oil_alpha(&e->laws, &e->oil);
+    e->alpha_star = ehl_alpha_star(&e->laws);
+    e->alpha = e->alpha_star.value;
     e->answered = EHL_LAW_GOOD;
     if (wanted & fields)
         ehl_grid_fit(&e->grid, (size_t)e->cells, e->inlet, e->outlet, &e->history, &e->oil, 0);
@@ -307,7 +308,7 @@ static ff_status set_scalars(const results *r, const ehl_estimate *e)
         if (wants(r, k) && ff_put_scalar(r->host, k, value[k - EHL_ESTIMATE_H_MIN_LOWEST]) != FF_OK)
             return FF_NOMEM;
     if (wants(r, EHL_ESTIMATE_ALPHA_STAR) &&
-        ehl_put_alpha_star(r->host, EHL_ESTIMATE_ALPHA_STAR, &e->laws) != FF_OK)
+        ehl_put_alpha_star(r->host, EHL_ESTIMATE_ALPHA_STAR, e->alpha_star) != FF_OK)
         return FF_NOMEM;
     for (size_t i = 0; r->x && i < e->grid.nodes; i++) {
         double x = e->grid.first + (double)i * e->grid.dx;

@@ -76,7 +76,8 @@ struct ehl_estimate {
     /* of one run */
     ehl_history history;
     ehl_oil oil;
-    double alpha; /* film-forming, ehl_oil_alpha, 1/Pa */
+    ehl_film_coefficient alpha_star;
+    double alpha; /* its value, 1/Pa */
     ehl_grid grid;
     size_t count;
     ehl_moment *moment;

@@ -30,14 +30,14 @@ enum { EHL_INLET_TABLE = 257 };
 typedef struct ehl_inlet {
     ehl_laws laws;
     ehl_oil oil;
-    double alpha; /* 1/Pa, film-forming coefficient of ehl_oil_alpha */
+    double alpha; /* 1/Pa, film-forming coefficient */
     double step;  /* Pa, between the rows of the tables */
     double p[EHL_INLET_TABLE];
     double q[EHL_INLET_TABLE]; /* reduced pressure, int eta0/eta dp, Pa */
     double rho[EHL_INLET_TABLE], ln_eta[EHL_INLET_TABLE];
 } ehl_inlet;
 
-/* Fills the tables for contacts with Hertz pressures up to `highest`; alpha: ehl_oil_alpha.
+/* Fills the tables for contacts with Hertz pressures up to `highest`; alpha: ehl_alpha_star.
    FF_DOMAIN: a law was continued. */
 ff_status ehl_inlet_fill(ehl_inlet *n, const ehl_laws *laws, const ehl_oil *oil, double alpha,
                          double highest);

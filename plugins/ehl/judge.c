@@ -82,7 +82,7 @@ static ff_status find_effect(const conditions *s, const ehl_laws *laws, effect *
     *e = (effect){.continued = 0};
     if (ehl_fluid_oil(laws, &oil) < 0)
         return FF_INVALID;
-    e->alpha = ehl_oil_alpha(laws, &oil);
+    e->alpha = ehl_alpha_star(laws).value;
     e->continued = ehl_inlet_fill(&inlet, laws, &oil, e->alpha, s->highest) != FF_OK;
     double rho, p = s->highest, ln_eta;
     laws->density->eval(laws->density->self, 1, &p, NULL, &rho, NULL, NULL);

@@ -161,66 +161,61 @@ static bool is_bounded(const ehl_laws *laws, size_t steps, double p, double slop
     return false;
 }
 
-/* Steps of a twentieth in ln(eta) up to a rise of 40; from there on the tangent. */
-double ehl_oil_alpha(const ehl_laws *laws, const ehl_oil *oil)
+/* The integral of eta0/eta by whole steps and by halves. */
+typedef struct fluidity {
+    double p, slope; /* Pa and 1/Pa, where it has got to */
+    double rise;     /* of ln(eta) up to there */
+    double coarse, fine;
+} fluidity;
+
+enum { BLOCK = 8 }; /* steps that the law answers in one call */
+
+/* Goes on by a block of equal steps, of a twentieth in ln(eta) by the slope at its beginning. */
+static void integrate_block(fluidity *sum, const ff_viscosity *v, double ln_eta0, double highest)
+{
+    double at[2 * BLOCK], ln_eta[2 * BLOCK], slopes[2 * BLOCK];
+    double step =
+        fmin(fmin(0.05 / fmax(sum->slope, 1e-12), 2e6 + sum->p / 20), (highest - sum->p) / BLOCK);
+    for (size_t i = 0; i < 2 * BLOCK; i++) {
+        at[i] = sum->p + (double)(i + 1) * step / 2;
+        ln_eta[i] = NAN;
+    }
+    v->eval(v->self, 2 * BLOCK, at, NULL, ln_eta, slopes, NULL);
+    for (size_t i = 0; i < 2 * BLOCK; i += 2) {
+        double middle = ln_eta[i] - ln_eta0, end = ln_eta[i + 1] - ln_eta0;
+        sum->coarse += ehl_fluidity_integral(step, sum->rise, end);
+        sum->fine += ehl_fluidity_integral(step / 2, sum->rise, middle) +
+                     ehl_fluidity_integral(step / 2, middle, end);
+        sum->rise = end;
+    }
+    sum->p = at[2 * BLOCK - 1];
+    sum->slope = slopes[2 * BLOCK - 1];
+}
+
+/* Steps are exact where ln(eta) is linear: a third of the difference of wholes and halves, the
+   error of the halves, is taken off. Beyond a rise of 40 less than 1e-17 is left. */
+ehl_film_coefficient ehl_alpha_star(const ehl_laws *laws)
 {
     const ff_viscosity *v = laws->viscosity;
     const double highest = 1e11;
-    double p = 0, ln_eta = oil->ln_viscosity, slope = oil->alpha, sum = 0;
-    size_t steps = 0;
-    while (p < highest && ln_eta - oil->ln_viscosity < 40 && is_bounded(laws, steps++, p, slope)) {
-        double dp = fmin(fmin(0.05 / fmax(slope, 1e-12), 2e7 + p / 20), highest - p);
-        double next = p + dp, ln_next;
-        v->eval(v->self, 1, &next, NULL, &ln_next, &slope, NULL);
-        sum += ehl_fluidity_integral(dp, ln_eta - oil->ln_viscosity, ln_next - oil->ln_viscosity);
-        p = next;
-        ln_eta = ln_next;
-    }
-    return p < highest ? 1 / sum : 0;
+    double ln_eta0 = NAN;
+    fluidity sum = {.p = 0};
+    v->eval(v->self, 1, &sum.p, NULL, &ln_eta0, &sum.slope, NULL);
+    for (size_t steps = 0; sum.p < highest * (1 - 1e-12) && sum.rise < 40 && isfinite(sum.rise) &&
+                           is_bounded(laws, steps, sum.p, sum.slope);
+         steps += BLOCK)
+        integrate_block(&sum, v, ln_eta0, highest);
+    if (!(sum.rise >= 40))
+        return (ehl_film_coefficient){0, 0};
+    double whole = sum.fine + (sum.fine - sum.coarse) / 3;
+    return (ehl_film_coefficient){1 / whole, fabs(sum.fine - sum.coarse) / 3 / whole};
 }
 
-static double ln_eta_at(const ff_viscosity *law, double p, double *slope)
+ff_status ehl_put_alpha_star(const ff_host *host, uint32_t output, ehl_film_coefficient alpha)
 {
-    double ln_eta = NAN;
-    law->eval(law->self, 1, &p, NULL, &ln_eta, slope, NULL);
-    return ln_eta;
-}
-
-/* An integral by whole steps and by halves, both exact where ln(eta) is linear. */
-typedef struct integral {
-    double coarse, fine, rise; /* rise: ln(eta/eta0) that it got to */
-} integral;
-
-/* Steps of a twentieth in ln(eta) up to a rise of 40, beyond which less than 1e-17 is left. */
-static integral integrate_fluidity(const ehl_laws *laws)
-{
-    const ff_viscosity *law = laws->viscosity;
-    const double highest = 1e11;
-    size_t steps = 0;
-    double p = 0, slope = 0, before = ln_eta_at(law, 0, &slope), ln_eta0 = before;
-    integral sum = {0, 0, 0};
-    while (p < highest && sum.rise < 40 && isfinite(before) &&
-           is_bounded(laws, steps++, p, slope)) {
-        double dp = fmin(fmin(0.05 / fmax(slope, 1e-12), 2e6 + p / 20), highest - p);
-        double middle = ln_eta_at(law, p + dp / 2, NULL), after = ln_eta_at(law, p + dp, &slope);
-        sum.coarse += ehl_fluidity_integral(dp, before - ln_eta0, after - ln_eta0);
-        sum.fine += ehl_fluidity_integral(dp / 2, before - ln_eta0, middle - ln_eta0) +
-                    ehl_fluidity_integral(dp / 2, middle - ln_eta0, after - ln_eta0);
-        p += dp;
-        before = after;
-        sum.rise = after - ln_eta0;
-    }
-    return sum;
-}
-
-ff_status ehl_put_alpha_star(const ff_host *host, uint32_t output, const ehl_laws *laws)
-{
-    const integral sum = integrate_fluidity(laws);
-    bool rises = sum.rise >= 40;
-    /* the error of halves is a third of their difference from the whole, which is taken off */
-    double error = fabs(sum.fine - sum.coarse) / 3, whole = sum.fine + (sum.fine - sum.coarse) / 3;
-    host->quality(host->ctx, "alpha_star_error", rises ? error / whole : 0, 1e-3,
-                  !rises || error <= 1e-3 * whole ? FF_GOOD : FF_DOUBTFUL,
+    const double limit = 1e-3;
+    host->quality(host->ctx, "alpha_star_error", alpha.error, limit,
+                  alpha.error <= limit ? FF_GOOD : FF_DOUBTFUL,
                   "of alpha_star, relative: quadrature by whole steps against halves");
-    return ff_put_scalar(host, output, rises ? 1 / whole : 0);
+    return ff_put_scalar(host, output, alpha.value);
 }

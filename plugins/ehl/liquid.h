@@ -82,12 +82,15 @@ ff_status ehl_fluid_shear(const ehl_laws *laws, size_t n, const double *p, const
    `right`, exact where it is linear. */
 double ehl_fluidity_integral(double step, double left, double right);
 
-/* Puts alpha* = 1/int_0^inf eta0/eta dp, 1/Pa, of the law itself, with the error of its quadrature
-   as a line of the quality record; 0 where the viscosity does not rise. */
-ff_status ehl_put_alpha_star(const ff_host *host, uint32_t output, const ehl_laws *laws);
+/* Film-forming pressure-viscosity coefficient, alpha* = 1/int_0^inf eta0/eta dp (Blok 1963). */
+typedef struct ehl_film_coefficient {
+    double value; /* 1/Pa; 0 where the viscosity does not rise by exp(40) */
+    double error; /* of its quadrature, relative */
+} ehl_film_coefficient;
 
-/* Film-forming pressure-viscosity coefficient, alpha* = 1/int_0^inf eta0/eta dp, 1/Pa; 0 where
-   the viscosity does not rise (Blok 1963). */
-double ehl_oil_alpha(const ehl_laws *laws, const ehl_oil *oil);
+ehl_film_coefficient ehl_alpha_star(const ehl_laws *laws);
+
+/* Puts it, with its error as a line of the quality record. */
+ff_status ehl_put_alpha_star(const ff_host *host, uint32_t output, ehl_film_coefficient alpha);
 
 #endif

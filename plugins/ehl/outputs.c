@@ -466,7 +466,8 @@ ff_status ehl_results_finish(const ehl_results *r, const ehl_march *m)
             return FF_NOMEM;
     ff_status status = wants(r, EHL_X) ? output_x(r, m) : FF_OK;
     if (status == FF_OK && wants(r, EHL_ALPHA_STAR))
-        status = ehl_put_alpha_star(r->host, EHL_ALPHA_STAR, &m->solver->reynolds->laws);
+        status =
+            ehl_put_alpha_star(r->host, EHL_ALPHA_STAR, ehl_alpha_star(&m->solver->reynolds->laws));
     if (status == FF_OK)
         status = output_series(r);
     for (uint32_t k = 0; status == FF_OK && k < EHL_FIELDS; k++)

@@ -263,11 +263,14 @@ void fe_forget_servings(fe_instance *instance)
 /* False for more numbers than the memory of the machine holds: the shape is wrong. */
 static bool has_room(uint32_t rank, const size_t *shape)
 {
-    double most = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE) / sizeof(double);
+    const double surely = 1e6; /* for which the system need not be asked */
     double product = 1;
     for (uint32_t i = 0; i < rank; i++)
         product *= (double)shape[i];
-    return product <= most;
+    if (product <= surely)
+        return true;
+    double pages = (double)sysconf(_SC_PHYS_PAGES);
+    return product <= pages * (double)sysconf(_SC_PAGESIZE) / sizeof(double);
 }
 
 double *ff_result_fill(ff_stage *stage, size_t output, uint32_t rank, const size_t *shape)
