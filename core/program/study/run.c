@@ -3,6 +3,7 @@
 #include "case.h"
 #include "chain.h"
 #include "journal.h"
+#include "known.h"
 #include "rows.h"
 #include "workers.h"
 
@@ -23,6 +24,7 @@ typedef struct execution {
     study_pool pool;               /* without an executor: the workers of this process */
     study_fork_server fork_server; /* with an executor */
     size_t next;                   /* the next chain to hand out, which is a task of the executor */
+    bool searched;                 /* for cases that an earlier run has done */
     bool ending;                   /* no more cases are handed out */
     bool no_memory;                /* so that an executor was told to end */
     double start, reported;
@@ -115,9 +117,17 @@ static void take_row(execution *r)
     r->counters->total = study->count;
 }
 
+/* Whether the case of a chain of one is answered already. */
+static bool is_answered(const execution *r, size_t chain)
+{
+    return r->searched && r->keys[chain][0];
+}
+
 static int32_t next_chain(void *ctx, size_t *task)
 {
     execution *r = ctx;
+    while (r->open && r->next < end_of_chains(r->run) && is_answered(r, r->next))
+        r->next += r->run->shards;
     if (r->open && !r->ending && !interrupts && r->run->study->streams)
         take_row(r);
     if (!r->open || r->ending || interrupts || r->next >= end_of_chains(r->run))
@@ -264,6 +274,27 @@ static bool await_row(const execution *r)
     return true;
 }
 
+/* Answers what an earlier run has done in one go: a worker would have to be asked for each. */
+static void answer_known(execution *r)
+{
+    enum { FEW = 1000 }; /* for which no further process is worth its start */
+    const study_run *run = r->run;
+    study_search search = {.pid = 0};
+    study_known known;
+    bool many = study_records_count(r->done) >= FEW && r->counters->total >= FEW;
+    if (!many || run->study->streams || run->study->measure || study_is_chained(run->study) ||
+        !study_search_start(&search, run, r->done, r->next, end_of_chains(run), run->shards))
+        return;
+    r->searched = true;
+    while (!r->ending && !interrupts && study_search_next(&search, &known)) {
+        bool good = study_records_state(r->done, known.key) == STUDY_OK;
+        r->ending = !record_answer(r, known.index, known.key,
+                                   good ? STUDY_VERDICT_KNOWN : STUDY_VERDICT_KNOWN_BAD, "");
+        show_progress(r);
+    }
+    study_search_end(&search);
+}
+
 /* Runs all cases by workers of this process. */
 static bool run_here(execution *r)
 {
@@ -271,6 +302,7 @@ static bool run_here(execution *r)
     size_t task, size, busy = 0;
     if (begin_leading(r) < 0)
         return false;
+    answer_known(r);
     study_pool_open(&r->pool, r->run, r->done);
     for (;;) {
         for (; busy < r->run->jobs && next_chain(r, &task); busy++)
