@@ -73,6 +73,10 @@ class Rows(lab.Lab):
         first, second = self.table("empty")
         self.assertEqual(first["key"], second["key"])
 
+    def test_a_separator_in_quotes_is_none(self):
+        self.listed("quoted", '"x-a;b", wave.count\n"c;d", 4\n')
+        self.assertEqual([row["wave.count"] for row in self.table("quoted")], ["4"])
+
     def test_what_is_wrong_has_its_place(self):
         for text, place, words in (
                 ("wave.amplitude\n", "", "has no case"),
@@ -88,6 +92,7 @@ class Rows(lab.Lab):
                 ("wave.amplitude\n\"1 mm\n", ":2:1:", "not closed on its line"),
                 ("wave.amplitude\n\"1\" mm\n", ":2:1:", "follows the closing quote"),
                 ("wave.amplitude\n1 mn\n", ":2:1:", "mn"),
+                ("wave.count; wave.amplitude\n4; 1 mn\n", ":2:4:", "mn"),
                 ("wave.amplitude\n1 mm\0\n", "", "character 0")):
             said = self.listed("wrong", text, code=2)
             self.assertIn(words, said)
