@@ -45,6 +45,7 @@ flags=$(env -i PATH=/usr/bin:/bin PKG_CONFIG_PATH="$pc" pkg-config --cflags --li
 rpath=-Wl,-rpath,$(env -i PATH=/usr/bin:/bin PKG_CONFIG_PATH="$pc" pkg-config --variable=libdir libflankfilm)
 program=$lab/moved/bin/flankfilm
 seed=$lab/moved/share/flankfilm/configs/li-kahraman-2011.yaml
+discs=$lab/moved/share/flankfilm/configs/line-contact.yaml
 if stranger touch "$lab/moved/x" 2>/dev/null; then
     echo "the tree can be written to"
     exit 1
@@ -54,8 +55,8 @@ fi
 stranger cc -std=c11 -Wall -Wextra -Wpedantic -Werror film.c -o film-c $flags -lm "$rpath"
 # shellcheck disable=SC2086
 stranger c++ -std=c++17 -Wall -Wextra -Wpedantic -Werror film.cpp -o film-cpp $flags "$rpath"
-stranger ./film-c "$seed" | tee "$lab/from-c"
-stranger ./film-cpp "$seed" | diff "$lab/from-c" -
+stranger ./film-c "$discs" "$seed" | tee "$lab/from-c"
+stranger ./film-cpp "$discs" "$seed" | diff "$lab/from-c" -
 [ "$(wc -l <"$lab/from-c")" = 3 ]
 if stranger ./film-c /nowhere.yaml; then exit 1; fi
 
@@ -63,7 +64,7 @@ if stranger ./film-c /nowhere.yaml; then exit 1; fi
 lowest=$(stranger "$program" run "$seed" --set 'outputs=[film.h_min]' --json | tr -d ' \n' |
     grep -o '"data":\[[^]]*\]' | tr -d '"dat:[]' | tr , '\n' |
     awk 'NR == 1 || $1 < least { least = $1 } END { printf "%.6g", least }')
-grep -qx "lowest film of the gears $lowest m" "$lab/from-c" || { echo "the program says $lowest" && exit 1; }
+tail -n 1 "$lab/from-c" | grep -qx "film $lowest m" || { echo "the program says $lowest" && exit 1; }
 
 # Python sees the engine's own memory, and the same film
 /usr/bin/python3 -c 'import numpy' 2>/dev/null || { echo "needs NumPy" && exit 77; }
@@ -74,7 +75,7 @@ import flankfilm
 run = flankfilm.Engine().run(sys.argv[1], {"outputs": ["film.pressure", "film.h_min"]})
 film, again = (run["film.pressure"].data for _ in range(2))
 assert np.shares_memory(film, again) and film.shape == (1001, 513), film.shape
-print("lowest film of the gears %.6g m" % run["film.h_min"].data.min())' "$seed" >"$lab/from-python"
+print("film %.6g m" % run["film.h_min"].data.min())' "$seed" >"$lab/from-python"
 tail -n 1 "$lab/from-c" | diff - "$lab/from-python"
 
 # a law of others
