@@ -46,7 +46,7 @@ static bool write_files(const fit *f, const char *directory)
                  {"residuals", ".csv", fit_write_residuals},
                  {"residuals", ".svg", fit_write_plot},
                  {"fit", ".json", write_answer}};
-    results_folder *folder = results_folder_open(directory, f->report);
+    results_folder *folder = results_folder_open(directory, "fit", f->report);
     if (!folder)
         return false;
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) {

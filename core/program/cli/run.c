@@ -117,7 +117,7 @@ static bool open_place(place *to, const results_input *input, ff_report *report)
 {
     if (!to->directory)
         return true;
-    to->folder = results_folder_open(to->directory, report);
+    to->folder = results_folder_open(to->directory, "result", report);
     return to->folder && results_earlier_check(to->directory, input, &to->replaced, report);
 }
 

@@ -15,7 +15,8 @@
 enum { LONGEST_NAME = 255, LONGEST_PART = LONGEST_NAME + 20 };
 
 static const char manifest[] = ".flankfilm";
-static const char manifest_head[] = "flankfilm result directory; its files:\n";
+static const char manifest_head[] = "flankfilm "; /* then what the directory holds */
+static const char manifest_rest[] = " directory; its files:\n";
 static const char head[] = ".flankfilm.", part[] = ".part"; /* around a temporary name */
 
 typedef struct entry {
@@ -26,6 +27,7 @@ typedef struct entry {
 
 struct results_folder {
     char *path;
+    const char *kind; /* "result" */
     int fd;
     entry *entries; /* the result files that are in it or are being written */
     size_t count;
@@ -115,22 +117,34 @@ static void write_manifest(results_folder *folder)
 {
     FILE *stream = folder->failed ? NULL : open_part(folder, manifest);
     if (stream)
-        fputs(manifest_head, stream);
+        fprintf(stream, "%s%s%s", manifest_head, folder->kind, manifest_rest);
     for (size_t i = 0; stream && i < folder->count; i++)
         fprintf(stream, "%s\n", folder->entries[i].name);
     close_part(folder);
     rename_part(folder, manifest);
 }
 
-/* Reads the names of the earlier results; false when the directory has no manifest of ours. */
-static bool read_manifest(results_folder *folder)
+/* Copies what the first line says is in the directory; false when the line is not ours. */
+static bool read_kind(const char *line, char kind[LONGEST_NAME])
+{
+    size_t length = strlen(line), before = sizeof manifest_head - 1;
+    size_t behind = sizeof manifest_rest - 1;
+    if (length <= before + behind || strncmp(line, manifest_head, before) != 0 ||
+        strcmp(line + length - behind, manifest_rest) != 0)
+        return false;
+    snprintf(kind, LONGEST_NAME, "%.*s", (int)(length - behind - before), line + before);
+    return true;
+}
+
+/* Reads the names of the earlier files; false when the directory has no manifest of ours. */
+static bool read_manifest(results_folder *folder, char kind[LONGEST_NAME])
 {
     int fd = folder->fd < 0 ? -1 : openat(folder->fd, manifest, O_RDONLY | O_CLOEXEC);
     FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
     if (!stream)
         return false;
     char line[LONGEST_NAME + 2];
-    bool ours = fgets(line, sizeof line, stream) && strcmp(line, manifest_head) == 0;
+    bool ours = fgets(line, sizeof line, stream) && read_kind(line, kind);
     while (ours && fgets(line, sizeof line, stream)) {
         line[strcspn(line, "\n")] = '\0';
         if (*line && *line != '.' && !strchr(line, '/'))
@@ -178,7 +192,13 @@ static bool lock_directory(results_folder *folder)
     if (flock(folder->fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
         return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, hint,
                         "another run is using the result directory \"%s\"", path);
-    bool ours = read_manifest(folder);
+    char kind[LONGEST_NAME] = "";
+    bool ours = read_manifest(folder, kind);
+    if (ours && strcmp(kind, folder->kind) != 0)
+        return ff_error(
+            report, FF_FAULT_INPUT, FF_NOWHERE, hint,
+            "\"%s\" is a %s directory of flankfilm, and a %s directory is to be written", path,
+            kind, folder->kind);
     if (!ours && count_files(folder, false) > 0)
         return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, hint,
                         "\"%s\" holds files that are not results of flankfilm", path);
@@ -187,11 +207,12 @@ static bool lock_directory(results_folder *folder)
     return !folder->failed;
 }
 
-results_folder *results_folder_open(const char *path, ff_report *report)
+results_folder *results_folder_open(const char *path, const char *kind, ff_report *report)
 {
     results_folder *folder = memory_alloc(sizeof *folder);
     folder->fd = -1;
     folder->path = memory_print_text("%s", path);
+    folder->kind = kind;
     folder->report = report;
     if (lock_directory(folder))
         return folder;
@@ -306,7 +327,8 @@ bool results_folder_remove(const char *path)
 {
     results_folder folder = {.path = memory_print_text("%s", path),
                              .fd = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
-    bool ours = read_manifest(&folder);
+    char kind[LONGEST_NAME];
+    bool ours = read_manifest(&folder, kind);
     for (size_t i = 0; ours && i < folder.count; i++)
         unlinkat(folder.fd, folder.entries[i].name, 0);
     if (ours)

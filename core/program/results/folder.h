@@ -13,10 +13,10 @@
 
 typedef struct results_folder results_folder;
 
-/* Makes the directory when it is not there and locks it against a second run. NULL, with an error
-   in the report, for a directory with files of somebody else, one in use or one that cannot be
-   made. */
-results_folder *results_folder_open(const char *path, ff_report *report);
+/* Makes the directory when it is not there and locks it against a second run; `kind` is what it
+   holds, "result". NULL, with an error in the report, for a directory of another kind or with files
+   of somebody else, one in use or one that cannot be made. */
+results_folder *results_folder_open(const char *path, const char *kind, ff_report *report);
 void results_folder_free(results_folder *folder);
 /* Removes the files that were begun and not committed, then frees the folder. */
 void results_folder_discard(results_folder *folder);

@@ -24,7 +24,10 @@ static const char *name_within(const char *directory, const char *path)
                 own.st_dev == other.st_dev && own.st_ino == other.st_ino;
     free(parent);
     const char *name = slash ? slash + 1 : path;
-    return same && *name && !strchr(name, '\n') && strlen(name) <= LONGEST_NAME ? name : NULL;
+    return same && *name && strcmp(name, ".") != 0 && strcmp(name, "..") != 0 &&
+                   !strchr(name, '\n') && strlen(name) <= LONGEST_NAME
+               ? name
+               : NULL;
 }
 
 /* A file is known by its length and time, a directory by its list of files. */

@@ -30,7 +30,7 @@ bool results_target_open(results_target *target, bool directory)
 {
     if (!directory)
         return open_file(target);
-    target->folder = results_folder_open(target->path, target->report);
+    target->folder = results_folder_open(target->path, "table", target->report);
     if (target->folder)
         results_folder_sync(target->folder);
     return target->folder != NULL;

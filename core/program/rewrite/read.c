@@ -48,9 +48,13 @@ static char *read_text(const char *path)
         return NULL;
     char *text = memory_alloc(MOST_TEXT + 1);
     size_t length = fread(text, 1, MOST_TEXT, stream);
+    bool whole = feof(stream) || getc(stream) == EOF;
     fclose(stream);
     text[length] = '\0';
-    return text;
+    if (whole)
+        return text;
+    free(text); /* the part of a file would be printed as if it were all */
+    return NULL;
 }
 
 /* The tree of the text alone: its key `include` is read under another name of the same length, so

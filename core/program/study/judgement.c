@@ -67,7 +67,10 @@ static char *words_of_warning(const char *text)
     size_t name = strcspn(text, ":");
     if (strstr(text + name, range))
         return memory_print_text("%.*s outside its calibrated range", (int)name, text);
-    return memory_copy_text(text, strcspn(text, ",;("));
+    size_t length = strcspn(text, ",;(");
+    while (length > 0 && text[length - 1] == ' ')
+        length--;
+    return memory_copy_text(text, length);
 }
 
 /* A warning is a reason to look, which leaves the verdict as it is. */

@@ -97,6 +97,15 @@ class Errors(lab.Lab):
             self.assertIn(f'"{directory}" holds the results of a run or a study', said)
             self.assertEqual(sorted(os.listdir(directory)), before)
 
+    def test_directory_of_tables(self):
+        """A run leaves them alone; another export replaces them."""
+        self.call("export", "run", "--to", "csv", "-o", "tables")
+        before = sorted(os.listdir("tables"))
+        said = self.call("run", "run.yaml", "-o", "tables", code=2)
+        self.assertIn('"tables" is a table directory of flankfilm', said)
+        self.assertEqual(sorted(os.listdir("tables")), before)
+        self.call("export", "run", "--to", "csv", "-o", "tables")
+
     def test_broken_json(self):
         os.mkdir("broken")
         with open("broken/result.json", "w", encoding="utf-8") as file:
