@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "rows.h"
 
+#include "csv.h"
 #include "yaml.h"
 
 #include <errno.h>
@@ -12,26 +13,12 @@
 #include <unistd.h>
 
 enum {
-    MOST_FIELDS = 1000,
     MOST_ROWS = 1000000,
     LONGEST_ROW = 1 << 20,
     LARGEST_FILE = 1 << 28,
     MOST_ERRORS = 20,
     BLOCK = 1 << 16
 };
-
-/* A part of a line, without its quotes and the blanks around it. */
-typedef struct field {
-    char *text;
-    uint32_t column, width; /* in characters */
-    bool quoted;
-} field;
-
-typedef struct line {
-    field *fields;
-    size_t count;
-    const char *fault; /* why it cannot be split, or NULL */
-} line;
 
 typedef struct column {
     size_t varied; /* SIZE_MAX: the user's own */
@@ -53,117 +40,19 @@ struct study_rows {
     size_t length, taken;
 };
 
-static bool is_blank(char c)
-{
-    return c == ' ' || c == '\t' || c == '\r';
-}
-
-static uint32_t count_characters(const char *from, const char *to)
-{
-    uint32_t count = 0;
-    for (; from < to; from++)
-        count += ((unsigned char)*from & 0xc0) != 0x80;
-    return count;
-}
-
-/* The first of the separators that stands outside of quotes; 0: there is none. */
-static char find_separator(const char *text)
-{
-    bool quoted = false;
-    for (; *text; text++) {
-        quoted = quoted != (*text == '"');
-        if (!quoted && strchr(";,\t", *text))
-            return *text;
-    }
-    return '\0';
-}
-
-/* Copies a quoted field, whose quotes are written twice; returns what follows it, NULL when it has
-   no end. */
-static const char *read_quoted(const char *at, char *out)
-{
-    for (at++; *at; at++) {
-        if (*at == '"' && at[1] != '"') {
-            *out = '\0';
-            return at + 1;
-        }
-        at += *at == '"';
-        *out++ = *at;
-    }
-    return NULL;
-}
-
-/* Reads the field at `at`; returns its end, NULL after a fault. */
-static const char *read_field(line *l, const char *begin, const char *at, char separator)
-{
-    field *f = &l->fields[l->count++];
-    while (is_blank(*at) && *at != separator)
-        at++;
-    const char *first = at, *end;
-    f->quoted = *at == '"';
-    if (f->quoted) {
-        f->text = memory_alloc(strlen(at) + 1);
-        end = at = read_quoted(at, f->text);
-        l->fault = at ? NULL : "a quote is opened and not closed on its line";
-        while (at && is_blank(*at) && *at != separator)
-            at++;
-        if (at && *at && *at != separator)
-            l->fault = "something follows the closing quote";
-    } else {
-        while (*at && *at != separator)
-            at++;
-        for (end = at; end > first && is_blank(end[-1]);)
-            end--;
-        f->text = memory_copy_text(first, (size_t)(end - first));
-    }
-    f->column = 1 + count_characters(begin, first);
-    f->width = count_characters(first, end ? end : first + strlen(first));
-    return l->fault ? NULL : at;
-}
-
-static line split(const char *text, char separator)
-{
-    size_t most = 1;
-    for (const char *at = text; *at; at++)
-        most += *at == separator;
-    line l = {.fields =
-                  memory_alloc((most > MOST_FIELDS ? MOST_FIELDS + 1 : most) * sizeof(field))};
-    const char *at = text;
-    do {
-        if (l.count > MOST_FIELDS)
-            return l;
-        at = read_field(&l, text, at, separator);
-    } while (at && *at && *at++ == separator);
-    return l;
-}
-
-static void line_free(line *l)
-{
-    for (size_t i = 0; i < l->count; i++)
-        free(l->fields[i].text);
-    free(l->fields);
-}
-
-static bool says_nothing(const char *text)
-{
-    while (is_blank(*text))
-        text++;
-    return !*text || *text == '#';
-}
-
-static ff_place place_of(const study_rows *rows, const field *f)
+static ff_place place_of(const study_rows *rows, const study_csv_field *f)
 {
     return (ff_place){&rows->source, rows->at, f ? f->column : 1, f ? f->width : 0};
 }
 
-static bool refuse(const study_rows *rows, const field *f, ff_report *report, const char *hint,
-                   const char *text)
+static bool refuse(const study_rows *rows, const study_csv_field *f, ff_report *report,
+                   const char *hint, const char *text)
 {
     return ff_error(report, FF_FAULT_INPUT, place_of(rows, f), hint, "%s", text);
 }
 
 /* Splits "duty.torque [N m]" into path and unit. */
-static bool read_head(study_rows *rows, field *f, column *c, ff_report *report)
+static bool read_head(study_rows *rows, study_csv_field *f, column *c, ff_report *report)
 {
     char why[200];
     ff_unit unit;
@@ -178,7 +67,7 @@ static bool read_head(study_rows *rows, field *f, column *c, ff_report *report)
     if (open) {
         free(c->unit);
         c->unit = memory_copy_text(open + 1, (size_t)(close - open - 1));
-        while (open > f->text && is_blank(open[-1]))
+        while (open > f->text && study_csv_is_blank(open[-1]))
             open--;
         *open = '\0';
         if (!ff_unit_parse(c->unit, &unit, why, sizeof why))
@@ -190,7 +79,7 @@ static bool read_head(study_rows *rows, field *f, column *c, ff_report *report)
                   "a column needs a name");
 }
 
-static bool add_column(study_rows *rows, field *f, column *c, ff_report *report)
+static bool add_column(study_rows *rows, study_csv_field *f, column *c, ff_report *report)
 {
     study_definition *study = rows->study;
     if (!read_head(rows, f, c, report))
@@ -212,18 +101,18 @@ static bool add_column(study_rows *rows, field *f, column *c, ff_report *report)
 static bool read_heads(study_rows *rows, const char *text, ff_report *report)
 {
     size_t errors = ff_report_errors(report);
-    rows->separator = find_separator(text);
-    line l = split(text, rows->separator);
+    rows->separator = study_csv_separator(text);
+    study_csv_line l = study_csv_split(text, rows->separator);
     if (l.fault)
         refuse(rows, &l.fields[l.count - 1], report, NULL, l.fault);
-    else if (l.count > MOST_FIELDS)
+    else if (l.count > STUDY_CSV_FIELDS)
         refuse(rows, NULL, report, NULL, "there are more than 1000 columns");
     rows->columns = memory_alloc(l.count * sizeof *rows->columns);
     rows->study->varied =
         memory_arena_alloc(&rows->study->arena, l.count * sizeof *rows->study->varied);
     for (size_t i = 0; ff_report_errors(report) == errors && i < l.count; i++, rows->column_count++)
         add_column(rows, &l.fields[i], &rows->columns[i], report);
-    line_free(&l);
+    study_csv_free(&l);
     return ff_report_errors(report) == errors &&
            (rows->study->varied_count > 0 ||
             refuse(rows, NULL, report, NULL, "no column names a path of the pipeline"));
@@ -250,7 +139,7 @@ static void make_room(study_rows *rows, size_t index)
 }
 
 /* A file is looked for beside the table. */
-static char *assignment_of(const study_rows *rows, const column *c, const field *f)
+static char *assignment_of(const study_rows *rows, const column *c, const study_csv_field *f)
 {
     const char *path = rows->study->varied[c->varied].path, *end;
     double number;
@@ -278,7 +167,8 @@ static const char *keep(study_rows *rows, char *text)
 }
 
 /* Says why the fields are no case; false when they are one. *f: what it is about, or NULL. */
-static bool is_amiss(const study_rows *rows, const line *l, const field **f, char *why, size_t size)
+static bool is_amiss(const study_rows *rows, const study_csv_line *l, const study_csv_field **f,
+                     char *why, size_t size)
 {
     bool many = l->count > rows->column_count;
     *f = l->fault ? &l->fields[l->count - 1] : many ? &l->fields[rows->column_count] : NULL;
@@ -292,10 +182,10 @@ static bool is_amiss(const study_rows *rows, const line *l, const field **f, cha
     return true;
 }
 
-static bool refuse_row(const study_rows *rows, const line *l, ff_report *report)
+static bool refuse_row(const study_rows *rows, const study_csv_line *l, ff_report *report)
 {
     char why[120];
-    const field *f;
+    const study_csv_field *f;
     if (!is_amiss(rows, l, &f, why, sizeof why))
         return true;
     return report &&
@@ -305,12 +195,12 @@ static bool refuse_row(const study_rows *rows, const line *l, ff_report *report)
 }
 
 /* Takes what a line assigns into the row of that number; nothing when it is no case. */
-static void take_row(study_rows *rows, size_t index, const line *l)
+static void take_row(study_rows *rows, size_t index, const study_csv_line *l)
 {
     make_room(rows, index);
     for (size_t i = 0; !l->fault && l->count == rows->column_count && i < l->count; i++) {
         const column *c = &rows->columns[i];
-        const field *f = &l->fields[i];
+        const study_csv_field *f = &l->fields[i];
         if (c->varied == SIZE_MAX)
             continue;
         study_varied *v = &rows->study->varied[c->varied];
@@ -389,10 +279,10 @@ static bool add_row(study_rows *rows, const char *text, ff_report *report)
     study_definition *study = rows->study;
     if (study->count == MOST_ROWS)
         return refuse(rows, NULL, report, NULL, "at most 1000000 cases are possible");
-    line l = split(text, rows->separator);
+    study_csv_line l = study_csv_split(text, rows->separator);
     refuse_row(rows, &l, report);
     take_row(rows, study->count, &l);
-    line_free(&l);
+    study_csv_free(&l);
     study->points[0] = ++study->count;
     return true;
 }
@@ -406,7 +296,7 @@ static bool read_lines(study_rows *rows, ff_report *report)
         size_t length = strcspn(at, "\n");
         rows->at++;
         char *text = memory_copy_text(at, length);
-        if (!says_nothing(text))
+        if (!study_csv_is_silent(text))
             good = rows->columns ? add_row(rows, text, report) : read_heads(rows, text, report);
         free(text);
         good = good && ff_report_errors(report) < errors + MOST_ERRORS;
@@ -502,7 +392,7 @@ bool study_rows_begin(study_rows *rows, ff_report *report)
     for (;;) {
         char *text = take_line(rows);
         const char *first = text && rows->at == 1 ? skip_mark(text) : text;
-        bool found = first && !says_nothing(first);
+        bool found = first && !study_csv_is_silent(first);
         bool good = found && read_heads(rows, first, report);
         free(text);
         if (found)
@@ -521,7 +411,7 @@ int study_rows_next(study_rows *rows)
     study_definition *study = rows->study;
     for (;;) {
         char *text = take_line(rows);
-        if (text && !says_nothing(text) && study->count < MOST_ROWS) {
+        if (text && !study_csv_is_silent(text) && study->count < MOST_ROWS) {
             study_rows_put(rows, study->count, text);
             free(text);
             return 1;
@@ -554,9 +444,9 @@ const char *study_rows_text(const study_rows *rows, size_t index)
 
 void study_rows_put(study_rows *rows, size_t index, const char *text)
 {
-    line l = split(text, rows->separator);
+    study_csv_line l = study_csv_split(text, rows->separator);
     take_row(rows, index, &l);
-    line_free(&l);
+    study_csv_free(&l);
     free(rows->texts[index]);
     rows->texts[index] = memory_copy_text(text, strlen(text));
     if (index >= rows->study->count)
@@ -565,9 +455,9 @@ void study_rows_put(study_rows *rows, size_t index, const char *text)
 
 bool study_rows_check(const study_rows *rows, size_t index, ff_report *report)
 {
-    line l = split(rows->texts[index], rows->separator);
+    study_csv_line l = study_csv_split(rows->texts[index], rows->separator);
     bool good = refuse_row(rows, &l, report);
-    line_free(&l);
+    study_csv_free(&l);
     return good;
 }
 
