@@ -258,6 +258,60 @@ static void note_files(const study_definition *study, const char *directory)
     free(files);
 }
 
+/* Opens what the run needs beside the file; false after an error. */
+static bool begin_run(study_run *run, cli_session *session, const cli_options *options, teller *t)
+{
+    const void *table;
+    run->progress = options->json ? NULL : tell_progress;
+    run->enter = enter;
+    run->describe = describe;
+    run->say = say;
+    run->ctx = t;
+    if (cli_option(options, "executor"))
+        run->executor = cli_service_open(session->engine, options, "executor", FF_EXECUTOR_ID,
+                                         &table, session->report);
+    return ff_report_errors(session->report) == 0 && begin_rows(run, options, session->report);
+}
+
+static void tell_or_answer(const teller *t, const study_counters *counters, bool good, int code,
+                           ff_report *report)
+{
+    if (counters->leads && t->options->json)
+        answer_end(t->session->study, counters, code, t->directory, report);
+    else if (counters->leads)
+        tell_end(t, counters, good, report);
+    else
+        terminal_print_messages(report, stderr, terminal_colour(stderr));
+}
+
+/* Returns the exit code. */
+static int run_and_tell(const study_run *run, teller *t, ff_report *report)
+{
+    const study_definition *study = run->study;
+    const cli_options *options = t->options;
+    study_counters counters = {.total = 0};
+    study_signals before;
+    study_signals_catch(&before);
+    bool settled = settle_driver(run, &t->driven, report), driven = t->driven;
+    bool good = settled && (driven ? study_drive(run, &counters, report)
+                                   : study_execute(run, &counters, report));
+    study_signals_restore(&before);
+    int verdict = driven ? study_verdict(study) : -1;
+    bool bad = verdict < 0 ? counters.failed > 0 : verdict == FF_BAD;
+    bad = bad || cli_is_strict_about(options, counters.tally.counts[FF_DOUBTFUL] > 0, report);
+    int code = !good ? ff_report_fault(report) : bad ? CLI_EXIT_CASES : EXIT_SUCCESS;
+    if (t->terminal && run->progress)
+        fputs("\r\033[K", stderr);
+    if (!good && (driven || !settled || counters.leads) && counters.total == 0)
+        code = cli_refuse(report, options, "nothing was run");
+    else
+        tell_or_answer(t, &counters, good, code, report);
+    if (good && driven)
+        note_files(study, t->directory);
+    study_tally_free(&counters.tally);
+    return code;
+}
+
 int cli_run_study(cli_session *session, const cli_options *options)
 {
     char *directory = cli_study_directory(options);
@@ -275,48 +329,10 @@ int cli_run_study(cli_session *session, const cli_options *options)
                 .terminal = isatty(STDERR_FILENO) != 0};
     snprintf(input, sizeof input, "%016llx", (unsigned long long)t.input.key);
     run.input = input;
-    study_counters counters = {.total = 0};
-    const void *table;
-    run.progress = options->json ? NULL : tell_progress;
-    run.enter = enter;
-    run.describe = describe;
-    run.say = say;
-    run.ctx = &t;
-    if (cli_option(options, "executor"))
-        run.executor = cli_service_open(session->engine, options, "executor", FF_EXECUTOR_ID,
-                                        &table, session->report);
-    if (ff_report_errors(session->report) > 0 || !begin_rows(&run, options, session->report)) {
-        int code = cli_refuse(session->report, options, "nothing was run");
-        ff_instance_close(run.executor);
-        free(directory);
-        return code;
-    }
-    const study_definition *study = session->study;
-    study_signals before;
-    study_signals_catch(&before);
-    bool settled = settle_driver(&run, &t.driven, session->report), driven = t.driven;
-    bool good = settled && (driven ? study_drive(&run, &counters, session->report)
-                                   : study_execute(&run, &counters, session->report));
-    study_signals_restore(&before);
-    int verdict = driven ? study_verdict(study) : -1;
-    bool bad = verdict < 0 ? counters.failed > 0 : verdict == FF_BAD;
-    bad = bad ||
-          cli_is_strict_about(options, counters.tally.counts[FF_DOUBTFUL] > 0, session->report);
-    int code = !good ? ff_report_fault(session->report) : bad ? CLI_EXIT_CASES : EXIT_SUCCESS;
-    if (t.terminal && run.progress)
-        fputs("\r\033[K", stderr);
-    if (!good && (driven || !settled || counters.leads) && counters.total == 0)
-        code = cli_refuse(session->report, options, "nothing was run");
-    else if (counters.leads && options->json)
-        answer_end(study, &counters, code, directory, session->report);
-    else if (counters.leads)
-        tell_end(&t, &counters, good, session->report);
-    else
-        terminal_print_messages(session->report, stderr, terminal_colour(stderr));
-    if (good && driven)
-        note_files(study, directory);
+    int code = begin_run(&run, session, options, &t)
+                   ? run_and_tell(&run, &t, session->report)
+                   : cli_refuse(session->report, options, "nothing was run");
     ff_instance_close(run.executor);
-    study_tally_free(&counters.tally);
     free(t.replaced);
     free(t.removed);
     free(directory);
