@@ -204,6 +204,11 @@ bool results_view_read_study(results_reader *reader)
     json_t *study = results_view_read_json(reader, study_description);
     if (!study)
         return refuse(reader, errno ? "is not there" : "is not a description of a study");
+    const json_t *length = json_array_get(json_object_get(study, "lengths"), 0);
+    if (json_is_integer(length) && json_integer_value(length) == 0) {
+        json_decref(study);
+        return refuse(reader, "lists no case: rows of standard input stand there when they ended");
+    }
     reader->view.study = 1;
     results_view_add_head(reader, study);
     good = read_lengths(reader, json_object_get(study, "lengths"));

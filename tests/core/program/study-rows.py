@@ -129,7 +129,9 @@ class Rows(lab.Lab):
         done = [json.loads(process.stdout.readline())["key"] for _ in range(2)]
         process.send_signal(signal.SIGKILL)
         process.communicate()
+        self.assertIn("lists no case", self.call("report", "killed", code=2))
         answers, _ = self.feed("killed", "wave.amplitude [mm]\n3\n2\n1\n")
+        self.call("report", "killed", "-o", "killed.html")
         self.assertEqual([answer["before"] for answer in answers], [False, True, True])
         self.assertEqual({answer["key"] for answer in answers[1:]}, set(done))
         self.assertEqual([row["case"] for row in self.table("killed")], ["1", "2", "3"])
