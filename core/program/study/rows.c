@@ -337,12 +337,21 @@ static bool read_table(study_definition *study, const ff_node *node, ff_report *
     return good;
 }
 
+/* "-" without quotes behind `--set study.cases=` is a list of nothing to YAML. */
+static bool is_dash(const ff_node *node)
+{
+    const ff_node *only = node->kind == FF_SEQUENCE && node->count == 1 ? node->items[0] : NULL;
+    return node->kind == FF_SCALAR ? !strcmp(node->text, "-")
+                                   : only && only->kind == FF_SCALAR && !*only->text;
+}
+
 bool study_rows_read(study_definition *study, const ff_node *node, ff_report *report)
 {
-    if (node->kind != FF_SCALAR || !*node->text)
-        return ff_error(report, FF_FAULT_INPUT, node->place, "write cases: cases.csv",
-                        "study: cases: expected the name of a file, or - for standard input");
-    if (strcmp(node->text, "-") != 0)
+    if (!is_dash(node) && (node->kind != FF_SCALAR || !*node->text))
+        return ff_error(report, FF_FAULT_INPUT, node->place,
+                        "write cases: cases.csv, or cases: \"-\" for standard input",
+                        "study: cases: expected the name of a file");
+    if (!is_dash(node))
         return read_table(study, node, report);
     rows_new(study, "standard input", ".")->streams = true;
     study->streams = true;

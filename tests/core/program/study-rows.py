@@ -150,6 +150,13 @@ class Rows(lab.Lab):
         answers, _ = self.feed("zero", "wave.count\n4\0\n", code=4)
         self.assertEqual(answers[0]["status"], "invalid")
 
+    def test_a_dash_of_the_command_line(self):
+        self.listed("dash", "wave.count\n4\n")
+        for words in "study.cases=-", "study={cases: -}":
+            self.assertIn("ok (1 stage)", self.call("check", "dash.yaml", "--set", words))
+        self.assertIn("expected the name of a file",
+                      self.call("check", "dash.yaml", "--set", "study.cases=[a, b]", code=2))
+
     def test_others_do_not_read_the_rows(self):
         self.write("rows.yaml", PIPELINE + "study: {cases: \"-\"}\n")
         for verb in "check", "plan", "explain":
