@@ -654,6 +654,7 @@ const char *ff_verdict_name(int verdict); /* "good", "doubtful", "bad" */
 double *ff_result_fill(ff_stage *stage, size_t output, uint32_t rank, const size_t *shape);
 void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
                     const char *text);
+void ff_drop_quality(ff_stage *stage, size_t line);
 
 /* The parameters under `feedback`. */
 const ff_param *ff_feedback_rows(size_t *count);

@@ -62,11 +62,13 @@ enum {
 
 /* Flags of a parameter row. */
 enum {
-    FF_REQUIRED = 1,   /* must be given; in a group: one member of the group must be given */
-    FF_MIN_OPEN = 2,   /* `min` itself is refused */
-    FF_MAX_OPEN = 4,   /* `max` itself is refused */
-    FF_WHOLE = 8,      /* FF_REALS of whole numbers */
-    FF_TUNABLE = 16,   /* trades speed for accuracy: cells, steps, tolerances */
+    FF_REQUIRED = 1, /* must be given; in a group: one member of the group must be given */
+    FF_MIN_OPEN = 2, /* `min` itself is refused */
+    FF_MAX_OPEN = 4, /* `max` itself is refused */
+    FF_WHOLE = 8,    /* FF_REALS of whole numbers */
+    FF_TUNABLE = 16, /* trades speed for accuracy, the finer the larger an FF_INT (cells, steps) or
+                        the smaller an FF_REAL (tolerances, distances of points) is: errors are
+                        measured by changing it */
     FF_INCREASING = 32 /* FF_REALS that must not decrease */
 };
 

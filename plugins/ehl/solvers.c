@@ -10,12 +10,11 @@ static const ff_param params[] = {
              "cells of the uniform grid from inlet to outlet; the error of the film falls with "
              "their square (second-order wedge)"),
     FF_QUANTITY_OR(
-        "auto", "inlet", "1", ehl_model, inlet, FF_MIN_OPEN | FF_TUNABLE, "auto", NULL, 0, 1e6, 2,
-        1e6,
+        "auto", "inlet", "1", ehl_model, inlet, FF_MIN_OPEN, "auto", NULL, 0, 1e6, 2, 1e6,
         "start of the domain in front of the contact, in largest Hertz half-widths of the history; "
         "auto: a + 10 sqrt(2 R h) of every load, and up to 57 under light ones"),
-    FF_QUANTITY_OR("auto", "outlet", "1", ehl_model, outlet, FF_MIN_OPEN | FF_TUNABLE, "auto", NULL,
-                   0, 1e6, 1.1, 1e6,
+    FF_QUANTITY_OR("auto", "outlet", "1", ehl_model, outlet, FF_MIN_OPEN, "auto", NULL, 0, 1e6, 1.1,
+                   1e6,
                    "end of the domain behind the contact, in largest Hertz half-widths; auto: a + "
                    "2 sqrt(2 R h) of every load; with rough flanks both ends at least a + sqrt(8 R "
                    "Rq); where the entrainment turns round both as far as the further"),

@@ -167,6 +167,11 @@ ff_stage *fe_find_stage(fe_build *b, const char *name, ff_place place, const cha
 
 /* load.c: loads the stage's model, or all that it could choose; false after an error. */
 bool fe_load_stage(fe_build *b, ff_stage *stage);
+/* The accuracy of the file by which stages choose; NULL: there is none, or `measured`, which asks
+   the program for the errors of what the file says. */
+const ff_node *fe_accuracy_of(const ff_node *root);
+/* Reads it, which must be there. */
+bool fe_read_accuracy(fe_build *b, ff_value *value);
 /* Reports what is wrong with the accuracy of the file, whether a stage chooses or not. */
 void fe_check_accuracy(fe_build *b);
 /* The first parameters of a stage that chooses. */

@@ -154,8 +154,7 @@ void fe_bind_candidates(fe_build *b, ff_stage *stage)
     if (b->accuracy && shared) {
         ff_value_clear(&accuracy->value);
         accuracy->place = b->accuracy->place;
-        accuracy->present = ff_param_read(accuracy->row, &stage->loaded->param_units[FE_ACCURACY],
-                                          "accuracy", b->accuracy, &accuracy->value, b->report);
+        accuracy->present = fe_read_accuracy(b, &accuracy->value);
     }
     stage->instance->broken = stage->instance->broken || !accuracy->present;
     choice->accuracy = accuracy->value.real;

@@ -79,7 +79,7 @@ bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const 
                       .engine = pipeline->memory->engine,
                       .report = ff_report_new(),
                       .file_rank = root->rank,
-                      .accuracy = ff_node_get(root, "accuracy")};
+                      .accuracy = fe_accuracy_of(root)};
         fe_folder_keep(&pipeline->memory->folder);
         open_anew(&b, changed);
         fe_check_unread(&b, ff_node_get(root, "outputs"));

@@ -346,6 +346,15 @@ void ff_add_quality(ff_stage *stage, const char *name, double value, double limi
     stage->quality[stage->quality_count++] = line;
 }
 
+void ff_drop_quality(ff_stage *stage, size_t line)
+{
+    fe_free((void *)stage->quality[line].name);
+    fe_free((void *)stage->quality[line].text);
+    stage->quality_count--;
+    for (size_t i = line; i < stage->quality_count; i++)
+        stage->quality[i] = stage->quality[i + 1];
+}
+
 typedef struct quality_call {
     ff_stage *stage;
     const char *name, *text;

@@ -44,14 +44,20 @@ bool ff_names_kind_only(const char *use)
     return length > ending && !strcmp(use + length - ending, auto_ending);
 }
 
-void fe_check_accuracy(fe_build *b)
+bool fe_read_accuracy(fe_build *b, ff_value *value)
 {
-    const ff_param *row = &own_rows[FE_ACCURACY];
+    ff_param row = own_rows[FE_ACCURACY];
     ff_unit unit;
     char why[64];
+    row.choices = "measured"; /* which fe_accuracy_of has taken out; said here for messages */
+    return ff_unit_parse(row.unit, &unit, why, sizeof why) &&
+           ff_param_read(&row, &unit, "accuracy", b->accuracy, value, b->report);
+}
+
+void fe_check_accuracy(fe_build *b)
+{
     ff_value value;
-    if (b->accuracy && ff_unit_parse(row->unit, &unit, why, sizeof why) &&
-        ff_param_read(row, &unit, "accuracy", b->accuracy, &value, b->report))
+    if (b->accuracy && fe_read_accuracy(b, &value))
         ff_value_clear(&value);
 }
 

@@ -3,6 +3,14 @@
 #include "build.h"
 
 #include <stdlib.h>
+#include <string.h>
+
+const ff_node *fe_accuracy_of(const ff_node *root)
+{
+    const ff_node *node = ff_node_get(root, "accuracy");
+    bool measured = node && node->kind == FF_SCALAR && !strcmp(node->text, "measured");
+    return node && (measured || fe_is_taken_away(node)) ? NULL : node;
+}
 
 static void warn_of_accuracy(const fe_build *b)
 {
@@ -47,9 +55,7 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool ever
                   .report = report,
                   .everything = everything,
                   .file_rank = root->rank,
-                  .accuracy = ff_node_get(root, "accuracy")};
-    if (b.accuracy && fe_is_taken_away(b.accuracy))
-        b.accuracy = NULL;
+                  .accuracy = fe_accuracy_of(root)};
     if (!fe_read_stages(&b, root)) {
         ff_pipeline_free(pipeline);
         return NULL;

@@ -36,8 +36,9 @@ static json_t *json_param(const ff_param *row)
     char type[400];
     catalogue_print_type(row, type, sizeof type);
     json_t *entry =
-        json_pack("{s:s, s:s, s:s, s:s, s:b}", "name", row->name, "type", catalogue_type_name(row),
-                  "unit", row->unit, "doc", row->doc, "required", row->flags & FF_REQUIRED);
+        json_pack("{s:s, s:s, s:s, s:s, s:b, s:b}", "name", row->name, "type",
+                  catalogue_type_name(row), "unit", row->unit, "doc", row->doc, "required",
+                  row->flags & FF_REQUIRED, "tunable", row->flags & FF_TUNABLE);
     json_object_set_new(entry, "preset", results_json_text(row->preset));
     json_object_set_new(entry, "choices", results_json_text(row->choices));
     json_object_set_new(entry, "group", results_json_text(row->group));

@@ -32,6 +32,8 @@ static void print_param(const ff_param *row)
     catalogue_print_type(row, type, sizeof type);
     catalogue_print_limits(row, limits, sizeof limits);
     printf("  %-*s %s", NAME, row->name, type);
+    if (row->flags & FF_TUNABLE)
+        printf(", tunable");
     if (row->flags & FF_REQUIRED)
         printf(", required");
     if (row->instead)

@@ -3,16 +3,19 @@
 
 #include "../terminal/terminal.h"
 
+#include "../accuracy/axis.h"
 #include "../results/number.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { VALUE = 24, MOST_NAME = 40, VERDICT = 65 }; /* columns */
+enum { VALUE = 24, BAR = 12, MOST_NAME = 40, VERDICT = 65 }; /* columns */
 
 static const double noise = 1e-9; /* relative; figures show 5 digits at most */
 
 typedef struct paper {
+    const accuracy_record *errors;
     bool colour;
     const char *heading; /* waits until something stands below it */
 } paper;
@@ -105,7 +108,7 @@ static void print_where(const ff_pipeline *pipeline, const ff_stage *stage, size
 {
     const ff_result *result = &stage->results[output];
     const char *dim = result->dims[0];
-    const ff_result *axis = results_axis(pipeline, stage, dim, result->count, result, "rad");
+    const ff_result *axis = accuracy_axis(pipeline, stage, dim, result->count, result, "rad");
     if (!axis) {
         snprintf(out, size, "min at %s %zu, max at %zu of %zu", dim, least + 1, greatest + 1,
                  result->count);
@@ -138,11 +141,25 @@ static bool print_pair(const ff_result *result, char *out, size_t size)
     return true;
 }
 
+/* Adds the error that was measured, over the value; of a series, the largest. */
+static void print_error(const paper *page, const ff_result *result, char *out, size_t size)
+{
+    const accuracy_error *error = accuracy_find(page->errors, result);
+    size_t length = strlen(out);
+    if (error && error->relative == 0) /* no setting changes it */
+        return;
+    if (error && error->bar)
+        snprintf(out + length, size - length, " +- %.2g %%", 100 * error->relative);
+    else if (error)
+        snprintf(out + length, size - length, " +- ?");
+}
+
 /* One line: name, value or range; where the extremes of a series lie, the shape of a field, or what
    a scalar means. */
-static void print_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
-                         int width)
+static void print_result(const paper *page, const ff_pipeline *pipeline, const ff_stage *stage,
+                         size_t output, int width)
 {
+    const int value_width = VALUE + (page->errors->twins > 0 ? BAR : 0);
     const ff_result *result = &stage->results[output];
     char value[96] = "(none)", text[256] = "";
     size_t least = 0, greatest = 0;
@@ -158,7 +175,8 @@ static void print_result(const ff_pipeline *pipeline, const ff_stage *stage, siz
         print_shape(stage, output, text, sizeof text);
     else if (strstr(value, " to ") && !from_end_to_end)
         print_where(pipeline, stage, output, least, greatest, text, sizeof text);
-    int column = printf("  %-*s  %-*s", width, result->row->name, *text ? VALUE : 0, value);
+    print_error(page, result, value, sizeof value);
+    int column = printf("  %-*s  %-*s", width, result->row->name, *text ? value_width : 0, value);
     terminal_print_cut(text, column + printf("%s", *text ? "  " : ""));
 }
 
@@ -182,7 +200,7 @@ static void print_results(paper *page, const ff_pipeline *pipeline, const ff_sta
         if (!is_shown(stage, i))
             continue;
         start_line(page);
-        print_result(pipeline, stage, i, width);
+        print_result(page, pipeline, stage, i, width);
     }
 }
 
@@ -223,10 +241,31 @@ static void print_log(paper *page, const json_t *log)
     }
 }
 
+/* What the measured errors come from, the largest first in each line. */
+static void print_errors(paper *page, const results_outcome *outcome)
+{
+    const accuracy_record *errors = outcome->errors;
+    page->heading = "Errors, measured by twins";
+    for (size_t i = 0; i < errors->count; i++) {
+        const accuracy_error *e = &errors->errors[i];
+        if (e->relative == 0)
+            continue;
+        start_line(page);
+        char *text = accuracy_describe(e);
+        int column = printf("  %s.%s: ", e->stage->name, e->result->row->name);
+        terminal_print_wrapped(text, column, 4);
+        free(text);
+    }
+    if (errors->failure)
+        terminal_print_wrapped(errors->failure, printf("  a twin failed: "), 4);
+    if (errors->twins > 0)
+        printf("  %zu twins took %.3g s of CPU time\n", errors->twins, errors->seconds);
+}
+
 void cli_print_summary(const results_outcome *outcome)
 {
     const ff_pipeline *pipeline = outcome->pipeline;
-    paper page = {.colour = terminal_colour(stdout)};
+    paper page = {.errors = outcome->errors, .colour = terminal_colour(stdout)};
     char title[400];
     ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : outcome->input->file);
     paint(&page, "1", title);
@@ -241,6 +280,7 @@ void cli_print_summary(const results_outcome *outcome)
         if (pipeline->stages[pipeline->order[i]].ran)
             print_results(&page, pipeline, &pipeline->stages[pipeline->order[i]]);
     print_log(&page, outcome->log);
+    print_errors(&page, outcome);
     page.heading = "To be looked at";
     for (size_t i = 0; i < pipeline->count; i++)
         print_quality(&page, &pipeline->stages[pipeline->order[i]]);

@@ -39,9 +39,17 @@ report_curve *report_plot_add(report_plot *plot, const report_unit *x_unit, cons
     return curve;
 }
 
+void report_curve_bar(report_curve *curve, const report_unit *y_unit, const double *bar)
+{
+    curve->bar = memory_alloc(curve->count * sizeof *curve->bar);
+    for (size_t i = 0; i < curve->count; i++)
+        curve->bar[i] = fabs(y_unit->factor) * bar[i];
+}
+
 void report_plot_free(report_plot *plot)
 {
     for (size_t i = 0; i < plot->count; i++) {
+        free(plot->curves[i].bar);
         free(plot->curves[i].x);
         free(plot->curves[i].y);
     }
@@ -291,6 +299,29 @@ static void write_line(report_page *page, const frame *f, const report_curve *cu
     fputs("\"/>\n", page->out);
 }
 
+/* Draws y - bar to y + bar; a long series by every so many points, each with the widest bar of
+   those that it stands for. */
+static void write_band(report_page *page, const frame *f, const report_curve *curve)
+{
+    enum { MOST_POINTS = 1000 };
+    size_t step = curve->count / MOST_POINTS + 1, count = (curve->count + step - 1) / step;
+    bool down = false;
+    fprintf(page->out, "<path class=\"band c%d\" d=\"", curve->colour % COLOURS);
+    for (size_t k = 0; k < 2 * count; k++) { /* along the upper edge, and back along the lower */
+        size_t at = (k < count ? k : 2 * count - 1 - k) * step;
+        double widest = 0;
+        for (size_t i = at; i < curve->count && i < at + step; i++)
+            widest = fmax(widest, curve->bar[i]);
+        double y = curve->y[at] + (k < count ? widest : -widest);
+        if (!isfinite(curve->x[at]) || !isfinite(y))
+            continue;
+        fprintf(page->out, "%s%.1f %.1f", down ? "L" : "M", place_x(f, curve->x[at]),
+                place_y(f, y));
+        down = true;
+    }
+    fputs("\"/>\n", page->out);
+}
+
 static void write_dots(report_page *page, const frame *f, const report_curve *curve)
 {
     enum { MOST_DOTS = 2000 };
@@ -346,6 +377,9 @@ void report_plot_write(report_page *page, const report_plot *plot)
             "%.1f%s\" data-y=\"%.9g %.9g %.1f %.1f\">\n",
             page->figures, f.left, f.top - 1, f.right - f.left, f.bottom - f.top + 2, page->figures,
             f.x0, f.x1, f.left, f.right, f.decades ? " 1" : "", f.y0, f.y1, f.bottom, f.top);
+    for (size_t k = 0; k < plot->count; k++)
+        if (plot->curves[k].bar)
+            write_band(page, &f, &plot->curves[k]);
     for (size_t k = 0; k < plot->count; k++)
         (plot->curves[k].dots ? write_dots : write_line)(page, &f, &plot->curves[k]);
     fputs("</g>\n", out);

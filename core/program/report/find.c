@@ -13,6 +13,22 @@ int report_find_output(const ff_view *view, size_t stage, const char *output)
     return -1;
 }
 
+static const char bar_ending[] = "_error_bar"; /* as results/view-run.c names them */
+
+int report_find_bar(const ff_view *view, size_t variable)
+{
+    const ff_view_variable *of = view->variables[variable];
+    char name[REPORT_TEXT_SIZE];
+    snprintf(name, sizeof name, "%.150s%s", of->output, bar_ending);
+    return report_find_output(view, of->stage, name);
+}
+
+bool report_is_bar(const ff_view_variable *variable)
+{
+    size_t length = strlen(variable->output), tail = sizeof bar_ending - 1;
+    return length > tail && !strcmp(variable->output + length - tail, bar_ending);
+}
+
 /* Says whether a variable is a series of `count` points. */
 static bool is_series_of(const ff_view *view, size_t series, size_t index, size_t count)
 {

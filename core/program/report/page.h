@@ -61,6 +61,9 @@ void report_label(const char *words, const report_unit *unit, char out[REPORT_TE
 int report_find_output(const ff_view *view, size_t stage, const char *output);
 /* Finds the series that dimension dim of a variable is plotted against in a case. */
 int report_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t index);
+/* Finds the error bar of a variable. */
+int report_find_bar(const ff_view *view, size_t variable);
+bool report_is_bar(const ff_view_variable *variable);
 /* Returns the scalar output of that name of any stage, in SI; NaN when there is none. */
 double report_find_scalar(report_page *page, const char *output, size_t index);
 /* Loads unless something has failed; data is NULL when there is nothing. */
@@ -79,6 +82,7 @@ report_marks report_find_marks(report_page *page, size_t index);
 /* figure-curves.c */
 typedef struct report_curve {
     double *x, *y; /* in the units of the figure; owned */
+    double *bar;   /* error of each y, at least 0; owned, or NULL */
     size_t count;
     int colour, dash; /* numbers of a colour and of a dash pattern; any number */
     bool dots;        /* points instead of a line */
@@ -105,6 +109,8 @@ typedef struct report_plot {
  */
 report_curve *report_plot_add(report_plot *plot, const report_unit *x_unit, const double *x,
                               const report_unit *y_unit, const double *y, size_t count);
+/* Gives a curve the error bars of its numbers, which are drawn as a band. */
+void report_curve_bar(report_curve *curve, const report_unit *y_unit, const double *bar);
 void report_plot_write(report_page *page, const report_plot *plot);
 void report_plot_free(report_plot *plot);
 

@@ -151,6 +151,11 @@ static void add_curve(figure *d, size_t variable, size_t index, bool several, si
                                    report_array_size(&y));
         }
         if (made) {
+            int bar = report_find_bar(page->view, variable);
+            ff_array bars = report_load(page, bar, index);
+            if (bars.data && report_array_size(&bars) == made->count)
+                report_curve_bar(made, &d->y_unit, bars.data);
+            report_release(page, &bars);
             made->colour = (int)stage;
             made->dash = (int)(d->plot.count - 1);
             if (d->alternating)
@@ -270,7 +275,8 @@ static void write_others(figure *d)
         size_t used = 0;
         bool axis = !strcmp(of->unit, "rad") || !strcmp(of->unit, "s") ||
                     (of->rank == 1 && !strcmp(of->output, of->dims[0]));
-        if (d->drawn[v] || of->rank != 1 || axis || !strncmp(of->output, "atlas_", 6))
+        if (d->drawn[v] || of->rank != 1 || axis || report_is_bar(of) ||
+            !strncmp(of->output, "atlas_", 6))
             continue;
         snprintf(d->plot.title, sizeof d->plot.title, "%s", report_output_words(of->output, words));
         for (size_t k = v; k < view->variable_count; k++)

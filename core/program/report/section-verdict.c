@@ -90,6 +90,23 @@ static void write_place(report_page *page, int axis, double at)
         fputs(", double contact, recess", page->out);
 }
 
+/* Writes " +- 0.4 nm" where the error of the number was measured. */
+static void write_error(report_page *page, size_t variable, size_t at)
+{
+    const ff_view_variable *of = page->view->variables[variable];
+    char text[REPORT_TEXT_SIZE];
+    ff_array bar = report_load(page, report_find_bar(page->view, variable), 0);
+    if (bar.data && at < report_array_size(&bar) && bar.data[at] > 0) {
+        double rounded = 0;
+        snprintf(text, sizeof text, "%.2g", bar.data[at]);
+        ff_number_parse(text, &rounded, &(const char *){NULL});
+        report_quantity_text(of->unit, rounded, text);
+        fputs(" &#177; ", page->out);
+        report_put_text(page->out, text);
+    }
+    report_release(page, &bar);
+}
+
 static void write_row(report_page *page, const struct row *row, size_t variable)
 {
     const ff_view_variable *of = page->view->variables[variable];
@@ -110,6 +127,8 @@ static void write_row(report_page *page, const struct row *row, size_t variable)
         report_put_text(page->out, page->view->stages[of->stage]->name);
         fputs("</td><td class=\"number\">", page->out);
         report_put_text(page->out, text);
+        if (row->how < MEAN || row->how == PLAIN)
+            write_error(page, variable, at);
         fputs("</td><td>", page->out);
         if (row->how < MEAN && x.data && at < report_array_size(&x))
             write_place(page, axis, x.data[at]);

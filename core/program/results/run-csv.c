@@ -32,10 +32,18 @@ static bool is_series(const ff_stage *stage, size_t output, const char *dim)
            strcmp(result->dims[0], dim) == 0;
 }
 
-/* Writes all series along one dimension. */
-static void write_series(const ff_stage *stage, const char *dim, results_folder *folder)
+/* A column of a table. */
+typedef struct column {
+    const ff_result *result;
+    const char *ending;   /* of its name: "" or "_error_bar" */
+    const double *values; /* of the result, or its error bar */
+} column;
+
+/* Writes all series along one dimension, each with the error that was measured beside it. */
+static void write_series(const results_outcome *outcome, const ff_stage *stage, const char *dim,
+                         results_folder *folder)
 {
-    const ff_result *columns[MOST_COLUMNS];
+    column columns[2 * MOST_COLUMNS];
     size_t count = 0;
     char suffix[64] = ".csv";
     if (strcmp(dim, main_dim(stage)) != 0)
@@ -43,20 +51,28 @@ static void write_series(const ff_stage *stage, const char *dim, results_folder 
     FILE *stream = results_folder_begin(folder, stage->name, suffix);
     if (!stream)
         return;
-    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
-        if (is_series(stage, i, dim))
-            columns[count++] = &stage->results[i];
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        const ff_result *result = &stage->results[i];
+        const accuracy_error *error = accuracy_find(outcome->errors, result);
+        if (!is_series(stage, i, dim))
+            continue;
+        columns[count++] = (column){result, "", result->data};
+        if (error && error->bar)
+            columns[count++] = (column){result, ACCURACY_BAR, error->bar};
+    }
     for (size_t i = 0; i < count; i++)
-        fprintf(stream, "%s%s [%s]", i ? "," : "", columns[i]->row->name, columns[i]->row->unit);
+        fprintf(stream, "%s%s%s [%s]", i ? "," : "", columns[i].result->row->name,
+                columns[i].ending, columns[i].result->row->unit);
     fputc('\n', stream);
-    for (size_t row = 0; row < columns[0]->count; row++)
+    for (size_t row = 0; row < columns[0].result->count; row++)
         for (size_t i = 0; i < count; i++) {
-            write_number(columns[i]->data[row], stream);
+            write_number(columns[i].values[row], stream);
             fputc_unlocked(i + 1 < count ? ',' : '\n', stream);
         }
 }
 
-static void write_all_series(const ff_stage *stage, results_folder *folder)
+static void write_all_series(const results_outcome *outcome, const ff_stage *stage,
+                             results_folder *folder)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const char *dim = stage->results[i].dims[0];
@@ -64,13 +80,15 @@ static void write_all_series(const ff_stage *stage, results_folder *folder)
         for (size_t earlier = 0; earlier < i; earlier++)
             first = first && !is_series(stage, earlier, dim);
         if (first)
-            write_series(stage, dim, folder);
+            write_series(outcome, stage, dim, folder);
     }
 }
 
-static void write_scalars(const ff_stage *stage, results_folder *folder)
+static void write_scalars(const results_outcome *outcome, const ff_stage *stage,
+                          results_folder *folder)
 {
     FILE *stream = NULL;
+    const bool measured = outcome->errors->twins > 0;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const ff_result *result = &stage->results[i];
         if (!result->data || result->rank != 0)
@@ -79,21 +97,26 @@ static void write_scalars(const ff_stage *stage, results_folder *folder)
             stream = results_folder_begin(folder, stage->name, "-scalars.csv");
             if (!stream)
                 return;
-            fputs("name,value,unit\n", stream);
+            fputs(measured ? "name,value,unit,error\n" : "name,value,unit\n", stream);
         }
         fprintf(stream, "%s,", result->row->name);
         write_number(result->data[0], stream);
-        fprintf(stream, ",%s\n", result->row->unit);
+        fprintf(stream, ",%s%s", result->row->unit, measured ? "," : "");
+        const accuracy_error *error = accuracy_find(outcome->errors, result);
+        if (error && error->bar)
+            write_number(error->bar[0], stream);
+        putc('\n', stream);
     }
 }
 
-void results_write_run_csv(const ff_pipeline *pipeline, results_folder *folder)
+void results_write_run_csv(const results_outcome *outcome, results_folder *folder)
 {
+    const ff_pipeline *pipeline = outcome->pipeline;
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];
         if (!stage->ran)
             continue;
-        write_all_series(stage, folder);
-        write_scalars(stage, folder);
+        write_all_series(outcome, stage, folder);
+        write_scalars(outcome, stage, folder);
     }
 }

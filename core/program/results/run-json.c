@@ -2,6 +2,7 @@
 #include "json.h"
 #include "write.h"
 
+#include "../accuracy/axis.h"
 #include "../memory/memory.h"
 #include "../study/study.h"
 
@@ -43,20 +44,41 @@ static bool is_axis(const ff_stage *stage, size_t output)
             !strcmp(row->name, stage->results[output].dims[0]));
 }
 
+static const ff_stage *stage_of(const ff_pipeline *pipeline, const ff_result *result)
+{
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        size_t count = stage->loaded ? stage->loaded->model->output_count : 0;
+        for (size_t k = 0; k < count; k++)
+            if (&stage->results[k] == result)
+                return stage;
+    }
+    return NULL;
+}
+
 json_t *results_against(const ff_pipeline *pipeline, const ff_stage *stage, size_t output)
 {
     const ff_result *result = &stage->results[output];
     json_t *list = json_array();
     for (uint32_t i = 0; i < result->rank; i++) {
         const ff_result *axis =
-            results_axis(pipeline, stage, result->dims[i], result->shape[i], result, "rad");
-        const ff_stage *of =
-            axis && !is_axis(stage, output) ? results_stage_of(pipeline, axis) : NULL;
+            accuracy_axis(pipeline, stage, result->dims[i], result->shape[i], result, "rad");
+        const ff_stage *of = axis && !is_axis(stage, output) ? stage_of(pipeline, axis) : NULL;
         char *name = memory_print_text("%s%s%s", of ? of->name : "", of ? "." : "",
                                        of ? axis->row->name : "");
         json_array_append_new(list, json_string(name));
         free(name);
     }
+    return list;
+}
+
+static json_t *list_bars(const accuracy_error *e)
+{
+    if (e->result->rank == 0)
+        return study_json_real(e->bar[0]);
+    json_t *list = json_array();
+    for (size_t i = 0; i < e->result->count; i++)
+        json_array_append_new(list, study_json_real(e->bar[i]));
     return list;
 }
 
@@ -68,28 +90,58 @@ static bool is_elsewhere(const ff_result *result, results_arrays arrays)
                : arrays != RESULTS_ALL_HERE && result->count > RESULTS_LONGEST_TEXT;
 }
 
-static json_t *describe_output(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
+/* Names the file of an array; null where none is written. */
+static json_t *name_file(const ff_stage *stage, const ff_result *result, const char *ending,
+                         results_arrays arrays)
+{
+    return arrays == RESULTS_LONG_ABSENT
+               ? json_null()
+               : json_sprintf("%s.%s%s.npy", stage->name, result->row->name, ending);
+}
+
+/* The numerical error: its bar has the form of the output. */
+static json_t *describe_error(const accuracy_error *e, results_arrays arrays)
+{
+    json_t *parts = json_object();
+    for (size_t i = 0; i < e->part_count; i++) {
+        char *name = memory_print_text("%s.%s", e->parts[i].stage->name, e->parts[i].setting);
+        json_object_set_new(parts, name, study_json_real(e->parts[i].error));
+        free(name);
+    }
+    json_t *entry = json_pack("{s:o, s:o, s:o}", "relative", study_json_real(e->relative), "order",
+                              study_json_real(e->order), "parts", parts);
+    if (e->bar && e->result->rank && is_elsewhere(e->result, arrays))
+        json_object_set_new(entry, "file", name_file(e->stage, e->result, ACCURACY_BAR, arrays));
+    else if (e->bar)
+        json_object_set_new(entry, e->result->rank ? "data" : "value", list_bars(e));
+    return entry;
+}
+
+static json_t *describe_output(const results_outcome *outcome, const ff_stage *stage, size_t output,
                                results_arrays arrays)
 {
+    const ff_pipeline *pipeline = outcome->pipeline;
     const ff_result *result = &stage->results[output];
+    const accuracy_error *error = accuracy_find(outcome->errors, result);
     json_t *entry = result->rank ? describe_array(stage, output) : describe_scalar(result);
     json_object_set_new(entry, "doc", results_json_text(result->row->doc));
     if (result->rank)
         json_object_set_new(entry, "against", results_against(pipeline, stage, output));
     if (result->rank && is_elsewhere(result, arrays)) {
-        char *file = memory_print_text("%s.%s.npy", stage->name, result->row->name);
-        json_object_set_new(entry, "file",
-                            arrays == RESULTS_LONG_ABSENT ? json_null() : json_string(file));
-        free(file);
+        json_object_set_new(entry, "file", name_file(stage, result, "", arrays));
     } else if (result->rank) {
         json_object_set_new(entry, "data", list_numbers(result));
     }
+    if (error)
+        json_object_set_new(entry, "error", describe_error(error, arrays));
     return entry;
 }
 
 /* Describes what the file requests; or, of what was computed on the way, the scalars and series. */
-static json_t *describe_outputs(const ff_pipeline *pipeline, bool requested, results_arrays arrays)
+static json_t *describe_outputs(const results_outcome *outcome, bool requested,
+                                results_arrays arrays)
 {
+    const ff_pipeline *pipeline = outcome->pipeline;
     json_t *outputs = json_object();
     for (size_t s = 0; s < pipeline->count; s++) {
         const ff_stage *stage = &pipeline->stages[s];
@@ -98,7 +150,7 @@ static json_t *describe_outputs(const ff_pipeline *pipeline, bool requested, res
             if (!result->data || result->requested != requested || (!requested && result->rank > 1))
                 continue;
             char *name = memory_print_text("%s.%s", stage->name, result->row->name);
-            json_object_set_new(outputs, name, describe_output(pipeline, stage, i, arrays));
+            json_object_set_new(outputs, name, describe_output(outcome, stage, i, arrays));
             free(name);
         }
     }
@@ -183,12 +235,23 @@ static void add_input(json_t *head, const results_input *input)
     json_object_set_new(head, "sets", sets);
 }
 
+/* What measuring the errors took; null where the file does not ask for them. */
+static json_t *describe_accuracy(const accuracy_record *errors)
+{
+    if (!errors->twins)
+        return json_null();
+    return json_pack("{s:I, s:o, s:o}", "twins", (json_int_t)errors->twins, "seconds",
+                     study_json_real(errors->seconds), "failure",
+                     results_json_text(errors->failure));
+}
+
 static json_t *describe_head(const results_outcome *outcome)
 {
     json_t *head = results_json_answer(outcome->status, outcome->exit_code, outcome->report);
     json_object_set_new(head, "title", results_json_text(outcome->pipeline->title));
     add_judgement(head, outcome);
     json_object_set_new(head, "file", results_json_text(outcome->input->file));
+    json_object_set_new(head, "accuracy", describe_accuracy(outcome->errors));
     return head;
 }
 
@@ -206,8 +269,8 @@ void results_write_run_json(const results_outcome *outcome, FILE *stream)
     json_t *all = describe_head(outcome);
     json_object_set_new(all, "format", json_integer(RESULTS_FORMAT));
     add_input(all, outcome->input);
-    json_object_set_new(all, "outputs", describe_outputs(pipeline, true, RESULTS_IN_FILES));
-    json_object_set_new(all, "computed", describe_outputs(pipeline, false, RESULTS_IN_FILES));
+    json_object_set_new(all, "outputs", describe_outputs(outcome, true, RESULTS_IN_FILES));
+    json_object_set_new(all, "computed", describe_outputs(outcome, false, RESULTS_IN_FILES));
     json_object_set_new(all, "stages", describe_stages(pipeline, true));
     json_object_set(all, "log", outcome->log);
     write_object(all, stream);
@@ -221,7 +284,7 @@ void results_write_answer(const results_outcome *outcome, const char *directory,
                             : directory ? RESULTS_LONG_IN_FILES
                                         : RESULTS_LONG_ABSENT;
     json_object_set_new(all, "directory", results_json_text(directory));
-    json_object_set_new(all, "outputs", describe_outputs(outcome->pipeline, true, arrays));
+    json_object_set_new(all, "outputs", describe_outputs(outcome, true, arrays));
     json_object_set_new(all, "stages", describe_stages(outcome->pipeline, false));
     json_object_set(all, "log", outcome->log);
     write_object(all, stream);

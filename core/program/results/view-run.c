@@ -3,8 +3,24 @@
 #include "json.h"
 #include "view-tables.h"
 
+#include "../accuracy/accuracy.h"
+
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
+
+/* Adds the error bar of an output as an output beside it. */
+static void add_bar(results_reader *reader, const char *name, const results_entry *of,
+                    json_t *error)
+{
+    results_entry told = *of;
+    char *bar = memory_print_text("%s" ACCURACY_BAR, name);
+    told.doc = NULL;
+    results_output *made = results_view_add_output(reader, bar, &told, 0);
+    if (made)
+        made->entry = error;
+    free(bar);
+}
 
 static void add_outputs(results_reader *reader, json_t *outputs, uint32_t flags)
 {
@@ -20,6 +36,10 @@ static void add_outputs(results_reader *reader, json_t *outputs, uint32_t flags)
         results_output *made = results_view_add_output(reader, name, &told, flags);
         if (made)
             made->entry = entry;
+        json_t *error = json_object_get(entry, "error");
+        if (json_object_get(error, "value") || json_object_get(error, "data") ||
+            json_object_get(error, "file"))
+            add_bar(reader, name, &told, error);
     }
 }
 

@@ -5,8 +5,8 @@
 bool results_write_run(const results_outcome *outcome, const char *directory,
                        results_folder *folder, char **removed)
 {
-    results_write_run_csv(outcome->pipeline, folder);
-    results_write_arrays(outcome->pipeline, folder);
+    results_write_run_csv(outcome, folder);
+    results_write_arrays(outcome, folder);
     FILE *stream = results_folder_begin(folder, "result", ".json");
     if (stream)
         results_write_run_json(outcome, stream);

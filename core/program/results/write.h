@@ -3,6 +3,7 @@
 #ifndef RESULTS_WRITE_H
 #define RESULTS_WRITE_H
 
+#include "../accuracy/accuracy.h"
 #include "../study/study.h"
 #include "earlier.h"
 #include "folder.h"
@@ -13,7 +14,8 @@ typedef struct results_outcome {
     const ff_pipeline *pipeline;
     const ff_report *report;
     const results_input *input;
-    const char *status; /* "ok", "failed", "stopped", "error" */
+    const accuracy_record *errors; /* those that were measured */
+    const char *status;            /* "ok", "failed", "stopped", "error" */
     int exit_code;
     json_t *log; /* messages of the models: [{stage, level, text}] */
 } results_outcome;
@@ -23,8 +25,9 @@ enum { RESULTS_LONGEST_TEXT = 10000 };
 
 /* Whether a result has a file of its own: a field, or a series that is too long for text. */
 bool results_has_file(const ff_result *result);
-/* Writes <stage>.<output>.npy: of all that the file asks for and of series on the way. */
-void results_write_arrays(const ff_pipeline *pipeline, results_folder *folder);
+/* Writes <stage>.<output>.npy: of all that the file asks for and of series on the way; and
+   <stage>.<output>_error_bar.npy with the error bars of such a series. */
+void results_write_arrays(const results_outcome *outcome, results_folder *folder);
 
 /* Where an answer in JSON has arrays: of those in files it says the name, shape, dims and unit. */
 typedef enum {
@@ -51,24 +54,13 @@ json_t *results_against(const ff_pipeline *pipeline, const ff_stage *stage, size
 
 /*
  * <stage>.csv holds the series along the first dimension of the model's table of outputs,
- * <stage>-<dimension>.csv those along another, and <stage>-scalars.csv the scalars.
+ * <stage>-<dimension>.csv those along another, and <stage>-scalars.csv the scalars. Errors that
+ * were measured stand beside: a column <output>_error_bar, or "error" of the scalars.
  */
-void results_write_run_csv(const ff_pipeline *pipeline, results_folder *folder);
+void results_write_run_csv(const results_outcome *outcome, results_folder *folder);
 
 /* Says how a stage ended, in a word or two. */
 const char *results_status_name(const ff_stage *stage);
-
-/*
- * Finds what dimension `dim` of a stage's results, of length `count`, is plotted against: among the
- * stage's own series and then those that it was fed, the one named like the dimension, else the
- * first rising one in the unit `better`, in s or in rad, else its own first rising one. `self` (or
- * NULL) is the series that asks. NULL: there is none, use the index.
- */
-const ff_result *results_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
-                              size_t count, const ff_result *self, const char *better);
-
-/* Finds the stage that a result belongs to. */
-const ff_stage *results_stage_of(const ff_pipeline *pipeline, const ff_result *result);
 
 /* What a study is made of, for study.json. */
 typedef struct results_study {

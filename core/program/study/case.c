@@ -2,6 +2,8 @@
 /* Builds, runs and records one case: the file with its assignments. */
 #include "case.h"
 
+#include "../accuracy/accuracy.h"
+#include "../accuracy/axis.h"
 #include "chain.h"
 #include "hash.h"
 #include "journal.h"
@@ -151,9 +153,13 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
     uint64_t fingerprint = hash_assignments(study, index);
     if (study_case_is_good(c)) {
         study_measure_want(study, c->pipeline);
+        if (accuracy_is_measured(c->tree))
+            accuracy_want_axes(c->pipeline);
         c->fingerprints = memory_alloc(c->pipeline->count * sizeof *c->fingerprints);
         fingerprint = study_fingerprint(c->pipeline, c->fingerprints);
     }
+    if (accuracy_is_measured(c->tree))
+        fingerprint = study_hash_text(fingerprint, "errors are measured");
     if (study->measure)
         fingerprint = study_measure_fingerprint(fingerprint, study->measure->repeat[index]);
     snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)fingerprint);
@@ -344,6 +350,20 @@ static void add_results(json_t *record, const ff_pipeline *pipeline)
     json_decref(chosen);
 }
 
+/* Adds the error bars of scalars as outputs beside them; those of series are in the quality. */
+static void add_bars(json_t *record, const accuracy_record *errors)
+{
+    json_t *outputs = json_object_get(record, "outputs");
+    for (size_t i = 0; i < errors->count; i++) {
+        const accuracy_error *e = &errors->errors[i];
+        if (!e->bar || study_is_array(e->result))
+            continue;
+        char *name = memory_print_text("%s.%s" ACCURACY_BAR, e->stage->name, e->result->row->name);
+        json_object_set_new(outputs, name, json_pack("[s, f]", e->result->row->unit, e->bar[0]));
+        free(name);
+    }
+}
+
 /* Adds the results to the record, and keeps arrays. False after an error. */
 static bool keep_results(study_case *c, const study_run *run, size_t index, json_t *record,
                          study_memory *memory)
@@ -372,6 +392,7 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
                          .held = -1};
     ff_observer watch = {
         .log = note_warning, .recall = study_reuse_recall, .keep = study_reuse_keep, .ctx = &reuse};
+    accuracy_record errors = {.count = 0};
     double start = study_seconds_now();
     /* running may drop outputs that a model refuses */
     json_t *parameters = study_case_parameters(c, memory->seen);
@@ -380,7 +401,8 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
         bool *fresh = measure ? study_measure_fresh(measure, c->pipeline) : NULL;
         reuse.fresh = fresh;
         study_chain_restore_states(c);
-        ff_pipeline_run(c->pipeline, &watch, c->report);
+        if (ff_pipeline_run(c->pipeline, &watch, c->report) && accuracy_is_measured(c->tree))
+            accuracy_measure(&errors, c->tree, run->engine, c->pipeline, NULL);
         free(fresh);
     }
     bool good = ff_report_errors(c->report) == 0;
@@ -394,8 +416,12 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
     if (good && !keep_results(c, run, index, record, memory)) {
         json_decref(parameters);
         json_decref(record);
+        accuracy_free(&errors);
         return NULL;
     }
+    if (good)
+        add_bars(record, &errors);
+    accuracy_free(&errors);
     study_chain_record_states(c, record);
     json_object_set_new(record, "parameters", parameters);
     json_object_set_new(record, "seconds", json_seconds(study_seconds_now() - start));

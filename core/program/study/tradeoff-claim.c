@@ -50,12 +50,12 @@ static const study_output *find_extra(const study_tradeoff *t, const study_outco
    result there. */
 static double relative_claim(const study_output *claim, const study_output *result)
 {
-    double largest = 0, most = study_largest_magnitude(result->values, result->count);
+    double largest = 0, most = accuracy_largest_magnitude(result->values, result->count);
     if (claim->count != result->count || claim->rank != result->rank)
         return NAN;
     for (size_t i = 0; i < result->count; i++)
         largest = fmax(largest, fabs(claim->values[i]) /
-                                    study_error_scale(result->values[i], most, result->rank));
+                                    accuracy_error_scale(result->values[i], most, result->rank));
     return largest;
 }
 

@@ -17,19 +17,19 @@ const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t poin
     return study_outcome_of(t->context, study_tradeoff_case(t, point, 0));
 }
 
-static study_series series_of(const study_output *output)
+static accuracy_series series_of(const study_output *output)
 {
-    return (study_series){output->rank, output->count, output->at, output->values};
+    return (accuracy_series){output->rank, output->count, output->at, output->values};
 }
 
 bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
-                            study_difference *d)
+                            accuracy_difference *d)
 {
     const study_output *answer = &study_tradeoff_outcome(t, a)->outputs[output];
     const study_output *reference = &study_tradeoff_outcome(t, b)->outputs[output];
-    study_series one = series_of(answer), other = series_of(reference);
+    accuracy_series one = series_of(answer), other = series_of(reference);
     bool good = answer->values && reference->values && !strcmp(answer->along, reference->along) &&
-                study_compare(&one, &other, d);
+                accuracy_compare(&one, &other, d);
     if (good)
         d->judged = t->rms ? d->rms : d->largest;
     return good;
@@ -95,7 +95,7 @@ static const char *judge_claim(double claim, double error, double floor)
    apart. */
 static double floor_of(const study_tradeoff *t, size_t levels, size_t output)
 {
-    study_difference d;
+    accuracy_difference d;
     bool known = levels > 1 && study_tradeoff_compare(t, levels - 2, levels - 1, output, &d);
     return known ? d.judged : 0;
 }
@@ -103,7 +103,7 @@ static double floor_of(const study_tradeoff *t, size_t levels, size_t output)
 static json_t *error_of(const study_tradeoff *t, size_t point, size_t reference, size_t output,
                         double floor, double *judged)
 {
-    study_difference d;
+    accuracy_difference d;
     *judged = NAN;
     if (!study_tradeoff_compare(t, point, reference, output, &d))
         return json_null();
@@ -124,7 +124,7 @@ static json_t *describe_reference(const study_tradeoff *t, size_t levels)
     for (size_t level = 0; level < levels; level++) {
         json_t *changes = json_object();
         for (size_t i = 0; level > 0 && i < t->context->output_count; i++) {
-            study_difference d;
+            accuracy_difference d;
             bool good = study_tradeoff_compare(t, level - 1, level, i, &d);
             json_object_set_new(changes, t->context->outputs[i]->text,
                                 study_json_real(good ? d.judged : (double)NAN));

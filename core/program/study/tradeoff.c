@@ -75,7 +75,7 @@ const ff_param study_tradeoff_keys[STUDY_TRADEOFF_KEYS] = {
    sought. */
 static bool level_has_settled(const study_tradeoff *t, size_t level)
 {
-    study_difference d;
+    accuracy_difference d;
     for (size_t i = 0; i < t->context->output_count; i++)
         if (!study_tradeoff_compare(t, level - 1, level, i, &d) || d.judged > t->accuracy / 10)
             return false;

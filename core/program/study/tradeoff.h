@@ -3,7 +3,7 @@
 #ifndef STUDY_TRADEOFF_H
 #define STUDY_TRADEOFF_H
 
-#include "compare.h"
+#include "../accuracy/compare.h"
 #include "front.h"
 #include "text.h"
 
@@ -68,7 +68,7 @@ double study_tradeoff_count(const study_tradeoff *t, const study_outcome *answer
 /* tradeoff-result.c: finds how far two points are apart in an output. False when they cannot be
    compared. */
 bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
-                            study_difference *d);
+                            accuracy_difference *d);
 /* Returns the whole result; `levels` of the reference ran. */
 json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels);
 

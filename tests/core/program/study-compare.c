@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The numbers of a trade-off: differences between answers, the front, its knee. */
-#include "../../../core/program/study/compare.h"
+#include "../../../core/program/accuracy/compare.h"
 
 #include "../../../core/program/study/front.h"
 
@@ -10,17 +10,17 @@
 static void test_scalars(void)
 {
     double a = 1.02, b = -1, zero = 0;
-    study_series answer = {0, 1, NULL, &a}, reference = {0, 1, NULL, &b};
-    study_difference d;
-    check_true("of the other sign", study_compare(&answer, &reference, &d));
+    accuracy_series answer = {0, 1, NULL, &a}, reference = {0, 1, NULL, &b};
+    accuracy_difference d;
+    check_true("of the other sign", accuracy_compare(&answer, &reference, &d));
     check_near("twice", d.largest, 2.02, 1e-15);
     b = 1;
-    check_true("compared", study_compare(&answer, &reference, &d));
+    check_true("compared", accuracy_compare(&answer, &reference, &d));
     check_near("two per cent", d.largest, 0.02, 1e-14);
     reference.value = &zero;
-    check_true("nothing is near 0", study_compare(&answer, &reference, &d) && d.largest > 1e100);
+    check_true("nothing is near 0", accuracy_compare(&answer, &reference, &d) && d.largest > 1e100);
     answer.value = &zero;
-    check_true("but 0", study_compare(&answer, &reference, &d) && d.largest == 0);
+    check_true("but 0", accuracy_compare(&answer, &reference, &d) && d.largest == 0);
 }
 
 /* On another grid a straight line is the same line; beyond its ends it stays where it is. */
@@ -28,12 +28,12 @@ static void test_grids(void)
 {
     double at[] = {0, 1}, line[] = {10, 20}, fine[] = {-1, 0, 0.25, 0.5, 1},
            same[] = {10, 10, 12.5, 15, 20};
-    study_series answer = {1, 2, at, line}, reference = {1, 5, fine, same};
-    study_difference d;
-    check_true("compared", study_compare(&answer, &reference, &d));
+    accuracy_series answer = {1, 2, at, line}, reference = {1, 5, fine, same};
+    accuracy_difference d;
+    check_true("compared", accuracy_compare(&answer, &reference, &d));
     check_near("no difference", d.largest, 0, 1e-15);
     same[3] = 12;
-    check_true("compared", study_compare(&answer, &reference, &d));
+    check_true("compared", accuracy_compare(&answer, &reference, &d));
     check_near("relative to the value there", d.largest, 0.25, 1e-14);
     /* of the length 2, half (0.75 + 0.25)... stands for the point that is off */
     check_near("rms", d.rms, 0.25 * sqrt(0.375 / 2), 1e-14);
@@ -43,9 +43,9 @@ static void test_grids(void)
 static void test_zero_crossing(void)
 {
     double at[] = {0, 1, 2}, wave[] = {1, 0, -1}, off[] = {1, 0.01, -1};
-    study_series answer = {1, 3, at, off}, reference = {1, 3, at, wave};
-    study_difference d;
-    check_true("compared", study_compare(&answer, &reference, &d));
+    accuracy_series answer = {1, 3, at, off}, reference = {1, 3, at, wave};
+    accuracy_difference d;
+    check_true("compared", accuracy_compare(&answer, &reference, &d));
     check_near("a tenth", d.largest, 0.1, 1e-14);
 }
 
@@ -54,26 +54,26 @@ static void test_jump(void)
 {
     double at[] = {0, 1, 1, 2}, step[] = {5, 5, 8, 8}, mid[] = {0, 0.5, 1, 1, 1.5, 2},
            fine[] = {5, 5, 5, 8, 8, 8};
-    study_series answer = {1, 4, at, step}, reference = {1, 6, mid, fine};
-    study_difference d;
-    check_true("compared", study_compare(&answer, &reference, &d));
+    accuracy_series answer = {1, 4, at, step}, reference = {1, 6, mid, fine};
+    accuracy_difference d;
+    check_true("compared", accuracy_compare(&answer, &reference, &d));
     check_near("no difference", d.largest, 0, 1e-15);
-    check_near("left", study_interpolate(&answer, 1, false), 5, 0);
-    check_near("right", study_interpolate(&answer, 1, true), 8, 0);
-    check_near("end, right", study_interpolate(&answer, 2, true), 8, 0);
+    check_near("left", accuracy_interpolate(&answer, 1, false), 5, 0);
+    check_near("right", accuracy_interpolate(&answer, 1, true), 8, 0);
+    check_near("end, right", accuracy_interpolate(&answer, 2, true), 8, 0);
 }
 
 static void test_mismatch(void)
 {
     double values[] = {1, 2, 3}, bad[] = {1, NAN, 3};
-    study_series three = {1, 3, NULL, values}, two = {1, 2, NULL, values},
+    accuracy_series three = {1, 3, NULL, values}, two = {1, 2, NULL, values},
                  scalar = {0, 1, NULL, values};
-    study_series broken = {1, 3, NULL, bad};
-    study_difference d;
-    check_true("by index", study_compare(&three, &three, &d) && d.largest == 0);
-    check_true("other lengths", !study_compare(&two, &three, &d));
-    check_true("other ranks", !study_compare(&scalar, &three, &d));
-    check_true("no number", !study_compare(&broken, &three, &d));
+    accuracy_series broken = {1, 3, NULL, bad};
+    accuracy_difference d;
+    check_true("by index", accuracy_compare(&three, &three, &d) && d.largest == 0);
+    check_true("other lengths", !accuracy_compare(&two, &three, &d));
+    check_true("other ranks", !accuracy_compare(&scalar, &three, &d));
+    check_true("no number", !accuracy_compare(&broken, &three, &d));
 }
 
 static void test_front(void)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "write.h"
+/* What a series is plotted against, and compared along. */
+#include "axis.h"
 
 #include <string.h>
 
@@ -35,8 +36,8 @@ static int fitness_of(const ff_result *series, bool own, const char *dim, const 
     return own && !has_plateaus(series) ? 1 : 0;
 }
 
-const ff_result *results_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
-                              size_t count, const ff_result *self, const char *better)
+const ff_result *accuracy_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
+                               size_t count, const ff_result *self, const char *better)
 {
     const ff_loaded *loaded = stage->loaded;
     size_t own = loaded->model->output_count;
@@ -58,14 +59,22 @@ const ff_result *results_axis(const ff_pipeline *pipeline, const ff_stage *stage
     return best;
 }
 
-const ff_stage *results_stage_of(const ff_pipeline *pipeline, const ff_result *result)
+/* Whether an output could be an axis of one along the same dimension; before the run. */
+static bool may_be_axis(const ff_port *row, const ff_port *of)
 {
-    for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[i];
-        size_t count = stage->loaded ? stage->loaded->model->output_count : 0;
-        for (size_t k = 0; k < count; k++)
-            if (&stage->results[k] == result)
-                return stage;
+    return !row->service && row->dims && *row->dims && !strcmp(row->dims, of->dims) &&
+           (!strcmp(row->unit, "s") || !strcmp(row->unit, "rad") || !strcmp(row->name, of->dims));
+}
+
+void accuracy_want_axes(const ff_pipeline *pipeline)
+{
+    for (size_t s = 0; s < pipeline->count; s++) {
+        const ff_stage *stage = &pipeline->stages[s];
+        size_t count = stage->needed && stage->loaded ? stage->loaded->model->output_count : 0;
+        for (size_t i = 0; i < count; i++)
+            for (size_t k = 0; stage->results[i].requested && k < count; k++)
+                if (stage->results[i].row->dims &&
+                    may_be_axis(stage->results[k].row, stage->results[i].row))
+                    stage->results[k].wanted = true;
     }
-    return NULL;
 }

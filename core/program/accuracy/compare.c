@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-double study_largest_magnitude(const double *values, size_t count)
+double accuracy_largest_magnitude(const double *values, size_t count)
 {
     double most = 0;
     for (size_t i = 0; i < count; i++)
@@ -14,14 +14,14 @@ double study_largest_magnitude(const double *values, size_t count)
 
 /* Where a series is small, errors are relative to a tenth of its largest value: an error at a zero,
    as of a friction that changes its sign, cannot be relative to the zero. */
-double study_error_scale(double value, double most, size_t rank)
+double accuracy_error_scale(double value, double most, size_t rank)
 {
     return fmax(rank ? fmax(fabs(value), 0.1 * most) : fabs(value), 1e-300);
 }
 
 /* Interpolates linearly between the points and is constant beyond the ends. Where two points have
    the same place (a jump), `right` chooses the right one. */
-double study_interpolate(const study_series *s, double x, bool right)
+double accuracy_interpolate(const accuracy_series *s, double x, bool right)
 {
     size_t low = 0, high = s->count; /* the first point at x or, for the right value, after it */
     while (low < high) {
@@ -42,7 +42,7 @@ double study_interpolate(const study_series *s, double x, bool right)
 }
 
 /* Returns the weight of point i in a mean over the length. */
-static double weight(const study_series *s, size_t i)
+static double weight(const accuracy_series *s, size_t i)
 {
     size_t last = s->count - 1;
     if (!s->at || last == 0)
@@ -50,30 +50,32 @@ static double weight(const study_series *s, size_t i)
     return (s->at[i < last ? i + 1 : last] - s->at[i > 0 ? i - 1 : 0]) / 2;
 }
 
-static bool same_form(const study_series *a, const study_series *b)
+static bool same_form(const accuracy_series *a, const accuracy_series *b)
 {
     return a->rank == b->rank && a->count > 0 && b->count > 0 &&
            ((a->at && b->at) || a->count == b->count);
 }
 
 /* Returns the value of one answer at point i of another. */
-static double value_at(const study_series *s, const study_series *points, size_t i)
+static double value_at(const accuracy_series *s, const accuracy_series *points, size_t i)
 {
     if (!s->at || !points->at)
         return s->value[i];
-    return study_interpolate(s, points->at[i], i > 0 && points->at[i - 1] == points->at[i]);
+    return accuracy_interpolate(s, points->at[i], i > 0 && points->at[i - 1] == points->at[i]);
 }
 
-bool study_compare(const study_series *answer, const study_series *reference, study_difference *d)
+bool accuracy_compare(const accuracy_series *answer, const accuracy_series *reference,
+                      accuracy_difference *d)
 {
-    double most = study_largest_magnitude(reference->value, reference->count);
+    double most = accuracy_largest_magnitude(reference->value, reference->count);
     double squares = 0, length = 0;
-    *d = (study_difference){.largest = 0};
+    *d = (accuracy_difference){.largest = 0};
     if (!same_form(answer, reference))
         return false;
     for (size_t i = 0; i < reference->count; i++) {
         double off = fabs(value_at(answer, reference, i) - reference->value[i]);
-        off = off > 0 ? off / study_error_scale(reference->value[i], most, reference->rank) : off;
+        off =
+            off > 0 ? off / accuracy_error_scale(reference->value[i], most, reference->rank) : off;
         d->largest = fmax(d->largest, off);
         if (!isfinite(off))
             return false;

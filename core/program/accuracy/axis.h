@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a series is plotted against, and compared along. */
+#ifndef ACCURACY_AXIS_H
+#define ACCURACY_AXIS_H
+
+#include <flankfilm/engine.h>
+
+/*
+ * Finds what dimension `dim` of a stage's results, of length `count`, is plotted against: among the
+ * stage's own series and then those that it was fed, the one named like the dimension, else the
+ * first rising one in the unit `better`, in s or in rad, else its own first rising one. `self` (or
+ * NULL) is the series that asks. NULL: there is none, use the index.
+ */
+const ff_result *accuracy_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
+                               size_t count, const ff_result *self, const char *better);
+
+/* Makes the pipeline compute what its series are compared along. Before it runs. */
+void accuracy_want_axes(const ff_pipeline *pipeline);
+
+#endif

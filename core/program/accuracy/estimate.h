@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The error of an answer from coarser answers to the same question. */
+#ifndef ACCURACY_ESTIMATE_H
+#define ACCURACY_ESTIMATE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* Answers at the points of one of them. All settings are one level coarser in `half`, two in
+   `quarter`; in each of `refined` one setting is back at the level of `half`; in `twice` all are a
+   level finer. A level halves a count and quadruples a tolerance. All but the answer may be NULL:
+   there is none, and `twice` is not looked at where there are both coarser ones. */
+typedef struct accuracy_ladder {
+    size_t count;
+    const double *answer, *between, *half, *quarter, *twice;
+    const double *const *refined;
+    size_t refined_count;
+} accuracy_ladder;
+
+/* Whether a level between is worth its cost: a single number moves so much less from the finest
+   level than between the others that this may be chance. */
+bool accuracy_may_be_chance(const accuracy_ladder *ladder);
+
+/*
+ * Writes the estimated error of each number of the answer into error[count], and into
+ * shares[refined_count] what part of it each setting has; they are 0 where that is not known, else
+ * their sum is 1. Returns the order observed, log2 of the growth of the differences from level to
+ * level; NaN where nothing differs or there are two levels alone. There must be `half` or `twice`.
+ */
+double accuracy_estimate(const accuracy_ladder *ladder, double *error, double *shares);
+
+#endif

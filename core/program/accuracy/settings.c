@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "settings.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double tolerance_factor = 4; /* of a level */
+
+/* Whether the limits of the row, which hold when min < max, allow the value. */
+static bool is_allowed(const ff_param *row, double si)
+{
+    return !(row->min < row->max) || (si >= row->min && si <= row->max);
+}
+
+/* The assignment that makes a number `levels` levels coarser, or finer where that is below 0; NULL:
+   outside of the row's limits. */
+static const char *shift(const ff_stage *stage, size_t param, double levels, memory_arena *arena)
+{
+    const ff_bound *bound = &stage->params[param];
+    const ff_param *row = bound->row;
+    char *text = NULL;
+    if (row->type == FF_INT) {
+        double count = floor((double)bound->value.integer * exp2(-levels));
+        if (count >= 1 && count < 1e15 && is_allowed(row, count))
+            text = memory_print_text("%s.%s=%.0f", stage->name, row->name, count);
+    } else {
+        const ff_unit *unit = &stage->loaded->param_units[param];
+        double number = ff_unit_from_si(unit, bound->value.real) * pow(tolerance_factor, levels);
+        if (number > 0 && is_allowed(row, number))
+            text = memory_print_text("%s.%s=%.17g %s", stage->name, row->name, number,
+                                     strcmp(row->unit, "1") ? row->unit : "");
+    }
+    const char *kept = text ? memory_arena_text(arena, text, strlen(text)) : NULL;
+    free(text);
+    return kept;
+}
+
+static bool is_number(const ff_bound *bound)
+{
+    return bound->row->flags & FF_TUNABLE && bound->present && !bound->wire &&
+           (bound->row->type == FF_INT || bound->row->type == FF_REAL) && !bound->value.text;
+}
+
+size_t accuracy_settings(const ff_stage *stage, memory_arena *arena,
+                         accuracy_setting list[ACCURACY_MOST_SETTINGS])
+{
+    size_t count = 0, rows = stage->params ? stage->loaded->model->param_count : 0;
+    for (size_t i = 0; i < rows && count < ACCURACY_MOST_SETTINGS; i++) {
+        if (!is_number(&stage->params[i]))
+            continue;
+        accuracy_setting s = {.name = stage->params[i].row->name,
+                              .finer = shift(stage, i, -1, arena),
+                              .between = shift(stage, i, 0.5, arena),
+                              .coarser = {shift(stage, i, 1, arena), shift(stage, i, 2, arena)}};
+        list[count++] = s;
+    }
+    return count;
+}

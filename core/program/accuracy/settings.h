@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The settings of a stage that trade speed for accuracy, and coarser values of them. */
+#ifndef ACCURACY_SETTINGS_H
+#define ACCURACY_SETTINGS_H
+
+#include "../memory/memory.h"
+
+#include <flankfilm/engine.h>
+
+/* A row with FF_TUNABLE that has a number. */
+typedef struct accuracy_setting {
+    const char *name;
+    /* "film.cells=256": finer by a level, coarser by half of one, by one, by two; NULL: its limits
+       forbid it */
+    const char *finer, *between, *coarser[2];
+} accuracy_setting;
+
+enum { ACCURACY_MOST_SETTINGS = 16 };
+
+/* Fills `list`, and returns how many there are. A count is halved, for it stands for points, cells
+   or steps; another number is a tolerance or a distance of points and is taken four times as large,
+   which is one level where the error is of second order. What a word says, "auto", the model knows
+   alone. */
+size_t accuracy_settings(const ff_stage *stage, memory_arena *arena,
+                         accuracy_setting list[ACCURACY_MOST_SETTINGS]);
+
+#endif

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "twin.h"
+
+#include "../memory/memory.h"
+#include "axis.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* Marks what the marked stages feed, too. */
+static void spread(const ff_pipeline *pipeline, bool *marks)
+{
+    for (bool again = true; again;) { /* a loop comes round once more */
+        again = false;
+        for (size_t i = 0; i < pipeline->count; i++) {
+            const ff_stage *stage = &pipeline->stages[i];
+            for (size_t k = 0; k < stage->wire_count && !marks[i]; k++)
+                if (stage->wires[k].stage >= 0 && marks[stage->wires[k].stage])
+                    marks[i] = again = true;
+        }
+    }
+}
+
+typedef struct observation {
+    const accuracy_scene *scene;
+    const bool *affected; /* stages that are computed */
+} observation;
+
+/* Number `i` of the stages that are evaluated together: of the loop, or the stage alone; SIZE_MAX:
+   there are no more. */
+static size_t together(const ff_pipeline *pipeline, const ff_stage *stage, size_t i)
+{
+    if (stage->loop)
+        return i < stage->loop->count ? pipeline->order[stage->loop->first + i] : SIZE_MAX;
+    return i == 0 ? (size_t)(stage - pipeline->stages) : SIZE_MAX;
+}
+
+static void copy_results(const ff_stage *from, ff_stage *to)
+{
+    for (size_t i = 0; i < from->loaded->model->output_count; i++) {
+        const ff_result *given = &from->results[i];
+        if (given->data && to->results[i].wanted)
+            memcpy(ff_result_fill(to, i, given->rank, given->shape), given->data,
+                   given->count * sizeof *given->data);
+    }
+}
+
+static bool recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
+{
+    const observation *o = ctx;
+    if (o->affected[stage - pipeline->stages])
+        return false;
+    for (size_t i = 0; together(pipeline, stage, i) != SIZE_MAX; i++) {
+        size_t at = together(pipeline, stage, i);
+        copy_results(&o->scene->donor->stages[at], &pipeline->stages[at]);
+    }
+    return true;
+}
+
+static int32_t progress(void *ctx, const ff_stage *stage, double fraction)
+{
+    const ff_observer *watch = ((const observation *)ctx)->scene->watch;
+    return watch && watch->progress ? watch->progress(watch->ctx, stage, fraction) : 0;
+}
+
+/* In a chain the answer started from its neighbour's state; its twin starts from what the answer
+   left, so that both are of one branch. */
+static void hand_states(const ff_pipeline *from, ff_pipeline *to)
+{
+    to->chained = from->chained;
+    for (size_t i = 0; to->chained && i < to->count; i++)
+        if (from->stages[i].state)
+            ff_stage_set_state(&to->stages[i], from->stages[i].state, from->stages[i].state_size);
+}
+
+void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const char *const *sets,
+                       size_t count, const bool *changed)
+{
+    bool *affected = memory_alloc((scene->donor->count + 1) * sizeof *affected);
+    memcpy(affected, changed, scene->donor->count * sizeof *affected);
+    spread(scene->donor, affected);
+    observation o = {scene, affected};
+    ff_observer watch = {.size = sizeof watch, .ctx = &o, .progress = progress, .recall = recall};
+    *twin = (accuracy_twin){.report = ff_report_new(), .tree = ff_tree_copy(scene->tree)};
+    ff_tree_set(twin->tree, scene->outputs, NULL, NULL, twin->report);
+    for (size_t i = 0; i < count; i++)
+        ff_tree_set(twin->tree, sets[i], NULL, NULL, twin->report);
+    twin->pipeline = ff_pipeline_build(twin->tree, scene->engine, false, twin->report);
+    if (twin->pipeline && ff_report_errors(twin->report) == 0) {
+        accuracy_want_axes(twin->pipeline);
+        hand_states(scene->donor, twin->pipeline);
+        twin->good = ff_pipeline_run(twin->pipeline, &watch, twin->report) &&
+                     ff_report_errors(twin->report) == 0;
+    }
+    for (size_t i = 0; twin->pipeline && i < twin->pipeline->count; i++) {
+        twin->stopped = twin->stopped || twin->pipeline->stages[i].status == FF_STOPPED;
+        twin->work += twin->pipeline->stages[i].work;
+    }
+    free(affected);
+}
+
+const char *accuracy_twin_reason(const accuracy_twin *twin)
+{
+    const ff_message *first = ff_report_first(twin->report);
+    return first ? first->text : "it could not be run";
+}
+
+void accuracy_twin_free(accuracy_twin *twin)
+{
+    ff_pipeline_free(twin->pipeline);
+    ff_tree_free(twin->tree);
+    if (twin->report)
+        ff_report_free(twin->report);
+    *twin = (accuracy_twin){.pipeline = NULL};
+}

@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A twin: the file once more, with other settings of some stages. */
+#ifndef ACCURACY_TWIN_H
+#define ACCURACY_TWIN_H
+
+#include <flankfilm/engine.h>
+
+/* What twins of an answer share. */
+typedef struct accuracy_scene {
+    const ff_tree *tree;
+    ff_engine *engine;
+    const ff_pipeline *donor; /* what does not depend on the changes has its results from there */
+    const char *outputs;      /* "outputs=[film.h_min]" */
+    const ff_observer *watch;
+} accuracy_scene;
+
+typedef struct accuracy_twin {
+    ff_report *report;
+    ff_tree *tree;
+    ff_pipeline *pipeline; /* may be NULL after errors */
+    bool good;             /* it ran, and its results can be trusted */
+    bool stopped;          /* the observer stopped it */
+    double work;           /* s: CPU time of its stages */
+} accuracy_twin;
+
+/* Runs the file with the assignments. `changed` marks the stages whose settings are not those of
+   the donor: they and all that they feed are computed, of a loop all stages. */
+void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const char *const *sets,
+                       size_t count, const bool *changed);
+/* Why it is not good. */
+const char *accuracy_twin_reason(const accuracy_twin *twin);
+/* Zeroed is nothing. */
+void accuracy_twin_free(accuracy_twin *twin);
+
+#endif

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Errors estimated from answers whose errors are known. */
+#include "../../../core/program/accuracy/estimate.h"
+
+#include <check.h>
+#include <math.h>
+#include <stdio.h>
+
+enum { POINTS = 201 };
+static const double safety = 1.25; /* Roache's, as the estimate has it */
+
+/* The exact answer is 1; its error at a level is c 2^(order level). */
+static double answer_at(double c, double order, double level)
+{
+    return 1 + c * exp2(order * level);
+}
+
+/* With the order that it shows, the estimate is the error, times the factor of safety. */
+static void test_orders(void)
+{
+    static const double orders[] = {0.5, 1, 1.5, 2};
+    for (int i = 0; i < 4; i++) {
+        double p = orders[i], c = 1e-3, error, share;
+        double answer = answer_at(c, p, 0), half = answer_at(c, p, 1), quarter = answer_at(c, p, 2);
+        accuracy_ladder l = {.count = 1, .answer = &answer, .half = &half, .quarter = &quarter};
+        check_near("order", accuracy_estimate(&l, &error, &share), p, 1e-9);
+        check_near("error", error, safety * c, 1e-9);
+    }
+}
+
+/* A higher order than 2 is not relied on from the finest level on, and to 4 between the others. */
+static void test_high_orders(void)
+{
+    for (int p = 3; p < 7; p++) {
+        double error, share, answer = answer_at(1e-3, p, 0), half = answer_at(1e-3, p, 1),
+                             quarter = answer_at(1e-3, p, 2);
+        accuracy_ladder l = {.count = 1, .answer = &answer, .half = &half, .quarter = &quarter};
+        check_near("order", accuracy_estimate(&l, &error, &share), p, 1e-9);
+        check_near("error", error,
+                   safety * fmax((half - answer) / 3, (quarter - half) / (fmin(exp2(p), 16) * 3)),
+                   1e-9);
+    }
+}
+
+/* A number that hardly moves to the next level but does beyond may do so by chance: then a level
+   between is asked for, and counts. */
+static void test_chance(void)
+{
+    double answer = 1, half = 1 + 1e-6, quarter = 1.01, between = 1.002, error, share;
+    accuracy_ladder l = {.count = 1, .answer = &answer, .half = &half, .quarter = &quarter};
+    check_true("another level is wanted", accuracy_may_be_chance(&l));
+    l.between = &between;
+    accuracy_estimate(&l, &error, &share);
+    check_true("it counts", error >= 0.002);
+    half = 1.003;
+    check_true("order 1.7 is none", !accuracy_may_be_chance(&l));
+}
+
+/* No order, or two levels: three times what lies between them, as Roache has it. */
+static void test_two_levels(void)
+{
+    double answer = 1, half = 1.01, error, share;
+    accuracy_ladder l = {.count = 1, .answer = &answer, .half = &half};
+    check_true("no order", isnan(accuracy_estimate(&l, &error, &share)));
+    check_near("three times", error, 0.03, 0.01);
+    double twice = 0.99;
+    l = (accuracy_ladder){.count = 1, .answer = &answer, .twice = &twice};
+    check_true("no order", isnan(accuracy_estimate(&l, &error, &share)));
+    check_true("that and the rest", error > safety * 0.01 * 1.5 && error < 0.05);
+}
+
+/* Where a coarser answer is missing, a finer one tells as much. */
+static void test_a_finer_level(void)
+{
+    double c = 1e-2, twice = answer_at(c, 2, -1), answer = answer_at(c, 2, 0),
+           half = answer_at(c, 2, 1), error, share;
+    accuracy_ladder l = {.count = 1, .answer = &answer, .half = &half, .twice = &twice};
+    check_near("order", accuracy_estimate(&l, &error, &share), 2, 1e-9);
+    check_near("error", error, safety * c, 1e-9);
+}
+
+/* An answer that overshoots from level to level has no order; the bar still holds it. */
+static void test_oscillation(void)
+{
+    double answer = 1.001, half = 0.998, quarter = 1.004, error, share;
+    accuracy_ladder l = {.count = 1, .answer = &answer, .half = &half, .quarter = &quarter};
+    accuracy_estimate(&l, &error, &share);
+    check_true("the error is held", error >= 0.001);
+    check_true("and not lost", error < 0.01);
+}
+
+/* Errors of two settings that cancel in the answers are both counted, and told apart. */
+static void test_cancelling_settings(void)
+{
+    double c = 1e-3, answer = 1, half = 1, quarter = 1, error;
+    double one = 1 - 12 * c, other = 1 + 12 * c, shares[2]; /* of 16 c - 4 c, from level 2 to 1 */
+    const double *refined[] = {&one, &other};
+    accuracy_ladder l = {.count = 1,
+                         .answer = &answer,
+                         .half = &half,
+                         .quarter = &quarter,
+                         .refined = refined,
+                         .refined_count = 2};
+    accuracy_estimate(&l, &error, shares);
+    check_true("neither is lost", error >= c);
+    check_near("halves", shares[0], 0.5, 1e-9);
+    check_near("halves", shares[1], 0.5, 1e-9);
+}
+
+/* The error of a series passes through zero, and its differences do so elsewhere. */
+static void test_series(void)
+{
+    double answer[POINTS], half[POINTS], quarter[POINTS], error[POINTS], share;
+    int held = 0;
+    for (int i = 0; i < POINTS; i++) {
+        double x = 0.05 * i, wave = sin(x), late = sin(x + 0.05), later = sin(x + 0.1);
+        answer[i] = 1e-3 * wave;
+        half[i] = 4e-3 * late;
+        quarter[i] = 16e-3 * later;
+    }
+    accuracy_ladder l = {.count = POINTS, .answer = answer, .half = half, .quarter = quarter};
+    check_near("order", accuracy_estimate(&l, error, &share), 2, 0.03);
+    for (int i = 0; i < POINTS; i++)
+        held += fabs(answer[i]) <= error[i];
+    printf("points held: %d of %d\n", held, POINTS);
+    check_true("at every point", held == POINTS);
+    check_below("and not far off", error[31], 2.5e-3);
+}
+
+/* What no setting changes has no error. */
+static void test_no_difference(void)
+{
+    double answer = 1, error, share = 1;
+    const double *refined[] = {&answer};
+    accuracy_ladder l = {.count = 1,
+                         .answer = &answer,
+                         .half = &answer,
+                         .quarter = &answer,
+                         .refined = refined,
+                         .refined_count = 1};
+    check_true("no order", isnan(accuracy_estimate(&l, &error, &share)));
+    check_true("no error", error == 0 && share == 0);
+}
+
+int main(void)
+{
+    test_orders();
+    test_high_orders();
+    test_chance();
+    test_two_levels();
+    test_a_finer_level();
+    test_oscillation();
+    test_cancelling_settings();
+    test_series();
+    test_no_difference();
+    return check_done();
+}

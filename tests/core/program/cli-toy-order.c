@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A model without physics whose numerical error is known: that of its cells is of a given order,
+   that of its tolerance in proportion to it. */
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct order {
+    const ff_host *host;
+    int64_t cells, steps, least;
+    double tolerance, order, strength, gain;
+} order;
+
+static const ff_param params[] = {
+    FF_COUNT("cells", order, cells, FF_TUNABLE, "64", NULL, 2, 1e6, 0, 0, "cells"),
+    FF_COUNT_OR("auto", "steps", order, steps, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
+                "points of the wave; auto: 101"),
+    FF_QUANTITY("tolerance", "%", order, tolerance, FF_TUNABLE, "0.01 %", NULL, 1e-6, 50, 0, 0,
+                "relative error of everything"),
+    FF_QUANTITY("order", "1", order, order, 0, "2", NULL, 0.1, 10, 0, 0, "of the cells"),
+    FF_QUANTITY("strength", "1", order, strength, 0, "10", NULL, -1e6, 1e6, 0, 0,
+                "error of the value with one cell"),
+    FF_QUANTITY("gain", "1", order, gain, 0, "1", NULL, -1e6, 1e6, 0, 0,
+                "what the value before is multiplied by"),
+    FF_COUNT("least", order, least, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it fails"),
+};
+
+static const ff_port inputs[] = {
+    {.name = "before.value",
+     .unit = "m",
+     .dims = "",
+     .doc = "of a stage before",
+     .flags = FF_OPTIONAL,
+     .from = "toy"},
+};
+
+static const ff_port outputs[] = {
+    {.name = "value", .unit = "m", .dims = "", .doc = "1 m, and what the stage before gives"},
+    {.name = "time", .unit = "s", .dims = "t", .doc = "0 to 1 s"},
+    {.name = "wave", .unit = "m", .dims = "t", .doc = "2 + sin(2 pi t), times the value"},
+};
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    order *o = self;
+    double value = 1 + o->strength * pow((double)o->cells, -o->order) + o->tolerance;
+    size_t points = o->steps > 0 ? (size_t)o->steps : 101;
+    if (o->cells < o->least)
+        return ff_failf(o->host, FF_NOCONV, NULL, "%d cells are too few", (int)o->cells);
+    if (in[0].data)
+        value += o->gain * in[0].data[0];
+    if (wanted & 1)
+        ff_put_scalar(o->host, 0, value);
+    if (wanted & 6) {
+        double *time = ff_put_series(o->host, 1, points), *wave = ff_put_series(o->host, 2, points);
+        if (!time || !wave)
+            return FF_NOMEM;
+        for (size_t i = 0; i < points; i++) {
+            time[i] = points > 1 ? (double)i / (double)(points - 1) : 0;
+            wave[i] = value * (2 + sin(6.283185307179586 * time[i]));
+        }
+    }
+    o->host->quality(o->host->ctx, "value_guess_error", 0.9, 0.1, FF_DOUBTFUL, "a guess");
+    return FF_OK;
+}
+
+FF_MODEL(model, order, .id = "toy/order", .version = "1.0.0",
+         .summary = "a value with a known error", .reference = "", .bibtex = "", .licence = "MIT",
+         .params = FF_TABLE(params), .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs),
+         .evaluate = evaluate, .destroy = free);
+FF_EXPORT_MODELS(&model);

@@ -1,0 +1,306 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Random scenes with `accuracy: measured`: do the error bars hold what is refined?
+
+error-bars.py FLANKFILM SOURCE [--seed HEX] [--first N] [--count N] [--cache FOLDER] [--table FILE]
+
+A scene is drawn by the seed and its number: gear pairs of 17 to 80 teeth, modules of 1 to 8 mm, with
+relief and index errors, pitch line speeds from 0.3 to 40 m/s, Hertz pressures from 0.2 to 2 GPa,
+quasi-static and dynamic motions; steady contacts; histories from 1e-5 to 1e3 s, smooth and with
+jumps. Each is solved with three settings of the film, coarse, preset and fine, and once refined: at
+least four times the finest cells, counts and tolerances to match. The reference is known to its own
+measured error; where that is above a quarter of the bar, the output is listed as open and not judged.
+
+Scalars: held, when |answer - reference| <= bar + error of the reference. Series: the share of the
+points at which that holds, with a shift along the series of up to 0.2 of a passage of the contact.
+--cache keeps what was computed, so that the campaign can be stopped and goes on.
+"""
+import argparse
+import bisect
+import json
+import math
+import os
+import random
+import statistics
+import subprocess
+import sys
+import tempfile
+
+sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
+from scenes import LAWS, OILS, TEMPERATURES  # noqa: E402
+
+SCALARS = ['film.h_min_lowest', 'film.p_max_highest', 'motion.dte_rms', 'motion.dynamic_factor_tooth',
+           'mesh.stiffness_mean']
+SERIES = ['film.h_min', 'film.h_central', 'film.p_max', 'film.friction_coefficient', 'film.power_loss']
+LEVELS = {'coarse': 'cells: 192, time_tolerance: 3e-2', 'preset': '', 'fine': 'cells: 768, time_tolerance: 4e-3'}
+REFERENCE = 'cells: 2048, time_tolerance: 7e-4, tolerance: 1e-7'
+LONGEST = 60  # s, of a run; what takes longer is listed
+FINE = {'gears': 'stations: 1600', 'mesh': 'points: 1600', 'tooth': 'points: 8000'}
+STEEL = 226.4e9  # Pa, reduced modulus
+
+
+def log_uniform(r, low, high):
+    return math.exp(r.uniform(math.log(low), math.log(high)))
+
+
+def oil_of(r):
+    oil = r.choice(OILS)
+    return oil, r.choice(LAWS), r.random() < 0.7
+
+
+def gear_scene(r):
+    z1 = r.randint(17, 80)
+    z2 = min(max(17, round(z1 * r.choice([1, 1, 1.5, 2, 3]))), 160)
+    module = r.choice([1, 1.5, 2, 3, 4, 5, 6, 8])
+    width = module * r.uniform(5, 12)
+    radius = module * z1 * z2 / (z1 + z2) / 2 * math.sin(math.radians(20))
+    pressure = log_uniform(r, 0.2, 2)
+    torque = 2 * math.pi * radius * pressure ** 2 / 226.4 * width * z1 * module / 2 * math.cos(math.radians(20))
+    rpm = log_uniform(r, 0.3, 40) * 1e3 / (z1 * module / 2) * 60 / (2 * math.pi)
+    relief = r.choice([0, 0, r.uniform(5, 40)])
+    index = [r.gauss(0, 4) for _ in range(z1)] if r.random() < 0.2 else []
+    motion = r.choice(['quasi-static', 'shooting', 'time-integration'])
+    gears = f'use: gear/involute-spur, teeth: [{z1}, {z2}], module: {module} mm, face_width: {width:.3f} mm, ' \
+            f'backlash: {0.04 * module:.4f} mm, tip_relief: {relief:.1f} um'
+    if index:
+        gears += f", pitch_error: [{', '.join(f'{x:.2f} um' for x in index)}]"
+    oil, law, shear = oil_of(r)
+    return {'kind': f'gears, {motion}', 'oil': oil, 'law': law, 'shear': shear, 'stages': {
+        'gears': gears,
+        'duty': f'use: operating/steady, torque: {torque:.5g} N m, speed: {rpm:.5g} rpm, '
+                f'oil_temperature: {TEMPERATURES[oil]}',
+        'mesh': 'use: stiffness/potential-energy',
+        'motion': f'use: dynamics/{motion}' + ('' if motion == 'quasi-static' else ', damping_ratio: 0.04'),
+        'tooth': 'use: contact/tooth-pair, load: motion'}, 'outputs': SCALARS + SERIES}
+
+
+def history(r):
+    """Rows of a history: time, radius, both speeds, load."""
+    span, radius = log_uniform(r, 1e-5, 1e3), log_uniform(r, 2, 50)
+    load = 2 * math.pi * radius * log_uniform(r, 0.2, 2) ** 2 / 226.4 * 1e3
+    speed, slip = log_uniform(r, 0.3, 40), r.uniform(-0.5, 0.5)
+    rows, jumps = [], r.random() < 0.3
+    waves = [(r.uniform(0.05, 0.4), r.randint(1, 3), r.uniform(0, 2 * math.pi)) for _ in range(2)]
+    at, after = r.uniform(0.3, 0.7), r.uniform(0.5, 1.6)
+    for k in range(61):
+        t = k / 60
+        factor = 1 + sum(a * math.sin(2 * math.pi * n * t + p) for a, n, p in waves)
+        row = [t * span, radius, speed * (1 + slip / 2), speed * (1 - slip / 2), load * max(factor, 0.05)]
+        if jumps and t > at:
+            if rows[-1][0] < at * span:
+                rows.append([at * span] + rows[-1][1:])
+                rows.append([at * span] + rows[-1][1:4] + [rows[-1][4] * after])
+            row[4] *= after
+        rows.append(row)
+    return rows, jumps
+
+
+def other_scene(r):
+    oil, law, shear = oil_of(r)
+    scene = {'oil': oil, 'law': law, 'shear': shear, 'outputs': SCALARS[:2] + SERIES,
+             'stages': {'oil': f'temperature: {TEMPERATURES[oil]}'}}
+    if r.random() < 0.4:
+        radius = log_uniform(r, 2, 50)
+        load = 2 * math.pi * radius * log_uniform(r, 0.2, 2) ** 2 / 226.4 * 1e3
+        scene['kind'] = 'steady'
+        scene['stages']['tooth'] = f'use: contact/constant, radius: {radius:.4g} mm, entrainment_speed: ' \
+            f'{log_uniform(r, 0.3, 40):.4g} m/s, slide_roll_ratio: {r.uniform(0, 0.5):.3f}, load_per_width: {load:.5g} N/mm'
+    else:
+        scene['rows'], jumps = history(r)
+        scene['kind'] = f"history of {scene['rows'][-1][0]:.1e} s{', a jump' if jumps else ''}"
+        scene['stages']['tooth'] = 'use: contact/table, file: history.csv'
+    return scene
+
+
+def draw(seed, number):
+    r = random.Random(f'{seed} {number}')
+    scene = gear_scene(r) if r.random() < 0.7 else other_scene(r)
+    scene['number'] = number
+    return scene
+
+
+class Runner:
+    def __init__(self, program, source):
+        self.program, self.source, self.folder = program, os.path.abspath(source), tempfile.mkdtemp()
+
+    def write(self, scene, film, finest):
+        stages = {name: text + (', ' + FINE[name] if finest and name in FINE and not (
+            name == 'tooth' and 'tooth-pair' not in text) else '') for name, text in scene['stages'].items()}
+        if finest and 'motion' in stages and 'quasi-static' not in stages['motion']:
+            stages['motion'] += ', steps_per_cycle: 2048'
+        if 'rows' in scene:
+            with open(os.path.join(self.folder, 'history.csv'), 'w') as out:
+                out.write('time [s],radius [mm],speed_1 [m/s],speed_2 [m/s],load_per_width [N/mm]\n')
+                out.writelines(','.join(f'{x:.10g}' for x in row) + '\n' for row in scene['rows'])
+        stages['viscosity'] = f"use: viscosity/{scene['law']}"
+        stages['film'] = f"use: ehl/finite-volume{', ' if film else ''}{film}" + ('' if scene['shear'] else ', rheology: none')
+        names = scene['outputs'] + ['film.time', 'tooth.hertz_half_width', 'tooth.entrainment_speed']
+        with open(os.path.join(self.folder, 'scene.yaml'), 'w') as out:
+            out.write('format: 2\naccuracy: measured\n')
+            out.write(f"include: [{self.source}/configs/lubricants/{scene['oil']}.yaml]\npipeline:\n")
+            out.writelines(f'  {name}: {{{text}}}\n' for name, text in stages.items())
+            out.write(f"outputs: [{', '.join(names)}]\n")
+
+    def run(self, scene, film, finest=False):
+        self.write(scene, film, finest)
+        try:
+            done = subprocess.run([self.program, 'run', os.path.join(self.folder, 'scene.yaml'), '--json', '--arrays'],
+                                  stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, timeout=LONGEST)
+        except subprocess.TimeoutExpired:
+            return {'status': 'too long', 'why': f'more than {LONGEST} s'}
+        try:
+            answer = json.loads(done.stdout)
+        except ValueError:
+            return {'status': 'crashed', 'why': done.stderr[-500:]}
+        if answer['status'] != 'ok':
+            return {'status': answer['status'], 'why': str((answer.get('errors') or [''])[0])}
+        found = {'status': 'ok', 'outputs': {}, 'twins': answer['accuracy'],
+                 'seconds': sum(s['seconds'] or 0 for s in answer['stages'])}
+        for name, row in answer['outputs'].items():
+            error = row.get('error') or {}
+            found['outputs'][name] = {'value': row.get('value', row.get('data')), 'shape': row.get('shape'),
+                                      'bar': error.get('value', error.get('data')), 'order': error.get('order'),
+                                      'relative': error.get('relative'), 'parts': error.get('parts')}
+        return found
+
+
+def sample(times, values, at):
+    i = min(max(bisect.bisect_right(times, at), 1), len(times) - 1)
+    span = times[i] - times[i - 1]
+    share = min(max((at - times[i - 1]) / span, 0), 1) if span > 0 else 1
+    return values[i - 1] + share * (values[i] - values[i - 1])
+
+
+def passage_of(answer):
+    """Seconds that the oil takes through the contact, about."""
+    a, u = answer['outputs']['tooth.hertz_half_width']['value'], answer['outputs']['tooth.entrainment_speed']['value']
+    if a is None or u is None:
+        return 0
+    a, u = (max(x) if isinstance(x, list) else x for x in (a, u))
+    return 2 * a / u if u else 0
+
+
+def judge_series(answer, exact, name):
+    """Share of the points whose bar holds, median of bar over error, largest error; None: not to be compared."""
+    own, ref = answer['outputs'][name], exact['outputs'][name]
+    t, T = answer['outputs']['film.time']['value'], exact['outputs']['film.time']['value']
+    if not own['bar'] or not ref['bar'] or len(own['shape']) != 1:
+        return None
+    if len(t) == 1:
+        t, T = [0], [0]
+    most = max(abs(v) for v in ref['value'])
+    shift = 0.2 * passage_of(answer)
+    held, ratios, errors, opened = 0, [], [], 0
+
+    def at(row, key, when):
+        return row[key][0] if len(T) == 1 else sample(T, row[key], when)
+
+    for x, value, bar in zip(t, own['value'], own['bar']):
+        scale = max(abs(at(ref, 'value', x)), 0.1 * most)
+        known = at(ref, 'bar', x)
+        off = abs(value - at(ref, 'value', x))
+        if off > bar + known and len(T) > 1:
+            near = [at(ref, 'value', x + shift * k / 4) for k in range(-4, 5)]
+            off = 0 if min(near) <= value <= max(near) else min(abs(value - v) for v in near)
+        opened += known > max(bar, 1e-4 * scale) / 4
+        held += off <= bar + known
+        errors.append(off / scale)
+        ratios.append((bar / off if off else math.inf, off / scale))
+    return {'share': held / len(t), 'error': max(errors), 'claimed': own['relative'], 'open': opened / len(t),
+            'known': ref['relative'], 'ratios': [q for q in ratios if q[1] > 1e-3][::max(1, len(ratios) // 50)]}
+
+
+def judge_scalar(answer, exact, name):
+    own, ref = answer['outputs'][name], exact['outputs'][name]
+    if own['bar'] is None or ref['bar'] is None:
+        return None
+    off = abs(own['value'] - ref['value'])
+    scale = abs(ref['value']) or 1
+    return {'held': off <= own['bar'] + ref['bar'], 'twice': off > 2 * own['bar'] + ref['bar'], 'error': off / scale,
+            'claimed': own['bar'] / scale, 'known': ref['bar'] / scale,
+            'open': ref['bar'] > max(own['bar'], 1e-4 * scale) / 4}
+
+
+def judge(scene, answers):
+    exact, rows = answers['reference'], []
+    for level in LEVELS:
+        answer = answers[level]
+        if answer['status'] != 'ok' or exact['status'] != 'ok':
+            continue
+        for name in scene['outputs']:
+            verdict = (judge_series if name in SERIES else judge_scalar)(answer, exact, name)
+            if verdict:
+                rows.append(dict(verdict, scene=scene['number'], level=level, output=name))
+    return rows
+
+
+def solve(runner, scene, cache):
+    kept = cache and os.path.join(cache, f"{scene['seed']}-{scene['number']}.json")
+    if kept and os.path.exists(kept):
+        with open(kept) as stream:
+            return json.load(stream)
+    answers = {level: runner.run(scene, film) for level, film in LEVELS.items()}
+    answers['reference'] = runner.run(scene, REFERENCE, True)
+    if kept:
+        with open(kept + '.new', 'w') as stream:
+            json.dump(answers, stream)
+        os.rename(kept + '.new', kept)
+    return answers
+
+
+def print_rows(scene, answers, rows, out):
+    for name in [*LEVELS, 'reference']:
+        if answers[name]['status'] != 'ok':
+            print(f"| {scene['number']} | {scene['kind']} | {name} | {answers[name]['status']}: "
+                  f"{answers[name]['why'][:90]} | | | | |", file=out)
+    for row in rows:
+        held = f"{100 * row['share']:.1f} % of the points" if 'share' in row else 'held' if row['held'] else \
+            'TWICE' if row['twice'] else 'missed'
+        print(f"| {row['scene']} | {scene['kind']} | {row['level']} | {row['output']} | {100 * row['claimed']:.3g} | "
+              f"{100 * row['error']:.3g} | {100 * row['known']:.2g} | {held}{', open' if row['open'] else ''} |", file=out)
+
+
+def print_sums(rows, out):
+    for name in SCALARS + SERIES:
+        mine = [r for r in rows if r['output'] == name and not (r['open'] if name in SCALARS else r['open'] > 0.5)]
+        left = sum(r['output'] == name for r in rows) - len(mine)
+        if not mine:
+            continue
+        if name in SCALARS:
+            good = sum(r['held'] for r in mine)
+            ratios = [r['claimed'] / r['error'] for r in mine if r['error'] > 1e-3]
+            extra = f"{sum(r['twice'] for r in mine)} by more than twice"
+        else:
+            good = sum(r['share'] >= 0.95 for r in mine)
+            ratios = [q[0] for r in mine for q in r['ratios']]
+            extra = f"points held {100 * statistics.mean(r['share'] for r in mine):.2f} %"
+        ratio = f'{statistics.median(ratios):.2f}' if ratios else '-'
+        print(f'{name}: {good} of {len(mine)} held, {extra}; median of bar over error {ratio}; {left} open', file=out)
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument('program')
+    parser.add_argument('source')
+    parser.add_argument('--seed', default='development')
+    parser.add_argument('--first', type=int, default=1)
+    parser.add_argument('--count', type=int, default=30)
+    parser.add_argument('--cache')
+    parser.add_argument('--table')
+    options = parser.parse_args()
+    runner, rows = Runner(options.program, options.source), []
+    out = open(options.table, 'w') if options.table else sys.stdout
+    print('| scene | what | settings | output | bar % | error % | reference +- % | verdict |\n|' + '---|' * 8, file=out)
+    for number in range(options.first, options.first + options.count):
+        scene = dict(draw(options.seed, number), seed=options.seed)
+        answers = solve(runner, scene, options.cache)
+        mine = judge(scene, answers)
+        print_rows(scene, answers, mine, out)
+        out.flush()
+        rows += mine
+        print(f"scene {number}: {scene['kind']}, {len(mine)} numbers", file=sys.stderr)
+    print(file=out)
+    print_sums(rows, out)
+
+
+main()
