@@ -5,12 +5,15 @@
  * the model chooses also the largest error of h_min(t), against 16000 equal steps.
  *
  *   meson test -C build --benchmark ehl --verbose
+ *
+ * With a number of cells and one of steps it runs ehl/finite-volume once, for a profiler.
  */
 #include "check.h"
 #include "tooth.h"
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <time.h>
 
 /* CPU seconds per time step. */
@@ -139,12 +142,17 @@ static void run_rough(const oil *o, stage *surface, double speed)
     stage_close(s);
 }
 
-int main(void)
+int main(int argc, char **argv)
 {
     static path c;
     oil o;
     path_fill(&c, 1);
     oil_open(&o);
+    if (argc == 3) {
+        run("ehl/finite-volume", &c, &o, strtoul(argv[1], NULL, 10), strtoul(argv[2], NULL, 10));
+        oil_close(&o);
+        return check_done();
+    }
     double fast = run("ehl/finite-volume", &c, &o, 512, 1000);
     run_own_steps(&c, &o, "clip");
     run_own_steps(&c, &o, "mass-conserving");
