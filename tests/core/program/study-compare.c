@@ -67,7 +67,7 @@ static void test_mismatch(void)
 {
     double values[] = {1, 2, 3}, bad[] = {1, NAN, 3};
     accuracy_series three = {1, 3, NULL, values}, two = {1, 2, NULL, values},
-                 scalar = {0, 1, NULL, values};
+                    scalar = {0, 1, NULL, values};
     accuracy_series broken = {1, 3, NULL, bad};
     accuracy_difference d;
     check_true("by index", accuracy_compare(&three, &three, &d) && d.largest == 0);
