@@ -125,7 +125,7 @@ static void report_mesh(const distribution *m, const stiffness_elastic_pair *p)
     const double limit = 2e-3;
     double error = fmax(p->body[0]->mesh_error, p->body[1]->mesh_error);
     double reciprocity = fmax(p->body[0]->ring.reciprocity, p->body[1]->ring.reciprocity);
-    m->host->quality(m->host->ctx, "mesh_error", error, limit,
+    m->host->quality(m->host->ctx, "stiffness_mesh_error", error, limit,
                      error <= limit ? FF_GOOD : FF_DOUBTFUL,
                      "compliance of a tooth against that of half as many elements");
     m->host->quality(m->host->ctx, "reciprocity", reciprocity, 1e-10,

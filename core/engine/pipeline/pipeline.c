@@ -8,19 +8,8 @@
 const ff_node *fe_accuracy_of(const ff_node *root)
 {
     const ff_node *node = ff_node_get(root, "accuracy");
-    bool measured = node && node->kind == FF_SCALAR && !strcmp(node->text, "measured");
-    return node && (measured || fe_is_taken_away(node)) ? NULL : node;
-}
-
-static void warn_of_accuracy(const fe_build *b)
-{
-    bool chooses = !b->accuracy || ff_report_errors(b->report) > 0;
-    for (size_t i = 0; i < b->pipeline->count && !chooses; i++)
-        chooses = b->pipeline->stages[i].needed && b->pipeline->stages[i].choice;
-    if (!chooses)
-        ff_warn(b->report, b->accuracy->place,
-                "accuracy: no stage that runs chooses its model, so that it changes nothing; "
-                "write use: KIND/auto there");
+    bool other = node && (node->kind != FF_SCALAR || !strcmp(node->text, "measured"));
+    return node && (other || fe_is_taken_away(node)) ? NULL : node;
 }
 
 static void warn_of_feedback(const fe_build *b, const ff_node *feedback)
@@ -77,7 +66,6 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool ever
             fe_open_instance(&b, stage);
     }
     fe_check_accuracy(&b);
-    warn_of_accuracy(&b);
     warn_of_feedback(&b, ff_node_get(root, "feedback"));
     fe_check_unread(&b, ff_node_get(root, "outputs"));
     return pipeline;

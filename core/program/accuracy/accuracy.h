@@ -1,61 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Measures the numerical error of an answer by twins of the stages that it comes from. */
+/* Answers with their numerical errors, measured, and as small as the file asks. */
 #ifndef ACCURACY_ACCURACY_H
 #define ACCURACY_ACCURACY_H
 
-#include "../memory/memory.h"
-
-#include <flankfilm/engine.h>
-
-/* What a setting of a stage, a row with FF_TUNABLE, adds to the error of an output. */
-typedef struct accuracy_part {
-    const ff_stage *stage;
-    const char *setting; /* "cells" */
-    double error;        /* largest along a series, relative */
-} accuracy_part;
-
-/* What files and pages call the bar of an output: "h_min_error_bar". */
-#define ACCURACY_BAR "_error_bar"
-
-/* The numerical error of an output. */
-typedef struct accuracy_error {
-    const ff_stage *stage;
-    const ff_result *result;
-    double *bar;          /* of each number, SI, at least 0; NULL: not known */
-    double relative;      /* largest along a series, over the number there; NaN: not known */
-    double order;         /* observed; NaN: none was */
-    accuracy_part *parts; /* the largest first; none where no twin tells them apart */
-    size_t part_count;
-} accuracy_error;
-
-/* Starts zeroed. */
-typedef struct accuracy_record {
-    accuracy_error *errors;
-    size_t count;
-    size_t twins;        /* that were run */
-    double seconds;      /* s, work of their stages: CPU time */
-    const char *failure; /* why a twin failed; NULL: none did */
-    memory_arena arena;
-} accuracy_record;
-
-/* Whether the file asks for its errors: `accuracy: measured`. */
-bool accuracy_is_measured(const ff_tree *tree);
-
-/* Refuses to measure where a stage leaves its model open. */
-bool accuracy_check(const ff_tree *tree, const ff_pipeline *pipeline, ff_report *report);
+#include "measure.h"
 
 /*
- * Measures the errors of the scalars and series that the file asks for, from a pipeline that has
- * run, and adds them to the quality of its stages, in place of what these estimated themselves. The
- * observer's progress may stop it; then it answers false.
+ * Runs the pipeline that was built from the tree. Where the file asks for errors they are measured;
+ * where it says how large they may be, the settings that it leaves open are chosen for that, and
+ * the answer comes from another pipeline. The record has both, and refers to tree, engine and
+ * pipeline. False after an error, and, without one, where the observer's progress stopped it.
  */
-bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
-                      const ff_pipeline *pipeline, const ff_observer *watch);
-void accuracy_free(accuracy_record *record);
-
-/* "0.54 %: film.cells 0.3 %, tooth.points 0.1 %; order 2.1", to be freed. */
-char *accuracy_describe(const accuracy_error *error);
-/* NULL: the error of the output was not measured. */
-const accuracy_error *accuracy_find(const accuracy_record *record, const ff_result *result);
+bool accuracy_run(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
+                  ff_pipeline *pipeline, const ff_observer *watch, ff_report *report);
 
 #endif

@@ -69,7 +69,7 @@ static growths growths_of(const accuracy_ladder *l)
                                    : observed_growth(l->twice, l->answer, l->half, l->count);
     double used = growth_to_use(observed);
     /* fmin and fmax drop NaN */
-    return (growths){observed, used, fmax(used, fmin(observed, most_coarse_growth))};
+    return (growths){observed, used, fmax(used, fmin(fabs(observed), most_coarse_growth))};
 }
 
 bool accuracy_may_be_chance(const accuracy_ladder *l)

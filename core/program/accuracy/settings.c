@@ -13,9 +13,8 @@ static bool is_allowed(const ff_param *row, double si)
     return !(row->min < row->max) || (si >= row->min && si <= row->max);
 }
 
-/* The assignment that makes a number `levels` levels coarser, or finer where that is below 0; NULL:
-   outside of the row's limits. */
-static const char *shift(const ff_stage *stage, size_t param, double levels, memory_arena *arena)
+const char *accuracy_setting_at(const ff_stage *stage, size_t param, double levels,
+                                memory_arena *arena)
 {
     const ff_bound *bound = &stage->params[param];
     const ff_param *row = bound->row;
@@ -28,7 +27,8 @@ static const char *shift(const ff_stage *stage, size_t param, double levels, mem
         const ff_unit *unit = &stage->loaded->param_units[param];
         double number = ff_unit_from_si(unit, bound->value.real) * pow(tolerance_factor, levels);
         if (number > 0 && is_allowed(row, number))
-            text = memory_print_text("%s.%s=%.17g %s", stage->name, row->name, number,
+            text = memory_print_text("%s.%s=%.4g%s%s", stage->name, row->name, number,
+                                     strcmp(row->unit, "1") ? " " : "",
                                      strcmp(row->unit, "1") ? row->unit : "");
     }
     const char *kept = text ? memory_arena_text(arena, text, strlen(text)) : NULL;
@@ -49,11 +49,13 @@ size_t accuracy_settings(const ff_stage *stage, memory_arena *arena,
     for (size_t i = 0; i < rows && count < ACCURACY_MOST_SETTINGS; i++) {
         if (!is_number(&stage->params[i]))
             continue;
-        accuracy_setting s = {.name = stage->params[i].row->name,
-                              .finer = shift(stage, i, -1, arena),
-                              .between = shift(stage, i, 0.5, arena),
-                              .coarser = {shift(stage, i, 1, arena), shift(stage, i, 2, arena)}};
-        list[count++] = s;
+        list[count++] = (accuracy_setting){.name = stage->params[i].row->name,
+                                           .param = i,
+                                           .open = !stage->params[i].place.source,
+                                           .finer = accuracy_setting_at(stage, i, -1, arena),
+                                           .between = accuracy_setting_at(stage, i, 0.5, arena),
+                                           .coarser = {accuracy_setting_at(stage, i, 1, arena),
+                                                       accuracy_setting_at(stage, i, 2, arena)}};
     }
     return count;
 }

@@ -10,12 +10,19 @@
 /* A row with FF_TUNABLE that has a number. */
 typedef struct accuracy_setting {
     const char *name;
+    size_t param; /* of the stage */
+    bool open;    /* the file leaves it to the model's preset */
     /* "film.cells=256": finer by a level, coarser by half of one, by one, by two; NULL: its limits
        forbid it */
     const char *finer, *between, *coarser[2];
 } accuracy_setting;
 
 enum { ACCURACY_MOST_SETTINGS = 16 };
+
+/* The assignment that makes a number `levels` levels coarser, or finer where that is below 0; NULL:
+   outside of the row's limits. */
+const char *accuracy_setting_at(const ff_stage *stage, size_t param, double levels,
+                                memory_arena *arena);
 
 /* Fills `list`, and returns how many there are. A count is halved, for it stands for points, cells
    or steps; another number is a tolerance or a distance of points and is taken four times as large,

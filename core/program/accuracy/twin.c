@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "twin.h"
 
-#include "../memory/memory.h"
 #include "axis.h"
 
 #include <stdlib.h>
@@ -23,6 +22,7 @@ static void spread(const ff_pipeline *pipeline, bool *marks)
 
 typedef struct observation {
     const accuracy_scene *scene;
+    accuracy_twin *twin;
     const bool *affected; /* stages that are computed */
 } observation;
 
@@ -43,12 +43,17 @@ static void copy_results(const ff_stage *from, ff_stage *to)
             memcpy(ff_result_fill(to, i, given->rank, given->shape), given->data,
                    given->count * sizeof *given->data);
     }
+    for (size_t i = 0; i < from->quality_count; i++) {
+        const ff_quality *line = &from->quality[i];
+        ff_add_quality(to, line->name, line->value, line->limit, line->verdict, line->text);
+    }
+    to->seconds = from->seconds;
 }
 
 static bool recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
 {
     const observation *o = ctx;
-    if (o->affected[stage - pipeline->stages])
+    if (!o->scene->donor || o->affected[stage - pipeline->stages])
         return false;
     for (size_t i = 0; together(pipeline, stage, i) != SIZE_MAX; i++) {
         size_t at = together(pipeline, stage, i);
@@ -63,6 +68,18 @@ static int32_t progress(void *ctx, const ff_stage *stage, double fraction)
     return watch && watch->progress ? watch->progress(watch->ctx, stage, fraction) : 0;
 }
 
+static void take_note(void *ctx, const ff_stage *stage, int32_t level, const char *text)
+{
+    const observation *o = ctx;
+    accuracy_twin *twin = o->twin;
+    size_t count = twin->note_count + 1;
+    twin->notes = memory_resize(twin->notes, count * sizeof *twin->notes);
+    twin->notes[twin->note_count++] =
+        (accuracy_note){.stage = (size_t)(stage - twin->pipeline->stages),
+                        .level = level,
+                        .text = memory_arena_text(&twin->arena, text, strlen(text))};
+}
+
 /* In a chain the answer started from its neighbour's state; its twin starts from what the answer
    left, so that both are of one branch. */
 static void hand_states(const ff_pipeline *from, ff_pipeline *to)
@@ -73,22 +90,36 @@ static void hand_states(const ff_pipeline *from, ff_pipeline *to)
             ff_stage_set_state(&to->stages[i], from->stages[i].state, from->stages[i].state_size);
 }
 
-void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const char *const *sets,
-                       size_t count, const bool *changed)
+static void want_the_same(const ff_pipeline *from, ff_pipeline *to)
 {
-    bool *affected = memory_alloc((scene->donor->count + 1) * sizeof *affected);
-    memcpy(affected, changed, scene->donor->count * sizeof *affected);
-    spread(scene->donor, affected);
-    observation o = {scene, affected};
-    ff_observer watch = {.size = sizeof watch, .ctx = &o, .progress = progress, .recall = recall};
+    for (size_t i = 0; i < to->count; i++) {
+        const ff_stage *stage = &from->stages[i];
+        for (size_t k = 0; stage->results && k < stage->loaded->model->output_count; k++)
+            to->stages[i].results[k].wanted |= stage->results[k].wanted;
+    }
+}
+
+void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const char *const *sets,
+                       size_t count, const ff_place *place, const bool *changed)
+{
+    const ff_pipeline *like = scene->start;
+    bool *affected = memory_alloc((like->count + 1) * sizeof *affected);
+    memcpy(affected, changed, like->count * sizeof *affected);
+    spread(like, affected);
+    observation o = {scene, twin, affected};
+    ff_observer watch = {
+        .size = sizeof watch, .ctx = &o, .progress = progress, .log = take_note, .recall = recall};
     *twin = (accuracy_twin){.report = ff_report_new(), .tree = ff_tree_copy(scene->tree)};
-    ff_tree_set(twin->tree, scene->outputs, NULL, NULL, twin->report);
+    if (scene->outputs)
+        ff_tree_set(twin->tree, scene->outputs, NULL, NULL, twin->report);
     for (size_t i = 0; i < count; i++)
-        ff_tree_set(twin->tree, sets[i], NULL, NULL, twin->report);
+        ff_tree_set(twin->tree, sets[i], place, place, twin->report);
     twin->pipeline = ff_pipeline_build(twin->tree, scene->engine, false, twin->report);
     if (twin->pipeline && ff_report_errors(twin->report) == 0) {
         accuracy_want_axes(twin->pipeline);
-        hand_states(scene->donor, twin->pipeline);
+        hand_states(like, twin->pipeline);
+        if (!scene->outputs)
+            want_the_same(like, twin->pipeline);
         twin->good = ff_pipeline_run(twin->pipeline, &watch, twin->report) &&
                      ff_report_errors(twin->report) == 0;
     }
@@ -111,5 +142,7 @@ void accuracy_twin_free(accuracy_twin *twin)
     ff_tree_free(twin->tree);
     if (twin->report)
         ff_report_free(twin->report);
+    free(twin->notes);
+    memory_arena_free(&twin->arena);
     *twin = (accuracy_twin){.pipeline = NULL};
 }

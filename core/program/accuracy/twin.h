@@ -3,16 +3,27 @@
 #ifndef ACCURACY_TWIN_H
 #define ACCURACY_TWIN_H
 
+#include "../memory/memory.h"
+
 #include <flankfilm/engine.h>
 
 /* What twins of an answer share. */
 typedef struct accuracy_scene {
     const ff_tree *tree;
     ff_engine *engine;
-    const ff_pipeline *donor; /* what does not depend on the changes has its results from there */
-    const char *outputs;      /* "outputs=[film.h_min]" */
-    const ff_observer *watch;
+    /* What does not depend on the changes has its results from there; NULL: nothing has. */
+    const ff_pipeline *donor;
+    const ff_pipeline *start; /* of the same file; in a chain the twin starts from its states */
+    const char *outputs;      /* "outputs=[film.h_min]"; NULL: what `start` has to compute */
+    const ff_observer *watch; /* its progress; NULL: nobody looks */
 } accuracy_scene;
+
+/* What a stage said. */
+typedef struct accuracy_note {
+    size_t stage;
+    int32_t level;
+    const char *text;
+} accuracy_note;
 
 typedef struct accuracy_twin {
     ff_report *report;
@@ -21,12 +32,16 @@ typedef struct accuracy_twin {
     bool good;             /* it ran, and its results can be trusted */
     bool stopped;          /* the observer stopped it */
     double work;           /* s: CPU time of its stages */
+    accuracy_note *notes;
+    size_t note_count;
+    memory_arena arena;
 } accuracy_twin;
 
-/* Runs the file with the assignments. `changed` marks the stages whose settings are not those of
-   the donor: they and all that they feed are computed, of a loop all stages. */
+/* Runs the file with the assignments, as if it said them at `place`. `changed` marks the stages
+   whose settings are not those of the donor: they and all that they feed are computed, of a loop
+   all stages. */
 void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const char *const *sets,
-                       size_t count, const bool *changed);
+                       size_t count, const ff_place *place, const bool *changed);
 /* Why it is not good. */
 const char *accuracy_twin_reason(const accuracy_twin *twin);
 /* Zeroed is nothing. */

@@ -7,7 +7,6 @@
 #include "swap.h"
 
 #include "../accuracy/accuracy.h"
-#include "../accuracy/axis.h"
 #include "../memory/memory.h"
 #include "../results/earlier.h"
 #include "../results/write.h"
@@ -82,31 +81,19 @@ static void count_doubts(results_outcome *outcome, const cli_options *options)
     study_judgement_free(&judgement);
 }
 
-/* Runs the pipeline, and measures its errors where the file asks for them. False after an error. */
-static bool compute(cli_session *session, cli_progress *progress, accuracy_record *errors)
-{
-    bool measured = accuracy_is_measured(session->tree);
-    if (measured)
-        accuracy_want_axes(session->pipeline);
-    bool good = ff_pipeline_run(session->pipeline, &progress->watch, session->report);
-    if (good && measured)
-        good = accuracy_measure(errors, session->tree, session->engine, session->pipeline,
-                                &progress->watch);
-    return good ||
-           (ff_report_errors(session->report) == 0 &&
-            ff_error(session->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "the run was stopped"));
-}
-
 static int run_session(cli_session *session, const cli_options *options, const results_input *input,
                        place *to)
 {
     cli_progress progress;
     cli_progress_begin(&progress, session->report);
     accuracy_record errors = {.count = 0};
-    compute(session, &progress, &errors);
+    if (!accuracy_run(&errors, session->tree, session->engine, session->pipeline, &progress.watch,
+                      session->report) &&
+        ff_report_errors(session->report) == 0)
+        ff_error(session->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "the run was stopped");
     cli_progress_end(&progress);
 
-    results_outcome outcome = {.pipeline = session->pipeline,
+    results_outcome outcome = {.pipeline = errors.answer,
                                .report = session->report,
                                .input = input,
                                .errors = &errors,

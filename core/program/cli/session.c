@@ -5,7 +5,7 @@
 #include "../terminal/terminal.h"
 #include "oil.h"
 
-#include "../accuracy/accuracy.h"
+#include "../accuracy/goals.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
 #include "../rewrite/rewrite.h"

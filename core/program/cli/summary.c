@@ -4,6 +4,7 @@
 #include "../terminal/terminal.h"
 
 #include "../accuracy/axis.h"
+#include "../memory/memory.h"
 #include "../results/number.h"
 
 #include <math.h>
@@ -241,6 +242,22 @@ static void print_log(paper *page, const json_t *log)
     }
 }
 
+/* The settings that were chosen for the accuracy. */
+static void print_chosen(const accuracy_record *errors)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = memory_require(open_memstream(&text, &length));
+    for (size_t i = 0; i < errors->chosen_count; i++)
+        fprintf(out, "%s%s", i ? ", " : "", errors->chosen[i]);
+    fprintf(out,
+            errors->chosen_count ? "; attempt %zu" : "nothing: the file leaves no setting open",
+            errors->attempts);
+    fclose(out);
+    terminal_print_wrapped(text, printf("  chosen: "), 4);
+    free(text);
+}
+
 /* What the measured errors come from, the largest first in each line. */
 static void print_errors(paper *page, const results_outcome *outcome)
 {
@@ -258,6 +275,8 @@ static void print_errors(paper *page, const results_outcome *outcome)
     }
     if (errors->failure)
         terminal_print_wrapped(errors->failure, printf("  a twin failed: "), 4);
+    if (errors->attempts > 0)
+        print_chosen(errors);
     if (errors->twins > 0)
         printf("  %zu twins took %.3g s of CPU time\n", errors->twins, errors->seconds);
 }

@@ -108,8 +108,9 @@ static json_t *describe_error(const accuracy_error *e, results_arrays arrays)
         json_object_set_new(parts, name, study_json_real(e->parts[i].error));
         free(name);
     }
-    json_t *entry = json_pack("{s:o, s:o, s:o}", "relative", study_json_real(e->relative), "order",
-                              study_json_real(e->order), "parts", parts);
+    json_t *entry =
+        json_pack("{s:o, s:o, s:o, s:o}", "relative", study_json_real(e->relative), "goal",
+                  study_json_real(e->goal), "order", study_json_real(e->order), "parts", parts);
     if (e->bar && e->result->rank && is_elsewhere(e->result, arrays))
         json_object_set_new(entry, "file", name_file(e->stage, e->result, ACCURACY_BAR, arrays));
     else if (e->bar)
@@ -240,9 +241,10 @@ static json_t *describe_accuracy(const accuracy_record *errors)
 {
     if (!errors->twins)
         return json_null();
-    return json_pack("{s:I, s:o, s:o}", "twins", (json_int_t)errors->twins, "seconds",
-                     study_json_real(errors->seconds), "failure",
-                     results_json_text(errors->failure));
+    return json_pack("{s:I, s:I, s:o, s:o, s:o}", "attempts", (json_int_t)errors->attempts, "twins",
+                     (json_int_t)errors->twins, "seconds", study_json_real(errors->seconds),
+                     "failure", results_json_text(errors->failure), "settings",
+                     study_settings_record(errors->chosen, errors->chosen_count));
 }
 
 static json_t *describe_head(const results_outcome *outcome)

@@ -4,6 +4,7 @@
 
 #include "../accuracy/accuracy.h"
 #include "../accuracy/axis.h"
+#include "../accuracy/goals.h"
 #include "chain.h"
 #include "hash.h"
 #include "journal.h"
@@ -153,13 +154,16 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
     uint64_t fingerprint = hash_assignments(study, index);
     if (study_case_is_good(c)) {
         study_measure_want(study, c->pipeline);
-        if (accuracy_is_measured(c->tree))
+        if (accuracy_is_asked(c->tree))
             accuracy_want_axes(c->pipeline);
         c->fingerprints = memory_alloc(c->pipeline->count * sizeof *c->fingerprints);
         fingerprint = study_fingerprint(c->pipeline, c->fingerprints);
     }
-    if (accuracy_is_measured(c->tree))
-        fingerprint = study_hash_text(fingerprint, "errors are measured");
+    if (accuracy_is_asked(c->tree)) {
+        char *goals = accuracy_print_goals(c->tree);
+        fingerprint = study_hash_text(study_hash_text(fingerprint, "accuracy"), goals);
+        free(goals);
+    }
     if (study->measure)
         fingerprint = study_measure_fingerprint(fingerprint, study->measure->repeat[index]);
     snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)fingerprint);
@@ -350,10 +354,14 @@ static void add_results(json_t *record, const ff_pipeline *pipeline)
     json_decref(chosen);
 }
 
-/* Adds the error bars of scalars as outputs beside them; those of series are in the quality. */
+/* Adds the error bars of scalars as outputs beside them; those of series are in the quality; and
+   the settings that were chosen. */
 static void add_bars(json_t *record, const accuracy_record *errors)
 {
     json_t *outputs = json_object_get(record, "outputs");
+    if (errors->chosen_count)
+        json_object_set_new(record, "settings",
+                            study_settings_record(errors->chosen, errors->chosen_count));
     for (size_t i = 0; i < errors->count; i++) {
         const accuracy_error *e = &errors->errors[i];
         if (!e->bar || study_is_array(e->result))
@@ -383,6 +391,42 @@ static void note_warning(void *ctx, const ff_stage *stage, int32_t level, const 
         json_array_append_new(reuse->warnings, json_sprintf("%s: %s", stage->name, text));
 }
 
+/* Runs the case, whose pipeline is then the one that the answer comes from. */
+static void compute(study_case *c, const study_run *run, study_reuse *reuse,
+                    accuracy_record *errors)
+{
+    const study_measure *measure = run->study->measure;
+    bool *fresh = measure ? study_measure_fresh(measure, c->pipeline) : NULL;
+    ff_observer watch = {
+        .log = note_warning, .recall = study_reuse_recall, .keep = study_reuse_keep, .ctx = reuse};
+    reuse->fresh = fresh;
+    study_chain_restore_states(c);
+    accuracy_run(errors, c->tree, run->engine, c->pipeline, &watch, c->report);
+    c->pipeline = errors->answer;
+    free(fresh);
+}
+
+/* NULL after an error of writing. */
+static json_t *record_run(study_case *c, const study_run *run, size_t index, json_t *warnings,
+                          const accuracy_record *errors, study_memory *memory)
+{
+    bool good = ff_report_errors(c->report) == 0;
+    char *reason = good ? NULL : study_first_error(c->report);
+    json_t *record = study_case_record(run, index, c->key, status_of(c->report), reason);
+    free(reason);
+    add_quality(record, c->pipeline);
+    add_warnings(record, c->report, warnings);
+    add_judgement(record);
+    if (good && !keep_results(c, run, index, record, memory)) {
+        json_decref(record);
+        return NULL;
+    }
+    if (good)
+        add_bars(record, errors);
+    study_chain_record_states(c, record);
+    return record;
+}
+
 json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_memory *memory)
 {
     study_reuse reuse = {.directory = memory->directory,
@@ -390,39 +434,21 @@ json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_
                          .stats = memory->stats,
                          .warnings = json_array(),
                          .held = -1};
-    ff_observer watch = {
-        .log = note_warning, .recall = study_reuse_recall, .keep = study_reuse_keep, .ctx = &reuse};
     accuracy_record errors = {.count = 0};
+    ff_pipeline *asked = c->pipeline;
     double start = study_seconds_now();
     /* running may drop outputs that a model refuses */
     json_t *parameters = study_case_parameters(c, memory->seen);
-    if (study_case_is_good(c)) {
-        const study_measure *measure = run->study->measure;
-        bool *fresh = measure ? study_measure_fresh(measure, c->pipeline) : NULL;
-        reuse.fresh = fresh;
-        study_chain_restore_states(c);
-        if (ff_pipeline_run(c->pipeline, &watch, c->report) && accuracy_is_measured(c->tree))
-            accuracy_measure(&errors, c->tree, run->engine, c->pipeline, NULL);
-        free(fresh);
-    }
-    bool good = ff_report_errors(c->report) == 0;
-    char *reason = good ? NULL : study_first_error(c->report);
-    json_t *record = study_case_record(run, index, c->key, status_of(c->report), reason);
-    free(reason);
-    add_quality(record, c->pipeline);
-    add_warnings(record, c->report, reuse.warnings);
+    if (study_case_is_good(c))
+        compute(c, run, &reuse, &errors);
+    json_t *record = record_run(c, run, index, reuse.warnings, &errors, memory);
+    c->pipeline = asked;
+    accuracy_free(&errors);
     json_decref(reuse.warnings);
-    add_judgement(record);
-    if (good && !keep_results(c, run, index, record, memory)) {
+    if (!record) {
         json_decref(parameters);
-        json_decref(record);
-        accuracy_free(&errors);
         return NULL;
     }
-    if (good)
-        add_bars(record, &errors);
-    accuracy_free(&errors);
-    study_chain_record_states(c, record);
     json_object_set_new(record, "parameters", parameters);
     json_object_set_new(record, "seconds", json_seconds(study_seconds_now() - start));
     return record;

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Records the choices of models that a case has made. */
+/* Records the choices of models and of settings that a case has made. */
 #include "case.h"
+
+#include <stdlib.h>
+#include <string.h>
 
 /* Returns the parameters that the chosen model has set by itself. */
 static json_t *proposed_settings(const ff_stage *stage)
@@ -29,6 +32,18 @@ json_t *study_choices_record(const ff_pipeline *pipeline)
                       "accuracy", choice->accuracy, "promised",
                       study_json_real(choice->chosen->error), "settings", proposed_settings(stage));
         json_object_set_new(all, stage->name, own);
+    }
+    return all;
+}
+
+json_t *study_settings_record(const char *const *assignments, size_t count)
+{
+    json_t *all = json_object();
+    for (size_t i = 0; i < count; i++) {
+        const char *value = strchr(assignments[i], '=') + 1;
+        char *path = memory_print_text("%.*s", (int)(value - 1 - assignments[i]), assignments[i]);
+        json_object_set_new(all, path, json_string(value));
+        free(path);
     }
     return all;
 }

@@ -253,6 +253,8 @@ bool study_check_format(const char *directory, ff_report *report);
 bool study_is_array(const ff_result *result);
 
 json_t *study_json_real(double value); /* null for a number that is not finite */
+/* {path: value} of assignments "path=value". */
+json_t *study_settings_record(const char *const *assignments, size_t count);
 
 /* Start of an FNV-1a hash of 64 bits. */
 #define STUDY_HASH_START UINT64_C(0xcbf29ce484222325)

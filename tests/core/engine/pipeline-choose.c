@@ -132,17 +132,6 @@ static void narrowed(void)
     try_close(&a);
 }
 
-static void nothing_to_choose(void)
-{
-    attempt a = choose("use: picked/fine", "2 mm", "pick.value");
-    check_good("an accuracy of the file alone", &a);
-    check_true("is told to change nothing", try_says(&a, FF_WARNING, 2, 11, "changes nothing"));
-    try_close(&a);
-    a = choose("use: picked/auto", "2 mm", "pick.value");
-    check_true("with a choice it is not", ff_report_count(a.report) == 0);
-    try_close(&a);
-}
-
 static void refusals(void)
 {
     attempt a = choose("use: picked/auto, accuracy: 0.01 %", "2 mm", "pick.value");
@@ -211,7 +200,6 @@ int main(void)
     proposals();
     bad();
     narrowed();
-    nothing_to_choose();
     refusals();
     feeds();
     return check_done();

@@ -93,10 +93,10 @@ class Measured(lab.Lab):
     def test_the_guess_of_the_model_goes(self):
         """Two numbers for one error would contradict each other."""
         lines = next(s for s in self.ask()["stages"] if s["stage"] == "last")["quality"]
-        self.assertEqual(sorted(lines), ["value_error", "wave_error"])
+        self.assertEqual(sorted(lines), ["balance", "value_error", "wave_error"])
         self.assertEqual(lines["value_error"]["verdict"], "good")
         plain = next(s for s in self.ask("accuracy=")["stages"] if s["stage"] == "last")["quality"]
-        self.assertEqual(list(plain), ["value_guess_error"])
+        self.assertEqual(list(plain), ["value_guess_error", "balance"])
 
     def test_a_large_error_is_doubtful(self):
         self.assertEqual(self.ask("last.cells=8")["verdict"], "doubtful")

@@ -62,6 +62,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         }
     }
     o->host->quality(o->host->ctx, "value_guess_error", 0.9, 0.1, FF_DOUBTFUL, "a guess");
+    o->host->quality(o->host->ctx, "balance", 0, 1, FF_GOOD, "no estimate of an error");
     return FF_OK;
 }
 

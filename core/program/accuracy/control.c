@@ -1,0 +1,411 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Each attempt is run with its twins, whose errors say which setting is to be refined by how much.
+ * An output whose error cannot be brought down is given up, so that it does not take the others
+ * with it: it keeps the error that it has.
+ */
+#include "control.h"
+
+#include "goals.h"
+#include "settings.h"
+#include "twin.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A plain first guess: presets are about this exact (docs/validation/error-bars.md), and an error
+   of second order is four times as large on each coarser level. */
+static const double preset_error = 0.005;
+/* A coarser start would leave twins of too few cells. */
+static const double coarsest_start = 2;
+/* Eight times as many cells and steps as by preset: at most 64 times the work. */
+static const double finest = -3;
+/* In an attempt; what a measured error says of one much smaller is uncertain. */
+static const double most_levels = 2;
+/* Parts are brought to this share of a goal, so that the next error does not fall just above it. */
+static const double reserve = 0.8;
+/* Where parts would have to be cut below this share of a goal, what remains is left too little. */
+static const double least_part = 0.1;
+/* An error that falls by less when its settings are refined beyond the presets is given up. */
+static const double least_gain = 1.25;
+/* Growth of errors from level to level: between those of orders 1/2 and 2, as estimates have it. */
+static const double least_order = 0.5, most_order = 2;
+enum { MOST_ATTEMPTS = 8 };
+
+/* A setting that the file leaves open. */
+typedef struct knob {
+    const ff_stage *stage; /* of the pipeline that was asked for */
+    accuracy_setting setting;
+    double level;    /* coarser than the preset by so much, in the next attempt */
+    double measured; /* in the best one */
+} knob;
+
+/* An output whose error was too large. */
+typedef struct target {
+    size_t stage, output;
+    double error; /* of the last attempt */
+    bool pursued; /* the last attempt was refined for it, beyond the presets */
+    bool given_up;
+} target;
+
+typedef struct attempt {
+    accuracy_twin run;
+    accuracy_record record;
+} attempt;
+
+typedef struct control {
+    accuracy_scene scene;
+    ff_pipeline *asked;
+    knob *knobs;
+    size_t count;
+    target *targets;
+    size_t target_count;
+    attempt best; /* the last one that was good; its run has no pipeline before */
+    size_t attempts, twins;
+    double seconds; /* s: CPU time of all that was run */
+    const char *failure;
+    memory_arena arena;
+} control;
+
+static void list_knobs(control *c)
+{
+    accuracy_setting settings[ACCURACY_MOST_SETTINGS];
+    c->knobs = memory_alloc((c->asked->count * ACCURACY_MOST_SETTINGS + 1) * sizeof *c->knobs);
+    for (size_t i = 0; i < c->asked->count; i++) {
+        const ff_stage *stage = &c->asked->stages[c->asked->order[i]];
+        size_t count = 0;
+        if (stage->needed && stage->loaded)
+            count = accuracy_settings(stage, &c->arena, settings);
+        for (size_t k = 0; k < count; k++)
+            if (settings[k].open && accuracy_setting_at(stage, settings[k].param, 0, &c->arena))
+                c->knobs[c->count++] = (knob){.stage = stage, .setting = settings[k]};
+    }
+}
+
+/* The smallest goal, or 1. */
+static double smallest_goal(const control *c)
+{
+    double least = 1;
+    for (size_t i = 0; i < c->asked->count; i++) {
+        const ff_stage *stage = &c->asked->stages[i];
+        size_t outputs = stage->results ? stage->loaded->model->output_count : 0;
+        for (size_t k = 0; k < outputs; k++)
+            if (stage->results[k].requested) /* fmin drops NaN */
+                least = fmin(least, accuracy_goal(c->scene.tree, stage, &stage->results[k]));
+    }
+    return least;
+}
+
+static const char *set_of(control *c, const knob *k)
+{
+    return accuracy_setting_at(k->stage, k->setting.param, k->level, &c->arena);
+}
+
+/* Sets the level, or the next one towards the preset that the limits of the setting allow. */
+static void move(control *c, knob *k, double level)
+{
+    k->level = fmax(level, finest);
+    while (k->level != 0 && !set_of(c, k))
+        k->level = fabs(k->level) < 1 ? 0 : k->level - copysign(1, k->level);
+}
+
+/* Twins are coarser by two levels. */
+static bool has_twins(control *c, const knob *k)
+{
+    return accuracy_setting_at(k->stage, k->setting.param, k->level + 2, &c->arena);
+}
+
+static void start(control *c)
+{
+    double levels = round(log(smallest_goal(c) / preset_error) / log(4));
+    for (size_t i = 0; i < c->count; i++) {
+        move(c, &c->knobs[i], fmin(fmax(levels, 0), coarsest_start));
+        while (c->knobs[i].level > 0 && !has_twins(c, &c->knobs[i]))
+            move(c, &c->knobs[i], c->knobs[i].level - 1);
+    }
+}
+
+/* Runs and measures the file with the settings as they are. */
+static void try_settings(control *c, attempt *next)
+{
+    const char **sets = memory_alloc((c->count + 1) * sizeof *sets);
+    bool *changed = memory_alloc((c->asked->count + 1) * sizeof *changed);
+    const ff_place place = accuracy_place(c->scene.tree);
+    c->scene.donor = c->best.run.good ? c->best.run.pipeline : NULL;
+    for (size_t i = 0; i < c->count; i++) {
+        sets[i] = set_of(c, &c->knobs[i]);
+        changed[c->knobs[i].stage - c->asked->stages] |= c->knobs[i].level != c->knobs[i].measured;
+    }
+    accuracy_twin_run(&next->run, &c->scene, sets, c->count, &place, changed);
+    if (next->run.good && !accuracy_measure(&next->record, next->run.tree, c->scene.engine,
+                                            next->run.pipeline, c->scene.watch))
+        next->run.stopped = true;
+    c->attempts++;
+    c->twins += next->record.twins;
+    c->seconds += next->run.work + next->record.seconds;
+    free(changed);
+    free(sets);
+}
+
+static void attempt_free(attempt *a)
+{
+    accuracy_free(&a->record);
+    accuracy_twin_free(&a->run);
+}
+
+/* Goes on from an attempt that failed: by a level, to the presets and one beyond. */
+static bool recover(control *c)
+{
+    bool moved = false;
+    for (size_t i = 0; i < c->count; i++) {
+        double before = c->knobs[i].level;
+        if (before > -1)
+            move(c, &c->knobs[i], before - 1);
+        moved = moved || c->knobs[i].level < before;
+    }
+    return moved;
+}
+
+/* The setting that a part of an error comes from; NULL: the file gives it, or it is as fine as it
+   may be. */
+static knob *knob_of(control *c, const accuracy_part *part)
+{
+    size_t stage = (size_t)(part->stage - c->best.run.pipeline->stages);
+    for (size_t i = 0; i < c->count; i++) {
+        knob *k = &c->knobs[i], finer = *k;
+        if (k->stage != &c->asked->stages[stage] || strcmp(k->setting.name, part->setting) != 0)
+            continue;
+        move(c, &finer, k->measured - 1);
+        return finer.level < k->measured ? k : NULL;
+    }
+    return NULL;
+}
+
+/* Levels that bring an error down to a share of it. */
+static double levels_for(const accuracy_error *e, double share)
+{
+    double order = isnan(e->order) ? 1 : fmin(fmax(e->order, least_order), most_order);
+    return fmin(fmax(-log2(share) / order, 0), most_levels);
+}
+
+/* Refines a setting by so many levels, unless another output asked for more. */
+static void refine(control *c, knob *k, double levels, target *t)
+{
+    double level = k->level;
+    t->pursued = t->pursued && k->measured <= 0;
+    move(c, k, fmin(level, k->measured - levels));
+}
+
+/* Where the twins did not tell parts apart. */
+static bool refine_all(control *c, const accuracy_error *e, target *t)
+{
+    bool moved = false;
+    for (size_t i = 0; i < c->count; i++) {
+        knob *k = &c->knobs[i];
+        refine(c, k, isnan(e->relative) ? 1 : levels_for(e, reserve * e->goal / e->relative), t);
+        moved = moved || k->level < k->measured;
+    }
+    return moved;
+}
+
+/* What the largest parts are cut down to so that all of them are `budget`, the smaller ones as they
+   are; the parts that no setting can bring down are taken from it before. Below 0: too little. */
+static double cut_of(control *c, const accuracy_error *e, double budget)
+{
+    double smaller = 0, cut = -1;
+    size_t larger = 0;
+    for (size_t i = 0; i < e->part_count; i++) {
+        if (knob_of(c, &e->parts[i]))
+            smaller += e->parts[i].error;
+        else
+            budget -= e->parts[i].error;
+    }
+    for (size_t i = 0; i < e->part_count && cut < e->parts[i].error; i++) {
+        if (!knob_of(c, &e->parts[i])) /* the largest come first */
+            continue;
+        smaller -= e->parts[i].error;
+        cut = (budget - smaller) / (double)++larger;
+    }
+    return cut;
+}
+
+/* Refines the settings that the error of an output comes from; false: it cannot be brought down. */
+static bool refine_for(control *c, const accuracy_error *e, target *t)
+{
+    t->pursued = true;
+    if (e->part_count == 0)
+        return refine_all(c, e, t);
+    double cut = cut_of(c, e, reserve * e->goal);
+    if (cut < least_part * e->goal)
+        return false;
+    for (size_t i = 0; i < e->part_count; i++) {
+        knob *k = knob_of(c, &e->parts[i]);
+        if (k)
+            refine(c, k, levels_for(e, cut / e->parts[i].error), t);
+    }
+    return true;
+}
+
+static target *target_of(control *c, const accuracy_error *e)
+{
+    const target key = {.stage = (size_t)(e->stage - c->best.run.pipeline->stages),
+                        .output = (size_t)(e->result - e->stage->results),
+                        .error = NAN};
+    for (size_t i = 0; i < c->target_count; i++)
+        if (c->targets[i].stage == key.stage && c->targets[i].output == key.output)
+            return &c->targets[i];
+    c->targets = memory_resize(c->targets, (c->target_count + 1) * sizeof *c->targets);
+    c->targets[c->target_count] = key;
+    return &c->targets[c->target_count++];
+}
+
+/* Chooses the settings of the next attempt; false: this one is the answer. */
+static bool go_on(control *c)
+{
+    bool moved = false;
+    for (size_t i = 0; i < c->best.record.count; i++) {
+        const accuracy_error *e = &c->best.record.errors[i];
+        if (isnan(e->goal))
+            continue;
+        target *t = target_of(c, e);
+        bool missed = !(e->relative <= e->goal);
+        bool helps = !t->pursued || e->relative < t->error / least_gain;
+        t->error = e->relative;
+        t->given_up = t->given_up || (missed && !helps);
+        t->pursued = false;
+        if (missed && !t->given_up)
+            t->given_up = !refine_for(c, e, t);
+    }
+    for (size_t i = 0; i < c->count; i++)
+        moved = moved || c->knobs[i].level != c->knobs[i].measured;
+    return moved;
+}
+
+static void take(control *c, attempt *next)
+{
+    attempt_free(&c->best);
+    c->best = *next;
+    for (size_t i = 0; i < c->count; i++)
+        c->knobs[i].measured = c->knobs[i].level;
+}
+
+/* Makes attempts until one is the answer; false where the observer stopped one. */
+static bool search(control *c)
+{
+    start(c);
+    for (bool again = true; again;) {
+        attempt next = {.run = {.good = false}};
+        try_settings(c, &next);
+        if (next.run.stopped) {
+            attempt_free(&next);
+            return false;
+        }
+        again = c->attempts < MOST_ATTEMPTS;
+        if (next.run.good) {
+            take(c, &next);
+            again = go_on(c) && again;
+        } else if (!c->best.run.good) {
+            take(c, &next);
+            again = recover(c) && again;
+        } else { /* a finer one failed */
+            const char *why = accuracy_twin_reason(&next.run);
+            c->failure = memory_arena_text(&c->arena, why, strlen(why));
+            attempt_free(&next);
+            again = false;
+        }
+    }
+    return true;
+}
+
+static bool is_known(const ff_report *report, const char *text)
+{
+    for (size_t i = 0; i < ff_report_count(report); i++)
+        if (!strcmp(ff_report_at(report, i)->text, text))
+            return true;
+    return false;
+}
+
+/* Whether the message is about a setting that was chosen: the file does not say it. */
+static bool is_about_chosen(const ff_message *m, ff_place place)
+{
+    return m->severity == FF_WARNING && m->place.source == place.source &&
+           m->place.line == place.line && m->place.column == place.column;
+}
+
+/* Says what the answer has to say: building the pipeline that was asked for said the same of it. */
+static void hand_on(const accuracy_twin *run, ff_place chosen, const ff_observer *watch,
+                    ff_report *report)
+{
+    for (size_t i = 0; i < ff_report_count(run->report); i++) {
+        const ff_message *m = ff_report_at(run->report, i);
+        ff_source source = m->place.source ? *m->place.source : (ff_source){0};
+        ff_place place = m->place;
+        source.temporary = true; /* it is freed with the answer */
+        place.source = place.source ? &source : NULL;
+        if (is_known(report, m->text) || is_about_chosen(m, chosen))
+            continue;
+        if (m->severity == FF_ERROR)
+            ff_error(report, m->fault, place, m->hint, "%s", m->text);
+        else
+            ff_warn(report, place, "%s", m->text);
+    }
+    for (size_t i = 0; watch && watch->log && i < run->note_count; i++)
+        watch->log(watch->ctx, &run->pipeline->stages[run->notes[i].stage], run->notes[i].level,
+                   run->notes[i].text);
+}
+
+/* Whether the setting changes nothing, as a tolerance of steps that the file gives. */
+static bool is_idle(const knob *k, const ff_report *report, ff_place chosen)
+{
+    char *start = memory_print_text("%s.%s changes nothing", k->stage->name, k->setting.name);
+    bool idle = false;
+    for (size_t i = 0; i < ff_report_count(report) && !idle; i++)
+        idle = is_about_chosen(ff_report_at(report, i), chosen) &&
+               !strncmp(ff_report_at(report, i)->text, start, strlen(start));
+    free(start);
+    return idle;
+}
+
+/* Makes the best attempt the answer. */
+static void adopt(control *c, accuracy_record *record)
+{
+    *record = c->best.record;
+    record->twin = memory_alloc(sizeof *record->twin);
+    *record->twin = c->best.run;
+    record->answer = c->best.run.pipeline ? c->best.run.pipeline : c->asked;
+    record->attempts = c->attempts;
+    record->twins = c->twins;
+    record->seconds = c->seconds - c->best.run.work;
+    if (c->failure)
+        record->failure = memory_arena_text(&record->arena, c->failure, strlen(c->failure));
+    record->chosen = memory_arena_alloc(&record->arena, (c->count + 1) * sizeof *record->chosen);
+    for (size_t i = 0; i < c->count; i++) {
+        if (is_idle(&c->knobs[i], c->best.run.report, accuracy_place(c->scene.tree)))
+            continue;
+        c->knobs[i].level = c->knobs[i].measured;
+        const char *set = set_of(c, &c->knobs[i]);
+        record->chosen[record->chosen_count++] =
+            memory_arena_text(&record->arena, set, strlen(set));
+    }
+}
+
+bool accuracy_control(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
+                      ff_pipeline *pipeline, const ff_observer *watch, ff_report *report)
+{
+    control c = {.scene = {.tree = tree, .engine = engine, .start = pipeline, .watch = watch},
+                 .asked = pipeline};
+    list_knobs(&c);
+    bool finished = search(&c);
+    if (finished) {
+        adopt(&c, record);
+        hand_on(record->twin, accuracy_place(tree), watch, report);
+    } else {
+        attempt_free(&c.best);
+    }
+    bool good = finished && record->twin->good;
+    free(c.knobs);
+    free(c.targets);
+    memory_arena_free(&c.arena);
+    return good;
+}

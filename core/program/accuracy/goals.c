@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "goals.h"
+
+#include "../memory/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const ff_param row = {.name = "accuracy",
+                             .unit = "%",
+                             .doc = "largest error of an output, over its value",
+                             .type = FF_REAL,
+                             .flags = FF_MIN_OPEN,
+                             .max = 100,
+                             .choices = "measured"};
+
+static const ff_node *node_of(const ff_tree *tree)
+{
+    const ff_node *node = ff_node_get(ff_tree_root(tree), row.name);
+    bool empty = node && node->kind == FF_SCALAR && !*node->text;
+    return empty ? NULL : node;
+}
+
+static bool is_measured(const ff_node *node)
+{
+    return node->kind == FF_SCALAR && !strcmp(node->text, row.choices);
+}
+
+bool accuracy_is_asked(const ff_tree *tree)
+{
+    return node_of(tree) != NULL;
+}
+
+bool accuracy_has_goals(const ff_tree *tree)
+{
+    const ff_node *node = node_of(tree);
+    return node && !is_measured(node);
+}
+
+ff_place accuracy_place(const ff_tree *tree)
+{
+    const ff_node *node = node_of(tree);
+    return node ? node->place : FF_NOWHERE;
+}
+
+/* Reads "2 %" to a share of 1; NaN for `measured`, and after an error. */
+static double read_goal(const ff_node *node, const char *name, ff_report *report)
+{
+    ff_unit unit;
+    ff_value value;
+    char why[64];
+    double goal = NAN;
+    if (is_measured(node) || !ff_unit_parse(row.unit, &unit, why, sizeof why))
+        return NAN;
+    if (ff_param_read(&row, &unit, name, node, &value, report)) {
+        goal = value.real;
+        ff_value_clear(&value);
+    }
+    return goal;
+}
+
+double accuracy_goal(const ff_tree *tree, const ff_stage *stage, const ff_result *result)
+{
+    const ff_node *node = node_of(tree);
+    if (node && node->kind == FF_MAP) {
+        char *path = memory_print_text("%s.%s", stage->name, result->row->name);
+        node = ff_node_get(node, path);
+        free(path);
+    }
+    ff_report *unused = ff_report_new();
+    double goal = node ? read_goal(node, row.name, unused) : NAN;
+    ff_report_free(unused);
+    return goal;
+}
+
+char *accuracy_print_goals(const ff_tree *tree)
+{
+    const ff_node *node = node_of(tree);
+    char *text = memory_print_text("%s", node && node->kind == FF_SCALAR ? node->text : "");
+    for (size_t i = 0; node && node->kind == FF_MAP && i < node->count; i++) {
+        const ff_node *item = node->items[i];
+        char *longer = memory_print_text("%s%s%s: %s", text, *text ? ", " : "", node->keys[i],
+                                         item->kind == FF_SCALAR ? item->text : "");
+        free(text);
+        text = longer;
+    }
+    return text;
+}
+
+/* A scalar or a series: of fields no error is measured. */
+static bool may_have_goal(const ff_result *result)
+{
+    return result->requested && !result->row->service && !strchr(result->row->dims, ' ');
+}
+
+/* Outputs that may have a goal: their names, in an array to be freed with them. */
+static char **list_names(const ff_pipeline *pipeline, size_t *count)
+{
+    size_t most = 0;
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (pipeline->stages[i].loaded)
+            most += pipeline->stages[i].loaded->model->output_count;
+    char **names = memory_alloc((most + 1) * sizeof *names);
+    *count = 0;
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        for (size_t k = 0;
+             stage->loaded && stage->results && k < stage->loaded->model->output_count; k++)
+            if (may_have_goal(&stage->results[k]))
+                names[(*count)++] =
+                    memory_print_text("%s.%s", stage->name, stage->results[k].row->name);
+    }
+    return names;
+}
+
+static bool check_name(const ff_node *map, size_t item, char *const *names, size_t count,
+                       ff_report *report)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!strcmp(names[i], map->keys[item]))
+            return true;
+    const char *nearest = ff_nearest(map->keys[item], (const char *const *)names, count);
+    char *hint = nearest ? memory_print_text("did you mean \"%s\"?", nearest) : NULL;
+    ff_error(report, FF_FAULT_INPUT, map->key_places[item], hint,
+             "accuracy: \"%.100s\" is no scalar or series that \"outputs\" asks for",
+             map->keys[item]);
+    free(hint);
+    return false;
+}
+
+bool accuracy_check(const ff_tree *tree, const ff_pipeline *pipeline, ff_report *report)
+{
+    const ff_node *node = node_of(tree);
+    size_t errors = ff_report_errors(report), count;
+    if (!node)
+        return true;
+    for (size_t i = 0; is_measured(node) && i < pipeline->count; i++)
+        if (pipeline->stages[i].needed && pipeline->stages[i].choice)
+            return ff_error(report, FF_FAULT_INPUT, node->place,
+                            "name the model, or give the accuracy as a number: 2 %",
+                            "accuracy: measured is the error of what the file says, and %s leaves "
+                            "its model open",
+                            pipeline->stages[i].name);
+    char **names = list_names(pipeline, &count);
+    if (node->kind != FF_MAP)
+        read_goal(node, row.name, report);
+    for (size_t i = 0; node->kind == FF_MAP && i < node->count; i++)
+        if (check_name(node, i, names, count, report))
+            read_goal(node->items[i], node->keys[i], report);
+    if (count == 0 && ff_report_errors(report) == errors)
+        ff_warn(report, node->place,
+                "accuracy: no scalar or series is asked for, so that it changes nothing");
+    for (size_t i = 0; i < count; i++)
+        free(names[i]);
+    free(names);
+    return ff_report_errors(report) == errors;
+}

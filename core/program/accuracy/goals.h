@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What a file asks of its errors: `accuracy: measured`, or how large each may be, for all outputs
+ * or one by one: `accuracy: 2 %`, `accuracy: {film.h_min: 2 %, motion.dte_rms: 1 %}`.
+ */
+#ifndef ACCURACY_GOALS_H
+#define ACCURACY_GOALS_H
+
+#include <flankfilm/engine.h>
+
+/* Whether the file asks for errors. */
+bool accuracy_is_asked(const ff_tree *tree);
+/* Whether it says how large one of them may be. */
+bool accuracy_has_goals(const ff_tree *tree);
+/* How large, relative, the error of an output may be; NaN: the file does not say. */
+double accuracy_goal(const ff_tree *tree, const ff_stage *stage, const ff_result *result);
+/* Where the file asks; FF_NOWHERE: it does not. */
+ff_place accuracy_place(const ff_tree *tree);
+/* "film.h_min: 2 %", for the key of a case; to be freed. */
+char *accuracy_print_goals(const ff_tree *tree);
+
+/* Reports what is wrong with what the file asks. */
+bool accuracy_check(const ff_tree *tree, const ff_pipeline *pipeline, ff_report *report);
+
+#endif

@@ -1,0 +1,411 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * One ladder for the whole answer: in its first twin all settings of all stages are one level
+ * coarser, in its second two; then, one after the other, each setting is a level finer than in the
+ * second, which shows what comes of it. The twins of a setting are cheap, since all else is coarse
+ * and what lies before its stage is known. Where a coarser twin fails, the answer is coarse itself,
+ * and a finer one tells.
+ */
+#include "measure.h"
+
+#include "axis.h"
+#include "compare.h"
+#include "estimate.h"
+#include "goals.h"
+#include "settings.h"
+#include "twin.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A measured error above this is doubtful where the file names no accuracy. */
+static const double doubtful_above = 0.05;
+
+/* Parts below this share of an error are not worth a reader's time. */
+static const double least_part = 0.01;
+
+/* A time, an angle, or what its dimension is named after: series are compared along it. */
+static bool is_axis(const ff_result *result)
+{
+    return result->rank == 1 &&
+           (!strcmp(result->row->unit, "s") || !strcmp(result->row->unit, "rad") ||
+            !strcmp(result->row->name, result->dims[0]));
+}
+
+/* A setting with the stage that it belongs to. */
+typedef struct knob {
+    size_t stage; /* in the pipeline */
+    accuracy_setting setting;
+} knob;
+
+/* What is at work while errors are measured. */
+typedef struct measurement {
+    accuracy_record *record;
+    accuracy_scene scene;
+    const ff_pipeline *answer;
+    knob *knobs;
+    size_t count;
+    accuracy_twin between, half, quarter, twice, *refined; /* one for each knob */
+    bool stopped;
+} measurement;
+
+static void *take(const measurement *m, size_t count, size_t size)
+{
+    return memory_arena_alloc(&m->record->arena, count * size + 1);
+}
+
+static bool is_headline(const ff_result *result)
+{
+    bool finite = result->data && result->requested && result->rank <= 1 && result->count > 0;
+    for (size_t i = 0; finite && i < result->count; i++)
+        finite = isfinite(result->data[i]);
+    return finite && !is_axis(result);
+}
+
+/* Lists what is to be measured, and says it as the outputs of the twins. */
+static void list_outputs(measurement *m)
+{
+    const ff_pipeline *answer = m->answer;
+    accuracy_record *record = m->record;
+    char *text = NULL;
+    size_t length = 0, most = 0;
+    for (size_t s = 0; s < answer->count; s++)
+        most += answer->stages[s].ran ? answer->stages[s].loaded->model->output_count : 0;
+    record->errors = take(m, most, sizeof *record->errors);
+    FILE *out = memory_require(open_memstream(&text, &length));
+    fputs("outputs=[", out);
+    for (size_t s = 0; s < answer->count; s++) {
+        const ff_stage *stage = &answer->stages[s];
+        for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
+            if (!is_headline(&stage->results[i]))
+                continue;
+            accuracy_error *e = &record->errors[record->count++];
+            *e = (accuracy_error){.stage = stage,
+                                  .result = &stage->results[i],
+                                  .goal = accuracy_goal(m->scene.tree, stage, &stage->results[i]),
+                                  .relative = NAN,
+                                  .order = NAN};
+            fprintf(out, "%s%s.%s", record->count > 1 ? ", " : "", stage->name,
+                    e->result->row->name);
+        }
+    }
+    putc(']', out);
+    fclose(out);
+    m->scene.outputs = memory_arena_text(&record->arena, text, length);
+    free(text);
+}
+
+/* The result that a series is compared along; NULL: its index. */
+static const ff_result *axis_of(const ff_pipeline *pipeline, const ff_stage *stage,
+                                const ff_result *result)
+{
+    return result->rank
+               ? accuracy_axis(pipeline, stage, result->dims[0], result->count, result, "rad")
+               : NULL;
+}
+
+/* The output in another pipeline, at the points of the answer; NULL: it cannot be compared. */
+static const double *numbers_of(const measurement *m, const accuracy_error *e,
+                                const ff_pipeline *pipeline)
+{
+    const ff_pipeline *answer = m->answer;
+    const ff_stage *stage = &pipeline->stages[e->stage - answer->stages];
+    const ff_result *own = &stage->results[e->result - e->stage->results];
+    const ff_result *along = axis_of(answer, e->stage, e->result), *other = NULL;
+    if (!own->data || own->rank != e->result->rank || own->count == 0)
+        return NULL;
+    if (own->rank)
+        other = axis_of(pipeline, stage, own);
+    if (own->rank && (!along || !other ? own->count != e->result->count
+                                       : strcmp(along->row->name, other->row->name) != 0))
+        return NULL;
+    const accuracy_series series = {own->rank, own->count, along && other ? other->data : NULL,
+                                    own->data};
+    double *numbers = take(m, e->result->count, sizeof *numbers);
+    for (size_t i = 0; i < e->result->count; i++) {
+        bool right = along && i > 0 && along->data[i] == along->data[i - 1];
+        numbers[i] =
+            series.at ? accuracy_interpolate(&series, along->data[i], right) : own->data[i];
+        if (!isfinite(numbers[i]))
+            return NULL;
+    }
+    return numbers;
+}
+
+/* The settings of all stages that something measured depends on. */
+static void list_knobs(measurement *m)
+{
+    accuracy_setting settings[ACCURACY_MOST_SETTINGS];
+    const ff_pipeline *answer = m->answer;
+    m->knobs = take(m, answer->count * ACCURACY_MOST_SETTINGS, sizeof *m->knobs);
+    for (size_t i = 0; i < answer->count; i++) {
+        size_t at = answer->order[i];
+        const ff_stage *stage = &answer->stages[at];
+        size_t count = 0;
+        if (stage->needed && stage->loaded)
+            count = accuracy_settings(stage, &m->record->arena, settings);
+        for (size_t k = 0; k < count; k++)
+            m->knobs[m->count++] = (knob){at, settings[k]};
+    }
+    m->refined = take(m, m->count, sizeof *m->refined);
+}
+
+static void note_failure(measurement *m, const char *why)
+{
+    if (!m->record->failure)
+        m->record->failure = memory_arena_text(&m->record->arena, why, strlen(why));
+}
+
+/* How much coarser the settings of a twin are. */
+typedef enum level { TWICE, BETWEEN, HALF, QUARTER } level;
+
+static const char *assignment_at(const accuracy_setting *setting, level at)
+{
+    const char *const sets[] = {setting->finer, setting->between, setting->coarser[0],
+                                setting->coarser[1]};
+    return sets[at];
+}
+
+/* Fills the assignments of a twin, and marks the stages that they change. False: the limits of a
+   setting forbid one. */
+static bool list_sets(measurement *m, level at, size_t finer, const char **sets, bool *changed)
+{
+    for (size_t i = 0; i < m->count; i++) {
+        const knob *k = &m->knobs[i];
+        sets[i] = assignment_at(&k->setting, i == finer ? HALF : at);
+        changed[k->stage] |= finer == SIZE_MAX || i == finer;
+        if (sets[i])
+            continue;
+        char *why = memory_print_text("%s.%s has no %s value within its limits",
+                                      m->answer->stages[k->stage].name, k->setting.name,
+                                      at == TWICE ? "finer" : "coarser");
+        note_failure(m, why);
+        free(why);
+        return false;
+    }
+    return true;
+}
+
+/* Runs a twin whose settings are all at a level, but for one that is at the level of half;
+   SIZE_MAX: none. */
+static void run_twin(measurement *m, level at, size_t finer, accuracy_twin *twin)
+{
+    const char **sets = memory_alloc((m->count + 1) * sizeof *sets);
+    bool *changed = memory_alloc((m->answer->count + 1) * sizeof *changed);
+    m->scene.donor = finer == SIZE_MAX ? m->answer : m->quarter.pipeline;
+    if (list_sets(m, at, finer, sets, changed)) {
+        accuracy_twin_run(twin, &m->scene, sets, m->count, NULL, changed);
+        m->record->twins++;
+        m->record->seconds += twin->work;
+        m->stopped = twin->stopped;
+        if (!twin->good)
+            note_failure(m, accuracy_twin_reason(twin));
+    }
+    free(changed);
+    free(sets);
+}
+
+static double relative(const ff_result *result, const double *error)
+{
+    double largest = 0, most = accuracy_largest_magnitude(result->data, result->count);
+    for (size_t i = 0; i < result->count; i++)
+        largest = fmax(largest, error[i] > 0 ? error[i] / accuracy_error_scale(result->data[i],
+                                                                               most, result->rank)
+                                             : 0);
+    return largest;
+}
+
+static const double *numbers_of_twin(const measurement *m, const accuracy_error *e,
+                                     const accuracy_twin *twin)
+{
+    return twin->good ? numbers_of(m, e, twin->pipeline) : NULL;
+}
+
+static int by_error(const void *a, const void *b)
+{
+    const accuracy_part *one = a, *other = b;
+    return (one->error < other->error) - (one->error > other->error);
+}
+
+/* Splits the error by the settings, the largest part first. */
+static void add_parts(const measurement *m, const double *shares, accuracy_error *e)
+{
+    e->parts = take(m, m->count, sizeof *e->parts);
+    for (size_t i = 0; i < m->count; i++)
+        if (shares[i] > 0)
+            e->parts[e->part_count++] =
+                (accuracy_part){.stage = &m->answer->stages[m->knobs[i].stage],
+                                .setting = m->knobs[i].setting.name,
+                                .error = e->relative * shares[i]};
+    qsort(e->parts, e->part_count, sizeof *e->parts, by_error);
+}
+
+static accuracy_ladder ladder_of(const measurement *m, const accuracy_error *e)
+{
+    return (accuracy_ladder){.count = e->result->count,
+                             .answer = e->result->data,
+                             .between = numbers_of_twin(m, e, &m->between),
+                             .half = numbers_of_twin(m, e, &m->half),
+                             .quarter = numbers_of_twin(m, e, &m->quarter),
+                             .twice = numbers_of_twin(m, e, &m->twice)};
+}
+
+static void run_ladder(measurement *m)
+{
+    bool chance = false;
+    run_twin(m, HALF, SIZE_MAX, &m->half);
+    if (!m->stopped && m->half.good)
+        run_twin(m, QUARTER, SIZE_MAX, &m->quarter);
+    if (!m->stopped && !m->quarter.good)
+        run_twin(m, TWICE, SIZE_MAX, &m->twice);
+    for (size_t i = 0; m->count > 1 && m->quarter.good && i < m->count && !m->stopped; i++)
+        run_twin(m, QUARTER, i, &m->refined[i]);
+    for (size_t i = 0; i < m->record->count && !m->stopped; i++) {
+        const accuracy_ladder levels = ladder_of(m, &m->record->errors[i]);
+        chance = chance || accuracy_may_be_chance(&levels);
+    }
+    if (chance)
+        run_twin(m, BETWEEN, SIZE_MAX, &m->between);
+}
+
+static void measure_output(const measurement *m, accuracy_error *e)
+{
+    const double **refined = take(m, m->count, sizeof *refined);
+    double *shares = take(m, m->count, sizeof *shares);
+    accuracy_ladder levels = ladder_of(m, e);
+    for (size_t i = 0; i < m->count; i++)
+        refined[i] = numbers_of_twin(m, e, &m->refined[i]);
+    levels.refined = refined;
+    levels.refined_count = m->count;
+    if (!levels.half && !levels.twice)
+        return;
+    e->bar = take(m, levels.count, sizeof *e->bar);
+    e->order = accuracy_estimate(&levels, e->bar, shares);
+    e->relative = relative(e->result, e->bar);
+    add_parts(m, shares, e);
+}
+
+/* Whether a line of quality tells the error of an output that was measured, or of one on the way
+   to it: "h_min_space_error". The output is the one with the longest name that the line begins
+   with; of fields no error is measured. */
+static bool is_estimate(const ff_stage *stage, const char *line)
+{
+    static const char ending[] = "_error";
+    size_t length = strlen(line), tail = sizeof ending - 1, longest = 0;
+    const ff_result *found = NULL;
+    if (length <= tail || strcmp(line + length - tail, ending) != 0)
+        return false;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        const char *name = stage->results[i].row->name;
+        size_t own = strlen(name);
+        if (own > longest && !strncmp(line, name, own) && line[own] == '_') {
+            longest = own;
+            found = &stage->results[i];
+        }
+    }
+    return found && !(found->requested && found->rank > 1);
+}
+
+/* Takes the estimates of the stages away that measured outputs come from: two numbers for one
+   error would contradict each other, and what comes of an error on the way is measured. */
+static void drop_estimates(const measurement *m)
+{
+    const ff_pipeline *answer = m->answer;
+    bool *feeds = memory_alloc((answer->count + 1) * sizeof *feeds);
+    for (size_t i = 0; i < m->record->count; i++)
+        feeds[m->record->errors[i].stage - answer->stages] = true;
+    for (size_t n = answer->count; n-- > 0;) {
+        ff_stage *stage = &answer->stages[answer->order[n]];
+        if (!feeds[answer->order[n]])
+            continue;
+        for (size_t k = 0; k < stage->wire_count; k++)
+            if (stage->wires[k].stage >= 0)
+                feeds[stage->wires[k].stage] = true;
+        for (size_t k = stage->quality_count; k-- > 0;)
+            if (is_estimate(stage, stage->quality[k].name))
+                ff_drop_quality(stage, k);
+    }
+    free(feeds);
+}
+
+char *accuracy_describe(const accuracy_error *e)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = memory_require(open_memstream(&text, &length));
+    if (e->bar)
+        fprintf(out, "%.2g %%", 100 * e->relative);
+    else
+        fputs("not known", out);
+    for (size_t i = 0; i < e->part_count; i++)
+        if (i < 1 || e->parts[i].error > least_part * e->relative)
+            fprintf(out, "%s%s.%s %.2g %%", i ? ", " : ": ", e->parts[i].stage->name,
+                    e->parts[i].setting, 100 * e->parts[i].error);
+    if (isfinite(e->order))
+        fprintf(out, "; order %.2g", e->order);
+    fclose(out);
+    return text;
+}
+
+static void add_line(const accuracy_error *e, ff_stage *stage)
+{
+    double limit = isnan(e->goal) ? doubtful_above : e->goal;
+    char *name = memory_print_text("%s_error", e->result->row->name);
+    char *parts = accuracy_describe(e), *text = memory_print_text("measured: %s", parts);
+    ff_add_quality(stage, name, e->relative, limit, e->relative <= limit ? FF_GOOD : FF_DOUBTFUL,
+                   text);
+    free(text);
+    free(parts);
+    free(name);
+}
+
+/* The quality of the stages is the one bookkeeping. */
+static void conclude(const measurement *m)
+{
+    accuracy_record *record = m->record;
+    for (size_t i = 0; i < record->count; i++)
+        measure_output(m, &record->errors[i]);
+    drop_estimates(m);
+    for (size_t i = 0; i < record->count; i++)
+        add_line(&record->errors[i],
+                 &m->answer->stages[record->errors[i].stage - m->answer->stages]);
+}
+
+bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
+                      const ff_pipeline *pipeline, const ff_observer *watch)
+{
+    measurement m = {.record = record,
+                     .answer = pipeline,
+                     .scene = {.tree = tree, .engine = engine, .start = pipeline, .watch = watch}};
+    list_outputs(&m);
+    list_knobs(&m);
+    run_ladder(&m);
+    if (!m.stopped)
+        conclude(&m);
+    accuracy_twin_free(&m.between);
+    accuracy_twin_free(&m.half);
+    accuracy_twin_free(&m.quarter);
+    accuracy_twin_free(&m.twice);
+    for (size_t i = 0; i < m.count; i++)
+        accuracy_twin_free(&m.refined[i]);
+    return !m.stopped;
+}
+
+void accuracy_free(accuracy_record *record)
+{
+    if (record->twin)
+        accuracy_twin_free(record->twin);
+    free(record->twin);
+    memory_arena_free(&record->arena);
+    *record = (accuracy_record){.count = 0};
+}
+
+const accuracy_error *accuracy_find(const accuracy_record *record, const ff_result *result)
+{
+    for (size_t i = 0; record && i < record->count; i++)
+        if (record->errors[i].result == result)
+            return &record->errors[i];
+    return NULL;
+}

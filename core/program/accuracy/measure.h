@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Measures the numerical error of an answer by twins of the stages that it comes from. */
+#ifndef ACCURACY_MEASURE_H
+#define ACCURACY_MEASURE_H
+
+#include "../memory/memory.h"
+
+#include <flankfilm/engine.h>
+
+/* What a setting of a stage, a row with FF_TUNABLE, adds to the error of an output. */
+typedef struct accuracy_part {
+    const ff_stage *stage;
+    const char *setting; /* "cells" */
+    double error;        /* largest along a series, relative */
+} accuracy_part;
+
+/* What files and pages call the bar of an output: "h_min_error_bar". */
+#define ACCURACY_BAR "_error_bar"
+
+/* The numerical error of an output. */
+typedef struct accuracy_error {
+    const ff_stage *stage;
+    const ff_result *result;
+    double goal;          /* what the file asks for, relative; NaN: nothing */
+    double *bar;          /* of each number, SI, at least 0; NULL: not known */
+    double relative;      /* largest along a series, over the number there; NaN: not known */
+    double order;         /* observed; NaN: none was */
+    accuracy_part *parts; /* the largest first; none where no twin tells them apart */
+    size_t part_count;
+} accuracy_error;
+
+/* Starts zeroed. */
+typedef struct accuracy_record {
+    accuracy_error *errors;
+    size_t count;
+    size_t twins;        /* that were run */
+    double seconds;      /* s, work of their stages: CPU time */
+    const char *failure; /* why a twin failed; NULL: none did */
+    size_t attempts;     /* answers that were measured, the last one included; 0: none had a goal */
+    const char **chosen; /* "film.cells=362": settings that the file leaves open, of the answer */
+    size_t chosen_count;
+    ff_pipeline *answer; /* the pipeline that was run, or another one of `twin` */
+    struct accuracy_twin *twin;
+    memory_arena arena;
+} accuracy_record;
+
+/*
+ * Measures the errors of the scalars and series that the file asks for, from a pipeline that has
+ * run, and adds them to the quality of its stages, in place of what these estimated themselves.
+ * False where the observer stopped it.
+ */
+bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
+                      const ff_pipeline *pipeline, const ff_observer *watch);
+void accuracy_free(accuracy_record *record);
+
+/* "0.54 %: film.cells 0.3 %, tooth.points 0.1 %; order 2.1", to be freed. */
+char *accuracy_describe(const accuracy_error *error);
+/* NULL: the error of the output was not measured. */
+const accuracy_error *accuracy_find(const accuracy_record *record, const ff_result *result);
+
+#endif

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""`accuracy: 1 %`: settings that the file leaves open are chosen for it, on a model whose error is known."""
+import csv
+import json
+
+import lab
+
+FILE = """
+format: 2
+accuracy: 0.1 %
+pipeline:
+  first: {use: toy/order, before: none}
+  last: {use: toy/order, before: first}
+outputs: [last.value, last.wave]
+"""
+
+
+def error_of(settings, stages=("first", "last"), order=2):
+    """Of the value, over 1: that of the cells, and that of the tolerance, which is a percentage."""
+    return sum(10 * int(settings[f"{s}.cells"]) ** -order + float(settings[f"{s}.tolerance"].split()[0]) / 100
+               for s in stages)
+
+
+class Control(lab.Lab):
+    def write(self, name, text):
+        with open(name, "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def ask(self, *sets, text=FILE, code=0):
+        self.write("order.yaml", text)
+        words = [word for one in sets for word in ("--set", one)]
+        return json.loads(self.call("run", "order.yaml", "--json", *words, code=code))
+
+    def error(self, answer, output="last.value"):
+        return answer["outputs"][output]["error"]["relative"]
+
+    def test_the_accuracy_is_kept(self):
+        """And not by far more cells than it takes: from 0.02 % on, presets do."""
+        for goal in (10, 1, 0.1, 0.05, 0.03):
+            answer = self.ask(f"accuracy={goal} %")
+            settings = answer["accuracy"]["settings"]
+            self.assertLessEqual(error_of(settings) / 2, goal / 100)
+            self.assertLessEqual(self.error(answer), goal / 100)
+            self.assertEqual(answer["verdict"], "good")
+            if answer["accuracy"]["attempts"] > 1:
+                self.assertGreater(error_of(settings) / 2, goal / 100 / 6)
+
+    def test_what_was_chosen_gives_the_same_bits(self):
+        answer = self.ask()
+        sets = [f"{path}={value}" for path, value in answer["accuracy"]["settings"].items()]
+        again = self.ask("accuracy=", *sets)
+        for name, output in answer["outputs"].items():
+            self.assertEqual(again["outputs"][name].get("value"), output.get("value"))
+            self.assertEqual(again["outputs"][name].get("data"), output.get("data"))
+
+    def test_what_the_file_says_stays(self):
+        answer = self.ask("first.cells=20")
+        self.assertNotIn("first.cells", answer["accuracy"]["settings"])
+        self.assertEqual(answer["verdict"], "doubtful")
+        self.assertGreater(self.error(answer), 0.001)
+        self.assertLess(answer["accuracy"]["attempts"], 4)
+        answer = self.ask("first.cells=400", "last.cells=400", "first.tolerance=1e-4 %", "last.tolerance=1e-4 %", "last.steps=1001")
+        self.assertEqual((answer["verdict"], answer["accuracy"]["settings"]), ("good", {}))
+
+    def test_what_the_file_says_leaves_less_to_the_rest(self):
+        """10/100^2 of the first stage, over 2 and with the factor of safety: 60 % of the accuracy."""
+        answer = self.ask("first.cells=100", "first.tolerance=1e-4 %")
+        self.assertEqual(answer["verdict"], "good")
+        self.assertLess(answer["accuracy"]["attempts"], 4)
+
+    def test_what_did_not_change_keeps_its_quality(self):
+        """A stage whose results the last attempt took from the one before."""
+        answer = self.ask("first.strength=0", "first.tolerance=1e-6 %", "first.steps=11", "accuracy=0.05 %")
+        self.assertGreater(answer["accuracy"]["attempts"], 1)
+        self.assertEqual(list(next(s for s in answer["stages"] if s["stage"] == "first")["quality"]), ["balance"])
+
+    def test_settings_that_nothing_comes_from_stay_coarse(self):
+        settings = self.ask("first.strength=0", "accuracy=0.05 %")["accuracy"]["settings"]
+        self.assertGreater(int(settings["last.cells"]), 64)
+        self.assertLessEqual(int(settings["first.cells"]), 64)
+
+    def test_an_output_out_of_reach_takes_no_other_with_it(self):
+        text = FILE.replace("outputs:", "  rough: {use: toy/order, before: none, order: 0.1, strength: 1}\noutputs:").replace(
+            "last.wave", "rough.value")
+        answer = self.ask(text=text)
+        self.assertLessEqual(self.error(answer), 0.001)
+        self.assertGreater(self.error(answer, "rough.value"), 0.05)
+        self.assertEqual(answer["verdict"], "doubtful")
+        self.assertEqual(answer["reasons"], ["value error"])
+        self.assertEqual(answer["accuracy"]["attempts"], 2)
+
+    def test_each_output_has_its_own(self):
+        text = FILE.replace("0.1 %", "{first.value: 5 %, last.value: 0.02 %}").replace("last.wave", "first.value")
+        answer = self.ask(text=text)
+        self.assertLessEqual(self.error(answer), 2e-4)
+        self.assertEqual(answer["outputs"]["first.value"]["error"]["goal"], 0.05)
+        answer = self.ask(text=text.replace("first.value: 5 %, ", ""))
+        self.assertIsNone(answer["outputs"]["first.value"]["error"]["goal"])
+
+    def test_coarse_settings_that_fail(self):
+        """The first guess for 5 % has 16 cells, its twins have fewer."""
+        for least in (20, 60):
+            answer = self.ask(f"last.least={least}", "accuracy=5 %")
+            self.assertGreaterEqual(int(answer["accuracy"]["settings"]["last.cells"]), least)
+            self.assertLessEqual(self.error(answer), 0.05)
+
+    def test_no_settings_that_work(self):
+        answer = self.ask("last.least=1000", code=1)
+        self.assertEqual(answer["status"], "failed")
+        self.assertIn("cells are too few", json.dumps(answer["errors"]))
+
+    def test_the_terminal_says_what_was_chosen(self):
+        self.write("order.yaml", FILE)
+        said = self.call("run", "order.yaml", "-o", "order")
+        self.assertIn("chosen: first.cells=", said)
+        with open("order/result.json", encoding="utf-8") as file:
+            kept = json.load(file)
+        self.assertIn("last.cells", kept["accuracy"]["settings"])
+        cells = next(s for s in kept["stages"] if s["stage"] == "last")["parameters"]["cells"]
+        self.assertEqual(str(cells["value"]), kept["accuracy"]["settings"]["last.cells"])
+        self.assertIn("order.yaml:3", cells["origin"])
+
+    def test_a_study(self):
+        self.write("study.yaml", FILE + "study: {sweep: {last.strength: [1, 100]}}\n")
+        self.call("run", "study.yaml", "-o", "study")
+        with open("study/table.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        for row in rows:
+            self.assertLessEqual(float(row["last.value_error_bar [m]"]), 0.001 * float(row["last.value [m]"]))
+        with open("study/journal.jsonl", encoding="utf-8") as file:
+            self.assertIn('"settings"', file.read())
+        self.assertIn("2 of them before", self.call("run", "study.yaml", "-o", "study"))
+        self.assertNotIn("before", self.call("run", "study.yaml", "-o", "study", "--set", "accuracy=1 %"))
+
+    def test_words_that_are_wrong(self):
+        self.write("order.yaml", FILE)
+        for value, say in (("2", "%"), ("-1 %", "above 0"), ("{last.valeu: 1 %}", 'did you mean "last.value"?'),
+                           ("{last.value: much}", "last.value"), ("[1 %]", "accuracy")):
+            said = self.call("check", "order.yaml", "--set", f"accuracy={value}", code=2)
+            self.assertIn(say, said)
+        said = self.call("check", "order.yaml", "--set", "accuracy={first.value: 1 %}", code=2)
+        self.assertIn("asks for", said)
+
+
+lab.main()
