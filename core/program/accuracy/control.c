@@ -19,8 +19,8 @@
 static const double preset_error = 0.005;
 /* A coarser start would leave twins of too few cells. */
 static const double coarsest_start = 2;
-/* Eight times as many cells and steps as by preset: at most 64 times the work. */
-static const double finest = -3;
+/* Four times as many cells and steps as by preset: 16 times the work. */
+static const double finest = -2;
 /* In an attempt; what a measured error says of one much smaller is uncertain. */
 static const double most_levels = 2;
 /* Parts are brought to this share of a goal, so that the next error does not fall just above it. */
@@ -186,7 +186,16 @@ static knob *knob_of(control *c, const accuracy_part *part)
 static double levels_for(const accuracy_error *e, double share)
 {
     double order = isnan(e->order) ? 1 : fmin(fmax(e->order, least_order), most_order);
-    return fmin(fmax(-log2(share) / order, 0), most_levels);
+    return fmax(-log2(share) / order, 0);
+}
+
+/* An order is no better known than that a setting which has to be finer than it may be by this is
+   worth an attempt. */
+static const double beyond = 0.5;
+
+static bool is_in_reach(const knob *k, double levels)
+{
+    return k->measured - levels >= finest - beyond;
 }
 
 /* Refines a setting by so many levels, unless another output asked for more. */
@@ -194,16 +203,17 @@ static void refine(control *c, knob *k, double levels, target *t)
 {
     double level = k->level;
     t->pursued = t->pursued && k->measured <= 0;
-    move(c, k, fmin(level, k->measured - levels));
+    move(c, k, fmin(level, k->measured - fmin(levels, most_levels)));
 }
 
-/* Where the twins did not tell parts apart. */
+/* Where the twins did not tell parts apart: the next attempt will. */
 static bool refine_all(control *c, const accuracy_error *e, target *t)
 {
     bool moved = false;
     for (size_t i = 0; i < c->count; i++) {
         knob *k = &c->knobs[i];
-        refine(c, k, isnan(e->relative) ? 1 : levels_for(e, reserve * e->goal / e->relative), t);
+        double levels = levels_for(e, reserve * e->goal / e->relative); /* fmin drops NaN */
+        refine(c, k, fmin(levels, 1), t);
         moved = moved || k->level < k->measured;
     }
     return moved;
@@ -239,6 +249,11 @@ static bool refine_for(control *c, const accuracy_error *e, target *t)
     double cut = cut_of(c, e, reserve * e->goal);
     if (cut < least_part * e->goal)
         return false;
+    for (size_t i = 0; i < e->part_count; i++) {
+        const knob *k = knob_of(c, &e->parts[i]);
+        if (k && !is_in_reach(k, levels_for(e, cut / e->parts[i].error)))
+            return false;
+    }
     for (size_t i = 0; i < e->part_count; i++) {
         knob *k = knob_of(c, &e->parts[i]);
         if (k)

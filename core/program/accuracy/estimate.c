@@ -9,7 +9,10 @@
  */
 #include "estimate.h"
 
+#include "../memory/memory.h"
+
 #include <math.h>
+#include <stdlib.h>
 
 /* Roache's factor of safety with three levels. */
 static const double safety = 1.25;
@@ -25,21 +28,72 @@ static const double chance_growth = 8;
    levels does so elsewhere: what counts is the largest within this share of the points. */
 static const double reach = 0.02;
 
-static double norm(const double *a, const double *b, size_t count)
+/* Where a load jumps or contact is lost, a short stretch of a series is off by as much as it moves
+   and converges slowly: this share of its length tells how the rest does. */
+static const double typical_share = 0.95;
+
+typedef struct weighed {
+    double value, weight;
+} weighed;
+
+static int by_value(const void *a, const void *b)
 {
-    double sum = 0;
-    for (size_t i = 0; i < count; i++)
-        sum += (a[i] - b[i]) * (a[i] - b[i]);
-    return sqrt(sum);
+    const weighed *one = a, *other = b;
+    return (one->value > other->value) - (one->value < other->value);
 }
 
-/* Growth of the differences over three levels, finest first; below 0 where a number overshoots. */
-static double observed_growth(const double *a, const double *b, const double *c, size_t count)
+/* The part of a series that point i stands for. */
+static double weight_of(const double *at, size_t i, size_t count)
 {
-    if (!a || !b || !c)
-        return NAN;
-    double near = norm(b, a, count), far = norm(c, b, count);
-    double sign = count == 1 && (c[0] - b[0]) * (b[0] - a[0]) < 0 ? -1 : 1;
+    size_t last = count - 1;
+    return at ? at[i < last ? i + 1 : last] - at[i > 0 ? i - 1 : 0] : 1;
+}
+
+double accuracy_typical(const double *values, const double *at, size_t count)
+{
+    weighed *all = memory_alloc(count * sizeof *all);
+    double length = 0, sum = 0;
+    size_t i = 0;
+    for (size_t k = 0; k < count; k++) {
+        all[k] = (weighed){values[k], weight_of(at, k, count)};
+        length += all[k].weight;
+    }
+    qsort(all, count, sizeof *all, by_value);
+    for (; i + 1 < count && sum + all[i].weight < typical_share * length; i++)
+        sum += all[i].weight;
+    double typical = all[i].value;
+    free(all);
+    return typical;
+}
+
+/* Differences between two answers: of all points, and of those where they are typical. */
+typedef struct differences {
+    double all, typical; /* root mean squares */
+    double limit;        /* a typical one is at most this */
+} differences;
+
+static differences between(const double *a, const double *b, const double *at, size_t count)
+{
+    double *sizes = memory_alloc(count * sizeof *sizes);
+    differences d = {.all = 0};
+    size_t typical = 0;
+    for (size_t i = 0; i < count; i++)
+        sizes[i] = fabs(a[i] - b[i]);
+    d.limit = accuracy_typical(sizes, at, count);
+    for (size_t i = 0; i < count; i++) {
+        d.all += sizes[i] * sizes[i];
+        d.typical += sizes[i] <= d.limit ? sizes[i] * sizes[i] : 0;
+        typical += sizes[i] <= d.limit;
+    }
+    free(sizes);
+    d.all = sqrt(d.all / (double)count);
+    d.typical = sqrt(d.typical / (double)typical);
+    return d;
+}
+
+/* Growth from one difference to the next coarser one. */
+static double growth(double near, double far, double sign)
+{
     return near > 0 ? sign * far / near : far > 0 ? INFINITY : NAN;
 }
 
@@ -58,28 +112,48 @@ typedef struct growths {
     double coarse; /* between the coarser levels */
 } growths;
 
-static bool goes_down(const accuracy_ladder *l)
+static growths growths_of(double observed)
 {
-    return (l->half && l->quarter) || !l->twice;
-}
-
-static growths growths_of(const accuracy_ladder *l)
-{
-    double observed = goes_down(l) ? observed_growth(l->answer, l->half, l->quarter, l->count)
-                                   : observed_growth(l->twice, l->answer, l->half, l->count);
     double used = growth_to_use(observed);
     /* fmin and fmax drop NaN */
     return (growths){observed, used, fmax(used, fmin(fabs(observed), most_coarse_growth))};
 }
 
+/* Of typical points, and of all. */
+typedef struct convergence {
+    growths typical, all;
+    double limit; /* a typical point differs by at most this from the next coarser level */
+} convergence;
+
+static bool goes_down(const accuracy_ladder *l)
+{
+    return (l->half && l->quarter) || !l->twice;
+}
+
+static convergence convergence_of(const accuracy_ladder *l)
+{
+    const double *a = goes_down(l) ? l->answer : l->twice, *b = goes_down(l) ? l->half : l->answer,
+                 *c = goes_down(l) ? l->quarter : l->half;
+    if (!a || !b || !c)
+        return (convergence){growths_of(NAN), growths_of(NAN), INFINITY};
+    const differences near = between(b, a, l->at, l->count), far = between(c, b, l->at, l->count);
+    /* a single number may overshoot */
+    double sign = l->count == 1 && (c[0] - b[0]) * (b[0] - a[0]) < 0 ? -1 : 1;
+    return (convergence){growths_of(growth(near.typical, far.typical, sign)),
+                         growths_of(growth(near.all, far.all, sign)), near.limit};
+}
+
 bool accuracy_may_be_chance(const accuracy_ladder *l)
 {
-    return l->count == 1 && l->half && l->quarter && fabs(growths_of(l).observed) > chance_growth;
+    return l->count == 1 && l->half && l->quarter &&
+           fabs(convergence_of(l).all.observed) > chance_growth;
 }
 
 /* The error of number i alone. */
-static double error_at(const accuracy_ladder *l, size_t i, growths g)
+static double error_at(const accuracy_ladder *l, size_t i, const convergence *c)
 {
+    const double *next = goes_down(l) ? l->half : l->twice;
+    const growths g = fabs(next[i] - l->answer[i]) > c->limit ? c->all : c->typical;
     if (!goes_down(l))
         return safety * fabs(l->answer[i] - l->twice[i]) * g.used / (g.used - 1);
     double near = fabs(l->half[i] - l->answer[i]) / (g.used - 1), far = 0, apart = 0;
@@ -98,7 +172,7 @@ static void find_shares(const accuracy_ladder *l, double *shares)
     double all = 0;
     for (size_t k = 0; k < l->refined_count; k++) {
         bool known = l->quarter && l->refined[k];
-        shares[k] = known ? norm(l->refined[k], l->quarter, l->count) : 0;
+        shares[k] = known ? between(l->refined[k], l->quarter, l->at, l->count).typical : 0;
         all += shares[k];
     }
     for (size_t k = 0; k < l->refined_count && all > 0; k++)
@@ -107,14 +181,15 @@ static void find_shares(const accuracy_ladder *l, double *shares)
 
 double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares)
 {
-    const growths g = growths_of(l);
+    const convergence c = convergence_of(l);
     const size_t near = l->count > 1 ? 1 + (size_t)(reach / 2 * (double)l->count) : 0;
     for (size_t i = 0; i < l->count; i++) {
         size_t from = i > near ? i - near : 0;
         error[i] = 0;
         for (size_t k = from; k < l->count && k <= i + near; k++)
-            error[i] = fmax(error[i], error_at(l, k, g));
+            error[i] = fmax(error[i], error_at(l, k, &c));
     }
     find_shares(l, shares);
-    return isfinite(g.observed) && g.observed != 0 ? log2(fabs(g.observed)) : NAN;
+    double observed = c.typical.observed;
+    return isfinite(observed) && observed != 0 ? log2(fabs(observed)) : NAN;
 }

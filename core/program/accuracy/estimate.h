@@ -12,6 +12,7 @@
    there is none, and `twice` is not looked at where there are both coarser ones. */
 typedef struct accuracy_ladder {
     size_t count;
+    const double *at; /* where the numbers are, which never falls; NULL: the index */
     const double *answer, *between, *half, *quarter, *twice;
     const double *const *refined;
     size_t refined_count;
@@ -28,5 +29,9 @@ bool accuracy_may_be_chance(const accuracy_ladder *ladder);
  * level; NaN where nothing differs or there are two levels alone. There must be `half` or `twice`.
  */
 double accuracy_estimate(const accuracy_ladder *ladder, double *error, double *shares);
+
+/* What the values stay below along 95 % of the length; of few or one, the largest. `at` rises and
+   says where they are; NULL: the index does. */
+double accuracy_typical(const double *values, const double *at, size_t count);
 
 #endif

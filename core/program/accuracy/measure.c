@@ -23,6 +23,9 @@
 /* A measured error above this is doubtful where the file names no accuracy. */
 static const double doubtful_above = 0.05;
 
+/* An error at few points that is so many times that of the others is told. */
+static const double much_larger = 2;
+
 /* Parts below this share of an error are not worth a reader's time. */
 static const double least_part = 0.01;
 
@@ -86,6 +89,7 @@ static void list_outputs(measurement *m)
                                   .result = &stage->results[i],
                                   .goal = accuracy_goal(m->scene.tree, stage, &stage->results[i]),
                                   .relative = NAN,
+                                  .largest = NAN,
                                   .order = NAN};
             fprintf(out, "%s%s.%s", record->count > 1 ? ", " : "", stage->name,
                     e->result->row->name);
@@ -207,14 +211,20 @@ static void run_twin(measurement *m, level at, size_t finer, accuracy_twin *twin
     free(sets);
 }
 
-static double relative(const ff_result *result, const double *error)
+/* Fills the error of an output over its value: typical of a series, and the largest. */
+static void find_relative(const double *at, accuracy_error *e)
 {
-    double largest = 0, most = accuracy_largest_magnitude(result->data, result->count);
-    for (size_t i = 0; i < result->count; i++)
-        largest = fmax(largest, error[i] > 0 ? error[i] / accuracy_error_scale(result->data[i],
-                                                                               most, result->rank)
-                                             : 0);
-    return largest;
+    const ff_result *result = e->result;
+    double *shares = memory_alloc(result->count * sizeof *shares);
+    double most = accuracy_largest_magnitude(result->data, result->count);
+    e->largest = 0;
+    for (size_t i = 0; i < result->count; i++) {
+        if (e->bar[i] > 0)
+            shares[i] = e->bar[i] / accuracy_error_scale(result->data[i], most, result->rank);
+        e->largest = fmax(e->largest, shares[i]);
+    }
+    e->relative = accuracy_typical(shares, at, result->count);
+    free(shares);
 }
 
 static const double *numbers_of_twin(const measurement *m, const accuracy_error *e,
@@ -244,7 +254,9 @@ static void add_parts(const measurement *m, const double *shares, accuracy_error
 
 static accuracy_ladder ladder_of(const measurement *m, const accuracy_error *e)
 {
+    const ff_result *along = axis_of(m->answer, e->stage, e->result);
     return (accuracy_ladder){.count = e->result->count,
+                             .at = along ? along->data : NULL,
                              .answer = e->result->data,
                              .between = numbers_of_twin(m, e, &m->between),
                              .half = numbers_of_twin(m, e, &m->half),
@@ -283,7 +295,7 @@ static void measure_output(const measurement *m, accuracy_error *e)
         return;
     e->bar = take(m, levels.count, sizeof *e->bar);
     e->order = accuracy_estimate(&levels, e->bar, shares);
-    e->relative = relative(e->result, e->bar);
+    find_relative(levels.at, e);
     add_parts(m, shares, e);
 }
 
@@ -339,6 +351,8 @@ char *accuracy_describe(const accuracy_error *e)
         fprintf(out, "%.2g %%", 100 * e->relative);
     else
         fputs("not known", out);
+    if (e->bar && e->largest > much_larger * e->relative)
+        fprintf(out, ", at few points up to %.2g %%", 100 * e->largest);
     for (size_t i = 0; i < e->part_count; i++)
         if (i < 1 || e->parts[i].error > least_part * e->relative)
             fprintf(out, "%s%s.%s %.2g %%", i ? ", " : ": ", e->parts[i].stage->name,

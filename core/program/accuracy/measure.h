@@ -11,7 +11,7 @@
 typedef struct accuracy_part {
     const ff_stage *stage;
     const char *setting; /* "cells" */
-    double error;        /* largest along a series, relative */
+    double error;        /* relative, as that of the output */
 } accuracy_part;
 
 /* What files and pages call the bar of an output: "h_min_error_bar". */
@@ -23,7 +23,8 @@ typedef struct accuracy_error {
     const ff_result *result;
     double goal;          /* what the file asks for, relative; NaN: nothing */
     double *bar;          /* of each number, SI, at least 0; NULL: not known */
-    double relative;      /* largest along a series, over the number there; NaN: not known */
+    double relative;      /* over the number; of a series at 95 of 100 points; NaN: not known */
+    double largest;       /* along a series, over the number there */
     double order;         /* observed; NaN: none was */
     accuracy_part *parts; /* the largest first; none where no twin tells them apart */
     size_t part_count;

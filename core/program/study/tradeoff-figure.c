@@ -5,7 +5,16 @@
 #include <math.h>
 #include <string.h>
 
-enum { WIDTH = 430, HEIGHT = 320, LEFT = 62, RIGHT = 14, TOP = 30, BOTTOM = 46, MOST_GROUPS = 8 };
+enum {
+    WIDTH = 430,
+    HEIGHT = 320,
+    LEFT = 62,
+    RIGHT = 14,
+    TOP = 30,
+    BOTTOM = 46,
+    MOST_GROUPS = 8,
+    LINE = 14, /* px, of the list of names */
+};
 
 /* The colour-blind can tell these apart, too. */
 static const char *const colours[MOST_GROUPS] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
@@ -98,7 +107,7 @@ static void draw_axes(const panel *p)
             "<text transform=\"translate(%.1f %.1f) rotate(-90)\" text-anchor=\"middle\">%s "
             "error, %%</text>\n<text class=\"head\" x=\"%.1f\" y=\"18\">",
             (p->left + LEFT + right) / 2, HEIGHT - 12, p->left + 14, (TOP + bottom) / 2,
-            json_string_value(json_object_get(p->result, "judge")), p->left + LEFT);
+            study_text_of(p->output, "judge"), p->left + LEFT);
     study_write_xml(p->out, p->name, SIZE_MAX);
     fputs("</text>\n", p->out);
 }
@@ -124,6 +133,37 @@ static void draw_front(const panel *p)
     }
 }
 
+/* Names the points of the front, by numbers beside them and a list below. */
+static void draw_names(const panel *p)
+{
+    const json_t *candidates = json_object_get(p->result, "candidates");
+    size_t i;
+    json_t *one;
+    json_array_foreach(json_object_get(p->output, "front"), i, one)
+    {
+        const json_t *at = json_array_get(
+            candidates, (size_t)json_integer_value(json_object_get(one, "candidate")));
+        double seconds = study_number_of(one, "seconds"), error = study_number_of(one, "error");
+        fprintf(p->out, "<text x=\"%.1f\" y=\"%.1f\">%zu</text>\n<text x=\"%.1f\" y=\"%zu\">%zu  ",
+                x_of(p, seconds) - 9, y_of(p, error) + 12, i + 1, p->left + 14, HEIGHT + LINE * i,
+                i + 1);
+        study_write_xml(p->out, study_text_of(at, "label"), SIZE_MAX);
+        fprintf(p->out, ": %.2g s, %.2g %%</text>\n", seconds, 100 * error);
+    }
+}
+
+/* Bars: the least and the greatest cost of the repeats, and what the reference is known to. */
+static void draw_bars(const panel *p, const json_t *candidate, double cost, double error)
+{
+    const json_t *seconds = json_object_get(candidate, "seconds");
+    double floor = study_number_of(p->output, "reference_error");
+    double low = fmax(error - floor, pow(10, p->error[0]));
+    fprintf(p->out, "<path class=\"bar\" d=\"M%.1f %.1fH%.1fM%.1f %.1fV%.1f\"/>",
+            x_of(p, study_number_of(seconds, "min")), y_of(p, error),
+            x_of(p, study_number_of(seconds, "max")), x_of(p, cost), y_of(p, low),
+            y_of(p, error + floor));
+}
+
 static void draw_points(panel *p)
 {
     size_t i;
@@ -134,6 +174,7 @@ static void draw_points(panel *p)
         const char *label = json_string_value(json_object_get(one, "label"));
         if (!label || !find_point(p, one, &cost, &error))
             continue;
+        draw_bars(p, one, cost, error);
         fprintf(p->out, "<circle cx=\"%.1f\" cy=\"%.1f\" r=\"3.5\" fill=\"%s\"><title>",
                 x_of(p, cost), y_of(p, error), colours[group_of(p, label)]);
         study_write_xml(p->out, label, SIZE_MAX);
@@ -153,15 +194,22 @@ static void draw_points(panel *p)
 void study_tradeoff_draw(const json_t *result, FILE *out)
 {
     const json_t *outputs = json_object_get(result, "outputs");
-    size_t panels = json_object_size(outputs), i = 0;
+    size_t panels = json_object_size(outputs), i = 0, longest = 0, height;
     const char *name;
     json_t *output;
+    json_object_foreach((json_t *)(size_t)outputs, name, output)
+    {
+        size_t points = json_array_size(json_object_get(output, "front"));
+        longest = points > longest ? points : longest;
+    }
+    height = HEIGHT + LINE * longest;
     fprintf(out,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %zu %d\" width=\"%zu\" "
-            "height=\"%d\">\n<style>text{font:11px sans-serif;fill:#222}.head{font-weight:bold}"
-            ".grid{stroke:#ddd}.front{stroke:#222;fill:none}.knee{stroke:#222;fill:none}</style>\n"
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %zu %zu\" width=\"%zu\" "
+            "height=\"%zu\">\n<style>text{font:11px sans-serif;fill:#222}.head{font-weight:bold}"
+            ".grid{stroke:#ddd}.front{stroke:#222;fill:none}.knee{stroke:#222;fill:none}"
+            ".bar{stroke:#999}</style>\n"
             "<rect width=\"100%%\" height=\"100%%\" fill=\"#fff\"/>\n",
-            panels * WIDTH, HEIGHT, panels * WIDTH, HEIGHT);
+            panels * WIDTH, height, panels * WIDTH, height);
     json_object_foreach((json_t *)(size_t)outputs, name, output)
     {
         panel p = {.out = out, .result = result, .output = output, .name = name};
@@ -170,6 +218,7 @@ void study_tradeoff_draw(const json_t *result, FILE *out)
         draw_axes(&p);
         draw_front(&p);
         draw_points(&p);
+        draw_names(&p);
     }
     fputs("</svg>\n", out);
 }

@@ -149,7 +149,6 @@ void study_tradeoff_print(study_context *context, const json_t *result)
     size_t *order = sort_by_cost(context, candidates);
     json_t *names = names_of_counts(candidates);
     const char *count = json_object_iter_key(json_object_iter(names));
-    bool rms = !strcmp(study_text_of(result, "judge"), "rms");
     print_reference(context, reference);
     if (!json_is_true(json_object_get(reference, "reached")))
         study_line_add(&line,
@@ -159,7 +158,8 @@ void study_tradeoff_print(study_context *context, const json_t *result)
         study_line_print(context, &line, 2);
     json_object_foreach(json_object_get(result, "outputs"), output, one)
     {
-        print_head(context, output, study_number_of(one, "reference_error"), count, rms);
+        print_head(context, output, study_number_of(one, "reference_error"), count,
+                   !strcmp(study_text_of(one, "judge"), "rms"));
         for (size_t i = 0; i < json_array_size(candidates); i++) {
             const json_t *candidate = json_array_get(candidates, order[i]);
             print_row(context, candidate,

@@ -281,7 +281,7 @@ static void read_values(study_tradeoff *t, const study_key_value *values)
     const char *along = values[TRADEOFF_ALONG].value.text;
     t->repeats = (size_t)values[TRADEOFF_REPEATS].value.integer;
     t->accuracy = values[TRADEOFF_ACCURACY].value.real;
-    t->rms = values[TRADEOFF_JUDGE].value.integer == 1;
+    t->judge = (study_tradeoff_judge)values[TRADEOFF_JUDGE].value.integer;
     t->context->along = along ? study_context_format(t->context, "%s", along) : NULL;
 }
 

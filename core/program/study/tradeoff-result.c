@@ -22,6 +22,19 @@ static accuracy_series series_of(const study_output *output)
     return (accuracy_series){output->rank, output->count, output->at, output->values};
 }
 
+/* Whether an output is judged by its rms: where the reference passes through 0, the largest error
+   tells how far that place has moved, over a number that means nothing. */
+static bool by_rms(const study_tradeoff *t, size_t output)
+{
+    const study_output *reference = &study_tradeoff_outcome(t, 0)->outputs[output];
+    bool above = false, below = false;
+    for (size_t i = 0; reference->values && i < reference->count; i++) {
+        above = above || reference->values[i] > 0;
+        below = below || reference->values[i] < 0;
+    }
+    return t->judge == TRADEOFF_BY_RMS || (t->judge == TRADEOFF_BY_SIGN && above && below);
+}
+
 bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
                             accuracy_difference *d)
 {
@@ -31,7 +44,7 @@ bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t 
     bool good = answer->values && reference->values && !strcmp(answer->along, reference->along) &&
                 accuracy_compare(&one, &other, d);
     if (good)
-        d->judged = t->rms ? d->rms : d->largest;
+        d->judged = by_rms(t, output) ? d->rms : d->largest;
     return good;
 }
 
@@ -215,7 +228,8 @@ static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t ou
             json_object_set_new(one, "over_front",
                                 study_json_real(study_front_excess(cost, error, t->candidates, c)));
     }
-    return json_pack("{s:f, s:o}", "reference_error", floor, "front",
+    return json_pack("{s:s, s:f, s:o}", "judge", by_rms(t, output) ? "rms" : "largest",
+                     "reference_error", floor, "front",
                      describe_front(t, cost, error, t->candidates));
 }
 
@@ -228,8 +242,7 @@ json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels)
     for (size_t i = 0; i < t->context->output_count; i++)
         json_object_set_new(fronts, t->context->outputs[i]->text,
                             describe_output(t, levels, i, list, cost));
-    return json_pack("{s:s, s:o, s:o, s:f, s:o, s:o, s:o}", "judge", t->rms ? "rms" : "largest",
-                     "date", today(), "processor", processor(), "accuracy", t->accuracy,
-                     "reference", describe_reference(t, levels), "candidates", list, "outputs",
-                     fronts);
+    return json_pack("{s:o, s:o, s:f, s:o, s:o, s:o}", "date", today(), "processor", processor(),
+                     "accuracy", t->accuracy, "reference", describe_reference(t, levels),
+                     "candidates", list, "outputs", fronts);
 }

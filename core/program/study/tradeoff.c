@@ -66,9 +66,10 @@ const ff_param study_tradeoff_keys[STUDY_TRADEOFF_KEYS] = {
         {.name = "judge",
          .unit = "",
          .type = FF_CHOICE,
-         .preset = "largest",
-         .choices = "largest|rms",
-         .doc = "which error of a series makes fronts: the largest, or the rms along it"},
+         .preset = "auto",
+         .choices = "auto|largest|rms",
+         .doc = "which error of a series makes fronts: the largest, or the rms along it; auto: "
+                "the rms of what changes its sign, else the largest"},
 };
 
 /* Whether every output differs from the level before by at most a tenth of the smallest error

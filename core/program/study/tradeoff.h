@@ -31,11 +31,14 @@ enum {
 };
 extern const ff_param study_tradeoff_keys[STUDY_TRADEOFF_KEYS];
 
+/* By which error of a series fronts are made, in the order of the words of `judge`. */
+typedef enum { TRADEOFF_BY_SIGN, TRADEOFF_BY_LARGEST, TRADEOFF_BY_RMS } study_tradeoff_judge;
+
 typedef struct study_tradeoff {
     study_context *context;
     size_t repeats;
     double accuracy; /* the smallest relative error sought */
-    bool rms;        /* errors of series are judged by their rms, not their largest */
+    study_tradeoff_judge judge;
     const char *const *const *claims; /* for each output the names of results or lines of quality of
                                          its stage that say its error, ended by NULL; a NULL list
                                          means those called OUTPUT_error or OUTPUT_..._error */

@@ -127,6 +127,36 @@ static void test_series(void)
     check_below("and not far off", error[31], 2.5e-3);
 }
 
+/* A jump converges by one order, along ever fewer points; the rest of the series keeps its own. */
+static void test_jump(void)
+{
+    double answer[POINTS], half[POINTS], quarter[POINTS], error[POINTS], share;
+    for (int i = 0; i < POINTS; i++) {
+        answer[i] = 1e-3 + (i == 100);
+        half[i] = 4e-3 + (i >= 100 && i < 102);
+        quarter[i] = 16e-3 + (i >= 100 && i < 104);
+    }
+    accuracy_ladder l = {.count = POINTS, .answer = answer, .half = half, .quarter = quarter};
+    check_near("the order beside it", accuracy_estimate(&l, error, &share), 2, 1e-6);
+    check_near("the error there", error[20], safety * 1e-3, 1e-9);
+    check_true("at it", error[101] >= 1);
+    check_near("what is typical", accuracy_typical(error, NULL, POINTS), safety * 1e-3, 1e-9);
+}
+
+/* 95 % of the length, however the points lie; of few points all. */
+static void test_typical(void)
+{
+    double values[40], at[40];
+    for (int i = 0; i < 40; i++) {
+        values[i] = i < 20 ? 1 : 40 - i; /* 20 to 1 in a stretch that is 1 % of the length */
+        at[i] = i < 20 ? i : 19 + 0.01 * (i - 19);
+    }
+    check_near("by length", accuracy_typical(values, at, 40), 1, 1e-12);
+    check_near("by number", accuracy_typical(values, NULL, 40), 18, 1e-12);
+    check_near("of few", accuracy_typical(values + 20, NULL, 5), 20, 1e-12);
+    check_near("of one", accuracy_typical(values + 39, NULL, 1), 1, 1e-12);
+}
+
 /* What no setting changes has no error. */
 static void test_no_difference(void)
 {
@@ -152,6 +182,8 @@ int main(void)
     test_oscillation();
     test_cancelling_settings();
     test_series();
+    test_jump();
+    test_typical();
     test_no_difference();
     return check_done();
 }

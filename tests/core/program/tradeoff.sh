@@ -157,3 +157,15 @@ sed 's/    repeats: 3/    repeats: 1\n    judge: rms/' study.yaml >rms.yaml
 grep -q '^root.curve, known to .*, judged by rms' rms.txt || fail "the way of judging is not told"
 awk -F'[:,]' '/"rms"/ { rms = $2 } /"judged"/ { if ($2 != rms) bad = 1; n++ } END { exit bad || n < 3 }' \
     rms/tradeoff.json || fail "rms does not decide"
+
+# What changes its sign is judged by its rms, unless the file says otherwise; all else by its largest.
+sed 's/    repeats: 3/    repeats: 1/; s/outputs: \[root.value, root.curve, slow.total\]/outputs: [root.value, root.curve, slow.height]/; s/root.n: \[2, 4, 8, 16, 64\]/root.n: [2, 8]/' study.yaml >sign.yaml
+"$flankfilm" run sign.yaml -o sign >sign.txt || true
+grep -q '^slow.height, known to .*, judged by rms' sign.txt || fail "a change of sign is not seen"
+grep -q '^root.curve, known to [^,]*$' sign.txt || fail "without a change of sign the largest error counts"
+"$flankfilm" run sign.yaml -o largest --set study.tradeoff.judge=largest >largest.txt || true
+grep -q 'judged by rms' largest.txt && fail "the file has the last word"
+
+# The figure names the points of the front, and shows how well each number is known.
+grep -q '<text [^>]*>1  n 2: [0-9.e-]* s, ' sign/tradeoff.svg || fail "the front is not named"
+[ "$(grep -c 'class="bar"' sign/tradeoff.svg)" -ge 4 ] || fail "the figure has no error bars"
