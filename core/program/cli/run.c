@@ -7,6 +7,7 @@
 #include "swap.h"
 
 #include "../accuracy/accuracy.h"
+#include "../accuracy/goals.h"
 #include "../memory/memory.h"
 #include "../results/earlier.h"
 #include "../results/write.h"
@@ -147,7 +148,9 @@ int cli_run(const cli_options *options)
     if (options->directory || !options->json)
         to.directory = cli_run_directory(options);
     input.pipeline = session.pipeline;
-    input.key = good ? results_input_key(session.pipeline) : 0;
+    char *accuracy = accuracy_print_goals(session.tree);
+    input.accuracy = accuracy;
+    input.key = good ? results_input_key(session.pipeline, accuracy) : 0;
     if (good && !options->json)
         cli_print_swaps(&session, options);
     if (good && open_place(&to, &input, session.report))
@@ -155,6 +158,7 @@ int cli_run(const cli_options *options)
     else
         code = cli_refuse(session.report, options, "nothing was run");
     results_folder_free(to.folder);
+    free(accuracy);
     free(to.replaced);
     free(to.removed);
     free(to.directory);

@@ -323,7 +323,8 @@ int cli_run_study(cli_session *session, const cli_options *options)
                           .sets = options->sets,
                           .set_count = options->set_count,
                           .pipeline = session->pipeline,
-                          .key = results_input_key(session->pipeline),
+                          .accuracy = "", /* it is in the keys of the cases */
+                          .key = results_input_key(session->pipeline, ""),
                           .replace = cli_option(options, "replace") != NULL},
                 .directory = directory,
                 .terminal = isatty(STDERR_FILENO) != 0};

@@ -11,12 +11,12 @@
 
 enum { MOST_TOLD = 4 };
 
-uint64_t results_input_key(const ff_pipeline *pipeline)
+uint64_t results_input_key(const ff_pipeline *pipeline, const char *accuracy)
 {
     uint64_t *fingerprints = memory_alloc((pipeline->count + 1) * sizeof *fingerprints);
     uint64_t key = study_fingerprint(pipeline, fingerprints);
     free(fingerprints);
-    return key;
+    return *accuracy ? study_hash_text(key, accuracy) : key;
 }
 
 /* A file that was moved or renamed is not there any more, and counts as the same. */
@@ -51,8 +51,17 @@ static const char *text_of(const json_t *object, const char *key, const char *ot
     return text ? text : otherwise;
 }
 
+/* Whether the program chose the parameter for the accuracy: the file did not say it. */
+static bool was_chosen(const json_t *chosen, const char *stage, const char *param)
+{
+    char *path = memory_print_text("%s.%s", stage, param);
+    bool found = json_object_get(chosen, path) != NULL;
+    free(path);
+    return found;
+}
+
 static void compare_params(differences *all, const char *stage, const json_t *before,
-                           const json_t *now)
+                           const json_t *now, const json_t *chosen)
 {
     static const char none[] = "not given";
     const char *name;
@@ -60,7 +69,7 @@ static void compare_params(differences *all, const char *stage, const json_t *be
     json_object_foreach((json_t *)(size_t)now, name, param)
     {
         const char *was = text_of(json_object_get(before, name), "text", none);
-        if (strcmp(was, text_of(param, "text", none)) != 0)
+        if (strcmp(was, text_of(param, "text", none)) != 0 && !was_chosen(chosen, stage, name))
             add_difference(all, stage, name, was, text_of(param, "text", none));
     }
     json_object_foreach((json_t *)(size_t)before, name, param) if (!json_object_get(now, name))
@@ -77,7 +86,7 @@ static const json_t *find_stage(const json_t *stages, const char *name)
 }
 
 static void compare_stage(differences *all, const ff_pipeline *pipeline, const ff_stage *stage,
-                          const json_t *before)
+                          const json_t *before, const json_t *chosen)
 {
     const char *model = before ? text_of(before, "model", "") : "absent";
     json_t *origin = results_json_origin(pipeline, stage);
@@ -85,7 +94,7 @@ static void compare_stage(differences *all, const ff_pipeline *pipeline, const f
         add_difference(all, stage->name, "use", model, stage->use);
     else if (!stage->choice)
         compare_params(all, stage->name, json_object_get(before, "parameters"),
-                       json_object_get(origin, "parameters"));
+                       json_object_get(origin, "parameters"), chosen);
     const char *build = text_of(origin, "build", "");
     if (!strcmp(model, stage->use) && strcmp(text_of(before, "build", build), build) != 0)
         add_difference(all, stage->name, "", "another build of its plugin", "that of now");
@@ -97,10 +106,16 @@ static char *compare(const json_t *root, const results_input *input)
 {
     differences all = {.text = memory_print_text("%s", "")};
     const json_t *stages = json_object_get(root, "stages");
+    const json_t *accuracy = json_object_get(root, "accuracy");
+    const char *asked = text_of(accuracy, "asked", "");
+    if (strcmp(asked, input->accuracy) != 0)
+        add_difference(&all, "accuracy", "", *asked ? asked : "none",
+                       *input->accuracy ? input->accuracy : "none");
     for (size_t i = 0; i < input->pipeline->count; i++) {
         const ff_stage *stage = &input->pipeline->stages[i];
         if (stage->needed && stage->loaded)
-            compare_stage(&all, input->pipeline, stage, find_stage(stages, stage->name));
+            compare_stage(&all, input->pipeline, stage, find_stage(stages, stage->name),
+                          json_object_get(accuracy, "settings"));
     }
     if (all.count == 0) {
         free(all.text);

@@ -16,11 +16,12 @@ typedef struct results_input {
     size_t set_count;
     const ff_pipeline *pipeline; /* of a study: of its file, or of its first case */
     uint64_t key;                /* of what the results depend on */
+    const char *accuracy;        /* that is asked for: "2 %"; "": none */
     bool replace;                /* whether results of another file may be replaced */
 } results_input;
 
-/* The key of a pipeline that has been built and has not run. */
-uint64_t results_input_key(const ff_pipeline *pipeline);
+/* The key of a pipeline that has been built and has not run, and of the accuracy. */
+uint64_t results_input_key(const ff_pipeline *pipeline, const char *accuracy);
 
 /* False, with an error, when the directory holds results of another file. `replaced` becomes what
    the run will replace: NULL when there is nothing, "" for results of the same inputs, else how

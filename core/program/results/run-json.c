@@ -237,13 +237,15 @@ static void add_input(json_t *head, const results_input *input)
 }
 
 /* What measuring the errors took; null where the file does not ask for them. */
-static json_t *describe_accuracy(const accuracy_record *errors)
+static json_t *describe_accuracy(const results_outcome *outcome)
 {
+    const accuracy_record *errors = outcome->errors;
     if (!errors->twins)
         return json_null();
-    return json_pack("{s:I, s:I, s:o, s:o, s:o}", "attempts", (json_int_t)errors->attempts, "twins",
-                     (json_int_t)errors->twins, "seconds", study_json_real(errors->seconds),
-                     "failure", results_json_text(errors->failure), "settings",
+    return json_pack("{s:s, s:I, s:I, s:o, s:o, s:o}", "asked", outcome->input->accuracy,
+                     "attempts", (json_int_t)errors->attempts, "twins", (json_int_t)errors->twins,
+                     "seconds", study_json_real(errors->seconds), "failure",
+                     results_json_text(errors->failure), "settings",
                      study_settings_record(errors->chosen, errors->chosen_count));
 }
 
@@ -253,7 +255,7 @@ static json_t *describe_head(const results_outcome *outcome)
     json_object_set_new(head, "title", results_json_text(outcome->pipeline->title));
     add_judgement(head, outcome);
     json_object_set_new(head, "file", results_json_text(outcome->input->file));
-    json_object_set_new(head, "accuracy", describe_accuracy(outcome->errors));
+    json_object_set_new(head, "accuracy", describe_accuracy(outcome));
     return head;
 }
 

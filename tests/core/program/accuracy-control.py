@@ -119,6 +119,8 @@ class Control(lab.Lab):
         cells = next(s for s in kept["stages"] if s["stage"] == "last")["parameters"]["cells"]
         self.assertEqual(str(cells["value"]), kept["accuracy"]["settings"]["last.cells"])
         self.assertIn("order.yaml:3", cells["origin"])
+        self.assertNotIn("replaced", self.call("run", "order.yaml", "-o", "order"))
+        self.assertIn("replaced (accuracy: 0.1 % -> 1 %)", self.call("run", "order.yaml", "-o", "order", "--set", "accuracy=1 %"))
 
     def test_a_study(self):
         self.write("study.yaml", FILE + "study: {sweep: {last.strength: [1, 30]}}\n")
