@@ -15,6 +15,10 @@ as open and not judged. An error bar above the accuracy is a refusal: it is judg
 Scalars: held, when |answer - reference| <= bar + error of the reference. Series: the share of the
 points at which that holds, with a shift along the series of up to 0.2 of a passage of the contact.
 --cache keeps what was computed, so that the campaign can be stopped and goes on.
+
+--lattice asks what the answers cost. Twelve fixed settings of the film are held against the reference; the
+cheapest from which on all finer ones keep the accuracy too, in each output whose error bar is within it, is what a user who
+had tried them all would take. The answer costs the work of its stages and of all its attempts and twins.
 """
 import argparse
 import bisect
@@ -35,6 +39,7 @@ SCALARS = ['film.h_min_lowest', 'film.p_max_highest', 'motion.dte_rms', 'motion.
 SERIES = ['film.h_min', 'film.h_central', 'film.p_max', 'film.friction_coefficient', 'film.power_loss']
 GOALS = {'10 %': 0.1, '2 %': 0.02, '0.5 %': 0.005}
 REFERENCE = 'cells: 2048, time_tolerance: 7e-4, tolerance: 1e-7'
+LATTICE = [(cells, tolerance) for cells in (128, 256, 512, 1024) for tolerance in (2.8e-2, 7e-3, 1.75e-3)]
 LONGEST = 100  # s, of a run; what takes longer is listed
 FINE = {'gears': 'stations: 1600', 'mesh': 'points: 1600', 'tooth': 'points: 8000'}
 STEEL = 226.4e9  # Pa, reduced modulus
@@ -137,7 +142,8 @@ class Runner:
         stages['film'] = f"use: ehl/finite-volume{', ' if film else ''}{film}" + ('' if scene['shear'] else ', rheology: none')
         names = scene['outputs'] + ['film.time', 'tooth.hertz_half_width', 'tooth.entrainment_speed']
         with open(os.path.join(self.folder, 'scene.yaml'), 'w') as out:
-            out.write(f'format: 2\naccuracy: {accuracy}\n')
+            goals = ', '.join(f'{name}: {accuracy}' for name in scene['outputs'])
+            out.write('format: 2\n' + (f'accuracy: {{{goals}}}\n' if accuracy[:1].isdigit() else 'accuracy: measured\n' if accuracy else ''))
             out.write(f"include: [{self.source}/configs/lubricants/{scene['oil']}.yaml]\npipeline:\n")
             out.writelines(f'  {name}: {{{text}}}\n' for name, text in stages.items())
             out.write(f"outputs: [{', '.join(names)}]\n")
@@ -155,7 +161,7 @@ class Runner:
             return {'status': 'crashed', 'why': done.stderr[-500:]}
         if answer['status'] != 'ok':
             return {'status': answer['status'], 'why': str((answer.get('errors') or [''])[0])}
-        found = {'status': 'ok', 'outputs': {}, 'twins': answer['accuracy'],
+        found = {'status': 'ok', 'outputs': {}, 'twins': answer['accuracy'] or {},
                  'seconds': sum(s['seconds'] or 0 for s in answer['stages'])}
         for name, row in answer['outputs'].items():
             error = row.get('error') or {}
@@ -286,6 +292,73 @@ def print_sums(rows, out):
                   f'| {len(every) - len(mine)} |', file=out)
 
 
+def with_goal(answer, exact, name, goal):
+    """The answer with bars as large as the goal allows."""
+    own, ref = dict(answer['outputs'][name]), exact['outputs'][name]
+    if name in SCALARS:
+        own['bar'] = goal * abs(ref['value'] or 1)
+    else:
+        most = max(abs(v) for v in ref['value'])
+        own['bar'] = [goal * max(abs(v), 0.1 * most) for v in own['value']]
+    return dict(answer, outputs=dict(answer['outputs'], **{name: own}))
+
+
+def keeps(answer, exact, name, goal):
+    if answer['status'] != 'ok' or answer['outputs'][name]['value'] is None:
+        return False
+    verdict = (judge_series if name in SERIES else judge_scalar)(with_goal(answer, exact, name, goal), exact, name, goal)
+    return bool(verdict) and (verdict['share'] >= 0.95 if 'share' in verdict else verdict['held'])
+
+
+def cost_of(answer):
+    return answer['seconds'] + (answer['twins'].get('seconds') or 0)
+
+
+def lattice_of(runner, scene, cache):
+    kept = os.path.join(cache, f"{scene['seed']}-{scene['number']}-lattice.json")
+    if not os.path.exists(kept):
+        found = [runner.run(scene, '', f'cells: {cells}, time_tolerance: {tolerance}') for cells, tolerance in LATTICE]
+        with open(kept, 'w') as stream:
+            json.dump(found, stream)
+    with open(kept) as stream:
+        return json.load(stream)
+
+
+def cheapest(points, exact, names, goal):
+    """The least cost from which on all finer settings keep the accuracy."""
+    good = [all(keeps(answer, exact, name, goal) for name in names) for answer in points]
+    costs = [points[i]['seconds'] for i, (cells, tolerance) in enumerate(LATTICE)
+             if all(good[k] for k, (c, t) in enumerate(LATTICE) if c >= cells and t <= tolerance)]
+    return min(costs, default=None)
+
+
+def print_costs(runner, scenes, cache, out):
+    print('| scene | what | accuracy | outputs within it | cost of the answer, s | of the cheapest of the lattice, s | ratio |\n|'
+          + '---|' * 7, file=out)
+    ratios = {level: [] for level in GOALS}
+    for scene, answers in scenes:
+        exact = answers['reference']
+        if exact['status'] != 'ok':
+            continue
+        points = lattice_of(runner, scene, cache)
+        for level, goal in GOALS.items():
+            answer = answers[level]
+            if answer['status'] != 'ok':
+                continue
+            names = [n for n in scene['outputs'] if answer['outputs'][n]['relative'] is not None
+                     and answer['outputs'][n]['relative'] <= goal]
+            least = cheapest(points, exact, names, goal)
+            ratio = cost_of(answer) / least if least else None
+            if ratio:
+                ratios[level].append(ratio)
+            print(f"| {scene['number']} | {scene['kind']} | {level} | {len(names)} of {len(scene['outputs'])} | {cost_of(answer):.3g} "
+                  f"| {f'{least:.3g}' if least else 'none does'} | {f'{ratio:.2g}' if ratio else ''} |", file=out)
+    for level, found in ratios.items():
+        if found:
+            high = sorted(found)[math.ceil(0.9 * len(found)) - 1]
+            print(f'\n{level}: median {statistics.median(found):.2g} times, 90 % below {high:.2g} times, of {len(found)} scenes', file=out)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument('program')
@@ -295,8 +368,9 @@ def main():
     parser.add_argument('--count', type=int, default=30)
     parser.add_argument('--cache')
     parser.add_argument('--table')
+    parser.add_argument('--lattice', action='store_true')
     options = parser.parse_args()
-    runner, rows = Runner(options.program, options.source), []
+    runner, rows, scenes = Runner(options.program, options.source), [], []
     out = open(options.table, 'w') if options.table else sys.stdout
     print('| scene | what | accuracy | output | bar % | error % | reference +- % | verdict |\n|' + '---|' * 8, file=out)
     for number in range(options.first, options.first + options.count):
@@ -306,9 +380,13 @@ def main():
         print_rows(scene, answers, mine, out)
         out.flush()
         rows += mine
+        scenes.append((scene, answers))
         print(f"scene {number}: {scene['kind']}, {len(mine)} numbers", file=sys.stderr)
     print(file=out)
     print_sums(rows, out)
+    if options.lattice:
+        print(file=out)
+        print_costs(runner, scenes, options.cache or tempfile.mkdtemp(), out)
 
 
 main()

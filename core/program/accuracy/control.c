@@ -198,12 +198,13 @@ static bool is_in_reach(const knob *k, double levels)
     return k->measured - levels >= finest - beyond;
 }
 
-/* Refines a setting by so many levels, unless another output asked for more. */
+/* Refines a setting by so many levels, unless another output asked for more; a coarse one to its
+   preset at most, where errors are better known. */
 static void refine(control *c, knob *k, double levels, target *t)
 {
-    double level = k->level;
+    double level = k->measured - fmin(levels, most_levels);
     t->pursued = t->pursued && k->measured <= 0;
-    move(c, k, fmin(level, k->measured - fmin(levels, most_levels)));
+    move(c, k, fmin(k->level, k->measured > 0 ? fmax(level, 0) : level));
 }
 
 /* Where the twins did not tell parts apart: the next attempt will. */
