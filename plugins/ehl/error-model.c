@@ -4,6 +4,7 @@
 #include "outputs.h"
 
 #include <math.h>
+#include <string.h>
 
 /* The contact of an instant, and the lengths that its film changes over. */
 typedef struct contact {
@@ -11,16 +12,18 @@ typedef struct contact {
     double opening; /* sqrt(2 R h) */
     double buildup; /* m, pressure build-up length of the inlet, and of the fall at the outlet */
     double L;       /* of Moes */
+    double sliding; /* m/s */
 } contact;
 
-static contact contact_at(const ehl_march *m, double h)
+static contact contact_at(const ehl_reynolds *eq, const ehl_instant *at, double modulus, double h)
 {
-    const ehl_oil *oil = &m->solver->reynolds->oil;
-    double radius = m->at.radius, modulus = m->history->modulus;
-    double U = oil->viscosity * fabs(m->at.entrainment) / (modulus * radius);
-    double a = ehl_hertz_half_width(m->at.load, radius, modulus);
+    const ehl_oil *oil = &eq->oil;
+    double radius = at->radius;
+    double U = oil->viscosity * fabs(at->entrainment) / (modulus * radius);
+    double a = ehl_hertz_half_width(at->load, radius, modulus);
     return (contact){.a = a,
-                     .p_hertz = ehl_hertz_pressure(m->at.load, radius, modulus),
+                     .p_hertz = ehl_hertz_pressure(at->load, radius, modulus),
+                     .sliding = at->sliding,
                      .opening = sqrt(2 * radius * h),
                      .buildup = ehl_inlet_buildup(a, radius, h),
                      .L = oil->alpha * modulus * pow(2 * U, 0.25)};
@@ -49,9 +52,8 @@ static const in_space of_h_min = {0.16, 0, 0.0045, 0, 3e-4, 0.4, 0.012},
                       of_h_central = {0.2, 0.05, 0, 0.05, 0, 0.4, 0.02};
 static const double light_first = 0.6, light_asymmetric = 0.65;
 
-static double space_error(const ehl_march *m, const in_space *c, const contact *at)
+static double space_error(const ehl_reynolds *eq, const in_space *c, const contact *at)
 {
-    const ehl_reynolds *eq = m->solver->reynolds;
     double n = at->buildup / eq->dx, wide = fmin(1, at->buildup / at->a);
     double g = 1 / (1 + pow(2 * at->a / at->opening, 4)), L = at->L, square = L * L;
     if (eq->wedge != 2)
@@ -69,6 +71,64 @@ static double accumulated_error_near(const ehl_march *m, size_t node)
     double worst = 0;
     for (size_t i = from; i < n && i <= node + NEAR; i++)
         worst = fmax(worst, fabs(m->accumulated_error[i]));
+    return worst;
+}
+
+/* The nodes of the contact where the oil is carried along and nothing else moves the film. */
+typedef struct span {
+    size_t first, end;
+} span;
+
+static span carried_span(const ehl_reynolds *eq, const contact *c)
+{
+    double first = (c->buildup - c->a - eq->first) / eq->dx,
+           end = (c->a - 1.6 * c->buildup - eq->first) / eq->dx;
+    first = fmax(ceil(first), 2);
+    end = fmin(end, (double)eq->nodes - 3);
+    return end > first ? (span){(size_t)first, (size_t)end} : (span){0, 0};
+}
+
+/* Leading error of the difference that carries the film from node to node, over a cell's way: of
+   second order dx^2/3 h_xxx; of control volumes, whose change in time is that of both nodes,
+   dx^2/12 h_xxx; of first order dx/2 h_xx. */
+static double local_error(const ehl_reynolds *eq, const double *mass, size_t i)
+{
+    double bend = mass[i + 1] - 2 * mass[i] + mass[i - 1];
+    double third = mass[i + 2] - 3 * mass[i + 1] + 3 * mass[i] - mass[i - 1];
+    if (eq->wedge < 2 || (eq->asymmetric && eq->conserving))
+        return bend / (2 * mass[i]);
+    return third / ((eq->asymmetric ? 12 : 3) * mass[i]);
+}
+
+/* Adds up what that makes of the film on its way: dips of few cells are filled. The sums move with
+   the oil by whole cells, so that they do not spread. */
+static void carry_errors(ehl_results *r, const ehl_march *m, const contact *c)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    ehl_carried *sum = &r->carried;
+    size_t n = eq->nodes;
+    double cells = m->at.entrainment * (m->at.time - sum->time) / eq->dx;
+    int goes_on = m->known > 1 && sum->mirrored == m->mirrored && cells >= 0;
+    sum->time = m->at.time;
+    sum->mirrored = m->mirrored;
+    sum->part = goes_on ? sum->part + cells : 0;
+    size_t whole = goes_on && sum->part < (double)n ? (size_t)sum->part : n;
+    memmove(sum->error + whole, sum->error, (n - whole) * sizeof *sum->error);
+    memset(sum->error, 0, whole * sizeof *sum->error);
+    sum->part -= floor(sum->part);
+    span of = carried_span(eq, c);
+    memset(sum->error, 0, of.first * sizeof *sum->error);
+    for (size_t i = of.first; goes_on && i < of.end; i++)
+        sum->error[i] += cells * local_error(eq, m->state[0].mass, i);
+}
+
+/* Returns the largest of these errors near that node; 0 where something else makes the film. */
+static double carried_error(const ehl_results *r, const ehl_march *m, size_t node, const contact *c)
+{
+    span of = carried_span(m->solver->reynolds, c);
+    double worst = 0;
+    for (size_t i = node - 2; node >= of.first && node < of.end && i <= node + 2; i++)
+        worst = fmax(worst, fabs(r->carried.error[i]));
     return worst;
 }
 
@@ -111,23 +171,20 @@ typedef struct outlet_oil {
     double compression; /* d ln(rho)/d ln(p) */
 } outlet_oil;
 
-static outlet_oil oil_at_outlet(const ehl_march *m, const contact *c, double h, double p_max)
+static outlet_oil oil_at_outlet(const ehl_reynolds *eq, const contact *c, double h, double p_max)
 {
-    const ehl_reynolds *eq = m->solver->reynolds;
     double depth = fmin(1, c->buildup / c->a);
     double p = fmin(p_max, c->p_hertz * sqrt(depth * (2 - depth))), all[EHL_LIQUID_ARRAYS];
     const ehl_liquid q = {all, all + 1, all + 2, all + 3, all + 4, all + 5, all + 6};
-    ehl_fluid_evaluate(&eq->laws, 1, &p, &h, m->at.sliding, &q);
+    ehl_fluid_evaluate(&eq->laws, 1, &p, &h, c->sliding, &q);
     return (outlet_oil){p, *q.psi * eq->oil.viscosity, p * *q.rho_p / *q.rho};
 }
 
 /* Highest pressure of the outlet's spike: of a maximum not further in than 1.6 build-up lengths.
    Where that length exceeds 0.6 a the maximum is the spike itself, even upstream of x = 0. 0: there
    is none. */
-static double highest_spike(const ehl_march *m, const contact *c)
+static double highest_spike(const ehl_reynolds *eq, const double *p, const contact *c)
 {
-    const ehl_reynolds *eq = m->solver->reynolds;
-    const double *p = m->state[0].film.p;
     double highest = 0, from = (c->a - 1.6 * c->buildup - eq->first) / eq->dx;
     size_t first = (size_t)fmax(1, ceil(from));
     for (size_t i = first; i + 1 < eq->nodes; i++)
@@ -168,33 +225,68 @@ static double smooth_pressure_error(const ehl_reynolds *eq, const contact *c, do
  * Error of p_max by the cells: by how much the spike may exceed it. Without a maximum there the
  * spike has not come out of the 0.9 of the outlet's pressure that the coarsest cells show of it.
  */
-static double peak_error(const ehl_march *m, const contact *c, double h, double p_max)
+static ehl_spike spike_at(const ehl_reynolds *eq, const contact *c, const ehl_crest *of)
 {
     const double caution = 1.2; /* a tip between two nodes */
+    outlet_oil oil = oil_at_outlet(eq, c, of->h_central, of->p_max);
+    double cut = spike_share_cut_off(eq, &oil, eq->dx / c->buildup);
+    double seen = highest_spike(eq, of->p, c);
+    double tip = fmax(seen, 0.9 * oil.pressure) * (1 + caution * cut / (1 - cut));
+    double error = fmax(0, tip / of->p_max - 1) + smooth_pressure_error(eq, c, oil.fluidity);
+    return (ehl_spike){seen, tip, cut, error};
+}
+
+ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at, double modulus,
+                                  const ehl_crest *of, ehl_spike *spike)
+{
+    contact c = contact_at(eq, at, modulus, of->h_central);
+    *spike = spike_at(eq, &c, of);
+    return (ehl_space_errors){
+        {space_error(eq, &of_h_min, &c), space_error(eq, &of_h_central, &c), spike->error}};
+}
+
+/* Keeps the larger bound, and its instant. */
+static void keep_worst(ehl_bound *b, double value, const ehl_march *m, const ehl_crest *of)
+{
+    if (value > b->worst || !(b->h_central > 0))
+        *b = (ehl_bound){b->worst, of->h_central, of->p_max, m->at};
+    ehl_worse(&b->worst, value);
+}
+
+static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, double p_max)
+{
+    const ehl_crest of = {m->state[0].film.p, h_central, p_max};
     const ehl_reynolds *eq = m->solver->reynolds;
-    outlet_oil oil = oil_at_outlet(m, c, h, p_max);
-    double off = spike_share_cut_off(eq, &oil, eq->dx / c->buildup);
-    double tip = fmax(highest_spike(m, c), 0.9 * oil.pressure) * (1 + caution * off / (1 - off));
-    return fmax(0, tip / p_max - 1) + smooth_pressure_error(eq, c, oil.fluidity);
+    ehl_spike spike;
+    ehl_space_errors e = ehl_space_bounds(eq, &m->at, m->history->modulus, &of, &spike);
+    for (int k = 0; k < EHL_BOUNDS; k++)
+        keep_worst(&r->bound[k], e.of[k], m, &of);
+    if (p_max >= r->highest)
+        r->at_highest = (ehl_bound){e.of[EHL_PEAK], h_central, p_max, m->at};
+    r->row_in_space[EHL_LEAST] = e.of[EHL_LEAST] * r->row[EHL_H_MIN];
+    r->row_in_space[EHL_CENTRAL] = e.of[EHL_CENTRAL] * r->row[EHL_H_CENTRAL];
 }
 
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
                         double p_max)
 {
     const ehl_grid *g = m->solver->grid;
-    errors least = {.time = accumulated_error_near(m, node)},
-           central = {.time = accumulated_error_near(m, (size_t)(g->inlet / g->dx + 0.5))};
+    size_t centre = (size_t)(g->inlet / g->dx + 0.5);
+    double time[] = {accumulated_error_near(m, node), accumulated_error_near(m, centre)},
+           carried[] = {0, 0};
     if (ehl_march_is_loaded(m)) {
-        contact c = contact_at(m, h_central);
+        contact c = contact_at(m->solver->reynolds, &m->at, m->history->modulus, h_central);
+        carry_errors(r, m, &c);
+        carried[EHL_LEAST] = carried_error(r, m, node, &c);
+        carried[EHL_CENTRAL] = carried_error(r, m, centre, &c);
         record_resolution(r, m, h_central, &c);
-        least.space = space_error(m, &of_h_min, &c);
-        central.space = space_error(m, &of_h_central, &c);
-        ehl_worse(&r->worst_in_time, least.time);
-        ehl_worse(&r->worst_in_space, least.space);
-        ehl_worse(&r->worst_central_in_time, central.time);
-        ehl_worse(&r->worst_central_in_space, central.space);
-        ehl_worse(&r->worst_peak, peak_error(m, &c, h_central, p_max));
+        record_bounds(r, m, h_central, p_max);
+        for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {
+            ehl_worse(&r->worst_in_time[k], time[k]);
+            ehl_worse(&r->worst_carried[k], carried[k]);
+        }
     }
-    r->row[EHL_H_MIN_ERROR] = (least.time + least.space) * r->row[EHL_H_MIN];
-    r->row[EHL_H_CENTRAL_ERROR] = (central.time + central.space) * r->row[EHL_H_CENTRAL];
+    r->row[EHL_H_MIN_ERROR] = (time[EHL_LEAST] + carried[EHL_LEAST]) * r->row[EHL_H_MIN];
+    r->row[EHL_H_CENTRAL_ERROR] =
+        (time[EHL_CENTRAL] + carried[EHL_CENTRAL]) * r->row[EHL_H_CENTRAL];
 }

@@ -44,6 +44,8 @@ ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wante
         .nodes = nodes,
         .rough = m->rough != NULL,
         .series.width = EHL_SERIES,
+        .space.width = 2,
+        .share = {{1, 1, 1}},
         .lowest = HUGE_VAL,
         .least_lambda = HUGE_VAL,
         .least_resolution = HUGE_VAL,
@@ -53,17 +55,19 @@ ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wante
         r->field[k].width = wants(r, EHL_FIRST_FIELD + k) ? nodes : 0;
     if (ehl_balance_create(&r->balance, m) != FF_OK)
         return FF_NOMEM;
-    r->memory = calloc(2 * nodes, sizeof *r->memory);
+    r->memory = calloc(3 * nodes, sizeof *r->memory);
     if (!r->memory)
         return FF_NOMEM;
     r->tau = r->memory;
     r->ln_eta = r->memory + nodes;
+    r->carried.error = r->memory + 2 * nodes;
     return FF_OK;
 }
 
 void ehl_results_destroy(ehl_results *r)
 {
     table_destroy(&r->series);
+    table_destroy(&r->space);
     for (size_t k = 0; k < EHL_FIELDS; k++)
         table_destroy(&r->field[k]);
     ehl_balance_destroy(&r->balance);
@@ -74,7 +78,7 @@ void ehl_results_destroy(ehl_results *r)
 /* Returns the least value of the parabola through the lowest node and its neighbours. Where the
    parabola falls below half the node's value the minimum is not resolved, and the node's value is
    returned; so it is with rough flanks. Sets *at to the lowest node. */
-static double interpolated_minimum(const ehl_reynolds *eq, size_t *at)
+double ehl_least_film(const ehl_reynolds *eq, size_t *at)
 {
     const double *h = eq->h;
     size_t i = 0;
@@ -105,8 +109,9 @@ static double mean_film(const ehl_march *m)
 
 /* Interpolates to x = 0 by a cubic through four nodes; with rough flanks by a line through two,
    since a cubic undershoots thin films, even below 0. */
-static double value_at_centre(const ehl_grid *g, const ehl_reynolds *r, const double *y)
+double ehl_central_film(const ehl_grid *g, const ehl_reynolds *r)
 {
+    const double *y = r->h;
     double place = -r->first / g->dx;
     size_t i = (size_t)place;
     i = i < 1 ? 1 : i > g->nodes - 3 ? g->nodes - 3 : i;
@@ -349,8 +354,8 @@ static void record_film(ehl_results *r, const ehl_march *m)
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
     size_t node;
-    double h_min = interpolated_minimum(eq, &node),
-           h_central = value_at_centre(m->solver->grid, eq, eq->h), p_max = 0;
+    double h_min = ehl_least_film(eq, &node), h_central = ehl_central_film(m->solver->grid, eq),
+           p_max = 0;
     for (size_t i = 0; i < r->nodes; i++)
         p_max = p[i] > p_max ? p[i] : p_max;
     r->row[EHL_H_MIN] = h_min;
@@ -377,9 +382,11 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     ehl_reynolds *eq = m->solver->reynolds;
     size_t k = r->series.count;
     r->row = table_row(&r->series);
-    if (!r->row)
+    r->row_in_space = table_row(&r->space);
+    if (!r->row || !r->row_in_space)
         return FF_NOMEM;
     memset(r->row, 0, EHL_SERIES * sizeof *r->row);
+    memset(r->row_in_space, 0, 2 * sizeof *r->row_in_space);
     ehl_reynolds_gap(eq, m->step.radius, film);
     r->row[EHL_TIME] = m->at.time;
     r->row[EHL_ROLL_ANGLE] = m->at.roll;
@@ -404,6 +411,15 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     return status;
 }
 
+/* Returns what the cells add to an error of the film. */
+static double space_part(const ehl_results *r, size_t i, uint32_t k)
+{
+    const double *bound = &r->space.data[2 * i];
+    return k == EHL_H_MIN_ERROR       ? r->share.of[EHL_LEAST] * bound[EHL_LEAST]
+           : k == EHL_H_CENTRAL_ERROR ? r->share.of[EHL_CENTRAL] * bound[EHL_CENTRAL]
+                                      : 0;
+}
+
 static ff_status output_series(const ehl_results *r)
 {
     size_t count = r->series.count;
@@ -412,7 +428,7 @@ static ff_status output_series(const ehl_results *r)
         if (wants(r, k) && !to)
             return FF_NOMEM;
         for (size_t i = 0; i < count && to; i++)
-            to[i] = r->series.data[i * EHL_SERIES + k];
+            to[i] = r->series.data[i * EHL_SERIES + k] + space_part(r, i, k);
     }
     return FF_OK;
 }

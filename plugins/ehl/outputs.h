@@ -5,6 +5,7 @@
 
 #include "balance.h"
 #include "history.h"
+#include "space-error.h"
 #include "stage.h"
 #include "time-stepper.h"
 
@@ -13,6 +14,19 @@ typedef struct ehl_rows {
     double *data;
     size_t width, count, room;
 } ehl_rows;
+
+/* The largest bound of an error by the cells, and its instant. */
+typedef struct ehl_bound {
+    double worst, h_central, p_max;
+    ehl_instant at;
+} ehl_bound;
+
+/* What the cells have made of the film on its way through the contact, at the nodes, relative. */
+typedef struct ehl_carried {
+    double *error, time; /* time: of the instant that it belongs to */
+    double part;         /* of a cell, by which the oil is ahead of it */
+    int mirrored;
+} ehl_carried;
 
 typedef struct ehl_results {
     const ff_host *host;
@@ -24,14 +38,19 @@ typedef struct ehl_results {
     ehl_rows series, field[EHL_FIELDS]; /* width 0: not wanted */
     double *row;                        /* row of the series that is being filled in */
     double *tau, *ln_eta, *memory;
+    ehl_carried carried;
     double lowest, lowest_at, highest, least_lambda;
     ehl_lowest engagements;
     double worst_load, worst_mass, worst_complement, lost_force;
     double least_resolution, least_inlet, worst_starvation;
-    double outlet_load, worst_outlet;     /* share of the load: mean over a passage, its largest */
-    double worst_in_time, worst_in_space; /* errors of h_min, relative */
-    double worst_central_in_time, worst_central_in_space;   /* and of h_central */
-    double worst_peak;                                      /* error of p_max by the cells */
+    double outlet_load, worst_outlet; /* share of the load: mean over a passage, its largest */
+    /* errors of h_min and h_central, relative: by the steps, and by cells that carry the film */
+    double worst_in_time[2], worst_carried[2];
+    ehl_bound bound[EHL_BOUNDS], at_highest; /* at_highest: of p_max where it is highest */
+    ehl_space_errors share; /* of the bounds that remained where they were measured; 1: all */
+    int measured;           /* instants at which they were */
+    ehl_rows space;         /* bounds of h_min_error and h_central_error by the cells, m */
+    double *row_in_space;   /* its row that is being filled in */
     double worst_gap_excess, widest_gap;                    /* while the contact is lost, m */
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* sums over rough, loaded instants */
     double yield_sum, deepest_yield, worst_yield; /* the same; deepest_yield: plastic part, m */
@@ -53,6 +72,20 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last);
 /* Estimates the errors of the row that is being filled in; h_min is at `node`. */
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
                         double p_max);
+
+/* Measures the errors whose bounds are above their limits; not in a run that is shorter than that
+   takes. */
+ff_status ehl_results_measure(ehl_results *r, const ehl_march *m);
+
+/* The outputs that an error of h_min, of h_central or of p_max is one of. A friction goes with the
+   film in the middle, and with the pressure as the viscosity does. */
+int ehl_wants_h_min(uint64_t wanted);
+int ehl_wants_h_central(uint64_t wanted);
+int ehl_wants_p_max(uint64_t wanted);
+
+/* The least film, by a parabola, with its node in *at; that at x = 0; of the gap that r has. */
+double ehl_least_film(const ehl_reynolds *r, size_t *at);
+double ehl_central_film(const ehl_grid *g, const ehl_reynolds *r);
 
 /* Writes all outputs and the quality record. */
 ff_status ehl_results_finish(const ehl_results *r, const ehl_march *m);

@@ -136,31 +136,6 @@ static void report_at_least(const ehl_results *r, const char *name, double value
                          text);
 }
 
-/* The outputs that an error of h_min, of h_central or of p_max is one of. A friction goes with the
-   film in the middle, and with the pressure as the viscosity does. */
-static int wants_h_min(uint64_t wanted)
-{
-    static const uint64_t all = FF_BIT(EHL_H_MIN) | FF_BIT(EHL_H_MIN_ERROR) | FF_BIT(EHL_FILM) |
-                                FF_BIT(EHL_H_MIN_LOWEST) | FF_BIT(EHL_H_MIN_LOWEST_AT) |
-                                FF_BIT(EHL_H_MIN_LOWEST_MEAN) | FF_BIT(EHL_H_MIN_LOWEST_SPREAD);
-    return (wanted & all) != 0;
-}
-
-static int wants_h_central(uint64_t wanted)
-{
-    static const uint64_t all = FF_BIT(EHL_H_CENTRAL) | FF_BIT(EHL_H_CENTRAL_ERROR) |
-                                FF_BIT(EHL_FILM) | FF_BIT(EHL_LAMBDA_RATIO) |
-                                FF_BIT(EHL_LAMBDA_RATIO_LOWEST);
-    return (wanted & all) != 0 || ehl_loss_of_shear(wanted);
-}
-
-static int wants_p_max(uint64_t wanted)
-{
-    static const uint64_t all =
-        FF_BIT(EHL_P_MAX) | FF_BIT(EHL_P_MAX_HIGHEST) | FF_BIT(EHL_PRESSURE);
-    return (wanted & all) != 0 || ehl_loss_of_shear(wanted);
-}
-
 /* Reports an equation that a film must satisfy: beyond `broken` it does not. */
 static void report_balance(const ehl_results *r, const char *name, double value, double limit,
                            double broken, const char *text)
@@ -176,7 +151,7 @@ typedef struct tolerances {
 static tolerances tolerances_of(const ehl_results *r, const ehl_march *m)
 {
     const double unknown = 0.02; /* no instant has a load by which the cells could be judged */
-    double same = fmax(20 * m->solver->tolerance, 1e-9), cells = r->worst_in_space;
+    double same = fmax(20 * m->solver->tolerance, 1e-9), cells = r->bound[EHL_LEAST].worst;
     if (!m->solver->outside)
         return (tolerances){same, fmax(0.01, 10 * same)};
     double limit = fmax(same, cells > 0 ? cells : unknown);
@@ -280,23 +255,42 @@ static void report_resolution(const ehl_results *r)
         "share of the load next to the outlet's end, within a quarter of sqrt(2 R h), where "
         "the film reaches it, mean over a passage; above 0.0025 its exit is cut off and h_min too "
         "low: move the outlet out");
+}
+
+/* Reports what the cells cost h_min, h_central or p_max. */
+static void report_cells(const ehl_results *r, int kind, const char *name, double limit)
+{
+    const char *output = kind == EHL_LEAST ? "h_min" : kind == EHL_CENTRAL ? "h_central" : "p_max";
+    double share = r->share.of[kind], error = share * r->bound[kind].worst,
+           carried = kind == EHL_PEAK ? 0 : r->worst_carried[kind];
+    char how[128] = "", text[320];
+    if (carried > error)
+        snprintf(how, sizeof how,
+                 "; largest where the film carries a change through the contact that is few cells "
+                 "long");
+    else if (fabs(share - 1) > 0)
+        snprintf(how, sizeof how, "; by steady films on %d times the cells %.3g of what bounds it",
+                 kind == EHL_PEAK ? 4 : 2, share);
+    snprintf(text, sizeof text,
+             "estimate of the error of %s by the cells, over %s; loads above 2 %% of the "
+             "largest%s%s",
+             output, output, how,
+             kind == EHL_PEAK ? "; above 0.1 the cells may cut the spike at the outlet off: use "
+                                "more of them"
+                              : "");
+    report_at_most(r, name, fmax(error, carried), limit, FF_DOUBTFUL, text);
+}
+
+static void report_space_errors(const ehl_results *r)
+{
     if (r->rough)
         return;
-    if (wants_h_min(r->wanted))
-        report_at_most(
-            r, "h_min_space_error", r->worst_in_space, 0.02, FF_DOUBTFUL,
-            "estimate of the error of h_min by the cells, over h_min; loads above 2 % of the "
-            "largest");
-    if (wants_h_central(r->wanted))
-        report_at_most(
-            r, "h_central_space_error", r->worst_central_in_space, 0.02, FF_DOUBTFUL,
-            "estimate of the error of h_central by the cells, over h_central; loads above 2 % of "
-            "the largest");
-    if (wants_p_max(r->wanted))
-        report_at_most(
-            r, "p_max_space_error", r->worst_peak, 0.1, FF_DOUBTFUL,
-            "estimate of the error of p_max by the cells, over p_max; above 0.1 the cells may cut "
-            "the spike at the outlet off: use more of them");
+    if (ehl_wants_h_min(r->wanted))
+        report_cells(r, EHL_LEAST, "h_min_space_error", EHL_FILM_LIMIT);
+    if (ehl_wants_h_central(r->wanted))
+        report_cells(r, EHL_CENTRAL, "h_central_space_error", EHL_FILM_LIMIT);
+    if (ehl_wants_p_max(r->wanted))
+        report_cells(r, EHL_PEAK, "p_max_space_error", EHL_PEAK_LIMIT);
 }
 
 /* Estimates how far the pressure may rise between two instants, over the highest: twice the height
@@ -326,21 +320,22 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
                        "time steps that were cut, as contacts come and go");
         return;
     }
-    if (wants_h_min(r->wanted))
+    if (ehl_wants_h_min(r->wanted))
         report_at_most(
-            r, "h_min_time_error", r->worst_in_time, 0.05, FF_DOUBTFUL,
+            r, "h_min_time_error", r->worst_in_time[EHL_LEAST], 0.05, FF_DOUBTFUL,
             "estimate of the error of h_min by the time steps, over h_min; loads above 2 % of the "
             "largest");
-    if (wants_h_central(r->wanted))
+    if (ehl_wants_h_central(r->wanted))
         report_at_most(
-            r, "h_central_time_error", r->worst_central_in_time, 0.05, FF_DOUBTFUL,
+            r, "h_central_time_error", r->worst_in_time[EHL_CENTRAL], 0.05, FF_DOUBTFUL,
             "estimate of the error of h_central by the time steps, over h_central; loads above 2 "
             "% of the largest");
     report_balance(
         r, "mass_history", r->balance.worst.history, 0.05,
-        m->solver->outside ? fmax(0.1, 4 * r->worst_in_time) : fmax(0.5, 10 * r->worst_in_time),
+        m->solver->outside ? fmax(0.1, 4 * r->worst_in_time[EHL_LEAST])
+                           : fmax(0.5, 10 * r->worst_in_time[EHL_LEAST]),
         "oil that came into the contact and left it, off the change of what is there, over it");
-    if (wants_p_max(r->wanted))
+    if (ehl_wants_p_max(r->wanted))
         report_at_most(r, "p_max_time_error", peak_in_time(r), 0.05, FF_DOUBTFUL,
                        "estimate of the error of p_max by the time steps, over p_max");
     report_at_most(r, "steps_cut", m->steps_cut, 0.01 * (double)r->series.count, FF_DOUBTFUL,
@@ -449,6 +444,7 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     report_end_of_film(r, m);
     report_inlet_tail(r);
     report_resolution(r);
+    report_space_errors(r);
     report_time_errors(r, m);
     report_contact_loss(r, m);
     if (m->rough)

@@ -340,6 +340,8 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status = march(m, in, &r);
     if (status == FF_OK)
+        status = ehl_results_measure(&r.results, &r.march);
+    if (status == FF_OK)
         status = ehl_results_finish(&r.results, &r.march);
     if (status == FF_OK)
         ehl_inlet_heating_report(m->host, &m->heating, &r.whole, &m->laws, &r.oil);

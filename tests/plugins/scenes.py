@@ -61,11 +61,12 @@ class Runner:
         self.program, self.source = program, os.path.abspath(source)
         self.file = os.path.join(tempfile.mkdtemp(), 'scene.yaml')
 
-    def run(self, scene, outputs, **stages):
+    def run(self, scene, outputs, arrays=False, **stages):
         with open(self.file, 'w') as stream:
             stream.write(text_of(scene, self.source, stages, outputs))
-        done = subprocess.run([self.program, 'run', self.file, '--json'], stdout=subprocess.PIPE,
-                              stderr=subprocess.PIPE, text=True, check=False)
+        command = [self.program, 'run', self.file, '--json'] + ['--arrays'] * arrays
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                              check=False)
         return json.loads(done.stdout)
 
 

@@ -38,8 +38,8 @@ static errors compare(const line *coarse, const line *fine, const char *film, co
     size_t n, m, at = 0;
     const double *t = stage_get(coarse->film, "time", &n), *s = stage_get(fine->film, "time", &m);
     const double *h = stage_get(coarse->film, film, NULL), *g = stage_get(fine->film, film, NULL);
-    const double *stated = stage_get(coarse->film, error, NULL);
-    double by_cells = fmax(stated[0] / h[0], stated[n - 1] / h[n - 1]); /* of both loads */
+    const double *stated = stage_get(coarse->film, error, NULL),
+                 *by_cells = stage_get(fine->film, error, NULL); /* ten times the steps */
     for (size_t i = 0; i < n; i++) {
         while (at + 1 < m && s[at] < t[i] - 1e-12)
             at++;
@@ -47,7 +47,7 @@ static errors compare(const line *coarse, const line *fine, const char *film, co
         if (t[i] <= jump || k >= WINDOWS || fabs(s[at] - t[i]) > 1e-11)
             continue;
         e.off[k] = fmax(e.off[k], fabs(h[i] / g[at] - 1));
-        e.stated[k] = fmax(e.stated[k], stated[i] / h[i] - 1.2 * by_cells);
+        e.stated[k] = fmax(e.stated[k], stated[i] / h[i] - by_cells[at] / g[at]);
         e.most = fmax(e.most, e.off[k]);
         e.most_stated = fmax(e.most_stated, e.stated[k]);
     }

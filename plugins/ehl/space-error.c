@@ -1,0 +1,181 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "outputs.h"
+#include "start.h"
+
+#include <math.h>
+
+int ehl_wants_h_min(uint64_t wanted)
+{
+    static const uint64_t all = FF_BIT(EHL_H_MIN) | FF_BIT(EHL_H_MIN_ERROR) | FF_BIT(EHL_FILM) |
+                                FF_BIT(EHL_H_MIN_LOWEST) | FF_BIT(EHL_H_MIN_LOWEST_AT) |
+                                FF_BIT(EHL_H_MIN_LOWEST_MEAN) | FF_BIT(EHL_H_MIN_LOWEST_SPREAD);
+    return (wanted & all) != 0;
+}
+
+int ehl_wants_h_central(uint64_t wanted)
+{
+    static const uint64_t all = FF_BIT(EHL_H_CENTRAL) | FF_BIT(EHL_H_CENTRAL_ERROR) |
+                                FF_BIT(EHL_FILM) | FF_BIT(EHL_LAMBDA_RATIO) |
+                                FF_BIT(EHL_LAMBDA_RATIO_LOWEST);
+    return (wanted & all) != 0 || ehl_loss_of_shear(wanted);
+}
+
+int ehl_wants_p_max(uint64_t wanted)
+{
+    static const uint64_t all =
+        FF_BIT(EHL_P_MAX) | FF_BIT(EHL_P_MAX_HIGHEST) | FF_BIT(EHL_PRESSURE);
+    return (wanted & all) != 0 || ehl_loss_of_shear(wanted);
+}
+
+/* A steady film, and what is looked at of it. */
+typedef struct twin {
+    double least, central, p_max;
+    ehl_spike spike;
+    ehl_space_errors bound;
+} twin;
+
+static twin look_at(ehl_grid_level *l, const ehl_instant *at)
+{
+    ehl_reynolds *eq = &l->reynolds;
+    twin t = {.p_max = 0};
+    size_t node;
+    ehl_reynolds_gap(eq, at->radius, &l->film);
+    t.least = ehl_least_film(eq, &node);
+    t.central = ehl_central_film(&l->grid, eq);
+    for (size_t i = 0; i < eq->nodes; i++)
+        t.p_max = fmax(t.p_max, l->film.p[i]);
+    if (!(t.least > 0 && t.central > 0 && t.p_max > 0))
+        return (twin){.p_max = 0};
+    const ehl_crest of = {l->film.p, t.central, t.p_max};
+    t.bound = ehl_space_bounds(eq, at, l->solver.modulus, &of, &t.spike);
+    return t;
+}
+
+/* Films on 1, 2, 4 times the cells of `s`, `count` of them. */
+static ff_status find_twins(const ehl_solver *s, const ehl_instant *at, int count, twin *t)
+{
+    const ehl_step step = {.entrainment = at->entrainment,
+                           .sliding = at->sliding,
+                           .radius = at->radius,
+                           .load = at->load,
+                           .loaded = 1};
+    double thinnest = ehl_moes_film(at, s->modulus, &s->reynolds->oil);
+    ehl_grid_level l[2] = {0};
+    ff_status status = FF_OK;
+    ehl_solver kind = *s;
+    if (kind.maker != ehl_line_relaxation) /* the dense solver has the same films */
+        kind.maker = ehl_newton_krylov;
+    for (int k = 0; k < count && status == FF_OK; k++) {
+        ehl_grid_level *here = &l[k % 2], *before = k > 0 ? &l[1 - k % 2] : NULL;
+        ehl_grid_level_destroy(here);
+        status = ehl_grid_level_create(here, &kind, (s->grid->nodes - 1) << k, s->modulus);
+        if (status == FF_OK)
+            status = ehl_grid_level_solve(here, before, &step, at, s->modulus, thinnest);
+        if (status == FF_OK)
+            t[k] = look_at(here, at);
+        if (status == FF_OK && !(t[k].p_max > 0))
+            status = FF_NOCONV;
+    }
+    ehl_grid_level_destroy(&l[0]);
+    ehl_grid_level_destroy(&l[1]);
+    return status;
+}
+
+/*
+ * Error of p_max on coarse cells. What they cut off the tip is some multiple of what the formula
+ * says on either grid, which the spikes of both tell; it is bounded, since few cells show a spike
+ * beside the place where it will stand.
+ */
+static double peak_error(const twin *coarse, const twin *fine)
+{
+    const double most = 1.5;
+    double seen = coarse->spike.seen, finer = fine->spike.seen, tip = 0;
+    if (finer > 0 && !(seen > 0))
+        tip = fine->spike.tip;
+    else if (finer > 0) {
+        double grown = finer / seen, steep = grown * coarse->spike.cut - fine->spike.cut;
+        double times = !(grown > 1) ? 0 : steep > 0 ? fmin(most, (grown - 1) / steep) : most;
+        tip = finer / (1 - fmin(0.9, times * fine->spike.cut));
+    }
+    return fmax(fmax(0, tip / coarse->p_max - 1), fabs(fine->p_max / coarse->p_max - 1));
+}
+
+/* Error of a film from that on twice the cells (Richardson). */
+static double film_error(double coarse, double fine, int order)
+{
+    return fabs(coarse / fine - 1) / (1 - ldexp(1, -order));
+}
+
+/* A bound that is as good as none tells nothing of those that are large: 0. */
+static double share_of(double error, double bound, double limit)
+{
+    return bound > limit / 2 ? error / bound : 0;
+}
+
+static int are_within(double a, double b, double factor)
+{
+    return a < factor * b && b < factor * a;
+}
+
+ff_status ehl_space_measure(const ehl_solver *s, const ehl_instant *at, const ehl_crest *run,
+                            int peak, ehl_space_errors *share)
+{
+    const double thicker = 1.2, higher = 1.1; /* by squeezing, and still much the same film */
+    twin t[3];
+    int order = s->reynolds->wedge == 2 ? 2 : 1;
+    ff_status status = find_twins(s, at, peak ? 3 : 2, t);
+    if (status != FF_OK)
+        return status;
+    if (!are_within(t[0].central, run->h_central, thicker) ||
+        !are_within(t[0].p_max, run->p_max, higher))
+        return FF_NOCONV;
+    const double *bound = t[0].bound.of;
+    *share = (ehl_space_errors){{
+        share_of(film_error(t[0].least, t[1].least, order), bound[EHL_LEAST], EHL_FILM_LIMIT),
+        share_of(film_error(t[0].central, t[1].central, order), bound[EHL_CENTRAL], EHL_FILM_LIMIT),
+        peak ? share_of(peak_error(&t[0], &t[2]), bound[EHL_PEAK], EHL_PEAK_LIMIT) : 0,
+    }};
+    return FF_OK;
+}
+
+/* Raises the shares by those at the instant of a bound. Where its own is not known there, it
+   stands. */
+static ff_status raise_shares(ehl_results *r, const ehl_march *m, const ehl_bound *b, int kind,
+                              ehl_space_errors *all)
+{
+    const int peak = ehl_wants_p_max(r->wanted) && r->bound[EHL_PEAK].worst > EHL_PEAK_LIMIT;
+    const ehl_crest run = {NULL, b->h_central, b->p_max};
+    ehl_space_errors share = {0};
+    ff_status status = b->at.entrainment > 0
+                           ? ehl_space_measure(m->solver, &b->at, &run, peak, &share)
+                           : FF_NOCONV;
+    if (status == FF_NOMEM)
+        return FF_NOMEM;
+    r->measured += status == FF_OK;
+    if (status != FF_OK || !(share.of[kind] > 0))
+        share.of[kind] = 1;
+    for (int k = 0; k < EHL_BOUNDS; k++)
+        all->of[k] = fmax(all->of[k], share.of[k]);
+    return FF_OK;
+}
+
+ff_status ehl_results_measure(ehl_results *r, const ehl_march *m)
+{
+    enum { LEAST_COUNT = 100 };
+    const double limit[] = {EHL_FILM_LIMIT, EHL_FILM_LIMIT, EHL_PEAK_LIMIT};
+    const int wanted[] = {ehl_wants_h_min(r->wanted), ehl_wants_h_central(r->wanted),
+                          ehl_wants_p_max(r->wanted)};
+    ehl_space_errors all = {0};
+    ff_status status = FF_OK;
+    if (r->rough || m->solver->outside || r->series.count < LEAST_COUNT)
+        return FF_OK;
+    for (int k = 0; k < EHL_BOUNDS && status == FF_OK; k++)
+        if (wanted[k] && r->bound[k].worst > limit[k])
+            status = raise_shares(r, m, &r->bound[k], k, &all);
+    if (status == FF_OK && wanted[EHL_PEAK] && r->at_highest.worst > EHL_PEAK_LIMIT)
+        status = raise_shares(r, m, &r->at_highest, EHL_PEAK, &all);
+    for (int k = 0; k < EHL_BOUNDS; k++)
+        if (wanted[k] && r->bound[k].worst > limit[k])
+            r->share.of[k] = all.of[k];
+    return status;
+}

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Errors of a film by the cells, relative: bounds, from what is known of films like it, and what
+ * the steady film of the same contact misses of them, by twins on twice and four times the cells.
+ */
+#ifndef EHL_SPACE_ERROR_H
+#define EHL_SPACE_ERROR_H
+
+#include "solver.h"
+
+/* Above them the lines of the quality record are doubtful, and the bounds are measured. */
+#define EHL_FILM_LIMIT 0.02
+#define EHL_PEAK_LIMIT 0.1
+
+/* What the bounds look at of a film. */
+typedef struct ehl_crest {
+    const double *p;
+    double h_central, p_max;
+} ehl_crest;
+
+/* The spike at the outlet. */
+typedef struct ehl_spike {
+    double seen, tip; /* Pa: highest node, 0 where there is none, and what that may stand for */
+    double cut;       /* the share of the tip that the cells cut off, by the formula */
+    double error;     /* of p_max */
+} ehl_spike;
+
+enum { EHL_LEAST, EHL_CENTRAL, EHL_PEAK, EHL_BOUNDS };
+
+/* Of h_min, h_central and p_max. */
+typedef struct ehl_space_errors {
+    double of[EHL_BOUNDS];
+} ehl_space_errors;
+
+ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at, double modulus,
+                                  const ehl_crest *of, ehl_spike *spike);
+
+/*
+ * Solves the steady contact of an instant, whose load and entrainment are > 0, on the cells of `s`
+ * and on twice as many, for the peak on four times as many, and gives the errors as shares of
+ * their bounds there; 0 where a bound is below half of its limit, and tells nothing of large ones.
+ * `run`: of the run there. FF_OK; FF_NOMEM; FF_NOCONV where there is no such film, or another one
+ * than that of the run.
+ */
+ff_status ehl_space_measure(const ehl_solver *s, const ehl_instant *at, const ehl_crest *run,
+                            int peak, ehl_space_errors *share);
+
+#endif
