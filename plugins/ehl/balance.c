@@ -84,16 +84,25 @@ static void check_conditions(ehl_balance *b, const ehl_march *m)
     ehl_worse(&b->worst.rescaling, m->solver->rescaling);
 }
 
+/* Returns the gap without roughness and what has yielded of it. */
+static double smooth_gap(const ehl_march *m, size_t i)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const double *plastic = m->state[0].film.plastic;
+    return eq->h[i] + (eq->rough ? eq->rough[i] : 0) - (plastic ? plastic[i] : 0);
+}
+
 /* Checks u_r int h dp/dx dx against the moment of the pressure, -(1/R) int x p dx: the deflection
-   by a pressure adds nothing to it. */
+   by a pressure adds nothing to it. The first and the last gap are not those of the flanks where
+   they are rough. */
 static void check_moment(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *p = m->state[0].film.p, *h = eq->h;
+    const double *p = m->state[0].film.p;
     double work = 0, moment = 0, arm = 0;
     for (size_t i = 0; i + 1 < b->nodes; i++) {
         double x = eq->first + (double)i * eq->dx;
-        work += (h[i] + h[i + 1]) / 2 * (p[i + 1] - p[i]);
+        work += (smooth_gap(m, i) + smooth_gap(m, i + 1)) / 2 * (p[i + 1] - p[i]);
         moment += x * p[i];
         arm += fabs(x) * p[i];
     }
@@ -113,9 +122,7 @@ static double gap_off_shape(const ehl_balance *b, const ehl_march *m, size_t i)
         v += b->kernel[i - j] * p[j];
     for (size_t j = i; j < b->nodes; j++)
         v += b->kernel[j - i] * p[j];
-    const double *plastic = m->state[0].film.plastic;
-    return eq->h[i] - x * x / (2 * m->step.radius) - v + (eq->rough ? eq->rough[i] : 0) -
-           (plastic ? plastic[i] : 0);
+    return smooth_gap(m, i) - x * x / (2 * m->step.radius) - v;
 }
 
 static void check_gap(ehl_balance *b, const ehl_march *m)
@@ -410,10 +417,9 @@ double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly)
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
     check_conditions(b, m);
-    if (!m->rough) {
-        check_moment(b, m);
+    check_moment(b, m);
+    if (!m->rough)
         check_content(b, m);
-    }
     if (!wholly)
         return 0;
     check_gap(b, m);

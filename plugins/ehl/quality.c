@@ -197,14 +197,14 @@ static void report_conservation(const ehl_results *r, const ehl_march *m)
     report_balance(
         r, "outputs", w->outputs, 2.5 * limit, broken,
         "film, pressure, friction and losses as they are given, off the same from the fields");
+    report_balance(r, "rolling_moment", w->moment, limit, broken,
+                   "work of the entrainment, off that by the moment of the pressure");
     if (m->rough)
         return;
     report_balance(
         r, "energy_balance", w->energy, limit, broken,
         "work of the entrainment and of the squeeze less what the pressure flow dissipates, "
         "over them");
-    report_balance(r, "rolling_moment", w->moment, limit, broken,
-                   "work of the entrainment, off that by the moment of the pressure");
     if (wants_loss)
         report_at_most(
             r, "power_loss_space_error", w->dissipation, 0.05, FF_DOUBTFUL,

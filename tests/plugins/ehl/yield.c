@@ -207,6 +207,8 @@ static means test_rough(size_t cells, double hardness)
         check_below("no cell holds more than its gap", stage_quality(c.film, "complementarity"),
                     1e-3);
         check_below("yield_complementarity", stage_quality(c.film, "yield_complementarity"), 1e-9);
+        check_below("work of the flanks and moment of the pressure",
+                    stage_quality(c.film, "rolling_moment"), 1e-9);
         printf(
             "%zu cells, %.3g GPa: %.4f of the load on metal that yields, plastic part %.4g um2\n",
             cells, 1e-9 * hardness, y.share, 1e12 * y.volume);
