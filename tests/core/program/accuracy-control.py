@@ -22,14 +22,8 @@ def error_of(settings, stages=("first", "last"), order=2):
 
 
 class Control(lab.Lab):
-    def write(self, name, text):
-        with open(name, "w", encoding="utf-8") as file:
-            file.write(text)
-
     def ask(self, *sets, text=FILE, code=0):
-        self.write("order.yaml", text)
-        words = [word for one in sets for word in ("--set", one)]
-        return json.loads(self.call("run", "order.yaml", "--json", *words, code=code))
+        return self.answer(text, sets, code)
 
     def error(self, answer, output="last.value"):
         return answer["outputs"][output]["error"]["relative"]

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """`accuracy: measured`, on a model whose numerical error is known."""
 import csv
-import json
 import os
 
 import lab
@@ -22,14 +21,8 @@ def error_of(cells, tolerance=1e-4, order=2, strength=10):
 
 
 class Measured(lab.Lab):
-    def write(self, name, text):
-        with open(name, "w", encoding="utf-8") as file:
-            file.write(text)
-
     def ask(self, *sets, text=FILE, code=0):
-        self.write("order.yaml", text)
-        words = [word for one in sets for word in ("--set", one)]
-        return json.loads(self.call("run", "order.yaml", "--json", *words, code=code))
+        return self.answer(text, sets, code)
 
     def error(self, answer, output="last.value"):
         return answer["outputs"][output]["error"]

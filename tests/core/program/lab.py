@@ -78,6 +78,18 @@ class Lab(unittest.TestCase):
         return done.stdout + done.stderr
 
     @staticmethod
+    def write(name, text):
+        with open(name, "w", encoding="utf-8") as file:
+            file.write(text)
+
+    @classmethod
+    def answer(cls, text, sets, code=0):
+        """What a run of the file with the assignments prints as JSON."""
+        cls.write("order.yaml", text)
+        words = [word for one in sets for word in ("--set", one)]
+        return json.loads(cls.call("run", "order.yaml", "--json", *words, code=code))
+
+    @staticmethod
     def read(name):
         with open(name, encoding="utf-8") as file:
             return json.load(file)
