@@ -25,8 +25,11 @@ static const double finest = -2;
 static const double most_levels = 2;
 /* Parts are brought to this share of a goal, so that the next error does not fall just above it. */
 static const double reserve = 0.8;
-/* Where parts would have to be cut below this share of a goal, what remains is left too little. */
+/* An output is given up where settings that the file gives leave less than this of its goal. */
 static const double least_part = 0.1;
+/* So is one that takes settings finer than they may be by more levels: an order is no better known.
+ */
+static const double beyond = 0.5;
 /* An error that falls by less when its settings are refined beyond the presets is given up. */
 static const double least_gain = 1.25;
 /* Growth of errors from level to level: between those of orders 1/2 and 2, as estimates have it. */
@@ -188,10 +191,6 @@ static double levels_for(const accuracy_error *e, double share)
     double order = isnan(e->order) ? 1 : fmin(fmax(e->order, least_order), most_order);
     return fmax(-log2(share) / order, 0);
 }
-
-/* An order is no better known than that a setting which has to be finer than it may be by this is
-   worth an attempt. */
-static const double beyond = 0.5;
 
 static bool is_in_reach(const knob *k, double levels)
 {

@@ -279,6 +279,12 @@ static json_t *whole_schema(const catalogue *c, const char *version)
         json_object_set_new(
             top, *key,
             json_pack("{s:[s, s], s:{s:s}}", "type", "array", "string", "items", "type", "string"));
+    json_object_set_new(
+        top, "accuracy",
+        json_pack("{s:[s, s], s:s, s:{s:s}}", "type", "string", "object", "description",
+                  "largest error of what is asked for, \"2 %\", or of each output by itself; "
+                  "\"measured\" measures the errors alone",
+                  "additionalProperties", "type", "string"));
     json_object_set_new(top, "study", study_schema());
     json_object_set_new(top, "feedback", feedback_schema());
     json_object_set_new(top, "pipeline",
