@@ -112,6 +112,39 @@ static ff_status put_engagements(const dynamics_motion_view *view,
     return FF_OK;
 }
 
+/* The largest distance, over the largest tooth force, of the force from the straight line between
+   two stations, half-way between them: what is fed by the stations takes that line. */
+static double sampling_error(const dynamics_motion_view *view, const dynamics_inputs *inputs)
+{
+    double off = 0, largest = 0;
+    for (size_t cycle = 0; cycle < view->cycles; cycle++)
+        for (size_t i = 0; i + 1 < inputs->stations; i++) {
+            double begin = dynamics_station_phase(inputs, i),
+                   end = dynamics_station_phase(inputs, i + 1), gap, force[3];
+            if (end - begin < 1e-12)
+                continue;
+            for (int k = 0; k < 3; k++)
+                view->look_up(view->self, (double)cycle + begin + 0.5 * k * (end - begin), k == 2,
+                              &force[k], &gap);
+            double a = static_share(inputs, i), z = static_share(inputs, i + 1);
+            double line = (a * force[0] + z * force[2]) / 2;
+            off = fmax(off, fabs((a + z) / 2 * force[1] - line));
+            largest = fmax(largest, fmax(fabs(a * force[0]), fabs(z * force[2])));
+        }
+    return largest > 0 ? off / largest : 0;
+}
+
+static void report_sampling(const dynamics_motion_view *view, const dynamics_inputs *inputs,
+                            const ff_host *host)
+{
+    const double limit = 0.02;
+    double error = sampling_error(view, inputs);
+    host->quality(
+        host->ctx, "station_sampling", error, limit, error <= limit ? FF_GOOD : FF_DOUBTFUL,
+        "tooth force half-way between two stations of the gear, off the straight line that "
+        "the load of a tooth pair takes there; more stations follow the vibration");
+}
+
 static double largest_static(const dynamics_inputs *inputs)
 {
     double largest = 0;
@@ -126,6 +159,7 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
 {
     double time = (double)view->cycles * view->T, tooth = 0, quasi_static = largest_static(inputs);
     ff_status status = put_engagements(view, excitation, inputs, host, &tooth);
+    report_sampling(view, inputs, host);
     const struct {
         uint32_t output;
         double value;

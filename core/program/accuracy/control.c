@@ -275,10 +275,33 @@ static target *target_of(control *c, const accuracy_error *e)
     return &c->targets[c->target_count++];
 }
 
+/* Whether a stage doubts its numbers by anything but the errors that were measured. */
+static bool has_doubts(const control *c)
+{
+    const ff_pipeline *answer = c->best.run.pipeline;
+    for (size_t i = 0; i < answer->count; i++)
+        for (size_t k = 0; k < answer->stages[i].quality_count; k++) {
+            const ff_quality *line = &answer->stages[i].quality[k];
+            if (line->verdict != FF_GOOD && !accuracy_is_line(line))
+                return true;
+        }
+    return false;
+}
+
+/* What coarse settings make doubtful may be wrong in a way that all twins share: they hold at the
+   presets alone. */
+static void settle_doubts(control *c)
+{
+    for (size_t i = 0; i < c->count && has_doubts(c); i++)
+        if (c->knobs[i].level > 0)
+            move(c, &c->knobs[i], 0);
+}
+
 /* Chooses the settings of the next attempt; false: this one is the answer. */
 static bool go_on(control *c)
 {
     bool moved = false;
+    settle_doubts(c);
     for (size_t i = 0; i < c->best.record.count; i++) {
         const accuracy_error *e = &c->best.record.errors[i];
         if (isnan(e->goal))

@@ -363,11 +363,19 @@ char *accuracy_describe(const accuracy_error *e)
     return text;
 }
 
+/* How the text of its line begins. */
+static const char measured[] = "measured: ";
+
+bool accuracy_is_line(const ff_quality *line)
+{
+    return line->text && !strncmp(line->text, measured, sizeof measured - 1);
+}
+
 static void add_line(const accuracy_error *e, ff_stage *stage)
 {
     double limit = isnan(e->goal) ? doubtful_above : e->goal;
     char *name = memory_print_text("%s_error", e->result->row->name);
-    char *parts = accuracy_describe(e), *text = memory_print_text("measured: %s", parts);
+    char *parts = accuracy_describe(e), *text = memory_print_text("%s%s", measured, parts);
     ff_add_quality(stage, name, e->relative, limit, e->relative <= limit ? FF_GOOD : FF_DOUBTFUL,
                    text);
     free(text);

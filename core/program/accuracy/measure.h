@@ -56,6 +56,8 @@ void accuracy_free(accuracy_record *record);
 
 /* "0.54 %: film.cells 0.3 %, tooth.points 0.1 %; order 2.1", to be freed. */
 char *accuracy_describe(const accuracy_error *error);
+/* Whether a line of quality tells an error that was measured. */
+bool accuracy_is_line(const ff_quality *line);
 /* NULL: the error of the output was not measured. */
 const accuracy_error *accuracy_find(const accuracy_record *record, const ff_result *result);
 

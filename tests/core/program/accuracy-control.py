@@ -98,6 +98,14 @@ class Control(lab.Lab):
             self.assertGreaterEqual(int(answer["accuracy"]["settings"]["last.cells"]), least)
             self.assertLessEqual(self.error(answer), 0.05)
 
+    def test_coarse_settings_with_doubts(self):
+        """What makes a stage doubt its numbers may be wrong in all twins alike: the presets have 64 cells."""
+        self.assertLess(int(self.ask("accuracy=5 %")["accuracy"]["settings"]["last.cells"]), 40)
+        answer = self.ask("accuracy=5 %", "last.sure=60")
+        self.assertEqual((answer["verdict"], answer["accuracy"]["settings"]["last.cells"]), ("good", "64"))
+        answer = self.ask("accuracy=5 %", "last.sure=1000")
+        self.assertEqual((answer["verdict"], answer["accuracy"]["attempts"]), ("doubtful", 2))
+
     def test_no_settings_that_work(self):
         answer = self.ask("last.least=1000", code=1)
         self.assertEqual(answer["status"], "failed")

@@ -8,7 +8,7 @@
 
 typedef struct order {
     const ff_host *host;
-    int64_t cells, steps, least;
+    int64_t cells, steps, least, sure;
     double tolerance, order, strength, gain;
 } order;
 
@@ -24,6 +24,7 @@ static const ff_param params[] = {
     FF_QUANTITY("gain", "1", order, gain, 0, "1", NULL, -1e6, 1e6, 0, 0,
                 "what the value before is multiplied by"),
     FF_COUNT("least", order, least, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it fails"),
+    FF_COUNT("sure", order, sure, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it has doubts"),
 };
 
 static const ff_port inputs[] = {
@@ -62,7 +63,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         }
     }
     o->host->quality(o->host->ctx, "value_guess_error", 0.9, 0.1, FF_DOUBTFUL, "a guess");
-    o->host->quality(o->host->ctx, "balance", 0, 1, FF_GOOD, "no estimate of an error");
+    o->host->quality(o->host->ctx, "balance", 0, 1, o->cells < o->sure ? FF_DOUBTFUL : FF_GOOD,
+                     "no estimate of an error");
     return FF_OK;
 }
 

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The line station_sampling of a motion against the same motion at thirty times as many stations.
+
+sampling.py FLANKFILM SOURCE
+"""
+import bisect
+import json
+import subprocess
+import sys
+
+program, source = sys.argv[1:3]
+
+
+def run(stations, frequency):
+    done = subprocess.run([program, "run", f"{source}/configs/li-kahraman-2011.yaml", "--json", "--arrays", "--set",
+                           "outputs=[motion.tooth_force,gears.roll_angle]", "--set", f"gears.stations={stations}", "--set",
+                           "mesh.use=stiffness/potential-energy", "--set", "mesh.points=1600", "--set",
+                           f"duty.mesh_frequency={frequency} Hz"], stdout=subprocess.PIPE, check=True)
+    answer = json.loads(done.stdout)
+    line = next(s["quality"] for s in answer["stages"] if s["stage"] == "motion")["station_sampling"]
+    return (answer["outputs"]["gears.roll_angle"]["data"], answer["outputs"]["motion.tooth_force"]["data"],
+            line["value"], line["verdict"])
+
+
+def at(angles, forces, angle):
+    i = min(max(bisect.bisect_right(angles, angle), 1), len(angles) - 1)
+    share = (angle - angles[i - 1]) / (angles[i] - angles[i - 1])
+    return forces[i - 1] + share * (forces[i] - forces[i - 1])
+
+
+failed = False
+for frequency, stations, verdict in ((1250, 200, "good"), (300, 100, "doubtful"), (100, 200, "doubtful")):
+    angles, forces, said, told = run(stations, frequency)
+    fine = run(30 * stations, frequency)
+    middle = [(a + z) / 2 for a, z in zip(angles, angles[1:]) if z - a > 1e-9]
+    lines = [at(angles, forces, x) for x in middle]
+    found = max(abs(line - at(fine[0], fine[1], x)) for x, line in zip(middle, lines)) / max(forces)
+    good = abs(said - found) < 0.01 * found and told == verdict
+    failed = failed or not good
+    print(f"{'ok' if good else 'FAIL'} {frequency} Hz, {stations} stations: said {said:.4g} ({told}), found {found:.4g}")
+sys.exit(failed)
