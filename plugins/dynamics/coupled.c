@@ -199,11 +199,11 @@ static ff_status output_motion(const model *m, const dynamics_coupled *pair,
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const model *m = self;
-    (void)wanted;
     dynamics_excitation excitation = {.zeta = m->zeta, .damping = m->damping};
     dynamics_coupled pair = {.excitation = &excitation};
     dynamics_inputs inputs;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
+    inputs.wanted = wanted;
     if (status == FF_OK)
         status = check_gears(m, in);
     if (status == FF_OK)

@@ -317,6 +317,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     dynamics_inputs inputs;
     m->to.harmonics = 0;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
+    inputs.wanted = wanted;
     if (status == FF_OK && (wanted & motion_outputs || !wanted))
         status = output_motion(m, &excitation, &inputs);
     if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))

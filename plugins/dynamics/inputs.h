@@ -57,6 +57,7 @@ typedef struct dynamics_inputs {
     size_t stations;
     const double *roll_angle, *tooth_force, *load_share; /* load_share may be NULL */
     double roll_sap, pitch; /* rad; pitch: roll angle of one mesh cycle */
+    uint64_t wanted;        /* outputs that are asked for; set by the model */
 } dynamics_inputs;
 
 /* Checks and reads all inputs. `excitation` has its zeta and damping set, and is freed by

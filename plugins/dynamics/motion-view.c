@@ -137,7 +137,11 @@ static double sampling_error(const dynamics_motion_view *view, const dynamics_in
 static void report_sampling(const dynamics_motion_view *view, const dynamics_inputs *inputs,
                             const ff_host *host)
 {
+    static const uint64_t sampled = FF_BIT(DYNAMICS_OUT_TOOTH_FORCE) | FF_BIT(DYNAMICS_OUT_GAP) |
+                                    FF_BIT(DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH);
     const double limit = 0.02;
+    if (!(inputs->wanted & sampled))
+        return;
     double error = sampling_error(view, inputs);
     host->quality(
         host->ctx, "station_sampling", error, limit, error <= limit ? FF_GOOD : FF_DOUBTFUL,

@@ -242,6 +242,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     model *m = self;
     job j = {.m = m, .wanted = wanted, .excitation = {.zeta = m->zeta, .damping = m->damping}};
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
+    j.inputs.wanted = wanted;
     if (status == FF_OK)
         status = evaluate_job(&j);
     m->from.mesh_frequency = 0;

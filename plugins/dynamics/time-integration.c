@@ -154,6 +154,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     dynamics_inputs inputs;
     dynamics_oscillator *o = NULL;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
+    inputs.wanted = wanted;
     if (status != FF_OK)
         goto out;
     dynamics_settling how = {

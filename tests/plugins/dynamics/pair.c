@@ -62,6 +62,11 @@ pair pair_cosine(double mesh_frequency, double stiffness_1, double error_1, size
     return p;
 }
 
+bool pair_is_trusted(stage *s)
+{
+    return stage_run_wanted(s, "dte dte_rms period") == FF_OK && stage_verdict(s) == FF_GOOD;
+}
+
 double pair_mean(const pair *p)
 {
     double mean = 0;

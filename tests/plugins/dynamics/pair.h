@@ -5,6 +5,8 @@
 
 #include "stage.h"
 
+#include <stdbool.h>
+
 enum { PAIR_MAX_PHASES = 4096, PAIR_STATIONS = 11 };
 
 typedef struct pair {
@@ -25,6 +27,10 @@ pair pair_cosine(double mesh_frequency, double stiffness_1, double error_1, size
 
 /* Opens a model that is fed with the pair, which must outlive it. */
 stage *pair_open(const char *id, const pair *p);
+
+/* Whether all lines of the motion are good, in a run of its own: its stations are too few for the
+   tooth force. */
+bool pair_is_trusted(stage *s);
 
 /* Mean of the straight lines, after a change of the stiffness. */
 double pair_mean(const pair *p);
