@@ -87,6 +87,12 @@ FF_UNUSED static int ff_model_assesses(const ff_model *model)
     return 1;
 }
 
+/* What the model says that it costs, in s; 0: nothing. */
+FF_UNUSED static double ff_model_cost(const ff_model *model)
+{
+    return FF_HAS(model, cost) && model->cost > 0 ? model->cost : 0;
+}
+
 /* True for each word of "a|b|c" in turn: word number `rank` is copied out. */
 FF_UNUSED static int ff_word_at(const char *words, size_t rank, char *out, size_t size)
 {

@@ -309,5 +309,5 @@ FF_MODEL(dynamics_quasi_static, model, .id = "dynamics/quasi-static", .version =
              "lubrication of spur gears, Proc. IMechE J 225, 740-753, eq. 2 without inertia",
          .bibtex = BIB_likahraman2011 "\n", .licence = "GPL-3.0-or-later",
          .params = FF_TABLE(params), .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs),
-         .ready = ready, .evaluate = evaluate, .destroy = free, .assess = assess);
+         .ready = ready, .evaluate = evaluate, .destroy = free, .cost = 2e-5, .assess = assess);
 FF_EXPORT_MODELS(&dynamics_quasi_static);

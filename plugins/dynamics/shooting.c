@@ -376,5 +376,6 @@ FF_MODEL(
     .params = FF_TABLE(params), .inputs = dynamics_input_ports, .input_count = DYNAMICS_INPUT_COUNT,
     .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_motion_outputs,
     .output_count = DYNAMICS_ATLAS_OUTPUT_COUNT, .output_stride = sizeof dynamics_motion_outputs[0],
-    .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry, .assess = assess);
+    .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry, .cost = 3e-3,
+    .assess = assess);
 FF_EXPORT_MODELS(&dynamics_shooting);

@@ -251,6 +251,7 @@ const ff_model ehl_film_formula_model = {
     .ready = ehl_estimate_ready,
     .evaluate = ehl_estimate_evaluate,
     .destroy = free,
+    .cost = 4e-4,
     .assess = assess,
     .judge = ehl_estimate_judge,
 };

@@ -394,6 +394,7 @@ static const ff_model inlet_analysis_model = {
     .ready = ehl_estimate_ready,
     .evaluate = ehl_estimate_evaluate,
     .destroy = free,
+    .cost = 7e-4,
     .assess = assess,
     .judge = ehl_estimate_judge,
 };

@@ -104,6 +104,7 @@ static const ff_model finite_volume = {
     .bibtex = BIB_venner2000 "\n" BIB_saad1986 "\n" BIB_stanley1997 "\n",
     .input_count = EHL_INPUTS,
     .create = create_finite_volume,
+    .cost = 0.1,
     .assess = assess_finite_volume,
 };
 

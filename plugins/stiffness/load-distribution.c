@@ -278,6 +278,7 @@ const ff_model stiffness_load_distribution = {
     .ready = ready,
     .evaluate = evaluate,
     .destroy = destroy,
+    .cost = 0.5,
     .assess = assess,
 };
 FF_EXPORT_MODELS(&stiffness_load_distribution);

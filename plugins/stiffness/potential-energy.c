@@ -234,6 +234,7 @@ const ff_model stiffness_potential_energy = {
     .set = set,
     .evaluate = evaluate,
     .destroy = destroy,
+    .cost = 5e-3,
     .assess = assess,
 };
 FF_EXPORT_MODELS(&stiffness_potential_energy);

@@ -5,21 +5,10 @@
 #include "control.h"
 #include "goals.h"
 
-/* Such a stage keeps the accuracy by what its models promise. */
-static bool chooses_model(const ff_pipeline *pipeline)
-{
-    for (size_t i = 0; i < pipeline->count; i++)
-        if (pipeline->stages[i].needed && pipeline->stages[i].choice)
-            return true;
-    return false;
-}
-
 bool accuracy_run(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
                   ff_pipeline *pipeline, const ff_observer *watch, ff_report *report)
 {
     record->answer = pipeline;
-    if (accuracy_has_goals(tree) && chooses_model(pipeline))
-        return ff_pipeline_run(pipeline, watch, report);
     if (accuracy_has_goals(tree))
         return accuracy_control(record, tree, engine, pipeline, watch, report);
     if (accuracy_is_asked(tree))

@@ -2,6 +2,9 @@
 /* What a series is plotted against, and compared along. */
 #include "axis.h"
 
+#include "compare.h"
+
+#include <math.h>
 #include <string.h>
 
 static bool is_rising(const ff_result *series)
@@ -57,6 +60,42 @@ const ff_result *accuracy_axis(const ff_pipeline *pipeline, const ff_stage *stag
         }
     }
     return best;
+}
+
+const ff_result *accuracy_axis_of(const ff_pipeline *pipeline, const ff_stage *stage,
+                                  const ff_result *result)
+{
+    return result->rank
+               ? accuracy_axis(pipeline, stage, result->dims[0], result->count, result, "rad")
+               : NULL;
+}
+
+const double *accuracy_numbers_like(const ff_pipeline *pipeline, const ff_stage *stage,
+                                    const ff_result *result, const ff_pipeline *other,
+                                    memory_arena *arena)
+{
+    const ff_stage *there = &other->stages[stage - pipeline->stages];
+    int output = ff_model_find_output(there->loaded->model, result->row->name);
+    const ff_result *own = output < 0 ? NULL : &there->results[output];
+    if (!own || !own->data || own->rank != result->rank || own->count == 0)
+        return NULL;
+    const ff_result *along = accuracy_axis_of(pipeline, stage, result);
+    const ff_result *along_other = accuracy_axis_of(other, there, own);
+    bool placed = along && along_other;
+    if (own->rank && (placed ? strcmp(along->row->name, along_other->row->name) != 0
+                             : own->count != result->count))
+        return NULL;
+    const accuracy_series series = {own->rank, own->count, placed ? along_other->data : NULL,
+                                    own->data};
+    double *numbers = memory_arena_alloc(arena, result->count * sizeof *numbers);
+    for (size_t i = 0; i < result->count; i++) {
+        bool right = along && i > 0 && along->data[i] == along->data[i - 1];
+        numbers[i] =
+            series.at ? accuracy_interpolate(&series, along->data[i], right) : own->data[i];
+        if (!isfinite(numbers[i]))
+            return NULL;
+    }
+    return numbers;
 }
 
 /* Whether an output could be an axis of one along the same dimension; before the run. */

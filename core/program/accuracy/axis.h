@@ -3,6 +3,8 @@
 #ifndef ACCURACY_AXIS_H
 #define ACCURACY_AXIS_H
 
+#include "../memory/memory.h"
+
 #include <flankfilm/engine.h>
 
 /*
@@ -13,6 +15,16 @@
  */
 const ff_result *accuracy_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
                                size_t count, const ff_result *self, const char *better);
+
+/* What a result of the pipeline is compared along; NULL: the index. */
+const ff_result *accuracy_axis_of(const ff_pipeline *pipeline, const ff_stage *stage,
+                                  const ff_result *result);
+
+/* The same output in another pipeline, of the same stages, at the points of this one. NULL: it
+   cannot be compared, or is not finite. */
+const double *accuracy_numbers_like(const ff_pipeline *pipeline, const ff_stage *stage,
+                                    const ff_result *result, const ff_pipeline *other,
+                                    memory_arena *arena);
 
 /* Makes the pipeline compute what its series are compared along. Before it runs. */
 void accuracy_want_axes(const ff_pipeline *pipeline);

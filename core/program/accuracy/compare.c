@@ -2,7 +2,11 @@
 /* How far one answer is from another: relative, at the points of the reference. */
 #include "compare.h"
 
+#include "../memory/memory.h"
+#include "estimate.h"
+
 #include <math.h>
+#include <stdlib.h>
 
 double accuracy_largest_magnitude(const double *values, size_t count)
 {
@@ -17,6 +21,21 @@ double accuracy_largest_magnitude(const double *values, size_t count)
 double accuracy_error_scale(double value, double most, size_t rank)
 {
     return fmax(rank ? fmax(fabs(value), 0.1 * most) : fabs(value), 1e-300);
+}
+
+double accuracy_relative(const double *off, const accuracy_series *answer, double *largest)
+{
+    double *shares = memory_alloc(answer->count * sizeof *shares);
+    double most = accuracy_largest_magnitude(answer->value, answer->count);
+    *largest = 0;
+    for (size_t i = 0; i < answer->count; i++) {
+        if (off[i] > 0)
+            shares[i] = off[i] / accuracy_error_scale(answer->value[i], most, answer->rank);
+        *largest = fmax(*largest, shares[i]);
+    }
+    double typical = accuracy_typical(shares, answer->at, answer->count);
+    free(shares);
+    return typical;
 }
 
 /* Interpolates linearly between the points and is constant beyond the ends. Where two points have

@@ -22,6 +22,9 @@ double accuracy_largest_magnitude(const double *values, size_t count);
 /* Returns what an error at a value is relative to, in a series whose largest magnitude is `most`.
  */
 double accuracy_error_scale(double value, double most, size_t rank);
+/* What an answer is off by, each number relative to its own: typical of a series (estimate.h), and
+   the largest. */
+double accuracy_relative(const double *off, const accuracy_series *answer, double *largest);
 double accuracy_interpolate(const accuracy_series *series, double x, bool right);
 /* False when the two cannot be compared, or their difference is not finite. */
 bool accuracy_compare(const accuracy_series *answer, const accuracy_series *reference,

@@ -6,7 +6,9 @@
  */
 #include "control.h"
 
+#include "choice.h"
 #include "goals.h"
+#include "models.h"
 #include "settings.h"
 #include "twin.h"
 
@@ -21,6 +23,9 @@ static const double preset_error = 0.005;
 static const double coarsest_start = 2;
 /* Four times as many cells and steps as by preset: 16 times the work. */
 static const double finest = -2;
+/* Of the reference, over the goal, when models are held against it: they may move half of a goal
+   (choice.c), and its error counts with what they move. */
+static const double reference_error = 0.25;
 /* In an attempt; what a measured error says of one much smaller is uncertain. */
 static const double most_levels = 2;
 /* Parts are brought to this share of a goal, so that the next error does not fall just above it. */
@@ -59,7 +64,9 @@ typedef struct attempt {
 
 typedef struct control {
     accuracy_scene scene;
-    ff_pipeline *asked;
+    ff_pipeline *asked;      /* with the models that were chosen, when they are */
+    accuracy_choice *choice; /* of models; NULL: not made yet, or the file names them all */
+    ff_tree *tree;           /* of the models that were chosen; NULL: those of the file */
     knob *knobs;
     size_t count;
     target *targets;
@@ -74,6 +81,8 @@ typedef struct control {
 static void list_knobs(control *c)
 {
     accuracy_setting settings[ACCURACY_MOST_SETTINGS];
+    free(c->knobs);
+    c->count = 0;
     c->knobs = memory_alloc((c->asked->count * ACCURACY_MOST_SETTINGS + 1) * sizeof *c->knobs);
     for (size_t i = 0; i < c->asked->count; i++) {
         const ff_stage *stage = &c->asked->stages[c->asked->order[i]];
@@ -119,9 +128,19 @@ static bool has_twins(control *c, const knob *k)
     return accuracy_setting_at(k->stage, k->setting.param, k->level + 2, &c->arena);
 }
 
+static bool leaves_models_open(const ff_pipeline *pipeline)
+{
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (pipeline->stages[i].needed && accuracy_open_use(&pipeline->stages[i]))
+            return true;
+    return false;
+}
+
 static void start(control *c)
 {
-    double levels = round(log(smallest_goal(c) / preset_error) / log(4));
+    bool open = !c->choice && leaves_models_open(c->asked);
+    double error = smallest_goal(c) * (open ? reference_error : 1);
+    double levels = round(log(error / preset_error) / log(4));
     for (size_t i = 0; i < c->count; i++) {
         move(c, &c->knobs[i], fmin(fmax(levels, 0), coarsest_start));
         while (c->knobs[i].level > 0 && !has_twins(c, &c->knobs[i]))
@@ -129,18 +148,29 @@ static void start(control *c)
     }
 }
 
+/* The models that were chosen, and the settings as they are; to be freed. */
+static const char **list_sets(control *c, size_t *count)
+{
+    size_t models = c->tree ? c->choice->use_count : 0;
+    const char **sets = memory_alloc((models + c->count + 1) * sizeof *sets);
+    *count = models + c->count;
+    for (size_t i = 0; i < *count; i++)
+        sets[i] = i < models ? c->choice->uses[i] : set_of(c, &c->knobs[i - models]);
+    return sets;
+}
+
 /* Runs and measures the file with the settings as they are. */
 static void try_settings(control *c, attempt *next)
 {
-    const char **sets = memory_alloc((c->count + 1) * sizeof *sets);
+    size_t count;
+    const char **sets = list_sets(c, &count);
     bool *changed = memory_alloc((c->asked->count + 1) * sizeof *changed);
     const ff_place place = accuracy_place(c->scene.tree);
     c->scene.donor = c->best.run.good ? c->best.run.pipeline : NULL;
-    for (size_t i = 0; i < c->count; i++) {
-        sets[i] = set_of(c, &c->knobs[i]);
+    for (size_t i = 0; i < c->count; i++)
         changed[c->knobs[i].stage - c->asked->stages] |= c->knobs[i].level != c->knobs[i].measured;
-    }
-    accuracy_twin_run(&next->run, &c->scene, sets, c->count, &place, changed);
+    next->record.choice = c->choice;
+    accuracy_twin_run(&next->run, &c->scene, sets, count, &place, changed);
     if (next->run.good && !accuracy_measure(&next->record, next->run.tree, c->scene.engine,
                                             next->run.pipeline, c->scene.watch))
         next->run.stopped = true;
@@ -153,6 +183,7 @@ static void try_settings(control *c, attempt *next)
 
 static void attempt_free(attempt *a)
 {
+    a->record.choice = NULL; /* all attempts share it */
     accuracy_free(&a->record);
     accuracy_twin_free(&a->run);
 }
@@ -328,6 +359,44 @@ static void take(control *c, attempt *next)
         c->knobs[i].measured = c->knobs[i].level;
 }
 
+/* Begins anew with the models that were chosen. */
+static void begin_with(control *c, const accuracy_choice *choice)
+{
+    const ff_place place = accuracy_place(c->scene.tree);
+    ff_report *unused = ff_report_new(); /* a try was built from the same */
+    c->tree = ff_tree_copy(c->scene.tree);
+    for (size_t i = 0; i < choice->use_count; i++)
+        ff_tree_set(c->tree, choice->uses[i], &place, &place, unused);
+    c->asked = ff_pipeline_build(c->tree, c->scene.engine, false, unused);
+    ff_report_free(unused);
+    accuracy_hand_states(c->scene.start, c->asked);
+    c->scene.start = c->asked;
+    attempt_free(&c->best);
+    c->best = (attempt){.run = {.good = false}};
+    list_knobs(c);
+    start(c);
+}
+
+/* Chooses the models that the file leaves open, by what they move the first answer that is good.
+   False where the observer stopped it. */
+static bool choose_models(control *c)
+{
+    size_t count;
+    if (c->choice || !leaves_models_open(c->asked))
+        return true;
+    const char **sets = list_sets(c, &count);
+    c->choice = memory_alloc(sizeof *c->choice);
+    c->best.record.choice = c->choice;
+    bool finished =
+        accuracy_choose(c->choice, &c->scene, &c->best.run, &c->best.record, sets, count);
+    free(sets);
+    c->twins += c->choice->runs;
+    c->seconds += c->choice->seconds;
+    if (finished && c->choice->differs)
+        begin_with(c, c->choice);
+    return finished;
+}
+
 /* Makes attempts until one is the answer; false where the observer stopped one. */
 static bool search(control *c)
 {
@@ -342,7 +411,9 @@ static bool search(control *c)
         again = c->attempts < MOST_ATTEMPTS;
         if (next.run.good) {
             take(c, &next);
-            again = go_on(c) && again;
+            if (!choose_models(c))
+                return false;
+            again = (!c->best.run.good || go_on(c)) && again;
         } else if (!c->best.run.good) {
             take(c, &next);
             again = recover(c) && again;
@@ -408,16 +479,23 @@ static bool is_idle(const knob *k, const ff_report *report, ff_place chosen)
 /* Makes the best attempt the answer. */
 static void adopt(control *c, accuracy_record *record)
 {
+    ff_pipeline *asked = record->answer;
     *record = c->best.record;
     record->twin = memory_alloc(sizeof *record->twin);
     *record->twin = c->best.run;
-    record->answer = c->best.run.pipeline ? c->best.run.pipeline : c->asked;
+    record->answer = c->best.run.pipeline ? c->best.run.pipeline : asked;
+    record->choice = c->choice;
+    c->choice = NULL;
     record->attempts = c->attempts;
     record->twins = c->twins;
     record->seconds = c->seconds - c->best.run.work;
     if (c->failure)
         record->failure = memory_arena_text(&record->arena, c->failure, strlen(c->failure));
-    record->chosen = memory_arena_alloc(&record->arena, (c->count + 1) * sizeof *record->chosen);
+    size_t models = record->choice ? record->choice->use_count : 0;
+    record->chosen =
+        memory_arena_alloc(&record->arena, (models + c->count + 1) * sizeof *record->chosen);
+    for (size_t i = 0; i < models; i++)
+        record->chosen[record->chosen_count++] = record->choice->uses[i];
     for (size_t i = 0; i < c->count; i++) {
         if (is_idle(&c->knobs[i], c->best.run.report, accuracy_place(c->scene.tree)))
             continue;
@@ -442,6 +520,12 @@ bool accuracy_control(accuracy_record *record, const ff_tree *tree, ff_engine *e
         attempt_free(&c.best);
     }
     bool good = finished && record->twin->good;
+    if (c.choice)
+        accuracy_choice_free(c.choice);
+    free(c.choice);
+    if (c.tree)
+        ff_pipeline_free(c.asked);
+    ff_tree_free(c.tree);
     free(c.knobs);
     free(c.targets);
     memory_arena_free(&c.arena);

@@ -9,6 +9,7 @@
 #include "measure.h"
 
 #include "axis.h"
+#include "choice.h"
 #include "compare.h"
 #include "estimate.h"
 #include "goals.h"
@@ -101,43 +102,6 @@ static void list_outputs(measurement *m)
     free(text);
 }
 
-/* The result that a series is compared along; NULL: its index. */
-static const ff_result *axis_of(const ff_pipeline *pipeline, const ff_stage *stage,
-                                const ff_result *result)
-{
-    return result->rank
-               ? accuracy_axis(pipeline, stage, result->dims[0], result->count, result, "rad")
-               : NULL;
-}
-
-/* The output in another pipeline, at the points of the answer; NULL: it cannot be compared. */
-static const double *numbers_of(const measurement *m, const accuracy_error *e,
-                                const ff_pipeline *pipeline)
-{
-    const ff_pipeline *answer = m->answer;
-    const ff_stage *stage = &pipeline->stages[e->stage - answer->stages];
-    const ff_result *own = &stage->results[e->result - e->stage->results];
-    const ff_result *along = axis_of(answer, e->stage, e->result), *other = NULL;
-    if (!own->data || own->rank != e->result->rank || own->count == 0)
-        return NULL;
-    if (own->rank)
-        other = axis_of(pipeline, stage, own);
-    if (own->rank && (!along || !other ? own->count != e->result->count
-                                       : strcmp(along->row->name, other->row->name) != 0))
-        return NULL;
-    const accuracy_series series = {own->rank, own->count, along && other ? other->data : NULL,
-                                    own->data};
-    double *numbers = take(m, e->result->count, sizeof *numbers);
-    for (size_t i = 0; i < e->result->count; i++) {
-        bool right = along && i > 0 && along->data[i] == along->data[i - 1];
-        numbers[i] =
-            series.at ? accuracy_interpolate(&series, along->data[i], right) : own->data[i];
-        if (!isfinite(numbers[i]))
-            return NULL;
-    }
-    return numbers;
-}
-
 /* The settings of all stages that something measured depends on. */
 static void list_knobs(measurement *m)
 {
@@ -214,35 +178,30 @@ static void run_twin(measurement *m, level at, size_t finer, accuracy_twin *twin
 /* Fills the error of an output over its value: typical of a series, and the largest. */
 static void find_relative(const double *at, accuracy_error *e)
 {
-    const ff_result *result = e->result;
-    double *shares = memory_alloc(result->count * sizeof *shares);
-    double most = accuracy_largest_magnitude(result->data, result->count);
-    e->largest = 0;
-    for (size_t i = 0; i < result->count; i++) {
-        if (e->bar[i] > 0)
-            shares[i] = e->bar[i] / accuracy_error_scale(result->data[i], most, result->rank);
-        e->largest = fmax(e->largest, shares[i]);
-    }
-    e->relative = accuracy_typical(shares, at, result->count);
-    free(shares);
+    const accuracy_series answer = {e->result->rank, e->result->count, at, e->result->data};
+    e->relative = accuracy_relative(e->bar, &answer, &e->largest);
 }
 
 static const double *numbers_of_twin(const measurement *m, const accuracy_error *e,
                                      const accuracy_twin *twin)
 {
-    return twin->good ? numbers_of(m, e, twin->pipeline) : NULL;
+    return twin->good ? accuracy_numbers_like(m->answer, e->stage, e->result, twin->pipeline,
+                                              &m->record->arena)
+                      : NULL;
 }
 
+/* The largest part first. */
 static int by_error(const void *a, const void *b)
 {
     const accuracy_part *one = a, *other = b;
     return (one->error < other->error) - (one->error > other->error);
 }
 
-/* Splits the error by the settings, the largest part first. */
+/* Splits the error by the settings. */
 static void add_parts(const measurement *m, const double *shares, accuracy_error *e)
 {
-    e->parts = take(m, m->count, sizeof *e->parts);
+    size_t most = m->count + (m->record->choice ? m->record->choice->change_count : 0);
+    e->parts = take(m, most, sizeof *e->parts);
     for (size_t i = 0; i < m->count; i++)
         if (shares[i] > 0)
             e->parts[e->part_count++] =
@@ -252,9 +211,30 @@ static void add_parts(const measurement *m, const double *shares, accuracy_error
     qsort(e->parts, e->part_count, sizeof *e->parts, by_error);
 }
 
+/* Adds what the models that were chosen move. */
+static void add_changes(const measurement *m, accuracy_error *e)
+{
+    const accuracy_choice *choice = m->record->choice;
+    const ff_result *result = e->result;
+    double most = accuracy_largest_magnitude(result->data, result->count);
+    for (size_t i = 0; choice && i < choice->change_count; i++) {
+        const accuracy_change *c = &choice->changes[i];
+        if (c->of != (size_t)(e->stage - m->answer->stages) ||
+            strcmp(c->output, result->row->name) != 0)
+            continue;
+        for (size_t k = 0; k < result->count; k++) /* NaN: it could not be compared */
+            e->bar[k] += c->error * accuracy_error_scale(result->data[k], most, result->rank);
+        e->relative += c->error;
+        e->largest += c->error;
+        e->parts[e->part_count++] = (accuracy_part){
+            .stage = &m->answer->stages[c->stage], .setting = "use", .error = c->error};
+    }
+    qsort(e->parts, e->part_count, sizeof *e->parts, by_error);
+}
+
 static accuracy_ladder ladder_of(const measurement *m, const accuracy_error *e)
 {
-    const ff_result *along = axis_of(m->answer, e->stage, e->result);
+    const ff_result *along = accuracy_axis_of(m->answer, e->stage, e->result);
     return (accuracy_ladder){.count = e->result->count,
                              .at = along ? along->data : NULL,
                              .answer = e->result->data,
@@ -297,6 +277,7 @@ static void measure_output(const measurement *m, accuracy_error *e)
     e->order = accuracy_estimate(&levels, e->bar, shares);
     find_relative(levels.at, e);
     add_parts(m, shares, e);
+    add_changes(m, e);
 }
 
 /* Whether a line of quality tells the error of an output that was measured, or of one on the way
@@ -419,6 +400,9 @@ void accuracy_free(accuracy_record *record)
 {
     if (record->twin)
         accuracy_twin_free(record->twin);
+    if (record->choice)
+        accuracy_choice_free(record->choice);
+    free(record->choice);
     free(record->twin);
     memory_arena_free(&record->arena);
     *record = (accuracy_record){.count = 0};

@@ -10,7 +10,7 @@
 /* What a setting of a stage, a row with FF_TUNABLE, adds to the error of an output. */
 typedef struct accuracy_part {
     const ff_stage *stage;
-    const char *setting; /* "cells" */
+    const char *setting; /* "cells"; "use": the model that was chosen */
     double error;        /* relative, as that of the output */
 } accuracy_part;
 
@@ -42,6 +42,8 @@ typedef struct accuracy_record {
     size_t chosen_count;
     ff_pipeline *answer; /* the pipeline that was run, or another one of `twin` */
     struct accuracy_twin *twin;
+    struct accuracy_choice
+        *choice; /* of models, whose part counts with the rest; NULL: none was made */
     memory_arena arena;
 } accuracy_record;
 

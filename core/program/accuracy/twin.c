@@ -50,11 +50,25 @@ static void copy_results(const ff_stage *from, ff_stage *to)
     to->seconds = from->seconds;
 }
 
+/* Another model behind it may want what the donor did not compute. */
+static bool has_all(const ff_stage *from, const ff_stage *to)
+{
+    bool all = from->ran;
+    for (size_t i = 0; all && i < to->loaded->model->output_count; i++)
+        all = from->results[i].wanted || !to->results[i].wanted;
+    return all;
+}
+
 static bool recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
 {
     const observation *o = ctx;
     if (!o->scene->donor || o->affected[stage - pipeline->stages])
         return false;
+    for (size_t i = 0; together(pipeline, stage, i) != SIZE_MAX; i++) {
+        size_t at = together(pipeline, stage, i);
+        if (!has_all(&o->scene->donor->stages[at], &pipeline->stages[at]))
+            return false;
+    }
     for (size_t i = 0; together(pipeline, stage, i) != SIZE_MAX; i++) {
         size_t at = together(pipeline, stage, i);
         copy_results(&o->scene->donor->stages[at], &pipeline->stages[at]);
@@ -80,9 +94,7 @@ static void take_note(void *ctx, const ff_stage *stage, int32_t level, const cha
                         .text = memory_arena_text(&twin->arena, text, strlen(text))};
 }
 
-/* In a chain the answer started from its neighbour's state; its twin starts from what the answer
-   left, so that both are of one branch. */
-static void hand_states(const ff_pipeline *from, ff_pipeline *to)
+void accuracy_hand_states(const ff_pipeline *from, ff_pipeline *to)
 {
     to->chained = from->chained;
     for (size_t i = 0; to->chained && i < to->count; i++)
@@ -93,9 +105,13 @@ static void hand_states(const ff_pipeline *from, ff_pipeline *to)
 static void want_the_same(const ff_pipeline *from, ff_pipeline *to)
 {
     for (size_t i = 0; i < to->count; i++) {
-        const ff_stage *stage = &from->stages[i];
-        for (size_t k = 0; stage->results && k < stage->loaded->model->output_count; k++)
-            to->stages[i].results[k].wanted |= stage->results[k].wanted;
+        const ff_stage *stage = &from->stages[i], *other = &to->stages[i];
+        for (size_t k = 0;
+             stage->results && other->results && k < stage->loaded->model->output_count; k++) {
+            int output = ff_model_find_output(other->loaded->model, stage->results[k].row->name);
+            if (output >= 0)
+                other->results[output].wanted |= stage->results[k].wanted;
+        }
     }
 }
 
@@ -116,8 +132,9 @@ void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const c
         ff_tree_set(twin->tree, sets[i], place, place, twin->report);
     twin->pipeline = ff_pipeline_build(twin->tree, scene->engine, false, twin->report);
     if (twin->pipeline && ff_report_errors(twin->report) == 0) {
+        spread(twin->pipeline, affected); /* another model may have other wires */
         accuracy_want_axes(twin->pipeline);
-        hand_states(like, twin->pipeline);
+        accuracy_hand_states(like, twin->pipeline);
         if (!scene->outputs)
             want_the_same(like, twin->pipeline);
         twin->good = ff_pipeline_run(twin->pipeline, &watch, twin->report) &&

@@ -42,6 +42,9 @@ typedef struct accuracy_twin {
    all stages. */
 void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const char *const *sets,
                        size_t count, const ff_place *place, const bool *changed);
+/* In a chain the answer started from its neighbour's state; its twin starts from what the answer
+   left, so that both are of one branch. */
+void accuracy_hand_states(const ff_pipeline *from, ff_pipeline *to);
 /* Why it is not good. */
 const char *accuracy_twin_reason(const accuracy_twin *twin);
 /* Zeroed is nothing. */

@@ -3,6 +3,8 @@
 #include "../catalogue/catalogue.h"
 #include "command.h"
 
+#include "../accuracy/models.h"
+
 #include <string.h>
 
 /* Adds the models that the cases of a study put into a stage. */
@@ -16,7 +18,7 @@ static void add_varied(catalogue *models, cli_session *session)
         for (size_t i = 0; use && i < points; i++) {
             const char *id = study_varied_value(varied, i);
             const ff_loaded *loaded =
-                ff_names_kind_only(id)
+                accuracy_is_open_use(id)
                     ? NULL
                     : ff_engine_model(session->engine, id, FF_NOWHERE, session->report);
             if (loaded)
@@ -30,8 +32,7 @@ int cli_cite(const cli_options *options)
     cli_session session;
     catalogue models = {.count = 0};
     int code = EXIT_SUCCESS;
-    bool good = cli_session_open(&session, options, false) &&
-                cli_choose_models(&session); /* a model is cited only when it is known */
+    bool good = cli_session_open(&session, options, false);
     for (size_t i = 0; good && i < session.pipeline->count; i++) {
         const ff_stage *stage = &session.pipeline->stages[session.pipeline->order[i]];
         if (stage->needed)

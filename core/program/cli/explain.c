@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The commands check and explain, which run nothing but what a choice of models depends on. */
+/* The commands check and explain, which run nothing. */
 #include "../terminal/terminal.h"
 #include "command.h"
 #include "resolved.h"
 
+#include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
 
@@ -25,13 +26,24 @@ static json_t *outputs(const ff_stage *stage)
     return list;
 }
 
-static json_t *describe_stage(const ff_pipeline *pipeline, const ff_stage *stage)
+/* Returns {use, candidates} of a stage that leaves its model open. */
+static json_t *describe_choice(const ff_stage *stage, ff_engine *engine)
+{
+    memory_arena arena = {.blocks = NULL};
+    json_t *list = json_array();
+    for (const char **ids = accuracy_candidates(stage, engine, &arena); *ids; ids++)
+        json_array_append_new(list, json_string(*ids));
+    memory_arena_free(&arena);
+    return json_pack("{s:s, s:o}", "use", accuracy_open_use(stage), "candidates", list);
+}
+
+static json_t *describe_stage(const ff_pipeline *pipeline, const ff_stage *stage, ff_engine *engine)
 {
     json_t *entry =
         json_pack("{s:s, s:s, s:b, s:b, s:s}", "stage", stage->name, "model", stage->use, "runs",
                   stage->needed, "loaded", stage->loaded != NULL, "why", stage->why);
-    if (stage->choice)
-        json_object_set_new(entry, "choice", results_json_choice(stage));
+    if (stage->loaded && accuracy_open_use(stage))
+        json_object_set_new(entry, "choice", describe_choice(stage, engine));
     if (stage->needed) {
         json_object_set_new(entry, "wires", results_json_wires(pipeline, stage));
         json_object_set_new(entry, "parameters", results_json_params(stage));
@@ -104,31 +116,23 @@ static void print_outputs(const json_t *list)
     free(names);
 }
 
-/* Prints the assessments of the candidates; the chosen one has a star. */
+/* Prints the models that a run would try in place of the reference. */
 static void print_choice(const json_t *choice)
 {
+    char *names = memory_print_text("%s", "");
     const json_t *entry;
     size_t i;
-    printf("  %s for an error of %.3g %% (* chosen)\n", text_of(choice, "use"),
-           100 * json_number_value(json_object_get(choice, "accuracy")));
     json_array_foreach(json_object_get(choice, "candidates"), i, entry)
     {
-        const char *applies = text_of(entry, "applies"), *proposals = text_of(entry, "proposals");
-        int column =
-            printf("  %s %-*s ", json_is_true(json_object_get(entry, "chosen")) ? "*" : " ",
-                   NAME - 3, text_of(entry, "model"));
-        if (applies && !strcmp(applies, "yes"))
-            column += printf(
-                "error %.3g %%, %.3g s: ", 100 * json_number_value(json_object_get(entry, "error")),
-                json_number_value(json_object_get(entry, "cost")));
-        else
-            column +=
-                printf("%s: ", applies && !strcmp(applies, "ambiguous") ? "ambiguous" : "out");
-        const char *reason = text_of(entry, "reason");
-        terminal_print_wrapped(reason ? reason : "not assessed", column, 6);
-        if (proposals && *proposals)
-            terminal_print_wrapped(proposals, printf("      with "), 8);
+        char *longer = memory_print_text("%s%s%s", names, i ? ", " : "", json_string_value(entry));
+        free(names);
+        names = longer;
     }
+    char *text = memory_print_text("the reference of %s; a run tries %s in its place",
+                                   text_of(choice, "use"), *names ? names : "no other");
+    terminal_print_wrapped(text, printf("  "), 4);
+    free(text);
+    free(names);
 }
 
 static void print_stage(const json_t *stage)
@@ -211,33 +215,16 @@ static void print_plan(const ff_pipeline *pipeline, const char *file, const json
     }
 }
 
-/* Lists the stages that had to run for choices; the caller frees the text. */
-static char *list_run(const ff_pipeline *pipeline)
-{
-    char *ran = memory_print_text("%s", "");
-    for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[pipeline->order[i]];
-        if (!(stage->seconds > 0))
-            continue;
-        char *longer = memory_print_text("%s%s%s", ran, *ran ? ", " : "", stage->name);
-        free(ran);
-        ran = longer;
-    }
-    return ran;
-}
-
 static int explain(cli_session *session, const cli_options *options)
 {
     const ff_pipeline *pipeline = session->pipeline;
     json_t *stages = json_array();
-    cli_choose_models(session);
-    char *ran = list_run(pipeline);
     int code = ff_report_fault(session->report);
     for (size_t i = 0; i < pipeline->count; i++)
-        json_array_append_new(stages,
-                              describe_stage(pipeline, &pipeline->stages[pipeline->order[i]]));
+        json_array_append_new(
+            stages,
+            describe_stage(pipeline, &pipeline->stages[pipeline->order[i]], session->engine));
     json_t *answer = results_json_answer(code ? "failed" : "ok", code, session->report);
-    json_object_set_new(answer, "ran", results_json_text(ran));
     json_object_set_new(answer, "title", results_json_text(pipeline->title));
     json_object_set_new(answer, "file", results_json_text(options->operand));
     json_object_set_new(answer, "stages", stages);
@@ -252,14 +239,10 @@ static int explain(cli_session *session, const cli_options *options)
     }
     if (options->json) {
         results_json_print(answer);
-        free(ran);
         return code;
     }
     terminal_print_messages(session->report, stderr, terminal_colour(stderr));
     print_plan(pipeline, options->operand, stages);
-    if (*ran)
-        terminal_print_wrapped(ran, printf("\nrun for the choice of models: "), 2);
-    free(ran);
     if (savings.computed + savings.reused)
         printf("\nthe cases of the study so far: ");
     cli_print_savings(&savings);

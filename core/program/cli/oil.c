@@ -5,6 +5,7 @@
  */
 #include "oil.h"
 
+#include "../accuracy/models.h"
 #include "../memory/memory.h"
 
 #include <flankfilm/laws.h>
@@ -194,7 +195,7 @@ void cli_check_oil(cli_session *session, ff_tree *tree, ff_report *report)
     if (!outputs)
         return;
     ff_tree_set(tree, outputs, NULL, NULL, report);
-    ff_pipeline *oils = ff_pipeline_build(tree, session->engine, false, report);
+    ff_pipeline *oils = accuracy_build(tree, session->engine, false, report);
     if (oils && ff_report_errors(report) == 0)
         ff_pipeline_run(oils, NULL, report);
     for (size_t i = 0; ff_report_errors(report) == 0 && i < session->pipeline->count; i++)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "resolved.h"
 
+#include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../study/yaml.h"
 
@@ -179,7 +180,7 @@ void cli_print_resolved(const cli_session *session, const cli_options *options)
         ff_tree_set(tree, options->sets[i], NULL, NULL, captured);
     if (session->study->request)
         ff_tree_put(tree, "outputs", session->study->request);
-    ff_pipeline *pipeline = ff_pipeline_build(tree, session->engine, false, captured);
+    ff_pipeline *pipeline = accuracy_build(tree, session->engine, false, captured);
     if (ff_tree_root(tree)) /* the file can still be read */
         print_tree(tree, pipeline, options->operand);
     ff_pipeline_free(pipeline);

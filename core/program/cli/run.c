@@ -8,6 +8,7 @@
 
 #include "../accuracy/accuracy.h"
 #include "../accuracy/goals.h"
+#include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/earlier.h"
 #include "../results/write.h"
@@ -150,7 +151,8 @@ int cli_run(const cli_options *options)
     input.pipeline = session.pipeline;
     char *accuracy = accuracy_print_goals(session.tree);
     input.accuracy = accuracy;
-    input.key = good ? results_input_key(session.pipeline, accuracy) : 0;
+    char *key = good ? accuracy_print_key(session.tree, session.pipeline, session.engine) : NULL;
+    input.key = good ? results_input_key(session.pipeline, key) : 0;
     if (good && !options->json)
         cli_print_swaps(&session, options);
     if (good && open_place(&to, &input, session.report))
@@ -159,6 +161,7 @@ int cli_run(const cli_options *options)
         code = cli_refuse(session.report, options, "nothing was run");
     results_folder_free(to.folder);
     free(accuracy);
+    free(key);
     free(to.replaced);
     free(to.removed);
     free(to.directory);

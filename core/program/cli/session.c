@@ -6,6 +6,7 @@
 #include "oil.h"
 
 #include "../accuracy/goals.h"
+#include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
 #include "../rewrite/rewrite.h"
@@ -63,7 +64,7 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
     ff_report *captured = ff_report_new();
     ff_tree *tree = ff_tree_load(options->operand, captured);
     study_overlay(session->study, index, options->sets, options->set_count, tree, captured);
-    ff_pipeline_free(ff_pipeline_build(tree, session->engine, true, captured));
+    ff_pipeline_free(accuracy_build(tree, session->engine, true, captured));
     copy_messages(session, captured, severity);
     ff_tree_free(tree);
     ff_report_free(captured);
@@ -119,8 +120,7 @@ static void warn_of_follow(const cli_session *session)
     bool carried = !session->study || study_chain_length(session->study) == 1;
     for (size_t i = 0; pipeline && i < pipeline->count; i++)
         carried = carried || ff_stage_has_state(&pipeline->stages[i]) ||
-                  (pipeline->stages[i].needed &&
-                   pipeline->stages[i].choice); /* the model is not known yet */
+                  accuracy_open_use(&pipeline->stages[i]); /* the model is not known yet */
     if (!carried)
         ff_warn(session->report, FF_NOWHERE,
                 "study: no stage that runs hands a state to the next case, so that \"follow\" "
@@ -137,8 +137,7 @@ static bool open_file(cli_session *session, const cli_options *options, bool eve
     session->engine = cli_engine_new(options);
     if (!open_study(session, options))
         return false;
-    session->pipeline =
-        ff_pipeline_build(session->tree, session->engine, everything, session->report);
+    session->pipeline = accuracy_build(session->tree, session->engine, everything, session->report);
     warn_of_follow(session);
     if (session->pipeline && ff_report_errors(session->report) == 0)
         cli_check_temperatures(session);
@@ -163,15 +162,6 @@ bool cli_session_open(cli_session *session, const cli_options *options, bool eve
     ff_report_free(old ? session->report : instead);
     session->report = old ? instead : session->report;
     return false;
-}
-
-bool cli_choose_models(cli_session *session)
-{
-    const ff_pipeline *pipeline = session->pipeline;
-    for (size_t i = 0; i < pipeline->count; i++)
-        if (pipeline->stages[i].needed && pipeline->stages[i].choice)
-            return ff_pipeline_choose(session->pipeline, NULL, session->report);
-    return true;
 }
 
 void cli_session_close(cli_session *session)

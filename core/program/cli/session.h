@@ -22,8 +22,6 @@ ff_engine *cli_engine_new(const cli_options *options);
 
 /* Loads the file, applies --set and builds the pipeline. False with errors in the report. */
 bool cli_session_open(cli_session *session, const cli_options *options, bool everything);
-/* Makes the choices of models, for which the stages that feed them run; false after an error. */
-bool cli_choose_models(cli_session *session);
 void cli_session_close(cli_session *session);
 
 /* Where the results of a run are: -o, or results/<name of the file without its ending>, with what

@@ -3,6 +3,7 @@
 
 #include "../terminal/terminal.h"
 
+#include "../accuracy/models.h"
 #include "../memory/memory.h"
 
 #include <stdlib.h>
@@ -85,7 +86,7 @@ void cli_print_swaps(const cli_session *session, const cli_options *options)
         size_t length = equals ? (size_t)(equals - set) : 0;
         char *path = memory_copy_text(set, length);
         const ff_stage *stage = ff_stage_of(session->pipeline, path, &rest);
-        if (stage && stage->needed && stage->loaded && stage->params && !stage->choice &&
+        if (stage && stage->needed && stage->loaded && stage->params && !accuracy_open_use(stage) &&
             !strcmp(rest, "use")) {
             captured = captured ? captured : ff_report_new();
             tree = tree ? tree : ff_tree_load(options->operand, captured);

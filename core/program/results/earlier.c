@@ -2,6 +2,7 @@
 #include "earlier.h"
 #include "json.h"
 
+#include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../study/hash.h"
 
@@ -90,9 +91,9 @@ static void compare_stage(differences *all, const ff_pipeline *pipeline, const f
 {
     const char *model = before ? text_of(before, "model", "") : "absent";
     json_t *origin = results_json_origin(pipeline, stage);
-    if (!stage->choice && strcmp(model, stage->use) != 0)
+    if (!accuracy_open_use(stage) && strcmp(model, stage->use) != 0)
         add_difference(all, stage->name, "use", model, stage->use);
-    else if (!stage->choice)
+    else if (!accuracy_open_use(stage))
         compare_params(all, stage->name, json_object_get(before, "parameters"),
                        json_object_get(origin, "parameters"), chosen);
     const char *build = text_of(origin, "build", "");

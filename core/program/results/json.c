@@ -177,30 +177,3 @@ json_t *results_json_facts(const char *file)
     free(path);
     return facts;
 }
-
-static json_t *describe_candidate(const ff_candidate *c, bool chosen)
-{
-    static const char *const answers[] = {"no", "yes", "ambiguous"};
-    json_t *entry = json_pack("{s:s, s:b, s:o}", "model", c->stage->use, "chosen", chosen, "reason",
-                              results_json_text(c->reason));
-    if (c->assessed)
-        json_object_update_new(
-            entry, json_pack("{s:s, s:o, s:o, s:o}", "applies", answers[c->applies], "error",
-                             study_json_real(c->error), "cost", study_json_real(c->cost),
-                             "proposals", results_json_text(c->proposals)));
-    return entry;
-}
-
-json_t *results_json_choice(const ff_stage *stage)
-{
-    const ff_choice *choice = stage->choice;
-    if (!choice)
-        return json_null();
-    json_t *list = json_array();
-    for (size_t i = 0; i < choice->count; i++)
-        json_array_append_new(list, describe_candidate(&choice->candidates[i],
-                                                       choice->chosen == &choice->candidates[i]));
-    return json_pack("{s:s, s:o, s:o, s:o}", "use", choice->use, "accuracy",
-                     study_json_real(choice->accuracy), "chosen",
-                     results_json_text(choice->chosen ? stage->use : NULL), "candidates", list);
-}

@@ -34,7 +34,5 @@ json_t *results_json_origin(const ff_pipeline *pipeline, const ff_stage *stage);
 
 /* Returns {name: text} of the circumstances: version, file, date, machine. */
 json_t *results_json_facts(const char *file);
-/* Returns {use, accuracy, chosen, candidates: [...]}; null where the file names the model. */
-json_t *results_json_choice(const ff_stage *stage);
 
 #endif

@@ -3,6 +3,7 @@
 #include "write.h"
 
 #include "../accuracy/axis.h"
+#include "../accuracy/choice.h"
 #include "../memory/memory.h"
 #include "../study/study.h"
 
@@ -207,8 +208,6 @@ static json_t *describe_stage(const ff_pipeline *pipeline, const ff_stage *stage
                   "ran", stage->ran, "seconds", study_json_real(stage->seconds), "status",
                   results_status_name(stage), "quality", describe_quality(stage), "scalars",
                   describe_scalars(stage));
-    if (stage->choice)
-        json_object_set_new(entry, "choice", results_json_choice(stage));
     if (details && stage->loaded) {
         json_t *origin = results_json_origin(pipeline, stage);
         json_object_update(entry, origin);
@@ -236,17 +235,33 @@ static void add_input(json_t *head, const results_input *input)
     json_object_set_new(head, "sets", sets);
 }
 
+/* Returns {stage, model, taken, reason} of each model that was tried. */
+static json_t *describe_tried(const results_outcome *outcome)
+{
+    const accuracy_choice *choice = outcome->errors->choice;
+    json_t *list = json_array();
+    for (size_t i = 0; choice && i < choice->tried_count; i++) {
+        const accuracy_tried *tried = &choice->tried[i];
+        json_array_append_new(list, json_pack("{s:s, s:s, s:b, s:o}", "stage",
+                                              outcome->pipeline->stages[tried->stage].name, "model",
+                                              tried->model, "taken", tried->taken, "reason",
+                                              results_json_text(tried->reason)));
+    }
+    return list;
+}
+
 /* What measuring the errors took; null where the file does not ask for them. */
 static json_t *describe_accuracy(const results_outcome *outcome)
 {
     const accuracy_record *errors = outcome->errors;
     if (!errors->twins)
         return json_null();
-    return json_pack("{s:s, s:I, s:I, s:o, s:o, s:o}", "asked", outcome->input->accuracy,
+    return json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o}", "asked", outcome->input->accuracy,
                      "attempts", (json_int_t)errors->attempts, "twins", (json_int_t)errors->twins,
                      "seconds", study_json_real(errors->seconds), "failure",
                      results_json_text(errors->failure), "settings",
-                     study_settings_record(errors->chosen, errors->chosen_count));
+                     study_settings_record(errors->chosen, errors->chosen_count), "models",
+                     describe_tried(outcome));
 }
 
 static json_t *describe_head(const results_outcome *outcome)

@@ -5,6 +5,7 @@
 #include "../accuracy/accuracy.h"
 #include "../accuracy/axis.h"
 #include "../accuracy/goals.h"
+#include "../accuracy/models.h"
 #include "chain.h"
 #include "hash.h"
 #include "journal.h"
@@ -149,7 +150,7 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
     if (!keeps || !take_kept(c, run, index, kept)) {
         c->tree = run->tree ? ff_tree_copy(run->tree) : ff_tree_load(run->file, c->report);
         study_overlay(study, index, run->sets, run->set_count, c->tree, c->report);
-        c->pipeline = ff_pipeline_build(c->tree, run->engine, false, c->report);
+        c->pipeline = accuracy_build(c->tree, run->engine, false, c->report);
     }
     uint64_t fingerprint = hash_assignments(study, index);
     if (study_case_is_good(c)) {
@@ -159,10 +160,10 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
         c->fingerprints = memory_alloc(c->pipeline->count * sizeof *c->fingerprints);
         fingerprint = study_fingerprint(c->pipeline, c->fingerprints);
     }
-    if (accuracy_is_asked(c->tree)) {
-        char *goals = accuracy_print_goals(c->tree);
-        fingerprint = study_hash_text(study_hash_text(fingerprint, "accuracy"), goals);
-        free(goals);
+    if (c->pipeline && accuracy_is_asked(c->tree)) {
+        char *asked = accuracy_print_key(c->tree, c->pipeline, run->engine);
+        fingerprint = study_hash_text(study_hash_text(fingerprint, "accuracy"), asked);
+        free(asked);
     }
     if (study->measure)
         fingerprint = study_measure_fingerprint(fingerprint, study->measure->repeat[index]);
@@ -325,14 +326,11 @@ static json_t *json_seconds(double seconds)
 static void add_results(json_t *record, const ff_pipeline *pipeline)
 {
     json_t *outputs = json_object(), *seconds = json_object(), *reused = json_object();
-    json_t *chosen = json_object();
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];
         char name[160];
         if (!stage->ran)
             continue;
-        if (stage->choice)
-            json_object_set_new(chosen, stage->name, json_string(stage->use));
         json_object_set_new(stage->reused ? reused : seconds, stage->name,
                             json_seconds(stage->seconds));
         for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
@@ -347,11 +345,6 @@ static void add_results(json_t *record, const ff_pipeline *pipeline)
     json_object_set_new(record, "outputs", outputs);
     json_object_set_new(record, "stages", seconds);
     json_object_set_new(record, "reused", reused);
-    if (json_object_size(chosen)) {
-        json_object_set(record, "chosen", chosen);
-        json_object_set_new(record, "choices", study_choices_record(pipeline));
-    }
-    json_decref(chosen);
 }
 
 /* Adds the error bars of scalars as outputs beside them; those of series are in the quality; and

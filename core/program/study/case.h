@@ -116,10 +116,6 @@ void study_setup_compare(const study_case *c, const study_definition *study,
 void study_setup_warn_rebuilt(const study_run *run, const study_records *records,
                               ff_report *report);
 
-/* choices.c: returns {stage: {use, model, accuracy, promised, settings: {parameter: value}}} of the
-   stages that have chosen a model: what it takes to choose the same again. */
-json_t *study_choices_record(const ff_pipeline *pipeline);
-
 /* measure.c */
 /* Returns the fingerprint of a repeat, from which its key is made. */
 uint64_t study_measure_fingerprint(uint64_t fingerprint, size_t repeat);

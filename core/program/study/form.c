@@ -24,8 +24,7 @@ static bool is_beside(const char *name)
 /* Members whose texts are of one case. */
 static bool has_own_texts(const char *name)
 {
-    static const char *const names[] = {"set",   "reason",  "command", "from",
-                                        "state", "choices", NULL};
+    static const char *const names[] = {"set", "reason", "command", "from", "state", NULL};
     return is_one_of(name, names);
 }
 

@@ -65,11 +65,6 @@ uint64_t study_hash_setup(const ff_stage *stage)
     for (size_t i = 0; i < model->output_count; i++)
         hash = hash_number(study_hash_text(hash, stage->results[i].row->name),
                            stage->results[i].wanted);
-    for (size_t i = 0; stage->choice && !stage->choice->chosen && i < stage->choice->count; i++)
-        if (stage->choice->candidates[i].fits)
-            hash = hash_number(hash, study_hash_setup(stage->choice->candidates[i].stage));
-    if (stage->choice && !stage->choice->chosen && stage->choice->reference)
-        hash = study_hash_text(hash, stage->choice->reference->stage->use);
     return hash;
 }
 
@@ -166,8 +161,6 @@ static uint64_t hash_inputs(uint64_t hash, const ff_pipeline *pipeline, const ff
         }
         if (wire && wire->stage >= 0)
             hash = hash_number(hash, fingerprints[wire->stage]);
-        if (wire && wire->stage >= 0 && pipeline->stages[wire->stage].choice)
-            hash = hash_number(hash, study_hash_setup(&pipeline->stages[wire->stage]));
         if (!given || !given->data)
             continue;
         hash = hash_number(hash, given->rank);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "private.h"
 
+#include "../accuracy/models.h"
 #include "../memory/memory.h"
 
 #include <flankfilm/laws.h>
@@ -86,7 +87,7 @@ bool verify_take_user_run(verify_context *context, const verify_request *request
     if (data)
         ff_tree_set(tree, outputs, NULL, NULL, report);
     free(outputs);
-    ff_pipeline *pipeline = ff_pipeline_build(tree, engine, !data, report);
+    ff_pipeline *pipeline = accuracy_build(tree, engine, !data, report);
     return pipeline && ff_report_errors(report) == 0 &&
            (!run || !data || ff_pipeline_run(pipeline, NULL, report)) &&
            take_stage(context, pipeline, name);

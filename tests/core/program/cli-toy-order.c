@@ -71,5 +71,5 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 FF_MODEL(model, order, .id = "toy/order", .version = "1.0.0",
          .summary = "a value with a known error", .reference = "", .bibtex = "", .licence = "MIT",
          .params = FF_TABLE(params), .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs),
-         .evaluate = evaluate, .destroy = free);
+         .evaluate = evaluate, .destroy = free, .cost = 1);
 FF_EXPORT_MODELS(&model);

@@ -1,0 +1,234 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * A model is judged by what it moves: the answer is computed with it, all else alike, and held
+ * against the answer without it. Where both rest on settings of their own, the errors of those of
+ * the model before count as well.
+ */
+#include "choice.h"
+
+#include "axis.h"
+#include "compare.h"
+#include "goals.h"
+#include "models.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of a goal; the rest is for the numbers. */
+static const double share_of_models = 0.5;
+
+typedef struct trial {
+    accuracy_choice *choice;
+    accuracy_scene scene;
+    const ff_pipeline *base;
+    const accuracy_record *measured;
+    const char *const *settings;
+    size_t setting_count;
+    accuracy_twin taken;    /* the last run that was; no pipeline: none was */
+    const ff_pipeline *now; /* what the next one is held against */
+    double *moved;          /* of each error that was measured, by the models taken */
+} trial;
+
+static size_t place_of(const trial *t, const accuracy_error *e)
+{
+    return (size_t)(e->stage - t->base->stages);
+}
+
+/* What the model in place now adds to the error by its settings. */
+static double own_part(const trial *t, const accuracy_error *e, size_t stage)
+{
+    double sum = 0;
+    for (size_t i = 0; i < e->part_count; i++)
+        if (e->parts[i].stage == &t->base->stages[stage])
+            sum += e->parts[i].error;
+    return sum;
+}
+
+/* How far the output moves, relative; NaN: it cannot be compared. */
+static double distance(trial *t, const accuracy_error *e, const ff_pipeline *next)
+{
+    const ff_stage *stage = &t->now->stages[place_of(t, e)];
+    int output = ff_model_find_output(stage->loaded->model, e->result->row->name);
+    const ff_result *before = &stage->results[output < 0 ? 0 : output];
+    const double *after = accuracy_numbers_like(t->now, stage, before, next, &t->choice->arena);
+    const ff_result *along = accuracy_axis_of(t->now, stage, before);
+    const accuracy_series series = {before->rank, before->count, along ? along->data : NULL,
+                                    before->data};
+    double largest;
+    if (output < 0 || !after)
+        return NAN;
+    double *off = memory_alloc(before->count * sizeof *off);
+    for (size_t i = 0; i < before->count; i++)
+        off[i] = fabs(after[i] - before->data[i]);
+    double typical = accuracy_relative(off, &series, &largest);
+    free(off);
+    return typical;
+}
+
+static const char *keep(trial *t, char *text)
+{
+    const char *kept = memory_arena_text(&t->choice->arena, text, strlen(text));
+    free(text);
+    return kept;
+}
+
+/* What the model says against itself; NULL: nothing. */
+static const char *doubt_of(const ff_stage *stage)
+{
+    for (size_t i = 0; i < stage->quality_count; i++)
+        if (stage->quality[i].verdict != FF_GOOD)
+            return stage->quality[i].name;
+    return NULL;
+}
+
+/* Fills what each output moves by. NULL: none by more than may be; else the reason against it. */
+static const char *object_to(trial *t, size_t stage, const accuracy_twin *next, double *moves)
+{
+    const char *doubt = next->good ? doubt_of(&next->pipeline->stages[stage]) : NULL;
+    if (!next->good)
+        return keep(t, memory_print_text("%s", accuracy_twin_reason(next)));
+    if (doubt)
+        return keep(t, memory_print_text("%s of it is doubtful", doubt));
+    for (size_t i = 0; i < t->measured->count; i++) {
+        const accuracy_error *e = &t->measured->errors[i];
+        double moved = distance(t, e, next->pipeline), most = share_of_models * e->goal;
+        moves[i] = moved + own_part(t, e, stage);
+        if (isnan(e->goal) || t->moved[i] + moves[i] <= most)
+            continue;
+        if (isnan(moved))
+            return keep(t, memory_print_text("%s.%s cannot be compared", e->stage->name,
+                                             e->result->row->name));
+        return keep(t,
+                    memory_print_text("%s.%s may be off by %.2g %%, and %.2g %% may come of models",
+                                      e->stage->name, e->result->row->name, 100 * moves[i],
+                                      100 * (most - t->moved[i])));
+    }
+    return NULL;
+}
+
+/* Whether the setting is of a stage whose model is another one now. */
+static bool is_of_other(const trial *t, const char *set, size_t stage)
+{
+    const accuracy_choice *choice = t->choice;
+    for (size_t i = 0; i <= choice->tried_count; i++) {
+        bool last = i == choice->tried_count;
+        const char *name = t->base->stages[last ? stage : choice->tried[i].stage].name;
+        size_t length = strlen(name);
+        if ((last || choice->tried[i].taken) && !strncmp(set, name, length) && set[length] == '.')
+            return true;
+    }
+    return false;
+}
+
+/* Runs with a model in the stage, and the settings of the stages that have their references. */
+static void run(trial *t, size_t stage, const char *use, accuracy_twin *next)
+{
+    const accuracy_choice *choice = t->choice;
+    const char **sets = memory_alloc((choice->use_count + t->setting_count + 1) * sizeof *sets);
+    bool *changed = memory_alloc((t->base->count + 1) * sizeof *changed);
+    const ff_place place = accuracy_place(t->scene.tree);
+    size_t count = 0;
+    for (size_t i = 0; i < choice->use_count; i++)
+        sets[count++] = choice->uses[i];
+    sets[count++] = use;
+    for (size_t i = 0; i < t->setting_count; i++)
+        if (!is_of_other(t, t->settings[i], stage))
+            sets[count++] = t->settings[i];
+    changed[stage] = true;
+    t->scene.donor = t->now;
+    accuracy_twin_run(next, &t->scene, sets, count, &place, changed);
+    t->choice->runs++;
+    t->choice->seconds += next->work;
+    free(changed);
+    free(sets);
+}
+
+/* Notes what the outputs move by, and goes on from there. */
+static void take(trial *t, size_t stage, const double *moves, const accuracy_twin *next)
+{
+    accuracy_choice *choice = t->choice;
+    for (size_t i = 0; i < t->measured->count; i++) {
+        const accuracy_error *e = &t->measured->errors[i];
+        t->moved[i] += moves[i];
+        choice->changes[choice->change_count++] = (accuracy_change){
+            .stage = stage,
+            .of = place_of(t, e),
+            .output = e->result->row->name,
+            .error = moves[i],
+        };
+    }
+    accuracy_twin_free(&t->taken);
+    t->taken = *next;
+    t->now = t->taken.pipeline;
+    choice->differs = true;
+}
+
+/* Returns whether the model was taken. */
+static bool try_model(trial *t, size_t stage, const char *model, bool *stopped)
+{
+    accuracy_choice *choice = t->choice;
+    accuracy_twin next;
+    double *moves = memory_alloc((t->measured->count + 1) * sizeof *moves);
+    const char *use = keep(t, memory_print_text("%s.use=%s", t->base->stages[stage].name, model));
+    run(t, stage, use, &next);
+    *stopped = next.stopped;
+    const char *reason = *stopped ? "" : object_to(t, stage, &next, moves);
+    choice->tried[choice->tried_count++] =
+        (accuracy_tried){.stage = stage, .model = model, .taken = !reason, .reason = reason};
+    if (!reason) {
+        take(t, stage, moves, &next);
+        choice->uses[choice->use_count++] = use;
+    } else {
+        accuracy_twin_free(&next);
+    }
+    free(moves);
+    return !reason;
+}
+
+static void make_room(accuracy_choice *choice, const trial *t)
+{
+    size_t ids, stages = t->base->count, errors = t->measured->count;
+    ff_engine_ids(t->scene.engine, &ids);
+    choice->uses = memory_arena_alloc(&choice->arena, (stages + 1) * sizeof *choice->uses);
+    choice->tried = memory_arena_alloc(&choice->arena, (stages * ids + 1) * sizeof *choice->tried);
+    choice->changes =
+        memory_arena_alloc(&choice->arena, (stages * errors + 1) * sizeof *choice->changes);
+}
+
+bool accuracy_choose(accuracy_choice *choice, const accuracy_scene *scene,
+                     const accuracy_twin *base, const accuracy_record *measured,
+                     const char *const *settings, size_t setting_count)
+{
+    trial t = {.choice = choice,
+               .scene = *scene,
+               .base = base->pipeline,
+               .measured = measured,
+               .settings = settings,
+               .setting_count = setting_count,
+               .now = base->pipeline};
+    bool stopped = false;
+    t.moved = memory_alloc((measured->count + 1) * sizeof *t.moved);
+    make_room(choice, &t);
+    for (size_t n = 0; n < scene->start->count && !stopped; n++) {
+        size_t at = scene->start->order[n];
+        const ff_stage *stage = &scene->start->stages[at];
+        if (!stage->needed || !accuracy_open_use(stage))
+            continue;
+        const char **ids = accuracy_candidates(stage, scene->engine, &choice->arena);
+        bool taken = false;
+        for (; *ids && !taken && !stopped; ids++)
+            taken = try_model(&t, at, *ids, &stopped);
+        if (!taken)
+            choice->uses[choice->use_count++] =
+                keep(&t, memory_print_text("%s.use=%s", stage->name, stage->use));
+    }
+    accuracy_twin_free(&t.taken);
+    free(t.moved);
+    return !stopped;
+}
+
+void accuracy_choice_free(accuracy_choice *choice)
+{
+    memory_arena_free(&choice->arena);
+}

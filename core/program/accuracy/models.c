@@ -1,0 +1,190 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "models.h"
+
+#include "goals.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static const char ending[] = "/auto";
+
+bool accuracy_is_open_use(const char *use)
+{
+    size_t length = strlen(use), tail = sizeof ending - 1;
+    return length > tail && !strcmp(use + length - tail, ending);
+}
+
+static bool is_open_node(const ff_node *use)
+{
+    return use && use->kind == FF_SCALAR && accuracy_is_open_use(use->text);
+}
+
+const char *accuracy_open_use(const ff_stage *stage)
+{
+    const ff_node *use = ff_node_get(stage->node, "use"), *was = use ? use->replaced : NULL;
+    bool same = is_open_node(was) && was->place.source == use->place.source &&
+                was->place.line == use->place.line && was->place.column == use->place.column;
+    return same ? was->text : NULL; /* a model that the user names stands at a place of its own */
+}
+
+/* Whether the id is of the kind that stands before the slash of `use`. */
+static bool is_of_kind(const char *id, const char *use)
+{
+    return !strncmp(id, use, strcspn(use, "/") + 1);
+}
+
+/* NULL: it is not here, or not to be used. */
+static const ff_loaded *loaded_of(ff_engine *engine, const char *id)
+{
+    ff_report *unused = ff_report_new();
+    const ff_loaded *loaded = ff_engine_model(engine, id, FF_NOWHERE, unused);
+    ff_report_free(unused);
+    return loaded;
+}
+
+static double cost_of(ff_engine *engine, const char *id)
+{
+    const ff_loaded *loaded = loaded_of(engine, id);
+    return loaded ? ff_model_cost(loaded->model) : 0;
+}
+
+static bool is_law(const ff_model *model)
+{
+    return model->output_count > 0 && ff_model_output(model, 0)->service;
+}
+
+/* The model of the kind that costs most; NULL: none says what it costs, or they are laws, of which
+   the costly one need not be the exact one. */
+static const char *most_costly(ff_engine *engine, const char *use)
+{
+    const char *found = NULL;
+    size_t count;
+    const char *const *ids = ff_engine_ids(engine, &count);
+    double most = 0;
+    for (size_t i = 0; i < count; i++) {
+        const ff_loaded *loaded = is_of_kind(ids[i], use) ? loaded_of(engine, ids[i]) : NULL;
+        if (!loaded || is_law(loaded->model) || !(ff_model_cost(loaded->model) > most))
+            continue;
+        most = ff_model_cost(loaded->model);
+        found = ids[i];
+    }
+    return found;
+}
+
+static const char *reference_of(const ff_node *stage, ff_engine *engine)
+{
+    const ff_node *named = ff_node_get(stage, "reference"), *with = ff_node_get(stage, "with");
+    const char *use = ff_node_get(stage, "use")->text;
+    if (named && named->kind == FF_SCALAR && *named->text)
+        return named->text;
+    for (size_t i = 0; with && with->kind == FF_MAP && i < with->count; i++)
+        if (is_of_kind(with->keys[i], use))
+            return with->keys[i];
+    return most_costly(engine, use);
+}
+
+static bool refuse(const ff_node *use, const char *name, ff_report *report)
+{
+    return ff_error(report, FF_FAULT_INPUT, use->place,
+                    "write \"reference: MODEL\", or a set of parameters for each model under "
+                    "\"with\", the most exact first",
+                    "%s: which model of %s is the one that the others are held against?", name,
+                    use->text);
+}
+
+/* Puts the reference in the place of KIND/auto. */
+static void name_reference(ff_tree *tree, const char *name, const ff_node *stage, ff_engine *engine,
+                           ff_report *report)
+{
+    const ff_node *use = ff_node_get(stage, "use"), *named = ff_node_get(stage, "reference");
+    const char *reference = reference_of(stage, engine);
+    const ff_place place = reference && named ? named->place : use->place;
+    if (!reference) {
+        refuse(use, name, report);
+        return;
+    }
+    if (!is_of_kind(reference, use->text)) {
+        ff_error(report, FF_FAULT_INPUT, place, NULL, "%s.reference: \"%.80s\" is no model of %s",
+                 name, reference, use->text);
+        return;
+    }
+    char *set = memory_print_text("pipeline.%s.use=%s", name, reference);
+    char *none = memory_print_text("pipeline.%s.reference=", name);
+    const ff_place at = use->place;
+    if (named)
+        ff_tree_set(tree, none, NULL, NULL, report);
+    ff_tree_set(tree, set, &at, &at, report);
+    free(none);
+    free(set);
+}
+
+static void check_asked(const ff_tree *tree, const ff_pipeline *pipeline, ff_report *report)
+{
+    for (size_t i = 0; i < pipeline->count && !accuracy_has_goals(tree); i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        if (stage->needed && accuracy_open_use(stage))
+            ff_error(report, FF_FAULT_INPUT, stage->use_place, "accuracy: 2 %, or name the model",
+                     "%s: %s is chosen for an accuracy, and the file says none", stage->name,
+                     accuracy_open_use(stage));
+    }
+}
+
+static size_t stage_count(const ff_tree *tree)
+{
+    const ff_node *root = ff_tree_root(tree), *stages = root ? ff_node_get(root, "pipeline") : NULL;
+    return stages && stages->kind == FF_MAP ? stages->count : 0;
+}
+
+ff_pipeline *accuracy_build(ff_tree *tree, ff_engine *engine, bool everything, ff_report *report)
+{
+    size_t errors = ff_report_errors(report), count = stage_count(tree);
+    for (size_t i = 0; i < count; i++) {
+        const ff_node *stages = ff_node_get(ff_tree_root(tree), "pipeline"); /* of now */
+        if (is_open_node(ff_node_get(stages->items[i], "use")))
+            name_reference(tree, stages->keys[i], stages->items[i], engine, report);
+    }
+    if (ff_report_errors(report) > errors)
+        return NULL;
+    ff_pipeline *pipeline = ff_pipeline_build(tree, engine, everything, report);
+    if (pipeline)
+        check_asked(tree, pipeline, report);
+    return pipeline;
+}
+
+const char **accuracy_candidates(const ff_stage *stage, ff_engine *engine, memory_arena *arena)
+{
+    size_t all, count = 0;
+    const char *const *ids = ff_engine_ids(engine, &all);
+    const char *use = accuracy_open_use(stage);
+    const char **list = memory_arena_alloc(arena, (all + 1) * sizeof *list);
+    const double most = ff_model_cost(stage->loaded->model);
+    for (size_t i = 0; use && i < all; i++) {
+        double cost = is_of_kind(ids[i], use) ? cost_of(engine, ids[i]) : 0;
+        if (!(cost > 0) || (most > 0 && cost >= most))
+            continue;
+        size_t at = count++;
+        for (; at > 0 && cost_of(engine, list[at - 1]) > cost; at--)
+            list[at] = list[at - 1];
+        list[at] = ids[i];
+    }
+    return list;
+}
+
+char *accuracy_print_key(const ff_tree *tree, const ff_pipeline *pipeline, ff_engine *engine)
+{
+    char *text = accuracy_print_goals(tree);
+    memory_arena arena = {.blocks = NULL};
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        bool chooses = stage->needed && stage->loaded && accuracy_open_use(stage);
+        const char **ids = chooses ? accuracy_candidates(stage, engine, &arena) : NULL;
+        for (; ids && *ids; ids++) {
+            unsigned long long build = loaded_of(engine, *ids)->build;
+            char *longer = memory_print_text("%s; %s: %s %llx", text, stage->name, *ids, build);
+            free(text);
+            text = longer;
+        }
+    }
+    memory_arena_free(&arena);
+    return text;
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Models that a file leaves to the program: `use: KIND/auto`. */
+#ifndef ACCURACY_MODELS_H
+#define ACCURACY_MODELS_H
+
+#include "../memory/memory.h"
+
+#include <flankfilm/engine.h>
+
+/*
+ * Builds the pipeline of a file as ff_pipeline_build does. A stage that says KIND/auto has its
+ * reference in the tree from then on, the model that the others of the kind are held against: the
+ * one under `reference`, else the first under `with`, else the one that costs most; of a law it is
+ * an error where the file names none.
+ */
+ff_pipeline *accuracy_build(ff_tree *tree, ff_engine *engine, bool everything, ff_report *report);
+
+/* What the stage of such a pipeline says, "ehl/auto"; NULL: it names its model. */
+const char *accuracy_open_use(const ff_stage *stage);
+bool accuracy_is_open_use(const char *use); /* whether it is KIND/auto */
+
+/* The models that may take the place of the reference, cheapest first, ended by NULL: those that
+   say what they cost, which is less. */
+const char **accuracy_candidates(const ff_stage *stage, ff_engine *engine, memory_arena *arena);
+
+/* What of the accuracy a case depends on, for its key: the goals, and the models that may be
+   chosen, "2 %; film: ehl/film-formula 1a2b"; "" where none is asked for. To be freed. */
+char *accuracy_print_key(const ff_tree *tree, const ff_pipeline *pipeline, ff_engine *engine);
+
+#endif
