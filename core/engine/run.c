@@ -65,17 +65,6 @@ static void refuse_many(run_call *call, const ff_node *root)
     }
 }
 
-static void refuse_choices(run_call *call)
-{
-    const ff_pipeline *pipeline = call->run->pipeline;
-    for (size_t i = 0; pipeline && i < pipeline->count; i++)
-        if (pipeline->stages[i].needed && pipeline->stages[i].choice)
-            ff_error(call->run->report, FF_FAULT_INPUT, pipeline->stages[i].use_place,
-                     "flankfilm run FILE chooses a model",
-                     "%s: the library does not choose a model, and %s leaves it open",
-                     pipeline->stages[i].name, pipeline->stages[i].choice->use);
-}
-
 static void open(run_call *call)
 {
     ff_run *run = call->run;
@@ -88,7 +77,6 @@ static void open(run_call *call)
     if (ff_report_errors(run->report) > 0)
         return;
     run->pipeline = ff_pipeline_build(run->tree, run->engine, false, run->report);
-    refuse_choices(call);
 }
 
 static void make(void *ctx)

@@ -537,11 +537,9 @@ void ff_param_expectation(const ff_param *row, char *out, size_t size);
 /* A parameter of a stage with the value it has. */
 typedef struct ff_bound {
     const ff_param *row;
-    bool present;   /* given or preset */
-    ff_value value; /* SI; points into memory of the stage */
-    ff_place place; /* where it was given; source NULL: the model's preset */
-    bool proposed;  /* set by the model itself for the requested accuracy */
-    ff_value first; /* what was replaced, while an object of the model may still hold it */
+    bool present;               /* given or preset */
+    ff_value value;             /* SI; points into memory of the stage */
+    ff_place place;             /* where it was given; source NULL: the model's preset */
     const struct ff_wire *wire; /* connected, so that it replaces the parameter; NULL: none */
 } ff_bound;
 
@@ -569,8 +567,6 @@ typedef struct ff_feedback {
     double relaxation; /* share of that change which the next round takes; 1: all of it */
 } ff_feedback;
 
-typedef struct ff_choice ff_choice;
-
 struct ff_stage {
     char *name;
     ff_place place;
@@ -595,8 +591,6 @@ struct ff_stage {
     void *state;         /* in a chain: what evaluate starts from, then what it left; NULL: none */
     size_t state_size;   /* bytes of it */
     const ff_loop *loop; /* that it belongs to; NULL: none */
-    ff_choice *choice;   /* NULL: the file says which model. Until the choice is made, the stage has
-                            all that its candidates have, by name; then it is that of the chosen */
     struct fe_instance *instance; /* the engine's own */
 };
 
@@ -641,8 +635,7 @@ ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char 
 ff_result *ff_feeding_result(const ff_pipeline *pipeline, const ff_stage *stage, size_t input);
 /* Writes the value of a present parameter as a user would: "[50, 50]", "3 mm", "auto". */
 void ff_bound_print(const ff_stage *stage, size_t param, char *out, size_t size);
-/* Where a value comes from: "pair.yaml:12", "--set", "preset"; "proposed" by the model for the
-   accuracy asked for. */
+/* Where a value comes from: "pair.yaml:12", "--set", "preset". */
 void ff_bound_origin(const ff_bound *bound, char *out, size_t size);
 /* True when the stage runs and hands a state to the neighbouring case of a chain. */
 bool ff_stage_has_state(const ff_stage *stage);
@@ -685,40 +678,6 @@ typedef struct ff_hooks {
 
 /* From the first call of the instance on; borrowed until it is closed. */
 void ff_instance_watch(ff_instance *instance, const ff_hooks *hooks);
-
-/* Going: the choice of models, which becomes the work of the program alone. */
-
-/* A model that a stage could use, and what it says of itself. */
-typedef struct ff_candidate {
-    ff_stage *stage; /* with this model in it; its name and place are the stage's */
-    bool fits;       /* it can be set up, and gives what is needed */
-    bool assessed;   /* the numbers are there */
-    int applies;     /* FF_APPLIES ... */
-    double error, cost;
-    char *reason;    /* the model's own, or what keeps it out */
-    char *proposals; /* "cells: 256, steps: auto", or "" */
-    double judged;   /* the part of the error that the judge of a law adds; 0: none */
-    char *verdict;   /* the reason of that judge; NULL: none */
-} ff_candidate;
-
-/* A stage whose model is chosen at run time, for an accuracy. */
-struct ff_choice {
-    const char *use; /* as written: KIND/auto, or the one model that is tuned */
-    double accuracy;
-    bool refine; /* settings of the file may change, and the best model is taken whatever its error
-                  */
-    ff_candidate *candidates;
-    size_t count;
-    const ff_candidate *chosen; /* NULL: not yet, or none does */
-    /* Of laws, which offer services: the stages that they serve judge them against a reference. */
-    bool serves;
-    const ff_candidate *reference; /* NULL: not known yet, or the candidates serve none */
-};
-
-/* True for KIND/auto, which leaves the model to be chosen. */
-bool ff_names_kind_only(const char *use);
-/* Makes the choices, and runs the stages that they depend on alone. True without any choice. */
-bool ff_pipeline_choose(ff_pipeline *pipeline, const ff_observer *observer, ff_report *report);
 
 /* For `flankfilm verify`, which calls a model by itself to see what it does, and for handlers of
    crashes. */

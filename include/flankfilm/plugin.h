@@ -222,34 +222,6 @@ typedef struct ff_state_bytes {
     size_t count; /* at most 1 MiB; 0: no state */
 } ff_state_bytes;
 
-/* Whether a model can answer for a scene. */
-enum {
-    FF_APPLIES_NOT = 0, /* the scene holds what the model leaves out */
-    FF_APPLIES = 1,
-    FF_AMBIGUOUS = 2 /* the scene has several answers, or is about to have: `reason` names them */
-};
-
-/* A parameter that the model would set for the accuracy asked for; one that the user wrote stays
-   as written (ff_value.given), and the error must count with that. */
-typedef struct ff_proposal {
-    const char *param; /* a row with FF_TUNABLE: "cells" */
-    const char *value; /* as a user would write it: "256", "auto", "0.2 mm" */
-} ff_proposal;
-
-/* What a model says about itself before it runs; filled in by assess. */
-typedef struct ff_assessment {
-    size_t size;
-    int32_t applies;
-    double error; /* relative, largest of the wanted outputs that the model is made for; a promise:
-                     twice as much is a defect. Of the model and its numbers, against the most
-                     exact model of its kind; what no model of the kind knows is not in it */
-    double cost;  /* seconds on one core, to within a factor of two or three; of a law, which
-                     knows not how often it is asked, for a million points */
-    const char *reason;           /* one line: the numbers that decide, and what they mean */
-    const ff_proposal *proposals; /* with which the error and the cost hold */
-    size_t proposal_count;
-} ff_assessment;
-
 /*
  * A model. Life of an instance: create; the members behind `place` are written; set, in row order,
  * for every other parameter that was given or has a preset; wire, for every connected input; ready;
@@ -297,21 +269,7 @@ typedef struct ff_model {
        knows how to read, evaluate starts as it would alone. */
     ff_status (*carry)(void *self, const ff_state_bytes *from, ff_state_bytes *to);
 
-    /* Since 1.1; may be NULL. How well, and at what cost, would evaluate do with these inputs? The
-       cheapest proposals that keep the error at or below `accuracy` (relative), or, where none do,
-       those of the least error. Far cheaper than evaluate, which need not follow. Its texts live
-       until the next call of the instance; when the proposals are taken, another instance that has
-       them set is made. A status other than FF_OK: the model is no candidate. */
-    ff_status (*assess)(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *assessment);
-
-    /* Since 1.1; may be NULL. A law knows no scene: who uses it can judge it. How far would the
-       wanted outputs of evaluate with these inputs move, relative, if the service input `input`
-       were fed by `service` in place of the wired one, which is the reference? `error`: a promise
-       as in assess; `cost` and the proposals stay 0. Far cheaper than evaluate. A status other
-       than FF_OK: the service is no candidate. */
-    ff_status (*judge)(void *self, uint64_t wanted, uint32_t input, const void *service,
-                       const ff_array *in, ff_assessment *assessment);
+    void (*reserved[2])(void); /* NULL */
 
     /* Since 1.1; NULL: none. The columns of the tables that the model's FF_FILE parameters name, as
        table.h has them: for its manual. */
@@ -321,8 +279,9 @@ typedef struct ff_model {
     /* Since 1.2. */
     size_t self_size; /* bytes of what create returns, which every `place` stays within; 0: no row
                          has a place */
-    double cost;      /* of a law that leaves assess NULL: seconds on one core for a million
-                         points; 0: it is no candidate */
+    double cost; /* seconds on one core of an ordinary evaluation, of a law for a million points:
+                    where a file leaves the model open, cheaper ones are tried first; 0: it is
+                    never tried */
 } ff_model;
 
 #if defined(__GNUC__)

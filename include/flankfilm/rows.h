@@ -74,19 +74,6 @@ FF_UNUSED static int ff_model_find_service(const ff_model *model, const char *in
     return -1;
 }
 
-/* Whether the model says how well or at what cost it would do, so that it can be chosen. */
-FF_UNUSED static int ff_model_assesses(const ff_model *model)
-{
-    if (FF_HAS(model, assess) && model->assess)
-        return 1;
-    if (!FF_HAS(model, cost) || !(model->cost > 0))
-        return 0;
-    for (size_t i = 0; i < model->output_count; i++)
-        if (!ff_model_output(model, i)->service)
-            return 0;
-    return 1;
-}
-
 /* What the model says that it costs, in s; 0: nothing. */
 FF_UNUSED static double ff_model_cost(const ff_model *model)
 {

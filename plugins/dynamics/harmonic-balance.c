@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/harmonic-balance: the periodic motion as a Fourier series, branch by branch. */
-#include "assess.h"
 #include "continuation.h"
 #include "harmonics-atlas.h"
 #include "harmonics-motion.h"
@@ -330,28 +329,6 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-/* A series converges slowly at the jumps of the stiffness: in eight scenes the largest force was
-   off by up to 0.06 %. */
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *a)
-{
-    const double longest =
-        300; /* rad; in a longer cycle no harmonic reaches the natural frequency */
-    const model *m = self;
-    const dynamics_assessment estimate = {
-        .error = fmax(2e-3, m->tolerance),
-        .cost = 0.4,
-        .longest = longest,
-        .one_cycle = 1,
-        .branch = (dynamics_branch)m->branch,
-        .reason = "a series, which converges slowly at jumps of the stiffness; whether it is about "
-                  "to jump is not looked at",
-    };
-    (void)wanted, (void)accuracy;
-    return dynamics_assess(&estimate, m->host, in, &m->inertia,
-                           (dynamics_excitation){.zeta = m->zeta, .damping = m->damping}, a);
-}
-
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
     model *m = self;
@@ -369,5 +346,5 @@ FF_MODEL(
     .params = FF_TABLE(params), .inputs = dynamics_input_ports, .input_count = DYNAMICS_INPUT_COUNT,
     .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_motion_outputs,
     .output_count = DYNAMICS_ATLAS_OUTPUT_COUNT, .output_stride = sizeof dynamics_motion_outputs[0],
-    .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry, .assess = assess);
+    .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry);
 FF_EXPORT_MODELS(&dynamics_harmonic_balance);

@@ -28,7 +28,6 @@ typedef struct model {
     dynamics_branch branch;
     dynamics_branch_name name;
     dynamics_warm_start from, to; /* what the neighbouring case left, and what it is left */
-    char reason[320];             /* of the last assessment */
 } model;
 
 static const ff_param params[] = {
@@ -203,6 +202,53 @@ static ff_status fail_too_slow(const job *j)
                     j->inputs.mesh_frequency, j->inputs.natural_frequency);
 }
 
+static ff_status find_at(const void *ctx, double lambda, dynamics_attractor *a)
+{
+    job j = *(const job *)ctx;
+    j.lambda = lambda;
+    return find_motion(&j, a);
+}
+
+/* How near, over the speed, a fold makes a motion doubtful: a machine's speed is known no better.
+ */
+static const double near_fold = 0.005;
+
+static void report_jump(const job *j, const dynamics_jump *jump)
+{
+    const ff_host *host = j->m->host;
+    double micron = 1e6 * j->excitation.length, natural = j->inputs.natural_frequency;
+    double distance = fabs(expm1(jump->lambda - j->lambda));
+    char text[320];
+    snprintf(text, sizeof text,
+             jump->beside ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: beside the motion "
+                            "of dte rms %.3g um there is, on one side of it, one of %.3g um"
+             : jump->is_fold ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: the motion of "
+                               "dte rms %.3g um may jump; across the fold there is one of %.3g um"
+                             : "at %.6g Hz, %.2g %% from the mesh frequency, the branch is another "
+                               "one: dte rms %.3g um here, %.3g um there",
+             natural * exp(jump->lambda), 100 * distance, jump->rms * micron, jump->other * micron);
+    host->quality(host->ctx, "distance_of_jump", distance, near_fold, FF_DOUBTFUL, text);
+}
+
+/* Looks for folds near the motion, of its own branch and of others. */
+static ff_status find_jump(const job *j, const dynamics_attractor *motion)
+{
+    const model *m = j->m;
+    dynamics_jump jump = {0};
+    dynamics_jump_search n = {.flow = &j->flow,
+                              .host = m->host,
+                              .width = near_fold,
+                              .step = m->arc_step,
+                              .find = m->by_name ? NULL : find_at,
+                              .ctx = j};
+    ff_status status = dynamics_find_jump(&n, motion, &jump);
+    if (status == FF_OK && !m->by_name && !jump.near)
+        status = dynamics_find_fold_of_another(&n, motion, &jump);
+    if (status == FF_OK && jump.near)
+        report_jump(j, &jump);
+    return status;
+}
+
 static ff_status evaluate_job(job *j)
 {
     const model *m = j->m;
@@ -228,6 +274,8 @@ static ff_status evaluate_job(job *j)
         return fail_too_slow(j);
     if (status == FF_OK && j->wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
         status = dynamics_stable_motions_put(&j->excitation, exp(j->lambda), m->host);
+    if (status == FF_OK && j->wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS) && a.period > 0)
+        status = find_jump(j, &a);
     if (status == FF_OK && j->atlas.curves)
         dynamics_atlas_report(&j->flow, &j->atlas, j->lambda, a.period > 0 ? &a.orbit : NULL,
                               m->host);
@@ -253,114 +301,6 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
-static ff_status find_at(const void *ctx, double lambda, dynamics_attractor *a)
-{
-    job j = *(const job *)ctx;
-    j.lambda = lambda;
-    return find_motion(&j, a);
-}
-
-static void describe_jump(model *m, const job *j, const dynamics_jump *jump)
-{
-    double micron = 1e6 * j->excitation.length, natural = j->inputs.natural_frequency;
-    snprintf(
-        m->reason, sizeof m->reason,
-        jump->beside ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: beside the motion of "
-                       "dte rms %.3g um there is, on one side of it, one of %.3g um"
-        : jump->is_fold ? "a fold at %.6g Hz, %.2g %% from the mesh frequency: the motion of dte "
-                          "rms %.3g um may jump; across the fold there is one of %.3g um"
-                        : "at %.6g Hz, %.2g %% from the mesh frequency, the branch is another "
-                          "one: dte rms %.3g um here, %.3g um there",
-        natural * exp(jump->lambda), 100 * fabs(expm1(jump->lambda - j->lambda)),
-        jump->rms * micron, jump->other * micron);
-}
-
-/* Whether the motion is that of the linear pair, whose flanks never part. */
-static ff_status find_linear(const job *j, const dynamics_orbit *orbit, int *linear)
-{
-    double x[2];
-    *linear = 0;
-    if (orbit->period != 1)
-        return FF_OK;
-    ff_status status = dynamics_full_contact(&j->excitation, dynamics_cycle_duration(j->lambda),
-                                             1e-8, &x[0], &x[1]);
-    *linear = status == FF_OK && hypot(x[0] - orbit->x[0], x[1] - orbit->x[1]) <
-                                     1e-6 * dynamics_state_unit(&j->excitation, x);
-    return status == FF_NOCONV ? FF_OK : status;
-}
-
-/* The motion itself is exact to round-off; what can be wrong is which of several motions it is. */
-static ff_status assess_motion(model *m, job *j, ff_assessment *a)
-{
-    const double half_per_cent = 0.005;
-    dynamics_attractor motion = {.period = DYNAMICS_APERIODIC};
-    dynamics_jump jump = {0};
-    int linear;
-    j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
-    if (dynamics_cycle_duration(j->lambda) > dynamics_longest_cycle)
-        return fail_too_slow(j);
-    if (!dynamics_flow_init(&j->flow, &j->excitation))
-        return FF_NOMEM;
-    dynamics_jump_search n = {.flow = &j->flow,
-                              .host = m->host,
-                              .width = half_per_cent,
-                              .step = m->arc_step,
-                              .find = m->by_name ? NULL : find_at,
-                              .ctx = j};
-    ff_status status = m->by_name ? build_atlas(j) : FF_OK;
-    if (status == FF_OK)
-        status = find_motion(j, &motion);
-    if (status == FF_OK && motion.period > 0)
-        status = dynamics_find_jump(&n, &motion, &jump);
-    if (status == FF_OK && motion.period > 0 && !m->by_name && !jump.near)
-        status = dynamics_find_fold_of_another(&n, &motion, &jump);
-    if (status == FF_OK)
-        status = find_linear(j, &motion.orbit, &linear);
-    if (status != FF_OK)
-        return status;
-    const int chaotic = motion.period == DYNAMICS_APERIODIC &&
-                        motion.growth > dynamics_chaotic_growth && m->zeta > 0;
-    a->applies = chaotic || jump.near ? FF_AMBIGUOUS
-                 : motion.period < 1  ? FF_APPLIES_NOT
-                                      : FF_APPLIES;
-    a->error = 1e-6;
-    a->cost = 3e-3;
-    if (jump.near)
-        describe_jump(m, j, &jump);
-    else if (chaotic)
-        snprintf(m->reason, sizeof m->reason,
-                 "chaos: the motion never repeats itself and a small disturbance of it grows by a "
-                 "factor of %.3g per mesh cycle, so that what is shown depends on its start",
-                 exp(motion.growth));
-    else if (motion.period < 1)
-        snprintf(m->reason, sizeof m->reason,
-                 "the motion does not repeat itself: what is shown depends on its start");
-    else
-        snprintf(
-            m->reason, sizeof m->reason,
-            "exact to round-off; %s; period %d, largest multiplier %.3g, no fold within 0.5 %% of "
-            "the speed",
-            linear ? "linear: the flanks never part" : "non-linear: the flanks part", motion.period,
-            dynamics_largest_multiplier(&motion.orbit));
-    return FF_OK;
-}
-
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *a)
-{
-    model *m = self;
-    job j = {.m = m, .wanted = wanted, .excitation = {.zeta = m->zeta, .damping = m->damping}};
-    (void)accuracy;
-    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
-    if (status == FF_OK)
-        status = assess_motion(m, &j, a);
-    a->reason = m->reason;
-    dynamics_atlas_free(&j.atlas);
-    dynamics_flow_free(&j.flow);
-    dynamics_excitation_free(&j.excitation);
-    return status;
-}
-
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
     model *m = self;
@@ -376,6 +316,5 @@ FF_MODEL(
     .params = FF_TABLE(params), .inputs = dynamics_input_ports, .input_count = DYNAMICS_INPUT_COUNT,
     .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_motion_outputs,
     .output_count = DYNAMICS_ATLAS_OUTPUT_COUNT, .output_stride = sizeof dynamics_motion_outputs[0],
-    .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry, .cost = 3e-3,
-    .assess = assess);
+    .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry, .cost = 3e-3);
 FF_EXPORT_MODELS(&dynamics_shooting);

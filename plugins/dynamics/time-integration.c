@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/time-integration: integrates the motion until it repeats itself. */
-#include "assess.h"
 #include "inputs.h"
 #include "motion.h"
 #include "references.h"
@@ -194,26 +193,6 @@ out:
     return status;
 }
 
-/* In eight random scenes dte_rms agrees with that of shooting to 1e-8; what is promised is ten
-   times the distance that may be left after settling. */
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *a)
-{
-    const model *m = self;
-    const dynamics_assessment estimate = {
-        .error = fmax(10 * m->settle_tolerance, 1e-5),
-        .cost = 5e-3,
-        .longest = dynamics_longest_cycle,
-        .branch = (dynamics_branch)m->branch,
-        .from = &m->from,
-        .reason = "integrated until it repeats itself, contact loss included; whether it is about "
-                  "to jump is not looked at",
-    };
-    (void)wanted, (void)accuracy;
-    return dynamics_assess(&estimate, m->host, in, &m->inertia,
-                           (dynamics_excitation){.zeta = m->zeta, .damping = m->damping}, a);
-}
-
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
     model *m = self;
@@ -230,5 +209,5 @@ FF_MODEL(
     .inputs = dynamics_input_ports, .input_count = DYNAMICS_INPUT_COUNT,
     .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_motion_outputs,
     .output_count = DYNAMICS_SPEED_OUTPUT_COUNT, .output_stride = sizeof dynamics_motion_outputs[0],
-    .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry, .assess = assess);
+    .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry);
 FF_EXPORT_MODELS(&dynamics_time_integration);

@@ -2,7 +2,6 @@
 #include "estimate.h"
 
 #include "inlet.h"
-#include "judge.h"
 #include "surface.h"
 
 #include <flankfilm/author.h>
@@ -372,74 +371,4 @@ ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     ehl_estimate *e = self;
     return numerics_answers_end(&e->isothermal.answers, e->host, evaluate(e, wanted, in));
-}
-
-static ehl_error_targets error_targets_of(uint64_t wanted)
-{
-    static const uint64_t film = FF_BIT(EHL_ESTIMATE_H_MIN) | FF_BIT(EHL_ESTIMATE_H_CENTRAL) |
-                                 FF_BIT(EHL_ESTIMATE_FILM) | FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST_AT) |
-                                 FF_BIT(EHL_ESTIMATE_LAMBDA_RATIO) |
-                                 FF_BIT(EHL_ESTIMATE_LAMBDA_RATIO_LOWEST),
-                          lowest = FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST) |
-                                   FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST_MEAN) |
-                                   FF_BIT(EHL_ESTIMATE_H_MIN_LOWEST_SPREAD),
-                          pressure = FF_BIT(EHL_ESTIMATE_P_MAX) | FF_BIT(EHL_ESTIMATE_PRESSURE) |
-                                     FF_BIT(EHL_ESTIMATE_P_MAX_HIGHEST);
-    return (ehl_error_targets){(wanted & film) != 0, (wanted & lowest) != 0,
-                               (wanted & pressure) != 0, (wanted & of_friction()) != 0};
-}
-
-ff_status ehl_estimate_assess(ehl_estimate *e, uint64_t wanted, const ff_array *in,
-                              double (*error)(const ehl_conditions *conditions,
-                                              ehl_error_targets targets),
-                              double cost, ff_assessment *a)
-{
-    const ehl_error_targets targets = error_targets_of(wanted);
-    ehl_history one;
-    ehl_conditions conditions = {0};
-    int unlike_hertz = 0, mixed = 0;
-    ff_status status = read_scene(e, in);
-    a->error = a->cost = 0;
-    for (size_t row = 0; status == FF_OK && row < e->history.count;) {
-        row = ehl_history_engagement(&e->history, row, &one);
-        status = ehl_conditions_read(&one, &e->laws, &e->oil, in[EHL_ESTIMATE_IN_RQ_1].data,
-                                     in[EHL_ESTIMATE_IN_RQ_2].data, &conditions);
-        if (status == FF_INVALID) { /* too light a load beside that of others */
-            status = FF_OK;
-            continue;
-        }
-        if (status != FF_OK)
-            return status;
-        double here = error(&conditions, targets) + ehl_rough_error(&conditions, targets);
-        if (!(here < a->error)) /* the reason is of the worst */
-            ehl_conditions_print(&conditions, e->reason, sizeof e->reason);
-        a->error = fmax(a->error, here);
-        a->cost += cost * (e->steps > 0 ? (double)e->steps : (double)one.count);
-        /* a rigid contact knows nothing of Hertz */
-        unlike_hertz |= conditions.M_high < 1 && (targets.pressure || targets.friction);
-        mixed |= conditions.lambda > 0 && conditions.lambda < EHL_MIXED_BELOW;
-    }
-    if (status != FF_OK)
-        return status;
-    if (!(a->cost > 0))
-        return ff_failf(e->host, FF_INVALID, "contact.load_per_width",
-                        "nothing is known of the error of such a contact");
-    a->applies = mixed || unlike_hertz ? FF_APPLIES_NOT : FF_APPLIES;
-    a->error = fmin(a->error, 1);
-    a->reason = e->reason;
-    return FF_OK;
-}
-
-ff_status ehl_estimate_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
-                             const ff_array *in, ff_assessment *a)
-{
-    ehl_estimate *e = self;
-    if (in[EHL_ESTIMATE_IN_RQ_1].data || in[EHL_ESTIMATE_IN_RQ_2].data)
-        return ehl_judge_rough(e->host);
-    ff_status status = read_scene(e, in);
-    return status != FF_OK
-               ? status
-               : ehl_judge_law(e->host, &e->history, &e->laws,
-                               (ehl_law_kind)(input - EHL_IN_VISCOSITY), service,
-                               error_targets_of(wanted), e->reason, sizeof e->reason, a);
 }

@@ -6,7 +6,6 @@
 #ifndef EHL_ESTIMATE_H
 #define EHL_ESTIMATE_H
 
-#include "assess.h"
 #include "grid.h"
 #include "history.h"
 #include "inlet.h"
@@ -83,17 +82,7 @@ struct ehl_estimate {
     ehl_moment *moment;
     double roughness; /* of both flanks, 0: unknown */
     ehl_law_answer answered;
-    char reason[400]; /* of the last assessment */
 };
-
-/* With what the model's own errors come to, and its seconds for each time of the results. */
-ff_status ehl_estimate_assess(ehl_estimate *e, uint64_t wanted, const ff_array *in,
-                              double (*error)(const ehl_conditions *conditions,
-                                              ehl_error_targets targets),
-                              double cost, ff_assessment *a);
-
-ff_status ehl_estimate_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
-                             const ff_array *in, ff_assessment *a);
 
 ff_status ehl_estimate_ready(void *self);
 ff_status ehl_estimate_wire(void *self, uint32_t input, const void *service);

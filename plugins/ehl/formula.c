@@ -199,19 +199,6 @@ static ff_status create(const ff_host *host, void **self)
     return FF_OK;
 }
 
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *a)
-{
-    const double per_time = 2e-6; /* s */
-    (void)accuracy;
-    const film_formula *f = self;
-    if (f->formula != EHL_MOES || f->pressure_coefficient || f->e.light_load > 0)
-        return ff_failf(
-            f->e.host, FF_UNSUPPORTED, "formula",
-            "the error is known of Moes' formula with the asymptotic coefficient alone");
-    return ehl_estimate_assess(self, wanted, in, ehl_formula_error, per_time, a);
-}
-
 static const ff_param params[] = {
     EHL_ESTIMATE_PARAMS,
     FF_ONE_OF(
@@ -252,6 +239,4 @@ const ff_model ehl_film_formula_model = {
     .evaluate = ehl_estimate_evaluate,
     .destroy = free,
     .cost = 4e-4,
-    .assess = assess,
-    .judge = ehl_estimate_judge,
 };

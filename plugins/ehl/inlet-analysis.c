@@ -358,14 +358,6 @@ static ff_status create(const ff_host *host, void **self)
     return FF_OK;
 }
 
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *a)
-{
-    const double per_time = 1e-5; /* s */
-    (void)accuracy;
-    return ehl_estimate_assess(self, wanted, in, ehl_inlet_error, per_time, a);
-}
-
 static const ff_param params[] = {EHL_ESTIMATE_PARAMS};
 
 static const ff_model inlet_analysis_model = {
@@ -395,8 +387,6 @@ static const ff_model inlet_analysis_model = {
     .evaluate = ehl_estimate_evaluate,
     .destroy = free,
     .cost = 7e-4,
-    .assess = assess,
-    .judge = ehl_estimate_judge,
 };
 
 const ff_model *const *flankfilm_models_v1(void)

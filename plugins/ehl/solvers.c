@@ -60,7 +60,7 @@ static const ff_param params[] = {
     FF_QUANTITY("valley_length", "mm", ehl_model, valley_length, FF_MIN_OPEN, "0.2 mm", NULL, 0,
                 1e3, 0, 0,
                 "valleys: ventilated: length of a valley along the tooth, open at both ends"),
-    FF_ONE_OF("resolved|ignored", "roughness", ehl_model, roughness, FF_TUNABLE, "resolved",
+    FF_ONE_OF("resolved|ignored", "roughness", ehl_model, roughness, 0, "resolved",
               "heights of a wired surface: resolved, as the flanks move; or ignored, where the "
               "film is many times the roughness"),
 };
@@ -70,25 +70,13 @@ static const ff_param params[] = {
     .self_size = sizeof(ehl_model), .version = "1.0.0", .licence = "GPL-3.0-or-later",             \
     .params = FF_TABLE(params), .inputs = ehl_inputs, .input_stride = sizeof ehl_inputs[0],        \
     .outputs = FF_TABLE(ehl_outputs), .wire = ehl_wire, .ready = ehl_ready,                        \
-    .evaluate = ehl_evaluate, .judge = ehl_judge, .destroy = ehl_destroy
+    .evaluate = ehl_evaluate, .destroy = ehl_destroy
 
 static const ff_model finite_volume;
 
 static ff_status create_finite_volume(const ff_host *host, void **self)
 {
     return ehl_create(host, &finite_volume, ehl_newton_krylov, self);
-}
-
-/* Newton-GMRES with FFTs: as good as proportional, s. */
-static double cost_of_finite_volume(double cells)
-{
-    return 4e-7 * cells;
-}
-
-static ff_status assess_finite_volume(void *self, uint64_t wanted, double accuracy,
-                                      const ff_array *in, ff_assessment *a)
-{
-    return ehl_assess(self, wanted, accuracy, in, cost_of_finite_volume, a);
 }
 
 static const ff_model finite_volume = {
@@ -105,7 +93,6 @@ static const ff_model finite_volume = {
     .input_count = EHL_INPUTS,
     .create = create_finite_volume,
     .cost = 0.1,
-    .assess = assess_finite_volume,
 };
 
 static const ff_model dense_newton;
@@ -113,18 +100,6 @@ static const ff_model dense_newton;
 static ff_status create_dense_newton(const ff_host *host, void **self)
 {
     return ehl_create(host, &dense_newton, ehl_dense_newton, self);
-}
-
-/* A dense matrix is factorised two or three times, s. */
-static double cost_of_dense_newton(double cells)
-{
-    return 4e-9 * cells * cells * cells;
-}
-
-static ff_status assess_dense_newton(void *self, uint64_t wanted, double accuracy,
-                                     const ff_array *in, ff_assessment *a)
-{
-    return ehl_assess(self, wanted, accuracy, in, cost_of_dense_newton, a);
 }
 
 /* The reference twin of ehl/finite-volume: the same equations by a dense Jacobian. */
@@ -138,7 +113,6 @@ static const ff_model dense_newton = {
     .bibtex = BIB_venner2000 "\n" BIB_anderson1999 "\n",
     .input_count = EHL_IN_DISCRETISATION,
     .create = create_dense_newton,
-    .assess = assess_dense_newton,
 };
 
 static const ff_model control_volume;

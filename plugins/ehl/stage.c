@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "stage.h"
 
-#include "assess.h"
 #include "deflection.h"
 #include "outputs.h"
 #include "step-control.h"

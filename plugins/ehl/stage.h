@@ -3,7 +3,6 @@
 #ifndef EHL_STAGE_H
 #define EHL_STAGE_H
 
-#include "assess.h"
 #include "history.h"
 #include "inlet.h"
 #include "ports.h"
@@ -16,11 +15,6 @@ ff_status ehl_create(const ff_host *host, const ff_model *model, ehl_solver_make
 ff_status ehl_wire(void *self, uint32_t input, const void *service);
 ff_status ehl_ready(void *self);
 ff_status ehl_evaluate(void *self, uint64_t wanted, const ff_array *in);
-/* step_cost returns the seconds that a step takes with that many cells. */
-ff_status ehl_assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                     double (*step_cost)(double cells), ff_assessment *a);
-ff_status ehl_judge(void *self, uint64_t wanted, uint32_t input, const void *service,
-                    const ff_array *in, ff_assessment *a);
 void ehl_destroy(void *self);
 
 /* Ranks of the words of cavitation, valleys and roughness. */
@@ -40,9 +34,6 @@ typedef struct ehl_model {
     ehl_isothermal isothermal;
     const ff_film *outside; /* NULL: the solver of `maker` */
     int rough;              /* a surface is wired */
-    char text[3][32];       /* text and reason belong to the last assessment */
-    char reason[400];
-    ff_proposal proposals[4];
 } ehl_model;
 
 #endif

@@ -5,7 +5,6 @@
  * ratio eps means that p pairs have the stiffness c' (0.75 p + 0.25) together: the time course,
  * which the standard leaves open.
  */
-#include "assess.h"
 #include "inputs.h"
 #include "loaded-cycle.h"
 #include "outputs.h"
@@ -213,25 +212,6 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return stiffness_loaded_cycle_publish(&source, wanted);
 }
 
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *a)
-{
-    stiffness_error_estimate estimate = {
-        .force = 0.1,
-        .stiffness = 0.3,
-        .transmission = 3, /* it has the steps between one pair and two, and nothing between */
-        .cost = 3e-4,
-        .reason =
-            "one number and a time course: forces to 10 %, stiffness to 30 %; under less than "
-            "100 N/mm the standard lowers the stiffness with the load",
-    };
-    const double full_load = 100e3; /* N/m, below which the standard lowers the stiffness */
-    (void)self, (void)accuracy;
-    if (in[STIFFNESS_IN_FORCE].data[0] < full_load * in[STIFFNESS_IN_WIDTH].data[0])
-        estimate.stiffness = 1;
-    return stiffness_assess(&estimate, wanted, in, a);
-}
-
 FF_MODEL(
     stiffness_iso_6336, iso_model, .id = "stiffness/iso-6336", .version = "1.0.0",
     .summary =
@@ -240,5 +220,5 @@ FF_MODEL(
         "ISO 6336-1:2019, Calculation of load capacity of spur and helical gears, clause 9",
     .bibtex = BIB_iso6336_1, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
     .inputs = FF_TABLE(stiffness_inputs), .outputs = FF_TABLE(stiffness_outputs), .set = set,
-    .ready = ready, .evaluate = evaluate, .destroy = free, .cost = 3e-4, .assess = assess);
+    .ready = ready, .evaluate = evaluate, .destroy = free, .cost = 3e-4);
 FF_EXPORT_MODELS(&stiffness_iso_6336);

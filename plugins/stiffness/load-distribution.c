@@ -4,7 +4,6 @@
  * Conry & Seireg 1973: bending, shear and compression of teeth, fillets and bodies down to the
  * rim, the coupling of neighbouring teeth through the body, and load-dependent Hertzian contacts.
  */
-#include "assess.h"
 #include "contact-point.h"
 #include "elastic-pair.h"
 #include "inputs.h"
@@ -240,25 +239,6 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return stiffness_loaded_cycle_publish(&source, wanted);
 }
 
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *a)
-{
-    static const stiffness_error_estimate estimate = {
-        .force = 0.005,
-        .stiffness = 0.02,
-        .transmission = 0.02,
-        .cost = 0.5,
-        .reason = "elastic teeth, the most exact of its kind; plane, so that the width does not "
-                  "count",
-    };
-    const distribution *m = self;
-    (void)accuracy;
-    if (m->teeth.compliance == STIFFNESS_ANALYTICAL)
-        return ff_failf(m->host, FF_UNSUPPORTED, "compliance",
-                        "the error is known of finite elements alone");
-    return stiffness_assess(&estimate, wanted, in, a);
-}
-
 const ff_model stiffness_load_distribution = {
     FF_HEAD(distribution, create),
     .id = "stiffness/load-distribution",
@@ -279,6 +259,5 @@ const ff_model stiffness_load_distribution = {
     .evaluate = evaluate,
     .destroy = destroy,
     .cost = 0.5,
-    .assess = assess,
 };
 FF_EXPORT_MODELS(&stiffness_load_distribution);

@@ -5,7 +5,6 @@
  * contact. No pair deforms the body below another one, and a contact under load begins and ends
  * where the unloaded one does.
  */
-#include "assess.h"
 #include "contact-point.h"
 #include "inputs.h"
 #include "loaded-cycle.h"
@@ -199,23 +198,6 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return stiffness_loaded_cycle_publish(&source, wanted);
 }
 
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *a)
-{
-    static const stiffness_error_estimate estimate = {
-        .force = 0.04,
-        .stiffness = 0.15,
-        .transmission = 0.7,
-        .cost = 5e-3,
-        .reason =
-            "teeth as beams: forces to 4 %, stiffness to 15 %, but the steps between one pair "
-            "and two are too high, and the transmission error by up to 70 %",
-    };
-    (void)self;
-    (void)accuracy;
-    return stiffness_assess(&estimate, wanted, in, a);
-}
-
 const ff_model stiffness_potential_energy = {
     FF_HEAD(energy_model, create),
     .id = "stiffness/potential-energy",
@@ -235,6 +217,5 @@ const ff_model stiffness_potential_energy = {
     .evaluate = evaluate,
     .destroy = destroy,
     .cost = 5e-3,
-    .assess = assess,
 };
 FF_EXPORT_MODELS(&stiffness_potential_energy);

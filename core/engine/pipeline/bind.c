@@ -343,14 +343,14 @@ static void bind_model(binding *k)
     const ff_model *model = k->loaded->model;
     const ff_node *set = fe_model_set(k->stage, k->id);
     k->settings = fe_alloc(model->param_count * sizeof *k->settings);
-    if (k->chosen && !k->stage->instance->candidate) /* its stage has checked them */
+    if (k->chosen)
         check_keys(k, k->stage->node, "", true);
     if (set && set->kind == FF_MAP)
         check_keys(k, set, "", false);
     for (size_t i = 0; i < model->param_count; i++) {
         k->settings[i] = fe_find_setting(k->stage, k->id, ff_model_param(model, i)->name);
         k->settings[i].wire = find_replacing(k, ff_model_param(model, i));
-        if (k->chosen && !k->stage->instance->candidate)
+        if (k->chosen)
             leave_misfit(k, i);
     }
     for (size_t i = 0; i < model->param_count; i++)
@@ -418,6 +418,5 @@ void fe_bind_stage(fe_build *b, ff_stage *stage)
     bind_model(&k);
     if (ff_report_errors(b->report) > errors)
         stage->instance->broken = true;
-    if (!stage->instance->candidate)
-        check_sets(b, stage);
+    check_sets(b, stage);
 }

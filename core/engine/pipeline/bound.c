@@ -42,7 +42,7 @@ void ff_bound_origin(const ff_bound *bound, char *out, size_t size)
 {
     const ff_place *place = &bound->place;
     if (!place->source)
-        snprintf(out, size, "%s", bound->proposed ? "proposed" : "preset");
+        snprintf(out, size, "%s", "preset");
     else if (place->line == 0 || strcmp(place->source->name, "--set") == 0)
         snprintf(out, size, "%s", place->source->name);
     else

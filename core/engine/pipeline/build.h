@@ -20,10 +20,9 @@ typedef struct fe_serving {
 typedef struct fe_instance {
     ff_host host; /* given to the model; outlives `self` */
     void *self;
-    bool created;   /* `self` must be destroyed */
-    bool alive;     /* created, set, wired and ready */
-    bool broken;    /* the report says why it cannot run */
-    bool candidate; /* `stage` is that of a candidate */
+    bool created; /* `self` must be destroyed */
+    bool alive;   /* created, set, wired and ready */
+    bool broken;  /* the report says why it cannot run */
     ff_stage *stage;
     ff_guard_mark mark; /* its own code, and the services that it is wired to */
     fe_serial alone;    /* the lock of its object */
@@ -60,8 +59,7 @@ typedef struct fe_build {
     ff_engine *engine;
     ff_report *report;
     bool everything;
-    const ff_node *accuracy; /* of the file, for all stages that choose; NULL: none */
-    uint32_t file_rank;      /* of the file's layer: that of an assignment is higher */
+    uint32_t file_rank; /* of the file's layer: that of an assignment is higher */
 } fe_build;
 
 /* messages.c: texts that live as long as the pipeline. */
@@ -105,9 +103,6 @@ bool fe_is_fed_back(const ff_stage *stage, size_t input); /* by a wire that clos
 int fe_find_offer(const ff_loaded *from, const ff_port *input);
 uint64_t fe_wanted_of(const ff_stage *stage); /* bits of the first 64 outputs */
 bool fe_wants_any(const ff_stage *stage);
-/* Makes the outputs wanted from the stage wanted from the candidate. Returns a needed output that
-   it lacks; NULL: none. */
-const char *fe_pass_requests(const ff_stage *from, ff_stage *to);
 
 /* call.c: brackets a call into a model; `action` is "evaluate" and the like. */
 typedef struct fe_call {
@@ -165,18 +160,8 @@ bool fe_read_stages(fe_build *b, const ff_node *root);
 /* The stage of that name; NULL after an error that begins with `where`. */
 ff_stage *fe_find_stage(fe_build *b, const char *name, ff_place place, const char *where);
 
-/* load.c: loads the stage's model, or all that it could choose; false after an error. */
+/* load.c: loads the stage's model; false after an error. */
 bool fe_load_stage(fe_build *b, ff_stage *stage);
-/* The accuracy of the file by which stages choose; NULL: there is none, or `measured`, which asks
-   the program for the errors of what the file says. */
-const ff_node *fe_accuracy_of(const ff_node *root);
-/* Reads it, which must be there. */
-bool fe_read_accuracy(fe_build *b, ff_value *value);
-/* Reports what is wrong with the accuracy of the file, whether a stage chooses or not. */
-void fe_check_accuracy(fe_build *b);
-/* The first parameters of a stage that chooses. */
-enum { FE_ACCURACY, FE_ONLY, FE_REFINE, FE_OWN_ROWS };
-void fe_leave_out(ff_pipeline *pipeline, ff_candidate *c, const char *reason);
 
 /* wire.c: why `from` cannot feed the wire of that name, to complete 'the stage ...'; NULL: it
    offers all that the wire requires, and at least one output. */
@@ -185,6 +170,8 @@ const char *fe_wire_misfit(fe_build *b, const ff_stage *stage, const char *wire,
 /* One wire for each word before the dot in the names of the input rows, and what feeds
    each. */
 void fe_link_stage(fe_build *b, ff_stage *stage);
+/* Loads the stage and links it, and the stages behind it. */
+void fe_link_from(fe_build *b, ff_stage *stage);
 
 /* bind.c: reads the parameters of a linked stage. */
 void fe_bind_stage(fe_build *b, ff_stage *stage);
@@ -201,8 +188,6 @@ bool fe_ready_object(ff_stage *stage, ff_report *report);
 void fe_close_instance(ff_stage *stage);
 /* The table behind a service of a live instance. NULL: it gives none, and the report says why. */
 const void *fe_fetch_service(ff_stage *stage, uint32_t output, ff_report *report);
-/* Another instance, which knows the parameters and the wires as they are now. */
-bool fe_reopen(ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
 
 /* arrays.c: the length that each named dimension was first seen with. Starts zeroed; `seen` is to
    be freed. */
@@ -251,29 +236,6 @@ bool fe_run_loop(ff_pipeline *pipeline, const ff_loop *loop, const ff_observer *
    error. */
 bool fe_restore_state(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
 bool fe_save_state(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
-
-/* judge.c: laws that are chosen. */
-void fe_find_reference(fe_build *b, ff_stage *stage);
-/* Whether the stage judges a law that is to be chosen. */
-bool fe_is_judge(const ff_pipeline *pipeline, const ff_stage *stage);
-/* Adds what the judges say to the assessments of the candidates. False after an error. */
-bool fe_ask_judges(ff_pipeline *pipeline, ff_stage *law, ff_report *report);
-/* Gives the chosen laws to their judges. */
-bool fe_rewire_judges(ff_pipeline *pipeline, ff_report *report);
-
-/* candidates.c: finds what feeds each wire of the stage, and of the stages behind them. */
-void fe_link_from(fe_build *b, ff_stage *stage);
-/* The same steps of building for the stages that could stand for one that chooses. */
-void fe_bind_candidates(fe_build *b, ff_stage *stage);
-void fe_open_candidates(fe_build *b, ff_stage *stage);
-void fe_free_candidates(ff_stage *stage);
-
-/* choose.c: makes the choice; the feeding stages have run. False after an error. */
-bool fe_choose(ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
-/* The same for all laws, when the first stage that judges one is about to run. */
-bool fe_choose_laws(ff_pipeline *pipeline, ff_report *report);
-/* Adds what was promised to the quality of the stage. */
-void fe_note_choice(ff_stage *stage);
 
 /* request.c: marks the requested outputs; links what they need. */
 void fe_request_outputs(fe_build *b, const ff_node *outputs);

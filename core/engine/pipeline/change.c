@@ -21,13 +21,12 @@ static ff_stage *find_target(const ff_pipeline *pipeline, const char *assignment
     return fits ? stage : NULL;
 }
 
-/* What a run may leave behind: choices, and outputs that were refused. */
+/* What a run may leave behind: outputs that were refused. */
 static bool is_as_built(const ff_pipeline *pipeline)
 {
     bool good = true;
     for (size_t i = 0; i < pipeline->count && good; i++) {
         const ff_stage *stage = &pipeline->stages[i];
-        good = !stage->choice;
         for (size_t k = 0; good && stage->needed && k < stage->loaded->model->output_count; k++)
             good = !stage->results[k].refused;
     }
@@ -38,7 +37,6 @@ static void bind_anew(fe_build *b, ff_stage *stage)
 {
     for (size_t i = 0; i < stage->loaded->model->param_count; i++) {
         ff_value_clear(&stage->params[i].value);
-        ff_value_clear(&stage->params[i].first);
     }
     fe_bind_stage(b, stage);
 }
@@ -78,8 +76,7 @@ bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const 
         fe_build b = {.pipeline = pipeline,
                       .engine = pipeline->memory->engine,
                       .report = ff_report_new(),
-                      .file_rank = root->rank,
-                      .accuracy = fe_accuracy_of(root)};
+                      .file_rank = root->rank};
         fe_folder_keep(&pipeline->memory->folder);
         open_anew(&b, changed);
         fe_check_unread(&b, ff_node_get(root, "outputs"));

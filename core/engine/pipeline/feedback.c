@@ -131,10 +131,6 @@ static void check_member(fe_build *b, ff_stage *stage)
         wire->closes = wire->feedback && wire->stage >= 0 &&
                        b->pipeline->stages[wire->stage].loop == stage->loop;
     }
-    if (stage->choice)
-        refuse(b, stage, stage->use_place, "where no model can be chosen: name the model");
-    else if (fe_is_judge(b->pipeline, stage))
-        refuse(b, stage, stage->use_place, "so that the law which it uses must be named");
     for (size_t i = 0; i < stage->loaded->model->input_count; i++) {
         const ff_wire *wire = fe_input_wire(stage, i);
         ff_result *given = wire->closes ? ff_feeding_result(b->pipeline, stage, i) : NULL;

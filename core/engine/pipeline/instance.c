@@ -103,13 +103,6 @@ static const void *service_of(ff_stage *from, const ff_port *input, ff_report *r
     return from->instance->alive ? fe_fetch_service(from, output, report) : NULL;
 }
 
-/* The stage that serves until the choice is made. */
-static ff_stage *serving(ff_stage *stage)
-{
-    const ff_choice *choice = stage->choice;
-    return choice && !choice->chosen && choice->reference ? choice->reference->stage : stage;
-}
-
 bool fe_wire_object(ff_stage *stage, size_t input, const void *service, ff_report *report)
 {
     const ff_model *model = stage->loaded->model;
@@ -132,7 +125,7 @@ static bool wire(fe_build *b, ff_stage *stage)
     for (size_t i = 0; i < model->input_count && good; i++) {
         const ff_port *row = ff_model_input(model, i);
         const ff_wire *wire = fe_input_wire(stage, i);
-        ff_stage *from = wire->stage < 0 ? NULL : serving(&pipeline->stages[wire->stage]);
+        ff_stage *from = wire->stage < 0 ? NULL : &pipeline->stages[wire->stage];
         int output = from ? fe_find_offer(from->loaded, row) : -1;
         const void *service = NULL;
         if (output < 0)
@@ -165,20 +158,9 @@ void fe_open_instance(fe_build *b, ff_stage *stage)
 void fe_close_instance(ff_stage *stage)
 {
     fe_instance *instance = stage->instance;
-    for (size_t i = 0; stage->choice && i < stage->choice->count; i++)
-        fe_close_instance(stage->choice->candidates[i].stage);
     fe_resource_remove(&instance->open);
     destroy(instance);
     fe_tables_free(&instance->tables);
     fe_forget_servings(instance);
     instance->mark.services = NULL;
-}
-
-bool fe_reopen(ff_pipeline *pipeline, ff_stage *stage, ff_report *report)
-{
-    fe_build b = {.pipeline = pipeline, .engine = pipeline->memory->engine, .report = report};
-    fe_close_instance(stage);
-    stage->instance->self = NULL;
-    fe_open_instance(&b, stage);
-    return stage->instance->alive;
 }

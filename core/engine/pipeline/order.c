@@ -99,38 +99,6 @@ static void visit(fe_build *b, ff_stage *stage, size_t *sorted)
     pipeline->order[(*sorted)++] = (size_t)(stage - pipeline->stages);
 }
 
-/* It judges laws, or one of those that do feeds it. */
-static bool is_late(const ff_pipeline *pipeline, const ff_stage *stage, const bool *late)
-{
-    bool fed = fe_is_judge(pipeline, stage);
-    for (size_t k = 0; k < stage->wire_count; k++)
-        fed = fed || (stage->wires[k].stage >= 0 && late[stage->wires[k].stage]);
-    return fed;
-}
-
-/* Moves the stages that judge laws to the end, with those that they feed: so all judges have their
-   inputs before the first of them runs. */
-static void put_judges_last(ff_pipeline *pipeline)
-{
-    size_t *order = fe_alloc(2 * pipeline->count * sizeof *order), first = 0, last = 0;
-    bool *late = fe_alloc(pipeline->count * sizeof *late);
-    for (size_t i = 0; i < pipeline->count;) {
-        const ff_loop *loop = pipeline->stages[pipeline->order[i]].loop;
-        size_t members = loop ? loop->count : 1;
-        bool put_last = false;
-        for (size_t k = i; k < i + members; k++)
-            put_last = put_last || is_late(pipeline, &pipeline->stages[pipeline->order[k]], late);
-        for (; members > 0; members--, i++) {
-            late[pipeline->order[i]] = put_last;
-            order[put_last ? pipeline->count + last++ : first++] = pipeline->order[i];
-        }
-    }
-    for (size_t i = 0; i < pipeline->count; i++)
-        pipeline->order[i] = order[i < first ? i : pipeline->count + i - first];
-    fe_free(late);
-    fe_free(order);
-}
-
 void fe_sort_stages(fe_build *b)
 {
     size_t sorted = 0;
@@ -138,7 +106,6 @@ void fe_sort_stages(fe_build *b)
         if (b->pipeline->stages[i].instance->sorting == FE_NEW)
             visit(b, &b->pipeline->stages[i], &sorted);
     fe_find_loops(b);
-    put_judges_last(b->pipeline);
     for (size_t i = b->pipeline->count; i-- > 0;) {
         ff_loop *loop = fe_loop_of(b->pipeline, &b->pipeline->stages[b->pipeline->order[i]]);
         if (loop)

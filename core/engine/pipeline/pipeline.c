@@ -5,13 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-const ff_node *fe_accuracy_of(const ff_node *root)
-{
-    const ff_node *node = ff_node_get(root, "accuracy");
-    bool other = node && (node->kind != FF_SCALAR || !strcmp(node->text, "measured"));
-    return node && (other || fe_is_taken_away(node)) ? NULL : node;
-}
-
 static void warn_of_feedback(const fe_build *b, const ff_node *feedback)
 {
     bool loops = !feedback || ff_report_errors(b->report) > 0;
@@ -20,13 +13,6 @@ static void warn_of_feedback(const fe_build *b, const ff_node *feedback)
     if (!loops)
         ff_warn(b->report, feedback->place,
                 "feedback: no stage that runs is in a loop, so that it changes nothing");
-}
-
-static void bind(fe_build *b, ff_stage *stage)
-{
-    fe_bind_stage(b, stage);
-    if (stage->choice)
-        fe_bind_candidates(b, stage);
 }
 
 ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool everything,
@@ -43,8 +29,7 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool ever
                   .engine = engine,
                   .report = report,
                   .everything = everything,
-                  .file_rank = root->rank,
-                  .accuracy = fe_accuracy_of(root)};
+                  .file_rank = root->rank};
     if (!fe_read_stages(&b, root)) {
         ff_pipeline_free(pipeline);
         return NULL;
@@ -57,15 +42,12 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool ever
     fe_sort_stages(&b);
     for (size_t i = 0; i < pipeline->count; i++)
         if (pipeline->stages[i].loaded && (pipeline->stages[i].needed || everything))
-            bind(&b, &pipeline->stages[i]);
+            fe_bind_stage(&b, &pipeline->stages[i]);
     for (size_t i = 0; i < pipeline->count; i++) {
         ff_stage *stage = &pipeline->stages[pipeline->order[i]];
-        if (stage->params && !stage->instance->broken && stage->choice)
-            fe_open_candidates(&b, stage);
-        else if (stage->params && !stage->instance->broken)
+        if (stage->params && !stage->instance->broken)
             fe_open_instance(&b, stage);
     }
-    fe_check_accuracy(&b);
     warn_of_feedback(&b, ff_node_get(root, "feedback"));
     fe_check_unread(&b, ff_node_get(root, "outputs"));
     return pipeline;
@@ -80,10 +62,8 @@ void ff_pipeline_free(ff_pipeline *pipeline)
     fe_folder_restore(&pipeline->memory->folder);
     for (size_t i = 0; i < pipeline->count; i++) {
         ff_stage *stage = &pipeline->stages[i];
-        fe_free_candidates(stage);
         for (size_t k = 0; stage->params && k < stage->loaded->model->param_count; k++) {
             ff_value_clear(&stage->params[k].value);
-            ff_value_clear(&stage->params[k].first);
         }
         fe_forget_results(stage);
         fe_free(stage->state);

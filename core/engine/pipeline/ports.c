@@ -67,19 +67,3 @@ bool fe_wants_any(const ff_stage *stage)
             return true;
     return false;
 }
-
-const char *fe_pass_requests(const ff_stage *from, ff_stage *to)
-{
-    for (size_t i = 0; i < from->loaded->model->output_count; i++) {
-        const ff_result *result = &from->results[i];
-        int output = ff_model_find_output(to->loaded->model, result->row->name);
-        if (output < 0 && result->required)
-            return result->row->name;
-        if (output < 0)
-            continue;
-        to->results[output].wanted = result->wanted;
-        to->results[output].requested = result->requested;
-        to->results[output].required |= result->required;
-    }
-    return NULL;
-}

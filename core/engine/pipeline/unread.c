@@ -242,7 +242,7 @@ void fe_check_unread(fe_build *b, const ff_node *outputs)
     warn_of_idle(b, outputs);
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];
-        if (!stage->needed || stage->choice)
+        if (!stage->needed)
             continue;
         bool some = reads_any(stage, NULL);
         if (!some)

@@ -210,3 +210,13 @@ void fe_link_stage(fe_build *b, ff_stage *stage)
         stage->instance->broken = stage->instance->broken || !good;
     }
 }
+
+void fe_link_from(fe_build *b, ff_stage *stage)
+{
+    if (stage->wires || !fe_load_stage(b, stage))
+        return;
+    fe_link_stage(b, stage);
+    for (size_t i = 0; i < stage->wire_count; i++)
+        if (stage->wires[i].stage >= 0)
+            fe_link_from(b, &b->pipeline->stages[stage->wires[i].stage]);
+}

@@ -180,12 +180,6 @@ bool ff_report_lacked_memory(const ff_report *report)
     return report->lacked_memory;
 }
 
-void fe_report_require_memory(const ff_report *captured)
-{
-    if (captured->lacked_memory)
-        fe_out_of_memory();
-}
-
 int ff_report_fault(const ff_report *report)
 {
     return report->fault;

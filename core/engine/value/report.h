@@ -6,8 +6,5 @@
 #include <flankfilm/engine.h>
 
 void fe_report_note_no_memory(ff_report *report);
-/* Leaves the call when it was noted in a report that is captured, not shown: what failed must not
-   be passed over for something else. */
-void fe_report_require_memory(const ff_report *captured);
 
 #endif

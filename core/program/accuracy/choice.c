@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A model is judged by what it moves: the answer is computed with it, all else alike, and held
- * against the answer without it. Where both rest on settings of their own, the errors of those of
- * the model before count as well.
+ * against the answer without it. What it moves is as uncertain as the first of these answers, whose
+ * error counts with it, once.
  */
 #include "choice.h"
 
@@ -33,16 +33,6 @@ typedef struct trial {
 static size_t place_of(const trial *t, const accuracy_error *e)
 {
     return (size_t)(e->stage - t->base->stages);
-}
-
-/* What the model in place now adds to the error by its settings. */
-static double own_part(const trial *t, const accuracy_error *e, size_t stage)
-{
-    double sum = 0;
-    for (size_t i = 0; i < e->part_count; i++)
-        if (e->parts[i].stage == &t->base->stages[stage])
-            sum += e->parts[i].error;
-    return sum;
 }
 
 /* How far the output moves, relative; NaN: it cannot be compared. */
@@ -93,10 +83,10 @@ static const char *object_to(trial *t, size_t stage, const accuracy_twin *next, 
     for (size_t i = 0; i < t->measured->count; i++) {
         const accuracy_error *e = &t->measured->errors[i];
         double moved = distance(t, e, next->pipeline), most = share_of_models * e->goal;
-        moves[i] = moved + own_part(t, e, stage);
+        moves[i] = moved + (t->choice->differs ? 0 : e->relative);
         if (isnan(e->goal) || t->moved[i] + moves[i] <= most)
             continue;
-        if (isnan(moved))
+        if (isnan(moves[i]))
             return keep(t, memory_print_text("%s.%s cannot be compared", e->stage->name,
                                              e->result->row->name));
         return keep(t,

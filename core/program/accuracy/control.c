@@ -427,50 +427,13 @@ static bool search(control *c)
     return true;
 }
 
-static bool is_known(const ff_report *report, const char *text)
-{
-    for (size_t i = 0; i < ff_report_count(report); i++)
-        if (!strcmp(ff_report_at(report, i)->text, text))
-            return true;
-    return false;
-}
-
-/* Whether the message is about a setting that was chosen: the file does not say it. */
-static bool is_about_chosen(const ff_message *m, ff_place place)
-{
-    return m->severity == FF_WARNING && m->place.source == place.source &&
-           m->place.line == place.line && m->place.column == place.column;
-}
-
-/* Says what the answer has to say: building the pipeline that was asked for said the same of it. */
-static void hand_on(const accuracy_twin *run, ff_place chosen, const ff_observer *watch,
-                    ff_report *report)
-{
-    for (size_t i = 0; i < ff_report_count(run->report); i++) {
-        const ff_message *m = ff_report_at(run->report, i);
-        ff_source source = m->place.source ? *m->place.source : (ff_source){0};
-        ff_place place = m->place;
-        source.temporary = true; /* it is freed with the answer */
-        place.source = place.source ? &source : NULL;
-        if (is_known(report, m->text) || is_about_chosen(m, chosen))
-            continue;
-        if (m->severity == FF_ERROR)
-            ff_error(report, m->fault, place, m->hint, "%s", m->text);
-        else
-            ff_warn(report, place, "%s", m->text);
-    }
-    for (size_t i = 0; watch && watch->log && i < run->note_count; i++)
-        watch->log(watch->ctx, &run->pipeline->stages[run->notes[i].stage], run->notes[i].level,
-                   run->notes[i].text);
-}
-
 /* Whether the setting changes nothing, as a tolerance of steps that the file gives. */
 static bool is_idle(const knob *k, const ff_report *report, ff_place chosen)
 {
     char *start = memory_print_text("%s.%s changes nothing", k->stage->name, k->setting.name);
     bool idle = false;
     for (size_t i = 0; i < ff_report_count(report) && !idle; i++)
-        idle = is_about_chosen(ff_report_at(report, i), chosen) &&
+        idle = accuracy_is_about(ff_report_at(report, i), chosen) &&
                !strncmp(ff_report_at(report, i)->text, start, strlen(start));
     free(start);
     return idle;
@@ -515,7 +478,7 @@ bool accuracy_control(accuracy_record *record, const ff_tree *tree, ff_engine *e
     bool finished = search(&c);
     if (finished) {
         adopt(&c, record);
-        hand_on(record->twin, accuracy_place(tree), watch, report);
+        accuracy_twin_hand_on(record->twin, accuracy_place(tree), watch, report);
     } else {
         attempt_free(&c.best);
     }

@@ -135,13 +135,6 @@ bool accuracy_check(const ff_tree *tree, const ff_pipeline *pipeline, ff_report 
     size_t errors = ff_report_errors(report), count;
     if (!node)
         return true;
-    for (size_t i = 0; is_measured(node) && i < pipeline->count; i++)
-        if (pipeline->stages[i].needed && pipeline->stages[i].choice)
-            return ff_error(report, FF_FAULT_INPUT, node->place,
-                            "name the model, or give the accuracy as a number: 2 %",
-                            "accuracy: measured is the error of what the file says, and %s leaves "
-                            "its model open",
-                            pipeline->stages[i].name);
     char **names = list_names(pipeline, &count);
     if (node->kind != FF_MAP)
         read_goal(node, row.name, report);

@@ -109,12 +109,8 @@ static void name_reference(ff_tree *tree, const char *name, const ff_node *stage
         return;
     }
     char *set = memory_print_text("pipeline.%s.use=%s", name, reference);
-    char *none = memory_print_text("pipeline.%s.reference=", name);
     const ff_place at = use->place;
-    if (named)
-        ff_tree_set(tree, none, NULL, NULL, report);
     ff_tree_set(tree, set, &at, &at, report);
-    free(none);
     free(set);
 }
 
@@ -135,18 +131,45 @@ static size_t stage_count(const ff_tree *tree)
     return stages && stages->kind == FF_MAP ? stages->count : 0;
 }
 
-ff_pipeline *accuracy_build(ff_tree *tree, ff_engine *engine, bool everything, ff_report *report)
+/* Whether the stage said KIND/auto, in this layer or an earlier one. */
+static bool was_open(const ff_node *stage)
+{
+    for (const ff_node *use = ff_node_get(stage, "use"); use; use = use->replaced)
+        if (is_open_node(use))
+            return true;
+    return false;
+}
+
+/* The key is no parameter of a model. */
+static void take_reference_away(ff_tree *tree, const char *name, ff_report *report)
+{
+    char *none = memory_print_text("pipeline.%s.reference=", name);
+    ff_tree_set(tree, none, NULL, NULL, report);
+    free(none);
+}
+
+bool accuracy_name_references(ff_tree *tree, ff_engine *engine, ff_report *report)
 {
     size_t errors = ff_report_errors(report), count = stage_count(tree);
     for (size_t i = 0; i < count; i++) {
         const ff_node *stages = ff_node_get(ff_tree_root(tree), "pipeline"); /* of now */
-        if (is_open_node(ff_node_get(stages->items[i], "use")))
-            name_reference(tree, stages->keys[i], stages->items[i], engine, report);
+        const ff_node *stage = stages->items[i];
+        const char *name = stages->keys[i];
+        bool named = was_open(stage) && ff_node_get(stage, "reference");
+        if (is_open_node(ff_node_get(stage, "use")))
+            name_reference(tree, name, stage, engine, report);
+        if (named)
+            take_reference_away(tree, name, report);
     }
-    if (ff_report_errors(report) > errors)
+    return ff_report_errors(report) == errors;
+}
+
+ff_pipeline *accuracy_build(ff_tree *tree, ff_engine *engine, bool everything, ff_report *report)
+{
+    if (!accuracy_name_references(tree, engine, report))
         return NULL;
     ff_pipeline *pipeline = ff_pipeline_build(tree, engine, everything, report);
-    if (pipeline)
+    if (pipeline && ff_report_errors(report) == 0 && accuracy_check(tree, pipeline, report))
         check_asked(tree, pipeline, report);
     return pipeline;
 }

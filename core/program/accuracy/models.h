@@ -8,11 +8,14 @@
 #include <flankfilm/engine.h>
 
 /*
- * Builds the pipeline of a file as ff_pipeline_build does. A stage that says KIND/auto has its
- * reference in the tree from then on, the model that the others of the kind are held against: the
- * one under `reference`, else the first under `with`, else the one that costs most; of a law it is
- * an error where the file names none.
+ * Gives each stage that says KIND/auto its reference, the model that the others of the kind are
+ * held against: the one under `reference`, else the first under `with`, else the one that costs
+ * most; of a law it is an error where the file names none. False after an error.
  */
+bool accuracy_name_references(ff_tree *tree, ff_engine *engine, ff_report *report);
+
+/* The same, then builds the pipeline as ff_pipeline_build does, and checks what the file says of
+   accuracy. */
 ff_pipeline *accuracy_build(ff_tree *tree, ff_engine *engine, bool everything, ff_report *report);
 
 /* What the stage of such a pipeline says, "ehl/auto"; NULL: it names its model. */

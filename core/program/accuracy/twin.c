@@ -153,6 +153,41 @@ const char *accuracy_twin_reason(const accuracy_twin *twin)
     return first ? first->text : "it could not be run";
 }
 
+static bool is_known(const ff_report *report, const char *text)
+{
+    for (size_t i = 0; i < ff_report_count(report); i++)
+        if (!strcmp(ff_report_at(report, i)->text, text))
+            return true;
+    return false;
+}
+
+bool accuracy_is_about(const ff_message *m, ff_place place)
+{
+    return m->severity == FF_WARNING && m->place.source == place.source &&
+           m->place.line == place.line && m->place.column == place.column;
+}
+
+void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_observer *watch,
+                           ff_report *report)
+{
+    for (size_t i = 0; i < ff_report_count(run->report); i++) {
+        const ff_message *m = ff_report_at(run->report, i);
+        ff_source source = m->place.source ? *m->place.source : (ff_source){0};
+        ff_place place = m->place;
+        source.temporary = true; /* it is freed with the answer */
+        place.source = place.source ? &source : NULL;
+        if (is_known(report, m->text) || accuracy_is_about(m, chosen))
+            continue;
+        if (m->severity == FF_ERROR)
+            ff_error(report, m->fault, place, m->hint, "%s", m->text);
+        else
+            ff_warn(report, place, "%s", m->text);
+    }
+    for (size_t i = 0; watch && watch->log && i < run->note_count; i++)
+        watch->log(watch->ctx, &run->pipeline->stages[run->notes[i].stage], run->notes[i].level,
+                   run->notes[i].text);
+}
+
 void accuracy_twin_free(accuracy_twin *twin)
 {
     ff_pipeline_free(twin->pipeline);

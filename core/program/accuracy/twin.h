@@ -47,6 +47,12 @@ void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const c
 void accuracy_hand_states(const ff_pipeline *from, ff_pipeline *to);
 /* Why it is not good. */
 const char *accuracy_twin_reason(const accuracy_twin *twin);
+/* Whether it is a warning about what was set at that place, which the file does not say. */
+bool accuracy_is_about(const ff_message *message, ff_place place);
+/* Says what the run has to say, but for what the report has already, and what is about the place.
+ */
+void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_observer *watch,
+                           ff_report *report);
 /* Zeroed is nothing. */
 void accuracy_twin_free(accuracy_twin *twin);
 

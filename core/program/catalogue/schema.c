@@ -157,9 +157,8 @@ static json_t *model_schema(const ff_model *model)
     json_object_set_new(properties(map), "with", json_true());
     for (size_t i = 0; i < model->input_count; i++)
         add_wire(map, ff_model_input(model, i));
-    for (const char *const *key = (const char *const[]){"accuracy", "only", "refine", NULL};
-         ff_model_assesses(model) && *key; key++)
-        json_object_set_new(properties(map), *key, json_true());
+    if (ff_model_cost(model) > 0)
+        json_object_set_new(properties(map), "reference", json_true());
     return map;
 }
 
@@ -213,7 +212,7 @@ static json_t *stage_schema(const catalogue *c, json_t *definitions)
         json_object_set_new(definitions, strrchr(place, '/') + 1, model_schema(entry->model));
         json_object_set_new(properties(with), entry->id, json_pack("{s:s}", "$ref", place));
         json_array_append_new(ids, json_string(entry->id));
-        if (ff_model_assesses(entry->model))
+        if (ff_model_cost(entry->model) > 0)
             add_auto(ids, entry->id);
         json_array_append_new(cases, json_pack("{s:{s:{s:{s:s}}, s:[s]}, s:{s:s}}", "if",
                                                "properties", "use", "const", entry->id, "required",

@@ -195,7 +195,9 @@ void cli_check_oil(cli_session *session, ff_tree *tree, ff_report *report)
     if (!outputs)
         return;
     ff_tree_set(tree, outputs, NULL, NULL, report);
-    ff_pipeline *oils = accuracy_build(tree, session->engine, false, report);
+    ff_pipeline *oils = accuracy_name_references(tree, session->engine, report)
+                            ? ff_pipeline_build(tree, session->engine, false, report)
+                            : NULL;
     if (oils && ff_report_errors(report) == 0)
         ff_pipeline_run(oils, NULL, report);
     for (size_t i = 0; ff_report_errors(report) == 0 && i < session->pipeline->count; i++)

@@ -5,7 +5,6 @@
 #include "../terminal/terminal.h"
 #include "oil.h"
 
-#include "../accuracy/goals.h"
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
@@ -141,8 +140,6 @@ static bool open_file(cli_session *session, const cli_options *options, bool eve
     warn_of_follow(session);
     if (session->pipeline && ff_report_errors(session->report) == 0)
         cli_check_temperatures(session);
-    if (session->pipeline && ff_report_errors(session->report) == 0)
-        accuracy_check(session->tree, session->pipeline, session->report);
     if (session->study && session->pipeline)
         study_check(session->study, session->pipeline, session->report);
     if (session->study && !session->study->driver && ff_report_errors(session->report) == 0)

@@ -38,9 +38,8 @@ static const char *created(void *ctx, void *self)
 static bool owes_reason(const char *action, ff_status status)
 {
     bool evaluates = !strcmp(action, "evaluate");
-    bool asked = !strcmp(action, "assess") || !strcmp(action, "judge");
     if (status == FF_STOPPED)
-        return !evaluates && !asked;
+        return !evaluates;
     return status == FF_DOMAIN ? !evaluates : status != FF_OK && status != FF_NOMEM;
 }
 

@@ -211,7 +211,7 @@ size_t verify_allocations_made(void);
 /* Bytes from there to the end of the block that the plugin allocated; 0: it is in none. */
 size_t verify_allocation_room(const void *memory);
 
-/* test-life.c, test-outputs.c, test-promises.c: what any model owes. False after a failure. */
+/* test-life.c, test-outputs.c: what any model owes. False after a failure. */
 bool verify_test_references(verify_context *context);
 bool verify_test_presets(verify_context *context);
 bool verify_test_places(verify_context *context);
@@ -223,7 +223,5 @@ bool verify_test_environment(verify_context *context);
 bool verify_test_inputs(verify_context *context);
 bool verify_test_wanted(verify_context *context);
 bool verify_test_repeat(verify_context *context);
-bool verify_test_assess(verify_context *context);
-bool verify_test_judge(verify_context *context);
 
 #endif

@@ -21,7 +21,7 @@
 typedef enum matter { LOADING, USER_FILE, ANY_MODEL, ITS_KIND } matter;
 
 /* Which models a test concerns; from WITH_DATA on it needs inputs. */
-typedef enum concern { ALL, WITH_PARAMS, WITH_PLACES, WITH_DATA, WITH_ASSESS, WITH_JUDGE } concern;
+typedef enum concern { ALL, WITH_PARAMS, WITH_PLACES, WITH_DATA } concern;
 
 typedef struct test {
     const char *name, *claim;
@@ -56,10 +56,6 @@ static const test any_model[] = {
     {"wanted", "gives each output that is wanted", ANY_MODEL, WITH_DATA, verify_test_wanted, NULL},
     {"repeat", "gives the same outputs again, and in two threads", ANY_MODEL, WITH_DATA,
      verify_test_repeat, NULL},
-    {"assess", "promises an error and a cost, or says why not, for any input", ANY_MODEL,
-     WITH_ASSESS, verify_test_assess, NULL},
-    {"judge", "says how far a law moves its results, or why not, for any input", ANY_MODEL,
-     WITH_JUDGE, verify_test_judge, NULL},
 };
 
 typedef struct session {
@@ -82,10 +78,6 @@ static bool concerns(const test *t, const ff_model *model)
         return model->self_size > 0;
     case WITH_DATA:
         return verify_data_outputs(model) != 0;
-    case WITH_ASSESS:
-        return FF_HAS(model, assess) && model->assess;
-    case WITH_JUDGE:
-        return FF_HAS(model, judge) && model->judge;
     case ALL:
         break;
     }

@@ -87,7 +87,9 @@ bool verify_take_user_run(verify_context *context, const verify_request *request
     if (data)
         ff_tree_set(tree, outputs, NULL, NULL, report);
     free(outputs);
-    ff_pipeline *pipeline = accuracy_build(tree, engine, !data, report);
+    ff_pipeline *pipeline = accuracy_name_references(tree, engine, report)
+                                ? ff_pipeline_build(tree, engine, !data, report)
+                                : NULL;
     return pipeline && ff_report_errors(report) == 0 &&
            (!run || !data || ff_pipeline_run(pipeline, NULL, report)) &&
            take_stage(context, pipeline, name);

@@ -105,27 +105,13 @@ FIELD(ff_model, ready, 168, 8);
 FIELD(ff_model, evaluate, 176, 8);
 FIELD(ff_model, service, 184, 8);
 FIELD(ff_model, destroy, 192, 8);
-FIELD(ff_model, carry, 200, 8);   /* since 1.1 */
-FIELD(ff_model, assess, 208, 8);  /* since 1.1 */
-FIELD(ff_model, judge, 216, 8);   /* since 1.1 */
+FIELD(ff_model, carry, 200, 8); /* since 1.1 */
+FIELD(ff_model, reserved, 208, 16);
 FIELD(ff_model, columns, 224, 8); /* since 1.1 */
 FIELD(ff_model, column_count, 232, 8);
 FIELD(ff_model, column_stride, 240, 8);
 FIELD(ff_model, self_size, 248, 8); /* since 1.2 */
 FIELD(ff_model, cost, 256, 8);      /* since 1.2 */
-
-FROZEN(ff_proposal, 16);
-FIELD(ff_proposal, param, 0, 8);
-FIELD(ff_proposal, value, 8, 8);
-
-GROWING(ff_assessment, 56);
-FIELD(ff_assessment, size, 0, 8);
-FIELD(ff_assessment, applies, 8, 4);
-FIELD(ff_assessment, error, 16, 8);
-FIELD(ff_assessment, cost, 24, 8);
-FIELD(ff_assessment, reason, 32, 8);
-FIELD(ff_assessment, proposals, 40, 8);
-FIELD(ff_assessment, proposal_count, 48, 8);
 
 GROWING(ff_state_bytes, 24);
 FIELD(ff_state_bytes, size, 0, 8);

@@ -189,48 +189,23 @@ static ff_status use_stages(attempt *a, ff_engine *engine)
     return s;
 }
 
-typedef struct choice {
-    attempt *a;
-    ff_engine *engine;
-    ff_report *report;
-} choice;
-
-/* A file that leaves models open, as the program runs it. */
-static void run_open_file(void *ctx)
-{
-    choice *c = ctx;
-    c->report = ff_report_new();
-    ff_tree *tree = ff_tree_load(c->a->file, c->report);
-    ff_pipeline *p = ff_pipeline_build(tree, c->engine, false, c->report);
-    c->a->opening = memory.calls;
-    if (p && ff_report_errors(c->report) == 0 && ff_pipeline_run(p, NULL, c->report))
-        for (size_t i = 0; i < p->count; i++)
-            for (size_t k = 0; p->stages[i].ran && k < p->stages[i].loaded->model->output_count;
-                 k++)
-                if (p->stages[i].results[k].data)
-                    add_array(c->a, p->stages[i].name, &p->stages[i].results[k]);
-    c->a->lacked = ff_report_lacked_memory(c->report);
-}
-
 /* The status of the run; the answer has the length of the message, too. */
 static ff_status run(attempt *a)
 {
     const ff_engine_options options = {sizeof options, &a->plugins, 1};
-    choice c = {.a = a};
-    ff_status status = ff_engine_new(&options, &c.engine);
+    ff_engine *engine;
+    ff_status status = ff_engine_new(&options, &engine);
     if (status != FF_OK)
         return status;
     if (a->how == INSTANCES)
-        status = use_instances(a, c.engine);
+        status = use_instances(a, engine);
     else if (a->how == STAGES)
-        status = use_stages(a, c.engine);
-    else if (a->how == OPEN)
-        status = ff_protected(run_open_file, &c);
+        status = use_stages(a, engine);
     else
-        status = run_file(a, c.engine);
-    a->answer += 1e6 * (double)strlen(ff_engine_message(c.engine));
-    ff_engine_close(c.engine);
-    return status == FF_OK && a->lacked ? FF_NOMEM : status;
+        status = run_file(a, engine);
+    a->answer += 1e6 * (double)strlen(ff_engine_message(engine));
+    ff_engine_close(engine);
+    return status;
 }
 
 attempt attempt_run(const attempt *plan)

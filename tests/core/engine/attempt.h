@@ -10,14 +10,12 @@ typedef struct attempt {
     const char *file;
     enum {
         RUN,
-        OPEN,      /* models are to be chosen */
         INSTANCES, /* toys by hand */
         STAGES     /* each stage by hand */
     } how;
     bool only_loads; /* a RUN is opened, but not started */
     ff_status status;
     size_t calls, opening; /* of the allocator, and until all models are there */
-    bool lacked;           /* an error says that memory was missing */
     double answer;         /* over all numbers and messages */
 } attempt;
 

@@ -276,7 +276,7 @@ static void leave_models(const char *plugins)
     ff_engine_close(engine);
 }
 
-/* DIRECTORY-OF-PLUGINS DIRECTORY-OF-FILES FILE STRIDE [SEED] WORD...: open, instances or stages say
+/* DIRECTORY-OF-PLUGINS DIRECTORY-OF-FILES FILE STRIDE [SEED] WORD...: instances or stages say
    how the file is run; cold: allocations fail while models are loaded; space: they find so many KiB
    of address space, twice as many, and so on; shipped: the models use
    libraries that end the process. */
@@ -288,9 +288,7 @@ int main(int argc, char **argv)
     draw start = {.stride = (size_t)atoi(argv[4]), .begin = 1, .seed = 1};
     bool cold = false, space = false;
     for (int i = 5; i < argc; i++) {
-        bool open = !strcmp(argv[i], "open"), stages = !strcmp(argv[i], "stages");
-        plan.how = open                            ? OPEN
-                   : stages                        ? STAGES
+        plan.how = !strcmp(argv[i], "stages")      ? STAGES
                    : !strcmp(argv[i], "instances") ? INSTANCES
                                                    : plan.how;
         cold = cold || !strcmp(argv[i], "cold");

@@ -205,9 +205,6 @@ static void names(void)
     check_error("a stage named like a key of the file", &a, 3, 3,
                 "a stage cannot be called \"feedback\"");
     try_close(&a);
-    a = try_build("accuracy: -1 %\npipeline:\n  a: {use: toy/source, level: 1 mm}\n", false);
-    check_error("an accuracy that nobody asks for", &a, 2, 11, "is too small");
-    try_close(&a);
     a = try_build("pipeline:\n  s: {use: toys/source, level: 1 mm}\n  c: {use: toy/consumer}\n",
                   false);
     check_error("a kind that there is not", &a, 3, 12, "did you mean \"toy/source\"?");

@@ -106,8 +106,6 @@ static ff_port outputs[65] = {
     {.name = "second", .unit = "m", .doc = "another", .dims = "t"},
 };
 
-static double promised;
-
 static ff_status create(const ff_host *host, void **self)
 {
     size_t shape = 2;
@@ -160,8 +158,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         host->quality(host->ctx, "balance", 1, 1, 99, NULL);
     if (!level || !series || !second)
         return FF_NOMEM;
-    *level = 1e-3 * (1 + promised);
-    promised = 0;
+    *level = 1e-3;
     for (int i = 0; i < 3; i++)
         series[i] = second[i] = 1e-3;
     if (is("past"))
@@ -171,56 +168,6 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (is("infinite"))
         *level = INFINITY;
     return FF_OK;
-}
-
-/* The faults of both, behind the name of the function. */
-static ff_status promise(const ff_host *host, const char *function, const ff_array *in,
-                         ff_assessment *a)
-{
-    static const ff_proposal proposal = {"words", "b"};
-    static double calls;
-    char prefix[16], fault[64] = "";
-    snprintf(prefix, sizeof prefix, "%s-", function);
-    if (!strncmp(FAULT, prefix, strlen(prefix)))
-        snprintf(fault, sizeof fault, "%s", &FAULT[strlen(prefix)]);
-    *a = (ff_assessment){.size = sizeof *a, .applies = FF_APPLIES, .error = 0.01, .reason = "ever"};
-    if (!strcmp(fault, "nan"))
-        a->error = NAN;
-    if (!strcmp(fault, "infinite"))
-        a->error = INFINITY;
-    if (!strcmp(fault, "negative"))
-        a->error = -0.01;
-    if (!strcmp(fault, "counter"))
-        a->error += ++calls;
-    if (!strcmp(fault, "applies"))
-        a->applies = 7;
-    if (!strcmp(fault, "cost"))
-        a->cost = 1;
-    if (!strcmp(fault, "proposal"))
-        a->proposals = &proposal, a->proposal_count = 1;
-    if (!strcmp(fault, "output"))
-        ff_put_series(host, 2, 3);
-    if (!strcmp(fault, "input") && in[1].data && in[1].shape[0])
-        *(double *)(uintptr_t)in[1].data += 1;
-    if (!strcmp(fault, "state"))
-        promised = 1;
-    if (!strcmp(fault, "crash"))
-        *(volatile int *)nowhere() = 1;
-    return strcmp(fault, "silent") ? FF_OK : FF_NOCONV;
-}
-
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *a)
-{
-    (void)wanted, (void)accuracy;
-    return promise(self, "assess", in, a);
-}
-
-static ff_status judge(void *self, uint64_t wanted, uint32_t input, const void *service,
-                       const ff_array *in, ff_assessment *a)
-{
-    (void)wanted;
-    return input != 2 || !service ? FF_BUG : promise(self, "judge", in, a);
 }
 
 static void destroy(void *self)
@@ -254,8 +201,6 @@ static ff_model model = {
     .ready = ready,
     .evaluate = evaluate,
     .destroy = destroy,
-    .assess = assess,
-    .judge = judge,
 };
 
 static void spoil_model(void)

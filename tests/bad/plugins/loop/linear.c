@@ -122,15 +122,6 @@ static const void *service(void *self, uint32_t output)
     return &law;
 }
 
-static ff_status assess(void *self, uint64_t wanted, double accuracy, const ff_array *in,
-                        ff_assessment *assessment)
-{
-    (void)self, (void)wanted, (void)accuracy, (void)in;
-    assessment->applies = FF_APPLIES;
-    assessment->reason = "linear";
-    return FF_OK;
-}
-
 /* The state tells how often stages before it were evaluated. */
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
 {
@@ -146,5 +137,5 @@ FF_MODEL(loop_model, loop, .id = "loop/linear", .version = "1.0.0",
          .summary = "Adds up what is before and what comes back", .reference = "", .bibtex = "",
          .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
          .outputs = FF_TABLE(outputs), .wire = wire, .ready = ready, .evaluate = evaluate,
-         .destroy = free, .service = service, .carry = carry, .assess = assess);
+         .destroy = free, .service = service, .carry = carry);
 FF_EXPORT_MODELS(&loop_model);
