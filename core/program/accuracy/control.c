@@ -7,6 +7,7 @@
 #include "control.h"
 
 #include "choice.h"
+#include "doubts.h"
 #include "goals.h"
 #include "models.h"
 #include "settings.h"
@@ -26,8 +27,9 @@ static const double finest = -2;
 /* Of the reference, over the goal, when models are held against it: they may move half of a goal
    (choice.c), and its error counts with what they move. */
 static const double reference_error = 0.25;
-/* In an attempt; what a measured error says of one much smaller is uncertain. */
-static const double most_levels = 2;
+/* In an attempt. A level costs four times as much, so that all attempts before the last cost a
+   third of it, and one level too many costs more than they do. */
+static const double most_levels = 1;
 /* Parts are brought to this share of a goal, so that the next error does not fall just above it. */
 static const double reserve = 0.8;
 /* An output is given up where settings that the file gives leave less than this of its goal. */
@@ -59,7 +61,8 @@ typedef struct target {
 
 typedef struct attempt {
     accuracy_twin run;
-    accuracy_record record;
+    accuracy_record record; /* of a doubtful one empty */
+    bool doubtful;          /* it is in doubt, and coarser than the presets: no answer */
 } attempt;
 
 typedef struct control {
@@ -159,6 +162,23 @@ static const char **list_sets(control *c, size_t *count)
     return sets;
 }
 
+static bool is_coarse(const control *c)
+{
+    for (size_t i = 0; i < c->count; i++)
+        if (c->knobs[i].level > 0)
+            return true;
+    return false;
+}
+
+static void measure(control *c, attempt *a)
+{
+    a->record.choice = c->choice;
+    a->run.stopped = !accuracy_measure(&a->record, a->run.tree, c->scene.engine, a->run.pipeline,
+                                       c->scene.watch);
+    c->twins += a->record.twins;
+    c->seconds += a->record.seconds;
+}
+
 /* Runs and measures the file with the settings as they are. */
 static void try_settings(control *c, attempt *next)
 {
@@ -169,14 +189,13 @@ static void try_settings(control *c, attempt *next)
     c->scene.donor = c->best.run.good ? c->best.run.pipeline : NULL;
     for (size_t i = 0; i < c->count; i++)
         changed[c->knobs[i].stage - c->asked->stages] |= c->knobs[i].level != c->knobs[i].measured;
-    next->record.choice = c->choice;
     accuracy_twin_run(&next->run, &c->scene, sets, count, &place, changed);
-    if (next->run.good && !accuracy_measure(&next->record, next->run.tree, c->scene.engine,
-                                            next->run.pipeline, c->scene.watch))
-        next->run.stopped = true;
+    next->doubtful =
+        next->run.good && is_coarse(c) && accuracy_has_doubts(next->run.pipeline, c->scene.donor);
+    if (next->run.good && !next->doubtful)
+        measure(c, next);
     c->attempts++;
-    c->twins += next->record.twins;
-    c->seconds += next->run.work + next->record.seconds;
+    c->seconds += next->run.work;
     free(changed);
     free(sets);
 }
@@ -306,26 +325,13 @@ static target *target_of(control *c, const accuracy_error *e)
     return &c->targets[c->target_count++];
 }
 
-/* Whether a stage doubts its numbers by anything but the errors that were measured. */
-static bool has_doubts(const control *c)
-{
-    const ff_pipeline *answer = c->best.run.pipeline;
-    for (size_t i = 0; i < answer->count; i++)
-        for (size_t k = 0; k < answer->stages[i].quality_count; k++) {
-            const ff_quality *line = &answer->stages[i].quality[k];
-            if (line->verdict != FF_GOOD && !accuracy_is_line(line))
-                return true;
-        }
-    return false;
-}
-
-/* What coarse settings make doubtful may be wrong in a way that all twins share: they hold at the
-   presets alone. */
+/* What coarse settings make doubtful may be wrong in a way that all twins share: what is in doubt
+   is no answer but at the presets. */
 static void settle_doubts(control *c)
 {
-    for (size_t i = 0; i < c->count && has_doubts(c); i++)
+    for (size_t i = 0; i < c->count && c->best.doubtful; i++)
         if (c->knobs[i].level > 0)
-            move(c, &c->knobs[i], 0);
+            move(c, &c->knobs[i], fmax(c->knobs[i].level - most_levels, 0));
 }
 
 /* Chooses the settings of the next attempt; false: this one is the answer. */
@@ -382,7 +388,7 @@ static void begin_with(control *c, const accuracy_choice *choice)
 static bool choose_models(control *c)
 {
     size_t count;
-    if (c->choice || !leaves_models_open(c->asked))
+    if (c->choice || c->best.doubtful || !leaves_models_open(c->asked))
         return true;
     const char **sets = list_sets(c, &count);
     c->choice = memory_alloc(sizeof *c->choice);
@@ -424,7 +430,9 @@ static bool search(control *c)
             again = false;
         }
     }
-    return true;
+    if (c->best.doubtful) /* nothing better was had */
+        measure(c, &c->best);
+    return !c->best.run.stopped;
 }
 
 /* Whether the setting changes nothing, as a tolerance of steps that the file gives. */

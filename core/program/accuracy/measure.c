@@ -280,10 +280,9 @@ static void measure_output(const measurement *m, accuracy_error *e)
     add_changes(m, e);
 }
 
-/* Whether a line of quality tells the error of an output that was measured, or of one on the way
-   to it: "h_min_space_error". The output is the one with the longest name that the line begins
-   with; of fields no error is measured. */
-static bool is_estimate(const ff_stage *stage, const char *line)
+/* "h_min_space_error" is of the output with the longest name that the line begins with; of fields
+   no error is measured. */
+bool accuracy_is_estimate(const ff_stage *stage, const char *line)
 {
     static const char ending[] = "_error";
     size_t length = strlen(line), tail = sizeof ending - 1, longest = 0;
@@ -317,7 +316,7 @@ static void drop_estimates(const measurement *m)
             if (stage->wires[k].stage >= 0)
                 feeds[stage->wires[k].stage] = true;
         for (size_t k = stage->quality_count; k-- > 0;)
-            if (is_estimate(stage, stage->quality[k].name))
+            if (accuracy_is_estimate(stage, stage->quality[k].name))
                 ff_drop_quality(stage, k);
     }
     free(feeds);

@@ -60,6 +60,8 @@ void accuracy_free(accuracy_record *record);
 char *accuracy_describe(const accuracy_error *error);
 /* Whether a line of quality tells an error that was measured. */
 bool accuracy_is_line(const ff_quality *line);
+/* Whether the line of that name estimates an error of the stage's outputs, which is measured. */
+bool accuracy_is_estimate(const ff_stage *stage, const char *line);
 /* NULL: the error of the output was not measured. */
 const accuracy_error *accuracy_find(const accuracy_record *record, const ff_result *result);
 

@@ -104,7 +104,13 @@ class Control(lab.Lab):
         answer = self.ask("accuracy=5 %", "last.sure=60")
         self.assertEqual((answer["verdict"], answer["accuracy"]["settings"]["last.cells"]), ("good", "64"))
         answer = self.ask("accuracy=5 %", "last.sure=1000")
+        self.assertEqual((answer["verdict"], answer["accuracy"]["attempts"]), ("doubtful", 3))
+
+    def test_doubts_of_no_setting(self):
+        """They last from the first attempt to the second, and take the answer to no finer one."""
+        answer = self.ask("accuracy=10 %", "last.heat=0.5")
         self.assertEqual((answer["verdict"], answer["accuracy"]["attempts"]), ("doubtful", 2))
+        self.assertLess(int(answer["accuracy"]["settings"]["last.cells"]), 64)
 
     def test_no_settings_that_work(self):
         answer = self.ask("last.least=1000", code=1)

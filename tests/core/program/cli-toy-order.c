@@ -9,7 +9,7 @@
 typedef struct order {
     const ff_host *host;
     int64_t cells, steps, least, sure;
-    double tolerance, order, strength, gain;
+    double tolerance, order, strength, gain, heat;
 } order;
 
 static const ff_param params[] = {
@@ -23,6 +23,7 @@ static const ff_param params[] = {
                 "error of the value with one cell"),
     FF_QUANTITY("gain", "1", order, gain, 0, "1", NULL, -1e6, 1e6, 0, 0,
                 "what the value before is multiplied by"),
+    FF_QUANTITY("heat", "1", order, heat, 0, "0", NULL, 0, 1, 0, 0, "a doubt of no setting"),
     FF_COUNT("least", order, least, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it fails"),
     FF_COUNT("sure", order, sure, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it has doubts"),
 };
@@ -63,8 +64,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         }
     }
     o->host->quality(o->host->ctx, "value_guess_error", 0.9, 0.1, FF_DOUBTFUL, "a guess");
-    o->host->quality(o->host->ctx, "balance", 0, 1, o->cells < o->sure ? FF_DOUBTFUL : FF_GOOD,
-                     "no estimate of an error");
+    o->host->quality(o->host->ctx, "balance", (double)o->sure / (double)o->cells, 1,
+                     o->cells < o->sure ? FF_DOUBTFUL : FF_GOOD, "no estimate of an error");
+    if (o->heat > 0)
+        o->host->quality(o->host->ctx, "heat", o->heat, 0, FF_DOUBTFUL, "whatever the cells are");
     return FF_OK;
 }
 

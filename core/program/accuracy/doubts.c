@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "doubts.h"
+
+#include "measure.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A doubt that a level changes by less, over itself, is not of the settings. */
+static const double lasting = 0.1;
+
+/* Whether the coarser answer before had the same doubt: then it is not of the settings. */
+static bool is_lasting(const ff_stage *before, const ff_quality *line)
+{
+    for (size_t i = 0; i < before->quality_count; i++) {
+        const ff_quality *was = &before->quality[i];
+        if (!strcmp(was->name, line->name))
+            return was->verdict != FF_GOOD &&
+                   fabs(line->value - was->value) <= lasting * fabs(was->value);
+    }
+    return false;
+}
+
+bool accuracy_has_doubts(const ff_pipeline *answer, const ff_pipeline *before)
+{
+    for (size_t i = 0; i < answer->count; i++)
+        for (size_t k = 0; k < answer->stages[i].quality_count; k++) {
+            const ff_stage *stage = &answer->stages[i];
+            const ff_quality *line = &stage->quality[k];
+            if (line->verdict != FF_GOOD && !accuracy_is_line(line) &&
+                !accuracy_is_estimate(stage, line->name) &&
+                !(before && is_lasting(&before->stages[i], line)))
+                return true;
+        }
+    return false;
+}
