@@ -5,7 +5,7 @@ set -eu
 
 packages="gcc libc6-dev meson ninja-build pkg-config libyaml-dev libjansson-dev libgsl-dev
           libfftw3-dev libopenblas-dev liblapacke-dev libsuitesparse-dev
-          libnetcdf-dev"
+          libnetcdf-dev libjs-vega"
 if [ "${1:-}" = test ]; then
     packages="$packages check libsubunit-dev libudunits2-dev openmpi-bin libopenmpi-dev
               slurmctld slurmd slurm-client munge"

@@ -113,12 +113,19 @@ typedef struct ff_view_case {
     const char *reasons; /* the lines that are not good, the worst first: "inlet heating, lambda" */
 } ff_view_case;
 
-/* A figure that the study has drawn of itself. */
+/* A drawing of a study by releases before 0.2; there are none any more. */
 typedef struct ff_view_drawing {
     size_t size;
     const char *name; /* of its file: "map.svg" */
     const char *svg;
 } ff_view_drawing;
+
+/* Figures that a study has described of itself, as the report draws them. */
+typedef struct ff_view_figures {
+    size_t size;
+    const char *name; /* of their file: "map.figure.json" */
+    const char *json; /* a list of figures */
+} ff_view_figures;
 
 typedef struct ff_view {
     size_t size;
@@ -152,6 +159,8 @@ typedef struct ff_view {
     size_t drawing_count;
     const char
         *summary; /* of the verdicts: "12 good, 104 doubtful (inlet heating 88, lambda 61)" */
+    const ff_view_figures *const *figures;
+    size_t figures_count;
 } ff_view;
 
 /* Where the files go. They appear under their names when `write` has returned FF_OK, all together;

@@ -15,7 +15,7 @@ os.environ["FLANKFILM_PLUGIN_PATH"] = plugins
 faults = []
 
 # What a figure draws: a curve of several points, points, or an image. Frames and keys do not count.
-DRAWN = re.compile(r'<path class="curve[^>]* data-label="[^"]*" d="M[^"]*L|<circle cx|<image |<img ')
+DRAWN = re.compile(r'"(y|values)":\[\[?(null,)*-?[0-9]')
 WRONG = re.compile(r"\bundefined\b|\bnan\b|\binf\b|\(null\)|<td></td><td class=\"number\"></td>", re.IGNORECASE)
 
 

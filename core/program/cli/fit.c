@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Parameters of laws from measured data. */
 #include "../fit/fit.h"
+#include "../report/report.h"
 #include "../results/folder.h"
 #include "../results/json.h"
 #include "../terminal/terminal.h"
@@ -37,6 +38,15 @@ static void write_answer(const fit *f, FILE *out)
     json_decref(answer);
 }
 
+static void write_page(const fit *f, FILE *out)
+{
+    json_t *figure = fit_figure(f);
+    char *text = json_dumps(figure, JSON_COMPACT | JSON_REAL_PRECISION(6));
+    report_write_figures(out, "Viscosity laws against data", text);
+    free(text);
+    json_decref(figure);
+}
+
 static bool write_files(const fit *f, const char *directory)
 {
     static const struct {
@@ -44,7 +54,7 @@ static bool write_files(const fit *f, const char *directory)
         void (*write)(const fit *f, FILE *out);
     } files[] = {{"card", ".yaml", fit_write_card},
                  {"residuals", ".csv", fit_write_residuals},
-                 {"residuals", ".svg", fit_write_plot},
+                 {"residuals", ".html", write_page},
                  {"fit", ".json", write_answer}};
     results_folder *folder = results_folder_open(directory, "fit", f->report);
     if (!folder)

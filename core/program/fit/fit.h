@@ -103,10 +103,11 @@ bool fit_law_eval(fit *f, fit_law *law, const double *values, size_t n, const do
 double fit_to_si(const fit_param *param, double number);
 double fit_from_si(const fit_param *param, double si);
 
-/* The result files: a card for pipelines, and the residuals as a table and as SVG. */
+/* The result files: a card for pipelines, and the residuals as a table. */
 void fit_write_card(const fit *f, FILE *out);
 void fit_write_residuals(const fit *f, FILE *out);
-void fit_write_plot(const fit *f, FILE *out);
+/* Returns a figure of the residuals, as script.js of the report draws it. */
+json_t *fit_figure(const fit *f);
 void fit_print(const fit *f);    /* for people, to stdout */
 json_t *fit_facts(const fit *f); /* the members of the answer */
 

@@ -79,13 +79,14 @@ typedef struct report_marks {
 extern const char *const report_mark_names[REPORT_MARKS];
 report_marks report_find_marks(report_page *page, size_t index);
 
-/* figure-curves.c */
+/* figure.c writes the description of a figure, which script.js draws. */
 typedef struct report_curve {
     double *x, *y; /* in the units of the figure; owned */
     double *bar;   /* error of each y, at least 0; owned, or NULL */
     size_t count;
     int colour, dash; /* numbers of a colour and of a dash pattern; any number */
-    bool dots;        /* points instead of a line */
+    bool dots, bars;  /* points or columns instead of a line */
+    double width;     /* of a column */
     const char *live; /* name by which script.js changes it, or NULL */
     char label[REPORT_TEXT_SIZE];
 } report_curve;
@@ -98,10 +99,12 @@ typedef struct report_plot {
     double marks[REPORT_MARKS];
     const char *mark_names[REPORT_MARKS];
     size_t mark_count;
-    double top;    /* of the y axis, when above 0 */
-    double x0, x1; /* range of the x axis, when x0 < x1 */
+    const char (*x_names)[REPORT_TEXT_SIZE]; /* what stands at x = 0, 1, ...; NULL: numbers */
+    double top;                              /* of the y axis, when above 0 */
+    double x0, x1;                           /* range of the x axis, when x0 < x1 */
     bool from_zero;
     bool decades;      /* along x, whose values are above 0 */
+    bool wide;         /* along y, when the values ask for it */
     const char *class; /* of the figure, or NULL */
 } report_plot;
 
@@ -114,14 +117,15 @@ void report_curve_bar(report_curve *curve, const report_unit *y_unit, const doub
 void report_plot_write(report_page *page, const report_plot *plot);
 void report_plot_free(report_plot *plot);
 
-/* Writes the name of a vertical axis in letters small enough to fit. */
-void report_side_label(FILE *out, const char *label, double x, double y);
-/* Writes <figure> with its head and button, up to the drawing area of that height. */
-void report_figure_begin(report_page *page, const char *title, const char *class, int height);
+/* Writes <figure> with its head, up to its description; the text of the description, in which HTML
+   finds no tag; and the end. */
+void report_figure_begin(report_page *page, const char *title, const char *class);
+void report_put_json_text(FILE *out, const char *text);
 void report_figure_end(report_page *page);
-enum { REPORT_FIGURE_WIDTH = 760 };
+/* Writes a list of descriptions, from which script.js makes the figures. */
+void report_put_figures(FILE *out, const char *json);
 
-/* figure-map.c draws values over two axes as colours. */
+/* Values over two axes as colours. */
 typedef struct report_map {
     char title[REPORT_TEXT_SIZE], value_label[REPORT_TEXT_SIZE];
     char x_label[REPORT_TEXT_SIZE], y_label[REPORT_TEXT_SIZE];
@@ -129,8 +133,19 @@ typedef struct report_map {
     const double *x, *y;  /* in the units of the figure, as all numbers here */
     const double *values; /* rows of columns; NaN: none */
     double low, high;     /* the range of the colours */
+    double mark;          /* a line is drawn between cells below and above it; NaN: none */
 } report_map;
 void report_map_write(report_page *page, const report_map *map);
+
+/* section-sample.c: a scalar over the cases, in SI, and how it is shown. */
+typedef struct report_scalar {
+    const double *values;
+    size_t count;
+    report_unit unit;
+    char title[REPORT_TEXT_SIZE], label[REPORT_TEXT_SIZE];
+} report_scalar;
+bool report_is_sample(const ff_view *view);
+void report_write_sample(report_page *page, const report_scalar *scalar);
 
 /* These write the sections of the page. */
 void report_write_verdict(report_page *page);

@@ -5,8 +5,12 @@
 
 #include <flankfilm/engine.h>
 #include <flankfilm/writer.h>
+#include <stdio.h>
 
 /* Writes the page to a file. False with an error in the report, which is the view's as well. */
 bool report_write(const ff_view *view, const char *path, ff_report *report);
+
+/* Writes a page of nothing but figures, whose descriptions are a list in JSON. */
+void report_write_figures(FILE *out, const char *title, const char *json);
 
 #endif

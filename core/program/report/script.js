@@ -5,80 +5,233 @@
   function all(selector, within) {
     return Array.prototype.slice.call((within || document).querySelectorAll(selector));
   }
-  function range(plot, axis) { return plot.dataset[axis].split(' ').map(Number); }
-  function text(value) { return String(parseFloat(value.toPrecision(4))); }
-
-  /* A figure with its light colours, fit to stand alone. */
-  function standalone(svg) {
-    var copy = svg.cloneNode(true), style = document.createElementNS(svg.namespaceURI, 'style');
-    var size = svg.viewBox.baseVal;
-    style.textContent = document.getElementById('figure-style').textContent;
-    copy.insertBefore(style, copy.firstChild);
-    copy.setAttribute('width', size.width);
-    copy.setAttribute('height', size.height);
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + new XMLSerializer().serializeToString(copy);
+  function make(tag, name, words) {
+    var node = document.createElement(tag);
+    if (name) node.className = name;
+    if (words !== undefined) node.textContent = words;
+    return node;
   }
-  all('button.save').forEach(function (button) {
-    button.addEventListener('click', function () {
-      var svg = button.closest('figure').querySelector('svg'), link = document.createElement('a');
-      link.href = URL.createObjectURL(new Blob([standalone(svg)], {type: 'image/svg+xml'}));
-      link.download = button.dataset.name + '.svg';
+  function save(figure, name) {
+    figures.standalone(figure).then(function (svg) {
+      var link = document.createElement('a');
+      link.href = URL.createObjectURL(new Blob([svg], {type: 'image/svg+xml'}));
+      link.download = name + '.svg';
       link.click();
       setTimeout(function () { URL.revokeObjectURL(link.href); }, 1000);
     });
-  });
+  }
 
-  /* The values of the curves where the pointer is. */
-  var tip = document.createElement('div');
+  /* The figures of the page. */
+  var shown = [];
+  function draw(f) {
+    if (f.view) f.view.finalize();
+    f.box.textContent = '';
+    f.width = Math.max(260, f.box.clientWidth || 600);
+    f.view = figures.view(f.figure, f.width);
+    f.whole.hidden = !f.figure.xd;
+    return f.view.initialize(f.box).runAsync();
+  }
+  function zoom(f, xd, yd) {
+    f.figure.xd = xd;
+    f.figure.yd = yd;
+    return draw(f);
+  }
+  function place(f, event) {
+    var box = f.box.querySelector('svg').getBoundingClientRect(), origin = f.view.origin();
+    return [event.clientX - box.left - origin[0], event.clientY - box.top - origin[1]];
+  }
+  function dragging(f) {
+    var start = null, brush = make('div', 'brush');
+    brush.hidden = true;
+    f.node.appendChild(brush);
+    function inside(p) {
+      return [Math.min(Math.max(p[0], 0), f.view.signal('width')), Math.min(Math.max(p[1], 0), f.view.signal('height'))];
+    }
+    f.box.addEventListener('pointerdown', function (e) { if (e.button === 0) start = [inside(place(f, e)), e.clientX, e.clientY]; });
+    window.addEventListener('pointermove', function (e) {
+      if (!start) return;
+      var box = f.node.getBoundingClientRect();
+      brush.hidden = false;
+      brush.style.left = Math.min(start[1], e.clientX) - box.left + 'px';
+      brush.style.top = Math.min(start[2], e.clientY) - box.top + 'px';
+      brush.style.width = Math.abs(e.clientX - start[1]) + 'px';
+      brush.style.height = Math.abs(e.clientY - start[2]) + 'px';
+      e.preventDefault();
+    });
+    window.addEventListener('pointerup', function (e) {
+      if (!start) return;
+      var a = start[0], b = inside(place(f, e)), x = f.view.scale('x'), y = f.view.scale('y');
+      start = null;
+      brush.hidden = true;
+      if (Math.abs(a[0] - b[0]) < 6) return;
+      var flat = Math.abs(a[1] - b[1]) < 12, yd = f.view.signal('yd');
+      zoom(f, [x.invert(Math.min(a[0], b[0])), x.invert(Math.max(a[0], b[0]))],
+        flat ? yd : [y.invert(Math.max(a[1], b[1])), y.invert(Math.min(a[1], b[1]))]);
+    });
+    f.box.addEventListener('dblclick', function () { zoom(f); });
+  }
+
+  /* The values where the pointer is. */
+  var tip = make('div');
   tip.id = 'tip';
   tip.hidden = true;
   document.body.appendChild(tip);
-  function points(path) {
-    if (path.drawn !== path.getAttribute('d')) {
-      path.drawn = path.getAttribute('d');
-      path.places = path.drawn.split(/[ML]/).slice(1).map(function (pair) {
-        return pair.split(' ').map(Number);
-      });
+  function nearby(f, p) {
+    var lines = [], x = f.view.scale('x'), y = f.view.scale('y'), figure = f.figure;
+    if (figure.sort !== 'curves') {
+      var c = Math.floor(x.invert(p[0])), r = Math.floor(y.invert(p[1]));
+      if (!(c >= 0 && r >= 0 && c < figure.x.at.length && r < figure.y.at.length)) return [];
+      lines = [figure.x.label + ': ' + figures.text(figure.x.at[c]), figure.y.label + ': ' + figures.text(figure.y.at[r])];
+      if (figure.sort === 'map') lines.push(figure.value.label + ': ' + (figure.values[r][c] === null ? 'none' : figures.text(figure.values[r][c])));
+      else lines = lines.concat(figure.reasons[r * figure.x.at.length + c].split('; '));
+      return lines;
     }
-    return path.places;
-  }
-  function nearest(path, x) {
-    var best = null;
-    points(path).forEach(function (p) {
-      if (!best || Math.abs(p[0] - x) < Math.abs(best[0] - x)) best = p;
+    figure.curves.forEach(function (curve) {
+      var best = -1, least = curve.names ? 15 : 12;
+      if (curve.hidden) return;
+      curve.x.forEach(function (value, i) {
+        if (value === null || curve.y[i] === null) return;
+        var d = curve.style === 'dots' ? Math.hypot(x(value) - p[0], y(curve.y[i]) - p[1]) : Math.abs(x(value) - p[0]);
+        if (d < least) { least = d; best = i; }
+      });
+      if (best < 0) return;
+      lines.push((figure.names ? figure.names[best] + ': ' : curve.names ? curve.names[best] + ': ' : curve.name ? curve.name + ': ' : '') + figures.text(curve.y[best]) +
+        (curve.bar ? ' ± ' + figures.text(parseFloat(curve.bar[best].toPrecision(2))) : '') + (curve.style === 'dots' ? ' at ' + figures.text(curve.x[best]) : ''));
     });
-    return best && Math.abs(best[0] - x) < 12 ? best : null;
+    if (lines.length && !figure.names) lines.unshift(figure.x.label + ': ' + figures.text(x.invert(p[0])));
+    return lines;
   }
-  function show(svg, plot, event) {
-    var box = svg.getBoundingClientRect(), view = svg.viewBox.baseVal;
-    var x = (event.clientX - box.left) * view.width / box.width;
-    var h = range(plot, 'x'), v = range(plot, 'y'), lines = [];
-    if (x < h[2] || x > h[3]) { tip.hidden = true; return; }
-    all('.curve', plot).forEach(function (path) {
-      var p = nearest(path, x);
-      if (p) lines.push((path.dataset.label ? path.dataset.label + ': ' : '') +
-        text(v[0] + (p[1] - v[2]) / (v[3] - v[2]) * (v[1] - v[0])));
-    });
-    var share = (x - h[2]) / (h[3] - h[2]); /* h[4]: in decades */
-    tip.textContent = 'x = ' +
-      text(h[4] ? h[0] * Math.pow(h[1] / h[0], share) : h[0] + share * (h[1] - h[0])) + '\n' +
-      lines.join('\n');
+  function show(f, event) {
+    var p = place(f, event), lines = [];
+    if (p[0] >= 0 && p[0] <= f.view.signal('width') && p[1] >= 0 && p[1] <= f.view.signal('height')) lines = nearby(f, p);
+    tip.textContent = lines.join('\n');
     tip.hidden = lines.length === 0;
-    tip.style.left = Math.min(event.clientX + 14, innerWidth - tip.offsetWidth - 8) + 'px';
+    tip.style.left = Math.max(4, Math.min(event.clientX + 14, innerWidth - tip.offsetWidth - 8)) + 'px';
     tip.style.top = event.clientY + 14 + 'px';
   }
-  all('svg.figure').forEach(function (svg) {
-    var plot = svg.querySelector('.plot');
-    if (!plot) return;
-    svg.addEventListener('mousemove', function (event) { show(svg, plot, event); });
-    svg.addEventListener('mouseleave', function () { tip.hidden = true; });
-  });
+
+  function button(words, into, action) {
+    var made = make('button', '', words);
+    made.type = 'button';
+    made.addEventListener('click', action);
+    into.appendChild(made);
+    return made;
+  }
+  function keys(f) {
+    var list = make('div', 'keys');
+    f.figure.curves.forEach(function (curve) {
+      if (!curve.name) return;
+      var key = button('', list, function () {
+        curve.hidden = !curve.hidden;
+        key.setAttribute('aria-pressed', String(!curve.hidden));
+        draw(f);
+      });
+      var swatch = make('i', curve.style === 'dots' ? 'dot' : 'd' + curve.dash % figures.dashes);
+      swatch.style.color = figures.ink(curve.colour);
+      key.appendChild(swatch);
+      key.appendChild(document.createTextNode(curve.name));
+      key.setAttribute('aria-pressed', 'true');
+      key.title = 'show or hide';
+    });
+    if (list.firstChild) f.node.insertBefore(list, f.box);
+  }
+  function classList(f) {
+    var list = make('div', 'keys');
+    f.figure.classes.forEach(function (kind, k) {
+      var count = f.figure.cells.filter(function (c) { return c === k; }).length;
+      if (!count) return;
+      var item = make('span', 'class'), swatch = make('b', '', kind.letter);
+      swatch.style.background = kind.colour;
+      item.appendChild(swatch);
+      item.appendChild(document.createTextNode(count + ' ' + kind.name + ': ' + kind.text));
+      list.appendChild(item);
+    });
+    f.node.insertBefore(list, f.node.querySelector('details'));
+  }
+  /* Says whether an axis can be logarithmic. */
+  function positive(figure, axis) {
+    return figure.curves.every(function (c) {
+      return c.style !== 'bars' && !c.live && figures.finite(c[axis]).every(function (v) { return v > 0; });
+    });
+  }
+  function begin(node, number) {
+    var f = {node: node, figure: JSON.parse(node.querySelector('script').textContent), box: make('div', 'plot')};
+    var buttons = make('span', 'buttons'), figure = f.figure;
+    node.querySelector('figcaption').appendChild(buttons);
+    node.insertBefore(f.box, node.querySelector('details'));
+    f.whole = button('whole', buttons, function () { zoom(f); });
+    f.whole.hidden = true;
+    if (figure.sort === 'curves' && positive(figure, 'y'))
+      button(figure.y.log ? 'linear' : 'log', buttons, function (e) {
+        figure.y.log = figure.y.log ? 0 : 1;
+        figure.xd = figure.yd = undefined;
+        e.target.textContent = figure.y.log ? 'linear' : 'log';
+        draw(f);
+      });
+    button('save', buttons, function () { save(figure, 'figure-' + (number + 1)); });
+    if (figure.sort === 'curves') keys(f);
+    if (figure.sort === 'classes') classList(f);
+    f.box.addEventListener('mousemove', function (event) { show(f, event); });
+    f.box.addEventListener('mouseleave', function () { tip.hidden = true; });
+    dragging(f);
+    draw(f);
+    shown.push(f);
+  }
+
+  function tableOf(head, rows) {
+    var table = make('table'), wide = make('div', 'wide');
+    [head].concat(rows).forEach(function (cells, i) {
+      var tr = make('tr');
+      cells.forEach(function (cell) {
+        tr.appendChild(make(i ? 'td' : 'th', i && typeof cell === 'number' ? 'number' : '', cell === null ? '–' : figures.text(cell)));
+      });
+      table.appendChild(tr);
+    });
+    wide.appendChild(table);
+    return wide;
+  }
+  /* Makes the figures of a list of descriptions, with their tables. */
+  function expand(box) {
+    JSON.parse(box.querySelector('script').textContent).forEach(function (figure) {
+      var node = make('figure'), caption = make('figcaption'), script = make('script'), details = make('details');
+      script.type = 'application/json';
+      script.textContent = JSON.stringify(figure);
+      caption.appendChild(make('span', '', figure.title));
+      node.appendChild(caption);
+      node.appendChild(script);
+      box.appendChild(node);
+      if (!figure.table || !figure.table.rows.length) return;
+      details.open = !figure.table.folded;
+      details.appendChild(make('summary', '', figure.table.folded ? 'the cells that are not converged, and why' : 'the front'));
+      details.appendChild(tableOf(figure.table.head, figure.table.rows));
+      node.appendChild(details);
+    });
+  }
+
+  /* Without the library, the numbers of a figure as a table of at most so many rows. */
+  function tabulate(node) {
+    var figure = JSON.parse(node.querySelector('script').textContent), rows = [], most = 40;
+    if (figure.sort === 'curves')
+      figure.curves.forEach(function (curve) {
+        curve.x.forEach(function (x, i) { rows.push([curve.names ? curve.names[i] : curve.name || '', x, curve.y[i]]); });
+      });
+    else
+      figure.y.at.forEach(function (y, r) {
+        figure.x.at.forEach(function (x, c) {
+          rows.push([y, x, figure.values ? figure.values[r][c] : figure.reasons[r * figure.x.at.length + c]]);
+        });
+      });
+    var step = Math.ceil(rows.length / most);
+    node.appendChild(tableOf(figure.sort === 'curves' ? ['', figure.x.label, figure.y.label] :
+      [figure.y.label, figure.x.label, figure.value ? figure.value.label : ''],
+    rows.filter(function (_, i) { return i % step === 0; })));
+  }
 
   /* Snapshots: the slider names an instant of the first stage; others show their nearest one. */
   function floats(base64) {
     var bytes = Uint8Array.from(atob(base64), function (c) { return c.charCodeAt(0); });
-    var view = new DataView(bytes.buffer), out = new Float32Array(bytes.length / 4);
-    for (var i = 0; i < out.length; i++) out[i] = view.getFloat32(4 * i, true);
+    var seen = new DataView(bytes.buffer), out = new Float32Array(bytes.length / 4);
+    for (var i = 0; i < out.length; i++) out[i] = seen.getFloat32(4 * i, true);
     return out;
   }
   function closest(list, value) {
@@ -87,33 +240,27 @@
       if (Math.abs(list[i] - value) < Math.abs(list[best] - value)) best = i;
     return best;
   }
-  all('.snapshots').forEach(function (section) {
+  function animate(section) {
     var data = JSON.parse(section.querySelector('.frames').textContent), timer = null;
     var slider = section.querySelector('input'), play = section.querySelector('.play');
     data.stages.forEach(function (stage) {
-      ['at', 'x', 'p', 'h'].forEach(function (key) { stage[key] = floats(stage[key]); });
+      ['at', 'x', 'p', 'h', 't'].forEach(function (key) { if (stage[key]) stage[key] = floats(stage[key]); });
     });
-    function path(plot, stage, field, frame) {
-      var h = range(plot, 'x'), v = range(plot, 'y'), d = [];
-      for (var i = 0; i < stage.cells; i++) {
-        var x = h[2] + (stage.x[i] - h[0]) / (h[1] - h[0]) * (h[3] - h[2]);
-        var y = v[2] + (field[frame * stage.cells + i] - v[0]) / (v[1] - v[0]) * (v[3] - v[2]);
-        d.push(x.toFixed(1) + ' ' + Math.max(y, -1e3).toFixed(1));
-      }
-      return 'M' + d.join('L');
-    }
-    function draw() {
-      var at = data.stages[0].at[slider.value];
-      data.stages.forEach(function (stage, k) {
-        var frame = k ? closest(stage.at, at) : Number(slider.value);
-        ['p', 'h'].forEach(function (key) {
-          var curve = section.querySelector('[data-live="' + key + k + '"]');
-          curve.setAttribute('d', path(curve.parentNode, stage, stage[key], frame));
+    function update() {
+      var now = data.stages[0].at[slider.value];
+      shown.forEach(function (f) {
+        if (!section.contains(f.node)) return;
+        f.figure.curves.forEach(function (curve, k) {
+          var stage = data.stages[Number(curve.live.slice(1))], first = stage === data.stages[0];
+          var frame = first ? Number(slider.value) : closest(stage.at, now), start = frame * stage.cells;
+          curve.x = Array.from(stage.x);
+          curve.y = Array.from(stage[curve.live[0]].subarray(start, start + stage.cells), function (v) { return isFinite(v) ? v : null; });
+          f.view.data('c' + k, figures.points(curve, f.figure));
         });
+        f.view.runAsync();
       });
       section.querySelector('output').textContent = data.unit ?
-        (data.unit === 'deg' ? 'roll angle ' : 'time ') + text(at) + ' ' + data.unit :
-        'instant ' + text(at);
+        (data.unit === 'deg' ? 'roll angle ' : 'time ') + figures.text(now) + ' ' + data.unit : 'instant ' + figures.text(now);
     }
     function stop() {
       clearInterval(timer);
@@ -121,52 +268,109 @@
       play.textContent = 'play';
       play.setAttribute('aria-pressed', 'false');
     }
-    slider.addEventListener('input', draw);
+    slider.addEventListener('input', update);
     play.addEventListener('click', function () {
       if (timer) { stop(); return; }
       play.textContent = 'pause';
       play.setAttribute('aria-pressed', 'true');
       timer = setInterval(function () {
         slider.value = (Number(slider.value) + 1) % (Number(slider.max) + 1);
-        draw();
+        update();
       }, 60);
     });
-    draw();
-  });
+    update();
+  }
 
   /* #check: the page tries itself; a test reads what it found from the body. */
-  function check() {
-    all('.snapshots').forEach(function (section) {
-      var slider = section.querySelector('input'), seen = {}, play = section.querySelector('.play');
-      for (slider.value = 0; ; slider.value = Number(slider.value) + 1) {
-        slider.dispatchEvent(new Event('input'));
-        seen[section.querySelector('[data-live]').getAttribute('d')] = true;
-        if (slider.value === slider.max) break;
-      }
-      if (Object.keys(seen).length < 2) errors.push('the slider changes nothing');
-      play.click();
-      if (play.textContent !== 'pause') errors.push('play does not play');
-      play.click();
-    });
-    all('svg.figure').forEach(function (svg) {
-      var saved = new DOMParser().parseFromString(standalone(svg), 'image/svg+xml');
-      if (saved.querySelector('parsererror')) errors.push('a saved figure is broken');
-      if (/NaN|Infinity/.test(svg.innerHTML)) errors.push('a figure has no number');
-      var box = svg.getBoundingClientRect();
-      svg.dispatchEvent(new MouseEvent('mousemove',
-        {clientX: box.left + box.width / 2, clientY: box.top + box.height / 2}));
+  function point(f, kind, x, y) {
+    var box = f.box.querySelector('svg').getBoundingClientRect(), origin = f.view.origin();
+    var target = kind === 'pointerup' ? window : f.box;
+    target.dispatchEvent(new MouseEvent(kind, {clientX: box.left + origin[0] + x * f.view.signal('width'),
+      clientY: box.top + origin[1] + y * f.view.signal('height'), button: 0, bubbles: true}));
+  }
+  function whole(f) {
+    return f.view.runAsync().then(function () {
+      if (!f.box.querySelector('svg') || /NaN|Infinity|undefined/.test(f.box.innerHTML))
+        errors.push('a figure has no number: ' + f.node.querySelector('figcaption').textContent);
+      if (f.node.scrollWidth > f.node.clientWidth + 1) errors.push('a figure is wider than its frame');
     });
   }
+  async function tryFigure(f) {
+    var before = JSON.stringify(f.view.signal('xd')), key = f.node.querySelector('.keys button');
+    point(f, 'mousemove', 0.5, 0.5);
+    point(f, 'pointerdown', 0.25, 0.2);
+    point(f, 'pointerup', 0.75, 0.8);
+    await whole(f);
+    if (JSON.stringify(f.view.signal('xd')) === before) errors.push('dragging does not zoom');
+    f.whole.click();
+    await whole(f);
+    if (JSON.stringify(f.view.signal('xd')) !== before) errors.push('the whole is not shown again');
+    if (key) {
+      key.click();
+      await whole(f);
+      if (f.view.data('c0').length) errors.push('a toggle hides nothing');
+      key.click();
+      await whole(f);
+    }
+    for (var b of all('.buttons button', f.node).filter(function (one) { return /^(log|linear)$/.test(one.textContent); })) {
+      b.click();
+      await whole(f);
+      b.click();
+      await whole(f);
+    }
+    var svg = await figures.standalone(f.figure), saved = new DOMParser().parseFromString(svg, 'image/svg+xml');
+    if (saved.querySelector('parsererror') || /var\(/.test(svg)) errors.push('a saved figure is broken');
+  }
+  async function trySlider(section) {
+    var slider = section.querySelector('input'), seen = {}, play = section.querySelector('.play');
+    for (var i = 0; i <= Number(slider.max); i += Math.max(1, Math.floor(slider.max / 4))) {
+      slider.value = i;
+      slider.dispatchEvent(new Event('input'));
+      await Promise.all(shown.map(whole));
+      seen[section.querySelector('.plot').innerHTML] = true;
+    }
+    if (Object.keys(seen).length < 2) errors.push('the slider changes nothing');
+    play.click();
+    if (play.textContent !== 'pause') errors.push('play does not play');
+    play.click();
+  }
+  async function check() {
+    for (var section of all('.snapshots')) await trySlider(section);
+    for (var f of shown) await tryFigure(f);
+  }
+  /* #figures: puts each figure into the page as it would be saved. */
+  function spell() {
+    return Promise.all(shown.map(function (f) {
+      return figures.standalone(f.figure).then(function (svg) { f.node.appendChild(make('pre', 'saved', svg)); });
+    }));
+  }
+  function ready() {
+    document.body.dataset.errors = errors.join('; ');
+    document.body.dataset.ready = '1';
+  }
   window.addEventListener('load', function () {
-    setTimeout(function () {
-      var time = performance.timing;
-      document.body.dataset.load = time.loadEventEnd - time.navigationStart;
-      if (location.hash === '#check') {
-        try { check(); } catch (e) { errors.push(String(e)); }
-        document.body.dataset.figures = all('svg.figure').length;
-        document.body.dataset.errors = errors.join('; ');
-      }
-      document.body.dataset.ready = '1';
-    }, 0);
+    all('.drawn').forEach(expand);
+    var began = performance.now(), nodes = all('figure');
+    if (window.vega) {
+      nodes.forEach(begin);
+      all('.snapshots').forEach(animate);
+    } else {
+      nodes.forEach(tabulate);
+      all('.without').forEach(function (note) { note.hidden = false; });
+    }
+    all('details').forEach(function (d) {
+      d.addEventListener('toggle', function () { shown.forEach(function (f) { if (d.contains(f.node) && d.open) draw(f); }); });
+    });
+    var width = innerWidth;
+    window.addEventListener('resize', function () {
+      if (innerWidth === width) return;
+      width = innerWidth;
+      shown.forEach(draw);
+    });
+    document.body.dataset.figures = nodes.length;
+    Promise.all(shown.map(function (f) { return f.view.runAsync(); })).then(function () {
+      document.body.dataset.milliseconds = Math.round(performance.now() - began);
+      return location.hash === '#check' ? check() : location.hash === '#figures' ? spell() : null;
+    }).then(ready, function (e) { errors.push(String(e)); ready(); });
   });
 })();

@@ -209,18 +209,6 @@ static void draw_snapshot(report_page *page, const snapshots *s, bool film)
     report_plot_free(&plot);
 }
 
-/* Writes a string of JSON that stands inside HTML. */
-static void put_json_text(FILE *out, const char *text)
-{
-    fputc('"', out);
-    for (; *text; text++)
-        if (strchr("\"\\<>&'", *text) || (unsigned char)*text < 32)
-            fprintf(out, "\\u%04x", (unsigned)*text);
-        else
-            fputc(*text, out);
-    fputc('"', out);
-}
-
 static void write_frames(report_page *page, const snapshots *s)
 {
     FILE *out = page->out;
@@ -232,7 +220,7 @@ static void write_frames(report_page *page, const snapshots *s)
         size_t cells = of->cells < CELLS ? of->cells : CELLS;
         page->thinned = page->thinned || frames < of->frames || cells < of->cells;
         fprintf(out, "%s{\"frames\":%zu,\"cells\":%zu,\"name\":", m ? "," : "", frames, cells);
-        put_json_text(out, page->view->stages[of->stage]->name);
+        report_put_json_text(out, page->view->stages[of->stage]->name);
         fputs(",\"at\":", out);
         put_axis(out, &of->at, of->frames, frames, &s->at);
         fputs(",\"x\":", out);

@@ -4,12 +4,11 @@
 
 #include "../memory/memory.h"
 
-#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_LINES = 8, MOST_MAPS = 6, MOST_ROWS = 400, MOST_FAILED = 100, MOST_SAMPLED = 4 };
+enum { MOST_LINES = 8, MOST_MAPS = 6, MOST_ROWS = 400, MOST_FAILED = 100 };
 
 /* A scalar over the cases, in SI. */
 typedef struct case_scalar {
@@ -185,6 +184,8 @@ static void draw_map(const case_scalar *f, const ff_view_axis *x, const ff_view_
     map.values = values;
     map.low = report_convert(&f->unit, f->low);
     map.high = report_convert(&f->unit, f->high);
+    map.mark =
+        !strcmp(view->variables[f->variable]->output, "lambda_ratio_lowest") ? 1 : (double)NAN;
     report_map_write(f->page, &map);
     free(xs);
     free(ys);
@@ -202,19 +203,16 @@ static void draw_maps(const case_scalar *f, const ff_view_axis *x, const ff_view
                 MOST_MAPS, count);
 }
 
-/* Draws points that have no order: those of a sample, or of cases that differ in words. */
-static void draw_dots(const case_scalar *f, const ff_view_axis *axis)
+/* Draws points that have no order: those of cases that differ in words. */
+static void draw_dots(const case_scalar *f)
 {
     const ff_view *view = f->page->view;
     report_plot plot = {.count = 0};
     double *x = memory_alloc(view->case_count * sizeof *x);
-    report_unit unit = {1, 0, ""};
-    if (axis)
-        unit = show_axis(view, axis, plot.x_label);
-    else
-        snprintf(plot.x_label, sizeof plot.x_label, "case");
+    const report_unit unit = {1, 0, ""};
+    snprintf(plot.x_label, sizeof plot.x_label, "case");
     for (size_t c = 0; c < view->case_count; c++)
-        x[c] = axis ? axis->values[ff_view_point(view, c, axis->dimension)] : (double)(c + 1);
+        x[c] = (double)(c + 1);
     write_title(f, plot.title);
     write_label(f, plot.y_label);
     report_curve *curve = report_plot_add(&plot, &unit, x, &f->unit, f->values, view->case_count);
@@ -225,32 +223,22 @@ static void draw_dots(const case_scalar *f, const ff_view_axis *axis)
     free(x);
 }
 
-/* Counts the numeric axes of a dimension, along which several paths may vary together. */
-static size_t count_numeric_axes(const ff_view *view, size_t dimension)
-{
-    size_t count = 0;
-    for (size_t a = 0; a < view->axis_count; a++)
-        count += view->axes[a]->dimension == dimension && view->axes[a]->values;
-    return count;
-}
-
 static void draw_scalar(const case_scalar *f)
 {
     const ff_view *view = f->page->view;
     int x = main_axis(view, -1);
+    if (report_is_sample(view)) {
+        report_scalar scalar = {.values = f->values, .count = view->case_count, .unit = f->unit};
+        write_title(f, scalar.title);
+        write_label(f, scalar.label);
+        report_write_sample(f->page, &scalar);
+        return;
+    }
     if (x < 0) {
-        draw_dots(f, NULL);
+        draw_dots(f);
         return;
     }
     const ff_view_axis *axis = view->axes[x];
-    if (view->dimension_count == 1 && count_numeric_axes(view, axis->dimension) > 1) {
-        for (size_t a = 0, drawn = 0; a < view->axis_count && drawn < MOST_SAMPLED; a++)
-            if (view->axes[a]->values) {
-                draw_dots(f, view->axes[a]);
-                drawn++;
-            }
-        return;
-    }
     size_t combinations = view->case_count / view->lengths[axis->dimension];
     int y = main_axis(view, (int)axis->dimension);
     bool map = y >= 0 && view->lengths[view->axes[y]->dimension] >= 4;
@@ -261,11 +249,11 @@ static void draw_scalar(const case_scalar *f)
         draw_lines(f, axis, combinations);
 }
 
-/* Says whether the cases differ in words alone and the study has drawn them itself: the numbers of
+/* Says whether the cases differ in words alone and the study has figures of its own: the numbers of
    the cases would be a meaningless axis. */
-static bool has_own_drawings(const ff_view *view)
+static bool has_own_figures(const ff_view *view)
 {
-    return FF_HAS(view, drawing_count) && view->drawing_count > 0 && main_axis(view, -1) < 0;
+    return FF_HAS(view, figures_count) && view->figures_count > 0 && main_axis(view, -1) < 0;
 }
 
 static bool over_speed(const ff_view *view)
@@ -387,35 +375,25 @@ static void write_table(report_page *page)
     fputs("</details></section>\n", page->out);
 }
 
-/* Writes what a trade-off or a map of stability has drawn, as images, which cannot run scripts. */
-static void write_drawings(report_page *page)
+/* Writes what a trade-off or a map of stability has described. */
+static void write_figures(report_page *page)
 {
     const ff_view *view = page->view;
-    size_t count = FF_HAS(view, drawing_count) ? view->drawing_count : 0;
+    size_t count = FF_HAS(view, figures_count) ? view->figures_count : 0;
     if (count > 0)
-        fputs("<section><h2>What the study shows</h2>\n<div class=\"figures\">\n", page->out);
-    for (size_t i = 0; i < count; i++) {
-        fputs("<figure class=\"broad\"><img style=\"max-width:100%;background:#fff\" alt=\"",
-              page->out);
-        report_put_text(page->out, view->drawings[i]->name);
-        fputs("\" src=\"data:image/svg+xml,", page->out);
-        for (const char *c = view->drawings[i]->svg; *c; c++)
-            if (isalnum((unsigned char)*c))
-                putc(*c, page->out);
-            else
-                fprintf(page->out, "%%%02X", (unsigned)(unsigned char)*c);
-        fputs("\"></figure>\n", page->out);
-    }
+        fputs("<section><h2>What the study shows</h2>\n", page->out);
+    for (size_t i = 0; i < count; i++)
+        report_put_figures(page->out, view->figures[i]->json);
     if (count > 0)
-        fputs("</div></section>\n", page->out);
+        fputs("</section>\n", page->out);
 }
 
 void report_write_study(report_page *page)
 {
     if (!page->view->study)
         return;
-    write_drawings(page);
-    if (!has_own_drawings(page->view)) {
+    write_figures(page);
+    if (!has_own_figures(page->view)) {
         write_scalars(page, "Transmission error against speed", true);
         write_scalars(page, "Over what is varied", false);
     }

@@ -160,12 +160,22 @@ static void write_judgement(report_page *page)
 {
     const ff_view_case *c = page->view->cases[0];
     char number[REPORT_TEXT_SIZE];
-    size_t listed = 0;
+    size_t listed = 0, counts[3] = {0};
+    count_verdicts(page->view, counts);
     fputs("<p class=\"judgement\">", page->out);
     report_put_badge(page->out, c->verdict);
-    fputs(" ", page->out);
-    write_checks(page);
-    fputs("</p>\n", page->out);
+    if (counts[FF_DOUBTFUL] + counts[FF_BAD] == 0)
+        fprintf(page->out,
+                " Nothing speaks against these numbers: <a href=\"#quality\">all %zu "
+                "checks are good</a>.</p>\n",
+                counts[FF_GOOD]);
+    else
+        fprintf(page->out,
+                " %s: <a href=\"#quality\">%zu checks are good</a>, %zu doubtful and %zu "
+                "bad, namely</p>\n",
+                counts[FF_BAD] ? "Some of these numbers are wrong"
+                               : "Some of these numbers are in doubt",
+                counts[FF_GOOD], counts[FF_DOUBTFUL], counts[FF_BAD]);
     for (size_t i = 0; i < c->quality_count; i++) {
         const ff_view_quality *line = c->quality[i];
         if (line->verdict == FF_GOOD)
@@ -188,7 +198,7 @@ static void write_run(report_page *page)
 {
     const ff_view *view = page->view;
     write_judgement(page);
-    fputs("<table class=\"verdict\"><thead><tr><th>quantity</th><th>stage</th><th>value</th>"
+    fputs("<table class=\"verdict run\"><thead><tr><th>quantity</th><th>stage</th><th>value</th>"
           "<th>where</th></tr></thead><tbody>\n",
           page->out);
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
@@ -253,13 +263,14 @@ static void write_study(report_page *page)
         scalars += view->variables[v]->rank == 0;
     if (scalars == 0)
         return;
-    fputs("<table class=\"verdict\"><thead><tr><th>quantity</th><th>stage</th><th>least</th>"
+    fputs("<div class=\"wide\"><table "
+          "class=\"verdict\"><thead><tr><th>quantity</th><th>stage</th><th>least</th>"
           "<th>where</th><th>largest</th><th>where</th></tr></thead><tbody>\n",
           page->out);
     for (size_t v = 0; v < view->variable_count; v++)
         if (view->variables[v]->rank == 0)
             write_span(page, v);
-    fputs("</tbody></table>\n", page->out);
+    fputs("</tbody></table></div>\n", page->out);
 }
 
 void report_write_verdict(report_page *page)

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Units and words that engineers use. */
+#include <flankfilm/engine.h>
+
 #include "page.h"
 
 #include <math.h>
@@ -24,7 +26,7 @@ static const struct {
     {"s", 1, {1, 0, "s"}},
     {"s", 1e-3, {1e3, 0, "ms"}},
     {"s", 0, {1e6, 0, "µs"}},
-    {"N", 1e5, {1e-3, 0, "kN"}},
+    {"N", 1e4, {1e-3, 0, "kN"}},
     {"N/m", 2e7, {1e-6, 0, "N/µm"}},
     {"N/m", 0, {1e-3, 0, "N/mm"}},
     {"rad/s", 0, {9.549296585513721, 0, "rpm"}},
@@ -117,6 +119,16 @@ const char *report_output_words(const char *output, char out[REPORT_TEXT_SIZE])
         {"height_1", "height of flank 1"},
         {"height_2", "height of flank 2"},
         {"arc", "position along the flank"},
+        {"h_min_lowest_at", "where the film is least"},
+        {"p_max_highest_at", "where the pressure is highest"},
+        {"lambda_ratio_lowest", "lowest lambda ratio"},
+        {"power_loss_mean", "mean power loss of the mesh"},
+        {"flash_temperature_max", "highest flash temperature rise"},
+        {"contact_temperature_max", "highest temperature of the contact"},
+        {"dynamic_factor_tooth", "largest dynamic over static tooth force"},
+        {"dynamic_factor_mesh", "largest over static mesh force"},
+        {"stable_motions", "number of stable motions"},
+        {"efficiency", "efficiency of the mesh"},
         {"contact_loss", "share of the time without contact"},
         {"back_contact", "share of the time in back contact"},
     };
@@ -133,9 +145,16 @@ const char *report_output_words(const char *output, char out[REPORT_TEXT_SIZE])
 const char *report_axis_word(const ff_view_axis *axis, size_t point, char out[REPORT_TEXT_SIZE])
 {
     enum { LONG = 14 };
-    if (!axis->values || strlen(axis->words[point]) < LONG)
-        return axis->words[point];
-    report_quantity_text(report_si_unit(axis->unit, axis->path), axis->values[point], out);
+    double number;
+    const char *word = axis->words[point], *end;
+    if (strlen(word) < LONG)
+        return word;
+    if (axis->values)
+        report_quantity_text(report_si_unit(axis->unit, axis->path), axis->values[point], out);
+    else if (ff_number_parse(word, &number, &end) && (*end == ' ' || !*end))
+        snprintf(out, REPORT_TEXT_SIZE, "%.4g%.40s", number, end);
+    else
+        return word;
     return out;
 }
 
@@ -144,18 +163,37 @@ void report_label(const char *words, const report_unit *unit, char out[REPORT_TE
     snprintf(out, REPORT_TEXT_SIZE, *unit->unit ? "%s (%s)" : "%s", words, unit->unit);
 }
 
+/* Numbers need a name where several are varied; words speak for themselves. */
+static const char *name_of_number(const ff_view_axis *axis, const char *value, bool several,
+                                  char out[REPORT_TEXT_SIZE])
+{
+    double number;
+    const char *end, *dot = strrchr(axis->path, '.');
+    out[0] = '\0';
+    if (several && ff_number_parse(value, &number, &end)) {
+        char words[REPORT_TEXT_SIZE];
+        snprintf(out, REPORT_TEXT_SIZE, "%.60s ",
+                 report_output_words(dot ? dot + 1 : axis->path, words));
+    }
+    return out;
+}
+
 void report_name_case(const ff_view *view, size_t index, size_t a, int b,
                       char out[REPORT_TEXT_SIZE])
 {
     size_t length = 0;
-    char word[REPORT_TEXT_SIZE];
+    char word[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
+    size_t varied = 0;
+    for (size_t k = 0; k < view->axis_count; k++)
+        varied += view->lengths[view->axes[k]->dimension] > 1;
     out[0] = '\0';
     for (size_t k = 0; k < view->axis_count && length < REPORT_TEXT_SIZE; k++) {
         const ff_view_axis *axis = view->axes[k];
         size_t d = axis->dimension;
         const char *value = report_axis_word(axis, ff_view_point(view, index, d), word);
         if (d != a && (int)d != b && view->lengths[d] > 1 && *value)
-            length += (size_t)snprintf(out + length, REPORT_TEXT_SIZE - length, "%s%.80s",
-                                       length ? ", " : "", value);
+            length += (size_t)snprintf(out + length, REPORT_TEXT_SIZE - length, "%s%s%.80s",
+                                       length ? ", " : "",
+                                       name_of_number(axis, value, varied > 1, name), value);
     }
 }

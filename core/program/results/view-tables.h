@@ -44,7 +44,7 @@ typedef struct results_reader {
     study_tally tally;       /* of the cases that have run */
     results_output *outputs; /* of the case that is being added, with room for more */
     size_t output_count, output_room;
-    results_rows facts, citations, stages, axes, variables, cases, drawings;
+    results_rows facts, citations, stages, axes, variables, cases, figures;
 } results_reader;
 
 /* Reads a file of the directory, or of one below it: an object; NULL with errno, which is 0 when it

@@ -162,25 +162,26 @@ static void release(void *ctx, ff_array *array)
     *array = (ff_array){.data = NULL};
 }
 
-static int is_svg(const struct dirent *entry)
+static int is_figures(const struct dirent *entry)
 {
+    static const char ending[] = ".figure.json";
     size_t length = strlen(entry->d_name);
-    return length > 4 && !strcmp(entry->d_name + length - 4, ".svg");
+    return length > sizeof ending && !strcmp(entry->d_name + length - (sizeof ending - 1), ending);
 }
 
 /* Leaves out what cannot be read, is not text or is too long. */
-static void read_drawing(results_reader *reader, const char *name)
+static void read_figure(results_reader *reader, const char *name)
 {
-    enum { MOST = 1 << 20 };
+    enum { MOST = 1 << 21 };
     int fd = openat(reader->directory, name, O_RDONLY | O_CLOEXEC);
     char *text = memory_alloc(MOST);
     ssize_t length = fd >= 0 ? read(fd, text, MOST) : -1;
     if (length > 0 && length < MOST && !memchr(text, 0, (size_t)length)) {
-        ff_view_drawing *made = results_view_add_row(reader, &reader->drawings, sizeof *made);
-        *made = (ff_view_drawing){
+        ff_view_figures *made = results_view_add_row(reader, &reader->figures, sizeof *made);
+        *made = (ff_view_figures){
             .size = sizeof *made,
             .name = memory_arena_text(&reader->arena, name, strlen(name)),
-            .svg = memory_arena_text(&reader->arena, text, (size_t)length),
+            .json = memory_arena_text(&reader->arena, text, (size_t)length),
         };
     }
     free(text);
@@ -188,12 +189,12 @@ static void read_drawing(results_reader *reader, const char *name)
         close(fd);
 }
 
-static void read_drawings(results_reader *reader)
+static void read_figures(results_reader *reader)
 {
     struct dirent **entries = NULL;
-    int count = scandir(reader->path, &entries, is_svg, alphasort);
+    int count = scandir(reader->path, &entries, is_figures, alphasort);
     for (int i = 0; i < count; i++) {
-        read_drawing(reader, entries[i]->d_name);
+        read_figure(reader, entries[i]->d_name);
         free(entries[i]);
     }
     free(entries);
@@ -219,8 +220,8 @@ static void finish_view(results_reader *reader)
     view->variables = results_view_take_rows(reader, &reader->variables);
     view->case_count = reader->cases.count;
     view->cases = results_view_take_rows(reader, &reader->cases);
-    view->drawing_count = reader->drawings.count;
-    view->drawings = results_view_take_rows(reader, &reader->drawings);
+    view->figures_count = reader->figures.count;
+    view->figures = results_view_take_rows(reader, &reader->figures);
     char *summary = study_tally_text(&reader->tally);
     view->summary = memory_arena_text(&reader->arena, summary, strlen(summary));
     free(summary);
@@ -237,7 +238,7 @@ static bool read_directory(results_reader *reader)
                         path, strerror(errno));
     arrays_reader_open(&reader->logs, reader->directory);
     if (faccessat(reader->directory, study_marker, F_OK, 0) == 0) {
-        read_drawings(reader);
+        read_figures(reader);
         return results_view_read_study(reader);
     }
     if (faccessat(reader->directory, "result.json", F_OK, 0) == 0)

@@ -271,7 +271,7 @@ bool study_map_run(study_map *map)
     }
     write_file(map, "map.csv", study_map_csv);
     write_file(map, "map.json", study_map_json);
-    write_file(map, "map.svg", study_map_svg);
+    write_file(map, "map.figure.json", study_map_figure);
     context->facts = study_map_facts(map);
     study_map_print(map);
     /* a map is there to find cells that fail, so only silent failures make it bad */

@@ -139,7 +139,7 @@ const char *study_map_value(const study_map *map, size_t axis, size_t point);
 json_t *study_map_facts(const study_map *map);
 void study_map_json(const study_map *map, FILE *out);
 void study_map_csv(const study_map *map, FILE *out);
-void study_map_svg(const study_map *map, FILE *out);
+void study_map_figure(const study_map *map, FILE *out);
 void study_map_print(const study_map *map);
 
 #endif

@@ -228,7 +228,7 @@ bool study_drive(const study_run *run, study_counters *counters, ff_report *repo
 json_t *study_facts(const study_definition *study);
 /* Its verdict, FF_GOOD or FF_BAD; -1 when its cases decide. */
 int study_verdict(const study_definition *study);
-/* Returns the names of its files, "map.csv, map.svg, ", to be freed. */
+/* Returns the names of its files, "map.csv, map.figure.json, ", to be freed. */
 char *study_files(const study_definition *study);
 
 /* What a run would do. */

@@ -45,15 +45,6 @@ double study_number_of(const json_t *map, const char *key)
     return json_is_number(value) ? json_number_value(value) : (double)NAN;
 }
 
-void study_write_xml(FILE *out, const char *text, size_t length)
-{
-    for (size_t i = 0; i < length && text[i]; i++)
-        if (strchr("<>&", text[i]))
-            fputs(text[i] == '<' ? "&lt;" : text[i] == '>' ? "&gt;" : "&amp;", out);
-        else
-            fputc(text[i], out);
-}
-
 void study_write_cell(FILE *out, const char *text)
 {
     fputc('"', out);

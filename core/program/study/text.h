@@ -24,8 +24,6 @@ bool study_read_number(const char *text, double *number, const char **end);
 const char *study_text_of(const json_t *map, const char *key);
 double study_number_of(const json_t *map, const char *key);
 
-/* Writes at most `length` bytes of text with the special characters of XML escaped. */
-void study_write_xml(FILE *out, const char *text, size_t length);
 /* Writes a cell of a CSV table in quotes. */
 void study_write_cell(FILE *out, const char *text);
 

@@ -138,7 +138,7 @@ bool study_tradeoff_run(study_tradeoff *t)
     json_t *result = study_tradeoff_result(t, levels);
     write_file(context, "tradeoff.csv", result, study_tradeoff_table);
     write_file(context, "tradeoff.json", result, put_json);
-    write_file(context, "tradeoff.svg", result, study_tradeoff_draw);
+    write_file(context, "tradeoff.figure.json", result, study_tradeoff_figure);
     context->facts = facts_of(result);
     study_tradeoff_print(context, result);
     json_decref(result);

@@ -78,6 +78,6 @@ json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels);
 /* tradeoff-print.c, tradeoff-figure.c */
 void study_tradeoff_print(study_context *context, const json_t *result);
 void study_tradeoff_table(const json_t *result, FILE *out);
-void study_tradeoff_draw(const json_t *result, FILE *out);
+void study_tradeoff_figure(const json_t *result, FILE *out);
 
 #endif

@@ -37,6 +37,8 @@ grep -q "13 rows, 0 to 0.6 GPa at 80 degC" out/card.yaml
 judge "the card says the range of the data" $?
 [ "$(grep -c . out/residuals.csv)" -eq 14 ]
 judge "a residual for each row" $?
+grep -q '"style":"dots"' out/residuals.html
+judge "the residuals are a figure" $?
 cat >own.yaml <<END
 format: 2
 include: [out/card.yaml]

@@ -74,7 +74,7 @@ awk -F, -v v="$(column 'root.value error')" -v c="$(column 'root.curve error')" 
     /failed/ { if (!/nothing was found/ || !/^"n 64"/) bad("failure"); failed++ }
     END { exit wrong || rows != 6 || failed != 1 || last != 16 || ends != 1 }' out/tradeoff.csv ||
     fail "tradeoff.csv"
-grep -q '<svg' out/tradeoff.svg || fail "figure"
+grep -q '"sort": "curves"' out/tradeoff.figure.json || fail "figure"
 
 # What no knob touches is computed once.
 [ "$(python3 "$records" out/journal.jsonl | grep -c '"stages":{[^}]*"slow"')" -eq 1 ] || fail "slow ran more than once"
@@ -167,5 +167,13 @@ grep -q '^root.curve, known to [^,]*$' sign.txt || fail "without a change of sig
 grep -q 'judged by rms' largest.txt && fail "the file has the last word"
 
 # The figure names the points of the front, and shows how well each number is known.
-grep -q '<text [^>]*>1  n 2: [0-9.e-]* s, ' sign/tradeoff.svg || fail "the front is not named"
-[ "$(grep -c 'class="bar"' sign/tradeoff.svg)" -ge 4 ] || fail "the figure has no error bars"
+python3 - <<'END' || fail "the figure"
+import json
+figure = json.load(open("sign/tradeoff.figure.json"))[0]
+rows = figure["table"]["rows"]
+assert rows[0][:2] == [1, "n 2"], rows  # the front is named
+dots = [curve for curve in figure["curves"] if curve["style"] == "dots"]
+assert sum(len(curve["x"]) for curve in dots) >= 4
+for curve in dots:  # with error bars
+    assert len(curve["bar"]) == len(curve["from"]) == len(curve["to"]) == len(curve["x"])
+END

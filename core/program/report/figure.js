@@ -1,0 +1,227 @@
+/* Makes of the description of a figure what the plotting library draws. */
+var figures = (function () {
+  'use strict';
+  var DASHES = [[], [7, 3], [2.5, 2.5], [9, 3, 2, 3]], COLOURS = 6;
+  var STOPS = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129],
+    [92, 200, 99], [170, 220, 50], [253, 231, 37]]; /* viridis, which the colour-blind can read */
+  function text(value) { return typeof value === 'number' ? String(parseFloat(value.toPrecision(4))) : String(value); }
+  function ink(i) { return 'var(--c' + i % COLOURS + ')'; }
+  function finite(list) { return list.filter(function (v) { return typeof v === 'number' && isFinite(v); }); }
+
+  /* The range of an axis over the curves that are shown; a little room is left where it is not given. */
+  function domain(figure, axis) {
+    var asked = figure[axis], values = [];
+    figure.curves.forEach(function (curve) {
+      if (curve.hidden) return;
+      if (axis === 'x' && curve.style === 'bars') values = values.concat(curve.from, curve.to);
+      if (axis === 'y' && curve.style === 'bars') values.push(0);
+      curve[axis].forEach(function (v, i) { if (v !== null && curve[axis === 'x' ? 'y' : 'x'][i] !== null) values.push(v); });
+    });
+    if (asked.log) values = values.filter(function (v) { return v > 0; });
+    values = finite(values);
+    var low = Infinity, high = -Infinity;
+    values.forEach(function (v) { low = Math.min(low, v); high = Math.max(high, v); });
+    if (!(low <= high)) { low = asked.log ? 0.1 : 0; high = 1; }
+    if (axis === 'y' || figure.room) {
+      var part = figure.room ? 0.08 : 0.04, room = asked.log ? Math.pow(high / low, part) : part * (high - low);
+      if (high - low <= 1e-9 * Math.max(Math.abs(low), Math.abs(high)))
+        room = asked.log ? 1.5 : 0.1 * Math.abs(high) || 1;
+      low = asked.log ? low / room : low === 0 ? 0 : low - room;
+      high = asked.log ? high * room : high + room;
+    }
+    if (asked.low !== undefined && !asked.log) low = asked.low;
+    if (asked.high !== undefined) high = asked.high;
+    return low < high ? [low, high] : [low - 0.5, low + 0.5];
+  }
+  function points(curve, figure) {
+    if (curve.hidden) return [];
+    return curve.y.map(function (y, i) {
+      var x = curve.x[i], bar = curve.bar ? curve.bar[i] : 0, low = figure.y.log && y !== null ? Math.max(y - bar, y / 1e3) : y - bar;
+      var good = y !== null && x !== null && (!figure.y.log || y > 0) && (!figure.x.log || x > 0);
+      return {x: good ? x : 0.5, y: good ? y : 0.5, good: good, low: good ? low : 0.5, high: good ? y + bar : 0.5,
+        from: curve.from ? curve.from[i] : x, to: curve.to ? curve.to[i] : x,
+        tag: curve.tags ? curve.tags[i] : ''};
+    });
+  }
+  /* A long name in two lines. */
+  function folded(label) {
+    var middle = label.indexOf(' ', label.length / 2 - 4);
+    return label.length > 30 && middle > 0 ? [label.slice(0, middle), label.slice(middle + 1)] : label;
+  }
+  function axis(orient, scale, label, extra) {
+    return Object.assign({orient: orient, scale: scale, title: folded(label), grid: true, gridColor: 'var(--line)',
+      domainColor: 'var(--soft)', tickColor: 'var(--soft)', labelColor: 'var(--soft)', titleColor: 'var(--ink)',
+      labelFont: 'sans-serif', titleFont: 'sans-serif', titleFontWeight: 'normal', titleFontSize: 12.5, labelFontSize: 11,
+      labelOverlap: 'greedy', titlePadding: 8, tickCount: {signal: scale === 'x' ? 'max(2, width / 70)' : '6'}}, extra);
+  }
+  function frame(figure, width, marks, more) {
+    return Object.assign({width: width, height: figure.height || 250, padding: 5, autosize: {type: 'fit', contains: 'padding'},
+      background: null, marks: marks}, more);
+  }
+  function clip(marks) {
+    return {type: 'group', clip: true,
+      encode: {update: {width: {signal: 'width'}, height: {signal: 'height'}}}, marks: marks};
+  }
+  function at(field) { return {scale: field === 'x' || field === 'from' || field === 'to' ? 'x' : 'y', field: field}; }
+  function drawn(curve, k, several) {
+    var colour = ink(curve.colour), from = {data: 'c' + k}, good = {signal: 'datum.good'}, marks = [];
+    if (curve.style === 'bars')
+      return [{type: 'rect', from: from, encode: {update: {x: at('from'), x2: at('to'), y: at('y'),
+        y2: {scale: 'y', value: 0}, fill: {value: colour}, fillOpacity: {value: 0.7}}}}];
+    if (curve.style === 'dots') {
+      marks.push({type: 'rule', from: from, encode: {update: {x: at('x'), y: at('low'), y2: at('high'), stroke: {value: colour}, opacity: {value: 0.6}}}},
+        {type: 'rule', from: from, encode: {update: {x: at('from'), x2: at('to'), y: at('y'), stroke: {value: colour}, opacity: {value: 0.6}}}},
+        {type: 'symbol', from: from, encode: {update: {x: at('x'), y: at('y'), size: {value: curve.size || 28}, fill: {value: colour},
+          opacity: {signal: 'datum.good ? 0.85 : 0'}}}},
+        {type: 'text', from: from, encode: {update: {x: at('x'), y: at('y'), dx: {value: 7}, dy: {value: -7}, text: {field: 'tag'},
+          fill: {value: 'var(--ink)'}, fontSize: {value: 11}}}});
+      return marks;
+    }
+    if (curve.bar)
+      marks.push({type: 'area', from: from, encode: {update: {x: at('x'), y: at('low'), y2: at('high'), defined: good,
+        fill: {value: colour}, fillOpacity: {value: 0.22}}}});
+    marks.push({type: 'line', from: from, encode: {update: {x: at('x'), y: at('y'), defined: good, stroke: {value: colour},
+      strokeWidth: {value: several && !curve.dash ? 2.6 : 1.8}, strokeDash: {value: DASHES[curve.dash % DASHES.length]}, strokeJoin: {value: 'round'}}}});
+    return marks;
+  }
+  function curveSpec(figure, width, legend) {
+    var inside = [], marks = (figure.marks || []).map(function (m, i) { return {x: m[0], name: m[1], row: i % 2}; });
+    figure.curves.forEach(function (curve, k) { inside = inside.concat(drawn(curve, k, figure.curves.length > 1)); });
+    inside.unshift({type: 'rule', from: {data: 'marks'}, encode: {update: {x: at('x'), y: {value: 0}, y2: {signal: 'height'},
+      stroke: {value: 'var(--soft)'}, strokeDash: {value: [1.5, 3]}}}});
+    var names = {type: 'text', from: {data: 'marks'}, encode: {update: {x: at('x'), y: {signal: '-5 - 12 * datum.row'},
+      text: {field: 'name'}, fontSize: {value: 11}, align: {signal: "datum.x >= xd[1] ? 'right' : datum.x <= xd[0] ? 'left' : 'center'"},
+      fill: {value: 'var(--soft)'}, opacity: {signal: 'datum.x >= xd[0] - 1e-9 && datum.x <= xd[1] + 1e-9 ? 1 : 0'}}}};
+    function scale(name, range) {
+      return {name: name, type: figure[name].log ? 'log' : 'linear', range: range, domain: {signal: name + 'd'}, zero: false, nice: false};
+    }
+    function style(name) { /* of a logarithmic axis the powers of ten, and 2 and 5 where there are few */
+      if (!figure[name].log) return {};
+      var d = figure[name + 'd'] || domain(figure, name);
+      return {format: '.4~g', tickCount: Math.log10(d[1] / d[0]) > 2.5 ? Math.ceil(Math.log10(d[1] / d[0])) : 6};
+    }
+    var axes = [axis('bottom', 'x', figure.x.label, style('x')), axis('left', 'y', figure.y.label, style('y'))];
+    if (figure.names) axes[0] = axis('bottom', 'x', '', {grid: false, values: figure.names.map(function (_, i) { return i; }),
+      labelOverlap: false, labelAngle: width < 90 * figure.names.length ? -25 : 0, labelAlign: width < 90 * figure.names.length ? 'right' : 'center',
+      labelLimit: 160, encode: {labels: {update: {text: {signal: 'xn[round(datum.value)]'}}}}});
+    var shown = figure.curves.filter(function (c) { return c.name && !c.hidden; });
+    return frame(figure, width, [clip(inside), names], {
+      signals: [{name: 'xn', value: figure.names || []}, {name: 'xd', value: figure.xd || domain(figure, 'x')}, {name: 'yd', value: figure.yd || domain(figure, 'y')}],
+      data: figure.curves.map(function (curve, k) { return {name: 'c' + k, values: points(curve, figure)}; })
+        .concat([{name: 'marks', values: marks}]),
+      scales: [scale('x', 'width'), scale('y', 'height'),
+        {name: 'key', type: 'ordinal', domain: shown.map(function (c) { return c.name; }),
+          range: shown.map(function (c) { return ink(c.colour); })}],
+      axes: axes,
+      legends: legend && shown.length ? [{stroke: 'key', symbolType: 'stroke', orient: 'top', direction: 'horizontal',
+        columns: 3, labelColor: 'var(--ink)', labelLimit: 400}] : []});
+  }
+
+  /* Maps: over the ranks of rows and columns, each with its value beside it. */
+  function share(value, scale) {
+    if (scale.log) return Math.log(value / scale.low) / Math.log(scale.high / scale.low);
+    return scale.high > scale.low ? (value - scale.low) / (scale.high - scale.low) : 0.5;
+  }
+  function colour(value, scale) {
+    var s = Math.min(Math.max(share(value, scale), 0), 1) * 8, low = Math.min(Math.floor(s), 7);
+    return STOPS[low].map(function (from, i) { return Math.round(from + (s - low) * (STOPS[low + 1][i] - from)); });
+  }
+  /* Of a map with many cells a picture with a pixel for each. */
+  function picture(figure) {
+    var rows = figure.values.length, columns = figure.values[0].length, canvas = document.createElement('canvas');
+    canvas.width = columns;
+    canvas.height = rows;
+    var pen = canvas.getContext('2d'), image = pen.createImageData(columns, rows);
+    figure.values.forEach(function (row, r) {
+      row.forEach(function (value, c) {
+        if (value === null) return;
+        image.data.set(colour(value, figure.value).concat(255), 4 * ((rows - 1 - r) * columns + c));
+      });
+    });
+    pen.putImageData(image, 0, 0);
+    return canvas.toDataURL();
+  }
+  /* The edges of cells between values below and above the mark. */
+  function contour(figure) {
+    var edges = [], mark = figure.mark, grid = figure.values;
+    function crosses(a, b) { return a !== null && b !== null && (a < mark) !== (b < mark); }
+    if (mark === undefined) return edges;
+    grid.forEach(function (row, r) {
+      row.forEach(function (value, c) {
+        if (c + 1 < row.length && crosses(value, row[c + 1])) edges.push([c + 1, r, c + 1, r + 1]);
+        if (r + 1 < grid.length && crosses(value, grid[r + 1][c])) edges.push([c, r + 1, c + 1, r + 1]);
+      });
+    });
+    return edges;
+  }
+  function mapSpec(figure, width) {
+    var columns = figure.x.at.length, rows = figure.y.at.length, cells = [], marks = [], more = {legends: []};
+    var box = {x: {scale: 'x', field: 'c'}, x2: {scale: 'x', signal: 'datum.c + 1'}, y: {scale: 'y', field: 'r'},
+      y2: {scale: 'y', signal: 'datum.r + 1'}};
+    var few = columns * rows <= 3000;
+    if (figure.sort === 'map' && few) {
+      figure.values.forEach(function (row, r) {
+        row.forEach(function (value, c) {
+          if (value !== null) cells.push({c: c, r: r, fill: 'rgb(' + colour(value, figure.value).join(',') + ')'});
+        });
+      });
+      marks.push({type: 'rect', from: {data: 'cells'}, encode: {update: Object.assign({fill: {field: 'fill'},
+        stroke: {field: 'fill'}, strokeWidth: {value: 0.5}}, box)}});
+    } else if (figure.sort === 'map') {
+      marks.push({type: 'image', encode: {update: {url: {value: figure.picture || (figure.picture = picture(figure))},
+        x: {scale: 'x', value: 0}, x2: {scale: 'x', value: columns}, y: {scale: 'y', value: rows}, y2: {scale: 'y', value: 0},
+        aspect: {value: false}, smooth: {value: false}}}});
+    } else {
+      figure.cells.forEach(function (k, i) {
+        var kind = figure.classes[k];
+        cells.push({c: i % columns, r: Math.floor(i / columns), fill: kind.colour, letter: kind.letter});
+      });
+      marks.push({type: 'rect', from: {data: 'cells'}, encode: {update: Object.assign({fill: {field: 'fill'},
+        stroke: {value: 'var(--paper)'}, strokeWidth: {value: 1}}, box)}},
+        {type: 'text', from: {data: 'cells'}, encode: {update: {x: {scale: 'x', signal: 'datum.c + 0.5'},
+          y: {scale: 'y', signal: 'datum.r + 0.5'}, text: {field: 'letter'}, align: {value: 'center'}, baseline: {value: 'middle'},
+          fill: {value: '#000'}, fontSize: {signal: 'max(6, min(13, 0.7 * width / (xd[1] - xd[0]), 0.7 * height / (yd[1] - yd[0])))'}}}});
+    }
+    if (figure.sort === 'map') {
+      more.legends.push({fill: 'v', title: figure.value.label + (figure.value.log ? ', logarithmic' : ''), titleFontSize: 11, orient: width < 500 ? 'bottom' : 'right', titleLimit: 290,
+        direction: width < 500 ? 'horizontal' : 'vertical', gradientLength: width < 500 ? 200 : 210, labelColor: 'var(--soft)',
+        titleColor: 'var(--ink)', titleFontWeight: 'normal', format: '.4~g', tickCount: 5, titleOrient: width < 500 ? 'top' : 'right'});
+    }
+    marks.push({type: 'rule', from: {data: 'edges'}, encode: {update: {x: {scale: 'x', field: '0'}, y: {scale: 'y', field: '1'},
+      x2: {scale: 'x', field: '2'}, y2: {scale: 'y', field: '3'}, stroke: {value: figure.sort === 'classes' ? '#000' : '#fff'},
+      strokeWidth: {value: 3}, strokeCap: {value: 'square'}}}});
+    function ranks(count, most) {
+      var list = [], step = Math.ceil(count / most);
+      for (var i = 0; i < count; i += step) list.push(i + 0.5);
+      return list;
+    }
+    return frame(figure, width, [clip(marks)], Object.assign({
+      signals: [{name: 'xd', value: figure.xd || [0, columns]}, {name: 'yd', value: figure.yd || [0, rows]},
+        {name: 'xl', value: figure.x.at.map(text)}, {name: 'yl', value: figure.y.at.map(text)}],
+      data: [{name: 'cells', values: cells}, {name: 'edges', values: (figure.edges || contour(figure)).map(function (e) {
+        return {0: e[0], 1: e[1], 2: e[2], 3: e[3]}; })}],
+      scales: [{name: 'x', type: 'linear', range: 'width', domain: {signal: 'xd'}, zero: false, nice: false},
+        {name: 'y', type: 'linear', range: 'height', domain: {signal: 'yd'}, zero: false, nice: false},
+        {name: 'v', type: figure.value && figure.value.log ? 'log' : 'linear', range: {scheme: 'viridis'},
+          domain: figure.value ? [figure.value.low, figure.value.high] : [0, 1], zero: false}],
+      axes: [axis('bottom', 'x', figure.x.label, {grid: false, values: ranks(columns, Math.max(2, width / 75)),
+        encode: {labels: {update: {text: {signal: 'xl[floor(datum.value)]'}}}}}),
+      axis('left', 'y', figure.y.label, {grid: false, values: ranks(rows, 12),
+        encode: {labels: {update: {text: {signal: 'yl[floor(datum.value)]'}}}}})]}, more));
+  }
+  function spec(figure, width, legend) {
+    return figure.sort === 'curves' ? curveSpec(figure, width, legend) : mapSpec(figure, width);
+  }
+  function view(figure, width, legend) {
+    return new vega.View(vega.parse(spec(figure, width, legend), null, {ast: true}), {expr: vega.interpreter, renderer: 'svg'});
+  }
+
+  /* A figure with its light colours, fit to stand alone. */
+  function standalone(figure) {
+    return view(figure, 760, true).toSVG().then(function (svg) {
+      var style = getComputedStyle(document.getElementById('light'));
+      return svg.replace(/var\((--\w+)\)/g, function (_, name) { return style.getPropertyValue(name).trim(); });
+    });
+  }
+  return {view: view, standalone: standalone, points: points, text: text, ink: ink, finite: finite, dashes: DASHES.length};
+})();
