@@ -145,20 +145,62 @@ double ehl_fluidity_integral(double step, double left, double right)
    ever where the values of a law do not follow its slopes. */
 enum { MOST_STEPS = 100000 };
 
+static void blame_slope(numerics_answers *answers, const char *wire, const char *value,
+                        double slope, const char *unit, double p)
+{
+    if (!answers || answers->status != FF_OK)
+        return;
+    answers->status = FF_BUG;
+    answers->wire = wire;
+    snprintf(answers->text, sizeof answers->text,
+             "%s does not follow its slope, which is %.4g %s/GPa at %.4g GPa", value, 1e9 * slope,
+             unit, 1e-9 * p);
+}
+
 /* False when there were too many steps, which is noted as a fault of the law. */
 static bool is_bounded(const ehl_laws *laws, size_t steps, double p, double slope)
 {
-    numerics_answers *answers = laws->answers;
     if (steps < MOST_STEPS)
         return true;
-    if (answers && answers->status == FF_OK) {
-        answers->status = FF_BUG;
-        answers->wire = "viscosity";
-        snprintf(answers->text, sizeof answers->text,
-                 "ln_eta does not follow its slope, which is %.4g 1/GPa at %.4g GPa", 1e9 * slope,
-                 1e-9 * p);
-    }
+    blame_slope(laws->answers, "viscosity", "ln_eta", slope, "1", p);
     return false;
+}
+
+/* A law as it is asked: ln_eta or rho over pressure. */
+typedef ff_status over_pressure(const void *self, size_t n, const double *p, const double *T,
+                                double *value, double *by_p, double *by_T);
+
+/* Returns a pressure up to `highest` at which the slope is ten times that of the values, or less
+   than a tenth of it, and that slope; 0 where there is none. What no film would feel is left out.
+ */
+static double find_false_slope(over_pressure *eval, const void *self, double highest, double *slope)
+{
+    enum { PLACES = 64 };
+    const double beside = 1e-6 * highest, felt = 1e-12, far = 10;
+    for (int k = 1; k <= PLACES; k++) {
+        double p = highest * k / PLACES, at[] = {p - beside, p, p + beside}, value[3], slopes[3];
+        if (eval(self, 3, at, NULL, value, slopes, NULL) < 0)
+            return 0;
+        double rise = (value[2] - value[0]) / (2 * beside), said = slopes[1];
+        double least = felt * fmax(1, fabs(value[1]));
+        if (fabs(said - rise) > (far - 1) * fmin(fabs(said), fabs(rise)) + least) {
+            *slope = said;
+            return p;
+        }
+    }
+    return 0;
+}
+
+void ehl_laws_hold_slopes(const ehl_laws *laws, double highest)
+{
+    const ff_viscosity *v = laws->viscosity;
+    const ff_density *d = laws->density;
+    double slope, p = find_false_slope(v->eval, v->self, highest, &slope);
+    if (p > 0)
+        blame_slope(laws->answers, "viscosity", "ln_eta", slope, "1", p);
+    p = d ? find_false_slope(d->eval, d->self, highest, &slope) : 0;
+    if (p > 0)
+        blame_slope(laws->answers, "density", "rho", slope, "kg/m3", p);
 }
 
 /* The integral of eta0/eta by whole steps and by halves. */

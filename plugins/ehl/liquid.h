@@ -62,6 +62,10 @@ const ff_rheology *ehl_rheology_make(ehl_rheology_at *at, const ff_rheology *law
 /* Whether one of the laws has failed, so that no film can be had. */
 int ehl_laws_failed(const ehl_laws *laws);
 
+/* Where no film was found: notes the first law whose values do not follow its slopes at pressures
+   up to `highest`. */
+void ehl_laws_hold_slopes(const ehl_laws *laws, double highest);
+
 ff_status ehl_fluid_oil(const ehl_laws *laws, ehl_oil *oil);
 
 /* The worst that the laws have answered for a film. */

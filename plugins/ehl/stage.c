@@ -211,6 +211,10 @@ static ff_status explain(const ehl_model *m, const run *r, ff_status status, dou
                         time);
     if (status != FF_NOCONV)
         return status;
+    const double beyond = 1.5 * ehl_hertz_pressure(at.load, at.radius, r->history.modulus);
+    ehl_laws_hold_slopes(&m->laws, fmax(beyond, 1e8));
+    if (ehl_laws_failed(&m->laws))
+        return FF_BUG;
     if (r->solver.no_film)
         return ff_failf(m->host, status, "discretisation",
                         "at time %.6g s the discretisation gave something that is not a film: not "

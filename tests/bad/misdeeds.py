@@ -313,6 +313,7 @@ for film in ["finite-volume, cells: 96", "control-volume, cells: 96", "film-form
         fails_film("status -77", film, 3, "it gave the status -77")
         fails_film("status 99", film, 3, "it gave the status 99")
         fails_film("status 2", film, 1, "the law found no ln_eta")
+fails_film("slope 1e30", "finite-volume, cells: 96", 3, "ln_eta does not follow its slope, which is 1.5e+31 1/GPa at 0.3")
 refuses_places()
 for role in PLACES:
     hold("verify of nothing", run("", "verify", FILES[role]).returncode == 0, "it fails")

@@ -55,6 +55,41 @@ static void test_slopes(void)
                        "it gave the slope of rho nan at 0.2 GPa; a law owes finite numbers"));
 }
 
+/* A slope may be off at a kink, by as much as both sides differ, and steep where the values are. */
+static ff_status bent(const void *self, size_t n, const double *p, const double *T, double *value,
+                      double *by_p, double *by_T)
+{
+    const double *factor = self, middle = 2e8, width = 2e3;
+    (void)T, (void)by_T;
+    for (size_t i = 0; i < n; i++) {
+        double rise = tanh((p[i] - middle) / width), kink = p[i] < 4e8 ? 1e-9 : 2e-9;
+        value[i] = -5 + rise + kink * (p[i] - 4e8);
+        by_p[i] = (p[i] > 3e8 ? *factor : 1) * ((1 - rise * rise) / width + kink);
+    }
+    return FF_OK;
+}
+
+static numerics_answers hold_slopes(double of_viscosity, double of_density)
+{
+    numerics_answers answers = {.status = FF_OK};
+    const ff_viscosity viscosity = {sizeof viscosity, &of_viscosity, bent};
+    const ff_density density = {sizeof density, &of_density, bent};
+    const ehl_laws laws = {.viscosity = &viscosity, .density = &density, .answers = &answers};
+    ehl_laws_hold_slopes(&laws, 8e8);
+    return answers;
+}
+
+/* Without these a film is not found, and nothing tells why. */
+static void test_false_slopes(void)
+{
+    numerics_answers none = hold_slopes(1, 1), a = hold_slopes(1e30, 1), b = hold_slopes(1, 0);
+    check_true("right slopes", none.status == FF_OK);
+    check_true("an absurd one", a.status == FF_BUG && !strcmp(a.wire, "viscosity"));
+    check_true("its size", !strcmp(a.text, "ln_eta does not follow its slope, which is 1e+30 1/GPa "
+                                           "at 0.3125 GPa"));
+    check_true("none", b.status == FF_BUG && !strcmp(b.wire, "density"));
+}
+
 static ff_status linear(const void *self, int32_t property, size_t n, const double *T,
                         double *value, double *slope)
 {
@@ -84,6 +119,7 @@ int main(void)
 {
     test_steep();
     test_slopes();
+    test_false_slopes();
     test_temperatures();
     return check_done();
 }

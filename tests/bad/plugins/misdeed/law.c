@@ -34,16 +34,26 @@ static ff_status status_of_eval(void)
     return asked ? atoi(misdeed + sizeof begin - 1) : FF_OK;
 }
 
+/* "law eval slope 1e6": the slope above 0.3 GPa, over the right one. */
+static double slope_factor(void)
+{
+    static const char begin[] = "law eval slope ";
+    const char *misdeed = getenv("FLANKFILM_MISDEED");
+    bool asked = misdeed && !strncmp(misdeed, begin, sizeof begin - 1);
+    return asked ? atof(misdeed + sizeof begin - 1) : 1;
+}
+
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
                       double *dln_dp, double *dln_dT)
 {
     const law *l = self;
     (void)T;
     misbehave("eval");
+    double factor = slope_factor();
     for (size_t i = 0; i < n; i++) {
         ln_eta[i] = p[i] > 0.3e9 ? answer(-5 + l->alpha * p[i]) : -5 + l->alpha * p[i];
         if (dln_dp)
-            dln_dp[i] = l->alpha;
+            dln_dp[i] = p[i] > 0.3e9 ? factor * l->alpha : l->alpha;
         if (dln_dT)
             dln_dT[i] = 0;
     }
