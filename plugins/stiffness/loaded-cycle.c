@@ -203,7 +203,7 @@ ff_status stiffness_loaded_cycle_publish(const stiffness_source *source, uint64_
     if (status != FF_OK)
         goto out;
     report_contact(&s, &v);
-    if (h.pressure && s.cycles.which == STIFFNESS_CYCLE_NUMBER)
+    if (h.pressure && s.cycles.which != STIFFNESS_CYCLE_ALL)
         stiffness_hunting_report(&s, &h, s.cycles.number);
     stiffness_result result = result_of(&s, &v, b, &h);
     status = stiffness_result_publish(s.host, wanted, &result, &s.conditions->path);
