@@ -2,7 +2,8 @@
 /* Dowson-Higginson: rho = rho0 [1 + a p/(1 + b p)] (Dowson & Higginson 1966). */
 #include "law.h"
 #include "references.h"
-#include "tension.h"
+
+#include <math.h>
 
 typedef struct dowson_higginson {
     const ff_host *host;
@@ -12,31 +13,24 @@ typedef struct dowson_higginson {
     double a, b; /* 1/Pa */
 } dowson_higginson;
 
+FF_SIMD
+static void curve(const void *self, double rho0, size_t n, const double *restrict p,
+                  double *restrict rho, double *restrict drho_dp)
+{
+    const dowson_higginson *d = self;
+    const double a = d->a, b = d->b;
+    for (size_t i = 0; i < n; i++) {
+        double q = p[i] > 0 ? p[i] : 0, u = 1 / (1 + b * q);
+        rho[i] = rho0 * (1 + a * q * u);
+        drho_dp[i] = rho0 * a * (u * u);
+    }
+}
+
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *rho,
                       double *drho_dp, double *drho_dT)
 {
     const dowson_higginson *d = self;
-    const density_ambient ambient = density_begin(self, n, T);
-    const double rho0 = ambient.rho0, a = d->a, b = d->b;
-    double lowest = 0;
-    for (size_t i = 0; i < n; i++)
-        lowest = p[i] < lowest ? p[i] : lowest;
-    for (size_t i = 0; i < n; i++) {
-        double q = p[i] > 0 ? p[i] : 0, u = 1 / (1 + b * q);
-        rho[i] = rho0 * (1 + a * q * u);
-        if (drho_dp)
-            drho_dp[i] = rho0 * a * (u * u);
-    }
-    for (size_t i = 0; i < n && lowest < 0; i++) {
-        double y = 1 + a * p[i];
-        if (p[i] < 0) {
-            rho[i] = rho0 * density_tension(y);
-            if (drho_dp)
-                drho_dp[i] = rho0 * a * density_tension_slope(y);
-        }
-    }
-    return density_end(self, &ambient, 1 + a * lowest < 0.5 ? FF_DOMAIN : FF_OK, n, T, rho, drho_dp,
-                       drho_dT);
+    return density_eval(d, curve, 1 / d->a, HUGE_VAL, n, p, T, rho, drho_dp, drho_dT);
 }
 
 static const ff_param params[] = {

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law.h"
 
+#include "tension.h"
+
 #include "../numerics/liquid.h"
+
+#include <math.h>
 
 const ff_port density_inputs[1] = {{.name = "oil",
                                     .unit = "",
@@ -64,4 +68,44 @@ ff_status density_end(const density_law *law, const density_ambient *ambient, ff
     for (size_t i = 0; drho_dT && !ambient->varies && i < n; i++)
         drho_dT[i] = ambient->slope / ambient->rho0 * rho[i];
     return of_liquid != FF_OK ? of_liquid : status;
+}
+
+FF_SIMD
+static int any_outside(size_t n, const double *p, double low, double high)
+{
+    int64_t outside = 0;
+    for (size_t i = 0; i < n; i++)
+        outside |= (p[i] < low) | (p[i] > high);
+    return outside != 0;
+}
+
+static void bend_tension(double rho0, double K0, size_t n, const double *p, double *rho,
+                         double *drho_dp)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (!(p[i] < 0))
+            continue;
+        double y = 1 + p[i] / K0;
+        rho[i] = rho0 * density_tension(y);
+        if (drho_dp)
+            drho_dp[i] = rho0 * density_tension_slope(y) / K0;
+    }
+}
+
+ff_status density_eval(const void *law, density_curve *curve, double K0, double highest, size_t n,
+                       const double *p, const double *T, double *rho, double *drho_dp,
+                       double *drho_dT)
+{
+    enum { BLOCK = 256 };
+    const density_ambient ambient = density_begin(law, n, T);
+    double unwanted[BLOCK];
+    if (drho_dp)
+        curve(law, ambient.rho0, n, p, rho, drho_dp);
+    for (size_t from = 0; !drho_dp && from < n; from += BLOCK)
+        curve(law, ambient.rho0, n - from < BLOCK ? n - from : BLOCK, p + from, rho + from,
+              unwanted);
+    if (any_outside(n, p, 0, HUGE_VAL))
+        bend_tension(ambient.rho0, K0, n, p, rho, drho_dp);
+    int outside = any_outside(n, p, -K0 / 2, highest);
+    return density_end(law, &ambient, outside ? FF_DOMAIN : FF_OK, n, T, rho, drho_dp, drho_dT);
 }

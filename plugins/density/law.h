@@ -5,6 +5,7 @@
 
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
+#include <flankfilm/simd.h>
 
 /* First members of every law's instance. */
 typedef struct density_law {
@@ -30,6 +31,16 @@ typedef struct density_ambient {
 } density_ambient;
 
 density_ambient density_begin(const void *law, size_t n, const double *T);
+
+/* rho of n points that share one rho0, and its slope over p, where p >= 0; elsewhere any finite
+   numbers. Arrays never overlap. */
+typedef void density_curve(const void *law, double rho0, size_t n, const double *p, double *rho,
+                           double *drho_dp);
+/* eval of a law whose rho/rho0 is a function of pressure alone, with the tangent 1 + p/K0 at
+   ambient pressure and the range up to `highest`. */
+ff_status density_eval(const void *law, density_curve *curve, double K0, double highest, size_t n,
+                       const double *p, const double *T, double *rho, double *drho_dp,
+                       double *drho_dT);
 
 /* Ends an eval of a law whose rho/rho0 does not depend on temperature: multiplies by what a liquid
    gives, where it has not yet, and fills drho_dT. Derivatives may be NULL. `status` is that of the

@@ -6,7 +6,6 @@
  */
 #include "law.h"
 #include "references.h"
-#include "tension.h"
 
 #include <math.h>
 
@@ -19,25 +18,27 @@ typedef struct tait {
     double cap;          /* Pa, where V = 1/2 */
 } tait;
 
+FF_SIMD
+static void curve(const void *self, double rho0, size_t n, const double *restrict p,
+                  double *restrict rho, double *restrict drho_dp)
+{
+    const tait *d = self;
+    const double K0 = d->K0, k = 1 + d->K0_prime, cap = d->cap;
+    for (size_t i = 0; i < n; i++) {
+        double q = p[i] > 0 ? p[i] : 0;
+        q = q < cap ? q : cap;
+        double V = 1 - ff_log(1 + q * k / K0) / k;
+        double slope = 1 / (V * V * (K0 + q * k));
+        rho[i] = rho0 * (1 / V + slope * (p[i] - q));
+        drho_dp[i] = rho0 * slope;
+    }
+}
+
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *rho,
                       double *drho_dp, double *drho_dT)
 {
     const tait *d = self;
-    const density_ambient ambient = density_begin(self, n, T);
-    const double rho0 = ambient.rho0, K0 = d->K0, k = 1 + d->K0_prime, cap = d->cap;
-    double lowest = 0, highest = 0;
-    for (size_t i = 0; i < n; i++) {
-        double q = fmin(fmax(p[i], 0), cap), y = 1 + fmin(p[i], 0) / K0;
-        double V = 1 - log(1 + q * k / K0) / k;
-        double slope = 1 / (V * V * (K0 + q * k));
-        rho[i] = rho0 * (p[i] < 0 ? density_tension(y) : 1 / V + slope * (p[i] - q));
-        if (drho_dp)
-            drho_dp[i] = rho0 * (p[i] < 0 ? density_tension_slope(y) / K0 : slope);
-        lowest = fmin(lowest, p[i]);
-        highest = fmax(highest, p[i]);
-    }
-    int outside = 1 + lowest / K0 < 0.5 || highest > cap;
-    return density_end(self, &ambient, outside ? FF_DOMAIN : FF_OK, n, T, rho, drho_dp, drho_dT);
+    return density_eval(d, curve, d->K0, d->cap, n, p, T, rho, drho_dp, drho_dT);
 }
 
 static const ff_param params[] = {

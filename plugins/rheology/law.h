@@ -8,6 +8,7 @@
 
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
+#include <flankfilm/simd.h>
 
 #include <math.h>
 
@@ -25,14 +26,14 @@ enum { RHEOLOGY_LN_MAX = 690 };                /* e^690 = 1e299.7 */
 static const double RHEOLOGY_FILM_MIN = 1e-30; /* m */
 
 /* Fluidity 1/eta, held between e^-690 and e^690 1/(Pa s). */
-static inline double rheology_fluidity(double ln_eta)
+FF_SIMD_INLINE double rheology_fluidity(double ln_eta)
 {
     double x = ln_eta > -RHEOLOGY_LN_MAX ? ln_eta : -RHEOLOGY_LN_MAX;
-    return exp(-(x < RHEOLOGY_LN_MAX ? x : RHEOLOGY_LN_MAX));
+    return ff_exp(-(x < RHEOLOGY_LN_MAX ? x : RHEOLOGY_LN_MAX));
 }
 
 /* Film thickness, held above RHEOLOGY_FILM_MIN. */
-static inline double rheology_film(double h)
+FF_SIMD_INLINE double rheology_film(double h)
 {
     return h > RHEOLOGY_FILM_MIN ? h : RHEOLOGY_FILM_MIN;
 }
@@ -42,5 +43,12 @@ static inline double rheology_limited(double tau, double p, double coefficient)
 {
     return coefficient > 0 ? fmin(tau, coefficient * fmax(p, 0)) : tau;
 }
+
+/* psi of n points and its derivatives; arrays never overlap. Returns whether any was held. */
+typedef int64_t rheology_curve(const void *law, size_t n, const double *ln_eta, const double *h,
+                               double slip, double *psi, double *by_ln_eta, double *by_h);
+/* The same, where derivatives may be NULL. */
+int64_t rheology_points(rheology_curve *curve, const void *law, size_t n, const double *ln_eta,
+                        const double *h, double slip, double *psi, double *by_ln_eta, double *by_h);
 
 #endif

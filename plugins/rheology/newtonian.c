@@ -9,22 +9,29 @@ typedef struct newtonian {
     double limiting_stress_coefficient;
 } newtonian;
 
+FF_SIMD
+static int64_t curve(const void *law, size_t n, const double *restrict ln_eta,
+                     const double *restrict h, double slip, double *restrict psi,
+                     double *restrict by_ln_eta, double *restrict by_h)
+{
+    int64_t held = 0;
+    (void)law, (void)h, (void)slip;
+    for (size_t i = 0; i < n; i++) {
+        double fluidity = rheology_fluidity(ln_eta[i]);
+        psi[i] = fluidity;
+        by_ln_eta[i] = ln_eta[i] > -RHEOLOGY_LN_MAX ? -fluidity : 0;
+        by_h[i] = 0;
+        held |= ln_eta[i] < -RHEOLOGY_LN_MAX;
+    }
+    return held;
+}
+
 static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
                       double *psi, double *dpsi_dln_eta, double *dpsi_dh)
 {
-    int outside = 0;
-    (void)self;
-    (void)h;
     (void)u_s;
-    for (size_t i = 0; i < n; i++) {
-        psi[i] = rheology_fluidity(ln_eta[i]);
-        if (dpsi_dln_eta)
-            dpsi_dln_eta[i] = ln_eta[i] > -RHEOLOGY_LN_MAX ? -psi[i] : 0;
-        if (dpsi_dh)
-            dpsi_dh[i] = 0;
-        outside |= ln_eta[i] < -RHEOLOGY_LN_MAX;
-    }
-    return outside ? FF_DOMAIN : FF_OK;
+    return rheology_points(curve, self, n, ln_eta, h, 0, psi, dpsi_dln_eta, dpsi_dh) ? FF_DOMAIN
+                                                                                     : FF_OK;
 }
 
 static ff_status shear(const void *self, size_t n, const double *p, const double *ln_eta,

@@ -16,25 +16,34 @@ typedef struct ree_eyring {
     double tau0; /* Pa */
 } ree_eyring;
 
-static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
-                      double *psi, double *dpsi_dln_eta, double *dpsi_dh)
+FF_SIMD
+static int64_t curve(const void *law, size_t n, const double *restrict ln_eta,
+                     const double *restrict h, double slip, double *restrict psi,
+                     double *restrict by_ln_eta, double *restrict by_h)
 {
-    const ree_eyring *r = self;
-    const double slip = fmin(fabs(u_s) / r->tau0, 1e100);
-    int outside = 0;
+    int64_t held = 0;
+    (void)law;
     for (size_t i = 0; i < n; i++) {
         double film = rheology_film(h[i]);
         double a = rheology_fluidity(ln_eta[i]), s = slip / film;
         double most = a > s ? a : s, least = a > s ? s : a, ratio = least / most;
         double root = most * sqrt(1 + ratio * ratio);
+        double by_eta = -a * (a / root), by_film = -s * (s / root) / film;
         psi[i] = root;
-        if (dpsi_dln_eta)
-            dpsi_dln_eta[i] = ln_eta[i] > -RHEOLOGY_LN_MAX ? -a * (a / root) : 0;
-        if (dpsi_dh)
-            dpsi_dh[i] = h[i] > RHEOLOGY_FILM_MIN ? -s * (s / root) / film : 0;
-        outside |= ln_eta[i] < -RHEOLOGY_LN_MAX || h[i] < RHEOLOGY_FILM_MIN;
+        by_ln_eta[i] = ln_eta[i] > -RHEOLOGY_LN_MAX ? by_eta : 0;
+        by_h[i] = h[i] > RHEOLOGY_FILM_MIN ? by_film : 0;
+        held |= (ln_eta[i] < -RHEOLOGY_LN_MAX) | (h[i] < RHEOLOGY_FILM_MIN);
     }
-    return outside || slip == 1e100 ? FF_DOMAIN : FF_OK;
+    return held;
+}
+
+static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
+                      double *psi, double *dpsi_dln_eta, double *dpsi_dh)
+{
+    const ree_eyring *r = self;
+    const double slip = fmin(fabs(u_s) / r->tau0, 1e100);
+    int64_t held = rheology_points(curve, r, n, ln_eta, h, slip, psi, dpsi_dln_eta, dpsi_dh);
+    return held || slip == 1e100 ? FF_DOMAIN : FF_OK;
 }
 
 static ff_status shear(const void *self, size_t n, const double *p, const double *ln_eta,

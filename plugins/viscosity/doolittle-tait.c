@@ -17,24 +17,28 @@ typedef struct doolittle_tait {
     double B, V_occ, K0, K0_prime;
 } doolittle_tait;
 
-static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
-                      double *dln_dp, double *dln_dT)
+FF_SIMD
+static void curve(const void *self, double ln_eta0, size_t n, const double *restrict p,
+                  double *restrict ln_eta, double *restrict dln_dp)
 {
     const doolittle_tait *d = self;
-    const viscosity_ambient ambient = viscosity_oil_begin(&d->oil, n, T);
     const double B = d->B, V_occ = d->V_occ, K0 = d->K0, k = 1 + d->K0_prime;
     const double cap = d->oil.pressure_cap;
     for (size_t i = 0; i < n; i++) {
         double q = viscosity_clip(p[i], cap);
-        double shrinkage = log(1 + q * k / K0) / k; /* 1 - V */
-        double free = 1 - shrinkage - V_occ;        /* V - V_occ */
+        double shrinkage = ff_log(1 + q * k / K0) / k; /* 1 - V */
+        double free = 1 - shrinkage - V_occ;           /* V - V_occ */
         double scale = B * V_occ / free;
         double slope = scale / free / (K0 + q * k);
-        ln_eta[i] = ambient.ln_eta0 + scale * shrinkage / (1 - V_occ) + slope * (p[i] - q);
-        if (dln_dp)
-            dln_dp[i] = slope;
+        ln_eta[i] = ln_eta0 + scale * shrinkage / (1 - V_occ) + slope * (p[i] - q);
+        dln_dp[i] = slope;
     }
-    return viscosity_oil_end(&d->oil, &ambient, n, p, T, ln_eta, dln_dT);
+}
+
+static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
+                      double *dln_dp, double *dln_dT)
+{
+    return viscosity_eval(self, curve, n, p, T, ln_eta, dln_dp, dln_dT);
 }
 
 static const ff_param params[] = {

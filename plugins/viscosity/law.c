@@ -72,16 +72,42 @@ viscosity_ambient viscosity_oil_begin(const viscosity_oil *oil, size_t n, const 
     return ambient;
 }
 
+FF_SIMD
+static int any_above(size_t n, const double *p, double limit)
+{
+    int64_t above = 0;
+    for (size_t i = 0; i < n; i++)
+        above |= p[i] > limit;
+    return above != 0;
+}
+
 ff_status viscosity_oil_end(const viscosity_oil *oil, const viscosity_ambient *ambient, size_t n,
                             const double *p, const double *T, double *ln_eta, double *dln_dT)
 {
-    double highest = 0;
     ff_status status = ambient->status;
-    for (size_t i = 0; i < n; i++)
-        highest = p[i] > highest ? p[i] : highest;
     if (ambient->varies)
         status = add_liquid(oil->liquid, n, T, ln_eta, dln_dT);
     for (size_t i = 0; dln_dT && !ambient->varies && i < n; i++)
         dln_dT[i] = ambient->slope;
-    return highest > oil->pressure_cap ? FF_DOMAIN : status;
+    return any_above(n, p, oil->pressure_cap) ? FF_DOMAIN : status;
+}
+
+void viscosity_points(viscosity_curve *curve, const void *law, double ln_eta0, size_t n,
+                      const double *p, double *ln_eta, double *dln_dp)
+{
+    enum { BLOCK = 256 };
+    double unwanted[BLOCK];
+    if (dln_dp)
+        curve(law, ln_eta0, n, p, ln_eta, dln_dp);
+    for (size_t from = 0; !dln_dp && from < n; from += BLOCK)
+        curve(law, ln_eta0, n - from < BLOCK ? n - from : BLOCK, p + from, ln_eta + from, unwanted);
+}
+
+ff_status viscosity_eval(const viscosity_law *law, viscosity_curve *curve, size_t n,
+                         const double *p, const double *T, double *ln_eta, double *dln_dp,
+                         double *dln_dT)
+{
+    const viscosity_ambient ambient = viscosity_oil_begin(&law->oil, n, T);
+    viscosity_points(curve, law, ambient.ln_eta0, n, p, ln_eta, dln_dp);
+    return viscosity_oil_end(&law->oil, &ambient, n, p, T, ln_eta, dln_dT);
 }

@@ -9,6 +9,7 @@
 
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
+#include <flankfilm/simd.h>
 
 /* The oil of a law. */
 typedef struct viscosity_oil {
@@ -48,11 +49,22 @@ void viscosity_oil_ready(viscosity_oil *oil, double auto_cap);
 ff_status viscosity_alpha_ready(const ff_host *host, const viscosity_oil *oil, const char *other);
 
 /* Pressure at which the law itself is evaluated; from there on ln(eta) follows the tangent. */
-static inline double viscosity_clip(double p, double cap)
+FF_SIMD_INLINE double viscosity_clip(double p, double cap)
 {
     p = p > 0 ? p : 0;
     return p < cap ? p : cap;
 }
+
+/* ln(eta) of n points that share one ln(eta0), and its slope over p; arrays never overlap. */
+typedef void viscosity_curve(const void *law, double ln_eta0, size_t n, const double *p,
+                             double *ln_eta, double *dln_dp);
+/* The same, where dln_dp may be NULL. */
+void viscosity_points(viscosity_curve *curve, const void *law, double ln_eta0, size_t n,
+                      const double *p, double *ln_eta, double *dln_dp);
+/* eval of a law whose ln(eta/eta0) is a function of pressure alone. */
+ff_status viscosity_eval(const viscosity_law *law, viscosity_curve *curve, size_t n,
+                         const double *p, const double *T, double *ln_eta, double *dln_dp,
+                         double *dln_dT);
 
 /* The liquid at ambient pressure, for the points of one eval. */
 typedef struct viscosity_ambient {

@@ -97,31 +97,40 @@ static ff_status take_isotherm(const roelands *r, const double *T, double *rise,
     return status;
 }
 
+/* The curve of one temperature. */
+typedef struct isothermal {
+    double rise, z, p0, cap;
+} isothermal;
+
+FF_SIMD
+static void curve(const void *law, double ln_eta0, size_t n, const double *restrict p,
+                  double *restrict ln_eta, double *restrict dln_dp)
+{
+    const isothermal *at = law;
+    const double rise = at->rise, z = at->z, p0 = at->p0, cap = at->cap;
+    for (size_t i = 0; i < n; i++) {
+        double q = viscosity_clip(p[i], cap);
+        double power = ff_exp(z * ff_log(1 + q / p0));
+        double slope = rise * z * power / (p0 + q);
+        ln_eta[i] = ln_eta0 + rise * (power - 1) + slope * (p[i] - q);
+        dln_dp[i] = slope;
+    }
+}
+
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
                       double *dln_dp, double *dln_dT)
 {
     const roelands *r = self;
-    const double p0 = r->p0, cap = r->oil.pressure_cap;
-    double z = r->exponent, rise = r->rise, highest = 0;
+    isothermal at = {.rise = r->rise, .z = r->exponent, .p0 = r->p0, .cap = r->oil.pressure_cap};
     ff_status status = FF_OK;
     if (r->oil.liquid && (n == 0 || dln_dT || !numerics_is_uniform(n, T)))
         return eval_liquid(r, n, p, T, ln_eta, dln_dp, dln_dT);
     if (r->oil.liquid)
-        status = take_isotherm(r, T, &rise, &z);
-    const double ln_eta0 = r->oil.liquid ? rise - 9.67 : r->oil.ln_eta0;
-    for (size_t i = 0; i < n; i++) {
-        double q = viscosity_clip(p[i], cap);
-        double power = exp(z * log(1 + q / p0));
-        double slope = rise * z * power / (p0 + q);
-        ln_eta[i] = ln_eta0 + rise * (power - 1) + slope * (p[i] - q);
-        if (dln_dp)
-            dln_dp[i] = slope;
-    }
-    for (size_t i = 0; i < n; i++)
-        highest = p[i] > highest ? p[i] : highest;
-    for (size_t i = 0; dln_dT && i < n; i++)
-        dln_dT[i] = 0;
-    return highest > cap ? FF_DOMAIN : status;
+        status = take_isotherm(r, T, &at.rise, &at.z);
+    const viscosity_ambient ambient = {.ln_eta0 = r->oil.liquid ? at.rise - 9.67 : r->oil.ln_eta0,
+                                       .status = status};
+    viscosity_points(curve, &at, ambient.ln_eta0, n, p, ln_eta, dln_dp);
+    return viscosity_oil_end(&r->oil, &ambient, n, p, T, ln_eta, dln_dT);
 }
 
 static const ff_param params[] = {

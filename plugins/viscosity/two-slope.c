@@ -14,27 +14,30 @@ typedef struct two_slope {
     double alpha_1, alpha_2, middle, width; /* 1/Pa, Pa */
 } two_slope;
 
-static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
-                      double *dln_dp, double *dln_dT)
+FF_SIMD
+static void curve(const void *self, double ln_eta0, size_t n, const double *restrict p,
+                  double *restrict ln_eta, double *restrict dln_dp)
 {
     const two_slope *t = self;
-    const viscosity_ambient ambient = viscosity_oil_begin(&t->oil, n, T);
-    const double change = t->alpha_2 - t->alpha_1, width = t->width, cap = t->oil.pressure_cap;
+    const double first = t->alpha_1, change = t->alpha_2 - first, width = t->width;
     const double begin = t->middle - width / 2, end = t->middle + width / 2;
-    const double part = width > 0 ? 1 / width : 0;
+    const double part = width > 0 ? 1 / width : 0, cap = t->oil.pressure_cap;
     for (size_t i = 0; i < n; i++) {
         double q = viscosity_clip(p[i], cap);
         double over = q > end ? q - end : 0, in = q > begin ? q - begin : 0;
-        double inside = in < width ? in : width;
+        double inside = in < width ? in : width, share = inside * part;
         /* at a transition of width 0 the upper slope holds */
-        double share = q >= end ? 1 : inside * part;
-        double slope = t->alpha_1 + change * share;
-        ln_eta[i] = ambient.ln_eta0 + t->alpha_1 * q +
-                    change * (over + inside * inside * part / 2) + slope * (p[i] - q);
-        if (dln_dp)
-            dln_dp[i] = slope;
+        double slope = first + change * (q >= end ? 1 : share);
+        ln_eta[i] =
+            ln_eta0 + first * q + change * (over + inside * inside * part / 2) + slope * (p[i] - q);
+        dln_dp[i] = slope;
     }
-    return viscosity_oil_end(&t->oil, &ambient, n, p, T, ln_eta, dln_dT);
+}
+
+static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
+                      double *dln_dp, double *dln_dT)
+{
+    return viscosity_eval(self, curve, n, p, T, ln_eta, dln_dp, dln_dT);
 }
 
 static const ff_param params[] = {
