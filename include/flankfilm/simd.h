@@ -28,7 +28,10 @@
  * on x86-64 and glibc the loader chooses its AVX2 version where the processor has it; both versions
  * give the same bits. Elsewhere there is one: indirect functions (ELF's ifunc) are missing there,
  * or, in clang before 18, their names are not those that other files link to. The pointers of such
- * a loop are best `restrict`, its choices `?:` between values that are computed anyway.
+ * a loop are best `restrict` parameters, its choices `?:` between values that are computed anyway.
+ *
+ * FF_SIMD_LOOP stands before a loop over more arrays than parameters can name: it says that no pass
+ * of it needs what another one writes.
  */
 #if defined(__GNUC__) && !defined(__clang__)
 #if defined(__x86_64__) && defined(__GLIBC__)
@@ -40,8 +43,10 @@
     FF_SIMD_CLONES                                                                                 \
     __attribute__((optimize("tree-vectorize", "vect-cost-model=dynamic", "no-math-errno",          \
                             "no-trapping-math", "fp-contract=off")))
+#define FF_SIMD_LOOP _Pragma("GCC ivdep")
 #else
 #define FF_SIMD
+#define FF_SIMD_LOOP
 #endif
 
 #if defined(__GNUC__)

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "coarse.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -181,26 +183,31 @@ void ehl_coarse_factor(ehl_coarse *c, const ehl_reynolds *r, const ehl_film *fil
     c->solvable = eliminate(c);
 }
 
+/* x[0] ... x[n-1] -= value column */
+FF_SIMD
+static void subtract(size_t n, double value, const double *restrict column, double *restrict x)
+{
+    for (size_t i = 0; i < n; i++)
+        x[i] -= value * column[i];
+}
+
 static void substitute(ehl_coarse *c)
 {
     size_t rows = c->count + 1;
-    double *restrict x = c->x;
+    double *x = c->x;
     for (size_t k = 0; k < rows; k++) {
         double value = x[c->pivot[k]];
         x[c->pivot[k]] = x[k];
         x[k] = value;
     }
     for (size_t k = 0; k < rows; k++) {
-        const double *restrict column = c->matrix + k * rows;
-        double value = x[k];
-        for (size_t i = k + 1; i < rows; i++)
-            x[i] -= value * column[i];
+        const double *column = c->matrix + k * rows;
+        subtract(rows - k - 1, x[k], column + k + 1, x + k + 1);
     }
     for (size_t k = rows; k-- > 0;) {
-        const double *restrict column = c->matrix + k * rows;
-        double value = x[k] *= column[k];
-        for (size_t i = 0; i < k; i++)
-            x[i] -= value * column[i];
+        const double *column = c->matrix + k * rows;
+        x[k] *= column[k];
+        subtract(k, x[k], column, x);
     }
 }
 
@@ -208,13 +215,10 @@ static void substitute(ehl_coarse *c)
 static void deflect(ehl_coarse *c)
 {
     size_t corners = c->count + 2;
-    double *restrict v = c->v;
+    double *v = c->v;
     memset(v, 0, c->most * sizeof *v);
     for (size_t j = 0; j < c->count; j++) {
-        const double *restrict bend = c->bend + c->most - 1 - j;
-        double p = c->x[j];
-        for (size_t i = 0; i < corners; i++)
-            v[i] += p * bend[i];
+        subtract(corners, -c->x[j], c->bend + c->most - 1 - j, v);
     }
 }
 
@@ -231,21 +235,28 @@ static void restrict_to_blocks(ehl_coarse *c, const double *residual, size_t las
     }
 }
 
+FF_SIMD
+static void ramp(size_t n, double from, double rise, const double *restrict way, double *restrict y)
+{
+    for (size_t i = 0; i < n; i++)
+        y[i] = from + way[i] * rise;
+}
+
 /* Interpolates between the corners; cavitated nodes keep p = 0. */
 static void interpolate(const ehl_coarse *c, size_t last, const ehl_film *film, double *dp,
                         double *dh)
 {
-    const double *restrict way = c->way;
+    const double *way = c->way;
     for (size_t k = 0; k <= c->count; k++) {
         size_t begin = k * c->stride, end = k < c->count ? begin + c->stride : last + 1;
         end = end < last + 1 ? end : last + 1;
         double p = k > 0 ? c->x[k - 1] : 0, rise = (k < c->count ? c->x[k] : 0) - p;
         double v = c->x[c->count] + c->v[k], h00_change = c->v[k + 1] - c->v[k];
-        for (size_t i = begin; i < end; i++) {
-            dp[i] = p + way[i - begin] * rise;
-            dh[i] = v + way[i - begin] * h00_change;
-        }
-        if (begin < end && memchr(film->full + begin, 0, end - begin))
+        if (begin >= end)
+            break;
+        ramp(end - begin, p, rise, way, dp + begin);
+        ramp(end - begin, v, h00_change, way, dh + begin);
+        if (memchr(film->full + begin, 0, end - begin))
             for (size_t i = begin; i < end; i++)
                 dp[i] = film->full[i] ? dp[i] : 0;
     }

@@ -4,6 +4,8 @@
 #include "asperities.h"
 #include "cavitation.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,21 +35,31 @@ void ehl_linear_deflect(ehl_solver *s, const double *p, double *v)
     s->counters.convolutions++;
 }
 
-/* out = Jacobian (dp, dh = dv + dh00), rows 1 ... last - 1 */
-static void apply_jacobian(const ehl_reynolds *r, const double *restrict dp,
-                           const double *restrict dh, double *restrict out)
+/* Rows from ... last - 1 of the product. */
+FF_SIMD
+static void multiply_rows(const ehl_reynolds *r, size_t from, const double *restrict dp,
+                          const double *restrict dh, double *restrict out)
 {
-    size_t last = r->last;
-    const double *a1 = r->by_p[1], *a2 = r->by_p[2], *a3 = r->by_p[3], *a0 = r->by_p[0];
-    const double *b1 = r->by_h[1], *b2 = r->by_h[2], *b3 = r->by_h[3], *b0 = r->by_h[0];
-    if (last > 1)
-        out[1] = a1[1] * dp[0] + a2[1] * dp[1] + a3[1] * dp[2] + b1[1] * dh[0] + b2[1] * dh[1] +
-                 b3[1] * dh[2];
-    for (size_t i = 2; i < last; i++)
+    const double *restrict a0 = r->by_p[0], *restrict a1 = r->by_p[1], *restrict a2 = r->by_p[2];
+    const double *restrict a3 = r->by_p[3], *restrict b0 = r->by_h[0], *restrict b1 = r->by_h[1];
+    const double *restrict b2 = r->by_h[2], *restrict b3 = r->by_h[3];
+    for (size_t i = from, last = r->last; i < last; i++)
         out[i] = a0[i] * dp[i - 2] + a1[i] * dp[i - 1] + a2[i] * dp[i] + a3[i] * dp[i + 1] +
                  b0[i] * dh[i - 2] + b1[i] * dh[i - 1] + b2[i] * dh[i] + b3[i] * dh[i + 1];
 }
 
+/* out = Jacobian (dp, dh = dv + dh00), rows 1 ... last - 1 */
+static void apply_jacobian(const ehl_reynolds *r, const double *dp, const double *dh, double *out)
+{
+    const double *a1 = r->by_p[1], *a2 = r->by_p[2], *a3 = r->by_p[3];
+    const double *b1 = r->by_h[1], *b2 = r->by_h[2], *b3 = r->by_h[3];
+    if (r->last > 1)
+        out[1] = a1[1] * dp[0] + a2[1] * dp[1] + a3[1] * dp[2] + b1[1] * dh[0] + b2[1] * dh[1] +
+                 b3[1] * dh[2];
+    multiply_rows(r, 2, dp, dh, out);
+}
+
+FF_SIMD
 static double dot(const double *restrict a, const double *restrict b, size_t n)
 {
     double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
@@ -63,6 +75,14 @@ static double dot(const double *restrict a, const double *restrict b, size_t n)
     return (s0 + s1) + (s2 + s3);
 }
 
+FF_SIMD
+void ehl_add(double *restrict y, double factor, const double *restrict x, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        y[i] += factor * x[i];
+}
+
+FF_SIMD
 static void scale(double *y, double factor, size_t n)
 {
     for (size_t i = 0; i < n; i++)
@@ -218,6 +238,23 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     return isfinite(norm) ? FF_OK : FF_NOCONV;
 }
 
+/* Writes the diagonal of rows 1 ... last - 1, and returns whether one before row `from` that counts
+   has changed too much. */
+FF_SIMD
+static int64_t compare_diagonal(size_t last, size_t from, double self, const double *restrict by_p,
+                                const double *restrict by_h, const unsigned char *restrict full,
+                                const double *restrict was, double *restrict now)
+{
+    int64_t drifted = 0;
+    for (size_t i = 1; i < last; i++)
+        now[i] = by_p[i] + self * by_h[i];
+    for (size_t i = 1; i < from && i < last; i++) {
+        double counted = full[i], change = fabs(now[i] - was[i]);
+        drifted |= counted * change > STALE_CHANGE * fabs(was[i]);
+    }
+    return drifted;
+}
+
 /*
  * Leaves in `product` the diagonal of the matrix that the preconditioner approximates. Returns 1
  * when it has changed too much upstream of node `from` since the last factorisation: the residual
@@ -228,13 +265,8 @@ static int diagonal_has_changed(const ehl_solver *s, const ehl_film *film, size_
     ehl_linear *w = s->self;
     const ehl_reynolds *r = s->reynolds;
     double self = s->kernel[0] - s->kernel[s->grid->nodes - 1];
-    int drifted = 0;
-    for (size_t i = 1; i < r->last; i++) {
-        double now = w->product[i] = r->by_p[2][i] + self * r->by_h[2][i];
-        drifted |= i < from && film->full[i] &&
-                   (fabs(now - w->diagonal[i]) > STALE_CHANGE * fabs(w->diagonal[i]));
-    }
-    return drifted;
+    return compare_diagonal(r->last, from, self, r->by_p[2], r->by_h[2], film->full, w->diagonal,
+                            w->product) != 0;
 }
 
 /* Which equation holds at a node: bit 0 full film, bit 1 asperity contact, bit 2 yield. */

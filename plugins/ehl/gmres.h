@@ -54,10 +54,6 @@ static inline int ehl_linear_converged(const ehl_linear *w)
 const double *ehl_pressure_part(const ehl_solver *s, const ehl_film *film, const double *v);
 
 /* y += factor x */
-static inline void ehl_add(double *restrict y, double factor, const double *restrict x, size_t n)
-{
-    for (size_t i = 0; i < n; i++)
-        y[i] += factor * x[i];
-}
+void ehl_add(double *restrict y, double factor, const double *restrict x, size_t n);
 
 #endif

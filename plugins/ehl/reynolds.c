@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reynolds.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -95,10 +97,17 @@ static size_t last_node(const ehl_reynolds *r, const ehl_film *film)
     return i;
 }
 
+FF_SIMD
+static void multiply(size_t n, const double *restrict a, const double *restrict b,
+                     double *restrict product)
+{
+    for (size_t i = 0; i < n; i++)
+        product[i] = a[i] * b[i];
+}
+
 static void masses(ehl_reynolds *r, const ehl_film *film, size_t count)
 {
-    for (size_t i = 0; i < count; i++)
-        r->mass[i] = r->liquid.rho[i] * r->h[i];
+    multiply(count, r->liquid.rho, r->h, r->mass);
     for (size_t i = count; i < r->nodes; i++)
         r->mass[i] = r->oil.density * r->h[i];
     for (size_t i = 1; r->conserving && i + 1 < r->nodes; i++)
@@ -115,16 +124,21 @@ void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
     masses(r, film, count);
 }
 
+FF_SIMD
 static void mobility(ehl_reynolds *r, size_t count)
 {
     const ehl_liquid *q = &r->liquid;
+    const double *restrict rho = q->rho, *restrict rho_p = q->rho_p, *restrict psi = q->psi;
+    const double *restrict psi_l = q->psi_l, *restrict psi_h = q->psi_h, *restrict gap = r->h;
+    const double *restrict ln_eta_p = q->ln_eta_p, *restrict thick = r->thick, floor = r->floor;
+    double *restrict f = r->f, *restrict f_p = r->f_p, *restrict f_h = r->f_h;
+    FF_SIMD_LOOP
     for (size_t i = 0; i < count; i++) {
-        double h = r->thick[i], square = h * h / 12;
-        double open = r->h[i] > r->floor; /* the floor does not move with h */
-        r->f[i] = q->rho[i] * h * square * q->psi[i];
-        r->f_p[i] =
-            h * square * (q->rho_p[i] * q->psi[i] + q->rho[i] * q->psi_l[i] * q->ln_eta_p[i]);
-        r->f_h[i] = open * square * q->rho[i] * (3 * q->psi[i] + h * q->psi_h[i]);
+        double h = thick[i], square = h * h / 12;
+        double open = gap[i] > floor ? 1 : 0; /* the floor does not move with h */
+        f[i] = rho[i] * h * square * psi[i];
+        f_p[i] = h * square * (rho_p[i] * psi[i] + rho[i] * psi_l[i] * ln_eta_p[i]);
+        f_h[i] = open * square * rho[i] * (3 * psi[i] + h * psi_h[i]);
     }
 }
 
@@ -134,15 +148,20 @@ static void mobility(ehl_reynolds *r, size_t count)
  * With s = (G/A)^2 the mean A (1 - s (1 - s)/2) is G to second order where s is near 1, and A
  * where s vanishes.
  */
+FF_SIMD
 static void face_mobilities(ehl_reynolds *r)
 {
-    for (size_t i = 0; i < r->last; i++) {
-        double a = r->f[i], b = r->f[i + 1], mean = 0.5 * (a + b), per = mean > 0 ? 1 / mean : 0;
+    const double *restrict f = r->f;
+    double *restrict all = r->mean, *restrict by_left = r->mean_left;
+    double *restrict by_right = r->mean_right;
+    for (size_t i = 0, last = r->last; i < last; i++) {
+        double a = f[i], b = f[i + 1], mean = 0.5 * (a + b), inverse = 1 / mean;
+        double per = mean > 0 ? inverse : 0;
         double left = a * per, right = b * per, s = left * right;
         double share = 1 - 0.5 * s * (1 - s), slope = s - 0.5;
-        r->mean[i] = mean * share;
-        r->mean_left[i] = 0.5 * share + slope * (right - s);
-        r->mean_right[i] = 0.5 * share + slope * (left - s);
+        all[i] = mean * share;
+        by_left[i] = 0.5 * share + slope * (right - s);
+        by_right[i] = 0.5 * share + slope * (left - s);
     }
 }
 
@@ -190,19 +209,48 @@ static void rough_face_mobilities(ehl_reynolds *r)
     }
 }
 
+/* Adds u times the mass that each face takes along, near m(i) + far m(i-1), all faces alike. */
+FF_SIMD
+static void add_wedge(size_t from, size_t faces, double u, double near, double far,
+                      const double *restrict m, double *restrict flux)
+{
+    for (size_t i = from; i < faces; i++)
+        flux[i] = -u * (near * m[i] + far * m[i - 1]);
+}
+
+FF_SIMD
+static void add_pressure_flow(size_t count, double per_dx, const double *restrict mean,
+                              const double *restrict p, double *restrict flux)
+{
+    for (size_t i = 0; i < count; i++)
+        flux[i] += per_dx * mean[i] * (p[i + 1] - p[i]);
+}
+
 static void fluxes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
-    const double *m = r->mass, *p = film->p;
-    double u = step->follows ? 0 : step->entrainment, per_dx = 1 / r->dx;
-    size_t last = r->last, faces = r->nodes - 1;
+    const double *m = r->mass, u = step->follows ? 0 : step->entrainment;
+    const size_t faces = r->nodes - 1;
+    double near, far;
     r->flux[0] = -u * (r->wedge == 2 ? 0.5 * (m[0] + m[1]) : m[0]);
-    for (size_t i = 1; i < faces; i++) {
-        double near, far;
+    for (size_t i = 1; r->conserving && i < faces; i++) {
         ehl_upwind(r, film, i, &near, &far);
         r->flux[i] = -u * (near * m[i] + far * m[i - 1]);
     }
-    for (size_t i = 0; i < last; i++)
-        r->flux[i] += per_dx * r->mean[i] * (p[i + 1] - p[i]);
+    if (!r->conserving) {
+        ehl_upwind(r, film, 1, &near, &far);
+        add_wedge(1, faces, u, near, far, m, r->flux);
+    }
+    add_pressure_flow(r->last, 1 / r->dx, r->mean, film->p, r->flux);
+}
+
+/* What flows in, less what flows out and what is stored: of nodes 1 to n - 2. */
+FF_SIMD
+static void balance(size_t n, double dx, double rate, const double *restrict flux,
+                    const double *restrict mass, const double *restrict past,
+                    double *restrict residual)
+{
+    for (size_t i = 1; i + 1 < n; i++)
+        residual[i] = flux[i] - flux[i - 1] - dx * (rate * mass[i] + past[i]);
 }
 
 void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
@@ -226,11 +274,10 @@ void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film
         return;
     }
     fluxes(r, step, film);
-    for (size_t i = 1; i + 1 < n; i++)
-        r->residual[i] = r->flux[i] - r->flux[i - 1];
     if (step->past)
-        for (size_t i = 1; i + 1 < n; i++)
-            r->residual[i] -= r->dx * (step->rate * r->mass[i] + step->past[i]);
+        balance(n, r->dx, step->rate, r->flux, r->mass, step->past, r->residual);
+    for (size_t i = 1; !step->past && i + 1 < n; i++)
+        r->residual[i] = r->flux[i] - r->flux[i - 1];
     for (size_t i = 1; r->leak > 0 && i + 1 < n; i++)
         r->residual[i] -= r->dx * r->leak * r->f[i] * film->p[i];
 }
@@ -270,37 +317,65 @@ static void add_pinched_flow(ehl_reynolds *r, const ehl_film *film, size_t i, do
     r->by_h[2][i] -= side * r->f_h[i] * film->p[i];
 }
 
+/* Rows from ... to - 1, that have the stencil c of the transport. `back`: how far its first node
+   lies upstream, 1 in row 1, where nothing is. */
+FF_SIMD
+static void slopes_of_rows(ehl_reynolds *r, const ehl_film *film, const double c[3], size_t back,
+                           size_t from, size_t to)
+{
+    const double *restrict p = film->p, *restrict rho = r->liquid.rho, *restrict h = r->h;
+    const double *restrict rho_p = r->liquid.rho_p, *restrict mean = r->mean;
+    const double *restrict mean_left = r->mean_left, *restrict mean_right = r->mean_right;
+    const double *restrict f_p = r->f_p, *restrict f_h = r->f_h;
+    const unsigned char *restrict full = film->full;
+    double *restrict p0 = r->by_p[0], *restrict p1 = r->by_p[1], *restrict p2 = r->by_p[2];
+    double *restrict p3 = r->by_p[3], *restrict h0 = r->by_h[0], *restrict h1 = r->by_h[1];
+    double *restrict h2 = r->by_h[2], *restrict h3 = r->by_h[3];
+    const double c0 = c[0], c1 = c[1], c2 = c[2], per_dx = 1 / r->dx, all = r->conserving ? 1 : 0;
+    FF_SIMD_LOOP
+    for (size_t i = from; i < to; i++) {
+        double on = all + (1 - all) * full[i], here = on * per_dx;
+        double up = here * (p[i + 1] - p[i]), down = here * (p[i] - p[i - 1]);
+        double up_here = up * mean_left[i], up_next = up * mean_right[i];
+        double down_before = down * mean_left[i - 1], down_here = down * mean_right[i - 1];
+        p0[i] = on * c0 * (rho_p[i - back] * h[i - back]);
+        p1[i] = here * mean[i - 1] - down_before * f_p[i - 1] + on * c1 * rho_p[i - 1] * h[i - 1];
+        p2[i] = (up_here - down_here) * f_p[i] - here * (mean[i - 1] + mean[i]) +
+                on * c2 * rho_p[i] * h[i];
+        p3[i] = here * mean[i] + up_next * f_p[i + 1];
+        h0[i] = on * c0 * rho[i - back];
+        h1[i] = -down_before * f_h[i - 1] + on * c1 * rho[i - 1];
+        h2[i] = (up_here - down_here) * f_h[i] + on * c2 * rho[i];
+        h3[i] = up_next * f_h[i + 1];
+    }
+}
+
+/* A row whose stencil is its own, or with what most rows do not have. */
+static void slopes_of_row(ehl_reynolds *r, const ehl_step *step, const ehl_film *film, size_t i)
+{
+    double c[3];
+    transport_stencil(r, step, film, i, c);
+    slopes_of_rows(r, film, c, i > 1 ? 2 : 1, i, i + 1);
+    if (r->rough) {
+        double here = (r->conserving || film->full[i]) / r->dx;
+        add_pinched_flow(r, film, i, here * (film->p[i + 1] - film->p[i]),
+                         here * (film->p[i] - film->p[i - 1]));
+    }
+    for (size_t s = i > 1 ? 0 : 1; r->conserving && s < EHL_STENCIL; s++)
+        if (ehl_is_cavitated(r, film, i + s - 2))
+            cavitated_column(r, i, s, s < 3 ? c[s] : 0, r->liquid.rho[i + s - 2]);
+}
+
 void ehl_reynolds_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
-    const double *p = film->p, *rho = r->liquid.rho, *rho_p = r->liquid.rho_p;
-    double c[3] = {0, 0, 0};
-    for (size_t i = 1; i < r->last; i++) {
-        if (i < 3 || r->conserving)
-            transport_stencil(r, step, film, i, c);
-        double on = r->conserving || film->full[i], here = on / r->dx;
-        double c0 = on * c[0], c1 = on * c[1], c2 = on * c[2];
-        double up = here * (p[i + 1] - p[i]), down = here * (p[i] - p[i - 1]);
-        double up_here = up * r->mean_left[i], up_next = up * r->mean_right[i];
-        double down_before = down * r->mean_left[i - 1], down_here = down * r->mean_right[i - 1];
-        double mass_p0 = i > 1 ? rho_p[i - 2] * r->h[i - 2] : 0, mass_h0 = i > 1 ? rho[i - 2] : 0;
-        r->by_p[0][i] = c0 * mass_p0;
-        r->by_p[1][i] =
-            here * r->mean[i - 1] - down_before * r->f_p[i - 1] + c1 * rho_p[i - 1] * r->h[i - 1];
-        r->by_p[2][i] = (up_here - down_here) * r->f_p[i] - here * (r->mean[i - 1] + r->mean[i]) +
-                        c2 * rho_p[i] * r->h[i];
-        r->by_p[3][i] = here * r->mean[i] + up_next * r->f_p[i + 1];
-        r->by_h[0][i] = c0 * mass_h0;
-        r->by_h[1][i] = -down_before * r->f_h[i - 1] + c1 * rho[i - 1];
-        r->by_h[2][i] = (up_here - down_here) * r->f_h[i] + c2 * rho[i];
-        r->by_h[3][i] = up_next * r->f_h[i + 1];
-        if (r->rough)
-            add_pinched_flow(r, film, i, up, down);
-        if (!r->conserving)
-            continue;
-        for (size_t s = i > 1 ? 0 : 1; s < EHL_STENCIL; s++)
-            if (ehl_is_cavitated(r, film, i + s - 2))
-                cavitated_column(r, i, s, s < 3 ? on * c[s] : 0, rho[i + s - 2]);
-    }
+    enum { ALIKE = 3 }; /* from there on the rows have one stencil, where all nodes are full */
+    double c[3];
+    for (size_t i = 1; i < r->last && (i < ALIKE || r->rough || r->conserving); i++)
+        slopes_of_row(r, step, film, i);
+    if (r->rough || r->conserving || r->last <= ALIKE)
+        return;
+    transport_stencil(r, step, film, ALIKE, c);
+    slopes_of_rows(r, film, c, 2, ALIKE, r->last);
 }
 
 /* Returns 0, first order, downstream of a cavitated node, where the film begins sharply. The order
