@@ -11,8 +11,8 @@ if [ "${1:-}" = test ]; then
               slurmctld slurmd slurm-client munge"
     # plugins in other languages; man page and completion
     packages="$packages g++ gfortran rustc mandoc groff-base fish"
-    # counts of instructions
-    packages="$packages valgrind"
+    # counts of instructions, and what they are
+    packages="$packages valgrind binutils"
     # the schema of editors
     packages="$packages python3-jsonschema python3-yaml"
     # NetCDF as users read it, and a browser for the report
