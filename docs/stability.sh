@@ -35,7 +35,7 @@ map() {
         echo "the map $name ended with $code" >&2
         exit 1
     fi
-    cp "$results/$name/map.svg" "$here/stability/$name.svg"
+    sh "$here/draw.sh" "$program" "$results/$name/map.figure.json" "$here/stability/$name.svg"
     awk -F, -v title="[$title](#$name)" '
         NR == 1 { for (i = 1; i <= NF; i++) if (!($i in at)) at[$i] = i; next }
         { count[$at["verdict"]]++; cells++ }

@@ -120,7 +120,7 @@ decades() {
 
 field() { sed -n "s/^ \"$1\": \"\(.*\)\",*$/\1/p" "$work/film/tradeoff.json"; }
 
-cp "$work/film/tradeoff.svg" "$here/tradeoff.svg"
+sh "$here/draw.sh" "$program" "$work/film/tradeoff.figure.json" "$here/tradeoff.svg"
 {
     cat <<TEXT
 # Speed against accuracy, measured

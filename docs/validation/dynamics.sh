@@ -16,45 +16,34 @@ energy|potential energy|mesh.use=stiffness/potential-energy
 load|load distribution with corner contact|mesh.use=stiffness/load-distribution mesh.corner_contact=true
 LIST
 
-# rms over frequency as polylines: colour by period, dashes where unstable
+# rms over frequency in the words of plot.awk: colour by period, dashes where unstable
 draw()
 {
-    awk -F, -v top="$2" '
-        function flush() {
-            if (line != "")
-                printf "<polyline points=\"%s\" fill=\"none\" stroke=\"%s\" stroke-width=\"%s\"%s/>\n",
-                       line, period == 1 ? "#0072b2" : "#d55e00", stable ? 2 : 1,
-                       stable ? "" : " stroke-dasharray=\"4 3\""
-            line = ""
+    awk -F, '
+        function style() {
+            return (int($4 / 1000) == 1 ? "#0072b2" : "#d55e00") ($3 + 0 ? " none 2 y" : " 4,3 1 y")
         }
         NR > 1 {
-            x = sprintf("%.1f", 70 + 0.19 * ($1 - 400))
-            y = sprintf("%.1f", top + 300 - 7.5 * $2 * 1e6)
-            if ($4 != branch || $2 > 40e-6) { flush(); last = "" }
-            else if ($3 != stable) { flush(); line = last }
-            branch = $4; stable = $3; period = int($4 / 1000)
-            if ($2 <= 40e-6) { last = x "," y " "; line = line last }
-        }
-        END { flush() }' "$1"
+            if ($2 > 40e-6) { last = ""; next }
+            if ($4 != branch) last = ""
+            if (last == "" || $3 != stable) { print "curve " style(); if (last != "") print last }
+            branch = $4; stable = $3
+            last = $1 " " $2 * 1e6
+            print last
+        }' "$1"
 }
 
 axes()
 {
-    awk -v top="$1" -v title="$2" 'BEGIN {
-        for (f = 500; f <= 4500; f += 500)
-            printf "<path d=\"M%d %dv-300\" stroke=\"#ddd\"/><text x=\"%d\" y=\"%d\" " \
-                   "text-anchor=\"middle\">%d</text>\n",
-                   70 + 0.19 * (f - 400), top + 300, 70 + 0.19 * (f - 400), top + 317, f
-        for (s = 0; s <= 40; s += 10)
-            printf "<path d=\"M70 %dh779\" stroke=\"#ddd\"/><text x=\"62\" y=\"%d\" " \
-                   "text-anchor=\"end\">%d</text>\n", top + 300 - 7.5 * s, top + 304 - 7.5 * s, s
-        split("1250 2085 2375", at, " "); split("I II III", name, " ")
-        for (i = 1; i <= 3; i++)
-            printf "<path d=\"M%.1f %dv300\" stroke=\"#999\" stroke-dasharray=\"1 3\"/>" \
-                   "<text x=\"%.1f\" y=\"%d\" text-anchor=\"middle\" fill=\"#666\">%s</text>\n",
-                   70 + 0.19 * (at[i] - 400), top, 70 + 0.19 * (at[i] - 400), top - 4, name[i]
-        printf "<text x=\"842\" y=\"%d\" text-anchor=\"end\">%s</text>\n", top - 8, title
-    }'
+    cat <<END
+panel 70 $1 780 300
+x 400 4500 500 $3
+y 0 40 10 rms of s, um
+title $2
+mark 1250 I
+mark 2085 II
+mark 2375 III
+END
 }
 
 number()
@@ -95,9 +84,9 @@ while IFS='|' read -r source title settings; do
         END { print "| their doublings | " substr(list, 3) " |" }' "$work/$source-atlas/motion-doubling.csv"
     echo
     "$program" run "$here/dynamics.yaml" "$@" --set 'outputs=[mesh.stiffness_mean, mesh.stiffness_harmonics]' -o "$work/$source-mesh" > /dev/null
-    axes "$top" "$title" >> "$work/lines"
-    draw "$work/$source-atlas/motion-point.csv" "$top" >> "$work/lines"
-    top=$((top + 350))
+    axes "$top" "$title; blue: period 1, orange: period 2" "mesh frequency, Hz" >> "$work/lines"
+    draw "$work/$source-atlas/motion-point.csv" >> "$work/lines"
+    top=$((top + 390))
 done < "$work/variants"
 
 # what the figure is held to
@@ -217,16 +206,5 @@ done
 awk -f "$here/splice.awk" "$work/tables" "$here/dynamics.md" > "$work/page"
 mv "$work/page" "$here/dynamics.md"
 
-{
-    echo '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 870 740" font-family="sans-serif"' \
-         'font-size="13">'
-    echo '<rect width="870" height="740" fill="white"/>'
-    cat "$work/lines"
-    echo '<text x="460" y="722" text-anchor="middle">mesh frequency, Hz</text>'
-    echo '<text transform="translate(24 360) rotate(-90)" text-anchor="middle">rms of s, um</text>'
-    echo '<path d="M600 718h30" stroke="#0072b2" stroke-width="2"/><text x="636" y="722">period 1' \
-         '</text>'
-    echo '<path d="M700 718h30" stroke="#d55e00" stroke-width="2"/><text x="736" y="722">period 2' \
-         '</text>'
-    echo '</svg>'
-} > "$here/dynamics.svg"
+awk -f "$here/plot.awk" "$work/lines" > "$work/figure.json"
+sh "$here/../draw.sh" "$program" "$work/figure.json" "$here/dynamics.svg"

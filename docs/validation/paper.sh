@@ -94,7 +94,8 @@ at I finer "$here/paper-rough.yaml" --set flanks.shortest='5 um' --set film.cell
 
 stage=all digest paper-figures.awk
 for script in "$work"/*.plot; do
-    awk -f "$here/plot.awk" "$script" > "$to/paper-$(basename "$script" .plot).svg"
+    awk -f "$here/plot.awk" "$script" > "$script.json"
+    sh "$here/../draw.sh" "$build/flankfilm" "$script.json" "$to/paper-$(basename "$script" .plot).svg"
 done
 stage=all digest paper-page.awk paper-rough.awk > "$to/paper.md.new"
 mv "$to/paper.md.new" "$to/paper.md"

@@ -13,12 +13,12 @@ trap 'rm -rf "$work"' EXIT
 cat > "$work/variants" <<'LIST'
 load distribution, finite elements|#0072b2||mesh.use=stiffness/load-distribution
 the same with corner contact|#56b4e9||mesh.corner_contact=true
-the same in plane stress|#009e73|6 3|mesh.plane=stress
-the same, neighbours uncoupled|#0072b2|2 3|mesh.neighbour_coupling=false
+the same in plane stress|#009e73|6,3|mesh.plane=stress
+the same, neighbours uncoupled|#0072b2|2,3|mesh.neighbour_coupling=false
 load distribution, analytical|#e69f00||mesh.compliance=analytical
 potential energy|#d55e00||mesh.use=stiffness/potential-energy
 ISO 6336, rectangular|#666666||mesh.use=stiffness/iso-6336
-ISO 6336, trapezoidal|#666666|6 3|mesh.use=stiffness/iso-6336 mesh.shape=trapezoidal
+ISO 6336, trapezoidal|#666666|6,3|mesh.use=stiffness/iso-6336 mesh.shape=trapezoidal
 LIST
 
 number()
@@ -42,16 +42,8 @@ while IFS='|' read -r name colour dashes settings; do
     awk -F, -v name="$name" -v mean="$mean" -v share="$share" -v ratio="$ratio" '
         NR > 1 && NR < 5 { k = k sprintf(" %.3f |", $1 / 1e8) }
         END { printf "| %s | %.3f |%s %.3f | %.3f |\n", name, mean / 1e8, k, share, ratio }' "$work/$row/mesh-harmonic.csv"
-    awk -F, -v row="$row" -v name="$name" -v colour="$colour" -v dashes="$dashes" '
-        NR > 1 { line = line sprintf("%.1f,%.1f ", 70 + 560 * $1, 430 - 130 * ($2 / 1e8 - 1.5)) }
-        END {
-            printf "<polyline points=\"%s\" fill=\"none\" stroke=\"%s\" stroke-width=\"1.8\" " \
-                   "stroke-dasharray=\"%s\"/>\n", line, colour, dashes
-            y = 40 + 20 * row
-            printf "<path d=\"M650 %dh30\" stroke=\"%s\" stroke-width=\"1.8\" " \
-                   "stroke-dasharray=\"%s\"/>", y - 4, colour, dashes
-            printf "<text x=\"688\" y=\"%d\">%s</text>\n", y, name
-        }' "$work/$row/mesh.csv" >> "$work/lines"
+    echo "curve $colour ${dashes:-none} 1.8 y $name" >> "$work/lines"
+    awk -F, 'NR > 1 { print $1, $2 / 1e8 }' "$work/$row/mesh.csv" >> "$work/lines"
 done < "$work/variants"
 
 # what the mean and the loaded contact ratio depend on
@@ -188,20 +180,9 @@ awk -f "$here/splice.awk" "$work/table" "$here/stiffness.md" > "$work/page"
 mv "$work/page" "$here/stiffness.md"
 
 {
-    echo '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 930 490" font-family="sans-serif"' \
-         'font-size="13">'
-    echo '<rect width="930" height="490" fill="white"/>'
-    awk 'BEGIN {
-        for (i = 0; i <= 10; i += 2)
-            printf "<path d=\"M%d 430v-400\" stroke=\"#ddd\"/><text x=\"%d\" y=\"448\" " \
-                   "text-anchor=\"middle\">%.1f</text>\n", 70 + 56 * i, 70 + 56 * i, i / 10
-        for (k = 1.5; k <= 4.5; k += 0.5)
-            printf "<path d=\"M70 %dh560\" stroke=\"#ddd\"/><text x=\"62\" y=\"%d\" " \
-                   "text-anchor=\"end\">%.1f</text>\n", 430 - 130 * (k - 1.5), 434 - 130 * (k - 1.5), k
-    }'
-    echo '<text x="350" y="474" text-anchor="middle">phase of the mesh cycle</text>'
-    echo '<text transform="translate(24 230) rotate(-90)" text-anchor="middle">mesh stiffness,' \
-         '1e8 N/m</text>'
+    echo 'panel 70 110 760 400'
+    echo 'x 0 1 0.2 phase of the mesh cycle'
+    echo 'y 1.5 4.5 0.5 mesh stiffness, 1e8 N/m'
     cat "$work/lines"
-    echo '</svg>'
-} > "$here/stiffness.svg"
+} | awk -f "$here/plot.awk" > "$work/figure.json"
+sh "$here/../draw.sh" "$program" "$work/figure.json" "$here/stiffness.svg"

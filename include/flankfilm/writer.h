@@ -113,7 +113,7 @@ typedef struct ff_view_case {
     const char *reasons; /* the lines that are not good, the worst first: "inlet heating, lambda" */
 } ff_view_case;
 
-/* A drawing of a study by releases before 0.2; there are none any more. */
+/* A drawing of a study; there are none any more, see ff_view_figures. */
 typedef struct ff_view_drawing {
     size_t size;
     const char *name; /* of its file: "map.svg" */

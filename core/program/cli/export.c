@@ -270,5 +270,7 @@ int cli_export(const cli_options *options)
 int cli_write_report(const cli_options *options)
 {
     const char *to = cli_option(options, "to");
+    if (!to && cli_names_figures(options->operand))
+        return cli_report_figures(options);
     return write_with(options, to ? to : "html", "report");
 }

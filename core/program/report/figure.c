@@ -198,7 +198,10 @@ void report_plot_write(report_page *page, const report_plot *plot)
     fputs("{\"sort\":\"curves\",", out);
     put_axis(out, "x", plot->x_label, plot->decades, ranged ? plot->x0 : NAN,
              ranged ? plot->x1 : NAN);
-    put_axis(out, "y", plot->y_label, is_wide(plot), plot->from_zero ? 0 : NAN,
+    put_axis(out, "y", plot->y_label, is_wide(plot) || plot->bottom > 0,
+             plot->bottom > 0  ? plot->bottom
+             : plot->from_zero ? 0
+                               : NAN,
              plot->top > 0 ? plot->top : NAN);
     for (size_t i = 0; plot->x_names && i < plot->curves[0].count; i++) {
         fputs(i ? "," : "\"names\":[", out);

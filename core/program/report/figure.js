@@ -5,31 +5,32 @@ var figures = (function () {
   var STOPS = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129],
     [92, 200, 99], [170, 220, 50], [253, 231, 37]]; /* viridis, which the colour-blind can read */
   function text(value) { return typeof value === 'number' ? String(parseFloat(value.toPrecision(4))) : String(value); }
-  function ink(i) { return 'var(--c' + i % COLOURS + ')'; }
+  function ink(i) { return typeof i === 'string' ? i : 'var(--c' + i % COLOURS + ')'; }
   function finite(list) { return list.filter(function (v) { return typeof v === 'number' && isFinite(v); }); }
 
   /* The range of an axis over the curves that are shown; a little room is left where it is not given. */
   function domain(figure, axis) {
     var asked = figure[axis], values = [];
     figure.curves.forEach(function (curve) {
-      if (curve.hidden) return;
+      if (curve.hidden || (axis !== 'x' && (curve.axis || 'y') !== axis)) return;
       if (axis === 'x' && curve.style === 'bars') values = values.concat(curve.from, curve.to);
       if (axis === 'y' && curve.style === 'bars') values.push(0);
-      curve[axis].forEach(function (v, i) { if (v !== null && curve[axis === 'x' ? 'y' : 'x'][i] !== null) values.push(v); });
+      var own = curve[axis === 'x' ? 'x' : 'y'], other = curve[axis === 'x' ? 'y' : 'x'];
+      own.forEach(function (v, i) { if (v !== null && other[i] !== null) values.push(v); });
     });
     if (asked.log) values = values.filter(function (v) { return v > 0; });
     values = finite(values);
     var low = Infinity, high = -Infinity;
     values.forEach(function (v) { low = Math.min(low, v); high = Math.max(high, v); });
     if (!(low <= high)) { low = asked.log ? 0.1 : 0; high = 1; }
-    if (axis === 'y' || figure.room) {
+    if (axis !== 'x' || figure.room) {
       var part = figure.room ? 0.08 : 0.04, room = asked.log ? Math.pow(high / low, part) : part * (high - low);
       if (high - low <= 1e-9 * Math.max(Math.abs(low), Math.abs(high)))
         room = asked.log ? 1.5 : 0.1 * Math.abs(high) || 1;
       low = asked.log ? low / room : low === 0 ? 0 : low - room;
       high = asked.log ? high * room : high + room;
     }
-    if (asked.low !== undefined && !asked.log) low = asked.low;
+    if (asked.low !== undefined && (!asked.log || asked.low > 0)) low = asked.low;
     if (asked.high !== undefined) high = asked.high;
     return low < high ? [low, high] : [low - 0.5, low + 0.5];
   }
@@ -62,7 +63,7 @@ var figures = (function () {
     return {type: 'group', clip: true,
       encode: {update: {width: {signal: 'width'}, height: {signal: 'height'}}}, marks: marks};
   }
-  function at(field) { return {scale: field === 'x' || field === 'from' || field === 'to' ? 'x' : 'y', field: field}; }
+  function at(field, scale) { return {scale: scale || (field === 'x' || field === 'from' || field === 'to' ? 'x' : 'y'), field: field}; }
   function drawn(curve, k, several) {
     var colour = ink(curve.colour), from = {data: 'c' + k}, good = {signal: 'datum.good'}, marks = [];
     if (curve.style === 'bars')
@@ -80,8 +81,8 @@ var figures = (function () {
     if (curve.bar)
       marks.push({type: 'area', from: from, encode: {update: {x: at('x'), y: at('low'), y2: at('high'), defined: good,
         fill: {value: colour}, fillOpacity: {value: 0.22}}}});
-    marks.push({type: 'line', from: from, encode: {update: {x: at('x'), y: at('y'), defined: good, stroke: {value: colour},
-      strokeWidth: {value: several && !curve.dash ? 2.6 : 1.8}, strokeDash: {value: DASHES[curve.dash % DASHES.length]}, strokeJoin: {value: 'round'}}}});
+    marks.push({type: 'line', from: from, encode: {update: {x: at('x'), y: at('y', curve.axis), defined: good, stroke: {value: colour},
+      strokeWidth: {value: curve.wide || (several && !curve.dash ? 2.6 : 1.8)}, strokeDash: {value: curve.dash instanceof Array ? curve.dash : DASHES[curve.dash % DASHES.length]}, strokeJoin: {value: 'round'}}}});
     return marks;
   }
   function curveSpec(figure, width, legend) {
@@ -96,24 +97,33 @@ var figures = (function () {
       return {name: name, type: figure[name].log ? 'log' : 'linear', range: range, domain: {signal: name + 'd'}, zero: false, nice: false};
     }
     function style(name) { /* of a logarithmic axis the powers of ten, and 2 and 5 where there are few */
-      if (!figure[name].log) return {};
+      var step = figure[name].step, values = [];
+      for (var i = 0; step && i <= Math.round((figure[name].high - figure[name].low) / step); i++)
+        values.push(figure[name].low + i * step);
+      if (!figure[name].log) return step ? {values: values, tickCount: values.length} : {};
       var d = figure[name + 'd'] || domain(figure, name);
-      return {format: '.4~g', tickCount: Math.log10(d[1] / d[0]) > 2.5 ? Math.ceil(Math.log10(d[1] / d[0])) : 6};
+      return {format: '.6~g', tickCount: Math.log10(d[1] / d[0]) > 2.5 ? Math.ceil(Math.log10(d[1] / d[0])) : 6};
     }
     var axes = [axis('bottom', 'x', figure.x.label, style('x')), axis('left', 'y', figure.y.label, style('y'))];
+    if (figure.z) {
+      axes.push(axis('right', 'z', figure.z.label, Object.assign({grid: false}, style('z'))));
+    }
     if (figure.names) axes[0] = axis('bottom', 'x', '', {grid: false, values: figure.names.map(function (_, i) { return i; }),
       labelOverlap: false, labelAngle: width < 90 * figure.names.length ? -25 : 0, labelAlign: width < 90 * figure.names.length ? 'right' : 'center',
       labelLimit: 160, encode: {labels: {update: {text: {signal: 'xn[round(datum.value)]'}}}}});
     var shown = figure.curves.filter(function (c) { return c.name && !c.hidden; });
     return frame(figure, width, [clip(inside), names], {
-      signals: [{name: 'xn', value: figure.names || []}, {name: 'xd', value: figure.xd || domain(figure, 'x')}, {name: 'yd', value: figure.yd || domain(figure, 'y')}],
+      signals: [{name: 'xn', value: figure.names || []}, {name: 'xd', value: figure.xd || domain(figure, 'x')}, {name: 'yd', value: figure.yd || domain(figure, 'y')},
+        {name: 'zd', value: figure.z ? domain(figure, 'z') : [0, 1]}],
       data: figure.curves.map(function (curve, k) { return {name: 'c' + k, values: points(curve, figure)}; })
         .concat([{name: 'marks', values: marks}]),
-      scales: [scale('x', 'width'), scale('y', 'height'),
+      scales: (figure.z ? [scale('z', 'height')] : []).concat([scale('x', 'width'), scale('y', 'height'),
         {name: 'key', type: 'ordinal', domain: shown.map(function (c) { return c.name; }),
-          range: shown.map(function (c) { return ink(c.colour); })}],
+          range: shown.map(function (c) { return ink(c.colour); })},
+        {name: 'dash', type: 'ordinal', domain: shown.map(function (c) { return c.name; }),
+          range: shown.map(function (c) { return c.dash instanceof Array ? c.dash : DASHES[(c.dash || 0) % DASHES.length]; })}]),
       axes: axes,
-      legends: legend && shown.length ? [{stroke: 'key', symbolType: 'stroke', orient: 'top', direction: 'horizontal',
+      legends: legend && shown.length ? [{stroke: 'key', strokeDash: 'dash', symbolType: 'stroke', symbolSize: 400, orient: 'top', direction: 'horizontal', offset: marks.length ? 30 : 8,
         columns: 3, labelColor: 'var(--ink)', labelLimit: 400}] : []});
   }
 
@@ -185,7 +195,7 @@ var figures = (function () {
     if (figure.sort === 'map') {
       more.legends.push({fill: 'v', title: figure.value.label + (figure.value.log ? ', logarithmic' : ''), titleFontSize: 11, orient: width < 500 ? 'bottom' : 'right', titleLimit: 290,
         direction: width < 500 ? 'horizontal' : 'vertical', gradientLength: width < 500 ? 200 : 210, labelColor: 'var(--soft)',
-        titleColor: 'var(--ink)', titleFontWeight: 'normal', format: '.4~g', tickCount: 5, titleOrient: width < 500 ? 'top' : 'right'});
+        titleColor: 'var(--ink)', titleFontWeight: 'normal', format: '.6~g', tickCount: 5, titleOrient: width < 500 ? 'top' : 'right'});
     }
     marks.push({type: 'rule', from: {data: 'edges'}, encode: {update: {x: {scale: 'x', field: '0'}, y: {scale: 'y', field: '1'},
       x2: {scale: 'x', field: '2'}, y2: {scale: 'y', field: '3'}, stroke: {value: figure.sort === 'classes' ? '#000' : '#fff'},
@@ -204,13 +214,25 @@ var figures = (function () {
         {name: 'y', type: 'linear', range: 'height', domain: {signal: 'yd'}, zero: false, nice: false},
         {name: 'v', type: figure.value && figure.value.log ? 'log' : 'linear', range: {scheme: 'viridis'},
           domain: figure.value ? [figure.value.low, figure.value.high] : [0, 1], zero: false}],
-      axes: [axis('bottom', 'x', figure.x.label, {grid: false, values: ranks(columns, Math.max(2, width / 75)),
+      axes: [axis('bottom', 'x', figure.x.label, {grid: false, tickCount: columns, values: ranks(columns, Math.max(2, width / 75)),
         encode: {labels: {update: {text: {signal: 'xl[floor(datum.value)]'}}}}}),
-      axis('left', 'y', figure.y.label, {grid: false, values: ranks(rows, 12),
+      axis('left', 'y', figure.y.label, {grid: false, tickCount: rows, values: ranks(rows, 12),
         encode: {labels: {update: {text: {signal: 'yl[floor(datum.value)]'}}}}})]}, more));
   }
+  /* What the letters of a map mean, for where no list stands below it. */
+  function counts(figure) {
+    return figure.classes.map(function (kind, k) {
+      var count = figure.cells.filter(function (c) { return c === k; }).length;
+      return count ? kind.letter + '  ' + count + ' ' + kind.name + ': ' + kind.text : '';
+    }).filter(Boolean);
+  }
   function spec(figure, width, legend) {
-    return figure.sort === 'curves' ? curveSpec(figure, width, legend) : mapSpec(figure, width);
+    var made = figure.sort === 'curves' ? curveSpec(figure, width, legend) : mapSpec(figure, width);
+    if (figure.place) made.autosize = {type: 'pad'};
+    var heading = figure.heading || figure.title;
+    if (legend && heading) made.title = {text: heading, anchor: 'start', fontSize: 13};
+    if (legend && figure.sort === 'classes') made.title = {text: [heading || ''].concat(counts(figure)), orient: 'bottom', anchor: 'start', fontSize: 12, fontWeight: 'normal'};
+    return made;
   }
   function view(figure, width, legend) {
     return new vega.View(vega.parse(spec(figure, width, legend), null, {ast: true}), {expr: vega.interpreter, renderer: 'svg'});
@@ -218,9 +240,12 @@ var figures = (function () {
 
   /* A figure with its light colours, fit to stand alone. */
   function standalone(figure) {
-    return view(figure, 760, true).toSVG().then(function (svg) {
+    return view(figure, figure.width || 760, true).toSVG().then(function (svg) {
       var style = getComputedStyle(document.getElementById('light'));
-      return svg.replace(/var\((--\w+)\)/g, function (_, name) { return style.getPropertyValue(name).trim(); });
+      return svg.replace(/var\((--\w+)\)/g, function (_, name) { return style.getPropertyValue(name).trim(); })
+        .replace(/ (d|transform)="[^"]*"/g, function (place) { /* to a tenth of a pixel */
+          return place.replace(/-?\d+\.\d{2,}/g, function (n) { return String(Number(Number(n).toFixed(1))); });
+        });
     });
   }
   return {view: view, standalone: standalone, points: points, text: text, ink: ink, finite: finite, dashes: DASHES.length};

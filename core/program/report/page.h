@@ -104,7 +104,7 @@ typedef struct report_plot {
     double x0, x1;                           /* range of the x axis, when x0 < x1 */
     bool from_zero;
     bool decades;      /* along x, whose values are above 0 */
-    bool wide;         /* along y, when the values ask for it */
+    double bottom;     /* of a logarithmic y axis that `top` ends, when above 0 */
     const char *class; /* of the figure, or NULL */
 } report_plot;
 

@@ -157,6 +157,7 @@
   function begin(node, number) {
     var f = {node: node, figure: JSON.parse(node.querySelector('script').textContent), box: make('div', 'plot')};
     var buttons = make('span', 'buttons'), figure = f.figure;
+    figure.title = node.querySelector('figcaption').textContent;
     node.querySelector('figcaption').appendChild(buttons);
     node.insertBefore(f.box, node.querySelector('details'));
     f.whole = button('whole', buttons, function () { zoom(f); });
@@ -290,7 +291,7 @@
   }
   function whole(f) {
     return f.view.runAsync().then(function () {
-      if (!f.box.querySelector('svg') || /NaN|Infinity|undefined/.test(f.box.innerHTML))
+      if (!f.box.querySelector('svg') || /NaN|Infinity|undefined/.test(f.box.innerHTML.replace(/data:[^"]*/g, '')))
         errors.push('a figure has no number: ' + f.node.querySelector('figcaption').textContent);
       if (f.node.scrollWidth > f.node.clientWidth + 1) errors.push('a figure is wider than its frame');
     });
@@ -338,11 +339,28 @@
     for (var section of all('.snapshots')) await trySlider(section);
     for (var f of shown) await tryFigure(f);
   }
-  /* #figures: puts each figure into the page as it would be saved. */
+  /* #figures: puts all figures into the page as one that could be saved, each at its place or below the last. */
   function spell() {
-    return Promise.all(shown.map(function (f) {
-      return figures.standalone(f.figure).then(function (svg) { f.node.appendChild(make('pre', 'saved', svg)); });
-    }));
+    return Promise.all(shown.map(function (f) { return figures.standalone(f.figure); })).then(function (list) {
+      var width = 0, height = 0, inner = [], rows = {};
+      list.forEach(function (svg, i) {
+        var place = shown[i].figure.place || [0, i], size = svg.match(/width="([\d.]+)" height="([\d.]+)"/).slice(1).map(Number);
+        var origin = svg.match(/translate\(([\d.]+),([\d.]+)\)/).slice(1).map(Number);
+        (rows[place[1]] = rows[place[1]] || []).push({svg: svg, size: size, origin: origin, x: shown[i].figure.place ? Math.max(0, place[0] - origin[0]) : 0});
+      });
+      Object.keys(rows).map(Number).sort(function (a, b) { return a - b; }).forEach(function (key) { /* axes of a row stand level */
+        var above = Math.max.apply(null, rows[key].map(function (p) { return p.origin[1]; })), bottom = 0;
+        rows[key].forEach(function (p) {
+          var y = height + above - p.origin[1];
+          width = Math.max(width, p.x + p.size[0]);
+          bottom = Math.max(bottom, y + p.size[1]);
+          inner.push(p.svg.replace('<svg ', '<svg x="' + p.x + '" y="' + y + '" '));
+        });
+        height = bottom + 10;
+      });
+      document.body.appendChild(make('pre', 'saved', '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 ' +
+        Math.ceil(width) + ' ' + Math.ceil(height) + '" font-family="sans-serif">\n<rect width="100%" height="100%" fill="#fff"/>\n' + inner.join('\n') + '\n</svg>\n'));
+    });
   }
   function ready() {
     document.body.dataset.errors = errors.join('; ');

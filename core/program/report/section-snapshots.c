@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FRAMES = 121, CELLS = 257, MOST_STAGES = 3 };
+enum { WIDE = 30, FRAMES = 121, CELLS = 257, MOST_STAGES = 3 };
 
 /* The fields of one stage. */
 typedef struct stage_fields {
@@ -143,6 +143,14 @@ static double central_film(const stage_fields *m)
     return size;
 }
 
+static double least_film(const stage_fields *m)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < report_array_size(&m->h); i++)
+        least = fmin(least, m->h.data[i]);
+    return least;
+}
+
 /* Finds the instant at which the pressure of a stage is highest. */
 static size_t find_highest_pressure(const stage_fields *m, size_t frames)
 {
@@ -176,7 +184,8 @@ typedef struct snapshots {
     stage_fields stages[MOST_STAGES];
     size_t count, start; /* start: the frame at which the slider stands first */
     report_unit x, p, h, at;
-    double film_top, x0, x1; /* in the units of the figures */
+    double film_top, film_bottom; /* in the units of the figures, as x0; no bottom: 0 */
+    double x0, x1;
 } snapshots;
 
 static void draw_snapshot(report_page *page, const snapshots *s, bool film)
@@ -197,6 +206,7 @@ static void draw_snapshot(report_page *page, const snapshots *s, bool film)
         snprintf(curve->label, sizeof curve->label, "%s", page->view->stages[of->stage]->name);
     }
     plot.top = film ? s->film_top : 0;
+    plot.bottom = film ? s->film_bottom : 0;
     plot.x0 = s->x0;
     plot.x1 = s->x1;
     for (size_t m = 0; m < s->count && !film; m++)
@@ -237,7 +247,7 @@ static void write_frames(report_page *page, const snapshots *s)
 static void write_player(report_page *page, snapshots *s)
 {
     const stage_fields *first = &s->stages[0];
-    double reach = 0, top = 0, from = INFINITY, to = -INFINITY;
+    double reach = 0, top = 0, bottom = INFINITY, from = INFINITY, to = -INFINITY;
     for (size_t i = 0; i < report_array_size(&first->x); i++)
         reach = fmax(reach, fabs(first->x.data[i]));
     s->x = first->x.data ? report_unit_for("m", reach) : (report_unit){1, 0, ""};
@@ -250,6 +260,10 @@ static void write_player(report_page *page, snapshots *s)
         top = fmax(top, central_film(&s->stages[m]));
     s->h = report_unit_for("m", top);
     s->film_top = 3 * report_convert(&s->h, top);
+    for (size_t m = 0; m < s->count; m++)
+        bottom = fmin(bottom, least_film(&s->stages[m]));
+    if (bottom > 0 && top > WIDE * bottom) /* at contact loss, the loaded film too */
+        s->film_bottom = report_convert(&s->h, fmax(bottom, 1e-4 * top)) / 1.5;
     s->at =
         first->angle ? report_unit_for("rad", 1) : report_unit_for("s", largest_value(&first->at));
     size_t frames = first->frames < FRAMES ? first->frames : FRAMES;

@@ -138,8 +138,8 @@ static json_t *describe_slice(const study_map *map, size_t slice)
     return json_pack(
         "{s:s, s:s, s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:{s:o, s:o, s:i}}", "sort", "classes",
         "title", *title ? title : "Where the pipeline can be trusted", "height",
-        (int)(rank < 8    ? 34 * rank + 20
-              : rank < 20 ? 22 * rank
+        (int)(rank < 8    ? 34 * rank + 70
+              : rank < 20 ? 22 * rank + 60
                           : 440),
         "x", x, "y", y, "classes", classes(), "cells", cells, "reasons", reasons, "edges",
         edges_of(map, slice), "table", "head", head, "rows", rows, "folded", 1);

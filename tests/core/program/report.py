@@ -88,6 +88,20 @@ class Report(lab.Lab):
             self.look(f"{spacing}/report.html")
             self.assertIn(f'"x":{{"label":"amplitude (mm)","log":{log}}}', self.read_page(f"{spacing}/report.html"))
 
+    def test_description(self):
+        with open("own.json", "w", encoding="utf-8") as file:
+            file.write('''[{"sort": "curves", "title": "</script>", "marks": [], "x": {"label": "x", "log": 1}, "y": {"label": "y"},
+                "z": {"label": "z", "low": 0, "high": 9, "step": 3}, "curves": [
+                {"name": "a", "colour": "#0072b2", "dash": [6, 3], "style": "line", "x": [1, 10, 100], "y": [2, null, 3]},
+                {"name": "b", "colour": 1, "dash": 0, "axis": "z", "style": "line", "x": [1, 100], "y": [0, 9]}]}]''')
+        self.assertEqual(self.call("report", "own.json"), "own.html\n")
+        self.read_page("own.html")
+        _, figures = self.look("own.html")
+        self.assertEqual(figures, 1)
+        with open("own.json", "w", encoding="utf-8") as file:
+            file.write("{}")
+        self.assertIn("does not describe figures", self.call("report", "own.json", code=2))
+
     def test_without_library(self):
         self.call("report", "run")
         page = self.read_page("run/report.html").replace("self.vega =", "self.none =")
