@@ -247,6 +247,14 @@
     data.stages.forEach(function (stage) {
       ['at', 'x', 'p', 'h', 't'].forEach(function (key) { if (stage[key]) stage[key] = floats(stage[key]); });
     });
+    function extremes(stage, frame) {
+      var p = 0, h = Infinity;
+      for (var i = frame * stage.cells; i < (frame + 1) * stage.cells; i++) {
+        p = Math.max(p, stage.p[i]);
+        h = Math.min(h, stage.h[i]);
+      }
+      return stage.name + ': least film ' + figures.text(h) + ' ' + data.h + ', highest pressure ' + figures.text(p) + ' ' + data.p;
+    }
     function update() {
       var now = data.stages[0].at[slider.value];
       shown.forEach(function (f) {
@@ -260,6 +268,9 @@
         });
         f.view.runAsync();
       });
+      section.querySelector('.extremes').textContent = data.stages.map(function (stage, k) {
+        return extremes(stage, k ? closest(stage.at, now) : Number(slider.value));
+      }).join('; ');
       section.querySelector('output').textContent = data.unit ?
         (data.unit === 'deg' ? 'roll angle ' : 'time ') + figures.text(now) + ' ' + data.unit : 'instant ' + figures.text(now);
     }

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDE = 30, FRAMES = 121, CELLS = 257, MOST_STAGES = 3 };
+enum { WIDE = 30, FRAMES = 121, CELLS = 513, MOST_STAGES = 3 };
 
 /* The fields of one stage. */
 typedef struct stage_fields {
@@ -20,12 +20,25 @@ typedef struct stage_fields {
     ff_array p, h, x, at; /* at: what the instants are named after */
     bool angle;           /* at is an angle */
     size_t frames, cells; /* of the fields */
+    size_t peak, low;     /* the instants of the highest pressure and of the least film */
 } stage_fields;
 
 static int find_field(const ff_view *view, size_t stage, const char *output)
 {
     int v = report_find_output(view, stage, output);
     return v >= 0 && view->variables[v]->rank == 2 ? v : -1;
+}
+
+/* Finds the instants of the highest pressure and of the least film. */
+static void find_extremes(stage_fields *m)
+{
+    size_t peak = 0, low = 0;
+    for (size_t i = 1; i < m->frames * m->cells; i++) {
+        peak = m->p.data[i] > m->p.data[peak] ? i : peak;
+        low = m->h.data[i] < m->h.data[low] ? i : low;
+    }
+    m->peak = peak / m->cells;
+    m->low = low / m->cells;
 }
 
 static bool load_fields(report_page *page, size_t stage, stage_fields *m)
@@ -47,6 +60,7 @@ static bool load_fields(report_page *page, size_t stage, stage_fields *m)
         return false;
     m->frames = m->p.shape[0];
     m->cells = m->p.shape[1];
+    find_extremes(m);
     return true;
 }
 
@@ -62,6 +76,21 @@ static void release_fields(report_page *page, stage_fields *m)
 static size_t sample_index(size_t k, size_t kept, size_t count)
 {
     return kept > 1 ? k * (count - 1) / (kept - 1) : 0;
+}
+
+/* The instants that are shown are spread evenly, but for those of the extremes, which are moved
+   onto. */
+static size_t frame_at(const stage_fields *m, size_t k, size_t kept)
+{
+    const size_t extremes[] = {m->peak, m->low};
+    size_t frame = sample_index(k, kept, m->frames);
+    for (size_t i = 0; i < 2 && kept > 1 && k > 0 && k + 1 < kept; i++) {
+        size_t before = sample_index(k - 1, kept, m->frames);
+        size_t after = sample_index(k + 1, kept, m->frames);
+        if (2 * extremes[i] > before + frame && 2 * extremes[i] <= frame + after)
+            frame = extremes[i];
+    }
+    return frame;
 }
 
 static void put_base64(FILE *out, const unsigned char *data, size_t size)
@@ -102,8 +131,8 @@ static void put_field(FILE *out, const stage_fields *m, const ff_array *field,
     for (size_t k = 0; k < frames; k++)
         for (size_t i = 0; i < cells; i++)
             data[k * cells + i] = (float)report_convert(
-                unit, field->data[sample_index(k, frames, m->frames) * m->cells +
-                                  sample_index(i, cells, m->cells)]);
+                unit,
+                field->data[frame_at(m, k, frames) * m->cells + sample_index(i, cells, m->cells)]);
     put_floats(out, data, frames * cells);
     free(data);
 }
@@ -115,6 +144,17 @@ static void put_axis(FILE *out, const ff_array *axis, size_t count, size_t kept,
     for (size_t i = 0; i < kept; i++) {
         size_t at = sample_index(i, kept, count);
         data[i] = (float)(axis->data ? report_convert(unit, axis->data[at]) : (double)at);
+    }
+    put_floats(out, data, kept);
+    free(data);
+}
+
+static void put_instants(FILE *out, const stage_fields *m, size_t kept, const report_unit *unit)
+{
+    float *data = memory_alloc(kept * sizeof *data);
+    for (size_t k = 0; k < kept; k++) {
+        size_t at = frame_at(m, k, kept);
+        data[k] = (float)(m->at.data ? report_convert(unit, m->at.data[at]) : (double)at);
     }
     put_floats(out, data, kept);
     free(data);
@@ -151,19 +191,13 @@ static double least_film(const stage_fields *m)
     return least;
 }
 
-/* Finds the instant at which the pressure of a stage is highest. */
+/* Finds the frame nearest to the instant of the highest pressure. */
 static size_t find_highest_pressure(const stage_fields *m, size_t frames)
 {
     size_t best = 0;
-    double most = -INFINITY;
     for (size_t k = 0; k < frames; k++)
-        for (size_t i = 0; i < m->cells; i++) {
-            double p = m->p.data[sample_index(k, frames, m->frames) * m->cells + i];
-            if (p > most) {
-                most = p;
-                best = k;
-            }
-        }
+        if (frame_at(m, k, frames) <= m->peak)
+            best = k;
     return best;
 }
 
@@ -194,8 +228,7 @@ static void draw_snapshot(report_page *page, const snapshots *s, bool film)
     report_plot plot = {.from_zero = true, .class = "live"};
     for (size_t m = 0; m < s->count; m++) {
         const stage_fields *of = &s->stages[m];
-        size_t frame =
-            sample_index(s->start, FRAMES < of->frames ? FRAMES : of->frames, of->frames);
+        size_t frame = frame_at(of, s->start, FRAMES < of->frames ? FRAMES : of->frames);
         const double *field = (film ? of->h.data : of->p.data) + frame * of->cells;
         report_curve *curve =
             report_plot_add(&plot, &s->x, of->x.data, film ? &s->h : &s->p, field, of->cells);
@@ -222,8 +255,10 @@ static void draw_snapshot(report_page *page, const snapshots *s, bool film)
 static void write_frames(report_page *page, const snapshots *s)
 {
     FILE *out = page->out;
-    fprintf(out, "<script type=\"application/json\" class=\"frames\">{\"unit\":\"%s\",\"stages\":[",
-            s->stages[0].at.data ? s->at.unit : "");
+    fprintf(out,
+            "<script type=\"application/json\" class=\"frames\">{\"unit\":\"%s\",\"p\":\"%s\","
+            "\"h\":\"%s\",\"stages\":[",
+            s->stages[0].at.data ? s->at.unit : "", s->p.unit, s->h.unit);
     for (size_t m = 0; m < s->count; m++) {
         const stage_fields *of = &s->stages[m];
         size_t frames = of->frames < FRAMES ? of->frames : FRAMES;
@@ -232,7 +267,7 @@ static void write_frames(report_page *page, const snapshots *s)
         fprintf(out, "%s{\"frames\":%zu,\"cells\":%zu,\"name\":", m ? "," : "", frames, cells);
         report_put_json_text(out, page->view->stages[of->stage]->name);
         fputs(",\"at\":", out);
-        put_axis(out, &of->at, of->frames, frames, &s->at);
+        put_instants(out, of, frames, &s->at);
         fputs(",\"x\":", out);
         put_axis(out, &of->x, of->cells, cells, &s->x);
         fputs(",\"p\":", out);
@@ -274,7 +309,7 @@ static void write_player(report_page *page, snapshots *s)
             "play</button> <input type=\"range\" min=\"0\" max=\"%zu\" value=\"%zu\" "
             "aria-label=\"instant of the engagement\"> <output></output></p>\n"
             "<p class=\"note\">%zu of %zu instants; the film is cut off above three times its "
-            "central thickness.</p>\n<div class=\"figures\">\n",
+            "central thickness.</p>\n<p class=\"extremes\"></p>\n<div class=\"figures\">\n",
             frames - 1, s->start, frames, first->frames);
     draw_snapshot(page, s, false);
     draw_snapshot(page, s, true);

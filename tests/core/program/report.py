@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chromium opens the report, moves its sliders, and finds nothing to complain about."""
+import base64
+import json
 import os
 import re
 import shutil
+import struct
 import subprocess
 import sys
 import tempfile
@@ -47,10 +50,24 @@ class Report(lab.Lab):
                          {"http://www.w3.org/" + name for name in ("2000/svg", "2000/xmlns/", "1999/xlink")}, set())
         return page
 
+    def read_extremes(self, page):
+        """The frames of the slider hold the least film and the highest pressure of the field."""
+        frames = json.loads(re.search(r'class="frames">(.*?)</script>', page, re.DOTALL).group(1))
+        stage = frames["stages"][-1]
+        for letter, field, worst in (("p", "pressure", max), ("h", "film", min)):
+            data = base64.b64decode(stage[letter])
+            shown = worst(struct.unpack(f"<{len(data) // 4}f", data))
+            with open(f"pair/film.{field}.npy", "rb") as file:
+                whole = file.read()
+            whole = whole[10 + struct.unpack("<H", whole[8:10])[0]:]
+            factor = {"GPa": 1e-9, "MPa": 1e-6, "\u00b5m": 1e6, "nm": 1e9}[frames[letter]]
+            kept = worst(struct.unpack(f"<{len(whole) // 8}d", whole)) * factor
+            self.assertAlmostEqual(shown / kept, 1, places=6)
+
     def test_gear_pair(self):
         source = os.environ["FLANKFILM_TEST_SOURCE"]
         small = [word for stage in ("film", "film_static")
-                 for word in ("--set", stage + ".cells=64", "--set", stage + ".steps=100")]
+                 for word in ("--set", stage + ".cells=64", "--set", stage + ".steps=400")]
         self.call("run", source + "/configs/li-kahraman-2011.yaml", "-o", "pair", *small,
                   "--set", "mesh.use=stiffness/potential-energy")
         self.assertEqual(self.call("report", "pair"), "pair/report.html\n")
@@ -60,6 +77,8 @@ class Report(lab.Lab):
         for words in ("Least film thickness", "roll angle", "LPSTC", "HPSTC", "µm)", "GPa",
                       "Quality of the numbers", "unity-50.yaml", "@article"):
             self.assertIn(words, page)
+        self.read_extremes(page)
+        self.assertRegex(dom, r'"extremes">film_static: least film 0.1')
         self.assertRegex(dom, r"<output>roll angle [\d.]+ deg</output>")
 
     def test_one_instant(self):
