@@ -245,7 +245,7 @@
     var data = JSON.parse(section.querySelector('.frames').textContent), timer = null;
     var slider = section.querySelector('input'), play = section.querySelector('.play');
     data.stages.forEach(function (stage) {
-      ['at', 'x', 'p', 'h', 't'].forEach(function (key) { if (stage[key]) stage[key] = floats(stage[key]); });
+      ['at', 'x', 'p', 'h'].forEach(function (key) { if (stage[key]) stage[key] = floats(stage[key]); });
     });
     function extremes(stage, frame) {
       var p = 0, h = Infinity;

@@ -14,7 +14,7 @@ static const struct row {
     int how;
 } rows[] = {
     {"Least film thickness", "h_min", LEAST},
-    {"Least central film over roughness (lambda)", "lambda_ratio", LEAST},
+    {"Lowest film over roughness (lambda)", "lambda_ratio", LEAST},
     {"Highest pressure", "p_max", MOST},
     {"Highest Hertz pressure", "hertz_pressure", MOST},
     {"Largest friction coefficient", "friction_coefficient", LARGEST},
@@ -37,6 +37,8 @@ static const struct row {
     {"Roughness Rq of gear 1", "rq_1", PLAIN},
     {"Roughness Rq of gear 2", "rq_2", PLAIN},
     {"Contact ratio", "contact_ratio", PLAIN},
+    {"Speed of gear 1", "speed", PLAIN},
+    {"Mesh frequency", "mesh_frequency", PLAIN},
 };
 
 static size_t find_extreme(const ff_array *array, int how)
