@@ -111,7 +111,7 @@ class Measured(lab.Lab):
             self.assertEqual(file.readline().strip(), "time [s],wave [m],wave_error_bar [m]")
         self.call("report", "order")
         with open("order/report.html", encoding="utf-8") as file:
-            self.assertIn('class="band', file.read())
+            self.assertTrue('"bar":[' in file.read())
 
     def test_a_study_has_a_bar_for_each_case(self):
         self.write("study.yaml", FILE + "study: {sweep: {last.cells: [32, 128]}}\n")
