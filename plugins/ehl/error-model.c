@@ -180,19 +180,6 @@ static outlet_oil oil_at_outlet(const ehl_reynolds *eq, const contact *c, double
     return (outlet_oil){p, *q.psi * eq->oil.viscosity, p * *q.rho_p / *q.rho};
 }
 
-/* Highest pressure of the outlet's spike: of a maximum not further in than 1.6 build-up lengths.
-   Where that length exceeds 0.6 a the maximum is the spike itself, even upstream of x = 0. 0: there
-   is none. */
-static double highest_spike(const ehl_reynolds *eq, const double *p, const contact *c)
-{
-    double highest = 0, from = (c->a - 1.6 * c->buildup - eq->first) / eq->dx;
-    size_t first = (size_t)fmax(1, ceil(from));
-    for (size_t i = first; i + 1 < eq->nodes; i++)
-        if (p[i] > highest && p[i] >= p[i - 1] && p[i] > p[i + 1])
-            highest = p[i];
-    return highest;
-}
-
 /*
  * Share of a spike that the cells cut off, with x = dx over the build-up length l:
  *   x/(x + w)/(1 + c/0.07 + 4 v^0.6),   w = v + 0.14 c,   v = 40 eta0/eta,   c = d ln(rho)/d ln(p).
@@ -208,6 +195,29 @@ static double spike_share_cut_off(const ehl_reynolds *eq, const outlet_oil *oil,
     if (eq->asymmetric && eq->wedge == 2)
         x *= 0.3;
     return x / (x + w) / (1 + oil->compression / 0.07 + 4 * pow(v, 0.6));
+}
+
+/* Whether p falls within two nodes of a maximum by that share of it. Where a tip is cut off it
+   does; the crest of a film that is squeezed, which may wander to the outlet, does not. */
+static int is_steep(const double *p, size_t i, size_t last, double share)
+{
+    double lowest = fmin(p[i - 1], p[i + 1]);
+    lowest = i > 1 ? fmin(lowest, p[i - 2]) : lowest;
+    lowest = i + 2 <= last ? fmin(lowest, p[i + 2]) : lowest;
+    return p[i] - lowest > share * p[i];
+}
+
+/* Highest pressure of the outlet's spike: of a maximum not further in than 1.6 build-up lengths of
+   which the cells may cut off the share `cut`. Where that length exceeds 0.6 a the maximum is the
+   spike itself, even upstream of x = 0. 0: there is none. */
+static double highest_spike(const ehl_reynolds *eq, const double *p, const contact *c, double cut)
+{
+    double highest = 0, from = (c->a - 1.6 * c->buildup - eq->first) / eq->dx;
+    size_t first = (size_t)fmax(1, ceil(from)), last = eq->nodes - 1;
+    for (size_t i = first; i < last; i++)
+        if (p[i] > highest && p[i] >= p[i - 1] && p[i] > p[i + 1] && is_steep(p, i, last, cut))
+            highest = p[i];
+    return highest;
 }
 
 /* Estimates the error of a pressure without a spike where it differs from Hertz's; it grows with
@@ -230,7 +240,7 @@ static ehl_spike spike_at(const ehl_reynolds *eq, const contact *c, const ehl_cr
     const double caution = 1.2; /* a tip between two nodes */
     outlet_oil oil = oil_at_outlet(eq, c, of->h_central, of->p_max);
     double cut = spike_share_cut_off(eq, &oil, eq->dx / c->buildup);
-    double seen = highest_spike(eq, of->p, c);
+    double seen = highest_spike(eq, of->p, c, cut);
     double tip = fmax(seen, 0.9 * oil.pressure) * (1 + caution * cut / (1 - cut));
     double error = fmax(0, tip / of->p_max - 1) + smooth_pressure_error(eq, c, oil.fluidity);
     return (ehl_spike){seen, tip, cut, error};
