@@ -3,6 +3,8 @@
 
 #include "../numerics/room.h"
 
+#include <flankfilm/simd.h>
+
 #include <fftw3.h>
 #include <math.h>
 #include <stdlib.h>
@@ -75,16 +77,23 @@ ehl_fft *ehl_fft_create(size_t nodes, const double *d)
     return f;
 }
 
+/* Multiplies complex numbers, as pairs, by real ones. */
+FF_SIMD
+static void multiply_pairs(size_t count, const double *restrict factor, double *restrict pairs)
+{
+    for (size_t k = 0; k < count; k++) {
+        pairs[2 * k] *= factor[k];
+        pairs[2 * k + 1] *= factor[k];
+    }
+}
+
 void ehl_fft_apply(ehl_fft *f, const double *p, double *v)
 {
     size_t half = f->length / 2 + 1;
     memcpy(f->line, p, f->nodes * sizeof *p);
     memset(f->line + f->nodes, 0, (f->length - f->nodes) * sizeof *p);
     fftw_execute(f->forward);
-    for (size_t k = 0; k < half; k++) {
-        f->image[k][0] *= f->spectrum[k];
-        f->image[k][1] *= f->spectrum[k];
-    }
+    multiply_pairs(half, f->spectrum, (double *)f->image);
     fftw_execute(f->backward);
     memcpy(v, f->line, f->nodes * sizeof *v);
 }
