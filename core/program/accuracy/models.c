@@ -97,6 +97,12 @@ static void name_reference(ff_tree *tree, const char *name, const ff_node *stage
                            ff_report *report)
 {
     const ff_node *use = ff_node_get(stage, "use"), *named = ff_node_get(stage, "reference");
+    if (named && named->kind != FF_SCALAR) {
+        ff_error(report, FF_FAULT_INPUT, named->place, NULL,
+                 "%s.reference: expected the name of a model, found a %s", name,
+                 named->kind == FF_MAP ? "map" : "list");
+        return;
+    }
     const char *reference = reference_of(stage, engine);
     const ff_place place = reference && named ? named->place : use->place;
     if (!reference) {
@@ -155,10 +161,11 @@ bool accuracy_name_references(ff_tree *tree, ff_engine *engine, ff_report *repor
         const ff_node *stages = ff_node_get(ff_tree_root(tree), "pipeline"); /* of now */
         const ff_node *stage = stages->items[i];
         const char *name = stages->keys[i];
-        bool named = was_open(stage) && ff_node_get(stage, "reference");
+        const ff_node *reference = ff_node_get(stage, "reference");
+        bool empty = !reference || (reference->kind == FF_SCALAR && !*reference->text);
         if (is_open_node(ff_node_get(stage, "use")))
             name_reference(tree, name, stage, engine, report);
-        if (named)
+        if (!empty && was_open(stage))
             take_reference_away(tree, name, report);
     }
     return ff_report_errors(report) == errors;

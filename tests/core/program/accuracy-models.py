@@ -106,6 +106,7 @@ class Models(lab.Lab):
                           (("accuracy=measured",), "chosen for an accuracy"),
                           (("first.reference=viscosity/barus",), "is no model of toy/auto"),
                           (("first.reference=toy/odrer",), 'toy/order'),
+                          (("first.reference=[toy/order]",), "expected the name of a model, found a list"),
                           (("first.use=viscosity/auto", "first.with="), "which model of viscosity/auto"),
                           (("first.clels=3",), 'did you mean "cells"?')):
             words = [word for one in sets for word in ("--set", one)]
