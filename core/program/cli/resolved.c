@@ -70,6 +70,13 @@ static char *print_value(const ff_bound *bound, const ff_node *node, const char 
     return text;
 }
 
+/* What the file says of a model that it leaves open, in place of the reference. */
+static const ff_node *as_written(const ff_stage *stage, const ff_node *node, const char *path)
+{
+    bool of_choice = !strcmp(path, "use") || !strcmp(path, "reference");
+    return of_choice && stage && accuracy_open_use(stage) && node->replaced ? node->replaced : node;
+}
+
 /* Prints a value; one that a later layer, or another parameter of its group, has replaced is a
    comment, as is the empty one that takes a value away. */
 static void print_leaf(const ff_stage *stage, const ff_node *node, const char *key,
@@ -100,7 +107,7 @@ static void print_entry(const ff_stage *stage, const char *key, const ff_node *i
     bool set = stage && !strcmp(prefix, "with"); /* the key is the model that it is for */
     bool other = set && strcmp(key, stage->use) != 0;
     if (item->kind != FF_MAP || item->count == 0) {
-        print_leaf(stage, item, key, path, indent);
+        print_leaf(stage, as_written(stage, item, path), key, path, indent);
     } else {
         print_line(indent, false, key, "", "");
         print_map(other ? NULL : stage, item, set ? "" : path, indent + STEP);

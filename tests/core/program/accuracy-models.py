@@ -112,6 +112,12 @@ class Models(lab.Lab):
             words = [word for one in sets for word in ("--set", one)]
             self.assertIn(say, self.call("check", "order.yaml", *words, code=2))
 
+    def test_what_explain_prints_leaves_the_models_open(self):
+        self.write("order.yaml", FILE)
+        printed = self.call("explain", "order.yaml", "--yaml", "--set", "first.reference=toy/order")
+        self.assertIn("use: toy/auto", printed)
+        self.assertEqual(self.ask(text=printed)["accuracy"]["settings"], self.ask()["accuracy"]["settings"])
+
     def test_explain_names_the_candidates(self):
         self.write("order.yaml", FILE)
         self.assertIn("the reference of toy/auto; a run tries toy/brief, toy/guess in its place",
