@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Cheap models in the place of toy/order, whose value is 1: guess is off by what it is told, brief
-   has no wave. */
+/* Cheap models in the place of toy/order, whose value is 1: guess is off by what it is told, and by
+   1 more without the wave of the stage before, which toy/order does not ask for; brief has no wave
+   of its own. */
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -26,6 +27,12 @@ static const ff_port inputs[] = {
      .doc = "of a stage before",
      .flags = FF_OPTIONAL,
      .from = "toy"},
+    {.name = "before.wave",
+     .unit = "m",
+     .dims = "t",
+     .doc = "of the same",
+     .flags = FF_OPTIONAL,
+     .from = "toy"},
 };
 
 static const ff_port outputs[] = {
@@ -39,6 +46,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     enum { POINTS = 101 };
     const guess *g = self;
     double value = 1 + g->off + (in[0].data ? g->gain * in[0].data[0] : 0);
+    value += in[0].data && !in[1].data ? 1 : 0;
     if (wanted & 1)
         ff_put_scalar(g->host, 0, value);
     if (wanted & 6) {
