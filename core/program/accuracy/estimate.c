@@ -25,7 +25,8 @@ static const double most_coarse_growth = 16;
 /* A single number may stay where it is by chance: from order 3 on another level is asked for. */
 static const double chance_growth = 8;
 /* The error of a series passes through 0 where it changes its sign, and a difference between two
-   levels does so elsewhere: what counts is the largest within this share of the points. */
+   levels does so elsewhere: what counts is the largest within this share of the points. What is not
+   typical stays where it is: an instant that moves does not make its neighbours wrong. */
 static const double reach = 0.02;
 
 /* Where a load jumps or contact is lost, a short stretch of a series is off by as much as it moves
@@ -66,27 +67,33 @@ double accuracy_typical(const double *values, const double *at, size_t count)
     return typical;
 }
 
-/* Differences between two answers: of all points, and of those where they are typical. */
+/* What number i of two answers differs by, relative. */
+static double apart(const accuracy_ladder *l, const double *a, const double *b, size_t i)
+{
+    return fabs(a[i] - b[i]) / (l->scale ? l->scale[i] : 1);
+}
+
+/* Relative differences between two answers: of all points, and of those where they are typical. */
 typedef struct differences {
     double all, typical; /* root mean squares */
     double limit;        /* a typical one is at most this */
 } differences;
 
-static differences between(const double *a, const double *b, const double *at, size_t count)
+static differences between(const accuracy_ladder *l, const double *a, const double *b)
 {
-    double *sizes = memory_alloc(count * sizeof *sizes);
+    double *sizes = memory_alloc(l->count * sizeof *sizes);
     differences d = {.all = 0};
     size_t typical = 0;
-    for (size_t i = 0; i < count; i++)
-        sizes[i] = fabs(a[i] - b[i]);
-    d.limit = accuracy_typical(sizes, at, count);
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < l->count; i++)
+        sizes[i] = apart(l, a, b, i);
+    d.limit = accuracy_typical(sizes, l->at, l->count);
+    for (size_t i = 0; i < l->count; i++) {
         d.all += sizes[i] * sizes[i];
         d.typical += sizes[i] <= d.limit ? sizes[i] * sizes[i] : 0;
         typical += sizes[i] <= d.limit;
     }
     free(sizes);
-    d.all = sqrt(d.all / (double)count);
+    d.all = sqrt(d.all / (double)l->count);
     d.typical = sqrt(d.typical / (double)typical);
     return d;
 }
@@ -122,7 +129,8 @@ static growths growths_of(double observed)
 /* Of typical points, and of all. */
 typedef struct convergence {
     growths typical, all;
-    double limit; /* a typical point differs by at most this from the next coarser level */
+    double limit;        /* a typical point differs by at most this from the next coarser level */
+    double coarse_limit; /* as typical points of the coarser levels do from each other */
 } convergence;
 
 static bool goes_down(const accuracy_ladder *l)
@@ -135,12 +143,12 @@ static convergence convergence_of(const accuracy_ladder *l)
     const double *a = goes_down(l) ? l->answer : l->twice, *b = goes_down(l) ? l->half : l->answer,
                  *c = goes_down(l) ? l->quarter : l->half;
     if (!a || !b || !c)
-        return (convergence){growths_of(NAN), growths_of(NAN), INFINITY};
-    const differences near = between(b, a, l->at, l->count), far = between(c, b, l->at, l->count);
+        return (convergence){growths_of(NAN), growths_of(NAN), INFINITY, INFINITY};
+    const differences near = between(l, b, a), far = between(l, c, b);
     /* a single number may overshoot */
     double sign = l->count == 1 && (c[0] - b[0]) * (b[0] - a[0]) < 0 ? -1 : 1;
     return (convergence){growths_of(growth(near.typical, far.typical, sign)),
-                         growths_of(growth(near.all, far.all, sign)), near.limit};
+                         growths_of(growth(near.all, far.all, sign)), near.limit, INFINITY};
 }
 
 bool accuracy_may_be_chance(const accuracy_ladder *l)
@@ -149,22 +157,44 @@ bool accuracy_may_be_chance(const accuracy_ladder *l)
            fabs(convergence_of(l).all.observed) > chance_growth;
 }
 
-/* The error of number i alone. */
+/* What the coarser levels of number i differ by: all settings at once, or one after the other, for
+   errors of two settings may cancel in the answers, and not in the next scene. */
+static double coarse_difference(const accuracy_ladder *l, size_t i)
+{
+    double sum = 0;
+    for (size_t k = 0; l->quarter && k < l->refined_count; k++)
+        sum += l->refined[k] ? apart(l, l->refined[k], l->quarter, i) : 0;
+    return l->half && l->quarter ? fmax(apart(l, l->quarter, l->half, i), sum) : sum;
+}
+
+static double coarse_limit(const accuracy_ladder *l)
+{
+    double *all = memory_alloc(l->count * sizeof *all);
+    for (size_t i = 0; i < l->count; i++)
+        all[i] = coarse_difference(l, i);
+    double limit = accuracy_typical(all, l->at, l->count);
+    free(all);
+    return limit;
+}
+
+static bool is_typical(const accuracy_ladder *l, size_t i, const convergence *c)
+{
+    return apart(l, goes_down(l) ? l->half : l->twice, l->answer, i) <= c->limit;
+}
+
+/* The error of number i alone, relative. */
 static double error_at(const accuracy_ladder *l, size_t i, const convergence *c)
 {
-    const double *next = goes_down(l) ? l->half : l->twice;
-    const growths g = fabs(next[i] - l->answer[i]) > c->limit ? c->all : c->typical;
+    bool typical = is_typical(l, i, c);
+    const growths g = typical ? c->typical : c->all;
     if (!goes_down(l))
-        return safety * fabs(l->answer[i] - l->twice[i]) * g.used / (g.used - 1);
-    double near = fabs(l->half[i] - l->answer[i]) / (g.used - 1), far = 0, apart = 0;
+        return safety * apart(l, l->answer, l->twice, i) * g.used / (g.used - 1);
+    double near = apart(l, l->half, l->answer, i) / (g.used - 1), far = coarse_difference(l, i);
     if (l->between)
-        near = fmax(near, fabs(l->between[i] - l->answer[i]) / (sqrt(g.used) - 1));
-    if (l->quarter)
-        far = fabs(l->quarter[i] - l->half[i]);
-    for (size_t k = 0; l->quarter && k < l->refined_count; k++)
-        apart += l->refined[k] ? fabs(l->refined[k][i] - l->quarter[i]) : 0;
-    /* errors of two settings may cancel in the answers, and not in the next scene */
-    return safety * fmax(near, fmax(far, apart) / (g.coarse * (g.used - 1)));
+        near = fmax(near, apart(l, l->between, l->answer, i) / (sqrt(g.used) - 1));
+    if (typical) /* what only coarser levels move far is no part of the answer */
+        far = fmin(far, c->coarse_limit);
+    return safety * fmax(near, far / (g.coarse * (g.used - 1)));
 }
 
 static void find_shares(const accuracy_ladder *l, double *shares)
@@ -172,7 +202,7 @@ static void find_shares(const accuracy_ladder *l, double *shares)
     double all = 0;
     for (size_t k = 0; k < l->refined_count; k++) {
         bool known = l->quarter && l->refined[k];
-        shares[k] = known ? between(l->refined[k], l->quarter, l->at, l->count).typical : 0;
+        shares[k] = known ? between(l, l->refined[k], l->quarter).typical : 0;
         all += shares[k];
     }
     for (size_t k = 0; k < l->refined_count && all > 0; k++)
@@ -181,13 +211,16 @@ static void find_shares(const accuracy_ladder *l, double *shares)
 
 double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares)
 {
-    const convergence c = convergence_of(l);
+    convergence c = convergence_of(l);
+    c.coarse_limit = coarse_limit(l);
     const size_t near = l->count > 1 ? 1 + (size_t)(reach / 2 * (double)l->count) : 0;
     for (size_t i = 0; i < l->count; i++) {
-        size_t from = i > near ? i - near : 0;
+        bool typical = is_typical(l, i, &c);
         error[i] = 0;
-        for (size_t k = from; k < l->count && k <= i + near; k++)
-            error[i] = fmax(error[i], error_at(l, k, &c));
+        for (size_t k = i > near ? i - near : 0; k < l->count && k <= i + near; k++)
+            if (!typical || is_typical(l, k, &c))
+                error[i] = fmax(error[i], error_at(l, k, &c));
+        error[i] *= l->scale ? l->scale[i] : 1;
     }
     find_shares(l, shares);
     double observed = c.typical.observed;

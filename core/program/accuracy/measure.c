@@ -234,11 +234,17 @@ static void add_changes(const measurement *m, accuracy_error *e)
 
 static accuracy_ladder ladder_of(const measurement *m, const accuracy_error *e)
 {
-    const ff_result *along = accuracy_axis_of(m->answer, e->stage, e->result);
-    return (accuracy_ladder){.count = e->result->count,
+    const ff_result *result = e->result, *along = accuracy_axis_of(m->answer, e->stage, result);
+    double *scale = take(m, result->count, sizeof *scale);
+    double most = accuracy_largest_magnitude(result->data, result->count);
+    for (size_t i = 0; i < result->count; i++)
+        scale[i] = accuracy_error_scale(result->data[i], most, result->rank);
+    return (accuracy_ladder){.count = result->count,
                              .at = along ? along->data : NULL,
+                             .scale = scale,
                              .answer = e->result->data,
-                             .between = numbers_of_twin(m, e, &m->between),
+                             .between =
+                                 result->count == 1 ? numbers_of_twin(m, e, &m->between) : NULL,
                              .half = numbers_of_twin(m, e, &m->half),
                              .quarter = numbers_of_twin(m, e, &m->quarter),
                              .twice = numbers_of_twin(m, e, &m->twice)};
