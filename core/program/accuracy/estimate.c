@@ -22,8 +22,6 @@ static const double least_growth = 1.4142135623730951, most_growth = 4, unsettle
 /* On coarse levels errors fall faster than they do from the finest on: what lies between those is
    brought to the next level by up to order 4, and from there by order 2. */
 static const double most_coarse_growth = 16;
-/* A single number may stay where it is by chance: from order 3 on another level is asked for. */
-static const double chance_growth = 8;
 /* The error of a series passes through 0 where it changes its sign, and a difference between two
    levels does so elsewhere: what counts is the largest within this share of the points. What is not
    typical stays where it is: an instant that moves does not make its neighbours wrong. */
@@ -99,7 +97,7 @@ static differences between(const accuracy_ladder *l, const double *a, const doub
 }
 
 /* Growth from one difference to the next coarser one. */
-static double growth(double near, double far, double sign)
+static double growth_of(double near, double far, double sign)
 {
     return near > 0 ? sign * far / near : far > 0 ? INFINITY : NAN;
 }
@@ -113,22 +111,9 @@ static double growth_to_use(double observed)
     return fmin(fmax(observed, least_growth), most_growth);
 }
 
-/* How the differences of a ladder grow. */
-typedef struct growths {
-    double observed, used;
-    double coarse; /* between the coarser levels */
-} growths;
-
-static growths growths_of(double observed)
-{
-    double used = growth_to_use(observed);
-    /* fmin and fmax drop NaN */
-    return (growths){observed, used, fmax(used, fmin(fabs(observed), most_coarse_growth))};
-}
-
-/* Of typical points, and of all. */
+/* How the differences of a ladder grow: of typical points, and of all. */
 typedef struct convergence {
-    growths typical, all;
+    double typical, all;
     double limit;        /* a typical point differs by at most this from the next coarser level */
     double coarse_limit; /* as typical points of the coarser levels do from each other */
 } convergence;
@@ -143,18 +128,12 @@ static convergence convergence_of(const accuracy_ladder *l)
     const double *a = goes_down(l) ? l->answer : l->twice, *b = goes_down(l) ? l->half : l->answer,
                  *c = goes_down(l) ? l->quarter : l->half;
     if (!a || !b || !c)
-        return (convergence){growths_of(NAN), growths_of(NAN), INFINITY, INFINITY};
+        return (convergence){NAN, NAN, INFINITY, INFINITY};
     const differences near = between(l, b, a), far = between(l, c, b);
     /* a single number may overshoot */
     double sign = l->count == 1 && (c[0] - b[0]) * (b[0] - a[0]) < 0 ? -1 : 1;
-    return (convergence){growths_of(growth(near.typical, far.typical, sign)),
-                         growths_of(growth(near.all, far.all, sign)), near.limit, INFINITY};
-}
-
-bool accuracy_may_be_chance(const accuracy_ladder *l)
-{
-    return l->count == 1 && l->half && l->quarter &&
-           fabs(convergence_of(l).all.observed) > chance_growth;
+    return (convergence){growth_of(near.typical, far.typical, sign),
+                         growth_of(near.all, far.all, sign), near.limit, INFINITY};
 }
 
 /* What the coarser levels of number i differ by: all settings at once, or one after the other, for
@@ -186,15 +165,14 @@ static bool is_typical(const accuracy_ladder *l, size_t i, const convergence *c)
 static double error_at(const accuracy_ladder *l, size_t i, const convergence *c)
 {
     bool typical = is_typical(l, i, c);
-    const growths g = typical ? c->typical : c->all;
+    double observed = typical ? c->typical : c->all, growth = growth_to_use(observed);
+    double coarse = fmax(growth, fmin(fabs(observed), most_coarse_growth)); /* these drop NaN */
     if (!goes_down(l))
-        return safety * apart(l, l->answer, l->twice, i) * g.used / (g.used - 1);
-    double near = apart(l, l->half, l->answer, i) / (g.used - 1), far = coarse_difference(l, i);
-    if (l->between)
-        near = fmax(near, apart(l, l->between, l->answer, i) / (sqrt(g.used) - 1));
+        return safety * apart(l, l->answer, l->twice, i) * growth / (growth - 1);
+    double near = apart(l, l->half, l->answer, i), far = coarse_difference(l, i);
     if (typical) /* what only coarser levels move far is no part of the answer */
         far = fmin(far, c->coarse_limit);
-    return safety * fmax(near, far / (g.coarse * (g.used - 1)));
+    return safety * fmax(near, far / coarse) / (growth - 1);
 }
 
 static void find_shares(const accuracy_ladder *l, double *shares)
@@ -223,6 +201,6 @@ double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares
         error[i] *= l->scale ? l->scale[i] : 1;
     }
     find_shares(l, shares);
-    double observed = c.typical.observed;
+    double observed = c.typical;
     return isfinite(observed) && observed != 0 ? log2(fabs(observed)) : NAN;
 }

@@ -9,20 +9,15 @@
 /* Answers at the points of one of them. All settings are one level coarser in `half`, two in
    `quarter`; in each of `refined` one setting is back at the level of `half`; in `twice` all are a
    level finer. A level halves a count and quadruples a tolerance. All but the answer may be NULL:
-   there is none, `twice` is not looked at where there are both coarser ones, and `between`, of all
-   settings half a level coarser, is of a single number alone. */
+   there is none, and `twice` is not looked at where there are both coarser ones. */
 typedef struct accuracy_ladder {
     size_t count;
     const double *at;    /* where the numbers are, which never falls; NULL: the index */
     const double *scale; /* what the error of each is relative to; NULL: 1 */
-    const double *answer, *between, *half, *quarter, *twice;
+    const double *answer, *half, *quarter, *twice;
     const double *const *refined;
     size_t refined_count;
 } accuracy_ladder;
-
-/* Whether a level between is worth its cost: a single number moves so much less from the finest
-   level than between the others that this may be chance. */
-bool accuracy_may_be_chance(const accuracy_ladder *ladder);
 
 /*
  * Writes the estimated error of each number of the answer into error[count], and into

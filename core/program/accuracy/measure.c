@@ -44,6 +44,9 @@ typedef struct knob {
     accuracy_setting setting;
 } knob;
 
+/* Twins may agree by chance: an error is told to this share of what the file asks for. */
+static const double least_error = 0.05;
+
 /* What is at work while errors are measured. */
 typedef struct measurement {
     accuracy_record *record;
@@ -51,7 +54,7 @@ typedef struct measurement {
     const ff_pipeline *answer;
     knob *knobs;
     size_t count;
-    accuracy_twin between, half, quarter, twice, *refined; /* one for each knob */
+    accuracy_twin half, quarter, twice, *refined; /* one for each knob */
     bool stopped;
 } measurement;
 
@@ -127,12 +130,11 @@ static void note_failure(measurement *m, const char *why)
 }
 
 /* How much coarser the settings of a twin are. */
-typedef enum level { TWICE, BETWEEN, HALF, QUARTER } level;
+typedef enum level { TWICE, HALF, QUARTER } level;
 
 static const char *assignment_at(const accuracy_setting *setting, level at)
 {
-    const char *const sets[] = {setting->finer, setting->between, setting->coarser[0],
-                                setting->coarser[1]};
+    const char *const sets[] = {setting->finer, setting->coarser[0], setting->coarser[1]};
     return sets[at];
 }
 
@@ -243,8 +245,6 @@ static accuracy_ladder ladder_of(const measurement *m, const accuracy_error *e)
                              .at = along ? along->data : NULL,
                              .scale = scale,
                              .answer = e->result->data,
-                             .between =
-                                 result->count == 1 ? numbers_of_twin(m, e, &m->between) : NULL,
                              .half = numbers_of_twin(m, e, &m->half),
                              .quarter = numbers_of_twin(m, e, &m->quarter),
                              .twice = numbers_of_twin(m, e, &m->twice)};
@@ -252,7 +252,6 @@ static accuracy_ladder ladder_of(const measurement *m, const accuracy_error *e)
 
 static void run_ladder(measurement *m)
 {
-    bool chance = false;
     run_twin(m, HALF, SIZE_MAX, &m->half);
     if (!m->stopped && m->half.good)
         run_twin(m, QUARTER, SIZE_MAX, &m->quarter);
@@ -260,12 +259,6 @@ static void run_ladder(measurement *m)
         run_twin(m, TWICE, SIZE_MAX, &m->twice);
     for (size_t i = 0; m->count > 1 && m->quarter.good && i < m->count && !m->stopped; i++)
         run_twin(m, QUARTER, i, &m->refined[i]);
-    for (size_t i = 0; i < m->record->count && !m->stopped; i++) {
-        const accuracy_ladder levels = ladder_of(m, &m->record->errors[i]);
-        chance = chance || accuracy_may_be_chance(&levels);
-    }
-    if (chance)
-        run_twin(m, BETWEEN, SIZE_MAX, &m->between);
 }
 
 static void measure_output(const measurement *m, accuracy_error *e)
@@ -281,6 +274,8 @@ static void measure_output(const measurement *m, accuracy_error *e)
         return;
     e->bar = take(m, levels.count, sizeof *e->bar);
     e->order = accuracy_estimate(&levels, e->bar, shares);
+    for (size_t i = 0; i < levels.count; i++) /* fmax drops NaN */
+        e->bar[i] = fmax(e->bar[i], least_error * e->goal * levels.scale[i]);
     find_relative(levels.at, e);
     add_parts(m, shares, e);
     add_changes(m, e);
@@ -392,7 +387,6 @@ bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *e
     run_ladder(&m);
     if (!m.stopped)
         conclude(&m);
-    accuracy_twin_free(&m.between);
     accuracy_twin_free(&m.half);
     accuracy_twin_free(&m.quarter);
     accuracy_twin_free(&m.twice);

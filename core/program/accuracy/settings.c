@@ -53,7 +53,6 @@ size_t accuracy_settings(const ff_stage *stage, memory_arena *arena,
                                            .param = i,
                                            .open = !stage->params[i].place.source,
                                            .finer = accuracy_setting_at(stage, i, -1, arena),
-                                           .between = accuracy_setting_at(stage, i, 0.5, arena),
                                            .coarser = {accuracy_setting_at(stage, i, 1, arena),
                                                        accuracy_setting_at(stage, i, 2, arena)}};
     }

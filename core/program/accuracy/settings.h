@@ -12,9 +12,8 @@ typedef struct accuracy_setting {
     const char *name;
     size_t param; /* of the stage */
     bool open;    /* the file leaves it to the model's preset */
-    /* "film.cells=256": finer by a level, coarser by half of one, by one, by two; NULL: its limits
-       forbid it */
-    const char *finer, *between, *coarser[2];
+    /* "film.cells=256": finer by a level, coarser by one, by two; NULL: its limits forbid it */
+    const char *finer, *coarser[2];
 } accuracy_setting;
 
 enum { ACCURACY_MOST_SETTINGS = 16 };

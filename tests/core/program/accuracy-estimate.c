@@ -42,20 +42,6 @@ static void test_high_orders(void)
     }
 }
 
-/* A number that hardly moves to the next level but does beyond may do so by chance: then a level
-   between is asked for, and counts. */
-static void test_chance(void)
-{
-    double answer = 1, half = 1 + 1e-6, quarter = 1.01, between = 1.002, error, share;
-    accuracy_ladder l = {.count = 1, .answer = &answer, .half = &half, .quarter = &quarter};
-    check_true("another level is wanted", accuracy_may_be_chance(&l));
-    l.between = &between;
-    accuracy_estimate(&l, &error, &share);
-    check_true("it counts", error >= 0.002);
-    half = 1.003;
-    check_true("order 1.7 is none", !accuracy_may_be_chance(&l));
-}
-
 /* No order, or two levels: three times what lies between them, as Roache has it. */
 static void test_two_levels(void)
 {
@@ -143,6 +129,46 @@ static void test_jump(void)
     check_near("what is typical", accuracy_typical(error, NULL, POINTS), safety * 1e-3, 1e-9);
 }
 
+/* A jump that each level has elsewhere, at both ends of a part where the error is known: that part
+   keeps its own error, although the neighbours of all jumps are more than 5 % of the series. */
+static void test_moving_jumps(void)
+{
+    double answer[POINTS], half[POINTS], quarter[POINTS], error[POINTS], share;
+    for (int i = 0; i < POINTS; i++) {
+        int at = i % 100;
+        answer[i] = 1 + 1e-3 + (at < 20);
+        half[i] = 1 + 4e-3 + (at < 22);
+        quarter[i] = 1 + 16e-3 + (at < 24);
+    }
+    accuracy_ladder l = {.count = POINTS, .answer = answer, .half = half, .quarter = quarter};
+    accuracy_estimate(&l, error, &share);
+    check_near("in between", error[19], safety * 1e-3, 1e-9);
+    check_near("where a coarser level jumps", error[23], safety * 1e-3, 1e-9);
+    check_true("at the jump", error[20] >= 1);
+    check_near("what is typical", accuracy_typical(error, NULL, POINTS), safety * 1e-3, 1e-9);
+}
+
+/* What is typical is so relative to the scale of each number, as the error is. */
+static void test_scales(void)
+{
+    double answer[POINTS], half[POINTS], quarter[POINTS], scale[POINTS], error[POINTS], share;
+    for (int i = 0; i < POINTS; i++) {
+        scale[i] = i % 10 ? 1 : 100;
+        answer[i] = scale[i] * (1 + 1e-3);
+        half[i] = scale[i] * (1 + 4e-3);
+        quarter[i] = scale[i] * (1 + 16e-3);
+    }
+    accuracy_ladder l = {.count = POINTS,
+                         .at = NULL,
+                         .scale = scale,
+                         .answer = answer,
+                         .half = half,
+                         .quarter = quarter};
+    check_near("order", accuracy_estimate(&l, error, &share), 2, 1e-9);
+    for (int i = 0; i < POINTS; i++)
+        check_near("error", error[i], safety * 1e-3 * scale[i], 1e-9);
+}
+
 /* 95 % of the length, however the points lie; of few points all. */
 static void test_typical(void)
 {
@@ -176,13 +202,14 @@ int main(void)
 {
     test_orders();
     test_high_orders();
-    test_chance();
     test_two_levels();
     test_a_finer_level();
     test_oscillation();
     test_cancelling_settings();
     test_series();
     test_jump();
+    test_moving_jumps();
+    test_scales();
     test_typical();
     test_no_difference();
     return check_done();
