@@ -37,10 +37,8 @@ static const double least_part = 0.1;
 /* So is one that takes settings finer than they may be by more levels: an order is no better known.
  */
 static const double beyond = 0.5;
-/* An error that falls by less when its settings are refined beyond the presets is given up. */
-static const double least_gain = 1.25;
-/* Growth of errors from level to level: between those of orders 1/2 and 2, as estimates have it. */
-static const double least_order = 0.5, most_order = 2;
+/* An order below 1 between twins is not relied on: the attempts themselves show it then. */
+static const double least_order = 1, most_order = 2;
 enum { MOST_ATTEMPTS = 8 };
 
 /* A setting that the file leaves open. */
@@ -54,8 +52,10 @@ typedef struct knob {
 /* An output whose error was too large. */
 typedef struct target {
     size_t stage, output;
-    double error; /* of the last attempt */
-    bool pursued; /* the last attempt was refined for it, beyond the presets */
+    double error;  /* of the last attempt, but for what no setting brings down */
+    bool pursued;  /* the last attempt was refined for it, beyond the presets, */
+    double levels; /* by so many levels at most */
+    double order;  /* that attempts showed so; INFINITY: none did */
     bool given_up;
 } target;
 
@@ -235,11 +235,19 @@ static knob *knob_of(control *c, const accuracy_part *part)
     return NULL;
 }
 
-/* Levels that bring an error down to a share of it. */
-static double levels_for(const accuracy_error *e, double share)
+/* The order that the last attempt shows; 0: refining did not help. */
+static double order_shown(const target *t, double error)
+{
+    double order = log2(t->error / error) / t->levels;
+    return order > 0 ? order : 0; /* NaN is none */
+}
+
+/* Levels that bring an error down to a share of it, by the order of its twins or that of attempts
+   where this is less. */
+static double levels_for(const accuracy_error *e, const target *t, double share)
 {
     double order = isnan(e->order) ? 1 : fmin(fmax(e->order, least_order), most_order);
-    return fmax(-log2(share) / order, 0);
+    return share < 1 ? -log2(share) / fmin(order, t->order) : 0;
 }
 
 static bool is_in_reach(const knob *k, double levels)
@@ -253,6 +261,7 @@ static void refine(control *c, knob *k, double levels, target *t)
 {
     double level = k->measured - fmin(levels, most_levels);
     t->pursued = t->pursued && k->measured <= 0;
+    t->levels = fmax(t->levels, k->measured - level);
     move(c, k, fmin(k->level, k->measured > 0 ? fmax(level, 0) : level));
 }
 
@@ -262,7 +271,7 @@ static bool refine_all(control *c, const accuracy_error *e, target *t)
     bool moved = false;
     for (size_t i = 0; i < c->count; i++) {
         knob *k = &c->knobs[i];
-        double levels = levels_for(e, reserve * e->goal / e->relative); /* fmin drops NaN */
+        double levels = levels_for(e, t, reserve * e->goal / e->relative); /* fmin drops NaN */
         refine(c, k, fmin(levels, 1), t);
         moved = moved || k->level < k->measured;
     }
@@ -294,20 +303,21 @@ static double cut_of(control *c, const accuracy_error *e, double budget)
 static bool refine_for(control *c, const accuracy_error *e, target *t)
 {
     t->pursued = true;
+    t->levels = 0;
     if (e->part_count == 0)
-        return refine_all(c, e, t);
+        return t->order > 0 && refine_all(c, e, t);
     double cut = cut_of(c, e, reserve * e->goal);
     if (cut < least_part * e->goal)
         return false;
     for (size_t i = 0; i < e->part_count; i++) {
         const knob *k = knob_of(c, &e->parts[i]);
-        if (k && !is_in_reach(k, levels_for(e, cut / e->parts[i].error)))
+        if (k && !is_in_reach(k, levels_for(e, t, cut / e->parts[i].error)))
             return false;
     }
     for (size_t i = 0; i < e->part_count; i++) {
         knob *k = knob_of(c, &e->parts[i]);
         if (k)
-            refine(c, k, levels_for(e, cut / e->parts[i].error), t);
+            refine(c, k, levels_for(e, t, cut / e->parts[i].error), t);
     }
     return true;
 }
@@ -316,7 +326,8 @@ static target *target_of(control *c, const accuracy_error *e)
 {
     const target key = {.stage = (size_t)(e->stage - c->best.run.pipeline->stages),
                         .output = (size_t)(e->result - e->stage->results),
-                        .error = NAN};
+                        .error = NAN,
+                        .order = INFINITY};
     for (size_t i = 0; i < c->target_count; i++)
         if (c->targets[i].stage == key.stage && c->targets[i].output == key.output)
             return &c->targets[i];
@@ -334,6 +345,15 @@ static void settle_doubts(control *c)
             move(c, &c->knobs[i], fmax(c->knobs[i].level - most_levels, 0));
 }
 
+/* The part of an error that refining brings down. */
+static double reducible(control *c, const accuracy_error *e)
+{
+    double sum = 0;
+    for (size_t i = 0; i < e->part_count; i++)
+        sum += knob_of(c, &e->parts[i]) ? e->parts[i].error : 0;
+    return e->part_count ? sum : e->relative;
+}
+
 /* Chooses the settings of the next attempt; false: this one is the answer. */
 static bool go_on(control *c)
 {
@@ -345,9 +365,9 @@ static bool go_on(control *c)
             continue;
         target *t = target_of(c, e);
         bool missed = !(e->relative <= e->goal);
-        bool helps = !t->pursued || e->relative < t->error / least_gain;
-        t->error = e->relative;
-        t->given_up = t->given_up || (missed && !helps);
+        if (t->pursued)
+            t->order = order_shown(t, reducible(c, e));
+        t->error = reducible(c, e);
         t->pursued = false;
         if (missed && !t->given_up)
             t->given_up = !refine_for(c, e, t);
