@@ -3,17 +3,10 @@
 
 #include "../numerics/room.h"
 
+#include <cblas.h>
 #include <stdlib.h>
 #include <string.h>
 #include <suitesparse/cholmod.h>
-
-/* Right-hand sides that are solved at a time: few enough for the cache. */
-enum { BLOCK = 48 };
-
-typedef struct coupling {
-    size_t inside, side;
-    double value;
-} coupling;
 
 typedef struct work {
     const stiffness_sector *sector;
@@ -21,12 +14,13 @@ typedef struct work {
        right side; STIFFNESS_NO_NODE where it is held. */
     size_t *freedom;
     size_t inside, side;
-    coupling *coupling; /* stiffness between inside and sides */
-    size_t couplings;
     cholmod_common common;
-    cholmod_triplet *inner;
+    cholmod_triplet *triplets;
     cholmod_factor *factor;
-    cholmod_dense *known, *solution, *spare[2]; /* a block of columns at a time */
+    size_t *place;                  /* where the factor has a degree of freedom */
+    double *corner;                 /* L_ss, column-major, in the factor's order */
+    cholmod_dense *load, *solution; /* a column for each load, in the factor's order */
+    cholmod_dense *spare[2];
 } work;
 
 static int number_freedoms(work *w)
@@ -61,26 +55,18 @@ static void add_triplet(cholmod_triplet *t, size_t row, size_t column, double va
     t->nnz++;
 }
 
-/* Adds the stiffness of one element: to the matrix of the inside, of which the lower half is kept,
-   to the coupling of inside and sides, and to the sides. */
-static void add_element(work *w, stiffness_condensed *c, size_t element, double k[16][16])
+/* Adds the stiffness of one element to the matrix, of which the lower half is kept. */
+static void add_element(work *w, size_t element, double k[16][16])
 {
-    size_t at[16], inside = w->inside;
+    size_t at[16];
     for (size_t n = 0; n < 16; n++) {
         size_t first = w->freedom[w->sector->element[element][n / 2]];
         at[n] = first == STIFFNESS_NO_NODE ? STIFFNESS_NO_NODE : first + n % 2;
     }
     for (size_t a = 0; a < 16; a++)
-        for (size_t b = 0; b < 16; b++) {
-            if (at[a] == STIFFNESS_NO_NODE || at[b] == STIFFNESS_NO_NODE)
-                continue;
-            if (at[a] < inside && at[b] <= at[a])
-                add_triplet(w->inner, at[a], at[b], k[a][b]);
-            else if (at[a] < inside && at[b] >= inside)
-                w->coupling[w->couplings++] = (coupling){at[a], at[b] - inside, k[a][b]};
-            else if (at[a] >= inside && at[b] >= inside)
-                c->stiffness[(at[b] - inside) * 2 * w->side + at[a] - inside] += k[a][b];
-        }
+        for (size_t b = 0; b < 16; b++)
+            if (at[a] != STIFFNESS_NO_NODE && at[b] != STIFFNESS_NO_NODE && at[b] <= at[a])
+                add_triplet(w->triplets, at[a], at[b], k[a][b]);
 }
 
 static double *column_of(const cholmod_dense *matrix, size_t column)
@@ -88,102 +74,140 @@ static double *column_of(const cholmod_dense *matrix, size_t column)
     return (double *)matrix->x + column * matrix->d;
 }
 
-static void clear(cholmod_dense *matrix)
+/* Analyses and factorises with the sides behind all that lies inside. */
+static int factorise_ordered(work *w, cholmod_sparse *matrix, int *behind, int *order)
 {
-    memset(matrix->x, 0, matrix->nzmax * sizeof(double));
+    for (size_t i = 0; i < matrix->nrow; i++)
+        behind[i] = i >= w->inside;
+    if (!cholmod_camd(matrix, NULL, 0, behind, order, &w->common))
+        return 0;
+    w->factor = cholmod_analyze_p(matrix, order, NULL, 0, &w->common);
+    return w->factor && cholmod_factorize(matrix, w->factor, &w->common);
 }
 
-/* Right-hand sides: columns of the coupling from the side's freedom `first` on. */
-static void set_sides(work *w, size_t first)
+static int factorise(work *w)
 {
-    clear(w->known);
-    for (size_t i = 0; i < w->couplings; i++) {
-        const coupling *c = &w->coupling[i];
-        if (c->side >= first && c->side < first + w->known->ncol)
-            column_of(w->known, c->side - first)[c->inside] += c->value;
+    cholmod_sparse *matrix = cholmod_triplet_to_sparse(w->triplets, w->triplets->nnz, &w->common);
+    size_t all = w->inside + 2 * w->side;
+    int *behind = malloc(all * sizeof *behind), *order = malloc(all * sizeof *order);
+    int done = matrix && behind && order && factorise_ordered(w, matrix, behind, order);
+    cholmod_free_sparse(&matrix, &w->common);
+    free(behind);
+    free(order);
+    if (!done)
+        return STIFFNESS_CONDENSE_MEMORY;
+    const int *permutation = w->factor->Perm;
+    for (size_t i = 0; i < all; i++)
+        w->place[permutation[i]] = i;
+    return w->common.status == CHOLMOD_OK ? STIFFNESS_CONDENSED : STIFFNESS_CONDENSE_SINGULAR;
+}
+
+/* Copies L_ss out of the supernodes, whose columns have the rows of L in order, the diagonal
+   first. */
+static void copy_corner(const work *w)
+{
+    const cholmod_factor *f = w->factor;
+    const int *super = f->super, *rows = f->s, *first_row = f->pi, *first_value = f->px;
+    size_t both = 2 * w->side, inside = w->inside;
+    for (size_t k = 0; k < f->nsuper; k++) {
+        size_t first = (size_t)super[k], height = (size_t)(first_row[k + 1] - first_row[k]);
+        for (size_t j = first; j < (size_t)super[k + 1]; j++) {
+            const double *x = (double *)f->x + first_value[k] + (j - first) * height;
+            for (size_t i = j - first; j >= inside && i < height; i++)
+                w->corner[(j - inside) * both + (size_t)rows[first_row[k] + (int)i] - inside] =
+                    x[i];
+        }
     }
 }
 
 static void set_loads(work *w, size_t parts, const stiffness_nodal *part)
 {
-    clear(w->known);
     for (size_t p = 0; p < parts; p++) {
-        double *to = column_of(w->known, part[p].load);
+        double *to = column_of(w->load, part[p].load);
         for (int k = 0; k < 3; k++) {
             size_t at = w->freedom[part[p].node[k]];
             if (at == STIFFNESS_NO_NODE || at >= w->inside)
                 continue;
-            to[at] += part[p].weight[k] * part[p].direction.x;
-            to[at + 1] += part[p].weight[k] * part[p].direction.y;
+            to[w->place[at]] += part[p].weight[k] * part[p].direction.x;
+            to[w->place[at + 1]] += part[p].weight[k] * part[p].direction.y;
         }
     }
 }
 
-static int factorise(work *w)
+static int solve(work *w, int system, cholmod_dense *known)
 {
-    cholmod_sparse *matrix = cholmod_triplet_to_sparse(w->inner, w->inner->nnz, &w->common);
-    if (matrix)
-        w->factor = cholmod_analyze(matrix, &w->common);
-    int done = w->factor && cholmod_factorize(matrix, w->factor, &w->common);
-    cholmod_free_sparse(&matrix, &w->common);
-    if (!done)
-        return STIFFNESS_CONDENSE_MEMORY;
-    return w->common.status == CHOLMOD_OK ? STIFFNESS_CONDENSED : STIFFNESS_CONDENSE_SINGULAR;
+    return cholmod_solve2(system, w->factor, known, NULL, &w->solution, NULL, &w->spare[0],
+                          &w->spare[1], &w->common);
 }
 
-/* Solves for the right-hand sides and subtracts K_si X from the columns of `to` from `first` on. */
-static int solve_block(work *w, size_t first, size_t columns, double *to)
-{
-    if (!cholmod_solve2(CHOLMOD_A, w->factor, w->known, NULL, &w->solution, NULL, &w->spare[0],
-                        &w->spare[1], &w->common))
-        return 0;
-    for (size_t k = 0; k < w->known->ncol && first + k < columns; k++) {
-        const double *x = column_of(w->solution, k);
-        double *column = to + (first + k) * 2 * w->side;
-        for (size_t i = 0; i < w->couplings; i++)
-            column[w->coupling[i].side] -= w->coupling[i].value * x[w->coupling[i].inside];
-    }
-    return 1;
-}
-
-/* Static condensation (Guyan 1965): with i inside, s on the sides, loads f and K_ii X = [K_is, f],
-   stiffness = K_ss - K_si X_s, pull = -K_si X_f, held = f' X_f. */
-static int condense(work *w, stiffness_condensed *c, size_t parts, const stiffness_nodal *part)
+/* Adds a matrix whose rows, and where it is square columns, are the sides in the factor's order. */
+static void put_in_order(const work *w, const double *from, size_t columns, int square, double *to)
 {
     size_t both = 2 * w->side;
-    for (size_t first = 0; first < both; first += w->known->ncol) {
-        set_sides(w, first);
-        if (!solve_block(w, first, both, c->stiffness))
-            return STIFFNESS_CONDENSE_MEMORY;
+    for (size_t k = 0; k < columns; k++) {
+        const double *column = from + (square ? w->place[w->inside + k] - w->inside : k) * both;
+        for (size_t i = 0; i < both; i++)
+            to[k * both + i] = column[w->place[w->inside + i] - w->inside];
     }
-    set_loads(w, parts, part);
-    if (!solve_block(w, 0, c->loads, c->pull))
-        return STIFFNESS_CONDENSE_MEMORY;
-    for (size_t a = 0; a < c->loads; a++)
-        for (size_t b = 0; b < c->loads; b++) {
-            const double *f = column_of(w->known, b), *x = column_of(w->solution, a);
-            double sum = 0;
-            for (size_t i = 0; i < w->inside; i++)
-                sum += f[i] * x[i];
-            c->held[b * c->loads + a] = sum;
-        }
-    return STIFFNESS_CONDENSED;
+}
+
+/* From L y = f: L_ss y_s, the forces on the sides, and x = L_ii'^-1 y_i with x' f, the compliance.
+ */
+static int condense_loads(work *w, stiffness_condensed *c, double *product)
+{
+    size_t both = 2 * w->side, all = w->inside + both;
+    int n = (int)both, loads = (int)c->loads, rows = (int)all;
+    if (!solve(w, CHOLMOD_L, w->load))
+        return 0;
+    cholmod_dense *y = w->solution;
+    w->solution = NULL;
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, loads, n, 1, w->corner, n,
+                column_of(y, 0) + w->inside, rows, 0, product, n);
+    put_in_order(w, product, c->loads, 0, c->pull);
+    for (size_t k = 0; k < c->loads; k++)
+        memset(column_of(y, k) + w->inside, 0, both * sizeof(double));
+    int done = solve(w, CHOLMOD_Lt, y);
+    if (done)
+        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, loads, loads, rows, 1,
+                    column_of(w->solution, 0), rows, column_of(w->load, 0), rows, 0, c->held,
+                    loads);
+    cholmod_free_dense(&y, &w->common);
+    return done;
+}
+
+/* Static condensation (Guyan 1965) with i inside, s on the sides, loads f: the stiffness K_ss -
+   K_si K_ii^-1 K_is = L_ss L_ss' (George & Liu 1981, Computer solution of large sparse positive
+   definite systems), the forces on the sides -K_si K_ii^-1 f, the compliance f' K_ii^-1 f. */
+static int condense(work *w, stiffness_condensed *c)
+{
+    size_t both = 2 * w->side;
+    int n = (int)both;
+    double *product = malloc(both * (both > c->loads ? both : c->loads) * sizeof *product);
+    int done = product != NULL;
+    if (done) {
+        copy_corner(w);
+        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n, n, n, 1, w->corner, n, w->corner, n,
+                    0, product, n);
+        put_in_order(w, product, both, 1, c->stiffness);
+        done = condense_loads(w, c, product);
+    }
+    free(product);
+    return done ? STIFFNESS_CONDENSED : STIFFNESS_CONDENSE_MEMORY;
 }
 
 static int allocate(work *w, stiffness_condensed *c)
 {
-    size_t elements = w->sector->elements, both = 2 * w->side;
-    /* an element has 16 x 16 entries, 136 of them in the lower half, and fewer than 2 body_rows
-       elements touch a side */
-    w->coupling = malloc(256 * 2 * w->sector->body_rows * sizeof *w->coupling);
-    w->inner = cholmod_allocate_triplet(w->inside, w->inside, 136 * elements, -1, CHOLMOD_REAL,
-                                        &w->common);
-    w->known =
-        cholmod_zeros(w->inside, c->loads > BLOCK ? c->loads : BLOCK, CHOLMOD_REAL, &w->common);
+    size_t both = 2 * w->side, all = w->inside + both;
+    /* an element has 16 x 16 entries, 136 of them in the lower half */
+    w->triplets =
+        cholmod_allocate_triplet(all, all, 136 * w->sector->elements, -1, CHOLMOD_REAL, &w->common);
+    w->load = cholmod_zeros(all, c->loads, CHOLMOD_REAL, &w->common);
+    w->place = malloc(all * sizeof *w->place);
+    w->corner = calloc(both * both, sizeof *w->corner);
     c->stiffness = calloc(both * both, sizeof *c->stiffness);
     c->pull = calloc(both * c->loads, sizeof *c->pull);
     c->held = calloc(c->loads * c->loads, sizeof *c->held);
-    return w->coupling && w->inner && w->known && c->stiffness && c->pull && c->held;
+    return w->triplets && w->load && w->place && w->corner && c->stiffness && c->pull && c->held;
 }
 
 int stiffness_condense(stiffness_condensed *c, const stiffness_sector *sector,
@@ -196,29 +220,32 @@ int stiffness_condense(stiffness_condensed *c, const stiffness_sector *sector,
     *c = (stiffness_condensed){.loads = loads};
     cholmod_start(&w.common);
     w.common.print = 0;
-    /* the one that is best for plane elements; without memory for it CHOLMOD would take another
-       one, whose answer is not the same to the last bit */
+    /* the order is ours, so that no other one is tried; L is read as supernodes */
     w.common.nmethods = 1;
-    w.common.method[0].ordering = CHOLMOD_AMD;
+    w.common.method[0].ordering = CHOLMOD_GIVEN;
+    w.common.supernodal = CHOLMOD_SUPERNODAL;
     if (!number_freedoms(&w) || !allocate(&w, c) || !numerics_has_room(numerics_openmp_room()))
         goto out;
     c->side = w.side;
     for (size_t e = 0; e < sector->elements; e++) {
         stiffness_sector_stiffness(sector, e, material, k);
-        add_element(&w, c, e, k);
+        add_element(&w, e, k);
     }
     result = factorise(&w);
-    if (result == STIFFNESS_CONDENSED)
-        result = condense(&w, c, parts, part);
+    if (result == STIFFNESS_CONDENSED) {
+        set_loads(&w, parts, part);
+        result = condense(&w, c);
+    }
 out:
     cholmod_free_factor(&w.factor, &w.common);
     cholmod_free_dense(&w.solution, &w.common);
     cholmod_free_dense(&w.spare[0], &w.common);
     cholmod_free_dense(&w.spare[1], &w.common);
-    cholmod_free_dense(&w.known, &w.common);
-    cholmod_free_triplet(&w.inner, &w.common);
+    cholmod_free_dense(&w.load, &w.common);
+    cholmod_free_triplet(&w.triplets, &w.common);
     cholmod_finish(&w.common);
-    free(w.coupling);
+    free(w.place);
+    free(w.corner);
     free(w.freedom);
     return result;
 }
