@@ -11,6 +11,8 @@ if [ "${1:-}" = test ]; then
               slurmctld slurmd slurm-client munge"
     # plugins in other languages; man page and completion
     packages="$packages g++ gfortran rustc mandoc groff-base fish"
+    # Debian packages of the program
+    packages="$packages dpkg-dev"
     # counts of instructions, and what they are
     packages="$packages valgrind binutils"
     # the schema of editors
