@@ -43,13 +43,27 @@ static const ff_param params[] = {
             "the profile shifts do not cancel"),
     FF_LIST("root_diameter", "mm", spur, spec.root_diameter, 0, NULL, NULL, 1e-3, 1e9, 0, 0, 1, 2,
             "root diameters; left out: d + 2 m (x - 1.25)"),
-    FF_QUANTITY("backlash", "mm", spur, spec.backlash, 0, NULL, NULL, 0, 1e3, 0, 0,
-                "total backlash of the mounted pair, twice the half-gap b; left out: what the "
-                "centre distance leaves, 0 where that is left out too"),
+    FF_QUANTITY("backlash", "mm", spur, spec.backlash, 0, NULL, "thickness", 0, 1e3, 0, 0,
+                "total backlash of the mounted pair, twice the half-gap b, whose teeth are thinned "
+                "alike; left out: what "
+                "the thickness of the teeth leaves, which are full where nothing is said of them"),
     FF_ONE_OF("line-of-action|circular", "backlash_measure", spur, spec.backlash_measure, 0,
               "line-of-action",
               "where `backlash` is measured: along the line of action, or as an arc of the working "
               "pitch circle"),
+    FF_LIST("thickness_allowance", "um", spur, spec.allowance, 0, NULL, "thickness", -1e4, 1e4,
+            -1e3, 0, 1, 2,
+            "tooth thickness allowances E_sn of a drawing, arc at the reference circle, one value "
+            "or two; less than 0: thinner "
+            "than the profile shift makes the tooth"),
+    FF_LIST("span", "mm", spur, spec.span, 0, NULL, "thickness", 1e-3, 1e5, 0, 0, 1, 2,
+            "span measures W_k over span_teeth teeth, one value or two"),
+    FF_LIST("span_teeth", "1", spur, spec.span_teeth, 0, NULL, NULL, 2, 1000, 0, 0, 1, 2,
+            "numbers of teeth k that `span` goes over"),
+    FF_LIST("over_pins", "mm", spur, spec.over_pins, 0, NULL, "thickness", 1e-3, 1e5, 0, 0, 1, 2,
+            "measures M_d over two pins (or balls) of pin_diameter, one value or two"),
+    FF_LIST("pin_diameter", "mm", spur, spec.pin_diameter, 0, NULL, NULL, 1e-3, 1e4, 0, 0, 1, 2,
+            "diameters D_M of the pins that `over_pins` goes over"),
     FF_LIST("bore_diameter", "mm", spur, bore, 0, "0 mm", NULL, 0, 1e9, 0, 0, 1, 2,
             "bore diameters, 0: none"),
     FF_LIST("inertia", "kg m2", spur, given_inertia, 0, NULL, NULL, 1e-20, 1e20, 0, 0, 1, 2,
@@ -134,6 +148,8 @@ static void tell_servings(const spur *s)
     const ff_serving rows[] = {
         {1, "stations", "roll_angle|radius_1|radius_2", NULL, NULL},
         {isnan(s->spec.backlash), "backlash_measure", "", NULL, "backlash is not given"},
+        {s->spec.span.count == 0, "span_teeth", "", NULL, "span is not given"},
+        {s->spec.over_pins.count == 0, "pin_diameter", "", NULL, "over_pins is not given"},
         {1, "inertia", "inertia|equivalent_mass", NULL, NULL},
         {1, "tip_relief", form, NULL, NULL},
         {1, "tip_relief_start", form, NULL, NULL},
@@ -156,11 +172,30 @@ static void tell_servings(const spur *s)
     ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
 }
 
+/* A measure of the teeth says nothing without what it was taken over. */
+static ff_status check_tools(const spur *s)
+{
+    const gear_spur_spec *g = &s->spec;
+    if (g->span.count > 0 && g->span_teeth.count == 0)
+        return ff_failf(s->host, FF_INVALID, "span",
+                        "span needs span_teeth, the number of teeth that it goes over");
+    for (size_t i = 0; i < g->span_teeth.count; i++)
+        if (g->span_teeth.data[i] != floor(g->span_teeth.data[i]))
+            return ff_failf(s->host, FF_INVALID, "span_teeth",
+                            "a whole number of teeth is needed, this is %g", g->span_teeth.data[i]);
+    if (g->over_pins.count > 0 && g->pin_diameter.count == 0)
+        return ff_failf(s->host, FF_INVALID, "over_pins",
+                        "over_pins needs pin_diameter, the diameter of the pins");
+    return FF_OK;
+}
+
 static ff_status ready(void *self)
 {
     spur *s = self;
     tell_servings(s);
-    ff_status status = gear_spur_pair_make(s->host, &s->spec, &s->pair);
+    ff_status status = check_tools(s);
+    if (status == FF_OK)
+        status = gear_spur_pair_make(s->host, &s->spec, &s->pair);
     if (status == FF_OK)
         status = set_discs(s);
     gear_flanks_free(&s->flanks);
@@ -239,6 +274,7 @@ static ff_status write_pairs(const spur *s, uint64_t wanted)
         {OUT_TEETH, teeth},
         {OUT_PROFILE_SHIFT, shift},
         {OUT_TOOTH_THICKNESS, p->thickness},
+        {OUT_THICKNESS_ALLOWANCE, p->allowance},
         {OUT_MASS, s->mass},
         {OUT_INERTIA, s->inertia},
         {OUT_ELASTIC_MODULUS, elastic},

@@ -97,32 +97,110 @@ static ff_status mount(const ff_host *host, const gear_spur_spec *g, gear_spur_p
     return FF_OK;
 }
 
-/* Backlash along the line of action. Teeth of full thickness have already
-   j = m cos(a) (z1 + z2) (inv a_w - inv a_tight); the rest is thinning, *thinning. */
-static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p,
-                              double *thinning)
+/* Allowance of gear i, from the arc that half of its pitch angle and what is measured give. */
+static double allowance_of(const gear_spur_spec *g, const gear_spur_pair *p, int i)
+{
+    double z = ff_of_both(&g->teeth, i), base = p->base_radius[i],
+           flank = involute(g->pressure_angle);
+    double half; /* half the angle of the tooth at the reference circle */
+    if (g->span.count > 0) {
+        /* W = (k - 1) p_b + s_b, with the arc of the base circle s_b = 2 r_b (s/(2 r) + inv a) (DIN
+         * 3960) */
+        double others = (ff_of_both(&g->span_teeth, i) - 1) * p->base_pitch;
+        half = (ff_of_both(&g->span, i) - others) / (2 * base) - flank;
+    } else if (g->over_pins.count > 0) {
+        /* The axis of a pin of diameter D lies at the angle a_K with inv a_K = s/(2 r) + inv a +
+           D/(2 r_b) - pi/z; an odd number of teeth puts the pins pi/(2 z) off the diameter (DIN
+           3960). */
+        double pin = ff_of_both(&g->pin_diameter, i);
+        double axis = (ff_of_both(&g->over_pins, i) - pin) / 2;
+        if (fmod(z, 2) == 1)
+            axis /= cos(M_PI / (2 * z));
+        half = involute(acos(fmin(1, base / axis))) - flank - pin / (2 * base) + M_PI / z;
+    } else {
+        return ff_of_both(&g->allowance, i);
+    }
+    return 2 * p->reference_radius[i] * half - p->thickness[i];
+}
+
+/* Refuses a span or pins that touch the teeth beside their flanks. */
+static ff_status check_measure(const ff_host *host, const gear_spur_spec *g,
+                               const gear_spur_pair *p, int i)
+{
+    const char *name = g->span.count > 0 ? "span" : "over_pins";
+    const double base = p->base_radius[i], z = ff_of_both(&g->teeth, i);
+    double radius; /* where flank and tool touch */
+    if (g->span.count > 0) {
+        radius = hypot(base, ff_of_both(&g->span, i) / 2);
+    } else {
+        double pin = ff_of_both(&g->pin_diameter, i),
+               axis = (ff_of_both(&g->over_pins, i) - pin) / 2;
+        if (fmod(z, 2) == 1)
+            axis /= cos(M_PI / (2 * z));
+        double along = sqrt(fmax(0, (axis - base) * (axis + base))) - pin / 2;
+        radius = axis > base && along > 0 ? hypot(base, along) : 0;
+    }
+    if (radius > base && radius < p->tip_radius[i])
+        return FF_OK;
+    return ff_failf(host, FF_INVALID, name,
+                    "gear %d: %s touches the tooth at diameter %.4f mm, and its flank lies between "
+                    "%.4f and %.4f mm; "
+                    "take %s",
+                    i + 1, g->span.count > 0 ? "the span" : "the pin", 2e3 * radius, 2e3 * base,
+                    2e3 * p->tip_radius[i],
+                    g->span.count > 0 ? "another number of teeth in span_teeth"
+                                      : "another pin_diameter");
+}
+
+/* Allowances and backlash. Teeth of full thickness have the backlash
+   j = m cos(a) (z1 + z2) (inv a_w - inv a_tight) along the line of action at this centre distance;
+   allowances A1 and A2 of the arcs add -(A1 + A2) cos(a). */
+static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
     double tight = tight_involute(g), full = 0;
     if (g->centre_distance > 0)
         full = g->module * cos(g->pressure_angle) *
                (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1)) *
                (involute(p->working_angle) - tight);
-    if (full < -rounding * g->module)
+    for (int i = 0; i < 2; i++)
+        p->thickness[i] =
+            g->module * (M_PI_2 + 2 * ff_of_both(&g->shift, i) * tan(g->pressure_angle));
+    bool measured = g->allowance.count > 0 || g->span.count > 0 || g->over_pins.count > 0;
+    if (!isnan(g->backlash)) {
+        double unit = g->backlash_measure == 1 ? cos(p->working_angle) : 1;
+        p->backlash = g->backlash * unit;
+        if (p->backlash < full - rounding * g->module)
+            return ff_failf(host, FF_INVALID, "backlash",
+                            "backlash %g mm is less than the %.4f mm that teeth of these profile "
+                            "shifts have at centre_distance %g mm; state the backlash of the "
+                            "mounted pair, or leave it out",
+                            1e3 * g->backlash, 1e3 * full / unit, 1e3 * p->centre_distance);
+        for (int i = 0; i < 2; i++)
+            p->allowance[i] = -(p->backlash - full) / (2 * cos(g->pressure_angle));
+        return FF_OK;
+    }
+    for (int i = 0; i < 2 && measured; i++)
+        p->allowance[i] = allowance_of(g, p, i);
+    double backlash = full - (p->allowance[0] + p->allowance[1]) * cos(g->pressure_angle);
+    if (backlash < -rounding * g->module && measured)
+        return ff_failf(host, FF_INVALID,
+                        g->span.count > 0        ? "span"
+                        : g->over_pins.count > 0 ? "over_pins"
+                                                 : "thickness_allowance",
+                        "teeth with thickness allowances %.4g and %.4g mm jam by %.4g mm at "
+                        "centre_distance %g mm; they "
+                        "must sum to %.4g mm or less",
+                        1e3 * p->allowance[0], 1e3 * p->allowance[1], -1e3 * backlash,
+                        1e3 * p->centre_distance, 1e3 * full / cos(g->pressure_angle));
+    if (backlash < -rounding * g->module)
         return ff_failf(host, FF_INVALID, "centre_distance",
                         "at centre_distance %g mm teeth of these profile shifts do not fit into "
-                        "each other; it must be at least %.4f mm",
+                        "each other; it must be at least %.4f mm, or give thickness_allowance, "
+                        "span, over_pins or backlash",
                         1e3 * p->centre_distance,
                         1e3 * (p->base_radius[0] + p->base_radius[1]) /
                             cos(involute_inverse(tight)));
-    double unit = g->backlash_measure == 1 ? cos(p->working_angle) : 1;
-    p->backlash = isnan(g->backlash) ? fmax(full, 0) : g->backlash * unit;
-    if (p->backlash < full - rounding * g->module)
-        return ff_failf(host, FF_INVALID, "backlash",
-                        "backlash %g mm is less than the %.4f mm that teeth of these profile "
-                        "shifts have at centre_distance %g mm; state the backlash of the mounted "
-                        "pair, or leave it out",
-                        1e3 * g->backlash, 1e3 * full / unit, 1e3 * p->centre_distance);
-    *thinning = p->backlash - full;
+    p->backlash = fmax(backlash, 0);
     return FF_OK;
 }
 
@@ -177,15 +255,12 @@ static double thickness_at(const gear_spur_spec *g, const gear_spur_pair *p, int
            (arc / (2 * p->reference_radius[i]) + involute(g->pressure_angle) - involute(angle));
 }
 
-static ff_status set_thickness(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p,
-                               double thinning)
+static ff_status set_thickness(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
     double pitch = 2 * p->pitch_radius[0] * M_PI / ff_of_both(&g->teeth, 0);
     double filled = p->backlash / cos(p->working_angle);
     for (int i = 0; i < 2; i++) {
-        p->thickness[i] =
-            g->module * (M_PI_2 + 2 * ff_of_both(&g->shift, i) * tan(g->pressure_angle));
-        double arc = p->thickness[i] - thinning / (2 * cos(g->pressure_angle));
+        double arc = p->thickness[i] + p->allowance[i];
         filled += thickness_at(g, p, i, arc, p->pitch_radius[i]);
         p->tip_thickness[i] = thickness_at(g, p, i, arc, p->tip_radius[i]);
         if (!(p->tip_thickness[i] > 0))
@@ -195,7 +270,7 @@ static ff_status set_thickness(const ff_host *host, const gear_spur_spec *g, gea
                             "its %s must be less%s",
                             i + 1, 2e3 * p->tip_radius[i],
                             ff_of_both(&g->tip_diameter, i) > 0 ? "tip_diameter" : "profile_shift",
-                            thinning > 0 ? ", or the backlash" : "");
+                            p->allowance[i] < 0 ? ", or the backlash" : "");
     }
     p->pitch_error = fabs(filled / pitch - 1);
     return FF_OK;
@@ -261,7 +336,6 @@ static double form_margin(const gear_spur_spec *g, const gear_spur_pair *p)
 
 ff_status gear_spur_pair_make(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
-    double thinning = 0;
     *p = (gear_spur_pair){0};
     for (int i = 0; i < 2; i++) {
         p->reference_radius[i] = g->module * ff_of_both(&g->teeth, i) / 2;
@@ -272,11 +346,13 @@ ff_status gear_spur_pair_make(const ff_host *host, const gear_spur_spec *g, gear
     if (status == FF_OK)
         status = mount(host, g, p);
     if (status == FF_OK)
-        status = set_backlash(host, g, p, &thinning);
+        status = set_backlash(host, g, p);
     if (status == FF_OK)
         status = set_depths(host, g, p);
+    for (int i = 0; i < 2 && status == FF_OK && (g->span.count > 0 || g->over_pins.count > 0); i++)
+        status = check_measure(host, g, p, i);
     if (status == FF_OK)
-        status = set_thickness(host, g, p, thinning);
+        status = set_thickness(host, g, p);
     if (status == FF_OK)
         status = set_path(host, g, p);
     if (status == FF_OK)

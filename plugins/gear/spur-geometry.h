@@ -19,14 +19,20 @@ typedef struct gear_spur_spec {
     ff_reals shift;                       /* profile shift coefficients */
     double centre_distance;               /* not given: zero backlash with these shifts */
     ff_reals tip_diameter, root_diameter; /* not given: standard */
-    double backlash;          /* of the mounted pair; not given: what the centre distance leaves */
+    /* How thick the teeth are: one of four, or none for teeth of full thickness. */
+    double backlash;          /* of the mounted pair, which thins both gears' teeth alike */
     int32_t backlash_measure; /* 1: as an arc of the working pitch circle */
+    ff_reals allowance;       /* arc at the reference circle, less than 0: thinner */
+    ff_reals span;            /* over span_teeth teeth */
+    ff_reals over_pins;       /* over two pins of pin_diameter */
+    ff_reals span_teeth, pin_diameter;
 } gear_spur_spec;
 
 typedef struct gear_spur_pair {
     double reference_radius[2], base_radius[2], pitch_radius[2], tip_radius[2], root_radius[2];
-    double thickness[2];     /* arc at the reference circle, without backlash */
-    double tip_thickness[2]; /* arc at the tip circle, backlash deducted */
+    double thickness[2];     /* arc at the reference circle of teeth of full thickness */
+    double allowance[2];     /* what the actual arc is more */
+    double tip_thickness[2]; /* arc at the tip circle, allowance deducted */
     double centre_distance, working_angle;
     double backlash; /* along the line of action */
     double base_pitch;

@@ -71,7 +71,7 @@ const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS] = {
     {.name = "profile_shift", .unit = "1", .doc = "profile shift coefficients", .dims = "gear"},
     {.name = "tooth_thickness",
      .unit = "m",
-     .doc = "tooth thickness as an arc of the reference circle, backlash not deducted",
+     .doc = "tooth thickness as an arc of the reference circle, as the profile shift makes it",
      .dims = "gear"},
     {.name = "mass",
      .unit = "kg",
@@ -110,5 +110,10 @@ const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS] = {
     {.name = "roughness",
      .unit = "m",
      .doc = "root mean square roughness of the flanks, 0: not given",
+     .dims = "gear"},
+    {.name = "thickness_allowance",
+     .unit = "m",
+     .doc = "by how much the tooth is thicker than tooth_thickness, as an arc of the reference "
+            "circle; less than 0: thinner",
      .dims = "gear"},
 };

@@ -43,6 +43,7 @@ enum {
     OUT_PITCH_DEVIATION_1,
     OUT_PITCH_DEVIATION_2,
     OUT_ROUGHNESS,
+    OUT_THICKNESS_ALLOWANCE,
     GEAR_SPUR_OUTPUTS
 };
 extern const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS];

@@ -32,9 +32,6 @@ static ff_status check_gear(const ff_host *host, const stiffness_gear *g, const 
     if (!(g->reference_radius >= g->base_radius))
         return ff_failf(host, FF_INVALID, "gear.reference_radius",
                         "gear %d: the reference circle lies inside the base circle", gear + 1);
-    if (!(g->thickness > 0))
-        return ff_failf(host, FF_INVALID, "gear.backlash",
-                        "gear %d: the backlash leaves no tooth at the reference circle", gear + 1);
     if (!(g->rim_radius < g->root_radius))
         return ff_failf(host, FF_INVALID, rim->count ? "rim_radius" : "gear.bore_radius",
                         "gear %d: the rim radius %.6g mm must be less than the root radius "
@@ -55,7 +52,7 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const ff_rea
         {STIFFNESS_IN_MODULUS, &g->elastic_modulus}, {STIFFNESS_IN_TEETH, &g->teeth},
     };
     size_t i = (size_t)gear;
-    double bore = 0, backlash = 0;
+    double bore = 0, backlash = 0, allowance = 0;
     ff_status status = FF_OK;
     for (size_t k = 0; k < sizeof positive / sizeof positive[0] && status == FF_OK; k++)
         status = read_positive(host, in, positive[k].row, i, positive[k].to);
@@ -65,6 +62,8 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const ff_rea
         status = stiffness_input_read(host, in, STIFFNESS_IN_BORE, i, &bore);
     if (status == FF_OK && in[STIFFNESS_IN_BACKLASH].data)
         status = stiffness_input_read(host, in, STIFFNESS_IN_BACKLASH, 0, &backlash);
+    if (status == FF_OK && in[STIFFNESS_IN_ALLOWANCE].data)
+        status = stiffness_input_read(host, in, STIFFNESS_IN_ALLOWANCE, i, &allowance);
     if (status != FF_OK)
         return status;
     if (!(backlash >= 0))
@@ -74,8 +73,15 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const ff_rea
                     : bore > 0 ? bore
                                : g->root_radius / default_body_ratio;
     g->full_thickness = g->thickness;
-    /* the backlash is an arc of the base circle, half of it on either gear */
-    g->thickness -= backlash / 2 * g->reference_radius / g->base_radius;
+    /* a backlash without its cause is an arc of the base circle, half of it on either gear */
+    g->thickness += in[STIFFNESS_IN_ALLOWANCE].data
+                        ? allowance
+                        : -backlash / 2 * g->reference_radius / g->base_radius;
+    if (!(g->thickness > 0))
+        return ff_failf(host, FF_INVALID,
+                        in[STIFFNESS_IN_ALLOWANCE].data ? "gear.thickness_allowance"
+                                                        : "gear.backlash",
+                        "gear %d: it leaves no tooth at the reference circle", gear + 1);
     return check_gear(host, g, rim, gear);
 }
 

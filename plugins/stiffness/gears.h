@@ -12,8 +12,8 @@ typedef struct stiffness_gear {
     double teeth;
     double base_radius, reference_radius, root_radius;
     double rim_radius;     /* inside which the body is rigid */
-    double thickness;      /* arc at the reference circle, backlash deducted */
-    double full_thickness; /* backlash not deducted */
+    double thickness;      /* arc at the reference circle */
+    double full_thickness; /* as the profile shift makes it */
     double elastic_modulus, poisson_ratio;
     double roll_low, roll_tip; /* own roll angles of its lowest contact and of its tip */
 } stiffness_gear;

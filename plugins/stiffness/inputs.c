@@ -43,7 +43,7 @@ const ff_port stiffness_inputs[STIFFNESS_INPUTS] = {
     {.name = "gear.bore_radius", .unit = "m", .doc = "bore; 0: none", .dims = "gear"},
     {.name = "gear.tooth_thickness",
      .unit = "m",
-     .doc = "arc of the tooth at the reference circle, backlash not deducted",
+     .doc = "arc of the tooth at the reference circle, thickness_allowance not added",
      .dims = "gear"},
     {.name = "gear.working_pressure_angle",
      .unit = "rad",
@@ -54,8 +54,14 @@ const ff_port stiffness_inputs[STIFFNESS_INPUTS] = {
     {.name = "gear.poisson_ratio", .unit = "1", .doc = "Poisson's ratio", .dims = "gear"},
     {.name = "gear.backlash",
      .unit = "m",
-     .doc = "backlash along the line of action: half of it is taken off each gear's tooth",
+     .doc = "backlash along the line of action: without thickness_allowance half of it is taken "
+            "off each gear's tooth",
      .dims = "",
+     .flags = FF_OPTIONAL},
+    {.name = "gear.thickness_allowance",
+     .unit = "m",
+     .doc = "by how much the tooth is thicker than tooth_thickness; less than 0: thinner",
+     .dims = "gear",
      .flags = FF_OPTIONAL},
 };
 
