@@ -215,6 +215,32 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, int i)
     const ff_model name = {FF_HEAD(type, name##_create), .outputs = FF_TABLE(name##_output),       \
                            .service = name##_service, .destroy = free, __VA_ARGS__}
 
+/* A rheology that offers flankfilm.rheology/2, too: the instance has a member `service_2` beside
+   `service`. */
+#define FF_RHEOLOGY_2_LAW(name, type, flow, shear, rate, ...)                                      \
+    static ff_status name##_create(const ff_host *host, void **self)                               \
+    {                                                                                              \
+        type *ff_self = calloc(1, sizeof *ff_self);                                                \
+        if (!ff_self)                                                                              \
+            return FF_NOMEM;                                                                       \
+        ff_self->host = host;                                                                      \
+        ff_self->service = (ff_rheology){sizeof(ff_rheology), ff_self, flow, shear};               \
+        ff_self->service_2 = (ff_rheology_2){sizeof(ff_rheology_2), ff_self, rate};                \
+        *self = ff_self;                                                                           \
+        return FF_OK;                                                                              \
+    }                                                                                              \
+    static const void *name##_service(void *self, uint32_t row)                                    \
+    {                                                                                              \
+        type *ff_self = self;                                                                      \
+        return row == 0 ? (const void *)&ff_self->service                                          \
+                        : (row == 1 ? &ff_self->service_2 : NULL);                                 \
+    }                                                                                              \
+    static const ff_port name##_output[] = {                                                       \
+        {"rheology", "", "the law", "", FF_RHEOLOGY_ID, 0, NULL},                                  \
+        {"rate", "", "shear rate over shear stress", "", FF_RHEOLOGY_2_ID, 0, NULL}};              \
+    const ff_model name = {FF_HEAD(type, name##_create), .outputs = FF_TABLE(name##_output),       \
+                           .service = name##_service, .destroy = free, __VA_ARGS__}
+
 /* Defines what the object exports: one descriptor or several. */
 #define FF_EXPORT_MODELS(...)                                                                      \
     const ff_model *const *flankfilm_models_v1(void)                                               \

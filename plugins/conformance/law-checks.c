@@ -98,10 +98,38 @@ static ff_status call(const conformance_function *function, const void *table, c
     return function->call(table, b->n, in, speed, out);
 }
 
+/* A test of one function, by its table and one speed. */
+typedef bool function_test(checking *, const conformance_function *, const void *, double);
+
+/* Tests the functions of the service of one output. */
+static bool test_output(checking *c, void *instance, uint32_t output, function_test *test)
+{
+    const ff_fixture *fixture = c->fixture;
+    const ff_port *row = output_row(fixture->model, output);
+    const void *table = NULL;
+    bool good = true;
+    for (size_t k = 0; k < conformance_function_count && good; k++) {
+        const conformance_function *f = &conformance_functions[k];
+        if (!row->service || strcmp(row->service, f->service) != 0)
+            continue;
+        table = table ? table : fixture->service(fixture->ctx, instance, output);
+        if (!table)
+            return ff_check_failf(fixture, "service gave no table for \"%s\"", row->name);
+        if (*(const size_t *)table < f->size)
+            return ff_check_failf(fixture,
+                                  "the table for \"%s\" says a size of %zu bytes, but that of the "
+                                  "interface has %zu",
+                                  row->name, *(const size_t *)table, f->size);
+        for (size_t v = 0; v < f->speed_count && good; v++) {
+            step(fixture, "", f->name);
+            good = test(c, f, table, f->speeds[v]);
+        }
+    }
+    return good;
+}
+
 /* Calls `test` for each service function of a few instances, and each speed of the function. */
-static void for_each_function(const ff_fixture *fixture,
-                              bool (*test)(checking *, const conformance_function *, const void *,
-                                           double))
+static void for_each_function(const ff_fixture *fixture, function_test *test)
 {
     const ff_model *model = fixture->model;
     checking c = {.fixture = fixture, .random = {42}};
@@ -110,27 +138,8 @@ static void for_each_function(const ff_fixture *fixture,
         void *instance = fixture->open(fixture->ctx);
         if (!instance)
             return;
-        for (size_t i = 0; i < model->output_count && good; i++) {
-            const char *id = output_row(model, i)->service;
-            bool ours = id && !strcmp(id, conformance_functions[0].service);
-            const void *table = ours ? fixture->service(fixture->ctx, instance, (uint32_t)i) : NULL;
-            if (ours && !table)
-                good = ff_check_failf(fixture, "service gave no table for \"%s\"",
-                                      output_row(model, i)->name);
-            if (table && *(const size_t *)table < conformance_functions[0].size)
-                good =
-                    ff_check_failf(fixture,
-                                   "the table for \"%s\" says a size of %zu bytes, but that of the "
-                                   "interface has %zu",
-                                   output_row(model, i)->name, *(const size_t *)table,
-                                   conformance_functions[0].size);
-            for (size_t k = 0; k < conformance_function_count && table && good; k++)
-                for (size_t v = 0; v < conformance_functions[k].speed_count && good; v++) {
-                    step(fixture, "", conformance_functions[k].name);
-                    good = test(&c, &conformance_functions[k], table,
-                                conformance_functions[k].speeds[v]);
-                }
-        }
+        for (size_t i = 0; i < model->output_count && good; i++)
+            good = test_output(&c, instance, (uint32_t)i, test);
         fixture->close(fixture->ctx, instance);
     }
 }
@@ -296,7 +305,8 @@ static bool derivatives(checking *c, const conformance_function *function, const
             double out[CONFORMANCE_RESULTS], found;
             for (size_t j = 0; j < function->axis_count; j++)
                 l.point[j] = draw(function->axes[j], &c->random);
-            double x = l.point[l.axis], h = 0.02 * (axis->logarithmic ? x : 10);
+            double scale = axis->scale > 0 ? axis->scale : 10;
+            double x = l.point[l.axis], h = 0.02 * (axis->logarithmic ? x : scale);
             conformance_value_at(&l, x, out);
             /* twice, so that a kink in the reach of the first is no fault */
             if (conformance_compare_slope(&l, out[i], h, &found) == 1 &&

@@ -8,13 +8,14 @@
 
 #include <stdbool.h>
 
-enum { CONFORMANCE_AXES = 3, CONFORMANCE_RESULTS = 3, CONFORMANCE_SPEEDS = 3 };
+enum { CONFORMANCE_AXES = 4, CONFORMANCE_RESULTS = 3, CONFORMANCE_SPEEDS = 3 };
 
 /* An argument. */
 typedef struct conformance_axis {
     const char *name;
     double low, high; /* where a law is meant to be used */
     bool logarithmic; /* also the scale of its differences */
+    double scale;     /* of its differences where it is not; 0: 10 of its unit */
     bool optional;    /* NULL is legal */
     const double *extremes;
     size_t extreme_count;
@@ -65,7 +66,7 @@ void conformance_check_purity(const ff_fixture *fixture);
 /* law-common.c: arguments of several laws, and one of them: the `eval` of a law of p and T that is
    the number self points at. */
 extern const conformance_axis conformance_pressure, conformance_temperature, conformance_ln_eta,
-    conformance_film;
+    conformance_film, conformance_stress;
 
 ff_status conformance_constant_law(const void *self, size_t n, const double *p, const double *T,
                                    double *value, double *by_p, double *by_T);

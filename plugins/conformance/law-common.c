@@ -4,6 +4,7 @@
 static const double pressures[] = {-1e30, -1e10, -1e6, 0, 1e6, 1e9, 1e10, 1e12, 1e30};
 static const double temperatures[] = {-1e30, 0, 1, 300, 1000, 1e30};
 static const double ln_etas[] = {-1e4, -700, -5, 0, 30, 700, 1e4};
+static const double stresses[] = {-1e30, -1e9, -1, 0, 1, 1e9, 1e30};
 static const double films[] = {1e-300, 1e-15, 1e-9, 1e-6, 1, 1e30};
 
 const conformance_axis conformance_pressure = {.name = "p",
@@ -31,6 +32,12 @@ const conformance_axis conformance_film = {.name = "h",
                                            .logarithmic = true,
                                            .extremes = films,
                                            .extreme_count = sizeof films / sizeof *films};
+const conformance_axis conformance_stress = {.name = "tau",
+                                             .low = -1e8,
+                                             .high = 1e8,
+                                             .scale = 1e6,
+                                             .extremes = stresses,
+                                             .extreme_count = sizeof stresses / sizeof *stresses};
 
 ff_status conformance_constant_law(const void *self, size_t n, const double *p, const double *T,
                                    double *value, double *by_p, double *by_T)

@@ -7,6 +7,7 @@
 #include <flankfilm/laws.h>
 
 #include <math.h>
+#include <string.h>
 
 static ff_status flow(const void *table, size_t n, const double *const *in, double speed,
                       double *const *out)
@@ -20,6 +21,14 @@ static ff_status shear(const void *table, size_t n, const double *const *in, dou
 {
     const ff_rheology *law = table;
     return law->shear(law->self, n, in[0], in[1], in[2], speed, out[0]);
+}
+
+static ff_status rate(const void *table, size_t n, const double *const *in, double speed,
+                      double *const *out)
+{
+    const ff_rheology_2 *law = table;
+    (void)speed;
+    return law->rate(law->self, n, in[2], in[3], in[1], in[0], out[0], out[1], out[2]);
 }
 
 const conformance_function conformance_functions[] = {
@@ -46,6 +55,18 @@ const conformance_function conformance_functions[] = {
      .speed_count = 3,
      .follows_speed = true,
      .call = shear},
+    {.service = FF_RHEOLOGY_2_ID,
+     .name = "rate",
+     .size = sizeof(ff_rheology_2),
+     .axes = {&conformance_stress, &conformance_ln_eta, &conformance_pressure,
+              &conformance_temperature},
+     .axis_count = 4,
+     .results = {"rate", "drate_dtau", "drate_dln_eta"},
+     .by = {0, 0, 1},
+     .result_count = 3,
+     .speed_count = 1,
+     .rising = true,
+     .call = rate},
 };
 const size_t conformance_function_count =
     sizeof conformance_functions / sizeof conformance_functions[0];
@@ -120,9 +141,45 @@ static void newtonian(const ff_fixture *fixture)
     fixture->close(fixture->ctx, instance);
 }
 
+/* At a point, too, shear thins: |rate| >= |tau|/eta; the rate is odd in tau. */
+static void check_rate(const ff_fixture *fixture, const ff_rheology_2 *law)
+{
+    double ln_eta = -7 + 20 * fixture->random(fixture->ctx),
+           p = 2e9 * fixture->random(fixture->ctx), T = 350,
+           tau = 5e7 * fixture->random(fixture->ctx), back = -tau, rate, rate_back,
+           least = tau * exp(-ln_eta);
+    law->rate(law->self, 1, &p, &T, &ln_eta, &tau, &rate, NULL, NULL);
+    law->rate(law->self, 1, &p, &T, &ln_eta, &back, &rate_back, NULL, NULL);
+    if (!(rate >= (1 - 1e-9) * least))
+        ff_check_failf(fixture,
+                       "rate: it is %g 1/s where tau/eta is %g 1/s: stiffer than the Newtonian "
+                       "liquid",
+                       rate, least);
+    else if (!agree(rate, -rate_back))
+        ff_check_failf(fixture, "rate: it is %g 1/s at tau = %g Pa, but %g 1/s at the opposite",
+                       rate, tau, rate_back);
+}
+
+/* Not every rheology offers it. */
+static void check_rates(const ff_fixture *fixture)
+{
+    void *instance = fixture->open(fixture->ctx);
+    const ff_rheology_2 *law = NULL;
+    for (uint32_t i = 0; i < fixture->model->output_count && instance; i++) {
+        const ff_port *row = (const void *)((const char *)fixture->model->outputs +
+                                            i * fixture->model->output_stride);
+        if (row->service && !strcmp(row->service, FF_RHEOLOGY_2_ID))
+            law = fixture->service(fixture->ctx, instance, i);
+    }
+    for (int i = 0; i < POINTS && law; i++)
+        check_rate(fixture, law);
+    fixture->close(fixture->ctx, instance);
+}
+
 static const ff_check checks[] = {
     CONFORMANCE_LAW_CHECKS,
     {"newtonian", "shears no stiffer than a Newtonian liquid, the same both ways", newtonian},
+    {"rates", "so does its shear rate over stress, where it offers one", check_rates},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,

@@ -3,6 +3,7 @@
  * Carreau 1972 in the form of Bair: tau = eta g [1 + (eta g/G)^2]^((n - 1)/2), g = u_s/h. The
  * pressure flow along the sliding sees the slope of this curve, as it does with Ree-Eyring:
  *   psi = dg/dtau = (1 + S^2)^((3 - n)/2) / (eta (1 + n S^2)),   S = eta g/G.
+ * At a point the rate g is that whose stress is tau.
  */
 #include "law.h"
 #include "references.h"
@@ -12,6 +13,7 @@ static const double STRESS_MAX = 1e300; /* Pa */
 typedef struct carreau {
     const ff_host *host;
     ff_rheology service;
+    ff_rheology_2 service_2;
     double limiting_stress_coefficient;
     double G, n; /* Pa, 1 */
 } carreau;
@@ -83,6 +85,83 @@ static ff_status shear(const void *self, size_t count, const double *p, const do
     return outside ? FF_DOMAIN : FF_OK;
 }
 
+/* ln(tau/G) over y = ln S, and its first two derivatives by y. */
+typedef struct stress {
+    double ln, slope, bend;
+} stress;
+
+static stress stress_at(double n, double y)
+{
+    double share = 1 / (1 + exp(fmin(-2 * y, 700))); /* S^2/(1 + S^2) */
+    return (stress){.ln = y + (n - 1) / 2 * log_one_more(2 * y),
+                    .slope = 1 + (n - 1) * share,
+                    .bend = 2 * (n - 1) * share * (1 - share)};
+}
+
+/* ln S whose stress is ln_T. The curve rises, bends down and lies below both of its asymptotes, so
+   that Newton's steps from the larger of them never go too far. */
+static double find_ln_strain(double n, double ln_T)
+{
+    double y = fmax(ln_T, ln_T / n), step = 1;
+    for (int i = 0; i < 60 && fabs(step) > 1e-8; i++) {
+        stress at = stress_at(n, y);
+        step = (ln_T - at.ln) / at.slope;
+        y += step;
+    }
+    return y;
+}
+
+/* The rate of a stress and its derivatives, up to RHEOLOGY_RATE_MAX at ln S = most, which moves
+   with ln(eta); then its tangent. */
+typedef struct sheared {
+    double rate, by_tau, by_ln_eta;
+    int held;
+} sheared;
+
+static sheared rate_at(const carreau *c, double ln_eta, double tau)
+{
+    const double G = fmax(c->G, RHEOLOGY_STRESS_LEAST), top = log(RHEOLOGY_RATE_MAX / G);
+    const double most = fmax(1, top + ln_eta);
+    stress last = stress_at(c->n, most);
+    double ln_T = log(tau / G), fluidity = exp(-ln_eta);
+    if (tau <= 0 || ln_T < -300)
+        return (sheared){.rate = tau * fluidity, .by_tau = fluidity, .by_ln_eta = -tau * fluidity};
+    double y = ln_T < last.ln ? find_ln_strain(c->n, ln_T) : most;
+    stress at = stress_at(c->n, y);
+    double rate = G * exp(y - ln_eta), end = G * exp(fmin(at.ln, ln_T)), ratio = tau / end;
+    double by_tau = rate / (end * at.slope);
+    sheared s = {.rate = rate, .by_tau = by_tau, .by_ln_eta = -rate, .held = ln_T > last.ln};
+    if (!s.held)
+        return s;
+    s.rate = rate * (1 + (ratio - 1) / at.slope);
+    s.by_ln_eta =
+        most > 1 ? -rate * (ratio + (ratio - 1) * at.bend / (at.slope * at.slope)) : -s.rate;
+    return s;
+}
+
+static ff_status rate(const void *self, size_t n, const double *p, const double *T,
+                      const double *ln_eta, const double *tau, double *rate, double *drate_dtau,
+                      double *drate_dln_eta)
+{
+    const carreau *c = self;
+    int outside = 0;
+    (void)T;
+    for (size_t i = 0; i < n; i++) {
+        double size = fmin(fabs(tau[i]), RHEOLOGY_TAU_MAX), slip_slope = 0, slip = 0;
+        int thin = ln_eta[i] < RHEOLOGY_LN_ETA_MIN;
+        sheared s = rate_at(c, fmin(fmax(ln_eta[i], RHEOLOGY_LN_ETA_MIN), 1e6), size);
+        if (c->limiting_stress_coefficient > 0)
+            slip = rheology_slip(size, p[i], c->limiting_stress_coefficient, &slip_slope);
+        rate[i] = copysign(s.rate + slip, tau[i]);
+        if (drate_dtau)
+            drate_dtau[i] = s.by_tau + slip_slope;
+        if (drate_dln_eta)
+            drate_dln_eta[i] = thin ? 0 : copysign(1, tau[i]) * s.by_ln_eta;
+        outside |= s.held || thin || fabs(tau[i]) > RHEOLOGY_TAU_MAX;
+    }
+    return outside ? FF_DOMAIN : FF_OK;
+}
+
 static const ff_param params[] = {
     FF_QUANTITY("G", "MPa", carreau, G, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0, 1e30, 0.01, 50,
                 "stress where shear thinning sets in"),
@@ -91,8 +170,8 @@ static const ff_param params[] = {
     RHEOLOGY_LIMITING_STRESS_ROW(carreau),
 };
 
-FF_RHEOLOGY_LAW(
-    rheology_carreau, carreau, flow, shear, .id = "rheology/carreau", .version = "1.0.0",
+FF_RHEOLOGY_2_LAW(
+    rheology_carreau, carreau, flow, shear, rate, .id = "rheology/carreau", .version = "1.0.0",
     .summary = "shear thinning by a power law above a stress G",
     .reference = "Carreau 1972, Trans. Soc. Rheology 16, 99-127; Bair 2007, High-Pressure Rheology "
                  "for Quantitative Elastohydrodynamics; " RHEOLOGY_LIMITING_STRESS_REFERENCE,

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Newtonian: psi = 1/eta, tau = eta u_s/h. */
+/* Newtonian: psi = 1/eta, tau = eta u_s/h; at a point the rate is tau/eta. */
 #include "law.h"
 #include "references.h"
 
 typedef struct newtonian {
     const ff_host *host;
     ff_rheology service;
+    ff_rheology_2 service_2;
     double limiting_stress_coefficient;
 } newtonian;
 
@@ -54,13 +55,45 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
     return outside ? FF_DOMAIN : FF_OK;
 }
 
+FF_SIMD
+static int64_t rates(const void *self, size_t n, const double *restrict p,
+                     const double *restrict ln_eta, const double *restrict tau,
+                     double *restrict rate, double *restrict by_tau, double *restrict by_ln_eta)
+{
+    const double most = RHEOLOGY_TAU_MAX, thin = RHEOLOGY_LN_ETA_MIN;
+    const double coefficient = ((const newtonian *)self)->limiting_stress_coefficient;
+    const double limited = coefficient > 0 ? 1 : 0, limit = coefficient > 0 ? coefficient : 1;
+    int64_t held = 0;
+    for (size_t i = 0; i < n; i++) {
+        double size = tau[i] < 0 ? -tau[i] : tau[i], sign = tau[i] < 0 ? -1 : 1;
+        double t = size < most ? size : most, slip_slope;
+        double l = ln_eta[i] > thin ? ln_eta[i] : thin, fluidity = ff_exp(-l);
+        double slip = rheology_slip(t, p[i], limit, &slip_slope);
+        rate[i] = sign * (t * fluidity + limited * slip);
+        by_tau[i] = fluidity + limited * slip_slope;
+        by_ln_eta[i] = ln_eta[i] > thin ? -sign * t * fluidity : 0;
+        held |= (size > most) | (ln_eta[i] < thin);
+    }
+    return held;
+}
+
+static ff_status rate(const void *self, size_t n, const double *p, const double *T,
+                      const double *ln_eta, const double *tau, double *rate, double *drate_dtau,
+                      double *drate_dln_eta)
+{
+    (void)T;
+    return rheology_rates(rates, self, n, p, ln_eta, tau, rate, drate_dtau, drate_dln_eta)
+               ? FF_DOMAIN
+               : FF_OK;
+}
+
 static const ff_param params[] = {
     RHEOLOGY_LIMITING_STRESS_ROW(newtonian),
 };
 
-FF_RHEOLOGY_LAW(rheology_newtonian, newtonian, flow, shear, .id = "rheology/newtonian",
-                .version = "1.0.0", .summary = "shear does not change the viscosity",
-                .reference = "Reynolds 1886, Philosophical Transactions 177, "
-                             "157-234; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
-                .bibtex = BIB_Reynolds1886 "\n" BIB_BairWiner1979, .licence = "GPL-3.0-or-later",
-                .params = FF_TABLE(params), .cost = 4e-3);
+FF_RHEOLOGY_2_LAW(rheology_newtonian, newtonian, flow, shear, rate, .id = "rheology/newtonian",
+                  .version = "1.0.0", .summary = "shear does not change the viscosity",
+                  .reference = "Reynolds 1886, Philosophical Transactions 177, "
+                               "157-234; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
+                  .bibtex = BIB_Reynolds1886 "\n" BIB_BairWiner1979, .licence = "GPL-3.0-or-later",
+                  .params = FF_TABLE(params), .cost = 4e-3);

@@ -3,6 +3,7 @@
  * Ree-Eyring: the mean shear stress is tau_m = tau0 asinh(S), S = eta u_s/(tau0 h), and the
  * pressure flow is eased by cosh(tau_m/tau0) (Li & Kahraman 2011, eq. 8a), so that
  *   psi = cosh(asinh S)/eta = sqrt(1/eta^2 + (u_s/(tau0 h))^2).
+ * At a point the rate is (tau0/eta) sinh(tau/tau0), whose slope at tau_m is psi.
  */
 #include "law.h"
 #include "references.h"
@@ -12,8 +13,10 @@ static const double STRESS_MAX = 1e300; /* Pa */
 typedef struct ree_eyring {
     const ff_host *host;
     ff_rheology service;
+    ff_rheology_2 service_2;
     double limiting_stress_coefficient;
-    double tau0; /* Pa */
+    double tau0;   /* Pa */
+    double ln_top; /* of e^x/eta in 1/(Pa s), where the rate reaches its bound */
 } ree_eyring;
 
 FF_SIMD
@@ -68,16 +71,81 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
     return outside ? FF_DOMAIN : FF_OK;
 }
 
+/* sinh(x)/x below 1/2, to the last digits. */
+FF_SIMD_INLINE double flat_sinh(double x)
+{
+    double y = x * x, s = 1 + y / 210;
+    s = 1 + y / 156 * s;
+    s = 1 + y / 110 * s;
+    s = 1 + y / 72 * s;
+    s = 1 + y / 42 * s;
+    s = 1 + y / 20 * s;
+    return 1 + y / 6 * s;
+}
+
+/*
+ * The rate is tau0 sinh(x)/eta, x = |tau|/tau0, up to x = y, where it reaches RHEOLOGY_RATE_MAX;
+ * then its tangent. y moves with ln(eta), which the derivative by it knows: there tau0 e^y/eta is
+ * constant.
+ */
+FF_SIMD
+static int64_t rates(const void *self, size_t n, const double *restrict p,
+                     const double *restrict ln_eta, const double *restrict tau,
+                     double *restrict rate, double *restrict by_tau, double *restrict by_ln_eta)
+{
+    const ree_eyring *r = self;
+    const double most = RHEOLOGY_TAU_MAX, thin = RHEOLOGY_LN_ETA_MIN;
+    const double tau0 = r->tau0 > RHEOLOGY_STRESS_LEAST ? r->tau0 : RHEOLOGY_STRESS_LEAST;
+    const double coefficient = r->limiting_stress_coefficient, top = r->ln_top;
+    const double limited = coefficient > 0 ? 1 : 0, limit = coefficient > 0 ? coefficient : 1;
+    int64_t held = 0;
+    for (size_t i = 0; i < n; i++) {
+        double size = tau[i] < 0 ? -tau[i] : tau[i], sign = tau[i] < 0 ? -1 : 1;
+        double t = size < most ? size : most, slip_slope;
+        double l = ln_eta[i] > thin ? ln_eta[i] : thin;
+        double y = top + l > 1 ? top + l : 1, moves = top + l > 1 ? 1 : 0, x = t / tau0;
+        double beyond = x > y ? x - y : 0;
+        x = x > y ? y : x;
+        double rise = ff_exp(x - l) / 2, fall = ff_exp(-x - l) / 2, slope = rise + fall;
+        double value = x < 0.5 ? x * flat_sinh(x) * ff_exp(-l) : rise - fall;
+        double plain = -(value + slope * beyond);
+        double slip = rheology_slip(t, p[i], limit, &slip_slope);
+        rate[i] = sign * (tau0 * (value + slope * beyond) + limited * slip);
+        by_tau[i] = slope + limited * slip_slope;
+        double by_l = (beyond > 0) & (moves > 0) ? 2 * fall - 2 * fall * beyond - slope : plain;
+        by_ln_eta[i] = ln_eta[i] > thin ? sign * tau0 * by_l : 0;
+        held |= (size > most) | (ln_eta[i] < thin) | (beyond > 0);
+    }
+    return held;
+}
+
+static ff_status rate(const void *self, size_t n, const double *p, const double *T,
+                      const double *ln_eta, const double *tau, double *rate, double *drate_dtau,
+                      double *drate_dln_eta)
+{
+    (void)T;
+    return rheology_rates(rates, self, n, p, ln_eta, tau, rate, drate_dtau, drate_dln_eta)
+               ? FF_DOMAIN
+               : FF_OK;
+}
+
 static const ff_param params[] = {
     FF_QUANTITY("tau0", "MPa", ree_eyring, tau0, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0, 1e30,
                 0.5, 50, "Eyring stress, where shear thinning sets in"),
     RHEOLOGY_LIMITING_STRESS_ROW(ree_eyring),
 };
 
-FF_RHEOLOGY_LAW(rheology_ree_eyring, ree_eyring, flow, shear, .id = "rheology/ree-eyring",
-                .version = "1.0.0", .summary = "shear thinning by a thermally activated flow",
-                .reference =
-                    "Johnson & Tevaarwerk 1977, Proc. R. Soc. A 356, 215-236; Li & Kahraman 2011, "
-                    "Proc. IMechE J, 740-753; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
-                .bibtex = BIB_JohnsonTevaarwerk1977 "\n" BIB_LiKahraman2011 "\n" BIB_BairWiner1979,
-                .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .cost = 8e-3);
+static ff_status ready(void *self)
+{
+    ree_eyring *r = self;
+    r->ln_top = log(2 * RHEOLOGY_RATE_MAX / fmax(r->tau0, RHEOLOGY_STRESS_LEAST));
+    return FF_OK;
+}
+
+FF_RHEOLOGY_2_LAW(
+    rheology_ree_eyring, ree_eyring, flow, shear, rate, .id = "rheology/ree-eyring",
+    .version = "1.0.0", .summary = "shear thinning by a thermally activated flow",
+    .reference = "Johnson & Tevaarwerk 1977, Proc. R. Soc. A 356, 215-236; Li & Kahraman 2011, "
+                 "Proc. IMechE J, 740-753; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
+    .bibtex = BIB_JohnsonTevaarwerk1977 "\n" BIB_LiKahraman2011 "\n" BIB_BairWiner1979,
+    .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .ready = ready, .cost = 8e-3);
