@@ -36,8 +36,8 @@ static void state_of_series(const path *p, double w, double *delta, double *rate
     const dynamics_piece *last = &excitation->pieces[excitation->count - 1];
     double s, slope;
     dynamics_fourier_at(p->z, p->request->harmonics, 0, &s, &slope);
-    *delta = s - last->e - last->e_rate * last->length;
-    *rate = w * (slope - last->e_rate / (2 * M_PI));
+    *delta = s - dynamics_piece_value(last->e, last->degree, last->length);
+    *rate = w * (slope - dynamics_piece_slope(last->e, last->degree, last->length) / (2 * M_PI));
 }
 
 static void read_samples(const path *p, const dynamics_record *record)
@@ -144,7 +144,8 @@ static int start_in_contact(path *p, double w)
         double phase = (double)i / 1024;
         const dynamics_piece *piece = dynamics_excitation_piece(excitation, phase, 0);
         dynamics_fourier_at(p->z, p->request->harmonics, 2 * M_PI * phase, &s, &slope);
-        if (s - piece->e - piece->e_rate * (phase - piece->start) <= excitation->half_gap)
+        if (s - dynamics_piece_value(piece->e, piece->degree, phase - piece->start) <=
+            excitation->half_gap)
             return 0;
     }
     p->z[p->n] = log(w);
@@ -232,9 +233,9 @@ static int solve_at_rest(path *p)
 {
     const dynamics_excitation *excitation = p->request->excitation;
     for (size_t i = 0; i < excitation->count; i++)
-        if (excitation->load != 0 || excitation->pieces[i].e != 0 ||
-            excitation->pieces[i].e_rate != 0)
-            return 0;
+        for (int k = 0; k <= excitation->pieces[i].degree; k++)
+            if (excitation->load != 0 || excitation->pieces[i].e[k] != 0)
+                return 0;
     memset(p->z, 0, p->n * sizeof *p->z);
     p->z[0] = excitation->half_gap;
     return 1;

@@ -109,8 +109,8 @@ void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
         }
     }
     dynamics_coupled_locate(pair, state, &place);
-    state[DYNAMICS_Q] =
-        excitation->load / k + place.half_gap + excitation->pieces[0].e + pair->base * place.turn;
+    state[DYNAMICS_Q] = excitation->load / k + place.half_gap + excitation->pieces[0].e[0] +
+                        pair->base * place.turn;
 }
 
 /* The mesh stiffness at a place of contact: the mean of the values before and behind it, or one of
@@ -122,7 +122,7 @@ static double mesh_stiffness_at(const dynamics_excitation *excitation, double cy
     for (int left = first; left <= last; left++) {
         double at = left && phase < 1e-9 ? phase + 1 : phase;
         const dynamics_piece *piece = dynamics_excitation_piece(excitation, at, left);
-        sum += piece->k + piece->k_rate * (at - piece->start);
+        sum += dynamics_piece_value(piece->k, piece->degree, at - piece->start);
     }
     return sum / (last - first + 1);
 }

@@ -82,9 +82,10 @@ static push push_at(const dynamics_coupled_run *run, double t, const double *y,
     const dynamics_excitation *excitation = pair->excitation;
     const dynamics_piece *piece = run->now->piece;
     double phase = phase_at(run, t), since = phase - piece->start, c = 2 * excitation->zeta;
-    double e = piece->e + piece->e_rate * since, e_rate = piece->e_rate / run->T;
+    double e = dynamics_piece_value(piece->e, piece->degree, since);
+    double e_rate = dynamics_piece_slope(piece->e, piece->degree, since) / run->T;
     double k =
-        piece->k + piece->k_rate * since +
+        dynamics_piece_value(piece->k, piece->degree, since) +
         dynamics_coupled_stiffness_change(pair, place, phase, run->regime.pairs, run->now->mounted);
     push p = {0};
     k = fmax(k, 0);
@@ -409,13 +410,13 @@ static void enter_stretch(dynamics_coupled_run *run, const stretch *next)
 {
     const dynamics_piece *before = run->now->piece;
     double since = run->now->start + run->now->length - before->start;
-    double old = before->e + before->e_rate * since;
+    double old = dynamics_piece_value(before->e, before->degree, since);
     dynamics_place place;
     run->now = next;
     run->t = 0;
     if (!next->jump)
         return;
-    double leap = next->piece->e - old, before_leap, after_leap;
+    double leap = next->piece->e[0] - old, before_leap, after_leap;
     dynamics_coupled_energy(run, &before_leap);
     dynamics_coupled_locate(run->pair, run->y, &place);
     push p = push_at(run, 0, run->y, &place);

@@ -1,70 +1,99 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "excitation.h"
 
+#include "smooth-piece.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 /* The relative size below which a jump or a kink of the excitation is round-off. */
 static const double round_off = 1e-12;
 
-static double end_value(double value, double rate, double length)
+static double end_value(const dynamics_piece *p, const double *c)
 {
-    return value + rate * length;
+    return dynamics_piece_value(c, p->degree, p->length);
 }
 
 /* Whether b carries on the straight lines of a. */
 static int continues(const dynamics_piece *a, const dynamics_piece *b)
 {
     double length = a->length + b->length;
-    return fabs(end_value(a->k, a->k_rate, a->length) - b->k) <= round_off &&
-           fabs(end_value(a->e, a->e_rate, a->length) - b->e) <= round_off &&
-           fabs(a->k_rate - b->k_rate) * length <= round_off &&
-           fabs(a->e_rate - b->e_rate) * length <= round_off;
+    return a->degree == 1 && b->degree == 1 && fabs(end_value(a, a->k) - b->k[0]) <= round_off &&
+           fabs(end_value(a, a->e) - b->e[0]) <= round_off &&
+           fabs(a->k[1] - b->k[1]) * length <= round_off &&
+           fabs(a->e[1] - b->e[1]) * length <= round_off;
 }
 
 static int jumps(const dynamics_piece *a, const dynamics_piece *b)
 {
-    return fabs(end_value(a->k, a->k_rate, a->length) - b->k) > round_off ||
-           fabs(end_value(a->e, a->e_rate, a->length) - b->e) > round_off;
+    return fabs(end_value(a, a->k) - b->k[0]) > round_off ||
+           fabs(end_value(a, a->e) - b->e[0]) > round_off;
 }
 
 static dynamics_piece piece_between(const dynamics_excitation *excitation,
                                     const dynamics_mesh_curves *x, size_t i)
 {
-    dynamics_piece p = {.start = x->phase[i], .length = x->phase[i + 1] - x->phase[i]};
-    p.k = x->stiffness[i] / excitation->stiffness;
-    p.k_rate = (x->stiffness[i + 1] - x->stiffness[i]) / excitation->stiffness / p.length;
+    dynamics_piece p = {.start = x->phase[i], .length = x->phase[i + 1] - x->phase[i], .degree = 1};
+    p.k[0] = x->stiffness[i] / excitation->stiffness;
+    p.k[1] = (x->stiffness[i + 1] - x->stiffness[i]) / excitation->stiffness / p.length;
     if (x->error) {
-        p.e = x->error[i] / excitation->length;
-        p.e_rate = (x->error[i + 1] - x->error[i]) / excitation->length / p.length;
+        p.e[0] = x->error[i] / excitation->length;
+        p.e[1] = (x->error[i + 1] - x->error[i]) / excitation->length / p.length;
     }
     return p;
+}
+
+/* Two phases that differ by round-off mark a jump, too. */
+static int is_jump(const dynamics_mesh_curves *x, size_t i)
+{
+    return x->phase[i + 1] - x->phase[i] <= round_off;
+}
+
+/* Adds the lines from node `first` to `last`, between which nothing jumps. */
+static void add_stretch(dynamics_excitation *excitation, const dynamics_mesh_curves *x,
+                        size_t first, size_t last)
+{
+    for (size_t i = first; i < last;) {
+        dynamics_piece next;
+        size_t to = dynamics_smooth_piece(excitation, x, i, last, &next, &excitation->represented);
+        if (!to) {
+            next = piece_between(excitation, x, i);
+            to = i + 1;
+        }
+        dynamics_piece *before =
+            excitation->count ? &excitation->pieces[excitation->count - 1] : NULL;
+        excitation->represented.lines += to - i;
+        if (before && continues(before, &next))
+            before->length = x->phase[to] - before->start;
+        else
+            excitation->pieces[excitation->count++] = next;
+        i = to;
+    }
 }
 
 int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_mesh_curves *x)
 {
     excitation->count = 0;
     excitation->k_max = 0;
+    excitation->represented = (dynamics_representation){0};
     excitation->pieces = calloc(x->count, sizeof *excitation->pieces);
     if (!excitation->pieces)
         return 0;
     for (size_t i = 0; i < x->count; i++)
         excitation->k_max = fmax(excitation->k_max, x->stiffness[i] / excitation->stiffness);
-    for (size_t i = 0; i + 1 < x->count; i++) {
-        /* two phases that differ by round-off mark a jump, too */
-        if (x->phase[i + 1] - x->phase[i] <= round_off)
-            continue;
-        dynamics_piece next = piece_between(excitation, x, i);
-        dynamics_piece *last =
-            excitation->count ? &excitation->pieces[excitation->count - 1] : NULL;
-        if (last && continues(last, &next))
-            last->length = x->phase[i + 1] - last->start;
-        else
-            excitation->pieces[excitation->count++] = next;
+    for (size_t first = 0, i = 0; i + 1 < x->count; i++) {
+        int ends = i + 2 == x->count || is_jump(x, i + 1);
+        if (is_jump(x, i)) {
+            first = i + 1;
+        } else if (ends) {
+            add_stretch(excitation, x, first, i + 1);
+            first = i + 1;
+        }
     }
     for (size_t i = 0; i < excitation->count; i++)
         excitation->pieces[i].jump =
             jumps(&excitation->pieces[i ? i - 1 : excitation->count - 1], &excitation->pieces[i]);
+    excitation->represented.pieces = excitation->count;
     return 1;
 }
 
@@ -104,7 +133,7 @@ double dynamics_mesh_force(const dynamics_excitation *excitation, double k, doub
 
 double dynamics_rest_stiffness(const dynamics_excitation *excitation)
 {
-    return excitation->pieces[0].k > 0 ? excitation->pieces[0].k : 1;
+    return excitation->pieces[0].k[0] > 0 ? excitation->pieces[0].k[0] : 1;
 }
 
 double dynamics_rest_deflection(const dynamics_excitation *excitation)

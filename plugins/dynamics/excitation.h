@@ -7,7 +7,7 @@
  *
  * in the unit of length `length`, the mean mesh stiffness and the unit of time 1/omega, omega^2 =
  * mean stiffness / equivalent mass. g is the dead zone of half width `half_gap`. k and e are
- * straight between the nodes of a mesh cycle and may jump there.
+ * polynomials between the nodes of a mesh cycle and may jump there.
  */
 #ifndef DYNAMICS_EXCITATION_H
 #define DYNAMICS_EXCITATION_H
@@ -21,14 +21,21 @@ enum {
     DYNAMICS_DAMPING_CLIPPED  /* only while they touch, and they never pull */
 };
 
-/* A stretch of the mesh cycle between nodes: k and e at its start and their change per mesh cycle.
- */
+/* A stretch of the mesh cycle between nodes: the coefficients of k and e in powers of the phase
+   since its start. */
+enum { DYNAMICS_DEGREE = 7 };
 typedef struct dynamics_piece {
     double start, length; /* mesh cycles */
-    double k, k_rate;
-    double e, e_rate;
+    int degree;           /* 1: straight lines */
+    double k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1];
     int jump; /* k or e is discontinuous at the start */
 } dynamics_piece;
+
+/* What the smooth pieces make of the straight lines of a table. */
+typedef struct dynamics_representation {
+    size_t lines, pieces;
+    double at_nodes, between; /* largest difference of k, over the mean stiffness */
+} dynamics_representation;
 
 typedef struct dynamics_excitation {
     dynamics_piece *pieces;
@@ -37,7 +44,48 @@ typedef struct dynamics_excitation {
     double zeta, load, half_gap;
     int damping;
     double length, stiffness, omega; /* units: m, N/m, rad/s */
+    dynamics_representation represented;
 } dynamics_excitation;
+
+/* A polynomial of a piece and its derivatives by the phase. */
+static inline double dynamics_piece_value(const double *c, int degree, double since)
+{
+    double value = c[degree];
+    for (int i = degree - 1; i >= 0; i--)
+        value = c[i] + value * since;
+    return value;
+}
+
+static inline double dynamics_piece_slope(const double *c, int degree, double since)
+{
+    double value = degree * c[degree];
+    for (int i = degree - 1; i >= 1; i--)
+        value = i * c[i] + value * since;
+    return value;
+}
+
+/* The coefficients in powers of the time since a phase, which is that since the start: c moved by
+   `since` and scaled. */
+static inline void dynamics_piece_shift(const double *c, int degree, double since, double scale,
+                                        double *to)
+{
+    for (int i = 0; i <= degree; i++)
+        to[i] = c[i];
+    for (int i = 0; i < degree; i++)
+        for (int j = degree - 1; j >= i; j--)
+            to[j] += since * to[j + 1];
+    double power = 1;
+    for (int i = 0; i <= degree; i++, power *= scale)
+        to[i] *= power;
+}
+
+static inline double dynamics_piece_bend(const double *c, int degree, double since)
+{
+    double value = 0;
+    for (int i = degree; i >= 2; i--)
+        value = i * (i - 1) * c[i] + value * since;
+    return value;
+}
 
 /* The excitation in SI as a stiffness model gives it; `phase` runs from 0 to 1, twice at a jump. */
 typedef struct dynamics_mesh_curves {
@@ -46,7 +94,8 @@ typedef struct dynamics_mesh_curves {
     const double *error; /* NULL: none */
 } dynamics_mesh_curves;
 
-/* Builds the pieces from checked curves; the scalars are set. 0: out of memory. */
+/* Builds the pieces from checked curves; the scalars are set. Where the lines of a table follow a
+   smooth curve, the curve is taken. 0: out of memory. */
 int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_mesh_curves *curves);
 void dynamics_excitation_free(dynamics_excitation *excitation);
 

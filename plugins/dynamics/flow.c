@@ -44,11 +44,20 @@ static double piece_end(const dynamics_excitation *excitation, const dynamics_pi
     return piece + 1 < excitation->pieces + excitation->count ? piece[1].start : 1;
 }
 
+static int is_straight(const dynamics_piece *p)
+{
+    for (int i = 2; i <= p->degree; i++)
+        if (p->e[i] != 0)
+            return 0;
+    return 1;
+}
+
 static int bends_after(const dynamics_piece *p)
 {
     double length = p[0].length + p[1].length;
-    return fabs(p->e + p->e_rate * p->length - p[1].e) > round_off ||
-           fabs(p->e_rate - p[1].e_rate) * length > round_off;
+    return !is_straight(&p[0]) || !is_straight(&p[1]) ||
+           fabs(p->e[0] + p->e[1] * p->length - p[1].e[0]) > round_off ||
+           fabs(p->e[1] - p[1].e[1]) * length > round_off;
 }
 
 int dynamics_flow_init(dynamics_flow *flow, const dynamics_excitation *excitation)
@@ -78,11 +87,6 @@ static int damper_acts(const run *r)
            r->pressed;
 }
 
-static double stiffness_at(const run *r)
-{
-    return r->piece->k + r->piece->k_rate * (r->at - r->piece->start);
-}
-
 /* Sets the contact that belongs to the state. At the edge of the gap the direction of motion
    decides, and at rest there the load, which presses the driving flanks. */
 static void find_contact(run *r)
@@ -98,9 +102,10 @@ static void find_contact(run *r)
    damper gives an impulse of 2 zeta times the jump. */
 static void enter_piece(run *r, const dynamics_piece *before, const dynamics_piece *piece)
 {
-    double e = before->e + before->e_rate * before->length;
-    double leap = piece->jump ? piece->e - e : 0;
-    double kink = (before->e_rate - piece->e_rate) / r->T;
+    double e = dynamics_piece_value(before->e, before->degree, before->length);
+    double slope = dynamics_piece_slope(before->e, before->degree, before->length);
+    double leap = piece->jump ? piece->e[0] - e : 0;
+    double kink = (slope - piece->e[1]) / r->T;
     r->y->delta -= leap;
     r->y->rate += kink + (damper_acts(r) ? 2 * r->excitation->zeta * leap : 0);
     r->y->change[1] -= kink / r->T;
@@ -113,11 +118,13 @@ static void enter_piece(run *r, const dynamics_piece *before, const dynamics_pie
  * pull. */
 static void contact_force_gate(const run *r, const dynamics_taylor_series *s, double sign, gate *g)
 {
-    double k = stiffness_at(r), k_rate = r->piece->k_rate / r->T, c = 2 * r->excitation->zeta;
+    double k[DYNAMICS_DEGREE + 1] = {0}, c = 2 * r->excitation->zeta;
+    int degree = r->piece->degree;
+    dynamics_piece_shift(r->piece->k, degree, r->at - r->piece->start, s->h / r->T, k);
     for (int n = 0; n <= s->order; n++) {
-        double value = k * s->c[n][DYNAMICS_Z];
-        if (n > 0)
-            value += k_rate * s->h * s->c[n - 1][DYNAMICS_Z];
+        double value = 0;
+        for (int i = 0; i <= degree && i <= n; i++)
+            value += k[i] * s->c[n - i][DYNAMICS_Z];
         if (n < s->order)
             value += c * (n + 1) * s->c[n + 1][DYNAMICS_Z] / s->h;
         g->p[n] = sign * r->side * value;
@@ -158,13 +165,14 @@ static int find_gates(const run *r, const dynamics_taylor_series *s, gate g[2])
     return 2;
 }
 
-/* Whether the step is too short to reach the edge of the gap: the sum of all terms bounds the
- * motion. */
+/* Whether the step is too short to reach the edge of the gap: the sum of all terms that may lead
+ * there bounds the motion. */
 static int cannot_reach_edge(const run *r, const dynamics_taylor_series *s, double tiny)
 {
-    double z = s->c[0][DYNAMICS_Z], reach = tiny;
+    double z = s->c[0][DYNAMICS_Z], first = s->c[1][DYNAMICS_Z];
+    double reach = tiny + (r->side * first > 0 ? 0 : fabs(first));
     double room = r->side ? r->side * z : r->excitation->half_gap - fabs(z);
-    for (int n = 1; n <= s->order; n++)
+    for (int n = 2; n <= s->order; n++)
         reach += fabs(s->c[n][DYNAMICS_Z]);
     return room > reach && (r->excitation->damping != DYNAMICS_DAMPING_CLIPPED || r->side == 0);
 }
@@ -238,10 +246,12 @@ static double plan_step(const run *r, dynamics_piece_equation *q)
         end = r->flow->free_until[r->piece - r->excitation->pieces];
     *q = (dynamics_piece_equation){.load = r->excitation->load,
                                    .damper = damper_acts(r) ? 2 * r->excitation->zeta : 0};
-    if (r->pressed) {
-        q->k = stiffness_at(r);
-        q->k_rate = r->piece->k_rate / r->T;
-    }
+    double since = r->at - r->piece->start;
+    q->degree = r->pressed || !is_straight(r->piece) ? r->piece->degree : 1;
+    if (r->pressed)
+        dynamics_piece_shift(r->piece->k, q->degree, since, 1 / r->T, q->k);
+    if (q->degree > 1 && !is_straight(r->piece))
+        dynamics_piece_shift(r->piece->e, q->degree, since, 1 / r->T, q->e);
     double left = end - r->at, size = dynamics_taylor_step_size(q, left * r->T);
     if (r->idle > MAX_IDLE && left * r->T > slip)
         return r->at + slip / r->T;

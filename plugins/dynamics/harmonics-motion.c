@@ -26,7 +26,7 @@ static double delta_at(const walk *w, double phase)
 {
     double s, slope;
     dynamics_fourier_at(w->x, w->harmonics, 2 * M_PI * phase, &s, &slope);
-    return s - w->piece->e - w->piece->e_rate * (phase - w->piece->start);
+    return s - dynamics_piece_value(w->piece->e, w->piece->degree, phase - w->piece->start);
 }
 
 static int side_of(const dynamics_excitation *excitation, double delta)
@@ -35,13 +35,15 @@ static int side_of(const dynamics_excitation *excitation, double delta)
     return b == 0 ? 1 : (delta > b) - (delta < -b);
 }
 
-/* Solves u'' + 2 zeta u' + (k + k_rate t) u = 0 over a step of h by its Taylor series. */
-static void disturb(double zeta, double k, double k_rate, double h, double *u, double *u_rate)
+/* Solves u'' + 2 zeta u' + (k_0 + k_1 t + ...) u = 0 over a step of h by its Taylor series. */
+static void disturb(double zeta, const double *k, double h, double *u, double *u_rate)
 {
     double c[TAYLOR + 1] = {*u, *u_rate}, power = h;
     *u += *u_rate * h;
     for (int j = 0; j + 2 <= TAYLOR; j++) {
-        double force = 2 * zeta * (j + 1) * c[j + 1] + k * c[j] + (j ? k_rate * c[j - 1] : 0);
+        double force = 2 * zeta * (j + 1) * c[j + 1];
+        for (int i = 0; i <= j && i <= DYNAMICS_DEGREE; i++)
+            force += k[i] * c[j - i];
         c[j + 2] = -force / ((j + 1) * (j + 2));
         *u_rate += (j + 2) * c[j + 2] * power;
         power *= h;
@@ -54,10 +56,11 @@ static void pass_stretch(const walk *w, double from, double to, int side)
 {
     dynamics_motion *motion = w->motion;
     double *m = motion->monodromy, T = motion->T, h = (to - from) * T;
-    double k_rate = side ? w->piece->k_rate / T : 0;
-    double k = side ? w->piece->k + w->piece->k_rate * (from - w->piece->start) : 0;
-    disturb(motion->excitation->zeta, k, k_rate, h, &m[0], &m[2]);
-    disturb(motion->excitation->zeta, k, k_rate, h, &m[1], &m[3]);
+    double k[DYNAMICS_DEGREE + 1] = {0};
+    if (side)
+        dynamics_piece_shift(w->piece->k, w->piece->degree, from - w->piece->start, 1 / T, k);
+    disturb(motion->excitation->zeta, k, h, &m[0], &m[2]);
+    disturb(motion->excitation->zeta, k, h, &m[1], &m[3]);
     motion->clocks.parted += side ? 0 : h;
     motion->clocks.back += side < 0 ? h : 0;
     motion->clocks.damped += h;
@@ -109,9 +112,10 @@ static void add_sample(const walk *w, double phase)
         .phase = (double)record->cycles + phase,
         .s = s,
         .s_rate = slope * turn,
-        .force = dynamics_mesh_force(motion->excitation, piece->k + piece->k_rate * since,
-                                     s - piece->e - piece->e_rate * since,
-                                     slope * turn - piece->e_rate / motion->T),
+        .force = dynamics_mesh_force(
+            motion->excitation, dynamics_piece_value(piece->k, piece->degree, since),
+            s - dynamics_piece_value(piece->e, piece->degree, since),
+            slope * turn - dynamics_piece_slope(piece->e, piece->degree, since) / motion->T),
     };
 }
 

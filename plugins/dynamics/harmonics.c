@@ -44,31 +44,41 @@ static const double converged = 1e-12, nearly_converged = 1e-9;
    Newton step is defined. */
 static const double round_off = 1e-15;
 
-/* Adds the part of one node to the exact harmonics n > 0 of straight lines, from the jumps of the
-   value and of the slope there, by parts twice: c_n = sum exp(-i n theta) [jump/(2 pi i n) +
-   bend/(2 pi (i n)^2)]. The phase turns by a recurrence that is set anew every 64 harmonics, before
-   round-off adds up. */
-static void add_jump(double complex *c, size_t count, double theta, double jump, double bend)
+/* Adds the part of one node to the exact harmonics n > 0 of polynomials, from the jumps of the
+   value and of its derivatives by theta there, by parts again and again: c_n = sum exp(-i n theta)
+   sum_j jump_j/(2 pi (i n)^(j + 1)). The phase turns by a recurrence that is set anew every 64
+   harmonics, before round-off adds up. */
+static void add_jump(double complex *c, size_t count, double theta,
+                     const double jump[DYNAMICS_DEGREE + 1], int degree)
 {
     double turn_x = cos(theta), turn_y = -sin(theta), x = 1, y = 0;
-    if (jump == 0 && bend == 0)
-        return;
     for (size_t n = 1; n < count; n++) {
         double m = (double)n, keep = x;
         x = n % 64 ? keep * turn_x - y * turn_y : cos(m * theta);
         y = n % 64 ? keep * turn_y + y * turn_x : -sin(m * theta);
-        double over_m = 1 / (2 * M_PI * m), u = bend * over_m / m, v = jump * over_m;
+        /* 1/i^(j + 1) is -i, -1, i, 1, ...: the sum is -u - i v */
+        double power = 1 / (2 * M_PI), u = 0, v = 0;
+        for (int j = 0; j <= degree; j++) {
+            power /= m;
+            *(j % 2 ? &u : &v) += (j / 2 % 2 ? -1 : 1) * power * jump[j];
+        }
         c[n] += y * v - x * u - I * (x * v + y * u);
     }
 }
 
-typedef struct line {
-    double value, rate; /* at the start, per mesh cycle */
-} line;
-
-static line line_of(const dynamics_piece *p, int error)
+static const double *coefficients_of(const dynamics_piece *p, int error)
 {
-    return error ? (line){p->e, p->e_rate} : (line){p->k, p->k_rate};
+    return error ? p->e : p->k;
+}
+
+/* The integral of k or e over a piece. */
+static double integral_of(const dynamics_piece *p, int error)
+{
+    const double *c = coefficients_of(p, error);
+    double sum = 0;
+    for (int i = p->degree; i >= 0; i--)
+        sum = (c[i] / (i + 1) + sum) * p->length;
+    return sum;
 }
 
 /* The harmonics 0 to count - 1 of e (`error`) or k. */
@@ -79,10 +89,18 @@ static void exact_harmonics(const dynamics_excitation *excitation, int error, do
     for (size_t i = 0; i < excitation->count; i++) {
         const dynamics_piece *p = &excitation->pieces[i],
                              *before = &excitation->pieces[i ? i - 1 : excitation->count - 1];
-        line a = line_of(before, error), z = line_of(p, error);
-        double end = a.value + a.rate * before->length;
-        c[0] += p->length * (z.value + 0.5 * z.rate * p->length);
-        add_jump(c, count, 2 * M_PI * p->start, z.value - end, (z.rate - a.rate) / (2 * M_PI));
+        const double *a = coefficients_of(before, error), *z = coefficients_of(p, error);
+        double end[DYNAMICS_DEGREE + 1] = {0}, jump[DYNAMICS_DEGREE + 1], derivative = 1;
+        int degree = before->degree > p->degree ? before->degree : p->degree, jumps = 0;
+        dynamics_piece_shift(a, before->degree, before->length, 1, end);
+        for (int j = 0; j <= degree; j++) {
+            jump[j] = derivative * ((j <= p->degree ? z[j] : 0) - end[j]);
+            jumps |= jump[j] != 0;
+            derivative *= (j + 1) / (2 * M_PI);
+        }
+        c[0] += integral_of(p, error);
+        if (jumps)
+            add_jump(c, count, 2 * M_PI * p->start, jump, degree);
     }
 }
 

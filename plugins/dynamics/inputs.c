@@ -4,6 +4,7 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT] = {
@@ -25,8 +26,10 @@ const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT] = {
     [DYNAMICS_IN_PHASE] = {"stiffness.phase", "1",
                            "phase of the mesh cycle, 0 to 1; twice at a jump", "phase", NULL, 0,
                            NULL},
-    [DYNAMICS_IN_STIFFNESS] = {"stiffness.stiffness", "N/m",
-                               "mesh stiffness, straight between phases", "phase", NULL, 0, NULL},
+    [DYNAMICS_IN_STIFFNESS] =
+        {"stiffness.stiffness", "N/m",
+         "mesh stiffness, straight between phases where they follow no smooth curve", "phase", NULL,
+         0, NULL},
     [DYNAMICS_IN_STIFFNESS_MEAN] = {"stiffness.stiffness_mean", "N/m", "mean mesh stiffness", "",
                                     NULL, 0, NULL},
     [DYNAMICS_IN_TRANSMISSION_ERROR] = {"stiffness.transmission_error", "m",
@@ -223,6 +226,22 @@ static ff_status check_stations(const ff_host *host, const dynamics_inputs *inpu
     return FF_OK;
 }
 
+/* Says by how much the smooth pieces differ from the straight lines that the stiffness gives. Where
+   those sample a smooth curve, their own distance from it is of that size. */
+static void report_representation(const ff_host *host, const dynamics_excitation *excitation)
+{
+    static const double limit = 1e-4;
+    const dynamics_representation *r = &excitation->represented;
+    char text[200];
+    if (!(r->at_nodes > 0 || r->between > 0))
+        return;
+    snprintf(text, sizeof text,
+             "%zu straight lines of k(t) are followed as %zu pieces, which meet the nodes to %.1g "
+             "of the mean stiffness and leave the lines between them by %.1g",
+             r->lines, r->pieces, r->at_nodes, r->between);
+    host->quality(host->ctx, "stiffness_representation", r->between, limit, FF_GOOD, text);
+}
+
 ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
                                const dynamics_inertia *inertia, dynamics_inputs *inputs,
                                dynamics_excitation *excitation)
@@ -261,5 +280,8 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
         .stiffness = in[DYNAMICS_IN_STIFFNESS].data,
         .error = in[DYNAMICS_IN_TRANSMISSION_ERROR].data,
     };
-    return dynamics_excitation_build(excitation, &curves) ? FF_OK : FF_NOMEM;
+    if (!dynamics_excitation_build(excitation, &curves))
+        return FF_NOMEM;
+    report_representation(host, excitation);
+    return FF_OK;
 }

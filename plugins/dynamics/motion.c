@@ -210,9 +210,10 @@ static void force_and_gap_at(const void *self, double phase, int left, double *f
     phase -= floor(0.5 * (a->phase + z->phase));
     const dynamics_piece *piece = dynamics_excitation_piece(excitation, phase, left);
     double since = phase - piece->start;
-    double delta = value - piece->e - piece->e_rate * since;
-    *force = dynamics_mesh_force(excitation, piece->k + piece->k_rate * since, delta,
-                                 rate - piece->e_rate / motion->T);
+    double delta = value - dynamics_piece_value(piece->e, piece->degree, since);
+    *force = dynamics_mesh_force(
+        excitation, dynamics_piece_value(piece->k, piece->degree, since), delta,
+        rate - dynamics_piece_slope(piece->e, piece->degree, since) / motion->T);
     *gap = excitation->half_gap > 0 ? fmax(excitation->half_gap - delta, 0) : 0;
 }
 

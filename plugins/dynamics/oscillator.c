@@ -30,13 +30,13 @@ struct dynamics_oscillator {
     double y[DYNAMICS_STATE_SIZE];
     int side;    /* 1: driving flanks touch, -1: back flanks, 0: neither */
     int pressed; /* 0 with side != 0: the damper is clipped and the flank lags behind the teeth */
-    double k, k_rate; /* stiffness at the start of the piece, its change per time */
-    double e, e_rate; /* the same for e */
-    double t;         /* time since the start of the piece */
-    int refine;       /* divides the longest step and each piece */
-    double longest;   /* the longest step */
-    double cap;       /* the longest step in this piece */
-    double h;         /* next step */
+    const dynamics_piece *piece;
+    double T;       /* duration of the mesh cycle */
+    double t;       /* time since the start of the piece */
+    int refine;     /* divides the longest step and each piece */
+    double longest; /* the longest step */
+    double cap;     /* the longest step in this piece */
+    double h;       /* next step */
     dynamics_clocks clocks;
     size_t steps;
 };
@@ -49,7 +49,29 @@ typedef struct gate {
 
 static double stiffness_at(const dynamics_oscillator *o, double t)
 {
-    return o->k + o->k_rate * t;
+    return dynamics_piece_value(o->piece->k, o->piece->degree, t / o->T);
+}
+
+static double stiffness_rate_at(const dynamics_oscillator *o, double t)
+{
+    return dynamics_piece_slope(o->piece->k, o->piece->degree, t / o->T) / o->T;
+}
+
+static double error_at(const dynamics_oscillator *o, double t)
+{
+    return dynamics_piece_value(o->piece->e, o->piece->degree, t / o->T);
+}
+
+static double error_rate_at(const dynamics_oscillator *o, double t)
+{
+    return dynamics_piece_slope(o->piece->e, o->piece->degree, t / o->T) / o->T;
+}
+
+/* What drives delta: the load less e''. */
+static double drive_at(const dynamics_oscillator *o, double t)
+{
+    double bend = dynamics_piece_bend(o->piece->e, o->piece->degree, t / o->T);
+    return o->excitation->load - bend / (o->T * o->T);
 }
 
 static int damper_acts(const dynamics_oscillator *o)
@@ -58,7 +80,7 @@ static int damper_acts(const dynamics_oscillator *o)
            o->pressed;
 }
 
-/* The equation of excitation.h in delta = s - e, where e'' = 0; its variation; and the powers of
+/* The equation of excitation.h in delta = s - e; its variation; and the powers of
    damper and excitation. */
 static int derivative(double t, const double y[], double dydt[], void *self)
 {
@@ -68,7 +90,7 @@ static int derivative(double t, const double y[], double dydt[], void *self)
     double bend = y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap;
     double force = c * y[DYNAMICS_RATE] + k * bend;
     dydt[DYNAMICS_DELTA] = y[DYNAMICS_RATE];
-    dydt[DYNAMICS_RATE] = o->excitation->load - force;
+    dydt[DYNAMICS_RATE] = drive_at(o, t) - force;
     if (o->system.dimension == DYNAMICS_MOTION)
         return GSL_SUCCESS;
     dydt[DYNAMICS_M11] = y[DYNAMICS_M21];
@@ -76,7 +98,8 @@ static int derivative(double t, const double y[], double dydt[], void *self)
     dydt[DYNAMICS_M21] = -c * y[DYNAMICS_M21] - k * y[DYNAMICS_M11];
     dydt[DYNAMICS_M22] = -c * y[DYNAMICS_M22] - k * y[DYNAMICS_M12];
     dydt[DYNAMICS_LOSS] = c * y[DYNAMICS_RATE] * y[DYNAMICS_RATE];
-    dydt[DYNAMICS_WORK] = (o->pressed ? 0.5 * o->k_rate * bend * bend : 0) - force * o->e_rate;
+    dydt[DYNAMICS_WORK] = (o->pressed ? 0.5 * stiffness_rate_at(o, t) * bend * bend : 0) -
+                          force * error_rate_at(o, t);
     return GSL_SUCCESS;
 }
 
@@ -107,10 +130,8 @@ void dynamics_oscillator_free(dynamics_oscillator *o)
 /* Enters a piece of a mesh cycle of duration T. */
 static void enter_piece(dynamics_oscillator *o, const dynamics_piece *piece, double T)
 {
-    o->k = piece->k;
-    o->k_rate = piece->k_rate / T;
-    o->e = piece->e;
-    o->e_rate = piece->e_rate / T;
+    o->piece = piece;
+    o->T = T;
     o->cap = fmin(o->longest, piece->length * T / o->refine);
     o->t = 0;
 }
@@ -150,8 +171,8 @@ size_t dynamics_oscillator_steps(const dynamics_oscillator *o)
 
 double dynamics_oscillator_energy(const dynamics_oscillator *o)
 {
-    double s = o->y[DYNAMICS_DELTA] + o->e + o->e_rate * o->t;
-    double s_rate = o->y[DYNAMICS_RATE] + o->e_rate;
+    double s = o->y[DYNAMICS_DELTA] + error_at(o, o->t);
+    double s_rate = o->y[DYNAMICS_RATE] + error_rate_at(o, o->t);
     double bend = o->pressed ? o->y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap : 0;
     return 0.5 * s_rate * s_rate + 0.5 * stiffness_at(o, o->t) * bend * bend -
            o->excitation->load * s;
@@ -162,12 +183,12 @@ double dynamics_oscillator_energy(const dynamics_oscillator *o)
 static void pass_node(dynamics_oscillator *o, const dynamics_piece *piece, double T)
 {
     double before = dynamics_oscillator_energy(o);
-    double e = o->e + o->e_rate * o->t, e_rate = o->e_rate;
+    double e = error_at(o, o->t), e_rate = error_rate_at(o, o->t);
     enter_piece(o, piece, T);
-    double leap = piece->jump ? o->e - e : 0;
+    double leap = piece->jump ? piece->e[0] - e : 0;
     o->y[DYNAMICS_DELTA] -= leap;
     o->y[DYNAMICS_RATE] +=
-        e_rate - o->e_rate + (damper_acts(o) ? 2 * o->excitation->zeta * leap : 0);
+        e_rate - error_rate_at(o, 0) + (damper_acts(o) ? 2 * o->excitation->zeta * leap : 0);
     o->y[DYNAMICS_WORK] += dynamics_oscillator_energy(o) - before;
 }
 
@@ -189,8 +210,8 @@ static int find_gates(const dynamics_oscillator *o, double t, const double *y, g
     }
     double k = stiffness_at(o, t), c = 2 * o->excitation->zeta;
     double push = k * touch.value + c * touch.rate;
-    double bend_rate = sign * (o->excitation->load - (o->pressed ? sign * push : 0));
-    double push_rate = o->k_rate * touch.value + k * touch.rate + c * bend_rate;
+    double bend_rate = sign * (drive_at(o, t) - (o->pressed ? sign * push : 0));
+    double push_rate = stiffness_rate_at(o, t) * touch.value + k * touch.rate + c * bend_rate;
     if (o->pressed) {
         g[0] = (gate){push, push_rate, o->side, 0};
         return 1;
@@ -381,8 +402,8 @@ static void add_sample(const dynamics_oscillator *o, double phase, dynamics_reco
     double delta = o->y[DYNAMICS_DELTA], rate = o->y[DYNAMICS_RATE];
     record->samples[record->count++] = (dynamics_sample){
         .phase = (double)record->cycles + phase,
-        .s = delta + o->e + o->e_rate * o->t,
-        .s_rate = rate + o->e_rate,
+        .s = delta + error_at(o, o->t),
+        .s_rate = rate + error_rate_at(o, o->t),
         .force = dynamics_mesh_force(o->excitation, stiffness_at(o, o->t), delta, rate),
     };
 }

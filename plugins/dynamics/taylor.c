@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "taylor.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 
-const double dynamics_taylor_longest_step = 1;
+const double dynamics_taylor_longest_step = 1.5;
 
 /* Size of the step, squared, above which terms x^n/n! of order n exceed 2e-17. */
 static const double reach[] = {2e-17,    6.325e-9, 4.932e-6, 1.480e-4, 1.191e-3, 4.932e-3, 1.391e-2,
@@ -13,8 +15,10 @@ enum { REACHES = sizeof reach / sizeof reach[0] };
 
 double dynamics_taylor_step_size(const dynamics_piece_equation *q, double h)
 {
-    double k_end = q->k + q->k_rate * h;
-    return h * (sqrt(fmax(q->k, k_end)) + q->damper);
+    double k = fmax(q->k[0], dynamics_piece_value(q->k, q->degree, h));
+    if (q->degree > 1)
+        k = fmax(k, dynamics_piece_value(q->k, q->degree, 0.5 * h));
+    return h * (sqrt(fmax(k, 0)) + q->damper);
 }
 
 static int likely_order(double size)
@@ -39,20 +43,21 @@ static int has_converged(const dynamics_taylor_series *s, int n, int columns, do
            fabs(s->c[n][2]) + fabs(s->c[n - 1][2]) <= round_off * s->h;
 }
 
-/* The recurrence of the coefficients of t/h, from the equation in taylor.h:
+static const double share[] = {0,       1.,      1. / 2,  1. / 3,  1. / 4,  1. / 5,  1. / 6,
+                               1. / 7,  1. / 8,  1. / 9,  1. / 10, 1. / 11, 1. / 12, 1. / 13,
+                               1. / 14, 1. / 15, 1. / 16, 1. / 17, 1. / 18, 1. / 19, 1. / 20,
+                               1. / 21, 1. / 22, 1. / 23, 1. / 24, 1. / 25, 1. / 26, 1. / 27,
+                               1. / 28, 1. / 29, 1. / 30};
 
-     n (n - 1) c_n = -damper h (n - 1) c_(n-1) - k h^2 c_(n-2) - k_rate h^3 c_(n-3).
+/* The recurrence of the coefficients of t/h, from the equation in taylor.h with straight k and e:
+
+     n (n - 1) c_n = -damper h (n - 1) c_(n-1) - k_0 h^2 c_(n-2) - k_1 h^3 c_(n-3).
 
    The derivative by T at a fixed phase obeys the same, with (2 z'' + damper z')/T added. */
-static inline void recur(const dynamics_piece_equation *q, double T, int columns,
-                         dynamics_taylor_series *s)
+FF_SIMD_INLINE void recur_straight(const dynamics_piece_equation *q, double T, int columns,
+                                   dynamics_taylor_series *s)
 {
-    static const double share[] = {0,       1.,      1. / 2,  1. / 3,  1. / 4,  1. / 5,  1. / 6,
-                                   1. / 7,  1. / 8,  1. / 9,  1. / 10, 1. / 11, 1. / 12, 1. / 13,
-                                   1. / 14, 1. / 15, 1. / 16, 1. / 17, 1. / 18, 1. / 19, 1. / 20,
-                                   1. / 21, 1. / 22, 1. / 23, 1. / 24, 1. / 25, 1. / 26, 1. / 27,
-                                   1. / 28, 1. / 29, 1. / 30};
-    double h = s->h, a = q->damper * h, b = q->k * h * h, d = q->k_rate * h * h * h;
+    double h = s->h, a = q->damper * h, b = q->k[0] * h * h, d = q->k[1] * h * h * h;
     double unit = fabs(s->c[0][0]) + fabs(s->c[1][0]) + q->load * h * h;
     double(*c)[DYNAMICS_COLUMNS] = s->c;
     int likely = likely_order(dynamics_taylor_step_size(q, h));
@@ -73,6 +78,49 @@ static inline void recur(const dynamics_piece_equation *q, double T, int columns
     }
 }
 
+/* The same with curved k and e, where the derivative by T gets (2 (z'' + e'') + damper z')/T. */
+FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int columns,
+                                 dynamics_taylor_series *s)
+{
+    double h = s->h, a = q->damper * h, power = 1, k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1];
+    double unit = fabs(s->c[0][0]) + fabs(s->c[1][0]) + q->load * h * h;
+    double(*c)[DYNAMICS_COLUMNS] = s->c;
+    int likely = likely_order(dynamics_taylor_step_size(q, h));
+    for (int i = 0; i <= q->degree; i++, power *= h) {
+        k[i] = q->k[i] * power * h * h;
+        e[i] = q->e[i] * power;
+    }
+    int degree = q->degree; /* in a short step the high powers of k are below round-off */
+    while (degree > 0 && fabs(k[degree]) < 1e-18)
+        degree--;
+    for (int n = 2; n <= DYNAMICS_ORDER_MAX; n++) {
+        double fa = -a * share[n], f = -share[n] * share[n - 1], sum[DYNAMICS_COLUMNS] = {0};
+        for (int i = 0; i <= degree && i <= n - 2; i++)
+            for (int j = 0; j < columns; j++)
+                sum[j] += k[i] * c[n - 2 - i][j];
+        for (int j = 0; j < columns; j++)
+            c[n][j] = fa * c[n - 1][j] + f * sum[j];
+        if (n == 2)
+            c[n][0] += 0.5 * q->load * h * h;
+        double bend = n <= q->degree ? e[n] : 0;
+        if (columns == DYNAMICS_COLUMNS)
+            c[n][3] += (2 * c[n][0] - fa * c[n - 1][0]) / T; /* c_n has no -e_n yet */
+        c[n][0] -= bend;
+        s->order = n;
+        if (n >= likely && n > q->degree + 2 && has_converged(s, n, columns, unit))
+            break;
+    }
+}
+
+FF_SIMD_INLINE void recur(const dynamics_piece_equation *q, double T, int columns,
+                          dynamics_taylor_series *s)
+{
+    if (q->degree > 1)
+        recur_curved(q, T, columns, s);
+    else
+        recur_straight(q, T, columns, s);
+}
+
 void dynamics_taylor_expand_motion(const dynamics_piece_equation *q, double h, const double z[2],
                                    dynamics_taylor_series *s)
 {
@@ -82,6 +130,7 @@ void dynamics_taylor_expand_motion(const dynamics_piece_equation *q, double h, c
     recur(q, 1, 1, s);
 }
 
+FF_SIMD
 void dynamics_taylor_expand(const dynamics_piece_equation *q, double T, double h, const double z[2],
                             const double z_T[2], dynamics_taylor_series *s)
 {

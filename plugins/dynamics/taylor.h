@@ -2,13 +2,15 @@
 /*
  * Taylor series of the motion within one piece of the mesh cycle and one state of contact, where
  *
- *   z'' = load - damper z' - (k + k_rate t) z
+ *   z'' = load - e'' - damper z' - k z,    k = k_0 + k_1 t + ..., e = e_0 + e_1 t + ...,
  *
  * so that the coefficients follow from a recurrence. And the first exit of the motion through a
  * bound, which finds grazing contacts, too.
  */
 #ifndef DYNAMICS_TAYLOR_H
 #define DYNAMICS_TAYLOR_H
+
+#include "excitation.h"
 
 enum { DYNAMICS_ORDER_MAX = 30 };
 
@@ -22,7 +24,9 @@ enum {
 };
 
 typedef struct dynamics_piece_equation {
-    double load, damper, k, k_rate;
+    double load, damper;
+    int degree; /* of k and e; 1: straight lines */
+    double k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1];
 } dynamics_piece_equation;
 
 /* The coefficients of the powers of t/h. */
@@ -32,7 +36,7 @@ typedef struct dynamics_taylor_series {
     double c[DYNAMICS_ORDER_MAX + 1][DYNAMICS_COLUMNS];
 } dynamics_taylor_series;
 
-/* A step of this size, as dynamics_taylor_step_size has it, is expanded to round-off with some 20
+/* A step of this size, as dynamics_taylor_step_size has it, is expanded to round-off with some 24
  * terms. */
 extern const double dynamics_taylor_longest_step;
 double dynamics_taylor_step_size(const dynamics_piece_equation *q, double h);

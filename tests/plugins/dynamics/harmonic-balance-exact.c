@@ -149,14 +149,11 @@ static void test_displacement_excitation(void)
     }
 }
 
-/* x'' + (a - 2 q cos 2t) x = 0 in mesh cycles: w = 2/sqrt(a), k = 1 + 2 q/a cos. The straight
-   lines of k are given the exact first harmonic. */
+/* x'' + (a - 2 q cos 2t) x = 0 in mesh cycles: w = 2/sqrt(a), k = 1 + 2 q/a cos, which so many
+   lines sample that the pieces follow it. */
 static pair mathieu(double a, double q)
 {
-    size_t points = 400;
-    double chord = M_PI / (double)points, sinc = sin(chord) / chord;
-    pair p =
-        pair_cosine(2 / sqrt(a) * pair_natural_frequency, 2 * q / a / (sinc * sinc), 0, points);
+    pair p = pair_cosine(2 / sqrt(a) * pair_natural_frequency, 2 * q / a, 0, 400);
     p.backlash = 0;
     return p;
 }

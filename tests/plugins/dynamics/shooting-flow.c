@@ -40,15 +40,14 @@ static void trapezoid(fixture *f, double zeta, double load, int damping)
     open_mesh(f, 6, phase, k, NULL);
 }
 
-/* k = mean + first cos(2 pi phase) by `n` straight lines. The lines have sinc^2(1/n) of the
-   cosine's amplitude, which is made up for. */
+/* k = mean + first cos(2 pi phase) by `n` straight lines, which are so many that the pieces follow
+   the cosine. */
 static void cosine(fixture *f, double mean, double first, double zeta, size_t n)
 {
     static double phase[MOST + 1], k[MOST + 1];
-    double x = M_PI / (double)n, gain = pow(x / sin(x), 2);
     for (size_t i = 0; i <= n; i++) {
         phase[i] = (double)i / (double)n;
-        k[i] = mean + gain * first * cos(2 * M_PI * phase[i]);
+        k[i] = mean + first * cos(2 * M_PI * phase[i]);
     }
     *f = (fixture){.mesh = {.zeta = zeta}};
     open_mesh(f, n + 1, phase, k, NULL);

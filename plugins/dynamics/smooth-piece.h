@@ -1,0 +1,15 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* One smooth piece in place of many straight lines of a table of k and e. */
+#ifndef DYNAMICS_SMOOTH_PIECE_H
+#define DYNAMICS_SMOOTH_PIECE_H
+
+#include "excitation.h"
+
+/* Fits the longest piece that begins at node `first` and ends at `last` or before, and adds its
+   errors to `represented`. Returns the node at which it ends; 0: the lines there follow no smooth
+   curve, or are too few to tell. */
+size_t dynamics_smooth_piece(const dynamics_excitation *excitation,
+                             const dynamics_mesh_curves *curves, size_t first, size_t last,
+                             dynamics_piece *piece, dynamics_representation *represented);
+
+#endif
