@@ -11,6 +11,7 @@ typedef struct dowson_higginson {
     double rho0; /* kg/m3; 1 with a liquid */
     const ff_liquid *liquid;
     double a, b; /* 1/Pa */
+    density_softening softening;
 } dowson_higginson;
 
 FF_SIMD
@@ -30,7 +31,9 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                       double *drho_dp, double *drho_dT)
 {
     const dowson_higginson *d = self;
-    return density_eval(d, curve, 1 / d->a, HUGE_VAL, n, p, T, rho, drho_dp, drho_dT);
+    const density_shape shape = {
+        .curve = curve, .K0 = 1 / d->a, .highest = HUGE_VAL, .softening = d->softening};
+    return density_eval(d, &shape, n, p, T, rho, drho_dp, drho_dT);
 }
 
 static const ff_param params[] = {
@@ -39,7 +42,14 @@ static const ff_param params[] = {
                 "compressibility at ambient pressure"),
     FF_QUANTITY("b", "1/GPa", dowson_higginson, b, 0, "1.7 1/GPa", NULL, 0, 1000, 1, 5,
                 "how fast it stiffens: the density rises by a/b at most"),
+    DENSITY_SOFTENING_ROWS(dowson_higginson, softening),
 };
+
+static ff_status ready(void *self)
+{
+    dowson_higginson *d = self;
+    return density_softening_ready(d->host, &d->softening);
+}
 
 FF_DENSITY_LAW(density_dowson_higginson, dowson_higginson, eval, .id = "density/dowson-higginson",
                .version = "1.0.0",
@@ -47,4 +57,4 @@ FF_DENSITY_LAW(density_dowson_higginson, dowson_higginson, eval, .id = "density/
                .reference = "Dowson & Higginson 1966, Elasto-hydrodynamic Lubrication, Pergamon",
                .bibtex = BIB_DowsonHigginson1966, .licence = "GPL-3.0-or-later",
                .params = FF_TABLE(params), .inputs = FF_TABLE(density_inputs), .wire = density_wire,
-               .cost = 4e-3);
+               .ready = ready, .cost = 4e-3);

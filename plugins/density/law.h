@@ -15,6 +15,25 @@ typedef struct density_law {
     const ff_liquid *liquid; /* NULL: none is wired */
 } density_law;
 
+/*
+ * How temperature softens a law whose rho/rho0 is a function of p/K0 alone: ln(K0) falls by
+ * `decay`, 1/K, from `at`, K, on. At T the law is that of `at` at the pressure p exp[decay (T -
+ * at)].
+ */
+typedef struct density_softening {
+    double decay, at;
+} density_softening;
+
+#define DENSITY_SOFTENING_ROWS(type, member)                                                       \
+    FF_QUANTITY("K0_decay", "1/K", type, member.decay, 0, "0 1/K", NULL, -0.02, 0.05, 0, 0.009,    \
+                "fall of the logarithm of the bulk modulus with temperature, from `at` on"),       \
+        FF_QUANTITY_OR("auto", "at", "degC", type, member.at, 0, "auto", NULL, -150, 500, -20,     \
+                       150,                                                                        \
+                       "temperature that the constants of the law hold at; auto: at any, which "   \
+                       "K0_decay contradicts")
+/* Refuses a decay without `at`; makes `at` a number. */
+ff_status density_softening_ready(const ff_host *host, density_softening *softening);
+
 #define DENSITY_RHO0_ROW(type, doc)                                                                \
     FF_QUANTITY_UNLESS("oil", "rho0", "kg/m3", type, rho0, FF_REQUIRED, NULL, NULL, 1, 1e5, 600,   \
                        2000, doc)
@@ -36,11 +55,16 @@ density_ambient density_begin(const void *law, size_t n, const double *T);
    numbers. Arrays never overlap. */
 typedef void density_curve(const void *law, double rho0, size_t n, const double *p, double *rho,
                            double *drho_dp);
-/* eval of a law whose rho/rho0 is a function of pressure alone, with the tangent 1 + p/K0 at
-   ambient pressure and the range up to `highest`. */
-ff_status density_eval(const void *law, density_curve *curve, double K0, double highest, size_t n,
-                       const double *p, const double *T, double *rho, double *drho_dp,
-                       double *drho_dT);
+/* What such a law is, with the tangent 1 + p/K0 at ambient pressure and the range up to
+   `highest`. */
+typedef struct density_shape {
+    density_curve *curve;
+    double K0, highest; /* Pa */
+    density_softening softening;
+} density_shape;
+
+ff_status density_eval(const void *law, const density_shape *shape, size_t n, const double *p,
+                       const double *T, double *rho, double *drho_dp, double *drho_dT);
 
 /* Ends an eval of a law whose rho/rho0 does not depend on temperature: multiplies by what a liquid
    gives, where it has not yet, and fills drho_dT. Derivatives may be NULL. `status` is that of the

@@ -15,7 +15,8 @@ typedef struct tait {
     double rho0; /* kg/m3; 1 with a liquid */
     const ff_liquid *liquid;
     double K0, K0_prime; /* Pa, 1 */
-    double cap;          /* Pa, where V = 1/2 */
+    density_softening softening;
+    double cap; /* Pa, where V = 1/2 */
 } tait;
 
 FF_SIMD
@@ -38,7 +39,9 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
                       double *drho_dp, double *drho_dT)
 {
     const tait *d = self;
-    return density_eval(d, curve, d->K0, d->cap, n, p, T, rho, drho_dp, drho_dT);
+    const density_shape shape = {
+        .curve = curve, .K0 = d->K0, .highest = d->cap, .softening = d->softening};
+    return density_eval(d, &shape, n, p, T, rho, drho_dp, drho_dT);
 }
 
 static const ff_param params[] = {
@@ -47,6 +50,7 @@ static const ff_param params[] = {
                 "bulk modulus at ambient pressure"),
     FF_QUANTITY("K0_prime", "1", tait, K0_prime, FF_REQUIRED, NULL, NULL, 0, 100, 8, 13,
                 "rise of the bulk modulus with pressure"),
+    DENSITY_SOFTENING_ROWS(tait, softening),
 };
 
 static ff_status ready(void *self)
@@ -54,7 +58,7 @@ static ff_status ready(void *self)
     tait *d = self;
     double k = 1 + d->K0_prime;
     d->cap = d->K0 * expm1(k / 2) / k;
-    return FF_OK;
+    return density_softening_ready(d->host, &d->softening);
 }
 
 FF_DENSITY_LAW(density_tait, tait, eval, .id = "density/tait", .version = "1.0.0",

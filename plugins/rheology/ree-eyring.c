@@ -112,9 +112,9 @@ static int64_t rates(const void *self, size_t n, const double *restrict p,
         double slip = rheology_slip(t, p[i], limit, &slip_slope);
         rate[i] = sign * (tau0 * (value + slope * beyond) + limited * slip);
         by_tau[i] = slope + limited * slip_slope;
-        double by_l = (beyond > 0) & (moves > 0) ? 2 * fall - 2 * fall * beyond - slope : plain;
+        double by_l = moves * beyond > 0 ? 2 * fall - 2 * fall * beyond - slope : plain;
         by_ln_eta[i] = ln_eta[i] > thin ? sign * tau0 * by_l : 0;
-        held |= (size > most) | (ln_eta[i] < thin) | (beyond > 0);
+        held |= (size > most) | (ln_eta[i] < thin) | (t > y * tau0);
     }
     return held;
 }

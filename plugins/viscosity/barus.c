@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Barus: eta = eta0 exp(alpha p). */
+/* Barus: eta = eta0 exp(alpha p), alpha of the law, or of the oil at each temperature. */
 #include "law.h"
 #include "references.h"
 
@@ -12,18 +12,18 @@ typedef struct barus {
     const ff_host *host;
     ff_viscosity service;
     viscosity_oil oil;
-    double alpha; /* 1/Pa; NaN: that of the oil */
+    viscosity_alpha own; /* alpha NaN: that of the oil */
 } barus;
 
-/* The coefficient of the liquid changes with temperature, too. */
-static ff_status add_rise(const ff_liquid *liquid, size_t n, const double *p, const double *T,
+/* The coefficient changes with temperature, too. */
+static ff_status add_rise(const barus *b, size_t n, const double *p, const double *T,
                           double *ln_eta, double *dln_dp, double *dln_dT)
 {
     double alpha[NUMERICS_POINTS], slope[NUMERICS_POINTS];
     ff_status worst = FF_OK;
     for (size_t from = 0; from < n; from += NUMERICS_POINTS) {
         size_t count = n - from < NUMERICS_POINTS ? n - from : NUMERICS_POINTS;
-        ff_status status = numerics_liquid_values(liquid, FF_LIQUID_PRESSURE_COEFFICIENT, count,
+        ff_status status = viscosity_alpha_values(&b->own, b->oil.liquid, count,
                                                   T ? T + from : NULL, alpha, slope);
         for (size_t i = 0; i < count; i++) {
             ln_eta[from + i] += alpha[i] * p[from + i];
@@ -42,34 +42,38 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
 {
     const barus *b = self;
     const viscosity_ambient ambient = viscosity_oil_begin(&b->oil, n, T);
-    const ff_liquid *liquid = isnan(b->alpha) ? b->oil.liquid : NULL;
-    double alpha = liquid ? 0 : b->alpha, slope;
+    bool moves = isnan(b->own.alpha) || b->own.slope < 0 || b->own.slope > 0;
+    double alpha = moves ? 0 : b->own.alpha, slope;
     ff_status rise = FF_OK;
-    bool at_once = liquid && !ambient.varies && !dln_dT && n > 0;
+    bool at_once = moves && numerics_is_uniform(n, T) && !dln_dT && n > 0;
     if (at_once)
-        rise = numerics_liquid_values(liquid, FF_LIQUID_PRESSURE_COEFFICIENT, 1, T, &alpha, &slope);
+        rise = viscosity_alpha_values(&b->own, b->oil.liquid, 1, T, &alpha, &slope);
     for (size_t i = 0; i < n; i++) {
         ln_eta[i] = ambient.ln_eta0 + alpha * p[i];
         if (dln_dp)
             dln_dp[i] = alpha;
     }
     ff_status status = viscosity_oil_end(&b->oil, &ambient, n, p, T, ln_eta, dln_dT);
-    if (liquid && !at_once)
-        rise = add_rise(liquid, n, p, T, ln_eta, dln_dp, dln_dT);
+    if (moves && !at_once)
+        rise = add_rise(b, n, p, T, ln_eta, dln_dp, dln_dT);
     return status != FF_OK ? status : rise;
 }
 
 static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(barus),
-    FF_QUANTITY("alpha", "1/GPa", barus, alpha, 0, NULL, NULL, 0, 1000, 2, 50,
+    FF_QUANTITY("alpha", "1/GPa", barus, own.alpha, 0, NULL, NULL, 0, 1000, 2, 50,
                 "pressure-viscosity coefficient; without it that of the oil at its temperature"),
+    VISCOSITY_ALPHA_SLOPE_ROW(barus, own.slope),
+    VISCOSITY_AT_ROW(barus, own.at),
 };
 
 static ff_status ready(void *self)
 {
     barus *b = self;
     viscosity_oil_ready(&b->oil, viscosity_highest_cap);
-    return isnan(b->alpha) ? viscosity_alpha_ready(b->host, &b->oil, "") : FF_OK;
+    ff_status status = viscosity_at_ready(b->host, &b->own.at, b->own.slope, "alpha_slope");
+    return status == FF_OK && isnan(b->own.alpha) ? viscosity_alpha_ready(b->host, &b->oil, "")
+                                                  : status;
 }
 
 FF_VISCOSITY_LAW(

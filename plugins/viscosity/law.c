@@ -4,7 +4,9 @@
 #include "../numerics/liquid.h"
 
 #include <math.h>
-#include <string.h>
+#include <stdbool.h>
+
+enum { BLOCK = 256 };
 
 const ff_port viscosity_inputs[1] = {{.name = "oil",
                                       .unit = "",
@@ -95,7 +97,6 @@ ff_status viscosity_oil_end(const viscosity_oil *oil, const viscosity_ambient *a
 void viscosity_points(viscosity_curve *curve, const void *law, double ln_eta0, size_t n,
                       const double *p, double *ln_eta, double *dln_dp)
 {
-    enum { BLOCK = 256 };
     double unwanted[BLOCK];
     if (dln_dp)
         curve(law, ln_eta0, n, p, ln_eta, dln_dp);
@@ -110,4 +111,73 @@ ff_status viscosity_eval(const viscosity_law *law, viscosity_curve *curve, size_
     const viscosity_ambient ambient = viscosity_oil_begin(&law->oil, n, T);
     viscosity_points(curve, law, ambient.ln_eta0, n, p, ln_eta, dln_dp);
     return viscosity_oil_end(&law->oil, &ambient, n, p, T, ln_eta, dln_dT);
+}
+
+ff_status viscosity_at_ready(const ff_host *host, double *at, double slope, const char *name)
+{
+    bool given = !isnan(*at), flat = slope <= 0 && slope >= 0;
+    if (!given)
+        *at = 313.15; /* of no effect */
+    return given || flat
+               ? FF_OK
+               : ff_failf(
+                     host, FF_INVALID, "at",
+                     "%s needs the temperature that the other constants of the law hold at: at",
+                     name);
+}
+
+double viscosity_one_temperature(const viscosity_law *law, double at, const double *T)
+{
+    if (T)
+        return *T;
+    return law->oil.liquid ? numerics_reference_temperature(law->oil.liquid) : at;
+}
+
+/* At n <= BLOCK points. */
+static ff_status eval_rise_some(const viscosity_law *law, viscosity_rise *rise, size_t n,
+                                const double *p, const double *T, double *ln_eta, double *dln_dp,
+                                double *dln_dT)
+{
+    double by_p[BLOCK], by_T[BLOCK], ln_eta0[BLOCK], slope[BLOCK];
+    const ff_liquid *liquid = law->oil.liquid;
+    ff_status status = FF_OK;
+    if (liquid)
+        status = numerics_liquid_values(liquid, FF_LIQUID_LN_ETA0, n, T, ln_eta0, slope);
+    bool outside = rise(law, n, p, T, ln_eta, dln_dp ? dln_dp : by_p, by_T);
+    for (size_t i = 0; i < n; i++) {
+        ln_eta[i] += liquid ? ln_eta0[i] : law->oil.ln_eta0;
+        if (dln_dT)
+            dln_dT[i] = by_T[i] + (liquid ? slope[i] : 0);
+    }
+    return numerics_worse(status, outside ? FF_DOMAIN : FF_OK);
+}
+
+ff_status viscosity_eval_rise(const viscosity_law *law, viscosity_rise *rise, double at, size_t n,
+                              const double *p, const double *T, double *ln_eta, double *dln_dp,
+                              double *dln_dT)
+{
+    double same[BLOCK];
+    ff_status worst = T || !law->oil.liquid ? FF_OK : FF_DOMAIN;
+    for (size_t i = 0; !T && i < BLOCK && n; i++)
+        same[i] = viscosity_one_temperature(law, at, NULL);
+    for (size_t from = 0; from < n; from += BLOCK)
+        worst = numerics_worse(worst, eval_rise_some(law, rise, n - from < BLOCK ? n - from : BLOCK,
+                                                     p + from, T ? T + from : same, ln_eta + from,
+                                                     dln_dp ? dln_dp + from : NULL,
+                                                     dln_dT ? dln_dT + from : NULL));
+    return worst;
+}
+
+ff_status viscosity_alpha_values(const viscosity_alpha *own, const ff_liquid *liquid, size_t n,
+                                 const double *T, double *alpha, double *slope)
+{
+    if (isnan(own->alpha))
+        return numerics_liquid_values(liquid, FF_LIQUID_PRESSURE_COEFFICIENT, n, T, alpha, slope);
+    const double reference = liquid ? numerics_reference_temperature(liquid) : own->at;
+    for (size_t i = 0; i < n; i++) {
+        double t = T ? T[i] : reference, in = viscosity_temperature(t);
+        alpha[i] = own->alpha * exp(own->slope * (in - own->at));
+        slope[i] = in < t || in > t ? 0 : own->slope * alpha[i];
+    }
+    return FF_OK;
 }

@@ -75,10 +75,56 @@ typedef struct viscosity_ambient {
 
 viscosity_ambient viscosity_oil_begin(const viscosity_oil *oil, size_t n, const double *T);
 
-/* Ends an eval of a law whose ln(eta/eta0) does not depend on temperature: adds what is not added
-   yet, fills dln_dT, which may be NULL, and returns FF_DOMAIN when a pressure lay above the cap or
-   the liquid was continued. */
+/* Ends an eval whose ln(eta/eta0) does not depend on temperature, or at one temperature alone: adds
+   what is not added yet, fills dln_dT, which may be NULL, and returns FF_DOMAIN when a pressure lay
+   above the cap or the liquid was continued. */
 ff_status viscosity_oil_end(const viscosity_oil *oil, const viscosity_ambient *ambient, size_t n,
                             const double *p, const double *T, double *ln_eta, double *dln_dT);
+
+/*
+ * Laws whose ln(eta/eta0) depends on temperature. It is evaluated between these bounds, and stays
+ * as it is there beyond them.
+ */
+static const double viscosity_coldest = 150, viscosity_hottest = 700; /* K */
+
+FF_SIMD_INLINE double viscosity_temperature(double T)
+{
+    T = T > viscosity_coldest ? T : viscosity_coldest;
+    return T < viscosity_hottest ? T : viscosity_hottest;
+}
+
+/* The temperature that the shape parameters hold at, a row of such laws; NaN: not given. */
+#define VISCOSITY_AT_ROW(type, member)                                                             \
+    FF_QUANTITY_OR("auto", "at", "degC", type, member, 0, "auto", NULL, -150, 500, -20, 150,       \
+                   "temperature that the constants of the law hold at; auto: they hold at any, "   \
+                   "which slopes over temperature contradict")
+/* Refuses a slope over temperature, `slope` of the row `name`, that stands without `at`; makes `at`
+   a number. */
+ff_status viscosity_at_ready(const ff_host *host, double *at, double slope, const char *name);
+
+/* ln(eta/eta0) of n points, and its slopes over p and T; arrays never overlap. Returns whether any
+   point was outside the range of the law. */
+typedef int64_t viscosity_rise(const void *law, size_t n, const double *p, const double *T,
+                               double *rise, double *by_p, double *by_T);
+/* eval of such a law at temperatures that differ, or with dln_dT. Without T it answers for that of
+   the liquid, or for `at`. */
+ff_status viscosity_eval_rise(const viscosity_law *law, viscosity_rise *rise, double at, size_t n,
+                              const double *p, const double *T, double *ln_eta, double *dln_dp,
+                              double *dln_dT);
+/* The temperature of all points, as the one above has it. */
+double viscosity_one_temperature(const viscosity_law *law, double at, const double *T);
+
+/* A pressure coefficient of the law, or, where it is NaN, of its liquid. */
+typedef struct viscosity_alpha {
+    double alpha, slope, at; /* 1/Pa; of ln(alpha) over T, 1/K; K */
+} viscosity_alpha;
+
+#define VISCOSITY_ALPHA_SLOPE_ROW(type, member)                                                    \
+    FF_QUANTITY("alpha_slope", "1/K", type, member, 0, "0 1/K", NULL, -0.1, 0.1, -0.015, 0,        \
+                "change of ln(alpha) with temperature, from that of the law at `at`")
+
+/* alpha of n <= NUMERICS_POINTS points, and its slope over T. */
+ff_status viscosity_alpha_values(const viscosity_alpha *own, const ff_liquid *liquid, size_t n,
+                                 const double *T, double *alpha, double *slope);
 
 #endif

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Roelands: ln(eta/eta0) = (ln eta0 + 9.67) [(1 + p/p0)^z - 1], eta0 in Pa s (Roelands 1966).
- * All isotherms meet at -p0, where eta = exp(-9.67) Pa s.
+ * Roelands: ln(eta/eta0) = (ln eta0 + 9.67) [(1 + p/p0)^z - 1], eta0 in Pa s (Roelands 1966). All
+ * isotherms meet at -p0, where eta = exp(-9.67) Pa s. With temperature (Houpert 1985) the factor ln
+ * eta0 + 9.67 is that of the oil, or, without one, falls by [(T - 138)/(at - 138)]^-s0, T in K.
  */
 #include "law.h"
 #include "references.h"
@@ -9,13 +10,17 @@
 #include "../numerics/liquid.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 typedef struct roelands {
     const ff_host *host;
     ff_viscosity service;
     viscosity_oil oil;
-    double z, alpha, p0;
+    double z, p0;
+    viscosity_alpha own;   /* alpha NaN: not given */
+    double s0;             /* 0 with an oil */
     double rise, exponent; /* ln eta0 + 9.67; z, given or found */
+    bool thermal;          /* the isotherms differ */
 } roelands;
 
 /* What a liquid gives at a point, with slopes over T: L = ln eta0 + 9.67, and z = alpha p0/L where
@@ -36,26 +41,37 @@ static void at_point(const roelands *r, const isotherm *at, double p, double out
     out[2] = at->rise_T * power + at->rise * power_T + slope_T * (p - q);
 }
 
+/* ln eta0 and its slope over T, at n <= NUMERICS_POINTS points. */
+static ff_status ambient_values(const roelands *r, size_t n, const double *T, double *ln,
+                                double *slope)
+{
+    if (r->oil.liquid)
+        return numerics_liquid_values(r->oil.liquid, FF_LIQUID_LN_ETA0, n, T, ln, slope);
+    for (size_t i = 0; i < n; i++) {
+        double t = T ? T[i] : r->own.at, in = viscosity_temperature(t);
+        double factor = pow((in - 138) / (r->own.at - 138), -r->s0);
+        ln[i] = r->rise * factor - 9.67;
+        slope[i] = in < t || in > t ? 0 : -r->s0 * r->rise * factor / (in - 138);
+    }
+    return FF_OK;
+}
+
 static ff_status eval_some(const roelands *r, size_t n, const double *p, const double *T,
                            double *ln_eta, double *dln_dp, double *dln_dT)
 {
-    const ff_liquid *liquid = r->oil.liquid;
     double ln[NUMERICS_POINTS], ln_T[NUMERICS_POINTS], alpha[NUMERICS_POINTS],
         alpha_T[NUMERICS_POINTS];
-    const int from_oil = isnan(r->z) && isnan(r->alpha);
-    ff_status worst = numerics_liquid_values(liquid, FF_LIQUID_LN_ETA0, n, T, ln, ln_T);
-    if (from_oil) {
-        ff_status status =
-            numerics_liquid_values(liquid, FF_LIQUID_PRESSURE_COEFFICIENT, n, T, alpha, alpha_T);
+    ff_status worst = ambient_values(r, n, T, ln, ln_T);
+    if (isnan(r->z)) {
+        ff_status status = viscosity_alpha_values(&r->own, r->oil.liquid, n, T, alpha, alpha_T);
         worst = status != FF_OK ? status : worst;
     }
     for (size_t i = 0; i < n; i++) {
         isotherm at = {.rise = fmax(ln[i] + 9.67, 0.1), .z = r->z};
         at.rise_T = ln[i] + 9.67 > 0.1 ? ln_T[i] : 0;
         if (isnan(r->z)) {
-            double slope = from_oil ? alpha[i] : r->alpha, slope_T = from_oil ? alpha_T[i] : 0;
-            at.z = slope * r->p0 / at.rise;
-            at.z_T = (slope_T * r->p0 - at.z * at.rise_T) / at.rise;
+            at.z = alpha[i] * r->p0 / at.rise;
+            at.z_T = (alpha_T[i] * r->p0 - at.z * at.rise_T) / at.rise;
         }
         double out[3];
         at_point(r, &at, p[i], out);
@@ -69,8 +85,8 @@ static ff_status eval_some(const roelands *r, size_t n, const double *p, const d
     return worst;
 }
 
-static ff_status eval_liquid(const roelands *r, size_t n, const double *p, const double *T,
-                             double *ln_eta, double *dln_dp, double *dln_dT)
+static ff_status eval_thermal(const roelands *r, size_t n, const double *p, const double *T,
+                              double *ln_eta, double *dln_dp, double *dln_dT)
 {
     ff_status worst = FF_OK;
     for (size_t from = 0; from < n; from += NUMERICS_POINTS) {
@@ -85,11 +101,10 @@ static ff_status eval_liquid(const roelands *r, size_t n, const double *p, const
 /* rise and exponent at the one temperature of all points. */
 static ff_status take_isotherm(const roelands *r, const double *T, double *rise, double *z)
 {
-    double ln, alpha = r->alpha, slope;
-    ff_status status = numerics_liquid_values(r->oil.liquid, FF_LIQUID_LN_ETA0, 1, T, &ln, &slope);
-    if (isnan(r->z) && isnan(r->alpha)) {
-        ff_status other = numerics_liquid_values(r->oil.liquid, FF_LIQUID_PRESSURE_COEFFICIENT, 1,
-                                                 T, &alpha, &slope);
+    double ln, alpha = NAN, slope;
+    ff_status status = ambient_values(r, 1, T, &ln, &slope);
+    if (isnan(r->z)) {
+        ff_status other = viscosity_alpha_values(&r->own, r->oil.liquid, 1, T, &alpha, &slope);
         status = other != FF_OK ? other : status;
     }
     *rise = fmax(ln + 9.67, 0.1);
@@ -123,11 +138,11 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     const roelands *r = self;
     isothermal at = {.rise = r->rise, .z = r->exponent, .p0 = r->p0, .cap = r->oil.pressure_cap};
     ff_status status = FF_OK;
-    if (r->oil.liquid && (n == 0 || dln_dT || !numerics_is_uniform(n, T)))
-        return eval_liquid(r, n, p, T, ln_eta, dln_dp, dln_dT);
-    if (r->oil.liquid)
+    if (r->thermal && (n == 0 || dln_dT || !numerics_is_uniform(n, T)))
+        return eval_thermal(r, n, p, T, ln_eta, dln_dp, dln_dT);
+    if (r->thermal)
         status = take_isotherm(r, T, &at.rise, &at.z);
-    const viscosity_ambient ambient = {.ln_eta0 = r->oil.liquid ? at.rise - 9.67 : r->oil.ln_eta0,
+    const viscosity_ambient ambient = {.ln_eta0 = r->thermal ? at.rise - 9.67 : r->oil.ln_eta0,
                                        .status = status};
     viscosity_points(curve, &at, ambient.ln_eta0, n, p, ln_eta, dln_dp);
     return viscosity_oil_end(&r->oil, &ambient, n, p, T, ln_eta, dln_dT);
@@ -136,31 +151,40 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
 static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(roelands),
     FF_QUANTITY("z", "1", roelands, z, 0, NULL, "slope", 0, 2, 0.2, 1.2, "pressure exponent"),
-    FF_QUANTITY(
-        "alpha", "1/GPa", roelands, alpha, 0, NULL, "slope", 0, 1000, 2, 50,
-        "slope of ln(eta) at ambient pressure; gives z = alpha p0/(ln eta0 + 9.67); without "
-        "both that of the oil"),
+    FF_QUANTITY("alpha", "1/GPa", roelands, own.alpha, 0, NULL, "slope", 0, 1000, 2, 50,
+                "slope of ln(eta) at ambient pressure; gives z = alpha p0/(ln eta0 + 9.67); "
+                "without both that of the oil"),
     FF_QUANTITY("p0", "MPa", roelands, p0, 0, "196 MPa", NULL, 10, 1e4, 190, 200,
                 "pressure constant of the law"),
+    FF_QUANTITY_UNLESS("oil", "s0", "1", roelands, s0, 0, NULL, NULL, 0, 10, 0.5, 2,
+                       "fall of ln(eta0) + 9.67 with temperature by [(T - 138)/(at - 138)]^-s0, T "
+                       "in K, of a contact without an oil; not given: none"),
+    VISCOSITY_ALPHA_SLOPE_ROW(roelands, own.slope),
+    VISCOSITY_AT_ROW(roelands, own.at),
 };
 
 static ff_status ready(void *self)
 {
     roelands *r = self;
     viscosity_oil_ready(&r->oil, viscosity_highest_cap);
-    if (isnan(r->z) && isnan(r->alpha)) {
+    if (isnan(r->z) && isnan(r->own.alpha)) {
         ff_status status = viscosity_alpha_ready(r->host, &r->oil, " or z");
         if (status != FF_OK)
             return status;
     }
-    if (r->oil.liquid)
-        return FF_OK;
+    bool falls = r->s0 > 0, moves = r->own.slope < 0 || r->own.slope > 0;
+    ff_status status = viscosity_at_ready(r->host, &r->own.at, falls ? r->s0 : r->own.slope,
+                                          falls ? "s0" : "alpha_slope");
+    r->s0 = falls ? r->s0 : 0;
+    r->thermal = r->oil.liquid || falls || moves;
+    if (r->oil.liquid || status != FF_OK)
+        return status;
     r->rise = r->oil.ln_eta0 + 9.67;
     if (r->rise <= 0)
         return ff_failf(r->host, FF_INVALID, "eta0",
                         "the Roelands law needs eta0 above exp(-9.67) = 6.3e-5 Pa s, got %g Pa s",
                         exp(r->oil.ln_eta0));
-    r->exponent = isnan(r->z) ? r->alpha * r->p0 / r->rise : r->z;
+    r->exponent = isnan(r->z) ? r->own.alpha * r->p0 / r->rise : r->z;
     if (r->exponent > 2)
         return ff_failf(r->host, FF_INVALID, "alpha",
                         "this alpha means an exponent z of %g; at most 2 is accepted", r->exponent);

@@ -7,11 +7,16 @@
 #include "law.h"
 #include "references.h"
 
+#include "../numerics/liquid.h"
+
+#include <math.h>
+
 typedef struct two_slope {
     const ff_host *host;
     ff_viscosity service;
     viscosity_oil oil;
     double alpha_1, alpha_2, middle, width; /* 1/Pa, Pa */
+    double alpha_slope, at;                 /* 1/K, K */
 } two_slope;
 
 FF_SIMD
@@ -34,10 +39,36 @@ static void curve(const void *self, double ln_eta0, size_t n, const double *rest
     }
 }
 
+static int64_t rise(const void *self, size_t n, const double *p, const double *T, double *rise,
+                    double *by_p, double *by_T)
+{
+    const two_slope *t = self;
+    int64_t outside = 0;
+    curve(t, 0, n, p, rise, by_p);
+    for (size_t i = 0; i < n; i++) {
+        double in = viscosity_temperature(T[i]), factor = exp(t->alpha_slope * (in - t->at));
+        int beyond = in < T[i] || in > T[i];
+        rise[i] *= factor;
+        by_p[i] *= factor;
+        by_T[i] = beyond ? 0 : t->alpha_slope * rise[i];
+        outside |= beyond || p[i] > t->oil.pressure_cap;
+    }
+    return outside;
+}
+
 static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
                       double *dln_dp, double *dln_dT)
 {
-    return viscosity_eval(self, curve, n, p, T, ln_eta, dln_dp, dln_dT);
+    const two_slope *t = self;
+    two_slope hot = *t;
+    if (!(t->alpha_slope < 0 || t->alpha_slope > 0) || n == 0)
+        return viscosity_eval(self, curve, n, p, T, ln_eta, dln_dp, dln_dT);
+    if (dln_dT || !numerics_is_uniform(n, T))
+        return viscosity_eval_rise(self, rise, t->at, n, p, T, ln_eta, dln_dp, dln_dT);
+    double in = viscosity_temperature(viscosity_one_temperature(self, t->at, T));
+    hot.alpha_1 *= exp(t->alpha_slope * (in - t->at));
+    hot.alpha_2 *= exp(t->alpha_slope * (in - t->at));
+    return viscosity_eval((const viscosity_law *)&hot, curve, n, p, T, ln_eta, dln_dp, NULL);
 }
 
 static const ff_param params[] = {
@@ -50,6 +81,8 @@ static const ff_param params[] = {
                 100, 0.05, 1, "pressure at which the two lines of ln(eta) meet"),
     FF_QUANTITY("transition_width", "GPa", two_slope, width, 0, "0 GPa", NULL, 0, 100, 0, 0,
                 "range of pressure around p_transition over which the slope changes; 0: it jumps"),
+    VISCOSITY_ALPHA_SLOPE_ROW(two_slope, alpha_slope),
+    VISCOSITY_AT_ROW(two_slope, at),
 };
 
 static ff_status ready(void *self)
@@ -61,14 +94,13 @@ static ff_status ready(void *self)
                         "must not exceed twice p_transition, %g GPa",
                         1e-9 * t->width, 1e-9 * t->middle);
     viscosity_oil_ready(&t->oil, viscosity_highest_cap);
-    return FF_OK;
+    return viscosity_at_ready(t->host, &t->at, t->alpha_slope, "alpha_slope");
 }
 
-FF_VISCOSITY_LAW(
-    viscosity_two_slope, two_slope, eval, .id = "viscosity/two-slope", .version = "1.0.0",
-    .summary = "Barus' law with another slope at high pressure",
-    .reference = "Allen, Townsend & Zaretsky 1970, J. Lubrication Technology 92, 145-155; Goglia, "
-                 "Cusano & Conry 1984, J. Tribology 106, 104-112",
-    .bibtex = BIB_Allen1970 "\n" BIB_Goglia1984, .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params), .inputs = FF_TABLE(viscosity_inputs), .wire = viscosity_wire,
-    .ready = ready, .cost = 2.4e-3);
+FF_VISCOSITY_LAW(viscosity_two_slope, two_slope, eval, .id = "viscosity/two-slope",
+                 .version = "1.0.0", .summary = "Barus' law with another slope at high pressure",
+                 .reference = "Allen, Townsend & Zaretsky 1970, J. Lubrication Technology 92, "
+                              "145-155; Goglia, Cusano & Conry 1984, J. Tribology 106, 104-112",
+                 .bibtex = BIB_Allen1970 "\n" BIB_Goglia1984, .licence = "GPL-3.0-or-later",
+                 .params = FF_TABLE(params), .inputs = FF_TABLE(viscosity_inputs),
+                 .wire = viscosity_wire, .ready = ready, .cost = 2.4e-3);
