@@ -5,6 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* atan, of arguments that are some 1e-4 where bearings are not soft. */
+static double small_atan(double t)
+{
+    double squared = t * t;
+    if (squared > 1e-6)
+        return atan(t);
+    return t - t * squared * (1.0 / 3 - squared * (1.0 / 5 - squared / 7));
+}
+
 /* With the centre distance C, L = sqrt(C^2 - (rb1 + rb2)^2) and tan alpha = L/(rb1 + rb2); the
    changes are written free of cancellation. The half gap opens by (rb1 + rb2) times the change of
    inv alpha = tan alpha - alpha. A flank of gear 1 is met later by the change of alpha, and contact
@@ -19,9 +28,14 @@ void dynamics_coupled_locate(const dynamics_coupled *pair, const double *x, dyna
     double base = pair->base, squares = (2 * pair->centre + rx) * rx + ry * ry;
     double line = sqrt(fmax(pair->line * pair->line + squares, 0));
     double longer = squares / (line + pair->line);
-    double wider = atan(longer * base / (base * base + line * pair->line));
+    double wider = small_atan(longer * base / (base * base + line * pair->line));
+    double along = pair->centre + rx;
     place->centre = sqrt(base * base + line * line);
-    place->turn = atan2(ry, pair->centre + rx);
+    place->turn = along > 0 ? small_atan(ry / along) : atan2(ry, along);
+    place->sin_turn = ry / place->centre;
+    place->cos_turn = along / place->centre;
+    place->sin_angle = line / place->centre;
+    place->cos_angle = base / place->centre;
     place->angle = pair->angle + wider;
     place->half_gap += longer - base * wider;
     place->shift = wider * pair->base_1 / pair->base_pitch;
@@ -39,23 +53,18 @@ dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, doub
     return (dynamics_pairs){(int)ceil(-phase), (int)floor(pair->cycle[pair->nodes - 1] - phase)};
 }
 
-/* The stiffness of a tooth pair, straight between nodes and constant beyond the ends. */
+/* The stiffness of a tooth pair, constant beyond the ends. */
 static double pair_stiffness_at(const dynamics_coupled *pair, double cycle)
 {
-    size_t low = 0, high = pair->nodes - 1;
+    size_t last = pair->nodes - 1;
     const double *at = pair->cycle, *k = pair->pair_stiffness;
     if (cycle <= at[0])
         return k[0];
-    if (cycle >= at[high])
-        return k[high];
-    while (high - low > 1) {
-        size_t middle = low + (high - low) / 2;
-        if (at[middle] <= cycle)
-            low = middle;
-        else
-            high = middle;
-    }
-    return k[low] + (k[high] - k[low]) * (cycle - at[low]) / (at[high] - at[low]);
+    if (cycle >= at[last])
+        return k[last];
+    double phase = (cycle - at[0]) / (at[last] - at[0]);
+    const dynamics_piece *piece = dynamics_excitation_piece(&pair->table, phase, 0);
+    return dynamics_piece_value(piece->k, piece->degree, phase - piece->start);
 }
 
 double dynamics_coupled_stiffness_change(const dynamics_coupled *pair, const dynamics_place *place,
@@ -75,10 +84,10 @@ dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dy
                                           int side, const double *x, const double *v, double e,
                                           double e_rate)
 {
-    double s = x[DYNAMICS_Q] - pair->base * place->turn, alpha = place->angle, psi = place->turn;
-    double sign = side < 0 ? -1 : 1;
-    double along = sign * cos(alpha) * sin(psi) - (side ? sin(alpha) * cos(psi) : 0);
-    double across = -sign * cos(alpha) * cos(psi) - (side ? sin(alpha) * sin(psi) : 0);
+    double s = x[DYNAMICS_Q] - pair->base * place->turn, sign = side < 0 ? -1 : 1;
+    double opens = side ? place->sin_angle : 0;
+    double along = sign * place->cos_angle * place->sin_turn - opens * place->cos_turn;
+    double across = -sign * place->cos_angle * place->cos_turn - opens * place->sin_turn;
     dynamics_overlap o = {.value = sign * (s - e) - (side ? place->half_gap : 0),
                           .rate = -sign * e_rate,
                           .gradient = {[DYNAMICS_Q] = sign,
@@ -113,18 +122,13 @@ void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
                         pair->base * place.turn;
 }
 
-/* The mesh stiffness at a place of contact: the mean of the values before and behind it, or one of
- * them. */
-static double mesh_stiffness_at(const dynamics_excitation *excitation, double cycle, int first,
-                                int last)
+/* The mesh stiffness before (`left`) or behind a place of contact. */
+static double mesh_stiffness_at(const dynamics_excitation *excitation, double cycle, int left)
 {
-    double phase = cycle - floor(cycle + 1e-12), sum = 0;
-    for (int left = first; left <= last; left++) {
-        double at = left && phase < 1e-9 ? phase + 1 : phase;
-        const dynamics_piece *piece = dynamics_excitation_piece(excitation, at, left);
-        sum += dynamics_piece_value(piece->k, piece->degree, at - piece->start);
-    }
-    return sum / (last - first + 1);
+    double phase = cycle - floor(cycle + 1e-12);
+    double at = left && phase < 1e-9 ? phase + 1 : phase;
+    const dynamics_piece *piece = dynamics_excitation_piece(excitation, at, left);
+    return dynamics_piece_value(piece->k, piece->degree, at - piece->start);
 }
 
 static int by_size(const void *a, const void *z)
@@ -133,7 +137,15 @@ static int by_size(const void *a, const void *z)
     return (x > y) - (x < y);
 }
 
-/* Collects the stations and the nodes of the mesh between the ends of contact, in order and each
+/* Whether k jumps or has a corner where a piece starts; between smooth pieces it has none. */
+static int has_corner(const dynamics_excitation *excitation, size_t i)
+{
+    const dynamics_piece *p = &excitation->pieces[i];
+    const dynamics_piece *before = &excitation->pieces[(i ? i : excitation->count) - 1];
+    return p->jump || p->degree == 1 || before->degree == 1;
+}
+
+/* Collects the stations and the corners of the mesh between the ends of contact, in order and each
  * once. */
 static size_t collect_nodes(const dynamics_excitation *excitation, size_t stations,
                             const double *cycle, double *node)
@@ -143,7 +155,8 @@ static size_t collect_nodes(const dynamics_excitation *excitation, size_t statio
     for (size_t i = 0; i < stations; i++)
         node[count++] = cycle[i];
     for (size_t i = 0; i < excitation->count; i++)
-        for (double at = excitation->pieces[i].start; at < end; at += 1)
+        for (double at = excitation->pieces[i].start; has_corner(excitation, i) && at < end;
+             at += 1)
             node[count++] = at;
     qsort(node, count, sizeof *node, by_size);
     for (size_t i = 0; i < count; i++)
@@ -152,8 +165,9 @@ static size_t collect_nodes(const dynamics_excitation *excitation, size_t statio
     return kept;
 }
 
-/* The share between stations; where it jumps, the mean of both values. */
-static double share_at(size_t stations, const double *cycle, const double *share, double at)
+/* The share between stations; where it jumps, the value before (`left`) or behind. */
+static double share_at(size_t stations, const double *cycle, const double *share, double at,
+                       int left)
 {
     size_t low = 0, high = stations - 1;
     while (low + 1 < stations && cycle[low + 1] < at - 1e-9)
@@ -162,9 +176,23 @@ static double share_at(size_t stations, const double *cycle, const double *share
         high--;
     double length = cycle[high] - cycle[low];
     if (high - low > 1) /* stations at this place */
-        return 0.5 * (share[low + 1] + share[high - 1]);
+        return left ? share[low + 1] : share[high - 1];
     return length > 0 ? share[low] + (share[high] - share[low]) * (at - cycle[low]) / length
                       : share[low];
+}
+
+/* Makes pieces of the stiffness of a tooth pair, over the way from its first point to its last. */
+static int build_table(dynamics_coupled *pair)
+{
+    double from = pair->cycle[0], way = pair->cycle[pair->nodes - 1] - from;
+    double *phase = malloc(pair->nodes * sizeof *phase);
+    dynamics_mesh_curves curves = {pair->nodes, phase, pair->pair_stiffness, NULL};
+    pair->table = (dynamics_excitation){.stiffness = 1, .length = 1};
+    for (size_t i = 0; phase && i < pair->nodes; i++)
+        phase[i] = way > 0 ? (pair->cycle[i] - from) / way : 0;
+    int built = phase && dynamics_excitation_build(&pair->table, &curves);
+    free(phase);
+    return built;
 }
 
 int dynamics_coupled_pair_stiffness(dynamics_coupled *pair, size_t stations, const double *cycle,
@@ -178,15 +206,19 @@ int dynamics_coupled_pair_stiffness(dynamics_coupled *pair, size_t stations, con
         return 0;
     pair->nodes = collect_nodes(excitation, stations, cycle, pair->cycle);
     for (size_t i = 0; i < pair->nodes; i++) {
-        double at = pair->cycle[i], part = share ? share_at(stations, cycle, share, at) : 0;
+        double at = pair->cycle[i], sum = 0;
         int first = i + 1 == pair->nodes, last = i > 0; /* from inside at the ends of contact */
-        pair->pair_stiffness[i] = part * mesh_stiffness_at(excitation, at, first, last);
+        for (int left = first; share && left <= last; left++)
+            sum += share_at(stations, cycle, share, at, left) *
+                   mesh_stiffness_at(excitation, at, left);
+        pair->pair_stiffness[i] = sum / (last - first + 1);
     }
-    return 1;
+    return build_table(pair);
 }
 
 void dynamics_coupled_free(dynamics_coupled *pair)
 {
     free(pair->cycle);
     free(pair->pair_stiffness);
+    dynamics_excitation_free(&pair->table);
 }

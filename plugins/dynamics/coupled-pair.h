@@ -29,11 +29,13 @@ typedef struct dynamics_coupled {
     double base_1, base_pitch;        /* rb1, base pitch */
     double *cycle, *pair_stiffness; /* the stiffness of one tooth pair at mesh cycles behind SAP */
     size_t nodes;                   /* number of these points */
+    dynamics_excitation table;      /* its k is that stiffness over the stretch of these points */
 } dynamics_coupled;
 
 /* What follows from the position of the centres. */
 typedef struct dynamics_place {
     double centre, turn, angle, half_gap;
+    double sin_turn, cos_turn, sin_angle, cos_angle;
     double shift; /* of the contact along gear 1, mesh cycles */
     double entry,
         exit; /* of a tooth pair, mesh cycles behind SAP; their distance is the contact ratio */

@@ -294,7 +294,8 @@ enum { MAX_PROBES = 80, MAX_SECANTS = 40 };
 /* The step between 0 and h at which gate i closes. */
 static double find_closing(dynamics_coupled_run *run, int i, double at_0, double h, double at_h)
 {
-    static const double closed = 1e-15; /* value of a gate that is 0 to round-off */
+    static const double closed = 1e-13; /* value of a gate that is 0 to some round-offs of what
+                                           it is the difference of */
     dynamics_bracket b = {0, at_0, h, at_h, 0};
     for (int n = 0; n < MAX_PROBES && b.high - b.low > 4 * DBL_EPSILON * h; n++) {
         double middle = dynamics_bracket_secant(&b);
