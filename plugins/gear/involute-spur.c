@@ -34,7 +34,7 @@ static const ff_param params[] = {
                 "width of the teeth in contact"),
     FF_LIST("profile_shift", "1", spur, spec.shift, 0, "0", NULL, -10, 10, 0, 0, 1, 2,
             "profile shift coefficients x1 and x2, outward positive; what leaves a tooth undercut "
-            "by more than 0.01 module is refused"),
+            "where its flank meshes is refused"),
     FF_QUANTITY("centre_distance", "mm", spur, spec.centre_distance, 0, NULL, NULL, 1e-3, 1e9, 0, 0,
                 "working centre distance; left out: where teeth of these profile shifts mesh "
                 "without backlash"),

@@ -8,8 +8,8 @@
 /* Basic rack of ISO 53 (profile A), in modules. */
 static const double addendum = 1.0, dedendum = 1.25;
 
-/* An undercut of this depth, in modules, takes nothing off the flank that meshes: 17 teeth at 20
-   degrees, which are usually cut without profile shift, lie 0.006 below the limit. */
+/* An undercut of this depth, in modules, is none: 17 teeth at 20 degrees, which are usually cut
+   without profile shift, lie 0.006 below the limit. */
 static const double harmless_undercut = 0.01;
 
 /* Tolerance for the rounding of a stated centre distance, in modules of backlash. */
@@ -49,21 +49,6 @@ static double tight_involute(const gear_spur_spec *g)
     return involute(g->pressure_angle) + 2 * (ff_of_both(&g->shift, 0) + ff_of_both(&g->shift, 1)) *
                                              tan(g->pressure_angle) /
                                              (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1));
-}
-
-static ff_status check_undercut(const ff_host *host, const gear_spur_spec *g)
-{
-    for (int i = 0; i < 2; i++) {
-        double s = sin(g->pressure_angle);
-        double least =
-            addendum - ff_of_both(&g->teeth, i) * s * s / 2; /* DIN 3960: x >= 1 - z sin^2(a)/2 */
-        if (ff_of_both(&g->shift, i) < least - harmless_undercut)
-            return ff_failf(host, FF_INVALID, "profile_shift",
-                            "gear %d with %g teeth and profile shift %g is undercut; its "
-                            "profile_shift must be at least %.3f, or it needs more teeth",
-                            i + 1, ff_of_both(&g->teeth, i), ff_of_both(&g->shift, i), least);
-    }
-    return FF_OK;
 }
 
 static ff_status mount(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
@@ -245,6 +230,67 @@ static ff_status set_depths(const ff_host *host, const gear_spur_spec *g, gear_s
     return FF_OK;
 }
 
+/* Where the corner of the basic rack has come to, seen from gear i when it lies `beside` the line
+   of centres: how far it is inside of the involute, as an angle, above 0 in the tooth; *radius is
+   its distance from the axis. */
+static double corner_inside(const gear_spur_spec *g, const gear_spur_pair *p, int i, double beside,
+                            double *radius)
+{
+    const double r = p->reference_radius[i],
+                 depth = (addendum - ff_of_both(&g->shift, i)) * g->module;
+    const double rolled = beside + depth * tan(g->pressure_angle);
+    *radius = fmax(hypot(beside, r - depth), p->base_radius[i]);
+    const double flank = involute(acos(p->base_radius[i] / *radius)) - involute(g->pressure_angle);
+    return atan2(beside, r - depth) - rolled / r - flank;
+}
+
+/* Radius of curvature up to which undercut takes the involute of gear i away, 0 without undercut
+   (DIN 3960: x below 1 - z sin^2(a)/2): where the path of the rack's corner crosses it outermost.
+ */
+static double undercut_of(const gear_spur_spec *g, const gear_spur_pair *p, int i)
+{
+    enum { STEPS = 400 };
+    const double s = sin(g->pressure_angle);
+    if (ff_of_both(&g->shift, i) >=
+        addendum - ff_of_both(&g->teeth, i) * s * s / 2 - harmless_undercut)
+        return 0;
+    double radius, most = p->tip_radius[i], outer = most, inner = 0;
+    bool inside = false;
+    for (int k = 0; k < STEPS && !inside; k++) {
+        inner = most * (1 - (double)k / STEPS);
+        inside = corner_inside(g, p, i, inner, &radius) > 0;
+        if (!inside)
+            outer = inner;
+    }
+    for (int k = 0; k < 60 && inside; k++) {
+        double middle = (inner + outer) / 2;
+        *(corner_inside(g, p, i, middle, &radius) > 0 ? &inner : &outer) = middle;
+    }
+    if (!inside)
+        return 0;
+    corner_inside(g, p, i, inner, &radius);
+    return sqrt((radius - p->base_radius[i]) * (radius + p->base_radius[i]));
+}
+
+/* Refuses teeth whose undercut takes some of the flank that meshes. */
+static ff_status check_undercut(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
+{
+    for (int i = 0; i < 2; i++) {
+        const double tip = p->tip_radius[1 - i], base = p->base_radius[1 - i],
+                     s = sin(g->pressure_angle);
+        const double lowest = p->line_length - sqrt((tip - base) * (tip + base));
+        p->undercut[i] = undercut_of(g, p, i);
+        if (p->undercut[i] > 0 && lowest < p->undercut[i])
+            return ff_failf(host, FF_INVALID, "profile_shift",
+                            "gear %d with %g teeth and profile shift %g is undercut where its "
+                            "flank meshes; its "
+                            "profile_shift must be at least %.3f, or it needs more teeth",
+                            i + 1, ff_of_both(&g->teeth, i), ff_of_both(&g->shift, i),
+                            addendum - ff_of_both(&g->teeth, i) * s * s / 2);
+    }
+    return FF_OK;
+}
+
 /* Arc of the tooth at `radius`, from the arc s at the reference radius r (DIN 3960):
    s_y = 2 r_y (s/(2 r) + inv a - inv a_y). */
 static double thickness_at(const gear_spur_spec *g, const gear_spur_pair *p, int i, double arc,
@@ -329,7 +375,8 @@ static double form_margin(const gear_spur_spec *g, const gear_spur_pair *p)
     for (int i = 0; i < 2; i++) {
         double depth =
             p->reference_radius[i] - p->root_radius[i] - (dedendum - addendum) * g->module;
-        margin = fmin(margin, lowest[i] - p->reference_radius[i] * s + depth / s);
+        margin =
+            fmin(margin, lowest[i] - fmax(p->reference_radius[i] * s - depth / s, p->undercut[i]));
     }
     return margin;
 }
@@ -342,13 +389,13 @@ ff_status gear_spur_pair_make(const ff_host *host, const gear_spur_spec *g, gear
         p->base_radius[i] = p->reference_radius[i] * cos(g->pressure_angle);
     }
     p->base_pitch = M_PI * g->module * cos(g->pressure_angle);
-    ff_status status = check_undercut(host, g);
-    if (status == FF_OK)
-        status = mount(host, g, p);
+    ff_status status = mount(host, g, p);
     if (status == FF_OK)
         status = set_backlash(host, g, p);
     if (status == FF_OK)
         status = set_depths(host, g, p);
+    if (status == FF_OK)
+        status = check_undercut(host, g, p);
     for (int i = 0; i < 2 && status == FF_OK && (g->span.count > 0 || g->over_pins.count > 0); i++)
         status = check_measure(host, g, p, i);
     if (status == FF_OK)

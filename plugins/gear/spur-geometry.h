@@ -44,6 +44,7 @@ typedef struct gear_spur_pair {
     double pitch_error; /* thicknesses + backlash against the working pitch, relative */
     double form_margin; /* least distance from the end of the involute, cut by a rack with a bottom
                            clearance of 0.25 m, to contact; below 0: the fillet is met */
+    double undercut[2]; /* radius of curvature up to which undercut takes the involute; 0: none */
     double clearance;   /* least gap between a tip and the mating root */
 } gear_spur_pair;
 

@@ -15,6 +15,10 @@ typedef struct fault {
 
 static const fault faults[] = {
     {"undercut", {{"teeth", "[12, 40]"}}, "profile_shift", "must be at least 0.298"},
+    {"undercut where the flank meshes",
+     {{"teeth", "[14, 20]"}},
+     "profile_shift",
+     "is undercut where its flank meshes"},
     {"pointed tip",
      {{"teeth", "[12, 40]"}, {"profile_shift", "[1.2, 0]"}},
      "profile_shift",

@@ -152,12 +152,29 @@ static void check_scaling(void)
     stage_close(gear[1]);
 }
 
+/* FZG's wheel A has 24 teeth and x = -0.5, below the limit of undercut, -0.404; its pinion's tips
+   reach 6.19 mm of radius of curvature, far above what is cut away. */
+static void check_harmless_undercut(void)
+{
+    stage *gear = open_pair(16, 24, 0.853, -0.5);
+    stage_set_text(gear, "module", "4.5 mm");
+    stage_set_text(gear, "centre_distance", "91.5 mm");
+    stage_set_text(gear, "tip_diameter", "[88.77 mm, 112.5 mm]");
+    if (check_true("an undercut below the contact does no harm", stage_run(gear) == FF_OK)) {
+        size_t n;
+        const double *radius = stage_get(gear, "radius_2", &n);
+        check_near("the lowest contact of the wheel", radius[n - 1], 6.191e-3, 1e-3);
+    }
+    stage_close(gear);
+}
+
 int main(void)
 {
     check_published();
     check_tight_centre_distance();
     check_backlash_of_distance();
     check_rack_limit();
+    check_harmless_undercut();
     check_scaling();
     return check_done();
 }

@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* rating/micropitting, a draft: the film over the roughness, lambda_GF, by the closed formulas of
+   ISO/TR 15144-1, method B, as they are quoted, and by the film of this program (method A) beside
+   it. */
+#include "pair.h"
+#include "references.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double celsius = 273.15;
+static const double highest_ratio =
+    2; /* contact ratio from which method B does not hold, clause 8.2 */
+
+typedef struct micropitting {
+    const ff_host *host;
+    const ff_liquid *oil;
+    rating_load load;
+    int64_t points;
+    int32_t base, supply, relieved;
+    double conductivity, density, specific_heat;
+    double test_lambda, test_own_lambda, yield;
+} micropitting;
+
+static const ff_param params[] = {
+    FF_ONE_OF("mineral|PAO|PAG", "base", micropitting, base, 0, "mineral",
+              "kind of the base oil, whose pressure coefficient formulas 9 to 11 give"),
+    FF_ONE_OF("dip|spray|submerged", "supply", micropitting, supply, 0, "dip",
+              "how the oil gets to the mesh: factor X_S"),
+    FF_QUANTITY("application_factor", "1", micropitting, load.application, 0, "1", NULL, 0.1, 10, 1,
+                2.5, "K_A"),
+    FF_QUANTITY("face_load_factor", "1", micropitting, load.face, 0, "1", NULL, 1, 10, 1, 2,
+                "K_Hbeta"),
+    FF_QUANTITY("transverse_load_factor", "1", micropitting, load.transverse, 0, "1", NULL, 1, 10,
+                1, 2, "K_Halpha"),
+    FF_COUNT("quality_grade", micropitting, load.grade, 0, "6", NULL, 1, 12, 0, 0,
+             "flank tolerance class of ISO 1328-1, which shares the load"),
+    FF_SWITCH("adequate_tip_relief", micropitting, relieved, "false",
+              "whether the tips are relieved as the load asks for: cooler teeth"),
+    FF_QUANTITY("thermal_conductivity", "W/(m K)", micropitting, conductivity, 0, "45 W/(m K)",
+                NULL, 1e-3, 1e4, 0, 0, "of both gears"),
+    FF_QUANTITY("density", "kg/m3", micropitting, density, 0, "7800 kg/m3", NULL, 1, 1e5, 0, 0,
+                "of both gears"),
+    FF_QUANTITY("specific_heat", "J/(kg K)", micropitting, specific_heat, 0, "440 J/(kg K)", NULL,
+                1, 1e5, 0, 0, "of both gears"),
+    FF_QUANTITY("test_lambda", "1", micropitting, test_lambda, 0, NULL, NULL, 1e-4, 100, 0, 0,
+                "lambda_gf_min of the test gear FZG C-GF/8.3/90 at the stage at which the oil "
+                "fails, by the same formulas "
+                "(configs/fzg-cgf-micropitting.yaml): permissible_lambda"),
+    FF_QUANTITY("test_own_lambda", "1", micropitting, test_own_lambda, 0, NULL, NULL, 1e-4, 100, 0,
+                0, "own_lambda_gf_min of the same run, by the film of this program"),
+    FF_QUANTITY("yield_strength", "MPa", micropitting, yield, 0, NULL, NULL, 1, 1e4, 0, 0,
+                "of the flanks' steel in tension; with it the largest shear of the contact, 0.300 "
+                "p_H, is held against the yield "
+                "in shear, half of it"),
+    FF_COUNT("points", micropitting, points, FF_TUNABLE, "200", NULL, 4, 100000, 0, 0,
+             "equal parts of the path of contact"),
+};
+
+enum {
+    OUT_ROLL_ANGLE,
+    OUT_LAMBDA,
+    OUT_FILM,
+    OUT_CONTACT,
+    OUT_LAMBDA_MIN,
+    OUT_LAMBDA_MIN_AT,
+    OUT_BULK,
+    OUT_FRICTION,
+    OUT_PERMISSIBLE,
+    OUT_SAFETY,
+    OUT_OWN_LAMBDA_MIN,
+    OUT_OWN_SAFETY,
+    OUT_SHEAR_MAX,
+    OUTPUTS
+};
+
+static const ff_port outputs[OUTPUTS] = {
+    [OUT_ROLL_ANGLE] = {"roll_angle", "rad", "roll angle of gear 1", "station", NULL, 0, NULL},
+    [OUT_LAMBDA] = {"lambda_gf", "1", "draft: film over mean roughness Ra (15144-1, formula 2)",
+                    "station", NULL, 0, NULL},
+    [OUT_FILM] = {"film_thickness", "m", "draft: film by the closed formula (15144-1, formula 4)",
+                  "station", NULL, 0, NULL},
+    [OUT_CONTACT] = {"contact_temperature", "K",
+                     "draft: bulk and flash temperature (15144-1, formula 79)", "station", NULL, 0,
+                     NULL},
+    [OUT_LAMBDA_MIN] = {"lambda_gf_min", "1", "draft: least of lambda_gf", "", NULL, 0, NULL},
+    [OUT_LAMBDA_MIN_AT] = {"lambda_gf_min_at", "rad", "roll angle of it", "", NULL, 0, NULL},
+    [OUT_BULK] = {"bulk_temperature", "K", "draft: temperature of the teeth (15144-1, formula 84)",
+                  "", NULL, 0, NULL},
+    [OUT_FRICTION] = {"friction_coefficient", "1",
+                      "draft: mean coefficient of friction (15144-1, formula 86)", "", NULL, 0,
+                      NULL},
+    [OUT_PERMISSIBLE] = {"permissible_lambda", "1",
+                         "draft: lambda_gf_min of the test gear at the stage of failure", "", NULL,
+                         0, NULL},
+    [OUT_SAFETY] = {"safety", "1",
+                    "draft: lambda_gf_min over permissible_lambda, both by the closed formulas "
+                    "(15144-1, formula 1)",
+                    "", NULL, 0, NULL},
+    [OUT_OWN_LAMBDA_MIN] = {"own_lambda_gf_min", "1",
+                            "least film of this program over mean roughness Ra", "", NULL, 0, NULL},
+    [OUT_OWN_SAFETY] =
+        {"own_safety", "1",
+         "own_lambda_gf_min over that of the test gear, both by the film of this program", "", NULL,
+         0, NULL},
+    [OUT_SHEAR_MAX] = {"shear_max", "Pa",
+                       "largest shear stress below the flank, 0.300 of the highest Hertz pressure",
+                       "", NULL, 0, NULL},
+};
+
+typedef struct rating {
+    double friction, bulk, viscosity, alpha; /* at the bulk temperature; K, Pa s, 1/Pa */
+    double alpha_38, shear;
+    double least, least_at;
+} rating;
+
+/* Pressure coefficient at 38 degC, 1/Pa, of the viscosity there, Pa s (formulas 9 to 11). */
+static double alpha_at_38(const micropitting *s, double viscosity)
+{
+    static const struct {
+        double factor, power;
+    } of[] = {{2.657e-8, 0.1348}, {1.466e-8, 0.0507}, {1.392e-8, 0.1572}};
+    return of[s->base].factor * pow(viscosity, of[s->base].power);
+}
+
+/* Formula 8. */
+static double alpha_at(const rating *r, double T)
+{
+    return r->alpha_38 * (1 + 516 * (1 / T - 1.0 / 311));
+}
+
+static double lubricant_factor(const micropitting *s)
+{
+    static const double factor[] = {1.0, 0.8, 0.7};
+    return factor[s->base];
+}
+
+/* Share of the power that friction takes, H_v (formulas 91 and 92), of friction coefficient 1. */
+static double loss_factor(const rating_pair *p)
+{
+    const double e1 = rating_addendum_ratio(p, 0), e2 = rating_addendum_ratio(p, 1), all = e1 + e2;
+    const double turns = M_PI * (1 / p->teeth[0] + 1 / p->teeth[1]);
+    return turns * (all < 2 ? e1 * e1 + e2 * e2 + 1 - all : all / 2);
+}
+
+/* Friction and bulk temperature, from the oil at its own temperature (formulas 84 to 87 and 100).
+ */
+static ff_status set_bulk(const micropitting *s, const rating_pair *p, rating *r)
+{
+    static const double supply[] = {1.0, 1.2, 0.2};
+    double viscosity, density, viscosity_38, density_38;
+    ff_status status = rating_oil_at(s->host, p, p->oil_temperature, &viscosity, &density);
+    if (status == FF_OK)
+        status = rating_oil_at(s->host, p, 38 + celsius, &viscosity_38, &density_38);
+    if (status != FF_OK)
+        return status;
+    const double radius = 1e3 * rating_radius(p, p->pitch_point),
+                 load = 1e-3 * rating_line_load(p, &s->load);
+    const double rough = 2.2 * pow(1e6 * p->roughness / radius, 0.25);
+    const double sum = rating_speed(p, 0, p->pitch_point) + rating_speed(p, 1, p->pitch_point);
+    r->friction = 0.045 * pow(load / (sum * radius), 0.2) * pow(1e3 * viscosity, -0.05) * rough *
+                  lubricant_factor(s);
+    const double e = fmax(rating_addendum_ratio(p, 0), rating_addendum_ratio(p, 1));
+    const double relief = s->relieved && s->load.grade <= 6 ? 1 + 0.24 * e + 0.71 * e * e : 1;
+    const double power = 1e-3 * p->force * p->base[0] * p->omega; /* kW */
+    const double heat =
+        power * r->friction * loss_factor(p) / (1e6 * p->centre_distance * p->width);
+    r->bulk = p->oil_temperature + 7400 * pow(heat, 0.72) * supply[s->supply] / (1.2 * relief);
+    r->alpha_38 = alpha_at_38(s, viscosity_38);
+    r->alpha = alpha_at(r, r->bulk);
+    return rating_oil_at(s->host, p, r->bulk, &r->viscosity, &density);
+}
+
+typedef struct point {
+    double film, contact;
+} point;
+
+/* Film and contact temperature at a place: h = 1.6 R G^0.6 U^0.7 W^-0.13 S^0.22 (formula 4, in SI),
+   with the flash temperature of formula 80. */
+static ff_status rate_at(const micropitting *s, const rating_pair *p, rating *r, double place,
+                         point *at)
+{
+    const double radius = rating_radius(p, place), E = p->modulus;
+    const double u1 = rating_speed(p, 0, place), u2 = rating_speed(p, 1, place);
+    const double load = rating_line_load(p, &s->load) * rating_load_share(p, &s->load, place);
+    const double pressure = sqrt(load * E / (2 * M_PI * radius)); /* formulas 24 and 25 */
+    const double B = sqrt(s->conductivity * s->density * s->specific_heat);
+    const double flash = sqrt(M_PI) / 2 * r->friction * pressure * fabs(u1 - u2) /
+                         (B * (sqrt(u1) + sqrt(u2))) * sqrt(8 * radius * pressure / E);
+    double viscosity, density;
+    at->contact = r->bulk + flash;
+    const ff_status status = rating_oil_at(s->host, p, at->contact, &viscosity, &density);
+    if (status != FF_OK)
+        return status;
+    const double G = r->alpha * E, U = r->viscosity * (u1 + u2) / (2 * E * radius);
+    const double W = 2 * M_PI * pressure * pressure / (E * E);
+    const double S =
+        alpha_at(r, at->contact) * viscosity / (r->alpha * r->viscosity); /* formula 27 */
+    at->film = 1.6 * radius * pow(G, 0.6) * pow(U, 0.7) * pow(W, -0.13) * pow(S, 0.22);
+    r->shear = fmax(r->shear,
+                    0.300 * pressure); /* Johnson 1985, line contact: at 0.78 a below the surface */
+    return FF_OK;
+}
+
+static double place_of(const micropitting *s, const rating_pair *p, size_t i)
+{
+    return p->sap + (p->end - p->sap) * (double)i / (double)s->points;
+}
+
+static ff_status rate(const micropitting *s, const rating_pair *p, point *points, rating *r)
+{
+    ff_status status = set_bulk(s, p, r);
+    r->least = HUGE_VAL;
+    for (size_t i = 0; i <= (size_t)s->points && status == FF_OK; i++) {
+        double place = place_of(s, p, i);
+        status = rate_at(s, p, r, place, &points[i]);
+        if (status == FF_OK && !(isfinite(points[i].film) && points[i].film > 0))
+            return ff_failf(s->host, FF_INVALID, outputs[OUT_FILM].name,
+                            "the film is no number: the inputs are not those of a gear");
+        if (status == FF_OK && points[i].film / p->roughness < r->least) {
+            r->least = points[i].film / p->roughness;
+            r->least_at = place / p->base[0];
+        }
+    }
+    return status;
+}
+
+static ff_status write_series(const micropitting *s, const rating_pair *p, const point *points,
+                              uint64_t wanted)
+{
+    const size_t count = (size_t)s->points + 1;
+    for (uint32_t row = OUT_ROLL_ANGLE; row <= OUT_CONTACT; row++) {
+        double *to = wanted & FF_BIT(row) ? ff_put_series(s->host, row, count) : NULL;
+        if (wanted & FF_BIT(row) && !to)
+            return FF_NOMEM;
+        for (size_t i = 0; to && i < count; i++)
+            to[i] = row == OUT_ROLL_ANGLE ? place_of(s, p, i) / p->base[0]
+                    : row == OUT_LAMBDA   ? points[i].film / p->roughness
+                    : row == OUT_FILM     ? points[i].film
+                                          : points[i].contact;
+    }
+    return FF_OK;
+}
+
+/* A permissible value stands beside the number of the method that calibrated it alone. */
+static ff_status write_ratio(const micropitting *s, uint64_t wanted, uint32_t row, double lambda,
+                             double of_test, const char *param)
+{
+    if (!(wanted & FF_BIT(row)))
+        return FF_OK;
+    if (isnan(of_test))
+        return ff_failf(s->host, FF_UNSUPPORTED, outputs[row].name,
+                        "this output needs %s, which configs/fzg-cgf-micropitting.yaml gives",
+                        param);
+    return ff_put_scalar(s->host, row, lambda / of_test);
+}
+
+static ff_status write_own(const micropitting *s, const rating_pair *p, const ff_array *film,
+                           uint64_t wanted)
+{
+    const uint32_t row = wanted & FF_BIT(OUT_OWN_LAMBDA_MIN) ? OUT_OWN_LAMBDA_MIN : OUT_OWN_SAFETY;
+    if (!(wanted & FF_BIT(row)))
+        return FF_OK;
+    if (!film->data)
+        return ff_failf(s->host, FF_UNSUPPORTED, outputs[row].name,
+                        "this output needs a film, a stage of the kind ehl");
+    double least = HUGE_VAL;
+    for (size_t i = 0; i < film->shape[0]; i++)
+        least = fmin(least, film->data[i]);
+    least /= p->roughness;
+    if (wanted & FF_BIT(OUT_OWN_LAMBDA_MIN) &&
+        ff_put_scalar(s->host, OUT_OWN_LAMBDA_MIN, least) != FF_OK)
+        return FF_NOMEM;
+    return write_ratio(s, wanted, OUT_OWN_SAFETY, least, s->test_own_lambda, "test_own_lambda");
+}
+
+static ff_status write_scalars(const micropitting *s, const rating *r, uint64_t wanted)
+{
+    const struct {
+        uint32_t row;
+        double value;
+    } scalars[] = {{OUT_LAMBDA_MIN, r->least},
+                   {OUT_LAMBDA_MIN_AT, r->least_at},
+                   {OUT_BULK, r->bulk},
+                   {OUT_FRICTION, r->friction},
+                   {OUT_SHEAR_MAX, r->shear}};
+    for (size_t i = 0; i < sizeof scalars / sizeof scalars[0]; i++)
+        if (wanted & FF_BIT(scalars[i].row) &&
+            ff_put_scalar(s->host, scalars[i].row, scalars[i].value) != FF_OK)
+            return FF_NOMEM;
+    if (wanted & FF_BIT(OUT_PERMISSIBLE) && isnan(s->test_lambda))
+        return ff_failf(
+            s->host, FF_UNSUPPORTED, outputs[OUT_PERMISSIBLE].name,
+            "this output needs test_lambda, which configs/fzg-cgf-micropitting.yaml gives");
+    if (wanted & FF_BIT(OUT_PERMISSIBLE) &&
+        ff_put_scalar(s->host, OUT_PERMISSIBLE, s->test_lambda) != FF_OK)
+        return FF_NOMEM;
+    return write_ratio(s, wanted, OUT_SAFETY, r->least, s->test_lambda, "test_lambda");
+}
+
+static void report(const micropitting *s, const rating_pair *p, const rating *r)
+{
+    const ff_host *host = s->host;
+    const double ratio = (p->end - p->sap) / p->base_pitch;
+    rating_report_draft(host, "ISO/TR 15144-1");
+    host->quality(host->ctx, "contact_ratio", ratio, highest_ratio,
+                  ratio <= highest_ratio ? FF_GOOD : FF_DOUBTFUL,
+                  "from 2 on the closed formulas do not hold (clause 8.2)");
+    host->quality(host->ctx, "pitch_speed", p->pitch_speed, 2,
+                  p->pitch_speed >= 2 && p->pitch_speed <= 60 ? FF_GOOD : FF_DOUBTFUL,
+                  "m/s at the pitch circle; the method was developed for 8 to 60 and agrees with "
+                  "others above 2");
+    if (!isnan(s->yield))
+        host->quality(host->ctx, "shear_over_yield", 2 * r->shear / s->yield, 1,
+                      2 * r->shear <= s->yield ? FF_GOOD : FF_DOUBTFUL,
+                      "largest shear stress of the contact over the yield in shear; above 1 the "
+                      "steel yields");
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const micropitting *s = self;
+    rating_pair p;
+    rating r = {0};
+    ff_status status = rating_pair_read(s->host, in + 1, s->oil, &p);
+    point *points = status == FF_OK ? malloc(((size_t)s->points + 1) * sizeof *points) : NULL;
+    if (status == FF_OK && !points)
+        status = FF_NOMEM;
+    if (status == FF_OK)
+        status = rate(s, &p, points, &r);
+    if (status == FF_OK)
+        status = write_series(s, &p, points, wanted);
+    if (status == FF_OK)
+        status = write_scalars(s, &r, wanted);
+    if (status == FF_OK)
+        status = write_own(s, &p, in, wanted);
+    if (status == FF_OK)
+        report(s, &p, &r);
+    free(points);
+    return status;
+}
+
+static ff_status wire(void *self, uint32_t input, const void *service)
+{
+    if (input == 1 + RATING_IN_OIL)
+        ((micropitting *)self)->oil = service;
+    return FF_OK;
+}
+
+FF_MODEL(rating_micropitting, micropitting, .id = "rating/micropitting", .version = "0.1.0",
+         .summary = "draft: film over roughness along the path by closed formulas, beside the film "
+                    "of this program",
+         .reference = "ISO/TR 15144-1:2014, method B, as quoted by a public implementation; the "
+                      "text was not read",
+         .bibtex = BIB_iso15144, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+         .inputs = rating_inputs, .input_count = RATING_INPUTS + 1,
+         .input_stride = sizeof rating_inputs[0], .outputs = FF_TABLE(outputs), .wire = wire,
+         .evaluate = evaluate, .destroy = free);

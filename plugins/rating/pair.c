@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "pair.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+
+const ff_port rating_inputs[1 + RATING_INPUTS + 1] = {
+    {"ehl.h_min", "m", "least film of the tooth pair", "t", NULL, FF_OPTIONAL, "ehl"},
+    {"gear.teeth", "1", "numbers of teeth", "gear", NULL, 0, "gear"},
+    {"gear.base_radius", "m", "base circles", "gear", NULL, 0, "gear"},
+    {"gear.pitch_radius", "m", "working pitch circles", "gear", NULL, 0, "gear"},
+    {"gear.tip_radius", "m", "tip circles", "gear", NULL, 0, "gear"},
+    {"gear.centre_distance", "m", "working centre distance", "", NULL, 0, "gear"},
+    {"gear.working_pressure_angle", "rad", "working pressure angle", "", NULL, 0, "gear"},
+    {"gear.pressure_angle", "rad", "pressure angle of the basic rack", "", NULL, 0, "gear"},
+    {"gear.face_width", "m", "width of the teeth in contact", "", NULL, 0, "gear"},
+    {"gear.reduced_modulus", "Pa", "E': 2/E' = sum (1 - nu^2)/E", "", NULL, 0, "gear"},
+    {"gear.roughness", "m", "root mean square roughness of the flanks", "gear", NULL, 0, "gear"},
+    {"gear.profile_deviation", "m", "deviation of the flanks, whose last points are the tip relief",
+     "gear profile", NULL, FF_OPTIONAL, "gear"},
+    {"operating.line_force", "N", "normal force along the line of action", "", NULL, 0,
+     "operating"},
+    {"operating.speed", "rad/s", "speed of gear 1", "", NULL, 0, "operating"},
+    {"operating.oil_temperature", "K", "temperature of the oil", "", NULL, 0, "operating"},
+    {"dynamics.dynamic_factor_tooth", "1", "dynamic factor K_V; 1 without a motion", "", NULL,
+     FF_OPTIONAL, "dynamics"},
+    {"oil", "", "the oil over temperature", "", FF_LIQUID_ID, 0, "lubricant"},
+    {"losses.contact_temperature_max", "K",
+     "highest temperature of the flanks, of the film's own friction", "", NULL, FF_OPTIONAL,
+     "losses"},
+};
+
+static ff_status read_two(const ff_host *host, const ff_array *in, const char *name, double to[2])
+{
+    for (size_t i = 0; i < 2; i++) {
+        to[i] = in->data && in->rank == 1 && in->shape[0] > i ? in->data[i] : NAN;
+        if (!isfinite(to[i]) || to[i] < 0)
+            return ff_failf(host, FF_INVALID, name,
+                            "gear %zu: a number of at least 0 is needed, this is %g", i + 1, to[i]);
+    }
+    return FF_OK;
+}
+
+static ff_status read_one(const ff_host *host, const ff_array *in, const char *name, double *to)
+{
+    *to = in->data ? in->data[0] : NAN;
+    if (!(isfinite(*to) && *to > 0))
+        return ff_failf(host, FF_INVALID, name, "a number above 0 is needed, this is %g", *to);
+    return FF_OK;
+}
+
+/* The metal that is missing at the tips, the last points of the profiles. */
+static void read_relief(const ff_array *in, double relief[2])
+{
+    if (!in->data || in->rank != 2 || in->shape[0] < 2 || in->shape[1] < 1)
+        return;
+    for (size_t i = 0; i < 2; i++)
+        relief[i] = fmax(0, -in->data[(i + 1) * in->shape[1] - 1]);
+}
+
+ff_status rating_pair_read(const ff_host *host, const ff_array *in, const ff_liquid *oil,
+                           rating_pair *p)
+{
+    double roughness[2];
+    *p = (rating_pair){.oil = oil, .dynamic_factor = 1};
+    const struct {
+        int row;
+        const char *name;
+        double *to;
+    } twos[] = {{RATING_IN_TEETH, "gear.teeth", p->teeth},
+                {RATING_IN_BASE, "gear.base_radius", p->base},
+                {RATING_IN_PITCH, "gear.pitch_radius", p->pitch},
+                {RATING_IN_TIP, "gear.tip_radius", p->tip},
+                {RATING_IN_ROUGHNESS, "gear.roughness", roughness}},
+      ones[] = {{RATING_IN_DISTANCE, "gear.centre_distance", &p->centre_distance},
+                {RATING_IN_ANGLE, "gear.working_pressure_angle", &p->working_angle},
+                {RATING_IN_PRESSURE_ANGLE, "gear.pressure_angle", &p->pressure_angle},
+                {RATING_IN_WIDTH, "gear.face_width", &p->width},
+                {RATING_IN_MODULUS, "gear.reduced_modulus", &p->modulus},
+                {RATING_IN_FORCE, "operating.line_force", &p->force},
+                {RATING_IN_SPEED, "operating.speed", &p->omega},
+                {RATING_IN_OIL_TEMPERATURE, "operating.oil_temperature", &p->oil_temperature}};
+    ff_status status = FF_OK;
+    for (size_t i = 0; i < sizeof twos / sizeof twos[0] && status == FF_OK; i++)
+        status = read_two(host, &in[twos[i].row], twos[i].name, twos[i].to);
+    for (size_t i = 0; i < sizeof ones / sizeof ones[0] && status == FF_OK; i++)
+        status = read_one(host, &in[ones[i].row], ones[i].name, ones[i].to);
+    if (status == FF_OK && in[RATING_IN_DYNAMIC_FACTOR].data)
+        status = read_one(host, &in[RATING_IN_DYNAMIC_FACTOR], "dynamics.dynamic_factor_tooth",
+                          &p->dynamic_factor);
+    if (status != FF_OK)
+        return status;
+    p->roughness = (roughness[0] + roughness[1]) / 2 * sqrt(2 / M_PI); /* Ra of Gaussian heights */
+    if (!(p->roughness > 0))
+        return ff_failf(
+            host, FF_INVALID, "gear.roughness",
+            "the rating needs the roughness of the flanks; give roughness_ra to the gear");
+    read_relief(&in[RATING_IN_PROFILE], p->tip_relief);
+    p->ratio = p->teeth[1] / p->teeth[0];
+    p->line = p->centre_distance * sin(p->working_angle);
+    p->base_pitch = 2 * M_PI * p->base[0] / p->teeth[0];
+    p->pitch_point = p->base[0] * tan(p->working_angle);
+    p->pitch_speed = p->omega * p->pitch[0];
+    p->sap = p->line - sqrt((p->tip[1] - p->base[1]) * (p->tip[1] + p->base[1]));
+    p->end = sqrt((p->tip[0] - p->base[0]) * (p->tip[0] + p->base[0]));
+    if (!(p->sap > 0 && p->end > p->sap && p->end < p->line && p->base_pitch < p->end - p->sap))
+        return ff_failf(host, FF_INVALID, "gear.tip_radius",
+                        "these radii give no path of contact of at least one pitch");
+    return FF_OK;
+}
+
+double rating_radius(const rating_pair *p, double place)
+{
+    return place * (p->line - place) / p->line;
+}
+
+double rating_speed(const rating_pair *p, int gear, double place)
+{
+    return gear == 0 ? p->omega * place : p->omega / p->ratio * (p->line - place);
+}
+
+double rating_load_share(const rating_pair *p, const rating_load *load, double place)
+{
+    double least = ((double)(load->grade < 7 ? 7 : load->grade) - 2) / 15;
+    double lower = p->end - p->base_pitch, upper = p->sap + p->base_pitch; /* LPSTC and HPSTC */
+    double share = 1;
+    if (place < lower)
+        share = least + (place - p->sap) / (lower - p->sap) / 3;
+    else if (place > upper)
+        share = least + (p->end - place) / (p->end - upper) / 3;
+    return fmin(share, 1);
+}
+
+double rating_line_load(const rating_pair *p, const rating_load *load)
+{
+    return p->force / p->width * load->application * p->dynamic_factor * load->face *
+           load->transverse;
+}
+
+double rating_addendum_ratio(const rating_pair *p, int gear)
+{
+    double over = p->tip[gear] / p->base[gear];
+    return p->teeth[gear] / (2 * M_PI) * (sqrt((over - 1) * (over + 1)) - tan(p->working_angle));
+}
+
+ff_status rating_oil_at(const ff_host *host, const rating_pair *p, double T, double *viscosity,
+                        double *density)
+{
+    double ln_eta = NAN, rho = NAN;
+    const ff_status a = p->oil->eval(p->oil->self, FF_LIQUID_LN_ETA0, 1, &T, &ln_eta, NULL);
+    const ff_status b = p->oil->eval(p->oil->self, FF_LIQUID_RHO0, 1, &T, &rho, NULL);
+    if (a < 0 || b < 0 || !isfinite(ln_eta) || !isfinite(rho))
+        return ff_failf(
+            host, FF_INVALID, "oil",
+            "the oil does not tell its viscosity and density at %.4g degC, which the rating needs",
+            T - 273.15);
+    *viscosity = exp(ln_eta);
+    *density = rho;
+    return FF_OK;
+}
+
+void rating_report_draft(const ff_host *host, const char *standard)
+{
+    char text[240];
+    snprintf(text, sizeof text,
+             "draft: formulas of %s as a public implementation quotes them; the standard was not "
+             "read, and no printed example was held against them",
+             standard);
+    host->quality(host->ctx, "draft", 1, 0, FF_DOUBTFUL, text);
+}

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What the ratings take from gear, operating point, motion and oil, and the quantities along the
+ * path of contact that they share. SI; places on the path are radii of curvature of flank 1.
+ *
+ * Sources. The texts of ISO/TR 13989-1 and -2 and ISO/TR 15144-1 (today ISO/TS 6336-20, -21 and
+ * -22) were not read. Formulas and their numbers are those that a public implementation quotes;
+ * where it contradicts itself the choice is stated.
+ */
+#ifndef RATING_PAIR_H
+#define RATING_PAIR_H
+
+#include <flankfilm/laws.h>
+
+/* The inputs that all ratings have, in the order of their rows. */
+enum {
+    RATING_IN_TEETH,
+    RATING_IN_BASE,
+    RATING_IN_PITCH,
+    RATING_IN_TIP,
+    RATING_IN_DISTANCE,
+    RATING_IN_ANGLE,
+    RATING_IN_PRESSURE_ANGLE,
+    RATING_IN_WIDTH,
+    RATING_IN_MODULUS,
+    RATING_IN_ROUGHNESS,
+    RATING_IN_PROFILE,
+    RATING_IN_FORCE,
+    RATING_IN_SPEED,
+    RATING_IN_OIL_TEMPERATURE,
+    RATING_IN_DYNAMIC_FACTOR,
+    RATING_IN_OIL,
+    RATING_INPUTS
+};
+
+/* Those rows, between what micropitting takes of a film and what scuffing takes of the losses: the
+   former model has the rows from the first on, the latter those from the second on. */
+extern const ff_port rating_inputs[1 + RATING_INPUTS + 1];
+
+typedef struct rating_pair {
+    double teeth[2], base[2], pitch[2], tip[2];
+    double ratio; /* z2/z1 */
+    double centre_distance, working_angle, pressure_angle, width, modulus;
+    double roughness;     /* Ra, mean of both flanks */
+    double tip_relief[2]; /* 0: none, or not known */
+    double force;         /* along the line of action */
+    double omega, oil_temperature, dynamic_factor;
+    double line, base_pitch; /* length of the common tangent of the base circles */
+    double sap, end;         /* ends of the path of contact */
+    double pitch_point, pitch_speed;
+    const ff_liquid *oil;
+} rating_pair;
+
+/* Factors of the load that the user gives. */
+typedef struct rating_load {
+    double application, face, transverse; /* K_A, K_Hbeta, K_Halpha */
+    int64_t grade;                        /* flank tolerance class of ISO 1328-1 */
+} rating_load;
+
+ff_status rating_pair_read(const ff_host *host, const ff_array *in, const ff_liquid *oil,
+                           rating_pair *p);
+
+/* Relative radius of curvature at a place on the path. */
+double rating_radius(const rating_pair *p, double place);
+/* Surface speed of flank `gear` there. */
+double rating_speed(const rating_pair *p, int gear, double place);
+/* Share of the load of unmodified spur teeth, X_Gamma (ISO/TR 13989-1, clause 9.2) and X_Y (ISO/TR
+   15144-1, formulas 46 to 48): (Q - 2)/15 + 1/3 of the way to single contact, 1 there. */
+double rating_load_share(const rating_pair *p, const rating_load *load, double place);
+/* Load per width with all factors, N/m. */
+double rating_line_load(const rating_pair *p, const rating_load *load);
+/* Addendum contact ratio of a gear. */
+double rating_addendum_ratio(const rating_pair *p, int gear);
+
+/* Dynamic viscosity, Pa s, and density, kg/m3, of the oil. */
+ff_status rating_oil_at(const ff_host *host, const rating_pair *p, double T, double *viscosity,
+                        double *density);
+
+/* Says that the formulas were not read in the standard. */
+void rating_report_draft(const ff_host *host, const char *standard);
+
+#endif
