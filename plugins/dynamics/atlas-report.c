@@ -124,6 +124,22 @@ static void report_curves(const dynamics_atlas *atlas, const ff_host *host)
                   text);
 }
 
+/* The share of starts that lead to motions which no start has met yet is that of the starts whose
+   motion was met once (Good 1953, Biometrika 40, 237-264, eq. 9); starts that have not settled may
+   lead anywhere. */
+static void report_unseen(const dynamics_atlas *atlas, const ff_host *host)
+{
+    char text[320];
+    size_t open = atlas->starts - atlas->settled - atlas->unbounded;
+    double unseen = atlas->settled ? (double)atlas->met_once / (double)atlas->settled : 1;
+    snprintf(text, sizeof text,
+             "the search found %zu curves, %zu of them from one start alone, so that some %.2g %% "
+             "of all starts lead to curves that are not in the atlas; %zu starts of %zu, which had "
+             "not settled, may do so, too; more search_starts and search_speeds find more",
+             atlas->searched, atlas->met_once, 100 * unseen, open, atlas->starts);
+    host->quality(host->ctx, "atlas_unseen", unseen, 1, FF_GOOD, text);
+}
+
 static void report_search(const dynamics_atlas *atlas, const ff_host *host)
 {
     char text[256];
@@ -136,6 +152,7 @@ static void report_search(const dynamics_atlas *atlas, const ff_host *host)
         atlas->settled, atlas->starts, atlas->unbounded, DYNAMICS_SEARCH_CYCLES);
     host->quality(host->ctx, "atlas_settled_starts", (double)atlas->settled / (double)atlas->starts,
                   1, FF_GOOD, text);
+    report_unseen(atlas, host);
 }
 
 static void report_branches(const dynamics_flow *flow, const dynamics_atlas *atlas, double lambda,

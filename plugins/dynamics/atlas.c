@@ -15,6 +15,7 @@ typedef struct builder {
     const dynamics_atlas_request *request;
     dynamics_continuation_range tracing;
     dynamics_atlas *atlas;
+    size_t met[MOST_CURVES]; /* starts of the search that led to each curve */
 } builder;
 
 /* Whether the orbit lies on the stretch of a curve between two points. */
@@ -35,16 +36,17 @@ static int lies_between(const dynamics_flow *flow, const dynamics_point *a, cons
            dynamics_orbit_distance(flow, orbit, near.x, &distance) && distance < same;
 }
 
-static int is_known(const dynamics_flow *flow, const dynamics_atlas *atlas,
-                    const dynamics_orbit *orbit)
+/* The number of the curve that the orbit lies on, or that of the next one. */
+static size_t curve_of(const dynamics_flow *flow, const dynamics_atlas *atlas,
+                       const dynamics_orbit *orbit)
 {
     for (size_t i = 0; i < atlas->curve_count; i++) {
         const dynamics_curve *c = &atlas->curves[i];
         for (size_t k = 0; c->period == orbit->period && k + 1 < c->count; k++)
             if (lies_between(flow, &c->points[k], &c->points[k + 1], orbit))
-                return 1;
+                return i;
     }
-    return 0;
+    return atlas->curve_count;
 }
 
 static ff_status add_curve(builder *b, const dynamics_orbit *orbit)
@@ -63,7 +65,18 @@ static ff_status add_curve(builder *b, const dynamics_orbit *orbit)
 
 static ff_status add_if_new(builder *b, const dynamics_orbit *orbit)
 {
-    return is_known(b->flow, b->atlas, orbit) ? FF_OK : add_curve(b, orbit);
+    int known = curve_of(b->flow, b->atlas, orbit) < b->atlas->curve_count;
+    return known ? FF_OK : add_curve(b, orbit);
+}
+
+/* The same, counting the start that led to the orbit. */
+static ff_status add_met(builder *b, const dynamics_orbit *orbit)
+{
+    size_t curve = curve_of(b->flow, b->atlas, orbit);
+    ff_status status = curve < b->atlas->curve_count ? FF_OK : add_curve(b, orbit);
+    if (curve < b->atlas->curve_count)
+        b->met[curve]++;
+    return status;
 }
 
 /* Adds the curve of the motion that starts from rest. If that does not repeat itself in one mesh
@@ -151,7 +164,7 @@ static ff_status search_at(builder *b, double lambda, size_t *serial)
         b->atlas->settled += a.period > 0;
         b->atlas->unbounded += a.period == DYNAMICS_UNBOUNDED;
         if (a.period > 0)
-            status = add_if_new(b, &a.orbit);
+            status = add_met(b, &a.orbit);
     }
     return status;
 }
@@ -173,7 +186,7 @@ static ff_status start_from_rest(builder *b)
 
 static ff_status search_range(builder *b)
 {
-    size_t serial = 0, n = b->request->speeds;
+    size_t serial = 0, n = b->request->speeds, first = b->atlas->curve_count;
     ff_status status = FF_OK;
     for (size_t i = 0; i < n && status == FF_OK; i++) {
         double x = ((double)i + 0.5) / (double)n;
@@ -182,6 +195,9 @@ static ff_status search_range(builder *b)
             return FF_STOPPED;
         status = search_at(b, b->request->low + x * (b->request->high - b->request->low), &serial);
     }
+    b->atlas->searched = b->atlas->curve_count - first;
+    for (size_t i = first; i < b->atlas->curve_count; i++)
+        b->atlas->met_once += b->met[i] == 1;
     return status;
 }
 
@@ -227,10 +243,11 @@ static ff_status name_branches(dynamics_atlas *atlas)
 ff_status dynamics_atlas_build(const dynamics_flow *flow, const dynamics_atlas_request *request,
                                const ff_host *host, dynamics_atlas *atlas)
 {
-    builder b = {flow,
-                 request,
-                 {flow, request->low, request->high, request->step, request->moments, host, 0},
-                 atlas};
+    builder b = {
+        .flow = flow,
+        .request = request,
+        .tracing = {flow, request->low, request->high, request->step, request->moments, host, 0},
+        .atlas = atlas};
     *atlas = (dynamics_atlas){.curves = calloc(MOST_CURVES, sizeof *atlas->curves)};
     if (!atlas->curves)
         return FF_NOMEM;

@@ -41,6 +41,7 @@ typedef struct dynamics_atlas {
     dynamics_atlas_branch *branches;
     size_t branch_count;
     size_t starts, settled, unbounded; /* of the search */
+    size_t searched, met_once;         /* curves that it added, and those that one start met */
 } dynamics_atlas;
 
 ff_status dynamics_atlas_build(const dynamics_flow *flow, const dynamics_atlas_request *request,

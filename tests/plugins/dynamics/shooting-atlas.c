@@ -213,6 +213,24 @@ static void test_search(void)
     stage_close(s);
 }
 
+/* What a search of 6 starts says that it may have missed, and one of 768. */
+static void test_unseen(void)
+{
+    pair p = pair_trapezoid(2375);
+    double unseen[2];
+    for (int large = 0; large < 2; large++) {
+        stage *s = open_atlas(&p, 2000, 3300, 3, large ? 32 : 2);
+        if (!large)
+            stage_set(s, "search_speeds", 3);
+        check_true("runs", stage_run_wanted(s, "atlas_frequency") == FF_OK);
+        unseen[large] = stage_quality(s, "atlas_unseen");
+        stage_close(s);
+    }
+    printf("unseen: %.3g after 6 starts, %.3g after 768\n", unseen[0], unseen[1]);
+    check_below("a large search has met nearly all", unseen[1], 0.01);
+    check_true("a small one has not, and says so", unseen[0] > 0.1);
+}
+
 static void test_names(void)
 {
     const char *wrong[] = {"middle", "p0-1", "p7-1", "p1", "p1-", "p1-0", "p1-1x", "P1-1", ""};
@@ -268,6 +286,7 @@ int main(void)
     test_sweeps_are_found();
     test_doubled_window();
     test_search();
+    test_unseen();
     test_names();
     test_wanted();
     test_stop();
