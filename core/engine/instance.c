@@ -45,7 +45,7 @@ static void work(void *of)
     explain(i);
     if (good)
         request->status = status > 0 ? status : FF_OK;
-    else if (fe_is_good(status) || ff_report_lacked_memory(i->report) ||
+    else if (fe_is_good(status) || fe_report_lacked_memory(i->report) ||
              ff_report_fault(i->report) == FF_FAULT_PLUGIN)
         request->status = fe_status_of(i->report);
     else

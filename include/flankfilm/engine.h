@@ -54,7 +54,6 @@
 #include <flankfilm/rows.h>
 #include <flankfilm/table.h>
 
-#include <fenv.h>
 #include <stdbool.h>
 
 #ifdef __cplusplus
@@ -329,8 +328,6 @@ size_t ff_report_errors(const ff_report *report);
 
 /* The worst that the errors say is at fault; FF_FAULT_NONE without errors. */
 int ff_report_fault(const ff_report *report);
-/* Whether an error came of a lack of memory: with more of it, the same call might be good. */
-bool ff_report_lacked_memory(const ff_report *report);
 
 /* Each message as "file:line:column: error: text", the line, a caret and the hint, in the order of
    files and lines, at most 20 errors; with the colours of a terminal when `colour`. Freed by the
@@ -448,10 +445,6 @@ bool ff_tree_set(ff_tree *tree, const char *assignment, const ff_place *path, co
 /* The words that may stand at the top of a file: "format", "title", ...; NULL-terminated. */
 const char *const *ff_file_keys(void);
 
-/* Gives a plain value another one in its place, in the layer that it has; its place in the file is
-   forgotten. False: the value or what the path leads to is none, and the tree is as before. */
-bool ff_tree_change(ff_tree *tree, const char *assignment);
-
 /* Puts a copy of a node of the tree, places and all, under a key of its root. */
 void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node);
 
@@ -490,8 +483,6 @@ typedef struct ff_loaded {
     char *path;     /* of the shared object */
     uint64_t build; /* hash of its bytes */
     ff_unit *param_units;
-    ff_unit *input_units;
-    ff_unit *output_units;
     ff_dims *input_dims;
     ff_dims *output_dims;
 } ff_loaded;
@@ -697,21 +688,11 @@ ff_guard_mark ff_guard_current(void); /* may be called in a handler of signals *
    code may call; "" without any. May be called in a handler of signals. */
 void ff_guard_print_services(const ff_guard_mark *mark, const char *before, char *out, size_t size);
 
-/* What a plugin must leave as it was: floating-point arithmetic and the locale. */
-typedef struct ff_arithmetic {
-    int rounding, traps;
-    bool flushes;  /* subnormal results become zero */
-    bool ignores;  /* subnormal operands count as zero */
-    bool extended; /* long double has its full precision */
-} ff_arithmetic;
+/* What a plugin must leave as it was: floating-point arithmetic and the locale, as they are now.
+   Freed by ff_free. */
+typedef struct ff_environment ff_environment;
 
-typedef struct ff_environment {
-    fenv_t floating;
-    ff_arithmetic arithmetic;
-    char locale[256]; /* "" when it was longer */
-} ff_environment;
-
-void ff_environment_keep(ff_environment *environment);
+ff_environment *ff_environment_keep(void);
 /* Sets back what differs and says what it was: a clause that completes 'the plugin ...'; NULL when
    all is as it was. */
 const char *ff_environment_restore(const ff_environment *environment);

@@ -4,6 +4,7 @@
 #ifndef FE_BUILD_H
 #define FE_BUILD_H
 
+#include "../plugin/environment.h"
 #include "../plugin/folder.h"
 #include "../plugin/guard.h"
 #include "../plugin/serial.h"

@@ -50,7 +50,7 @@ fe_call fe_call_begin(const ff_stage *stage, const char *action)
     fe_tables_forget(&instance->tables);
     call.alone = locks_of(&instance->mark);
     fe_serial_enter(call.alone);
-    ff_environment_keep(&call.environment);
+    fe_environment_keep(&call.environment);
     call.previous = fe_enter_model(stage, action);
     return call;
 }

@@ -2,6 +2,8 @@
 /* A pipeline that goes on with other values of parameters: its stages and wires stay. */
 #include "build.h"
 
+#include "../value/tree.h"
+
 #include <string.h>
 
 /* The stage whose parameter the assignment gives; NULL: it says something else. */
@@ -68,7 +70,7 @@ bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const 
     bool good = is_as_built(pipeline);
     for (size_t i = 0; i < count && good; i++) {
         const ff_stage *stage = find_target(pipeline, assignments[i]);
-        good = stage && ff_tree_change(tree, assignments[i]);
+        good = stage && fe_tree_change(tree, assignments[i]);
         if (good)
             changed[stage - pipeline->stages] = true;
     }

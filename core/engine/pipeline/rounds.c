@@ -147,7 +147,7 @@ static void hand_on(const ff_report *from, ff_report *to)
 {
     for (size_t i = 0; i < ff_report_count(from); i++)
         fe_hand_on(ff_report_at(from, i), to);
-    if (ff_report_lacked_memory(from))
+    if (fe_report_lacked_memory(from))
         fe_report_note_no_memory(to);
 }
 

@@ -21,13 +21,23 @@ static bool dims_agree(const ff_dims *given, const ff_dims *taken)
     return true;
 }
 
+/* The units were read when the models were loaded. */
+static bool units_agree(const ff_port *given, const ff_port *taken)
+{
+    ff_unit one, other;
+    char why[200];
+    return ff_unit_parse(given->unit, &one, why, sizeof why) &&
+           ff_unit_parse(taken->unit, &other, why, sizeof why) &&
+           ff_unit_same_dimension(&one, &other);
+}
+
 /* Why output `output` of `from` cannot feed a data row; NULL: it can. */
 static const char *row_misfit(fe_build *b, const ff_loaded *to, size_t input, const ff_loaded *from,
                               size_t output)
 {
     const ff_port *taken = ff_model_input(to->model, input);
     const ff_port *given = ff_model_output(from->model, output);
-    if (!ff_unit_same_dimension(&from->output_units[output], &to->input_units[input]))
+    if (!units_agree(given, taken))
         return fe_pipeline_print(b->pipeline, "gives \"%s\" in \"%s\", not in \"%s\"", given->name,
                                  given->unit, taken->unit);
     if (!dims_agree(&from->output_dims[output], &to->input_dims[input]))

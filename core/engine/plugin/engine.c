@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The engine itself: its life, and the message of its last call. */
+#include "../value/report.h"
 #include "private.h"
 
 #include <stdlib.h>
@@ -49,7 +50,7 @@ ff_status fe_status_of(const ff_report *report)
                                          [FF_FAULT_RUN] = FF_NOCONV,
                                          [FF_FAULT_INPUT] = FF_INVALID,
                                          [FF_FAULT_PLUGIN] = FF_BUG};
-    return ff_report_lacked_memory(report) ? FF_NOMEM : statuses[ff_report_fault(report)];
+    return fe_report_lacked_memory(report) ? FF_NOMEM : statuses[ff_report_fault(report)];
 }
 
 typedef struct new_call {

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-#include <flankfilm/engine.h>
+#include "environment.h"
+
+#include "../value/memory.h"
 
 #include <float.h>
 #include <locale.h>
@@ -7,13 +9,13 @@
 #include <string.h>
 
 /* Finds out by computing, which needs no knowledge of the control registers of the processor. */
-static ff_arithmetic arithmetic(void)
+static fe_arithmetic arithmetic(void)
 {
     volatile double smallest = DBL_MIN, subnormal = DBL_TRUE_MIN;
     volatile long double one = 1;
     volatile double half = smallest / 2, twice = subnormal * 0x1p60;
     volatile long double next = one + LDBL_EPSILON;
-    return (ff_arithmetic){
+    return (fe_arithmetic){
         .rounding = fegetround(),
         .traps = fegetexcept(),
         .flushes = half == 0,
@@ -22,7 +24,7 @@ static ff_arithmetic arithmetic(void)
     };
 }
 
-void ff_environment_keep(ff_environment *environment)
+void fe_environment_keep(ff_environment *environment)
 {
     fegetenv(&environment->floating);
     environment->arithmetic = arithmetic();
@@ -33,9 +35,16 @@ void ff_environment_keep(ff_environment *environment)
         environment->locale[0] = 0;
 }
 
+ff_environment *ff_environment_keep(void)
+{
+    ff_environment *environment = fe_alloc(sizeof *environment);
+    fe_environment_keep(environment);
+    return environment;
+}
+
 const char *ff_environment_restore(const ff_environment *environment)
 {
-    const ff_arithmetic was = environment->arithmetic, is = arithmetic();
+    const fe_arithmetic was = environment->arithmetic, is = arithmetic();
     const char *changed = NULL;
     if (environment->locale[0] && strcmp(environment->locale, setlocale(LC_ALL, NULL)) != 0) {
         setlocale(LC_ALL, environment->locale);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* The models of an engine: those that can be found, and those that were loaded. */
+#include "environment.h"
 #include "folder.h"
 #include "private.h"
 #include "serial.h"
@@ -127,7 +128,7 @@ static bool load_file(loading *l, char *path)
     fe_folder folder;
     l->loaded = fe_alloc(sizeof *l->loaded);
     l->loaded->path = path;
-    ff_environment_keep(&environment);
+    fe_environment_keep(&environment);
     fe_folder_keep(&folder);
     ff_guard_mark previous = fe_guard_enter((ff_guard_mark){.path = path, .action = "load"});
     fe_serial_enter(FE_SERIAL_LOADING);

@@ -334,8 +334,9 @@ static const char *read_dims(const char *text, ff_dims *dims)
     return NULL;
 }
 
-static bool check_port(const checking *c, const ff_port *row, ff_unit *unit, ff_dims *dims)
+static bool check_port(const checking *c, const ff_port *row, ff_dims *dims)
 {
+    ff_unit unit;
     bool plain = (!row->unit || !row->unit[0]) && (!row->dims || !row->dims[0]);
     const claim claims[] = {
         {row->flags < 2 * FF_FEEDBACK, "has unknown flags"},
@@ -348,9 +349,9 @@ static bool check_port(const checking *c, const ff_port *row, ff_unit *unit, ff_
         return false;
     if (row->service)
         return true;
-    if (!check_unit(c, row->unit, unit))
+    if (!check_unit(c, row->unit, &unit))
         return false;
-    if (!ff_unit_is_si(unit))
+    if (!ff_unit_is_si(&unit))
         return fault(c, "has the unit \"%s\" for the %s \"%s\", which is not coherent SI",
                      row->unit, c->what, c->name);
     const char *wrong = read_dims(row->dims, dims);
@@ -370,7 +371,7 @@ static bool check_feedback(const checking *c, const ff_port *row)
 }
 
 /* A wire cannot have the name of a parameter, and its rows come from one stage. */
-static bool check_input(checking *c, size_t index, ff_unit *unit, ff_dims *dims)
+static bool check_input(checking *c, size_t index, ff_dims *dims)
 {
     enum { LONGEST_WIRE = 47 };
     const ff_port *row = ff_model_input(c->model, index);
@@ -400,7 +401,7 @@ static bool check_input(checking *c, size_t index, ff_unit *unit, ff_dims *dims)
     for (size_t i = 0; i < c->model->param_count; i++)
         if (same_first_name(c->name, ff_model_param(c->model, i)->name))
             return fault(c, "calls both a wire and a parameter \"%.*s\"", wire, c->name);
-    return check_feedback(c, row) && check_port(c, row, unit, dims);
+    return check_feedback(c, row) && check_port(c, row, dims);
 }
 
 /* What replaces a parameter is a service that may stay unconnected. */
@@ -416,7 +417,7 @@ static bool check_instead(const checking *c, size_t index)
                  row->instead, row->name);
 }
 
-static bool check_output(checking *c, size_t index, ff_unit *unit, ff_dims *dims)
+static bool check_output(checking *c, size_t index, ff_dims *dims)
 {
     const ff_port *row = ff_model_output(c->model, index);
     c->what = "output";
@@ -429,7 +430,7 @@ static bool check_output(checking *c, size_t index, ff_unit *unit, ff_dims *dims
     for (size_t i = 0; i < index; i++)
         if (!strcmp(c->name, ff_model_output(c->model, i)->name))
             return fault(c, "has the output \"%s\" twice", c->name);
-    return check_port(c, row, unit, dims);
+    return check_port(c, row, dims);
 }
 
 static bool check_column(checking *c, size_t index)
@@ -479,19 +480,17 @@ bool fe_model_check(ff_loaded *loaded, const char *id, char *why, size_t why_siz
     if (!check_model(&c, id))
         return false;
     loaded->param_units = fe_alloc(model->param_count * sizeof(ff_unit));
-    loaded->input_units = fe_alloc(model->input_count * sizeof(ff_unit));
-    loaded->output_units = fe_alloc(model->output_count * sizeof(ff_unit));
     loaded->input_dims = fe_alloc(model->input_count * sizeof(ff_dims));
     loaded->output_dims = fe_alloc(model->output_count * sizeof(ff_dims));
     bool good = true;
     for (size_t i = 0; i < model->param_count && good; i++)
         good = check_param(&c, i, &loaded->param_units[i]);
     for (size_t i = 0; i < model->input_count && good; i++)
-        good = check_input(&c, i, &loaded->input_units[i], &loaded->input_dims[i]);
+        good = check_input(&c, i, &loaded->input_dims[i]);
     for (size_t i = 0; i < model->param_count && good; i++)
         good = check_instead(&c, i);
     for (size_t i = 0; i < model->output_count && good; i++)
-        good = check_output(&c, i, &loaded->output_units[i], &loaded->output_dims[i]);
+        good = check_output(&c, i, &loaded->output_dims[i]);
     for (size_t i = 0; i < ff_model_columns(model) && good; i++)
         good = check_column(&c, i);
     return good;

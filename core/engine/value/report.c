@@ -175,7 +175,7 @@ void fe_report_note_no_memory(ff_report *report)
     report->lacked_memory = true;
 }
 
-bool ff_report_lacked_memory(const ff_report *report)
+bool fe_report_lacked_memory(const ff_report *report)
 {
     return report->lacked_memory;
 }

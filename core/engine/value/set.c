@@ -195,7 +195,7 @@ static bool is_plain(const ff_node *node)
     return node && node->kind == FF_SCALAR && !fe_node_is_empty(node);
 }
 
-bool ff_tree_change(ff_tree *tree, const char *assignment)
+bool fe_tree_change(ff_tree *tree, const char *assignment)
 {
     size_t length = strlen(assignment);
     if (length > FE_MOST_TEXT || !strchr(assignment, '='))

@@ -8,4 +8,8 @@
 
 const char *fe_kind_name(ff_node_kind kind); /* "a map", "a list", "a value" */
 
+/* Gives a plain value another one in its place, in the layer that it has; its place in the file is
+   forgotten. False: the value or what the path leads to is none, and the tree is as before. */
+bool fe_tree_change(ff_tree *tree, const char *assignment);
+
 #endif

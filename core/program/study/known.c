@@ -30,16 +30,15 @@ static _Noreturn void search_cases(const study_run *run, const study_records *do
                                    size_t end, size_t step, FILE *to)
 {
     study_kept kept = {0};
-    ff_environment environment;
     double limit = ceil(fmin(run->study->time_limit, 1e6));
     set_apart();
-    ff_environment_keep(&environment);
+    const ff_environment *environment = ff_environment_keep();
     for (size_t i = first; i < end; i += step) {
         study_case c;
         study_known known = {.index = i};
         if (limit > 0)
             alarm((unsigned)limit);
-        ff_environment_restore(&environment);
+        ff_environment_restore(environment);
         study_case_open(&c, run, i, &kept);
         memcpy(known.key, c.key, sizeof c.key);
         bool sent = !study_state_is_settled(study_records_state(done, c.key), run->rerun) ||

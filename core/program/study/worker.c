@@ -203,10 +203,9 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
         .said = json_object(),
     };
     study_chain chain = {0};
-    ff_environment environment;
-    ff_environment_keep(&environment);
+    const ff_environment *environment = ff_environment_keep();
     while (take_case(run, from, &index)) {
-        ff_environment_restore(&environment); /* destroy may have left it changed */
+        ff_environment_restore(environment); /* destroy may have left it changed */
         if (ftruncate(worker->captured, 0) != 0 ||
             !run_case(worker, run, index, done, &memory, &chain, to))
             break;

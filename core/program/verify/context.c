@@ -40,7 +40,8 @@ void verify_watch(verify_context *context)
     context->watching = true;
     context->pid = getpid();
     verify_process_look(&context->process);
-    ff_environment_keep(&context->environment);
+    ff_free(context->environment);
+    context->environment = ff_environment_keep();
 }
 
 void verify_check_process(verify_context *context)
@@ -49,7 +50,7 @@ void verify_check_process(verify_context *context)
         return;
     if (getpid() != context->pid)
         _exit(0); /* a copy of the test that the model made */
-    const char *change = ff_environment_restore(&context->environment);
+    const char *change = ff_environment_restore(context->environment);
     change = change ? change : verify_process_changed(&context->process);
     if (change)
         verify_fail(context, "%s while %s", change, context->outcome->step);

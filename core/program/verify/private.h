@@ -88,7 +88,7 @@ typedef struct verify_context {
     ff_report *messages; /* about the parameter that was read last */
     bool watching;       /* from verify_watch on the model may change nothing of the process */
     pid_t pid;
-    ff_environment environment;
+    ff_environment *environment; /* as it was; NULL: nothing is watched yet */
     verify_process process;
 } verify_context;
 

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: MIT */
+/* What a plugin must leave as it was. */
+#ifndef FE_ENVIRONMENT_H
+#define FE_ENVIRONMENT_H
+
+#include <flankfilm/engine.h>
+
+#include <fenv.h>
+
+typedef struct fe_arithmetic {
+    int rounding, traps;
+    bool flushes;  /* subnormal results become zero */
+    bool ignores;  /* subnormal operands count as zero */
+    bool extended; /* long double has its full precision */
+} fe_arithmetic;
+
+struct ff_environment {
+    fenv_t floating;
+    fe_arithmetic arithmetic;
+    char locale[256]; /* "" when it was longer */
+};
+
+void fe_environment_keep(ff_environment *environment);
+
+#endif
