@@ -92,11 +92,6 @@ bool arrays_log_append(arrays_log *log, const arrays_label *label, const double 
     return good;
 }
 
-bool arrays_log_sync(const arrays_log *log)
-{
-    return fdatasync(log->fd) == 0;
-}
-
 void arrays_log_close(arrays_log *log)
 {
     if (log->fd >= 0)

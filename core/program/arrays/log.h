@@ -50,7 +50,6 @@ bool arrays_log_open(arrays_log *log, int directory, const char *name, off_t end
 /* Appends a record and sets `offset` to where it begins; false with errno. */
 bool arrays_log_append(arrays_log *log, const arrays_label *label, const double *data,
                        off_t *offset);
-bool arrays_log_sync(const arrays_log *log); /* false with errno */
 void arrays_log_close(arrays_log *log);
 
 /* log-read.c: logs of a directory that are being read. */

@@ -359,7 +359,6 @@ static void print_varied(const study_definition *study)
 static void print_plan(const study_run *run, const study_plan *plan)
 {
     const study_definition *study = run->study;
-    const study_reuse_counts savings = study_savings(run->directory);
     const char *further = study_further(study);
     if (study->streams) {
         puts("cases as rows of standard input list them");
@@ -378,7 +377,6 @@ static void print_plan(const study_run *run, const study_plan *plan)
                plan->again);
     for (const char *line = plan->changed; *line; line += strcspn(line, "\n") + 1)
         printf("  %.*s\n", (int)strcspn(line, "\n"), line);
-    cli_print_savings(&savings);
 }
 
 /* The lines as a list. */

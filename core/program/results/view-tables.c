@@ -53,7 +53,8 @@ void results_view_judge(results_reader *reader, ff_view_case *c, size_t number,
     c->verdict = c->reasons = "";
     if (!record)
         return;
-    study_judgement judgement = study_judge_record(record);
+    study_judgement judgement;
+    study_judgement_read(&judgement, record);
     char *reasons = study_judgement_text(&judgement);
     c->verdict = study_verdict_name(judgement.verdict);
     c->reasons = memory_arena_text(&reader->arena, reasons, strlen(reasons));

@@ -52,26 +52,26 @@ static bool open_log(study_arrays *arrays, char why[ARRAYS_WHY])
 {
     const study_run *run = arrays->run;
     study_shared *shared = arrays->shared;
+    char *name = shared->name;
     arrays->directory = open(run->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (arrays->directory < 0) {
         snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
         return false;
     }
     if (!run->executor) {
-        int length = snprintf(arrays->name, sizeof arrays->name, "arrays.%zu.log", arrays->slot);
+        int length = snprintf(name, STUDY_NAME_SIZE, "arrays.%zu.log", arrays->slot);
         if (run->shards > 1)
-            length = snprintf(arrays->name, sizeof arrays->name, "arrays.%zu-of-%zu.%zu.log",
-                              run->shard, run->shards, arrays->slot);
+            length = snprintf(name, STUDY_NAME_SIZE, "arrays.%zu-of-%zu.%zu.log", run->shard,
+                              run->shards, arrays->slot);
         (void)length;
-        off_t end = shared->end ? shared->end : find_end(arrays->directory, run, arrays->name);
-        return arrays_log_open(&arrays->log, arrays->directory, arrays->name, end, false, why);
+        off_t end = shared->end ? shared->end : find_end(arrays->directory, run, name);
+        return arrays_log_open(&arrays->log, arrays->directory, name, end, false, why);
     }
     bool fresh = shared->log == 0, good;
     do {
         shared->log += fresh;
-        snprintf(arrays->name, sizeof arrays->name, "arrays.farm-%u.log", shared->log);
-        good =
-            arrays_log_open(&arrays->log, arrays->directory, arrays->name, shared->end, fresh, why);
+        snprintf(name, STUDY_NAME_SIZE, "arrays.farm-%u.log", shared->log);
+        good = arrays_log_open(&arrays->log, arrays->directory, name, shared->end, fresh, why);
     } while (!good && fresh && errno == EEXIST);
     return good;
 }
@@ -127,10 +127,7 @@ static bool keep_all(study_arrays *arrays, const study_case *c, json_t *all, cha
                 return false;
         }
     }
-    if (json_object_size(all) == 0 || arrays_log_sync(&arrays->log))
-        return true;
-    snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
-    return false;
+    return true;
 }
 
 bool study_arrays_keep(study_arrays *arrays, const study_case *c, json_t *record)
@@ -142,10 +139,10 @@ bool study_arrays_keep(study_arrays *arrays, const study_case *c, json_t *record
         arrays->shared->end = arrays->log.end;
         json_object_set(record, "arrays", all);
         json_object_set_new(record, "log",
-                            json_pack("[s, I]", arrays->name, (json_int_t)arrays->log.end));
+                            json_pack("[s, I]", arrays->shared->name, (json_int_t)arrays->log.end));
     }
     json_decref(all);
     return good ||
            ff_error(c->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "%s/%s could not be written: %s",
-                    arrays->run->directory, arrays->name, why);
+                    arrays->run->directory, arrays->shared->name, why);
 }

@@ -233,14 +233,6 @@ json_t *study_case_set(const study_definition *study, size_t index)
     return set;
 }
 
-/* Adds the verdict, as far as the record tells it, for scripts that read the journal. */
-static void add_judgement(json_t *record)
-{
-    study_judgement judgement = study_judge_record(record);
-    study_judgement_add(&judgement, record);
-    study_judgement_free(&judgement);
-}
-
 json_t *study_case_record(const study_run *run, size_t index, const char *key, const char *status,
                           const char *reason)
 {
@@ -253,7 +245,6 @@ json_t *study_case_record(const study_run *run, size_t index, const char *key, c
     }
     if (run->input)
         json_object_set_new(record, "input", json_string(run->input));
-    add_judgement(record);
     return record;
 }
 
@@ -409,7 +400,7 @@ static json_t *record_run(study_case *c, const study_run *run, size_t index, jso
     free(reason);
     add_quality(record, c->pipeline);
     add_warnings(record, c->report, warnings);
-    add_judgement(record);
+    study_judge_record(record);
     if (good && !keep_results(c, run, index, record, memory)) {
         json_decref(record);
         return NULL;

@@ -34,10 +34,11 @@ bool study_reuse_recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
 void study_reuse_keep(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage);
 
 /* arrays.c */
-typedef struct study_shared { /* by a worker with the process that started it */
-    char key[STUDY_KEY_SIZE]; /* of the case that it runs */
-    unsigned log;             /* number of its log under an executor; 0: it has none */
-    off_t end;                /* of its log, after the last case that was kept */
+typedef struct study_shared {   /* by a worker with the process that started it */
+    char key[STUDY_KEY_SIZE];   /* of the case that it runs */
+    unsigned log;               /* number of its log under an executor; 0: it has none */
+    char name[STUDY_NAME_SIZE]; /* of its log */
+    off_t end;                  /* of its log, after the last case that was kept */
 } study_shared;
 
 typedef struct study_arrays { /* where a worker keeps arrays */
@@ -46,11 +47,10 @@ typedef struct study_arrays { /* where a worker keeps arrays */
     size_t slot;   /* number of the worker */
     int directory; /* descriptor of the directory of the study; -1: the log is not open yet */
     arrays_log log;
-    char name[STUDY_NAME_SIZE]; /* of the log */
 } study_arrays;
 
-/* Appends the requested arrays of a case to the log, forces them to the disk and adds to the record
-   where they are. False with an error in c->report. */
+/* Appends the requested arrays of a case to the log and adds to the record where they are; the pool
+   forces them to the disk. False with an error in c->report. */
 struct study_case;
 bool study_arrays_keep(study_arrays *arrays, const struct study_case *c, json_t *record);
 
@@ -96,7 +96,7 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
 void study_case_close(study_case *c);
 json_t *study_case_set(const study_definition *study, size_t index); /* {path: value} */
 bool study_case_is_good(const study_case *c);                        /* whether it can be run */
-/* Returns a record without outputs; reason may be NULL. */
+/* Returns a record without outputs and judgement; reason may be NULL. */
 json_t *study_case_record(const study_run *run, size_t index, const char *key, const char *status,
                           const char *reason);
 /* Runs the case; NULL, with an error in c->report, when its arrays could not be kept. */

@@ -12,40 +12,57 @@
 
 const char study_description[] = "study.json";
 
+study_file study_file_begin(const char *directory, const char *name)
+{
+    study_file file = {.path = memory_print_text("%s/%s", directory, name)};
+    file.part = memory_print_text("%s.%ld.part", file.path,
+                                  (long)getpid()); /* other shards may write the same file */
+    file.out = fopen(file.part, "we");
+    file.cause = errno;
+    return file;
+}
+
+bool study_file_end(study_file *file, const char *hint, ff_report *report)
+{
+    FILE *out = file->out;
+    errno = out ? EIO : file->cause; /* an earlier error of writing may be told no more */
+    bool good = out && fflush(out) == 0 && !ferror(out) && fsync(fileno(out)) == 0;
+    int cause = errno;
+    if (out && fclose(out) != 0 && good) {
+        cause = errno;
+        good = false;
+    }
+    if (good && rename(file->part, file->path) != 0) {
+        cause = errno;
+        good = false;
+    }
+    if (!good) {
+        unlink(file->part);
+        ff_error(report, FF_FAULT_RUN, FF_NOWHERE, hint, "%s could not be written: %s", file->path,
+                 strerror(cause));
+    }
+    free(file->path);
+    free(file->part);
+    return good;
+}
+
 bool study_write_file(const char *directory, const char *name, const char *text, const char *hint,
                       ff_report *report)
 {
-    char *path = memory_print_text("%s/%s", directory, name);
-    char *part = memory_print_text("%s.%ld.part", path,
-                                   (long)getpid()); /* other shards may write the same file */
-    FILE *out = fopen(part, "we");
-    bool good = out && fputs(text, out) >= 0 && fflush(out) == 0 && fsync(fileno(out)) == 0;
-    if (out)
-        good = fclose(out) == 0 && good;
-    good = good && rename(part, path) == 0;
-    if (!good) {
-        int cause = errno;
-        unlink(part);
-        ff_error(report, FF_FAULT_RUN, FF_NOWHERE, hint, "%s could not be written: %s", path,
-                 strerror(cause));
-    }
-    free(path);
-    free(part);
-    return good;
+    study_file file = study_file_begin(directory, name);
+    if (file.out)
+        fputs(text, file.out);
+    return study_file_end(&file, hint, report);
 }
 
 bool study_describe(const study_run *run, const study_tally *tally, ff_report *report)
 {
-    char *text = NULL;
-    size_t length = 0;
     if (!run->describe)
         return true;
-    FILE *out = memory_require(open_memstream(&text, &length));
-    run->describe(run->ctx, run->described, tally, out);
-    fclose(out);
-    bool good = study_write_file(run->directory, study_description, text, NULL, report);
-    free(text);
-    return good;
+    study_file file = study_file_begin(run->directory, study_description);
+    if (file.out)
+        run->describe(run->ctx, run->described, tally, file.out);
+    return study_file_end(&file, NULL, report);
 }
 
 bool study_check_format(const char *directory, ff_report *report)

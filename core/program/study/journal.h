@@ -38,7 +38,16 @@ bool study_state_is_settled(enum study_state state, enum study_rerun rerun);
 /* Adds what the stages of a case have cost and saved; record may be NULL. */
 void study_savings_add(study_reuse_counts *savings, const json_t *record);
 
-/* file.c: writes a text file in the study's directory; hint may be NULL. */
+/* file.c: a text file in the study's directory, which has its name once it is whole. */
+typedef struct study_file {
+    FILE *out; /* to write to; NULL where it could not be made, which the end says */
+    char *path, *part;
+    int cause; /* errno of that */
+} study_file;
+
+study_file study_file_begin(const char *directory, const char *name);
+/* False after an error of this or of writing; hint may be NULL. */
+bool study_file_end(study_file *file, const char *hint, ff_report *report);
 bool study_write_file(const char *directory, const char *name, const char *text, const char *hint,
                       ff_report *report);
 /* Writes the description of the study beside its journal; `tally` as in study_run.describe. */

@@ -124,7 +124,7 @@ static double number_of(const json_t *value)
     return json_is_number(value) ? json_number_value(value) : (double)NAN;
 }
 
-study_judgement study_judge_record(const json_t *record)
+void study_judge_record(json_t *record)
 {
     doubts all = {0};
     const char *stage, *name, *status = json_string_value(json_object_get(record, "status"));
@@ -142,7 +142,10 @@ study_judgement study_judge_record(const json_t *record)
     json_array_foreach(json_object_get(record, "warnings"), i, warning)
         add_warning(&all, json_is_string(warning) ? json_string_value(warning) : "a warning");
     bool plain = !status || !strcmp(status, "failed"); /* that alone says nothing of the cause */
-    return judge(&all, !status || strcmp(status, "ok") != 0, plain ? NULL : status);
+    study_judgement judgement =
+        judge(&all, !status || strcmp(status, "ok") != 0, plain ? NULL : status);
+    study_judgement_add(&judgement, record);
+    study_judgement_free(&judgement);
 }
 
 bool study_judgement_read(study_judgement *judgement, const json_t *object)
@@ -155,8 +158,10 @@ bool study_judgement_read(study_judgement *judgement, const json_t *object)
     while (verdict && judgement->verdict < STUDY_VERDICTS &&
            strcmp(study_verdict_name(judgement->verdict), verdict) != 0)
         judgement->verdict++;
-    if (!verdict || !json_is_array(reasons) || judgement->verdict == STUDY_VERDICTS)
+    if (!verdict || !json_is_array(reasons) || judgement->verdict == STUDY_VERDICTS) {
+        judgement->verdict = STUDY_CASE_FAILED;
         return false;
+    }
     json_array_foreach(reasons, i, reason)
     {
         const char *text = json_string_value(reason);

@@ -21,10 +21,9 @@ typedef struct study_judgement {
 
 const char *study_verdict_name(int verdict); /* "good", "doubtful", "bad", "failed" */
 
-/* Judges the record of a case by its status, lines and warnings, which records of every version
- * have. */
-study_judgement study_judge_record(const json_t *record);
-/* Takes what study_judgement_add added; false when there is none. */
+/* Judges the record of a case by its status, lines and warnings, and adds the judgement to it. */
+void study_judge_record(json_t *record);
+/* Takes what study_judgement_add added. False when there is none: a case that failed. */
 bool study_judgement_read(study_judgement *judgement, const json_t *object);
 /* Judges what a pipeline has computed; `failed` says that the run ended with an error. */
 study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed);

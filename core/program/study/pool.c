@@ -10,6 +10,7 @@
 #include "journal.h"
 
 #include <errno.h>
+#include <math.h>
 #include <poll.h>
 #include <signal.h>
 #include <stdlib.h>
@@ -34,11 +35,16 @@ void study_pool_close(study_pool *pool)
             free(study_worker_reap(worker));
         }
         free(worker->line);
+        if (worker->log > 0)
+            close(worker->log);
         if (worker->shared)
             munmap(worker->shared, sizeof *worker->shared);
     }
     free(pool->workers);
     free(pool->polled);
+    for (size_t i = pool->released; i < pool->held_count; i++)
+        free(pool->held[i]);
+    free(pool->held);
     free(pool->answer);
     json_decref(pool->said);
 }
@@ -77,13 +83,82 @@ void study_pool_start_chain(study_pool *pool, size_t chain)
     send_next_case(pool, &pool->workers[i]);
 }
 
-static int finish_case(study_pool *pool, study_worker *worker, char verdict, const char *rest,
-                       size_t *task)
+static void set_answer(study_pool *pool, const study_worker *worker, char verdict, const char *rest)
 {
     const char *key = worker->shared && worker->shared->key[0] ? worker->shared->key : "-";
     free(pool->answer);
     pool->answer =
         memory_print_text("%zu %.*s %c %s", worker->index, STUDY_KEY_SIZE, key, verdict, rest);
+}
+
+/* Forces to the disk what the logs of all workers have; after an error the answer says it. */
+static bool sync_logs(study_pool *pool)
+{
+    double start = study_seconds_now();
+    for (size_t i = 0; i < pool->run->jobs; i++) {
+        study_worker *worker = &pool->workers[i];
+        if (!study_worker_is_ahead(worker) || study_worker_sync(worker, pool->run))
+            continue;
+        char *text = memory_print_text("%s/%s could not be written: %s", pool->run->directory,
+                                       worker->shared->name, strerror(errno));
+        set_answer(pool, worker, STUDY_VERDICT_FATAL, text);
+        free(text);
+        return false;
+    }
+    pool->sync_time = study_seconds_now() - start;
+    return true;
+}
+
+/* Sees to it that no answer is given before its arrays are on the disk. */
+static void settle_arrays(study_pool *pool, const study_worker *worker)
+{
+    if (!study_worker_is_ahead(worker))
+        return;
+    if (!pool->groups) {
+        sync_logs(pool);
+        return;
+    }
+    if (pool->held_count == 0)
+        pool->held_since = study_seconds_now();
+    pool->held = memory_resize(pool->held, (pool->held_count + 1) * sizeof *pool->held);
+    pool->held[pool->held_count++] = pool->answer;
+    pool->answer = NULL;
+}
+
+/* s that answers may still be held: so long that syncs take a tenth of the time, but not longer
+   than a moment, nor when there is nothing else to do. */
+static double time_to_hold(const study_pool *pool)
+{
+    const double longest = 0.2;
+    bool idle = true;
+    for (size_t i = 0; i < pool->run->jobs; i++)
+        idle = idle && !pool->workers[i].busy;
+    double end = pool->held_since + fmin(9 * pool->sync_time, longest);
+    return idle || pool->ending ? 0 : end - study_seconds_now();
+}
+
+/* Gives out the next of the answers that were held; after an error of writing that, for all. */
+static bool release_answer(study_pool *pool)
+{
+    if (pool->held_count == 0 || (pool->released == 0 && time_to_hold(pool) > 0))
+        return false;
+    if (pool->released > 0 || sync_logs(pool)) {
+        free(pool->answer);
+        pool->answer = pool->held[pool->released++];
+    } else {
+        while (pool->released < pool->held_count)
+            free(pool->held[pool->released++]);
+    }
+    if (pool->released == pool->held_count)
+        pool->released = pool->held_count = 0;
+    return true;
+}
+
+static int finish_case(study_pool *pool, study_worker *worker, char verdict, const char *rest,
+                       size_t *task)
+{
+    set_answer(pool, worker, verdict, rest);
+    settle_arrays(pool, worker);
     worker->busy = false;
     *task = worker->chain;
     if (pool->ending || verdict == STUDY_VERDICT_FATAL ||
@@ -92,7 +167,7 @@ static int finish_case(study_pool *pool, study_worker *worker, char verdict, con
     if (worker->left == 0)
         return FF_TASK_OVER;
     send_next_case(pool, worker);
-    return FF_TASK_ANSWER;
+    return pool->answer ? FF_TASK_ANSWER : FF_TASK_NONE;
 }
 
 /* Keeps the record of a line, since another worker may have to go on with the chain. */
@@ -119,6 +194,7 @@ static int record_crash(study_pool *pool, study_worker *worker, const char *stat
     memcpy(key, worker->shared->key, sizeof key);
     key[STUDY_KEY_SIZE - 1] = '\0';
     json_t *record = study_case_record(pool->run, worker->index, key, status, reason);
+    study_judge_record(record);
     char *line = study_journal_line(record, pool->said);
     keep_record(pool, key, line);
     int state = finish_case(pool, worker, STUDY_VERDICT_FAILED, line, task);
@@ -186,6 +262,8 @@ int study_pool_wait(study_pool *pool, int milliseconds, size_t *task)
 {
     size_t jobs = pool->run->jobs;
     double limit = pool->run->study->time_limit;
+    if (release_answer(pool))
+        return FF_TASK_ANSWER;
     for (size_t i = 0; i < jobs; i++) {
         const study_worker *worker = &pool->workers[i];
         pool->polled[i] = (struct pollfd){.fd = worker->pid ? worker->from : -1, .events = POLLIN};
@@ -195,6 +273,8 @@ int study_pool_wait(study_pool *pool, int milliseconds, size_t *task)
     pool->polled[jobs] = (struct pollfd){.fd = pool->extra_fd, .events = POLLIN};
     if (milliseconds > 200)
         milliseconds = limit > 0 && limit < 1 ? 1 + (int)(limit * 200) : 200;
+    if (pool->held_count)
+        milliseconds = (int)fmin(milliseconds, 1 + 1000 * fmax(0, time_to_hold(pool)));
     int ready = poll(pool->polled, jobs + 1, milliseconds);
     if (ready < 0)
         memset(pool->polled, 0, jobs * sizeof *pool->polled);

@@ -333,7 +333,7 @@ study_judgement study_records_judge(study_records *r, const char *key)
         study_judgement_read(&judgement, r->forms[e->form - 1].is))
         return judgement;
     json_t *record = study_records_get(r, key);
-    judgement = study_judge_record(record);
+    study_judgement_read(&judgement, record);
     json_decref(record);
     return judgement;
 }

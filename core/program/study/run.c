@@ -158,8 +158,11 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
     json_t *record = !known ? study_records_take(r->done, text, strlen(text))
                      : told ? study_records_get(r->done, key)
                             : NULL;
-    study_judgement judgement =
-        known ? study_records_judge(r->done, key) : study_judge_record(record);
+    study_judgement judgement;
+    if (known)
+        judgement = study_records_judge(r->done, key);
+    else
+        study_judgement_read(&judgement, record);
     if (told)
         r->run->answer(r->run->ctx, index, record, known);
     study_savings_add(&r->counters->savings, known ? NULL : record);
@@ -298,22 +301,23 @@ static void answer_known(execution *r)
 /* Runs all cases by workers of this process. */
 static bool run_here(execution *r)
 {
-    const void *answer;
     size_t task, size, busy = 0;
     if (begin_leading(r) < 0)
         return false;
     answer_known(r);
     study_pool_open(&r->pool, r->run, r->done);
+    r->pool.groups = true;
     for (;;) {
+        const void *answer = NULL;
         for (; busy < r->run->jobs && next_chain(r, &task); busy++)
             start_chain(r, task);
-        if (busy == 0 && !await_row(r))
+        if (busy == 0 && r->pool.held_count == 0 && !await_row(r))
             break;
         r->pool.extra_fd = busy < r->run->jobs && expects_row(r) ? STUDY_ROWS_FD : -1;
-        if (busy == 0)
+        if (busy == 0 && r->pool.held_count == 0)
             continue;
         int state = wait_for_answer(r, 1000, &task, &answer, &size);
-        if (state > 0)
+        if (answer)
             note_answer(r, answer, size);
         if (r->no_memory)
             memory_require(NULL);

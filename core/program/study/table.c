@@ -127,47 +127,49 @@ static json_t *find_columns(const study_definition *study, study_records *record
     return columns;
 }
 
+/* Writes the head and a row for each case, and counts their verdicts. */
+static void put_table(FILE *out, const study_definition *study, study_records *records,
+                      char (*keys)[STUDY_KEY_SIZE], study_tally *tally)
+{
+    json_t *columns = find_columns(study, records, keys);
+    const char **units = memory_alloc(study->varied_count * sizeof *units);
+    for (size_t k = 0; k < study->varied_count; k++)
+        units[k] = common_unit(study, &study->varied[k]);
+    put_head(out, study, units, columns);
+    for (size_t i = 0; i < study->count; i++) {
+        json_t *record = study_records_get(records, keys[i]);
+        study_judgement judgement;
+        study_judgement_read(&judgement, record);
+        put_row(out, study, units, i, keys[i], record, &judgement, columns);
+        if (record)
+            study_tally_add(tally, i + 1, keys[i], &judgement);
+        study_judgement_free(&judgement);
+        json_decref(record);
+    }
+    json_decref(columns);
+    free(units);
+}
+
 bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_report *report)
 {
-    const study_definition *study = run->study;
     char *marker = memory_print_text("%s/%s", run->directory, study_marker);
     int lock = open(marker, O_RDONLY | O_CLOEXEC);
     if (lock >= 0)
         flock(lock, LOCK_EX); /* so that of shards that end together the last one writes the table,
                                  with all cases */
     study_records *records = study_records_open(run->directory, false);
-    json_t *columns = find_columns(study, records, keys);
-    const char **units = memory_alloc(study->varied_count * sizeof *units);
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = memory_require(open_memstream(&text, &length));
-    for (size_t k = 0; k < study->varied_count; k++)
-        units[k] = common_unit(study, &study->varied[k]);
-    put_head(out, study, units, columns);
     study_tally tally = {.cases = NULL};
-    for (size_t i = 0; i < study->count; i++) {
-        json_t *record = study_records_get(records, keys[i]);
-        study_judgement judgement = study_judge_record(record);
-        put_row(out, study, units, i, keys[i], record, &judgement, columns);
-        if (record)
-            study_tally_add(&tally, i + 1, keys[i], &judgement);
-        study_judgement_free(&judgement);
-        json_decref(record);
-    }
-    fclose(out);
-    bool good = study_write_file(
-        run->directory, "table.csv", text,
+    study_file table = study_file_begin(run->directory, "table.csv");
+    if (table.out)
+        put_table(table.out, run->study, records, keys, &tally);
+    const char *hint =
         access(marker, F_OK) == 0
             ? "the journal has all cases; the same command writes the table"
-            : "the directory was removed while the study ran, and its journal with it",
-        report);
-    good = good && study_describe(run, &tally, report);
+            : "the directory was removed while the study ran, and its journal with it";
+    bool good = study_file_end(&table, hint, report) && study_describe(run, &tally, report);
     study_tally_free(&tally);
-    json_decref(columns);
     study_records_close(records);
-    free(units);
     free(marker);
-    free(text);
     if (lock >= 0)
         close(lock);
     return good;

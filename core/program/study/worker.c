@@ -304,6 +304,25 @@ static char *pick_line(const char *text)
     return memory_copy_text(line, strcspn(line, "\n"));
 }
 
+bool study_worker_is_ahead(const study_worker *worker)
+{
+    return worker->shared && worker->shared->end > worker->synced;
+}
+
+bool study_worker_sync(study_worker *worker, const study_run *run)
+{
+    off_t end = worker->shared->end;
+    if (worker->log <= 0) {
+        char *path = memory_print_text("%s/%s", run->directory, worker->shared->name);
+        worker->log = open(path, O_RDONLY | O_CLOEXEC);
+        free(path);
+    }
+    if (worker->log < 0 || fdatasync(worker->log) != 0)
+        return false;
+    worker->synced = end;
+    return true;
+}
+
 void study_worker_kill(const study_worker *worker)
 {
     kill(worker->pid, SIGKILL);

@@ -22,6 +22,8 @@ typedef struct study_worker {
     char *line; /* the answer as far as it has been read */
     size_t length;
     study_shared *shared; /* in memory that both processes share */
+    int log;              /* descriptor of its log of arrays; 0: it has not been opened here */
+    off_t synced;         /* how much of that log is on the disk */
 } study_worker;
 
 /* Starts a worker process, which skips cases that `done` holds. It closes the pipes of the `count`
@@ -40,6 +42,9 @@ bool study_read_all(int fd, void *data, size_t size);
 void study_worker_kill(const study_worker *worker);
 /* Whether it has ended, although a process that it started may hold its pipe. */
 bool study_worker_is_gone(const study_worker *worker);
+/* Whether its log has more than what is on the disk, and forces that there; false with errno. */
+bool study_worker_is_ahead(const study_worker *worker);
+bool study_worker_sync(study_worker *worker, const study_run *run);
 /* Waits for the end of a worker, ends what its plugins have started, and returns why it ended, to
  * be freed. */
 char *study_worker_reap(study_worker *worker);
@@ -64,6 +69,11 @@ typedef struct study_pool {
     size_t turn; /* the worker to look at first */
     int cause;   /* errno of a worker that could not be started */
     char *answer;
+    bool groups; /* answers whose arrays are not on the disk yet are held, and their worker goes on:
+                    so one sync does for several cases */
+    char **held;
+    size_t held_count, released;  /* how many, and how many of them were given out */
+    double held_since, sync_time; /* s: of the first of them; what the last sync took */
 } study_pool;
 
 void study_pool_open(study_pool *pool, const study_run *run, study_records *done);
@@ -72,7 +82,8 @@ void study_pool_kill(const study_pool *pool); /* ends all workers, at once */
 /* Starts the next chain; at most run->jobs may run at a time. */
 void study_pool_start_chain(study_pool *pool, size_t chain);
 /* Waits at most 0.2 s. Returns FF_TASK_NONE, or with pool->answer set FF_TASK_ANSWER or, when the
-   chain is finished, FF_TASK_OVER. */
+   chain is finished, FF_TASK_OVER. Where answers are held, pool->answer may be NULL then, and a
+   later FF_TASK_ANSWER gives it. */
 int study_pool_wait(study_pool *pool, int milliseconds, size_t *task);
 
 /* fork-server.c: a pool in a process of its own, which can still fork workers when this process

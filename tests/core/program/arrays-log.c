@@ -68,7 +68,6 @@ static bool append(const lab *l, size_t first, off_t end, off_t at[RECORDS + 1])
     for (size_t i = first; good && i < RECORDS; i++)
         good = arrays_log_append(&log, &labels[i], numbers, &at[i]);
     at[RECORDS] = log.end;
-    good = good && arrays_log_sync(&log);
     arrays_log_close(&log);
     return good;
 }

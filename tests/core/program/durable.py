@@ -61,10 +61,10 @@ def finished(lines):
 
 
 class Durable(lab.Lab):
-    def traced(self, *words, code=0):
+    def traced(self, *words, code=0, options=()):
         """The calls that change a file, in their order."""
         line = ["strace", "-f", "-y", "-s", "4000", "-o", "trace", "-e", "trace=" + ",".join("?" + c for c in CHANGES),
-                self.program, *words]
+                *options, self.program, *words]
         done = subprocess.run(line, capture_output=True, text=True, check=False)
         if "ptrace" in done.stderr:
             self.skipTest("strace may not trace here")
@@ -129,12 +129,11 @@ class Durable(lab.Lab):
                    c.name in ("write", "fdatasync")]
         self.assertEqual(journal[-1], "fdatasync")
 
-    def test_order(self):
+    def check_order(self, calls, folder):
         """A line comes into the journal after the log that it names was forced to the disk up to there,
-        and the name of that log, too; nothing in a log is written twice."""
-        calls = self.traced("run", "study.yaml", "-o", "order", "-j", "2", code=4)
-        place, end, synced, named = os.path.realpath("order"), {}, {}, set()
-        lines = 0
+        and the name of that log, too; nothing in a log is written twice. Counts lines, and calls."""
+        place, end, synced, named = os.path.realpath(folder), {}, {}, set()
+        lines = syncs = 0
         for call in calls:
             path = call.paths[0] if call.paths else ""
             if call.name == "pwrite64" and path.endswith(".log"):
@@ -144,7 +143,7 @@ class Durable(lab.Lab):
             elif call.name == "ftruncate" and path.endswith(".log"):
                 self.assertNotIn(path, end)
             elif call.name == "fdatasync" and path in end:
-                synced[path] = end[path]
+                synced[path], syncs = end[path], syncs + 1
             elif call.name == "fsync" and path == place:
                 named.update(end)
             elif call.name == "write" and path.endswith("/journal.jsonl"):
@@ -152,7 +151,22 @@ class Durable(lab.Lab):
                     log, lines = os.path.join(place, log), lines + 1
                     self.assertGreaterEqual(synced.get(log, 0), int(until), call)
                     self.assertIn(log, named)
-        self.assertEqual(lines, 4)
+        return lines, syncs
+
+    def test_order(self):
+        calls = self.traced("run", "study.yaml", "-o", "order", "-j", "2", code=4)
+        self.assertEqual(self.check_order(calls, "order")[0], 4)
+
+    def test_shared(self):
+        """On a slow disk cases share a call."""
+        with open("many.yaml", "w", encoding="utf-8") as file:
+            file.write("format: 2\npipeline: {wave: {use: toy/wave}}\noutputs: [wave.height]\n"
+                       "study: {sweep: {wave.amplitude: {from: 1 mm, to: 2 mm, points: 60}}}\n")
+        slow = ("-e", "inject=fdatasync:delay_exit=100000")
+        calls = self.traced("run", "many.yaml", "-o", "slow", "-j", "2", options=slow)
+        lines, syncs = self.check_order(calls, "slow")
+        self.assertEqual(lines, 60)
+        self.assertLess(syncs, 30)
 
     def test_resumed(self):
         """What no line of the journal names is cut off, once, before anything is appended."""
