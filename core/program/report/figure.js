@@ -108,7 +108,7 @@ var figures = (function () {
     if (figure.z) {
       axes.push(axis('right', 'z', figure.z.label, Object.assign({grid: false}, style('z'))));
     }
-    if (figure.names) axes[0] = axis('bottom', 'x', '', {grid: false, values: figure.names.map(function (_, i) { return i; }),
+    if (figure.names) axes[0] = axis('bottom', 'x', '', {grid: false, values: figure.names.map(function (_, i) { return i; }), tickCount: figure.names.length,
       labelOverlap: false, labelAngle: width < 90 * figure.names.length ? -25 : 0, labelAlign: width < 90 * figure.names.length ? 'right' : 'center',
       labelLimit: 160, encode: {labels: {update: {text: {signal: 'xn[round(datum.value)]'}}}}});
     var shown = figure.curves.filter(function (c) { return c.name && !c.hidden; });
@@ -151,18 +151,46 @@ var figures = (function () {
     pen.putImageData(image, 0, 0);
     return canvas.toDataURL();
   }
-  /* The edges of cells between values below and above the mark. */
-  function contour(figure) {
-    var edges = [], mark = figure.mark, grid = figure.values;
-    function crosses(a, b) { return a !== null && b !== null && (a < mark) !== (b < mark); }
-    if (mark === undefined) return edges;
-    grid.forEach(function (row, r) {
-      row.forEach(function (value, c) {
-        if (c + 1 < row.length && crosses(value, row[c + 1])) edges.push([c + 1, r, c + 1, r + 1]);
-        if (r + 1 < grid.length && crosses(value, grid[r + 1][c])) edges.push([c, r + 1, c + 1, r + 1]);
+  /* Round values within the scale of a map, at which it has contours. */
+  function levels(scale) {
+    var list = [], power = Math.pow(10, Math.floor(Math.log10(scale.log ? scale.low : (scale.high - scale.low) / 4 || 1)));
+    if (scale.log) {
+      for (; power < scale.high; power *= 10)
+        (scale.high > 300 * scale.low ? [1] : [1, 2, 5]).forEach(function (m) { list.push(m * power); });
+    } else {
+      var step = [1, 2, 5, 10].map(function (m) { return m * power; }).filter(function (s) { return (scale.high - scale.low) / s <= 5; })[0];
+      for (var k = Math.ceil(scale.low / step); step && k * step < scale.high; k++) list.push(k * step);
+    }
+    return list.map(function (v) { return parseFloat(v.toPrecision(6)); })
+      .filter(function (v) { return v > scale.low && v < scale.high; });
+  }
+  /* The pieces of a contour, linear between the centres of cells (on a logarithmic scale, between logarithms). */
+  function contour(figure, level) {
+    var pieces = [], grid = figure.values;
+    function above(value) { return figure.value.log ? Math.log(value / level) : value - level; }
+    for (var r = 0; r + 1 < grid.length; r++)
+      for (var c = 0; c + 1 < grid[r].length; c++) {
+        var corners = [[c, r], [c + 1, r], [c + 1, r + 1], [c, r + 1]], ends = [];
+        var heights = corners.map(function (at) { var v = grid[at[1]][at[0]]; return v === null ? NaN : above(v); });
+        for (var k = 0; k < 4 && !heights.some(isNaN); k++) {
+          var a = heights[k], b = heights[(k + 1) % 4], from = corners[k], to = corners[(k + 1) % 4], t = a / (a - b);
+          if (a < 0 !== b < 0) ends.push([from[0] + t * (to[0] - from[0]) + 0.5, from[1] + t * (to[1] - from[1]) + 0.5]);
+        }
+        for (k = 0; k + 1 < ends.length; k += 2) pieces.push(ends[k].concat(ends[k + 1]));
+      }
+    return pieces;
+  }
+  function edgesOf(figure) {
+    if (figure.sort !== 'map') return figure.edges.map(function (e) { return {0: e[0], 1: e[1], 2: e[2], 3: e[3], wide: 3}; });
+    var list = [], marked = figure.mark === undefined ? [] : [figure.mark];
+    levels(figure.value).filter(function (v) { return v !== figure.mark; }).concat(marked).forEach(function (level) {
+      var pieces = contour(figure, level), middle = Math.floor(pieces.length / 2);
+      pieces.forEach(function (e, i) {
+        list.push({0: e[0], 1: e[1], 2: e[2], 3: e[3], wide: level === figure.mark ? 3.5 : 1.2,
+          name: i === middle && pieces.length > 2 ? text(level) : ''});
       });
     });
-    return edges;
+    return list;
   }
   function mapSpec(figure, width) {
     var columns = figure.x.at.length, rows = figure.y.at.length, cells = [], marks = [], more = {legends: []};
@@ -193,13 +221,22 @@ var figures = (function () {
           fill: {value: '#000'}, fontSize: {signal: 'max(6, min(13, 0.7 * width / (xd[1] - xd[0]), 0.7 * height / (yd[1] - yd[0])))'}}}});
     }
     if (figure.sort === 'map') {
-      more.legends.push({fill: 'v', title: figure.value.label + (figure.value.log ? ', logarithmic' : ''), titleFontSize: 11, orient: width < 500 ? 'bottom' : 'right', titleLimit: 290,
+      more.legends.push({fill: 'v', title: [(figure.value.label.match(/\(([^()]*)\)$/) || ['', ''])[1],
+        (figure.value.log ? 'logarithmic' : 'linear') + ' scale'].filter(Boolean), titleFontSize: 11, orient: width < 500 ? 'bottom' : 'right',
         direction: width < 500 ? 'horizontal' : 'vertical', gradientLength: width < 500 ? 200 : 210, labelColor: 'var(--soft)',
-        titleColor: 'var(--ink)', titleFontWeight: 'normal', format: '.6~g', tickCount: 5, titleOrient: width < 500 ? 'top' : 'right'});
+        titleColor: 'var(--ink)', titleFontWeight: 'normal', format: '.6~g', tickCount: 5, titleOrient: 'top'});
     }
-    marks.push({type: 'rule', from: {data: 'edges'}, encode: {update: {x: {scale: 'x', field: '0'}, y: {scale: 'y', field: '1'},
-      x2: {scale: 'x', field: '2'}, y2: {scale: 'y', field: '3'}, stroke: {value: figure.sort === 'classes' ? '#000' : '#fff'},
-      strokeWidth: {value: 3}, strokeCap: {value: 'square'}}}});
+    var edge = {x: {scale: 'x', field: '0'}, y: {scale: 'y', field: '1'}, x2: {scale: 'x', field: '2'}, y2: {scale: 'y', field: '3'},
+      strokeCap: {value: 'round'}};
+    var name = {x: edge.x, y: edge.y, text: {field: 'name'}, align: {value: 'center'}, baseline: {value: 'middle'}, fontSize: {value: 11},
+      fontWeight: {value: 'bold'}};
+    if (figure.sort === 'map') /* a dark rim, for where the map is light */
+      marks.push({type: 'rule', from: {data: 'edges'}, encode: {update: Object.assign({stroke: {value: '#000'}, opacity: {value: 0.35},
+        strokeWidth: {signal: 'datum.wide + 2'}}, edge)}});
+    marks.push({type: 'rule', from: {data: 'edges'}, encode: {update: Object.assign({stroke: {value: figure.sort === 'classes' ? '#000' : '#fff'},
+      strokeWidth: {field: 'wide'}}, edge)}},
+      {type: 'text', from: {data: 'edges'}, encode: {update: Object.assign({stroke: {value: '#000'}, strokeWidth: {value: 3}, opacity: {value: 0.6}}, name)}},
+      {type: 'text', from: {data: 'edges'}, encode: {update: Object.assign({fill: {value: '#fff'}}, name)}});
     function ranks(count, most) {
       var list = [], step = Math.ceil(count / most);
       for (var i = 0; i < count; i += step) list.push(i + 0.5);
@@ -208,8 +245,7 @@ var figures = (function () {
     return frame(figure, width, [clip(marks)], Object.assign({
       signals: [{name: 'xd', value: figure.xd || [0, columns]}, {name: 'yd', value: figure.yd || [0, rows]},
         {name: 'xl', value: figure.x.at.map(text)}, {name: 'yl', value: figure.y.at.map(text)}],
-      data: [{name: 'cells', values: cells}, {name: 'edges', values: (figure.edges || contour(figure)).map(function (e) {
-        return {0: e[0], 1: e[1], 2: e[2], 3: e[3]}; })}],
+      data: [{name: 'cells', values: cells}, {name: 'edges', values: edgesOf(figure)}],
       scales: [{name: 'x', type: 'linear', range: 'width', domain: {signal: 'xd'}, zero: false, nice: false},
         {name: 'y', type: 'linear', range: 'height', domain: {signal: 'yd'}, zero: false, nice: false},
         {name: 'v', type: figure.value && figure.value.log ? 'log' : 'linear', range: {scheme: 'viridis'},

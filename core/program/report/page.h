@@ -137,6 +137,15 @@ typedef struct report_map {
 } report_map;
 void report_map_write(report_page *page, const report_map *map);
 
+/* section-quality.c: the worst of the lines of one name over all cases, the first case that has it,
+   how many cases have that verdict, and how many have the line. */
+typedef struct report_check {
+    const ff_view_quality *line;
+    size_t index, count, total;
+} report_check;
+/* Returns each line of any case once, in the order of the first case that has it; to be freed. */
+report_check *report_find_checks(const ff_view *view, size_t *count);
+
 /* section-sample.c: a scalar over the cases, in SI, and how it is shown. */
 typedef struct report_scalar {
     const double *values;
@@ -145,6 +154,9 @@ typedef struct report_scalar {
     char title[REPORT_TEXT_SIZE], label[REPORT_TEXT_SIZE];
 } report_scalar;
 bool report_is_sample(const ff_view *view);
+/* Returns the finite values in order, to be freed; percent is 0 to 100, count above 0. */
+double *report_sort(const double *values, size_t count, size_t *kept);
+double report_percentile(const double *list, size_t count, double percent);
 void report_write_sample(report_page *page, const report_scalar *scalar);
 
 /* These write the sections of the page. */

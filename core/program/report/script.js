@@ -22,11 +22,12 @@
   }
 
   /* The figures of the page. */
-  var shown = [];
+  var shown = [], printing = false;
   function draw(f) {
     if (f.view) f.view.finalize();
     f.box.textContent = '';
     f.width = Math.max(260, f.box.clientWidth || 600);
+    if (printing || matchMedia('print').matches) f.width = Math.min(f.width, 640);
     f.view = figures.view(f.figure, f.width);
     f.whole.hidden = !f.figure.xd;
     return f.view.initialize(f.box).runAsync();
@@ -172,6 +173,10 @@
     button('save', buttons, function () { save(figure, 'figure-' + (number + 1)); });
     if (figure.sort === 'curves') keys(f);
     if (figure.sort === 'classes') classList(f);
+    if (figure.sort === 'map') node.appendChild(make('small', '', 'Lines join equal values' +
+      (figure.mark === undefined ? '.' : '; the thick one is ' + figure.mark + '.')));
+    if (figure.sort === 'classes' && figure.edges.length) node.insertBefore(make('small', '',
+      'Black lines: where halving the distance between two cells found the boundary.'), node.querySelector('details'));
     f.box.addEventListener('mousemove', function (event) { show(f, event); });
     f.box.addEventListener('mouseleave', function () { tip.hidden = true; });
     dragging(f);
@@ -194,18 +199,21 @@
   /* Makes the figures of a list of descriptions, with their tables. */
   function expand(box) {
     JSON.parse(box.querySelector('script').textContent).forEach(function (figure) {
-      var node = make('figure'), caption = make('figcaption'), script = make('script'), details = make('details');
+      var node = make('figure'), caption = make('figcaption'), script = make('script');
       script.type = 'application/json';
       script.textContent = JSON.stringify(figure);
       caption.appendChild(make('span', '', figure.title));
       node.appendChild(caption);
       node.appendChild(script);
       box.appendChild(node);
-      if (!figure.table || !figure.table.rows.length) return;
-      details.open = !figure.table.folded;
-      details.appendChild(make('summary', '', figure.table.folded ? 'the cells that are not converged, and why' : 'the front'));
-      details.appendChild(tableOf(figure.table.head, figure.table.rows));
-      node.appendChild(details);
+      (figure.tables || []).forEach(function (table) {
+        var details = make('details');
+        if (!table.rows.length) return;
+        details.open = !table.folded;
+        details.appendChild(make('summary', '', table.summary));
+        details.appendChild(tableOf(table.head, table.rows));
+        node.appendChild(details);
+      });
     });
   }
 
@@ -395,6 +403,12 @@
       if (innerWidth === width) return;
       width = innerWidth;
       shown.forEach(draw);
+    });
+    ['beforeprint', 'afterprint'].forEach(function (kind) {
+      window.addEventListener(kind, function () {
+        printing = kind === 'beforeprint';
+        shown.forEach(draw);
+      });
     });
     document.body.dataset.figures = nodes.length;
     Promise.all(shown.map(function (f) { return f.view.runAsync(); })).then(function () {

@@ -16,15 +16,9 @@ static void put_number(FILE *out, double value)
     fprintf(out, "<td class=\"number\">%s</td>", text);
 }
 
-/* The worst of the lines of one name over all cases, and the number of cases with that verdict. */
-typedef struct worst {
-    const ff_view_quality *line;
-    size_t index, count, total;
-} worst;
-
-static worst find_worst(const ff_view *view, const ff_view_quality *of)
+static report_check find_worst(const ff_view *view, const ff_view_quality *of)
 {
-    worst found = {.line = NULL};
+    report_check found = {.line = NULL};
     for (size_t c = 0; c < view->case_count; c++)
         for (size_t i = 0; i < view->cases[c]->quality_count; i++) {
             const ff_view_quality *line = view->cases[c]->quality[i];
@@ -41,7 +35,30 @@ static worst find_worst(const ff_view *view, const ff_view_quality *of)
     return found;
 }
 
-static void write_line(report_page *page, const worst *w)
+report_check *report_find_checks(const ff_view *view, size_t *count)
+{
+    size_t most = 0;
+    report_check *checks = NULL;
+    *count = 0;
+    for (size_t c = 0; c < view->case_count; c++)
+        for (size_t i = 0; i < view->cases[c]->quality_count; i++) {
+            const ff_view_quality *line = view->cases[c]->quality[i];
+            size_t k = 0;
+            while (k < *count && (checks[k].line->stage != line->stage ||
+                                  strcmp(checks[k].line->name, line->name) != 0))
+                k++;
+            if (k < *count)
+                continue;
+            if (*count == most) {
+                most = 2 * most + 32;
+                checks = memory_resize(checks, most * sizeof *checks);
+            }
+            checks[(*count)++] = find_worst(view, line);
+        }
+    return checks;
+}
+
+static void write_line(report_page *page, const report_check *w)
 {
     FILE *out = page->out;
     fputs("<tr>", out);
@@ -58,34 +75,17 @@ static void write_line(report_page *page, const worst *w)
     fputs("</tr>\n", out);
 }
 
-/* Writes each line of any case once, in the order of the first case that has it. */
 void report_write_quality(report_page *page)
 {
-    const ff_view *view = page->view;
-    size_t known = 0, most = 0;
-    const ff_view_quality **lines = NULL;
+    size_t count;
+    report_check *checks = report_find_checks(page->view, &count);
     fputs("<section id=\"quality\"><h2>Quality of the numbers</h2>\n<details><summary>What each "
           "stage checked</summary>\n<div class=\"wide\"><table><thead><tr><th>stage</th><th>check"
           "</th><th>value</th><th>limit</th><th>verdict</th><th>in words</th></tr></thead>"
           "<tbody>\n",
           page->out);
-    for (size_t c = 0; c < view->case_count; c++)
-        for (size_t i = 0; i < view->cases[c]->quality_count; i++) {
-            const ff_view_quality *line = view->cases[c]->quality[i];
-            size_t k = 0;
-            while (k < known &&
-                   (lines[k]->stage != line->stage || strcmp(lines[k]->name, line->name) != 0))
-                k++;
-            if (k < known)
-                continue;
-            if (known == most) {
-                most = 2 * most + 32;
-                lines = memory_resize(lines, most * sizeof *lines);
-            }
-            lines[known++] = line;
-            worst w = find_worst(view, line);
-            write_line(page, &w);
-        }
-    free(lines);
+    for (size_t i = 0; i < count; i++)
+        write_line(page, &checks[i]);
+    free(checks);
     fputs("</tbody></table></div></details></section>\n", page->out);
 }

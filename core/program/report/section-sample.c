@@ -60,8 +60,7 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Returns the finite values in order. */
-static double *sorted(const double *values, size_t count, size_t *kept)
+double *report_sort(const double *values, size_t count, size_t *kept)
 {
     double *list = memory_alloc((count + 1) * sizeof *list);
     *kept = 0;
@@ -72,7 +71,7 @@ static double *sorted(const double *values, size_t count, size_t *kept)
     return list;
 }
 
-static double percentile(const double *list, size_t count, double percent)
+double report_percentile(const double *list, size_t count, double percent)
 {
     double at = percent / 100 * (double)(count - 1);
     size_t low = (size_t)at;
@@ -86,7 +85,7 @@ static void draw_histogram(report_page *page, const report_scalar *f)
     static const double percents[] = {5, 50, 95};
     const report_unit one = {1, 0, ""};
     size_t kept, bins;
-    double *list = sorted(f->values, f->count, &kept), x[MOST_BINS], y[MOST_BINS] = {0};
+    double *list = report_sort(f->values, f->count, &kept), x[MOST_BINS], y[MOST_BINS] = {0};
     report_plot plot = {.count = 0, .from_zero = true};
     bins = kept < 2 ? 1 : (size_t)fmin(ceil(sqrt((double)kept)) + 1, MOST_BINS);
     double width = kept > 1 ? (list[kept - 1] - list[0]) / (double)bins : 0;
@@ -101,7 +100,7 @@ static void draw_histogram(report_page *page, const report_scalar *f)
         for (size_t i = 0; i < 3; i++) {
             plot.mark_names[plot.mark_count] = names[i];
             plot.marks[plot.mark_count++] =
-                report_convert(&f->unit, percentile(list, kept, percents[i]));
+                report_convert(&f->unit, report_percentile(list, kept, percents[i]));
         }
         snprintf(plot.title, sizeof plot.title, "%.150s: how it is spread", f->title);
         snprintf(plot.x_label, sizeof plot.x_label, "%s", f->label);

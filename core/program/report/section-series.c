@@ -199,6 +199,20 @@ static void spread_colours(report_plot *plot)
         plot->curves[k].colour = (int)k;
 }
 
+/* Says whether a variable is the gap of a contact, which is 0 as soon as damping loads the flanks
+   again, beside that of a motion. */
+static bool is_other_gap(const ff_view *view, size_t variable)
+{
+    const ff_view_variable *of = view->variables[variable];
+    if (strcmp(of->output, "gap") != 0 || of->rank != 1 || strcmp(of->dims[0], "t") != 0)
+        return false;
+    for (size_t v = 0; v < view->variable_count; v++)
+        if (!strcmp(view->variables[v]->output, "gap") && view->variables[v]->rank == 1 &&
+            strcmp(view->variables[v]->dims[0], "t") != 0)
+            return true;
+    return false;
+}
+
 /* Draws the figure and begins the next one. */
 static void finish_figure(figure *d)
 {
@@ -229,7 +243,10 @@ static void draw_group(figure *d, const group *g)
         bool any = false;
         for (size_t o = 0; o < MOST_OUTPUTS && g->outputs[o]; o++) {
             int v = report_find_output(view, s, g->outputs[o]);
-            if (v < 0 || view->variables[v]->rank == 0 || view->variables[v]->rank > 1)
+            if (v >= 0 && is_other_gap(view, (size_t)v))
+                d->drawn[v] = true;
+            if (v < 0 || d->drawn[v] || view->variables[v]->rank == 0 ||
+                view->variables[v]->rank > 1)
                 continue;
             for (size_t c = 0; c < d->case_count; c++)
                 add_curve(d, (size_t)v, d->cases[c], several > 1, view->study ? c : used);
@@ -251,7 +268,7 @@ static void write_section(figure *d, const char *title, const group *groups, siz
     report_part_begin(page, &part);
     fprintf(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
     if (page->view->study)
-        fprintf(page->out, "<p class=\"note\">%zu of %zu cases that went well.</p>\n",
+        fprintf(page->out, "<p class=\"note\">Up to %zu of %zu cases that went well.</p>\n",
                 d->case_count, d->good);
     for (size_t i = 0; i < count; i++)
         draw_group(d, &groups[i]);
@@ -291,17 +308,37 @@ static void write_others(figure *d)
     report_part_end(page, &part);
 }
 
-/* Chooses the case of a run; of a study, a few that are spread over those that went well. */
+/* Says whether a case went well and differs from the first one along the longest dimension alone,
+   or along any when `all`. */
+static bool is_choice(const ff_view *view, size_t index, bool all)
+{
+    size_t longest = 0;
+    if (strcmp(view->cases[index]->status, "ok") != 0)
+        return false;
+    for (size_t d = 1; d < view->dimension_count; d++)
+        longest = view->lengths[d] > view->lengths[longest] ? d : longest;
+    for (size_t d = 0; d < view->dimension_count && !all; d++)
+        if (d != longest && ff_view_point(view, index, d) > 0)
+            return false;
+    return true;
+}
+
+/* Chooses the case of a run; of a study, a few that are spread over those that went well, one chain
+   of it if that has enough. */
 static void choose_cases(figure *d)
 {
     const ff_view *view = d->page->view;
-    size_t good = 0, seen = 0;
-    for (size_t c = 0; c < view->case_count; c++)
-        good += !strcmp(view->cases[c]->status, "ok");
+    size_t good = 0, seen = 0, line = 0;
+    for (size_t c = 0; c < view->case_count; c++) {
+        good += is_choice(view, c, true);
+        line += is_choice(view, c, false);
+    }
     d->good = good;
+    bool all = line < MOST_CASES;
+    good = all ? good : line;
     size_t wanted = good < MOST_CASES ? good : MOST_CASES;
     for (size_t c = 0; c < view->case_count && d->case_count < wanted; c++) {
-        if (strcmp(view->cases[c]->status, "ok") != 0)
+        if (!is_choice(view, c, all))
             continue;
         if (wanted == 1 || seen * (wanted - 1) >= d->case_count * (good - 1))
             d->cases[d->case_count++] = c;

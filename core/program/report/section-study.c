@@ -124,6 +124,26 @@ static bool is_geometric(const double *values, size_t count)
     return good;
 }
 
+/* Finds a curve of which y is no further than a thousandth of its range: both chains of a sweep are
+   one where there is one motion. */
+static report_curve *find_same(report_plot *plot, const report_unit *unit, const double *y)
+{
+    for (size_t k = 0; k < plot->count; k++) {
+        report_curve *curve = &plot->curves[k];
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = 0; i < curve->count; i++) {
+            low = fmin(low, curve->y[i]);
+            high = fmax(high, curve->y[i]);
+        }
+        bool same = true;
+        for (size_t i = 0; i < curve->count && same; i++)
+            same = fabs(curve->y[i] - report_convert(unit, y[i])) <= 1e-3 * (high - low);
+        if (same)
+            return curve;
+    }
+    return NULL;
+}
+
 static void draw_lines(const case_scalar *f, const ff_view_axis *axis, size_t combinations)
 {
     const ff_view *view = f->page->view;
@@ -143,10 +163,18 @@ static void draw_lines(const case_scalar *f, const ff_view_axis *axis, size_t co
         }
         if (!any)
             continue;
-        report_curve *curve = report_plot_add(&plot, &unit, axis->values, &f->unit, y, points);
+        char name[REPORT_TEXT_SIZE];
+        report_name_case(view, first, axis->dimension, -1, name);
+        report_curve *curve = find_same(&plot, &f->unit, y);
+        if (curve) {
+            size_t length = strlen(curve->label);
+            snprintf(curve->label + length, sizeof curve->label - length, " = %.80s", name);
+            continue;
+        }
+        curve = report_plot_add(&plot, &unit, axis->values, &f->unit, y, points);
         if (curve) {
             curve->dash = (int)k;
-            report_name_case(view, first, axis->dimension, -1, curve->label);
+            snprintf(curve->label, sizeof curve->label, "%s", name);
         }
     }
     report_plot_write(f->page, &plot);

@@ -4,10 +4,14 @@
 
 #include "page.h"
 
+#include "../memory/memory.h"
+
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { LEAST, MOST, LARGEST, MEAN, RANGE, PLAIN, PERCENT };
+/* ANY: the highest of a series, where it is not 0 */
+enum { LEAST, MOST, LARGEST, ANY, MEAN, RANGE, PLAIN, PERCENT };
 
 static const struct row {
     const char *words, *output;
@@ -25,7 +29,8 @@ static const struct row {
     {"Efficiency of the mesh", "efficiency", PERCENT},
     {"Highest flash temperature rise", "flash_temperature", MOST},
     {"Highest contact temperature", "contact_temperature", MOST},
-    {"Largest share of the asperities in the load", "asperity_load_share", MOST},
+    {"Largest share of the asperities in the load", "asperity_load_share", ANY},
+    {"Largest share of the contact where asperities touch", "contact_ratio", ANY},
     {"Highest load per width", "load_per_width", MOST},
     {"Transmission error, rms of its alternating part", "dte_rms", PLAIN},
     {"Transmission error, peak to peak", "dte_peak_to_peak", PLAIN},
@@ -46,7 +51,7 @@ static size_t find_extreme(const ff_array *array, int how)
     size_t best = 0;
     for (size_t i = 1; i < report_array_size(array); i++) {
         double a = array->data[i], b = array->data[best];
-        bool better = how == LEAST ? a < b : how == MOST ? a > b : fabs(a) > fabs(b);
+        bool better = how == LEAST ? a < b : how == LARGEST ? fabs(a) > fabs(b) : a > b;
         best = better || (isfinite(a) && !isfinite(b)) ? i : best;
     }
     return best;
@@ -115,8 +120,8 @@ static void write_row(report_page *page, const struct row *row, size_t variable)
     char text[REPORT_TEXT_SIZE];
     int axis = of->rank == 1 ? report_find_axis(page->view, variable, 0, 0) : -1;
     ff_array y = report_load(page, (int)variable, 0), x = report_load(page, axis, 0);
-    if (y.data && report_array_size(&y) > 0) {
-        size_t at = row->how < MEAN ? find_extreme(&y, row->how) : 0;
+    size_t at = y.data && row->how < MEAN ? find_extreme(&y, row->how) : 0;
+    if (y.data && report_array_size(&y) > 0 && (row->how != ANY || y.data[at] > 0)) {
         double value = row->how == MEAN      ? mean_of(&y, &x)
                        : row->how == RANGE   ? range_of(&y)
                        : row->how == LARGEST ? fabs(y.data[at])
@@ -157,11 +162,51 @@ static void write_checks(report_page *page)
             counts[FF_GOOD], counts[FF_DOUBTFUL], counts[FF_BAD]);
 }
 
+enum { SHOWN = 6 }; /* of the reasons; the others are folded */
+
+/* Begins an item of the list of so many reasons. */
+static void begin_reason(report_page *page, size_t item, size_t count)
+{
+    if (item == 0)
+        fputs("<ul>\n", page->out);
+    if (item == SHOWN)
+        fprintf(page->out, "</ul>\n<details><summary>%zu more reasons</summary>\n<ul>\n",
+                count - SHOWN);
+    fputs("<li>", page->out);
+}
+
+static void end_reasons(report_page *page, size_t count)
+{
+    fputs(count > 0 ? "</ul>\n" : "", page->out);
+    fputs(count > SHOWN ? "</details>\n" : "", page->out);
+}
+
+/* Writes "film: the domain ends ... (starvation 0.0124, held to 0.01)". */
+static void write_reason(report_page *page, const ff_view_quality *line)
+{
+    char value[REPORT_TEXT_SIZE], limit[REPORT_TEXT_SIZE];
+    char words[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
+    const size_t length = strlen(line->name), end = strlen("_error");
+    report_put_text(page->out, page->view->stages[line->stage]->name);
+    fputs(": ", page->out);
+    if (!strncmp(line->text, "measured", 8) && length > end && length < sizeof name) {
+        snprintf(name, sizeof name, "%.*s", (int)(length - end), line->name);
+        fputs("error of the ", page->out);
+        report_put_text(page->out, report_output_words(name, words));
+        fputs(", ", page->out);
+    }
+    report_put_text(page->out, *line->text ? line->text : line->name);
+    report_number_text(line->value, value);
+    report_number_text(line->limit, limit);
+    fputs(" <small>(", page->out);
+    report_put_text(page->out, line->name);
+    fprintf(page->out, " = %s, held to %s)</small>", value, limit);
+}
+
 /* The verdict of a run, with what the lines say that are not good. */
 static void write_judgement(report_page *page)
 {
     const ff_view_case *c = page->view->cases[0];
-    char number[REPORT_TEXT_SIZE];
     size_t listed = 0, counts[3] = {0};
     count_verdicts(page->view, counts);
     fputs("<p class=\"judgement\">", page->out);
@@ -179,21 +224,13 @@ static void write_judgement(report_page *page)
                                : "Some of these numbers are in doubt",
                 counts[FF_GOOD], counts[FF_DOUBTFUL], counts[FF_BAD]);
     for (size_t i = 0; i < c->quality_count; i++) {
-        const ff_view_quality *line = c->quality[i];
-        if (line->verdict == FF_GOOD)
+        if (c->quality[i]->verdict == FF_GOOD)
             continue;
-        fputs(listed++ ? "<li>" : "<ul>\n<li>", page->out);
-        report_put_text(page->out, page->view->stages[line->stage]->name);
-        fputs(".", page->out);
-        report_put_text(page->out, line->name);
-        report_number_text(line->value, number);
-        fprintf(page->out, " = %s, held to ", number);
-        report_number_text(line->limit, number);
-        fprintf(page->out, "%s%s", number, *line->text ? ": " : "");
-        report_put_text(page->out, line->text);
+        begin_reason(page, listed++, counts[FF_DOUBTFUL] + counts[FF_BAD]);
+        write_reason(page, c->quality[i]);
         fputs("</li>\n", page->out);
     }
-    fputs(listed ? "</ul>\n" : "", page->out);
+    end_reasons(page, listed);
 }
 
 static void write_run(report_page *page)
@@ -205,74 +242,178 @@ static void write_run(report_page *page)
           page->out);
     for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
         for (size_t v = 0; v < view->variable_count; v++)
-            if (!strcmp(view->variables[v]->output, rows[r].output) && view->variables[v]->rank < 2)
+            if (!strcmp(view->variables[v]->output, rows[r].output) &&
+                view->variables[v]->rank == (rows[r].how < PLAIN))
                 write_row(page, &rows[r], v);
     fputs("</tbody></table>\n", page->out);
 }
 
-/* Writes the least and the largest value of a scalar over the cases, and where they are. */
-static void write_span(report_page *page, size_t variable)
+/* Loads a scalar over the cases, in SI. */
+static double *load_values(report_page *page, size_t variable)
 {
-    const ff_view *view = page->view;
-    const ff_view_variable *of = view->variables[variable];
-    size_t at[2] = {0};
-    double found[2] = {NAN, NAN};
-    char words[REPORT_TEXT_SIZE];
-    for (size_t c = 0; c < view->case_count; c++) {
+    double *values = memory_alloc(page->view->case_count * sizeof *values);
+    for (size_t c = 0; c < page->view->case_count; c++) {
         ff_array array = report_load(page, (int)variable, c);
-        double value = array.data ? array.data[0] : (double)NAN;
+        values[c] = array.data ? array.data[0] : (double)NAN;
         report_release(page, &array);
-        for (int side = 0; side < 2; side++)
-            if (isfinite(value) &&
-                (!isfinite(found[side]) || (side ? value > found[1] : value < found[0]))) {
-                found[side] = value;
-                at[side] = c;
-            }
     }
-    if (!isfinite(found[0]))
-        return;
+    return values;
+}
+
+static void begin_span(report_page *page, const ff_view_variable *of)
+{
+    char words[REPORT_TEXT_SIZE];
     fputs("<tr><th scope=\"row\">", page->out);
     report_put_text(page->out, report_output_words(of->output, words));
-    fputs("</th><td>", page->out);
-    report_put_text(page->out, view->stages[of->stage]->name);
+    fputs("</th>", page->out);
+    report_put_cell(page->out, page->view->stages[of->stage]->name);
+}
+
+static void put_value(report_page *page, const ff_view_variable *of, double value)
+{
+    char text[REPORT_TEXT_SIZE];
+    report_quantity_text(report_si_unit(of->unit, of->output), value, text);
+    fputs("<td class=\"number\">", page->out);
+    report_put_text(page->out, text);
     fputs("</td>", page->out);
+}
+
+/* Writes the least and the largest value of a scalar over the cases, and where they are. */
+static void write_span(report_page *page, const ff_view_variable *of, const double *values)
+{
+    const ff_view *view = page->view;
+    size_t at[2] = {0};
+    char words[REPORT_TEXT_SIZE];
+    for (size_t c = 0; c < view->case_count; c++)
+        for (int side = 0; side < 2; side++) {
+            double best = values[at[side]];
+            if (isfinite(values[c]) &&
+                (!isfinite(best) || (side ? values[c] > best : values[c] < best)))
+                at[side] = c;
+        }
+    if (!isfinite(values[at[0]]))
+        return;
+    begin_span(page, of);
     for (int side = 0; side < 2; side++) {
-        report_quantity_text(report_si_unit(of->unit, of->output), found[side], words);
-        fputs("<td class=\"number\">", page->out);
-        report_put_text(page->out, words);
-        fputs("</td><td>", page->out);
+        put_value(page, of, values[at[side]]);
         report_name_case(view, at[side], SIZE_MAX, -1, words);
-        report_put_text(page->out, words);
-        fputs("</td>", page->out);
+        report_put_cell(page->out, words);
     }
     fputs("</tr>\n", page->out);
 }
 
-static void write_study(report_page *page)
+/* Writes how a scalar is distributed over a sample; of the lambda ratio, how often it is below 1,
+   where flanks touch. */
+static void write_distribution(report_page *page, const ff_view_variable *of, const double *values)
+{
+    static const double percents[] = {0, 5, 50, 95, 100};
+    size_t kept, below = 0;
+    double *list = report_sort(values, page->view->case_count, &kept);
+    if (kept > 0) {
+        begin_span(page, of);
+        for (size_t i = 0; i < sizeof percents / sizeof *percents; i++)
+            put_value(page, of, report_percentile(list, kept, percents[i]));
+        while (below < kept && list[below] < 1)
+            below++;
+        fputs("<td>", page->out);
+        if (!strcmp(of->output, "lambda_ratio_lowest"))
+            fprintf(page->out, "below 1 in %zu of %zu cases (%.3g %%)", below, kept,
+                    100 * (double)below / (double)kept);
+        fputs("</td></tr>\n", page->out);
+    }
+    free(list);
+}
+
+static void write_spans(report_page *page)
 {
     const ff_view *view = page->view;
-    size_t idle = 0, scalars = 0;
-    for (size_t c = 0; c < view->case_count; c++)
-        idle += !*view->cases[c]->verdict;
-    fprintf(page->out, "<p class=\"judgement\">%zu cases: ", view->case_count);
-    report_put_text(page->out, view->summary);
-    if (idle > 0)
-        fprintf(page->out, "%s%zu not run", *view->summary ? ", " : "", idle);
-    fputs("; ", page->out);
-    write_checks(page);
-    fputs("</p>\n", page->out);
-    for (size_t v = 0; v < view->variable_count; v++)
-        scalars += view->variables[v]->rank == 0;
-    if (scalars == 0)
-        return;
-    fputs("<div class=\"wide\"><table "
-          "class=\"verdict\"><thead><tr><th>quantity</th><th>stage</th><th>least</th>"
-          "<th>where</th><th>largest</th><th>where</th></tr></thead><tbody>\n",
+    bool sample = report_is_sample(view);
+    fprintf(page->out,
+            "<div class=\"wide\"><table class=\"verdict span%s\"><thead><tr><th>quantity</th>"
+            "<th>stage</th>",
+            sample ? " sample" : "");
+    fputs(sample ? "<th>least</th><th>5 %</th><th>median</th><th>95 %</th><th>largest</th><th></th>"
+                 : "<th>least</th><th>where</th><th>largest</th><th>where</th>",
           page->out);
-    for (size_t v = 0; v < view->variable_count; v++)
-        if (view->variables[v]->rank == 0)
-            write_span(page, v);
+    fputs("</tr></thead><tbody>\n", page->out);
+    for (size_t v = 0; v < view->variable_count; v++) {
+        if (view->variables[v]->rank != 0)
+            continue;
+        double *values = load_values(page, v);
+        (sample ? write_distribution : write_span)(page, view->variables[v], values);
+        free(values);
+    }
     fputs("</tbody></table></div>\n", page->out);
+}
+
+/* The worst first, and among those the most frequent. */
+static int compare_checks(const void *a, const void *b)
+{
+    const report_check *x = a, *y = b;
+    if (x->line->verdict != y->line->verdict)
+        return x->line->verdict < y->line->verdict ? 1 : -1;
+    return (x->count < y->count) - (x->count > y->count);
+}
+
+/* What the checks say that are not good in some case, in sentences. */
+static void write_reasons(report_page *page)
+{
+    size_t count, doubts = 0;
+    report_check *checks = report_find_checks(page->view, &count);
+    if (count > 0)
+        qsort(checks, count, sizeof *checks, compare_checks);
+    while (doubts < count && checks[doubts].line->verdict != FF_GOOD)
+        doubts++;
+    for (size_t i = 0; i < doubts; i++) {
+        begin_reason(page, i, doubts);
+        fprintf(page->out, "<b>%zu of %zu cases</b> %s: ", checks[i].count, page->view->case_count,
+                ff_verdict_name(checks[i].line->verdict));
+        write_reason(page, checks[i].line);
+        fputs("</li>\n", page->out);
+    }
+    end_reasons(page, doubts);
+    free(checks);
+}
+
+/* Says how many cases can be trusted, before the reasons. */
+static void write_counts(report_page *page)
+{
+    const ff_view *view = page->view;
+    size_t good = 0, doubtful = 0, bad = 0, failed = 0, idle = 0;
+    for (size_t c = 0; c < view->case_count; c++) {
+        const char *verdict = view->cases[c]->verdict;
+        good += !strcmp(verdict, "good");
+        doubtful += !strcmp(verdict, "doubtful");
+        bad += !strcmp(verdict, "bad");
+        failed += !strcmp(verdict, "failed");
+        idle += !*verdict;
+    }
+    fputs("<p class=\"judgement\">", page->out);
+    report_put_badge(page->out, failed        ? "failed"
+                                : bad         ? "bad"
+                                : doubtful    ? "doubtful"
+                                : idle < good ? "good"
+                                              : "");
+    fprintf(page->out, " Of %zu cases %zu are good, %zu doubtful, %zu bad and %zu failed",
+            view->case_count, good, doubtful, bad, failed);
+    if (idle > 0)
+        fprintf(page->out, "; %zu have no verdict", idle);
+    fputs(": ", page->out);
+    write_checks(page);
+    fputs(".</p>\n<p class=\"note\">", page->out);
+    report_put_text(page->out, view->summary); /* it also counts warnings, which are no checks */
+    fputs("</p>\n", page->out);
+}
+
+static void write_study(report_page *page)
+{
+    bool scalars = false;
+    for (size_t v = 0; v < page->view->variable_count; v++)
+        scalars = scalars || page->view->variables[v]->rank == 0;
+    write_counts(page);
+    write_reasons(page);
+    if (scalars)
+        write_spans(page);
 }
 
 void report_write_verdict(report_page *page)

@@ -44,8 +44,11 @@ static json_t *side(const study_map *map, size_t axis, size_t points)
     if (axis < map->axis_count) {
         bool known = study_read_number(study_map_value(map, axis, 0), &number, &end);
         const char *unit = known ? end + strspn(end, " ") : "";
-        snprintf(label, sizeof label, *unit ? "%.150s (%.40s)" : "%.150s",
-                 map->grid->varied[axis].path, unit);
+        const char *path = map->grid->varied[axis].path, *dot = strrchr(path, '.');
+        snprintf(label, sizeof label, *unit ? "%.150s (%.40s)" : "%.150s", dot ? dot + 1 : path,
+                 unit);
+        for (char *at_space = strchr(label, '_'); at_space; at_space = strchr(at_space, '_'))
+            *at_space = ' ';
     }
     for (size_t i = 0; i < points; i++)
         json_array_append_new(at, axis < map->axis_count
@@ -135,14 +138,13 @@ static json_t *describe_slice(const study_map *map, size_t slice)
     json_t *x = side(map, 0, columns), *y = side(map, 1, rank);
     json_t *head = json_pack("[O, O, s]", json_object_get(y, "label"), json_object_get(x, "label"),
                              "verdict and reason");
+    int height = (int)(rank < 8 ? 34 * rank + 70 : rank < 20 ? 22 * rank + 60 : 440);
     return json_pack(
-        "{s:s, s:s, s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:{s:o, s:o, s:i}}", "sort", "classes",
-        "title", *title ? title : "Where the pipeline can be trusted", "height",
-        (int)(rank < 8    ? 34 * rank + 70
-              : rank < 20 ? 22 * rank + 60
-                          : 440),
+        "{s:s, s:s, s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:[{s:s, s:o, s:o, s:i}]}", "sort",
+        "classes", "title", *title ? title : "Where the pipeline can be trusted", "height", height,
         "x", x, "y", y, "classes", classes(), "cells", cells, "reasons", reasons, "edges",
-        edges_of(map, slice), "table", "head", head, "rows", rows, "folded", 1);
+        edges_of(map, slice), "tables", "summary", "the cells that are not converged, and why",
+        "head", head, "rows", rows, "folded", 1);
 }
 
 void study_map_figure(const study_map *map, FILE *out)

@@ -84,8 +84,8 @@ static void add_candidate(groups *g, const json_t *candidate, const json_t *erro
 
 static json_t *front_of(const json_t *result, const json_t *output, json_t *rows)
 {
-    json_t *curve = json_pack("{s:s, s:i, s:i, s:s, s:[], s:[]}", "name", "front", "colour", 0,
-                              "dash", 2, "style", "line", "x", "y");
+    json_t *curve = json_pack("{s:s, s:s, s:i, s:s, s:[], s:[]}", "name", "front", "colour",
+                              "var(--soft)", "dash", 2, "style", "line", "x", "y");
     const json_t *candidates = json_object_get(result, "candidates");
     size_t i;
     json_t *one;
@@ -94,24 +94,55 @@ static json_t *front_of(const json_t *result, const json_t *output, json_t *rows
         double seconds = study_number_of(one, "seconds"), error = study_number_of(one, "error");
         const json_t *at = json_array_get(
             candidates, (size_t)json_integer_value(json_object_get(one, "candidate")));
+        char bought[100] = "";
+        if (i > 0)
+            snprintf(bought, sizeof bought, "%.3g times the cost, error divided by %.3g",
+                     study_number_of(one, "times_the_cost"),
+                     1 / study_number_of(one, "part_of_the_error"));
         append(curve, "x", json_real(seconds));
         append(curve, "y", json_real(100 * error));
-        json_array_append_new(
-            rows, json_pack("[i, s, f, f, s]", (int)i + 1, study_text_of(at, "label"), seconds,
-                            100 * error, json_is_true(json_object_get(one, "knee")) ? "knee" : ""));
+        json_array_append_new(rows,
+                              json_pack("[i, s, f, f, s, s]", (int)i + 1,
+                                        study_text_of(at, "label"), seconds, 100 * error, bought,
+                                        json_is_true(json_object_get(one, "knee")) ? "knee" : ""));
     }
     return curve;
+}
+
+static json_t *percent_of(const json_t *of, const char *key)
+{
+    return json_object_get(of, key) ? json_real(100 * study_number_of(of, key)) : json_null();
+}
+
+/* A row of the table of all candidates, as on the terminal. */
+static json_t *row_of(const json_t *candidate, const json_t *error)
+{
+    const json_t *seconds = json_object_get(candidate, "seconds");
+    double median = study_number_of(seconds, "median");
+    const char *reason = study_text_of(candidate, "reason"), *claim = study_text_of(error, "claim");
+    char label[400];
+    snprintf(label, sizeof label, "%.200s%s%.150s", study_text_of(candidate, "label"),
+             *reason ? ": " : "", reason);
+    return json_pack(
+        "[s, o, o, o, o, o, s]", label, percent_of(error, "largest"), percent_of(error, "rms"),
+        median > 0 ? json_real(median) : json_null(),
+        median > 0
+            ? json_real(100 * (study_number_of(seconds, "max") - study_number_of(seconds, "min")) /
+                        median)
+            : json_null(),
+        percent_of(error, "claimed"), !strcmp(claim, "kept") ? "" : claim);
 }
 
 static json_t *describe(const json_t *result, const char *name, const json_t *output)
 {
     groups g = {.count = 0};
-    json_t *curves = json_array(), *rows = json_array(), *one;
+    json_t *curves = json_array(), *rows = json_array(), *all = json_array(), *one;
     size_t i;
     char label[160];
     json_array_foreach(json_object_get(result, "candidates"), i, one)
     {
         const json_t *error = json_object_get(json_object_get(one, "errors"), name);
+        json_array_append_new(all, row_of(one, error));
         if (json_is_object(error))
             add_candidate(&g, one, error, output, rank_in_front(output, i));
     }
@@ -120,11 +151,17 @@ static json_t *describe(const json_t *result, const char *name, const json_t *ou
     json_array_append_new(curves, front_of(result, output, rows));
     snprintf(label, sizeof label, "%.40s error (%%), known to %.2g %%",
              study_text_of(output, "judge"), 100 * study_number_of(output, "reference_error"));
-    return json_pack(
-        "{s:s, s:s+, s:i, s:i, s:{s:s, s:i}, s:{s:s, s:i}, s:[], s:o, s:{s:[sssss], s:o}}", "sort",
-        "curves", "title", name, ": error against cost", "height", 340, "room", 1, "x", "label",
-        "cost (s on one core)", "log", 1, "y", "label", label, "log", 1, "marks", "curves", curves,
-        "table", "head", "", "on the front", "cost (s)", "error (%)", "", "rows", rows);
+    json_t *tables =
+        json_pack("[{s:s, s:[s, s, s, s, s, s], s:o}, {s:s, s:[s, s, s, s, s, s, s], "
+                  "s:o, s:i}]",
+                  "summary", "the front", "head", "", "on the front", "cost (s)", "error (%)",
+                  "against the one above", "", "rows", rows, "summary", "all candidates", "head",
+                  "candidate", "largest error (%)", "rms error (%)", "cost (s)",
+                  "spread of the cost (%)", "claimed error (%)", "claim", "rows", all, "folded", 1);
+    return json_pack("{s:s, s:s+, s:i, s:i, s:{s:s, s:i}, s:{s:s, s:i}, s:[], s:o, s:o}", "sort",
+                     "curves", "title", name, ": error against cost", "height", 340, "room", 1, "x",
+                     "label", "cost (s on one core)", "log", 1, "y", "label", label, "log", 1,
+                     "marks", "curves", curves, "tables", tables);
 }
 
 void study_tradeoff_figure(const json_t *result, FILE *out)

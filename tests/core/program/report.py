@@ -98,6 +98,15 @@ class Report(lab.Lab):
         for command in commands:
             self.assertIn(command.replace("'", "&#39;"), page)
 
+    def test_map(self):
+        """A map says its scale, and what its lines are."""
+        self.call("run", "run.yaml", "-o", "map", "--set", "outputs=sum.sum", "--set",
+                  "study={sweep: {wave.amplitude: {from: 1 mm, to: 5 mm, points: 5}, wave.count: {from: 8, to: 38, points: 11}}}")
+        self.call("report", "map")
+        dom, _ = self.look("map/report.html")
+        self.assertIn("Lines join equal values", dom)
+        self.assertIn("linear scale", dom)
+
     def test_decades(self):
         for spacing, log in (("log", 1), ("linear", 0)):
             self.call("run", "run.yaml", "-o", spacing, "--set", "outputs=sum.sum", "--set",

@@ -24,7 +24,9 @@ YAML
 "$flankfilm" run study.yaml -o out >said
 "$flankfilm" report out >said
 grep -q 'error against cost' out/report.html
-grep -q '<p class="judgement">6 cases: 6 good; ' out/report.html # levels that were not needed are none
+grep -q '<p class="judgement"><span class="badge good">good</span> Of 6 cases 6 are good, ' out/report.html # levels that were not needed are none
+grep -q '"summary": "the front"' out/report.html
+grep -q '"summary": "all candidates"' out/report.html
 grep -q 'reference 1, n 200<' out/report.html
 if grep ', ,\|, <' out/report.html; then exit 1; fi
 if grep '"label":"case"' out/report.html; then exit 1; fi # no figure over the numbers of cases

@@ -102,7 +102,12 @@ class Verdicts(lab.Lab):
         self.call("report", "shown")
         with open("shown/report.html", encoding="utf-8") as file:
             page = file.read()
-        self.assertIn(f"<h2>Verdict</h2>\n<p class=\"judgement\">7 cases: {WORDS}; ", page)
+        self.assertIn('<h2>Verdict</h2>\n<p class="judgement"><span class="badge bad">failed</span> '
+                      'Of 7 cases 2 are good, 3 doubtful, 1 bad and 1 failed: ', page)
+        self.assertIn(f'<p class="note">{WORDS}</p>', page)
+        reasons = re.findall(r'<li><b>(\d) of 7 cases</b> (\w+): (\w+): ', page)
+        self.assertEqual(reasons[0][1], "bad")  # the worst first
+        self.assertEqual(sorted({r[1] for r in reasons}), ["bad", "doubtful"])
         cells = re.findall(r'<td><span class="badge \w+">(\w+)</span></td><td>([^<]*)</td>', page)
         self.assertEqual(cells, [(v, ", ".join(r)) for v, r in zip(VERDICTS, REASONS)])
 

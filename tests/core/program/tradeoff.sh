@@ -170,7 +170,8 @@ grep -q 'judged by rms' largest.txt && fail "the file has the last word"
 python3 - <<'END' || fail "the figure"
 import json
 figure = json.load(open("sign/tradeoff.figure.json"))[0]
-rows = figure["table"]["rows"]
+rows = figure["tables"][0]["rows"]
+assert len(figure["tables"][1]["rows"]) == 4, figure["tables"][1]  # all candidates
 assert rows[0][:2] == [1, "n 2"], rows  # the front is named
 dots = [curve for curve in figure["curves"] if curve["style"] == "dots"]
 assert sum(len(curve["x"]) for curve in dots) >= 4
