@@ -156,9 +156,9 @@ static const ff_param params[] = {
                 "without both that of the oil"),
     FF_QUANTITY("p0", "MPa", roelands, p0, 0, "196 MPa", NULL, 10, 1e4, 190, 200,
                 "pressure constant of the law"),
-    FF_QUANTITY_UNLESS("oil", "s0", "1", roelands, s0, 0, NULL, NULL, 0, 10, 0.5, 2,
+    FF_QUANTITY_UNLESS("oil", "s0", "1", roelands, s0, 0, "0", NULL, 0, 10, 0, 2,
                        "fall of ln(eta0) + 9.67 with temperature by [(T - 138)/(at - 138)]^-s0, T "
-                       "in K, of a contact without an oil; not given: none"),
+                       "in K, of a contact without an oil; 0: none"),
     VISCOSITY_ALPHA_SLOPE_ROW(roelands, own.slope),
     VISCOSITY_AT_ROW(roelands, own.at),
 };

@@ -80,6 +80,30 @@ static bool is_free(const fit_law *law, size_t index)
     return required;
 }
 
+/* Of data at several temperatures: what stands in for the oil, as the s0 of Roelands, is found,
+ * too. */
+static bool is_thermal(const fit_data *d, const fit_param *param)
+{
+    const ff_param *row = param->row;
+    return !d->isothermal && param->asked == FIT_PRESET && row->type == FF_REAL && row->instead &&
+           row->preset;
+}
+
+/* Their mean is where the constants of a law hold that asks for it: `at`. */
+static bool is_reference(const fit_data *d, const fit_param *param)
+{
+    return !d->isothermal && param->asked == FIT_PRESET && param->row->type == FF_REAL &&
+           !strcmp(param->row->name, "at");
+}
+
+static double mean_temperature(const fit_data *d)
+{
+    double sum = 0;
+    for (size_t i = 0; i < d->n; i++)
+        sum += d->T[i];
+    return sum / (double)d->n;
+}
+
 /* Sets up the axes. The law has the values that the user holds; pressure_cap is held at the end
    of the data, so that the law says by itself when it is used beyond. */
 static bool choose_free(fit_search *s)
@@ -90,11 +114,14 @@ static bool choose_free(fit_search *s)
         s->values[i] = NAN;
         if (param->asked == FIT_FREE && param->row->type != FF_REAL)
             return fail(law, "%s is not a number and cannot be found", param->row->name);
-        if (is_free(law, i)) {
+        if (is_free(law, i) || is_thermal(s->data, param)) {
             if (s->count == FIT_MOST_FREE)
                 return fail(law, "it has more than %d parameters to find", FIT_MOST_FREE);
             s->axes[s->count++] = fit_axis_of(param, i);
             param->found = FIT_FREE;
+        } else if (is_reference(s->data, param)) {
+            s->values[i] = param->value = mean_temperature(s->data);
+            param->found = FIT_HELD;
         } else if (param->asked == FIT_PRESET && param->row->type == FF_REAL &&
                    !strcmp(param->row->name, "pressure_cap") &&
                    s->data->highest >= param->unit->factor * param->row->min) {

@@ -63,7 +63,9 @@ judge "a run beyond the data is told" $?
 says 2 'lies outside the data, whose pressure goes from 0 GPa to 0.6 GPa' viscosity "$data" --at "0.7 GPa"
 says 2 'lies outside the data, whose temperature goes from 40 degC to 100 degC' viscosity "$data" --at "20 degC"
 says 2 'there are 40, 80, 100 degC' viscosity "$data" --at "60 degC"
-says 2 'knows no temperature, and the data have several' viscosity "$data"
+says 2 'knows no temperature, and the data have several' viscosity "$data" --law barus
+# three isotherms together, at the noise of 2 % that the data have
+says 0 "viscosity/roelands 3 2.05 %" viscosity "$data" -o out
 says 2 'is not a quantity of the data' viscosity "$data" --at "3 m"
 says 0 'p0 is outside of its calibrated range' viscosity "$data" --at "80 degC" --set z=0.5 --set p0=free -o out
 says 2 'has a parameter "zz"' viscosity "$data" --at "80 degC" --set zz=1
