@@ -216,6 +216,8 @@ static void compute_flow(ehl_balance *b, const ehl_march *m)
     else
         for (size_t i = 0; i < n; i++)
             b->psi[i] = exp(-b->ln_eta[i]);
+    for (size_t i = 0; eq->ease && i < n; i++)
+        b->psi[i] *= eq->ease[i];
     for (size_t i = 0; i < n; i++)
         b->psi[i] *= b->rho[i] * h[i] * h[i] * h[i] / 12;
     for (size_t i = 0; i + 1 < n; i++)
@@ -352,7 +354,7 @@ static double mobility_at(const ehl_march *m, size_t i)
     if (eq->laws.rheology)
         eq->laws.rheology->flow(eq->laws.rheology->self, 1, &ln_eta, &h, m->step.sliding, &psi,
                                 slopes, slopes + 1);
-    return rho * h * h * h * psi / 12;
+    return rho * h * h * h * psi / 12 * (eq->ease ? eq->ease[i] : 1);
 }
 
 /* Returns the pressure flow from node i + 1 to node i. */

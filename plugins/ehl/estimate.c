@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "estimate.h"
 
+#include "inlet-heat.h"
 #include "inlet.h"
 #include "surface.h"
 
@@ -49,7 +50,10 @@ ff_status ehl_estimate_ready(void *self)
 ff_status ehl_estimate_wire(void *self, uint32_t input, const void *service)
 {
     ehl_estimate *e = self;
-    ehl_wire_law(&e->laws, input, service);
+    if (input == EHL_IN_LIQUID)
+        e->liquid = service;
+    else
+        ehl_wire_law(&e->laws, input, service);
     e->rough = e->rough || input == EHL_ESTIMATE_IN_RQ_1;
     return FF_OK;
 }
@@ -148,6 +152,11 @@ static ff_status begin(ehl_estimate *e, uint64_t wanted, const ff_array *in)
     ff_status status = read_scene(e, in);
     if (status == FF_OK)
         status = read_roughness(e, wanted, in);
+    if (status != FF_OK)
+        return status;
+    e->conductivity = 0;
+    if (e->thermal == EHL_THERMAL_INLET)
+        status = ehl_heat_conductivity(e->host, e->liquid, &e->laws, &e->conductivity);
     if (status != FF_OK)
         return status;
     e->alpha_star = ehl_alpha_star(&e->laws);

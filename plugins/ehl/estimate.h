@@ -32,7 +32,7 @@
                        NULL, 0, 1e9, 0, 0,                                                         \
                        "a load per width that stands in for smaller ones; none: the film of 1 % "  \
                        "of the largest load stands in, and the gap of lost contact is added"),     \
-        EHL_HEATING_PARAMS(ehl_estimate)
+        EHL_THERMAL_PARAM(ehl_estimate), EHL_HEATING_PARAMS(ehl_estimate)
 
 extern const ff_model ehl_film_formula_model; /* ehl/film-formula */
 
@@ -68,6 +68,8 @@ struct ehl_estimate {
     int64_t cells, steps; /* steps -1: the times of the history */
     double inlet, outlet, light_load;
     int rough; /* a surface is wired */
+    int32_t thermal;
+    const ff_liquid *liquid; /* NULL: no oil is wired */
     ehl_inlet_heating heating;
     ehl_laws laws;
     ehl_isothermal isothermal;
@@ -76,7 +78,8 @@ struct ehl_estimate {
     ehl_history history;
     ehl_oil oil;
     ehl_film_coefficient alpha_star;
-    double alpha; /* its value, 1/Pa */
+    double alpha;        /* its value, 1/Pa */
+    double conductivity; /* of the oil, W/(m K), with thermal: inlet; else 0 */
     ehl_grid grid;
     size_t count;
     ehl_moment *moment;

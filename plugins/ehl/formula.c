@@ -60,6 +60,7 @@ typedef struct film_formula {
     int32_t formula, pressure_coefficient; /* ranks of the words */
     double *density;  /* at p_max, over that at ambient pressure, of every moment */
     double h_central; /* m, of the latest moment */
+    ehl_inlet *inlet; /* that heats itself; NULL: thermal is none */
 } film_formula;
 
 /* Where the full solutions lie that the scatter was found from (Roelands' law with compression,
@@ -82,6 +83,40 @@ static int inside(const film_formula *f, const ehl_moment *m)
            m->moes_L <= r->L_high;
 }
 
+/* Fills the tables of the inlet that heats itself. */
+static ff_status begin_heat(film_formula *f)
+{
+    ehl_estimate *e = &f->e;
+    double highest = 0;
+    f->inlet = malloc(sizeof *f->inlet);
+    if (!f->inlet)
+        return FF_NOMEM;
+    for (size_t k = 0; k < e->count; k++) {
+        const ehl_instant *at = &e->moment[k].at;
+        highest = fmax(highest, ehl_hertz_pressure(at->load, at->radius, e->history.modulus));
+    }
+    ff_status status =
+        ehl_inlet_fill(f->inlet, &e->laws, &e->oil, e->alpha, e->conductivity, highest);
+    ehl_law_note(&e->answered, status);
+    return status < 0 ? ff_failf(e->host, FF_INVALID, NULL, "an oil law fails under pressure")
+                      : FF_OK;
+}
+
+/* Film with the heat of its inlet over that without, both by the analysis of the inlet. */
+static double heat_factor(const film_formula *f, const ehl_instant *at)
+{
+    const ehl_estimate *e = &f->e;
+    ehl_inlet *n = f->inlet;
+    double guess = ehl_estimate_moes(e, at), modulus = e->history.modulus, off;
+    if (!(at->entrainment > 0))
+        return 1;
+    double heated = ehl_inlet_mass(n, at, at->entrainment, modulus, guess, &off);
+    n->conductivity = 0;
+    double cold = ehl_inlet_mass(n, at, at->entrainment, modulus, guess, &off);
+    n->conductivity = e->conductivity;
+    return heated / cold;
+}
+
 static ff_status begin(ehl_estimate *e)
 {
     film_formula *f = (film_formula *)e;
@@ -100,7 +135,7 @@ static ff_status begin(ehl_estimate *e)
     ehl_law_note(&e->answered, law->eval(law->self, e->count, p, NULL, f->density, NULL, NULL));
     for (size_t k = 0; k < e->count; k++)
         f->density[k] /= e->oil.density;
-    return FF_OK;
+    return e->conductivity > 0 ? begin_heat(f) : FF_OK;
 }
 
 static void film(ehl_estimate *e, size_t k, ehl_estimate_film *out)
@@ -120,9 +155,10 @@ static void film(ehl_estimate *e, size_t k, ehl_estimate_film *out)
         h.central /= f->density[k];
     if (!(h.least > 0))
         h.least = ehl_exit_ratio(alpha, m->p_max) * h.central * f->density[k];
-    f->h_central = at->radius * h.central + at->gap;
+    double radius = at->radius * (f->inlet ? heat_factor(f, at) : 1);
+    f->h_central = radius * h.central + at->gap;
     out->h_central = f->h_central;
-    out->h_min = at->radius * h.least + at->gap;
+    out->h_min = radius * h.least + at->gap;
     out->error = (inside(f, m) ? ranges[f->formula].least : 1) * out->h_min;
 }
 
@@ -181,7 +217,9 @@ static void end(ehl_estimate *e)
 {
     film_formula *f = (film_formula *)e;
     free(f->density);
+    free(f->inlet);
     f->density = NULL;
+    f->inlet = NULL;
 }
 
 static ff_status create(const ff_host *host, void **self)

@@ -68,7 +68,7 @@ static ff_status fill_laws(inlet_analysis *c)
         p[i] = i * c->density_step;
     const ff_density *law = e->laws.density;
     ff_status a = law->eval(law->self, DENSITIES, p, NULL, c->density, NULL, NULL);
-    ff_status b = ehl_inlet_fill(&c->inlet, &e->laws, &e->oil, e->alpha, highest);
+    ff_status b = ehl_inlet_fill(&c->inlet, &e->laws, &e->oil, e->alpha, e->conductivity, highest);
     ehl_law_note(&e->answered, a);
     ehl_law_note(&e->answered, b);
     return a < 0 ? a : b < 0 ? b : FF_OK;

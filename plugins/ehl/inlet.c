@@ -2,6 +2,7 @@
 #include "inlet.h"
 
 #include "grid.h"
+#include "inlet-heat.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,16 +32,17 @@ static double pressure_at(const ehl_laws *laws, const ehl_oil *oil, double rise,
 }
 
 ff_status ehl_inlet_fill(ehl_inlet *n, const ehl_laws *laws, const ehl_oil *oil, double alpha,
-                         double highest)
+                         double conductivity, double highest)
 {
     n->laws = *laws;
     n->oil = *oil;
     n->alpha = alpha;
+    n->conductivity = conductivity;
     n->step = pressure_at(laws, oil, MOST_LN_ETA, highest) / (EHL_INLET_TABLE - 1);
     for (size_t i = 0; i < EHL_INLET_TABLE; i++)
         n->p[i] = (double)i * n->step;
     ff_status a = laws->viscosity->eval(laws->viscosity->self, EHL_INLET_TABLE, n->p, NULL,
-                                        n->ln_eta, NULL, NULL);
+                                        n->ln_eta, NULL, conductivity > 0 ? n->slope : NULL);
     ff_status b =
         laws->density->eval(laws->density->self, EHL_INLET_TABLE, n->p, NULL, n->rho, NULL, NULL);
     n->q[0] = 0;
@@ -76,6 +78,23 @@ static place at_reduced(const ehl_inlet *n, double q, size_t row)
     return (place){row, fmin(share, 1)};
 }
 
+/* R of the heated channel at that place (inlet-heat.h). */
+static double heated_share(const ehl_inlet *n, place at, double h, double mass, double speed,
+                           double sliding)
+{
+    const ff_rheology *flow = n->laws.rheology;
+    double ln_eta = interpolate_column(n->ln_eta, at), p = interpolate_column(n->p, at), psi, tau;
+    double per = fmax(-interpolate_column(n->slope, at), 0) / n->conductivity;
+    double past = speed * fmax(1 - mass / (interpolate_column(n->rho, at) * h), 0);
+    psi = exp(-ln_eta);
+    tau = sliding / (psi * h);
+    if (flow) {
+        flow->flow(flow->self, 1, &ln_eta, &h, sliding, &psi, NULL, NULL);
+        flow->shear(flow->self, 1, &p, &ln_eta, &h, sliding, &tau);
+    }
+    return ehl_heat_ratio(per * past * past / psi, per * tau * sliding * h);
+}
+
 typedef struct opening {
     double a, film, bend; /* bend: a^2/(2R) */
     double scale;         /* of y = sqrt(s^2 - 1), where the gap has grown by the film */
@@ -107,6 +126,8 @@ static double reduced_pressure_at_inlet(const ehl_inlet *n, const opening *g, pl
         }
         double rise =
             push * fmax(h - mass / interpolate_column(n->rho, at), 0) / (h * h * h) * ease * dx;
+        if (n->conductivity > 0)
+            rise *= heated_share(n, at, h, mass, speed, sliding);
         q += (before + rise) / 2;
         before = rise;
     }

@@ -30,17 +30,19 @@ enum { EHL_INLET_TABLE = 257 };
 typedef struct ehl_inlet {
     ehl_laws laws;
     ehl_oil oil;
-    double alpha; /* 1/Pa, film-forming coefficient */
-    double step;  /* Pa, between the rows of the tables */
+    double alpha;        /* 1/Pa, film-forming coefficient */
+    double conductivity; /* of the oil that heats itself, W/(m K); 0: it does not */
+    double step;         /* Pa, between the rows of the tables */
     double p[EHL_INLET_TABLE];
     double q[EHL_INLET_TABLE]; /* reduced pressure, int eta0/eta dp, Pa */
     double rho[EHL_INLET_TABLE], ln_eta[EHL_INLET_TABLE];
+    double slope[EHL_INLET_TABLE]; /* d ln eta/dT, 1/K, where it does */
 } ehl_inlet;
 
 /* Fills the tables for contacts with Hertz pressures up to `highest`; alpha: ehl_alpha_star.
-   FF_DOMAIN: a law was continued. */
+   FF_DOMAIN: a law was continued. conductivity: see above. */
 ff_status ehl_inlet_fill(ehl_inlet *n, const ehl_laws *laws, const ehl_oil *oil, double alpha,
-                         double highest);
+                         double conductivity, double highest);
 
 /* Returns rho h that enters at `speed`, kg/m2; load, radius and speed > 0. guess: h_e to start
    from; *off: the remaining error of ln q at x = -a. */
@@ -58,6 +60,13 @@ typedef struct ehl_inlet_heating {
     double conductivity; /* of the oil, W/(m K) */
     double slope;        /* -d ln eta/dT, 1/K; 0: that of the law, or 0.03 where it has none */
 } ehl_inlet_heating;
+
+/* Row of the ladder for a model with a member `thermal` (inlet-heat.h). */
+#define EHL_THERMAL_PARAM(type)                                                                    \
+    FF_ONE_OF("none|inlet", "thermal", type, thermal, 0, "none",                                   \
+              "heat of shear in the film. none: the film has the temperature of the oil. inlet: "  \
+              "thinner oil in the inlet, as if conduction alone took its heat away; needs an oil " \
+              "with its conductivity")
 
 /* Rows of these parameters for a model with a member `heating`. */
 #define EHL_HEATING_PARAMS(type)                                                                   \

@@ -40,7 +40,14 @@
     [EHL_IN_RHEOLOGY] =                                                                            \
         {"rheology",  "",  "flow under shear; none: Newtonian", "", FF_RHEOLOGY_ID,                \
          FF_OPTIONAL, NULL},                                                                       \
-    [EHL_IN_OIL] = NUMERICS_OIL_ROWS, NUMERICS_OIL_DENSITY_ROW
+    [EHL_IN_OIL] = NUMERICS_OIL_ROWS,                                                              \
+    NUMERICS_OIL_DENSITY_ROW, [EHL_IN_LIQUID] = {"oil",                                            \
+                                                 "",                                               \
+                                                 "the oil over temperature; thermal asks for it",  \
+                                                 "",                                               \
+                                                 FF_LIQUID_ID,                                     \
+                                                 FF_OPTIONAL,                                      \
+                                                 "lubricant"}
 
 const ff_port ehl_inputs[EHL_INPUTS] = {
     CONTACT_AND_OIL("with a steady film of its own"),

@@ -8,7 +8,7 @@
 
 #include <flankfilm/plugin.h>
 
-/* Inputs of every model up to the three rows of the oil, then those of the models that solve for
+/* Inputs of every model up to the rows of the oil, then those of the models that solve for
  * the pressure.
  */
 enum {
@@ -25,7 +25,8 @@ enum {
     EHL_IN_DENSITY,
     EHL_IN_RHEOLOGY,
     EHL_IN_OIL,
-    EHL_IN_POSITION = EHL_IN_OIL + EHL_OIL_ROWS,
+    EHL_IN_LIQUID = EHL_IN_OIL + EHL_OIL_ROWS,
+    EHL_IN_POSITION,
     EHL_IN_HEIGHT_1,
     EHL_IN_HEIGHT_2,
     EHL_IN_RQ_1,
@@ -39,7 +40,7 @@ enum {
 
 /* What the estimates have after the oil. */
 enum {
-    EHL_ESTIMATE_IN_RQ_1 = EHL_IN_OIL + EHL_OIL_ROWS,
+    EHL_ESTIMATE_IN_RQ_1 = EHL_IN_LIQUID + 1,
     EHL_ESTIMATE_IN_RQ_2,
     EHL_ESTIMATE_IN_ROUGHNESS,
     EHL_ESTIMATE_INPUTS

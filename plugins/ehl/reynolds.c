@@ -124,6 +124,17 @@ void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
     masses(r, film, count);
 }
 
+/* The heat of the film, which does not move with p and h here. */
+static void ease_flow(ehl_reynolds *r, size_t count)
+{
+    const ehl_liquid *q = &r->liquid;
+    for (size_t i = 0; i < count; i++) {
+        q->psi[i] *= r->ease[i];
+        q->psi_l[i] *= r->ease[i];
+        q->psi_h[i] *= r->ease[i];
+    }
+}
+
 FF_SIMD
 static void mobility(ehl_reynolds *r, size_t count)
 {
@@ -263,6 +274,8 @@ void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film
         r->thick[i] = r->h[i] > r->floor ? r->h[i] : r->floor;
     r->law_status =
         ehl_fluid_evaluate(&r->laws, count, film->p, r->thick, step->sliding, &r->liquid);
+    if (r->ease)
+        ease_flow(r, count);
     masses(r, film, count);
     mobility(r, count);
     if (r->rough)

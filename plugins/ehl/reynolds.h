@@ -58,6 +58,7 @@ typedef struct ehl_reynolds {
     double give;     /* of the unknown plastic part, m per Pa: makes it like a pressure */
     ehl_laws laws;
     ehl_oil oil;
+    const double *ease; /* psi of the heated film over that of the laws; NULL: no heat */
     ehl_liquid liquid;
     double *memory;
     double *half_square;                   /* x^2/2 */

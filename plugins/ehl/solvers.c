@@ -43,6 +43,7 @@ static const ff_param params[] = {
                    1e9, 0, 0,
                    "none: without load the film is carried on without a load balance; or a load "
                    "per width that stands in for smaller ones"),
+    EHL_THERMAL_PARAM(ehl_model),
     EHL_HEATING_PARAMS(ehl_model),
     FF_QUANTITY("contact_film", "nm", ehl_model, contact_film, 0, "1 nm", NULL, 1e-3, 1e3, 0.5, 10,
                 "rough flanks: least film; the asperities carry what would press them closer. Two "

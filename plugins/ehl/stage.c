@@ -2,6 +2,8 @@
 #include "stage.h"
 
 #include "deflection.h"
+#include "heat.h"
+#include "inlet-heat.h"
 #include "outputs.h"
 #include "step-control.h"
 #include "surface.h"
@@ -36,6 +38,8 @@ ff_status ehl_wire(void *self, uint32_t input, const void *service)
     ehl_model *m = self;
     if (input == EHL_IN_DISCRETISATION)
         m->outside = service;
+    else if (input == EHL_IN_LIQUID)
+        m->liquid = service;
     else
         ehl_wire_law(&m->laws, input, service);
     m->rough = m->rough || input == EHL_IN_POSITION;
@@ -77,6 +81,7 @@ typedef struct run {
     double *kernel;
     ehl_solver solver;
     ehl_march march;
+    ehl_heat heat;
     ehl_step_control control;
     ehl_results results;
 } run;
@@ -86,6 +91,7 @@ static void run_destroy(run *r)
     ehl_results_destroy(&r->results);
     ehl_step_control_destroy(&r->control);
     ehl_march_destroy(&r->march);
+    ehl_heat_destroy(&r->heat);
     if (r->solver.destroy)
         r->solver.destroy(&r->solver);
     free(r->kernel);
@@ -195,6 +201,24 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
         return status;
     status = ehl_march_create(&r->march, &r->history, &r->solver, m->time_scheme);
     r->march.rough = r->rough.count > 0 ? &r->rough : NULL;
+    return status;
+}
+
+/* Lets the march heat the film; without thermal it stays as it is. */
+static ff_status heat_create(const ehl_model *m, run *r)
+{
+    double conductivity;
+    if (m->thermal == EHL_THERMAL_NONE)
+        return FF_OK;
+    if (m->outside)
+        return ff_failf(m->host, FF_UNSUPPORTED, "thermal",
+                        "the discretisation of another stage knows no heat: use thermal: none, or "
+                        "leave the wire discretisation out");
+    ff_status status = ehl_heat_conductivity(m->host, m->liquid, &m->laws, &conductivity);
+    if (status == FF_OK)
+        status = ehl_heat_create(&r->heat, r->grid.nodes, conductivity);
+    r->march.heat = &r->heat;
+    r->reynolds.ease = r->heat.ease;
     return status;
 }
 
@@ -337,6 +361,8 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
         return status;
     status = run_create(m, in, &r);
     if (status == FF_OK)
+        status = heat_create(m, &r);
+    if (status == FF_OK)
         status = ehl_results_create(&r.results, m->host, wanted, &r.march);
     r.results.boundary_friction = m->boundary_friction;
     r.results.roughness = roughness;
@@ -348,6 +374,8 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
         status = ehl_results_finish(&r.results, &r.march);
     if (status == FF_OK)
         ehl_inlet_heating_report(m->host, &m->heating, &r.whole, &m->laws, &r.oil);
+    if (status == FF_OK && r.march.heat)
+        ehl_heat_report(&r.heat, m->host);
     run_destroy(&r);
     return status;
 }

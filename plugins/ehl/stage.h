@@ -27,13 +27,14 @@ typedef struct ehl_model {
     /* parameters, by their names; auto and none read as -1 or NaN, a word as its rank */
     int64_t cells, steps;
     double inlet, outlet, time_tolerance, tolerance, light_load;
-    int32_t time_scheme, wedge, cavitation, valleys, roughness;
+    int32_t time_scheme, wedge, cavitation, valleys, roughness, thermal;
     double contact_film, boundary_friction, asperity_hardness, valley_length;
     ehl_inlet_heating heating;
     ehl_laws laws;
     ehl_isothermal isothermal;
-    const ff_film *outside; /* NULL: the solver of `maker` */
-    int rough;              /* a surface is wired */
+    const ff_liquid *liquid; /* NULL: no oil is wired */
+    const ff_film *outside;  /* NULL: the solver of `maker` */
+    int rough;               /* a surface is wired */
 } ehl_model;
 
 #endif

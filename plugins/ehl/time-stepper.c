@@ -2,6 +2,7 @@
 #include "time-stepper.h"
 
 #include "asperities.h"
+#include "heat.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -251,7 +252,7 @@ static void repeat_last_film(ehl_march *m, const ehl_step *step, const ehl_insta
 static ff_status solve_with_positive_gap(ehl_march *m, const ehl_step *step, const ehl_instant *at,
                                          int limit)
 {
-    ff_status status = m->solver->solve(m->solver, step, &m->trial.film, limit);
+    ff_status status = ehl_heat_solve(m, step, &m->trial.film, limit);
     if (ehl_laws_failed(&m->solver->reynolds->laws))
         return FF_BUG; /* no shorter step will do */
     if (status == FF_OK && !(ehl_thinnest(m, at->radius, &m->trial.film) > 0))

@@ -22,7 +22,8 @@ typedef struct ehl_state {
 
 typedef struct ehl_march {
     const ehl_history *history;
-    ehl_roughness *rough; /* NULL: smooth flanks */
+    ehl_roughness *rough;  /* NULL: smooth flanks */
+    struct ehl_heat *heat; /* heat.h; NULL: the film has the temperature of the oil */
     ehl_solver *solver;
     int scheme;                  /* EHL_EULER or EHL_BDF2 */
     ehl_state state[EHL_STATES]; /* newest first */

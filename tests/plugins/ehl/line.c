@@ -24,6 +24,24 @@ void line_close(line *c)
     stage_close(c->oil);
     stage_close(c->rho);
     stage_close(c->flow);
+    stage_close(c->liquid);
+}
+
+void line_grade(line *c, const char *grade, double T)
+{
+    stage_close(c->liquid);
+    stage_close(c->oil);
+    stage_close(c->rho);
+    c->liquid = stage_open("lubricant/grade");
+    stage_set_text(c->liquid, "grade", grade);
+    stage_set(c->liquid, "temperature", T);
+    stage_run(c->liquid);
+    c->oil = stage_open("viscosity/roelands");
+    stage_set(c->oil, "z", 0.5826);
+    stage_link(c->oil, "oil", c->liquid);
+    c->rho = stage_open("density/dowson-higginson");
+    stage_link(c->rho, "oil", c->liquid);
+    c->eta0 = stage_scalar(c->liquid, "eta0");
 }
 
 void line_oil(line *c, const char *viscosity, double eta0, double alpha)
@@ -106,6 +124,12 @@ ff_status line_run(line *c, const char *outputs)
     stage_link(c->film, "density", c->rho);
     if (c->flow)
         stage_link(c->film, "rheology", c->flow);
+    if (c->liquid) {
+        stage_give_scalar(c->film, "oil.temperature", stage_scalar(c->liquid, "temperature"));
+        stage_give_scalar(c->film, "oil.eta0", stage_scalar(c->liquid, "eta0"));
+        stage_give_scalar(c->film, "oil.rho0", stage_scalar(c->liquid, "rho0"));
+        stage_link(c->film, "oil", c->liquid);
+    }
     return stage_run_wanted(c->film, outputs);
 }
 

@@ -11,7 +11,8 @@ enum { LINE_INSTANTS = 400 };
 
 typedef struct line {
     stage *film, *oil, *rho, *flow;
-    size_t count; /* instants; 1: steady */
+    stage *liquid; /* the oil over temperature, which the laws take their values from; or NULL */
+    size_t count;  /* instants; 1: steady */
     double time[LINE_INSTANTS], radius[LINE_INSTANTS], u1[LINE_INSTANTS], u2[LINE_INSTANTS],
         load[LINE_INSTANTS], gap[LINE_INSTANTS];
     double modulus;
@@ -27,6 +28,9 @@ void line_close(line *c);
 void line_oil(line *c, const char *viscosity, double eta0, double alpha);
 void line_incompressible(line *c);
 void line_eyring(line *c, double tau0);
+
+/* The mineral oil of that ISO grade at T, K, with Roelands' and Dowson and Higginson's laws. */
+void line_grade(line *c, const char *grade, double T);
 
 /* A steady contact given by Moes' M and L: alpha = 22/GPa and z = 0.68 as in the reference tables.
  */

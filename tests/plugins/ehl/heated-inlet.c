@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* thermal: inlet in every model of the film. */
+#include "../../../plugins/ehl/channel.h"
+#include "check.h"
+
+#include "line.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A film that heats itself: 0.1 Pa s at 10 m/s and 20 % of slip. */
+static void open_hot(line *c, const char *model, const char *thermal)
+{
+    line_open(c, model);
+    line_grade(c, "ISO VG 320", 333.15);
+    stage_set_text(c->film, "thermal", thermal);
+    c->u1[0] = 11;
+    c->u2[0] = 9;
+}
+
+static double central(const char *model, const char *thermal, double cells)
+{
+    line c;
+    open_hot(&c, model, thermal);
+    stage_set(c.film, "cells", cells);
+    check_true(model, line_run(&c, "h_min h_central") == FF_OK);
+    double h = line_value(&c, "h_central", 0);
+    line_close(&c);
+    return h;
+}
+
+/* The same model of the heat in an analysis of the inlet alone, which shares the table and nothing
+   else, has films within 10 % of full solutions, and so is what the heat takes off. */
+static void test_factors(void)
+{
+    double of[3];
+    static const char *const models[] = {"ehl/finite-volume", "ehl/inlet-analysis",
+                                         "ehl/film-formula"};
+    for (int i = 0; i < 3; i++)
+        of[i] = central(models[i], "inlet", 1024) / central(models[i], "none", 1024);
+    check_true("the heat takes a tenth and more off", of[0] < 0.9 && of[0] > 0.5);
+    check_near("by the analysis of the inlet", of[1], of[0], 0.1);
+    check_near("the formula takes it from there", of[2], of[1], 0.02);
+}
+
+/* The solvers of one set of equations. */
+static void test_twins(void)
+{
+    double h = central("ehl/finite-volume", "inlet", 256);
+    check_near("by a dense Jacobian", central("ehl/dense-newton", "inlet", 256), h, 1e-4);
+}
+
+/* Second order in the cells, although R is computed at some of the nodes. */
+static void test_order(void)
+{
+    double h1 = central("ehl/finite-volume", "inlet", 1024),
+           h2 = central("ehl/finite-volume", "inlet", 2048),
+           h3 = central("ehl/finite-volume", "inlet", 4096);
+    check_true("the error falls by 3 or more", fabs(h1 - h2) > 3 * fabs(h2 - h3));
+}
+
+/* Little heat: without sliding R = 1 - (3/7) F, and h goes as R^0.7 or so of the inlet. The loss of
+   film is then proportional to beta/k. */
+static double lost_at(const char *model, double speed)
+{
+    double h[2];
+    for (int i = 0; i < 2; i++) {
+        line c;
+        open_hot(&c, model, i ? "inlet" : "none");
+        c.u1[0] = c.u2[0] = speed;
+        check_true(model, line_run(&c, "h_central") == FF_OK);
+        h[i] = line_value(&c, "h_central", 0);
+        line_close(&c);
+    }
+    return 1 - h[1] / h[0];
+}
+
+static void test_little_heat(void)
+{
+    double one = lost_at("ehl/inlet-analysis", 0.4), two = lost_at("ehl/inlet-analysis", 0.8);
+    check_true("as the square of the speed", two / one > 3.3 && two / one < 4.2);
+}
+
+/* Constant conditions in time keep the steady film to the change at which the heat counts as
+   settled, 1e-4, and the balances of what was solved hold. */
+static void test_time(void)
+{
+    line c;
+    open_hot(&c, "ehl/finite-volume", "inlet");
+    stage_set(c.film, "cells", 512);
+    stage_set(c.film, "steps", 20);
+    line_last(&c, 2, 1e-3);
+    check_true("runs", line_run(&c, "h_min h_central power_loss mass_error") == FF_OK);
+    double first = line_value(&c, "h_central", 0);
+    check_near("stays", line_value(&c, "h_central", 20), first, 1e-4);
+    check_below("energy of the flow", stage_quality(c.film, "energy_balance"),
+                stage_quality_limit(c.film, "energy_balance"));
+    check_true("R in the record", stage_quality(c.film, "inlet_heat") < 0.9);
+    line_close(&c);
+}
+
+static void test_refusals(void)
+{
+    line c;
+    line_open(&c, "ehl/finite-volume");
+    stage_set_text(c.film, "thermal", "inlet");
+    check_true("no oil", line_run(&c, "h_min") == FF_INVALID);
+    check_true("says so", strstr(stage_why(c.film), "needs the oil") != NULL);
+    line_close(&c);
+}
+
+int main(void)
+{
+    test_factors();
+    test_twins();
+    test_order();
+    test_little_heat();
+    test_time();
+    test_refusals();
+    return check_done();
+}
