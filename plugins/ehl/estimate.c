@@ -332,7 +332,8 @@ static void report(const ehl_estimate *e, double lowest, double least_lambda)
     for (size_t k = 0; k < e->count; k++)
         light_count += e->moment[k].load < light * e->history.load_max;
     e->report(e);
-    ehl_inlet_heating_report(host, &e->heating, &e->history, &e->laws, &e->oil);
+    ehl_inlet_heating_report(host, &e->heating, e->conductivity > 0, &e->history, &e->laws,
+                             &e->oil);
     if (light_count > 0)
         host->quality(host->ctx, "light_instants", light_count, 0, FF_DOUBTFUL,
                       "instants with less than 1 % of the largest load, or none: the film of 1 % "

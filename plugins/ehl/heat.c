@@ -35,13 +35,18 @@ void ehl_heat_destroy(ehl_heat *heat)
     heat->memory = NULL;
 }
 
+/* Multiples of -a between which the inlet ends. */
+static const double BEGIN = 1.05, END = 0.95;
+
 /* Returns the next node at which the ratio is computed; it bends over the distance to the edge of
    the contact, at x = -a, and is linear between these nodes. */
 static size_t next_place(const ehl_reynolds *r, size_t i, double a)
 {
-    const double inside = 8, outside = 4, share = 1. / 8;
-    double far = -(r->first + (double)i * r->dx) - a;
-    return i + (size_t)(far > 0 ? fmax(outside, share * far / r->dx) : inside);
+    const double outside = 4, share = 1. / 8;
+    double far = -(r->first + (double)i * r->dx) - BEGIN * a;
+    if (far <= 0)
+        return i + 1;
+    return i + (size_t)fmax(1, fmin(fmax(outside, share * far / r->dx), far / r->dx));
 }
 
 /* Sets the ease of the nodes between two places. */
@@ -53,9 +58,9 @@ static void set_between(double *ease, size_t from, size_t to, double left, doubl
 }
 
 /*
- * Computes the ratio in the inlet, which ends in the contact: as a power of R that falls from 1 at
- * x = -a to 0 at x = 0. There the oil hardly flows under the pressure, and conduction to flanks of
- * one temperature does not hold. r has the gap of the film.
+ * Computes the ratio in the inlet, which ends at the edge x = -a of the contact: as a power of R
+ * that falls from 1 to 0 between BEGIN and END times -a, so that no node has a jump. Further on the
+ * flanks are no longer at one temperature. r has the gap of the film.
  */
 static void ease_inlet(ehl_heat *heat, const ehl_march *m, const ehl_step *step,
                        const ehl_film *film)
@@ -64,8 +69,8 @@ static void ease_inlet(ehl_heat *heat, const ehl_march *m, const ehl_step *step,
     const ehl_heated heated = {step->entrainment, step->sliding, heat->conductivity, heat->middle};
     const ff_density *law = r->laws.density;
     double a = ehl_hertz_half_width(step->load, step->radius, m->history->modulus);
-    size_t n = r->nodes, end = (size_t)fmin(fmax(-r->first / r->dx, 0) + 1, (double)n - 1),
-           count = 0;
+    size_t n = r->nodes,
+           end = (size_t)fmin(fmax((-END * a - r->first) / r->dx, 0) + 1, (double)n - 1), count = 0;
     double *p = heat->room, *h = p + n, *mass = h + n, *ratio = mass + n, *room = ratio + n;
     for (size_t i = 0; i < end; i = next_place(r, i, a), count++) {
         p[count] = film->p[i];
@@ -84,7 +89,8 @@ static void ease_inlet(ehl_heat *heat, const ehl_march *m, const ehl_step *step,
         double far = -(r->first + (double)i * r->dx);
         size_t next = next_place(r, i, a);
         heat->ratio = far >= a ? fmin(heat->ratio, ratio[k]) : heat->ratio;
-        ratio[k] = far >= a ? 1 / ratio[k] : far > 0 ? pow(ratio[k], -far / a) : 1;
+        double share = far >= BEGIN * a ? 1 : fmax((far / a - END) / (BEGIN - END), 0);
+        ratio[k] = share < 1 ? pow(ratio[k], -share) : 1 / ratio[k];
         if (k > 0)
             set_between(heat->ease, from, i, ratio[k - 1], ratio[k]);
         from = i;

@@ -207,7 +207,7 @@ static double slope_of(const ehl_inlet_heating *heating, const ehl_laws *laws)
     return -ln_eta_T;
 }
 
-void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heating,
+void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heating, int heated,
                               const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil)
 {
     const double slope = slope_of(heating, laws);
@@ -222,13 +222,13 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
         double factor = ehl_gupta_factor(p_hertz, h->modulus, Q, fabs(at.sliding) / at.entrainment);
         lost = fmax(lost, 1 - factor);
     }
-    snprintf(
-        text, sizeof text,
-        "largest share of the film that shear heating in the inlet would take off, which is not in "
-        "the results (Gupta's factor; -d ln eta/dT %.3g 1/K, oil %.3g W/(m K))",
-        slope, heating->conductivity);
+    snprintf(text, sizeof text,
+             "largest share of the film that shear heating in the inlet would take off by Gupta's "
+             "formula, %s (-d ln eta/dT %.3g 1/K, oil %.3g W/(m K))",
+             heated ? "beside what it takes off here" : "which is not in the results", slope,
+             heating->conductivity);
     host->quality(host->ctx, "inlet_heating", lost, most_lost,
-                  lost <= most_lost ? FF_GOOD : FF_DOUBTFUL, text);
+                  heated || lost <= most_lost ? FF_GOOD : FF_DOUBTFUL, text);
 }
 
 /* Pressure that the oil of an infinite inlet would have at x = -end, Pa, and its integral upstream,

@@ -83,8 +83,9 @@ typedef struct ehl_inlet_heating {
    left its range so far that it turns negative. */
 double ehl_gupta_factor(double p_hertz, double modulus, double Q, double S);
 
-/* The quality line: the greatest share of the film that is lost at any loaded instant. */
-void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heating,
+/* The quality line: the greatest share of the film that is lost at any loaded instant; `heated`:
+   the film has the heat of its inlet, beside which the line stands. */
+void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heating, int heated,
                               const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil);
 
 /*

@@ -373,7 +373,8 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status = ehl_results_finish(&r.results, &r.march);
     if (status == FF_OK)
-        ehl_inlet_heating_report(m->host, &m->heating, &r.whole, &m->laws, &r.oil);
+        ehl_inlet_heating_report(m->host, &m->heating, m->thermal != EHL_THERMAL_NONE, &r.whole,
+                                 &m->laws, &r.oil);
     if (status == FF_OK && r.march.heat)
         ehl_heat_report(&r.heat, m->host);
     run_destroy(&r);
