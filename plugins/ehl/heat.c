@@ -8,12 +8,12 @@
 #include <stdlib.h>
 
 /* Solutions for the film of one instant. */
-enum { MOST_ROUNDS = 12 };
+enum { MOST_ROUNDS = 30 };
 
 /* Change of the pressure flow in the inlet, relative, below which the heat is that of the film. It
-   goes with rho h at the highest pressure times less than 1 - R, and the film with less than
-   that. */
-static const double settled = 1e-4;
+   goes with rho h at the highest pressure times less than 1 - R. A steady film begins from one
+   without heat, and takes many rounds; a step begins next to its solution. */
+static const double settled = 1e-4, settled_steady = 1e-5;
 
 ff_status ehl_heat_create(ehl_heat *heat, size_t nodes, double conductivity)
 {
@@ -125,7 +125,8 @@ static int update(ehl_heat *heat, const ehl_march *m, const ehl_step *step, cons
     ehl_reynolds_gap(r, step->radius, film);
     double before = heat->middle;
     heat->middle = mass_at_peak(r, film);
-    if (!first && fabs(heat->middle - before) * (1 - heat->ratio) <= settled * heat->middle)
+    double within = step->past ? settled : settled_steady;
+    if (!first && fabs(heat->middle - before) * (1 - heat->ratio) <= within * heat->middle)
         return 1;
     if (heat->middle > 0)
         ease_inlet(heat, m, step, film);
