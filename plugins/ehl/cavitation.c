@@ -61,6 +61,7 @@ int ehl_cavitation_grow_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film 
         film->full[i] = film->full[i] != 0;
     }
     w->stride = grown ? 2 * w->stride : 1;
+    w->moved = grown;
     return longer;
 }
 
@@ -78,6 +79,7 @@ int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film
         filled = film->full[i] = 1;
         w->filled[i]++;
     }
+    w->moved = filled;
     return filled;
 }
 
@@ -98,6 +100,7 @@ double ehl_cavitation_shrink_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_
             film->p[i] = 0;
             film->full[i] = 0;
             film->asperity[i] = 0;
+            w->moved = 1;
             w->stride = 1;
             if (r->conserving)
                 film->content[i] = r->oil.density * r->h[i];

@@ -10,6 +10,7 @@
 typedef struct ehl_cavitation {
     size_t stride;
     int split;             /* the last shrink cavitated nodes upstream of full ones */
+    int moved;             /* nodes changed their state since the last growth or filling began */
     unsigned char *filled; /* how often ehl_cavitation_fill filled a node in this solution */
 } ehl_cavitation;
 

@@ -269,6 +269,7 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
     const ehl_reynolds *eq = m->solver->reynolds;
     ehl_spike spike;
     ehl_space_errors e = ehl_space_bounds(eq, &m->at, m->history->modulus, &of, &spike);
+    r->by_cells = e.of[EHL_LEAST];
     for (int k = 0; k < EHL_BOUNDS; k++)
         keep_worst(&r->bound[k], e.of[k], m, &of);
     if (p_max >= r->highest)

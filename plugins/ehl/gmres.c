@@ -24,9 +24,18 @@ static const double STALE_CHANGE = 0.3;
    and of the flow through the contact. Both must be exceeded to count. */
 static const double MOST_IMBALANCE_LEFT = 0.3, IMBALANCE_NOTICED = 0.01;
 
-/* A linear system is solved to this share of its first residual, and to the fine one when the
-   tolerance of the film is below FINE_TOLERANCE. */
-static const double REDUCTION = 5e-2, FINE_REDUCTION = 1e-3, FINE_TOLERANCE = 1e-5;
+/* A linear system is solved to this share of its first residual at least; to the second one with
+   rough flanks, since what is left may turn contacts, and under light loads, where a norm of the
+   pressure tells little of the film. */
+static const double LEAST_REDUCTION = 0.2, CAREFUL_REDUCTION = 0.05;
+
+/* Newton's method neglects so many times the square of a relative change: alpha p_max/2 of a
+   viscosity exp(alpha p), some 10 in a contact of gears. */
+static const double CURVATURE = 10;
+
+/* Share of the tolerance that a step may leave: the oil carries what each leaves through the
+   contact, where it adds up (docs/performance.md has the sums). */
+static const double SHARE_OF_STEP = 1. / 20;
 
 void ehl_linear_deflect(ehl_solver *s, const double *p, double *v)
 {
@@ -186,6 +195,14 @@ static double combine_basis(ehl_linear *w, hessenberg *q, size_t count, size_t n
     return dh00;
 }
 
+static double largest(const double *x, size_t n)
+{
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        most = fabs(x[i]) > most ? fabs(x[i]) : most;
+    return most;
+}
+
 static double least_thickness(const ehl_reynolds *r)
 {
     double least = r->thick[0];
@@ -194,30 +211,58 @@ static double least_thickness(const ehl_reynolds *r)
     return least;
 }
 
+/* What is predicted to be left of a relative change: its share of the residual, and the square that
+   Newton's method neglects. */
+static double left_of(const ehl_linear *w, double change)
+{
+    return change * (w->reached + CURVATURE * change);
+}
+
+int ehl_linear_settles(const ehl_solver *s, double pressure, double film, double times)
+{
+    double allowed = SHARE_OF_STEP * s->tolerance;
+    return left_of(s->self, pressure) <= allowed && left_of(s->self, film) <= times * allowed;
+}
+
 /*
- * Solves J (dp, dh00) = (product, missing) until the preconditioned residual is `reduction` times
- * the first one. The preconditioner stands on the left, so that the norm measures the error of the
- * pressure: short waves of the pressure change the balances so little that a norm of the balances
- * would let them grow from step to step.
+ * Returns the share of the residual that may be left of a change of the pressure, relative: that at
+ * which the film is accurate to its tolerance, or what Newton's method neglects anyway (a forcing
+ * term as of Eisenstat & Walker 1996).
+ */
+static double forcing_term(const ehl_solver *s, double change, int careful)
+{
+    return fmin(careful ? CAREFUL_REDUCTION : LEAST_REDUCTION,
+                fmax(CURVATURE * change, SHARE_OF_STEP * s->tolerance / change));
+}
+
+/*
+ * Solves J (dp, dh00) = (product, missing) until the preconditioned residual is the share of the
+ * first one that forcing_term allows. The preconditioner stands on the left, so that the norm
+ * measures the error of the pressure: short waves of the pressure change the balances so little
+ * that a norm of the balances would let them grow from step to step.
  */
 static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double missing,
-                       double reduction, double *dh00)
+                       double *dh00)
 {
     ehl_linear *w = s->self;
     const ehl_grid *g = s->grid;
     hessenberg q;
     size_t rows = s->reynolds->last, nodes = s->reynolds->nodes, k = 0;
+    double p_max = ehl_pressure_scale(g, film, nodes);
     /* Pa/m, makes a change of h00 comparable with one of the pressure: the pressure all over the
        contact that deflects the flanks by it; under light loads, where the film changes the
        pressure long before the flanks deflect, the pressure over the least film */
     double weight = g->dx / (g->half_width * (s->kernel[0] - s->kernel[nodes - 1]));
-    weight = fmin(weight, ehl_pressure_scale(g, film, nodes) / least_thickness(s->reynolds));
+    double by_film = p_max / least_thickness(s->reynolds);
+    int careful = s->reynolds->rough || by_film < weight;
+    weight = fmin(weight, by_film);
     apply_preconditioner(s, film, loaded ? missing : 0, w->basis[0], dh00);
     memset(w->basis[0] + rows, 0, (nodes - rows) * sizeof *w->basis[0]);
     w->basis[0][0] = *dh00 * weight;
     double first = sqrt(dot(w->basis[0], w->basis[0], rows)), norm = first;
     if (!isfinite(first))
         return FF_NOCONV;
+    double reduction = forcing_term(s, largest(w->basis[0], rows) / p_max, careful);
     scale(w->basis[0], first > 0 ? 1 / first : 0, rows);
     q.rest[0] = first;
     while (k < EHL_KRYLOV && norm > reduction * first) {
@@ -235,6 +280,7 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     }
     *dh00 = combine_basis(w, &q, k, nodes, weight);
     w->krylov = k;
+    w->reached = first > 0 ? norm / first : 0;
     return isfinite(norm) ? FF_OK : FF_NOCONV;
 }
 
@@ -346,13 +392,12 @@ ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *
     ehl_linear *w = s->self;
     update_preconditioner(s, step, film);
     const ehl_reynolds *r = s->reynolds;
-    double reduction = s->tolerance < FINE_TOLERANCE ? FINE_REDUCTION : REDUCTION;
     double missing = (step->load - ehl_film_load(film, r->nodes, r->dx)) / r->dx;
     for (w->split = w->coarse != NULL;;
          w->split = 0) { /* the band alone is slower, but misses no wave */
         for (size_t i = 1; i < r->last; i++)
             w->product[i] = film->full[i] || r->conserving ? -r->residual[i] : 0;
-        ff_status status = gmres(s, film, step->loaded, missing, reduction, dh00);
+        ff_status status = gmres(s, film, step->loaded, missing, dh00);
         if (status != FF_OK)
             return status;
         if (!w->split || !misses_imbalance(s, step, film, *dh00))

@@ -28,6 +28,7 @@ typedef struct ehl_linear {
     unsigned char *factored_kind;
     size_t factored_last;
     int factored, factored_loaded;
+    double reached; /* norm of the residual that the last solution left, over its first */
     size_t krylov, krylov_fresh; /* iterations of the last solution, and of the first one after
                                     factorising */
 } ehl_linear;
@@ -48,6 +49,10 @@ static inline int ehl_linear_converged(const ehl_linear *w)
 {
     return w->krylov < EHL_KRYLOV;
 }
+
+/* Whether what is predicted to be left after the step of the last solution is as small as the
+   tolerance allows, and of the film `times` as much. The step changed them by these shares. */
+int ehl_linear_settles(const ehl_solver *s, double pressure, double film, double times);
 
 /* Returns the pressures of a vector of unknowns. The unknown of a cavitated node is a mass, and
    that of a yielding node a plastic part: both count as 0 here. */

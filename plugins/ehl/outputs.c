@@ -164,11 +164,11 @@ typedef struct pressure_flow {
     double dissipated, rolling, tail;
 } pressure_flow;
 
-/* The mobility of the faces is that of the last Newton step, whose change of the pressure is below
-   the tolerance. */
+/* The mobility of the faces is made anew: that of the last Newton step is off by its change. */
 static pressure_flow flow_of(const ehl_march *m)
 {
-    const ehl_reynolds *eq = m->solver->reynolds;
+    ehl_reynolds *eq = m->solver->reynolds;
+    ehl_reynolds_evaluate(eq, &m->step, &m->state[0].film);
     const double *p = m->state[0].film.p, *h = eq->h, *rho = eq->liquid.rho;
     double u = m->at.entrainment, dissipated = 0, work = 0;
     for (size_t i = 0; i < eq->last; i++) {
@@ -391,6 +391,7 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     r->row[EHL_TIME] = m->at.time;
     r->row[EHL_ROLL_ANGLE] = m->at.roll;
     r->row[EHL_ENGAGEMENT] = m->history->engagement ? m->history->engagement[0] : 0;
+    r->tolerance = fmax(r->tolerance, m->solver->tolerance);
     record_film(r, m);
     record_loss(r, m);
     record_balance(r, m);

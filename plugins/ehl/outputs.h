@@ -47,6 +47,8 @@ typedef struct ehl_results {
     /* errors of h_min and h_central, relative: by the steps, and by cells that carry the film */
     double worst_in_time[2], worst_carried[2];
     ehl_bound bound[EHL_BOUNDS], at_highest; /* at_highest: of p_max where it is highest */
+    double by_cells;                         /* the last bound of h_min, relative; 0: none yet */
+    double tolerance;       /* the largest of those that the films were solved to */
     ehl_space_errors share; /* of the bounds that remained where they were measured; 1: all */
     int measured;           /* instants at which they were */
     ehl_rows space;         /* bounds of h_min_error and h_central_error by the cells, m */

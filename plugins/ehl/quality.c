@@ -151,7 +151,8 @@ typedef struct tolerances {
 static tolerances tolerances_of(const ehl_results *r, const ehl_march *m)
 {
     const double unknown = 0.02; /* no instant has a load by which the cells could be judged */
-    double same = fmax(20 * m->solver->tolerance, 1e-9), cells = r->bound[EHL_LEAST].worst;
+    double most = fmax(20 * fmin(r->tolerance, 2e-5), 5 * r->tolerance);
+    double same = fmax(most, 1e-9), cells = r->bound[EHL_LEAST].worst;
     if (!m->solver->outside)
         return (tolerances){same, fmax(0.01, 10 * same)};
     double limit = fmax(same, cells > 0 ? cells : unknown);
@@ -159,11 +160,12 @@ static tolerances tolerances_of(const ehl_results *r, const ehl_march *m)
 }
 
 /*
- * The last Newton step of a film changed its pressure by less than the tolerance of p_max, and its
- * gap by less than ten times that. Between two places the equations are open by twice as much: what
- * is beyond was not solved, or not the film's equations. Beyond a hundredth the film is off by it.
- * Of another discretisation the balances know the equations alone, and not how it cuts them into
- * cells: they are open by as much as h_min is off by the cells.
+ * Up to a tolerance of 2e-5 the last Newton step of a film changed its pressure by less than that
+ * of p_max, and its gap by less than ten times that: between two places the equations are open by
+ * twice as much. Beyond it so much is left after all steps of a passage. What is more was not
+ * solved, or not the film's equations. Beyond a hundredth the film is off by it. Of another
+ * discretisation the balances know the equations alone, and not how it cuts them into cells: they
+ * are open by as much as h_min is off by the cells.
  */
 static void report_conservation(const ehl_results *r, const ehl_march *m)
 {

@@ -188,7 +188,7 @@ static ff_status linear_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     for (size_t i = 1; i < r->last; i++)
         w->product[i] = film->full[i] || r->conserving ? -r->residual[i] : 0;
     w->missing = (step->load - ehl_film_load(film, r->nodes, r->dx)) / r->dx;
-    if (relax(s, step, film, s->tolerance < 1e-5 ? 1e-3 : 5e-2) != FF_OK)
+    if (relax(s, step, film, s->tolerance < 1e-6 ? 1e-3 : 5e-2) != FF_OK)
         return FF_NOCONV;
     if (w->sweeps_fresh < 0)
         w->sweeps_fresh = w->sweeps;

@@ -18,7 +18,7 @@ typedef struct ehl_solver {
     ehl_reynolds *reynolds;
     const double *kernel;   /* ehl_kernel_fill, one value per node distance */
     double modulus;         /* E', Pa */
-    double tolerance;       /* relative change of pressure in the last step */
+    double tolerance;       /* relative error of the film that the equations may leave */
     int no_film;            /* what came from outside was no film: not a number, or p at the ends */
     int gave_up;            /* outside found no film too often */
     const ff_film *outside; /* the discretisation of another stage, for ehl_outside; NULL: none */

@@ -36,9 +36,11 @@ static const ff_param params[] = {
               "clip: p >= 0, and the film is full where p > 0 (Reynolds' condition); mass is not "
               "conserved where p = 0. mass-conserving: there a share of the gap is filled, and is "
               "carried along until the film closes again"),
-    FF_QUANTITY("tolerance", "1", ehl_model, tolerance, FF_TUNABLE, "1e-5", NULL, 1e-12, 1e-2, 0, 0,
-                "largest last change of pressure over its maximum; the film is then as accurate as "
-                "if the equations were solved exactly, to about this"),
+    FF_QUANTITY_OR(
+        "auto", "tolerance", "1", ehl_model, tolerance, FF_TUNABLE, "auto", NULL, 1e-12, 1e-2, 0, 0,
+        "the film is as accurate as if its equations were solved exactly, to about this; "
+        "auto: to a twentieth of what its cells, and time_tolerance with steps: auto, "
+        "make of it; 1e-5 with rough flanks, and with other models than ehl/finite-volume"),
     FF_QUANTITY_OR("none", "light_load", "N/m", ehl_model, light_load, FF_MIN_OPEN, "none", NULL, 0,
                    1e9, 0, 0,
                    "none: without load the film is carried on without a load balance; or a load "

@@ -86,6 +86,27 @@ typedef struct run {
     ehl_results results;
 } run;
 
+/* tolerance: auto. The first film, rough flanks, whose error by the cells is not known, and the
+   solvers that finite-volume is compared with. */
+static const double FIRST_TOLERANCE = 1e-5;
+
+/* It is this share of the error by the cells and the steps, from one bound to the other: beyond
+   them Newton's method gains or loses no step. */
+static const double TOLERANCE_SHARE = 1. / 20, LEAST_TOLERANCE = 2e-5, MOST_TOLERANCE = 2e-4;
+
+/* Records the newest film, and lets the tolerance follow its error. */
+static ff_status record(const ehl_model *m, run *r, int last)
+{
+    ff_status status = ehl_results_record(&r->results, &r->march, last);
+    double error = r->results.by_cells;
+    if (m->tolerance > 0 || r->rough.count > 0 || !(error > 0) ||
+        r->solver.maker != ehl_newton_krylov)
+        return status;
+    error = m->steps > 0 ? error : fmin(error, m->time_tolerance);
+    r->solver.tolerance = fmin(fmax(TOLERANCE_SHARE * error, LEAST_TOLERANCE), MOST_TOLERANCE);
+    return status;
+}
+
 static void run_destroy(run *r)
 {
     ehl_results_destroy(&r->results);
@@ -184,7 +205,7 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
         .reynolds = &r->reynolds,
         .kernel = r->kernel,
         .modulus = r->history.modulus,
-        .tolerance = m->tolerance,
+        .tolerance = m->tolerance > 0 ? m->tolerance : FIRST_TOLERANCE,
         .outside = m->outside,
         .maker = m->outside ? ehl_outside : m->maker,
     };
@@ -278,7 +299,7 @@ static ff_status march_equal_steps(const ehl_model *m, run *r)
         ff_status status = ehl_march_to(&r->march, time);
         if (status != FF_OK)
             return explain(m, r, status, time);
-        status = ehl_results_record(&r->results, &r->march, k == steps);
+        status = record(m, r, k == steps);
         if (status != FF_OK)
             return status;
     }
@@ -294,7 +315,7 @@ static ff_status march_own_steps(const ehl_model *m, run *r)
         status = ehl_step_control_next(&r->control, &r->march);
         if (status != FF_OK)
             return explain(m, r, status, r->march.state[0].time);
-        status = ehl_results_record(&r->results, &r->march, ehl_step_control_done(&r->control));
+        status = record(m, r, ehl_step_control_done(&r->control));
     }
     ehl_step_control_destroy(&r->control);
     return status;
@@ -303,10 +324,11 @@ static ff_status march_own_steps(const ehl_model *m, run *r)
 static ff_status march_engagement(const ehl_model *m, run *r)
 {
     const ehl_history *h = &r->history;
+    r->solver.tolerance = m->tolerance > 0 ? m->tolerance : FIRST_TOLERANCE;
     ff_status status = ehl_march_start(&r->march);
     if (status != FF_OK)
         return explain(m, r, status, h->time[0]);
-    status = ehl_results_record(&r->results, &r->march, h->count == 1);
+    status = record(m, r, h->count == 1);
     if (status != FF_OK || h->count == 1)
         return status;
     return m->steps > 0 ? march_equal_steps(m, r) : march_own_steps(m, r);

@@ -47,7 +47,8 @@ void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, doubl
         film->content[i] = s->reynolds->oil.density * thinnest;
 }
 
-/* Change of pressure in the last step of a solution. */
+/* Accuracy of the films that finer grids go on from, or that errors by the cells are measured
+   with. */
 static const double loose = 1e-3;
 
 void ehl_grid_level_destroy(ehl_grid_level *l)

@@ -23,6 +23,7 @@ static double difference(const char *model, size_t cells)
     c.u1[0] *= 1.1;
     c.u2[0] *= 0.9;
     stage_set(c.film, "cells", (double)cells);
+    stage_set(c.film, "tolerance", 1e-8);
     check_true("runs", line_run(&c, losses) == FF_OK);
     double share = fabs(loss(&c, "squeeze_loss")) / loss(&c, "rolling_loss");
     double sum = loss(&c, "sliding_loss") + loss(&c, "rolling_loss") + loss(&c, "squeeze_loss");
@@ -98,6 +99,7 @@ static double off_the_work(const char *model, size_t cells, size_t steps)
         c.load[i] *= 1 - 0.5 * cos(4 * acos(-1) * (double)i / (double)(rows - 1));
     stage_set(c.film, "cells", (double)cells);
     stage_set(c.film, "steps", (double)steps);
+    stage_set(c.film, "tolerance", 1e-7);
     check_true("runs", line_run(&c, "squeeze_loss power_loss time x film pressure") == FF_OK);
     const double *h = stage_get(c.film, "film", NULL), *p = stage_get(c.film, "pressure", NULL),
                  *x = stage_get(c.film, "x", NULL);

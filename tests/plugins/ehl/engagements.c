@@ -53,6 +53,8 @@ static int run(const film_model *m, const char *order, const char *steps, int ap
     if (apart)
         stage_give_series(c.film, "contact.engagement", c.count, number);
     stage_set_text(c.film, "steps", steps);
+    if (m->solves)
+        stage_set(c.film, "tolerance", 1e-8);
     int good = line_run(&c, wanted) == FF_OK;
     if (good) {
         take(&c, "time", f->time, &f->n);

@@ -71,6 +71,8 @@ static void test_reversal(const char *model)
     static line a, b;
     open_case(&a, model, 4, time, there);
     open_case(&b, model, 4, time, back);
+    stage_set(a.film, "tolerance", 1e-5);
+    stage_set(b.film, "tolerance", 1e-5);
     runs(&a, "time h_min film x mass_error");
     runs(&b, "time h_min film x");
     size_t n, steps;
