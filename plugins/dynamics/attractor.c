@@ -186,7 +186,8 @@ static ff_status sweep_and_attract(const dynamics_flow *flow, const sweep_start 
                                    dynamics_attractor *a)
 {
     dynamics_excitation excitation = *flow->excitation;
-    dynamics_flow damped = {.excitation = &excitation, .free_until = flow->free_until};
+    dynamics_flow damped = {
+        .excitation = &excitation, .free_until = flow->free_until, .radau = flow->radau};
     double zeta = excitation.zeta;
     excitation.zeta = fmax(zeta, least_damping);
     if (host->progress(host->ctx, 0))

@@ -229,7 +229,7 @@ typedef struct mark {
 
 static int set_mark(const dynamics_flow *flow, const dynamics_orbit *o, mark *m)
 {
-    dynamics_state y = dynamics_state_at(o->x[0], o->x[1]);
+    dynamics_state y = dynamics_orbit_start(o);
     m->lambda = o->lambda;
     for (int i = 0; i < o->period; i++) {
         m->x[i][0] = y.delta;

@@ -45,6 +45,7 @@ typedef struct dynamics_excitation {
     int damping;
     double length, stiffness, omega; /* units: m, N/m, rad/s */
     dynamics_representation represented;
+    const struct dynamics_film *film; /* the oil between parted flanks; NULL: none */
 } dynamics_excitation;
 
 /* A polynomial of a piece and its derivatives by the phase. */

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "flow.h"
+#include "flow-run.h"
 
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* The relative size below which a kink of e is round-off. */
 static const double round_off = 1e-12;
@@ -11,32 +12,32 @@ static const double round_off = 1e-12;
 /* Steps in a mesh cycle beyond which the motion is given up. */
 static const size_t step_limit = 20000000;
 
-/* Changes of contact in a row that each advance by less than `slip`, rad, before the contact is
-   held for that time. */
-enum { MAX_IDLE = 6 };
-static const double slip = 1e-6;
-
-typedef struct run {
-    const dynamics_flow *flow;
-    const dynamics_excitation *excitation;
-    const dynamics_piece *piece;
-    double T, at;      /* duration of the cycle, phase in it */
-    int side, pressed; /* as in oscillator.c */
-    int idle;
-    int variation;
-    dynamics_state *y;
-    const dynamics_observer *observer;
-} run;
-
-/* A condition that holds as long as p >= 0; then the contact changes to (side, pressed). */
-typedef struct gate {
-    double p[DYNAMICS_ORDER_MAX + 1];
-    int side, pressed;
-} gate;
+const double dynamics_slip = 1e-6;
 
 dynamics_state dynamics_state_at(double delta, double rate)
 {
-    return (dynamics_state){.delta = delta, .rate = rate, .m = {1, 0, 0, 1}, .det = 1};
+    dynamics_state y = {.delta = delta, .rate = rate};
+    dynamics_state_restart(&y);
+    return y;
+}
+
+dynamics_state dynamics_state_in_oil(double delta, double rate, const double film[2])
+{
+    dynamics_state y = dynamics_state_at(delta, rate);
+    y.oil.known = 1;
+    memcpy(y.oil.film, film, sizeof y.oil.film);
+    return y;
+}
+
+void dynamics_state_restart(dynamics_state *y)
+{
+    static const double one[4] = {1, 0, 0, 1};
+    memcpy(y->m, one, sizeof y->m);
+    y->change[0] = y->change[1] = 0;
+    y->det = 1;
+    dynamics_film_state oil = {.m = {{0, 0, 1, 0}, {0, 0, 0, 1}}, .known = y->oil.known};
+    memcpy(oil.film, y->oil.film, sizeof oil.film);
+    y->oil = oil;
 }
 
 static double piece_end(const dynamics_excitation *excitation, const dynamics_piece *piece)
@@ -62,10 +63,14 @@ static int bends_after(const dynamics_piece *p)
 
 int dynamics_flow_init(dynamics_flow *flow, const dynamics_excitation *excitation)
 {
-    flow->excitation = excitation;
+    *flow = (dynamics_flow){.excitation = excitation};
     flow->free_until = malloc(excitation->count * sizeof *flow->free_until);
-    if (!flow->free_until)
+    if (excitation->film)
+        flow->radau = malloc(sizeof *flow->radau);
+    if (!flow->free_until || (excitation->film && !flow->radau))
         return 0;
+    if (flow->radau)
+        dynamics_radau_init(flow->radau);
     for (size_t i = excitation->count; i-- > 0;) {
         const dynamics_piece *p = &excitation->pieces[i];
         int last = i + 1 == excitation->count;
@@ -78,20 +83,35 @@ int dynamics_flow_init(dynamics_flow *flow, const dynamics_excitation *excitatio
 void dynamics_flow_free(dynamics_flow *flow)
 {
     free(flow->free_until);
-    flow->free_until = NULL;
+    free(flow->radau);
+    *flow = (dynamics_flow){.excitation = NULL};
 }
 
-static int damper_acts(const run *r)
+double dynamics_run_piece_end(const dynamics_run *r)
+{
+    return piece_end(r->excitation, r->piece);
+}
+
+static int damper_acts(const dynamics_run *r)
 {
     return r->excitation->damping == DYNAMICS_DAMPING_ALWAYS || r->excitation->half_gap == 0 ||
            r->pressed;
 }
 
+double dynamics_run_stiffness(const dynamics_run *r)
+{
+    return dynamics_piece_value(r->piece->k, r->piece->degree, r->at - r->piece->start);
+}
+
 /* Sets the contact that belongs to the state. At the edge of the gap the direction of motion
    decides, and at rest there the load, which presses the driving flanks. */
-static void find_contact(run *r)
+static void find_contact(dynamics_run *r)
 {
     double b = r->excitation->half_gap, delta = r->y->delta, rate = r->y->rate;
+    if (r->excitation->film) {
+        dynamics_run_find_films(r);
+        return;
+    }
     r->side = (delta > b || (delta == b && rate >= 0)) - (delta < -b || (delta == -b && rate < 0));
     if (b == 0)
         r->side = 1;
@@ -100,7 +120,7 @@ static void find_contact(run *r)
 
 /* s and s' are continuous at a node, so that delta = s - e jumps against e. Where e jumps the
    damper gives an impulse of 2 zeta times the jump. */
-static void enter_piece(run *r, const dynamics_piece *before, const dynamics_piece *piece)
+static void enter_piece(dynamics_run *r, const dynamics_piece *before, const dynamics_piece *piece)
 {
     double e = dynamics_piece_value(before->e, before->degree, before->length);
     double slope = dynamics_piece_slope(before->e, before->degree, before->length);
@@ -110,15 +130,19 @@ static void enter_piece(run *r, const dynamics_piece *before, const dynamics_pie
     r->y->rate += kink + (damper_acts(r) ? 2 * r->excitation->zeta * leap : 0);
     r->y->change[1] -= kink / r->T;
     r->piece = piece;
+    if (leap != 0 && r->excitation->film)
+        dynamics_run_follow_flanks(r);
     if (leap != 0)
         find_contact(r);
 }
 
 /* The gate of a clipped contact: its force as a polynomial, which parts the flanks when it would
  * pull. */
-static void contact_force_gate(const run *r, const dynamics_taylor_series *s, double sign, gate *g)
+static void contact_force_gate(const dynamics_run *r, const dynamics_taylor_series *s, double sign,
+                               dynamics_gate *g)
 {
-    double k[DYNAMICS_DEGREE + 1] = {0}, c = 2 * r->excitation->zeta;
+    double k[DYNAMICS_DEGREE + 1] = {0};
+    double c = r->excitation->film ? 0 : 2 * r->excitation->zeta; /* films bear the teeth's force */
     int degree = r->piece->degree;
     dynamics_piece_shift(r->piece->k, degree, r->at - r->piece->start, s->h / r->T, k);
     for (int n = 0; n <= s->order; n++) {
@@ -132,7 +156,8 @@ static void contact_force_gate(const run *r, const dynamics_taylor_series *s, do
 }
 
 /* The gate at an edge of the gap: sign z + offset. */
-static void gap_edge_gate(const dynamics_taylor_series *s, double sign, double offset, gate *g)
+static void gap_edge_gate(const dynamics_taylor_series *s, double sign, double offset,
+                          dynamics_gate *g)
 {
     for (int n = 0; n <= s->order; n++)
         g->p[n] = sign * s->c[n][DYNAMICS_Z];
@@ -140,9 +165,18 @@ static void gap_edge_gate(const dynamics_taylor_series *s, double sign, double o
 }
 
 /* Finds the gates of the present contact and returns their number. */
-static int find_gates(const run *r, const dynamics_taylor_series *s, gate g[2])
+static int find_gates(const dynamics_run *r, const dynamics_taylor_series *s, dynamics_gate g[2])
 {
     double b = r->excitation->half_gap;
+    if (r->excitation->film && r->excitation->film->rolling) {
+        double load[2];
+        dynamics_run_holding_load(r, r->end, load);
+        contact_force_gate(r, s, 1, &g[0]);
+        g[0].p[0] -= load[0];
+        g[0].p[1] -= load[1];
+        g[0].side = g[0].pressed = 0;
+        return 1;
+    }
     if (r->side == 0) {
         g[0].side = g[0].pressed = g[1].pressed = 1;
         g[1].side = -1;
@@ -167,19 +201,21 @@ static int find_gates(const run *r, const dynamics_taylor_series *s, gate g[2])
 
 /* Whether the step is too short to reach the edge of the gap: the sum of all terms that may lead
  * there bounds the motion. */
-static int cannot_reach_edge(const run *r, const dynamics_taylor_series *s, double tiny)
+static int cannot_reach_edge(const dynamics_run *r, const dynamics_taylor_series *s, double tiny)
 {
     double z = s->c[0][DYNAMICS_Z], first = s->c[1][DYNAMICS_Z];
     double reach = tiny + (r->side * first > 0 ? 0 : fabs(first));
     double room = r->side ? r->side * z : r->excitation->half_gap - fabs(z);
     for (int n = 2; n <= s->order; n++)
         reach += fabs(s->c[n][DYNAMICS_Z]);
+    if (r->excitation->film && r->excitation->film->rolling)
+        return 0;
     return room > reach && (r->excitation->damping != DYNAMICS_DAMPING_CLIPPED || r->side == 0);
 }
 
 /* The first change of contact within the step: its x and gate; -1: there is none. */
-static double find_event(const run *r, const dynamics_taylor_series *s, gate g[2],
-                         const gate **which)
+static double find_event(const dynamics_run *r, const dynamics_taylor_series *s, dynamics_gate g[2],
+                         const dynamics_gate **which)
 {
     double tiny = 8 * DBL_EPSILON * (1 + r->excitation->half_gap), first = -1;
     int count =
@@ -195,7 +231,7 @@ static double find_event(const run *r, const dynamics_taylor_series *s, gate g[2
 }
 
 /* Moves the state by x h along the series. */
-static void move_state(run *r, const dynamics_taylor_series *s, double x)
+static void move_state(dynamics_run *r, const dynamics_taylor_series *s, double x)
 {
     dynamics_state *y = r->y;
     double offset = r->side * r->excitation->half_gap, at[2];
@@ -215,14 +251,20 @@ static void move_state(run *r, const dynamics_taylor_series *s, double x)
     y->m[1] = v[DYNAMICS_PHI_1] * m[1] + v[DYNAMICS_PHI_2] * m[3];
     y->m[2] = w[DYNAMICS_PHI_1] * m[0] + w[DYNAMICS_PHI_2] * m[2];
     y->m[3] = w[DYNAMICS_PHI_1] * m[1] + w[DYNAMICS_PHI_2] * m[3];
+    if (r->excitation->film)
+        dynamics_run_carry_films(r, &v[DYNAMICS_PHI_1], &w[DYNAMICS_PHI_1]);
     y->det *= v[DYNAMICS_PHI_1] * w[DYNAMICS_PHI_2] - v[DYNAMICS_PHI_2] * w[DYNAMICS_PHI_1];
 }
 
 /* Where the damper begins or ends to act the force jumps by `jump` times the rate, and the
    derivatives are multiplied by the saltation matrix [1 0; -jump 1] (Leine & Nijmeijer 2004,
    Dynamics and Bifurcations of Non-Smooth Mechanical Systems). */
-static void change_contact(run *r, const gate *g)
+static void change_contact(dynamics_run *r, const dynamics_gate *g)
 {
+    if (r->excitation->film) {
+        dynamics_run_release_flank(r);
+        return;
+    }
     int same_side = g->side == r->side, damped = damper_acts(r);
     if (!same_side)
         r->y->delta = (g->side ? g->side : r->side) * r->excitation->half_gap;
@@ -238,7 +280,7 @@ static void change_contact(run *r, const gate *g)
 
 /* Plans the next step: its equation and its end, at most at the node that ends the smooth stretch.
  */
-static double plan_step(const run *r, dynamics_piece_equation *q)
+static double plan_step(const dynamics_run *r, dynamics_piece_equation *q)
 {
     double end = piece_end(r->excitation, r->piece);
     int flies = !r->pressed && r->side == 0;
@@ -253,15 +295,15 @@ static double plan_step(const run *r, dynamics_piece_equation *q)
     if (q->degree > 1 && !is_straight(r->piece))
         dynamics_piece_shift(r->piece->e, q->degree, since, 1 / r->T, q->e);
     double left = end - r->at, size = dynamics_taylor_step_size(q, left * r->T);
-    if (r->idle > MAX_IDLE && left * r->T > slip)
-        return r->at + slip / r->T;
+    if (r->idle > DYNAMICS_MAX_IDLE && left * r->T > dynamics_slip)
+        return r->at + dynamics_slip / r->T;
     return size <= dynamics_taylor_longest_step
                ? end
                : r->at + left / ceil(size / dynamics_taylor_longest_step);
 }
 
-static void notify_observer(const run *r, const dynamics_taylor_series *s, double end, double x,
-                            double damper)
+static void notify_observer(const dynamics_run *r, const dynamics_taylor_series *s, double end,
+                            double x, double damper)
 {
     dynamics_step stride = {
         .excitation = r->excitation,
@@ -278,32 +320,33 @@ static void notify_observer(const run *r, const dynamics_taylor_series *s, doubl
     r->observer->observe(r->observer->ctx, &stride);
 }
 
-static void take_step(run *r)
+static void take_step(dynamics_run *r)
 {
     dynamics_piece_equation q;
     dynamics_taylor_series s;
-    gate g[2];
-    const gate *which = NULL;
+    dynamics_gate g[2];
+    const dynamics_gate *which = NULL;
     double end = plan_step(r, &q), h = (end - r->at) * r->T;
     double z[2] = {r->y->delta - r->side * r->excitation->half_gap, r->y->rate};
     if (r->variation)
         dynamics_taylor_expand(&q, r->T, h, z, r->y->change, &s);
     else
         dynamics_taylor_expand_motion(&q, h, z, &s);
-    double x = r->idle > MAX_IDLE ? -1 : find_event(r, &s, g, &which);
+    r->end = end;
+    double x = r->idle > DYNAMICS_MAX_IDLE ? -1 : find_event(r, &s, g, &which);
     if (x >= 0)
         end = fmin(r->at + x * (end - r->at), end);
     if (r->observer)
         notify_observer(r, &s, end, x >= 0 ? x : 1, q.damper);
     if (x != 0)
         move_state(r, &s, x >= 0 ? x : 1);
-    r->idle = x >= 0 && x * h < slip ? r->idle + 1 : 0;
+    r->idle = x >= 0 && x * h < dynamics_slip ? r->idle + 1 : 0;
     r->at = end;
     if (x >= 0)
         change_contact(r, which);
 }
 
-static int follow_cycle(run *r)
+static int follow_cycle(dynamics_run *r)
 {
     const dynamics_excitation *excitation = r->excitation;
     const dynamics_piece *last = &excitation->pieces[excitation->count - 1];
@@ -314,24 +357,40 @@ static int follow_cycle(run *r)
     while (r->at < 1) {
         if (r->at >= piece_end(excitation, r->piece))
             enter_piece(r, r->piece, r->piece + 1);
-        else
+        else if (!excitation->film || r->side)
             take_step(r);
+        else if (!dynamics_run_step_in_oil(r))
+            return 0;
         if (++steps > step_limit)
             return 0;
     }
+    if (excitation->film)
+        dynamics_run_follow_flanks(r);
     return isfinite(r->y->delta) && isfinite(r->y->rate);
+}
+
+void dynamics_flow_films(const dynamics_flow *flow, double T, const double x[2], int known,
+                         double film[2])
+{
+    dynamics_state y = dynamics_state_in_oil(x[0], x[1], film);
+    dynamics_run r = {.flow = flow, .excitation = flow->excitation, .T = T, .y = &y};
+    r.piece = &r.excitation->pieces[r.excitation->count - 1];
+    y.oil.known = known;
+    find_contact(&r);
+    memcpy(film, y.oil.film, sizeof y.oil.film);
 }
 
 int dynamics_flow_motion(const dynamics_flow *flow, double T, dynamics_state *state,
                          const dynamics_observer *observer)
 {
-    run r = {
+    dynamics_run r = {
         .flow = flow, .excitation = flow->excitation, .T = T, .y = state, .observer = observer};
     return follow_cycle(&r);
 }
 
 int dynamics_flow_variation(const dynamics_flow *flow, double T, dynamics_state *state)
 {
-    run r = {.flow = flow, .excitation = flow->excitation, .T = T, .y = state, .variation = 1};
+    dynamics_run r = {
+        .flow = flow, .excitation = flow->excitation, .T = T, .y = state, .variation = 1};
     return follow_cycle(&r);
 }

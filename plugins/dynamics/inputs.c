@@ -7,45 +7,91 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The rows that all models have, in two tables. */
+#define COMMON_ROWS                                                                                \
+    [DYNAMICS_IN_ROLL_ANGLE] = {"gear.roll_angle",                                                 \
+                                "rad",                                                             \
+                                "roll angle of gear 1 along the path of contact",                  \
+                                "station",                                                         \
+                                NULL,                                                              \
+                                0,                                                                 \
+                                NULL},                                                             \
+    [DYNAMICS_IN_ROLL_SAP] =                                                                       \
+        {"gear.roll_sap", "rad", "roll angle at the start of active profile", "", NULL, 0, NULL},  \
+    [DYNAMICS_IN_TEETH] = {"gear.teeth", "1", "numbers of teeth", "gear", NULL, 0, NULL},          \
+    [DYNAMICS_IN_BACKLASH] =                                                                       \
+        {"gear.backlash", "m", "backlash along the line of action, 2 b", "", NULL, 0, NULL},       \
+    [DYNAMICS_IN_EQUIVALENT_MASS] =                                                                \
+        {"gear.equivalent_mass",                                                                   \
+         "kg",                                                                                     \
+         "mass that the mesh spring sees, I1 I2/(I1 rb2^2 + I2 rb1^2)",                            \
+         "",                                                                                       \
+         NULL,                                                                                     \
+         FF_OPTIONAL,                                                                              \
+         NULL},                                                                                    \
+    [DYNAMICS_IN_MESH_FREQUENCY] =                                                                 \
+        {"operating.mesh_frequency", "Hz", "mesh cycles per second", "", NULL, 0, NULL},           \
+    [DYNAMICS_IN_LINE_FORCE] =                                                                     \
+        {"operating.line_force", "N", "static force along the line of action", "", NULL, 0, NULL}, \
+    [DYNAMICS_IN_PHASE] = {"stiffness.phase",                                                      \
+                           "1",                                                                    \
+                           "phase of the mesh cycle, 0 to 1; twice at a jump",                     \
+                           "phase",                                                                \
+                           NULL,                                                                   \
+                           0,                                                                      \
+                           NULL},                                                                  \
+    [DYNAMICS_IN_STIFFNESS] =                                                                      \
+        {"stiffness.stiffness",                                                                    \
+         "N/m",                                                                                    \
+         "mesh stiffness, straight between phases where they follow no smooth curve",              \
+         "phase",                                                                                  \
+         NULL,                                                                                     \
+         0,                                                                                        \
+         NULL},                                                                                    \
+    [DYNAMICS_IN_STIFFNESS_MEAN] =                                                                 \
+        {"stiffness.stiffness_mean", "N/m", "mean mesh stiffness", "", NULL, 0, NULL},             \
+    [DYNAMICS_IN_TRANSMISSION_ERROR] = {"stiffness.transmission_error",                            \
+                                        "m",                                                       \
+                                        "unloaded transmission error e; none: 0",                  \
+                                        "phase",                                                   \
+                                        NULL,                                                      \
+                                        FF_OPTIONAL,                                               \
+                                        NULL},                                                     \
+    [DYNAMICS_IN_TOOTH_FORCE] = {"stiffness.tooth_force",                                          \
+                                 "N",                                                              \
+                                 "quasi-static tooth force W_s",                                   \
+                                 "engagement? station",                                            \
+                                 NULL,                                                             \
+                                 0,                                                                \
+                                 NULL},                                                            \
+    [DYNAMICS_IN_LOAD_SHARE] = {"stiffness.load_share",                                            \
+                                "1",                                                               \
+                                "share of one tooth pair, used where the line force is 0",         \
+                                "engagement? station",                                             \
+                                NULL,                                                              \
+                                FF_OPTIONAL,                                                       \
+                                NULL}
+
 const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT] = {
-    [DYNAMICS_IN_ROLL_ANGLE] = {"gear.roll_angle", "rad",
-                                "roll angle of gear 1 along the path of contact", "station", NULL,
-                                0, NULL},
-    [DYNAMICS_IN_ROLL_SAP] = {"gear.roll_sap", "rad", "roll angle at the start of active profile",
-                              "", NULL, 0, NULL},
-    [DYNAMICS_IN_TEETH] = {"gear.teeth", "1", "numbers of teeth", "gear", NULL, 0, NULL},
-    [DYNAMICS_IN_BACKLASH] = {"gear.backlash", "m", "backlash along the line of action, 2 b", "",
-                              NULL, 0, NULL},
-    [DYNAMICS_IN_EQUIVALENT_MASS] = {"gear.equivalent_mass", "kg",
-                                     "mass that the mesh spring sees, I1 I2/(I1 rb2^2 + I2 rb1^2)",
-                                     "", NULL, FF_OPTIONAL, NULL},
-    [DYNAMICS_IN_MESH_FREQUENCY] = {"operating.mesh_frequency", "Hz", "mesh cycles per second", "",
-                                    NULL, 0, NULL},
-    [DYNAMICS_IN_LINE_FORCE] = {"operating.line_force", "N",
-                                "static force along the line of action", "", NULL, 0, NULL},
-    [DYNAMICS_IN_PHASE] = {"stiffness.phase", "1",
-                           "phase of the mesh cycle, 0 to 1; twice at a jump", "phase", NULL, 0,
-                           NULL},
-    [DYNAMICS_IN_STIFFNESS] =
-        {"stiffness.stiffness", "N/m",
-         "mesh stiffness, straight between phases where they follow no smooth curve", "phase", NULL,
-         0, NULL},
-    [DYNAMICS_IN_STIFFNESS_MEAN] = {"stiffness.stiffness_mean", "N/m", "mean mesh stiffness", "",
-                                    NULL, 0, NULL},
-    [DYNAMICS_IN_TRANSMISSION_ERROR] = {"stiffness.transmission_error", "m",
-                                        "unloaded transmission error e; none: 0", "phase", NULL,
-                                        FF_OPTIONAL, NULL},
-    [DYNAMICS_IN_TOOTH_FORCE] = {"stiffness.tooth_force", "N", "quasi-static tooth force W_s",
-                                 "engagement? station", NULL, 0, NULL},
-    [DYNAMICS_IN_LOAD_SHARE] = {"stiffness.load_share", "1",
-                                "share of one tooth pair, used where the line force is 0",
-                                "engagement? station", NULL, FF_OPTIONAL, NULL},
+    COMMON_ROWS,
     [DYNAMICS_IN_BASE_RADIUS] = {"gear.base_radius", "m", "base circle radii", "gear", NULL, 0,
                                  NULL},
     [DYNAMICS_IN_CENTRE_DISTANCE] = {"gear.centre_distance", "m", "mounted centre distance", "",
                                      NULL, 0, NULL},
     [DYNAMICS_IN_MASS] = {"gear.mass", "kg", "masses of the gears", "gear", NULL, FF_OPTIONAL,
                           NULL},
+};
+
+const ff_port dynamics_oil_input_ports[DYNAMICS_OIL_INPUT_COUNT] = {
+    COMMON_ROWS,
+    [DYNAMICS_IN_RADIUS_1] = {"gear.radius_1", "m", "radius of curvature of flank 1", "station",
+                              NULL, FF_OPTIONAL, NULL},
+    [DYNAMICS_IN_RADIUS_2] = {"gear.radius_2", "m", "radius of curvature of flank 2", "station",
+                              NULL, FF_OPTIONAL, NULL},
+    [DYNAMICS_IN_FACE_WIDTH] = {"gear.face_width", "m", "width of the teeth in contact", "", NULL,
+                                FF_OPTIONAL, NULL},
+    [DYNAMICS_IN_ETA0] = {"oil.eta0", "Pa s", "viscosity of the oil between parted flanks", "",
+                          NULL, FF_OPTIONAL, "lubricant"},
 };
 
 static const char *name_of(int input)

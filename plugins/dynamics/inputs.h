@@ -29,6 +29,16 @@ enum {
     DYNAMICS_COUPLED_INPUT_COUNT
 };
 
+/* Read only by a model that knows the oil between parted flanks, behind those of all models. */
+enum {
+    DYNAMICS_IN_RADIUS_1 = DYNAMICS_INPUT_COUNT,
+    DYNAMICS_IN_RADIUS_2,
+    DYNAMICS_IN_FACE_WIDTH,
+    DYNAMICS_IN_ETA0,
+    DYNAMICS_OIL_INPUT_COUNT
+};
+
+extern const ff_port dynamics_oil_input_ports[DYNAMICS_OIL_INPUT_COUNT];
 extern const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT];
 
 /* The inertia that the user gives; both NaN: that of the gear. */

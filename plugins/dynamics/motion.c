@@ -2,6 +2,7 @@
 #include "motion.h"
 
 #include "motion-view.h"
+#include "multipliers.h"
 
 #include <flankfilm/author.h>
 
@@ -9,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const ff_port dynamics_motion_outputs[DYNAMICS_ATLAS_OUTPUT_COUNT] = {
+const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
     [DYNAMICS_OUT_PHASE] =
         {"phase", "1",
          "mesh cycles since the entering pair was at SAP; twice where the excitation "
@@ -85,6 +86,15 @@ const ff_port dynamics_motion_outputs[DYNAMICS_ATLAS_OUTPUT_COUNT] = {
                                   NULL},
     [DYNAMICS_OUT_DOUBLING_FREQUENCY] = {"doubling_frequency", "Hz", "where the period doubles",
                                          "doubling", NULL, 0, NULL},
+    [DYNAMICS_OUT_DAMPER_LOSS] = {"damper_loss", "W", "mean power that the damper takes", "", NULL,
+                                  0, NULL},
+    [DYNAMICS_OUT_SQUEEZE_LOSS] = {"squeeze_loss", "W",
+                                   "mean power that the oil between parted flanks takes", "", NULL,
+                                   0, NULL},
+    [DYNAMICS_OUT_EXCITATION_POWER] =
+        {"excitation_power", "W",
+         "mean power that the prescribed changes of stiffness and transmission error bring in", "",
+         NULL, 0, NULL},
     [DYNAMICS_OUT_DOUBLING_BRANCH] = {"doubling_branch", "1", "branch of the shorter period",
                                       "doubling", NULL, 0, NULL},
 };
@@ -151,6 +161,11 @@ double dynamics_motion_multipliers(const dynamics_motion *motion, double multipl
 {
     static const double huge = 1e300;
     const double *m = motion->monodromy;
+    if (motion->excitation->film) {
+        double all[8], largest = dynamics_films_multipliers(motion->in_oil, all);
+        memcpy(multipliers, all, 4 * sizeof *multipliers);
+        return largest;
+    }
     double half = 0.5 * (m[0] + m[3]), det = m[0] * m[3] - m[1] * m[2];
     double d = half * half - det, root = sqrt(fabs(d));
     if (!isfinite(d)) { /* a disturbance of a long aperiodic motion overflows */
@@ -187,6 +202,13 @@ static dynamics_motion_view view_of(const dynamics_motion *motion)
                                   .self = motion};
 }
 
+/* Where oil lies between the flanks the force does not follow from s. */
+static double force_of_films(const dynamics_sample *a, const dynamics_sample *z, double phase)
+{
+    double h = z->phase - a->phase, x = h > 0 ? fmin(fmax((phase - a->phase) / h, 0), 1) : 0;
+    return a->force + x * (z->force - a->force);
+}
+
 /* The force and the gap at any phase of the record, from s by Hermite's cubic between samples. At a
    jump of the excitation `left` asks for the values before it. */
 static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap)
@@ -198,6 +220,8 @@ static void force_and_gap_at(const void *self, double phase, int left, double *f
     size_t low = dynamics_motion_view_before(&view, phase, left);
     const dynamics_sample *a = &s[low], *z = &s[low + 1];
     double h = z->phase - a->phase;
+    if (excitation->film)
+        *force = force_of_films(a, z, phase);
     phase = fmin(fmax(phase, a->phase), z->phase);
     double x = h > 0 ? (phase - a->phase) / h : 0;
     double slope_a = a->s_rate * motion->T * h, slope_z = z->s_rate * motion->T * h;
@@ -211,9 +235,10 @@ static void force_and_gap_at(const void *self, double phase, int left, double *f
     const dynamics_piece *piece = dynamics_excitation_piece(excitation, phase, left);
     double since = phase - piece->start;
     double delta = value - dynamics_piece_value(piece->e, piece->degree, since);
-    *force = dynamics_mesh_force(
-        excitation, dynamics_piece_value(piece->k, piece->degree, since), delta,
-        rate - dynamics_piece_slope(piece->e, piece->degree, since) / motion->T);
+    if (!excitation->film)
+        *force = dynamics_mesh_force(
+            excitation, dynamics_piece_value(piece->k, piece->degree, since), delta,
+            rate - dynamics_piece_slope(piece->e, piece->degree, since) / motion->T);
     *gap = excitation->half_gap > 0 ? fmax(excitation->half_gap - delta, 0) : 0;
 }
 
@@ -297,6 +322,20 @@ ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inpu
     host->quality(host->ctx, "rms_sampling_error", st.rms_error, 1e-3,
                   st.rms_error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
                   "estimate of the error of dte_rms by the points shown, over it");
+    return status;
+}
+
+ff_status dynamics_motion_put_powers(const dynamics_motion *motion, const ff_host *host)
+{
+    const dynamics_excitation *x = motion->excitation;
+    double unit =
+        x->stiffness * x->length * x->length * x->omega / ((double)motion->cycles * motion->T);
+    ff_status status =
+        ff_put_scalar(host, DYNAMICS_OUT_DAMPER_LOSS, unit * (motion->loss - motion->squeeze));
+    if (status == FF_OK)
+        status = ff_put_scalar(host, DYNAMICS_OUT_SQUEEZE_LOSS, unit * motion->squeeze);
+    if (status == FF_OK)
+        status = ff_put_scalar(host, DYNAMICS_OUT_EXCITATION_POWER, unit * motion->work);
     return status;
 }
 

@@ -39,10 +39,15 @@ enum {
     DYNAMICS_OUT_FOLD_BRANCH,
     DYNAMICS_OUT_DOUBLING_FREQUENCY,
     DYNAMICS_OUT_DOUBLING_BRANCH,
-    DYNAMICS_ATLAS_OUTPUT_COUNT
+    DYNAMICS_ATLAS_OUTPUT_COUNT,
+    /* of a model that keeps account of them */
+    DYNAMICS_OUT_DAMPER_LOSS = DYNAMICS_ATLAS_OUTPUT_COUNT,
+    DYNAMICS_OUT_SQUEEZE_LOSS,
+    DYNAMICS_OUT_EXCITATION_POWER,
+    DYNAMICS_POWER_OUTPUT_COUNT
 };
 
-extern const ff_port dynamics_motion_outputs[DYNAMICS_ATLAS_OUTPUT_COUNT];
+extern const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT];
 
 typedef struct dynamics_motion {
     const dynamics_excitation *excitation;
@@ -52,7 +57,11 @@ typedef struct dynamics_motion {
     dynamics_record record; /* of `cycles` and as many more as a tooth pair stays in mesh */
     dynamics_clocks clocks; /* over `cycles` */
     double monodromy[4];
-    double det_error; /* relative error of det M */
+    const double *films;        /* at its start; NULL: there are none, or they are not known */
+    double in_oil[4][4];        /* monodromy in (delta, rate, films) of a motion with films */
+    double loss, squeeze, work; /* energy that damper and films took, the films alone, and that the
+                                   excitation brought in, over `cycles` */
+    double det_error;           /* relative error of det M */
     double
         energy_error; /* energy brought in less what is lost and stored, relative to the energies */
 } dynamics_motion;
@@ -86,6 +95,9 @@ void dynamics_motion_check_determinant(dynamics_motion *motion);
 /* Sets energy_error by the energies at both ends, the work brought in and what the damper took. */
 void dynamics_motion_check_energy(dynamics_motion *motion, double start, double end, double work,
                                   double loss);
+
+/* The outputs from DYNAMICS_OUT_DAMPER_LOSS on: means over the motion shown. */
+ff_status dynamics_motion_put_powers(const dynamics_motion *motion, const ff_host *host);
 
 ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inputs *inputs,
                               const ff_host *host);

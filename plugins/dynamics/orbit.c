@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "orbit.h"
 
+#include "multipliers.h"
+#include "orbit-film.h"
 #include "trajectory.h"
 
 #include <float.h>
@@ -21,10 +23,18 @@ double dynamics_state_unit(const dynamics_excitation *excitation, const double x
     return fmax(unit, 1e-6 * (1 + excitation->half_gap));
 }
 
+dynamics_state dynamics_orbit_start(const dynamics_orbit *o)
+{
+    return o->films.known ? dynamics_state_in_oil(o->x[0], o->x[1], o->films.film)
+                          : dynamics_state_at(o->x[0], o->x[1]);
+}
+
 int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit)
 {
     double T = dynamics_cycle_duration(orbit->lambda);
-    dynamics_state y = dynamics_state_at(orbit->x[0], orbit->x[1]);
+    if (flow->excitation->film)
+        dynamics_films_start(flow, T, orbit);
+    dynamics_state y = dynamics_orbit_start(orbit);
     for (int i = 0; i < orbit->period; i++) {
         if (!dynamics_flow_variation(flow, T, &y))
             return 0;
@@ -40,12 +50,17 @@ int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit)
     orbit->slope[1] = -T * y.change[1];
     memcpy(orbit->m, y.m, sizeof orbit->m);
     orbit->det = y.det;
+    if (flow->excitation->film)
+        dynamics_films_eliminate(&y, T, orbit);
     return 1;
 }
 
 double dynamics_orbit_residual(const dynamics_excitation *excitation, const dynamics_orbit *o)
 {
-    return hypot(o->end[0] - o->x[0], o->end[1] - o->x[1]) / dynamics_state_unit(excitation, o->x);
+    double miss = hypot(o->end[0] - o->x[0], o->end[1] - o->x[1]);
+    if (excitation->film)
+        miss = fmax(miss, o->films.miss);
+    return miss / dynamics_state_unit(excitation, o->x);
 }
 
 /* Solves (M - 1) step = x - end; 0: singular. */
@@ -93,17 +108,19 @@ int dynamics_orbit_solve(const dynamics_flow *flow, double tolerance, dynamics_o
 
 double dynamics_fold_test(const dynamics_orbit *o)
 {
-    return 1 - (o->m[0] + o->m[3]) + o->det;
+    return o->films.known ? dynamics_films_test(o, 1) : 1 - (o->m[0] + o->m[3]) + o->det;
 }
 
 double dynamics_doubling_test(const dynamics_orbit *o)
 {
-    return 1 + (o->m[0] + o->m[3]) + o->det;
+    return o->films.known ? dynamics_films_test(o, -1) : 1 + (o->m[0] + o->m[3]) + o->det;
 }
 
 double dynamics_largest_multiplier(const dynamics_orbit *o)
 {
-    double half = 0.5 * (o->m[0] + o->m[3]), d = half * half - o->det;
+    double half = 0.5 * (o->m[0] + o->m[3]), d = half * half - o->det, all[8];
+    if (o->films.known)
+        return dynamics_films_multipliers(o->films.m, all);
     return d < 0 ? sqrt(o->det) : fabs(half) + sqrt(d);
 }
 
@@ -132,7 +149,7 @@ int dynamics_orbit_rms(const dynamics_flow *flow, const dynamics_orbit *orbit, d
 {
     dynamics_trajectory trace = {.origin = orbit->x[0]};
     dynamics_observer observer = {dynamics_trajectory_observe_moments, &trace};
-    dynamics_state y = dynamics_state_at(orbit->x[0], orbit->x[1]);
+    dynamics_state y = dynamics_orbit_start(orbit);
     double T = dynamics_cycle_duration(orbit->lambda);
     for (int i = 0; i < orbit->period; i++)
         if (!dynamics_flow_motion(flow, T, &y, &observer))

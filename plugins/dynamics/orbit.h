@@ -11,6 +11,22 @@
 
 enum { DYNAMICS_PERIOD_MAX = 6 };
 
+/*
+ * The films of an orbit at phase 0 belong to its state. The films that fit to (delta, rate, lambda)
+ * are eliminated: m, end and slope are those of the map in which the films have followed, and a
+ * film that is handed on follows each change of (delta, rate, lambda), so that Newton's method in
+ * these is Newton's method in all. The multipliers are those of the whole state.
+ */
+typedef struct dynamics_films {
+    int known;
+    double film[2]; /* at phase 0 */
+    double miss;    /* the largest difference to the films at the end */
+    double step[2]; /* Newton's correction at the same (delta, rate, lambda) */
+    double at[3];   /* (delta, rate, lambda) of the last map, and the change of the films by them */
+    double by[2][3];
+    double m[4][4]; /* monodromy in (delta, rate, films) */
+} dynamics_films;
+
 typedef struct dynamics_orbit {
     int period;
     double lambda;
@@ -20,6 +36,7 @@ typedef struct dynamics_orbit {
     double m[4];     /* monodromy: derivative of `end` by x */
     double slope[2]; /* derivative of `end` by lambda */
     double det;      /* of m, as the product over all steps, free of cancellation */
+    dynamics_films films;
 } dynamics_orbit;
 
 /* T = 2 pi exp(-lambda), rad of the natural frequency. */
@@ -34,6 +51,9 @@ int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit);
 
 /* The tolerance of an orbit that is shown or followed: a few roundings above the least. */
 extern const double dynamics_orbit_accuracy;
+
+/* The state at phase 0. */
+dynamics_state dynamics_orbit_start(const dynamics_orbit *orbit);
 
 /* Newton's method with step halving, from orbit->x, until the motion meets its start to `tolerance`
    times the state's unit. 1: found. */

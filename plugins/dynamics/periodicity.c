@@ -82,6 +82,7 @@ void dynamics_periodicity_report(const dynamics_attractor *a, const dynamics_mot
                     "round-off carried into the state, over the static deflection");
     }
     report_line(host, "energy_balance", motion->energy_error, 1e-9, NULL);
-    report_line(host, "determinant", motion->det_error, round_off_of_determinant(motion),
-                "of the monodromy, against exp(-2 zeta omega t) while the damper acts");
+    if (!excitation->film)
+        report_line(host, "determinant", motion->det_error, round_off_of_determinant(motion),
+                    "of the monodromy, against exp(-2 zeta omega t) while the damper acts");
 }

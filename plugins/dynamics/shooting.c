@@ -4,6 +4,7 @@
 #include "attractor.h"
 #include "full-contact.h"
 #include "jump-search.h"
+#include "oil.h"
 #include "periodicity.h"
 #include "references.h"
 #include "stable-motions.h"
@@ -23,6 +24,7 @@ typedef struct model {
     int32_t damping;
     const char *branch_word;
     dynamics_inertia inertia;
+    dynamics_oil oil;
     int64_t max_period, speeds, starts, cycles_settle, cycles_measured, steps_per_cycle;
     int by_name; /* 0: `branch_word` is lower or upper; 1: the branch of the atlas called `name` */
     dynamics_branch branch;
@@ -40,6 +42,7 @@ static const ff_param params[] = {
         "the natural frequency; or the name of a branch of the atlas, as p2-1; where a study "
         "follows the speed, lower and upper are for the first case of a chain"),
     DYNAMICS_INERTIA_ROWS(model),
+    DYNAMICS_OIL_ROWS(model),
     FF_QUANTITY("atlas.from", "Hz", model, atlas_from, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
                 "lowest mesh frequency of the atlas; default: natural_frequency/8"),
     FF_QUANTITY("atlas.to", "Hz", model, atlas_to, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
@@ -61,6 +64,8 @@ static const ff_param params[] = {
              "points shown per mesh cycle; the steps of the solver are exact"),
 };
 
+static const uint64_t power_bits =
+    FF_BIT(DYNAMICS_POWER_OUTPUT_COUNT) - FF_BIT(DYNAMICS_ATLAS_OUTPUT_COUNT);
 static const uint64_t motion_bits = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
 
 /* The accuracy that `cycles_settle: auto` aims at; Newton's method goes on from there. */
@@ -91,6 +96,8 @@ static ff_status ready(void *self)
         return ff_failf(m->host, FF_INVALID, "atlas.to", "must be above atlas.from, %g Hz",
                         m->atlas_from);
     ff_status status = set_branch(m);
+    if (status == FF_OK)
+        status = dynamics_oil_check(m->host, &m->oil, m->damping);
     const ff_serving rows[] = {
         {!m->by_name, "search_speeds", DYNAMICS_ATLAS_OUTPUTS, NULL, NULL},
         {!m->by_name, "search_starts", DYNAMICS_ATLAS_OUTPUTS, NULL, NULL},
@@ -184,12 +191,16 @@ static ff_status output_motion(const job *j, const dynamics_attractor *a)
     motion.cycles = a->period > 0 ? (size_t)a->period : (size_t)m->cycles_measured;
     if (a->period == DYNAMICS_UNBOUNDED)
         motion.cycles = 1;
+    if (j->excitation.film)
+        motion.films = a->period > 0 ? a->orbit.films.film : NULL;
     ff_status status =
         dynamics_trajectory_record(&j->flow, &j->inputs, (size_t)m->steps_per_cycle, a->x, &motion);
     if (status == FF_OK)
         dynamics_periodicity_report(a, &motion, (int)m->max_period, m->host);
     if (status == FF_OK)
         status = dynamics_motion_put(&motion, &j->inputs, m->host);
+    if (status == FF_OK)
+        status = dynamics_motion_put_powers(&motion, m->host);
     dynamics_record_free(&motion.record);
     return status;
 }
@@ -253,8 +264,8 @@ static ff_status evaluate_job(job *j)
 {
     const model *m = j->m;
     dynamics_attractor a = {.period = DYNAMICS_APERIODIC};
-    int needs_motion = (j->wanted & motion_bits) != 0;
-    int needs_atlas = (j->wanted >> DYNAMICS_SPEED_OUTPUT_COUNT) != 0;
+    int needs_motion = (j->wanted & (motion_bits | power_bits)) != 0;
+    int needs_atlas = ((j->wanted & ~power_bits) >> DYNAMICS_SPEED_OUTPUT_COUNT) != 0;
     ff_status status = FF_OK;
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
     if (needs_motion && dynamics_cycle_duration(j->lambda) > dynamics_longest_cycle)
@@ -291,12 +302,16 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     job j = {.m = m, .wanted = wanted, .excitation = {.zeta = m->zeta, .damping = m->damping}};
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
     j.inputs.wanted = wanted;
+    dynamics_film *film = NULL;
+    if (status == FF_OK)
+        status = dynamics_oil_read(m->host, in, &m->oil, &j.inputs, &j.excitation, &film);
     if (status == FF_OK)
         status = evaluate_job(&j);
     m->from.mesh_frequency = 0;
     m->to = j.to;
     dynamics_atlas_free(&j.atlas);
     dynamics_flow_free(&j.flow);
+    free(film);
     dynamics_excitation_free(&j.excitation);
     return status;
 }
@@ -313,8 +328,9 @@ FF_MODEL(
     .reference = "Li & Kahraman 2011, Proc. IMechE J 225, 740-753, eqs 2-5; continuation: Keller "
                  "1977, Numerical solution of bifurcation and nonlinear eigenvalue problems",
     .bibtex = BIB_likahraman2011 "\n" BIB_keller1977 "\n", .licence = "GPL-3.0-or-later",
-    .params = FF_TABLE(params), .inputs = dynamics_input_ports, .input_count = DYNAMICS_INPUT_COUNT,
-    .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_motion_outputs,
-    .output_count = DYNAMICS_ATLAS_OUTPUT_COUNT, .output_stride = sizeof dynamics_motion_outputs[0],
-    .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry, .cost = 3e-3);
+    .params = FF_TABLE(params), .inputs = dynamics_oil_input_ports,
+    .input_count = DYNAMICS_OIL_INPUT_COUNT, .input_stride = sizeof dynamics_oil_input_ports[0],
+    .outputs = dynamics_motion_outputs, .output_count = DYNAMICS_POWER_OUTPUT_COUNT,
+    .output_stride = sizeof dynamics_motion_outputs[0], .ready = ready, .evaluate = evaluate,
+    .destroy = free, .carry = carry, .cost = 3e-3);
 FF_EXPORT_MODELS(&dynamics_shooting);

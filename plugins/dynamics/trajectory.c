@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "trajectory.h"
 
+#include "orbit-film.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -19,6 +21,16 @@ typedef struct moment {
     double k, k_rate, bend; /* 0 where no flank is pressed */
 } moment;
 
+/* Without a flank that is held the teeth bend under the films: k and bend are of both together, so
+   that the energy of the springs is right. Only the ends of such a step are asked for. */
+static void bend_in_oil(const dynamics_step *f, double x, double phase, moment *m)
+{
+    const dynamics_landing *step = f->landing;
+    int i = x > 0.5 ? DYNAMICS_STAGES : 0;
+    m->k = dynamics_piece_value(f->piece->k, f->piece->degree, phase);
+    m->bend = hypot(step->bend[0][i], step->bend[1][i]);
+}
+
 static moment moment_at(const dynamics_step *f, double x)
 {
     double z[2], phase = f->at + (f->end - f->at) * (f->x > 0 ? x / f->x : 0) - f->piece->start;
@@ -34,6 +46,8 @@ static moment moment_at(const dynamics_step *f, double x)
         m.k_rate = dynamics_piece_slope(f->piece->k, f->piece->degree, phase) / f->T;
         m.bend = z[0];
     }
+    if (f->landing)
+        bend_in_oil(f, x, phase, &m);
     return m;
 }
 
@@ -68,6 +82,8 @@ static void join_strides(dynamics_trajectory *t, const dynamics_step *f)
         t->start = energy;
     else if (f->side == t->side && f->pressed != t->pressed)
         t->loss -= change;
+    else if (f->excitation->film && f->side != t->side) /* a film behind the flank begins or ends */
+        t->loss -= change;
     else if (f->at == f->piece->start)
         t->work += change;
     t->begun = 1;
@@ -78,19 +94,37 @@ static void join_strides(dynamics_trajectory *t, const dynamics_step *f)
 static void add_powers(dynamics_trajectory *t, const dynamics_step *f)
 {
     double half = 0.5 * f->x, h = half * f->series->h;
-    for (int i = 0; i < NODES; i++) {
+    for (int i = 0; i < NODES && !f->landing; i++) {
         double w = h * weight[i / 2];
         moment m = moment_at(f, half * (1 + (i % 2 ? node[i / 2] : -node[i / 2])));
         double force = f->damper * m.rate + m.k * m.bend;
         t->loss += w * f->damper * m.rate * m.rate;
         t->work += w * (0.5 * m.k_rate * m.bend * m.bend - force * m.e_rate);
     }
+    if (f->landing) {
+        double damper, films, work;
+        dynamics_landing_powers(t->radau, f->landing, &damper, &films, &work);
+        t->loss += damper + films;
+        t->films += films;
+        t->work += work;
+    }
     moment end = moment_at(f, f->x);
     t->energy = energy_of(f->excitation, &end);
 }
 
-static void add_sample(dynamics_record *record, const dynamics_step *f, double x, double phase)
+static double force_in_oil(const dynamics_radau *radau, const dynamics_step *f, double x)
 {
+    double power[DYNAMICS_NODES], z[2], force = 0;
+    dynamics_landing_polynomial(radau, f->landing->force, power);
+    for (int n = DYNAMICS_NODES; n-- > 0;)
+        force = force * x + power[n];
+    dynamics_taylor_at(f->series, DYNAMICS_Z, x, z);
+    return force + f->damper * z[1];
+}
+
+static void add_sample(dynamics_trajectory *t, const dynamics_step *f, double x, double phase)
+{
+    dynamics_record *record = t->record;
     if (record->count == record->capacity)
         return;
     moment m = moment_at(f, x);
@@ -99,7 +133,8 @@ static void add_sample(dynamics_record *record, const dynamics_step *f, double x
         .phase = (double)record->cycles + phase,
         .s = m.delta + m.e,
         .s_rate = m.rate + m.e_rate,
-        .force = dynamics_mesh_force(f->excitation, k, m.delta, m.rate),
+        .force = f->landing ? force_in_oil(t->radau, f, x)
+                            : dynamics_mesh_force(f->excitation, k, m.delta, m.rate),
     };
 }
 
@@ -120,17 +155,17 @@ static void take_samples(dynamics_trajectory *t, const dynamics_step *f)
     double n = (double)record->per_cycle;
     int starts_piece = f->at == f->piece->start && f->end > f->at;
     if (starts_piece && (f->piece->jump || (f->at == 0 && record->cycles == 0)))
-        add_sample(record, f, 0, f->at);
+        add_sample(t, f, 0, f->at);
     double last = f->at;
     for (; (double)t->next / n <= f->end; t->next++) {
         double phase = (double)t->next / n;
         if (phase <= f->at)
             continue;
-        add_sample(record, f, f->x * (phase - f->at) / (f->end - f->at), phase);
+        add_sample(t, f, f->x * (phase - f->at) / (f->end - f->at), phase);
         last = phase;
     }
     if (jumps_at_end(f) && last < f->end)
-        add_sample(record, f, f->x, f->end);
+        add_sample(t, f, f->x, f->end);
 }
 
 static void observe_all(void *self, const dynamics_step *f)
@@ -145,15 +180,24 @@ static void observe_all(void *self, const dynamics_step *f)
     take_samples(t, f);
 }
 
+static dynamics_state start_of(const double x[2], const dynamics_motion *motion)
+{
+    return motion->films ? dynamics_state_in_oil(x[0], x[1], motion->films)
+                         : dynamics_state_at(x[0], x[1]);
+}
+
 /* The derivatives over the cycles that are shown, and the error of Abel's identity, det M = exp(-2
    zeta t) over the time t in which the damper acts. */
 static int take_monodromy(const dynamics_flow *flow, const double x[2], dynamics_motion *motion)
 {
-    dynamics_state y = dynamics_state_at(x[0], x[1]);
+    dynamics_state y = start_of(x, motion);
     for (size_t i = 0; i < motion->cycles; i++)
         if (!dynamics_flow_variation(flow, motion->T, &y))
             return 0;
     memcpy(motion->monodromy, y.m, sizeof motion->monodromy);
+    dynamics_films_monodromy(&y, motion->in_oil);
+    if (motion->excitation->film)
+        return 1;
     double expected = exp(-2 * motion->excitation->zeta * motion->clocks.damped);
     motion->det_error = expected > 0 ? fabs(y.det / expected - 1) : 0;
     return 1;
@@ -166,12 +210,12 @@ ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_i
     if (!dynamics_record_init(&motion->record, motion->excitation, per_cycle,
                               motion->cycles + tail))
         return FF_NOMEM;
-    dynamics_trajectory trace = {.record = &motion->record};
+    dynamics_trajectory trace = {.record = &motion->record, .radau = flow->radau};
     dynamics_observer observer = {observe_all, &trace};
-    dynamics_state y = dynamics_state_at(x[0], x[1]);
+    dynamics_state y = start_of(x, motion);
     for (size_t i = 0; i < motion->cycles + tail; i++) {
         if (motion->period > 0 && i % (size_t)motion->period == 0)
-            y = dynamics_state_at(x[0], x[1]);
+            y = start_of(x, motion);
         trace.next = 1;
         if (!dynamics_flow_motion(flow, motion->T, &y, &observer))
             return FF_NOCONV;
@@ -180,6 +224,9 @@ ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_i
             continue;
         dynamics_motion_check_energy(motion, trace.start, trace.energy, trace.work, trace.loss);
         motion->clocks = trace.clocks;
+        motion->loss = trace.loss;
+        motion->squeeze = trace.films;
+        motion->work = trace.work;
     }
     return take_monodromy(flow, x, motion) ? FF_OK : FF_NOCONV;
 }

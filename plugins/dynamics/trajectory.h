@@ -9,10 +9,12 @@
 typedef struct dynamics_trajectory {
     double origin;      /* of s in the moments */
     double sum, square; /* integrals over time of s - origin and of its square */
-    double loss, work;  /* energy that the damper took and that the excitation brought in */
+    double loss, work;  /* energy that damper and films took and that the excitation brought in */
+    double films;       /* what the films took of it */
     double energy;      /* of the state at the end */
     double start;       /* of the state at the start */
     dynamics_clocks clocks;
+    const dynamics_radau *radau; /* of the flow */
     dynamics_record *record;
     size_t next;              /* number of the next sample of the cycle */
     int begun, side, pressed; /* of the last step */

@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The oil between flanks that have parted, in series with the teeth. On each flank, with the sign
+ * of its force s = 1 (driving) or -1 (back) and q = s delta - b,
+ *
+ *   W = k (q + y),   y' = -V(W, h),   h = h_c + y,
+ *
+ * where y is the film beyond the film h_c of the loaded flanks (the hand-over film), q + y how far
+ * the teeth bend, and V the speed of approach that squeeze-law.h has for the load. A flank is held
+ * while y = 0: the film of the loaded flanks is stiff and stays. It is free while W = 0, since oil
+ * does not pull: then y = -q. All units are those of excitation.h.
+ */
+#ifndef DYNAMICS_FILM_H
+#define DYNAMICS_FILM_H
+
+#include "squeeze-law.h"
+
+typedef struct dynamics_film {
+    double viscosity;   /* eta0 b omega / mean stiffness */
+    double hand_over;   /* h_c */
+    double supply;      /* film from which on the oil does not fill the gap; may be infinite */
+    double pairs;       /* contact ratio */
+    double radius[3];   /* equivalent radius of a pair, by powers of the mesh cycles since SAP */
+    double entrainment; /* way of the oil, (u1 + u2)/2, per mesh cycle */
+    int rolling;        /* whether the wedge of the rolling flanks carries, too */
+    dynamics_squeeze_table table; /* built when it does */
+} dynamics_film;
+
+/* The film at a phase of the mesh cycle: all pairs that are in mesh there, side by side. */
+typedef struct dynamics_film_place {
+    double squeeze;      /* sum of 3 sqrt(2) pi eta0 b R^1.5 */
+    double wedge, speed; /* n eta0 u R b and u/sqrt(2 R), with the R that gives that sum */
+} dynamics_film_place;
+
+/* V and its derivatives by W, h and u, the last one times u. */
+typedef struct dynamics_approach {
+    double speed, by_load, by_film, by_entrainment;
+} dynamics_approach;
+
+/* The phase at which a pair leaves the mesh; the other node is phase 0, where one enters. */
+double dynamics_film_node(const dynamics_film *film);
+
+dynamics_film_place dynamics_film_at(const dynamics_film *film, double phase, double T);
+
+dynamics_approach dynamics_film_approach(const dynamics_film *film,
+                                         const dynamics_film_place *place, double load, double h);
+
+/* The load from which on the film at hand-over does not grow: that of the wedge. */
+double dynamics_film_holding_load(const dynamics_film *film, const dynamics_film_place *place);
+
+/* The film y in front of the flanks that approach at q' = speed, at rest beside the motion: the
+   start of a motion whose film is not known. */
+double dynamics_film_quasi_static(const dynamics_film *film, const dynamics_film_place *place,
+                                  double stiffness, double q, double speed);
+
+#endif

@@ -1,0 +1,453 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "landing.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { S = DYNAMICS_STAGES, MOST = 2 * S, ITERATIONS = 25 };
+
+/* What the last coefficients may be, relative to the film or to the speed. The error at the end of
+   a step is of about its square. */
+static const double allowed = 1e-10;
+
+/* At the end of a step that a node ends, the film is the one before the node. */
+static const double before_node = 1e-12;
+
+static double lagrange(const double *node, int count, int j, double x)
+{
+    double value = 1;
+    for (int k = 0; k < count; k++)
+        if (k != j)
+            value *= (x - node[k]) / (node[j] - node[k]);
+    return value;
+}
+
+/* The nodes of Radau are the roots of P_s - P_(s-1) of Legendre on [0, 1]. */
+static double radau_function(double x)
+{
+    double y = 2 * x - 1, p = 1, q = y;
+    for (int n = 1; n < S; n++) {
+        double next = ((2 * n + 1) * y * q - n * p) / (n + 1);
+        p = q;
+        q = next;
+    }
+    return q - p;
+}
+
+static void find_nodes(double *node)
+{
+    int found = 0;
+    node[S - 1] = 1;
+    for (int i = 0; i < 1000 && found < S - 1; i++) {
+        double low = i / 1001., high = (i + 1) / 1001., sign = radau_function(low);
+        if (sign * radau_function(high) > 0)
+            continue;
+        while (high - low > 1e-17 + 2e-16 * low) {
+            double middle = 0.5 * (low + high);
+            if (middle <= low || middle >= high)
+                break;
+            *(sign * radau_function(middle) > 0 ? &low : &high) = middle;
+        }
+        node[found++] = low;
+    }
+}
+
+/* The product of (x - node[k]) without j, as powers of x over its value at node[j]. */
+static void basis_powers(const double *node, int j, double *power)
+{
+    memset(power, 0, DYNAMICS_NODES * sizeof *power);
+    power[0] = 1;
+    for (int k = 0, degree = 0; k < DYNAMICS_NODES; k++) {
+        if (k == j)
+            continue;
+        double share = 1 / (node[j] - node[k]);
+        for (int n = ++degree; n >= 0; n--)
+            power[n] = ((n ? power[n - 1] : 0) - node[k] * power[n]) * share;
+    }
+}
+
+void dynamics_radau_init(dynamics_radau *r)
+{
+    /* Gauss-Legendre with 4 points, exact to degree 7 (Abramowitz & Stegun 1964, table 25.4) */
+    static const double point[] = {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563,
+                                   0.8611363115940526};
+    static const double weight[] = {0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
+                                    0.3478548451374538};
+    double all[DYNAMICS_NODES] = {0};
+    find_nodes(r->node);
+    memcpy(all + 1, r->node, sizeof r->node);
+    for (int i = 0; i < S; i++)
+        for (int j = 0; j < S; j++) {
+            r->a[i][j] = 0;
+            for (int g = 0; g < 4; g++)
+                r->a[i][j] += 0.5 * r->node[i] * weight[g] *
+                              lagrange(r->node, S, j, 0.5 * r->node[i] * (1 + point[g]));
+        }
+    for (int i = 0; i < S; i++)
+        for (int j = 0; j < S; j++) {
+            r->square[i][j] = 0;
+            for (int l = 0; l < S; l++)
+                r->square[i][j] += r->a[i][l] * r->a[l][j];
+        }
+    for (int j = 0; j < DYNAMICS_NODES; j++)
+        basis_powers(all, j, r->power[j]);
+}
+
+void dynamics_landing_polynomial(const dynamics_radau *r, const double *value, double *power)
+{
+    for (int n = 0; n < DYNAMICS_NODES; n++)
+        power[n] = 0;
+    for (int j = 0; j < DYNAMICS_NODES; j++)
+        for (int n = 0; n < DYNAMICS_NODES; n++)
+            power[n] += value[j] * r->power[j][n];
+}
+
+/* Elimination with pivots of n equations, for `columns` right sides, in place; 0: singular. */
+static int eliminate(int n, double m[MOST][MOST], int columns,
+                     double side[DYNAMICS_FILM_COLUMNS][MOST])
+{
+    for (int i = 0; i < n; i++) {
+        int best = i;
+        for (int k = i + 1; k < n; k++)
+            if (fabs(m[k][i]) > fabs(m[best][i]))
+                best = k;
+        if (!(fabs(m[best][i]) > 0))
+            return 0;
+        for (int j = i; best != i && j < n; j++) {
+            double t = m[i][j];
+            m[i][j] = m[best][j], m[best][j] = t;
+        }
+        for (int c = 0; best != i && c < columns; c++) {
+            double t = side[c][i];
+            side[c][i] = side[c][best], side[c][best] = t;
+        }
+        for (int k = i + 1; k < n; k++) {
+            double f = m[k][i] / m[i][i];
+            for (int j = i + 1; j < n; j++)
+                m[k][j] -= f * m[i][j];
+            for (int c = 0; c < columns; c++)
+                side[c][k] -= f * side[c][i];
+        }
+    }
+    for (int c = 0; c < columns; c++)
+        for (int i = n; i-- > 0;) {
+            for (int j = i + 1; j < n; j++)
+                side[c][i] -= m[i][j] * side[c][j];
+            side[c][i] /= m[i][i];
+        }
+    return 1;
+}
+
+/* What does not change while a step is solved. */
+typedef struct stages {
+    const dynamics_radau *r;
+    double h, c, load[S], bend[S], k[S]; /* load less e''; bend: e'' */
+    int count, flank[2];                 /* of the films that carry */
+    dynamics_film_place place[S];
+    double (*inverse)[S];
+    double yield[S][S]; /* delta of the stages over force */
+} stages;
+
+static double sign_of(int flank)
+{
+    return flank ? -1 : 1;
+}
+
+/* The stages obey a = load - c v - sum s k (s delta - b + y), with v = v0 + h A a and delta =
+   delta0 + h c v0 + h^2 A^2 a: a system for a, whose inverse is kept. */
+static int prepare(const dynamics_radau *r, dynamics_landing *step, stages *g)
+{
+    const dynamics_excitation *x = step->excitation;
+    double m[MOST][MOST], side[DYNAMICS_FILM_COLUMNS][MOST];
+    *g = (stages){
+        .r = r, .h = (step->end - step->at) * step->T, .c = 2 * x->zeta, .inverse = step->inverse};
+    for (int f = 0; f < 2; f++)
+        if (step->open[f])
+            g->flank[g->count++] = f;
+    for (int i = 0; i < S; i++) {
+        double phase = step->at + r->node[i] * (step->end - step->at);
+        g->k[i] =
+            dynamics_piece_value(step->piece->k, step->piece->degree, phase - step->piece->start);
+        g->bend[i] =
+            dynamics_piece_bend(step->piece->e, step->piece->degree, phase - step->piece->start) /
+            (step->T * step->T);
+        g->load[i] = x->load - g->bend[i];
+        g->place[i] = dynamics_film_at(x->film, fmin(phase, step->end - before_node), step->T);
+    }
+    for (int first = 0; first < S; first += DYNAMICS_FILM_COLUMNS) {
+        int columns = S - first < DYNAMICS_FILM_COLUMNS ? S - first : DYNAMICS_FILM_COLUMNS;
+        for (int i = 0; i < S; i++)
+            for (int j = 0; j < S; j++)
+                m[i][j] = (i == j) + g->c * g->h * r->a[i][j] +
+                          g->count * g->k[i] * g->h * g->h * r->square[i][j];
+        for (int c = 0; c < columns; c++)
+            for (int i = 0; i < S; i++)
+                side[c][i] = i == first + c;
+        if (!eliminate(S, m, columns, side))
+            return 0;
+        for (int c = 0; c < columns; c++)
+            for (int i = 0; i < S; i++)
+                g->inverse[i][first + c] = side[c][i];
+    }
+    for (int i = 0; i < S; i++)
+        for (int j = 0; j < S; j++) {
+            g->yield[i][j] = 0;
+            for (int l = 0; l < S; l++)
+                g->yield[i][j] += g->h * g->h * r->square[i][l] * g->inverse[l][j];
+        }
+    return 1;
+}
+
+/* The motion of the stages under films y. */
+static void move_stages(const stages *g, dynamics_landing *step, double y[2][S])
+{
+    double force[S], a[S], v0 = step->rate[0], half_gap = step->excitation->half_gap;
+    for (int i = 0; i < S; i++) {
+        force[i] = g->load[i] - g->c * v0;
+        for (int n = 0; n < g->count; n++) {
+            double s = sign_of(g->flank[n]);
+            double q = s * (step->delta[0] + g->h * g->r->node[i] * v0) - half_gap;
+            force[i] -= s * g->k[i] * (q + y[g->flank[n]][i]);
+        }
+    }
+    for (int i = 0; i < S; i++) {
+        a[i] = 0;
+        for (int j = 0; j < S; j++)
+            a[i] += g->inverse[i][j] * force[j];
+    }
+    for (int i = 0; i < S; i++) {
+        double v = v0, d = step->delta[0] + g->h * g->r->node[i] * v0;
+        for (int j = 0; j < S; j++) {
+            v += g->h * g->r->a[i][j] * a[j];
+            d += g->h * g->h * g->r->square[i][j] * a[j];
+        }
+        step->rate[i + 1] = v;
+        step->delta[i + 1] = d;
+        step->force[i + 1] = 0;
+        for (int f = 0; f < 2; f++) {
+            double s = sign_of(f), q = s * d - half_gap;
+            step->film[f][i + 1] = step->open[f] ? y[f][i] : -q;
+            step->bend[f][i + 1] = step->open[f] ? q + y[f][i] : 0;
+            step->force[i + 1] += s * g->k[i] * step->bend[f][i + 1];
+        }
+    }
+}
+
+static void find_approach(const stages *g, dynamics_landing *step)
+{
+    const dynamics_film *film = step->excitation->film;
+    for (int n = 0; n < g->count; n++)
+        for (int i = 0; i < S; i++) {
+            int f = g->flank[n];
+            double h = film->hand_over + step->film[f][i + 1];
+            step->approach[f][i] =
+                dynamics_film_approach(film, &g->place[i], g->k[i] * step->bend[f][i + 1],
+                                       fmax(h, 0.01 * film->hand_over));
+        }
+}
+
+/* The derivative of y - y0 + h A V by the films of the stages. */
+static void build_matrix(const stages *g, const dynamics_landing *step, double m[MOST][MOST])
+{
+    for (int n = 0; n < g->count; n++)
+        for (int o = 0; o < g->count; o++) {
+            double share = sign_of(g->flank[n]) * sign_of(g->flank[o]), v[S][S];
+            const dynamics_approach *approach = step->approach[g->flank[n]];
+            for (int l = 0; l < S; l++)
+                for (int j = 0; j < S; j++) {
+                    v[l][j] = -approach[l].by_load * g->k[l] * share * g->yield[l][j] * g->k[j];
+                    if (l == j && n == o)
+                        v[l][j] += approach[l].by_load * g->k[l] + approach[l].by_film;
+                }
+            for (int i = 0; i < S; i++)
+                for (int j = 0; j < S; j++) {
+                    double sum = i == j && n == o;
+                    for (int l = 0; l < S; l++)
+                        sum += g->h * g->r->a[i][l] * v[l][j];
+                    m[n * S + i][o * S + j] = sum;
+                }
+        }
+}
+
+/* The last two coefficients in Legendre's polynomials on [0, 1], of degree 7 and 6: those of their
+   highest powers are 3432 and 924. */
+static double last_coefficients(const dynamics_radau *r, const double *value)
+{
+    double p[DYNAMICS_NODES];
+    dynamics_landing_polynomial(r, value, p);
+    return fabs(p[7]) / 3432 + fabs(p[6] + 3.5 * p[7]) / 924;
+}
+
+static double find_doubt(const stages *g, const dynamics_landing *step)
+{
+    double unit = step->excitation->load, least = INFINITY, doubt = 0;
+    for (int i = 0; i < DYNAMICS_NODES; i++)
+        unit = fmax(unit, fabs(step->rate[i]));
+    doubt = last_coefficients(g->r, step->rate) / unit;
+    for (int n = 0; n < g->count; n++) {
+        const double *y = step->film[g->flank[n]];
+        for (int i = 0; i < DYNAMICS_NODES; i++)
+            least = fmin(least, step->excitation->film->hand_over + y[i]);
+        least = fmax(least, 0.5 * step->excitation->film->hand_over);
+        doubt = fmax(doubt, last_coefficients(g->r, y) / fmin(least, unit));
+    }
+    return doubt / allowed;
+}
+
+int dynamics_landing_solve(const dynamics_radau *r, dynamics_landing *step)
+{
+    stages g;
+    double y[2][S], m[MOST][MOST], side[DYNAMICS_FILM_COLUMNS][MOST], last = INFINITY;
+    double hand_over = step->excitation->film->hand_over;
+    if (!prepare(r, step, &g))
+        return 0;
+    for (int n = 0; n < g.count; n++)
+        for (int i = 0; i < S; i++) {
+            int f = g.flank[n];
+            double way = sign_of(f) * step->rate[0] * g.h * r->node[i];
+            y[f][i] = fmax(step->film[f][0] - way, fmin(step->film[f][0], -0.5 * hand_over));
+        }
+    for (int i = 0;; i++) {
+        move_stages(&g, step, y);
+        if (g.count == 0)
+            break;
+        find_approach(&g, step);
+        build_matrix(&g, step, m);
+        double size = 0, moved = 0;
+        for (int n = 0; n < g.count; n++)
+            for (int k = 0; k < S; k++) {
+                int f = g.flank[n];
+                double sum = y[f][k] - step->film[f][0];
+                for (int l = 0; l < S; l++)
+                    sum += g.h * r->a[k][l] * step->approach[f][l].speed;
+                side[0][n * S + k] = -sum;
+                size = fmax(size, fabs(y[f][k]) + hand_over);
+            }
+        if (!eliminate(g.count * S, m, 1, side))
+            return 0;
+        for (int n = 0; n < g.count; n++)
+            for (int k = 0; k < S; k++) {
+                double *at = &y[g.flank[n]][k], to = *at + side[0][n * S + k];
+                to = fmax(to, -hand_over + 0.2 * (*at + hand_over));
+                moved = fmax(moved, fabs(to - *at));
+                *at = to;
+            }
+        if (!isfinite(moved) || i == ITERATIONS)
+            return 0;
+        if (moved <= 1e-14 * size || (moved <= 1e-11 * size && moved >= 0.5 * last)) {
+            move_stages(&g, step, y);
+            find_approach(&g, step);
+            break;
+        }
+        last = moved;
+    }
+    step->doubt = find_doubt(&g, step);
+    return isfinite(step->delta[S]);
+}
+
+/* The equations of the step, differentiated by the start values and, at fixed phases, by T, which
+   stretches the step and slows the entrainment. */
+void dynamics_landing_vary(const dynamics_radau *r, const dynamics_landing *step,
+                           double column[DYNAMICS_FILM_COLUMNS][DYNAMICS_FILM_ROWS])
+{
+    dynamics_landing copy = *step;
+    stages g;
+    double m[MOST][MOST], side[DYNAMICS_FILM_COLUMNS][MOST] = {{0}}, a[S] = {0};
+    double v_own[S] = {0}, d_own[S] = {0};
+    double base_rate[DYNAMICS_FILM_COLUMNS][S], base[DYNAMICS_FILM_COLUMNS][S];
+    if (!prepare(r, &copy, &g))
+        return;
+    /* the acceleration of the stages, and the change of rate and delta by h at fixed acceleration
+     */
+    for (int i = 0; i < S; i++)
+        a[i] = g.load[i] - g.c * step->rate[i + 1] - step->force[i + 1];
+    for (int i = 0; i < S; i++) {
+        d_own[i] = r->node[i] * step->rate[0];
+        for (int j = 0; j < S; j++) {
+            v_own[i] += r->a[i][j] * a[j];
+            d_own[i] += 2 * g.h * r->square[i][j] * a[j];
+        }
+    }
+    for (int c = 0; c < DYNAMICS_FILM_COLUMNS; c++) {
+        double stretch = c + 1 == DYNAMICS_FILM_COLUMNS ? g.h / step->T : 0, f[S];
+        double v0[S], d0[S];
+        for (int i = 0; i < S; i++) {
+            v0[i] = column[c][1] + stretch * v_own[i];
+            d0[i] = column[c][0] + g.h * r->node[i] * column[c][1] + stretch * d_own[i];
+            f[i] = -g.c * v0[i] - g.count * g.k[i] * d0[i];
+            if (stretch != 0) /* e'' at a fixed phase goes as 1/T^2 */
+                f[i] += 2 * g.bend[i] / step->T;
+        }
+        for (int i = 0; i < S; i++) {
+            base_rate[c][i] = v0[i];
+            base[c][i] = d0[i];
+            for (int j = 0; j < S; j++) {
+                double acceleration = 0;
+                for (int l = 0; l < S; l++)
+                    acceleration += g.inverse[j][l] * f[l];
+                base_rate[c][i] += g.h * r->a[i][j] * acceleration;
+                base[c][i] += g.h * g.h * r->square[i][j] * acceleration;
+            }
+        }
+        for (int n = 0; n < g.count; n++)
+            for (int i = 0; i < S; i++) {
+                const dynamics_approach *v = step->approach[g.flank[n]];
+                double s = sign_of(g.flank[n]), sum = column[c][2 + g.flank[n]];
+                for (int l = 0; l < S; l++) {
+                    double change = v[l].by_load * g.k[l] * s * base[c][l];
+                    sum -= g.h * r->a[i][l] * change;
+                    if (stretch != 0)
+                        sum -= r->a[i][l] *
+                               (stretch * v[l].speed - g.h * v[l].by_entrainment / step->T);
+                }
+                side[c][n * S + i] = sum;
+            }
+    }
+    if (g.count > 0) {
+        build_matrix(&g, step, m);
+        if (!eliminate(g.count * S, m, DYNAMICS_FILM_COLUMNS, side))
+            return;
+    }
+    for (int c = 0; c < DYNAMICS_FILM_COLUMNS; c++) {
+        double force[S] = {0}, delta = base[c][S - 1], rate = base_rate[c][S - 1];
+        for (int n = 0; n < g.count; n++)
+            for (int i = 0; i < S; i++)
+                force[i] -= sign_of(g.flank[n]) * g.k[i] * side[c][n * S + i];
+        for (int j = 0; j < S; j++) {
+            double acceleration = 0;
+            for (int l = 0; l < S; l++)
+                acceleration += g.inverse[j][l] * force[l];
+            rate += g.h * r->a[S - 1][j] * acceleration;
+            delta += g.h * g.h * r->square[S - 1][j] * acceleration;
+        }
+        column[c][0] = delta;
+        column[c][1] = rate;
+        for (int f = 0; f < 2; f++)
+            column[c][2 + f] = -sign_of(f) * delta;
+        for (int n = 0; n < g.count; n++)
+            column[c][2 + g.flank[n]] = side[c][n * S + S - 1];
+    }
+}
+
+void dynamics_landing_powers(const dynamics_radau *r, const dynamics_landing *step, double *damper,
+                             double *films, double *work)
+{
+    double h = (step->end - step->at) * step->T, c = 2 * step->excitation->zeta;
+    *damper = *films = *work = 0;
+    for (int j = 0; j < S; j++) {
+        double weight = h * r->a[S - 1][j], rate = step->rate[j + 1];
+        double phase = step->at + r->node[j] * (step->end - step->at);
+        const dynamics_piece *p = step->piece;
+        double k = dynamics_piece_value(p->k, p->degree, phase - p->start);
+        double k_rate = dynamics_piece_slope(p->k, p->degree, phase - p->start) / step->T;
+        double e_rate = dynamics_piece_slope(p->e, p->degree, phase - p->start) / step->T;
+        *damper += weight * c * rate * rate;
+        *work -= weight * (c * rate + step->force[j + 1]) * e_rate;
+        for (int f = 0; f < 2; f++) {
+            double bend = step->bend[f][j + 1];
+            *work += weight * 0.5 * k_rate * bend * bend;
+            if (step->open[f])
+                *films += weight * k * bend * step->approach[f][j].speed;
+        }
+    }
+}
