@@ -42,7 +42,8 @@ static void print_place(const place *to)
     if (to->removed && *to->removed)
         printf("removed there, since it showed those: %s\n", to->removed);
     if (to->written)
-        printf("results in %s\n", to->directory);
+        printf("results in %s\nas a page with figures: flankfilm report %s\n", to->directory,
+               to->directory);
     else if (to->replaced)
         printf("the earlier results in %s stay\n", to->directory);
 }

@@ -212,6 +212,8 @@ static void tell_end(const teller *t, const study_counters *counters, bool good,
         printf("results in %s: %stable.csv\n", directory, files);
     else if (good)
         printf("results in %s/table.csv\n", directory);
+    if (good)
+        printf("as a page with figures: flankfilm report %s\n", directory);
     free(files);
     if (good && study->driver && !t->driven)
         tell_rest(study);

@@ -76,6 +76,15 @@ static void print_stage(paper *page, const ff_stage *stage)
     putchar('\n');
 }
 
+/* The unit of an output; temperatures, but not rises of them, are in degC. */
+static results_readable unit_of(const ff_port *row, double most)
+{
+    bool temperature = !strcmp(row->unit, "K") && strstr(row->name, "temperature") &&
+                       !strstr(row->name, "flash") && !strstr(row->name, "error");
+    return temperature ? (results_readable){1, -273.15, "degC"}
+                       : results_readable_unit(row->unit, most);
+}
+
 /* Ranks of the least and the greatest value. */
 static void find_extremes(const ff_result *result, size_t *least, size_t *greatest)
 {
@@ -92,11 +101,11 @@ static void find_extremes(const ff_result *result, size_t *least, size_t *greate
 static void print_range(const ff_result *result, double a, double b, char *out, size_t size)
 {
     double most = fmax(fabs(a), fabs(b));
-    results_readable unit = results_readable_unit(result->row->unit, most);
+    results_readable unit = unit_of(result->row, most);
     const char *gap = *unit.unit ? " " : "";
     bool constant = b - a <= noise * most;
-    a = fabs(a) < noise * most ? 0 : a * unit.factor;
-    b = fabs(b) < noise * most ? 0 : b * unit.factor;
+    a = fabs(a) < noise * most ? unit.offset : a * unit.factor + unit.offset;
+    b = fabs(b) < noise * most ? unit.offset : b * unit.factor + unit.offset;
     if (constant)
         snprintf(out, size, "%.5g%s%s", b, gap, unit.unit);
     else
@@ -136,9 +145,9 @@ static bool print_pair(const ff_result *result, char *out, size_t size)
     if (result->rank != 1 || result->count != 2)
         return false;
     double a = result->data[0], b = result->data[1];
-    results_readable unit = results_readable_unit(result->row->unit, fmax(fabs(a), fabs(b)));
-    snprintf(out, size, "[%.5g, %.5g]%s%s", a * unit.factor, b * unit.factor, *unit.unit ? " " : "",
-             unit.unit);
+    results_readable unit = unit_of(result->row, fmax(fabs(a), fabs(b)));
+    snprintf(out, size, "[%.5g, %.5g]%s%s", a * unit.factor + unit.offset,
+             b * unit.factor + unit.offset, *unit.unit ? " " : "", unit.unit);
     return true;
 }
 

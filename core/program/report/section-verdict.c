@@ -397,7 +397,7 @@ static void write_counts(report_page *page)
     fprintf(page->out, " Of %zu cases %zu are good, %zu doubtful, %zu bad and %zu failed",
             view->case_count, good, doubtful, bad, failed);
     if (idle > 0)
-        fprintf(page->out, "; %zu have no verdict", idle);
+        fprintf(page->out, "; %zu not run", idle);
     fputs(": ", page->out);
     write_checks(page);
     fputs(".</p>\n<p class=\"note\">", page->out);

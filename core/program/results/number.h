@@ -9,9 +9,9 @@ enum { RESULTS_NUMBER_SIZE = 32 };
    finite. */
 void results_number_exact(double value, char out[RESULTS_NUMBER_SIZE]);
 
-/* A unit in which a value of that size reads well: number = si * factor. */
+/* A unit in which a value of that size reads well: number = si * factor + offset. */
 typedef struct results_readable {
-    double factor;
+    double factor, offset;
     const char *unit; /* "" for a pure number */
 } results_readable;
 

@@ -48,7 +48,7 @@ class Directory(lab.Lab):
         long = [word for i in range(20) for word in ("--set", f"title=a title of some length {i}")]
         said = self.call("run", "pair.yaml", *long)
         other = self.call("run", "pair.yaml", *long, "--set", "title=b")
-        names = [text.split("results in ")[1].strip() for text in (said, other)]
+        names = [text.split("results in ")[1].splitlines()[0] for text in (said, other)]
         self.assertNotEqual(*names)
         for name in names:
             self.assertLess(len(name), 200)
@@ -167,7 +167,7 @@ class Directory(lab.Lab):
         self.assertEqual(len(rows), 6)
         self.assertIn(",ok,", rows[0])
         self.assertEqual([",not run," in row for row in rows[1:]], [True] * 5)
-        self.assertIn("6 cases: 1 good, 5 not run; ", self.page("results/sweep"))
+        self.assertIn("Of 6 cases 1 are good, 0 doubtful, 0 bad and 0 failed; 5 not run: ", self.page("results/sweep"))
 
     def test_unfinished_study_of_the_same_cases(self):
         """What they were before the file changed is not what they are: the sweep alone does not tell."""
@@ -178,7 +178,7 @@ class Directory(lab.Lab):
         time.sleep(0.5)
         process.kill()
         process.wait()
-        self.assertIn("3 cases: 3 not run", self.page("results/sweep"))
+        self.assertIn("Of 3 cases 0 are good, 0 doubtful, 0 bad and 0 failed; 3 not run: ", self.page("results/sweep"))
 
     def page(self, directory):
         self.call("report", directory)
