@@ -226,7 +226,8 @@ ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_i
         motion->clocks = trace.clocks;
         motion->loss = trace.loss;
         motion->squeeze = trace.films;
-        motion->work = trace.work;
+        /* the node at phase 0 lies before the start and behind the end */
+        motion->work = trace.work + trace.start - trace.energy;
     }
     return take_monodromy(flow, x, motion) ? FF_OK : FF_NOCONV;
 }
