@@ -34,7 +34,7 @@ static const double LEAST_REDUCTION = 0.2, CAREFUL_REDUCTION = 0.05;
 static const double CURVATURE = 10;
 
 /* Share of the tolerance that a step may leave: the oil carries what each leaves through the
-   contact, where it adds up (docs/performance.md has the sums). */
+   contact, where it adds up; docs/performance.md has what the presets leave in all. */
 static const double SHARE_OF_STEP = 1. / 20;
 
 void ehl_linear_deflect(ehl_solver *s, const double *p, double *v)
