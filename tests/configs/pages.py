@@ -63,7 +63,7 @@ with tempfile.TemporaryDirectory() as lab:
     if ran.returncode or done.returncode:
         faults.append(f"study: run {ran.returncode}, report {done.returncode}: {ran.stderr}{done.stderr}")
     else:
-        look("study", "study/report.html", r'<p class="judgement">9 cases: 7 good \(')
+        look("study", "study/report.html", r'</span> Of 9 cases 7 are good, (.|\n)*"note">7 good \(')
 if len(files) < 10:
     faults.append(f"only {len(files)} files in {configs}")
 print("\n".join(faults))
