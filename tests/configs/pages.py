@@ -4,6 +4,7 @@
   pages.py FLANKFILM PLUGINS CONFIGS
 """
 import glob
+import json
 import os
 import re
 import subprocess
@@ -31,7 +32,7 @@ def call(*words):
     return subprocess.run([flankfilm, *words], capture_output=True, text=True, check=False, timeout=100)
 
 
-def look(name, path, verdict=r'<p class="judgement"><span class="badge (good|doubtful|bad)">'):
+def look(name, path, verdict):
     with open(path, encoding="utf-8") as file:
         page = file.read().split("<script>")[0]
     figures = re.findall(r"<figure.*?</figure>", page, re.DOTALL)
@@ -53,8 +54,10 @@ with tempfile.TemporaryDirectory() as lab:
         done = call("report", name)
         if ran.returncode not in (0, 1) or done.returncode:
             faults.append(f"{name}: run {ran.returncode}, report {done.returncode}: {ran.stderr}{done.stderr}")
-        else:
-            look(name, name + "/report.html")
+            continue
+        with open(name + "/result.json", encoding="utf-8") as result:
+            verdict = json.load(result)["verdict"]
+        look(name, name + "/report.html", rf'<p class="judgement"><span class="badge (bad|{verdict})">{verdict}</span>')
     # that of a study, whose fastest case is outside of a calibrated range
     ran = call("run", configs + "/line-contact.yaml", "-o", "study", "--set", "film.use=ehl/film-formula",
                "--set", "outputs=[film.h_central]", "--set",

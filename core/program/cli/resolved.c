@@ -29,19 +29,29 @@ static void print_line(int indent, bool comment, const char *key, const char *va
     free(name);
 }
 
-/* Prints the files that a study lays over the file, by their absolute paths. */
+/* Prints a file that a study names, by its absolute path. */
+static void print_file(const ff_node *item, FILE *out)
+{
+    const char *beside = item->place.source ? item->place.source->directory : ".";
+    char *path = ff_path_beside(beside, item->text), *absolute = realpath(path, NULL);
+    study_yaml_print_text(absolute ? absolute : path, true, out);
+    free(absolute);
+    ff_free(path);
+}
+
 static void print_files(const ff_node *list, FILE *out)
 {
     for (size_t i = 0; i < list->count; i++) {
-        const ff_node *item = list->items[i];
-        const char *beside = item->place.source ? item->place.source->directory : ".";
-        char *path = ff_path_beside(beside, item->text), *absolute = realpath(path, NULL);
         fputs(i ? ", " : "[", out);
-        study_yaml_print_text(absolute ? absolute : path, true, out);
-        free(absolute);
-        ff_free(path);
+        print_file(list->items[i], out);
     }
     fputc(']', out);
+}
+
+/* Whether the node is the table that a study has its cases from; "-" is standard input. */
+static bool is_table_of_cases(const ff_node *node, const char *path)
+{
+    return !strcmp(path, "study.cases") && node->kind == FF_SCALAR && strcmp(node->text, "-") != 0;
 }
 
 /* The parameter of a stage that runs; NULL: it is none. */
@@ -63,6 +73,8 @@ static char *print_value(const ff_bound *bound, const ff_node *node, const char 
         study_yaml_print_text(absolute, true, out);
     else if (last && !strcmp(last, ".include") && node->kind == FF_SEQUENCE && node->count > 0)
         print_files(node, out);
+    else if (is_table_of_cases(node, path))
+        print_file(node, out);
     else
         study_yaml_print(node, out);
     fclose(out);

@@ -4,6 +4,7 @@
 #include "view-tables.h"
 
 #include "../accuracy/accuracy.h"
+#include "../study/judgement.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -112,6 +113,7 @@ bool results_view_read_run(results_reader *reader)
     json_t *record = json_pack("{s:O?, s:{}, s:s}", "status", json_object_get(root, "status"),
                                "quality", "key", "");
     add_stages(reader, c, json_object_get(root, "stages"), json_object_get(record, "quality"));
+    study_judge_record(record);
     results_view_judge(reader, c, 1, record);
     json_decref(record);
     return true;
