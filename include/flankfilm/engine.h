@@ -612,9 +612,11 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool ever
  * built from, too. All objects are made anew, and the pipeline is as one built from that tree.
  * False: an assignment says something else than a plain value of a parameter that had one, or it is
  * worth a message; then the pipeline is of no more use, and building another one says why.
+ * Without `objects` there are none afterwards, and none says what it has against the values: the
+ * pipeline tells its parameters and wires alone.
  */
 bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const *assignments,
-                        size_t count);
+                        size_t count, bool objects);
 
 /* Runs what is needed; observer may be NULL. False when a stage failed: the report says why, and
    the results so far stay readable. */

@@ -43,18 +43,18 @@ static void bind_anew(fe_build *b, ff_stage *stage)
     fe_bind_stage(b, stage);
 }
 
-/* Makes all objects anew: none remembers the case before. */
-static void open_anew(fe_build *b, const bool *changed)
+static void close_objects(ff_pipeline *pipeline)
 {
-    ff_pipeline *pipeline = b->pipeline;
     for (size_t i = pipeline->count; i-- > 0;) {
         ff_stage *stage = &pipeline->stages[pipeline->order[i]];
         fe_close_instance(stage);
         stage->instance->self = NULL;
     }
-    for (size_t i = 0; i < pipeline->count; i++)
-        if (changed[i])
-            bind_anew(b, &pipeline->stages[i]);
+}
+
+static void open_objects(fe_build *b)
+{
+    ff_pipeline *pipeline = b->pipeline;
     for (size_t i = 0; i < pipeline->count && ff_report_errors(b->report) == 0; i++) {
         ff_stage *stage = &pipeline->stages[pipeline->order[i]];
         if (stage->params)
@@ -63,7 +63,7 @@ static void open_anew(fe_build *b, const bool *changed)
 }
 
 bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const *assignments,
-                        size_t count)
+                        size_t count, bool objects)
 {
     const ff_node *root = ff_tree_root(tree);
     bool *changed = fe_alloc((pipeline->count + 1) * sizeof *changed);
@@ -79,9 +79,15 @@ bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const 
                       .engine = pipeline->memory->engine,
                       .report = ff_report_new(),
                       .file_rank = root->rank};
-        fe_folder_keep(&pipeline->memory->folder);
-        open_anew(&b, changed);
-        fe_check_unread(&b, ff_node_get(root, "outputs"));
+        close_objects(pipeline); /* none remembers the case before */
+        for (size_t i = 0; i < pipeline->count; i++)
+            if (changed[i])
+                bind_anew(&b, &pipeline->stages[i]);
+        if (objects) {
+            fe_folder_keep(&pipeline->memory->folder);
+            open_objects(&b);
+            fe_check_unread(&b, ff_node_get(root, "outputs"));
+        }
         good = ff_report_count(b.report) == 0;
         ff_report_free(b.report);
     }

@@ -83,7 +83,7 @@ void study_kept_free(study_kept *kept)
 {
     ff_pipeline_free(kept->pipeline);
     ff_tree_free(kept->tree);
-    *kept = (study_kept){.pipeline = NULL};
+    *kept = (study_kept){.keys = kept->keys};
 }
 
 /* Whether one path leads to the other, or both to one place: then their order counts. */
@@ -128,7 +128,7 @@ static bool take_kept(study_case *c, const study_run *run, size_t index, study_k
     const char **changes = memory_alloc((study->varied_count + 1) * sizeof *changes);
     bool good = kept->changes < MOST_CHANGES &&
                 list_changes(study, kept->index, index, changes, &count) &&
-                ff_pipeline_change(kept->pipeline, kept->tree, changes, count);
+                ff_pipeline_change(kept->pipeline, kept->tree, changes, count, !kept->keys);
     free(changes);
     if (!good) {
         study_kept_free(kept);

@@ -62,6 +62,7 @@ typedef struct study_kept {
     ff_pipeline *pipeline; /* NULL: there is none */
     size_t index;          /* of that case */
     size_t changes;        /* since it was built: its memory grows by each */
+    bool keys;             /* set by who asks for the keys of cases alone: no objects are made */
 } study_kept;
 
 void study_kept_free(study_kept *kept);

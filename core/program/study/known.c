@@ -29,7 +29,7 @@ static void set_apart(void)
 static _Noreturn void search_cases(const study_run *run, const study_records *done, size_t first,
                                    size_t end, size_t step, FILE *to)
 {
-    study_kept kept = {0};
+    study_kept kept = {.keys = true};
     double limit = ceil(fmin(run->study->time_limit, 1e6));
     set_apart();
     const ff_environment *environment = ff_environment_keep();

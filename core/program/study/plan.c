@@ -22,7 +22,7 @@ typedef struct survey {
     study_records *records;
     earlier_case *earlier; /* sorted; made when a case is found whose key has changed */
     size_t earlier_count;
-    study_kept kept;
+    study_kept keys, kept; /* for keys alone, and for cases with their objects */
     double spent;
     size_t timed;
 } survey;
@@ -111,12 +111,23 @@ static void explain_change(survey *s, const study_case *c, size_t index)
     json_decref(record);
 }
 
+/* A case that a model refused as it was made has its key from its assignments, which shows when the
+   models are made. */
+static void open_case(survey *s, study_case *c, size_t index)
+{
+    study_case_open(c, s->run, index, &s->keys);
+    if (c->kept && study_records_state(s->records, c->key) == STUDY_UNKNOWN) {
+        study_case_close(c);
+        study_case_open(c, s->run, index, &s->kept);
+    }
+}
+
 static void count_case(survey *s, study_chain *chain, size_t index)
 {
     enum { TIMED = 10000 }; /* records that are looked at for how long a case takes */
     study_plan *plan = s->plan;
     study_case c;
-    study_case_open(&c, s->run, index, &s->kept);
+    open_case(s, &c, index);
     study_chain_enter(chain, s->run->study, &c);
     enum study_state state = study_records_state(s->records, c.key);
     bool read = state != STUDY_UNKNOWN && (c.states || s->timed < TIMED);
@@ -139,7 +150,7 @@ void study_preview(const study_run *given, study_plan *plan)
     const study_definition *study = run->study;
     ff_tree *tree = study_case_tree(own.file);
     own.tree = tree;
-    survey s = {.run = run, .plan = plan};
+    survey s = {.run = run, .plan = plan, .keys.keys = true};
     size_t chains = 0;
     study_chain chain = {0};
     *plan = (study_plan){.seconds = -1};
@@ -158,6 +169,7 @@ void study_preview(const study_run *given, study_plan *plan)
         plan->seconds = s.spent / (double)s.timed * (double)plan->left /
                         fmax(1, fmin((double)run->jobs, (double)chains));
     study_chain_free(&chain);
+    study_kept_free(&s.keys);
     study_kept_free(&s.kept);
     study_records_close(s.records);
     free(s.earlier);

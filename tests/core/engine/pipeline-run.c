@@ -52,6 +52,8 @@ static void results(void)
 static void changes(void)
 {
     static const char *const values[] = {"one.level=3 mm", "pipeline.law.gain=5"};
+    static const char *const before[] = {"one.level=2 mm"};
+    const char *name;
     static const char *const others[] = {
         "one.level=[1 mm]",     "one.use=toy/law", "one.levels=1 mm",
         "none.level=1 mm",      "sum.source=one",  "one.level=",
@@ -63,17 +65,26 @@ static void changes(void)
                         "  user: {use: toy/user}\n"
                         "outputs: [sum.sum, one.evaluations, user.value]\n");
     check_good("a run before the change", &a);
-    check_true("other values", ff_pipeline_change(a.pipeline, a.tree, values, 2) &&
+    check_true("other values", ff_pipeline_change(a.pipeline, a.tree, values, 2, true) &&
                                    ff_pipeline_run(a.pipeline, NULL, a.report));
     check_near("what the changed one feeds", try_scalar(&a, "sum", "sum"), 0.015, 1e-15);
     check_true("its service", try_scalar(&a, "user", "value") == 10);
     check_true("all objects are new", try_scalar(&a, "one", "evaluations") == 1);
+    const ff_stage *one = ff_stage_of(a.pipeline, "one.level", &name);
+    check_true("values without objects",
+               ff_pipeline_change(a.pipeline, a.tree, before, 1, false) &&
+                   one->params[ff_model_find_param(one->loaded->model, "level")].value.real ==
+                       0.002 &&
+                   !ff_pipeline_run(a.pipeline, NULL, a.report));
+    check_true("and with them", ff_pipeline_change(a.pipeline, a.tree, values, 1, true) &&
+                                    ff_pipeline_run(a.pipeline, NULL, a.report));
+    check_near("as before", try_scalar(&a, "sum", "sum"), 0.015, 1e-15);
     try_close(&a);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         a = try_build("pipeline: {one: {use: toy/source, level: 2 mm}, sum: {use: toy/consumer, "
                       "source: one}}\noutputs: [sum.sum]\n",
                       false);
-        check_true(others[i], !ff_pipeline_change(a.pipeline, a.tree, &others[i], 1));
+        check_true(others[i], !ff_pipeline_change(a.pipeline, a.tree, &others[i], 1, true));
         try_close(&a);
     }
 }

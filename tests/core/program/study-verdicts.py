@@ -136,6 +136,17 @@ class Verdicts(lab.Lab):
         self.assertIn(f"7 of 7 cases done, 7 of them before: {WORDS}", self.run_study("old"))
         self.check_json(self.read("old/study.json"))
 
+    def test_refused(self):
+        """A case that a model refuses as it is made is known as one that failed."""
+        self.write("refused.yaml", "format: 2\npipeline:\n  gears: {use: gear/involute-spur, teeth: [20, 50], "
+                   "module: 3 mm, face_width: 20 mm, backlash: 0.14 mm}\n"
+                   "outputs: [gears.contact_ratio]\n"
+                   "study: {sweep: {gears.pressure_angle: [20 deg, 21 deg, 44 deg, 45 deg]}}\n")
+        self.call("run", "refused.yaml", "-o", "refused", "-j", "1", code=4)
+        self.assertIn("2 done, 2 failed, 0 to run", self.call("plan", "refused.yaml", "-o", "refused"))
+        said = self.call("run", "refused.yaml", "-o", "refused", code=4)
+        self.assertIn("4 of 4 cases done, 4 of them before: 2 good, 2 failed", said)
+
     def test_other_studies(self):
         studies = {
             "sample": "sample: {sobol: 4}, sweep: {verge.speed: {from: 2.1 m/s, to: 2.9 m/s}}",
