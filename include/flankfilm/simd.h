@@ -27,14 +27,16 @@
  * FF_SIMD stands before a function whose loops are to be vectorised, in gcc at -O2, too. With gcc
  * on x86-64 and glibc the loader chooses its AVX2 version where the processor has it; both versions
  * give the same bits. Elsewhere there is one: indirect functions (ELF's ifunc) are missing there,
- * or, in clang before 18, their names are not those that other files link to. The pointers of such
- * a loop are best `restrict` parameters, its choices `?:` between values that are computed anyway.
+ * or, in clang before 18, their names are not those that other files link to; and gcc's thread
+ * sanitizer calls its runtime from the chooser, before the loader has linked it. The pointers of
+ * such a loop are best `restrict` parameters, its choices `?:` between values that are computed
+ * anyway.
  *
  * FF_SIMD_LOOP stands before a loop over more arrays than parameters can name: it says that no pass
  * of it needs what another one writes.
  */
 #if defined(__GNUC__) && !defined(__clang__)
-#if defined(__x86_64__) && defined(__GLIBC__)
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__SANITIZE_THREAD__)
 #define FF_SIMD_CLONES __attribute__((target_clones("avx2", "default")))
 #else
 #define FF_SIMD_CLONES
