@@ -1,22 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Compiled with -ffast-math: sums of products in any order. Nothing here may test for NaN. */
 #include "band.h"
 
 #include "reynolds.h"
 
+#include <flankfilm/simd.h>
+
 #include <stdlib.h>
 #include <string.h>
 
-/* Nodes that the kernel reaches, entries of a row on both sides of the diagonal, and of a row. */
+/* REACH: nodes that the kernel reaches; LOWER, UPPER: entries of a row on both sides of the
+   diagonal; LANES: of a vector; BEHIND: UPPER in whole vectors; WIDTH: of a row, with zeros at its
+   end. */
 enum {
     REACH = EHL_BAND_REACH - 1,
     LOWER = REACH + 2,
     UPPER = EHL_BAND_REACH,
-    WIDTH = LOWER + 1 + UPPER,
-    PAD = LOWER,
-    EARLY = LOWER - 4 /* see substitute */
+    LANES = 4,
+    BEHIND = (UPPER + LANES - 1) / LANES * LANES,
+    WIDTH = 32,
+    PAD = 16 /* zeros on either side of a vector */
 };
-_Static_assert(EARLY == UPPER - 3 && EARLY % 2 == 0, "pairs");
+_Static_assert(LOWER + 1 + BEHIND <= WIDTH && PAD >= LOWER, "a row reaches no farther");
+_Static_assert(LOWER % 2 == 0, "pairs of columns");
+
+/*
+ * A substitution finds LANES values at a time: rows i ... i + LANES - 1 by columns, first those of
+ * values known before, then the inverse of the triangle between these rows. An entry of `below`
+ * stands for the column i - LOWER + j, one of `above` for the column i + LANES + j.
+ */
+typedef struct block {
+    double below[LOWER][LANES], below_inverse[LANES - 1][LANES]; /* L, with ones on its diagonal */
+    double above[UPPER][LANES], above_inverse[LANES][LANES];     /* U */
+} block;
+
+typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 
 struct ehl_band {
     size_t rows;
@@ -25,11 +42,17 @@ struct ehl_band {
     double cut[2 * REACH + 7]; /* the shifted kernel at -REACH-3 ... REACH+3 */
     double *matrix;            /* row i: columns i - LOWER ... i + UPPER */
     double *inverse;           /* of the pivots */
-    double *line;              /* PAD zeros, a vector, PAD zeros */
-    double *carries;           /* ehl_carries */
-    double *border;            /* matrix^-1 times the effect of h00 */
+    block *blocks;
+    double *line;    /* PAD zeros, a vector, PAD zeros */
+    double *carries; /* ehl_carries, and PAD zeros */
+    double *border;  /* matrix^-1 times the effect of h00 */
     double border_sum;
 };
+
+static size_t count_blocks(size_t rows)
+{
+    return (rows + LANES - 1) / LANES;
+}
 
 ehl_band *ehl_band_create(size_t nodes, const double *kernel)
 {
@@ -37,11 +60,12 @@ ehl_band *ehl_band_create(size_t nodes, const double *kernel)
     if (!b)
         return NULL;
     b->matrix = calloc((nodes + PAD) * WIDTH, sizeof *b->matrix);
+    b->blocks = calloc(count_blocks(nodes), sizeof *b->blocks);
     b->inverse = calloc(nodes, sizeof *b->inverse);
     b->line = calloc(nodes + 2 * (size_t)PAD, sizeof *b->line);
-    b->border = calloc(nodes, sizeof *b->border);
-    b->carries = calloc(nodes, sizeof *b->carries);
-    if (!b->carries || !b->matrix || !b->inverse || !b->line || !b->border) {
+    b->border = calloc(nodes + PAD, sizeof *b->border);
+    b->carries = calloc(nodes + PAD, sizeof *b->carries);
+    if (!b->carries || !b->matrix || !b->blocks || !b->inverse || !b->line || !b->border) {
         ehl_band_destroy(b);
         return NULL;
     }
@@ -56,6 +80,7 @@ void ehl_band_destroy(ehl_band *b)
     if (!b)
         return;
     free(b->matrix);
+    free(b->blocks);
     free(b->inverse);
     free(b->line);
     free(b->border);
@@ -63,9 +88,19 @@ void ehl_band_destroy(ehl_band *b)
     free(b);
 }
 
+/* row = by_h * cut kernel; `cut` is that of its first column and the node i - 2 of the stencil. */
+FF_SIMD
+static void fill_row(double h0, double h1, double h2, double h3, const double *restrict cut,
+                     double *restrict row)
+{
+    for (size_t k = 0; k < LOWER + 1 + UPPER; k++)
+        row[k] = h0 * cut[k + 2] + h1 * cut[k + 1] + h2 * cut[k] + h3 * (cut - 1)[k];
+}
+
 /* by_p + by_h * cut kernel; row i of the matrix is node i + 1. */
 static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_t first)
 {
+    memset(b->carries, 0, (r->nodes + PAD) * sizeof *b->carries);
     for (size_t i = 0; i < b->rows; i++)
         b->carries[i] = ehl_carries(r, film, i + 1);
     for (size_t i = first; i < b->rows; i++) {
@@ -75,13 +110,10 @@ static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_
             row[LOWER] = 1;
             continue;
         }
-        double h0 = r->by_h[0][i + 1], h1 = r->by_h[1][i + 1], h2 = r->by_h[2][i + 1],
-               h3 = r->by_h[3][i + 1];
         /* column k - LOWER from the diagonal is k - LOWER + 2 from the node i - 2 of the stencil */
-        const double *d = b->cut + REACH + 3 - LOWER;
-        for (size_t k = 0; k < WIDTH; k++)
-            row[k] = h0 * d[k + 2] + h1 * d[k + 1] + h2 * d[k] + h3 * (d - 1)[k];
-        for (size_t k = 0; k < WIDTH && r->conserving; k++)
+        fill_row(r->by_h[0][i + 1], r->by_h[1][i + 1], r->by_h[2][i + 1], r->by_h[3][i + 1],
+                 b->cut + REACH + 3 - LOWER, row);
+        for (size_t k = 0; k <= LOWER + UPPER && r->conserving; k++)
             if (i + k >= LOWER && i + k - LOWER < b->rows)
                 row[k] *= b->carries[i + k - LOWER];
         for (size_t s = 0; s < EHL_STENCIL; s++)
@@ -90,53 +122,130 @@ static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_
 }
 
 /* Factorises row by row, so that the rows before `first` stay as they are. */
-static void eliminate(ehl_band *b, size_t first)
+FF_SIMD
+static void eliminate(double *matrix, double *restrict inverse, size_t first, size_t rows)
 {
-    for (size_t i = first; i < b->rows; i++) {
-        double *row = b->matrix + i * WIDTH;
+    for (size_t i = first; i < rows; i++) {
+        double *row = matrix + i * WIDTH;
         for (size_t s = i < LOWER ? i : LOWER; s > 0; s--) {
-            const double *pivot = b->matrix + (i - s) * WIDTH + LOWER;
-            double *entry = row + LOWER - s, factor = *entry *= b->inverse[i - s];
-            for (size_t j = 1; j <= UPPER; j++)
-                entry[j] -= factor * pivot[j];
+            const double *pivot = matrix + (i - s) * WIDTH + LOWER + 1;
+            double *entry = row + LOWER - s, factor = *entry *= inverse[i - s];
+            for (size_t j = 0; j < BEHIND; j += LANES) {
+                lanes to, from;
+                memcpy(&to, entry + 1 + j, sizeof to);
+                memcpy(&from, pivot + j, sizeof from);
+                to -= factor * from;
+                memcpy(entry + 1 + j, &to, sizeof to);
+            }
         }
-        b->inverse[i] = 1 / row[LOWER];
+        inverse[i] = 1 / row[LOWER];
     }
 }
 
-/* Sum of products of those that have long been found; pairs, because compilers are slow to see
-   them. */
-static inline double early(const double *row, const double *x)
+/* Inverts the triangles of a block of `count` rows, which are columns i - LOWER ... of `row`. */
+static void invert_triangles(block *k, const double *row, const double *inverse, size_t count)
 {
-    typedef double pair __attribute__((vector_size(2 * sizeof(double))));
-    pair sum = {0}, a, b;
-    for (size_t j = 0; j < EARLY; j += 2) {
-        memcpy(&a, row + j, sizeof a);
-        memcpy(&b, x + j, sizeof b);
+    memset(k->below_inverse, 0, sizeof k->below_inverse);
+    memset(k->above_inverse, 0, sizeof k->above_inverse);
+    for (size_t j = 0; j < count; j++) { /* columns of the inverses */
+        for (size_t i = j + 1; i < count; i++) {
+            double sum = row[i * WIDTH + LOWER + j - i];
+            for (size_t m = j + 1; m < i; m++)
+                sum += row[i * WIDTH + LOWER + m - i] * k->below_inverse[j][m];
+            k->below_inverse[j][i] = -sum;
+        }
+        k->above_inverse[j][j] = inverse[j];
+        for (size_t i = j; i-- > 0;) {
+            double sum = 0;
+            for (size_t m = i + 1; m <= j; m++)
+                sum += row[i * WIDTH + LOWER + m - i] * k->above_inverse[j][m];
+            k->above_inverse[j][i] = -sum * inverse[i];
+        }
+    }
+}
+
+/* Arranges the factors from row `first` on in blocks. */
+static void arrange(ehl_band *b, size_t first)
+{
+    for (size_t n = first / LANES; n < count_blocks(b->rows); n++) {
+        block *k = b->blocks + n;
+        size_t at = n * LANES, count = b->rows - at < LANES ? b->rows - at : LANES;
+        const double *row = b->matrix + at * WIDTH;
+        memset(k, 0, sizeof *k);
+        for (size_t i = 0; i < count; i++) {
+            for (size_t j = i; j < LOWER; j++)
+                k->below[j][i] = row[i * WIDTH + j - i];
+            for (size_t j = 0; LANES + j <= UPPER + i; j++)
+                k->above[j][i] = row[i * WIDTH + LOWER + LANES + j - i];
+        }
+        invert_triangles(k, row, b->inverse + at, count);
+    }
+}
+
+/* x = U^-1 L^-1 x; x is zero for PAD places on both sides. */
+FF_SIMD
+static void substitute(const block *restrict blocks, size_t count, double *x)
+{
+    for (size_t n = 0; n < count; n++) {
+        const block *k = blocks + n;
+        const double *known = x + n * LANES - LOWER;
+        lanes sum, other = {0}, column;
+        memcpy(&sum, x + n * LANES, sizeof sum);
+        for (size_t j = 0; j < LOWER; j += 2) {
+            memcpy(&column, k->below[j], sizeof column);
+            sum -= known[j] * column;
+            memcpy(&column, k->below[j + 1], sizeof column);
+            other += known[j + 1] * column;
+        }
+        sum -= other;
+        other = sum;
+        for (size_t j = 0; j + 1 < LANES; j++) {
+            memcpy(&column, k->below_inverse[j], sizeof column);
+            other += sum[j] * column;
+        }
+        memcpy(x + n * LANES, &other, sizeof other);
+    }
+    for (size_t n = count; n-- > 0;) {
+        const block *k = blocks + n;
+        const double *known = x + (n + 1) * LANES;
+        lanes sum, other = {0}, column;
+        memcpy(&sum, x + n * LANES, sizeof sum);
+        for (size_t j = UPPER; j-- > 0;) { /* the nearest were found last */
+            memcpy(&column, k->above[j], sizeof column);
+            if (j % 2)
+                sum -= known[j] * column;
+            else
+                other += known[j] * column;
+        }
+        sum -= other;
+        other = (lanes){0};
+        for (size_t j = 0; j < LANES; j++) {
+            memcpy(&column, k->above_inverse[j], sizeof column);
+            other += sum[j] * column;
+        }
+        memcpy(x + n * LANES, &other, sizeof other);
+    }
+}
+
+/* The sum of carries[i] x[i] over whole vectors. */
+FF_SIMD
+static double carried(size_t blocks, const double *restrict carries, const double *restrict x)
+{
+    lanes sum = {0}, a, b;
+    for (size_t i = 0; i < blocks * LANES; i += LANES) {
+        memcpy(&a, carries + i, sizeof a);
+        memcpy(&b, x + i, sizeof b);
         sum += a * b;
     }
-    return sum[0] + sum[1];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* The values found last are kept apart: they are waited for, and the others are not. */
-static void substitute(const ehl_band *b)
+FF_SIMD
+static void subtract(size_t n, const double *restrict x, double factor,
+                     const double *restrict border, double *restrict dp)
 {
-    double *x = b->line + PAD, x1 = 0, x2 = 0, x3 = 0, x4 = 0;
-    for (size_t i = 0; i < b->rows; i++) {
-        const double *row = b->matrix + i * WIDTH;
-        double sum = x[i] - early(row, b->line + i + PAD - LOWER);
-        sum -= row[LOWER - 4] * x4 + row[LOWER - 3] * x3 + row[LOWER - 2] * x2;
-        x4 = x3, x3 = x2, x2 = x1;
-        x1 = x[i] = sum - row[LOWER - 1] * x1;
-    }
-    x1 = x2 = x3 = 0;
-    for (size_t i = b->rows; i-- > 0;) {
-        const double *row = b->matrix + i * WIDTH + LOWER;
-        double sum = x[i] - early(row + UPPER + 1 - EARLY, x + i + UPPER + 1 - EARLY);
-        sum -= row[3] * x3 + row[2] * x2;
-        x3 = x2, x2 = x1;
-        x1 = x[i] = (sum - row[1] * x1) * b->inverse[i];
-    }
+    for (size_t i = 0; i < n; i++)
+        dp[i] = x[i] - factor * border[i];
 }
 
 void ehl_band_factor(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, int loaded,
@@ -146,25 +255,24 @@ void ehl_band_factor(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, i
     b->loaded = loaded;
     memset(b->line, 0, (r->nodes + 2 * (size_t)PAD) * sizeof *b->line);
     fill(b, r, film, from - 1);
-    eliminate(b, from - 1);
+    eliminate(b->matrix, b->inverse, from - 1, b->rows);
+    arrange(b, from - 1);
     double *x = b->line + PAD;
     for (size_t i = 0; i < b->rows; i++)
         x[i] = film->full[i + 1] || r->conserving
                    ? r->by_h[0][i + 1] + r->by_h[1][i + 1] + r->by_h[2][i + 1] + r->by_h[3][i + 1]
                    : 0;
-    substitute(b);
-    b->border_sum = 0;
-    for (size_t i = 0; i < b->rows; i++)
-        b->border_sum += b->carries[i] * (b->border[i] = x[i]);
+    substitute(b->blocks, count_blocks(b->rows), x);
+    memcpy(b->border, x, b->rows * sizeof *x);
+    b->border_sum = carried(count_blocks(b->rows), b->carries, x);
 }
 
 void ehl_band_solve(ehl_band *b, const double *residual, double sum, double *dp, double *dh00)
 {
-    double *x = b->line + PAD, total = 0;
+    double *x = b->line + PAD;
     memcpy(x, residual + 1, b->rows * sizeof *x);
-    substitute(b);
-    for (size_t i = 0; i < b->rows; i++)
-        total += b->carries[i] * x[i];
+    substitute(b->blocks, count_blocks(b->rows), x);
+    double total = carried(count_blocks(b->rows), b->carries, x);
     double h00_change; /* of all nodes, in place of the kernel's shift */
     if (b->loaded) {
         h00_change = (total - sum) / b->border_sum;
@@ -173,167 +281,5 @@ void ehl_band_solve(ehl_band *b, const double *residual, double sum, double *dp,
         h00_change = b->shift * total / (1 + b->shift * b->border_sum);
         *dh00 = 0;
     }
-    for (size_t i = 0; i < b->rows; i++)
-        dp[i + 1] = x[i] - h00_change * b->border[i];
-}
-
-/* Compiled with -ffast-math: sums of products in any order. Nothing here may test for NaN. */
-
-struct ehl_line_matrix {
-    size_t nodes, rows, reach; /* reach: nodes on either side whose deflection counts */
-    size_t lower, width;       /* entries in front of the diagonal, and of a row */
-    int loaded;
-    double shift;    /* the kernel behind the reach */
-    double *cut;     /* the shifted kernel at -(reach + margin) ... reach + margin */
-    double *matrix;  /* row i: columns i - lower ... */
-    double *inverse; /* of the pivots */
-    double *carries; /* 1: the unknown is a pressure and deflects, 0: it is not */
-    double *border;  /* matrix^-1 times the effect of h00 */
-    double border_sum;
-};
-
-enum { LEAST = 8, MOST = 64, SHARE = 16, AFTER = EHL_STENCIL - 1 - EHL_ASYMMETRIC_BEFORE };
-/* Zeros of `cut` on either side: a row reaches this far beyond the reach from its outer node. */
-enum { MARGIN = EHL_STENCIL };
-
-static size_t reach_of(size_t nodes)
-{
-    size_t reach = nodes / SHARE;
-    reach = reach < LEAST ? LEAST : reach > MOST ? MOST : reach;
-    return reach + 2 < nodes ? reach : nodes - 3;
-}
-
-ehl_line_matrix *ehl_line_create(size_t nodes, const double *kernel)
-{
-    ehl_line_matrix *m = calloc(1, sizeof *m);
-    if (!m)
-        return NULL;
-    m->nodes = nodes;
-    m->reach = reach_of(nodes);
-    m->lower = m->reach + EHL_ASYMMETRIC_BEFORE;
-    m->width = m->lower + 1 + m->reach + AFTER;
-    m->matrix = calloc(nodes * m->width, sizeof *m->matrix);
-    m->cut = calloc(2 * (m->reach + MARGIN) + 1, sizeof *m->cut);
-    m->inverse = calloc(3 * nodes, sizeof *m->inverse);
-    if (!m->matrix || !m->cut || !m->inverse) {
-        ehl_line_destroy(m);
-        return NULL;
-    }
-    m->carries = m->inverse + nodes;
-    m->border = m->carries + nodes;
-    m->shift = kernel[m->reach + 1];
-    double *middle = m->cut + m->reach + MARGIN;
-    for (size_t k = 0; k <= m->reach; k++)
-        middle[k] = *(middle - k) = kernel[k] - m->shift;
-    return m;
-}
-
-void ehl_line_destroy(ehl_line_matrix *m)
-{
-    if (!m)
-        return;
-    free(m->matrix);
-    free(m->cut);
-    free(m->inverse);
-    free(m);
-}
-
-/* by_p + by_h * cut kernel; row i of the matrix is node i + 1. */
-static void fill_line(ehl_line_matrix *m, const ehl_reynolds *r, const ehl_film *film)
-{
-    for (size_t i = 0; i < m->rows; i++)
-        m->carries[i] = film->full[i + 1];
-    for (size_t i = 0; i < m->rows; i++) {
-        double *row = m->matrix + i * m->width;
-        if (!film->full[i + 1] && !r->conserving) {
-            memset(row, 0, m->width * sizeof *row);
-            row[m->lower] = 1;
-            continue;
-        }
-        /* column k is k - lower from the diagonal, and k - lower + BEFORE - s from stencil node
-           s */
-        const double *d = m->cut + m->reach + MARGIN - m->lower + EHL_ASYMMETRIC_BEFORE;
-        double h0 = r->by_h[0][i + 1], h1 = r->by_h[1][i + 1], h2 = r->by_h[2][i + 1],
-               h3 = r->by_h[3][i + 1];
-        for (size_t k = 0; k < m->width; k++)
-            row[k] = h0 * d[k] + h1 * (d - 1)[k] + h2 * (d - 2)[k] + h3 * (d - 3)[k];
-        for (size_t k = 0; k < m->width && r->conserving; k++)
-            if (i + k >= m->lower && i + k - m->lower < m->rows)
-                row[k] *= m->carries[i + k - m->lower];
-        for (size_t s = 0; s < EHL_STENCIL; s++)
-            row[m->lower + s - EHL_ASYMMETRIC_BEFORE] += r->by_p[s][i + 1];
-    }
-}
-
-/* Factorises without pivoting: the diagonal is large. */
-static void eliminate_line(ehl_line_matrix *m)
-{
-    size_t lower = m->lower, upper = m->width - 1 - lower;
-    for (size_t i = 0; i < m->rows; i++) {
-        double *row = m->matrix + i * m->width;
-        for (size_t s = i < lower ? i : lower; s > 0; s--) {
-            const double *pivot = m->matrix + (i - s) * m->width + lower;
-            double *entry = row + lower - s, factor = *entry *= m->inverse[i - s];
-            for (size_t j = 1; j <= upper; j++)
-                entry[j] -= factor * pivot[j];
-        }
-        m->inverse[i] = 1 / row[lower];
-    }
-}
-
-static void substitute_line(const ehl_line_matrix *m, double *x)
-{
-    size_t lower = m->lower, upper = m->width - 1 - lower;
-    for (size_t i = 0; i < m->rows; i++) {
-        size_t reach = i < lower ? i : lower;
-        const double *row = m->matrix + i * m->width + lower - reach, *before = x + i - reach;
-        double sum = 0;
-        for (size_t j = 0; j < reach; j++)
-            sum += row[j] * before[j];
-        x[i] -= sum;
-    }
-    for (size_t i = m->rows; i-- > 0;) {
-        size_t reach = m->rows - 1 - i < upper ? m->rows - 1 - i : upper;
-        const double *row = m->matrix + i * m->width + lower;
-        double sum = 0;
-        for (size_t j = 1; j <= reach; j++)
-            sum += row[j] * x[i + j];
-        x[i] = (x[i] - sum) * m->inverse[i];
-    }
-}
-
-void ehl_line_factor(ehl_line_matrix *m, const ehl_reynolds *r, const ehl_film *film, int loaded)
-{
-    m->rows = r->last - 1;
-    m->loaded = loaded;
-    fill_line(m, r, film);
-    eliminate_line(m);
-    for (size_t i = 0; i < m->rows; i++)
-        m->border[i] =
-            r->by_h[0][i + 1] + r->by_h[1][i + 1] + r->by_h[2][i + 1] + r->by_h[3][i + 1];
-    substitute_line(m, m->border);
-    m->border_sum = 0;
-    for (size_t i = 0; i < m->rows; i++)
-        m->border_sum += m->carries[i] * m->border[i];
-}
-
-void ehl_line_solve(ehl_line_matrix *m, const double *residual, double sum, double *dp,
-                    double *dh00)
-{
-    double *x = dp + 1, total = 0,
-           h00_change; /* lift: of all nodes, in place of the kernel's shift */
-    memset(dp, 0, m->nodes * sizeof *dp);
-    memcpy(x, residual + 1, m->rows * sizeof *x);
-    substitute_line(m, x);
-    for (size_t i = 0; i < m->rows; i++)
-        total += m->carries[i] * x[i];
-    if (m->loaded) {
-        h00_change = (total - sum) / m->border_sum;
-        *dh00 = h00_change - m->shift * sum;
-    } else {
-        h00_change = m->shift * total / (1 + m->shift * m->border_sum);
-        *dh00 = 0;
-    }
-    for (size_t i = 0; i < m->rows; i++)
-        x[i] -= h00_change * m->border[i];
+    subtract(b->rows, x, h00_change, b->border, dp + 1);
 }

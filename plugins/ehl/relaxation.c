@@ -9,9 +9,9 @@
  * border of the matrix that keeps the load.
  */
 #include "anderson.h"
-#include "band.h"
 #include "cavitation.h"
 #include "deflection.h"
+#include "line.h"
 #include "reynolds.h"
 #include "solver.h"
 
