@@ -3,6 +3,7 @@
 #include "../terminal/terminal.h"
 #include "command.h"
 #include "service.h"
+#include "spectrum.h"
 
 #include "../memory/memory.h"
 #include "../results/json.h"
@@ -36,6 +37,7 @@ typedef struct teller {
     bool entered;
     char *replaced; /* how the inputs differ of what earlier runs left, or NULL */
     char *removed;  /* what was made of that and is gone, or NULL */
+    json_t *sums;   /* over the rows of a spectrum, or NULL */
     bool terminal;
     double told; /* s into the run */
 } teller;
@@ -200,9 +202,12 @@ static void tell_end(const teller *t, const study_counters *counters, bool good,
 {
     const study_definition *study = t->session->study;
     const char *directory = t->directory;
-    char *files = study->driver ? study_files(study) : memory_print_text("%s", "");
+    char *files = study->driver ? study_files(study)
+                                : memory_print_text("%s", t->sums ? cli_spectrum_files : "");
     terminal_print_messages(report, stderr, terminal_colour(stderr));
     cli_print_savings(&counters->savings);
+    if (t->sums)
+        cli_spectrum_print(t->sums);
     if (t->replaced)
         printf("the table of an earlier run is replaced (%s); its cases stay in the journal\n",
                t->replaced);
@@ -220,9 +225,10 @@ static void tell_end(const teller *t, const study_counters *counters, bool good,
     tell_verdicts(study, counters);
 }
 
-static void answer_end(const study_definition *study, const study_counters *counters, int code,
-                       const char *directory, ff_report *report)
+static void answer_end(const teller *t, const study_counters *counters, int code, ff_report *report)
 {
+    const study_definition *study = t->session->study;
+    const char *directory = t->directory;
     bool good = code == EXIT_SUCCESS || code == CLI_EXIT_CASES;
     json_t *answer = results_json_answer(good ? "ok" : "error", code, report);
     json_object_update_new(
@@ -234,6 +240,8 @@ static void answer_end(const study_definition *study, const study_counters *coun
     study_tally_describe(&counters->tally, answer);
     if (study->driver && study_facts(study))
         json_object_update(answer, study_facts(study));
+    if (t->sums)
+        json_object_set(answer, "spectrum", t->sums);
     results_json_print(answer);
 }
 
@@ -251,7 +259,8 @@ static bool settle_driver(const study_run *run, bool *driven, ff_report *report)
 /* The files of its driver go when its cases change, as what was made of results does. */
 static void note_files(const study_definition *study, const char *directory)
 {
-    char *files = study_files(study), *rest = NULL;
+    char *rest = NULL;
+    char *files = study->driver ? study_files(study) : memory_print_text("%s", cli_spectrum_files);
     for (char *name = strtok_r(files, ", ", &rest); name; name = strtok_r(NULL, ", ", &rest)) {
         char *path = memory_print_text("%s/%s", directory, name);
         results_made_note(directory, path, path);
@@ -279,7 +288,7 @@ static void tell_or_answer(const teller *t, const study_counters *counters, bool
                            ff_report *report)
 {
     if (counters->leads && t->options->json)
-        answer_end(t->session->study, counters, code, t->directory, report);
+        answer_end(t, counters, code, report);
     else if (counters->leads)
         tell_end(t, counters, good, report);
     else
@@ -298,6 +307,8 @@ static int run_and_tell(const study_run *run, teller *t, ff_report *report)
     bool good = settled && (driven ? study_drive(run, &counters, report)
                                    : study_execute(run, &counters, report));
     study_signals_restore(&before);
+    if (good && counters.leads && run->keys)
+        good = cli_spectrum_sum(run, &t->sums, report);
     int verdict = driven ? study_verdict(study) : -1;
     bool bad = verdict < 0 ? counters.failed > 0 : verdict == FF_BAD;
     bad = bad || cli_is_strict_about(options, counters.tally.counts[FF_DOUBTFUL] > 0, report);
@@ -308,7 +319,7 @@ static int run_and_tell(const study_run *run, teller *t, ff_report *report)
         code = cli_refuse(report, options, "nothing was run");
     else
         tell_or_answer(t, &counters, good, code, report);
-    if (good && driven)
+    if (good && (driven || t->sums))
         note_files(study, t->directory);
     study_tally_free(&counters.tally);
     return code;
@@ -332,10 +343,14 @@ int cli_run_study(cli_session *session, const cli_options *options)
                 .terminal = isatty(STDERR_FILENO) != 0};
     snprintf(input, sizeof input, "%016llx", (unsigned long long)t.input.key);
     run.input = input;
+    if (session->study->spectrum)
+        run.keys = memory_alloc((session->study->count + 1) * sizeof *run.keys);
     int code = begin_run(&run, session, options, &t)
                    ? run_and_tell(&run, &t, session->report)
                    : cli_refuse(session->report, options, "nothing was run");
     ff_instance_close(run.executor);
+    json_decref(t.sums);
+    free(run.keys);
     free(t.replaced);
     free(t.removed);
     free(directory);

@@ -76,13 +76,9 @@ static void print_stage(paper *page, const ff_stage *stage)
     putchar('\n');
 }
 
-/* The unit of an output; temperatures, but not rises of them, are in degC. */
 static results_readable unit_of(const ff_port *row, double most)
 {
-    bool temperature = !strcmp(row->unit, "K") && strstr(row->name, "temperature") &&
-                       !strstr(row->name, "flash") && !strstr(row->name, "error");
-    return temperature ? (results_readable){1, -273.15, "degC"}
-                       : results_readable_unit(row->unit, most);
+    return results_readable_output(row->name, row->unit, most);
 }
 
 /* Ranks of the least and the greatest value. */

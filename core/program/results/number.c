@@ -2,6 +2,7 @@
 #include "number.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,4 +43,12 @@ results_readable results_readable_unit(const char *si_unit, double magnitude)
         if (strcmp(rows[i].si, si_unit) == 0 && magnitude >= rows[i].from)
             readable = (results_readable){rows[i].factor, 0, rows[i].unit};
     return readable;
+}
+
+results_readable results_readable_output(const char *name, const char *si_unit, double magnitude)
+{
+    bool temperature = !strcmp(si_unit, "K") && strstr(name, "temperature") &&
+                       !strstr(name, "flash") && !strstr(name, "error");
+    return temperature ? (results_readable){1, -273.15, "degC"}
+                       : results_readable_unit(si_unit, magnitude);
 }

@@ -16,5 +16,7 @@ typedef struct results_readable {
 } results_readable;
 
 results_readable results_readable_unit(const char *si_unit, double magnitude);
+/* The unit of an output of that name: temperatures, but not rises of them, are in degC. */
+results_readable results_readable_output(const char *name, const char *si_unit, double magnitude);
 
 #endif

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Reads what stands under `study:` into axes with their points. */
+#include "listed.h"
 #include "rows.h"
+#include "spectrum.h"
 #include "yaml.h"
 
 #include <math.h>
@@ -53,13 +55,7 @@ static const char *keep_text(reading *r, char *text)
 
 static const char *assignment_of(reading *r, const char *path, const ff_node *value)
 {
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = memory_require(open_memstream(&text, &length));
-    fprintf(out, "%s=", path);
-    study_yaml_print(value, out);
-    fclose(out);
-    return keep_text(r, text);
+    return keep_text(r, study_yaml_assignment(path, value));
 }
 
 /* A list, or a map whose keys name the values. */
@@ -395,8 +391,8 @@ static bool finish_axes(reading *r, const ff_node *node)
     return !too_many(r, node->place, cases);
 }
 
-const char *const study_keys[] = {"sweep",      "zip",          "sample", "cases",
-                                  "time_limit", "memory_limit", NULL};
+const char *const study_keys[] = {"sweep", "zip",        "sample",       "cases",
+                                  "below", "time_limit", "memory_limit", NULL};
 
 /* Allocates memory for the paths, and for the axes of a sample and of `follow: both`. */
 static void begin_axes(reading *r, size_t paths)
@@ -416,7 +412,12 @@ static bool read_all(reading *r, const ff_node *node)
         return refuse(r, cases->place, "write two files",
                       "a study either lists its cases or sweeps", "cases");
     if (cases)
-        return study_rows_read(r->study, cases, r->report);
+        return (study_listed_is(cases) ? study_listed_read(r->study, cases, r->report)
+                                       : study_rows_read(r->study, cases, r->report)) &&
+               study_spectrum_finish(r->study, cases, ff_node_get(node, "below"), r->report);
+    if (ff_node_get(node, "below"))
+        return refuse(r, ff_node_get(node, "below")->place, NULL,
+                      "it is for cases with a column \"time\"", "below");
     if (node->kind != FF_MAP || (!sweep && !zip))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
@@ -453,6 +454,8 @@ void study_definition_free(study_definition *study)
     if (!study)
         return;
     study_rows_free(study->rows);
+    if (study->spectrum)
+        free(study->spectrum->times);
     memory_arena_free(&study->arena);
     free(study);
 }

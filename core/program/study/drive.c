@@ -2,6 +2,7 @@
 /* Runs studies whose later cases depend on what earlier ones gave: finds the driver, reads its keys
    and the cases that are known beforehand, and runs it. */
 #include "case.h"
+#include "spectrum.h"
 #include "stability.h"
 #include "tradeoff.h"
 
@@ -287,6 +288,7 @@ void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_
 {
     const study_context *context = study->driver ? &study->driver->context : NULL;
     size_t scaled = 0;
+    study_spectrum_check(study, pipeline, report);
     for (size_t i = 0; context && study->request && i < study->request->count; i++)
         check_output(context, pipeline, study->request->items[i], report);
     for (size_t i = 0; context && i < context->name_count; i++)

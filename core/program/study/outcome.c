@@ -20,16 +20,16 @@ static const char *text_of(study_context *context, const json_t *value)
     return memory_arena_text(&context->arena, text ? text : "", text ? strlen(text) : 0);
 }
 
-/* Reads an array of a case from its log; NULL when there is none, or after an error. */
-static const double *read_array(study_context *context, arrays_reader *reader, const json_t *record,
-                                const char *name, size_t *rank, size_t *count)
+const double *study_array_read(arrays_reader *reader, const json_t *record, const char *name,
+                               memory_arena *arena, size_t *rank, size_t *count,
+                               char why[ARRAYS_WHY])
 {
     const json_t *entry = json_object_get(json_object_get(record, "arrays"), name),
                  *shape = json_array_get(entry, 2), *log = json_object_get(record, "log");
     const char *file = json_string_value(json_array_get(log, 0));
     off_t offset = (off_t)json_integer_value(json_array_get(entry, 3));
     arrays_label label = {.key = json_string_value(json_object_get(record, "key")), .output = name};
-    char why[ARRAYS_WHY];
+    *why = '\0';
     if (!entry || !file || !label.key || json_array_size(shape) > 4)
         return NULL;
     *count = 1;
@@ -39,14 +39,23 @@ static const double *read_array(study_context *context, arrays_reader *reader, c
     }
     *rank = label.rank;
     double *values = arrays_reader_has(reader, file, offset, &label, why)
-                         ? memory_arena_alloc(&context->arena, (*count + 1) * sizeof *values)
+                         ? memory_arena_alloc(arena, (*count + 1) * sizeof *values)
                          : NULL;
-    if (values && arrays_reader_read(reader, file, offset, &label, values, why))
-        return values;
-    ff_error(context->report, FF_FAULT_INPUT, FF_NOWHERE,
-             "flankfilm run with --rerun all writes it anew", "%s/%s cannot be read: %s",
-             context->run->directory, file, why);
-    return NULL;
+    return values && arrays_reader_read(reader, file, offset, &label, values, why) ? values : NULL;
+}
+
+static const double *read_array(study_context *context, arrays_reader *reader, const json_t *record,
+                                const char *name, size_t *rank, size_t *count)
+{
+    char why[ARRAYS_WHY];
+    const double *values =
+        study_array_read(reader, record, name, &context->arena, rank, count, why);
+    if (!values && *why)
+        ff_error(context->report, FF_FAULT_INPUT, FF_NOWHERE,
+                 "flankfilm run with --rerun all writes it anew", "%s/%s cannot be read: %s",
+                 context->run->directory,
+                 json_string_value(json_array_get(json_object_get(record, "log"), 0)), why);
+    return values;
 }
 
 /* Reads an array with what it is plotted against, or a scalar. */

@@ -2,6 +2,7 @@
 #include "rows.h"
 
 #include "csv.h"
+#include "spectrum.h"
 #include "yaml.h"
 
 #include <errno.h>
@@ -21,8 +22,9 @@ enum {
 };
 
 typedef struct column {
-    size_t varied; /* SIZE_MAX: the user's own */
-    char *unit;    /* of numbers without one, or "" */
+    size_t varied; /* SIZE_MAX: the user's own, or how long a row lasts */
+    bool time;
+    char *unit; /* of numbers without one, or "" */
 } column;
 
 struct study_rows {
@@ -85,6 +87,15 @@ static bool add_column(study_rows *rows, study_csv_field *f, column *c, ff_repor
     if (!read_head(rows, f, c, report))
         return false;
     if (!strncmp(f->text, "x-", 2))
+        return true;
+    c->time = !strcmp(f->text, study_time_name);
+    if (c->time && rows->streams)
+        return refuse(rows, f, report, "write the rows to a file",
+                      "time: what rows of standard input give is not summed");
+    for (size_t i = 0; c->time && i < rows->column_count; i++)
+        if (rows->columns[i].time)
+            return refuse(rows, f, report, NULL, "time has two columns");
+    if (c->time)
         return true;
     for (size_t k = 0; k < study->varied_count; k++)
         if (!strcmp(study->varied[k].path, f->text))
@@ -157,6 +168,25 @@ static char *assignment_of(const study_rows *rows, const column *c, const study_
     }
     fclose(out);
     return text;
+}
+
+/* Takes how long the row lasts. */
+static bool take_time(const study_rows *rows, const study_csv_line *l, ff_report *report)
+{
+    const char *end;
+    double number;
+    for (size_t i = 0; !l->fault && l->count == rows->column_count && i < l->count; i++) {
+        const column *c = &rows->columns[i];
+        const study_csv_field *f = &l->fields[i];
+        if (!c->time)
+            continue;
+        bool bare = *c->unit && ff_number_parse(f->text, &number, &end) && !*end;
+        char *text = memory_print_text("%s%s%s", f->text, bare ? " " : "", bare ? c->unit : "");
+        bool good = study_spectrum_add(rows->study, text, place_of(rows, f), report);
+        free(text);
+        return good;
+    }
+    return true;
 }
 
 static const char *keep(study_rows *rows, char *text)
@@ -280,7 +310,8 @@ static bool add_row(study_rows *rows, const char *text, ff_report *report)
     if (study->count == MOST_ROWS)
         return refuse(rows, NULL, report, NULL, "at most 1000000 cases are possible");
     study_csv_line l = study_csv_split(text, rows->separator);
-    refuse_row(rows, &l, report);
+    if (refuse_row(rows, &l, report))
+        take_time(rows, &l, report);
     take_row(rows, study->count, &l);
     study_csv_free(&l);
     study->points[0] = ++study->count;
@@ -349,8 +380,9 @@ bool study_rows_read(study_definition *study, const ff_node *node, ff_report *re
 {
     if (!is_dash(node) && (node->kind != FF_SCALAR || !*node->text))
         return ff_error(report, FF_FAULT_INPUT, node->place,
-                        "write cases: cases.csv, or cases: \"-\" for standard input",
-                        "study: cases: expected the name of a file");
+                        "write cases: cases.csv, cases: \"-\" for standard input, or a list of "
+                        "rows: - {duty.torque: 250 N m}",
+                        "study: cases: expected the name of a file or a list of rows");
     if (!is_dash(node))
         return read_table(study, node, report);
     rows_new(study, "standard input", ".")->streams = true;

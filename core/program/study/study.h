@@ -19,6 +19,7 @@ typedef struct study_place {
 } study_place;
 
 typedef struct study_rows study_rows;
+typedef struct study_spectrum study_spectrum;
 
 /* A path with the values that it takes along one axis. */
 typedef struct study_varied {
@@ -67,6 +68,7 @@ typedef struct study_definition {
     struct study_driver *driver;  /* NULL when all cases are known from the start */
     study_rows *rows;             /* the table that lists the cases, or NULL */
     bool streams; /* its rows come from standard input while the study runs; none is there yet */
+    study_spectrum *spectrum; /* how long each row lasts; NULL: no row says it */
     bool overlay_first; /* the pipeline is checked with the first case laid over the file */
     memory_arena arena;
 } study_definition;

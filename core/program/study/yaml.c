@@ -2,6 +2,8 @@
 /* Nodes in YAML's flow style. */
 #include "yaml.h"
 
+#include "../memory/memory.h"
+
 #include <string.h>
 
 /* Whether the text reads as itself without quotes, also within a flow map. */
@@ -45,4 +47,15 @@ void study_yaml_print(const ff_node *node, FILE *out)
         study_yaml_print(node->items[i], out);
     }
     fputc(node->kind == FF_MAP ? '}' : ']', out);
+}
+
+char *study_yaml_assignment(const char *path, const ff_node *value)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = memory_require(open_memstream(&text, &length));
+    fprintf(out, "%s=", path);
+    study_yaml_print(value, out);
+    fclose(out);
+    return text;
 }

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the rows of a load spectrum make together, on the terminal and in files. */
+#ifndef CLI_SPECTRUM_H
+#define CLI_SPECTRUM_H
+
+#include "../study/spectrum.h"
+
+extern const char cli_spectrum_files[]; /* "spectrum.json, spectrum.figure.json, " */
+
+/* Sums over the rows and writes the files; false after an error. `sums` is to be released. */
+bool cli_spectrum_sum(const study_run *run, json_t **sums, ff_report *report);
+void cli_spectrum_print(const json_t *sums);
+
+#endif
