@@ -142,7 +142,16 @@ static const char *list_outputs(fe_build *b, const char *outputs)
     return text;
 }
 
-static void check_serving(fe_build *b, const ff_stage *stage, const fe_serving *said)
+/* Whether the outputs were chosen after the value was written, by a file that includes it, a study
+   or an assignment: then it served others. */
+static bool is_chosen_later(const ff_stage *stage, const char *item, const ff_node *outputs)
+{
+    const ff_node *value = ff_node_get(stage->node, item);
+    return value && outputs && outputs->rank > value->rank;
+}
+
+static void check_serving(fe_build *b, const ff_stage *stage, const fe_serving *said,
+                          const ff_node *outputs)
 {
     ff_place place = written_at(b, stage, said->item);
     const ff_stage *taker = NULL;
@@ -161,6 +170,8 @@ static void check_serving(fe_build *b, const ff_stage *stage, const fe_serving *
     else if (excuse && *excuse->text)
         ff_warn(b->report, place, "%s.%s changes nothing: %s: %s", stage->name, said->item,
                 taker->name, excuse->text);
+    else if (*said->outputs && is_chosen_later(stage, said->item, outputs))
+        return;
     else if (*said->outputs)
         ff_warn(b->report, place, "%s.%s changes nothing: no requested output depends on %s of %s",
                 stage->name, said->item, list_outputs(b, said->outputs), stage->name);
@@ -245,9 +256,9 @@ void fe_check_unread(fe_build *b, const ff_node *outputs)
         if (!stage->needed)
             continue;
         bool some = reads_any(stage, NULL);
-        if (!some)
+        if (!some && fe_latest_rank(stage->node) >= b->file_rank)
             warn_of_stage(b, stage);
         for (size_t k = 0; some && k < stage->instance->serving_count; k++)
-            check_serving(b, stage, &stage->instance->servings[k]);
+            check_serving(b, stage, &stage->instance->servings[k], outputs);
     }
 }

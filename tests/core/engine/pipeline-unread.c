@@ -197,6 +197,21 @@ static void cards(void)
                   "pipeline: {a: {use: toy/source, level: 1 mm}}\noutputs: [a.level]\n");
     check_true("a stage of a card may stay unused", ff_report_count(a.report) == 0);
     try_close(&a);
+    static const char fed[] = "format: 2\ninclude: card.yaml\n"
+                              "pipeline: {q: {use: toy/frugal, before: p, finish: 3}}\n"
+                              "outputs: [q.shade]\n";
+    a = with_card("pipeline: {p: {use: toy/frugal, form: 1}}\n", fed);
+    check_true("and one that runs may serve nothing", ff_report_count(a.report) == 0);
+    try_close(&a);
+    a = with_card("pipeline: {p: {use: toy/frugal, form: 1, finish: 2}}\noutputs: [p.shade]\n",
+                  "format: 2\ninclude: card.yaml\noutputs: [p.shape]\n");
+    check_true("a value served the outputs of its file", ff_report_count(a.report) == 0);
+    try_close(&a);
+    a = with_card("pipeline: {p: {use: toy/frugal, form: 1}}\n",
+                  "format: 2\ninclude: card.yaml\npipeline: {p: {finish: 2}}\n"
+                  "outputs: [p.shape]\n");
+    check_warning("one beside the outputs does not", &a, 3, 24, "p.finish changes nothing");
+    try_close(&a);
 }
 
 static void names(void)

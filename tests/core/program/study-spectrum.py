@@ -120,7 +120,7 @@ class Spectrum(lab.Lab):
         self.write("bad.yaml", PIPELINE + "study: {sweep: {wave.count: [4, 5]}, below: {wave.total: 1 mm}}\n")
         self.assertIn('it is for cases with a column "time"', self.call("run", "bad.yaml", code=2))
         self.write("bad.yaml", PIPELINE + "study:\n  cases:\n    - {wave.count: 4}\n    - {wave.count: many}\n")
-        self.assertIn("bad.yaml:10:20: error", self.call("check", "bad.yaml", code=2))
+        self.assertIn("bad.yaml:9:20: error", self.call("check", "bad.yaml", code=2))
 
 
 if __name__ == "__main__":
