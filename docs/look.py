@@ -15,8 +15,8 @@ import tempfile
 
 WIDTHS = 420, 1000, 1600
 SCHEMES = 'light', 'dark', 'print'
-OPTIONS = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--no-first-run', '--hide-scrollbars',
-           '--disable-background-networking', '--disable-sync', '--disable-extensions', '--remote-debugging-pipe']
+OPTIONS = ['--headless', '--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--disable-quic', '--no-first-run', '--hide-scrollbars',
+           '--disable-background-networking', '--disable-component-update', '--disable-sync', '--disable-extensions', '--remote-debugging-pipe']
 TALLEST = 16000  # pixels that the browser photographs at once
 
 
@@ -82,16 +82,23 @@ class Browser:
         for domain in 'Page', 'Runtime', 'Log', 'Performance':
             self.ask(domain + '.enable')
 
-    def open(self, url, width, scheme):
+    def open(self, url, width=1000):
+        """Opens a page, and waits for what its script says last."""
         self.fresh()
         self.ask('Emulation.setDeviceMetricsOverride', width=width, height=900, deviceScaleFactor=1, mobile=False)
-        self.ask('Emulation.setEmulatedMedia', media='print' if scheme == 'print' else '',
-                 features=[{'name': 'prefers-color-scheme', 'value': 'dark' if scheme == 'dark' else 'light'}])
         self.said, self.seen = [], set()
         self.ask('Page.navigate', url=url)
         while 'Page.loadEventFired' not in self.seen:
             self.next()
-        self.value('new Promise(function wait(done) { document.body.dataset.ready ? done() : setTimeout(wait, 20, done); })')
+        self.value('new Promise(function wait(done) { document.body.dataset.ready || performance.now() > 6e4 ? done() : setTimeout(wait, 20, done); })')
+
+    def dress(self, width, scheme):
+        """Gives the open page another width and scheme; a page draws its figures anew for either."""
+        self.ask('Emulation.setEmulatedMedia', media='print' if scheme == 'print' else '',
+                 features=[{'name': 'prefers-color-scheme', 'value': 'dark' if scheme == 'dark' else 'light'}])
+        self.ask('Emulation.setDeviceMetricsOverride', width=width, height=900, deviceScaleFactor=1, mobile=False)
+        event = 'beforeprint' if scheme == 'print' else 'afterprint'
+        self.value(f'dispatchEvent(new Event("{event}")), new Promise(function (done) {{ setTimeout(done, 50); }})')
 
     def photograph(self, path):
         height = min(TALLEST, self.value('Math.ceil(document.documentElement.getBoundingClientRect().height)'))
@@ -125,18 +132,18 @@ def main():
     for page in pages:
         name = os.path.splitext(os.path.basename(page))[0]
         name = os.path.basename(os.path.dirname(os.path.abspath(page))) if name == 'report' else name
+        browser.open('file://' + os.path.abspath(page))
+        cost, nodes = browser.cost(), browser.value('document.getElementsByTagName("*").length')
+        layout = 1e3 * (cost['LayoutDuration'] + cost['RecalcStyleDuration'])
+        print(f'{name:28} {os.path.getsize(page) / 1e3:6.0f} {nodes:6} {1e3 * cost["ScriptDuration"]:9.0f} {layout:9.0f}', flush=True)
         for width in WIDTHS:
             for scheme in SCHEMES:
-                browser.open('file://' + os.path.abspath(page), width, scheme)
-                cost = browser.cost()
-                if width == 1000 and scheme == 'light':
-                    nodes = browser.value('document.getElementsByTagName("*").length')
-                    layout = 1e3 * (cost['LayoutDuration'] + cost['RecalcStyleDuration'])
-                    print(f'{name:28} {os.path.getsize(page) / 1e3:6.0f} {nodes:6} {1e3 * cost["ScriptDuration"]:9.0f} {layout:9.0f}', flush=True)
+                browser.dress(width, scheme)
+                browser.photograph(f'{out}/{name}-{width}-{scheme}.png')
                 for fault in wrong(browser):
                     print(f'  {width} {scheme}: {fault}')
-                browser.photograph(f'{out}/{name}-{width}-{scheme}.png')
     browser.close()
 
 
-main()
+if __name__ == '__main__':
+    main()

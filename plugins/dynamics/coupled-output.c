@@ -15,7 +15,7 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
     [DYNAMICS_OUT_DTE] =
         {"dte", "m",
          "dynamic transmission error s: of the rotations less that of the turn of the "
-         "line of centres; 0 in the middle of the backlash",
+         "line of centres; 0 in the middle of the backlash, so that half of it is in the values",
          "cycle", NULL, 0, NULL},
     [DYNAMICS_OUT_DTE_VELOCITY] = {"dte_velocity", "m/s", "its rate", "cycle", NULL, 0, NULL},
     [DYNAMICS_OUT_MESH_FORCE] = {"mesh_force", "N",

@@ -17,8 +17,9 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
          "jumps",
          "cycle", NULL, 0, NULL},
     [DYNAMICS_OUT_DTE] = {"dte", "m",
-                          "dynamic transmission error s, 0 in the middle of the backlash", "cycle",
-                          NULL, 0, NULL},
+                          "dynamic transmission error s; 0 in the middle of the backlash, so that "
+                          "half of it is in the values",
+                          "cycle", NULL, 0, NULL},
     [DYNAMICS_OUT_DTE_VELOCITY] = {"dte_velocity", "m/s", "its rate", "cycle", NULL, 0, NULL},
     [DYNAMICS_OUT_MESH_FORCE] = {"mesh_force", "N", "dynamic mesh force DMF of spring and damper",
                                  "cycle", NULL, 0, NULL},

@@ -72,8 +72,10 @@ enum {
 static const ff_port outputs[] = {
     {"phase", "1", "mesh cycles since the entering pair was at SAP; twice at a jump", "cycle", NULL,
      0, NULL},
-    {"dte", "m", "transmission error s under load, 0 in the middle of the backlash", "cycle", NULL,
-     0, NULL},
+    {"dte", "m",
+     "transmission error s under load; 0 in the middle of the backlash, so that half of it is in "
+     "the values",
+     "cycle", NULL, 0, NULL},
     {"mesh_force", "N", "mesh force, the static one", "cycle", NULL, 0, NULL},
     {"dte_rms", "m", "root mean square of the alternating part of s", "", NULL, 0, NULL},
     {"dte_mean", "m", "mean of s", "", NULL, 0, NULL},

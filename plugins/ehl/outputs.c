@@ -323,6 +323,8 @@ static double field_value(const ehl_reynolds *eq, const ehl_film *film, uint32_t
         return film->asperity[i] ? film->p[i] : 0;
     case EHL_PLASTIC_DEPTH:
         return film->plastic ? film->plastic[i] : 0;
+    case EHL_ROUGHNESS:
+        return eq->rough ? eq->rough[i] : 0;
     default: /* share of the gap that is filled */
         return ehl_is_cavitated(eq, film, i) ? film->content[i] / (eq->oil.density * eq->h[i]) : 1;
     }

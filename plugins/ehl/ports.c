@@ -179,6 +179,9 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                            "plastic part of the gap of rough flanks where p is "
                            "asperity_hardness; of the instant: no dent stays on a flank",
                            "t x", NULL, 0, NULL},
+    [EHL_ROUGHNESS] = {"roughness", "m",
+                       "heights of both flanks together, on their way through the contact", "t x",
+                       NULL, 0, NULL},
     [EHL_H_MIN_LOWEST] = {"h_min_lowest", "m", "lowest h_min of all times", "", NULL, 0, NULL},
     [EHL_H_MIN_LOWEST_AT] = {"h_min_lowest_at", "rad",
                              "roll angle of it; needs a contact that has one", "", NULL, 0, NULL},

@@ -246,7 +246,7 @@ static ff_status heat_create(const ehl_model *m, run *r)
 static ff_status explain(const ehl_model *m, const run *r, ff_status status, double time)
 {
     ehl_instant at = ehl_history_at(&r->history, time);
-    char roll[64] = "", good[128] = "";
+    char roll[64] = "", good[128] = "", advice[160];
     const double molecule = 0.5e-9; /* Israelachvili 2011 */
     if (r->solver.gave_up)
         return ff_failf(m->host, FF_NOCONV, "discretisation",
@@ -256,8 +256,8 @@ static ff_status explain(const ehl_model *m, const run *r, ff_status status, dou
                         time);
     if (status != FF_NOCONV)
         return status;
-    const double beyond = 1.5 * ehl_hertz_pressure(at.load, at.radius, r->history.modulus);
-    ehl_laws_hold_slopes(&m->laws, fmax(beyond, 1e8));
+    const double hertz = ehl_hertz_pressure(at.load, at.radius, r->history.modulus);
+    ehl_laws_hold_slopes(&m->laws, fmax(1.5 * hertz, 1e8));
     if (ehl_laws_failed(&m->laws))
         return FF_BUG;
     if (r->solver.no_film)
@@ -271,11 +271,16 @@ static ff_status explain(const ehl_model *m, const run *r, ff_status status, dou
         snprintf(good, sizeof good, "; the last good film is that of %.6g s",
                  r->march.state[0].time);
     int gone = r->march.known > 0 && r->march.state[0].thinnest < molecule;
+    snprintf(
+        advice, sizeof advice,
+        "More cells, more steps or a wider domain may help, if its Hertz pressure of %.3g GPa is "
+        "meant",
+        1e-9 * hertz);
     return ff_failf(m->host, status, NULL, "at time %.6g s%s (load %.4g N/m): %s%s. %s", time, roll,
                     at.load, r->march.why, good,
                     gone ? "It has been squeezed or starved to less than a molecule at one place: "
                            "smooth flanks have no film from there on, or need more cells to tell"
-                         : "More cells, more steps or a wider domain may help");
+                         : advice);
 }
 
 static int stopped(const ehl_model *m, const run *r, size_t k)

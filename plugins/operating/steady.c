@@ -14,7 +14,7 @@ typedef struct steady {
 } steady;
 
 static const ff_param params[] = {
-    FF_QUANTITY("torque", "N m", steady, torque, FF_REQUIRED, NULL, NULL, 1e-9, 1e12, 0, 0,
+    FF_QUANTITY("torque", "N m", steady, torque, FF_REQUIRED, NULL, NULL, 1e-9, 1e12, 0, 1e7,
                 "torque on gear 1, constant"),
     FF_QUANTITY("speed", "rpm", steady, speed, FF_REQUIRED, NULL, "speed", 1e-3, 1e7, 0, 0,
                 "speed of gear 1"),

@@ -21,10 +21,12 @@ WRONG = re.compile(r"\bundefined\b|\bnan\b|\binf\b|\(null\)|<td></td><td class=\
 
 
 def coarse(text):
-    """Settings that make the films of a file cheap."""
+    """Settings that make the films of a file cheap, and what is asked of its numbers."""
     words = []
     for stage in re.findall(r"^ +(\w+): *{use: ehl/(?:finite-volume|control-volume)", text, re.MULTILINE):
         words += ["--set", f"{stage}.cells=128", "--set", f"{stage}.steps=100"]
+    if re.search("^accuracy:", text, re.MULTILINE):
+        words += ["--set", "accuracy=20 %"]
     return words
 
 

@@ -160,14 +160,14 @@ static void print_error(const paper *page, const ff_result *result, char *out, s
         snprintf(out + length, size - length, " +- ?");
 }
 
-/* One line: name, value or range; where the extremes of a series lie, the shape of a field, or what
-   a scalar means. */
+/* Name, value or range, what it means, and the shape of a field or where the extremes of a series
+   lie. */
 static void print_result(const paper *page, const ff_pipeline *pipeline, const ff_stage *stage,
                          size_t output, int width)
 {
     const int value_width = VALUE + (page->errors->twins > 0 ? BAR : 0);
     const ff_result *result = &stage->results[output];
-    char value[96] = "(none)", text[256] = "";
+    char value[96] = "(none)", place[256] = "";
     size_t least = 0, greatest = 0;
     bool pair = print_pair(result, value, sizeof value);
     if (result->count > 0 && !pair) {
@@ -175,15 +175,17 @@ static void print_result(const paper *page, const ff_pipeline *pipeline, const f
         print_range(result, result->data[least], result->data[greatest], value, sizeof value);
     }
     bool from_end_to_end = least == 0 && greatest + 1 == result->count;
-    if (result->rank == 0 || pair)
-        snprintf(text, sizeof text, "%s", result->row->doc);
-    else if (result->rank > 1)
-        print_shape(stage, output, text, sizeof text);
-    else if (strstr(value, " to ") && !from_end_to_end)
-        print_where(pipeline, stage, output, least, greatest, text, sizeof text);
+    if (result->rank > 1)
+        print_shape(stage, output, place, sizeof place);
+    else if (result->rank == 1 && !pair && strstr(value, " to ") && !from_end_to_end)
+        print_where(pipeline, stage, output, least, greatest, place, sizeof place);
     print_error(page, result, value, sizeof value);
-    int column = printf("  %-*s  %-*s", width, result->row->name, *text ? value_width : 0, value);
-    terminal_print_cut(text, column + printf("%s", *text ? "  " : ""));
+    int column = printf("  %-*s  %-*s  ", width, result->row->name, value_width, value);
+    size_t length = strlen(result->row->doc) + sizeof place + 2;
+    char *text = memory_alloc(length);
+    snprintf(text, length, "%s%s%s", result->row->doc, *place ? "; " : "", place);
+    terminal_print_wrapped(text, column, column);
+    free(text);
 }
 
 /* The requested results, and the scalars that were computed besides. */

@@ -131,7 +131,7 @@ static void put_curve(report_page *page, const report_curve *curve)
             curve->dots   ? "dots"
             : curve->bars ? "bars"
                           : "line");
-    if (curve->live)
+    if (*curve->live)
         fprintf(out, ",\"live\":\"%s\"", curve->live);
     put_list(out, "x", curve->x, kept, count);
     put_list(out, "y", curve->y, kept, count);
@@ -158,7 +158,7 @@ static bool is_wide(const report_plot *plot)
             low = fmin(low, y);
             high = fmax(high, y);
         }
-    return low > 0 && high > SPAN * low && high < MOST * low && !(plot->top > 0);
+    return low > 0 && high > SPAN * low && high < MOST * low && !(plot->y0 < plot->y1);
 }
 
 static void put_axis(FILE *out, const char *name, const char *label, bool log, double low,
@@ -198,11 +198,12 @@ void report_plot_write(report_page *page, const report_plot *plot)
     fputs("{\"sort\":\"curves\",", out);
     put_axis(out, "x", plot->x_label, plot->decades, ranged ? plot->x0 : NAN,
              ranged ? plot->x1 : NAN);
-    put_axis(out, "y", plot->y_label, is_wide(plot) || plot->bottom > 0,
-             plot->bottom > 0  ? plot->bottom
+    bool bound = plot->y0 < plot->y1;
+    put_axis(out, "y", plot->y_label, is_wide(plot) || plot->y_decades,
+             bound             ? plot->y0
              : plot->from_zero ? 0
                                : NAN,
-             plot->top > 0 ? plot->top : NAN);
+             bound ? plot->y1 : NAN);
     for (size_t i = 0; plot->x_names && i < plot->curves[0].count; i++) {
         fputs(i ? "," : "\"names\":[", out);
         report_put_json_text(out, plot->x_names[i]);

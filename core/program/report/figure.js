@@ -2,8 +2,6 @@
 var figures = (function () {
   'use strict';
   var DASHES = [[], [7, 3], [2.5, 2.5], [9, 3, 2, 3]], COLOURS = 6;
-  var STOPS = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129],
-    [92, 200, 99], [170, 220, 50], [253, 231, 37]]; /* viridis, which the colour-blind can read */
   function text(value) { return typeof value === 'number' ? String(parseFloat(value.toPrecision(4))) : String(value); }
   function ink(i) { return typeof i === 'string' ? i : 'var(--c' + i % COLOURS + ')'; }
   function finite(list) { return list.filter(function (v) { return typeof v === 'number' && isFinite(v); }); }
@@ -132,23 +130,19 @@ var figures = (function () {
     if (scale.log) return Math.log(value / scale.low) / Math.log(scale.high / scale.low);
     return scale.high > scale.low ? (value - scale.low) / (scale.high - scale.low) : 0.5;
   }
-  function colour(value, scale) {
-    var s = Math.min(Math.max(share(value, scale), 0), 1) * 8, low = Math.min(Math.floor(s), 7);
-    return STOPS[low].map(function (from, i) { return Math.round(from + (s - low) * (STOPS[low + 1][i] - from)); });
-  }
-  /* Of a map with many cells a picture with a pixel for each. */
+  /* Of a map with many cells a picture; a cell has several pixels, so that its edge stays sharp. */
   function picture(figure) {
-    var rows = figure.values.length, columns = figure.values[0].length, canvas = document.createElement('canvas');
-    canvas.width = columns;
-    canvas.height = rows;
-    var pen = canvas.getContext('2d'), image = pen.createImageData(columns, rows);
+    var rows = figure.values.length, columns = figure.values[0].length, canvas = document.createElement('canvas'), size = 4;
+    var pen = canvas.getContext('2d'), colour = vega.scheme('viridis');
+    canvas.width = size * columns;
+    canvas.height = size * rows;
     figure.values.forEach(function (row, r) {
       row.forEach(function (value, c) {
         if (value === null) return;
-        image.data.set(colour(value, figure.value).concat(255), 4 * ((rows - 1 - r) * columns + c));
+        pen.fillStyle = colour(share(value, figure.value));
+        pen.fillRect(size * c, size * (rows - 1 - r), size, size);
       });
     });
-    pen.putImageData(image, 0, 0);
     return canvas.toDataURL();
   }
   /* Round values within the scale of a map, at which it has contours. */
@@ -200,15 +194,15 @@ var figures = (function () {
     if (figure.sort === 'map' && few) {
       figure.values.forEach(function (row, r) {
         row.forEach(function (value, c) {
-          if (value !== null) cells.push({c: c, r: r, fill: 'rgb(' + colour(value, figure.value).join(',') + ')'});
+          if (value !== null) cells.push({c: c, r: r, v: value});
         });
       });
-      marks.push({type: 'rect', from: {data: 'cells'}, encode: {update: Object.assign({fill: {field: 'fill'},
-        stroke: {field: 'fill'}, strokeWidth: {value: 0.5}}, box)}});
+      marks.push({type: 'rect', from: {data: 'cells'}, encode: {update: Object.assign({fill: {scale: 'v', field: 'v'},
+        stroke: {scale: 'v', field: 'v'}, strokeWidth: {value: 0.5}}, box)}});
     } else if (figure.sort === 'map') {
       marks.push({type: 'image', encode: {update: {url: {value: figure.picture || (figure.picture = picture(figure))},
         x: {scale: 'x', value: 0}, x2: {scale: 'x', value: columns}, y: {scale: 'y', value: rows}, y2: {scale: 'y', value: 0},
-        aspect: {value: false}, smooth: {value: false}}}});
+        aspect: {value: false}}}});
     } else {
       figure.cells.forEach(function (k, i) {
         var kind = figure.classes[k];

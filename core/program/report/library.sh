@@ -18,7 +18,7 @@ cat <<'END'
 ["vega-transforms", "vega-view-transforms", "vega-encode"].forEach(function (n) {
   Object.assign(need("vega-dataflow").transforms, need(n));
 });
-self.vega = {View: need("vega-view").View, parse: need("vega-parser").parse,
+self.vega = {View: need("vega-view").View, parse: need("vega-parser").parse, scheme: need("vega-scale").scheme,
   interpreter: need("vega-interpreter").expressionInterpreter};
 }());
 END

@@ -87,7 +87,7 @@ typedef struct report_curve {
     int colour, dash; /* numbers of a colour and of a dash pattern; any number */
     bool dots, bars;  /* points or columns instead of a line */
     double width;     /* of a column */
-    const char *live; /* name by which script.js changes it, or NULL */
+    char live[4];     /* name by which script.js changes it, or "" */
     char label[REPORT_TEXT_SIZE];
 } report_curve;
 
@@ -100,12 +100,10 @@ typedef struct report_plot {
     const char *mark_names[REPORT_MARKS];
     size_t mark_count;
     const char (*x_names)[REPORT_TEXT_SIZE]; /* what stands at x = 0, 1, ...; NULL: numbers */
-    double top;                              /* of the y axis, when above 0 */
-    double x0, x1;                           /* range of the x axis, when x0 < x1 */
+    double x0, x1, y0, y1;                   /* ranges of the axes, where x0 < x1, y0 < y1 */
     bool from_zero;
-    bool decades;      /* along x, whose values are above 0 */
-    double bottom;     /* of a logarithmic y axis that `top` ends, when above 0 */
-    const char *class; /* of the figure, or NULL */
+    bool decades, y_decades; /* along x and y, whose values are above 0 */
+    const char *class;       /* of the figure, or NULL */
 } report_plot;
 
 /* Copies the numbers in the units of the figure; returns the curve, or NULL when there is no room.

@@ -22,7 +22,8 @@
   }
 
   /* The figures of the page. */
-  var shown = [], printing = false;
+  var shown = [], printing = false; /* those of a closed part of the page are drawn when it is opened */
+  function drawn() { return shown.filter(function (f) { return f.view; }); }
   function draw(f) {
     if (f.view) f.view.finalize();
     f.box.textContent = '';
@@ -180,7 +181,7 @@
     f.box.addEventListener('mousemove', function (event) { show(f, event); });
     f.box.addEventListener('mouseleave', function () { tip.hidden = true; });
     dragging(f);
-    draw(f);
+    if (!node.closest('details:not([open])')) draw(f);
     shown.push(f);
   }
 
@@ -237,11 +238,8 @@
   }
 
   /* Snapshots: the slider names an instant of the first stage; others show their nearest one. */
-  function floats(base64) {
-    var bytes = Uint8Array.from(atob(base64), function (c) { return c.charCodeAt(0); });
-    var seen = new DataView(bytes.buffer), out = new Float32Array(bytes.length / 4);
-    for (var i = 0; i < out.length; i++) out[i] = seen.getFloat32(4 * i, true);
-    return out;
+  function floats(base64) { /* of the little-endian machines that browsers run on */
+    return new Float32Array(Uint8Array.from(atob(base64), function (c) { return c.charCodeAt(0); }).buffer);
   }
   function closest(list, value) {
     var best = 0;
@@ -253,7 +251,8 @@
     var data = JSON.parse(section.querySelector('.frames').textContent), timer = null;
     var slider = section.querySelector('input'), play = section.querySelector('.play');
     data.stages.forEach(function (stage) {
-      ['at', 'x', 'p', 'h'].forEach(function (key) { if (stage[key]) stage[key] = floats(stage[key]); });
+      Object.keys(stage).forEach(function (key) { if (key !== 'name' && typeof stage[key] === 'string') stage[key] = floats(stage[key]); });
+      if (stage.r) stage.o = stage.r.map(function (r, i) { return r + stage.h[i]; });
     });
     function extremes(stage, frame) {
       var p = 0, h = Infinity;
@@ -355,6 +354,8 @@
     play.click();
   }
   async function check() {
+    all('details').forEach(function (d) { d.open = true; });
+    while (drawn().length < shown.length) await new Promise(function (done) { setTimeout(done, 10); });
     for (var section of all('.snapshots')) await trySlider(section);
     for (var f of shown) await tryFigure(f);
   }
@@ -396,22 +397,24 @@
       all('.without').forEach(function (note) { note.hidden = false; });
     }
     all('details').forEach(function (d) {
-      d.addEventListener('toggle', function () { shown.forEach(function (f) { if (d.contains(f.node) && d.open) draw(f); }); });
+      d.addEventListener('toggle', function () {
+        shown.forEach(function (f) { if (d.contains(f.node) && !f.node.closest('details:not([open])')) draw(f); });
+      });
     });
     var width = innerWidth;
     window.addEventListener('resize', function () {
       if (innerWidth === width) return;
       width = innerWidth;
-      shown.forEach(draw);
+      drawn().forEach(draw);
     });
     ['beforeprint', 'afterprint'].forEach(function (kind) {
       window.addEventListener(kind, function () {
         printing = kind === 'beforeprint';
-        shown.forEach(draw);
+        drawn().forEach(draw);
       });
     });
     document.body.dataset.figures = nodes.length;
-    Promise.all(shown.map(function (f) { return f.view.runAsync(); })).then(function () {
+    Promise.all(drawn().map(function (f) { return f.view.runAsync(); })).then(function () {
       document.body.dataset.milliseconds = Math.round(performance.now() - began);
       return location.hash === '#check' ? check() : location.hash === '#figures' ? spell() : null;
     }).then(ready, function (e) { errors.push(String(e)); ready(); });

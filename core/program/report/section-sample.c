@@ -160,7 +160,7 @@ static void draw_bars(report_page *page, const report_scalar *f)
     double *b = memory_alloc(count * sizeof *b), at[MOST_INPUTS], share[MOST_INPUTS];
     char names[MOST_INPUTS][REPORT_TEXT_SIZE], words[REPORT_TEXT_SIZE];
     const report_unit one = {1, 0, ""};
-    report_plot plot = {.from_zero = false};
+    report_plot plot = {.y0 = -1, .y1 = 1};
     for (size_t i = 0; i < count; i++)
         counts[i] = isfinite(f->values[i]);
     rank(f->values, counts, count, a);

@@ -144,8 +144,11 @@ static void add_curve(figure *d, size_t variable, size_t index, bool several, si
         report_curve *same = page->view->study ? NULL : find_same_curve(d, &y), *made = NULL;
         const char *name = page->view->stages[page->view->variables[variable]->stage]->name;
         if (same) {
-            size_t length = strlen(same->label);
-            snprintf(same->label + length, sizeof same->label - length, ", %s", name);
+            char rest[REPORT_TEXT_SIZE]; /* of "stage: output", or "" */
+            size_t length = strcspn(same->label, ":");
+            snprintf(rest, sizeof rest, "%s", same->label + length);
+            snprintf(same->label + length, sizeof same->label - length, ", %.60s%.100s", name,
+                     rest);
         } else {
             made = report_plot_add(&d->plot, &d->x_unit, x.data, &d->y_unit, y.data,
                                    report_array_size(&y));
@@ -255,7 +258,8 @@ static void draw_group(figure *d, const group *g)
         used += any;
     }
     if (several > 1 && d->plot.count > 0) { /* the legend names the outputs */
-        snprintf(words, sizeof words, "%s", g->title);
+        snprintf(words, sizeof words, "%c%s", g->title[0] | ' ',
+                 g->title + 1); /* in small letters */
         report_label(words, &d->y_unit, d->plot.y_label);
     }
     finish_figure(d);
@@ -268,7 +272,8 @@ static void write_section(figure *d, const char *title, const group *groups, siz
     report_part_begin(page, &part);
     fprintf(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
     if (page->view->study)
-        fprintf(page->out, "<p class=\"note\">Up to %zu of %zu cases that went well.</p>\n",
+        fprintf(page->out,
+                "<p class=\"note\">Up to %zu of %zu cases that went well and have series.</p>\n",
                 d->case_count, d->good);
     for (size_t i = 0; i < count; i++)
         draw_group(d, &groups[i]);
@@ -308,12 +313,22 @@ static void write_others(figure *d)
     report_part_end(page, &part);
 }
 
-/* Says whether a case went well and differs from the first one along the longest dimension alone,
-   or along any when `all`. */
+/* Says whether a case has kept a series; a repeat in a trade-off has none. */
+static bool has_series(const ff_view *view, size_t index)
+{
+    size_t shape[4];
+    for (size_t v = 0; v < view->variable_count; v++)
+        if (view->variables[v]->rank == 1 && ff_view_full_shape(view, v, index, shape))
+            return true;
+    return false;
+}
+
+/* Says whether a case went well, has series, and differs from the first one along the longest
+   dimension alone, or along any when `all`. */
 static bool is_choice(const ff_view *view, size_t index, bool all)
 {
     size_t longest = 0;
-    if (strcmp(view->cases[index]->status, "ok") != 0)
+    if (strcmp(view->cases[index]->status, "ok") != 0 || !has_series(view, index))
         return false;
     for (size_t d = 1; d < view->dimension_count; d++)
         longest = view->lengths[d] > view->lengths[longest] ? d : longest;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Shows pressure and film over the contact at instants of the engagement. The frames go into the
- * page as 32-bit numbers in base64; a script draws the one that the slider stands at.
+ * Shows the fields of the contact at instants of the engagement. The frames go into the page as
+ * 32-bit numbers in base64; a script draws the one that the slider stands at.
  */
 #include "page.h"
 
@@ -13,61 +13,68 @@
 
 enum { WIDE = 30, FRAMES = 121, CELLS = 513, MOST_STAGES = 3 };
 
-/* The fields of one stage. */
+/* The fields, and the letters that script.js knows them by. */
+enum { PRESSURE, FILM, ASPERITIES, ROUGHNESS, TEMPERATURE, FIELDS };
+static const char *const field_outputs[FIELDS] = {"pressure", "film", "asperity_pressure",
+                                                  "roughness", "temperature"};
+static const char field_letters[] = "phart";
+
+/* The fields of one stage; those of pressure and film are there, others have no data. */
 typedef struct stage_fields {
     size_t stage;
-    int pressure, film;
-    ff_array p, h, x, at; /* at: what the instants are named after */
-    bool angle;           /* at is an angle */
-    size_t frames, cells; /* of the fields */
-    size_t peak, low;     /* the instants of the highest pressure and of the least film */
+    ff_array field[FIELDS], x, at; /* at: what the instants are named after */
+    bool angle;                    /* at is an angle */
+    size_t frames, cells;          /* of the fields */
+    size_t peak, low;              /* the instants of the highest pressure and of the least film */
 } stage_fields;
-
-static int find_field(const ff_view *view, size_t stage, const char *output)
-{
-    int v = report_find_output(view, stage, output);
-    return v >= 0 && view->variables[v]->rank == 2 ? v : -1;
-}
 
 /* Finds the instants of the highest pressure and of the least film. */
 static void find_extremes(stage_fields *m)
 {
+    const double *p = m->field[PRESSURE].data, *h = m->field[FILM].data;
     size_t peak = 0, low = 0;
     for (size_t i = 1; i < m->frames * m->cells; i++) {
-        peak = m->p.data[i] > m->p.data[peak] ? i : peak;
-        low = m->h.data[i] < m->h.data[low] ? i : low;
+        peak = p[i] > p[peak] ? i : peak;
+        low = h[i] < h[low] ? i : low;
     }
     m->peak = peak / m->cells;
     m->low = low / m->cells;
 }
 
+/* Loads a field, which is left out when it does not have the shape of the pressure. */
+static void load_field(report_page *page, stage_fields *m, size_t f)
+{
+    int v = report_find_output(page->view, m->stage, field_outputs[f]);
+    if (v < 0 || page->view->variables[v]->rank != 2)
+        return;
+    m->field[f] = report_load(page, v, 0);
+    if (f != PRESSURE && report_array_size(&m->field[f]) != report_array_size(&m->field[PRESSURE]))
+        report_release(page, &m->field[f]);
+}
+
 static bool load_fields(report_page *page, size_t stage, stage_fields *m)
 {
     const ff_view *view = page->view;
-    *m = (stage_fields){.stage = stage,
-                        .pressure = find_field(view, stage, "pressure"),
-                        .film = find_field(view, stage, "film")};
-    if (m->pressure < 0 || m->film < 0)
+    int pressure = report_find_output(view, stage, field_outputs[PRESSURE]);
+    *m = (stage_fields){.stage = stage};
+    for (size_t f = 0; f < FIELDS && (f == 0 || m->field[PRESSURE].data); f++)
+        load_field(page, m, f);
+    if (report_array_size(&m->field[PRESSURE]) == 0 || !m->field[FILM].data)
         return false;
-    int at = report_find_axis(view, (size_t)m->pressure, 0, 0);
-    m->p = report_load(page, m->pressure, 0);
-    m->h = report_load(page, m->film, 0);
-    m->x = report_load(page, report_find_axis(view, (size_t)m->pressure, 1, 0), 0);
+    int at = report_find_axis(view, (size_t)pressure, 0, 0);
+    m->x = report_load(page, report_find_axis(view, (size_t)pressure, 1, 0), 0);
     m->at = report_load(page, at, 0);
     m->angle = m->at.data && !strcmp(view->variables[at]->unit, "rad");
-    if (!m->p.data || !m->h.data || m->p.rank != 2 ||
-        report_array_size(&m->p) != report_array_size(&m->h) || report_array_size(&m->p) == 0)
-        return false;
-    m->frames = m->p.shape[0];
-    m->cells = m->p.shape[1];
+    m->frames = m->field[PRESSURE].shape[0];
+    m->cells = m->field[PRESSURE].shape[1];
     find_extremes(m);
     return true;
 }
 
 static void release_fields(report_page *page, stage_fields *m)
 {
-    report_release(page, &m->p);
-    report_release(page, &m->h);
+    for (size_t f = 0; f < FIELDS; f++)
+        report_release(page, &m->field[f]);
     report_release(page, &m->x);
     report_release(page, &m->at);
 }
@@ -168,27 +175,27 @@ static double largest_value(const ff_array *array)
     return size;
 }
 
+static double least_value(const ff_array *array)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < report_array_size(array); i++)
+        least = fmin(least, array->data[i]);
+    return least;
+}
+
 /* Finds the largest film of all instants in the middle of the contact: away from it the gap is
    open. */
 static double central_film(const stage_fields *m)
 {
     double size = 0;
     for (size_t k = 0; k < m->frames; k++) {
+        const double *p = m->field[PRESSURE].data + k * m->cells;
         size_t peak = 0;
         for (size_t i = 1; i < m->cells; i++)
-            if (m->p.data[k * m->cells + i] > m->p.data[k * m->cells + peak])
-                peak = i;
-        size = fmax(size, m->h.data[k * m->cells + peak]);
+            peak = p[i] > p[peak] ? i : peak;
+        size = fmax(size, m->field[FILM].data[k * m->cells + peak]);
     }
     return size;
-}
-
-static double least_film(const stage_fields *m)
-{
-    double least = INFINITY;
-    for (size_t i = 0; i < report_array_size(&m->h); i++)
-        least = fmin(least, m->h.data[i]);
-    return least;
 }
 
 /* Finds the frame nearest to the instant of the highest pressure. */
@@ -204,52 +211,103 @@ static size_t find_highest_pressure(const stage_fields *m, size_t frames)
 /* Widens the range of x, in SI or cells, to where the pressure is above a hundredth of its peak. */
 static void widen_to_contact(const stage_fields *m, double *from, double *to)
 {
-    double least = 0.01 * largest_value(&m->p);
-    for (size_t k = 0; k < m->frames; k++)
-        for (size_t i = 0; i < m->cells; i++)
-            if (m->p.data[k * m->cells + i] > least) {
-                double x = m->x.data ? m->x.data[i] : (double)i;
-                *from = fmin(*from, x);
-                *to = fmax(*to, x);
-            }
+    const ff_array *p = &m->field[PRESSURE];
+    double least = 0.01 * largest_value(p);
+    for (size_t i = 0; i < report_array_size(p); i++)
+        if (p->data[i] > least) {
+            size_t cell = i % m->cells;
+            double x = m->x.data ? m->x.data[cell] : (double)cell;
+            *from = fmin(*from, x);
+            *to = fmax(*to, x);
+        }
 }
 
 typedef struct snapshots {
     stage_fields stages[MOST_STAGES];
     size_t count, start; /* start: the frame at which the slider stands first */
-    report_unit x, p, h, at;
-    double film_top, film_bottom; /* in the units of the figures, as x0; no bottom: 0 */
-    double x0, x1;
+    report_unit x, at, unit[FIELDS];
+    double film;   /* the largest film in the middle of a contact, SI */
+    double x0, x1; /* in the units of the figures */
 } snapshots;
 
-static void draw_snapshot(report_page *page, const snapshots *s, bool film)
+/* Returns the range of a field over all stages and instants; low > high: no stage has it. */
+static void find_range(const snapshots *s, size_t f, double *low, double *high)
 {
-    static const char *const live[2][MOST_STAGES] = {{"p0", "p1", "p2"}, {"h0", "h1", "h2"}};
-    report_plot plot = {.from_zero = true, .class = "live"};
+    *low = INFINITY;
+    *high = -INFINITY;
+    for (size_t m = 0; m < s->count; m++)
+        if (s->stages[m].field[f].data) {
+            *low = fmin(*low, least_value(&s->stages[m].field[f]));
+            *high = fmax(*high, largest_value(&s->stages[m].field[f]));
+        }
+}
+
+/* Adds a field of each stage at the instant at which the slider stands first. `letter` is that of
+   the field, or that of the other flank above the rough one. */
+static void add_field(const report_page *page, const snapshots *s, report_plot *plot, size_t f,
+                      char letter, const char *words)
+{
     for (size_t m = 0; m < s->count; m++) {
         const stage_fields *of = &s->stages[m];
         size_t frame = frame_at(of, s->start, FRAMES < of->frames ? FRAMES : of->frames);
-        const double *field = (film ? of->h.data : of->p.data) + frame * of->cells;
-        report_curve *curve =
-            report_plot_add(&plot, &s->x, of->x.data, film ? &s->h : &s->p, field, of->cells);
+        if (!of->field[f].data)
+            continue;
+        report_curve *curve = report_plot_add(plot, &s->x, of->x.data, &s->unit[f],
+                                              of->field[f].data + frame * of->cells, of->cells);
         if (!curve)
             continue;
-        curve->dash = (int)m;
-        curve->live = live[film][m];
-        snprintf(curve->label, sizeof curve->label, "%s", page->view->stages[of->stage]->name);
+        curve->dash = (int)plot->count - 1;
+        snprintf(curve->live, sizeof curve->live, "%c%zu", letter, m);
+        snprintf(curve->label, sizeof curve->label, *words ? "%.90s: %.90s" : "%.90s%s",
+                 page->view->stages[of->stage]->name, words);
     }
-    plot.top = film ? s->film_top : 0;
-    plot.bottom = film ? s->film_bottom : 0;
-    plot.x0 = s->x0;
-    plot.x1 = s->x1;
-    for (size_t m = 0; m < s->count && !film; m++)
-        plot.top = fmax(plot.top, 1.05 * report_convert(&s->p, largest_value(&s->stages[m].p)));
-    snprintf(plot.title, sizeof plot.title, film ? "Film" : "Pressure");
+}
+
+static void draw_panel(report_page *page, const snapshots *s, report_plot *plot, size_t f,
+                       const char *title, const char *words)
+{
+    plot->class = "live";
+    plot->x0 = s->x0;
+    plot->x1 = s->x1;
+    plot->y0 = report_convert(&s->unit[f], plot->y0);
+    plot->y1 = report_convert(&s->unit[f], plot->y1);
+    snprintf(plot->title, sizeof plot->title, "%s", title);
     report_label(s->stages[0].x.data ? "position in the contact" : "cell of the contact", &s->x,
-                 plot.x_label);
-    report_label(film ? "film thickness" : "pressure", film ? &s->h : &s->p, plot.y_label);
-    report_plot_write(page, &plot);
-    report_plot_free(&plot);
+                 plot->x_label);
+    report_label(words, &s->unit[f], plot->y_label);
+    report_plot_write(page, plot);
+    report_plot_free(plot);
+}
+
+static void draw_panels(report_page *page, const snapshots *s)
+{
+    double low, high;
+    find_range(s, PRESSURE, &low, &high);
+    report_plot plot = {.y1 = 1.05 * high};
+    add_field(page, s, &plot, PRESSURE, 'p', "");
+    add_field(page, s, &plot, ASPERITIES, 'a', "of asperities");
+    draw_panel(page, s, &plot, PRESSURE, "Pressure", "pressure");
+
+    find_range(s, FILM, &low, &high);
+    plot = (report_plot){.y1 = 3 * s->film};
+    plot.y_decades = low > 0 && s->film > WIDE * low; /* at contact loss, the loaded film too */
+    plot.y0 = plot.y_decades ? fmax(low, 1e-4 * s->film) / 1.5 : 0;
+    add_field(page, s, &plot, FILM, 'h', "");
+    draw_panel(page, s, &plot, FILM, "Film", "film thickness");
+
+    find_range(s, ROUGHNESS, &low, &high);
+    if (high > low) { /* the other flank, smooth and dented, stands a film above the rough one */
+        plot = (report_plot){.y0 = low - 0.2 * (high - low), .y1 = high + 2 * s->film};
+        add_field(page, s, &plot, ROUGHNESS, 'r', "heights of both flanks");
+        add_field(page, s, &plot, ROUGHNESS, 'o', "other side of the film");
+        draw_panel(page, s, &plot, ROUGHNESS, "Flanks", "height");
+    }
+    find_range(s, TEMPERATURE, &low, &high);
+    if (high > low) {
+        plot = (report_plot){.y0 = low, .y1 = high + 0.05 * (high - low)};
+        add_field(page, s, &plot, TEMPERATURE, 't', "");
+        draw_panel(page, s, &plot, TEMPERATURE, "Temperature", "mean across the film");
+    }
 }
 
 static void write_frames(report_page *page, const snapshots *s)
@@ -258,7 +316,7 @@ static void write_frames(report_page *page, const snapshots *s)
     fprintf(out,
             "<script type=\"application/json\" class=\"frames\">{\"unit\":\"%s\",\"p\":\"%s\","
             "\"h\":\"%s\",\"stages\":[",
-            s->stages[0].at.data ? s->at.unit : "", s->p.unit, s->h.unit);
+            s->stages[0].at.data ? s->at.unit : "", s->unit[PRESSURE].unit, s->unit[FILM].unit);
     for (size_t m = 0; m < s->count; m++) {
         const stage_fields *of = &s->stages[m];
         size_t frames = of->frames < FRAMES ? of->frames : FRAMES;
@@ -270,39 +328,43 @@ static void write_frames(report_page *page, const snapshots *s)
         put_instants(out, of, frames, &s->at);
         fputs(",\"x\":", out);
         put_axis(out, &of->x, of->cells, cells, &s->x);
-        fputs(",\"p\":", out);
-        put_field(out, of, &of->p, &s->p, frames, cells);
-        fputs(",\"h\":", out);
-        put_field(out, of, &of->h, &s->h, frames, cells);
+        for (size_t f = 0; f < FIELDS; f++)
+            if (of->field[f].data) {
+                fprintf(out, ",\"%c\":", field_letters[f]);
+                put_field(out, of, &of->field[f], &s->unit[f], frames, cells);
+            }
         fputc('}', out);
     }
     fputs("]}</script>\n", out);
 }
 
-static void write_player(report_page *page, snapshots *s)
+/* Chooses the units, the part of x that is shown, and the first instant. */
+static void choose_view(snapshots *s)
 {
     const stage_fields *first = &s->stages[0];
-    double reach = 0, top = 0, bottom = INFINITY, from = INFINITY, to = -INFINITY;
+    double reach = 0, from = INFINITY, to = -INFINITY;
     for (size_t i = 0; i < report_array_size(&first->x); i++)
         reach = fmax(reach, fabs(first->x.data[i]));
     s->x = first->x.data ? report_unit_for("m", reach) : (report_unit){1, 0, ""};
-    for (size_t m = 0; m < s->count; m++)
+    for (size_t m = 0; m < s->count; m++) {
         widen_to_contact(&s->stages[m], &from, &to);
+        s->film = fmax(s->film, central_film(&s->stages[m]));
+    }
     s->x0 = report_convert(&s->x, from - 0.2 * (to - from));
     s->x1 = report_convert(&s->x, to + 0.2 * (to - from));
-    s->p = report_unit_for("Pa", largest_value(&first->p));
-    for (size_t m = 0; m < s->count; m++)
-        top = fmax(top, central_film(&s->stages[m]));
-    s->h = report_unit_for("m", top);
-    s->film_top = 3 * report_convert(&s->h, top);
-    for (size_t m = 0; m < s->count; m++)
-        bottom = fmin(bottom, least_film(&s->stages[m]));
-    if (bottom > 0 && top > WIDE * bottom) /* at contact loss, the loaded film too */
-        s->film_bottom = report_convert(&s->h, fmax(bottom, 1e-4 * top)) / 1.5;
+    s->unit[PRESSURE] = s->unit[ASPERITIES] =
+        report_unit_for("Pa", largest_value(&first->field[PRESSURE]));
+    s->unit[FILM] = s->unit[ROUGHNESS] = report_unit_for("m", s->film);
+    s->unit[TEMPERATURE] = report_unit_for(report_si_unit("K", "temperature"), 1);
     s->at =
         first->angle ? report_unit_for("rad", 1) : report_unit_for("s", largest_value(&first->at));
-    size_t frames = first->frames < FRAMES ? first->frames : FRAMES;
-    s->start = find_highest_pressure(first, frames);
+    s->start = find_highest_pressure(first, first->frames < FRAMES ? first->frames : FRAMES);
+}
+
+static void write_player(report_page *page, snapshots *s)
+{
+    const size_t all = s->stages[0].frames, frames = all < FRAMES ? all : FRAMES;
+    choose_view(s);
     fprintf(page->out,
             "<section class=\"snapshots\"><h2>Pressure and film in the contact</h2>\n"
             "<p class=\"player\"><button type=\"button\" class=\"play\" aria-pressed=\"false\">"
@@ -310,9 +372,8 @@ static void write_player(report_page *page, snapshots *s)
             "aria-label=\"instant of the engagement\"> <output></output></p>\n"
             "<p class=\"note\">%zu of %zu instants; the film is cut off above three times its "
             "central thickness.</p>\n<p class=\"extremes\"></p>\n<div class=\"figures\">\n",
-            frames - 1, s->start, frames, first->frames);
-    draw_snapshot(page, s, false);
-    draw_snapshot(page, s, true);
+            frames - 1, s->start, frames, all);
+    draw_panels(page, s);
     fputs("</div>\n", page->out);
     write_frames(page, s);
     fputs("</section>\n", page->out);

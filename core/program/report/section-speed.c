@@ -81,7 +81,7 @@ static void write_atlas(report_page *page, const atlas *a, const char *stage)
     for (size_t i = 0; i < a->count; i++)
         highest = fmax(highest, a->rms.data[i]);
     if (highest > backlash && backlash > 0) /* contact loss with impacts on both flanks */
-        plot.top = report_convert(&size, backlash);
+        plot.y1 = report_convert(&size, backlash);
     double here = report_find_scalar(page, "mesh_frequency", 0);
     if (isfinite(here)) {
         plot.mark_names[0] = "this run";
@@ -91,7 +91,7 @@ static void write_atlas(report_page *page, const atlas *a, const char *stage)
     snprintf(plot.x_label, sizeof plot.x_label, "mesh frequency (Hz)");
     snprintf(plot.y_label, sizeof plot.y_label, "transmission error, rms (µm)");
     report_plot_write(page, &plot);
-    if (plot.top > 0)
+    if (plot.y1 > 0)
         fputs("<p class=\"note\">Motions larger than the backlash are cut off.</p>\n", page->out);
     report_plot_free(&plot);
 }

@@ -168,7 +168,7 @@ static void draw_lines(const case_scalar *f, const ff_view_axis *axis, size_t co
         report_curve *curve = find_same(&plot, &f->unit, y);
         if (curve) {
             size_t length = strlen(curve->label);
-            snprintf(curve->label + length, sizeof curve->label - length, " = %.80s", name);
+            snprintf(curve->label + length, sizeof curve->label - length, " and %.80s", name);
             continue;
         }
         curve = report_plot_add(&plot, &unit, axis->values, &f->unit, y, points);

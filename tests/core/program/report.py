@@ -1,45 +1,51 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Chromium opens the report, moves its sliders, and finds nothing to complain about."""
+"""Chromium opens pages of every sort: each tries itself, zooms, toggles, moves its slider, and complains of nothing."""
 import base64
 import json
 import os
 import re
 import shutil
 import struct
-import subprocess
 import sys
-import tempfile
 
 import lab
+
+sys.path.insert(0, os.path.join(os.environ["FLANKFILM_TEST_SOURCE"], "docs"))
+import look
 
 if not shutil.which("chromium"):
     print("needs Chromium")
     sys.exit(77)
 
-QUIET = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-         "--disable-background-networking", "--disable-component-update", "--disable-sync",
-         "--disable-dev-shm-usage", "--enable-logging=stderr", "--virtual-time-budget=10000"]
 HOSTILE = "</title><script>document.body.dataset.errors='evil'</script>&amp;"
+CONFIGS = os.environ["FLANKFILM_TEST_SOURCE"] + "/configs/"
 
 
 class Report(lab.Lab):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.browser = look.Browser()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.browser.close()
+        super().tearDownClass()
+
     def look(self, path):
-        """The page as the browser has it after its own check, and what went to the console."""
-        profile = tempfile.mkdtemp(prefix="flankfilm-chromium-")
-        try:
-            done = subprocess.run(
-                ["chromium", *QUIET, "--user-data-dir=" + profile, "--dump-dom",
-                 "file://" + os.path.abspath(path) + "#check"],
-                capture_output=True, text=True, check=False, timeout=100)
-        finally:
-            shutil.rmtree(profile, ignore_errors=True)
-        body = re.search(r"<body[^>]*>", done.stdout)
-        self.assertIsNotNone(body, done.stderr)
-        found = dict(re.findall(r'data-(\w+)="([^"]*)"', body.group()))
-        self.assertEqual(found.get("ready"), "1", done.stderr)
-        self.assertEqual(found.get("errors"), "")
-        self.assertEqual(re.findall(r".*CONSOLE.*", done.stderr), [])
-        return done.stdout, int(found["figures"])
+        """The page as the browser has it after its own check, and the number of its figures."""
+        self.browser.open("file://" + os.path.abspath(path) + "#check")
+        self.assertEqual(self.browser.value("document.body.dataset.ready"), "1")
+        self.assertEqual(look.wrong(self.browser), [])
+        return self.browser.value("document.documentElement.outerHTML"), int(self.browser.value("document.body.dataset.figures"))
+
+    def study(self, name, text, code=0):
+        """Runs a study of toy models; returns its page's text, what the browser makes of it, and its figures."""
+        with open(name + ".yaml", "w", encoding="utf-8") as file:
+            file.write("format: 2\n" + text)
+        self.call("run", name + ".yaml", "-o", name, code=code)
+        self.call("report", name)
+        return self.read_page(name + "/report.html"), *self.look(name + "/report.html")
 
     def read_page(self, path):
         self.assertLess(os.path.getsize(path), 5e6)
@@ -65,10 +71,9 @@ class Report(lab.Lab):
             self.assertAlmostEqual(shown / kept, 1, places=6)
 
     def test_gear_pair(self):
-        source = os.environ["FLANKFILM_TEST_SOURCE"]
         small = [word for stage in ("film", "film_static")
                  for word in ("--set", stage + ".cells=64", "--set", stage + ".steps=400")]
-        self.call("run", source + "/configs/li-kahraman-2011.yaml", "-o", "pair", *small,
+        self.call("run", CONFIGS + "li-kahraman-2011.yaml", "-o", "pair", *small,
                   "--set", "mesh.use=stiffness/potential-energy")
         self.assertEqual(self.call("report", "pair"), "pair/report.html\n")
         page = self.read_page("pair/report.html")
@@ -81,9 +86,86 @@ class Report(lab.Lab):
         self.assertRegex(dom, r'"extremes">film_static: least film 0.1')
         self.assertRegex(dom, r"<output>roll angle [\d.]+ deg</output>")
 
+    def test_rough_flanks(self):
+        """The flanks move with the slider, asperities have their pressure, and nothing is out of the figure."""
+        self.call("run", CONFIGS + "mixed-film.yaml", "-o", "rough", "--set", "film.cells=128", "--set", "film.steps=60",
+                  "--set", "outputs=[film.roll_angle, film.x, film.film, film.pressure, film.asperity_pressure, film.roughness]")
+        self.call("report", "rough")
+        self.look("rough/report.html")
+        at = "document.querySelector('.snapshots input')"
+        frames = [self.browser.value(
+            f"{at}.value = {k}, {at}.dispatchEvent(new Event('input')), new Promise(done => setTimeout(done, 100, "
+            "[...document.querySelectorAll('.snapshots .plot')].map(plot => plot.innerHTML)))") for k in (10, 20)]
+        self.assertEqual([len(plots) for plots in frames], [3, 3])
+        for before, after in zip(*frames):
+            self.assertNotEqual(before, after)
+        self.assertIn("of asperities", self.read_page("rough/report.html"))
+
+    def test_atlas(self):
+        self.call("run", CONFIGS + "li-kahraman-2011.yaml", "-o", "atlas", "--set", "mesh.use=stiffness/iso-6336", "--set",
+                  "outputs=[motion.atlas_frequency, motion.atlas_rms, motion.atlas_stable, motion.atlas_branch, duty.mesh_frequency]")
+        self.call("report", "atlas")
+        dom, figures = self.look("atlas/report.html")
+        self.assertGreater(figures, 0)
+        self.assertIn("all periodic motions", dom)
+
+    def test_sample(self):
+        page, dom, figures = self.study("sample", """
+pipeline: {wave: {use: toy/wave, amplitude: 2 mm, count: 8}}
+outputs: [wave.total]
+study:
+  sweep: {wave.amplitude: {from: 1 mm, to: 3 mm}}
+  sample: {sobol: 40, seed: 1}
+""")
+        self.assertEqual(figures, 3)  # how it is spread, what it follows, over each input
+        for words in ("median", "95 %"):
+            self.assertIn(words, page)
+        self.assertIn("rank correlation", dom)
+
+    def test_tradeoff(self):
+        """Its cases are named by what they set, with a table of the front and one of all candidates."""
+        page, dom, figures = self.study("tradeoff", """
+pipeline: {root: {use: toy/root}}
+outputs: [root.value]
+study:
+  tradeoff:
+    outputs: [root.value]
+    accuracy: 1e-2
+    reference: {root.n: 100, refine: [root.n], refinements: 5}
+    candidates: [{root.n: [2, 4]}, {root.claim: 2}, {root.blind: 8}]
+    repeats: 1
+""")
+        self.assertEqual(figures, 1)
+        # levels that were not needed are no cases
+        self.assertIn('<p class="judgement"><span class="badge good">good</span> Of 6 cases 6 are good, ', page)
+        for words in ("error against cost", "the front", "all candidates", "reference 1, n 200<"):
+            self.assertIn(words, dom)
+        self.assertNotRegex(page, ", ,|, <")
+        self.assertNotIn('"label":"case"', page)  # no figure over the numbers of cases
+        with open("tradeoff/table.csv", encoding="utf-8") as file:
+            self.assertEqual(len(file.readlines()), 7)
+
+    def test_stability(self):
+        """A map has a letter and a reason for each cell, and its boundaries."""
+        page, dom, figures = self.study("stability", """
+pipeline: {verge: {use: toy/verge}}
+outputs: [verge.answers]
+study:
+  stability:
+    axes: {verge.load: {from: 1 N, to: 10 N, points: 3}, verge.speed: {from: 0.1 m/s, to: 4 m/s, points: 4}}
+    outputs: [verge.answer]
+    estimates: {verge.answer: [verge.answer_error]}
+    refine: [verge.cells]
+    range: [verge.law]
+    bisect: {verge.speed: 2}
+""", code=4)
+        self.assertGreater(figures, 0)
+        self.assertIn("the cells that are not converged, and why", dom)
+        self.assertRegex(dom, r"<b[^>]*>F</b>\d+ failed")
+        self.assertIn("Black lines", dom)
+
     def test_one_instant(self):
-        source = os.environ["FLANKFILM_TEST_SOURCE"]
-        self.call("run", source + "/configs/line-contact.yaml", "-o", "steady", "--set", "film.cells=64")
+        self.call("run", CONFIGS + "line-contact.yaml", "-o", "steady", "--set", "film.cells=64")
         self.call("report", "steady")
         self.assertIn("Steady line contact", self.read_page("steady/report.html"))
 
