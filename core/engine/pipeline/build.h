@@ -186,6 +186,7 @@ bool fe_set_param(ff_stage *stage, size_t param,
                   ff_report *report); /* unless it is absent or has a place */
 bool fe_wire_object(ff_stage *stage, size_t input, const void *service, ff_report *report);
 bool fe_ready_object(ff_stage *stage, ff_report *report);
+void fe_close_object(ff_stage *stage); /* another one may be opened, which finds its tables */
 void fe_close_instance(ff_stage *stage);
 /* The table behind a service of a live instance. NULL: it gives none, and the report says why. */
 const void *fe_fetch_service(ff_stage *stage, uint32_t output, ff_report *report);

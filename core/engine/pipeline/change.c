@@ -45,11 +45,8 @@ static void bind_anew(fe_build *b, ff_stage *stage)
 
 static void close_objects(ff_pipeline *pipeline)
 {
-    for (size_t i = pipeline->count; i-- > 0;) {
-        ff_stage *stage = &pipeline->stages[pipeline->order[i]];
-        fe_close_instance(stage);
-        stage->instance->self = NULL;
-    }
+    for (size_t i = pipeline->count; i-- > 0;)
+        fe_close_object(&pipeline->stages[pipeline->order[i]]);
 }
 
 static void open_objects(fe_build *b)
@@ -67,7 +64,7 @@ bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const 
 {
     const ff_node *root = ff_tree_root(tree);
     bool *changed = fe_alloc((pipeline->count + 1) * sizeof *changed);
-    bool good = is_as_built(pipeline);
+    bool good = is_as_built(pipeline), moved = false;
     for (size_t i = 0; i < count && good; i++) {
         const ff_stage *stage = find_target(pipeline, assignments[i]);
         good = stage && fe_tree_change(tree, assignments[i]);
@@ -87,8 +84,9 @@ bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const 
             fe_folder_keep(&pipeline->memory->folder);
             open_objects(&b);
             fe_check_unread(&b, ff_node_get(root, "outputs"));
+            moved = fe_folder_restore(&pipeline->memory->folder);
         }
-        good = ff_report_count(b.report) == 0;
+        good = ff_report_count(b.report) == 0 && !moved;
         ff_report_free(b.report);
     }
     fe_free(changed);

@@ -199,7 +199,7 @@ static char *copy_text(const char *text)
 {
     char clean[512];
     ff_clean_text(clean, sizeof clean, text ? text : "");
-    return fe_print_text("%s", clean);
+    return fe_copy_text(clean, strlen(clean));
 }
 
 static void free_serving(fe_serving *serving)

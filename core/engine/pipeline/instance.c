@@ -151,16 +151,21 @@ void fe_open_instance(fe_build *b, ff_stage *stage)
 {
     stage->instance->alive = fe_create_object(stage, b->report) && set(stage, b->report) &&
                              wire(b, stage) && fe_ready_object(stage, b->report);
-    if (b->pipeline)
-        fe_check_folder(b->pipeline, stage, "create, set, wire or ready", b->report);
 }
 
-void fe_close_instance(ff_stage *stage)
+void fe_close_object(ff_stage *stage)
 {
     fe_instance *instance = stage->instance;
     fe_resource_remove(&instance->open);
     destroy(instance);
-    fe_tables_free(&instance->tables);
+    fe_tables_release(&instance->tables);
     fe_forget_servings(instance);
     instance->mark.services = NULL;
+    instance->self = NULL;
+}
+
+void fe_close_instance(ff_stage *stage)
+{
+    fe_close_object(stage);
+    fe_tables_free(&stage->instance->tables);
 }

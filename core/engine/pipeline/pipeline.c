@@ -47,6 +47,8 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool ever
         ff_stage *stage = &pipeline->stages[pipeline->order[i]];
         if (stage->params && !stage->instance->broken)
             fe_open_instance(&b, stage);
+        if (stage->instance->created)
+            fe_check_folder(pipeline, stage, "create, set, wire or ready", report);
     }
     warn_of_feedback(&b, ff_node_get(root, "feedback"));
     fe_check_unread(&b, ff_node_get(root, "outputs"));

@@ -14,8 +14,14 @@ void ff_clean_text(char *out, size_t size, const char *text)
 {
     const char *end = text + strlen(text);
     uint32_t c;
-    for (size_t n; text < end && (n = fe_char_read(text, end, &c)) < size; text += n) {
-        if (is_clean(c))
+    for (size_t n; text < end; text += n) {
+        bool plain = *text >= ' ' && *text < 0x7f; /* as nearly all are */
+        n = plain ? 1 : fe_char_read(text, end, &c);
+        if (n >= size)
+            break;
+        if (plain)
+            *out = *text;
+        else if (is_clean(c))
             memcpy(out, text, n);
         else
             *out = *text == '\n' || *text == '\t' ? ' ' : '?';

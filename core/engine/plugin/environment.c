@@ -5,7 +5,6 @@
 
 #include <float.h>
 #include <locale.h>
-#include <stdio.h>
 #include <string.h>
 
 /* Finds out by computing, which needs no knowledge of the control registers of the processor. */
@@ -30,9 +29,10 @@ void fe_environment_keep(ff_environment *environment)
     environment->arithmetic = arithmetic();
     fesetenv(&environment->floating);
     const char *locale = setlocale(LC_ALL, NULL);
-    int length = snprintf(environment->locale, sizeof environment->locale, "%s", locale);
-    if (length < 0 || (size_t)length >= sizeof environment->locale)
-        environment->locale[0] = 0;
+    size_t length = locale ? strlen(locale) : sizeof environment->locale;
+    environment->locale[0] = 0;
+    if (length < sizeof environment->locale)
+        memcpy(environment->locale, locale, length + 1);
 }
 
 ff_environment *ff_environment_keep(void)

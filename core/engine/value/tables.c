@@ -5,18 +5,99 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <time.h>
 
 struct fe_kept_table {
     const ff_table *table; /* NULL: it could not be read */
     char *item;
+    char *asked; /* what the rows say of the columns, packed */
+    size_t asked_size;
+    struct stat file; /* before it was read; st_nlink 0: it may have changed unseen */
     struct fe_kept_table *next;
 };
 
-static void free_table(struct fe_kept_table *kept)
+static void append(char *out, size_t *at, const void *bytes, size_t size)
 {
-    ff_columns_free(kept->table);
-    fe_free(kept->item);
-    fe_free(kept);
+    if (out)
+        memcpy(out + *at, bytes, size);
+    *at += size;
+}
+
+/* Packs what reading takes from the rows, which the model may have made for this call. Returns how
+   many bytes that takes; `out` may be NULL. */
+static size_t pack_rows(const ff_param *rows, size_t count, size_t stride, char *out)
+{
+    size_t at = 0;
+    for (size_t k = 0; k < count; k++) {
+        const ff_param *row = (const ff_param *)(const void *)((const char *)rows + k * stride);
+        const char *group = row->group ? row->group : "\1";
+        append(out, &at, row->name, strlen(row->name) + 1);
+        append(out, &at, row->unit, strlen(row->unit) + 1);
+        append(out, &at, group, strlen(group) + 1);
+        append(out, &at, &row->flags, sizeof row->flags);
+        append(out, &at, &row->min, sizeof row->min);
+        append(out, &at, &row->max, sizeof row->max);
+        append(out, &at, &row->min_count, sizeof row->min_count);
+        append(out, &at, &row->max_count, sizeof row->max_count);
+    }
+    return at;
+}
+
+static void free_list(struct fe_kept_table **list)
+{
+    for (struct fe_kept_table *kept = *list, *next; kept; kept = next) {
+        next = kept->next;
+        ff_columns_free(kept->table);
+        fe_free(kept->item);
+        fe_free(kept->asked);
+        fe_free(kept);
+    }
+    *list = NULL;
+}
+
+/* The state of a file, before it is read. One that was written a moment ago may be written again
+   within the resolution of its clock. */
+static struct stat state_of(const char *path)
+{
+    enum { MOMENT = 2 }; /* s */
+    struct stat file;
+    if (!path || stat(path, &file) != 0 || time(NULL) - file.st_mtim.tv_sec < MOMENT)
+        return (struct stat){.st_nlink = 0};
+    return file;
+}
+
+static bool same_file(const struct stat *a, const struct stat *b)
+{
+    return a->st_nlink > 0 && b->st_nlink > 0 && a->st_dev == b->st_dev && a->st_ino == b->st_ino &&
+           a->st_size == b->st_size && a->st_mtim.tv_sec == b->st_mtim.tv_sec &&
+           a->st_mtim.tv_nsec == b->st_mtim.tv_nsec && a->st_ctim.tv_sec == b->st_ctim.tv_sec &&
+           a->st_ctim.tv_nsec == b->st_ctim.tv_nsec;
+}
+
+/* Whether both ask for the same columns of the same file, which has not changed. */
+static bool is_same(const struct fe_kept_table *a, const struct fe_kept_table *b, const char *path)
+{
+    return a->table && same_file(&a->file, &b->file) && a->asked_size == b->asked_size &&
+           !memcmp(a->asked, b->asked, a->asked_size) &&
+           !strcmp(ff_columns_place(a->table, SIZE_MAX, SIZE_MAX).source->name, path);
+}
+
+/* Takes the table over from the instance before, if that has read it; else reads it. */
+static void find_table(fe_tables *tables, struct fe_kept_table *kept, const char *path,
+                       const ff_param *rows, size_t count, size_t stride, ff_report *report)
+{
+    kept->asked_size = pack_rows(rows, count, stride, NULL);
+    kept->asked = fe_alloc(kept->asked_size + 1);
+    pack_rows(rows, count, stride, kept->asked);
+    kept->file = state_of(path);
+    for (struct fe_kept_table *spare = tables->spare; spare; spare = spare->next)
+        if (is_same(spare, kept, path)) {
+            kept->table = spare->table;
+            spare->table = NULL;
+            return;
+        }
+    kept->table = ff_columns_read(path, rows, count, stride, report);
 }
 
 ff_status fe_tables_read(fe_tables *tables, const char *item, const char *path,
@@ -26,7 +107,7 @@ ff_status fe_tables_read(fe_tables *tables, const char *item, const char *path,
     fe_tables_forget(tables);
     ff_report *report = ff_report_new();
     if (path)
-        kept->table = ff_columns_read(path, rows, count, stride, report);
+        find_table(tables, kept, path, rows, count, stride, report);
     else
         ff_error(report, FF_FAULT_PLUGIN, FF_NOWHERE, NULL, "it gave no path");
     item = item ? item : "";
@@ -70,12 +151,19 @@ void fe_tables_forget(fe_tables *tables)
     tables->errors = NULL;
 }
 
+void fe_tables_release(fe_tables *tables)
+{
+    fe_tables_forget(tables);
+    free_list(&tables->spare);
+    tables->spare = tables->kept;
+    tables->kept = NULL;
+    tables->item = NULL;
+}
+
 void fe_tables_free(fe_tables *tables)
 {
     fe_tables_forget(tables);
-    for (struct fe_kept_table *kept = tables->kept, *next; kept; kept = next) {
-        next = kept->next;
-        free_table(kept);
-    }
-    *tables = (fe_tables){.kept = NULL};
+    free_list(&tables->kept);
+    free_list(&tables->spare);
+    tables->item = NULL;
 }

@@ -65,7 +65,8 @@ static void append(reader *r, const char *piece)
 /* Reads one character of `text` and returns its plain spelling; of one byte, the byte itself. */
 static const char *next_piece(const char **text, char byte[2])
 {
-    for (size_t i = 0; i < sizeof spellings / sizeof *spellings; i++) {
+    bool plain = strchr(letters, **text) || strchr(digits, **text) || strchr(" ./()^-", **text);
+    for (size_t i = 0; !plain && i < sizeof spellings / sizeof *spellings; i++) {
         size_t n = strlen(spellings[i][0]);
         if (!strncmp(*text, spellings[i][0], n)) {
             *text += n;
@@ -159,7 +160,8 @@ static bool read_factor(reader *r, int sign)
     size_t length = strspn(start, letters);
     if (length == 0)
         return refuse_here(r);
-    snprintf(word, sizeof word, "%.*s", (int)length, start);
+    memcpy(word, start, length);
+    word[length] = '\0';
     if (!fe_symbol_find(word, &symbol))
         return refuse_word(r, word);
     r->at += length;

@@ -23,7 +23,7 @@ typedef struct reader {
     ff_tree *tree;
     const ff_source *source;
     ff_report *report;
-    anchor anchors[MOST_ANCHORS];
+    anchor *anchors;
     size_t anchor_count;
     bool stopped; /* the rest cannot be read, and what was read is lost */
 } reader;
@@ -248,8 +248,10 @@ static ff_node *read_content(reader *r, const yaml_event_t *event, ff_place plac
         stop(r, place, NULL, "the file has more than 1000 anchors");
         return node;
     }
-    if (name)
-        r->anchors[r->anchor_count++].name = name;
+    if (name) {
+        r->anchors = fe_resize(r->anchors, (at + 1) * sizeof *r->anchors);
+        r->anchors[r->anchor_count++] = (anchor){.name = name};
+    }
     if (node->kind == FF_MAP)
         read_map(r, node, level);
     else if (node->kind == FF_SEQUENCE)
@@ -348,6 +350,7 @@ ff_node *fe_yaml_read(ff_tree *tree, const ff_source *source, const char *text, 
     ff_node *root = read_document(r);
     fe_resource_remove(&r->open);
     close_parser(r);
+    fe_free(r->anchors);
     fe_free(r);
     return root;
 }

@@ -6,6 +6,7 @@
 #include <fcntl.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
 static bool write_at(int fd, const void *data, size_t size, off_t at)
@@ -84,11 +85,15 @@ bool arrays_log_append(arrays_log *log, const arrays_label *label, const double 
     off_t at = *offset = log->end;
     uint64_t sum = arrays_checksum_add(&log->checksum, 0, head.bytes, head.size);
     sum = arrays_checksum_add(&log->checksum, (uint32_t)sum, data, size);
-    bool good = write_at(log->fd, head.bytes, head.size, at) &&
-                write_at(log->fd, data, size, at + (off_t)head.size) &&
-                write_at(log->fd, &sum, sizeof sum, at + (off_t)(head.size + size));
+    size_t whole = head.size + size + sizeof sum;
+    const struct iovec parts[] = {
+        {head.bytes, head.size}, {(double *)(uintptr_t)data, size}, {&sum, sizeof sum}};
+    bool good = pwritev(log->fd, parts, 3, at) == (ssize_t)whole ||
+                (write_at(log->fd, head.bytes, head.size, at) && /* an error is met again */
+                 write_at(log->fd, data, size, at + (off_t)head.size) &&
+                 write_at(log->fd, &sum, sizeof sum, at + (off_t)(head.size + size)));
     if (good)
-        log->end = at + (off_t)(head.size + size + sizeof sum);
+        log->end = at + (off_t)whole;
     return good;
 }
 

@@ -28,27 +28,42 @@ static bool has_own_texts(const char *name)
     return is_one_of(name, names);
 }
 
-/* Returns the form of a value; what it lacks is appended to the list. */
-static json_t *empty(json_t *value, bool own_texts, json_t *values)
+static bool is_own(const json_t *value, bool own_texts)
+{
+    return !json_is_object(value) && !json_is_array(value) && (own_texts || !json_is_string(value));
+}
+
+/* Returns the form of a value. */
+static json_t *empty(json_t *value, bool own_texts)
 {
     const char *name;
-    json_t *item, *form = NULL;
+    json_t *item, *form;
     size_t i;
-    if (json_is_object(value)) {
-        form = json_object();
-        json_object_foreach(value, name, item)
-            json_object_set_new(form, name, empty(item, own_texts, values));
-    } else if (json_is_array(value)) {
-        form = json_array();
-        json_array_foreach(value, i, item)
-            json_array_append_new(form, empty(item, own_texts, values));
-    } else if (json_is_string(value) && !own_texts) {
-        form = json_incref(value);
-    } else {
-        json_array_append(values, value);
-        form = json_null();
-    }
+    if (is_own(value, own_texts))
+        return json_null();
+    if (json_is_string(value))
+        return json_incref(value);
+    form = json_is_object(value) ? json_object() : json_array();
+    json_object_foreach(value, name, item) json_object_set_new(form, name, empty(item, own_texts));
+    json_array_foreach(value, i, item) json_array_append_new(form, empty(item, own_texts));
     return form;
+}
+
+/* Hashes the form of a value, without making it. */
+static uint64_t hash_form(uint64_t hash, json_t *value, bool own_texts)
+{
+    const char *name;
+    json_t *item;
+    size_t i;
+    if (is_own(value, own_texts))
+        return study_hash_text(hash, NULL);
+    if (json_is_string(value))
+        return study_hash_text(study_hash_text(hash, "text"), json_string_value(value));
+    hash = study_hash_text(hash, json_is_object(value) ? "{" : "[");
+    json_object_foreach(value, name, item) hash =
+        hash_form(study_hash_text(hash, name), item, own_texts);
+    json_array_foreach(value, i, item) hash = hash_form(hash, item, own_texts);
+    return study_hash_text(hash, "}");
 }
 
 /* With the fewest digits that give the same number; a point or an exponent tells it from a whole
@@ -76,39 +91,50 @@ static void put_value(const json_t *value, FILE *out)
         json_dumpf(value, out, JSON_COMPACT | JSON_ENCODE_ANY);
 }
 
-static void put_values(const json_t *values, FILE *out)
+/* Writes what the form of a value lacks, with a comma before each but the first. */
+static void put_values(json_t *value, bool own_texts, bool *any, FILE *out)
 {
+    const char *name;
+    json_t *item;
     size_t i;
-    json_t *value;
-    fputs(",\"values\":[", out);
-    json_array_foreach(values, i, value)
-    {
-        fputs(i ? "," : "", out);
-        put_value(value, out);
-    }
-    fputc(']', out);
+    json_object_foreach(value, name, item) put_values(item, own_texts, any, out);
+    json_array_foreach(value, i, item) put_values(item, own_texts, any, out);
+    if (!is_own(value, own_texts))
+        return;
+    fputs(*any ? "," : "", out);
+    put_value(value, out);
+    *any = true;
 }
 
 /* Names the form, and says it unless that was done. */
-static void put_form(const json_t *form, json_t *said, FILE *out)
+static void put_form(json_t *record, json_t *said, FILE *out)
 {
-    char *text = json_dumps(form, JSON_COMPACT), name[STUDY_FORM_NAME];
-    snprintf(name, sizeof name, "%016llx",
-             (unsigned long long)study_hash_text(STUDY_HASH_START, text));
+    const char *member;
+    json_t *value;
+    char name[STUDY_FORM_NAME];
+    uint64_t hash = STUDY_HASH_START;
+    json_object_foreach(record, member, value) if (!is_beside(member)) hash =
+        hash_form(study_hash_text(hash, member), value, has_own_texts(member));
+    snprintf(name, sizeof name, "%016llx", (unsigned long long)hash);
     fprintf(out, ",\"form\":\"%s\"", name);
-    if (text && !json_object_get(said, name)) {
-        fprintf(out, ",\"is\":%s", text);
-        json_object_set_new(said, name, json_true());
-    }
-    free(text);
+    if (json_object_get(said, name))
+        return;
+    json_t *form = json_object();
+    json_object_foreach(record, member, value) if (!is_beside(member))
+        json_object_set_new(form, member, empty(value, has_own_texts(member)));
+    fputs(",\"is\":", out);
+    json_dumpf(form, out, JSON_COMPACT);
+    json_object_set_new(said, name, json_true());
+    json_decref(form);
 }
 
-void study_form_write(const json_t *record, json_t *said, FILE *out)
+void study_form_write(json_t *record, json_t *said, FILE *out)
 {
-    json_t *form = json_object(), *values = json_array(), *member;
     const json_t *parameters = json_object_get(record, "parameters");
     const json_t *log = json_object_get(record, "log");
     const char *name;
+    json_t *member;
+    bool any = false;
     fprintf(out, "{\"case\":%" JSON_INTEGER_FORMAT ",\"key\":\"%s\",\"status\":\"%s\"",
             json_integer_value(json_object_get(record, "case")),
             json_string_value(json_object_get(record, "key")),
@@ -117,16 +143,15 @@ void study_form_write(const json_t *record, json_t *said, FILE *out)
         fputs(",\"log\":", out);
         json_dumpf(log, out, JSON_COMPACT);
     }
-    json_object_foreach((json_t *)(size_t)record, name, member) if (!is_beside(name))
-        json_object_set_new(form, name, empty(member, has_own_texts(name), values));
-    put_form(form, said, out);
-    put_values(values, out);
+    put_form(record, said, out);
+    fputs(",\"values\":[", out);
+    json_object_foreach(record, name, member) if (!is_beside(name))
+        put_values(member, has_own_texts(name), &any, out);
+    fputc(']', out);
     if (json_object_size(parameters)) {
         fputs(",\"parameters\":", out);
         json_dumpf(parameters, out, JSON_COMPACT);
     }
-    json_decref(form);
-    json_decref(values);
 }
 
 /* Returns a copy of the form with the next values; *next runs past their number when they are too

@@ -18,7 +18,7 @@ enum { STUDY_FORM_NAME = 17 }; /* bytes of the hash that names a form, with its 
 
 /* Writes the record as a line without its last brace. `said` has the names of the forms that the
    process has said, and gets this one. */
-void study_form_write(const json_t *record, json_t *said, FILE *out);
+void study_form_write(json_t *record, json_t *said, FILE *out);
 
 /* Returns the record of a line with a form; NULL when the values do not fill it. */
 json_t *study_form_fill(const json_t *form, const json_t *line);

@@ -45,7 +45,7 @@ bool study_state_is_settled(enum study_state state, enum study_rerun rerun)
            (rerun == STUDY_RERUN_NONE || (rerun == STUDY_RERUN_FAILED && state == STUDY_OK));
 }
 
-char *study_journal_line(const json_t *record, json_t *said)
+char *study_journal_line(json_t *record, json_t *said)
 {
     char *text = NULL;
     size_t length = 0;

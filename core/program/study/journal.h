@@ -24,7 +24,7 @@ bool study_journal_append(study_journal *journal, const char *line, size_t lengt
                           ff_report *report);
 void study_journal_close(study_journal *journal);
 /* Returns the record as a line with its checksum, to be freed; `said` as in study_form_write. */
-char *study_journal_line(const json_t *record, json_t *said);
+char *study_journal_line(json_t *record, json_t *said);
 /* Whether the line is complete and was not changed. */
 bool study_line_is_whole(const char *line, size_t length);
 /* Returns what such a line says, to be released; NULL for another one. */

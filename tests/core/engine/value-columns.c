@@ -4,10 +4,12 @@
 
 #include "value-check.h"
 
+#include <fcntl.h>
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const ff_param rows[] = {
@@ -387,6 +389,56 @@ static ff_status keep_text(void *ctx, ff_status status, const char *item, const 
     return status;
 }
 
+/* Writes the file as one that nobody has touched since the given second. */
+static void write_long_ago(const char *text, time_t second)
+{
+    const struct timespec then[] = {{second, 0}, {second, 0}};
+    write_bytes(text, strlen(text));
+    ck_assert(utimensat(AT_FDCWD, path, then, 0) == 0);
+}
+
+static const ff_table *ask(fe_tables *tables, const ff_param *asked)
+{
+    const ff_table *got;
+    ck_assert(fe_tables_read(tables, "one", path, asked, COLUMNS, sizeof *rows, &got) == FF_OK);
+    return got;
+}
+
+/* The next instance gets the table of the one before, unless the file or the columns are others. */
+START_TEST(tables_that_go_on)
+{
+    fe_tables tables = {.kept = NULL};
+    ff_param others[COLUMNS];
+    memcpy(others, rows, sizeof rows);
+    others[ANGLE].max = 80;
+    write_long_ago(HEAD "0, 1\n", 1000);
+    const ff_table *first = ask(&tables, rows);
+    const ff_table *beside = ask(&tables, rows);
+    ck_assert(beside != first);
+    fe_tables_release(&tables);
+    const ff_table *again = ask(&tables, rows);
+    ck_assert(again == first || again == beside);
+    ck_assert(again->columns[ANGLE][0] > 0 && again->row_count == 1);
+    fe_tables_release(&tables);
+    ck_assert(ask(&tables, others) != again);
+    fe_tables_release(&tables);
+    write_long_ago(HEAD "0, 2\n", 1000); /* the size and the time of the first */
+    double angle = ask(&tables, others)->columns[ANGLE][0];
+    ck_assert(fabs(angle - 2 * acos(-1) / 180) < 1e-15);
+    fe_tables_release(&tables);
+    write_bytes(HEAD "0, 3\n", strlen(HEAD) + 5);
+    ask(&tables, others); /* of a file so new that it may change unseen */
+    fe_tables_release(&tables);
+    write_bytes(HEAD "0, 4\n", strlen(HEAD) + 5);
+    ck_assert(ask(&tables, others)->columns[ANGLE][0] > 3.5 * acos(-1) / 180);
+    fe_tables_release(&tables);
+    unlink(path);
+    ck_assert(fe_tables_read(&tables, "one", path, rows, COLUMNS, sizeof *rows, &first) ==
+              FF_INVALID);
+    fe_tables_free(&tables);
+}
+END_TEST
+
 START_TEST(a_host_without_tables)
 {
     char text[200] = "";
@@ -412,6 +464,7 @@ int main(void)
         &a_unit_of_the_plugin_that_is_none,
         &the_report_keeps_the_text,
         &tables_of_an_instance,
+        &tables_that_go_on,
         &a_host_without_tables,
     };
     Suite *suite = suite_create("columns");

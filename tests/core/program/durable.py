@@ -123,7 +123,7 @@ class Durable(lab.Lab):
     def test_study(self):
         calls = self.traced("run", "study.yaml", "-o", "traced-study", "-j", "2", code=4)
         used = self.check_names(calls)
-        self.assertLessEqual({"openat", "write", "pwrite64", "renameat", "flock", "fsync", "fdatasync"}, used)
+        self.assertLessEqual({"openat", "write", "pwritev", "renameat", "flock", "fsync", "fdatasync"}, used)
         self.assertGreater(self.check_renames([c for c in calls if "/stages" not in str(c)], True), 1)
         journal = [c.name for c in calls if c.paths and c.paths[0].endswith("/journal.jsonl") and
                    c.name in ("write", "fdatasync")]
@@ -136,7 +136,7 @@ class Durable(lab.Lab):
         lines = syncs = 0
         for call in calls:
             path = call.paths[0] if call.paths else ""
-            if call.name == "pwrite64" and path.endswith(".log"):
+            if call.name in ("pwrite64", "pwritev") and path.endswith(".log"):
                 offset = int(call.words.rsplit(",", 1)[1])
                 self.assertEqual(offset, end.get(path, 0), call)
                 end[path] = offset + int(call.code)
@@ -177,8 +177,8 @@ class Durable(lab.Lab):
         calls = self.traced("run", "study.yaml", "-o", "cut", "-j", "1", "--set", "wave.shape=b", code=4)
         log = [c for c in calls if c.paths and c.paths[0].endswith("/arrays.1.log")]
         self.assertEqual([c.words.rsplit(",", 1)[1].strip() for c in log if c.name == "ftruncate"], [str(whole)])
-        first = [c for c in log if c.name in ("ftruncate", "pwrite64")][:2]
-        self.assertEqual([c.name for c in first], ["ftruncate", "pwrite64"])
+        first = [c for c in log if c.name in ("ftruncate", "pwritev")][:2]
+        self.assertEqual([c.name for c in first], ["ftruncate", "pwritev"])
 
 
 lab.main()
