@@ -8,8 +8,8 @@
 typedef struct fe_tables {
     struct fe_kept_table *kept;
     struct fe_kept_table *spare; /* of the instance before, until they are asked for again */
-    ff_report *errors; /* why the last call failed; NULL: it did not */
-    const char *item;  /* the item that the last call was about */
+    ff_report *errors;           /* why the last call failed; NULL: it did not */
+    const char *item;            /* the item that the last call was about */
 } fe_tables;
 
 ff_status fe_tables_read(fe_tables *tables, const char *item, const char *path,
