@@ -87,11 +87,10 @@ static double static_share(const dynamics_inputs *inputs, size_t station)
 }
 
 /* Li & Kahraman 2011, eq. 5: W_d = (W_s/F) DMF, the static share of the mesh force at the phase of
-   the station. `largest` is the largest force. */
+   the station. */
 static ff_status put_engagements(const dynamics_motion_view *view,
                                  const dynamics_excitation *excitation,
-                                 const dynamics_inputs *inputs, const ff_host *host,
-                                 double *largest)
+                                 const dynamics_inputs *inputs, const ff_host *host)
 {
     size_t shape[2] = {view->cycles, inputs->stations};
     uint32_t rank = view->cycles > 1 ? 2 : 1;
@@ -99,7 +98,6 @@ static ff_status put_engagements(const dynamics_motion_view *view,
     double *gap = host->output(host->ctx, DYNAMICS_OUT_GAP, rank, &shape[2 - rank]);
     if (!force || !gap)
         return FF_NOMEM;
-    *largest = -INFINITY;
     for (size_t cycle = 0, i = 0; cycle < view->cycles; cycle++)
         for (size_t station = 0; station < inputs->stations; station++, i++) {
             double phase = (double)cycle + dynamics_station_phase(inputs, station), dmf;
@@ -107,42 +105,51 @@ static ff_status put_engagements(const dynamics_motion_view *view,
             force[i] =
                 static_share(inputs, station) * dmf * excitation->stiffness * excitation->length;
             gap[i] *= excitation->length;
-            *largest = fmax(*largest, force[i]);
         }
     return FF_OK;
 }
 
-/* The largest distance, over the largest tooth force, of the force from the straight line between
-   two stations, half-way between them: what is fed by the stations takes that line. */
-static double sampling_error(const dynamics_motion_view *view, const dynamics_inputs *inputs)
+/* The top of the parabola through three points at equal distances, if it lies between them. */
+static double top_of(const double force[3])
 {
-    double off = 0, largest = 0;
+    double rise = (force[2] - force[0]) / 2, bend = force[1] - (force[0] + force[2]) / 2;
+    double top = fmax(fmax(force[0], force[1]), force[2]);
+    return fabs(rise) < 2 * bend ? fmax(top, force[1] + rise * rise / (4 * bend)) : top;
+}
+
+/* The tooth force between the stations, in units of the excitation's. */
+typedef struct dynamics_between {
+    double largest;
+    /* Half-way between two stations, off the straight line that what they feed takes, at most. */
+    double off_line;
+} dynamics_between;
+
+static dynamics_between look_between(const dynamics_motion_view *view,
+                                     const dynamics_inputs *inputs)
+{
+    dynamics_between found = {0, 0};
     for (size_t cycle = 0; cycle < view->cycles; cycle++)
         for (size_t i = 0; i + 1 < inputs->stations; i++) {
             double begin = dynamics_station_phase(inputs, i),
                    end = dynamics_station_phase(inputs, i + 1), gap, force[3];
             if (end - begin < 1e-12)
                 continue;
-            for (int k = 0; k < 3; k++)
+            double share = static_share(inputs, i), step = static_share(inputs, i + 1) - share;
+            for (int k = 0; k < 3; k++) {
                 view->look_up(view->self, (double)cycle + begin + 0.5 * k * (end - begin), k == 2,
                               &force[k], &gap);
-            double a = static_share(inputs, i), z = static_share(inputs, i + 1);
-            double line = (a * force[0] + z * force[2]) / 2;
-            off = fmax(off, fabs((a + z) / 2 * force[1] - line));
-            largest = fmax(largest, fmax(fabs(a * force[0]), fabs(z * force[2])));
+                force[k] *= share + 0.5 * k * step;
+            }
+            found.off_line = fmax(found.off_line, fabs(force[1] - (force[0] + force[2]) / 2));
+            found.largest = fmax(found.largest, top_of(force));
         }
-    return largest > 0 ? off / largest : 0;
+    return found;
 }
 
-static void report_sampling(const dynamics_motion_view *view, const dynamics_inputs *inputs,
-                            const ff_host *host)
+static void report_sampling(const dynamics_between *found, const ff_host *host)
 {
-    static const uint64_t sampled = FF_BIT(DYNAMICS_OUT_TOOTH_FORCE) | FF_BIT(DYNAMICS_OUT_GAP) |
-                                    FF_BIT(DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH);
     const double limit = 0.02;
-    if (!(inputs->wanted & sampled))
-        return;
-    double error = sampling_error(view, inputs);
+    double error = found->largest > 0 ? found->off_line / found->largest : 0;
     host->quality(
         host->ctx, "station_sampling", error, limit, error <= limit ? FF_GOOD : FF_DOUBTFUL,
         "tooth force half-way between two stations of the gear, off the straight line that "
@@ -161,9 +168,17 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
                                    const dynamics_excitation *excitation,
                                    const dynamics_inputs *inputs, const ff_host *host)
 {
-    double time = (double)view->cycles * view->T, tooth = 0, quasi_static = largest_static(inputs);
-    ff_status status = put_engagements(view, excitation, inputs, host, &tooth);
-    report_sampling(view, inputs, host);
+    static const uint64_t of_stations = FF_BIT(DYNAMICS_OUT_TOOTH_FORCE) |
+                                        FF_BIT(DYNAMICS_OUT_GAP) |
+                                        FF_BIT(DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH);
+    double time = (double)view->cycles * view->T, quasi_static = largest_static(inputs);
+    dynamics_between between = {0, 0};
+    ff_status status = put_engagements(view, excitation, inputs, host);
+    if (inputs->wanted & of_stations) {
+        between = look_between(view, inputs);
+        report_sampling(&between, host);
+    }
+    double tooth = between.largest * excitation->stiffness * excitation->length;
     const struct {
         uint32_t output;
         double value;

@@ -27,6 +27,7 @@ import math
 import os
 import random
 import resource
+import signal
 import statistics
 import subprocess
 import sys
@@ -164,10 +165,10 @@ class Runner:
         begin, before = time.perf_counter(), cpu_of_children()
         done = subprocess.run([self.program, 'run', os.path.join(self.folder, 'scene.yaml'), '--json', '--arrays'],
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, preexec_fn=limit_cpu)
-        spent = cpu_of_children() - before
-        if spent > 0.99 * LONGEST and done.returncode != 0:
+        if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
             return {'status': 'too long', 'why': f'more than {LONGEST} s'}
-        share = min(spent / (time.perf_counter() - begin), 1)  # of a processor, which others may use as well
+        # of a processor, which others may use as well
+        share = min((cpu_of_children() - before) / (time.perf_counter() - begin), 1)
         try:
             answer = json.loads(done.stdout)
         except ValueError:
