@@ -49,7 +49,8 @@ typedef struct study_arrays { /* where a worker keeps arrays */
     arrays_log log;
 } study_arrays;
 
-/* outcome.c: reads an array of a case from its log; NULL when there is none, or with what is wrong.
+/* array-read.c: reads an array of a case from its log; NULL when there is none, or with what is
+ * wrong.
  */
 const double *study_array_read(arrays_reader *reader, const json_t *record, const char *name,
                                memory_arena *arena, size_t *rank, size_t *count,
