@@ -71,6 +71,13 @@ static void add_stretch(dynamics_excitation *excitation, const dynamics_mesh_cur
     }
 }
 
+void dynamics_excitation_mark_jumps(dynamics_excitation *excitation)
+{
+    for (size_t i = 0; i < excitation->count; i++)
+        excitation->pieces[i].jump =
+            jumps(&excitation->pieces[i ? i - 1 : excitation->count - 1], &excitation->pieces[i]);
+}
+
 int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_mesh_curves *x)
 {
     excitation->count = 0;
@@ -90,9 +97,7 @@ int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_me
             first = i + 1;
         }
     }
-    for (size_t i = 0; i < excitation->count; i++)
-        excitation->pieces[i].jump =
-            jumps(&excitation->pieces[i ? i - 1 : excitation->count - 1], &excitation->pieces[i]);
+    dynamics_excitation_mark_jumps(excitation);
     excitation->represented.pieces = excitation->count;
     return 1;
 }

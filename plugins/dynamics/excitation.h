@@ -3,11 +3,12 @@
  * The gear pair as an oscillator with one degree of freedom (Li & Kahraman 2011, eqs 2a and 2b),
  * without dimensions:
  *
- *   s'' + 2 zeta (s' - e') + k g(s - e) = load
+ *   s'' + 2 zeta (s' - e') + k g(s - e) = load - drag
  *
  * in the unit of length `length`, the mean mesh stiffness and the unit of time 1/omega, omega^2 =
  * mean stiffness / equivalent mass. g is the dead zone of half width `half_gap`. k and e are
- * polynomials between the nodes of a mesh cycle and may jump there.
+ * polynomials between the nodes of a mesh cycle and may jump there; so is drag, which is 0 without
+ * a film that gives its friction back.
  */
 #ifndef DYNAMICS_EXCITATION_H
 #define DYNAMICS_EXCITATION_H
@@ -28,7 +29,9 @@ typedef struct dynamics_piece {
     double start, length; /* mesh cycles */
     int degree;           /* 1: straight lines */
     double k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1];
-    int jump; /* k or e is discontinuous at the start */
+    double drag[DYNAMICS_DEGREE + 1]; /* of friction and rolling */
+    double film[DYNAMICS_DEGREE + 1]; /* thickness of the loaded film, which e has less of */
+    int jump;                         /* k or e is discontinuous at the start */
 } dynamics_piece;
 
 /* What the smooth pieces make of the straight lines of a table. */
@@ -43,6 +46,7 @@ typedef struct dynamics_excitation {
     double k_max; /* the largest k */
     double zeta, load, half_gap;
     int damping;
+    int fed_back; /* whether a film gave drag and thickness; all pieces then have the full degree */
     double length, stiffness, omega; /* units: m, N/m, rad/s */
     dynamics_representation represented;
     const struct dynamics_film *film; /* the oil between parted flanks; NULL: none */
@@ -98,6 +102,8 @@ typedef struct dynamics_mesh_curves {
 /* Builds the pieces from checked curves; the scalars are set. Where the lines of a table follow a
    smooth curve, the curve is taken. 0: out of memory. */
 int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_mesh_curves *curves);
+/* Marks the pieces at whose starts k or e jumps. */
+void dynamics_excitation_mark_jumps(dynamics_excitation *excitation);
 void dynamics_excitation_free(dynamics_excitation *excitation);
 
 /* The piece at a phase in [0, 1]; at a node that before it (`left`) or that behind it. */

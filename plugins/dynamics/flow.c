@@ -74,8 +74,9 @@ int dynamics_flow_init(dynamics_flow *flow, const dynamics_excitation *excitatio
     for (size_t i = excitation->count; i-- > 0;) {
         const dynamics_piece *p = &excitation->pieces[i];
         int last = i + 1 == excitation->count;
-        flow->free_until[i] =
-            last || bends_after(p) ? piece_end(excitation, p) : flow->free_until[i + 1];
+        flow->free_until[i] = last || excitation->fed_back || bends_after(p)
+                                  ? piece_end(excitation, p)
+                                  : flow->free_until[i + 1];
     }
     return 1;
 }
@@ -289,11 +290,14 @@ static double plan_step(const dynamics_run *r, dynamics_piece_equation *q)
     *q = (dynamics_piece_equation){.load = r->excitation->load,
                                    .damper = damper_acts(r) ? 2 * r->excitation->zeta : 0};
     double since = r->at - r->piece->start;
-    q->degree = r->pressed || !is_straight(r->piece) ? r->piece->degree : 1;
+    q->drags = r->excitation->fed_back;
+    q->degree = r->pressed || q->drags || !is_straight(r->piece) ? r->piece->degree : 1;
     if (r->pressed)
         dynamics_piece_shift(r->piece->k, q->degree, since, 1 / r->T, q->k);
     if (q->degree > 1 && !is_straight(r->piece))
         dynamics_piece_shift(r->piece->e, q->degree, since, 1 / r->T, q->e);
+    if (q->drags)
+        dynamics_piece_shift(r->piece->drag, q->degree, since, 1 / r->T, q->drag);
     double left = end - r->at, size = dynamics_taylor_step_size(q, left * r->T);
     if (r->idle > DYNAMICS_MAX_IDLE && left * r->T > dynamics_slip)
         return r->at + dynamics_slip / r->T;

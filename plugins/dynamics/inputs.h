@@ -29,12 +29,22 @@ enum {
     DYNAMICS_COUPLED_INPUT_COUNT
 };
 
-/* Read only by a model that knows the oil between parted flanks, behind those of all models. */
+/* Behind those of all models: read by models of the loop of motion and film, and by one that knows
+   the oil between parted flanks. */
 enum {
     DYNAMICS_IN_RADIUS_1 = DYNAMICS_INPUT_COUNT,
     DYNAMICS_IN_RADIUS_2,
     DYNAMICS_IN_FACE_WIDTH,
-    DYNAMICS_IN_ETA0,
+    DYNAMICS_IN_INERTIA,
+    DYNAMICS_IN_FILM_ROLL_ANGLE,
+    DYNAMICS_IN_FILM_ENGAGEMENT,
+    DYNAMICS_IN_FILM_TRACTION,
+    DYNAMICS_IN_FILM_ROLLING_LOSS,
+    DYNAMICS_IN_FILM_POWER_LOSS,
+    DYNAMICS_IN_FILM_H_CENTRAL,
+    DYNAMICS_IN_FILM_P_MAX,
+    DYNAMICS_LOOP_INPUT_COUNT,
+    DYNAMICS_IN_ETA0 = DYNAMICS_LOOP_INPUT_COUNT,
     DYNAMICS_OIL_INPUT_COUNT
 };
 

@@ -141,7 +141,7 @@ static int eliminate(int n, double m[MOST][MOST], int columns,
 /* What does not change while a step is solved. */
 typedef struct stages {
     const dynamics_radau *r;
-    double h, c, load[S], bend[S], k[S]; /* load less e''; bend: e'' */
+    double h, c, load[S], bend[S], k[S]; /* load less drag and e''; bend: e'' */
     int count, flank[2];                 /* of the films that carry */
     dynamics_film_place place[S];
     double (*inverse)[S];
@@ -172,6 +172,9 @@ static int prepare(const dynamics_radau *r, dynamics_landing *step, stages *g)
             dynamics_piece_bend(step->piece->e, step->piece->degree, phase - step->piece->start) /
             (step->T * step->T);
         g->load[i] = x->load - g->bend[i];
+        if (x->fed_back)
+            g->load[i] -= dynamics_piece_value(step->piece->drag, step->piece->degree,
+                                               phase - step->piece->start);
         g->place[i] = dynamics_film_at(x->film, fmin(phase, step->end - before_node), step->T);
     }
     for (int first = 0; first < S; first += DYNAMICS_FILM_COLUMNS) {
@@ -429,11 +432,11 @@ void dynamics_landing_vary(const dynamics_radau *r, const dynamics_landing *step
     }
 }
 
-void dynamics_landing_powers(const dynamics_radau *r, const dynamics_landing *step, double *damper,
-                             double *films, double *work)
+dynamics_landing_energy dynamics_landing_energies(const dynamics_radau *r,
+                                                  const dynamics_landing *step)
 {
     double h = (step->end - step->at) * step->T, c = 2 * step->excitation->zeta;
-    *damper = *films = *work = 0;
+    dynamics_landing_energy sum = {0};
     for (int j = 0; j < S; j++) {
         double weight = h * r->a[S - 1][j], rate = step->rate[j + 1];
         double phase = step->at + r->node[j] * (step->end - step->at);
@@ -441,13 +444,21 @@ void dynamics_landing_powers(const dynamics_radau *r, const dynamics_landing *st
         double k = dynamics_piece_value(p->k, p->degree, phase - p->start);
         double k_rate = dynamics_piece_slope(p->k, p->degree, phase - p->start) / step->T;
         double e_rate = dynamics_piece_slope(p->e, p->degree, phase - p->start) / step->T;
-        *damper += weight * c * rate * rate;
-        *work -= weight * (c * rate + step->force[j + 1]) * e_rate;
+        double force = c * rate + step->force[j + 1];
+        sum.damper += weight * c * rate * rate;
+        sum.work -= weight * force * e_rate;
+        if (step->excitation->fed_back) {
+            sum.drag += weight * dynamics_piece_value(p->drag, p->degree, phase - p->start) *
+                        (rate + e_rate);
+            sum.thickness += weight * force *
+                             dynamics_piece_slope(p->film, p->degree, phase - p->start) / step->T;
+        }
         for (int f = 0; f < 2; f++) {
             double bend = step->bend[f][j + 1];
-            *work += weight * 0.5 * k_rate * bend * bend;
+            sum.work += weight * 0.5 * k_rate * bend * bend;
             if (step->open[f])
-                *films += weight * k * bend * step->approach[f][j].speed;
+                sum.films += weight * k * bend * step->approach[f][j].speed;
         }
     }
+    return sum;
 }

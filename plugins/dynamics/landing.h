@@ -48,9 +48,16 @@ int dynamics_landing_solve(const dynamics_radau *radau, dynamics_landing *step);
 void dynamics_landing_vary(const dynamics_radau *radau, const dynamics_landing *step,
                            double column[DYNAMICS_FILM_COLUMNS][DYNAMICS_FILM_ROWS]);
 
-/* Energy in the step: what damper and films took, and what changes of k and e brought in. */
-void dynamics_landing_powers(const dynamics_radau *radau, const dynamics_landing *step,
-                             double *damper, double *films, double *work);
+/* Energy in the step. */
+typedef struct dynamics_landing_energy {
+    double damper, films; /* what they took */
+    double work;          /* what changes of k and e brought in */
+    double thickness;     /* what the loaded film brought in of it */
+    double drag;          /* what friction and rolling took */
+} dynamics_landing_energy;
+
+dynamics_landing_energy dynamics_landing_energies(const dynamics_radau *radau,
+                                                  const dynamics_landing *step);
 
 /* The powers of x in [0, 1] of the polynomial through the values. */
 void dynamics_landing_polynomial(const dynamics_radau *radau, const double *value, double *power);

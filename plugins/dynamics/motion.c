@@ -7,6 +7,7 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -94,8 +95,21 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
                                    0, NULL},
     [DYNAMICS_OUT_EXCITATION_POWER] =
         {"excitation_power", "W",
-         "mean power that the prescribed changes of stiffness and transmission error bring in", "",
-         NULL, 0, NULL},
+         "mean power that the prescribed changes of stiffness and transmission error bring in; "
+         "film_power is not in it",
+         "", NULL, 0, NULL},
+    [DYNAMICS_OUT_TORQUE_POWER] = {"torque_power", "W",
+                                   "mean power that the torques put into friction and rolling at "
+                                   "the mean speeds of the gears; 0 without a film wired back",
+                                   "", NULL, 0, NULL},
+    [DYNAMICS_OUT_FRICTION_WORK] = {"friction_work", "W",
+                                    "mean power that friction and rolling take from the vibration; "
+                                    "0 without a film wired back",
+                                    "", NULL, 0, NULL},
+    [DYNAMICS_OUT_FILM_POWER] = {"film_power", "W",
+                                 "mean power that the changes of the loaded film's thickness bring "
+                                 "in; 0 without a film wired back",
+                                 "", NULL, 0, NULL},
     [DYNAMICS_OUT_DOUBLING_BRANCH] = {"doubling_branch", "1", "branch of the shorter period",
                                       "doubling", NULL, 0, NULL},
 };
@@ -326,17 +340,46 @@ ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inpu
     return status;
 }
 
-ff_status dynamics_motion_put_powers(const dynamics_motion *motion, const ff_host *host)
+/* What torques and the prescribed changes of stiffness and transmission error put in, against what
+   films, damper and vibration take. The films' own account of what squeezing takes stands here in
+   place of that of the motion. */
+static void check_powers(const double power[DYNAMICS_POWER_OUTPUT_COUNT], double films,
+                         const ff_host *host)
+{
+    static const double limit = 5e-3;
+    double in = power[DYNAMICS_OUT_TORQUE_POWER] + power[DYNAMICS_OUT_EXCITATION_POWER];
+    double out = films + power[DYNAMICS_OUT_FRICTION_WORK] + power[DYNAMICS_OUT_DAMPER_LOSS];
+    double off = films > 0 ? fabs(in - out) / films : 0;
+    char text[320];
+    snprintf(text, sizeof text,
+             "torques and excitation put in %.6g W, film, damper and vibration take %.6g W: the "
+             "difference over what the film takes. Where flanks land it is what the film takes "
+             "before its force is that of the motion",
+             in, out);
+    host->quality(host->ctx, "power_balance", off, limit, off <= limit ? FF_GOOD : FF_DOUBTFUL,
+                  text);
+}
+
+ff_status dynamics_motion_put_powers(const dynamics_motion *motion,
+                                     const dynamics_film_powers *film, const ff_host *host)
 {
     const dynamics_excitation *x = motion->excitation;
     double unit =
         x->stiffness * x->length * x->length * x->omega / ((double)motion->cycles * motion->T);
-    ff_status status =
-        ff_put_scalar(host, DYNAMICS_OUT_DAMPER_LOSS, unit * (motion->loss - motion->squeeze));
-    if (status == FF_OK)
-        status = ff_put_scalar(host, DYNAMICS_OUT_SQUEEZE_LOSS, unit * motion->squeeze);
-    if (status == FF_OK)
-        status = ff_put_scalar(host, DYNAMICS_OUT_EXCITATION_POWER, unit * motion->work);
+    const double power[DYNAMICS_POWER_OUTPUT_COUNT] = {
+        [DYNAMICS_OUT_DAMPER_LOSS] = unit * (motion->loss - motion->squeeze),
+        [DYNAMICS_OUT_SQUEEZE_LOSS] = unit * motion->squeeze,
+        [DYNAMICS_OUT_EXCITATION_POWER] = unit * (motion->work - motion->thickness),
+        [DYNAMICS_OUT_TORQUE_POWER] = film->torques,
+        [DYNAMICS_OUT_FRICTION_WORK] = unit * motion->drag,
+        [DYNAMICS_OUT_FILM_POWER] = unit * motion->thickness,
+    };
+    ff_status status = FF_OK;
+    for (uint32_t i = DYNAMICS_OUT_DAMPER_LOSS; i < DYNAMICS_POWER_OUTPUT_COUNT; i++)
+        if (status == FF_OK)
+            status = ff_put_scalar(host, i, power[i]);
+    if (status == FF_OK && x->fed_back && motion->period > 0)
+        check_powers(power, film->loss, host);
     return status;
 }
 

@@ -3,6 +3,7 @@
 #ifndef DYNAMICS_MOTION_H
 #define DYNAMICS_MOTION_H
 
+#include "film-wire.h"
 #include "inputs.h"
 #include "oscillator.h"
 
@@ -44,6 +45,9 @@ enum {
     DYNAMICS_OUT_DAMPER_LOSS = DYNAMICS_ATLAS_OUTPUT_COUNT,
     DYNAMICS_OUT_SQUEEZE_LOSS,
     DYNAMICS_OUT_EXCITATION_POWER,
+    DYNAMICS_OUT_TORQUE_POWER,
+    DYNAMICS_OUT_FRICTION_WORK,
+    DYNAMICS_OUT_FILM_POWER,
     DYNAMICS_POWER_OUTPUT_COUNT
 };
 
@@ -61,6 +65,8 @@ typedef struct dynamics_motion {
     double in_oil[4][4];        /* monodromy in (delta, rate, films) of a motion with films */
     double loss, squeeze, work; /* energy that damper and films took, the films alone, and that the
                                    excitation brought in, over `cycles` */
+    double drag;                /* energy that friction and rolling took from the vibration */
+    double thickness;           /* energy that the loaded film brought in, of the work */
     double det_error;           /* relative error of det M */
     double
         energy_error; /* energy brought in less what is lost and stored, relative to the energies */
@@ -96,8 +102,10 @@ void dynamics_motion_check_determinant(dynamics_motion *motion);
 void dynamics_motion_check_energy(dynamics_motion *motion, double start, double end, double work,
                                   double loss);
 
-/* The outputs from DYNAMICS_OUT_DAMPER_LOSS on: means over the motion shown. */
-ff_status dynamics_motion_put_powers(const dynamics_motion *motion, const ff_host *host);
+/* The outputs from DYNAMICS_OUT_DAMPER_LOSS on: means over the motion shown. With a film wired back
+   says how far what goes in is from what comes out. */
+ff_status dynamics_motion_put_powers(const dynamics_motion *motion,
+                                     const dynamics_film_powers *film, const ff_host *host);
 
 ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inputs *inputs,
                               const ff_host *host);

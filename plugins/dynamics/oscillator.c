@@ -67,11 +67,18 @@ static double error_rate_at(const dynamics_oscillator *o, double t)
     return dynamics_piece_slope(o->piece->e, o->piece->degree, t / o->T) / o->T;
 }
 
-/* What drives delta: the load less e''. */
+static double drag_at(const dynamics_oscillator *o, double t)
+{
+    return o->excitation->fed_back
+               ? dynamics_piece_value(o->piece->drag, o->piece->degree, t / o->T)
+               : 0;
+}
+
+/* What drives delta: the load less the drag and e''. */
 static double drive_at(const dynamics_oscillator *o, double t)
 {
     double bend = dynamics_piece_bend(o->piece->e, o->piece->degree, t / o->T);
-    return o->excitation->load - bend / (o->T * o->T);
+    return o->excitation->load - drag_at(o, t) - bend / (o->T * o->T);
 }
 
 static int damper_acts(const dynamics_oscillator *o)
@@ -81,7 +88,7 @@ static int damper_acts(const dynamics_oscillator *o)
 }
 
 /* The equation of excitation.h in delta = s - e; its variation; and the powers of
-   damper and excitation. */
+   damper and excitation, the latter less what the drag takes. */
 static int derivative(double t, const double y[], double dydt[], void *self)
 {
     const dynamics_oscillator *o = self;
@@ -99,7 +106,8 @@ static int derivative(double t, const double y[], double dydt[], void *self)
     dydt[DYNAMICS_M22] = -c * y[DYNAMICS_M22] - k * y[DYNAMICS_M12];
     dydt[DYNAMICS_LOSS] = c * y[DYNAMICS_RATE] * y[DYNAMICS_RATE];
     dydt[DYNAMICS_WORK] = (o->pressed ? 0.5 * stiffness_rate_at(o, t) * bend * bend : 0) -
-                          force * error_rate_at(o, t);
+                          force * error_rate_at(o, t) -
+                          drag_at(o, t) * (y[DYNAMICS_RATE] + error_rate_at(o, t));
     return GSL_SUCCESS;
 }
 

@@ -2,6 +2,7 @@
 /* dynamics/shooting: every periodic motion, stable or not, as a fixed point of the return map. */
 #include "atlas-report.h"
 #include "attractor.h"
+#include "film-wire.h"
 #include "full-contact.h"
 #include "jump-search.h"
 #include "oil.h"
@@ -25,6 +26,7 @@ typedef struct model {
     const char *branch_word;
     dynamics_inertia inertia;
     dynamics_oil oil;
+    dynamics_film_wire wire;
     int64_t max_period, speeds, starts, cycles_settle, cycles_measured, steps_per_cycle;
     int by_name; /* 0: `branch_word` is lower or upper; 1: the branch of the atlas called `name` */
     dynamics_branch branch;
@@ -43,6 +45,7 @@ static const ff_param params[] = {
         "follows the speed, lower and upper are for the first case of a chain"),
     DYNAMICS_INERTIA_ROWS(model),
     DYNAMICS_OIL_ROWS(model),
+    DYNAMICS_FILM_WIRE_ROWS(model),
     FF_QUANTITY("atlas.from", "Hz", model, atlas_from, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
                 "lowest mesh frequency of the atlas; default: natural_frequency/8"),
     FF_QUANTITY("atlas.to", "Hz", model, atlas_to, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
@@ -118,7 +121,8 @@ typedef struct job {
     dynamics_flow flow;
     dynamics_atlas atlas;
     double lambda;
-    dynamics_warm_start to; /* what the neighbouring case is left */
+    dynamics_film_powers powers; /* of the film that is wired back */
+    dynamics_warm_start to;      /* what the neighbouring case is left */
 } job;
 
 static ff_status build_atlas(job *j)
@@ -200,7 +204,7 @@ static ff_status output_motion(const job *j, const dynamics_attractor *a)
     if (status == FF_OK)
         status = dynamics_motion_put(&motion, &j->inputs, m->host);
     if (status == FF_OK)
-        status = dynamics_motion_put_powers(&motion, m->host);
+        status = dynamics_motion_put_powers(&motion, &j->powers, m->host);
     dynamics_record_free(&motion.record);
     return status;
 }
@@ -305,6 +309,11 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     dynamics_film *film = NULL;
     if (status == FF_OK)
         status = dynamics_oil_read(m->host, in, &m->oil, &j.inputs, &j.excitation, &film);
+    if (status == FF_OK)
+        status =
+            dynamics_film_wire_read(m->host, in, &m->wire, &j.inputs, &j.excitation, &j.powers);
+    if (dynamics_film_is_wired(in)) /* a later round goes on from the one before */
+        m->from = m->to;
     if (status == FF_OK)
         status = evaluate_job(&j);
     m->from.mesh_frequency = 0;

@@ -190,3 +190,15 @@ size_t dynamics_smooth_piece(const dynamics_excitation *excitation, const dynami
     represented->between = fmax(represented->between, best[1]);
     return first + good;
 }
+
+double dynamics_smooth_series(const double *phase, const double *value, size_t count, double unit,
+                              double coefficients[DYNAMICS_DEGREE + 1])
+{
+    fit f = {phase, value, 0, count - 1, unit, {0}};
+    double at_nodes, from_lines;
+    if (!fit_nodes(&f))
+        return INFINITY;
+    distances(&f, &at_nodes, &from_lines);
+    powers_of(&f, coefficients);
+    return at_nodes;
+}

@@ -12,4 +12,10 @@ size_t dynamics_smooth_piece(const dynamics_excitation *excitation,
                              const dynamics_mesh_curves *curves, size_t first, size_t last,
                              dynamics_piece *piece, dynamics_representation *represented);
 
+/* The polynomial that meets both ends of a series and its nodes by least squares, over `unit`: its
+   coefficients in powers of the phase since the first node. Returns the largest distance from the
+   nodes over `unit`; infinite: the nodes are too few. */
+double dynamics_smooth_series(const double *phase, const double *value, size_t count, double unit,
+                              double coefficients[DYNAMICS_DEGREE + 1]);
+
 #endif

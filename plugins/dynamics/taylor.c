@@ -78,17 +78,20 @@ FF_SIMD_INLINE void recur_straight(const dynamics_piece_equation *q, double T, i
     }
 }
 
-/* The same with curved k and e, where the derivative by T gets (2 (z'' + e'') + damper z')/T. */
+/* The same with curved k and e and with a drag, where the derivative by T gets (2 (z'' + e'') +
+ * damper z')/T. */
 FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int columns,
                                  dynamics_taylor_series *s)
 {
     double h = s->h, a = q->damper * h, power = 1, k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1];
+    double drag[DYNAMICS_DEGREE + 1];
     double unit = fabs(s->c[0][0]) + fabs(s->c[1][0]) + q->load * h * h;
     double(*c)[DYNAMICS_COLUMNS] = s->c;
     int likely = likely_order(dynamics_taylor_step_size(q, h));
     for (int i = 0; i <= q->degree; i++, power *= h) {
         k[i] = q->k[i] * power * h * h;
         e[i] = q->e[i] * power;
+        drag[i] = q->drag[i] * power * h * h;
     }
     int degree = q->degree; /* in a short step the high powers of k are below round-off */
     while (degree > 0 && fabs(k[degree]) < 1e-18)
@@ -102,6 +105,8 @@ FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int
             c[n][j] = fa * c[n - 1][j] + f * sum[j];
         if (n == 2)
             c[n][0] += 0.5 * q->load * h * h;
+        if (q->drags && n - 2 <= q->degree)
+            c[n][0] += f * drag[n - 2];
         double bend = n <= q->degree ? e[n] : 0;
         if (columns == DYNAMICS_COLUMNS)
             c[n][3] += (2 * c[n][0] - fa * c[n - 1][0]) / T; /* c_n has no -e_n yet */

@@ -2,7 +2,7 @@
 /*
  * Taylor series of the motion within one piece of the mesh cycle and one state of contact, where
  *
- *   z'' = load - e'' - damper z' - k z,    k = k_0 + k_1 t + ..., e = e_0 + e_1 t + ...,
+ *   z'' = load - drag - e'' - damper z' - k z,    k = k_0 + k_1 t + ..., and drag and e likewise,
  *
  * so that the coefficients follow from a recurrence. And the first exit of the motion through a
  * bound, which finds grazing contacts, too.
@@ -25,8 +25,9 @@ enum {
 
 typedef struct dynamics_piece_equation {
     double load, damper;
-    int degree; /* of k and e; 1: straight lines */
-    double k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1];
+    int degree; /* of k, e and drag; 1: straight lines without a drag */
+    int drags;  /* whether there is a drag */
+    double k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1], drag[DYNAMICS_DEGREE + 1];
 } dynamics_piece_equation;
 
 /* The coefficients of the powers of t/h. */

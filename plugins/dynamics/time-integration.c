@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/time-integration: integrates the motion until it repeats itself. */
+#include "film-wire.h"
 #include "inputs.h"
 #include "motion.h"
 #include "references.h"
@@ -18,6 +19,7 @@ typedef struct model {
     double zeta, tolerance, settle_tolerance;
     int32_t damping, branch;
     dynamics_inertia inertia;
+    dynamics_film_wire wire;
     int64_t cycles_settle, cycles_measured, steps_per_cycle;
     dynamics_warm_start from, to; /* what the neighbouring case left, and what it is left */
 } model;
@@ -31,6 +33,7 @@ static const ff_param params[] = {
               "from 1.4 times the natural frequency; where a study follows the speed, it is for "
               "the first case of a chain"),
     DYNAMICS_INERTIA_ROWS(model),
+    DYNAMICS_FILM_WIRE_ROWS(model),
     FF_COUNT_OR(
         "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
         "mesh cycles in which the motion may settle; auto: four times what the damping takes"),
@@ -151,11 +154,16 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     model *m = self;
     dynamics_excitation excitation = {.zeta = m->zeta, .damping = m->damping};
     dynamics_inputs inputs;
+    dynamics_film_powers powers;
     dynamics_oscillator *o = NULL;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
     inputs.wanted = wanted;
+    if (status == FF_OK)
+        status = dynamics_film_wire_read(m->host, in, &m->wire, &inputs, &excitation, &powers);
     if (status != FF_OK)
         goto out;
+    if (dynamics_film_is_wired(in)) /* a later round goes on from the one before */
+        m->from = m->to;
     dynamics_settling how = {
         .branch = (dynamics_branch)m->branch,
         .T = 2 * M_PI * inputs.natural_frequency / inputs.mesh_frequency,
@@ -206,8 +214,8 @@ FF_MODEL(
     .reference = "Li & Kahraman 2011, Influence of dynamic behaviour on elastohydrodynamic "
                  "lubrication of spur gears, Proc. IMechE J 225, 740-753, eqs 2-5",
     .bibtex = BIB_likahraman2011 "\n", .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
-    .inputs = dynamics_input_ports, .input_count = DYNAMICS_INPUT_COUNT,
-    .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_motion_outputs,
+    .inputs = dynamics_oil_input_ports, .input_count = DYNAMICS_LOOP_INPUT_COUNT,
+    .input_stride = sizeof dynamics_oil_input_ports[0], .outputs = dynamics_motion_outputs,
     .output_count = DYNAMICS_SPEED_OUTPUT_COUNT, .output_stride = sizeof dynamics_motion_outputs[0],
     .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry);
 FF_EXPORT_MODELS(&dynamics_time_integration);

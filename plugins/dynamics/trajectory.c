@@ -19,6 +19,7 @@ static const double weight[NODES / 2] = {0.3626837833783620, 0.3137066458778873,
 typedef struct moment {
     double delta, rate, e, e_rate;
     double k, k_rate, bend; /* 0 where no flank is pressed */
+    double drag, film, film_rate;
 } moment;
 
 /* Without a flank that is held the teeth bend under the films: k and bend are of both together, so
@@ -48,6 +49,11 @@ static moment moment_at(const dynamics_step *f, double x)
     }
     if (f->landing)
         bend_in_oil(f, x, phase, &m);
+    if (f->excitation->fed_back) {
+        m.drag = dynamics_piece_value(f->piece->drag, f->piece->degree, phase);
+        m.film = dynamics_piece_value(f->piece->film, f->piece->degree, phase);
+        m.film_rate = dynamics_piece_slope(f->piece->film, f->piece->degree, phase) / f->T;
+    }
     return m;
 }
 
@@ -71,6 +77,13 @@ void dynamics_trajectory_observe_moments(void *self, const dynamics_step *f)
     }
 }
 
+/* What the thickness of the film brings in where it jumps: of the change of k bend^2/2 the part
+   that goes with the bend, shared with the jump of e. */
+static double leap_of_film(const dynamics_springs *a, const dynamics_springs *z)
+{
+    return 0.25 * (a->k + z->k) * (a->bend + z->bend) * (z->film - a->film);
+}
+
 /* Accounts for the energy that changes between two steps. At a node the excitation does work. When
    a clipped contact lets go, the damper keeps what the spring had stored. Nothing else changes the
    energy. */
@@ -78,6 +91,11 @@ static void join_strides(dynamics_trajectory *t, const dynamics_step *f)
 {
     moment m = moment_at(f, 0);
     double energy = energy_of(f->excitation, &m), change = energy - t->energy;
+    dynamics_springs springs = {m.k, m.bend, m.film};
+    if (!t->begun)
+        t->first = springs;
+    else if (f->excitation->fed_back)
+        t->thickness += leap_of_film(&t->last, &springs);
     if (!t->begun)
         t->start = energy;
     else if (f->side == t->side && f->pressed != t->pressed)
@@ -100,15 +118,19 @@ static void add_powers(dynamics_trajectory *t, const dynamics_step *f)
         double force = f->damper * m.rate + m.k * m.bend;
         t->loss += w * f->damper * m.rate * m.rate;
         t->work += w * (0.5 * m.k_rate * m.bend * m.bend - force * m.e_rate);
+        t->drag += w * m.drag * (m.rate + m.e_rate);
+        t->thickness += w * force * m.film_rate;
     }
     if (f->landing) {
-        double damper, films, work;
-        dynamics_landing_powers(t->radau, f->landing, &damper, &films, &work);
-        t->loss += damper + films;
-        t->films += films;
-        t->work += work;
+        dynamics_landing_energy sum = dynamics_landing_energies(t->radau, f->landing);
+        t->loss += sum.damper + sum.films;
+        t->films += sum.films;
+        t->work += sum.work;
+        t->drag += sum.drag;
+        t->thickness += sum.thickness;
     }
     moment end = moment_at(f, f->x);
+    t->last = (dynamics_springs){end.k, end.bend, end.film};
     t->energy = energy_of(f->excitation, &end);
 }
 
@@ -222,12 +244,15 @@ ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_i
         motion->record.cycles++;
         if (i + 1 != motion->cycles)
             continue;
-        dynamics_motion_check_energy(motion, trace.start, trace.energy, trace.work, trace.loss);
+        dynamics_motion_check_energy(motion, trace.start, trace.energy, trace.work,
+                                     trace.loss + trace.drag);
         motion->clocks = trace.clocks;
         motion->loss = trace.loss;
         motion->squeeze = trace.films;
+        motion->drag = trace.drag;
         /* the node at phase 0 lies before the start and behind the end */
         motion->work = trace.work + trace.start - trace.energy;
+        motion->thickness = trace.thickness + leap_of_film(&trace.last, &trace.first);
     }
     return take_monodromy(flow, x, motion) ? FF_OK : FF_NOCONV;
 }

@@ -1,0 +1,425 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "film-wire.h"
+
+#include "../numerics/interval.h"
+#include "smooth-piece.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The largest distance of the pieces from the curves, over the largest of these, and the shortest
+   piece to which the search for it goes, in mesh cycles. */
+static const double allowed = 1e-3, shortest = 1. / 256;
+
+/* Samples of a piece: per mesh cycle, and at least. */
+enum { DENSITY = 2048, LEAST_SAMPLES = 64 };
+
+/* Below this share of the highest pressure, a hundredth of the load of it, the film is that of
+   flanks which part, and its thickness is no deflection. */
+static const double bears = 0.1;
+
+static const double at_node = 1e-9;
+
+/* One film history: several engagements behind each other. */
+typedef struct history {
+    size_t count, engagements;
+    const double *roll, *engagement, *traction, *rolling, *loss;
+    double *thickness;
+    double speed[2]; /* of the gears, rad/s */
+    double width;
+    const ff_array *in;
+    const dynamics_inputs *inputs;
+} history;
+
+/* Torques of all pairs against the rotation of each gear, the film in series with the mesh, and
+   what the films dissipate. */
+typedef struct place {
+    double against[2], thickness, loss;
+} place;
+
+int dynamics_film_is_wired(const ff_array *in)
+{
+    return in[DYNAMICS_IN_FILM_ROLL_ANGLE].data != NULL;
+}
+
+static ff_status read_series(const ff_host *host, const ff_array *in, int input, size_t count,
+                             const double **data)
+{
+    const ff_array *a = &in[input];
+    const char *name = dynamics_oil_input_ports[input].name;
+    if (!a->data || a->rank != 1 || a->shape[0] != count || count < 2)
+        return ff_failf(host, FF_INVALID, name,
+                        "the film must give a series of %zu values, of at least 2", count);
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(a->data[i]))
+            return ff_failf(host, FF_INVALID, name, "value %zu is not a finite number", i + 1);
+    *data = a->data;
+    return FF_OK;
+}
+
+/* Where the film bears no load its thickness is taken to run straight on. */
+static ff_status read_thickness(const double *h, const double *p, history *y)
+{
+    double most = 0;
+    size_t last = 0, loaded = 0;
+    y->thickness = malloc(y->count * sizeof *y->thickness);
+    if (!y->thickness)
+        return FF_NOMEM;
+    for (size_t i = 0; i < y->count; i++)
+        most = fmax(most, p[i]);
+    for (size_t i = 0; i < y->count; i++) {
+        if (p[i] < bears * most)
+            continue;
+        size_t from = loaded ? last : 0;
+        double start = loaded ? y->thickness[last] : h[i];
+        for (size_t j = from; j < i; j++)
+            y->thickness[j] = start + (h[i] - start) * (double)(j - from) / (double)(i - from);
+        y->thickness[i] = h[i];
+        last = i;
+        loaded++;
+    }
+    for (size_t j = loaded ? last + 1 : 0; j < y->count; j++)
+        y->thickness[j] = loaded ? h[last] : 0;
+    return FF_OK;
+}
+
+static ff_status read_history(const ff_host *host, const ff_array *in,
+                              const dynamics_inputs *inputs, history *y)
+{
+    const double *h = NULL, *p = NULL, *teeth = in[DYNAMICS_IN_TEETH].data;
+    y->count =
+        in[DYNAMICS_IN_FILM_ROLL_ANGLE].rank == 1 ? in[DYNAMICS_IN_FILM_ROLL_ANGLE].shape[0] : 0;
+    y->in = in;
+    y->inputs = inputs;
+    ff_status status = read_series(host, in, DYNAMICS_IN_FILM_ROLL_ANGLE, y->count, &y->roll);
+    if (status == FF_OK)
+        status = read_series(host, in, DYNAMICS_IN_FILM_ENGAGEMENT, y->count, &y->engagement);
+    if (status == FF_OK)
+        status = read_series(host, in, DYNAMICS_IN_FILM_TRACTION, y->count, &y->traction);
+    if (status == FF_OK)
+        status = read_series(host, in, DYNAMICS_IN_FILM_ROLLING_LOSS, y->count, &y->rolling);
+    if (status == FF_OK)
+        status = read_series(host, in, DYNAMICS_IN_FILM_POWER_LOSS, y->count, &y->loss);
+    if (status == FF_OK)
+        status = read_series(host, in, DYNAMICS_IN_FILM_H_CENTRAL, y->count, &h);
+    if (status == FF_OK)
+        status = read_series(host, in, DYNAMICS_IN_FILM_P_MAX, y->count, &p);
+    if (status != FF_OK)
+        return status;
+    y->engagements = 1;
+    for (size_t i = 1; i < y->count; i++)
+        y->engagements += y->engagement[i] != y->engagement[i - 1];
+    y->width = in[DYNAMICS_IN_FACE_WIDTH].data[0];
+    y->speed[0] = inputs->mesh_frequency * inputs->pitch;
+    y->speed[1] = y->speed[0] * teeth[0] / teeth[1];
+    return read_thickness(h, p, y);
+}
+
+/* A value of non-decreasing stations; where one stands twice, that `before` it or behind it. */
+static double look_up(size_t count, const double *x, const double *y, double at, int before)
+{
+    size_t i = count > 1 ? numerics_interval(count, x, at) : 0;
+    while (before && i > 0 && x[i] >= at)
+        i--;
+    double h = count > 1 ? x[i + 1] - x[i] : 0;
+    double share = h > 0 ? fmin(fmax((at - x[i]) / h, 0), 1) : 0;
+    return count > 1 ? y[i] + share * (y[i + 1] - y[i]) : y[0];
+}
+
+/* Adds one engagement's pairs at a phase; at the ends of an engagement `before` the phase or behind
+   it. */
+static void add_engagement(const history *y, size_t first, size_t last, double phase, int before,
+                           place *sum)
+{
+    const dynamics_inputs *inputs = y->inputs;
+    const double *radius[2] = {y->in[DYNAMICS_IN_RADIUS_1].data, y->in[DYNAMICS_IN_RADIUS_2].data};
+    const double *bearing = inputs->line_force > 0 ? inputs->tooth_force : inputs->load_share;
+    double slack = at_node * inputs->pitch, borne = 0, borne_film = 0;
+    size_t count = last - first;
+    for (int pair = 0; pair < 100; pair++) {
+        double roll = inputs->roll_sap + (phase + pair) * inputs->pitch;
+        double start = y->roll[first], end = y->roll[last - 1];
+        if (roll > end + slack || (!before && roll > end - slack))
+            break;
+        if (roll < start - slack || (before && roll < start + slack))
+            continue;
+        double friction =
+            y->width * look_up(count, y->roll + first, y->traction + first, roll, before);
+        double rolling =
+            y->width * look_up(count, y->roll + first, y->rolling + first, roll, before);
+        double film = look_up(count, y->roll + first, y->thickness + first, roll, before);
+        sum->loss += y->width * look_up(count, y->roll + first, y->loss + first, roll, before);
+        double arm[2], share = 1;
+        for (int g = 0; g < 2; g++)
+            arm[g] = look_up(inputs->stations, inputs->roll_angle, radius[g], roll, before);
+        if (bearing)
+            share = look_up(inputs->stations, inputs->roll_angle, bearing, roll, before);
+        /* rolling resistance is the loss over 2 u_r = r1 w1 + r2 w2 */
+        rolling /= arm[0] * y->speed[0] + arm[1] * y->speed[1];
+        sum->against[0] += (friction + rolling) * arm[0];
+        sum->against[1] += (rolling - friction) * arm[1];
+        borne += share;
+        borne_film += share * film;
+    }
+    sum->thickness += borne > 0 ? borne_film / borne : 0;
+}
+
+/* The mean over the engagements. */
+static place place_at(const history *y, double phase, int before)
+{
+    place sum = {{0, 0}, 0, 0};
+    double share = 1 / (double)y->engagements;
+    for (size_t first = 0, i = 1; i <= y->count; i++)
+        if (i == y->count || y->engagement[i] != y->engagement[first]) {
+            if (i - first > 1)
+                add_engagement(y, first, i, phase, before, &sum);
+            first = i;
+        }
+    sum.against[0] *= share;
+    sum.against[1] *= share;
+    sum.thickness *= share;
+    sum.loss *= share;
+    return sum;
+}
+
+/* The samples of all pieces, behind each other. */
+typedef struct samples {
+    size_t count, *first; /* first sample of each piece, and the number of all */
+    double *phase, *drag, *film;
+    place *at;
+} samples;
+
+static void free_samples(samples *s)
+{
+    free(s->first);
+    free(s->phase);
+    free(s->at);
+}
+
+static int take_samples(const history *y, const dynamics_excitation *x, samples *s)
+{
+    s->first = malloc((x->count + 1) * sizeof *s->first);
+    if (!s->first)
+        return 0;
+    for (size_t i = 0; i < x->count; i++) {
+        double length = x->pieces[i].length;
+        s->first[i] = s->count;
+        s->count += (size_t)fmax(ceil(DENSITY * length), LEAST_SAMPLES) + 1;
+    }
+    s->first[x->count] = s->count;
+    s->phase = malloc(3 * s->count * sizeof *s->phase);
+    s->at = malloc(s->count * sizeof *s->at);
+    if (!s->phase || !s->at)
+        return 0;
+    s->drag = s->phase + s->count;
+    s->film = s->drag + s->count;
+    for (size_t i = 0; i < x->count; i++) {
+        size_t n = s->first[i + 1] - s->first[i];
+        for (size_t k = 0; k < n; k++) {
+            const dynamics_piece *p = &x->pieces[i];
+            double phase = k + 1 < n          ? p->start + p->length * (double)k / (double)(n - 1)
+                           : i + 1 < x->count ? p[1].start
+                                              : 1;
+            s->phase[s->first[i] + k] = phase;
+            s->at[s->first[i] + k] = place_at(y, phase, k + 1 == n);
+        }
+    }
+    return 1;
+}
+
+/* Mean over the mesh cycle, by trapezia. */
+static place mean_of(const samples *s)
+{
+    place mean = {{0, 0}, 0, 0};
+    for (size_t i = 0; i + 1 < s->count; i++) {
+        double half = 0.5 * (s->phase[i + 1] - s->phase[i]);
+        for (int g = 0; g < 2; g++)
+            mean.against[g] += half * (s->at[i].against[g] + s->at[i + 1].against[g]);
+        mean.thickness += half * (s->at[i].thickness + s->at[i + 1].thickness);
+        mean.loss += half * (s->at[i].loss + s->at[i + 1].loss);
+    }
+    return mean;
+}
+
+/* The drag along the line of action. What torques keep the gears turning sees the mean of gear 1's
+   alone, since its torque is given; the vibration sees what is left, weighted by the gears'
+   compliance to it. */
+static void make_curves(const history *y, const dynamics_excitation *x, samples *s,
+                        const place *mean)
+{
+    const ff_array *in = y->in;
+    const double *inertia = in[DYNAMICS_IN_INERTIA].data, *teeth = in[DYNAMICS_IN_TEETH].data;
+    size_t last = y->inputs->stations - 1;
+    double base[2], give[2], unit = x->stiffness * x->length;
+    base[0] = (in[DYNAMICS_IN_RADIUS_1].data[last] - in[DYNAMICS_IN_RADIUS_1].data[0]) /
+              (y->inputs->roll_angle[last] - y->inputs->roll_angle[0]);
+    base[1] = base[0] * teeth[1] / teeth[0];
+    for (int g = 0; g < 2; g++)
+        give[g] = base[g] * base[g] / inertia[g];
+    for (size_t i = 0; i < s->count; i++) {
+        const place *p = &s->at[i];
+        double drag = mean->against[0] / base[0];
+        for (int g = 0; g < 2; g++)
+            drag += (g ? -1 : 1) * give[g] / (give[0] + give[1]) *
+                    (p->against[g] - mean->against[g]) / base[g];
+        s->drag[i] = drag / unit;
+        s->film[i] = (p->thickness - mean->thickness) / x->length;
+    }
+}
+
+/* The pieces under construction. */
+typedef struct builder {
+    dynamics_piece *pieces;
+    size_t count, capacity;
+    double unit[2]; /* largest of drag and film */
+    double off[2];  /* largest distance from them, over it */
+    int failed;
+} builder;
+
+static void add_piece(builder *b, const dynamics_piece *old, const samples *s, size_t first,
+                      size_t last)
+{
+    double drag[DYNAMICS_DEGREE + 1], film[DYNAMICS_DEGREE + 1],
+        length = s->phase[last] - s->phase[first];
+    size_t nodes = last - first + 1, middle = first + (last - first) / 2;
+    double off[2] = {
+        dynamics_smooth_series(s->phase + first, s->drag + first, nodes, b->unit[0], drag),
+        dynamics_smooth_series(s->phase + first, s->film + first, nodes, b->unit[1], film)};
+    if (fmax(off[0], off[1]) > allowed && length > shortest && nodes >= 2 * DYNAMICS_DEGREE + 2) {
+        add_piece(b, old, s, first, middle);
+        add_piece(b, old, s, middle, last);
+        return;
+    }
+    if (b->count == b->capacity) {
+        size_t capacity = 2 * b->capacity + 16;
+        dynamics_piece *more = realloc(b->pieces, capacity * sizeof *more);
+        if (!more) {
+            b->failed = 1;
+            return;
+        }
+        b->pieces = more;
+        b->capacity = capacity;
+    }
+    dynamics_piece p = {.start = s->phase[first], .length = length, .degree = DYNAMICS_DEGREE};
+    dynamics_piece_shift(old->k, old->degree, p.start - old->start, 1, p.k);
+    dynamics_piece_shift(old->e, old->degree, p.start - old->start, 1, p.e);
+    for (int i = 0; i <= DYNAMICS_DEGREE; i++) {
+        p.drag[i] = b->unit[0] * drag[i];
+        p.film[i] = b->unit[1] * film[i];
+        p.e[i] -= p.film[i];
+    }
+    b->off[0] = fmax(b->off[0], off[0]);
+    b->off[1] = fmax(b->off[1], off[1]);
+    b->pieces[b->count++] = p;
+}
+
+static void report(const ff_host *host, const history *y, const builder *b)
+{
+    char text[200];
+    double off = fmax(b->off[0], b->off[1]);
+    snprintf(text, sizeof text,
+             "largest distance of %zu pieces from the friction of the film, %.1g, and from its "
+             "thickness, %.1g, over the largest of each",
+             b->count, b->off[0], b->off[1]);
+    host->quality(host->ctx, "film_representation", off, 0.02, off <= 0.02 ? FF_GOOD : FF_DOUBTFUL,
+                  text);
+    if (y->engagements > 1)
+        host->quality(
+            host->ctx, "film_engagements", (double)y->engagements, 1, FF_DOUBTFUL,
+            "engagements of the motion whose films differ; the mean of them acts on each");
+}
+
+static ff_status check_gear(const ff_host *host, const ff_array *in, size_t stations)
+{
+    const int series[] = {DYNAMICS_IN_RADIUS_1, DYNAMICS_IN_RADIUS_2};
+    for (int i = 0; i < 2; i++)
+        if (!in[series[i]].data || in[series[i]].rank != 1 || in[series[i]].shape[0] != stations ||
+            stations < 2)
+            return ff_failf(host, FF_INVALID, dynamics_oil_input_ports[series[i]].name,
+                            "a film that is wired back needs the radii at the gear's stations");
+    if (!in[DYNAMICS_IN_FACE_WIDTH].data || !in[DYNAMICS_IN_INERTIA].data)
+        return ff_failf(
+            host, FF_INVALID,
+            dynamics_oil_input_ports[in[DYNAMICS_IN_FACE_WIDTH].data ? DYNAMICS_IN_INERTIA
+                                                                     : DYNAMICS_IN_FACE_WIDTH]
+                .name,
+            "a film that is wired back needs a gear that offers it");
+    for (int g = 0; g < 2; g++)
+        if (!(in[DYNAMICS_IN_INERTIA].data[g] > 0 && isfinite(in[DYNAMICS_IN_INERTIA].data[g])))
+            return ff_failf(host, FF_INVALID, dynamics_oil_input_ports[DYNAMICS_IN_INERTIA].name,
+                            "must be above 0, but is %g kg m2", in[DYNAMICS_IN_INERTIA].data[g]);
+    return FF_OK;
+}
+
+/* Takes out what the user has switched off. */
+static void switch_off(const dynamics_film_wire *wire, history *y, const double *nothing)
+{
+    if (!wire->friction)
+        y->traction = nothing;
+    if (!wire->rolling)
+        y->rolling = nothing;
+    if (!wire->compliance)
+        memset(y->thickness, 0, y->count * sizeof *y->thickness);
+}
+
+static ff_status build(const ff_host *host, const history *y, dynamics_excitation *x,
+                       dynamics_film_powers *powers)
+{
+    samples s = {0};
+    builder b = {0};
+    ff_status status = FF_NOMEM;
+    if (take_samples(y, x, &s)) {
+        place mean = mean_of(&s);
+        make_curves(y, x, &s, &mean);
+        powers->torques = y->speed[0] * mean.against[0] + y->speed[1] * mean.against[1];
+        powers->loss = mean.loss;
+        for (size_t i = 0; i < s.count; i++) {
+            b.unit[0] = fmax(b.unit[0], fabs(s.drag[i]));
+            b.unit[1] = fmax(b.unit[1], fabs(s.film[i]));
+        }
+        for (int i = 0; i < 2; i++)
+            b.unit[i] = b.unit[i] > 0 ? b.unit[i] : 1;
+        for (size_t i = 0; i < x->count; i++)
+            add_piece(&b, &x->pieces[i], &s, s.first[i], s.first[i + 1] - 1);
+        status = b.failed ? FF_NOMEM : FF_OK;
+    }
+    free_samples(&s);
+    if (status != FF_OK) {
+        free(b.pieces);
+        return status;
+    }
+    free(x->pieces);
+    x->pieces = b.pieces;
+    x->count = b.count;
+    x->fed_back = 1;
+    dynamics_excitation_mark_jumps(x);
+    report(host, y, &b);
+    return FF_OK;
+}
+
+ff_status dynamics_film_wire_read(const ff_host *host, const ff_array *in,
+                                  const dynamics_film_wire *wire, const dynamics_inputs *inputs,
+                                  dynamics_excitation *excitation, dynamics_film_powers *powers)
+{
+    history y = {0};
+    double *nothing = NULL;
+    *powers = (dynamics_film_powers){0, NAN};
+    if (!dynamics_film_is_wired(in))
+        return FF_OK;
+    ff_status status = check_gear(host, in, inputs->stations);
+    if (status == FF_OK)
+        status = read_history(host, in, inputs, &y);
+    if (status == FF_OK) {
+        nothing = calloc(y.count, sizeof *nothing);
+        status = nothing ? FF_OK : FF_NOMEM;
+    }
+    if (status == FF_OK) {
+        switch_off(wire, &y, nothing);
+        status = build(host, &y, excitation, powers);
+    }
+    free(nothing);
+    free(y.thickness);
+    return status;
+}
