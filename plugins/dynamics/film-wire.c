@@ -9,12 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The largest distance of the pieces from the curves, over the largest of these, and the shortest
-   piece to which the search for it goes, in mesh cycles. */
-static const double allowed = 1e-3, shortest = 1. / 256;
+/* Pieces to a mesh cycle, and samples to a piece. They are the same in every round, so that what
+   acts on the motion is linear in what the film gives, and a loop can settle. */
+enum { DENSITY = 32, SAMPLES = 64 };
 
-/* Samples of a piece: per mesh cycle, and at least. */
-enum { DENSITY = 2048, LEAST_SAMPLES = 64 };
+/* Distance of the pieces from the curves, over the largest of these, from which it is doubtful. */
+static const double doubtful = 0.02;
 
 /* Below this share of the highest pressure, a hundredth of the load of it, the film is that of
    flanks which part, and its thickness is no deflection. */
@@ -184,6 +184,31 @@ static place place_at(const history *y, double phase, int before)
     return sum;
 }
 
+/* Adds a node at a phase, where the curves of the film may jump. */
+static int cut_at(dynamics_excitation *x, double phase)
+{
+    phase -= floor(phase);
+    size_t i = 0;
+    while (i + 1 < x->count && x->pieces[i + 1].start <= phase + at_node)
+        i++;
+    double since = phase - x->pieces[i].start;
+    if (since < at_node || x->pieces[i].length - since < at_node)
+        return 1;
+    dynamics_piece *more = realloc(x->pieces, (x->count + 1) * sizeof *more);
+    if (!more)
+        return 0;
+    memmove(more + i + 1, more + i, (x->count - i) * sizeof *more);
+    x->pieces = more;
+    x->count++;
+    more[i].length = since;
+    more[i + 1].start = phase;
+    more[i + 1].length -= since;
+    more[i + 1].jump = 0;
+    dynamics_piece_shift(more[i].k, more[i].degree, since, 1, more[i + 1].k);
+    dynamics_piece_shift(more[i].e, more[i].degree, since, 1, more[i + 1].e);
+    return 1;
+}
+
 /* The samples of all pieces, behind each other. */
 typedef struct samples {
     size_t count, *first; /* first sample of each piece, and the number of all */
@@ -206,7 +231,7 @@ static int take_samples(const history *y, const dynamics_excitation *x, samples 
     for (size_t i = 0; i < x->count; i++) {
         double length = x->pieces[i].length;
         s->first[i] = s->count;
-        s->count += (size_t)fmax(ceil(DENSITY * length), LEAST_SAMPLES) + 1;
+        s->count += SAMPLES * (size_t)ceil(DENSITY * length) + 1;
     }
     s->first[x->count] = s->count;
     s->phase = malloc(3 * s->count * sizeof *s->phase);
@@ -272,47 +297,33 @@ static void make_curves(const history *y, const dynamics_excitation *x, samples 
 /* The pieces under construction. */
 typedef struct builder {
     dynamics_piece *pieces;
-    size_t count, capacity;
+    size_t count;
     double unit[2]; /* largest of drag and film */
     double off[2];  /* largest distance from them, over it */
-    int failed;
 } builder;
 
+/* Fits what lies between two samples. */
 static void add_piece(builder *b, const dynamics_piece *old, const samples *s, size_t first,
                       size_t last)
 {
-    double drag[DYNAMICS_DEGREE + 1], film[DYNAMICS_DEGREE + 1],
-        length = s->phase[last] - s->phase[first];
-    size_t nodes = last - first + 1, middle = first + (last - first) / 2;
+    double drag[DYNAMICS_DEGREE + 1], film[DYNAMICS_DEGREE + 1];
+    size_t nodes = last - first + 1;
     double off[2] = {
         dynamics_smooth_series(s->phase + first, s->drag + first, nodes, b->unit[0], drag),
         dynamics_smooth_series(s->phase + first, s->film + first, nodes, b->unit[1], film)};
-    if (fmax(off[0], off[1]) > allowed && length > shortest && nodes >= 2 * DYNAMICS_DEGREE + 2) {
-        add_piece(b, old, s, first, middle);
-        add_piece(b, old, s, middle, last);
-        return;
-    }
-    if (b->count == b->capacity) {
-        size_t capacity = 2 * b->capacity + 16;
-        dynamics_piece *more = realloc(b->pieces, capacity * sizeof *more);
-        if (!more) {
-            b->failed = 1;
-            return;
-        }
-        b->pieces = more;
-        b->capacity = capacity;
-    }
-    dynamics_piece p = {.start = s->phase[first], .length = length, .degree = DYNAMICS_DEGREE};
-    dynamics_piece_shift(old->k, old->degree, p.start - old->start, 1, p.k);
-    dynamics_piece_shift(old->e, old->degree, p.start - old->start, 1, p.e);
+    dynamics_piece *p = &b->pieces[b->count++];
+    p->start = s->phase[first];
+    p->length = s->phase[last] - s->phase[first];
+    p->degree = DYNAMICS_DEGREE;
+    dynamics_piece_shift(old->k, old->degree, p->start - old->start, 1, p->k);
+    dynamics_piece_shift(old->e, old->degree, p->start - old->start, 1, p->e);
     for (int i = 0; i <= DYNAMICS_DEGREE; i++) {
-        p.drag[i] = b->unit[0] * drag[i];
-        p.film[i] = b->unit[1] * film[i];
-        p.e[i] -= p.film[i];
+        p->drag[i] = b->unit[0] * drag[i];
+        p->film[i] = b->unit[1] * film[i];
+        p->e[i] -= p->film[i];
     }
-    b->off[0] = fmax(b->off[0], off[0]);
-    b->off[1] = fmax(b->off[1], off[1]);
-    b->pieces[b->count++] = p;
+    for (int i = 0; i < 2; i++)
+        b->off[i] = fmax(b->off[i], off[i]);
 }
 
 static void report(const ff_host *host, const history *y, const builder *b)
@@ -323,8 +334,8 @@ static void report(const ff_host *host, const history *y, const builder *b)
              "largest distance of %zu pieces from the friction of the film, %.1g, and from its "
              "thickness, %.1g, over the largest of each",
              b->count, b->off[0], b->off[1]);
-    host->quality(host->ctx, "film_representation", off, 0.02, off <= 0.02 ? FF_GOOD : FF_DOUBTFUL,
-                  text);
+    host->quality(host->ctx, "film_representation", off, doubtful,
+                  off <= doubtful ? FF_GOOD : FF_DOUBTFUL, text);
     if (y->engagements > 1)
         host->quality(
             host->ctx, "film_engagements", (double)y->engagements, 1, FF_DOUBTFUL,
@@ -370,7 +381,9 @@ static ff_status build(const ff_host *host, const history *y, dynamics_excitatio
     samples s = {0};
     builder b = {0};
     ff_status status = FF_NOMEM;
-    if (take_samples(y, x, &s)) {
+    double pitch = y->inputs->pitch, first = (y->roll[0] - y->inputs->roll_sap) / pitch;
+    double last = (y->roll[y->count - 1] - y->inputs->roll_sap) / pitch;
+    if (cut_at(x, first) && cut_at(x, last) && take_samples(y, x, &s)) {
         place mean = mean_of(&s);
         make_curves(y, x, &s, &mean);
         powers->torques = y->speed[0] * mean.against[0] + y->speed[1] * mean.against[1];
@@ -381,9 +394,11 @@ static ff_status build(const ff_host *host, const history *y, dynamics_excitatio
         }
         for (int i = 0; i < 2; i++)
             b.unit[i] = b.unit[i] > 0 ? b.unit[i] : 1;
-        for (size_t i = 0; i < x->count; i++)
-            add_piece(&b, &x->pieces[i], &s, s.first[i], s.first[i + 1] - 1);
-        status = b.failed ? FF_NOMEM : FF_OK;
+        b.pieces = calloc(s.count / SAMPLES, sizeof *b.pieces);
+        for (size_t i = 0; b.pieces && i < x->count; i++)
+            for (size_t from = s.first[i]; from + 1 < s.first[i + 1]; from += SAMPLES)
+                add_piece(&b, &x->pieces[i], &s, from, from + SAMPLES);
+        status = b.pieces ? FF_OK : FF_NOMEM;
     }
     free_samples(&s);
     if (status != FF_OK) {

@@ -1,0 +1,462 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * A film that is wired back: its friction and rolling resistance turn the gears, its thickness lies
+ * in series with the teeth. Against both gears followed on their own by small steps, against closed
+ * forms, and shooting against time integration in a loop with a film that obeys the load.
+ */
+#include "check.h"
+#include "pair.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STEPS = 4001, TWIN = 10000, MOST = 4096 };
+
+static const double width = 0.02, face = 0.02, sap = 0.25, path = 1.755;
+
+/* Gear 1 of 50 teeth and gear 2, which may be another: teeth, base radii, inertias. */
+typedef struct gears {
+    double teeth[2], base[2], inertia[2], tangent;
+} gears;
+
+static gears gears_of(double teeth_2, double inertia_2)
+{
+    gears g = {{50, teeth_2}, {0.0705, 0.0705 * teeth_2 / 50}, {4e-3, inertia_2}, 0.364};
+    return g;
+}
+
+/* Radii of curvature at a number of mesh cycles since SAP; their sum is that of both base radii
+   times the tangent of the pressure angle. */
+static double radius_at(const gears *g, int gear, double cycles)
+{
+    double r1 = g->base[0] * (sap + cycles * 2 * M_PI / 50);
+    return gear ? (g->base[0] + g->base[1]) * g->tangent - r1 : r1;
+}
+
+/* A film that is given: per width, over the mesh cycles since SAP. */
+static double traction_at(double cycles)
+{
+    return 3e3 * sin(3 * (cycles - 0.8)) * (1 + 0.3 * cycles);
+}
+
+static double rolling_at(double cycles)
+{
+    return 900 * (1 + 0.5 * sin(2 * cycles));
+}
+
+static double film_at(double cycles)
+{
+    return 4e-7 * (1 + 0.4 * cos(2.5 * cycles));
+}
+
+static void give_gears(stage *s, const gears *g)
+{
+    double cycles[PAIR_STATIONS], radius[PAIR_STATIONS];
+    static const double at[PAIR_STATIONS] = {0,   0.3, 0.5, 0.755, 0.755, 0.9,
+                                             1.0, 1.0, 1.3, 1.5,   1.755};
+    memcpy(cycles, at, sizeof at);
+    for (int gear = 0; gear < 2; gear++) {
+        for (int i = 0; i < PAIR_STATIONS; i++)
+            radius[i] = radius_at(g, gear, cycles[i]);
+        stage_give_series(s, gear ? "gear.radius_2" : "gear.radius_1", PAIR_STATIONS, radius);
+    }
+    stage_give_series(s, "gear.teeth", 2, g->teeth);
+    stage_give_series(s, "gear.inertia", 2, g->inertia);
+    stage_give_scalar(s, "gear.face_width", face);
+}
+
+typedef struct film {
+    double roll[STEPS], engagement[STEPS], traction[STEPS], rolling[STEPS], loss[STEPS],
+        thickness[STEPS], pressure[STEPS];
+} film;
+
+static double cycles_of(int i)
+{
+    return path * i / (STEPS - 1);
+}
+
+static void give_film(stage *s, const film *f)
+{
+    stage_give_series(s, "film.roll_angle", STEPS, f->roll);
+    stage_give_series(s, "film.engagement", STEPS, f->engagement);
+    stage_give_series(s, "film.traction", STEPS, f->traction);
+    stage_give_series(s, "film.rolling_loss", STEPS, f->rolling);
+    stage_give_series(s, "film.power_loss", STEPS, f->loss);
+    stage_give_series(s, "film.h_central", STEPS, f->thickness);
+    stage_give_series(s, "film.p_max", STEPS, f->pressure);
+}
+
+static film prescribed(void)
+{
+    static film f;
+    for (int i = 0; i < STEPS; i++) {
+        double c = cycles_of(i);
+        f.roll[i] = sap + c * 2 * M_PI / 50;
+        f.traction[i] = traction_at(c);
+        f.rolling[i] = rolling_at(c);
+        f.thickness[i] = film_at(c);
+        f.pressure[i] = 1e9;
+    }
+    return f;
+}
+
+/* Share of the pair that began `cycles` ago, as pair.c has it. */
+static double share_at(double cycles)
+{
+    const double at[] = {0, 0.3, 0.5, 0.755}, late[] = {1, 1.3, 1.5, 1.755};
+    const double *x = cycles < 0.755 ? at : late;
+    if (cycles >= 0.755 && cycles < 1)
+        return 1;
+    for (int i = 0; i < 3; i++)
+        if (cycles <= x[i + 1]) {
+            double t = (cycles - x[i]) / (x[i + 1] - x[i]);
+            double a = x == at ? 0.4 + 0.2 * x[i] : 0.6 - 0.2 * (x[i] - 1);
+            double z = x == at ? 0.4 + 0.2 * x[i + 1] : 0.6 - 0.2 * (x[i + 1] - 1);
+            return a + t * (z - a);
+        }
+    return 0.6 - 0.2 * 0.755;
+}
+
+/* Torques against the gears and film in series, of all pairs at a phase. */
+static void sum_pairs(const gears *g, double mesh_frequency, double phase, double against[2],
+                      double *thickness)
+{
+    double borne = 0, speed[2] = {2 * M_PI * mesh_frequency / g->teeth[0],
+                                  2 * M_PI * mesh_frequency / g->teeth[1]};
+    against[0] = against[1] = *thickness = 0;
+    for (double c = phase; c < path; c++) {
+        double r1 = radius_at(g, 0, c), r2 = radius_at(g, 1, c), F = width * traction_at(c);
+        double f = width * rolling_at(c) / (r1 * speed[0] + r2 * speed[1]);
+        against[0] += (F + f) * r1;
+        against[1] += (f - F) * r2;
+        borne += share_at(c);
+        *thickness += share_at(c) * film_at(c);
+    }
+    *thickness /= borne;
+}
+
+/* Both gears on their own: angle and speed of each, from the start of the motion that was found,
+   by Runge and Kutta's method. Returns the largest distance from its s, over the largest effect of
+   the film on s, which is that from the one-way motion. */
+typedef struct twin {
+    const pair *p;
+    const gears *g;
+    double damper, mean_film, torque[2];
+} twin;
+
+/* Whether a pair leaves, or another enters, between two phases. */
+static int leaves(double from, double to)
+{
+    return (from < path - 1 && to >= path - 1) || to >= 1;
+}
+
+static double stiffness_at(const pair *p, double phase)
+{
+    size_t i = 0;
+    while (i + 2 < p->phases && p->phase[i + 1] <= phase)
+        i++;
+    double t = (phase - p->phase[i]) / (p->phase[i + 1] - p->phase[i]);
+    return p->stiffness[i] + t * (p->stiffness[i + 1] - p->stiffness[i]);
+}
+
+static void turn(const twin *w, double time, const double y[4], double rate[4])
+{
+    const gears *g = w->g;
+    double phase = time * w->p->mesh_frequency, b = w->p->backlash / 2, step = 1e-6;
+    double against[2], other[2], h, next;
+    phase -= floor(phase);
+    sum_pairs(g, w->p->mesh_frequency, phase, against, &h);
+    sum_pairs(g, w->p->mesh_frequency, phase + step, other, &next);
+    double h_rate = leaves(phase, phase + step) ? 0 : (next - h) / step * w->p->mesh_frequency;
+    double s = g->base[0] * y[0] - g->base[1] * y[1], v = g->base[0] * y[2] - g->base[1] * y[3];
+    double delta = s + h - w->mean_film;
+    double bend = delta > b ? delta - b : delta < -b ? delta + b : 0;
+    double W = stiffness_at(w->p, phase) * bend + w->damper * (v + h_rate);
+    rate[0] = y[2];
+    rate[1] = y[3];
+    rate[2] = (w->torque[0] - g->base[0] * W - against[0]) / g->inertia[0];
+    rate[3] = (-w->torque[1] + g->base[1] * W - against[1]) / g->inertia[1];
+}
+
+/* Where a pair leaves the thickness of the film jumps, and the damper gives an impulse. */
+static void pass_leaving(const twin *w, double y[4])
+{
+    double against[2], before, behind;
+    sum_pairs(w->g, w->p->mesh_frequency, path - 1 - 1e-9, against, &before);
+    sum_pairs(w->g, w->p->mesh_frequency, path - 1 + 1e-9, against, &behind);
+    for (int i = 0; i < 2; i++)
+        y[2 + i] -= (i ? -1 : 1) * w->g->base[i] * w->damper * (behind - before) / w->g->inertia[i];
+}
+
+static void step_twin(const twin *w, double time, double h, double y[4])
+{
+    static const double at[] = {0, 0.5, 0.5, 1}, weight[] = {1. / 6, 1. / 3, 1. / 3, 1. / 6};
+    double k[4][4], from[4], sum[4] = {0};
+    for (int i = 0; i < 4; i++) {
+        for (int j = 0; j < 4; j++)
+            from[j] = y[j] + (i ? at[i] * h * k[i - 1][j] : 0);
+        turn(w, time + at[i] * h, from, k[i]);
+        for (int j = 0; j < 4; j++)
+            sum[j] += weight[i] * h * k[i][j];
+    }
+    for (int j = 0; j < 4; j++)
+        y[j] += sum[j];
+}
+
+static const char outputs[] =
+    "phase dte dte_velocity dte_rms mesh_force dte_harmonics period contact_loss"
+    " damper_loss excitation_power torque_power friction_work "
+    "film_power";
+
+static const char motion[] = "phase dte dte_rms mesh_force dte_harmonics period contact_loss";
+
+static bool run(stage *s)
+{
+    return stage_run_wanted(s, outputs) == FF_OK;
+}
+
+static stage *open_motion(const char *id, const pair *p, const gears *g, const char *branch)
+{
+    stage *s = pair_open(id, p);
+    give_gears(s, g);
+    stage_set_text(s, "branch", branch);
+    stage_set_text(s, "steps_per_cycle", "500");
+    return s;
+}
+
+static void check_twin(double frequency, const char *branch, double teeth_2, double inertia_2)
+{
+    gears g = gears_of(teeth_2, inertia_2);
+    pair p = pair_trapezoid(frequency);
+    film f = prescribed();
+    char name[100];
+    double give[2], mean[2] = {0, 0}, mean_film = 0, against[2], thickness;
+    for (int i = 0; i < 2; i++)
+        give[i] = g.base[i] * g.base[i] / g.inertia[i];
+    p.mass = 1 / (give[0] + give[1]);
+    for (int i = 0; i < TWIN; i++) {
+        sum_pairs(&g, frequency, (i + 0.5) / TWIN, against, &thickness);
+        mean[0] += against[0] / TWIN;
+        mean[1] += against[1] / TWIN;
+        mean_film += thickness / TWIN;
+    }
+    /* the torque of gear 1 is given; that of gear 2 is what is left */
+    double W = p.line_force - mean[0] / g.base[0];
+    twin w = {.p = &p,
+              .g = &g,
+              .damper = 2 * 0.01 * sqrt(p.stiffness_mean * p.mass),
+              .mean_film = mean_film,
+              .torque = {p.line_force * g.base[0], W * g.base[1] - mean[1]}};
+    stage *one = open_motion("dynamics/shooting", &p, &g, branch);
+    stage *both = open_motion("dynamics/shooting", &p, &g, branch);
+    stage_set(one, "equivalent_mass", p.mass);
+    stage_set(both, "equivalent_mass", p.mass);
+    give_film(both, &f);
+    check_true("runs", run(one) && run(both));
+    const double *s = stage_get(both, "dte", NULL), *v = stage_get(both, "dte_velocity", NULL);
+    const double *before = stage_get(one, "dte", NULL), *phase = stage_get(both, "phase", NULL);
+    double y[4] = {s[0] / g.base[0], 0, v[0] / g.base[0], 0}, off = 0, effect = 0, dte_at = 0;
+    size_t count, other;
+    stage_get(both, "phase", &count);
+    const double *old = stage_get(one, "phase", &other);
+    for (int i = 0, at = 1; i < TWIN; i++) {
+        if (leaves((i - 0.5) / TWIN, (i + 0.5) / TWIN))
+            pass_leaving(&w, y);
+        step_twin(&w, i / frequency / TWIN, 1 / frequency / TWIN, y);
+        double done = (double)(i + 1) / TWIN;
+        while (at < (int)count && phase[at] < done - 1e-9)
+            at++;
+        if (at < (int)count && fabs(phase[at] - done) < 1e-9) {
+            dte_at = g.base[0] * y[0] - g.base[1] * y[1];
+            off = fmax(off, fabs(dte_at - s[at]));
+            for (size_t k = 0; k < other; k++)
+                if (fabs(old[k] - done) < 1e-9)
+                    effect = fmax(effect, fabs(before[k] - s[at]));
+        }
+    }
+    snprintf(name, sizeof name, "%g Hz %s, %g teeth: s, over what the film does to it", frequency,
+             branch, teeth_2);
+    check_below(name, off / effect, 1e-3);
+    check_below("energy balance", stage_quality(both, "energy_balance"), 1e-12);
+    double speed[2] = {2 * M_PI * frequency / 50, 2 * M_PI * frequency / teeth_2};
+    check_near("power of the torques", stage_scalar(both, "torque_power"),
+               mean[0] * speed[0] + mean[1] * speed[1], 1e-5);
+    stage_close(one);
+    stage_close(both);
+}
+
+/* Each switch off is as good as no film; the books of work and loss close with each alone. */
+static void check_switches(void)
+{
+    static const char *const names[] = {"friction", "rolling", "compliance"};
+    gears g = gears_of(50, 4e-3);
+    pair p = pair_trapezoid(1250);
+    film f = prescribed();
+    stage *one = open_motion("dynamics/shooting", &p, &g, "lower");
+    check_true("runs", run(one));
+    for (int on = -1; on < 3; on++) {
+        stage *s = open_motion("dynamics/shooting", &p, &g, "lower");
+        give_film(s, &f);
+        for (int i = 0; i < 3; i++)
+            stage_set_text(s, names[i], i == on ? "true" : "false");
+        check_true("runs", run(s));
+        double rms = stage_scalar(s, "dte_rms"), off = stage_scalar(one, "dte_rms");
+        if (on < 0)
+            check_near("all off", rms, off, 1e-12);
+        else
+            check_true(names[on], fabs(rms / off - 1) > 1e-5);
+        double in = stage_scalar(s, "excitation_power") + stage_scalar(s, "film_power");
+        double out = stage_scalar(s, "damper_loss") + stage_scalar(s, "friction_work");
+        check_near("work is loss", in, out, 1e-9);
+        check_true("power of the torques",
+                   on == 0 || on == 1 || stage_scalar(s, "torque_power") == 0);
+        check_true("power of the film", on == 2 || stage_scalar(s, "film_power") == 0);
+        stage_close(s);
+    }
+    stage_close(one);
+}
+
+/* The film of a load, for loops: h goes with W^-0.13, as (2.3) of Dowson and Higginson has it, and
+   the friction is a twentieth of the load. One pair after the other. */
+typedef struct loop {
+    double thickness, friction; /* at the static load */
+} loop;
+
+static double force_at(const stage *s, double phase)
+{
+    size_t n;
+    const double *x = stage_get(s, "phase", &n), *W = stage_get(s, "mesh_force", NULL);
+    size_t i = 0;
+    while (i + 2 < n && x[i + 1] <= phase)
+        i++;
+    double t = x[i + 1] > x[i] ? (phase - x[i]) / (x[i + 1] - x[i]) : 0;
+    return W[i] + t * (W[i + 1] - W[i]);
+}
+
+static double feed(stage *s, const pair *p, const loop *l, film *f)
+{
+    double moved = 0, most = 0;
+    for (int i = 0; i < STEPS; i++) {
+        double c = (double)i / (STEPS - 1), W = force_at(s, c) / p->line_force;
+        double h = l->thickness * pow((0.1 + fmax(W, 0)) / 1.1, -0.13);
+        double traction = l->friction * p->line_force * fmax(W, 0) / width * tanh(8 * (c - 0.45));
+        moved = fmax(moved, fabs(h - f->thickness[i]) / l->thickness);
+        most = fmax(most, fabs(traction - f->traction[i]) * width / p->line_force);
+        f->roll[i] = sap + c * 2 * M_PI / 50;
+        f->thickness[i] = h;
+        f->traction[i] = traction;
+        f->pressure[i] = 1e9 * sqrt(fmax(W, 0));
+    }
+    give_film(s, f);
+    return fmax(moved, most);
+}
+
+/* Runs the loop; the number of rounds, 0: more than `rounds`. */
+static int settle(stage *s, const pair *p, const loop *l, double tolerance, int rounds)
+{
+    static film f;
+    int done = 0;
+    memset(&f, 0, sizeof f);
+    for (int i = 1; i <= rounds + 1; i++) {
+        check_true("runs", stage_run_wanted(s, motion) == FF_OK);
+        if (done || i > rounds)
+            return done ? i - 1 : 0;
+        done = feed(s, p, l, &f) < tolerance;
+    }
+    return 0;
+}
+
+/* A film whose thickness falls by 0.13 h/W per force is a spring of W/(0.13 h) in series: the
+   resonance moves down. Small vibration by e(t) of one harmonic, below and above it. */
+static void check_compliance(void)
+{
+    gears g = gears_of(50, 4e-3);
+    const double ratios[] = {0.8, 1.25};
+    for (int i = 0; i < 2; i++) {
+        double r = ratios[i], zeta = 0.01, a = 2e-8;
+        pair p = pair_cosine(r * pair_natural_frequency, 0, a, 400);
+        loop l = {2e-6, 0};
+        double soft = 1 / (1 + p.stiffness_mean * 0.13 / 1.1 * l.thickness / p.line_force);
+        for (int k = 0; k < PAIR_STATIONS; k++)
+            p.load_share[k] = 1, p.tooth_force[k] = p.line_force;
+        stage *s = open_motion("dynamics/shooting", &p, &g, "lower");
+        check_true("the loop settles", settle(s, &p, &l, 1e-9, 60) > 0);
+        /* m s'' = -(k soft (1 + 2 i zeta r)) (s - e): film behind spring and damper */
+        double re = soft - r * r, im = 2 * zeta * r * soft;
+        double with = hypot(soft, im) / hypot(re, im), dry_im = 2 * zeta * r;
+        double dry = hypot(1, dry_im) / hypot(1 - r * r, dry_im);
+        double amplitude = stage_get(s, "dte_harmonics", NULL)[0] / a;
+        check_below("amplitude with the film in series, over what the film changes",
+                    fabs(amplitude - with) / fabs(with - dry), 0.01);
+        stage_close(s);
+    }
+}
+
+/* Both ways by two methods that share no line of the solution, with and without loss of contact. */
+static void check_methods(int points)
+{
+    gears g = gears_of(50, 4e-3);
+    int lost = 0, done = 0;
+    for (int i = 0; done < points && i < 4 * points; i++) {
+        double frequency = 900 + 2600. * i / points, rms[2], period[2], apart[2];
+        const char *branch = i % 2 ? "upper" : "lower";
+        pair p = pair_trapezoid(frequency);
+        loop l = {4e-7, 0.01};
+        int rounds[2];
+        char name[100];
+        for (int k = 0; k < 2; k++) {
+            stage *s =
+                open_motion(k ? "dynamics/time-integration" : "dynamics/shooting", &p, &g, branch);
+            if (k)
+                stage_set_text(s, "settle_tolerance", "1e-9");
+            rounds[k] = settle(s, &p, &l, 1e-7, 30);
+            rms[k] = stage_scalar(s, "dte_rms");
+            period[k] = stage_scalar(s, "period");
+            apart[k] = stage_scalar(s, "contact_loss");
+            stage_close(s);
+        }
+        if (period[0] != 1 || period[1] != 1) /* the film here is that of one mesh cycle */
+            continue;
+        snprintf(name, sizeof name, "%g Hz %s, %d and %d rounds, %.2g apart: rms by both methods",
+                 frequency, branch, rounds[0], rounds[1], apart[0]);
+        check_true("the loop settles", rounds[0] > 0 && rounds[1] > 0);
+        check_near(name, rms[1], rms[0], 1e-6);
+        lost += apart[0] > 0;
+        done++;
+    }
+    check_true("so many points were compared", done == points);
+    check_true("some lose contact and some do not", 3 * lost >= points && lost < points);
+}
+
+static void check_bad(void)
+{
+    gears g = gears_of(50, 4e-3);
+    pair p = pair_trapezoid(1250);
+    film f = prescribed();
+    stage *s = open_motion("dynamics/shooting", &p, &g, "lower");
+    f.traction[7] = NAN;
+    give_film(s, &f);
+    check_true("a number that is none is refused", stage_run_wanted(s, outputs) == FF_INVALID);
+    check_true("by its name", !strcmp(stage_why_item(s), "film.traction"));
+    stage_close(s);
+    s = pair_open("dynamics/shooting", &p);
+    f = prescribed();
+    give_film(s, &f);
+    check_true("a gear without radii is refused", stage_run_wanted(s, outputs) == FF_INVALID);
+    stage_close(s);
+}
+
+/* An argument: at how many points both methods are compared. */
+int main(int argc, char **argv)
+{
+    check_twin(1250, "lower", 50, 4e-3);
+    check_twin(1250, "lower", 75, 2e-2);
+    check_twin(2375, "upper", 50, 4e-3);
+    check_switches();
+    check_compliance();
+    check_methods(argc > 1 ? atoi(argv[1]) : 4);
+    check_bad();
+    return check_done();
+}
