@@ -11,20 +11,21 @@
 
 /* Pieces to a mesh cycle, and samples to a piece. They are the same in every round, so that what
    acts on the motion is linear in what the film gives, and a loop can settle. */
-enum { DENSITY = 32, SAMPLES = 64 };
+enum { DENSITY = 32, SAMPLES = 32 };
 
 /* Distance of the pieces from the curves, over the largest of these, from which it is doubtful. */
 static const double doubtful = 0.02;
 
-/* Below this share of the highest pressure, a hundredth of the load of it, the film is that of
-   flanks which part, and its thickness is no deflection. */
-static const double bears = 0.1;
+/* Shares of the highest pressure, of which the square is a share of the load: below the first the
+   film is that of flanks which part, and its thickness is no deflection; above the second it counts
+   in full. */
+static const double parted = 0.1, borne = 0.2;
 
 static const double at_node = 1e-9;
 
 /* One film history: several engagements behind each other. */
 typedef struct history {
-    size_t count, engagements;
+    size_t count, engagements, *first; /* first: of each engagement, and the count behind them */
     const double *roll, *engagement, *traction, *rolling, *loss;
     double *thickness;
     double speed[2]; /* of the gears, rad/s */
@@ -59,30 +60,40 @@ static ff_status read_series(const ff_host *host, const ff_array *in, int input,
     return FF_OK;
 }
 
-/* Where the film bears no load its thickness is taken to run straight on. */
+/* The thickness x where it is one of loaded flanks, and the straightest way where it is not: least
+   sum w (x - h)^2 + bend (x_(i+1) - x_i)^2, a system of three diagonals. It changes smoothly with
+   the pressure, so that a loop can settle. */
+static void bridge(size_t count, const double *h, const double *p, double highest, double *x,
+                   double *ratio)
+{
+    static const double bend = 1e-4;
+    double sum = 0;
+    for (size_t i = 0; i < count; i++) {
+        double w = highest > 0 ? (p[i] / highest - parted) / (borne - parted) : 0;
+        w = fmin(fmax(w, 0), 1);
+        sum += w;
+        double diagonal = w + bend * ((i > 0) + (i + 1 < count)) - (i ? bend * ratio[i - 1] : 0);
+        ratio[i] = diagonal > 0 ? bend / diagonal : 0;
+        x[i] = diagonal > 0 ? (w * h[i] + (i ? bend * x[i - 1] : 0)) / diagonal : 0;
+    }
+    for (size_t i = count - 1; i-- > 0;)
+        x[i] += ratio[i] * x[i + 1];
+    for (size_t i = 0; i < count && !(sum > 0); i++)
+        x[i] = 0;
+}
+
 static ff_status read_thickness(const double *h, const double *p, history *y)
 {
-    double most = 0;
-    size_t last = 0, loaded = 0;
+    double highest = 0, *ratio = malloc(y->count * sizeof *ratio);
     y->thickness = malloc(y->count * sizeof *y->thickness);
-    if (!y->thickness)
-        return FF_NOMEM;
     for (size_t i = 0; i < y->count; i++)
-        most = fmax(most, p[i]);
-    for (size_t i = 0; i < y->count; i++) {
-        if (p[i] < bears * most)
-            continue;
-        size_t from = loaded ? last : 0;
-        double start = loaded ? y->thickness[last] : h[i];
-        for (size_t j = from; j < i; j++)
-            y->thickness[j] = start + (h[i] - start) * (double)(j - from) / (double)(i - from);
-        y->thickness[i] = h[i];
-        last = i;
-        loaded++;
+        highest = fmax(highest, p[i]);
+    for (size_t i = 0; ratio && y->thickness && i < y->engagements; i++) {
+        size_t first = y->first[i];
+        bridge(y->first[i + 1] - first, h + first, p + first, highest, y->thickness + first, ratio);
     }
-    for (size_t j = loaded ? last + 1 : 0; j < y->count; j++)
-        y->thickness[j] = loaded ? h[last] : 0;
-    return FF_OK;
+    free(ratio);
+    return ratio && y->thickness ? FF_OK : FF_NOMEM;
 }
 
 static ff_status read_history(const ff_host *host, const ff_array *in,
@@ -108,24 +119,37 @@ static ff_status read_history(const ff_host *host, const ff_array *in,
         status = read_series(host, in, DYNAMICS_IN_FILM_P_MAX, y->count, &p);
     if (status != FF_OK)
         return status;
-    y->engagements = 1;
-    for (size_t i = 1; i < y->count; i++)
-        y->engagements += y->engagement[i] != y->engagement[i - 1];
+    y->first = calloc(y->count + 1, sizeof *y->first);
+    if (!y->first)
+        return FF_NOMEM;
+    for (size_t i = 1; i <= y->count; i++)
+        if (i == y->count || y->engagement[i] != y->engagement[i - 1])
+            y->first[++y->engagements] = i;
     y->width = in[DYNAMICS_IN_FACE_WIDTH].data[0];
     y->speed[0] = inputs->mesh_frequency * inputs->pitch;
     y->speed[1] = y->speed[0] * teeth[0] / teeth[1];
     return read_thickness(h, p, y);
 }
 
-/* A value of non-decreasing stations; where one stands twice, that `before` it or behind it. */
-static double look_up(size_t count, const double *x, const double *y, double at, int before)
+/* A place among non-decreasing stations: behind the first of two, by a share of their distance. */
+typedef struct between {
+    size_t i;
+    double share;
+} between;
+
+/* Where one station stands twice, it is that `before` the place or that behind it. */
+static between find_between(size_t count, const double *x, double at, int before)
 {
-    size_t i = count > 1 ? numerics_interval(count, x, at) : 0;
+    size_t i = numerics_interval(count, x, at);
     while (before && i > 0 && x[i] >= at)
         i--;
-    double h = count > 1 ? x[i + 1] - x[i] : 0;
-    double share = h > 0 ? fmin(fmax((at - x[i]) / h, 0), 1) : 0;
-    return count > 1 ? y[i] + share * (y[i + 1] - y[i]) : y[0];
+    double h = x[i + 1] - x[i];
+    return (between){i, h > 0 ? fmin(fmax((at - x[i]) / h, 0), 1) : 0};
+}
+
+static double value_between(const between *b, const double *y)
+{
+    return y[b->i] + b->share * (y[b->i + 1] - y[b->i]);
 }
 
 /* Adds one engagement's pairs at a phase; at the ends of an engagement `before` the phase or behind
@@ -136,7 +160,7 @@ static void add_engagement(const history *y, size_t first, size_t last, double p
     const dynamics_inputs *inputs = y->inputs;
     const double *radius[2] = {y->in[DYNAMICS_IN_RADIUS_1].data, y->in[DYNAMICS_IN_RADIUS_2].data};
     const double *bearing = inputs->line_force > 0 ? inputs->tooth_force : inputs->load_share;
-    double slack = at_node * inputs->pitch, borne = 0, borne_film = 0;
+    double slack = at_node * inputs->pitch, shares = 0, film = 0;
     size_t count = last - first;
     for (int pair = 0; pair < 100; pair++) {
         double roll = inputs->roll_sap + (phase + pair) * inputs->pitch;
@@ -145,25 +169,22 @@ static void add_engagement(const history *y, size_t first, size_t last, double p
             break;
         if (roll < start - slack || (before && roll < start + slack))
             continue;
-        double friction =
-            y->width * look_up(count, y->roll + first, y->traction + first, roll, before);
-        double rolling =
-            y->width * look_up(count, y->roll + first, y->rolling + first, roll, before);
-        double film = look_up(count, y->roll + first, y->thickness + first, roll, before);
-        sum->loss += y->width * look_up(count, y->roll + first, y->loss + first, roll, before);
-        double arm[2], share = 1;
+        between step = find_between(count, y->roll + first, roll, before);
+        between station = find_between(inputs->stations, inputs->roll_angle, roll, before);
+        double friction = y->width * value_between(&step, y->traction + first);
+        double rolling = y->width * value_between(&step, y->rolling + first);
+        double share = bearing ? value_between(&station, bearing) : 1, arm[2];
         for (int g = 0; g < 2; g++)
-            arm[g] = look_up(inputs->stations, inputs->roll_angle, radius[g], roll, before);
-        if (bearing)
-            share = look_up(inputs->stations, inputs->roll_angle, bearing, roll, before);
+            arm[g] = value_between(&station, radius[g]);
         /* rolling resistance is the loss over 2 u_r = r1 w1 + r2 w2 */
         rolling /= arm[0] * y->speed[0] + arm[1] * y->speed[1];
         sum->against[0] += (friction + rolling) * arm[0];
         sum->against[1] += (rolling - friction) * arm[1];
-        borne += share;
-        borne_film += share * film;
+        shares += share;
+        film += share * value_between(&step, y->thickness + first);
+        sum->loss += y->width * value_between(&step, y->loss + first);
     }
-    sum->thickness += borne > 0 ? borne_film / borne : 0;
+    sum->thickness += shares > 0 ? film / shares : 0;
 }
 
 /* The mean over the engagements. */
@@ -171,12 +192,9 @@ static place place_at(const history *y, double phase, int before)
 {
     place sum = {{0, 0}, 0, 0};
     double share = 1 / (double)y->engagements;
-    for (size_t first = 0, i = 1; i <= y->count; i++)
-        if (i == y->count || y->engagement[i] != y->engagement[first]) {
-            if (i - first > 1)
-                add_engagement(y, first, i, phase, before, &sum);
-            first = i;
-        }
+    for (size_t i = 0; i < y->engagements; i++)
+        if (y->first[i + 1] - y->first[i] > 1)
+            add_engagement(y, y->first[i], y->first[i + 1], phase, before, &sum);
     sum.against[0] *= share;
     sum.against[1] *= share;
     sum.thickness *= share;
@@ -436,5 +454,6 @@ ff_status dynamics_film_wire_read(const ff_host *host, const ff_array *in,
     }
     free(nothing);
     free(y.thickness);
+    free(y.first);
     return status;
 }
