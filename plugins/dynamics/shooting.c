@@ -264,6 +264,23 @@ static ff_status find_jump(const job *j, const dynamics_attractor *motion)
     return status;
 }
 
+/* A film that is frozen excites and does not damp, so that far from its speed neither folds nor
+   multipliers are those of motion and film together. */
+static void report_frozen_films(const job *j)
+{
+    static const double near = 0.02;
+    const model *m = j->m;
+    double natural = j->inputs.natural_frequency, from = m->atlas_from, to = m->atlas_to;
+    if (dynamics_atlas_bounds(m->host, natural, &from, &to) != FF_OK)
+        return;
+    double far =
+        fmax(fabs(log(to / j->inputs.mesh_frequency)), fabs(log(from / j->inputs.mesh_frequency)));
+    m->host->quality(
+        m->host->ctx, "atlas_films", far, near, far <= near ? FF_GOOD : FF_DOUBTFUL,
+        "how far, as a logarithm, the atlas runs from the mesh frequency, at which the "
+        "film that is wired back is frozen: it excites and does not damp there");
+}
+
 static ff_status evaluate_job(job *j)
 {
     const model *m = j->m;
@@ -294,6 +311,8 @@ static ff_status evaluate_job(job *j)
     if (status == FF_OK && j->atlas.curves)
         dynamics_atlas_report(&j->flow, &j->atlas, j->lambda, a.period > 0 ? &a.orbit : NULL,
                               m->host);
+    if (needs_atlas && j->excitation.fed_back)
+        report_frozen_films(j);
     if (status == FF_OK && needs_atlas)
         status =
             dynamics_atlas_put(&j->atlas, &j->excitation, j->inputs.natural_frequency, m->host);
