@@ -114,7 +114,7 @@ last()
 {
     speeds=$1
     shift
-    end=none
+    end="not found"
     for speed in $speeds; do
         "$build/flankfilm" run "$here/two-way.yaml" --set mesh.file="$work/stiffness.csv" \
             --set duty.mesh_frequency="$speed Hz" --set film.cells=256 --set film.steps=500 \
