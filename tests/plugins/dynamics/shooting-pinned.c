@@ -9,6 +9,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 typedef struct state {
     double frequency;
@@ -126,10 +127,32 @@ static void test_folds(void)
     stage_close(fine);
 }
 
+/* A stiffness that jumps at phase 0 does work there, which is neither behind the start of the cycle
+   nor before its end: with parted flanks and without, what comes in is what the damper takes. */
+static void check_jump_at_start(void)
+{
+    const char *const branches[] = {"lower", "upper"};
+    for (int i = 0; i < 2; i++) {
+        pair p = pair_trapezoid(2375);
+        double phase[] = {0, 0.7, 0.7, 1}, stiffness[] = {4.2e8, 4e8, 2.6e8, 2.8e8};
+        p.phases = 4;
+        memcpy(p.phase, phase, sizeof phase);
+        memcpy(p.stiffness, stiffness, sizeof stiffness);
+        p.stiffness_mean = pair_mean(&p);
+        stage *s = pair_open("dynamics/shooting", &p);
+        stage_set_text(s, "branch", branches[i]);
+        check_true("runs", stage_run_wanted(s, "excitation_power damper_loss period") == FF_OK);
+        check_near("work of a jump at phase 0", stage_scalar(s, "excitation_power"),
+                   stage_scalar(s, "damper_loss"), 1e-9);
+        stage_close(s);
+    }
+}
+
 int main(void)
 {
     for (size_t i = 0; i < sizeof states / sizeof states[0]; i++)
         check_state(&states[i]);
     test_folds();
+    check_jump_at_start();
     return check_done();
 }
