@@ -42,8 +42,8 @@ void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
 
 /*
  * The roughness carries its pressure along at about the mean speed. The trial becomes the last film
- * on the nodes as they have moved, with the pressure extrapolated from the last step, and with h00
- * such that the mean thickness, weighted by the pressure, stays.
+ * on the nodes as they have moved, with pressure and thickness extrapolated from the last step, h00
+ * being such that the mean of the thickness, weighted by the pressure, is what was extrapolated.
  */
 void ehl_advect_film(ehl_march *m, const ehl_instant *at)
 {
@@ -74,7 +74,9 @@ void ehl_advect_film(ehl_march *m, const ehl_instant *at)
     m->solver->deflect(m->solver, film->p, film->v);
     ehl_reynolds_gap(r, at->radius, film);
     for (size_t i = 0; i < n; i++) {
-        off += film->p[i] * (s->gap[upstream_node(i, cells)] - r->h[i]);
+        double gap = s->gap[upstream_node(i, cells)];
+        gap += ratio * (gap - older->gap[upstream_node(i, more)]);
+        off += film->p[i] * (gap - r->h[i]);
         weight += film->p[i];
     }
     if (weight > 0 && at->load > 0)

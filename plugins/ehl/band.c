@@ -44,7 +44,8 @@ struct ehl_band {
     double *inverse;           /* of the pivots */
     block *blocks;
     double *line;    /* PAD zeros, a vector, PAD zeros */
-    double *carries; /* ehl_carries, and PAD zeros */
+    double *memory;  /* PAD zeros, `carries`, PAD zeros */
+    double *carries; /* ehl_carries */
     double *border;  /* matrix^-1 times the effect of h00 */
     double border_sum;
 };
@@ -64,11 +65,12 @@ ehl_band *ehl_band_create(size_t nodes, const double *kernel)
     b->inverse = calloc(nodes, sizeof *b->inverse);
     b->line = calloc(nodes + 2 * (size_t)PAD, sizeof *b->line);
     b->border = calloc(nodes + PAD, sizeof *b->border);
-    b->carries = calloc(nodes + PAD, sizeof *b->carries);
-    if (!b->carries || !b->matrix || !b->blocks || !b->inverse || !b->line || !b->border) {
+    b->memory = calloc(nodes + 2 * (size_t)PAD, sizeof *b->memory);
+    if (!b->memory || !b->matrix || !b->blocks || !b->inverse || !b->line || !b->border) {
         ehl_band_destroy(b);
         return NULL;
     }
+    b->carries = b->memory + PAD;
     b->shift = kernel[REACH + 1];
     for (size_t k = 0; k <= REACH; k++)
         b->cut[REACH + 3 + k] = b->cut[REACH + 3 - k] = kernel[k] - b->shift;
@@ -84,7 +86,7 @@ void ehl_band_destroy(ehl_band *b)
     free(b->inverse);
     free(b->line);
     free(b->border);
-    free(b->carries);
+    free(b->memory);
     free(b);
 }
 
@@ -97,10 +99,18 @@ static void fill_row(double h0, double h1, double h2, double h3, const double *r
         row[k] = h0 * cut[k + 2] + h1 * cut[k + 1] + h2 * cut[k] + h3 * (cut - 1)[k];
 }
 
+/* Columns of a row whose unknown deflects nothing keep no kernel. */
+FF_SIMD
+static void drop_columns(const double *restrict carries, double *restrict row)
+{
+    for (size_t k = 0; k < LOWER + 1 + UPPER; k++)
+        row[k] *= carries[k];
+}
+
 /* by_p + by_h * cut kernel; row i of the matrix is node i + 1. */
 static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_t first)
 {
-    memset(b->carries, 0, (r->nodes + PAD) * sizeof *b->carries);
+    memset(b->carries, 0, r->nodes * sizeof *b->carries);
     for (size_t i = 0; i < b->rows; i++)
         b->carries[i] = ehl_carries(r, film, i + 1);
     for (size_t i = first; i < b->rows; i++) {
@@ -113,9 +123,8 @@ static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_
         /* column k - LOWER from the diagonal is k - LOWER + 2 from the node i - 2 of the stencil */
         fill_row(r->by_h[0][i + 1], r->by_h[1][i + 1], r->by_h[2][i + 1], r->by_h[3][i + 1],
                  b->cut + REACH + 3 - LOWER, row);
-        for (size_t k = 0; k <= LOWER + UPPER && r->conserving; k++)
-            if (i + k >= LOWER && i + k - LOWER < b->rows)
-                row[k] *= b->carries[i + k - LOWER];
+        if (r->conserving)
+            drop_columns(b->carries + i - LOWER, row);
         for (size_t s = 0; s < EHL_STENCIL; s++)
             row[LOWER - 2 + s] += r->by_p[s][i + 1];
     }

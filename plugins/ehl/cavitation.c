@@ -27,7 +27,8 @@ enum { FULL = 1, FILLING = 2, QUICK_FILLINGS = 2, MOST_FILLINGS = 8, ROUGH_FILLI
 
 ff_status ehl_cavitation_create(ehl_cavitation *w, size_t nodes)
 {
-    w->filled = calloc(nodes, 1);
+    w->filled = calloc(2 * nodes, 1);
+    w->cut = w->filled ? w->filled + nodes : NULL;
     return w->filled ? FF_OK : FF_NOMEM;
 }
 
@@ -39,7 +40,7 @@ void ehl_cavitation_destroy(ehl_cavitation *w)
 
 void ehl_cavitation_begin(ehl_cavitation *w, size_t nodes)
 {
-    memset(w->filled, 0, nodes);
+    memset(w->filled, 0, 2 * nodes);
     w->stride = 1;
     w->split = 0;
 }
@@ -71,7 +72,7 @@ int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film
                         : MOST_FILLINGS; /* at that limit a rough step fails, and is cut */
     int filled = 0, beside = 0;          /* beside: the node upstream has just been filled */
     for (size_t i = 1; i + 1 < r->nodes; i++) {
-        int over = !film->full[i] && film->content[i] > r->oil.density * r->h[i];
+        int over = !film->full[i] && !w->cut[i] && film->content[i] > r->oil.density * r->h[i];
         int careful = w->filled[i] >= QUICK_FILLINGS;
         beside = over && !(careful && beside) && w->filled[i] < most;
         if (!beside)
@@ -79,6 +80,7 @@ int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film
         filled = film->full[i] = 1;
         w->filled[i]++;
     }
+    memset(w->cut, 0, r->nodes);
     w->moved = filled;
     return filled;
 }
@@ -99,6 +101,7 @@ double ehl_cavitation_shrink_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_
             cut = fmax(cut, -film->p[i]);
             film->p[i] = 0;
             film->full[i] = 0;
+            w->cut[i] = 1;
             film->asperity[i] = 0;
             w->moved = 1;
             w->stride = 1;

@@ -12,6 +12,7 @@ typedef struct ehl_cavitation {
     int split;             /* the last shrink cavitated nodes upstream of full ones */
     int moved;             /* nodes changed their state since the last growth or filling began */
     unsigned char *filled; /* how often ehl_cavitation_fill filled a node in this solution */
+    unsigned char *cut;    /* 1: cavitated by the last step, so that its oil is not known yet */
 } ehl_cavitation;
 
 /* FF_NOMEM */

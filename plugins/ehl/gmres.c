@@ -29,6 +29,10 @@ static const double MOST_IMBALANCE_LEFT = 0.3, IMBALANCE_NOTICED = 0.01;
    pressure tells little of the film. */
 static const double LEAST_REDUCTION = 0.2, CAREFUL_REDUCTION = 0.05;
 
+/* With rough flanks a change of the pressure within the tolerance is left once it is this share of
+   it, and solved for down to it otherwise. */
+static const double SHARE_OF_LAST = 0.01;
+
 /* Newton's method neglects so many times the square of a relative change: alpha p_max/2 of a
    viscosity exp(alpha p), some 10 in a contact of gears. */
 static const double CURVATURE = 10;
@@ -231,6 +235,8 @@ int ehl_linear_settles(const ehl_solver *s, double pressure, double film, double
  */
 static double forcing_term(const ehl_solver *s, double change, int careful)
 {
+    if (s->reynolds->rough && change <= s->tolerance)
+        return fmax(CAREFUL_REDUCTION, SHARE_OF_LAST * s->tolerance / change);
     return fmin(careful ? CAREFUL_REDUCTION : LEAST_REDUCTION,
                 fmax(CURVATURE * change, SHARE_OF_STEP * s->tolerance / change));
 }

@@ -76,7 +76,6 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
 {
     newton *w = s->self;
     ehl_reynolds *r = s->reynolds;
-    s->counters.newton++;
     ehl_reynolds_evaluate(r, step, film);
     int moved = r->conserving ? ehl_cavitation_fill(&w->cavitation, r, film)
                               : ehl_cavitation_grow_film(&w->cavitation, r, film);
@@ -91,6 +90,8 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     }
     if (ehl_linear_solve(s, step, film, dh00) != FF_OK)
         return FF_NOCONV;
+    s->counters.newton +=
+        w->linear.krylov > 0; /* without, so little was left that no step is due */
     measure_step(s, film, *dh00, dp, dh);
     return isfinite(*dp) && isfinite(*dh) && isfinite(*dh00) ? FF_OK : FF_NOCONV;
 }

@@ -176,21 +176,6 @@ static void face_mobilities(ehl_reynolds *r)
     }
 }
 
-/* Logarithmic mean of a, b > 0 and its derivatives, from ln(a/b). */
-static double log_mean(double a, double b, double t, double *by_a, double *by_b)
-{
-    if (fabs(t) < 1e-2) {
-        double root = sqrt(a * b), grown = 1 + t * t / 24;
-        *by_a = root * (grown / 2 + t / 12) / a;
-        *by_b = root * (grown / 2 - t / 12) / b;
-        return root * grown;
-    }
-    double mean = (a - b) / t;
-    *by_a = (1 - mean / a) / t;
-    *by_b = (mean / b - 1) / t;
-    return mean;
-}
-
 /*
  * Rough flanks: mobility of a face, h^3 times rho psi/12. The logarithmic mean of rho psi is that
  * over the pressures between, where psi falls exponentially with p: the flow then grows with their
@@ -200,23 +185,34 @@ static double log_mean(double a, double b, double t, double *by_a, double *by_b)
  * x^(3/2) upstream of an elastic contact: the flow out of inlets is right even where the cells do
  * not resolve them.
  */
+FF_SIMD
 static void rough_face_mobilities(ehl_reynolds *r)
 {
-    for (size_t i = 0; i < r->last; i++) {
-        double h = r->thick[i], next = r->thick[i + 1], a = h * h * h, b = next * next * next;
-        double ea = fmax(r->f[i] / a, 1e-200), eb = fmax(r->f[i + 1] / b, 1e-200), la, lb;
-        double fluidity = log_mean(ea, eb, log(ea / eb), &la, &lb);
-        double cubes = 1 / (a + b), sum = 1 / (h + next), product = h * next;
-        double gap = 2 * product * product * cbrt(product * cubes * sum * sum);
-        double ga = gap * (7 / (3 * h) - h * h * cubes - 2 * sum / 3);
-        double gb = gap * (7 / (3 * next) - next * next * cubes - 2 * sum / 3);
-        r->mean[i] = gap * fluidity;
-        r->mean_left[i] = gap * la / a;
-        r->mean_right[i] = gap * lb / b;
-        double move = ga * fluidity - 3 * h * h * ea * r->mean_left[i];
-        double move_next = gb * fluidity - 3 * next * next * eb * r->mean_right[i];
-        r->pinch_left[i] = r->h[i] > r->floor ? move : 0;
-        r->pinch_right[i] = r->h[i + 1] > r->floor ? move_next : 0;
+    const double *restrict f = r->f, *restrict thick = r->thick, *restrict h = r->h;
+    double *restrict all = r->mean, *restrict by_left = r->mean_left, floor = r->floor;
+    double *restrict by_right = r->mean_right, *restrict pinch_left = r->pinch_left;
+    double *restrict pinch_right = r->pinch_right;
+    FF_SIMD_LOOP
+    for (size_t i = 0, last = r->last; i < last; i++) {
+        double x = thick[i], y = thick[i + 1], a = x * x * x, b = y * y * y;
+        double ea = f[i] / a, eb = f[i + 1] / b;
+        ea = ea > 1e-200 ? ea : 1e-200;
+        eb = eb > 1e-200 ? eb : 1e-200;
+        double t = ff_log(ea / eb), root = sqrt(ea) * sqrt(eb), grown = 1 + t * t / 24;
+        int close = fabs(t) < 1e-2; /* the difference would cancel */
+        double apart = (ea - eb) / t, fluidity = close ? root * grown : apart;
+        double la = close ? root * (grown / 2 + t / 12) / ea : (1 - apart / ea) / t;
+        double lb = close ? root * (grown / 2 - t / 12) / eb : (apart / eb - 1) / t;
+        double cubes = 1 / (a + b), sum = 1 / (x + y), product = x * y;
+        double gap = 2 * product * product * ff_exp(ff_log(product * cubes * sum * sum) / 3);
+        double ga = gap * (7 / (3 * x) - x * x * cubes - 2 * sum / 3);
+        double gb = gap * (7 / (3 * y) - y * y * cubes - 2 * sum / 3);
+        double left = gap * la / a, right = gap * lb / b;
+        all[i] = gap * fluidity;
+        by_left[i] = left;
+        by_right[i] = right;
+        pinch_left[i] = h[i] > floor ? ga * fluidity - 3 * x * x * ea * left : 0;
+        pinch_right[i] = h[i + 1] > floor ? gb * fluidity - 3 * y * y * eb * right : 0;
     }
 }
 
@@ -318,16 +314,26 @@ static void cavitated_column(ehl_reynolds *r, size_t i, size_t s, double c, doub
     r->by_h[s][i] -= c * mass_by_h;
 }
 
-/* Adds to row i what faces with an abrupt change of the gap, and the side flow, contribute. */
-static void add_pinched_flow(ehl_reynolds *r, const ehl_film *film, size_t i, double up,
-                             double down)
+/* Adds what faces with an abrupt change of the gap, and the side flow, contribute. */
+FF_SIMD
+static void add_pinched_flow(ehl_reynolds *r, const ehl_film *film)
 {
-    double side = film->full[i] ? r->dx * r->leak : 0;
-    r->by_h[1][i] -= down * r->pinch_left[i - 1];
-    r->by_h[2][i] += up * r->pinch_left[i] - down * r->pinch_right[i - 1];
-    r->by_h[3][i] += up * r->pinch_right[i];
-    r->by_p[2][i] -= side * (r->f[i] + r->f_p[i] * film->p[i]);
-    r->by_h[2][i] -= side * r->f_h[i] * film->p[i];
+    const double *restrict p = film->p, *restrict left = r->pinch_left;
+    const double *restrict right = r->pinch_right, *restrict f = r->f, *restrict f_p = r->f_p;
+    const double *restrict f_h = r->f_h;
+    const unsigned char *restrict full = film->full;
+    double *restrict p2 = r->by_p[2], *restrict h1 = r->by_h[1], *restrict h2 = r->by_h[2];
+    double *restrict h3 = r->by_h[3];
+    const double per_dx = 1 / r->dx, all = r->conserving ? 1 : 0, leak = r->dx * r->leak;
+    FF_SIMD_LOOP
+    for (size_t i = 1, last = r->last; i < last; i++) {
+        double here = (all + (1 - all) * full[i]) * per_dx, side = full[i] * leak;
+        double up = here * (p[i + 1] - p[i]), down = here * (p[i] - p[i - 1]);
+        h1[i] -= down * left[i - 1];
+        h2[i] += up * left[i] - down * right[i - 1] - side * f_h[i] * p[i];
+        h3[i] += up * right[i];
+        p2[i] -= side * (f[i] + f_p[i] * p[i]);
+    }
 }
 
 /* Rows from ... to - 1, that have the stencil c of the transport. `back`: how far its first node
@@ -363,32 +369,45 @@ static void slopes_of_rows(ehl_reynolds *r, const ehl_film *film, const double c
     }
 }
 
-/* A row whose stencil is its own, or with what most rows do not have. */
-static void slopes_of_row(ehl_reynolds *r, const ehl_step *step, const ehl_film *film, size_t i)
+/* Puts the columns of cavitated nodes into row i. */
+static void cavitated_columns(ehl_reynolds *r, const ehl_step *step, const ehl_film *film, size_t i)
 {
-    double c[3];
+    double c[EHL_STENCIL] = {0};
     transport_stencil(r, step, film, i, c);
-    slopes_of_rows(r, film, c, i > 1 ? 2 : 1, i, i + 1);
-    if (r->rough) {
-        double here = (r->conserving || film->full[i]) / r->dx;
-        add_pinched_flow(r, film, i, here * (film->p[i + 1] - film->p[i]),
-                         here * (film->p[i] - film->p[i - 1]));
-    }
-    for (size_t s = i > 1 ? 0 : 1; r->conserving && s < EHL_STENCIL; s++)
+    for (size_t s = i > 1 ? 0 : 1; s < EHL_STENCIL; s++)
         if (ehl_is_cavitated(r, film, i + s - 2))
-            cavitated_column(r, i, s, s < 3 ? c[s] : 0, r->liquid.rho[i + s - 2]);
+            cavitated_column(r, i, s, c[s], r->liquid.rho[i + s - 2]);
+}
+
+/* Returns the end of the rows from `from` on that have its stencil of the transport. */
+static size_t end_of_alike(const ehl_reynolds *r, const ehl_film *film, size_t from)
+{
+    enum { OWN = 3 }; /* the rows before it have stencils of their own */
+    size_t to = from + 1;
+    if (from < OWN)
+        return to;
+    if (!r->conserving)
+        return r->last;
+    int here = ehl_is_cavitated(r, film, from - 1), before = ehl_is_cavitated(r, film, from - 2);
+    while (to < r->last && ehl_is_cavitated(r, film, to - 1) == here &&
+           ehl_is_cavitated(r, film, to - 2) == before)
+        to++;
+    return to;
 }
 
 void ehl_reynolds_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
-    enum { ALIKE = 3 }; /* from there on the rows have one stencil, where all nodes are full */
-    double c[3];
-    for (size_t i = 1; i < r->last && (i < ALIKE || r->rough || r->conserving); i++)
-        slopes_of_row(r, step, film, i);
-    if (r->rough || r->conserving || r->last <= ALIKE)
-        return;
-    transport_stencil(r, step, film, ALIKE, c);
-    slopes_of_rows(r, film, c, 2, ALIKE, r->last);
+    double c[EHL_STENCIL];
+    for (size_t from = 1, to; from < r->last; from = to) {
+        to = end_of_alike(r, film, from);
+        transport_stencil(r, step, film, from, c);
+        slopes_of_rows(r, film, c, from > 1 ? 2 : 1, from, to);
+    }
+    if (r->rough)
+        add_pinched_flow(r, film);
+    for (size_t i = 1; r->conserving && i < r->last; i++)
+        if (memchr(film->full + (i > 1 ? i - 2 : 0), 0, EHL_STENCIL))
+            cavitated_columns(r, step, film, i);
 }
 
 /* Returns 0, first order, downstream of a cavitated node, where the film begins sharply. The order
