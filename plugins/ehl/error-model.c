@@ -158,9 +158,10 @@ static void record_resolution(ehl_results *r, const ehl_march *m, double h_centr
     double share = m->known > 1 ? fmin(1, way / (2 * fmax(c->a, c->opening))) : 1;
     r->outlet_load += share * (outlet_load(m, c->opening) - r->outlet_load);
     r->worst_outlet = fmax(r->worst_outlet, r->outlet_load);
-    r->worst_starvation =
-        fmax(r->worst_starvation, ehl_starvation(&m->solver->reynolds->oil, &m->at,
-                                                 m->history->modulus, h_central, g->inlet));
+    double missing =
+        ehl_starvation(&m->solver->reynolds->oil, &m->at, m->history->modulus, h_central, g->inlet);
+    r->starvation += share * (missing - r->starvation);
+    r->worst_starvation = fmax(r->worst_starvation, r->starvation);
 }
 
 /* The oil at the pressure at which the outlet begins: the Hertzian one a build-up length inside x =

@@ -163,7 +163,7 @@ static ff_status begin(ehl_estimate *e, uint64_t wanted, const ff_array *in)
     e->alpha = e->alpha_star.value;
     e->answered = EHL_LAW_GOOD;
     if (wanted & fields)
-        ehl_grid_fit(&e->grid, (size_t)e->cells, e->inlet, e->outlet, &e->history, &e->oil, 0);
+        ehl_grid_fit(&e->grid, (size_t)e->cells, e->inlet, e->outlet, &e->history, &e->oil, 0, 0);
     return fill_moments(e);
 }
 

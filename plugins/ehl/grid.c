@@ -58,8 +58,8 @@ static double inlet_shortfall(double a, double s, double lengths)
 
 /*
  * Extends the domain. For the largest loads less than 0.1 % of the film is missing; the others get
- * ten lengths S. The film ruptures before a + 0.5 S. Loads below 2 % of the largest would need a
- * domain whose cells are too coarse for the others; they use the domain of the
+ * what `supplied` says in ehl_grid_fit. The film ruptures before a + 0.5 S. Loads below 2 % of the
+ * largest would need a domain whose cells are too coarse for the others; they use the domain of the
  * others.
  */
 static void reach(ehl_grid *g, const ehl_instant *at, double modulus, const ehl_oil *oil,
@@ -68,8 +68,8 @@ static void reach(ehl_grid *g, const ehl_instant *at, double modulus, const ehl_
     const double missing = 7.5e-4;
     double a = ehl_hertz_half_width(at->load, at->radius, modulus);
     double s = sqrt(2 * at->radius * ehl_moes_film(at, modulus, oil));
-    double lengths = largest && s > 0 ? sqrt(inlet_shortfall(a, s, 1) / missing) : 10;
-    g->inlet = fmax(g->inlet, a + lengths * s);
+    double lengths = s > 0 ? sqrt(inlet_shortfall(a, s, 1) / missing) : 0;
+    g->inlet = fmax(g->inlet, largest ? a + lengths * s : a + s);
     g->outlet = fmax(g->outlet, a + 2 * s);
 }
 
@@ -89,15 +89,15 @@ static void fit_roughness(ehl_grid *g, const ehl_instant *at, double modulus, do
 }
 
 void ehl_grid_fit(ehl_grid *g, size_t cells, double inlet, double outlet, const ehl_history *h,
-                  const ehl_oil *oil, double rq)
+                  const ehl_oil *oil, double rq, double supplied)
 {
-    *g = (ehl_grid){.nodes = cells + 1};
+    *g = (ehl_grid){.nodes = cells + 1, .inlet = supplied};
     for (size_t i = 0; i < h->count; i++) {
         ehl_instant at = ehl_history_row(h, i);
         double a = ehl_hertz_half_width(at.load, at.radius, h->modulus);
         g->half_width = fmax(g->half_width, a);
         g->pressure = fmax(g->pressure, ehl_hertz_pressure(at.load, at.radius, h->modulus));
-        if (at.load >= 0.02 * h->load_max)
+        if (at.load >= EHL_LIGHT_LOAD * h->load_max)
             reach(g, &at, h->modulus, oil, at.load >= 0.5 * h->load_max);
         if (rq > 0)
             fit_roughness(g, &at, h->modulus, rq);

@@ -29,8 +29,8 @@ double ehl_hertz_gap_distance(double a, double radius, double h);
 double ehl_inlet_buildup(double a, double radius, double h);
 
 /* inlet, outlet: multiples of the largest half-width, or 0: long enough for every load and for
-   flanks with the combined roughness rq. */
+   flanks with the combined roughness rq, the inlet at least `supplied` (m, ehl_inlet_supplied). */
 void ehl_grid_fit(ehl_grid *g, size_t cells, double inlet, double outlet, const ehl_history *h,
-                  const ehl_oil *oil, double rq);
+                  const ehl_oil *oil, double rq, double supplied);
 
 #endif

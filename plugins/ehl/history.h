@@ -5,6 +5,9 @@
 
 #include <flankfilm/plugin.h>
 
+/* Below this share of the largest load the grid is too coarse for the film (time-stepper.h). */
+#define EHL_LIGHT_LOAD 0.02
+
 typedef struct ehl_history {
     size_t count;
     const double *time, *radius, *speed_1, *speed_2, *load;

@@ -301,3 +301,41 @@ double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus,
     double missing = share * unloaded + (1 - share) * elastic;
     return missing / (1 + missing); /* of the film without end; missing: of what is there */
 }
+
+/* Returns the largest share of the film that a domain from x = -end on leaves out, mean over a
+   passage of the contact, of the steady films of the loaded instants. */
+static double most_starved(const ehl_history *h, const ehl_oil *oil, double end)
+{
+    double worst = 0, mean = 0;
+    for (size_t i = 0; i < h->count; i++) {
+        ehl_instant at = ehl_history_row(h, i);
+        double film = ehl_moes_film(&at, h->modulus, oil);
+        if (at.load < EHL_LIGHT_LOAD * h->load_max || !(film > 0))
+            continue;
+        double a = ehl_hertz_half_width(at.load, at.radius, h->modulus);
+        double way = i > 0 ? at.entrainment * (h->time[i] - h->time[i - 1]) : HUGE_VAL;
+        double share = fmin(1, way / (2 * fmax(a, sqrt(2 * at.radius * film))));
+        mean += share * (ehl_starvation(oil, &at, h->modulus, film, end) - mean);
+        worst = fmax(worst, mean);
+    }
+    return worst;
+}
+
+double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil)
+{
+    enum { LIMIT = 30 };
+    const double most = EHL_STARVED_LIMIT / 1.5; /* the estimate is right within that factor */
+    double widest = 0, end = 0, missing;
+    for (size_t i = 0; i < h->count; i++) {
+        ehl_instant at = ehl_history_row(h, i);
+        double a = ehl_hertz_half_width(at.load, at.radius, h->modulus),
+               s = sqrt(2 * at.radius * ehl_moes_film(&at, h->modulus, oil));
+        widest = fmax(widest, a);
+        if (at.load >= EHL_LIGHT_LOAD * h->load_max)
+            end = fmax(end, a + 4 * s);
+    }
+    /* it falls with the square of the distance from the contact, or slower near to it */
+    for (int k = 0; k < LIMIT && (missing = most_starved(h, oil, end)) > most; k++)
+        end = widest + (end - widest) * fmin(2, fmax(1.02, sqrt(missing / most)));
+    return end;
+}

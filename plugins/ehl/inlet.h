@@ -96,4 +96,11 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
 double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus, double h,
                       double end);
 
+/* Above this share of the film the line of starvation is doubtful. */
+#define EHL_STARVED_LIMIT 0.01
+
+/* Distance from x = 0 at which a domain must begin so that ehl_starvation stays below that limit at
+   every loaded instant, m. */
+double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil);
+
 #endif

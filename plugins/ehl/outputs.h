@@ -42,8 +42,9 @@ typedef struct ehl_results {
     double lowest, lowest_at, highest, least_lambda;
     ehl_lowest engagements;
     double worst_load, worst_mass, worst_complement, lost_force;
-    double least_resolution, least_inlet, worst_starvation;
-    double outlet_load, worst_outlet; /* share of the load: mean over a passage, its largest */
+    double least_resolution, least_inlet;
+    double starvation, worst_starvation; /* share of the film: mean over a passage, its largest */
+    double outlet_load, worst_outlet;    /* share of the load: mean over a passage, its largest */
     /* errors of h_min and h_central, relative: by the steps, and by cells that carry the film */
     double worst_in_time[2], worst_carried[2];
     ehl_bound bound[EHL_BOUNDS], at_highest; /* at_highest: of p_max where it is highest */

@@ -250,8 +250,9 @@ static void report_resolution(const ehl_results *r)
                     "the film is starved by about 1 % or more: move the inlet out");
     if (isfinite(r->least_inlet))
         report_at_most(
-            r, "starvation", r->worst_starvation, 0.01, FF_DOUBTFUL,
-            "film that is missing because the domain ends; its inlet end is taken as flooded");
+            r, "starvation", r->worst_starvation, EHL_STARVED_LIMIT, FF_DOUBTFUL,
+            "film that is missing because the domain ends, mean over a passage; its inlet end is "
+            "taken as flooded; move the inlet out");
     report_at_most(
         r, "outlet_load", r->worst_outlet, 2.5e-3, FF_DOUBTFUL,
         "share of the load next to the outlet's end, within a quarter of sqrt(2 R h), where "

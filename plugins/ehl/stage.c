@@ -174,7 +174,9 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
     if (ehl_fluid_oil(&m->laws, &r->oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
     double rq = r->rough.count > 0 ? ehl_roughness_rq(&r->rough) : 0;
-    ehl_grid_fit(&r->grid, (size_t)m->cells, m->inlet, m->outlet, &r->history, &r->oil, rq);
+    double supplied = ehl_inlet_supplied(&r->history, &r->oil);
+    ehl_grid_fit(&r->grid, (size_t)m->cells, m->inlet, m->outlet, &r->history, &r->oil, rq,
+                 supplied);
     if (!(r->grid.dx > 0 && isfinite(r->grid.dx)))
         return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
                         "the contact and the oil give no finite length of the domain");

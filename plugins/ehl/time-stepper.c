@@ -18,8 +18,6 @@ static const double MOST_THINNING = 0.5;
    closes. */
 static const double MOST_CHANGE_AT_CONTACT_LOSS = 0.05;
 
-/* Below this share of the largest load the grid is too coarse for the film (time-stepper.h). */
-static const double LIGHT_LOAD = 0.02;
 /* Below this share of the load of the step a film is taken to carry none. */
 static const double NO_LOAD = 1e-3;
 /* Truncation counts where the pressure exceeds this share of the highest. */
@@ -109,7 +107,7 @@ double ehl_march_passage(const ehl_march *m, double speed)
 
 int ehl_march_is_loaded(const ehl_march *m)
 {
-    return m->step.loaded && m->step.load >= LIGHT_LOAD * m->history->load_max;
+    return m->step.loaded && m->step.load >= EHL_LIGHT_LOAD * m->history->load_max;
 }
 
 void ehl_march_breakpoint(ehl_march *m)

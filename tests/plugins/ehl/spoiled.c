@@ -40,7 +40,7 @@ static void make(scene *s, const ehl_laws *laws)
                              .modulus = 226.4e9,
                              .load_max = 2e5}};
     ehl_fluid_oil(laws, &s->oil);
-    ehl_grid_fit(&s->grid, CELLS, 6, 2, &s->history, &s->oil, 0);
+    ehl_grid_fit(&s->grid, CELLS, 6, 2, &s->history, &s->oil, 0, 0);
     ehl_reynolds_create(&s->reynolds, &s->grid, laws, &s->oil, 2);
     s->kernel = malloc((CELLS + 1) * sizeof *s->kernel);
     ehl_kernel_fill(CELLS + 1, s->grid.dx, s->history.modulus, s->grid.half_width, s->kernel);
