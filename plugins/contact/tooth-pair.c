@@ -233,7 +233,8 @@ static ff_status report(const tooth_pair *s, const contact_tooth_path *p, const 
     double error = r->top > 0 ? r->error / r->top : 0;
     s->host->quality(s->host->ctx, "load_interpolation", error, 0.01,
                      error <= 0.01 ? FF_GOOD : FF_DOUBTFUL,
-                     "estimated error of the tooth force between stations, over its maximum");
+                     "estimated error of the tooth force between stations, over its maximum; more "
+                     "stations of the gear follow the vibration, and as many points");
     contact_history_report(&r->history);
     report_engagements(s, p);
     report_load(s, p, r);

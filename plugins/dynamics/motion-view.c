@@ -152,8 +152,8 @@ static void report_sampling(const dynamics_between *found, const ff_host *host)
     double error = found->largest > 0 ? found->off_line / found->largest : 0;
     host->quality(
         host->ctx, "station_sampling", error, limit, error <= limit ? FF_GOOD : FF_DOUBTFUL,
-        "tooth force half-way between two stations of the gear, off the straight line that "
-        "the load of a tooth pair takes there; more stations follow the vibration");
+        "tooth force half-way between two stations of the gear, off the straight line between "
+        "them, over the largest; more stations follow the vibration");
 }
 
 static double largest_static(const dynamics_inputs *inputs)
