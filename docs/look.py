@@ -116,9 +116,6 @@ class Browser:
 def wrong(browser):
     """What a reader would stumble over: errors, and content that is wider than the window."""
     found = list(browser.said)
-    errors = browser.value('document.body.dataset.errors')
-    if errors:
-        found.append(errors)
     if browser.value('document.documentElement.scrollWidth > innerWidth + 1'):
         found.append('wider than the window')
     return found

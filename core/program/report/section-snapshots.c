@@ -250,7 +250,7 @@ static void add_field(const report_page *page, const snapshots *s, report_plot *
     for (size_t m = 0; m < s->count; m++) {
         const stage_fields *of = &s->stages[m];
         size_t frame = frame_at(of, s->start, FRAMES < of->frames ? FRAMES : of->frames);
-        if (!of->field[f].data)
+        if (!of->field[f].data || (f == ASPERITIES && !(largest_value(&of->field[f]) > 0)))
             continue;
         report_curve *curve = report_plot_add(plot, &s->x, of->x.data, &s->unit[f],
                                               of->field[f].data + frame * of->cells, of->cells);
