@@ -320,8 +320,8 @@ static void write_failed(report_page *page)
         if (!strcmp(of->status, "ok") || !strcmp(of->status, "not run"))
             continue;
         if (failed++ == 0)
-            fputs("<section><h2>Failed cases</h2>\n<table><thead><tr><th>case</th><th>status</th>"
-                  "<th>reason</th><th>repeat it</th></tr></thead><tbody>\n",
+            fputs("<section><h2>Failed cases</h2>\n<div class=\"wide\"><table><thead><tr><th>case"
+                  "</th><th>status</th><th>reason</th><th>repeat it</th></tr></thead><tbody>\n",
                   page->out);
         if (failed > MOST_FAILED)
             continue;
@@ -334,7 +334,7 @@ static void write_failed(report_page *page)
         fputs("</code></td></tr>\n", page->out);
     }
     if (failed > 0)
-        fputs("</tbody></table>\n", page->out);
+        fputs("</tbody></table></div>\n", page->out);
     if (failed > MOST_FAILED)
         fprintf(page->out, "<p class=\"note\">The first %d of %zu; table.csv has them all.</p>\n",
                 MOST_FAILED, failed);

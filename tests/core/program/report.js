@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tries all figures of a page as a reader would, and returns what does not answer.
+// Tries the sliders and the first figures of a page as a reader would, looks at all, and returns what does not answer.
 (async function () {
   const faults = [];
   const all = (selector, within) => [...(within || document).querySelectorAll(selector)];
-  const drawing = node => node.innerHTML.replace(/clip\d+/g, '');
+  const drawing = node => node.innerHTML.replace(/(clip|gradient_)\d+/g, '');
   // A drawing is made in steps: waits until it stays.
   async function settled(plot) {
     for (let still = 0, tries = 0, last = ''; still < 3 && tries++ < 500; await new Promise(done => setTimeout(done, 10))) {
@@ -68,6 +68,7 @@
   all('details').forEach(one => { one.open = true; });
   await Promise.all(all('.plot').map(settled)); // those that were hidden, too
   for (const section of all('.snapshots')) await trySlider(section);
-  for (const figure of all('figure').filter(one => one.querySelector('.plot'))) await tryFigure(figure);
+  all('.plot').forEach(plot => look(plot.parentNode.querySelector('figcaption span').textContent, plot));
+  for (const figure of all('figure').filter(one => one.querySelector('.plot')).slice(0, 5)) await tryFigure(figure); // of a page they have the same script
   return faults;
 })()

@@ -85,7 +85,7 @@ class Report(lab.Lab):
                       "Quality of the numbers", "unity-50.yaml", "@article"):
             self.assertIn(words, page)
         self.read_extremes(page)
-        self.assertRegex(dom, r'"extremes">film_static: least film 0.1')
+        self.assertRegex(dom, r'"extremes">film_static: least film 0\.\d+ µm, highest pressure 0\.\d+ GPa')
         self.assertRegex(dom, r"<output>roll angle [\d.]+ deg</output>")
 
     def test_rough_flanks(self):
