@@ -198,11 +198,15 @@ static void rough_face_mobilities(ehl_reynolds *r)
         double ea = f[i] / a, eb = f[i + 1] / b;
         ea = ea > 1e-200 ? ea : 1e-200;
         eb = eb > 1e-200 ? eb : 1e-200;
-        double t = ff_log(ea / eb), root = sqrt(ea) * sqrt(eb), grown = 1 + t * t / 24;
-        int close = fabs(t) < 1e-2; /* the difference would cancel */
-        double apart = (ea - eb) / t, fluidity = close ? root * grown : apart;
-        double la = close ? root * (grown / 2 + t / 12) / ea : (1 - apart / ea) / t;
-        double lb = close ? root * (grown / 2 - t / 12) / eb : (apart / eb - 1) / t;
+        /* where both are nearly alike the difference would cancel, and a series holds */
+        double t = ff_log(ea / eb), size = fabs(t), grown = 1 + t * t / 24;
+        double alike = eb * (1 + t / 2 * (1 + t / 3 * (1 + t / 4 * (1 + t / 5 * (1 + t / 6)))));
+        double root = alike / grown, alike_a = root * (grown / 2 + t / 12) / ea;
+        double alike_b = root * (grown / 2 - t / 12) / eb;
+        double apart = (ea - eb) / t, apart_a = (1 - apart / ea) / t,
+               apart_b = (apart / eb - 1) / t;
+        double fluidity = size < 1e-2 ? alike : apart, la = size < 1e-2 ? alike_a : apart_a;
+        double lb = size < 1e-2 ? alike_b : apart_b;
         double cubes = 1 / (a + b), sum = 1 / (x + y), product = x * y;
         double gap = 2 * product * product * ff_exp(ff_log(product * cubes * sum * sum) / 3);
         double ga = gap * (7 / (3 * x) - x * x * cubes - 2 * sum / 3);
@@ -211,8 +215,10 @@ static void rough_face_mobilities(ehl_reynolds *r)
         all[i] = gap * fluidity;
         by_left[i] = left;
         by_right[i] = right;
-        pinch_left[i] = h[i] > floor ? ga * fluidity - 3 * x * x * ea * left : 0;
-        pinch_right[i] = h[i + 1] > floor ? gb * fluidity - 3 * y * y * eb * right : 0;
+        double by_x = ga * fluidity - 3 * x * x * ea * left;
+        double by_y = gb * fluidity - 3 * y * y * eb * right;
+        pinch_left[i] = h[i] > floor ? by_x : 0;
+        pinch_right[i] = h[i + 1] > floor ? by_y : 0;
     }
 }
 
