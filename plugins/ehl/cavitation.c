@@ -66,13 +66,14 @@ int ehl_cavitation_grow_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film 
     return longer;
 }
 
-int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film)
+int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film, int steps)
 {
     int most = r->rough ? ROUGH_FILLINGS
                         : MOST_FILLINGS; /* at that limit a rough step fails, and is cut */
     int filled = 0, beside = 0;          /* beside: the node upstream has just been filled */
     for (size_t i = 1; i + 1 < r->nodes; i++) {
-        int over = !film->full[i] && !w->cut[i] && film->content[i] > r->oil.density * r->h[i];
+        int over =
+            !film->full[i] && !(steps && w->cut[i]) && film->content[i] > r->oil.density * r->h[i];
         int careful = w->filled[i] >= QUICK_FILLINGS;
         beside = over && !(careful && beside) && w->filled[i] < most;
         if (!beside)

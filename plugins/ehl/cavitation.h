@@ -28,8 +28,10 @@ int ehl_cavitation_grow_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film 
 
 /* With mass conserved: fills the nodes that hold more than their gap. Returns 1 when there were
    some. A node that alternates between full and cavitated stays cavitated in the end, with more oil
-   than its gap; the quality line `complementarity` shows it. */
-int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film);
+   than its gap; the quality line `complementarity` shows it. In time steps a node whose pressure
+   was cut off waits for one that finds its oil; steady films of flanks that yield are not found
+   that way. */
+int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film, int steps);
 
 /* Cavitates the nodes with p < 0 and returns the largest |p| that was cut off, Pa; fills `change`
    with the changes of p. */

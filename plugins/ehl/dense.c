@@ -161,7 +161,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     for (int k = 0; k < limit; k++) {
         s->counters.newton++;
         ehl_reynolds_evaluate(r, step, film);
-        if (r->conserving ? ehl_cavitation_fill(&d->cavitation, r, film)
+        if (r->conserving ? ehl_cavitation_fill(&d->cavitation, r, film, step->rate > 0)
                           : ehl_cavitation_grow_film(&d->cavitation, r, film))
             ehl_reynolds_evaluate(r, step, film);
         assemble(s, step, film);

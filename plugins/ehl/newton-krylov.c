@@ -77,7 +77,7 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     newton *w = s->self;
     ehl_reynolds *r = s->reynolds;
     ehl_reynolds_evaluate(r, step, film);
-    int moved = r->conserving ? ehl_cavitation_fill(&w->cavitation, r, film)
+    int moved = r->conserving ? ehl_cavitation_fill(&w->cavitation, r, film, step->rate > 0)
                               : ehl_cavitation_grow_film(&w->cavitation, r, film);
     if (r->rough)
         moved |= ehl_contact_choose(r, step, film);

@@ -179,7 +179,7 @@ static ff_status linear_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     ehl_reynolds *r = s->reynolds;
     s->counters.newton++;
     ehl_reynolds_evaluate(r, step, film);
-    if (r->conserving            ? ehl_cavitation_fill(&w->cavitation, r, film)
+    if (r->conserving            ? ehl_cavitation_fill(&w->cavitation, r, film, step->rate > 0)
         : w->flips >= MOST_FLIPS ? 0
                                  : ehl_cavitation_grow_film(&w->cavitation, r, film))
         ehl_reynolds_evaluate(r, step, film);
