@@ -23,6 +23,9 @@ typedef struct spur {
     gear_flanks flanks;
 } spur;
 
+/* Of the basic rack of ISO 53 (profile A), in modules. */
+static const double standard_tip_radius = 0.38;
+
 static const ff_param params[] = {
     FF_LIST("teeth", "1", spur, spec.teeth, FF_REQUIRED | FF_WHOLE, NULL, NULL, 3, 1e6, 0, 0, 1, 2,
             "numbers of teeth of gear 1 (driving) and gear 2; one value: both the same"),
@@ -42,7 +45,20 @@ static const ff_param params[] = {
             "tip (outside) diameters; left out: d + 2 m (1 + x), shortened as DIN 3960 says where "
             "the profile shifts do not cancel"),
     FF_LIST("root_diameter", "mm", spur, spec.root_diameter, 0, NULL, NULL, 1e-3, 1e9, 0, 0, 1, 2,
-            "root diameters; left out: d + 2 m (x - 1.25)"),
+            "root diameters; left out: d + 2 m (x - dedendum)"),
+    FF_LIST("dedendum", "1", spur, spec.dedendum, 0, "1.25", NULL, 0.5, 3, 1, 1.6, 1, 2,
+            "dedendum of the basic rack over the module: how deep the tool cuts"),
+    FF_LIST("tool_tip_radius", "1", spur, spec.tool_tip_radius, 0, NULL, NULL, 0, 1, 0, 0, 1, 2,
+            "tip radius of the tool over the module, for the root form and the stiffness of the "
+            "tooth; left out: a root form with the bottom clearance of 0.25, and 0.38 for the "
+            "stiffness"),
+    FF_LIST("protuberance", "um", spur, spec.protuberance, 0, NULL, NULL, 0, 1e3, 0, 0, 1, 2,
+            "protuberance of the tool's tip beyond its flank, normal to it: where the involute "
+            "begins"),
+    FF_LIST("machining_allowance", "um", spur, spec.machining_allowance, 0, NULL, NULL, 0, 1e3, 0,
+            0, 1, 2,
+            "stock that is ground off the flank after the tool, normal to it, and what of the "
+            "protuberance it takes back"),
     FF_QUANTITY("backlash", "mm", spur, spec.backlash, 0, NULL, "thickness", 0, 1e3, 0, 0,
                 "total backlash of the mounted pair, twice the half-gap b, whose teeth are thinned "
                 "alike; left out: what "
@@ -253,13 +269,16 @@ static double roughness_of(const spur *s, int gear)
 static ff_status write_pairs(const spur *s, uint64_t wanted)
 {
     const gear_spur_pair *p = &s->pair;
-    double teeth[2], shift[2], elastic[2], poisson[2], roughness[2];
+    double teeth[2], shift[2], elastic[2], poisson[2], roughness[2], form[2], tool[2];
     for (int i = 0; i < 2; i++) {
         teeth[i] = ff_of_both(&s->spec.teeth, i);
         shift[i] = ff_of_both(&s->spec.shift, i);
         elastic[i] = ff_of_both(&s->elastic, i);
         poisson[i] = ff_of_both(&s->poisson, i);
         roughness[i] = roughness_of(s, i);
+        form[i] = hypot(p->base_radius[i], fmax(p->form[i], 0));
+        tool[i] = s->spec.tool_tip_radius.count > 0 ? ff_of_both(&s->spec.tool_tip_radius, i)
+                                                    : standard_tip_radius;
     }
     const struct {
         uint32_t row;
@@ -275,6 +294,8 @@ static ff_status write_pairs(const spur *s, uint64_t wanted)
         {OUT_PROFILE_SHIFT, shift},
         {OUT_TOOTH_THICKNESS, p->thickness},
         {OUT_THICKNESS_ALLOWANCE, p->allowance},
+        {OUT_ROOT_FORM_RADIUS, form},
+        {OUT_TOOL_TIP_RADIUS, tool},
         {OUT_MASS, s->mass},
         {OUT_INERTIA, s->inertia},
         {OUT_ELASTIC_MODULUS, elastic},
@@ -368,8 +389,8 @@ static void report_quality(const spur *s)
                   "least gap between tip and mating root, in modules");
     host->quality(host->ctx, "involute_margin", p->form_margin / m, 0,
                   p->form_margin >= -1e-9 * m ? FF_GOOD : FF_DOUBTFUL,
-                  "from the end of the involute to the contact nearest it, in modules, if the root "
-                  "fillet takes up 0.25 m; below 0 a tip may meet a fillet");
+                  "from the end of the involute to the contact nearest it, in modules; below 0 a "
+                  "tip may meet a fillet");
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-/* Basic rack of ISO 53 (profile A), in modules. */
-static const double addendum = 1.0, dedendum = 1.25;
+/* Basic rack of ISO 53 (profile A), in modules: addendum and bottom clearance. */
+static const double addendum = 1.0, clearance = 0.25;
 
 /* An undercut of this depth, in modules, is none: 17 teeth at 20 degrees, which are usually cut
    without profile shift, lie 0.006 below the limit. */
@@ -200,7 +200,7 @@ static ff_status set_depths(const ff_host *host, const gear_spur_spec *g, gear_s
         double middle = p->reference_radius[i] + ff_of_both(&g->shift, i) * g->module;
         p->root_radius[i] = ff_of_both(&g->root_diameter, i) > 0
                                 ? ff_of_both(&g->root_diameter, i) / 2
-                                : middle - dedendum * g->module;
+                                : middle - ff_of_both(&g->dedendum, i) * g->module;
         p->tip_radius[i] = ff_of_both(&g->tip_diameter, i) > 0
                                ? ff_of_both(&g->tip_diameter, i) / 2
                                : middle + addendum * g->module + shortening;
@@ -230,45 +230,88 @@ static ff_status set_depths(const ff_host *host, const gear_spur_spec *g, gear_s
     return FF_OK;
 }
 
-/* Where the corner of the basic rack has come to, seen from gear i when it lies `beside` the line
-   of centres: how far it is inside of the involute, as an angle, above 0 in the tooth; *radius is
-   its distance from the axis. */
-static double corner_inside(const gear_spur_spec *g, const gear_spur_pair *p, int i, double beside,
-                            double *radius)
+/* The tip of the tool that cuts gear i: its round, the depth of the round's centre below the middle
+   of the rack less the profile shift, and how far it lies inside the straight flank, along the
+   rack. Without a radius it is the corner that the bottom clearance of the basic rack leaves.
+ */
+typedef struct tool_tip {
+    double round, centre, behind;
+} tool_tip;
+
+/* What the protuberance has taken beyond what is ground off, normal to the flank. */
+static double residual_undercut(const gear_spur_spec *g, int i)
 {
-    const double r = p->reference_radius[i],
-                 depth = (addendum - ff_of_both(&g->shift, i)) * g->module;
-    const double rolled = beside + depth * tan(g->pressure_angle);
-    *radius = fmax(hypot(beside, r - depth), p->base_radius[i]);
-    const double flank = involute(acos(p->base_radius[i] / *radius)) - involute(g->pressure_angle);
-    return atan2(beside, r - depth) - rolled / r - flank;
+    double taken = g->protuberance.count > 0 ? ff_of_both(&g->protuberance, i) : 0;
+    double ground = g->machining_allowance.count > 0 ? ff_of_both(&g->machining_allowance, i) : 0;
+    return fmax(taken - ground, 0);
 }
 
-/* Radius of curvature up to which undercut takes the involute of gear i away, 0 without undercut
-   (DIN 3960: x below 1 - z sin^2(a)/2): where the path of the rack's corner crosses it outermost.
- */
+/* How deep the straight flank of the rack goes below its middle, in modules. */
+static double straight_depth(const gear_spur_spec *g, int i)
+{
+    double round = g->tool_tip_radius.count > 0
+                       ? ff_of_both(&g->tool_tip_radius, i) * (1 - sin(g->pressure_angle))
+                       : clearance;
+    return ff_of_both(&g->dedendum, i) - round;
+}
+
+static tool_tip tip_of(const gear_spur_spec *g, int i)
+{
+    const double a = g->pressure_angle;
+    double round = g->tool_tip_radius.count > 0 ? ff_of_both(&g->tool_tip_radius, i) : 0;
+    double depth = straight_depth(g, i) - round * sin(a) - ff_of_both(&g->shift, i);
+    double behind = (round * g->module - residual_undercut(g, i)) / cos(a);
+    return (tool_tip){round * g->module, depth * g->module, behind};
+}
+
+/* Where the tip of the tool cuts gear i when the centre of its round lies `beside` the line of
+   centres: how far it is inside of the involute, as an angle, above 0 in the tooth; *radius is its
+   distance from the axis. The normal there goes through the pitch point (Litvin & Fuentes 2004). */
+static double tip_inside(const gear_spur_spec *g, const gear_spur_pair *p, int i, double beside,
+                         double *radius)
+{
+    const double r = p->reference_radius[i];
+    const tool_tip tip = tip_of(g, i);
+    const double reach = hypot(beside, tip.centre);
+    const double far = reach > 0 ? 1 + tip.round / reach : 1;
+    const double x = beside * far, y = r - tip.centre * far;
+    const double rolled = beside + tip.centre * tan(g->pressure_angle) + tip.behind;
+    *radius = fmax(hypot(x, y), p->base_radius[i]);
+    const double flank = involute(acos(p->base_radius[i] / *radius)) - involute(g->pressure_angle);
+    return atan2(x, y) - rolled / r - flank;
+}
+
+/* The least profile shift without undercut (DIN 3960: h - z sin^2(a)/2, with h the depth of the
+   straight flank). */
+static double least_shift(const gear_spur_spec *g, int i)
+{
+    const double s = sin(g->pressure_angle);
+    return straight_depth(g, i) - ff_of_both(&g->teeth, i) * s * s / 2;
+}
+
+/* Radius of curvature up to which undercut, or a protuberance, takes the involute of gear i away, 0
+   without: where the path of the tool's tip crosses it outermost. */
 static double undercut_of(const gear_spur_spec *g, const gear_spur_pair *p, int i)
 {
     enum { STEPS = 400 };
-    const double s = sin(g->pressure_angle);
-    if (ff_of_both(&g->shift, i) >=
-        addendum - ff_of_both(&g->teeth, i) * s * s / 2 - harmless_undercut)
+    if (ff_of_both(&g->shift, i) >= least_shift(g, i) - harmless_undercut &&
+        !(residual_undercut(g, i) > 0))
         return 0;
     double radius, most = p->tip_radius[i], outer = most, inner = 0;
     bool inside = false;
     for (int k = 0; k < STEPS && !inside; k++) {
         inner = most * (1 - (double)k / STEPS);
-        inside = corner_inside(g, p, i, inner, &radius) > 0;
+        inside = tip_inside(g, p, i, inner, &radius) > 0;
         if (!inside)
             outer = inner;
     }
     for (int k = 0; k < 60 && inside; k++) {
         double middle = (inner + outer) / 2;
-        *(corner_inside(g, p, i, middle, &radius) > 0 ? &inner : &outer) = middle;
+        *(tip_inside(g, p, i, middle, &radius) > 0 ? &inner : &outer) = middle;
     }
     if (!inside)
         return 0;
-    corner_inside(g, p, i, inner, &radius);
+    tip_inside(g, p, i, inner, &radius);
     return sqrt((radius - p->base_radius[i]) * (radius + p->base_radius[i]));
 }
 
@@ -276,17 +319,23 @@ static double undercut_of(const gear_spur_spec *g, const gear_spur_pair *p, int 
 static ff_status check_undercut(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
 {
     for (int i = 0; i < 2; i++) {
-        const double tip = p->tip_radius[1 - i], base = p->base_radius[1 - i],
-                     s = sin(g->pressure_angle);
+        const double tip = p->tip_radius[1 - i], base = p->base_radius[1 - i];
         const double lowest = p->line_length - sqrt((tip - base) * (tip + base));
         p->undercut[i] = undercut_of(g, p, i);
+        if (p->undercut[i] > 0 && lowest < p->undercut[i] && residual_undercut(g, i) > 0)
+            return ff_failf(host, FF_INVALID, "protuberance",
+                            "gear %d: the protuberance takes the flank off up to %.6g mm of "
+                            "diameter, and it meshes from %.6g mm on; less protuberance, more "
+                            "machining_allowance or a deeper tool (dedendum) leaves it",
+                            i + 1, 2e3 * hypot(p->base_radius[i], p->undercut[i]),
+                            2e3 * hypot(p->base_radius[i], lowest));
         if (p->undercut[i] > 0 && lowest < p->undercut[i])
             return ff_failf(host, FF_INVALID, "profile_shift",
                             "gear %d with %g teeth and profile shift %g is undercut where its "
                             "flank meshes; its "
                             "profile_shift must be at least %.3f, or it needs more teeth",
                             i + 1, ff_of_both(&g->teeth, i), ff_of_both(&g->shift, i),
-                            addendum - ff_of_both(&g->teeth, i) * s * s / 2);
+                            least_shift(g, i));
     }
     return FF_OK;
 }
@@ -367,16 +416,16 @@ static ff_status set_path(const ff_host *host, const gear_spur_spec *g, gear_spu
 }
 
 /* A rack whose straight flank ends h modules below its middle cuts an involute down to the radius
-   of curvature r sin a - (h - x) m / sin a; below it a bottom clearance of 0.25 m is left. */
-static double form_margin(const gear_spur_spec *g, const gear_spur_pair *p)
+   of curvature r sin a - (h - x) m / sin a; the tip of the tool takes the rest down to the root. */
+static double form_margin(const gear_spur_spec *g, gear_spur_pair *p)
 {
     double s = sin(g->pressure_angle), lowest[2] = {p->sap, p->line_length - p->tip};
     double margin = HUGE_VAL;
     for (int i = 0; i < 2; i++) {
-        double depth =
-            p->reference_radius[i] - p->root_radius[i] - (dedendum - addendum) * g->module;
-        margin =
-            fmin(margin, lowest[i] - fmax(p->reference_radius[i] * s - depth / s, p->undercut[i]));
+        double rest = ff_of_both(&g->dedendum, i) - straight_depth(g, i);
+        double depth = p->reference_radius[i] - p->root_radius[i] - rest * g->module;
+        p->form[i] = fmax(p->reference_radius[i] * s - depth / s, p->undercut[i]);
+        margin = fmin(margin, lowest[i] - p->form[i]);
     }
     return margin;
 }

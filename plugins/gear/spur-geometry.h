@@ -19,6 +19,9 @@ typedef struct gear_spur_spec {
     ff_reals shift;                       /* profile shift coefficients */
     double centre_distance;               /* not given: zero backlash with these shifts */
     ff_reals tip_diameter, root_diameter; /* not given: standard */
+    /* The tool: depth of its tip below the middle of the basic rack and radius of that tip, in
+       modules; what its protuberance takes off the flank, and what is ground off after it. */
+    ff_reals dedendum, tool_tip_radius, protuberance, machining_allowance;
     /* How thick the teeth are: one of four, or none for teeth of full thickness. */
     double backlash;          /* of the mounted pair, which thins both gears' teeth alike */
     int32_t backlash_measure; /* 1: as an arc of the working pitch circle */
@@ -45,6 +48,7 @@ typedef struct gear_spur_pair {
     double form_margin; /* least distance from the end of the involute, cut by a rack with a bottom
                            clearance of 0.25 m, to contact; below 0: the fillet is met */
     double undercut[2]; /* radius of curvature up to which undercut takes the involute; 0: none */
+    double form[2];     /* radius of curvature where the involute begins */
     double clearance;   /* least gap between a tip and the mating root */
 } gear_spur_pair;
 

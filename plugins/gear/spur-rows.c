@@ -116,4 +116,13 @@ const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS] = {
      .doc = "by how much the tooth is thicker than tooth_thickness, as an arc of the reference "
             "circle; less than 0: thinner",
      .dims = "gear"},
+    {.name = "root_form_radius",
+     .unit = "m",
+     .doc = "radii where the involute begins, above the fillet, an undercut or what a protuberance "
+            "has taken; the base circle where it begins there",
+     .dims = "gear"},
+    {.name = "tool_tip_radius",
+     .unit = "1",
+     .doc = "tip radius of the tool over the module",
+     .dims = "gear"},
 };

@@ -44,6 +44,8 @@ enum {
     OUT_PITCH_DEVIATION_2,
     OUT_ROUGHNESS,
     OUT_THICKNESS_ALLOWANCE,
+    OUT_ROOT_FORM_RADIUS,
+    OUT_TOOL_TIP_RADIUS,
     GEAR_SPUR_OUTPUTS
 };
 extern const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS];

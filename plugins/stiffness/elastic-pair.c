@@ -89,7 +89,7 @@ static stiffness_body_data data_of(const stiffness_elasticity *m, const stiffnes
                                          .tip_roll = g->roll_tip,
                                          .thickness = g->thickness,
                                          .contact_roll = g->roll_low,
-                                         .round = m->fillet * 2 * g->reference_radius / g->teeth};
+                                         .round = g->tool_tip * 2 * g->reference_radius / g->teeth};
     r.material.elastic_modulus = g->elastic_modulus;
     r.material.poisson_ratio = g->poisson_ratio;
     r.material.width = gears->width;

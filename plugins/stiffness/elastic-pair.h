@@ -38,7 +38,6 @@ typedef struct stiffness_elasticity {
     int32_t compliance; /* STIFFNESS_FINITE_ELEMENT, STIFFNESS_ANALYTICAL */
     int32_t plane;      /* STIFFNESS_STRAIN, STIFFNESS_STRESS */
     int32_t coupling;   /* 1: neighbouring teeth move each other */
-    double fillet;      /* radius of the rack's tip, in modules */
     gsl_integration_glfixed_table *rule;
     stiffness_body body[2]; /* kept from one evaluation to the next */
 } stiffness_elasticity;

@@ -8,6 +8,9 @@
 
 #include <math.h>
 
+/* Tip radius of the basic rack of ISO 53 (profile A), in modules. */
+static const double standard_tip_radius = 0.38;
+
 /* Root radius over rim radius that a gear without a bore is given. */
 static const double default_body_ratio = 2;
 
@@ -64,8 +67,16 @@ static ff_status read_gear(const ff_host *host, const ff_array *in, const ff_rea
         status = stiffness_input_read(host, in, STIFFNESS_IN_BACKLASH, 0, &backlash);
     if (status == FF_OK && in[STIFFNESS_IN_ALLOWANCE].data)
         status = stiffness_input_read(host, in, STIFFNESS_IN_ALLOWANCE, i, &allowance);
+    g->tool_tip = standard_tip_radius;
+    if (status == FF_OK && in[STIFFNESS_IN_TOOL_TIP].data)
+        status = stiffness_input_read(host, in, STIFFNESS_IN_TOOL_TIP, i, &g->tool_tip);
     if (status != FF_OK)
         return status;
+    if (!(g->tool_tip >= 0))
+        return ff_failf(
+            host, FF_INVALID, "gear.tool_tip_radius",
+            "gear %d: the tip radius of the tool must not be negative; it is %g modules", gear + 1,
+            g->tool_tip);
     if (!(backlash >= 0))
         return ff_failf(host, FF_INVALID, "gear.backlash",
                         "the backlash must not be negative; it is %g m", backlash);

@@ -14,6 +14,7 @@ typedef struct stiffness_gear {
     double rim_radius;     /* inside which the body is rigid */
     double thickness;      /* arc at the reference circle */
     double full_thickness; /* as the profile shift makes it */
+    double tool_tip;       /* radius of the rack's tip, in modules */
     double elastic_modulus, poisson_ratio;
     double roll_low, roll_tip; /* own roll angles of its lowest contact and of its tip */
 } stiffness_gear;

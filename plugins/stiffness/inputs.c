@@ -63,6 +63,12 @@ const ff_port stiffness_inputs[STIFFNESS_INPUTS] = {
      .doc = "by how much the tooth is thicker than tooth_thickness; less than 0: thinner",
      .dims = "gear",
      .flags = FF_OPTIONAL},
+    {.name = "gear.tool_tip_radius",
+     .unit = "1",
+     .doc =
+         "tip radius of the rack that cuts the teeth, over the module; 0.38 where it is not told",
+     .dims = "gear",
+     .flags = FF_OPTIONAL},
 };
 
 ff_status stiffness_input_read(const ff_host *host, const ff_array *in, int row, size_t i,

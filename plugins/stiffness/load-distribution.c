@@ -55,9 +55,6 @@ static const ff_param params[] = {
               "whether tip corners touch under load before SAP and after the tip, off the line of "
               "action"),
     STIFFNESS_RIM_RADIUS_ROW(distribution),
-    FF_QUANTITY("fillet_radius", "1", distribution, teeth.fillet, 0, "0.38", NULL, 0, 1, 0, 0,
-                "tip radius of the rack that cuts the teeth, in modules; made smaller where the "
-                "tooth space or the path of contact leaves less room"),
     STIFFNESS_MESH_CYCLE_ROW,
 };
 
@@ -104,7 +101,6 @@ static ff_status ready(void *self)
     const ff_serving rows[] = {
         {beam, "elements_per_tooth", "", NULL, text},
         {beam, "neighbour_coupling", "", NULL, text},
-        {beam, "fillet_radius", "", NULL, text},
     };
     ff_serve(m->host, rows, sizeof rows / sizeof rows[0]);
     return FF_OK;

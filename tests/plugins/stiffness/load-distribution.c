@@ -55,7 +55,7 @@ static void test_size_of_the_stiffness(void)
     check_true("a deeper root is softer", mean_with("gear.root_diameter", "140.68 mm") < standard);
     check_true("plane stress is softer", mean_with("mesh.plane", "stress") < standard);
     check_true("coupling is softer", mean_with("mesh.neighbour_coupling", "false") > standard);
-    check_true("sharp fillets are softer", mean_with("mesh.fillet_radius", "0.1") < standard);
+    check_true("sharp fillets are softer", mean_with("gear.tool_tip_radius", "0.1") < standard);
 }
 
 /* What plane stress in the contact would add: under ten times the load Q ln 10 less of it, with Q =
