@@ -149,6 +149,17 @@ static int is_void(const ehl_reynolds *eq, const ehl_film *film, size_t i)
     return eq->conserving && !film->full[i] && i > 0 && i + 1 < eq->nodes;
 }
 
+/* Factors on the mass of a film with temperatures across it (thermal.h). */
+static double swelling(const ehl_reynolds *eq, size_t i)
+{
+    return eq->swell ? eq->swell[i] : 1;
+}
+
+static double carrying(const ehl_reynolds *eq, size_t i)
+{
+    return eq->carry ? eq->carry[i] : 1;
+}
+
 /* Computes the masses of one of the newest films from its pressure and gap. */
 static void compute_mass(const ehl_balance *b, const ehl_march *m, size_t k)
 {
@@ -158,6 +169,10 @@ static void compute_mass(const ehl_balance *b, const ehl_march *m, size_t k)
     eq->laws.density->eval(eq->laws.density->self, b->nodes, film->p, NULL, b->rho, NULL, NULL);
     for (size_t i = 0; i < b->nodes; i++)
         b->mass[k][i] = is_void(eq, film, i) ? film->content[i] : b->rho[i] * h[i];
+    if (eq->swell && k > 0)
+        memcpy(b->mass[k], m->state[k].mass, b->nodes * sizeof *b->mass[k]);
+    for (size_t i = 0; eq->swell && k == 0 && i < b->nodes; i++)
+        b->mass[k][i] *= is_void(eq, film, i) ? 1 : eq->swell[i];
 }
 
 /* Checks the masses that the next step starts from; between asperities in contact some may be
@@ -219,7 +234,7 @@ static void compute_flow(ehl_balance *b, const ehl_march *m)
     for (size_t i = 0; eq->ease && i < n; i++)
         b->psi[i] *= eq->ease[i];
     for (size_t i = 0; i < n; i++)
-        b->psi[i] *= b->rho[i] * h[i] * h[i] * h[i] / 12;
+        b->psi[i] *= b->rho[i] * swelling(eq, i) * h[i] * h[i] * h[i] / 12;
     for (size_t i = 0; i + 1 < n; i++)
         b->face[i] = between(b->psi[i], b->psi[i + 1]) * (p[i + 1] - p[i]) / eq->dx;
     b->face[n - 1] = 0;
@@ -232,10 +247,13 @@ static void balance_cells(ehl_balance *b, const ehl_march *m)
     const ehl_film *film = &m->state[0].film;
     const double *mass = b->mass[0];
     double u = m->step.entrainment;
-    double before = b->face[0] - u * (eq->wedge == 2 ? (mass[0] + mass[1]) / 2 : mass[0]);
+    double last = mass[0] * carrying(eq, 0), first = mass[1] * carrying(eq, 1);
+    double before = b->face[0] - u * (eq->wedge == 2 ? (last + first) / 2 : last);
     for (size_t i = 1; i + 1 < b->nodes; i++) {
         double sharp = eq->wedge < 2 || is_void(eq, film, i - 1) ? 0 : 0.5;
-        double flux = b->face[i] - u * (mass[i] + sharp * (mass[i] - mass[i - 1]));
+        double here = mass[i] * carrying(eq, i);
+        double flux = b->face[i] - u * (here + sharp * (here - last));
+        last = here;
         b->left[i] = flux - before - eq->dx * b->change[i];
         before = flux;
     }
@@ -331,7 +349,7 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
     for (size_t i = 1; i + 1 < b->nodes; i++) {
         off += b->slope_1[i] * b->left[i];
         D += b->face[i] * (b->slope_1[i + 1] - b->slope_1[i]);
-        work += h[i] * (p[i + 1] - p[i - 1]) / 2;
+        work += h[i] * swelling(eq, i) * carrying(eq, i) * (p[i + 1] - p[i - 1]) / 2;
         stored += b->slope_1[i] * b->change[i] * eq->dx;
     }
     work *= m->step.entrainment;
@@ -354,7 +372,7 @@ static double mobility_at(const ehl_march *m, size_t i)
     if (eq->laws.rheology)
         eq->laws.rheology->flow(eq->laws.rheology->self, 1, &ln_eta, &h, m->step.sliding, &psi,
                                 slopes, slopes + 1);
-    return rho * h * h * h * psi / 12 * (eq->ease ? eq->ease[i] : 1);
+    return rho * h * h * h * psi / 12 * (eq->ease ? eq->ease[i] * swelling(eq, i) : 1);
 }
 
 /* Returns the pressure flow from node i + 1 to node i. */
@@ -370,11 +388,12 @@ static double outflow(const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *mass = m->state[0].mass;
-    double half = eq->wedge == 2 ? 0.5 : 0, q = pressure_flow(m, i), carried = mass[i];
+    double half = eq->wedge == 2 ? 0.5 : 0, q = pressure_flow(m, i);
+    double carried = mass[i] * carrying(eq, i);
     if (eq->asymmetric)
         q += half * (q - (half > 0 ? pressure_flow(m, i + 1) : 0));
     else
-        carried += half * (mass[i] - mass[i - 1]);
+        carried += half * (carried - mass[i - 1] * carrying(eq, i - 1));
     return m->step.entrainment * carried - q;
 }
 

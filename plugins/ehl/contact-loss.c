@@ -7,7 +7,7 @@
  * the largest load: the flanks then stand as far apart as that force keeps them, which is further
  * than the prescribed gap. The contact loss ends when the load has grown to that share.
  */
-#include "time-stepper.h"
+#include "thermal.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -86,6 +86,8 @@ ff_status ehl_march_without_load(ehl_march *m, const ehl_instant *at)
     m->trial_step = step;
     m->trial_at = *at;
     ehl_march_update_mass(m);
+    if (m->thermal)
+        ehl_thermal_rest(m, &step, at->time);
     ehl_march_accept(m);
     m->pressureless_steps++;
     return FF_OK;

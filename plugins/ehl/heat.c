@@ -2,6 +2,7 @@
 #include "heat.h"
 
 #include "inlet-heat.h"
+#include "thermal.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -135,8 +136,10 @@ static int update(ehl_heat *heat, const ehl_march *m, const ehl_step *step, cons
     return 0;
 }
 
-ff_status ehl_heat_solve(ehl_march *m, const ehl_step *step, ehl_film *film, int limit)
+ff_status ehl_heat_solve(ehl_march *m, const ehl_step *step, ehl_film *film, double time, int limit)
 {
+    if (m->thermal)
+        return ehl_thermal_solve(m, step, film, time, limit);
     ehl_heat *heat = m->heat;
     ff_status status = FF_OK;
     if (!heat)

@@ -23,7 +23,8 @@ ff_status ehl_heat_create(ehl_heat *heat, size_t nodes, double conductivity);
 void ehl_heat_destroy(ehl_heat *heat);
 
 /* Solves for the film of `step` as solver->solve does, with the heat of the march. */
-ff_status ehl_heat_solve(ehl_march *m, const ehl_step *step, ehl_film *film, int limit);
+ff_status ehl_heat_solve(ehl_march *m, const ehl_step *step, ehl_film *film, double time,
+                         int limit);
 
 /* Its lines of the quality record. */
 void ehl_heat_report(const ehl_heat *heat, const ff_host *host);

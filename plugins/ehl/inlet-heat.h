@@ -15,7 +15,7 @@
 #include "liquid.h"
 
 /* Ranks of the words of `thermal`. */
-enum { EHL_THERMAL_NONE, EHL_THERMAL_INLET };
+enum { EHL_THERMAL_NONE, EHL_THERMAL_INLET, EHL_THERMAL_FULL };
 
 /* The conductivity of the oil at the temperature that its laws are called with, W/(m K), and
    whether they know temperature, which a quality line says; FF_INVALID. */

@@ -2,6 +2,7 @@
 #include "outputs.h"
 
 #include "asperities.h"
+#include "thermal.h"
 
 #include <flankfilm/author.h>
 
@@ -153,7 +154,8 @@ static shear shear_of(ehl_results *r, const ehl_march *m)
     ff_status status = ehl_fluid_shear(&eq->laws, count, p, eq->h, sliding, r->ln_eta, r->tau);
     ehl_law_note(&r->laws, status);
     for (size_t i = 0; i < count; i++) {
-        fluid += p[i] > 0 && !film->asperity[i] ? r->tau[i] : 0;
+        double tau = m->thermal ? ehl_thermal_stress(m, i) : r->tau[i];
+        fluid += p[i] > 0 && !film->asperity[i] ? tau : 0;
         asperities += film->asperity[i] ? p[i] : 0;
     }
     return (shear){fluid * eq->dx, way * r->boundary_friction * asperities * eq->dx};
@@ -170,15 +172,19 @@ static pressure_flow flow_of(const ehl_march *m)
     ehl_reynolds *eq = m->solver->reynolds;
     ehl_reynolds_evaluate(eq, &m->step, &m->state[0].film);
     const double *p = m->state[0].film.p, *h = eq->h, *rho = eq->liquid.rho;
-    double u = m->at.entrainment, dissipated = 0, work = 0;
+    double u = m->at.entrainment, dissipated = 0, work = 0, flow = 0;
     for (size_t i = 0; i < eq->last; i++) {
         double rise = p[i + 1] - p[i];
         dissipated += eq->mean[i] * rise * rise * (rho[i] + rho[i + 1]) / (rho[i] * rho[i + 1]);
         work += (h[i] + h[i + 1]) * rise;
     }
+    if (m->thermal)
+        flow = ehl_thermal_pressure_flow(m);
+    else
+        flow = dissipated / (2 * eq->dx);
     int flooded = p[1] > 0;
     double tail = flooded ? 24 * eq->oil.viscosity * u * m->at.radius / fabs(eq->first) : 0;
-    return (pressure_flow){dissipated / (2 * eq->dx) + u * tail, u * (work / 2 + tail), u * tail};
+    return (pressure_flow){flow + u * tail, u * (work / 2 + tail), u * tail};
 }
 
 int ehl_loss_of_shear(uint64_t wanted)
@@ -345,7 +351,10 @@ static ff_status record_fields(ehl_results *r, const ehl_march *m)
             return FF_NOMEM;
         for (size_t i = 0; i < n; i++)
             row[m->mirrored ? n - 1 - i : i] =
-                field_value(eq, &m->state[0].film, EHL_FIRST_FIELD + k, i > 0 ? i - behind : 0);
+                EHL_FIRST_FIELD + k == EHL_TEMPERATURE
+                    ? ehl_thermal_mean(m, i)
+                    : field_value(eq, &m->state[0].film, EHL_FIRST_FIELD + k,
+                                  i > 0 ? i - behind : 0);
     }
     return FF_OK;
 }
@@ -402,11 +411,17 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
         record_contact(r, m);
     if (film->plastic)
         record_yield(r, m);
+    if (wants(r, EHL_TEMPERATURE_MAX))
+        r->row[EHL_TEMPERATURE_MAX] = ehl_thermal_highest(m);
+    if (wants(r, EHL_FLASH_TEMPERATURE))
+        r->row[EHL_FLASH_TEMPERATURE] = ehl_thermal_flash(m);
     ff_status status = record_fields(r, m);
     int undecided = m->solver->counters.undecided > r->undecided;
     r->undecided = m->solver->counters.undecided;
     int wholly = wants(r, EHL_MASS_ERROR) || k % SAMPLE == 0 || last || undecided;
     double mass = ehl_balance_hold(&r->balance, m, wholly);
+    if (wholly && m->thermal)
+        ehl_thermal_hold(m);
     if (wholly) {
         ehl_balance_outputs(&r->balance, m, r->row, r->wanted, r->boundary_friction);
         r->row[EHL_MASS_ERROR] = m->rough ? record_mass(r, m) : mass;

@@ -72,6 +72,9 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                           "root mean square roughness of both flanks, 0: unknown; for the "
                           "lambda ratio alone, and only without a surface",
                           "gear", NULL, FF_OPTIONAL, NULL},
+    [EHL_IN_SHEAR_RATE] = {"rheology.rate", "",
+                           "shear rate at a point of the film, for thermal: full", "",
+                           FF_RHEOLOGY_2_ID, FF_OPTIONAL, NULL},
     [EHL_IN_DISCRETISATION] = {"discretisation", "",
                                "solves the film of each instant in place of this model's own "
                                "solver; smooth flanks",
@@ -163,6 +166,13 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
          "rough flanks the mean over the middle half of the Hertz width; needs a "
          "surface, or a gear with its roughness",
          "t", NULL, 0, NULL},
+    [EHL_TEMPERATURE_MAX] = {"temperature_max", "K",
+                             "highest temperature of the film; needs thermal: full", "t", NULL, 0,
+                             NULL},
+    [EHL_FLASH_TEMPERATURE] = {"flash_temperature", "K",
+                               "highest rise of a flank over its bulk temperature, under the film; "
+                               "needs thermal: full",
+                               "t", NULL, 0, NULL},
     [EHL_X] = {"x", "m",
                "position along the surface, 0 at the line of contact; with rough flanks the fields "
                "are those of the nodes nearest to it, half a cell away at most",
@@ -182,6 +192,9 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
     [EHL_ROUGHNESS] = {"roughness", "m",
                        "heights of both flanks together, on their way through the contact", "t x",
                        NULL, 0, NULL},
+    [EHL_TEMPERATURE] = {"temperature", "K",
+                         "temperature, mean across the film; needs thermal: full", "t x", NULL, 0,
+                         NULL},
     [EHL_H_MIN_LOWEST] = {"h_min_lowest", "m", "lowest h_min of all times", "", NULL, 0, NULL},
     [EHL_H_MIN_LOWEST_AT] = {"h_min_lowest_at", "rad",
                              "roll angle of it; needs a contact that has one", "", NULL, 0, NULL},

@@ -5,6 +5,7 @@
 #include "outputs.h"
 #include "stage.h"
 #include "surface.h"
+#include "thermal.h"
 
 #include <flankfilm/author.h>
 
@@ -75,6 +76,8 @@ static force friction(ehl_balance *b, const ehl_march *m, double boundary)
         double tau =
                    eq->laws.rheology ? b->left[i] : slide / eq->h[i] * exp(fmin(b->ln_eta[i], 230)),
                p = film->p[i];
+        if (m->thermal)
+            tau = ehl_thermal_stress(m, i);
         if (film->asperity[i])
             f.asperities += way * boundary * p * eq->dx;
         else if (p > 0)
@@ -95,6 +98,8 @@ static void compare_loss_outputs(ehl_balance *b, const ehl_march *m, const doubl
         moment += x * p[i];
         arm += fabs(x) * p[i];
     }
+    if (m->thermal)
+        D = ehl_thermal_pressure_flow(m);
     double scale = eq->dx / m->step.radius;
     double tail = p[1] > 0 ? 24 * eq->oil.viscosity * u * m->step.radius / -eq->first : 0;
     double power = (f.fluid + f.asperities) * m->step.sliding + D + u * tail;

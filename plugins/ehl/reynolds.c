@@ -18,7 +18,7 @@ static double *next_array(double **next, size_t nodes)
 ff_status ehl_reynolds_create(ehl_reynolds *r, const ehl_grid *g, const ehl_laws *laws,
                               const ehl_oil *oil, int wedge)
 {
-    enum { OWN = 14 };
+    enum { OWN = 15 };
     size_t n = g->nodes;
     *r = (ehl_reynolds){.nodes = n, .dx = g->dx, .wedge = wedge, .laws = *laws, .oil = *oil};
     r->floor = 1e-12;
@@ -26,9 +26,10 @@ ff_status ehl_reynolds_create(ehl_reynolds *r, const ehl_grid *g, const ehl_laws
         calloc((OWN + EHL_LIQUID_ARRAYS + 2 * (size_t)EHL_STENCIL) * n, sizeof *next);
     if (!next)
         return FF_NOMEM;
-    double **own[OWN] = {&r->half_square, &r->h,          &r->thick,      &r->mass,       &r->f,
-                         &r->f_p,         &r->f_h,        &r->flux,       &r->residual,   &r->mean,
-                         &r->mean_left,   &r->mean_right, &r->pinch_left, &r->pinch_right};
+    double **own[OWN] = {&r->half_square, &r->h,           &r->thick,     &r->mass,
+                         &r->f,           &r->f_p,         &r->f_h,       &r->flux,
+                         &r->residual,    &r->mean,        &r->mean_left, &r->mean_right,
+                         &r->pinch_left,  &r->pinch_right, &r->carried};
     for (size_t k = 0; k < OWN; k++)
         *own[k] = next_array(&next, n);
     ehl_liquid *q = &r->liquid;
@@ -109,7 +110,7 @@ static void masses(ehl_reynolds *r, const ehl_film *film, size_t count)
 {
     multiply(count, r->liquid.rho, r->h, r->mass);
     for (size_t i = count; i < r->nodes; i++)
-        r->mass[i] = r->oil.density * r->h[i];
+        r->mass[i] = r->oil.density * r->h[i] * (r->swell ? r->swell[i] : 1);
     for (size_t i = 1; r->conserving && i + 1 < r->nodes; i++)
         r->mass[i] = film->full[i] ? r->mass[i] : film->content[i];
 }
@@ -121,6 +122,8 @@ void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
                                              r->liquid.rho, NULL, NULL);
     if (status != FF_OK)
         r->law_status = status;
+    for (size_t i = 0; r->swell && i < count; i++)
+        r->liquid.rho[i] *= r->swell[i];
     masses(r, film, count);
 }
 
@@ -128,6 +131,10 @@ void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
 static void ease_flow(ehl_reynolds *r, size_t count)
 {
     const ehl_liquid *q = &r->liquid;
+    for (size_t i = 0; r->swell && i < count; i++) {
+        q->rho[i] *= r->swell[i];
+        q->rho_p[i] *= r->swell[i];
+    }
     for (size_t i = 0; i < count; i++) {
         q->psi[i] *= r->ease[i];
         q->psi_l[i] *= r->ease[i];
@@ -241,7 +248,8 @@ static void add_pressure_flow(size_t count, double per_dx, const double *restric
 
 static void fluxes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
-    const double *m = r->mass, u = step->follows ? 0 : step->entrainment;
+    const double *m = r->carry ? r->carried : r->mass;
+    const double u = step->follows ? 0 : step->entrainment;
     const size_t faces = r->nodes - 1;
     double near, far;
     r->flux[0] = -u * (r->wedge == 2 ? 0.5 * (m[0] + m[1]) : m[0]);
@@ -279,6 +287,8 @@ void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film
     if (r->ease)
         ease_flow(r, count);
     masses(r, film, count);
+    if (r->carry)
+        multiply(r->nodes, r->mass, r->carry, r->carried);
     mobility(r, count);
     if (r->rough)
         rough_face_mobilities(r);
@@ -339,6 +349,26 @@ static void add_pinched_flow(ehl_reynolds *r, const ehl_film *film)
         h2[i] += up * left[i] - down * right[i - 1] - side * f_h[i] * p[i];
         h3[i] += up * right[i];
         p2[i] -= side * (f[i] + f_p[i] * p[i]);
+    }
+}
+
+/* Adds to the columns of the wedge what the flanks carry along beyond u_r rho h. */
+static void add_carried(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
+{
+    for (size_t i = 1; i < r->last; i++) {
+        double c[EHL_STENCIL], rest = r->dx * step->rate;
+        if (!film->full[i] && !r->conserving)
+            continue;
+        transport_stencil(r, step, film, i, c);
+        c[2] += rest;
+        for (size_t s = i > 1 ? 0 : 1; s < 3; s++) {
+            size_t k = i + s - 2;
+            double more = c[s] * (r->carry[k] - 1);
+            if (!ehl_is_cavitated(r, film, k)) {
+                r->by_p[s][i] += more * r->liquid.rho_p[k] * r->h[k];
+                r->by_h[s][i] += more * r->liquid.rho[k];
+            }
+        }
     }
 }
 
@@ -414,6 +444,8 @@ void ehl_reynolds_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *
     for (size_t i = 1; r->conserving && i < r->last; i++)
         if (memchr(film->full + (i > 1 ? i - 2 : 0), 0, EHL_STENCIL))
             cavitated_columns(r, step, film, i);
+    if (r->carry)
+        add_carried(r, step, film);
 }
 
 /* Returns 0, first order, downstream of a cavitated node, where the film begins sharply. The order

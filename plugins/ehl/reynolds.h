@@ -58,12 +58,15 @@ typedef struct ehl_reynolds {
     double give;     /* of the unknown plastic part, m per Pa: makes it like a pressure */
     ehl_laws laws;
     ehl_oil oil;
-    const double *ease; /* psi of the heated film over that of the laws; NULL: no heat */
+    const double *ease;  /* psi of the heated film over that of the laws; NULL: no heat */
+    const double *swell; /* its mean density over that of the laws; NULL: that of the laws */
+    const double *carry; /* mass that the flanks carry along, over u_r rho h; NULL: 1 */
     ehl_liquid liquid;
     double *memory;
     double *half_square;                   /* x^2/2 */
     double *h, *thick;                     /* thick: h, not below the floor */
     double *mass;                          /* rho h */
+    double *carried;                       /* carry times that, with `carry` */
     double *f, *f_p, *f_h;                 /* mobility and its derivatives */
     double *mean, *mean_left, *mean_right; /* mobility of a face and its derivatives by f */
     double *pinch_left, *pinch_right;      /* mean by h where the gap changes abruptly */

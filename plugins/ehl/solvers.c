@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The models of the film that solve for the pressure: one stage (stage.h) with three solvers. */
+#include "across.h"
 #include "references.h"
 #include "stage.h"
 
@@ -46,7 +47,26 @@ static const ff_param params[] = {
                    1e9, 0, 0,
                    "none: without load the film is carried on without a load balance; or a load "
                    "per width that stands in for smaller ones"),
-    EHL_THERMAL_PARAM(ehl_model),
+    FF_ONE_OF(
+        "none|inlet|full", "thermal", ehl_model, thermal, 0, "none",
+        "heat of shear in the film. none: the film has the temperature of the oil. inlet: thinner "
+        "oil in the inlet, as if conduction alone took its heat away. full: temperatures across "
+        "the film, carried along and conducted into flanks that warm up; smooth flanks. Both need "
+        "an oil with its conductivity, full its heat_capacity"),
+    FF_COUNT("thermal_nodes", ehl_model, thermal_nodes, FF_TUNABLE, "8", NULL, EHL_ACROSS_LEAST,
+             EHL_ACROSS_MOST, 0, 0,
+             "thermal: full: nodes across the film, those of Gauss, Legendre and Lobatto; the "
+             "error falls exponentially with them"),
+    FF_QUANTITY("flank_conductivity", "W/(m K)", ehl_model, flank_conductivity, 0, "47 W/(m K)",
+                NULL, 1e-3, 1e4, 0, 0, "thermal: full: of both flanks; steel 47"),
+    FF_QUANTITY("flank_density", "kg/m3", ehl_model, flank_density, 0, "7850 kg/m3", NULL, 1, 1e5,
+                0, 0, "thermal: full: of both flanks; steel 7850"),
+    FF_QUANTITY("flank_heat_capacity", "J/(kg K)", ehl_model, flank_heat_capacity, 0,
+                "455 J/(kg K)", NULL, 1, 1e5, 0, 0, "thermal: full: of both flanks; steel 455"),
+    FF_QUANTITY_OR("auto", "bulk_temperature", "degC", ehl_model, bulk_temperature, 0, "auto", NULL,
+                   -150, 1000, 0, 0,
+                   "thermal: full: temperature of the flanks before they meet, and of the oil that "
+                   "they carry in; auto: that of the oil, which is the least it can be"),
     EHL_HEATING_PARAMS(ehl_model),
     FF_QUANTITY("contact_film", "nm", ehl_model, contact_film, 0, "1 nm", NULL, 1e-3, 1e3, 0.5, 10,
                 "rough flanks: least film; the asperities carry what would press them closer. Two "

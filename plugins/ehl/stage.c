@@ -7,6 +7,7 @@
 #include "outputs.h"
 #include "step-control.h"
 #include "surface.h"
+#include "thermal.h"
 #include "time-stepper.h"
 
 #include <flankfilm/author.h>
@@ -40,6 +41,8 @@ ff_status ehl_wire(void *self, uint32_t input, const void *service)
         m->outside = service;
     else if (input == EHL_IN_LIQUID)
         m->liquid = service;
+    else if (input == EHL_IN_SHEAR_RATE)
+        m->shear_rate = service;
     else
         ehl_wire_law(&m->laws, input, service);
     m->rough = m->rough || input == EHL_IN_POSITION;
@@ -52,7 +55,8 @@ ff_status ehl_ready(void *self)
                       ignored[] = "roughness is ignored";
     const ehl_model *m = self;
     const int flat = !m->rough || m->roughness == EHL_IGNORED;
-    const char *why = m->rough ? ignored : smooth;
+    const char *why = m->rough ? ignored : smooth, *cold = "thermal is not full";
+    const int full = m->thermal == EHL_THERMAL_FULL;
     const ff_serving rows[] = {
         {m->steps > 0, "time_tolerance", "", NULL, "the time steps are given, and equal"},
         {!m->rough, "roughness", "", NULL, smooth},
@@ -66,6 +70,11 @@ ff_status ehl_ready(void *self)
          "rough flanks take mass-conserving"},
         {!flat && m->wedge > 0, "wedge", "", NULL, "rough flanks take the first order"},
         {m->rough, "gear.roughness", "", "surface", "the surface has a roughness of its own"},
+        {!full, "thermal_nodes", "", NULL, cold},
+        {!full, "flank_conductivity", "", NULL, cold},
+        {!full, "flank_density", "", NULL, cold},
+        {!full, "flank_heat_capacity", "", NULL, cold},
+        {!full, "bulk_temperature", "", NULL, cold},
     };
     ff_serve(m->host, rows, sizeof rows / sizeof rows[0]);
     return FF_OK;
@@ -82,6 +91,7 @@ typedef struct run {
     ehl_solver solver;
     ehl_march march;
     ehl_heat heat;
+    ehl_thermal thermal;
     ehl_step_control control;
     ehl_results results;
 } run;
@@ -113,6 +123,7 @@ static void run_destroy(run *r)
     ehl_step_control_destroy(&r->control);
     ehl_march_destroy(&r->march);
     ehl_heat_destroy(&r->heat);
+    ehl_thermal_destroy(&r->thermal);
     if (r->solver.destroy)
         r->solver.destroy(&r->solver);
     free(r->kernel);
@@ -227,6 +238,43 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
     return status;
 }
 
+/* thermal: full */
+static ff_status thermal_create(const ehl_model *m, run *r, double conductivity)
+{
+    double T = m->laws.temperature, heat_capacity = NAN;
+    const double held = m->flank_density * m->flank_heat_capacity;
+    if (m->maker == ehl_line_relaxation)
+        return ff_failf(m->host, FF_UNSUPPORTED, "thermal",
+                        "this model knows no temperatures across the film: ehl/finite-volume takes "
+                        "thermal: full");
+    if (r->rough.count > 0)
+        return ff_failf(m->host, FF_UNSUPPORTED, "thermal",
+                        "thermal: full is of smooth flanks: use thermal: inlet or none with a "
+                        "surface, or roughness: ignored");
+    if (m->laws.rheology && !m->shear_rate)
+        return ff_failf(m->host, FF_INVALID, "thermal",
+                        "thermal: full needs the shear rate at a point of the film "
+                        "(flankfilm.rheology/2), which the law of stage rheology does not offer; "
+                        "thermal: inlet works with it");
+    ff_status status =
+        m->liquid->eval(m->liquid->self, FF_LIQUID_HEAT_CAPACITY, 1, &T, &heat_capacity, NULL);
+    if (status < 0 || !(heat_capacity > 0 && isfinite(heat_capacity)))
+        return ff_failf(m->host, FF_INVALID, "thermal",
+                        "the oil does not tell its heat capacity at %g degC: give heat_capacity, "
+                        "or its base, to the stage of the oil",
+                        T - 273.15);
+    const ehl_thermal_data data = {
+        .across = (size_t)m->thermal_nodes,
+        .conductivity = conductivity,
+        .heat_capacity = heat_capacity,
+        .bulk = isnan(m->bulk_temperature) ? T : m->bulk_temperature,
+        .flank_contact = sqrt(m->flank_conductivity * held),
+        .flank_diffusivity = m->flank_conductivity / held,
+        .flow = m->shear_rate,
+    };
+    return ehl_thermal_create(&r->thermal, m->host, &r->march, &data);
+}
+
 /* Lets the march heat the film; without thermal it stays as it is. */
 static ff_status heat_create(const ehl_model *m, run *r)
 {
@@ -238,6 +286,8 @@ static ff_status heat_create(const ehl_model *m, run *r)
                         "the discretisation of another stage knows no heat: use thermal: none, or "
                         "leave the wire discretisation out");
     ff_status status = ehl_heat_conductivity(m->host, m->liquid, &m->laws, &conductivity);
+    if (m->thermal == EHL_THERMAL_FULL)
+        return status == FF_OK ? thermal_create(m, r, conductivity) : status;
     if (status == FF_OK)
         status = ehl_heat_create(&r->heat, r->grid.nodes, conductivity);
     r->march.heat = &r->heat;
@@ -348,6 +398,8 @@ static ff_status march(const ehl_model *m, const ff_array *in, run *r)
     r->whole = r->history;
     for (size_t row = 0; row < r->whole.count && status == FF_OK;) {
         ehl_march_restart(&r->march);
+        if (r->march.thermal)
+            ehl_thermal_restart(&r->march);
         row = ehl_history_engagement(&r->whole, row, &r->history);
         if (r->rough.count > 0 && r->history.count < r->whole.count) {
             ehl_roughness_destroy(&r->rough);
@@ -371,6 +423,12 @@ static ff_status read_roughness(const ehl_model *m, uint64_t wanted, const ff_ar
     return status;
 }
 
+static int is_of_heat(uint32_t output)
+{
+    return output == EHL_TEMPERATURE || output == EHL_TEMPERATURE_MAX ||
+           output == EHL_FLASH_TEMPERATURE;
+}
+
 static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
 {
     run r = {0};
@@ -384,6 +442,10 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
             m->host, FF_UNSUPPORTED,
             wanted & FF_BIT(EHL_ROLL_ANGLE) ? "roll_angle" : "h_min_lowest_at",
             "this output needs a contact with a roll angle, such as contact/tooth-pair");
+    for (uint32_t k = 0; k < EHL_OUTPUTS; k++)
+        if ((wanted & FF_BIT(k)) && m->thermal != EHL_THERMAL_FULL && is_of_heat(k))
+            return ff_failf(m->host, FF_UNSUPPORTED, ehl_outputs[k].name,
+                            "this output needs thermal: full");
     double roughness;
     status = read_roughness(m, wanted, in, &roughness);
     if (status != FF_OK)
@@ -406,6 +468,8 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
                                  &m->laws, &r.oil);
     if (status == FF_OK && r.march.heat)
         ehl_heat_report(&r.heat, m->host);
+    if (status == FF_OK && r.march.thermal)
+        ehl_thermal_report(&r.thermal, m->host, &r.march);
     run_destroy(&r);
     return status;
 }

@@ -28,13 +28,16 @@ typedef struct ehl_model {
     int64_t cells, steps;
     double inlet, outlet, time_tolerance, tolerance, light_load;
     int32_t time_scheme, wedge, cavitation, valleys, roughness, thermal;
+    int64_t thermal_nodes;
+    double flank_conductivity, flank_density, flank_heat_capacity, bulk_temperature;
     double contact_film, boundary_friction, asperity_hardness, valley_length;
     ehl_inlet_heating heating;
     ehl_laws laws;
     ehl_isothermal isothermal;
-    const ff_liquid *liquid; /* NULL: no oil is wired */
-    const ff_film *outside;  /* NULL: the solver of `maker` */
-    int rough;               /* a surface is wired */
+    const ff_liquid *liquid;         /* NULL: no oil is wired */
+    const ff_rheology_2 *shear_rate; /* NULL: the rheology does not offer it */
+    const ff_film *outside;          /* NULL: the solver of `maker` */
+    int rough;                       /* a surface is wired */
 } ehl_model;
 
 #endif

@@ -185,7 +185,7 @@ static ff_status settle(ehl_march *m, const ehl_step *steady, const ehl_instant 
         step.rate = 1 / dt;
         for (size_t i = 0; i < n; i++)
             m->past[i] = -r->mass[i] / dt;
-        ff_status status = ehl_heat_solve(m, &step, film, EHL_LIMIT_PLAIN);
+        ff_status status = ehl_heat_solve(m, &step, film, at->time, EHL_LIMIT_PLAIN);
         if (status == FF_OK && ehl_thinnest(m, at->radius, film) > 0) {
             ehl_copy_film(kept, film, n);
             dt *= 2;
@@ -201,7 +201,7 @@ static ff_status settle(ehl_march *m, const ehl_step *steady, const ehl_instant 
 static ff_status solve_from_trial(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     ehl_film *film = &m->trial.film;
-    ff_status status = ehl_heat_solve(m, step, film, EHL_LIMIT_START);
+    ff_status status = ehl_heat_solve(m, step, film, at->time, EHL_LIMIT_START);
     if (status == FF_OK && !(ehl_thinnest(m, at->radius, film) > 0))
         status = FF_NOCONV;
     return status;

@@ -157,6 +157,20 @@ void ehl_march_accept(ehl_march *m)
     m->at = m->trial_at;
 }
 
+void ehl_march_factors(const ehl_march *m, double time, double c[3])
+{
+    double dt = time - m->state[0].time;
+    c[0] = 1 / dt;
+    c[1] = -1 / dt;
+    c[2] = 0;
+    if (m->scheme == EHL_EULER || m->smooth < 2)
+        return;
+    double ratio = dt / (m->state[0].time - m->state[1].time);
+    c[0] = (1 + 2 * ratio) / ((1 + ratio) * dt);
+    c[1] = -(1 + ratio) / dt;
+    c[2] = ratio * ratio / ((1 + ratio) * dt);
+}
+
 /*
  * d(rho h)/dt = rate rho h + past, by backward Euler or by the two-step backward differentiation
  * formula for unequal steps (Hairer, Norsett & Wanner 1993, III.5). With rough flanks it is taken
@@ -166,22 +180,20 @@ static void time_derivative(ehl_march *m, ehl_step *step, const ehl_instant *at)
 {
     size_t n = m->solver->grid->nodes;
     const double *one = m->state[0].mass, *two = m->state[1].mass;
-    double dt = at->time - m->state[0].time;
+    double c[3], dt = at->time - m->state[0].time;
+    ehl_march_factors(m, at->time, c);
+    step->rate = c[0];
     step->past = m->past;
     step->follows = m->rough != NULL;
     if (m->rough)
         ehl_advect_mass(m, &one, &two);
     if (m->scheme == EHL_EULER || m->smooth < 2) {
-        step->rate = 1 / dt;
         for (size_t i = 0; i < n; i++)
             m->past[i] = -one[i] / dt;
         return;
     }
-    double ratio = dt / (m->state[0].time - m->state[1].time);
-    double c1 = -(1 + ratio) / dt, c2 = ratio * ratio / ((1 + ratio) * dt);
-    step->rate = (1 + 2 * ratio) / ((1 + ratio) * dt);
     for (size_t i = 0; i < n; i++)
-        m->past[i] = c1 * one[i] + c2 * two[i];
+        m->past[i] = c[1] * one[i] + c[2] * two[i];
 }
 
 /* Lagrange's factors that extrapolate the `count` newest states to `time`; 0 for older states. */
@@ -250,7 +262,7 @@ static void repeat_last_film(ehl_march *m, const ehl_step *step, const ehl_insta
 static ff_status solve_with_positive_gap(ehl_march *m, const ehl_step *step, const ehl_instant *at,
                                          int limit)
 {
-    ff_status status = ehl_heat_solve(m, step, &m->trial.film, limit);
+    ff_status status = ehl_heat_solve(m, step, &m->trial.film, at->time, limit);
     if (ehl_laws_failed(&m->solver->reynolds->laws))
         return FF_BUG; /* no shorter step will do */
     if (status == FF_OK && !(ehl_thinnest(m, at->radius, &m->trial.film) > 0))

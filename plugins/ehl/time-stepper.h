@@ -14,6 +14,7 @@ typedef struct ehl_state {
     ehl_film film;
     double *mass; /* rho h */
     double *gap;  /* h */
+    double *heat; /* temperatures, thermal.h; NULL: that of the oil */
     double time;
     double moved;    /* whole cells by which the nodes had moved with the oil; rough flanks */
     double thinnest; /* least h of all nodes, m */
@@ -22,8 +23,9 @@ typedef struct ehl_state {
 
 typedef struct ehl_march {
     const ehl_history *history;
-    ehl_roughness *rough;  /* NULL: smooth flanks */
-    struct ehl_heat *heat; /* heat.h; NULL: the film has the temperature of the oil */
+    ehl_roughness *rough;        /* NULL: smooth flanks */
+    struct ehl_heat *heat;       /* heat.h; NULL: the film has the temperature of the oil */
+    struct ehl_thermal *thermal; /* thermal.h; NULL: no temperatures across the film */
     ehl_solver *solver;
     int scheme;                  /* EHL_EULER or EHL_BDF2 */
     ehl_state state[EHL_STATES]; /* newest first */
@@ -113,6 +115,9 @@ enum {
     EHL_LIMIT_PLAIN = 25,
     EHL_LIMIT_START = 60
 };
+
+/* The change in time at `time` is c[0] y + c[1] y(state 0) + c[2] y(state 1). */
+void ehl_march_factors(const ehl_march *m, double time, double c[3]);
 
 /* Computes masses and gaps of the trial, whose film and step are set. */
 void ehl_march_update_mass(ehl_march *m);

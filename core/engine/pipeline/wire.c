@@ -46,6 +46,12 @@ static const char *row_misfit(fe_build *b, const ff_loaded *to, size_t input, co
     return NULL;
 }
 
+/* A service that a wire may carry beside its first one. */
+static bool is_further_service(const ff_port *row)
+{
+    return (row->flags & FF_OPTIONAL) && strchr(row->name, '.');
+}
+
 const char *fe_wire_misfit(fe_build *b, const ff_stage *stage, const char *wire,
                            const ff_loaded *from)
 {
@@ -57,7 +63,7 @@ const char *fe_wire_misfit(fe_build *b, const ff_stage *stage, const char *wire,
             continue;
         int output = fe_find_offer(from, row);
         feeds = feeds || output >= 0;
-        if (output < 0 && row->service)
+        if (output < 0 && row->service && !is_further_service(row))
             why = fe_pipeline_print(b->pipeline, "does not offer the service %s", row->service);
         else if (output < 0 && !(row->flags & FF_OPTIONAL))
             why = fe_pipeline_print(b->pipeline, "does not offer \"%s\"", fe_output_name(row));

@@ -377,8 +377,8 @@ static bool check_input(checking *c, size_t index, ff_dims *dims)
     const ff_port *row = ff_model_input(c->model, index);
     c->what = "input";
     c->name = row->name ? row->name : "";
-    int wire = (int)strcspn(c->name, ".");
-    if (count_names(c->name) != (row->service ? 1 : 2) || wire > LONGEST_WIRE)
+    int wire = (int)strcspn(c->name, "."), names = count_names(c->name);
+    if ((names != 2 && !(row->service && names == 1)) || wire > LONGEST_WIRE)
         return fault(c,
                      "gives its input %zu the name \"%.60s\"; it must be \"wire.output\", or "
                      "\"wire\" for a service",

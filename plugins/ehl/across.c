@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "across.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* Returns Legendre's P_n(x), with P_(n-1)(x) in *before. */
+static double legendre(size_t n, double x, double *before)
+{
+    double last = 1, now = x;
+    for (size_t k = 2; k <= n; k++) {
+        double next = ((2 * (double)k - 1) * x * now - ((double)k - 1) * last) / (double)k;
+        last = now;
+        now = next;
+    }
+    *before = last;
+    return now;
+}
+
+/* Returns the polynomial that is 1 at node l and 0 at the others. */
+static double one_at(const ehl_across *a, size_t l, double z)
+{
+    double product = 1;
+    for (size_t k = 0; k < a->count; k++)
+        if (k != l)
+            product *= (z - a->z[k]) / (a->z[l] - a->z[k]);
+    return product;
+}
+
+/* The roots of (1 - x^2) P'_n(x), by Newton's method from those of Chebyshev: with (1 - x^2) P'_n =
+   n (P_(n-1) - x P_n), whose derivative is -n (n + 1) P_n. */
+static void place(ehl_across *a)
+{
+    size_t n = a->count - 1;
+    for (size_t k = 0; k <= n; k++) {
+        double x = -cos(pi * (double)k / (double)n), before;
+        for (int turn = 0; turn < 50 && k > 0 && k < n; turn++)
+            x -= (x * legendre(n, x, &before) - before) /
+                 ((double)(n + 1) * legendre(n, x, &before));
+        double value = legendre(n, x, &before);
+        a->z[k] = (1 + x) / 2;
+        a->weight[k] = 1 / ((double)(n * (n + 1)) * value * value);
+    }
+    a->z[0] = 0;
+    a->z[n] = 1;
+}
+
+void ehl_across_create(ehl_across *a, size_t count)
+{
+    memset(a, 0, sizeof *a);
+    a->count = count;
+    place(a);
+    for (size_t l = 0; l < count; l++) {
+        double sum = 0;
+        for (size_t k = 0; k < count; k++) {
+            double product = 1;
+            for (size_t j = 0; j < count && k != l; j++)
+                if (j != l)
+                    product *= j == k ? 1 : (a->z[k] - a->z[j]);
+            for (size_t j = 0; j < count && k != l; j++)
+                if (j != l)
+                    product /= a->z[l] - a->z[j];
+            if (k != l) {
+                a->slope[k][l] = product;
+                sum += 1 / (a->z[l] - a->z[k]);
+            }
+            for (size_t m = 0; m < count; m++)
+                a->integral[k][l] += a->z[k] * a->weight[m] * one_at(a, l, a->z[k] * a->z[m]);
+        }
+        a->slope[l][l] = sum;
+    }
+    for (size_t k = 0; k < EHL_ACROSS_FINE; k++)
+        for (size_t l = 0; l < count; l++)
+            a->fine[k][l] = one_at(a, l, (double)k / (EHL_ACROSS_FINE - 1));
+    for (size_t k = 0; k < count; k++)
+        for (size_t l = 0; l < count; l++)
+            for (size_t m = 0; m < count; m++)
+                a->stiffness[k][l] += a->weight[m] * a->slope[m][k] * a->slope[m][l];
+}
+
+double ehl_across_highest(const ehl_across *a, const double *values)
+{
+    double most = -HUGE_VAL;
+    for (size_t k = 0; k < EHL_ACROSS_FINE; k++) {
+        double here = 0;
+        for (size_t l = 0; l < a->count; l++)
+            here += a->fine[k][l] * values[l];
+        most = fmax(most, here);
+    }
+    return most;
+}

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Temperature and flow across a film, for a film whose pressure and gap are held:
+ *
+ *   rho c (dT/dt + u dT/dx + w dT/dz) = k d2T/dz2 - (T/rho)(d rho/dT)(dp/dt + u dp/dx) + tau du/dz
+ *   tau = tau_m + (z - h/2) dp/dx,  u = u_1 at z = 0 and u_2 at z = h
+ *   du/dz = rate(tau_s) + (d rate/d tau)(tau_s) (tau - tau_s),  int rate(tau_s) dz = u_2 - u_1
+ *
+ * in zeta = z/h at the nodes of across.h, in weak form, so that the flux into the flanks is the
+ * natural condition; along x by differences of second order from where the oil comes. w follows
+ * from the balance of mass. The rates are taken at tau_s, as the mobility of the isothermal film
+ * is: where all the film has one temperature the flow is the same. Oil that enters has the
+ * temperature T_in, and so have flanks that have not been in the contact. Where there is no film
+ * the oil carries on as it is, and no heat flows.
+ */
+#ifndef EHL_ENERGY_H
+#define EHL_ENERGY_H
+
+#include "across.h"
+#include "half-space.h"
+#include "liquid.h"
+
+/* The film at one instant. */
+typedef struct ehl_energy_film {
+    size_t count; /* nodes that pressure can reach */
+    double dx, speed[2], rate;
+    const double *p, *h;
+    const double *p_t, *mass_t;  /* dp/dt and d(rho h)/dt; NULL: steady */
+    const double *through;       /* mass that passes, kg/(m s), nodes; NULL: dp/dx is held */
+    const unsigned char *full;   /* 1: the film is full */
+    const double *past;          /* dT/dt = rate T + past; NULL: steady */
+    const double *past_modes[2]; /* the same of the modes of both flanks */
+} ehl_energy_film;
+
+/* The unknowns of one instant. */
+typedef struct ehl_temperature {
+    double *T;        /* K, nodes x across */
+    double *modes[2]; /* of the flanks, nodes x their count */
+} ehl_temperature;
+
+typedef struct ehl_energy {
+    size_t nodes;
+    ehl_across across;
+    ehl_laws laws;
+    const ff_rheology_2 *flow; /* NULL: Newtonian */
+    double conductivity, heat_capacity, T_in;
+    ehl_half_space flank[2];
+    double *memory;
+    /* nodes x across */
+    double *p, *ln_eta, *ln_eta_T, *rho, *rho_T, *tau, *gamma, *gamma_tau, *gamma_T, *u, *through;
+    /* nodes */
+    int guessed;            /* tau_m has been computed before; 0: guess it first */
+    double *tau_m;          /* tau_s, Pa, the stress without dp/dx */
+    double *p_x;            /* Pa/m, of the flow */
+    double *mobility;       /* -d(flow of mass)/d(dp/dx), kg s/m2 m: f of the tangent */
+    double *mass;           /* rho h, kg/m2 */
+    double *carried;        /* mass that flows without dp/dx, over the entrainment, kg/m2 */
+    double *flux[2];        /* into the flanks, W/m2 */
+    unsigned char *reverse; /* 1: oil flows against the entrainment */
+    double highest, lowest; /* K, of which the laws are called */
+    double change;          /* largest change of ln(eta) by the last sweep */
+    ff_status law_status;
+} ehl_energy;
+
+ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across);
+void ehl_energy_destroy(ehl_energy *e);
+
+/* Laws and flow across the film at these temperatures: all of e but for the fluxes. */
+void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T);
+
+/* One step of Newton's method for the temperatures: of the dissipation with tau_m in each column,
+   of all else as it is linear. The flow must be that of the temperatures. */
+void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temperature *t);
+
+/* Heat per width of the film, W/m, of the equations as they are solved: what is left is not. */
+typedef struct ehl_energy_sums {
+    double shear, compression, stored, carried, flank[2];
+} ehl_energy_sums;
+
+ehl_energy_sums ehl_energy_balance(ehl_energy *e, const ehl_energy_film *film,
+                                   const ehl_temperature *t);
+
+#endif

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The surface of a flank, heated as it moves: a half-space without conduction along x (Carslaw &
+ * Jaeger 1959, 2.9). Each material point has
+ *
+ *   T = T_bulk + 1/(sqrt(pi) B) int_0^inf q(t - s) s^(-1/2) ds,   B = sqrt(k rho c).
+ *
+ * s^(-1/2) = int e^(y/2) exp(-e^y s) dy/sqrt(pi) is a sum of exponentials by the trapezoidal rule
+ * in y, so that each of them is a mode phi that moves with the flank,
+ *
+ *   d phi/dt + u d phi/dx = q - lambda phi,
+ *
+ * and remembers all that was before. What decays faster than the oil passes a cell is at its steady
+ * value q/lambda, what decays slower than the flank passes the domain is one mode. The modes are
+ * solved for from node to node, exactly for a q that is linear between them.
+ */
+#ifndef EHL_HALF_SPACE_H
+#define EHL_HALF_SPACE_H
+
+#include <stddef.h>
+
+enum { EHL_MODES = 40 };
+
+typedef struct ehl_half_space {
+    size_t count;
+    double lambda[EHL_MODES], weight[EHL_MODES]; /* 1/s; of the kernel, s^(-1/2) = sum */
+    double instant;                              /* of those that are at once steady, s^(1/2) */
+    double scale;                                /* 1/(sqrt(pi) B), m2 K s^(1/2)/J */
+} ehl_half_space;
+
+/* A flank with B in J/(m2 K s^(1/2)), for times from `shortest` to `longest`, s. */
+void ehl_half_space_create(ehl_half_space *f, double B, double shortest, double longest);
+
+/* What a step makes of a mode on the way from a node to the next one: keep times the mode, plus
+   `before` and `here` times its source at both. */
+typedef struct ehl_passage {
+    double keep[EHL_MODES], before[EHL_MODES], here[EHL_MODES];
+    double own; /* K m2/W: temperature at a node by the flux at it */
+} ehl_passage;
+
+/* The flank moves at u >= 0 along nodes dx apart, and d phi/dt = rate phi + past. */
+void ehl_half_space_pass(const ehl_half_space *f, double u, double dx, double rate, ehl_passage *p);
+
+/* Sets the modes at a node to their part without the flux there, from those at the node before and
+   its flux, with the pasts of both; NULL: steady. Returns that part of T - T_bulk. */
+double ehl_half_space_reach(const ehl_half_space *f, const ehl_passage *p,
+                            const double *modes_before, double flux_before,
+                            const double *past_before, const double *past, double *modes);
+
+/* Adds the flux at the node. */
+void ehl_half_space_add(const ehl_half_space *f, const ehl_passage *p, double flux, double *modes);
+
+#endif

@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "thermal.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Solutions for the film of one instant. */
+enum { MOST_ROUNDS = 80, MOST_PASSES = 8 };
+
+/* Change of the flow of mass by the factors, relative, below which they are those of the film: it
+   changes h by about as much. A steady film begins without heat, a step next to its solution. */
+static const double SETTLED = 1e-4, SETTLED_STEADY = 1e-5;
+/* Of a larger change a share is taken, of this size. */
+static const double LARGE = 0.3;
+/* The share becomes less, down to a least one, while changes do not shrink by this. */
+static const double SHRINKING = 0.95, LEAST_SHARE = 0.15;
+/* Change of ln(eta) by a sweep below which the temperatures are those of the film. */
+static const double WARM = 1e-3, WARM_STEADY = 1e-6;
+
+/* Fastest and slowest flank of a history along the nodes; FF_UNSUPPORTED where one moves against
+   the oil. */
+static ff_status speeds_of(const ff_host *host, const ehl_history *h, double *least, double *most)
+{
+    *least = HUGE_VAL;
+    *most = 0;
+    for (size_t i = 0; i < h->count; i++) {
+        double u1 = h->speed_1[i], u2 = h->speed_2[i];
+        double slow = fmin(fabs(u1), fabs(u2)), fast = fmax(fabs(u1), fabs(u2));
+        if (u1 * u2 < 0)
+            return ff_failf(host, FF_UNSUPPORTED, "thermal",
+                            "at time %.6g s the flanks move in opposite directions, %.4g and %.4g "
+                            "m/s (slide-roll ratio beyond 2): thermal: full follows flanks that "
+                            "both move as the oil does; use thermal: inlet or none",
+                            h->time[i], u1, u2);
+        *least = fmin(*least, slow);
+        *most = fmax(*most, fast);
+    }
+    return FF_OK;
+}
+
+static ff_status allocate(ehl_thermal *t, ehl_march *m)
+{
+    enum { OWN = 9, BLOCKS = EHL_STATES + 2 };
+    size_t n = t->energy.nodes;
+    t->width = n * (t->energy.across.count + t->energy.flank[0].count + t->energy.flank[1].count);
+    double *next = t->memory = calloc(BLOCKS * t->width + OWN * n, sizeof *next);
+    if (!next)
+        return FF_NOMEM;
+    for (size_t k = 0; k < EHL_STATES; k++, next += t->width)
+        m->state[k].heat = next;
+    m->trial.heat = next;
+    t->past = next + t->width;
+    next += 2 * t->width;
+    double **own[OWN] = {&t->p_t,   &t->mass_t,  &t->through, &t->ease,   &t->swell,
+                         &t->carry, &t->next[0], &t->next[1], &t->next[2]};
+    for (size_t k = 0; k < OWN; k++, next += n)
+        *own[k] = next;
+    return FF_OK;
+}
+
+ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
+                             const ehl_thermal_data *data)
+{
+    const ehl_history *h = m->history;
+    const ehl_grid *g = m->solver->grid;
+    ehl_reynolds *r = m->solver->reynolds;
+    double least, most, length = g->inlet + g->outlet;
+    *t = (ehl_thermal){.least_peclet = HUGE_VAL};
+    ff_status status = ehl_history_one_way(h, host, "a film with thermal: full");
+    if (status == FF_OK)
+        status = speeds_of(host, h, &least, &most);
+    if (status == FF_OK)
+        status = ehl_energy_create(&t->energy, g->nodes, data->across);
+    if (status != FF_OK)
+        return status;
+    double lasts = h->time[h->count - 1] - h->time[0] + length / most;
+    double longest = least * lasts > length ? length / least : lasts;
+    for (size_t k = 0; k < 2; k++)
+        ehl_half_space_create(&t->energy.flank[k], data->flank_contact, g->dx / most,
+                              fmax(longest, length / most));
+    t->diffusivity = data->flank_diffusivity;
+    t->energy.laws = r->laws;
+    t->energy.flow = data->flow;
+    t->energy.conductivity = data->conductivity;
+    t->energy.heat_capacity = data->heat_capacity;
+    t->energy.T_in = data->bulk;
+    status = allocate(t, m);
+    if (status != FF_OK)
+        return status;
+    m->thermal = t;
+    r->ease = t->ease;
+    r->swell = t->swell;
+    r->carry = t->carry;
+    ehl_thermal_restart(m);
+    return FF_OK;
+}
+
+void ehl_thermal_destroy(ehl_thermal *t)
+{
+    ehl_energy_destroy(&t->energy);
+    free(t->memory);
+    t->memory = NULL;
+}
+
+ehl_temperature ehl_thermal_state(const ehl_thermal *t, double *heat)
+{
+    size_t n = t->energy.nodes;
+    double *modes = heat + n * t->energy.across.count;
+    return (ehl_temperature){heat, {modes, modes + n * t->energy.flank[0].count}};
+}
+
+void ehl_thermal_restart(ehl_march *m)
+{
+    ehl_thermal *t = m->thermal;
+    double *heat = m->trial.heat;
+    size_t n = t->energy.nodes;
+    memset(heat, 0, t->width * sizeof *heat);
+    for (size_t j = 0; j < n * t->energy.across.count; j++)
+        heat[j] = t->energy.T_in;
+    t->energy.guessed = 0;
+    for (size_t i = 0; i < n; i++)
+        t->next[0][i] = t->next[1][i] = t->next[2][i] = 1;
+}
+
+/* Sets the temperatures of the trial to a line in time through the last two, and `past` to what the
+   difference formula takes of them. */
+static void predict(ehl_march *m, double time, double c[3])
+{
+    ehl_thermal *t = m->thermal;
+    const double *one = m->state[0].heat, *two = m->state[1].heat;
+    double *now = m->trial.heat, *past = t->past;
+    size_t temperatures = t->energy.nodes * t->energy.across.count;
+    ehl_march_factors(m, time, c);
+    double ahead = 0;
+    if (m->smooth >= 2)
+        ahead = (time - m->state[0].time) / (m->state[0].time - m->state[1].time);
+    for (size_t j = 0; j < t->width; j++)
+        past[j] = c[1] * one[j] + c[2] * two[j];
+    for (size_t j = 0; j < temperatures; j++) {
+        double line = one[j] + ahead * (one[j] - two[j]);
+        now[j] = fmin(fmax(line, t->energy.lowest), t->energy.highest);
+    }
+    memcpy(now + temperatures, one + temperatures, (t->width - temperatures) * sizeof *now);
+}
+
+/* What the energy equation sees of the film; r has been evaluated for it. */
+static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const ehl_film *film,
+                               const double c[3])
+{
+    ehl_thermal *t = m->thermal;
+    const ehl_reynolds *r = m->solver->reynolds;
+    size_t n = r->nodes;
+    double slide = (m->mirrored ? -step->sliding : step->sliding) / 2;
+    ehl_energy_film f = {
+        .count = r->last + 1,
+        .dx = r->dx,
+        .speed = {fmax(step->entrainment + slide, 0), fmax(step->entrainment - slide, 0)},
+        .rate = c[0],
+        .p = film->p,
+        .h = r->thick,
+        .through = t->through,
+        .full = film->full,
+    };
+    for (size_t i = 0; i < n; i++)
+        t->through[i] = i > 0 && i + 1 < n ? -(r->flux[i - 1] + r->flux[i]) / 2 : 0;
+    if (!(c[0] > 0))
+        return f;
+    const double *one = m->state[0].film.p, *two = m->state[1].film.p;
+    for (size_t i = 0; i < n; i++) {
+        t->p_t[i] = c[0] * film->p[i] + c[1] * one[i] + c[2] * two[i];
+        t->mass_t[i] = step->past ? step->rate * r->mass[i] + step->past[i] : 0;
+    }
+    f.p_t = t->p_t;
+    f.mass_t = t->mass_t;
+    ehl_temperature past = ehl_thermal_state(t, t->past);
+    f.past = past.T;
+    f.past_modes[0] = past.modes[0];
+    f.past_modes[1] = past.modes[1];
+    return f;
+}
+
+/*
+ * Computes the factors of the flow across the film. Returns by how much they change the flow
+ * of mass, at most, relative to what the flanks carry along.
+ */
+static double find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl_energy_film *f,
+                           const ehl_film *film)
+{
+    const ehl_energy *e = &t->energy;
+    double most = 0;
+    for (size_t i = 0; i < f->count; i++) {
+        double mass = r->liquid.rho[i] * r->thick[i], swell = t->swell[i] * e->mass[i] / mass;
+        double carry = ehl_is_cavitated(r, film, i) ? 1 : e->carried[i] / e->mass[i];
+        double ratio = r->f[i] > 0 ? e->mobility[i] / r->f[i] : 1;
+        double driven = fabs(r->f[i] * e->p_x[i]) / ((f->speed[0] + f->speed[1]) / 2 * mass),
+               part = driven / (1 + driven);
+        double off =
+            fabs(ratio - 1) * part + fabs(swell / t->swell[i] - 1) + fabs(carry - t->carry[i]);
+        double share = t->damping * (off > LARGE ? LARGE / off : 1);
+        if (film->full[i])
+            most = fmax(most, off);
+        swell = t->swell[i] + share * (swell - t->swell[i]);
+        t->next[0][i] = t->ease[i] * (1 + share * (ratio - 1)) * t->swell[i] / swell;
+        t->next[1][i] = swell;
+        t->next[2][i] = t->carry[i] + share * (carry - t->carry[i]);
+    }
+    for (size_t i = f->count; i < r->nodes; i++)
+        for (size_t k = 0; k < 3; k++)
+            t->next[k][i] = k > 0 ? t->next[k][f->count - 1] : 1;
+    return most;
+}
+
+static void take_factors(ehl_thermal *t)
+{
+    double *to[3] = {t->ease, t->swell, t->carry};
+    for (size_t k = 0; k < 3; k++)
+        memcpy(to[k], t->next[k], t->energy.nodes * sizeof *to[k]);
+}
+
+/* Computes the temperatures of the film and its factors; 1: they were those already. */
+static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, const double c[3],
+                  int most)
+{
+    ehl_thermal *t = m->thermal;
+    ehl_reynolds *r = m->solver->reynolds;
+    const double settled = c[0] > 0 ? SETTLED : SETTLED_STEADY;
+    const double warm = c[0] > 0 ? WARM : WARM_STEADY;
+    ehl_reynolds_evaluate(r, step, film);
+    ehl_energy_film f = film_of(m, step, film, c);
+    ehl_temperature temperature = ehl_thermal_state(t, m->trial.heat);
+    int passes = 0;
+    t->film = f;
+    do {
+        ehl_energy_flow(&t->energy, &f, temperature.T);
+        ehl_energy_sweep(&t->energy, &f, &temperature);
+    } while (++passes < most && t->energy.change > warm);
+    double before = t->off;
+    t->off = find_factors(t, r, &f, film);
+    t->damping = t->off > SHRINKING * before ? fmax(LEAST_SHARE, 0.7 * t->damping)
+                                             : fmin(1, 1.3 * t->damping);
+    return t->off <= settled && t->energy.change <= warm;
+}
+
+ff_status ehl_thermal_solve(ehl_march *m, const ehl_step *step, ehl_film *film, double time,
+                            int limit)
+{
+    ehl_thermal *t = m->thermal;
+    double c[3] = {0, 0, 0};
+    if (m->known > 0)
+        predict(m, time, c);
+    t->solved++;
+    t->off = HUGE_VAL;
+    t->damping = 1;
+    const int on_the_way = m->known == 0 && step->past; /* to a steady film (start.c) */
+    for (int round = 0; round < (on_the_way ? 1 : MOST_ROUNDS); round++) {
+        take_factors(t);
+        ff_status status = m->solver->solve(m->solver, step, film, limit);
+        if (status != FF_OK)
+            return status;
+        t->rounds++;
+        if (update(m, step, film, c, on_the_way ? 2 : MOST_PASSES))
+            return FF_OK;
+    }
+    return on_the_way ? FF_OK : FF_NOCONV;
+}
+
+void ehl_thermal_rest(ehl_march *m, const ehl_step *step, double time)
+{
+    ehl_thermal *t = m->thermal;
+    double c[3];
+    predict(m, time, c);
+    ehl_reynolds_evaluate(m->solver->reynolds, step, &m->trial.film);
+    ehl_energy_film f = film_of(m, step, &m->trial.film, c);
+    ehl_temperature temperature = ehl_thermal_state(t, m->trial.heat);
+    f.count = 1;
+    ehl_energy_sweep(&t->energy, &f, &temperature);
+}
+
+double ehl_thermal_mean(const ehl_march *m, size_t i)
+{
+    const ehl_across *a = &m->thermal->energy.across;
+    const double *T = m->state[0].heat + i * a->count;
+    double sum = 0;
+    for (size_t k = 0; k < a->count; k++)
+        sum += a->weight[k] * T[k];
+    return sum;
+}
+
+double ehl_thermal_highest(const ehl_march *m)
+{
+    const ehl_thermal *t = m->thermal;
+    const ehl_across *a = &t->energy.across;
+    double most = t->energy.T_in;
+    for (size_t i = 0; i < t->energy.nodes; i++)
+        if (m->state[0].film.full[i])
+            most = fmax(most, ehl_across_highest(a, m->state[0].heat + i * a->count));
+    return most;
+}
+
+double ehl_thermal_flash(const ehl_march *m)
+{
+    const ehl_thermal *t = m->thermal;
+    size_t n = t->energy.across.count;
+    double most = 0;
+    for (size_t i = 0; i < t->energy.nodes; i++)
+        if (m->state[0].film.full[i])
+            most = fmax(most, fmax(m->state[0].heat[i * n], m->state[0].heat[i * n + n - 1]) -
+                                  t->energy.T_in);
+    return most;
+}
+
+double ehl_thermal_stress(const ehl_march *m, size_t i)
+{
+    const ehl_energy *e = &m->thermal->energy;
+    size_t n = e->across.count;
+    double sum = 0; /* at mid-film, of a stress that is linear across it */
+    for (size_t k = 0; k < n; k++)
+        sum += e->across.weight[k] * e->tau[i * n + k];
+    return m->mirrored ? sum : -sum;
+}

@@ -1,0 +1,218 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Temperature and flow across a film of parallel flanks, against closed forms. */
+#include "../../../plugins/ehl/energy.h"
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+/* An oil whose viscosity falls with exp(-beta (T - T0)), and Eyring's flow. */
+static double beta, T0 = 350, eta0 = 0.05, tau0 = 5e6;
+
+static ff_status viscosity(const void *self, size_t n, const double *p, const double *T,
+                           double *ln_eta, double *by_p, double *by_T)
+{
+    (void)self, (void)p, (void)by_p;
+    for (size_t i = 0; i < n; i++) {
+        ln_eta[i] = log(eta0) - beta * (T[i] - T0);
+        by_T[i] = -beta;
+    }
+    return FF_OK;
+}
+
+static ff_status density(const void *self, size_t n, const double *p, const double *T, double *rho,
+                         double *by_p, double *by_T)
+{
+    (void)self, (void)p, (void)by_p, (void)T;
+    for (size_t i = 0; i < n; i++) {
+        rho[i] = 860;
+        by_T[i] = 0;
+    }
+    return FF_OK;
+}
+
+static ff_status rate(const void *self, size_t n, const double *p, const double *T,
+                      const double *ln_eta, const double *tau, double *gamma, double *by_tau,
+                      double *by_ln_eta)
+{
+    (void)self, (void)p, (void)T;
+    for (size_t i = 0; i < n; i++) {
+        double eta = exp(ln_eta[i]);
+        gamma[i] = tau0 / eta * sinh(tau[i] / tau0);
+        by_tau[i] = cosh(tau[i] / tau0) / eta;
+        by_ln_eta[i] = -gamma[i];
+    }
+    return FF_OK;
+}
+
+static const ff_viscosity oil = {sizeof oil, NULL, viscosity};
+static const ff_density dense = {sizeof dense, NULL, density};
+static const ff_rheology_2 eyring = {sizeof eyring, NULL, rate};
+
+enum { NODES = 3, LINE = 201 };
+
+typedef struct bench {
+    ehl_energy e;
+    ehl_energy_film film;
+    ehl_temperature t;
+    double p[LINE], h[LINE], T[LINE * EHL_ACROSS_MOST], modes[2][LINE * EHL_MODES];
+    unsigned char full[LINE];
+} bench;
+
+/* Flanks with that B, at speeds u; nodes so far apart that nothing is carried along, unless dx is
+   set later. */
+static void open_bench(bench *b, size_t nodes, size_t across, double B, double u1, double u2,
+                       double h)
+{
+    memset(b, 0, sizeof *b);
+    ehl_energy_create(&b->e, nodes, across);
+    b->e.laws = (ehl_laws){.viscosity = &oil, .density = &dense};
+    b->e.conductivity = 0.14;
+    b->e.heat_capacity = 2000;
+    b->e.T_in = T0;
+    for (int g = 0; g < 2; g++) {
+        ehl_half_space_create(&b->e.flank[g], B, 1e-7, 1e-3);
+        b->t.modes[g] = b->modes[g];
+    }
+    b->t.T = b->T;
+    b->film = (ehl_energy_film){
+        .count = nodes, .dx = 1e200, .speed = {u1, u2}, .p = b->p, .h = b->h, .full = b->full};
+    for (size_t i = 0; i < nodes; i++) {
+        b->h[i] = h;
+        b->full[i] = 1;
+        for (size_t k = 0; k < across; k++)
+            b->T[i * across + k] = T0;
+    }
+}
+
+static int turns_to_settle(bench *b)
+{
+    int turns = 0;
+    do {
+        ehl_energy_flow(&b->e, &b->film, b->T);
+        ehl_energy_sweep(&b->e, &b->film, &b->t);
+    } while (++turns < 60 && b->e.change > 1e-11);
+    ehl_energy_flow(&b->e, &b->film, b->T);
+    return turns;
+}
+
+/* Constant viscosity: T - T0 = eta (u_s/h)^2 z (h - z)/(2 k). */
+static void test_couette(void)
+{
+    static bench b;
+    const double h = 1e-6, u = 4;
+    beta = 0;
+    open_bench(&b, NODES, 8, 1e15, 10 + u / 2, 10 - u / 2, h);
+    turns_to_settle(&b);
+    double worst = 0, source = eta0 * u * u / (h * h);
+    for (size_t k = 0; k < 8; k++) {
+        double z = b.e.across.z[k] * h, exact = source * z * (h - z) / (2 * b.e.conductivity);
+        worst = fmax(worst, fabs(b.T[8 + k] - T0 - exact));
+    }
+    check_below("parabola of Couette's heating, K", worst, 1e-9);
+    check_near("mobility of one viscosity", b.e.mobility[1], 860 * h * h * h / (12 * eta0), 1e-12);
+    check_near("carried mass", b.e.carried[1], 860 * h, 1e-12);
+    ehl_energy_destroy(&b.e);
+    open_bench(&b, NODES, 8, 1e10, 10 + u / 2, 10 - u / 2, h);
+    turns_to_settle(&b);
+    check_near("half of the heat goes into each flank", b.e.flux[0][1], source * h / 2, 1e-6);
+    check_near("the other half", b.e.flux[1][1], source * h / 2, 1e-6);
+    ehl_energy_destroy(&b.e);
+}
+
+/* Nahme's problem: the stress over that of the cold film, with na = beta eta u_s^2/k. */
+static double stress_of_nahme(double na, size_t across, int *turns)
+{
+    static bench b;
+    const double h = 1e-6;
+    beta = 0.03;
+    double u = sqrt(na * 0.14 / (beta * eta0));
+    open_bench(&b, NODES, across, 1e15, 100 + u / 2, 100 - u / 2, h);
+    *turns = turns_to_settle(&b);
+    double ratio = -b.e.tau_m[1] / (eta0 * u / h);
+    ehl_energy_destroy(&b.e);
+    return ratio;
+}
+
+static void test_nahme(void)
+{
+    double off[3];
+    int turns;
+    for (int k = 0; k < 4; k++) {
+        double na = (double[]){0.01, 1, 20, 500}[k], x = na / 8;
+        double exact = asinh(sqrt(x)) / sqrt(x * (1 + x));
+        check_near("Nahme's stress, 12 nodes", stress_of_nahme(na, 12, &turns), exact,
+                   k < 3 ? 1e-7 : 1e-3);
+        check_true("in some ten steps", k == 3 || turns <= 12);
+    }
+    double x = 20. / 8, exact = asinh(sqrt(x)) / sqrt(x * (1 + x));
+    for (int k = 0; k < 3; k++)
+        off[k] = fabs(stress_of_nahme(20, (size_t)(4 + 2 * k), &turns) / exact - 1);
+    check_true("two nodes more are worth a factor of ten",
+               off[0] > 10 * off[1] && off[1] > 10 * off[2]);
+    check_below("with 8 nodes", off[2], 5e-5);
+}
+
+/* A film of one temperature has the mobility of rheology/1, h^3 rho psi/12, psi = sqrt(1/eta^2 +
+   (u_s/(tau0 h))^2), and the flow of both flanks. */
+static void test_eyring(void)
+{
+    static bench b;
+    const double h = 1e-6, u = 0.4, p_x = 8e12;
+    beta = 0;
+    open_bench(&b, NODES, 10, 1e15, 10 + u / 2, 10 - u / 2, h);
+    b.e.flow = &eyring;
+    b.film.dx = 1e-6;
+    for (size_t i = 0; i < NODES; i++)
+        b.p[i] = p_x * b.film.dx * (double)i;
+    ehl_energy_flow(&b.e, &b.film, b.T);
+    double psi = hypot(1 / eta0, u / (tau0 * h)), f = 860 * h * h * h * psi / 12, flow = 0;
+    for (size_t k = 0; k < 10; k++)
+        flow += b.e.across.weight[k] * b.e.through[10 + k];
+    check_near("mobility of Eyring's oil", b.e.mobility[1], f, 1e-6);
+    check_near("its flow", flow, 860 * 10 * h - f * p_x, 1e-6);
+    check_near("its stress", b.e.tau_m[1], -tau0 * asinh(eta0 * u / (tau0 * h)), 1e-6);
+    ehl_energy_destroy(&b.e);
+}
+
+/* What the oil has taken along, and the flanks, is what was dissipated: of second order in x,
+   since heat that the oil carries is a difference of its content at the ends here. */
+static double open_balance(size_t nodes)
+{
+    static bench b;
+    const double h = 2e-6, length = 4e-4;
+    beta = 0.03;
+    open_bench(&b, nodes, 8, 1.3e4, 9, 6, h);
+    b.film.dx = length / (double)(nodes - 1);
+    for (int g = 0; g < 2; g++)
+        ehl_half_space_create(&b.e.flank[g], 1.3e4, b.film.dx / 9, length / 6);
+    turns_to_settle(&b);
+    double out = 0, heat = 0, flanks = 0;
+    for (size_t i = 0; i < nodes; i++) {
+        double part = (i == 0 || i + 1 == nodes ? 0.5 : 1) * b.film.dx;
+        flanks += part * (b.e.flux[0][i] + b.e.flux[1][i]);
+        for (size_t k = 0; k < 8; k++)
+            heat += part * h * b.e.across.weight[k] * b.e.tau[i * 8 + k] * b.e.gamma[i * 8 + k];
+    }
+    for (size_t k = 0; k < 8; k++)
+        out += b.e.across.weight[k] * b.e.through[(nodes - 1) * 8 + k] * 2000 *
+               (b.T[(nodes - 1) * 8 + k] - T0);
+    ehl_energy_destroy(&b.e);
+    return fabs(out + flanks - heat) / heat;
+}
+
+static void test_balance(void)
+{
+    double coarse = open_balance(51), fine = open_balance(201);
+    check_below("heat that is not accounted for", fine, 5e-3);
+    check_true("falls with the cells", coarse > 3 * fine);
+}
+
+int main(void)
+{
+    test_couette();
+    test_nahme();
+    test_eyring();
+    test_balance();
+    return check_done();
+}

@@ -1,0 +1,137 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* thermal: full, whole films. */
+#include "check.h"
+
+#include "line.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double T_oil = 333.15;
+
+/* 0.09 Pa s at 2 m/s and 30 % of slip: flashes of some kelvins, 15 K at mid-film. */
+static void open_hot(line *c, double cells, double slip)
+{
+    line_open(c, "ehl/finite-volume");
+    line_grade(c, "ISO VG 320", T_oil);
+    stage_set_text(c->film, "thermal", "full");
+    stage_set(c->film, "cells", cells);
+    stage_set(c->film, "inlet", 4);
+    stage_set(c->film, "outlet", 2);
+    c->u1[0] = 2 * (1 + slip / 2);
+    c->u2[0] = 2 * (1 - slip / 2);
+}
+
+static const char hot_outputs[] = "h_min h_central p_max power_loss friction_coefficient "
+                                  "temperature_max flash_temperature film pressure temperature x";
+
+/* Laws that know no temperature, and a Newtonian oil: the film of thermal: none. */
+static void test_without_slope(void)
+{
+    double of[2][3];
+    for (int hot = 0; hot < 2; hot++) {
+        line c;
+        open_hot(&c, 256, 0.3);
+        stage_set_text(c.film, "thermal", hot ? "full" : "none");
+        line_oil(&c, "viscosity/barus", c.eta0, 20e-9);
+        stage_close(c.rho);
+        c.rho = stage_open("density/dowson-higginson");
+        stage_set(c.rho, "rho0", stage_scalar(c.liquid, "rho0"));
+        stage_set(c.film, "tolerance", 1e-11);
+        check_true("runs", line_run(&c, "h_min h_central p_max traction") == FF_OK);
+        of[hot][0] = line_value(&c, "h_min", 0);
+        of[hot][1] = line_value(&c, "h_central", 0);
+        of[hot][2] = line_value(&c, "traction", 0);
+        line_close(&c);
+    }
+    check_near("h_min of an oil that heat does not change", of[1][0], of[0][0], 1e-8);
+    check_near("h_central", of[1][1], of[0][1], 1e-8);
+    check_near("traction", of[1][2], of[0][2], 1e-8);
+}
+
+/* Values of one steady film. */
+typedef struct values {
+    double h, friction, hottest, flash, heat, flanks;
+} values;
+
+static values steady(double cells, double across, double slip, double tau0)
+{
+    line c;
+    values v;
+    open_hot(&c, cells, slip);
+    if (tau0 > 0)
+        line_eyring(&c, tau0);
+    stage_set(c.film, "thermal_nodes", across);
+    check_true("runs", line_run(&c, hot_outputs) == FF_OK);
+    v.h = line_value(&c, "h_central", 0);
+    v.friction = line_value(&c, "friction_coefficient", 0);
+    v.hottest = line_value(&c, "temperature_max", 0) - T_oil;
+    v.flash = line_value(&c, "flash_temperature", 0);
+    v.heat = stage_quality(c.film, "heat_balance");
+    v.flanks = stage_quality(c.film, "heat_of_flanks");
+    check_below("heat balance of the equations", v.heat,
+                stage_quality_limit(c.film, "heat_balance") / 10);
+    line_close(&c);
+    return v;
+}
+
+/* The error across falls exponentially, and along x with the square of the cells. */
+static void test_orders(void)
+{
+    values few = steady(256, 6, 0.3, 5e6), some = steady(256, 8, 0.3, 5e6),
+           many = steady(256, 12, 0.3, 5e6);
+    check_near("friction with 8 nodes", some.friction, many.friction, 1e-4);
+    check_near("film with 8 nodes", some.h, many.h, 1e-4);
+    check_near("hottest place", some.hottest, many.hottest, 1e-2);
+    check_true("two nodes more are worth a factor of two and more",
+               fabs(few.friction - many.friction) > 2 * fabs(some.friction - many.friction));
+    values fine = steady(512, 8, 0.3, 5e6), finest = steady(1024, 8, 0.3, 5e6);
+    check_true("friction: 3 and more with twice the cells",
+               fabs(some.friction - fine.friction) > 3 * fabs(fine.friction - finest.friction));
+    check_true("film", fabs(some.h - fine.h) > 3 * fabs(fine.h - finest.h));
+    check_true("heat by other sums falls, too", some.flanks > 2 * finest.flanks);
+    check_below("heat by other sums", finest.flanks, 1e-2);
+}
+
+/* Constant conditions in time keep the steady film, its heat and its flanks. */
+static void test_time(void)
+{
+    line c;
+    open_hot(&c, 256, 0.3);
+    stage_set(c.film, "steps", 10);
+    line_last(&c, 2, 5e-4);
+    check_true("runs", line_run(&c, hot_outputs) == FF_OK);
+    check_near("film stays", line_value(&c, "h_central", 10), line_value(&c, "h_central", 0), 2e-4);
+    check_near("friction stays", line_value(&c, "friction_coefficient", 10),
+               line_value(&c, "friction_coefficient", 0), 1e-3);
+    check_near("flash stays", line_value(&c, "flash_temperature", 10),
+               line_value(&c, "flash_temperature", 0), 2e-3);
+    line_close(&c);
+}
+
+static void test_refusals(void)
+{
+    line c;
+    line_open(&c, "ehl/finite-volume");
+    stage_set_text(c.film, "thermal", "full");
+    check_true("no oil", line_run(&c, "h_min") == FF_INVALID);
+    check_true("says so", strstr(stage_why(c.film), "needs the oil") != NULL);
+    line_close(&c);
+    open_hot(&c, 128, 0.3);
+    stage_set_text(c.film, "thermal", "none");
+    check_true("no temperature without", line_run(&c, "temperature_max") == FF_UNSUPPORTED);
+    line_close(&c);
+    open_hot(&c, 128, 2.5);
+    check_true("flanks against each other", line_run(&c, "h_min") == FF_UNSUPPORTED);
+    check_true("says that, too", strstr(stage_why(c.film), "opposite directions") != NULL);
+    line_close(&c);
+}
+
+int main(void)
+{
+    test_without_slope();
+    test_orders();
+    test_time();
+    test_refusals();
+    return check_done();
+}
