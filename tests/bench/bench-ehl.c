@@ -6,7 +6,8 @@
  *
  *   meson test -C build --benchmark ehl --verbose
  *
- * With a number of cells and one of steps it runs ehl/finite-volume once, for a profiler.
+ * With a number of cells and one of steps it runs ehl/finite-volume once, for a profiler, and with
+ * a speed in rpm behind them the same with rough flanks.
  */
 #include "check.h"
 #include "tooth.h"
@@ -114,12 +115,13 @@ static void run_own_steps(const path *c, const oil *o, const char *cavitation)
 }
 
 /* Both flanks with Rq 0.5 um, at a share of the speed. */
-static void run_rough(const oil *o, stage *surface, double speed)
+static void run_rough(const oil *o, size_t cells, size_t steps, double speed)
 {
-    enum { STEPS = 1000 };
     static path c;
     path_fill(&c, speed);
-    stage *s = film_open("ehl/finite-volume", &c, o, 512, STEPS);
+    stage *surface = stage_open("surface/synthetic");
+    stage_set_text(surface, "rq", "0.5 um");
+    stage *s = film_open("ehl/finite-volume", &c, o, cells, steps);
     stage_link(s, "surface", surface);
     clock_t begin = clock();
     ff_status status = stage_run_wanted(
@@ -128,18 +130,19 @@ static void run_rough(const oil *o, stage *surface, double speed)
     double seconds = (double)(clock() - begin) / CLOCKS_PER_SEC, share = 0, trapped = 0, load = 0;
     if (!check_true("rough flanks run to the end", status == FF_OK))
         return;
-    for (size_t k = 0; k <= STEPS; k++) {
-        share += stage_get(s, "asperity_load_share", NULL)[k] / (STEPS + 1);
-        trapped += stage_get(s, "trapped_share", NULL)[k] / (STEPS + 1);
+    for (size_t k = 0; k <= steps; k++) {
+        share += stage_get(s, "asperity_load_share", NULL)[k] / ((double)steps + 1);
+        trapped += stage_get(s, "trapped_share", NULL)[k] / ((double)steps + 1);
         load = fmax(load, stage_get(s, "load_error", NULL)[k]);
     }
-    printf(
-        "rough, %5g rpm      512 x %d: %.2f ms/step, Newton %.1f and convolutions %.1f per step, "
-        "%g cut, asperities carry %.4f, trapped oil %.4f\n",
-        1500 * speed, STEPS, 1e3 * seconds / STEPS, stage_scalar(s, "newton_steps") / STEPS,
-        stage_scalar(s, "convolutions") / STEPS, stage_scalar(s, "steps_cut"), share, trapped);
+    double n = (double)steps;
+    printf("rough, %5g rpm %8zu x %zu: %.2f ms/step, Newton %.1f and convolutions %.1f per step, "
+           "%g cut, asperities carry %.4f, trapped oil %.4f\n",
+           1500 * speed, cells, steps, 1e3 * seconds / n, stage_scalar(s, "newton_steps") / n,
+           stage_scalar(s, "convolutions") / n, stage_scalar(s, "steps_cut"), share, trapped);
     check_below("load balance", load, 1e-8);
     stage_close(s);
+    stage_close(surface);
 }
 
 int main(int argc, char **argv)
@@ -148,8 +151,12 @@ int main(int argc, char **argv)
     oil o;
     path_fill(&c, 1);
     oil_open(&o);
-    if (argc == 3) {
-        run("ehl/finite-volume", &c, &o, strtoul(argv[1], NULL, 10), strtoul(argv[2], NULL, 10));
+    if (argc > 2) {
+        size_t cells = strtoul(argv[1], NULL, 10), steps = strtoul(argv[2], NULL, 10);
+        if (argc > 3)
+            run_rough(&o, cells, steps, strtod(argv[3], NULL) / 1500);
+        else
+            run("ehl/finite-volume", &c, &o, cells, steps);
         oil_close(&o);
         return check_done();
     }
@@ -163,11 +170,8 @@ int main(int argc, char **argv)
         double n = (double)cells / 512, grown = n * (9 + log2(n)) / 9;
         printf("%.1f times as long as 512 cells; N log N is %.1f\n", each / fast, grown);
     }
-    stage *surface = stage_open("surface/synthetic");
-    stage_set_text(surface, "rq", "0.5 um");
     for (double speed = 1; speed > 0.005; speed /= 10)
-        run_rough(&o, surface, speed);
-    stage_close(surface);
+        run_rough(&o, 512, 1000, speed);
     /* last, because idle threads of the BLAS still count as CPU time for a while */
     double sweeps = run("ehl/control-volume", &c, &o, 512, 1000);
     printf("ehl/control-volume takes %.1f times as long per step\n", sweeps / fast);
