@@ -128,7 +128,8 @@ enum {
  *
  * An input row is named "wire.output": `wire` is the key by which a YAML file names the feeding
  * stage, `output` the row that this stage must offer; an optional row stays unconnected when the
- * stage does not offer it. A service input is named by its wire only.
+ * stage does not offer it. A service input is named by its wire; a further one of the same wire,
+ * such as the optional "rheology.rate", by the wire and a word of its own.
  * A wire that the file does not name is connected when exactly one stage of the kinds in `from`
  * offers all that its rows ask for; rows of one wire state the same `from`.
  *
