@@ -3,11 +3,11 @@
 # seed's case runs, a model compiles, Python runs, and a purge leaves the tree as it was. As root, with a mirror at hand.
 # bare-tree.sh BUILD_DIRECTORY SOURCE_ROOT DIRECTORY [MIRROR]
 set -eu
-build=$1 source=$2 lab=$3 mirror=${4:-http://deb.debian.org/debian}
+build=$1 source=$2 lab=$3 mirror=${4:-}
 tree=$lab/tree
 { [ "$(id -u)" = 0 ] && command -v debootstrap >/dev/null; } || { echo "needs root and debootstrap" && exit 77; }
 mkdir -p "$lab"
-[ -e "$tree/usr/bin/apt-get" ] || debootstrap --variant=minbase bookworm "$tree" "$mirror" >"$lab/said"
+[ -e "$tree/usr/bin/apt-get" ] || debootstrap --variant=minbase bookworm "$tree" ${mirror:+"$mirror"} >"$lab/said"
 sh "$source/docs/package.sh" "$tree/packages" "$build"
 
 # within COMMAND...: in the tree, with no environment of ours
