@@ -172,7 +172,10 @@ import json
 figure = json.load(open("sign/tradeoff.figure.json"))[0]
 rows = figure["tables"][0]["rows"]
 assert len(figure["tables"][1]["rows"]) == 4, figure["tables"][1]  # all candidates
-assert rows[0][:2] == [1, "n 2"], rows  # the front is named
+named = [row[1] for row in rows]  # the front by its names, cheapest first
+assert named and set(named) <= {"n 2", "n 8", "n 8, claim 0.1", "n 8, claim 100"}, rows
+assert [row[0] for row in rows] == list(range(1, len(rows) + 1)), rows
+assert [row[2] for row in rows] == sorted(row[2] for row in rows), rows
 dots = [curve for curve in figure["curves"] if curve["style"] == "dots"]
 assert sum(len(curve["x"]) for curve in dots) >= 4
 for curve in dots:  # with error bars
