@@ -26,7 +26,7 @@ step ninja -C build flankfilm $(ninja -C build -t targets all | sed -n 's/^\(plu
 # of what the program says here is the part on the films
 said=$(build/flankfilm run configs/li-kahraman-2011.yaml "$@")
 printf '%s\n' "$said" | awk 'BEGIN { RS = ""; ORS = "\n\n" } NR == 1 || /^(Stages|film_static|film)\n/'
-results=${said##*results in }
+results=$(printf '%s\n' "$said" | sed -n 's/^results in //p')
 cat <<END
 Results, those of the gears, the motion and the contacts with them, are in $results. Next:
   build/flankfilm report $results           # its figures, as one page
