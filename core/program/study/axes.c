@@ -206,9 +206,19 @@ static bool read_count(reading *r, const ff_node *node, const char *name, int64_
                     "study: %s wants a whole number from %d to %d", name, (int)least, MOST_CASES);
 }
 
+/* Says which keys there are, as far as they fit. */
+static void list_keys(char *text, size_t size, const char *const *known)
+{
+    size_t length = (size_t)snprintf(text, size, "it takes ");
+    for (size_t i = 0; known[i] && length < size; i++)
+        length += (size_t)snprintf(text + length, size - length, "%s%s", i ? ", " : "", known[i]);
+}
+
 bool study_check_keys(const ff_node *map, const char *where, const char *const *known,
                       ff_report *report)
 {
+    char takes[200];
+    list_keys(takes, sizeof takes, known);
     bool good = true;
     for (size_t i = 0; map->kind == FF_MAP && i < map->count; i++) {
         size_t count = 0, found = 0;
@@ -217,7 +227,7 @@ bool study_check_keys(const ff_node *map, const char *where, const char *const *
         const char *near = ff_nearest(map->keys[i], known, count);
         if (found || !strncmp(map->keys[i], "x-", 2))
             continue;
-        good = ff_error(report, FF_FAULT_INPUT, map->key_places[i], NULL,
+        good = ff_error(report, FF_FAULT_INPUT, map->key_places[i], near ? NULL : takes,
                         "study: %s%sunknown key \"%.80s\"%s%s%s", where, *where ? ": " : "",
                         map->keys[i], near ? "; did you mean \"" : "", near ? near : "",
                         near ? "\"?" : "");
