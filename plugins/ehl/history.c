@@ -281,6 +281,30 @@ double ehl_history_straight(const ehl_history *h, double from, double to, double
     }
 }
 
+void ehl_history_sample(const ehl_history *h, double from, double to, ehl_sampling *sum)
+{
+    ehl_instant begin = ehl_history_at(h, from), end = ehl_history_before(h, to), last = begin;
+    size_t past = rows_before(h, to, 0);
+    double before = 0;
+    sum->sampled = fmax(sum->sampled, fmax(begin.load / begin.radius, end.load / end.radius));
+    sum->passed = fmax(sum->passed, sum->sampled);
+    for (size_t i = rows_before(h, from, 1); i <= past; i++) {
+        ehl_instant at = i < past ? ehl_history_row(h, i) : end;
+        double share = (at.time - from) / (to - from);
+        double off = fabs(at.load - (1 - share) * begin.load - share * end.load);
+        sum->missed += (before + off) / 2 * (at.time - last.time);
+        sum->load += (last.load + at.load) / 2 * (at.time - last.time);
+        sum->passed = fmax(sum->passed, at.load / at.radius);
+        before = off;
+        last = at;
+    }
+}
+
+double ehl_sampling_missed(const ehl_sampling *s)
+{
+    return s->load > 0 ? fmax(s->missed / s->load, sqrt(s->passed / s->sampled) - 1) : 0;
+}
+
 void ehl_lowest_add(ehl_lowest *l, double engagement, double h_min)
 {
     if (l->count > 0 && engagement == l->number) {

@@ -60,6 +60,18 @@ ehl_instant ehl_history_row(const ehl_history *h, size_t row);
 double ehl_history_straight(const ehl_history *h, double from, double to, double within,
                             double film);
 
+/* What the instants at which a film is known miss of its history. */
+typedef struct ehl_sampling {
+    double missed, load;    /* N s/m: what lies off straight lines between them; the whole load */
+    double sampled, passed; /* N/m^2: highest load over radius at an instant; at any row */
+} ehl_sampling;
+
+/* Adds the time between two neighbouring instants. */
+void ehl_history_sample(const ehl_history *h, double from, double to, ehl_sampling *sum);
+
+/* The part of the load that is missed, or of the highest Hertz pressure where that is more. */
+double ehl_sampling_missed(const ehl_sampling *s);
+
 /* Number of rows with a time not above `time`. */
 size_t ehl_history_rows_before(const ehl_history *h, double time);
 

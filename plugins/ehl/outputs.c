@@ -402,6 +402,9 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     r->row[EHL_TIME] = m->at.time;
     r->row[EHL_ROLL_ANGLE] = m->at.roll;
     r->row[EHL_ENGAGEMENT] = m->history->engagement ? m->history->engagement[0] : 0;
+    const double *before = r->row - EHL_SERIES;
+    if (k > 0 && r->row[EHL_ENGAGEMENT] == before[EHL_ENGAGEMENT])
+        ehl_history_sample(m->history, before[EHL_TIME], m->at.time, &r->sampling);
     r->tolerance = fmax(r->tolerance, m->solver->tolerance);
     record_film(r, m);
     record_loss(r, m);

@@ -41,6 +41,7 @@ typedef struct ehl_results {
     ehl_carried carried;
     double lowest, lowest_at, highest, least_lambda;
     ehl_lowest engagements;
+    ehl_sampling sampling;
     double worst_load, worst_mass, worst_complement, lost_force;
     double least_resolution, least_inlet;
     double starvation, worst_starvation; /* share of the film: mean over a passage, its largest */

@@ -323,6 +323,10 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
     char text[192];
     if (r->series.count < 2)
         return;
+    report_at_most(r, "instants", ehl_sampling_missed(&r->sampling), 0.02, FF_DOUBTFUL,
+                   "part of the load that lies off straight lines between the instants of the "
+                   "film, or of the highest Hertz pressure that none of them has; above 0.02 means "
+                   "and extremes miss what passes between them: more steps");
     if (m->rough) { /* one asperity's film is no smooth function of time */
         report_at_most(r, "steps_cut", m->steps_cut, (double)r->series.count, FF_DOUBTFUL,
                        "time steps that were cut, as contacts come and go");
