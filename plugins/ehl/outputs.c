@@ -143,6 +143,21 @@ typedef struct shear {
     double fluid, asperities;
 } shear;
 
+/*
+ * Returns how far the film reaches beyond the cell of its last node i, in cells. Where it ends p and
+ * its slope are 0, so that p'' = c there, and the balance of the cell is p(i-1) - 2 p(i) = c dx^2.
+ * Its solution, p(i-k) = c dx^2 [(k + 1) s + k (k + 1)/2], is the parabola that ends s + 1/2 cells
+ * behind the node, up to a pressure of order dx^2 (docs/theory.md, 7.15). By whole cells alone the
+ * traction would be of first order.
+ */
+static double reach_behind(const ehl_reynolds *eq, const double *p, size_t i)
+{
+    if (eq->rough || i < 1 || i + 1 >= eq->nodes || !(p[i] > 0) || p[i + 1] > 0)
+        return 0;
+    double bend = p[i - 1] - 2 * p[i];
+    return bend > p[i] ? p[i] / bend : bend > 0;
+}
+
 static shear shear_of(ehl_results *r, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -155,7 +170,8 @@ static shear shear_of(ehl_results *r, const ehl_march *m)
     ehl_law_note(&r->laws, status);
     for (size_t i = 0; i < count; i++) {
         double tau = m->thermal ? ehl_thermal_stress(m, i) : r->tau[i];
-        fluid += p[i] > 0 && !film->asperity[i] ? tau : 0;
+        if (p[i] > 0 && !film->asperity[i])
+            fluid += tau * (1 + reach_behind(eq, p, i));
         asperities += film->asperity[i] ? p[i] : 0;
     }
     return (shear){fluid * eq->dx, way * r->boundary_friction * asperities * eq->dx};
