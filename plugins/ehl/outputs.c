@@ -144,18 +144,19 @@ typedef struct shear {
 } shear;
 
 /*
- * Returns how far the film reaches beyond the cell of its last node i, in cells. Where it ends p and
- * its slope are 0, so that p'' = c there, and the balance of the cell is p(i-1) - 2 p(i) = c dx^2.
- * Its solution, p(i-k) = c dx^2 [(k + 1) s + k (k + 1)/2], is the parabola that ends s + 1/2 cells
- * behind the node, up to a pressure of order dx^2 (docs/theory.md, 7.15). By whole cells alone the
- * traction would be of first order.
+ * Returns how much of the film the stress at node i stands for, in cells: more where the film ends
+ * behind it. There p and its slope are 0 and p'' is some c, and the balance of the last volume is
+ * p(i-1) - 2 p(i) = c dx^2. Its solution, p(i-k) = c dx^2 [(k + 1) s + k (k + 1)/2], is up to order
+ * dx^2 the parabola that ends s cells behind the face of that volume (docs/theory.md, 7.16).
  */
-static double reach_behind(const ehl_reynolds *eq, const double *p, size_t i)
+static double film_of_node(const ehl_reynolds *eq, const double *p, size_t i)
 {
-    if (eq->rough || i < 1 || i + 1 >= eq->nodes || !(p[i] > 0) || p[i + 1] > 0)
-        return 0;
-    double bend = p[i - 1] - 2 * p[i];
-    return bend > p[i] ? p[i] / bend : bend > 0;
+    if (eq->rough || i < 1 || i + 1 >= eq->nodes || p[i + 1] > 0)
+        return 1;
+    /* a wedge from the node upstream balances the volume between both nodes */
+    int at_node = eq->asymmetric || eq->wedge == 1;
+    double bend = p[i - 1] - 2 * p[i], face = at_node ? 0.5 : 1;
+    return face + (bend > p[i] ? p[i] / bend : bend > 0);
 }
 
 static shear shear_of(ehl_results *r, const ehl_march *m)
@@ -171,7 +172,7 @@ static shear shear_of(ehl_results *r, const ehl_march *m)
     for (size_t i = 0; i < count; i++) {
         double tau = m->thermal ? ehl_thermal_stress(m, i) : r->tau[i];
         if (p[i] > 0 && !film->asperity[i])
-            fluid += tau * (1 + reach_behind(eq, p, i));
+            fluid += tau * film_of_node(eq, p, i);
         asperities += film->asperity[i] ? p[i] : 0;
     }
     return (shear){fluid * eq->dx, way * r->boundary_friction * asperities * eq->dx};
