@@ -135,7 +135,7 @@ static const double END_OF_FILM = 2e-5;
 static int is_small(const ehl_solver *s, double dp, double dh)
 {
     const newton *w = s->self;
-    double times = s->reynolds->rough ? 100 : s->reynolds->conserving ? 1 : 10;
+    double times = s->reynolds->rough || !s->reynolds->conserving ? 10 : 1;
     if (s->reynolds->rough || w->cavitation.moved || s->tolerance < END_OF_FILM)
         return dp <= s->tolerance && dh <= times * s->tolerance;
     return ehl_linear_settles(s, dp, dh, times);

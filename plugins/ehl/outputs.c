@@ -287,16 +287,37 @@ static void record_yield(ehl_results *r, const ehl_march *m)
     r->deepest_yield = fmax(r->deepest_yield, r->row[EHL_PLASTIC_DEPTH_MAX]);
 }
 
+/* The highest sum of the residuals from the highest pressure to another node, over what passes
+   there: the flow, and the pressure flow of p_max over a cell (check_mass in balance.c). */
+static double unbalanced(const ehl_reynolds *eq, const ehl_film *film, double flow)
+{
+    size_t peak = 1;
+    double most = 0, sum = 0;
+    for (size_t i = 1; i + 1 < eq->nodes; i++)
+        peak = film->p[i] > film->p[peak] ? i : peak;
+    double per_cell = film->p[peak] / eq->dx;
+    for (size_t i = peak; i + 1 < eq->nodes; i++) {
+        sum += film->asperity[i] ? 0 : eq->residual[i];
+        most = fmax(most, fabs(sum) / (flow + eq->f[i] * per_cell));
+    }
+    sum = 0;
+    for (size_t i = peak; i > 0; i--) {
+        sum += film->asperity[i] ? 0 : eq->residual[i];
+        most = fmax(most, fabs(sum) / (flow + eq->f[i] * per_cell));
+    }
+    return most;
+}
+
 /*
  * Records the balance of mass with rough flanks, whose nodes move with the oil, over the flow: of
- * the whole film, of the nodes that should be cavitated, and of those in contact. It uses the
- * residuals of the solver's equations.
+ * the nodes outside contacts, of those that should be cavitated, and of those in contact. It uses
+ * the residuals of the solver's equations.
  */
 static double record_mass(ehl_results *r, const ehl_march *m)
 {
     ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[0].film;
-    double sum = 0, gain = 0, supply = 0;
+    double gain = 0, supply = 0;
     double speed = m->at.entrainment + m->step.rate * m->solver->grid->half_width;
     ehl_reynolds_evaluate(eq, &m->step, film);
     ehl_law_note(&r->laws, eq->law_status);
@@ -304,17 +325,15 @@ static double record_mass(ehl_results *r, const ehl_march *m)
         if (film->asperity[i]) { /* oil that would be missing even if the cell were emptied */
             double lacking = eq->dx * m->step.rate * (eq->mass[i] - m->state[0].mass[i]);
             supply -= fmin(0, eq->residual[i] + lacking);
-            continue;
-        }
-        sum += eq->residual[i];
-        if (ehl_is_cavitated(eq, film, i))
+        } else if (ehl_is_cavitated(eq, film, i)) {
             gain = fmax(gain, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
+        }
     }
-    double flow = eq->oil.density * mean_film(m) * speed;
+    double flow = eq->oil.density * mean_film(m) * speed, off = unbalanced(eq, film, flow);
     r->worst_supply = fmax(r->worst_supply, supply / flow);
-    r->worst_mass = fmax(r->worst_mass, fabs(sum) / flow);
+    r->worst_mass = fmax(r->worst_mass, off);
     r->worst_complement = fmax(r->worst_complement, gain);
-    return fabs(sum) / flow;
+    return off;
 }
 
 static void record_balance(ehl_results *r, const ehl_march *m)

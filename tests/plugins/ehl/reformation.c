@@ -9,6 +9,7 @@
 #include "check.h"
 #include "stage.h"
 
+#include "../../../plugins/ehl/cavitation.h"
 #include "../../../plugins/ehl/deflection.h"
 #include "../../../plugins/ehl/solver.h"
 
@@ -150,6 +151,34 @@ static void test_steady(const ehl_laws *laws, size_t cells)
     close_scene(&s);
 }
 
+/* A node whose pressure was cut off is cavitated for one step in time, in which it finds its oil,
+   before it may be filled; in a steady film it may be filled at once. */
+static void test_wait(const ehl_laws *laws, int steps)
+{
+    scene s;
+    ehl_cavitation w;
+    double change[65];
+    enum { CUT = 20, OVER = 40 };
+    open_scene(&s, laws, 64);
+    ehl_reynolds_gap(&s.r, 1, &s.film);
+    check_true("memory", ehl_cavitation_create(&w, 65) == FF_OK);
+    ehl_cavitation_begin(&w, 65);
+    s.film.p[CUT] = -1e5;
+    check_near("pressure that is cut off", ehl_cavitation_shrink_film(&w, &s.r, &s.film, change),
+               1e5, 0);
+    check_near("its cell is full of oil", s.film.content[CUT], rho * s.r.h[CUT], 1e-15);
+    s.film.full[OVER] = 0;
+    s.film.content[CUT] *= 1.01;
+    s.film.content[OVER] = 1.01 * rho * s.r.h[OVER];
+    check_true("more than a gap holds fills it", ehl_cavitation_fill(&w, &s.r, &s.film, steps));
+    check_true("the node that was cavitated before", s.film.full[OVER]);
+    check_true("the node that was cut off", s.film.full[CUT] == !steps);
+    ehl_cavitation_fill(&w, &s.r, &s.film, steps);
+    check_true("a step later", s.film.full[CUT]);
+    ehl_cavitation_destroy(&w);
+    close_scene(&s);
+}
+
 int main(void)
 {
     stage *oil = stage_open("viscosity/isoviscous"),
@@ -160,6 +189,8 @@ int main(void)
                      .density = stage_service(density, FF_DENSITY_ID)};
     test_steady(&laws, 400);
     test_steady(&laws, 1600);
+    test_wait(&laws, 0);
+    test_wait(&laws, 1);
     stage_close(oil);
     stage_close(density);
     return check_done();
