@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Random scenes with `accuracy: 10 %`, 2 % and 0.5 %: do the error bars hold what is refined, and are they as small?
 
-error-bars.py FLANKFILM SOURCE [--seed HEX] [--first N] [--count N] [--cache FOLDER] [--table FILE]
+error-bars.py FLANKFILM SOURCE [--seed HEX] [--first N] [--count N] [--longest S] [--cache FOLDER] [--table FILE]
 
 A scene is drawn by the seed and its number: gear pairs of 17 to 80 teeth, modules of 1 to 8 mm, with
 relief and index errors, pitch line speeds from 0.3 to 40 m/s, Hertz pressures from 0.2 to 2 GPa,
@@ -43,7 +43,6 @@ SERIES = ['film.h_min', 'film.h_central', 'film.p_max', 'film.friction_coefficie
 GOALS = {'10 %': 0.1, '2 %': 0.02, '0.5 %': 0.005}
 REFERENCE = 'cells: 2048, time_tolerance: 7e-4, tolerance: 1e-7'
 LATTICE = [(cells, tolerance) for cells in (128, 256, 512, 1024) for tolerance in (2.8e-2, 7e-3, 1.75e-3)]
-LONGEST = 100  # s of CPU time, of a run; what takes longer is listed
 FINE = {'gears': 'stations: 1600', 'mesh': 'points: 1600', 'tooth': 'points: 8000'}
 STEEL = 226.4e9  # Pa, reduced modulus
 
@@ -53,8 +52,8 @@ def cpu_of_children():
     return used.ru_utime + used.ru_stime
 
 
-def limit_cpu():
-    resource.setrlimit(resource.RLIMIT_CPU, (LONGEST, LONGEST + 1))
+def limit_cpu(longest):
+    resource.setrlimit(resource.RLIMIT_CPU, (longest, longest + 1))
 
 
 def log_uniform(r, low, high):
@@ -138,8 +137,9 @@ def draw(seed, number):
 
 
 class Runner:
-    def __init__(self, program, source):
+    def __init__(self, program, source, longest):
         self.program, self.source, self.folder = program, os.path.abspath(source), tempfile.mkdtemp()
+        self.longest = longest
 
     def write(self, scene, accuracy, film, finest):
         stages = {name: text + (', ' + FINE[name] if finest and name in FINE and not (
@@ -164,9 +164,10 @@ class Runner:
         self.write(scene, accuracy, film, finest)
         begin, before = time.perf_counter(), cpu_of_children()
         done = subprocess.run([self.program, 'run', os.path.join(self.folder, 'scene.yaml'), '--json', '--arrays'],
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False, preexec_fn=limit_cpu)
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, check=False,
+                              preexec_fn=lambda: limit_cpu(self.longest))
         if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
-            return {'status': 'too long', 'why': f'more than {LONGEST} s'}
+            return {'status': 'too long', 'why': f'more than {self.longest} s'}
         # of a processor, which others may use as well
         share = min((cpu_of_children() - before) / (time.perf_counter() - begin), 1)
         try:
@@ -285,6 +286,30 @@ def is_open(row):
     return row['open'] > 0.5
 
 
+def wilson(good, count):
+    """Interval of 95 % of a share."""
+    z, share = 1.96, good / count
+    middle, half = share + z * z / (2 * count), z * math.sqrt(share * (1 - share) / count + (z / (2 * count)) ** 2)
+    return (middle - half) / (1 + z * z / count), (middle + half) / (1 + z * z / count)
+
+
+def print_whole(rows, out):
+    judged = [r for r in rows if not is_open(r)]
+    scalars, series = ([r for r in judged if ('share' in r) == along] for along in (False, True))
+    for what, mine, good in (('scalars', scalars, sum(r['held'] for r in scalars)),
+                             ('series', series, sum(r['share'] >= 0.95 for r in series))):
+        if mine:
+            low, high = wilson(good, len(mine))
+            print(f'\n{what}: held {good} of {len(mine)}, {100 * good / len(mine):.1f} % ({100 * low:.1f} to {100 * high:.1f} %)', file=out)
+    print(f"missed by more than twice: {sum(r['twice'] for r in scalars)} scalars", file=out)
+    for names, what in ((['film.h_min', 'film.h_central', 'film.friction_coefficient'], 'h_min, h_central, friction'),
+                        (['film.p_max'], 'p_max')):
+        for level, goal in GOALS.items():
+            every = [r for r in rows if r['output'] in names and r['level'] == level]
+            refused = sum(not r['claimed'] <= goal for r in every)
+            print(f'refused of {what} to {level}: {refused} of {len(every)}', file=out)
+
+
 def print_sums(rows, out):
     print('| output | accuracy | held | missed by more than twice | points held | median of bar over error | refused | open |\n|'
           + '---|' * 8, file=out)
@@ -380,11 +405,12 @@ def main():
     parser.add_argument('--seed', default='development')
     parser.add_argument('--first', type=int, default=1)
     parser.add_argument('--count', type=int, default=30)
+    parser.add_argument('--longest', type=int, default=100, help='s of CPU time, of a run; what takes longer is listed')
     parser.add_argument('--cache')
     parser.add_argument('--table')
     parser.add_argument('--lattice', action='store_true')
     options = parser.parse_args()
-    runner, rows, scenes = Runner(options.program, options.source), [], []
+    runner, rows, scenes = Runner(options.program, options.source, options.longest), [], []
     out = open(options.table, 'w') if options.table else sys.stdout
     print('| scene | what | accuracy | output | bar % | error % | reference +- % | verdict |\n|' + '---|' * 8, file=out)
     for number in range(options.first, options.first + options.count):
@@ -398,6 +424,7 @@ def main():
         print(f"scene {number}: {scene['kind']}, {len(mine)} numbers", file=sys.stderr)
     print(file=out)
     print_sums(rows, out)
+    print_whole(rows, out)
     if options.lattice:
         print(file=out)
         print_costs(runner, scenes, options.cache or tempfile.mkdtemp(), out)
