@@ -1,26 +1,52 @@
 #!/bin/sh
-# Draws figures from their description, by the script of the report's pages in a browser without a window.
-#   sh docs/draw.sh PROGRAM DESCRIPTION.json OUT.svg
+# Draws figures from their descriptions, by the script of the report's pages in one browser without a window.
+#   sh docs/draw.sh PROGRAM (DESCRIPTION.json OUT.svg)...
 set -eu
 program=$(realpath "$1")
+shift
 command -v chromium >/dev/null || {
-    echo "$3 stays as it is: there is no Chromium" >&2
+    echo "$2 and those after it stay as they are: there is no Chromium" >&2
     exit 0
 }
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
-"$program" report "$2" -o "$lab/page.html" >/dev/null
+# a frame for each; their drawings are gathered when all are there
+count=0
+while [ $((2 * count)) -lt $# ]; do
+    count=$((count + 1))
+    eval "description=\${$((2 * count - 1))}"
+    "$program" report "$description" -o "$lab/$count.html" >/dev/null
+    echo "<iframe src=\"$count.html#figures\" width=1200 height=900></iframe>"
+done >"$lab/all.html"
+cat >>"$lab/all.html" <<'HTML'
+<script>
+onload = function gather() {
+  var drawn = Array.from(frames, function (frame) { return frame.document.querySelector('.saved'); });
+  if (!drawn.every(Boolean)) setTimeout(gather, 20);
+  else drawn.forEach(function (text) { document.body.appendChild(document.importNode(text, true)); });
+};
+</script>
+HTML
 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --user-data-dir="$lab/profile" --virtual-time-budget=20000 \
-    --window-size=1200,900 --dump-dom "file://$lab/page.html#figures" >"$lab/dom" 2>"$lab/said"
-awk '{ text = text $0 "\n" }
+    --allow-file-access-from-files --window-size=1200,900 --dump-dom "file://$lab/all.html" >"$lab/dom" 2>"$lab/said"
+awk -v count=$(($# / 2)) -v lab="$lab" '{ text = text $0 "\n" }
     END {
-        if (!match(text, /<pre class="saved">/)) exit 1
-        text = substr(text, RSTART + RLENGTH)
-        text = substr(text, 1, index(text, "</pre>") - 1)
-        gsub(/&lt;/, "<", text); gsub(/&gt;/, ">", text); gsub(/&nbsp;/, " ", text); gsub(/&amp;/, "\\&", text)
-        printf "%s", text
-    }' "$lab/dom" >"$lab/figure.svg" || {
+        for (i = 1; i <= count; i++) {
+            if (!match(text, /<pre class="saved">/)) exit 1
+            text = substr(text, RSTART + RLENGTH)
+            end = index(text, "</pre>")
+            figure = substr(text, 1, end - 1)
+            gsub(/&lt;/, "<", figure); gsub(/&gt;/, ">", figure); gsub(/&nbsp;/, " ", figure); gsub(/&amp;/, "\\&", figure)
+            printf "%s", figure > (lab "/" i ".svg")
+            text = substr(text, end)
+        }
+    }' "$lab/dom" || {
     cat "$lab/said" >&2
     exit 1
 }
-mv "$lab/figure.svg" "$3"
+count=0
+while [ $# -gt 0 ]; do
+    count=$((count + 1))
+    mv "$lab/$count.svg" "$2"
+    shift 2
+done

@@ -36,11 +36,12 @@ digest() { # AWK-FILE ...; with what all of them share
     for file; do shift; set -- "$@" -f "$here/$file"; done
     awk -v in_="$work" -v quick="$quick" -v seeds="$seeds" -v stage="$stage" -v parts_of_k="$parts" -f "$here/csv.awk" -f "$here/paper.awk" "$@" < /dev/null
 }
-fields() { # NAME: those of the films as text
+fields() { # NAME POSITIONS: rows of its fields, at the angles that go by the name POSITIONS
     for npy in "$work/$1"/film*.film.npy "$work/$1"/film*.pressure.npy; do
+        [ -e "$npy" ] || continue
         npy=${npy##*/}
         stage=${npy%%.*} output=${npy#*.}
-        field "$work/$1" "$stage" "${output%.npy}"
+        field "$work/$1" "$stage" "${output%.npy}" "$work/positions" "$2"
     done
 }
 seeds="2011 2012 2013 2014 2015 2016 2017 2018" # of the surfaces; the first one is drawn
@@ -53,12 +54,11 @@ rough="film.h_min, film.p_max, film.contact_ratio, film.asperity_load_share, fil
 for point in I II III; do
     at $point $point "$here/paper.yaml"
     at $point $point-fields "$here/paper.yaml" --set "outputs=[$fields, $static]"
-    fields $point-fields
 done
 at I fine "$here/paper.yaml" --set film.cells=1024 --set film.steps=2000 --set 'outputs=[film.h_min, film.roll_angle]'
 at I coarse "$here/paper.yaml" --set film_static.steps=125 --set 'outputs=[film_static.h_min, film_static.roll_angle]'
-at I step "$here/paper.yaml" --set static.load_ramp='0 deg' --set tooth.load_ramp='0 deg' --set "outputs=[$fields, $static]"
-fields step
+at I step "$here/paper.yaml" --set static.load_ramp='0 deg' --set tooth.load_ramp='0 deg' \
+    --set "outputs=[film.pressure, film.x, film.roll_angle, film_static.pressure, film_static.x, film_static.roll_angle]"
 run atlas "$here/dynamics.yaml" --set mesh.use=stiffness/load-distribution --set motion.max_period=1
 # harmonics 1 to 3 of this k(t), whole and in parts of their size
 parts="1 0.5 0.35 0.25 0.15"
@@ -69,8 +69,9 @@ for part in $parts; do
 done
 run flanks "$here/paper-rough.yaml" --set "outputs=[flanks.*]"
 
-# of the films between rough flanks the ten positions alone are kept
 stage=smooth digest paper-positions.awk > "$work/positions"
+for point in I II III; do fields $point-fields $point; done
+fields step step
 for point in I II III; do
     [ $quick = 0 ] || [ $point = I ] || continue
     for seed in $seeds; do
@@ -81,11 +82,7 @@ for point in I II III; do
         else
             at $point "$name" "$here/paper-rough.yaml" --set flanks.seed="$seed"
         fi
-        fields "$name"
-        for field in "$work/$name"/film*-film.csv "$work/$name"/film*-pressure.csv; do
-            awk -v point=$point -f "$here/paper-keep.awk" "$work/positions" "$field" > "$work/kept"
-            mv "$work/kept" "$field"
-        done
+        fields "$name" $point
         rm -f "$work/$name"/*.npy
     done
 done
@@ -93,9 +90,11 @@ at I finer "$here/paper-rough.yaml" --set flanks.shortest='5 um' --set film.cell
     --set 'outputs=[film.roll_angle, film.contact_ratio, film.p_max]'
 
 stage=all digest paper-figures.awk
+set --
 for script in "$work"/*.plot; do
     awk -f "$here/plot.awk" "$script" > "$script.json"
-    sh "$here/../draw.sh" "$build/flankfilm" "$script.json" "$to/paper-$(basename "$script" .plot).svg"
+    set -- "$@" "$script.json" "$to/paper-$(basename "$script" .plot).svg"
 done
+sh "$here/../draw.sh" "$build/flankfilm" "$@"
 stage=all digest paper-page.awk paper-rough.awk > "$to/paper.md.new"
 mv "$to/paper.md.new" "$to/paper.md"
