@@ -11,7 +11,8 @@ lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 tree=$lab/tree
 
-sh "$source/docs/package.sh" "$lab/packages" "$build"
+# packed small they would be no other packages
+DPKG_DEB_COMPRESSOR_TYPE=none sh "$source/docs/package.sh" "$lab/packages" "$build"
 [ "$(find "$lab/packages" -name '*.deb' | wc -l)" = 4 ]
 for package in flankfilm libflankfilm0; do
     dpkg-deb -f "$lab/packages/$package"_*.deb Depends | grep -q 'libc6 (>= '
