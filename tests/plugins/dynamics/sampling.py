@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The tooth force between the stations against the same motion at thirty times as many of them.
 
-The line station_sampling is how far it is off straight lines, half-way; dynamic_factor_tooth has its
-largest. For a wave that turns by w from station to station the line is off by w^2/8, and the parabola
-through three points at most by w^3/125: by less than the line's error to the power of 3/2, over 4.
+The line station_sampling is how far it leaves the span of both stations, half-way; dynamic_factor_tooth
+has its largest. A wave that turns by w from station to station leaves it by w^2/8, and the parabola
+through three points is off by w^3/125 at most: by less than the line's value to the power of 3/2, over 4.
 
 sampling.py FLANKFILM SOURCE
 """
@@ -33,12 +33,13 @@ def at(angles, forces, angle):
 
 
 failed = False
-for frequency, stations, verdict in ((1250, 200, "good"), (300, 100, "doubtful"), (100, 200, "doubtful")):
+for frequency, stations, verdict in ((1250, 200, "good"), (200, 100, "doubtful"), (100, 200, "doubtful")):
     angles, forces, said, told, factor = run(stations, frequency)
     fine = run(30 * stations, frequency)
     middle = [(a + z) / 2 for a, z in zip(angles, angles[1:]) if z - a > 1e-9]
-    lines = [at(angles, forces, x) for x in middle]
-    found = max(abs(line - at(fine[0], fine[1], x)) for x, line in zip(middle, lines)) / max(fine[1])
+    spans = [sorted(pair) for pair, a, z in zip(zip(forces, forces[1:]), angles, angles[1:]) if z - a > 1e-9]
+    halves = [at(fine[0], fine[1], x) for x in middle]
+    found = max(max(low - half, half - high, 0) for half, (low, high) in zip(halves, spans)) / max(fine[1])
     off = abs(factor / fine[4] - 1)
     good = abs(said - found) < 0.01 * found and told == verdict and off < said ** 1.5 / 4
     failed = failed or not good
