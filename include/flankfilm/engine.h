@@ -381,6 +381,17 @@ const char *ff_unit_examples(const ff_unit *unit);
 bool ff_quantity_parse(const char *text, const ff_unit *row, const char *row_text, double *si,
                        char *why, size_t why_size);
 
+/* A value with the tolerance of a drawing: "119.664 mm +- 20 um", "80 degC +- 10 K", "220 N m +- 5
+   %" (also +/-), or "-75 um to -45 um", which stands for its middle. Numbers are in `unit`. */
+typedef struct ff_tolerance {
+    double middle, low, high;
+    char unit[64];
+} ff_tolerance;
+
+/* 1: the text has a tolerance; 0: it has none; -1: it has, which makes no sense, and a sentence in
+   why says so. */
+int ff_tolerance_parse(const char *text, ff_tolerance *tolerance, char *why, size_t why_size);
+
 /* Writes `si` in the row's unit as a user would read it, "250 N m" (6 significant digits). */
 void ff_quantity_print(double si, const ff_unit *row, const char *row_text, char *out, size_t size);
 

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gear/involute-spur: path of contact, radii of curvature and inertia of a spur gear pair. */
 #include "flank-deviations.h"
+#include "materials.h"
 #include "references.h"
 #include "spur-geometry.h"
 #include "spur-rows.h"
+#include "tooth-measures.h"
 
 #include <flankfilm/author.h>
 
@@ -15,10 +17,12 @@ typedef struct spur {
     const ff_host *host;
     gear_spur_spec spec;
     double face_width;
+    int32_t material[2];
     ff_reals bore, given_inertia, elastic, poisson, density, roughness_rq, roughness_ra;
     int64_t stations;
     gear_flank_spec flank_spec;
     gear_spur_pair pair;
+    gear_material made_of[2]; /* what is given in place of the material's values, too */
     double bore_radius[2], mass[2], inertia[2];
     gear_flanks flanks;
 } spur;
@@ -85,12 +89,17 @@ static const ff_param params[] = {
     FF_LIST("inertia", "kg m2", spur, given_inertia, 0, NULL, NULL, 1e-20, 1e20, 0, 0, 1, 2,
             "polar moments of inertia; left out: discs of working pitch diameter and face width, "
             "less the bore"),
-    FF_LIST("elastic_modulus", "GPa", spur, elastic, 0, "206 GPa", NULL, 1e-3, 1e4, 0, 0, 1, 2,
-            "Young's moduli E1 and E2"),
-    FF_LIST("poisson_ratio", "1", spur, poisson, 0, "0.3", NULL, 0, 0.5, 0, 0, 1, 2,
-            "Poisson's ratios of the gears"),
-    FF_LIST("density", "kg/m3", spur, density, 0, "7850 kg/m3", NULL, 1, 1e5, 0, 0, 1, 2,
-            "densities of the gears, for mass and inertia"),
+    FF_ONE_OF(GEAR_MATERIALS, "material", spur, material[0], 0, "steel",
+              "material of the gears: modulus, Poisson's ratio and density, and the yield strength "
+              "of quenched and tempered steel and of castings"),
+    FF_ONE_OF(GEAR_MATERIALS, "material_2", spur, material[1], 0, NULL,
+              "material of gear 2; left out: that of gear 1"),
+    FF_LIST("elastic_modulus", "GPa", spur, elastic, 0, NULL, NULL, 1e-3, 1e4, 0, 0, 1, 2,
+            "Young's moduli E1 and E2; left out: those of the material"),
+    FF_LIST("poisson_ratio", "1", spur, poisson, 0, NULL, NULL, 0, 0.5, 0, 0, 1, 2,
+            "Poisson's ratios of the gears; left out: those of the material"),
+    FF_LIST("density", "kg/m3", spur, density, 0, NULL, NULL, 1, 1e5, 0, 0, 1, 2,
+            "densities of the gears, for mass and inertia; left out: those of the material"),
     FF_COUNT("stations", spur, stations, FF_TUNABLE, "200", NULL, 8, 100000, 0, 0,
              "about how many intervals the path of contact is cut into"),
     FF_LIST("tip_relief", "um", spur, flank_spec.tip.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
@@ -145,7 +154,7 @@ static ff_status set_discs(spur *s)
                             i + 1, 2e3 * bore, 2e3 * s->pair.root_radius[i]);
         s->bore_radius[i] = bore;
         s->mass[i] =
-            ff_of_both(&s->density, i) * M_PI * s->face_width * (radius - bore) * (radius + bore);
+            s->made_of[i].density * M_PI * s->face_width * (radius - bore) * (radius + bore);
         s->inertia[i] = s->given_inertia.count > 0
                             ? ff_of_both(&s->given_inertia, i)
                             : s->mass[i] * (radius * radius + bore * bore) / 2;
@@ -164,8 +173,9 @@ static void tell_servings(const spur *s)
     const ff_serving rows[] = {
         {1, "stations", "roll_angle|radius_1|radius_2", NULL, NULL},
         {isnan(s->spec.backlash), "backlash_measure", "", NULL, "backlash is not given"},
-        {s->spec.span.count == 0, "span_teeth", "", NULL, "span is not given"},
-        {s->spec.over_pins.count == 0, "pin_diameter", "", NULL, "over_pins is not given"},
+        {s->spec.span.count == 0, "span_teeth", "span|span_teeth", NULL, "span is not given"},
+        {s->spec.over_pins.count == 0, "pin_diameter", "over_pins|pin_diameter", NULL,
+         "over_pins is not given"},
         {1, "inertia", "inertia|equivalent_mass", NULL, NULL},
         {1, "tip_relief", form, NULL, NULL},
         {1, "tip_relief_start", form, NULL, NULL},
@@ -205,10 +215,23 @@ static ff_status check_tools(const spur *s)
     return FF_OK;
 }
 
+/* What the file says of a gear overrules its material. */
+static void set_materials(spur *s)
+{
+    for (int i = 0; i < 2; i++) {
+        gear_material *m = &s->made_of[i];
+        *m = gear_material_of(s->material[i == 1 && s->material[1] >= 0 ? 1 : 0]);
+        m->modulus = s->elastic.count > 0 ? ff_of_both(&s->elastic, i) : m->modulus;
+        m->poisson = s->poisson.count > 0 ? ff_of_both(&s->poisson, i) : m->poisson;
+        m->density = s->density.count > 0 ? ff_of_both(&s->density, i) : m->density;
+    }
+}
+
 static ff_status ready(void *self)
 {
     spur *s = self;
     tell_servings(s);
+    set_materials(s);
     ff_status status = check_tools(s);
     if (status == FF_OK)
         status = gear_spur_pair_make(s->host, &s->spec, &s->pair);
@@ -226,10 +249,8 @@ static ff_status write_scalars(const spur *s, uint64_t wanted)
     const double rb1 = p->base_radius[0], rb2 = p->base_radius[1];
     const double *J = s->inertia;
     double compliance = 0; /* sum of (1 - nu^2)/E */
-    for (int i = 0; i < 2; i++) {
-        double nu = ff_of_both(&s->poisson, i);
-        compliance += (1 - nu * nu) / ff_of_both(&s->elastic, i);
-    }
+    for (int i = 0; i < 2; i++)
+        compliance += (1 - s->made_of[i].poisson * s->made_of[i].poisson) / s->made_of[i].modulus;
     const struct {
         uint32_t row;
         double value;
@@ -269,12 +290,18 @@ static double roughness_of(const spur *s, int gear)
 static ff_status write_pairs(const spur *s, uint64_t wanted)
 {
     const gear_spur_pair *p = &s->pair;
-    double teeth[2], shift[2], elastic[2], poisson[2], roughness[2], form[2], tool[2];
+    double teeth[2], shift[2], elastic[2], poisson[2], roughness[2], form[2], tool[2], yield[2],
+        active[2];
+    const double lowest[2] = {p->sap, p->line_length - p->tip};
+    gear_measures measures;
+    gear_measure_teeth(&s->spec, p, &measures);
     for (int i = 0; i < 2; i++) {
         teeth[i] = ff_of_both(&s->spec.teeth, i);
         shift[i] = ff_of_both(&s->spec.shift, i);
-        elastic[i] = ff_of_both(&s->elastic, i);
-        poisson[i] = ff_of_both(&s->poisson, i);
+        elastic[i] = s->made_of[i].modulus;
+        poisson[i] = s->made_of[i].poisson;
+        yield[i] = s->made_of[i].yield;
+        active[i] = hypot(p->base_radius[i], lowest[i]);
         roughness[i] = roughness_of(s, i);
         form[i] = hypot(p->base_radius[i], fmax(p->form[i], 0));
         tool[i] = s->spec.tool_tip_radius.count > 0 ? ff_of_both(&s->spec.tool_tip_radius, i)
@@ -301,6 +328,13 @@ static ff_status write_pairs(const spur *s, uint64_t wanted)
         {OUT_ELASTIC_MODULUS, elastic},
         {OUT_POISSON_RATIO, poisson},
         {OUT_ROUGHNESS, roughness},
+        {OUT_SPAN_TEETH, measures.span_teeth},
+        {OUT_SPAN, measures.span},
+        {OUT_PIN_DIAMETER, measures.pin_diameter},
+        {OUT_OVER_PINS, measures.over_pins},
+        {OUT_TIP_THICKNESS, p->tip_thickness},
+        {OUT_ACTIVE_ROOT_RADIUS, active},
+        {OUT_YIELD_STRENGTH, yield},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
         if (!(wanted & FF_BIT(pairs[i].row)))

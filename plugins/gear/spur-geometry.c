@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "spur-geometry.h"
 
+#include "tooth-measures.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -21,7 +23,7 @@ static const double same_place = 1e-9;
 /* Contact ratios from here on are refused. */
 enum { MOST_PAIRS = 4 };
 
-static double involute(double angle)
+double gear_involute(double angle)
 {
     return tan(angle) - angle;
 }
@@ -29,7 +31,7 @@ static double involute(double angle)
 /* The angle a between 0 and pi/2 with tan a - a = value, for value > 0. With t = tan a the function
    g(t) = t - atan t - value rises and is convex, and g > 0 at the start: Newton's method falls to
    the root from above. */
-static double involute_inverse(double value)
+double gear_involute_inverse(double value)
 {
     double t = value + M_PI_2;
     for (int i = 0; i < 200; i++) {
@@ -46,9 +48,9 @@ static double involute_inverse(double value)
    there is none. */
 static double tight_involute(const gear_spur_spec *g)
 {
-    return involute(g->pressure_angle) + 2 * (ff_of_both(&g->shift, 0) + ff_of_both(&g->shift, 1)) *
-                                             tan(g->pressure_angle) /
-                                             (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1));
+    return gear_involute(g->pressure_angle) +
+           2 * (ff_of_both(&g->shift, 0) + ff_of_both(&g->shift, 1)) * tan(g->pressure_angle) /
+               (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1));
 }
 
 static ff_status mount(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
@@ -68,73 +70,18 @@ static ff_status mount(const ff_host *host, const gear_spur_spec *g, gear_spur_p
                             "the profile shifts %g and %g sum to too little for these teeth to "
                             "mesh; the sum must exceed %.3f, or give centre_distance",
                             ff_of_both(&g->shift, 0), ff_of_both(&g->shift, 1),
-                            -involute(g->pressure_angle) *
+                            -gear_involute(g->pressure_angle) *
                                 (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1)) /
                                 (2 * tan(g->pressure_angle)));
         p->working_angle = ff_of_both(&g->shift, 0) + ff_of_both(&g->shift, 1) == 0
                                ? g->pressure_angle
-                               : involute_inverse(tight);
+                               : gear_involute_inverse(tight);
         p->centre_distance = base_sum / cos(p->working_angle);
     }
     p->line_length = p->centre_distance * sin(p->working_angle);
     for (int i = 0; i < 2; i++)
         p->pitch_radius[i] = p->base_radius[i] / cos(p->working_angle);
     return FF_OK;
-}
-
-/* Allowance of gear i, from the arc that half of its pitch angle and what is measured give. */
-static double allowance_of(const gear_spur_spec *g, const gear_spur_pair *p, int i)
-{
-    double z = ff_of_both(&g->teeth, i), base = p->base_radius[i],
-           flank = involute(g->pressure_angle);
-    double half; /* half the angle of the tooth at the reference circle */
-    if (g->span.count > 0) {
-        /* W = (k - 1) p_b + s_b, with the arc of the base circle s_b = 2 r_b (s/(2 r) + inv a) (DIN
-         * 3960) */
-        double others = (ff_of_both(&g->span_teeth, i) - 1) * p->base_pitch;
-        half = (ff_of_both(&g->span, i) - others) / (2 * base) - flank;
-    } else if (g->over_pins.count > 0) {
-        /* The axis of a pin of diameter D lies at the angle a_K with inv a_K = s/(2 r) + inv a +
-           D/(2 r_b) - pi/z; an odd number of teeth puts the pins pi/(2 z) off the diameter (DIN
-           3960). */
-        double pin = ff_of_both(&g->pin_diameter, i);
-        double axis = (ff_of_both(&g->over_pins, i) - pin) / 2;
-        if (fmod(z, 2) == 1)
-            axis /= cos(M_PI / (2 * z));
-        half = involute(acos(fmin(1, base / axis))) - flank - pin / (2 * base) + M_PI / z;
-    } else {
-        return ff_of_both(&g->allowance, i);
-    }
-    return 2 * p->reference_radius[i] * half - p->thickness[i];
-}
-
-/* Refuses a span or pins that touch the teeth beside their flanks. */
-static ff_status check_measure(const ff_host *host, const gear_spur_spec *g,
-                               const gear_spur_pair *p, int i)
-{
-    const char *name = g->span.count > 0 ? "span" : "over_pins";
-    const double base = p->base_radius[i], z = ff_of_both(&g->teeth, i);
-    double radius; /* where flank and tool touch */
-    if (g->span.count > 0) {
-        radius = hypot(base, ff_of_both(&g->span, i) / 2);
-    } else {
-        double pin = ff_of_both(&g->pin_diameter, i),
-               axis = (ff_of_both(&g->over_pins, i) - pin) / 2;
-        if (fmod(z, 2) == 1)
-            axis /= cos(M_PI / (2 * z));
-        double along = sqrt(fmax(0, (axis - base) * (axis + base))) - pin / 2;
-        radius = axis > base && along > 0 ? hypot(base, along) : 0;
-    }
-    if (radius > base && radius < p->tip_radius[i])
-        return FF_OK;
-    return ff_failf(host, FF_INVALID, name,
-                    "gear %d: %s touches the tooth at diameter %.4f mm, and its flank lies between "
-                    "%.4f and %.4f mm; "
-                    "take %s",
-                    i + 1, g->span.count > 0 ? "the span" : "the pin", 2e3 * radius, 2e3 * base,
-                    2e3 * p->tip_radius[i],
-                    g->span.count > 0 ? "another number of teeth in span_teeth"
-                                      : "another pin_diameter");
 }
 
 /* Allowances and backlash. Teeth of full thickness have the backlash
@@ -146,7 +93,7 @@ static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear
     if (g->centre_distance > 0)
         full = g->module * cos(g->pressure_angle) *
                (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1)) *
-               (involute(p->working_angle) - tight);
+               (gear_involute(p->working_angle) - tight);
     for (int i = 0; i < 2; i++)
         p->thickness[i] =
             g->module * (M_PI_2 + 2 * ff_of_both(&g->shift, i) * tan(g->pressure_angle));
@@ -165,7 +112,7 @@ static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear
         return FF_OK;
     }
     for (int i = 0; i < 2 && measured; i++)
-        p->allowance[i] = allowance_of(g, p, i);
+        p->allowance[i] = gear_measured_allowance(g, p, i);
     double backlash = full - (p->allowance[0] + p->allowance[1]) * cos(g->pressure_angle);
     if (backlash < -rounding * g->module && measured)
         return ff_failf(host, FF_INVALID,
@@ -184,7 +131,7 @@ static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear
                         "span, over_pins or backlash",
                         1e3 * p->centre_distance,
                         1e3 * (p->base_radius[0] + p->base_radius[1]) /
-                            cos(involute_inverse(tight)));
+                            cos(gear_involute_inverse(tight)));
     p->backlash = fmax(backlash, 0);
     return FF_OK;
 }
@@ -277,7 +224,8 @@ static double tip_inside(const gear_spur_spec *g, const gear_spur_pair *p, int i
     const double x = beside * far, y = r - tip.centre * far;
     const double rolled = beside + tip.centre * tan(g->pressure_angle) + tip.behind;
     *radius = fmax(hypot(x, y), p->base_radius[i]);
-    const double flank = involute(acos(p->base_radius[i] / *radius)) - involute(g->pressure_angle);
+    const double flank =
+        gear_involute(acos(p->base_radius[i] / *radius)) - gear_involute(g->pressure_angle);
     return atan2(x, y) - rolled / r - flank;
 }
 
@@ -347,7 +295,8 @@ static double thickness_at(const gear_spur_spec *g, const gear_spur_pair *p, int
 {
     double angle = acos(fmin(1, p->base_radius[i] / radius));
     return 2 * radius *
-           (arc / (2 * p->reference_radius[i]) + involute(g->pressure_angle) - involute(angle));
+           (arc / (2 * p->reference_radius[i]) + gear_involute(g->pressure_angle) -
+            gear_involute(angle));
 }
 
 static ff_status set_thickness(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
@@ -446,7 +395,7 @@ ff_status gear_spur_pair_make(const ff_host *host, const gear_spur_spec *g, gear
     if (status == FF_OK)
         status = check_undercut(host, g, p);
     for (int i = 0; i < 2 && status == FF_OK && (g->span.count > 0 || g->over_pins.count > 0); i++)
-        status = check_measure(host, g, p, i);
+        status = gear_check_measure(host, g, p, i);
     if (status == FF_OK)
         status = set_thickness(host, g, p);
     if (status == FF_OK)

@@ -52,7 +52,8 @@ static const ff_param params[] = {
     FF_QUANTITY("test_own_lambda", "1", micropitting, test_own_lambda, 0, NULL, NULL, 1e-4, 100, 0,
                 0, "own_lambda_gf_min of the same run, by the film of this program"),
     FF_QUANTITY("yield_strength", "MPa", micropitting, yield, 0, NULL, NULL, 1, 1e4, 0, 0,
-                "of the flanks' steel in tension; with it the largest shear of the contact, 0.300 "
+                "of the flanks' steel in tension, in place of that of the gear's material; with it "
+                "the largest shear of the contact, 0.300 "
                 "p_H, is held against the yield "
                 "in shear, half of it"),
     FF_COUNT("points", micropitting, points, FF_TUNABLE, "200", NULL, 4, 100000, 0, 0,
@@ -312,9 +313,10 @@ static void report(const micropitting *s, const rating_pair *p, const rating *r)
                   p->pitch_speed >= 2 && p->pitch_speed <= 60 ? FF_GOOD : FF_DOUBTFUL,
                   "m/s at the pitch circle; the method was developed for 8 to 60 and agrees with "
                   "others above 2");
-    if (!isnan(s->yield))
-        host->quality(host->ctx, "shear_over_yield", 2 * r->shear / s->yield, 1,
-                      2 * r->shear <= s->yield ? FF_GOOD : FF_DOUBTFUL,
+    const double yield = isnan(s->yield) ? p->yield : s->yield;
+    if (!isnan(yield))
+        host->quality(host->ctx, "shear_over_yield", 2 * r->shear / yield, 1,
+                      2 * r->shear <= yield ? FF_GOOD : FF_DOUBTFUL,
                       "largest shear stress of the contact over the yield in shear; above 1 the "
                       "steel yields");
 }

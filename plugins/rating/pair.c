@@ -19,6 +19,8 @@ const ff_port rating_inputs[1 + RATING_INPUTS + 1] = {
     {"gear.roughness", "m", "root mean square roughness of the flanks", "gear", NULL, 0, "gear"},
     {"gear.profile_deviation", "m", "deviation of the flanks, whose last points are the tip relief",
      "gear profile", NULL, FF_OPTIONAL, "gear"},
+    {"gear.yield_strength", "Pa", "yield strengths of the flanks, 0: not known", "gear", NULL,
+     FF_OPTIONAL, "gear"},
     {"operating.line_force", "N", "normal force along the line of action", "", NULL, 0,
      "operating"},
     {"operating.speed", "rad/s", "speed of gear 1", "", NULL, 0, "operating"},
@@ -63,7 +65,8 @@ ff_status rating_pair_read(const ff_host *host, const ff_array *in, const ff_liq
                            rating_pair *p)
 {
     double roughness[2];
-    *p = (rating_pair){.oil = oil, .dynamic_factor = 1};
+    double yield[2] = {0};
+    *p = (rating_pair){.oil = oil, .dynamic_factor = 1, .yield = NAN};
     const struct {
         int row;
         const char *name;
@@ -89,8 +92,12 @@ ff_status rating_pair_read(const ff_host *host, const ff_array *in, const ff_liq
     if (status == FF_OK && in[RATING_IN_DYNAMIC_FACTOR].data)
         status = read_one(host, &in[RATING_IN_DYNAMIC_FACTOR], "dynamics.dynamic_factor_tooth",
                           &p->dynamic_factor);
+    if (status == FF_OK && in[RATING_IN_YIELD].data)
+        status = read_two(host, &in[RATING_IN_YIELD], "gear.yield_strength", yield);
     if (status != FF_OK)
         return status;
+    for (int i = 0; i < 2; i++)
+        p->yield = yield[i] > 0 ? fmin(p->yield, yield[i]) : p->yield;
     p->roughness = (roughness[0] + roughness[1]) / 2 * sqrt(2 / M_PI); /* Ra of Gaussian heights */
     if (!(p->roughness > 0))
         return ff_failf(

@@ -25,6 +25,7 @@ enum {
     RATING_IN_MODULUS,
     RATING_IN_ROUGHNESS,
     RATING_IN_PROFILE,
+    RATING_IN_YIELD,
     RATING_IN_FORCE,
     RATING_IN_SPEED,
     RATING_IN_OIL_TEMPERATURE,
@@ -43,6 +44,7 @@ typedef struct rating_pair {
     double centre_distance, working_angle, pressure_angle, width, modulus;
     double roughness;     /* Ra, mean of both flanks */
     double tip_relief[2]; /* 0: none, or not known */
+    double yield;         /* of the weaker flank; NaN: not known */
     double force;         /* along the line of action */
     double omega, oil_temperature, dynamic_factor;
     double line, base_pitch; /* length of the common tangent of the base circles */

@@ -131,11 +131,32 @@ static bool check_range(const reading *r, const ff_node *node, double *si)
     return true;
 }
 
+/* Reads the middle of a value with a tolerance, both ends of which must be possible. */
+static bool read_toleranced(const reading *r, const ff_node *node, const ff_tolerance *t,
+                            double *si)
+{
+    const double numbers[] = {t->low, t->high, t->middle};
+    char text[128], why[512];
+    for (size_t i = 0; i < 3; i++) {
+        snprintf(text, sizeof text, "%.17g %s", numbers[i], t->unit);
+        if (!ff_quantity_parse(text, r->unit, r->row->unit, si, why, sizeof why))
+            return refuse(r, node, NULL, "%s", why);
+        if (i < 2 && !check_range(r, node, si))
+            return false;
+    }
+    return true;
+}
+
 static bool read_real(const reading *r, const ff_node *node, double *si)
 {
     char why[512];
+    ff_tolerance tolerance;
     if (node->kind != FF_SCALAR || !node->text[0])
         return refuse_kind(r, node);
+    int toleranced = ff_tolerance_parse(node->text, &tolerance, why, sizeof why);
+    if (toleranced != 0)
+        return toleranced > 0 ? read_toleranced(r, node, &tolerance, si)
+                              : refuse(r, node, NULL, "%s", why);
     if (!ff_quantity_parse(node->text, r->unit, r->row->unit, si, why, sizeof why))
         return refuse(r, node, NULL, "%s", why);
     return check_range(r, node, si);

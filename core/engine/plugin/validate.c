@@ -198,8 +198,9 @@ static bool check_words(const checking *c, const ff_param *row)
         const char *end;
         size_t length = strlen(word);
         bool plain = length > 0 && length < LONGEST_NAME && fe_text_is_clean(word);
-        if (!plain || (row->type != FF_TEXT &&
-                       (strpbrk(word, " \"'[]{},:#") || ff_number_parse(word, &number, &end))))
+        /* "16MnCr5" is a word where no number may stand beside it */
+        bool numeric = ff_number_parse(word, &number, &end) && (row->type != FF_CHOICE || !*end);
+        if (!plain || (row->type != FF_TEXT && (strpbrk(word, " \"'[]{},:#") || numeric)))
             return fault(c, "has the choice \"%s\" for the parameter \"%s\", which is not a word",
                          word, c->name);
         if (fe_word_find(row->choices, word) != (int)i)

@@ -40,17 +40,29 @@ static int distance(const char *a, const char *b)
     return row[n % 3][m];
 }
 
+/* How many letters both begin with. */
+static int beginning(const char *a, const char *b)
+{
+    int n = 0;
+    while (a[n] && fold(a[n]) == fold(b[n]))
+        n++;
+    return n;
+}
+
 const char *ff_nearest(const char *word, const char *const *candidates, size_t count)
 {
     const char *best = NULL;
     /* one mistake in three letters is near; two letters with a mistake are another word */
     size_t n = strlen(word);
-    int near = n < 3 ? 0 : min((int)((n + 1) / 3), 4);
+    int near = n < 3 ? 0 : min((int)((n + 1) / 3), 4), shared = -1;
     for (size_t i = 0; i < count; i++) {
-        int cost = distance(word, candidates[i]);
-        if (cost <= near) {
+        int cost = distance(word, candidates[i]), same = beginning(word, candidates[i]);
+        if (n >= 3 && (size_t)same == n)
+            cost = min(cost, 1); /* the rest was left out */
+        if (cost < near || (cost == near && same > shared)) {
             best = candidates[i];
-            near = cost - 1;
+            near = cost;
+            shared = same;
         }
     }
     return best;

@@ -2,6 +2,7 @@
 /* The commands check and explain, which run nothing. */
 #include "../terminal/terminal.h"
 #include "command.h"
+#include "drawing.h"
 #include "resolved.h"
 
 #include "../accuracy/models.h"
@@ -305,12 +306,23 @@ static int resolve(cli_session *session, const cli_options *options)
     return ff_report_fault(session->report);
 }
 
+static int draw(cli_session *session, const cli_options *options)
+{
+    if (!options->json)
+        terminal_print_messages(session->report, stderr, terminal_colour(stderr)); /* warnings */
+    return cli_print_drawing(session, options);
+}
+
 int cli_explain(const cli_options *options)
 {
-    bool yaml = cli_option(options, "yaml");
+    bool yaml = cli_option(options, "yaml"), drawing = cli_option(options, "drawing");
     if (yaml && options->json) {
         cli_wrong_usage(options, "explain prints YAML or JSON, not both");
         return FF_FAULT_INPUT;
     }
-    return with_session(options, false, yaml ? resolve : explain);
+    if (yaml && drawing) {
+        cli_wrong_usage(options, "explain prints the file or the drawing, not both");
+        return FF_FAULT_INPUT;
+    }
+    return with_session(options, false, yaml ? resolve : drawing ? draw : explain);
 }

@@ -71,6 +71,8 @@ static const option_row rows[] = {
     {"yaml", 0, NULL, "explain",
      "print the file with its includes and --set worked in, each value with its origin", OPTIONAL,
      NULL},
+    {"drawing", 0, NULL, "explain",
+     "print the table of a drawing of the gears: diameters, spans, pins, backlash", OPTIONAL, NULL},
     {"markdown", 0, NULL, "models", "print it as a page in Markdown", OPTIONAL, NULL},
     {"plugin-path", 0, "DIR", "run plan check explain cite fit models report export new schema",
      "look for models there first; repeatable", REPEATABLE, NULL},

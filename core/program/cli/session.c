@@ -24,7 +24,7 @@ static bool open_study(cli_session *session, const cli_options *options)
     if (!node || (node->kind == FF_SCALAR && !*node->text))
         return true;
     size_t errors = ff_report_errors(session->report);
-    session->study = study_open(node, session->report);
+    session->study = study_open(ff_tree_root(session->tree), session->report);
     if (ff_report_errors(session->report) > errors)
         return false;
     setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */

@@ -3,6 +3,7 @@
 #include "listed.h"
 #include "rows.h"
 #include "spectrum.h"
+#include "tolerances.h"
 #include "yaml.h"
 
 #include <math.h>
@@ -18,7 +19,8 @@ typedef struct reading {
     bool sampled;       /* ranges without "points" are sampled, on axis 0 */
     uint32_t dimension; /* the next dimension of the sample */
     uint64_t seed;
-    ff_place place; /* of the path that is being read */
+    study_spread spread; /* of the values with a tolerance; STUDY_NO_SPREAD: they are not drawn */
+    ff_place place;      /* of the path that is being read */
 } reading;
 
 static bool refuse(reading *r, ff_place place, const char *hint, const char *what, const char *name)
@@ -206,35 +208,6 @@ static bool read_count(reading *r, const ff_node *node, const char *name, int64_
                     "study: %s wants a whole number from %d to %d", name, (int)least, MOST_CASES);
 }
 
-/* Says which keys there are, as far as they fit. */
-static void list_keys(char *text, size_t size, const char *const *known)
-{
-    size_t length = (size_t)snprintf(text, size, "it takes ");
-    for (size_t i = 0; known[i] && length < size; i++)
-        length += (size_t)snprintf(text + length, size - length, "%s%s", i ? ", " : "", known[i]);
-}
-
-bool study_check_keys(const ff_node *map, const char *where, const char *const *known,
-                      ff_report *report)
-{
-    char takes[200];
-    list_keys(takes, sizeof takes, known);
-    bool good = true;
-    for (size_t i = 0; map->kind == FF_MAP && i < map->count; i++) {
-        size_t count = 0, found = 0;
-        for (; known[count]; count++)
-            found += !strcmp(map->keys[i], known[count]);
-        const char *near = ff_nearest(map->keys[i], known, count);
-        if (found || !strncmp(map->keys[i], "x-", 2))
-            continue;
-        good = ff_error(report, FF_FAULT_INPUT, map->key_places[i], near ? NULL : takes,
-                        "study: %s%sunknown key \"%.80s\"%s%s%s", where, *where ? ": " : "",
-                        map->keys[i], near ? "; did you mean \"" : "", near ? near : "",
-                        near ? "\"?" : "");
-    }
-    return good;
-}
-
 static bool too_many(reading *r, ff_place place, double cases)
 {
     return cases > MOST_CASES &&
@@ -250,6 +223,12 @@ static double cases_of(const study_definition *study)
     return cases;
 }
 
+static bool has_dimension(reading *r, ff_place place, const char *path)
+{
+    return r->dimension < STUDY_SOBOL_DIMENSIONS ||
+           refuse(r, place, NULL, "a sample has at most 16 dimensions", path);
+}
+
 static bool read_range(reading *r, const ff_node *map, const char *path)
 {
     static const char *const known[] = {"from", "to", "points", "spacing", "follow", NULL};
@@ -263,8 +242,8 @@ static bool read_range(reading *r, const ff_node *map, const char *path)
         return refuse(r, map->place, NULL, "a range wants \"points\"", path);
     if (points && !read_count(r, points, "points", 2, &count))
         return false;
-    if (drawn && r->dimension == STUDY_SOBOL_DIMENSIONS)
-        return refuse(r, map->place, NULL, "a sample has at most 16 dimensions", path);
+    if (drawn && !has_dimension(r, map->place, path))
+        return false;
     if (drawn && follow)
         return refuse(r, follow->place, NULL, "a range that is drawn from cannot be followed",
                       path);
@@ -341,20 +320,62 @@ static bool read_zip(reading *r, const ff_node *map)
     return true;
 }
 
+static bool read_spread(reading *r, const ff_node *node)
+{
+    r->spread = node->kind == FF_SCALAR ? study_spread_of(node->text) : STUDY_NO_SPREAD;
+    return r->spread != STUDY_NO_SPREAD ||
+           refuse(r, node->place, NULL, "\"tolerances\" is uniform or normal", "sample");
+}
+
 static bool read_sample(reading *r, const ff_node *map)
 {
-    static const char *const known[] = {"sobol", "seed", NULL};
+    static const char *const known[] = {"sobol", "seed", "tolerances", NULL};
     const ff_node *points = ff_node_get(map, "sobol"), *seed = ff_node_get(map, "seed");
+    const ff_node *spread = ff_node_get(map, "tolerances");
     int64_t count = 0, number = 0;
     if (map->kind != FF_MAP || !points)
         return refuse(r, map->place, NULL, "expected {sobol: NUMBER OF POINTS, seed: 1}", "sample");
     if (!study_check_keys(map, "sample", known, r->report) ||
         !read_count(r, points, "sobol", 1, &count) ||
-        (seed && !read_count(r, seed, "seed", 0, &number)))
+        (seed && !read_count(r, seed, "seed", 0, &number)) || (spread && !read_spread(r, spread)))
         return false;
     r->seed = (uint64_t)number;
     r->sampled = true;
     add_axis(r, (size_t)count);
+    return true;
+}
+
+static bool is_varied(const study_definition *study, const char *path)
+{
+    for (size_t k = 0; k < study->varied_count; k++) {
+        const char *varied = study->varied[k].path;
+        varied += !strncmp(varied, "pipeline.", 9) ? 9 : 0;
+        size_t length = strlen(varied);
+        if (!strncmp(varied, path, length) && (!path[length] || path[length] == '.'))
+            return true;
+    }
+    return false;
+}
+
+/* Draws the values with a tolerance that the study does not vary otherwise. */
+static bool draw_toleranced(reading *r, const study_toleranced *list, size_t count, ff_place place)
+{
+    for (size_t k = 0; k < count; k++) {
+        if (is_varied(r->study, list[k].path))
+            continue;
+        if (!has_dimension(r, place, list[k].path))
+            return false;
+        r->place = list[k].place;
+        study_varied *varied = add_varied(r, list[k].path, 0);
+        for (size_t i = 0; i < r->study->points[0]; i++) {
+            double share = study_sobol((uint32_t)i, r->dimension, r->seed);
+            double value = study_spread_value(r->spread, &list[k].tolerance, share);
+            varied->assignments[i] = keep_text(
+                r, memory_print_text("%s=%.12g%s%s", list[k].path, value,
+                                     *list[k].tolerance.unit ? " " : "", list[k].tolerance.unit));
+        }
+        r->dimension++;
+    }
     return true;
 }
 
@@ -393,8 +414,13 @@ static bool finish_axes(reading *r, const ff_node *node)
             if (!strcmp(study->varied[k].path, study->varied[l].path))
                 return refuse(r, node->place, NULL, "it is varied twice", study->varied[k].path);
     if (r->sampled && r->dimension == 0)
-        return refuse(r, node->place, "give it {from: ..., to: ...} under sweep, without points",
-                      "there is no range to draw from", "sample");
+        return refuse(r, node->place,
+                      r->spread == STUDY_NO_SPREAD
+                          ? "give it {from: ..., to: ...} under sweep, without points"
+                          : "write for example centre_distance: 120 mm +- 20 um in the pipeline",
+                      r->spread == STUDY_NO_SPREAD ? "there is no range to draw from"
+                                                   : "no value has a tolerance to draw from",
+                      "sample");
     study->followed = study->followed < study->axis_count ? study->followed : study->axis_count;
     study->direction = study->direction < study->axis_count ? study->direction : study->axis_count;
     study->count = cases <= MOST_CASES ? (size_t)cases : 0;
@@ -414,7 +440,7 @@ static void begin_axes(reading *r, size_t paths)
     study->followed = study->direction = SIZE_MAX;
 }
 
-static bool read_all(reading *r, const ff_node *node)
+static bool read_all(reading *r, const ff_node *node, const ff_node *root)
 {
     const ff_node *sweep = ff_node_get(node, "sweep"), *zip = ff_node_get(node, "zip");
     const ff_node *sample = ff_node_get(node, "sample"), *cases = ff_node_get(node, "cases");
@@ -428,12 +454,16 @@ static bool read_all(reading *r, const ff_node *node)
     if (ff_node_get(node, "below"))
         return refuse(r, ff_node_get(node, "below")->place, NULL,
                       "it is for cases with a column \"time\"", "below");
-    if (node->kind != FF_MAP || (!sweep && !zip))
+    const bool spreads = sample && ff_node_get(sample, "tolerances");
+    if (node->kind != FF_MAP || (!sweep && !zip && !spreads))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
-    begin_axes(r, (sweep ? sweep->count : 0) + (zip ? zip->count : 0));
+    size_t count = 0;
+    study_toleranced *list = spreads ? study_find_toleranced(root, &r->study->arena, &count) : NULL;
+    begin_axes(r, (sweep ? sweep->count : 0) + (zip ? zip->count : 0) + count);
     return (!sample || read_sample(r, sample)) && (!sweep || read_sweep(r, sweep)) &&
-           (!zip || read_zip(r, zip)) && finish_axes(r, node);
+           (!zip || read_zip(r, zip)) &&
+           (!spreads || draw_toleranced(r, list, count, sample->place)) && finish_axes(r, node);
 }
 
 study_definition *study_expand(const ff_node *sweep, ff_report *report)
@@ -447,52 +477,14 @@ study_definition *study_expand(const ff_node *sweep, ff_report *report)
     return NULL;
 }
 
-study_definition *study_read(const ff_node *node, ff_report *report)
+study_definition *study_read(const ff_node *node, const ff_node *root, ff_report *report)
 {
     study_definition *study = memory_alloc(sizeof *study);
     reading r = {.study = study, .report = report};
-    if (study_read_limits(study, node, report) && read_all(&r, node))
+    if (study_read_limits(study, node, report) && read_all(&r, node, root))
         return study;
     if (study->rows) /* the table stays, which messages quote */
         return study;
     study_definition_free(study);
     return NULL;
-}
-
-void study_definition_free(study_definition *study)
-{
-    if (!study)
-        return;
-    study_rows_free(study->rows);
-    if (study->spectrum)
-        free(study->spectrum->times);
-    memory_arena_free(&study->arena);
-    free(study);
-}
-
-size_t study_rank(const study_definition *study, size_t axis, size_t index)
-{
-    for (size_t a = study->axis_count; --a > axis;)
-        index /= study->points[a];
-    return index % study->points[axis];
-}
-
-const char *study_assignment(const study_definition *study, size_t k, size_t index)
-{
-    const study_varied *varied = &study->varied[k];
-    return varied->assignments[study_rank(study, varied->axis, index)];
-}
-
-const char *study_varied_value(const study_varied *varied, size_t point)
-{
-    const char *assignment = varied->assignments[point];
-    return varied->names ? varied->names[point]
-           : *assignment ? assignment + strlen(varied->path) + 1
-                         : "";
-}
-
-const char *study_value(const study_definition *study, size_t k, size_t index)
-{
-    const study_varied *varied = &study->varied[k];
-    return study_varied_value(varied, study_rank(study, varied->axis, index));
 }

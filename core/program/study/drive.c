@@ -226,14 +226,15 @@ static const study_driver_row *find_driver(const ff_node *node, ff_report *repor
     return found;
 }
 
-study_definition *study_open(const ff_node *node, ff_report *report)
+study_definition *study_open(const ff_node *root, ff_report *report)
 {
+    const ff_node *node = ff_node_get(root, "study");
     size_t errors = ff_report_errors(report);
     const study_driver_row *row = find_driver(node, report);
     if (ff_report_errors(report) > errors)
         return NULL;
     if (!row)
-        return study_read(node, report);
+        return study_read(node, root, report);
     study_definition *study = memory_alloc(sizeof *study);
     if (study_read_limits(study, node, report))
         open_driver(study, node, row, report);

@@ -74,8 +74,8 @@ typedef struct study_definition {
 } study_definition;
 
 /* Reads what stands under `study:`. After errors it returns NULL, or a study that must not be run
-   but keeps the texts that the messages need. The tree of the node must outlive the study. */
-study_definition *study_open(const ff_node *node, ff_report *report);
+   but keeps the texts that the messages need. The tree of the root must outlive the study. */
+study_definition *study_open(const ff_node *root, ff_report *report);
 void study_free(study_definition *study); /* frees its driver, too; accepts NULL */
 void study_definition_free(study_definition *study);
 
@@ -94,8 +94,8 @@ extern const study_driver_row study_drivers[]; /* ends with a row without a name
 /* The keys under `study:` that do not name a driver; NULL ends the list. */
 extern const char *const study_keys[];
 
-/* Reads a study without a driver; NULL after an error. */
-study_definition *study_read(const ff_node *node, ff_report *report);
+/* Reads a study without a driver of the file at the root; NULL after an error. */
+study_definition *study_read(const ff_node *node, const ff_node *root, ff_report *report);
 
 /* Reports every key that is not in the list, which NULL ends; keys that begin with "x-" are
    allowed. */

@@ -276,9 +276,52 @@ START_TEST(random_texts)
 }
 END_TEST
 
+static const struct {
+    const char *text;
+    int kind;
+    double middle, low, high;
+    const char *unit;
+} tolerances[] = {
+    {"120 mm +- 20 um", 1, 120, 119.98, 120.02, "mm"},
+    {"120mm+/-0.02mm", 1, 120, 119.98, 120.02, "mm"},
+    {"80 degC \xC2\xB1 10 K", 1, 80, 70, 90, "degC"},
+    {"80 degC +- 10 degC", 1, 80, 70, 90, "degC"},
+    {"220 N m +- 5 %", 1, 220, 209, 231, "N m"},
+    {"0.3 +- 0.01", 1, 0.3, 0.29, 0.31, ""},
+    {"90 % +- 1 %", 1, 90, 89, 91, "%"},
+    {"-75 um to -45 um", 1, -60, -75, -45, "um"},
+    {"-45 um to -0.075 mm", 1, -60, -75, -45, "um"},
+    {"120 mm", 0, 0, 0, 0, ""},
+    {"to", 0, 0, 0, 0, ""},
+    {"120 mm +- 20", -1, 0, 0, 0, ""},
+    {"120 mm +- -20 um", -1, 0, 0, 0, ""},
+    {"120 mm +- 20 N", -1, 0, 0, 0, ""},
+    {"120 mm +-", -1, 0, 0, 0, ""},
+    {"80 degC +- 5 %", -1, 0, 0, 0, ""},
+    {"1 mm to 5 %", -1, 0, 0, 0, ""},
+    {"up to 3 mm", -1, 0, 0, 0, ""},
+};
+
+START_TEST(reads_tolerance)
+{
+    ff_tolerance t;
+    char why[200] = "";
+    ck_assert_int_eq(ff_tolerance_parse(tolerances[_i].text, &t, why, sizeof why),
+                     tolerances[_i].kind);
+    ck_assert_int_eq(why[0] != '\0', tolerances[_i].kind < 0);
+    if (tolerances[_i].kind <= 0)
+        return;
+    ck_assert_str_eq(t.unit, tolerances[_i].unit);
+    ck_assert_double_eq_tol(t.middle, tolerances[_i].middle, 1e-12);
+    ck_assert_double_eq_tol(t.low, tolerances[_i].low, 1e-12);
+    ck_assert_double_eq_tol(t.high, tolerances[_i].high, 1e-12);
+}
+END_TEST
+
 int main(void)
 {
     Suite *suite = suite_create("quantity");
+    add_loop(suite, reads_tolerance, ROWS(tolerances));
     add_loop(suite, reads_quantity, ROWS(goods));
     add_loop(suite, refuses_quantity, ROWS(bads));
     add_test(suite, quotes_little_of_a_long_text);

@@ -213,6 +213,8 @@ START_TEST(finds_the_nearest_word)
     static const char *const rows[][2] = {
         {"modul", "module"},
         {"moduel", "module"},
+        {"press", "pressure_angle"}, /* the rest was left out */
+        {"rp", NULL},
         {"teeht", "teeth"},
         {"Teeth", "teeth"},
         {"pressure-angle", "pressure_angle"},
@@ -230,6 +232,10 @@ START_TEST(finds_the_nearest_word)
                       "%s: %s", rows[i][0], near ? near : "none");
     }
     ck_assert_ptr_null(ff_nearest("a", NULL, 0));
+    /* of words at one distance that which begins alike */
+    static const char *const stages[] = {"oil", "film"};
+    ck_assert_str_eq(ff_nearest("fil", stages, 2), "film");
+    ck_assert_str_eq(ff_nearest("il", stages, 2) ? "near" : "none", "none");
 }
 END_TEST
 

@@ -46,6 +46,7 @@ static void check_drawing(void)
     if (check_true("a drawing's pair runs", stage_run(gear) == FF_OK))
         check_near("backlash of the allowances", stage_scalar(gear, "backlash"), circular * cos(aw),
                    1e-10);
+    check_true("teeth and backlash fill the pitch", stage_quality(gear, "pitch_error") <= 1e-9);
     stage_close(gear);
 }
 
@@ -91,17 +92,69 @@ static void check_printed_spans(void)
     }
 }
 
-/* Distance from a point on the middle of the space, at this radius, to the flank beside it: least
-   over the involute, found by trying its points. */
-static double distance_to_flank(double radius, double base, double half_space)
+/* The least of f over points from 0 to `end`, tried one by one, then ever closer about the best. */
+static double least_of(double (*f)(const double *, double), const double *given, double end)
 {
-    double least = HUGE_VAL;
-    for (int k = 0; k <= 200000; k++) {
-        double roll = 1.2 * k / 200000, at = base * hypot(1, roll);
-        double angle = half_space + roll - atan(roll); /* the space grows outwards */
-        least = fmin(least, hypot(radius - at * cos(angle), at * sin(angle)));
+    enum { POINTS = 200 };
+    double from = 0, to = end, best = 0;
+    for (int round = 0; round < 5; round++) {
+        double step = (to - from) / POINTS;
+        for (int k = 0; k <= POINTS; k++)
+            if (f(given, from + k * step) < f(given, best))
+                best = from + k * step;
+        from = fmax(best - step, 0);
+        to = best + step;
     }
-    return least;
+    return f(given, best);
+}
+
+/* From a point on the middle of the space, at a radius, to a point of the flank beside it. */
+static double distance(const double *given, double roll)
+{
+    double radius = given[0], base = given[1], half_space = given[2], at = base * hypot(1, roll);
+    double angle = half_space + roll - atan(roll); /* the space grows outwards */
+    return hypot(radius - at * cos(angle), at * sin(angle));
+}
+
+/* Where on the middle of the space the axis of a pin lies that touches both flanks. */
+static double axis_of_pin(double pin, double base, double half_space, double most)
+{
+    double low = base, high = most;
+    while (high - low > 1e-13) {
+        double middle = (low + high) / 2, given[] = {middle, base, half_space};
+        *(least_of(distance, given, 1.2) < pin / 2 ? &low : &high) = middle;
+    }
+    return low;
+}
+
+/* A span goes over as far as its outer flanks reach: minus half of that, at a point of one. */
+static double inwards(const double *given, double roll)
+{
+    double base = given[0], outermost = given[1];
+    return -base * hypot(1, roll) * sin(outermost - (roll - atan(roll)));
+}
+
+/* What the gear says would be measured on its teeth, with the teeth and pins that it takes. */
+static void check_measures(void)
+{
+    const double m = 4e-3, a = 20 * degree, z[] = {23, 68}, x[] = {0.35, -0.1},
+                 A[] = {-70e-6, -110e-6};
+    stage *gear = open_pair("[23, 68]", "[0.35, -0.1]");
+    stage_set_text(gear, "thickness_allowance", "[-70 um, -110 um]");
+    if (!check_true("a pair that is measured runs", stage_run(gear) == FF_OK))
+        return;
+    const double *over = stage_get(gear, "span_teeth", NULL),
+                 *pins = stage_get(gear, "pin_diameter", NULL);
+    for (int i = 0; i < 2; i++) {
+        double r = m * z[i] / 2, base = r * cos(a);
+        double half = (m * (M_PI / 2 + 2 * x[i] * tan(a)) + A[i]) / (2 * r) + involute(a);
+        double span[] = {base, (over[i] - 1) * M_PI / z[i] + half};
+        double axis = axis_of_pin(pins[i], base, M_PI / z[i] - half, r + 4 * m);
+        check_near("span", stage_get(gear, "span", NULL)[i], -2 * least_of(inwards, span, 2), 1e-9);
+        check_near("measure over pins", stage_get(gear, "over_pins", NULL)[i],
+                   2 * axis * (i == 0 ? cos(M_PI / (2 * z[i])) : 1) + pins[i], 1e-8);
+    }
+    stage_close(gear);
 }
 
 /* A pin whose axis lies where its measure says touches both flanks of the space, of gears with even
@@ -110,12 +163,9 @@ static void check_pins(const char *teeth, double z)
 {
     const double m = 4e-3, a = 20 * degree, pin = 7e-3, A = -90e-6, r = m * z / 2;
     double base = r * cos(a), half_space = M_PI / z - (m * M_PI / 2 + A) / (2 * r) - involute(a);
-    double low = base, high = r + 4 * m;
-    while (high - low > 1e-12) {
-        double middle = (low + high) / 2;
-        *(distance_to_flank(middle, base, half_space) < pin / 2 ? &low : &high) = middle;
-    }
-    double over = 2 * low * (fmod(z, 2) == 1 ? cos(M_PI / (2 * z)) : 1) + pin;
+    double over = 2 * axis_of_pin(pin, base, half_space, r + 4 * m) *
+                      (fmod(z, 2) == 1 ? cos(M_PI / (2 * z)) : 1) +
+                  pin;
     stage *gear = open_pair(teeth, "0");
     char text[64];
     snprintf(text, sizeof text, "%.12g mm", 1e3 * over);
@@ -131,6 +181,7 @@ int main(void)
     check_drawing();
     check_backlash();
     check_printed_spans();
+    check_measures();
     check_pins("30", 30);
     check_pins("31", 31);
     return check_done();

@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The gears of a pipeline as a drawing states them. Of values with a tolerance every combination of
+ * ends is tried, so that each number stands beside the least and the largest that it can be.
+ */
+#include "drawing.h"
+
+#include "../accuracy/models.h"
+#include "../memory/memory.h"
+#include "../results/json.h"
+#include "../study/tolerances.h"
+#include "../terminal/terminal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LABEL = 40, VALUE = 32, MOST_TOLERANCES = 10 };
+
+/* What a row is made of: an output of the gears, doubled where it is a radius. */
+typedef struct drawing_row {
+    const char *label, *output;
+    double factor; /* to the unit */
+    const char *unit;
+    int decimals;
+} drawing_row;
+
+#define PER_DEGREE (180 / M_PI)
+static const drawing_row rows[] = {
+    {"number of teeth z", "teeth", 1, "", 0},
+    {"module m_n", "module", 1e3, "mm", 4},
+    {"pressure angle alpha_n", "pressure_angle", PER_DEGREE, "deg", 4},
+    {"profile shift x", "profile_shift", 1, "", 4},
+    {"tip diameter d_a", "tip_radius", 2e3, "mm", 4},
+    {"reference diameter d", "reference_radius", 2e3, "mm", 4},
+    {"base diameter d_b", "base_radius", 2e3, "mm", 4},
+    {"active root diameter d_Nf", "active_root_radius", 2e3, "mm", 4},
+    {"root form diameter d_Ff", "root_form_radius", 2e3, "mm", 4},
+    {"root diameter d_f", "root_radius", 2e3, "mm", 4},
+    {"face width b", "face_width", 1e3, "mm", 3},
+    {"tooth thickness s, without allowance", "tooth_thickness", 1e3, "mm", 4},
+    {"tooth thickness allowance E_sn", "thickness_allowance", 1e6, "um", 1},
+    {"tooth thickness at the tip s_a", "tip_thickness", 1e3, "mm", 4},
+    {"span over k teeth: k", "span_teeth", 1, "", 0},
+    {"span measure W_k", "span", 1e3, "mm", 4},
+    {"pin diameter D_M", "pin_diameter", 1e3, "mm", 4},
+    {"measure over pins M_d", "over_pins", 1e3, "mm", 4},
+    {"base pitch p_b", "base_pitch", 1e3, "mm", 4},
+    {"tool tip radius over the module", "tool_tip_radius", 1, "", 4},
+    {"roughness Rq", "roughness", 1e6, "um", 3},
+    {"Young's modulus E", "elastic_modulus", 1e-9, "GPa", 1},
+    {"Poisson's ratio", "poisson_ratio", 1, "", 3},
+    {"mass", "mass", 1, "kg", 4},
+    {"inertia", "inertia", 1, "kg m2", 8},
+    {"centre distance a", "centre_distance", 1e3, "mm", 4},
+    {"working pressure angle alpha_w", "working_pressure_angle", PER_DEGREE, "deg", 4},
+    {"working pitch diameter d_w", "pitch_radius", 2e3, "mm", 4},
+    {"contact ratio epsilon_alpha", "contact_ratio", 1, "", 4},
+    {"backlash, along the line of action j_bn", "backlash", 1e6, "um", 1},
+};
+enum { ROWS = sizeof rows / sizeof rows[0] };
+
+/* Parameters of the gears that stand below the numbers. */
+static const struct {
+    const char *label, *param;
+} words[] = {{"material", "material"},         {"material of gear 2", "material_2"},
+             {"tip relief", "tip_relief"},     {"root relief", "root_relief"},
+             {"profile crown", "crowning"},    {"dedendum of the tool over the module", "dedendum"},
+             {"protuberance", "protuberance"}, {"machining allowance", "machining_allowance"}};
+enum { WORDS = sizeof words / sizeof words[0], WORD = 120 };
+
+/* The numbers of a row: one, or one of each gear. */
+typedef struct drawing_numbers {
+    size_t count;
+    double value[2], low[2], high[2];
+} drawing_numbers;
+
+typedef struct drawing {
+    const cli_options *options;
+    cli_session *session;
+    const char *stage;
+    const study_toleranced *toleranced[MOST_TOLERANCES];
+    size_t toleranced_count;
+    drawing_numbers numbers[ROWS];
+    char words[WORDS][WORD]; /* "": not given */
+} drawing;
+
+static bool is_pair(const ff_stage *stage)
+{
+    for (size_t i = 0; i < ROWS; i++)
+        if (!stage->loaded || ff_model_find_output(stage->loaded->model, rows[i].output) < 0)
+            return false;
+    return true;
+}
+
+/* Sets a value to one of its ends. */
+static void set_end(ff_tree *tree, const study_toleranced *t, bool high, ff_report *report)
+{
+    char *text = memory_print_text("%s=%.17g %s", t->path,
+                                   high ? t->tolerance.high : t->tolerance.low, t->tolerance.unit);
+    ff_tree_set(tree, text, NULL, NULL, report);
+    free(text);
+}
+
+/* Takes the numbers of a run: the first are the values, all others widen their ranges. */
+static void take(drawing *d, const ff_stage *stage, bool first)
+{
+    for (size_t i = 0; i < ROWS; i++) {
+        int output = ff_model_find_output(stage->loaded->model, rows[i].output);
+        const ff_result *result = &stage->results[output];
+        drawing_numbers *n = &d->numbers[i];
+        n->count = result->count < 2 ? result->count : 2;
+        for (size_t g = 0; g < n->count; g++) {
+            double value = result->data[g] * rows[i].factor;
+            n->value[g] = first ? value : n->value[g];
+            n->low[g] = first ? value : fmin(n->low[g], value);
+            n->high[g] = first ? value : fmax(n->high[g], value);
+        }
+    }
+}
+
+/* Keeps the parameters as the file says them; of one value for both gears "[15 um]" is "15 um". */
+static void keep_words(drawing *d, const ff_stage *stage)
+{
+    for (size_t i = 0; i < WORDS; i++) {
+        int at = ff_model_find_param(stage->loaded->model, words[i].param);
+        char text[WORD];
+        if (at < 0 || !stage->params[at].present)
+            continue;
+        ff_bound_print(stage, (size_t)at, text, sizeof text);
+        size_t length = strlen(text);
+        bool one = length > 2 && text[0] == '[' && text[length - 1] == ']' && !strchr(text, ',');
+        snprintf(d->words[i], WORD, "%.*s", (int)(one ? length - 2 : length), text + one);
+    }
+}
+
+/* The file with --set worked in, whatever a study does to it. */
+static ff_tree *load(const cli_options *options, ff_report *report)
+{
+    ff_tree *tree = ff_tree_load(options->operand, report);
+    for (size_t i = 0; i < options->set_count; i++)
+        ff_tree_set(tree, options->sets[i], NULL, NULL, report);
+    return tree;
+}
+
+/* Evaluates the gears with their tolerances at the ends that the bits of `corner` say; without them
+   when it is negative. */
+static bool evaluate(drawing *d, long corner)
+{
+    ff_report *report = ff_report_new();
+    ff_tree *tree = load(d->options, report);
+    for (size_t i = 0; corner >= 0 && i < d->toleranced_count; i++)
+        set_end(tree, d->toleranced[i], corner >> i & 1, report);
+    char *outputs = memory_print_text("outputs=[%s.*]", d->stage);
+    ff_tree_set(tree, outputs, NULL, NULL, report);
+    free(outputs);
+    ff_pipeline *pipeline = accuracy_name_references(tree, d->session->engine, report)
+                                ? ff_pipeline_build(tree, d->session->engine, false, report)
+                                : NULL;
+    const char *rest;
+    const ff_stage *stage = pipeline ? ff_stage_of(pipeline, d->stage, &rest) : NULL;
+    bool good = stage && ff_report_errors(report) == 0 && ff_pipeline_run(pipeline, NULL, report) &&
+                ff_report_errors(report) == 0;
+    if (good)
+        take(d, stage, corner < 0);
+    if (good && corner < 0)
+        keep_words(d, stage);
+    if (!good)
+        terminal_print_messages(report, stderr, terminal_colour(stderr));
+    ff_pipeline_free(pipeline);
+    ff_tree_free(tree);
+    ff_report_free(report);
+    return good;
+}
+
+static void write_number(const drawing_row *row, const drawing_numbers *n, size_t g,
+                         char out[VALUE * 2])
+{
+    int used = snprintf(out, VALUE, "%.*f", row->decimals, n->value[g]);
+    if (n->high[g] - n->low[g] > 0.5 * pow(10, -row->decimals))
+        snprintf(out + used, VALUE, " (%.*f to %.*f)", row->decimals, n->low[g], row->decimals,
+                 n->high[g]);
+}
+
+static void print_row(const drawing_row *row, const drawing_numbers *n)
+{
+    char text[VALUE * 2];
+    printf("  %-*s", LABEL, row->label);
+    for (size_t g = 0; g < n->count; g++) {
+        write_number(row, n, g, text);
+        printf("  %-*s", g + 1 < n->count ? VALUE : 0, text);
+    }
+    printf("%s%s\n", *row->unit ? " " : "", row->unit);
+}
+
+static void print_table(const drawing *d)
+{
+    char title[400];
+    const ff_pipeline *pipeline = d->session->pipeline;
+    ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : d->options->operand);
+    printf("%s\n\n%-*s  %-*s  gear 2\n", title, LABEL + 2, d->stage, VALUE, "gear 1");
+    for (size_t i = 0; i < ROWS; i++)
+        print_row(&rows[i], &d->numbers[i]);
+    for (size_t i = 0; i < WORDS; i++)
+        if (*d->words[i])
+            printf("  %-*s  %s\n", LABEL, words[i].label, d->words[i]);
+    if (d->toleranced_count)
+        printf("\nIn brackets: the least and the largest within the tolerances of the file.\n");
+}
+
+static json_t *in_si(const drawing_row *row, const double *numbers, size_t count)
+{
+    json_t *list = json_array();
+    for (size_t g = 0; g < count; g++)
+        json_array_append_new(list, json_real(numbers[g] / row->factor));
+    return list;
+}
+
+/* {output: {value, lowest, highest}} in SI, each of one or of both gears; radii, not diameters. */
+static json_t *describe(const drawing *d)
+{
+    json_t *object = json_object();
+    for (size_t i = 0; i < ROWS; i++) {
+        const drawing_numbers *n = &d->numbers[i];
+        json_object_set_new(object, rows[i].output,
+                            json_pack("{s:o, s:o, s:o}", "value",
+                                      in_si(&rows[i], n->value, n->count), "lowest",
+                                      in_si(&rows[i], n->low, n->count), "highest",
+                                      in_si(&rows[i], n->high, n->count)));
+    }
+    return object;
+}
+
+/* The values of the stage that have a tolerance; false: there are too many. */
+static bool find_toleranced(drawing *d, const study_toleranced *list, size_t count)
+{
+    size_t length = strlen(d->stage);
+    for (size_t i = 0; i < count; i++) {
+        if (strncmp(list[i].path, d->stage, length) != 0 || list[i].path[length] != '.')
+            continue;
+        if (d->toleranced_count == MOST_TOLERANCES) {
+            fprintf(stderr, "%s has more than %d values with a tolerance\n", d->stage,
+                    MOST_TOLERANCES);
+            return false;
+        }
+        d->toleranced[d->toleranced_count++] = &list[i];
+    }
+    return true;
+}
+
+static bool measure(drawing *d)
+{
+    if (!evaluate(d, -1))
+        return false;
+    for (long corner = 0; d->toleranced_count && corner < 1L << d->toleranced_count; corner++)
+        if (!evaluate(d, corner)) {
+            fprintf(stderr, "%s: gears within the tolerances of the file cannot be made\n",
+                    d->stage);
+            return false;
+        }
+    return true;
+}
+
+int cli_print_drawing(cli_session *session, const cli_options *options)
+{
+    memory_arena arena = {.blocks = NULL};
+    const ff_pipeline *pipeline = session->pipeline;
+    json_t *answer = json_object();
+    size_t count, tables = 0;
+    ff_report *unused = ff_report_new();
+    ff_tree *tree = load(options, unused);
+    const study_toleranced *list = study_find_toleranced(ff_tree_root(tree), &arena, &count);
+    bool good = true;
+    for (size_t i = 0; i < pipeline->count && good; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        drawing d = {.options = options, .session = session, .stage = stage->name};
+        if (!is_pair(stage))
+            continue;
+        good = find_toleranced(&d, list, count) && measure(&d);
+        if (good && options->json)
+            json_object_set_new(answer, stage->name, describe(&d));
+        else if (good)
+            print_table(&d);
+        tables++;
+    }
+    if (!tables)
+        fprintf(stderr, "no stage that runs is a pair of gears\n");
+    if (good && tables && options->json)
+        results_json_print(json_incref(answer));
+    json_decref(answer);
+    ff_tree_free(tree);
+    ff_report_free(unused);
+    memory_arena_free(&arena);
+    return good && tables ? EXIT_SUCCESS : FF_FAULT_INPUT;
+}

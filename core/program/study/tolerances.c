@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "tolerances.h"
+
+#include <gsl/gsl_cdf.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct search {
+    memory_arena *arena;
+    study_toleranced *list;
+    size_t count, room;
+} search;
+
+static void look_at(search *s, const ff_node *node, const char *path);
+
+/* Looks at what stands under a name, or at the place of a list. */
+static void look_below(search *s, const ff_node *node, const char *path, const char *name)
+{
+    char *longer = memory_print_text("%s.%s", path, name);
+    look_at(s, node, longer);
+    free(longer);
+}
+
+static void look_at(search *s, const ff_node *node, const char *path)
+{
+    char number[24], why[200];
+    ff_tolerance tolerance;
+    for (size_t i = 0; node->kind != FF_SCALAR && i < node->count; i++) {
+        snprintf(number, sizeof number, "%zu", i);
+        look_below(s, node->items[i], path, node->kind == FF_MAP ? node->keys[i] : number);
+    }
+    if (node->kind != FF_SCALAR || ff_tolerance_parse(node->text, &tolerance, why, sizeof why) <= 0)
+        return;
+    if (s->count == s->room) {
+        s->room = 2 * s->room + 8;
+        s->list = memory_resize(s->list, s->room * sizeof *s->list);
+    }
+    s->list[s->count++] =
+        (study_toleranced){.path = memory_arena_text(s->arena, path, strlen(path)),
+                           .place = node->place,
+                           .tolerance = tolerance};
+}
+
+static void look_at_stage(search *s, const ff_node *stage, const char *name)
+{
+    const ff_node *use = ff_node_get(stage, "use");
+    for (size_t i = 0; stage->kind == FF_MAP && i < stage->count; i++) {
+        const char *key = stage->keys[i];
+        const ff_node *set = stage->items[i];
+        if (strcmp(key, "with") != 0) {
+            look_below(s, set, name, key);
+        } else if (use && use->kind == FF_SCALAR && (set = ff_node_get(set, use->text))) {
+            char *path = memory_print_text("%s.with", name);
+            look_below(s, set, path, use->text);
+            free(path);
+        }
+    }
+}
+
+study_toleranced *study_find_toleranced(const ff_node *root, memory_arena *arena, size_t *count)
+{
+    const ff_node *pipeline = ff_node_get(root, "pipeline");
+    search s = {.arena = arena};
+    for (size_t i = 0; pipeline && pipeline->kind == FF_MAP && i < pipeline->count; i++)
+        look_at_stage(&s, pipeline->items[i], pipeline->keys[i]);
+    study_toleranced *kept = memory_arena_alloc(arena, (s.count + 1) * sizeof *kept);
+    for (size_t i = 0; i < s.count; i++)
+        kept[i] = s.list[i];
+    free(s.list);
+    *count = s.count;
+    return kept;
+}
+
+study_spread study_spread_of(const char *word)
+{
+    return !strcmp(word, "uniform")  ? STUDY_UNIFORM
+           : !strcmp(word, "normal") ? STUDY_NORMAL
+                                     : STUDY_NO_SPREAD;
+}
+
+double study_spread_value(study_spread spread, const ff_tolerance *t, double share)
+{
+    if (spread == STUDY_UNIFORM)
+        return t->low + (t->high - t->low) * share;
+    const double deviations = 3, below = gsl_cdf_ugaussian_P(-deviations);
+    double at = gsl_cdf_ugaussian_Pinv(below + share * (1 - 2 * below));
+    return t->middle + at / deviations * (t->high - t->low) / 2;
+}
