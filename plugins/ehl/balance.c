@@ -92,23 +92,41 @@ static double smooth_gap(const ehl_march *m, size_t i)
     return eq->h[i] + (eq->rough ? eq->rough[i] : 0) - (plastic ? plastic[i] : 0);
 }
 
+/* Returns the same of all nodes. */
+static const double *smooth_gaps(ehl_balance *b, const ehl_march *m)
+{
+    if (!m->solver->reynolds->rough && !m->state[0].film.plastic)
+        return m->solver->reynolds->h;
+    for (size_t i = 0; i < b->nodes; i++)
+        b->left[i] = smooth_gap(m, i);
+    return b->left;
+}
+
+/* Returns the sum of x p over nodes i to end - 1. */
+static double moment_of(const ehl_reynolds *eq, const double *p, size_t i, size_t end)
+{
+    double sum = 0, sum_of_places = 0, place = (double)i;
+    for (; i < end; i++, place += 1) {
+        sum += p[i];
+        sum_of_places += place * p[i];
+    }
+    return eq->first * sum + eq->dx * sum_of_places;
+}
+
 /* Checks u_r int h dp/dx dx against the moment of the pressure, -(1/R) int x p dx: the deflection
    by a pressure adds nothing to it. The first and the last gap are not those of the flanks where
    they are rough. */
 static void check_moment(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *p = m->state[0].film.p;
-    double work = 0, moment = 0, arm = 0;
-    for (size_t i = 0; i + 1 < b->nodes; i++) {
-        double x = eq->first + (double)i * eq->dx;
-        work += (smooth_gap(m, i) + smooth_gap(m, i + 1)) / 2 * (p[i + 1] - p[i]);
-        moment += x * p[i];
-        arm += fabs(x) * p[i];
-    }
-    double scale = eq->dx / m->step.radius;
+    const double *p = m->state[0].film.p, *gap = smooth_gaps(b, m);
+    size_t n = b->nodes, centre = (size_t)fmin(fmax(ceil(-eq->first / eq->dx), 0), (double)n - 1);
+    double work = 0, before = moment_of(eq, p, 0, centre), behind = moment_of(eq, p, centre, n - 1);
+    for (size_t i = 0; i + 1 < n; i++)
+        work += (gap[i] + gap[i + 1]) / 2 * (p[i + 1] - p[i]);
+    double scale = eq->dx / m->step.radius, arm = behind - before;
     if (arm > 0)
-        ehl_worse(&b->worst.moment, fabs(work + scale * moment) / (scale * arm));
+        ehl_worse(&b->worst.moment, fabs(work + scale * (behind + before)) / (scale * arm));
 }
 
 /* Returns how far h is off the shape of the flanks, except for a part that is the same at all
