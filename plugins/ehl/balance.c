@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "balance.h"
+#include "traces.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -129,18 +130,20 @@ static void check_moment(ehl_balance *b, const ehl_march *m)
         ehl_worse(&b->worst.moment, fabs(work + scale * (behind + before)) / (scale * arm));
 }
 
-/* Returns how far h is off the shape of the flanks, except for a part that is the same at all
-   nodes, m. */
+/* Returns how far h is off the shape of the flanks, rough ones where their traces stand, except for
+   a part that is the same at all nodes, m. */
 static double gap_off_shape(const ehl_balance *b, const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
-    double x = eq->first + (double)i * eq->dx, v = 0;
+    double x = eq->first + (double)i * eq->dx, v = 0, gap = smooth_gap(m, i);
+    if (m->rough)
+        gap += ehl_traces_height(m->rough, x, eq->dx, m->at.time) - eq->rough[i];
     for (size_t j = 0; j < i; j++)
         v += b->kernel[i - j] * p[j];
     for (size_t j = i; j < b->nodes; j++)
         v += b->kernel[j - i] * p[j];
-    return smooth_gap(m, i) - x * x / (2 * m->step.radius) - v;
+    return gap - x * x / (2 * m->step.radius) - v;
 }
 
 static void check_gap(ehl_balance *b, const ehl_march *m)

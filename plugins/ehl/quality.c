@@ -201,8 +201,10 @@ static void report_conservation(const ehl_results *r, const ehl_march *m)
                    "factor on the pressure that the load takes at the end of a solution, less 1");
     report_balance(
         r, "film_shape", w->gap, limit, broken,
-        "h between places of the contact, off the shape of the flanks and a deflection by "
-        "direct sum, over h");
+        m->rough ? "h between places of the contact, off the shape of the flanks, their traces as "
+                   "they have moved, and a deflection by direct sum, over h"
+                 : "h between places of the contact, off the shape of the flanks and a deflection "
+                   "by direct sum, over h");
     report_balance(
         r, "mass_balance", fmax(w->mass, r->worst_mass), limit, broken,
         "inflow - outflow - storage of what lies between the highest pressure and any other, "

@@ -3,7 +3,7 @@
  */
 #include "check.h"
 
-#include "../../../plugins/ehl/surface.h"
+#include "../../../plugins/ehl/traces.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,6 +18,17 @@ static double sum_of(const double *y)
     for (size_t i = 0; i < NODES; i++)
         sum += y[i];
     return sum;
+}
+
+/* The largest distance to the same heights by sums over the samples, m. */
+static double off_traces(const ehl_roughness *r, const ehl_grid *g, double time, const double *y)
+{
+    double most = 0;
+    for (size_t i = 0; i < NODES; i++) {
+        double x = g->first + (double)i * g->dx;
+        most = fmax(most, fabs(ehl_traces_height(r, x, g->dx, time) - y[i]));
+    }
+    return most;
 }
 
 int main(void)
@@ -42,11 +53,22 @@ int main(void)
     for (int k = 1; k < 8; k++) {
         ehl_roughness_heights(&r, &g, time[1] * k / 7.3, after);
         check_near("no metal is lost", sum_of(after), sum_of(before), 1e-12);
+        check_below("the same by samples", off_traces(&r, &g, time[1] * k / 7.3, after), 1e-14);
     }
     double cell = 1e-3 / period; /* 15.625 periods of way */
     check_near("way of a flank that gains speed", ehl_roughness_travel(&r, time[1]),
                (1e-3 + 0.1 * time[1]) / 2, 1e-8);
     ehl_roughness_heights(&r, &g, time[1], after);
+    check_true("flanks that stand still", off_traces(&r, &g, 0, after) > 1e-7);
+    h.mirrored = 1;
+    r.ramp = 40e-6;
+    ehl_roughness_heights(&r, &g, 0.02, before);
+    check_below("mirrored and run in", off_traces(&r, &g, 0.02, before), 1e-14);
+    h.mirrored = 0;
+    r.ramp = r.period = 0;
+    ehl_roughness_heights(&r, &g, 1e-4, before);
+    check_below("a trace that ends", off_traces(&r, &g, 1e-4, before), 1e-14);
+    r.period = period;
     r.origin = -1e-3;
     ehl_roughness_heights(&r, &g, 0, before);
     check_true("a way that is no number of periods", fabs(cell - floor(cell)) > 0.1);

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The solver takes differences of the integral of the height and of sums over the rows of the
+ * history (surface.c). Here the samples that a cell covers are added one by one, and the way of a
+ * flank from the first row on.
+ */
+#include "traces.h"
+
+#include <math.h>
+
+/* Returns the way of a flank since the first row; its speed is constant in front of it and behind
+   the last. */
+static double way_of(const ehl_history *h, const double *speed, double time)
+{
+    size_t last = h->count - 1;
+    double way = (fmin(time, h->time[0]) - h->time[0]) * speed[0] +
+                 (fmax(time, h->time[last]) - h->time[last]) * speed[last];
+    for (size_t i = 0; i < last && h->time[i] < time; i++) {
+        double span = h->time[i + 1] - h->time[i], part = fmin(time - h->time[i], span);
+        double end = span > 0 ? speed[i] + part / span * (speed[i + 1] - speed[i]) : speed[i];
+        way += part * (speed[i] + end) / 2;
+    }
+    return way;
+}
+
+/* Returns a height of a trace: 0 beyond the ends of one that does not repeat. */
+static double sample(const ehl_roughness *r, const double *z, double number)
+{
+    double count = (double)r->count;
+    if (r->period > 0)
+        number -= count * floor(number / count);
+    return number >= 0 && number < count ? z[(size_t)number] : 0;
+}
+
+/* Returns the mean of the straight lines between the samples. */
+static double mean_height(const ehl_roughness *r, const double *z, double from, double to)
+{
+    double sum = 0, d = r->spacing, last = (double)r->count - 1;
+    for (double k = floor(from / d); k * d < to; k += 1) {
+        double a = fmax(from / d - k, 0), e = fmin(to / d - k, 1), middle = (a + e) / 2;
+        if (r->period > 0 || (k >= 0 && k < last))
+            sum += (e - a) * (sample(r, z, k) * (1 - middle) + sample(r, z, k + 1) * middle);
+    }
+    return sum * d / (to - from);
+}
+
+double ehl_traces_height(const ehl_roughness *r, double x, double width, double time)
+{
+    const ehl_history *h = r->history;
+    double height = 0, place = h->mirrored ? -x : x;
+    for (int g = 0; g < 2; g++) {
+        double s = r->origin - way_of(h, g ? h->speed_2 : h->speed_1, time) + place;
+        height += mean_height(r, r->height[g], s - width / 2, s + width / 2);
+    }
+    double in = r->ramp > 0 ? (x - r->speed * (time - r->passed)) / r->ramp : 0;
+    return in <= 0 ? height : in < 1 ? height * (1 - in) * (1 - in) * (1 + 2 * in) : 0;
+}
