@@ -67,7 +67,7 @@ void ehl_across_create(ehl_across *a, size_t count)
                 sum += 1 / (a->z[l] - a->z[k]);
             }
             for (size_t m = 0; m < count; m++)
-                a->integral[k][l] += a->z[k] * a->weight[m] * one_at(a, l, a->z[k] * a->z[m]);
+                a->integral[l][k] += a->z[k] * a->weight[m] * one_at(a, l, a->z[k] * a->z[m]);
         }
         a->slope[l][l] = sum;
     }

@@ -5,7 +5,7 @@
 
 #include <stddef.h>
 
-enum { EHL_ACROSS_LEAST = 4, EHL_ACROSS_MOST = 16, EHL_ACROSS_FINE = 17 };
+enum { EHL_ACROSS_LEAST = 4, EHL_ACROSS_PRESET = 8, EHL_ACROSS_MOST = 16, EHL_ACROSS_FINE = 17 };
 
 typedef double ehl_across_matrix[EHL_ACROSS_MOST][EHL_ACROSS_MOST];
 
@@ -14,7 +14,7 @@ typedef struct ehl_across {
     double z[EHL_ACROSS_MOST];
     double weight[EHL_ACROSS_MOST]; /* of an integral, exact up to the degree 2 count - 3 */
     ehl_across_matrix slope;        /* d/dz of the polynomial through values at the nodes */
-    ehl_across_matrix integral;     /* its integral from 0 to a node */
+    ehl_across_matrix integral;     /* [l][k]: from 0 to node k, of what is 1 at node l alone */
     ehl_across_matrix stiffness;    /* int (dv/dz) (dT/dz) dz */
     double fine[EHL_ACROSS_FINE][EHL_ACROSS_MOST]; /* values at equal distances */
 } ehl_across;

@@ -4,21 +4,25 @@
 
 #include "../numerics/answers.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
 {
-    enum { FIELDS = 11, OWN = 7 };
+    enum { FIELDS = 17, OWN = 7 };
     size_t n = nodes, all = nodes * across;
     *e = (ehl_energy){.nodes = nodes, .highest = 2000, .lowest = 150};
     ehl_across_create(&e->across, across);
     double *next = e->memory = calloc(FIELDS * all + OWN * n + n, sizeof *next);
     if (!next)
         return FF_NOMEM;
-    double **field[FIELDS] = {&e->p,     &e->ln_eta,    &e->ln_eta_T, &e->rho, &e->rho_T,  &e->tau,
-                              &e->gamma, &e->gamma_tau, &e->gamma_T,  &e->u,   &e->through};
+    double **field[FIELDS] = {
+        &e->p,        &e->ln_eta, &e->rho,     &e->tau,           &e->gamma,     &e->gamma_tau,
+        &e->gamma_T,  &e->u,      &e->through, &e->called_p,      &e->called_T,  &e->ln_eta_p,
+        &e->ln_eta_T, &e->rho_p,  &e->rho_T,   &e->called_ln_eta, &e->called_rho};
     for (size_t k = 0; k < FIELDS; k++, next += all)
         *field[k] = next;
     double **own[OWN] = {&e->tau_m,   &e->p_x,     &e->mobility, &e->mass,
@@ -40,17 +44,62 @@ static void note(ehl_energy *e, ff_status status)
     e->law_status = numerics_worse(e->law_status, status);
 }
 
-/* Viscosity and density at all places. */
-static void call_laws(ehl_energy *e, const ehl_energy_film *film, const double *T)
+/* Calls the laws at the nodes `from` to `end`. */
+static void call_laws_at(ehl_energy *e, size_t from, size_t end, const double *T)
 {
     const ff_viscosity *v = e->laws.viscosity;
     const ff_density *d = e->laws.density;
+    size_t n = e->across.count, at = from * n, count = (end - from) * n;
+    const double *p = e->p + at;
+    note(e, v->eval(v->self, count, p, T + at, e->called_ln_eta + at, e->ln_eta_p + at,
+                    e->ln_eta_T + at));
+    note(e, d->eval(d->self, count, p, T + at, e->called_rho + at, e->rho_p + at, e->rho_T + at));
+    memcpy(e->called_p + at, p, count * sizeof *p);
+    memcpy(e->called_T + at, T + at, count * sizeof *T);
+}
+
+/* Follows n values by their slopes from where they were given. */
+FF_SIMD
+static void follow(size_t n, const double *restrict p, const double *restrict T,
+                   const double *restrict from_p, const double *restrict from_T,
+                   const double *restrict given, const double *restrict by_p,
+                   const double *restrict by_T, double *restrict value)
+{
+    for (size_t j = 0; j < n; j++)
+        value[j] = given[j] + (by_p[j] * (p[j] - from_p[j]) + by_T[j] * (T[j] - from_T[j]));
+}
+
+/* Whether ln(eta) has changed by more than the reach at node i, or has not been called there. */
+static int is_beyond(const ehl_energy *e, size_t i)
+{
+    size_t n = e->across.count, from = i * n;
+    int within = e->called_T[from] > 0;
+    for (size_t j = from; j < from + n; j++)
+        within &= fabs(e->ln_eta[j] - e->called_ln_eta[j]) <= e->reach;
+    return !within;
+}
+
+/* Viscosity and density at all places: by their slopes where these reach, whose error is less than
+   half the square of the reach. */
+static void call_laws(ehl_energy *e, const ehl_energy_film *film, const double *T)
+{
     size_t across = e->across.count, all = film->count * across;
     for (size_t i = 0; i < film->count; i++)
         for (size_t k = 0; k < across; k++)
             e->p[i * across + k] = film->p[i];
-    note(e, v->eval(v->self, all, e->p, T, e->ln_eta, NULL, e->ln_eta_T));
-    note(e, d->eval(d->self, all, e->p, T, e->rho, NULL, e->rho_T));
+    follow(all, e->p, T, e->called_p, e->called_T, e->called_ln_eta, e->ln_eta_p, e->ln_eta_T,
+           e->ln_eta);
+    for (size_t i = 0, end; i < film->count; i = end) {
+        for (end = i; end < film->count && (!(film->rate > 0) || is_beyond(e, end)); end++)
+            ;
+        if (end > i)
+            call_laws_at(e, i, end, T);
+        else
+            end++;
+    }
+    follow(all, e->p, T, e->called_p, e->called_T, e->called_ln_eta, e->ln_eta_p, e->ln_eta_T,
+           e->ln_eta);
+    follow(all, e->p, T, e->called_p, e->called_T, e->called_rho, e->rho_p, e->rho_T, e->rho);
 }
 
 /* Shear rates of e->tau with their slopes, by T at constant stress. */
@@ -128,7 +177,8 @@ static void guess_stress(ehl_energy *e, const ehl_energy_film *film)
 static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     enum { MOST = 30 };
-    const double enough = 1e-3, tiny = 1e-6;
+    /* what is left is taken off by the slope: its square */
+    const double enough = film->rate > 0 ? 1e-2 : 1e-3, tiny = 1e-6;
     double slip = film->speed[1] - film->speed[0], all = film->speed[1] + film->speed[0];
     for (int turn = 0; turn < MOST; turn++) {
         int done = 1;
@@ -151,17 +201,15 @@ static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double
 }
 
 /* Returns int u rho dz with u(0) = u_1, of the rates in `gamma`, over h. */
-static double flow_of(const ehl_energy *e, size_t i, double u_1, double h, const double *gamma,
-                      double *u)
+FF_SIMD_INLINE double flow_of(const ehl_across *a, size_t n, const double *rho, double u_1,
+                              double h, const double *gamma, double *u)
 {
-    const ehl_across *a = &e->across;
-    const double *rho = e->rho + i * a->count;
-    double sum = 0;
-    for (size_t k = 0; k < a->count; k++) {
-        double rise = 0;
-        for (size_t l = 0; l < a->count; l++)
-            rise += a->integral[k][l] * gamma[l];
-        u[k] = u_1 + h * rise;
+    double rise[EHL_ACROSS_MOST] = {0}, sum = 0;
+    for (size_t l = 0; l < n; l++)
+        for (size_t k = 0; k < n; k++)
+            rise[k] += a->integral[l][k] * gamma[l];
+    for (size_t k = 0; k < n; k++) {
+        u[k] = u_1 + h * rise[k];
         sum += a->weight[k] * rho[k] * u[k];
     }
     return sum;
@@ -190,14 +238,17 @@ static double correction(const ehl_energy_film *film, double flow, double mobili
     return mobility > 0 ? trust * (flow - film->through[i]) / mobility : 0;
 }
 
-/* Velocities, flows of mass and what Reynolds' equation takes of them, at node i. */
-static void flow_at(ehl_energy *e, const ehl_energy_film *film, size_t i)
+/* Velocities, flows of mass and what Reynolds' equation takes of them, at node i, with n nodes
+   across. */
+FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size_t i, size_t n)
 {
     const ehl_across *a = &e->across;
-    size_t n = a->count, at = i * n;
+    size_t at = i * n;
     double h = film->h[i], slip = film->speed[1] - film->speed[0], p_x = e->p_x[i];
-    double mean = (film->speed[0] + film->speed[1]) / 2, per_p_x[EHL_ACROSS_MOST];
+    double mean = (film->speed[0] + film->speed[1]) / 2, per_p_x[EHL_ACROSS_MOST],
+           driven[EHL_ACROSS_MOST] = {0};
     double *tau = e->tau + at, *gamma = e->gamma + at, *slope = e->gamma_tau + at, *u = e->u + at;
+    const double *rho = e->rho + at;
     means m = means_of(e, i);
     int flows = m.slope > 1e-290;
     double tilt = flows ? m.tilt / m.slope : 0;
@@ -210,25 +261,36 @@ static void flow_at(ehl_energy *e, const ehl_energy_film *film, size_t i)
         per_p_x[k] = h * slope[k] * (a->z[k] - 0.5 - tilt);
     }
     e->tau_m[i] += left;
-    e->mobility[i] = flows ? -h * flow_of(e, i, 0, h, per_p_x, u) : 0;
-    double flow = h * flow_of(e, i, film->speed[0], h, gamma, u), density = 0;
+    e->mobility[i] = flows ? -h * flow_of(a, n, rho, 0, h, per_p_x, driven) : 0;
+    double flow = h * flow_of(a, n, rho, film->speed[0], h, gamma, u), density = 0;
     for (size_t k = 0; k < n; k++)
-        density += a->weight[k] * e->rho[at + k];
+        density += a->weight[k] * rho[k];
     e->mass[i] = density * h;
     e->carried[i] = (flow + e->mobility[i] * p_x) / mean;
     double more = correction(film, flow, e->mobility[i], p_x, fabs(mean) * e->mass[i], i);
-    for (size_t k = 0; k < n && fabs(more) > 0; k++) {
-        tau[k] += h * (a->z[k] - 0.5 - tilt) * more;
-        gamma[k] += per_p_x[k] * more;
+    if (fabs(more) > 0) {
+        for (size_t k = 0; k < n; k++) {
+            tau[k] += h * (a->z[k] - 0.5 - tilt) * more;
+            gamma[k] += per_p_x[k] * more;
+            u[k] += driven[k] * more;
+        }
     }
-    if (fabs(more) > 0)
-        flow_of(e, i, film->speed[0], h, gamma, u);
     e->p_x[i] += more;
     e->reverse[i] = 0;
     for (size_t k = 0; k < n; k++) {
-        e->through[at + k] = e->rho[at + k] * u[k] * h;
+        e->through[at + k] = rho[k] * u[k] * h;
         e->reverse[i] |= u[k] * mean < 0;
     }
+}
+
+/* The preset number of nodes is known when it is compiled. */
+FF_SIMD
+static void flow_at(ehl_energy *e, const ehl_energy_film *film, size_t i)
+{
+    if (e->across.count == EHL_ACROSS_PRESET)
+        flow_across(e, film, i, EHL_ACROSS_PRESET);
+    else
+        flow_across(e, film, i, e->across.count);
 }
 
 void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T)

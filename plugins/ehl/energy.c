@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "energy.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <string.h>
 
@@ -20,11 +22,11 @@ typedef struct column {
 
 /* Transverse flow of mass rho (w - z h_x u - z h_t), kg/(m2 s), at the nodes and, below each node,
    between them: what the flow along x does not carry off. */
-static void transverse_flow(const sweep *s, size_t i, double *at, double *below)
+FF_SIMD_INLINE void transverse_flow(const sweep *s, size_t i, size_t n, double *at, double *below)
 {
     const ehl_energy_film *film = s->film;
     const ehl_across *a = &s->e->across;
-    size_t n = a->count, before = i > 0 ? i - 1 : 0, next = i + 1 < film->count ? i + 1 : i;
+    size_t before = i > 0 ? i - 1 : 0, next = i + 1 < film->count ? i + 1 : i;
     const double *left = s->e->through + before * n, *right = s->e->through + next * n;
     double per = next > before ? 1 / ((double)(next - before) * film->dx) : 0, out[EHL_ACROSS_MOST];
     double mean = 0;
@@ -35,10 +37,11 @@ static void transverse_flow(const sweep *s, size_t i, double *at, double *below)
     below[0] = 0;
     for (size_t k = 0; k < n; k++) {
         at[k] = 0;
-        for (size_t l = 0; l < n; l++)
-            at[k] -= a->integral[k][l] * (out[l] - mean);
         below[k + 1] = below[k] - a->weight[k] * (out[k] - mean);
     }
+    for (size_t l = 0; l < n; l++)
+        for (size_t k = 0; k < n; k++)
+            at[k] -= a->integral[l][k] * (out[l] - mean);
 }
 
 /*
@@ -46,46 +49,50 @@ static void transverse_flow(const sweep *s, size_t i, double *at, double *below)
  * carried between two nodes, as in a thick inlet, the polynomial would swing; the temperature there
  * comes from the node that the oil comes from.
  */
-static void transverse_transport(const sweep *s, size_t i, ehl_across_matrix m)
+FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, ehl_across_matrix m)
 {
     const double smooth = 25; /* square of a Peclet number between two nodes */
     const ehl_energy *e = s->e;
     const ehl_across *a = &e->across;
-    size_t n = a->count;
     double at[EHL_ACROSS_MOST], below[EHL_ACROSS_MOST + 1], most = 0;
-    transverse_flow(s, i, at, below);
-    for (size_t k = 1; k < n; k++)
-        most = fmax(most, fabs(below[k]) * (a->z[k] - a->z[k - 1]));
+    transverse_flow(s, i, n, at, below);
+    for (size_t k = 1; k < n; k++) {
+        double here = fabs(below[k]) * (a->z[k] - a->z[k - 1]);
+        most = here > most ? here : most;
+    }
     double peclet = e->heat_capacity * most * s->film->h[i] / e->conductivity;
     double sharp = peclet * peclet / (peclet * peclet + smooth);
     for (size_t k = 0; k < n; k++) {
         double carried = (1 - sharp) * a->weight[k] * at[k];
         for (size_t l = 0; l < n; l++)
             m[k][l] = carried * a->slope[k][l];
-        double from_below = sharp * fmax(below[k], 0), from_above = sharp * fmax(-below[k + 1], 0);
-        m[k][k] += from_below + from_above;
+    }
+    for (size_t k = 0; k < n; k++) {
+        double up = below[k] > 0 ? sharp * below[k] : 0;
+        double down = below[k + 1] < 0 ? -sharp * below[k + 1] : 0;
+        m[k][k] += up + down;
         if (k > 0)
-            m[k][k - 1] -= from_below;
+            m[k][k - 1] -= up;
         if (k + 1 < n)
-            m[k][k + 1] -= from_above;
+            m[k][k + 1] -= down;
     }
 }
 
 /* Conduction and transverse transport. */
-static void add_across(const sweep *s, size_t i, column *c)
+FF_SIMD_INLINE void add_across(const sweep *s, size_t i, size_t n, column *c)
 {
     const ehl_energy *e = s->e;
     const ehl_across *a = &e->across;
     double conducted = e->conductivity / s->film->h[i];
-    transverse_transport(s, i, c->a);
-    for (size_t k = 0; k < a->count; k++)
-        for (size_t l = 0; l < a->count; l++)
+    transverse_transport(s, i, n, c->a);
+    for (size_t k = 0; k < n; k++)
+        for (size_t l = 0; l < n; l++)
             c->a[k][l] = conducted * a->stiffness[k][l] + e->heat_capacity * c->a[k][l];
 }
 
 /* Returns what node k brings from upstream: diag T(i) - the value returned, over dx, of second
    order away from the ends. */
-static double upstream(const sweep *s, size_t i, size_t k, double *diag)
+FF_SIMD_INLINE double upstream(const sweep *s, size_t i, size_t k, double *diag)
 {
     const double *T = s->t->T;
     size_t n = s->e->across.count, count = s->film->count;
@@ -100,52 +107,51 @@ static double upstream(const sweep *s, size_t i, size_t k, double *diag)
 }
 
 /* Storage, transport along x, compression. */
-static void add_along(const sweep *s, size_t i, column *c)
+FF_SIMD_INLINE void add_along(const sweep *s, size_t i, size_t n, column *c)
 {
     const ehl_energy *e = s->e;
     const ehl_energy_film *film = s->film;
     const ehl_across *a = &e->across;
-    double p_t = film->p_t ? film->p_t[i] : 0, h = film->h[i];
-    for (size_t k = 0; k < a->count; k++) {
-        size_t at = i * a->count + k;
-        double diag, from = upstream(s, i, k, &diag), per_dx = fabs(e->u[at]) / film->dx;
+    double p_t = film->p_t ? film->p_t[i] : 0, h = film->h[i], per_dx = 1 / film->dx;
+    for (size_t k = 0; k < n; k++) {
+        size_t at = i * n + k;
+        double diag, from = upstream(s, i, k, &diag), passes = fabs(e->u[at]) * per_dx;
         double held = h * a->weight[k] * e->rho[at] * e->heat_capacity;
         double expansion = -e->rho_T[at] / e->rho[at];
-        c->a[k][k] += held * (film->rate + per_dx * diag) -
+        c->a[k][k] += held * (film->rate + passes * diag) -
                       h * a->weight[k] * expansion * (p_t + e->u[at] * e->p_x[i]);
-        c->right[k] = held * (per_dx * from - (film->past ? film->past[at] : 0));
+        c->right[k] = held * (passes * from - (film->past ? film->past[at] : 0));
     }
 }
 
 /* The dissipation, linear in the temperatures of the whole column: with them goes tau_m. */
-static void add_dissipation(const sweep *s, size_t i, column *c)
+FF_SIMD_INLINE void add_dissipation(const sweep *s, size_t i, size_t n, column *c)
 {
     const ehl_energy *e = s->e;
     const ehl_across *a = &e->across;
-    size_t n = a->count, at = i * n;
+    size_t at = i * n;
     const double *tau = e->tau + at, *gamma = e->gamma + at, *slope = e->gamma_tau + at,
                  *by_T = e->gamma_T + at, *T = s->t->T + at;
-    double h = s->film->h[i], mean = 0;
-    for (size_t k = 0; k < n; k++)
-        mean += a->weight[k] * slope[k];
+    double h = s->film->h[i], mean = 0, drop = 0, moved[EHL_ACROSS_MOST];
+    for (size_t l = 0; l < n; l++) {
+        moved[l] = a->weight[l] * by_T[l];
+        drop += moved[l] * T[l];
+        mean += a->weight[l] * slope[l];
+    }
     double per_mean = mean > 1e-290 ? 1 / mean : 0;
     for (size_t k = 0; k < n; k++) {
         double part = h * a->weight[k], own = per_mean > 0 ? part * tau[k] * by_T[k] : 0;
         double by_stress = part * (tau[k] * slope[k] + gamma[k]) * per_mean;
-        double from = own * T[k];
-        for (size_t l = 0; l < n; l++) {
-            double other = by_stress * a->weight[l] * by_T[l];
-            c->a[k][l] += other;
-            from -= other * T[l];
-        }
+        for (size_t l = 0; l < n; l++)
+            c->a[k][l] += by_stress * moved[l];
         c->a[k][k] -= own;
-        c->right[k] += part * tau[k] * gamma[k] - from;
+        c->right[k] += part * tau[k] * gamma[k] - (own * T[k] - by_stress * drop);
     }
 }
 
-/* Solves the equations in place, by elimination with the largest pivot of each column. 0: singular.
- */
-static int eliminate(column *c, size_t n)
+/* Solves the equations in place, by elimination with the largest pivot of each column; whole rows
+   are subtracted, which are vectors. 0: singular. */
+FF_SIMD_INLINE int eliminate(column *c, size_t n)
 {
     for (size_t k = 0; k < n; k++) {
         size_t pivot = k;
@@ -154,17 +160,19 @@ static int eliminate(column *c, size_t n)
         if (!(fabs(c->a[pivot][k]) > 0))
             return 0;
         if (pivot != k) {
-            double kept[EHL_ACROSS_MOST], right = c->right[k];
-            memcpy(kept, c->a[k], n * sizeof kept[0]);
-            memcpy(c->a[k], c->a[pivot], n * sizeof kept[0]);
-            memcpy(c->a[pivot], kept, n * sizeof kept[0]);
+            double right = c->right[k];
+            for (size_t j = 0; j < n; j++) {
+                double kept = c->a[k][j];
+                c->a[k][j] = c->a[pivot][j];
+                c->a[pivot][j] = kept;
+            }
             c->right[k] = c->right[pivot];
             c->right[pivot] = right;
         }
         double per = 1 / c->a[k][k];
         for (size_t i = k + 1; i < n; i++) {
             double share = c->a[i][k] * per;
-            for (size_t j = k + 1; j < n; j++)
+            for (size_t j = 0; j < n; j++)
                 c->a[i][j] -= share * c->a[k][j];
             c->right[i] -= share * c->right[k];
         }
@@ -190,47 +198,62 @@ static double flank_at(const sweep *s, size_t g, size_t i)
                                           past ? past + i * n : NULL, modes);
 }
 
-static void keep_temperatures(sweep *s, size_t i, const double *T)
+FF_SIMD_INLINE void keep_temperatures(sweep *s, size_t i, size_t n, const double *T)
 {
     const double most = 100; /* K by which a sweep changes a temperature */
     ehl_energy *e = s->e;
-    size_t n = e->across.count;
-    double *now = s->t->T + i * n, largest = 0;
-    for (size_t k = 0; k < n; k++)
-        largest = fmax(largest, fabs(T[k] - now[k]));
+    double *now = s->t->T + i * n, largest = 0, change = e->change;
+    for (size_t k = 0; k < n; k++) {
+        double here = fabs(T[k] - now[k]);
+        largest = here > largest ? here : largest;
+    }
     double share = largest > most ? most / largest : 1;
     for (size_t k = 0; k < n; k++) {
-        double next = fmin(fmax(now[k] + share * (T[k] - now[k]), e->lowest), e->highest);
-        e->change = fmax(e->change, fabs((next - now[k]) * e->ln_eta_T[i * n + k]));
+        double next = now[k] + share * (T[k] - now[k]);
+        next = next > e->lowest ? next : e->lowest;
+        next = next < e->highest ? next : e->highest;
+        double here = fabs((next - now[k]) * e->ln_eta_T[i * n + k]);
+        change = here > change ? here : change;
         now[k] = next;
     }
+    e->change = change;
 }
 
-static void solve_column(sweep *s, size_t i)
+FF_SIMD_INLINE void solve_across(sweep *s, size_t i, size_t n)
 {
     ehl_energy *e = s->e;
-    size_t n = e->across.count, end[2] = {0, n - 1};
-    double base[2];
+    size_t end[2] = {0, n - 1};
+    double base[2], sum = 0;
     column c;
-    add_across(s, i, &c);
-    add_along(s, i, &c);
-    add_dissipation(s, i, &c);
+    add_across(s, i, n, &c);
+    add_along(s, i, n, &c);
+    add_dissipation(s, i, n, &c);
     for (size_t g = 0; g < 2; g++) {
-        base[g] = flank_at(s, g, i);
         double per = 1 / s->passage[g].own;
+        base[g] = flank_at(s, g, i);
         c.a[end[g]][end[g]] += per;
         c.right[end[g]] += base[g] * per;
     }
     int solved = eliminate(&c, n);
     for (size_t k = 0; k < n; k++)
-        solved &= isfinite(c.right[k]) != 0;
-    if (solved)
-        keep_temperatures(s, i, c.right);
+        sum += fabs(c.right[k]);
+    if (solved && isfinite(sum))
+        keep_temperatures(s, i, n, c.right);
     for (size_t g = 0; g < 2; g++) {
         e->flux[g][i] = (s->t->T[i * n + end[g]] - base[g]) / s->passage[g].own;
         ehl_half_space_add(&e->flank[g], &s->passage[g], e->flux[g][i],
                            s->t->modes[g] + i * e->flank[g].count);
     }
+}
+
+/* The preset number of nodes is known when it is compiled. */
+FF_SIMD
+static void solve_column(sweep *s, size_t i)
+{
+    if (s->e->across.count == EHL_ACROSS_PRESET)
+        solve_across(s, i, EHL_ACROSS_PRESET);
+    else
+        solve_across(s, i, s->e->across.count);
 }
 
 /* Where there is no film. */
@@ -294,7 +317,7 @@ ehl_energy_sums ehl_energy_balance(ehl_energy *e, const ehl_energy_film *film,
         double h = film->h[i], p_t = film->p_t ? film->p_t[i] : 0;
         if (!is_film(&s, i))
             continue;
-        transverse_transport(&s, i, across);
+        transverse_transport(&s, i, n, across);
         for (size_t k = 0; k < n; k++) {
             size_t at = i * n + k;
             double part = film->dx * h * e->across.weight[k], diag, rise = 0;

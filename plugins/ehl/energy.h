@@ -47,7 +47,9 @@ typedef struct ehl_energy {
     ehl_half_space flank[2];
     double *memory;
     /* nodes x across */
-    double *p, *ln_eta, *ln_eta_T, *rho, *rho_T, *tau, *gamma, *gamma_tau, *gamma_T, *u, *through;
+    double *p, *ln_eta, *rho, *tau, *gamma, *gamma_tau, *gamma_T, *u, *through;
+    double *called_p, *called_T; /* where the laws were called last; T = 0: nowhere yet */
+    double *called_ln_eta, *ln_eta_p, *ln_eta_T, *called_rho, *rho_p, *rho_T; /* what they gave */
     /* nodes */
     int guessed;            /* tau_m has been computed before; 0: guess it first */
     double *tau_m;          /* tau_s, Pa, the stress without dp/dx */
@@ -58,6 +60,7 @@ typedef struct ehl_energy {
     double *flux[2];        /* into the flanks, W/m2 */
     unsigned char *reverse; /* 1: oil flows against the entrainment */
     double highest, lowest; /* K, of which the laws are called */
+    double reach;           /* change of ln(eta) up to which laws are followed by their slopes */
     double change;          /* largest change of ln(eta) by the last sweep */
     ff_status law_status;
 } ehl_energy;

@@ -75,6 +75,10 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
     [EHL_IN_SHEAR_RATE] = {"rheology.rate", "",
                            "shear rate at a point of the film, for thermal: full", "",
                            FF_RHEOLOGY_2_ID, FF_OPTIONAL, NULL},
+    [EHL_IN_BULK] = {"bulk.bulk_temperature", "K",
+                     "temperature of the teeth by the loss that this film has, for thermal: full, "
+                     "in place of the parameter bulk_temperature",
+                     "", NULL, FF_OPTIONAL | FF_FEEDBACK, "losses"},
     [EHL_IN_DISCRETISATION] = {"discretisation", "",
                                "solves the film of each instant in place of this model's own "
                                "solver; smooth flanks",

@@ -35,6 +35,7 @@ enum {
     EHL_IN_ORIGIN,
     EHL_IN_ROUGHNESS,
     EHL_IN_SHEAR_RATE,
+    EHL_IN_BULK,
     EHL_IN_DISCRETISATION, /* of ehl/finite-volume alone */
     EHL_INPUTS
 };

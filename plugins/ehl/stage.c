@@ -238,8 +238,16 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
     return status;
 }
 
+/* K, of the teeth: as their loss heats them, or given, or that of the oil. */
+static double bulk_temperature(const ehl_model *m, const ff_array *in)
+{
+    if (in[EHL_IN_BULK].data)
+        return *in[EHL_IN_BULK].data;
+    return isnan(m->bulk_temperature) ? m->laws.temperature : m->bulk_temperature;
+}
+
 /* thermal: full */
-static ff_status thermal_create(const ehl_model *m, run *r, double conductivity)
+static ff_status thermal_create(const ehl_model *m, const ff_array *in, run *r, double conductivity)
 {
     double T = m->laws.temperature, heat_capacity = NAN;
     const double held = m->flank_density * m->flank_heat_capacity;
@@ -267,7 +275,7 @@ static ff_status thermal_create(const ehl_model *m, run *r, double conductivity)
         .across = (size_t)m->thermal_nodes,
         .conductivity = conductivity,
         .heat_capacity = heat_capacity,
-        .bulk = isnan(m->bulk_temperature) ? T : m->bulk_temperature,
+        .bulk = bulk_temperature(m, in),
         .flank_contact = sqrt(m->flank_conductivity * held),
         .flank_diffusivity = m->flank_conductivity / held,
         .flow = m->shear_rate,
@@ -276,9 +284,13 @@ static ff_status thermal_create(const ehl_model *m, run *r, double conductivity)
 }
 
 /* Lets the march heat the film; without thermal it stays as it is. */
-static ff_status heat_create(const ehl_model *m, run *r)
+static ff_status heat_create(const ehl_model *m, const ff_array *in, run *r)
 {
     double conductivity;
+    if (in[EHL_IN_BULK].data && m->thermal != EHL_THERMAL_FULL)
+        return ff_failf(m->host, FF_INVALID, "bulk",
+                        "the teeth are warmer than the oil, which this film does not see: bulk "
+                        "needs thermal: full");
     if (m->thermal == EHL_THERMAL_NONE)
         return FF_OK;
     if (m->outside)
@@ -287,7 +299,7 @@ static ff_status heat_create(const ehl_model *m, run *r)
                         "leave the wire discretisation out");
     ff_status status = ehl_heat_conductivity(m->host, m->liquid, &m->laws, &conductivity);
     if (m->thermal == EHL_THERMAL_FULL)
-        return status == FF_OK ? thermal_create(m, r, conductivity) : status;
+        return status == FF_OK ? thermal_create(m, in, r, conductivity) : status;
     if (status == FF_OK)
         status = ehl_heat_create(&r->heat, r->grid.nodes, conductivity);
     r->march.heat = &r->heat;
@@ -452,7 +464,7 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
         return status;
     status = run_create(m, in, &r);
     if (status == FF_OK)
-        status = heat_create(m, &r);
+        status = heat_create(m, in, &r);
     if (status == FF_OK)
         status = ehl_results_create(&r.results, m->host, wanted, &r.march);
     r.results.boundary_friction = m->boundary_friction;

@@ -8,8 +8,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Factors beyond which none is predicted. */
+static const double LEAST_FACTOR = 1e-3;
+
 /* Solutions for the film of one instant. */
-enum { MOST_ROUNDS = 80, MOST_PASSES = 8 };
+enum { MOST_ROUNDS = 80, MOST_PASSES = 8, FACTORS = 3 };
 
 /* Change of the flow of mass by the factors, relative, below which they are those of the film: it
    changes h by about as much. A steady film begins without heat, a step next to its solution. */
@@ -20,6 +23,9 @@ static const double LARGE = 0.3;
 static const double SHRINKING = 0.95, LEAST_SHARE = 0.15;
 /* Change of ln(eta) by a sweep below which the temperatures are those of the film. */
 static const double WARM = 1e-3, WARM_STEADY = 1e-6;
+/* Change of ln(eta) in time up to which laws are followed by their slopes: their error is below
+   half its square, a fifth of SETTLED for laws whose slopes bend as ln(eta)/10. */
+static const double REACH = 0.02;
 
 /* Fastest and slowest flank of a history along the nodes; FF_UNSUPPORTED where one moves against
    the oil. */
@@ -44,9 +50,10 @@ static ff_status speeds_of(const ff_host *host, const ehl_history *h, double *le
 
 static ff_status allocate(ehl_thermal *t, ehl_march *m)
 {
-    enum { OWN = 9, BLOCKS = EHL_STATES + 2 };
+    enum { OWN = 6, BLOCKS = EHL_STATES + 2 };
     size_t n = t->energy.nodes;
-    t->width = n * (t->energy.across.count + t->energy.flank[0].count + t->energy.flank[1].count);
+    t->width = n * (t->energy.across.count + t->energy.flank[0].count + t->energy.flank[1].count +
+                    FACTORS);
     double *next = t->memory = calloc(BLOCKS * t->width + OWN * n, sizeof *next);
     if (!next)
         return FF_NOMEM;
@@ -55,11 +62,16 @@ static ff_status allocate(ehl_thermal *t, ehl_march *m)
     m->trial.heat = next;
     t->past = next + t->width;
     next += 2 * t->width;
-    double **own[OWN] = {&t->p_t,   &t->mass_t,  &t->through, &t->ease,   &t->swell,
-                         &t->carry, &t->next[0], &t->next[1], &t->next[2]};
+    double **own[OWN] = {&t->p_t, &t->mass_t, &t->through, &t->ease, &t->swell, &t->carry};
     for (size_t k = 0; k < OWN; k++, next += n)
         *own[k] = next;
     return FF_OK;
+}
+
+/* Of the temperatures of a state: those of mobility, density and carried mass. */
+static double *factors_of(const ehl_thermal *t, double *heat)
+{
+    return heat + t->width - FACTORS * t->energy.nodes;
 }
 
 ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
@@ -88,6 +100,7 @@ ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
     t->energy.conductivity = data->conductivity;
     t->energy.heat_capacity = data->heat_capacity;
     t->energy.T_in = data->bulk;
+    t->energy.reach = REACH;
     status = allocate(t, m);
     if (status != FF_OK)
         return status;
@@ -122,29 +135,38 @@ void ehl_thermal_restart(ehl_march *m)
     for (size_t j = 0; j < n * t->energy.across.count; j++)
         heat[j] = t->energy.T_in;
     t->energy.guessed = 0;
-    for (size_t i = 0; i < n; i++)
-        t->next[0][i] = t->next[1][i] = t->next[2][i] = 1;
+    double *next = factors_of(t, heat);
+    for (size_t j = 0; j < FACTORS * n; j++)
+        next[j] = 1;
 }
 
-/* Sets the temperatures of the trial to a line in time through the last two, and `past` to what the
-   difference formula takes of them. */
+/* Sets n values to a line in time through the last two, within their bounds. */
+static void go_on(size_t n, const double *one, const double *two, double ahead, double least,
+                  double most, double *now)
+{
+    for (size_t j = 0; j < n; j++) {
+        double line = one[j] + ahead * (one[j] - two[j]);
+        now[j] = fmin(fmax(line, least), most);
+    }
+}
+
+/* Sets the temperatures of the trial and its factors to a line in time through the last two, and
+   `past` to what the difference formula takes of them. */
 static void predict(ehl_march *m, double time, double c[3])
 {
     ehl_thermal *t = m->thermal;
-    const double *one = m->state[0].heat, *two = m->state[1].heat;
-    double *now = m->trial.heat, *past = t->past;
-    size_t temperatures = t->energy.nodes * t->energy.across.count;
+    double *one = m->state[0].heat, *two = m->state[1].heat, *now = m->trial.heat, *past = t->past;
+    size_t n = t->energy.nodes, temperatures = n * t->energy.across.count;
+    size_t kept = t->width - FACTORS * n;
     ehl_march_factors(m, time, c);
     double ahead = 0;
     if (m->smooth >= 2)
         ahead = (time - m->state[0].time) / (m->state[0].time - m->state[1].time);
-    for (size_t j = 0; j < t->width; j++)
+    for (size_t j = 0; j < kept; j++)
         past[j] = c[1] * one[j] + c[2] * two[j];
-    for (size_t j = 0; j < temperatures; j++) {
-        double line = one[j] + ahead * (one[j] - two[j]);
-        now[j] = fmin(fmax(line, t->energy.lowest), t->energy.highest);
-    }
-    memcpy(now + temperatures, one + temperatures, (t->width - temperatures) * sizeof *now);
+    go_on(temperatures, one, two, ahead, t->energy.lowest, t->energy.highest, now);
+    memcpy(now + temperatures, one + temperatures, (kept - temperatures) * sizeof *now);
+    go_on(FACTORS * n, one + kept, two + kept, ahead, LEAST_FACTOR, 1 / LEAST_FACTOR, now + kept);
 }
 
 /* What the energy equation sees of the film; r has been evaluated for it. */
@@ -188,9 +210,10 @@ static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const e
  * of mass, at most, relative to what the flanks carry along.
  */
 static double find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl_energy_film *f,
-                           const ehl_film *film)
+                           const ehl_film *film, double *next)
 {
     const ehl_energy *e = &t->energy;
+    size_t n = r->nodes;
     double most = 0;
     for (size_t i = 0; i < f->count; i++) {
         double mass = r->liquid.rho[i] * r->thick[i], swell = t->swell[i] * e->mass[i] / mass;
@@ -204,21 +227,22 @@ static double find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl_ener
         if (film->full[i])
             most = fmax(most, off);
         swell = t->swell[i] + share * (swell - t->swell[i]);
-        t->next[0][i] = t->ease[i] * (1 + share * (ratio - 1)) * t->swell[i] / swell;
-        t->next[1][i] = swell;
-        t->next[2][i] = t->carry[i] + share * (carry - t->carry[i]);
+        next[i] = t->ease[i] * (1 + share * (ratio - 1)) * t->swell[i] / swell;
+        next[n + i] = swell;
+        next[2 * n + i] = t->carry[i] + share * (carry - t->carry[i]);
     }
-    for (size_t i = f->count; i < r->nodes; i++)
-        for (size_t k = 0; k < 3; k++)
-            t->next[k][i] = k > 0 ? t->next[k][f->count - 1] : 1;
+    for (size_t i = f->count; i < n; i++)
+        for (size_t k = 0; k < FACTORS; k++)
+            next[k * n + i] = k > 0 ? next[k * n + f->count - 1] : 1;
     return most;
 }
 
-static void take_factors(ehl_thermal *t)
+static void take_factors(ehl_thermal *t, double *heat)
 {
-    double *to[3] = {t->ease, t->swell, t->carry};
-    for (size_t k = 0; k < 3; k++)
-        memcpy(to[k], t->next[k], t->energy.nodes * sizeof *to[k]);
+    const double *next = factors_of(t, heat);
+    double *to[FACTORS] = {t->ease, t->swell, t->carry};
+    for (size_t k = 0; k < FACTORS; k++)
+        memcpy(to[k], next + k * t->energy.nodes, t->energy.nodes * sizeof *to[k]);
 }
 
 /* Computes the temperatures of the film and its factors; 1: they were those already. */
@@ -239,7 +263,7 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
         ehl_energy_sweep(&t->energy, &f, &temperature);
     } while (++passes < most && t->energy.change > warm);
     double before = t->off;
-    t->off = find_factors(t, r, &f, film);
+    t->off = find_factors(t, r, &f, film, factors_of(t, m->trial.heat));
     t->damping = t->off > SHRINKING * before ? fmax(LEAST_SHARE, 0.7 * t->damping)
                                              : fmin(1, 1.3 * t->damping);
     return t->off <= settled && t->energy.change <= warm;
@@ -257,7 +281,7 @@ ff_status ehl_thermal_solve(ehl_march *m, const ehl_step *step, ehl_film *film, 
     t->damping = 1;
     const int on_the_way = m->known == 0 && step->past; /* to a steady film (start.c) */
     for (int round = 0; round < (on_the_way ? 1 : MOST_ROUNDS); round++) {
-        take_factors(t);
+        take_factors(t, m->trial.heat);
         ff_status status = m->solver->solve(m->solver, step, film, limit);
         if (status != FF_OK)
             return status;
@@ -278,6 +302,8 @@ void ehl_thermal_rest(ehl_march *m, const ehl_step *step, double time)
     ehl_temperature temperature = ehl_thermal_state(t, m->trial.heat);
     f.count = 1;
     ehl_energy_sweep(&t->energy, &f, &temperature);
+    memcpy(factors_of(t, m->trial.heat), factors_of(t, m->state[0].heat),
+           FACTORS * t->energy.nodes * sizeof *t->ease);
 }
 
 double ehl_thermal_mean(const ehl_march *m, size_t i)

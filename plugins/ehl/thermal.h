@@ -24,10 +24,9 @@ typedef struct ehl_thermal_data {
 typedef struct ehl_thermal {
     ehl_energy energy;
     ehl_energy_film film; /* that the temperatures are of */
-    size_t width;         /* of a state: temperatures and modes of all nodes */
+    size_t width;         /* of a state: temperatures, modes and next factors of all nodes */
     double *memory, *past, *p_t, *mass_t, *through;
     double *ease, *swell, *carry; /* reynolds.h: of the film that is solved for */
-    double *next[3];              /* the same, of its temperatures */
     double rounds, solved;        /* counts: solutions for a film, and instants */
     double off;                   /* of the last round: what the factors were off */
     double damping;               /* share of their change that is taken */

@@ -20,6 +20,7 @@ typedef struct tooth_mesh {
     const ff_host *host;
     ff_reals conductivity, density, specific_heat; /* of both gears */
     double bulk_temperature;                       /* K; NaN: auto */
+    double thermal_conductance;                    /* W/K; NaN: endless */
     int64_t points;
 } tooth_mesh;
 
@@ -33,7 +34,11 @@ static const ff_param params[] = {
     FF_QUANTITY_OR("auto", "bulk_temperature", "degC", tooth_mesh, bulk_temperature, 0, "auto",
                    NULL, -150, 1000, 0, 0,
                    "temperature of the teeth before they meet; auto: that of the oil, which is the "
-                   "least it can be"),
+                   "least it can be, or by thermal_conductance"),
+    FF_QUANTITY("thermal_conductance", "W/K", tooth_mesh, thermal_conductance, FF_MIN_OPEN, NULL,
+                NULL, 0, 1e9, 0, 0,
+                "from the teeth to the oil: bulk_temperature is that of the oil and the mean loss "
+                "over this"),
     FF_COUNT("points", tooth_mesh, points, FF_TUNABLE, "200", NULL, 2, 1e6, 0, 0,
              "equal parts of the mesh cycle in mesh_power_loss"),
 };
@@ -328,7 +333,8 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
 {
     const scatter of = scatter_of(m, NULL);
     const double mean = of.mean, input = m->torque * m->omega[0];
-    const double bulk = s->bulk_temperature > 0 ? s->bulk_temperature : m->oil_temperature;
+    const double warmer = s->thermal_conductance > 0 ? mean / s->thermal_conductance : 0;
+    const double bulk = s->bulk_temperature > 0 ? s->bulk_temperature : m->oil_temperature + warmer;
     const double hottest = m->flash[m->hottest];
     const struct {
         uint32_t row;
@@ -367,6 +373,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const tooth_mesh *s = self;
     losses_mesh m;
+    if (s->bulk_temperature > 0 && s->thermal_conductance > 0)
+        return ff_failf(s->host, FF_INVALID, "thermal_conductance",
+                        "bulk_temperature is given, and thermal_conductance tells another one: "
+                        "leave one of them out");
     ff_status status = losses_read(s->host, in, &m);
     if (status == FF_OK && !(m.loss = calloc(4 * m.n, sizeof *m.loss)))
         status = FF_NOMEM;
