@@ -430,4 +430,5 @@ def main():
         print_costs(runner, scenes, options.cache or tempfile.mkdtemp(), out)
 
 
-main()
+if __name__ == '__main__':
+    main()
