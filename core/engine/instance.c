@@ -9,6 +9,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Whether the values are there: FF_NOCONV and FF_STOPPED are failures above 0. */
+static bool is_good(ff_status status)
+{
+    return status == FF_OK || status == FF_DOMAIN;
+}
+
 /* Keeps why the call failed or warned. */
 static void explain(ff_instance *i)
 {
@@ -23,8 +29,7 @@ static void explain(ff_instance *i)
         fe_tables_print(tables, i->reason, sizeof i->reason);
     else
         snprintf(i->reason, sizeof i->reason, "%s",
-                 i->object.text[0] &&
-                         (said->severity == FF_WARNING || !fe_is_good(i->object.status))
+                 i->object.text[0] && (said->severity == FF_WARNING || !is_good(i->object.status))
                      ? i->object.text
                      : said->text);
     if (!i->item[0])
@@ -45,7 +50,7 @@ static void work(void *of)
     explain(i);
     if (good)
         request->status = status > 0 ? status : FF_OK;
-    else if (fe_is_good(status) || fe_report_lacked_memory(i->report) ||
+    else if (is_good(status) || fe_report_lacked_memory(i->report) ||
              ff_report_fault(i->report) == FF_FAULT_PLUGIN)
         request->status = fe_status_of(i->report);
     else
@@ -87,7 +92,7 @@ bool fe_pass_on(ff_instance *i, const ff_instance *from, ff_status status)
     if (from->broken)
         fe_out_of_memory();
     ff_report_append(i->report, from->report);
-    if (fe_is_good(status))
+    if (is_good(status))
         return true;
     i->object.status = status;
     return false;
@@ -248,17 +253,12 @@ static bool feeds(const fe_feed *feed)
     return feed->from || feed->array.data || feed->table;
 }
 
-bool fe_is_fed(const ff_instance *i, size_t input)
-{
-    return feeds(&i->feeds[input]);
-}
-
 /* The array of a feed belongs to it. An object that knows that an array is connected need not be
    made anew for another one. */
 static void connect(ff_instance *i, size_t input, fe_feed feed)
 {
     fe_feed *old = &i->feeds[input];
-    bool fed = fe_is_fed(i, input), serves = ff_model_input(i->stage.loaded->model, input)->service;
+    bool fed = feeds(old), serves = ff_model_input(i->stage.loaded->model, input)->service;
     if (serves || fed != feeds(&feed))
         close_object(i);
     ff_guarded_free(old->array.data, fe_count(&old->array));
@@ -362,7 +362,7 @@ ff_status ff_instance_serve(ff_instance *instance, const char *wire, const void 
 static bool is_replaced(const ff_instance *i, const ff_param *row)
 {
     return row->instead &&
-           fe_is_fed(i, (size_t)ff_model_find_input(i->stage.loaded->model, row->instead));
+           feeds(&i->feeds[ff_model_find_input(i->stage.loaded->model, row->instead)]);
 }
 
 /* Whether the parameter, or another of its group, is given; *required: whether one must be. */
@@ -404,7 +404,7 @@ static bool settle(ff_instance *i)
     }
     for (size_t k = 0; k < model->input_count; k++) {
         const ff_port *row = ff_model_input(model, k);
-        if (!fe_is_fed(i, k) && !(row->flags & FF_OPTIONAL))
+        if (!feeds(&i->feeds[k]) && !(row->flags & FF_OPTIONAL))
             return fe_refuse(i, row->name, "nothing feeds its input \"%s\"", row->name);
     }
     return true;
@@ -436,7 +436,7 @@ static bool wire(ff_instance *i)
         const ff_port *row = ff_model_input(model, k);
         fe_feed *feed = &i->feeds[k];
         const void *table = feed->table;
-        if (!fe_is_fed(i, k))
+        if (!feeds(&i->feeds[k]))
             continue;
         if (row->service && feed->from) {
             feed->version = feed->from->version;

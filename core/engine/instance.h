@@ -59,7 +59,6 @@ bool fe_refuse(ff_instance *instance, const char *item, const char *format, ...)
 /* Reports that it has no such parameter or output, with the nearest of its names. Returns false. */
 bool fe_refuse_name(ff_instance *instance, const char *what, const char *name,
                     const char *const *names, size_t count);
-bool fe_is_fed(const ff_instance *instance, size_t input);
 /* Makes the object of the model, unless it is up to date. */
 bool fe_make_object(ff_instance *instance);
 /* Adds the messages of another instance, whose call came to the status. False when that failed. */

@@ -168,9 +168,6 @@ bool fe_load_stage(fe_build *b, ff_stage *stage);
    offers all that the wire requires, and at least one output. */
 const char *fe_wire_misfit(fe_build *b, const ff_stage *stage, const char *wire,
                            const ff_loaded *from);
-/* One wire for each word before the dot in the names of the input rows, and what feeds
-   each. */
-void fe_link_stage(fe_build *b, ff_stage *stage);
 /* Loads the stage and links it, and the stages behind it. */
 void fe_link_from(fe_build *b, ff_stage *stage);
 

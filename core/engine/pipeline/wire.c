@@ -201,7 +201,8 @@ static bool link_automatic(fe_build *b, const ff_stage *stage, ff_wire *wire, co
                     fitting);
 }
 
-void fe_link_stage(fe_build *b, ff_stage *stage)
+/* One wire for each word before the dot in the names of the input rows, and what feeds each. */
+static void link_stage(fe_build *b, ff_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     stage->wires =
@@ -231,7 +232,7 @@ void fe_link_from(fe_build *b, ff_stage *stage)
 {
     if (stage->wires || !fe_load_stage(b, stage))
         return;
-    fe_link_stage(b, stage);
+    link_stage(b, stage);
     for (size_t i = 0; i < stage->wire_count; i++)
         if (stage->wires[i].stage >= 0)
             fe_link_from(b, &b->pipeline->stages[stage->wires[i].stage]);

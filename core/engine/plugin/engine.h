@@ -37,10 +37,4 @@ void fe_engine_say(ff_engine *engine, const ff_report *report);
 /* The status of a call that left these messages. */
 ff_status fe_status_of(const ff_report *report);
 
-/* Whether the values are there: FF_NOCONV and FF_STOPPED are failures above 0. */
-static inline bool fe_is_good(ff_status status)
-{
-    return status == FF_OK || status == FF_DOMAIN;
-}
-
 #endif
