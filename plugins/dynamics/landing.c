@@ -102,7 +102,9 @@ void dynamics_landing_polynomial(const dynamics_radau *r, const double *value, d
             power[n] += value[j] * r->power[j][n];
 }
 
-/* Elimination with pivots of n equations, for `columns` right sides, in place; 0: singular. */
+/* Elimination with pivots of n equations, for `columns` right sides, in place; 0: singular. For so
+   few equations GSL's costs more than all else: light-load.yaml with squeeze: series takes 3.0e9
+   instructions, 8.8e9 with it. */
 static int eliminate(int n, double m[MOST][MOST], int columns,
                      double side[DYNAMICS_FILM_COLUMNS][MOST])
 {
@@ -201,6 +203,15 @@ static int prepare(const dynamics_radau *r, dynamics_landing *step, stages *g)
     return 1;
 }
 
+static void accelerate(const stages *g, const double *force, double *a)
+{
+    for (int i = 0; i < S; i++) {
+        a[i] = 0;
+        for (int j = 0; j < S; j++)
+            a[i] += g->inverse[i][j] * force[j];
+    }
+}
+
 /* The motion of the stages under films y. */
 static void move_stages(const stages *g, dynamics_landing *step, double y[2][S])
 {
@@ -213,11 +224,7 @@ static void move_stages(const stages *g, dynamics_landing *step, double y[2][S])
             force[i] -= s * g->k[i] * (q + y[g->flank[n]][i]);
         }
     }
-    for (int i = 0; i < S; i++) {
-        a[i] = 0;
-        for (int j = 0; j < S; j++)
-            a[i] += g->inverse[i][j] * force[j];
-    }
+    accelerate(g, force, a);
     for (int i = 0; i < S; i++) {
         double v = v0, d = step->delta[0] + g->h * g->r->node[i] * v0;
         for (int j = 0; j < S; j++) {
@@ -348,6 +355,89 @@ int dynamics_landing_solve(const dynamics_radau *r, dynamics_landing *step)
     return isfinite(step->delta[S]);
 }
 
+/* Derivatives of the stages by a start value or by T, which makes the step longer by `stretch`. */
+typedef struct variation {
+    double stretch;
+    double rate[S], delta[S]; /* at fixed films */
+} variation;
+
+/* What T changes at a fixed acceleration: rate, delta and the force. */
+static void stretch_stages(const stages *g, const dynamics_landing *step, variation *v, double *f)
+{
+    double a[S];
+    for (int i = 0; i < S; i++)
+        a[i] = g->load[i] - g->c * step->rate[i + 1] - step->force[i + 1];
+    for (int i = 0; i < S; i++) {
+        double rate = 0, delta = g->r->node[i] * step->rate[0];
+        for (int j = 0; j < S; j++) {
+            rate += g->r->a[i][j] * a[j];
+            delta += 2 * g->h * g->r->square[i][j] * a[j];
+        }
+        v->rate[i] += v->stretch * rate;
+        v->delta[i] += v->stretch * delta;
+        f[i] = 2 * g->bend[i] / step->T; /* e'' at a fixed phase goes as 1/T^2 */
+    }
+}
+
+/* The motion of the stages; start: derivatives of delta, its rate and the films. */
+static void vary_motion(const stages *g, const dynamics_landing *step, const double *start,
+                        variation *v)
+{
+    double f[S] = {0}, a[S];
+    for (int i = 0; i < S; i++) {
+        v->rate[i] = start[1];
+        v->delta[i] = start[0] + g->h * g->r->node[i] * start[1];
+    }
+    if (v->stretch != 0)
+        stretch_stages(g, step, v, f);
+    for (int i = 0; i < S; i++)
+        f[i] += -g->c * v->rate[i] - g->count * g->k[i] * v->delta[i];
+    accelerate(g, f, a);
+    for (int i = 0; i < S; i++)
+        for (int j = 0; j < S; j++) {
+            v->rate[i] += g->h * g->r->a[i][j] * a[j];
+            v->delta[i] += g->h * g->h * g->r->square[i][j] * a[j];
+        }
+}
+
+/* The right side of the equations of the films. */
+static void vary_films(const stages *g, const dynamics_landing *step, const double *start,
+                       const variation *v, double *side)
+{
+    for (int n = 0; n < g->count; n++)
+        for (int i = 0; i < S; i++) {
+            const dynamics_approach *u = step->approach[g->flank[n]];
+            double s = sign_of(g->flank[n]), sum = start[2 + g->flank[n]];
+            for (int l = 0; l < S; l++) {
+                sum -= g->h * g->r->a[i][l] * (u[l].by_load * g->k[l] * s * v->delta[l]);
+                if (v->stretch != 0)
+                    sum -= g->r->a[i][l] *
+                           (v->stretch * u[l].speed - g->h * u[l].by_entrainment / step->T);
+            }
+            side[n * S + i] = sum;
+        }
+}
+
+/* Derivatives at the end of the step, from those of the films at the stages. */
+static void vary_end(const stages *g, const variation *v, const double *film, double *end)
+{
+    double force[S] = {0}, a[S], delta = v->delta[S - 1], rate = v->rate[S - 1];
+    for (int n = 0; n < g->count; n++)
+        for (int i = 0; i < S; i++)
+            force[i] -= sign_of(g->flank[n]) * g->k[i] * film[n * S + i];
+    accelerate(g, force, a);
+    for (int j = 0; j < S; j++) {
+        rate += g->h * g->r->a[S - 1][j] * a[j];
+        delta += g->h * g->h * g->r->square[S - 1][j] * a[j];
+    }
+    end[0] = delta;
+    end[1] = rate;
+    for (int f = 0; f < 2; f++)
+        end[2 + f] = -sign_of(f) * delta;
+    for (int n = 0; n < g->count; n++)
+        end[2 + g->flank[n]] = film[n * S + S - 1];
+}
+
 /* The equations of the step, differentiated by the start values and, at fixed phases, by T, which
    stretches the step and slows the entrainment. */
 void dynamics_landing_vary(const dynamics_radau *r, const dynamics_landing *step,
@@ -355,81 +445,22 @@ void dynamics_landing_vary(const dynamics_radau *r, const dynamics_landing *step
 {
     dynamics_landing copy = *step;
     stages g;
-    double m[MOST][MOST], side[DYNAMICS_FILM_COLUMNS][MOST] = {{0}}, a[S] = {0};
-    double v_own[S] = {0}, d_own[S] = {0};
-    double base_rate[DYNAMICS_FILM_COLUMNS][S], base[DYNAMICS_FILM_COLUMNS][S];
+    double m[MOST][MOST], side[DYNAMICS_FILM_COLUMNS][MOST] = {{0}};
+    variation v[DYNAMICS_FILM_COLUMNS];
     if (!prepare(r, &copy, &g))
         return;
-    /* the acceleration of the stages, and the change of rate and delta by h at fixed acceleration
-     */
-    for (int i = 0; i < S; i++)
-        a[i] = g.load[i] - g.c * step->rate[i + 1] - step->force[i + 1];
-    for (int i = 0; i < S; i++) {
-        d_own[i] = r->node[i] * step->rate[0];
-        for (int j = 0; j < S; j++) {
-            v_own[i] += r->a[i][j] * a[j];
-            d_own[i] += 2 * g.h * r->square[i][j] * a[j];
-        }
-    }
     for (int c = 0; c < DYNAMICS_FILM_COLUMNS; c++) {
-        double stretch = c + 1 == DYNAMICS_FILM_COLUMNS ? g.h / step->T : 0, f[S];
-        double v0[S], d0[S];
-        for (int i = 0; i < S; i++) {
-            v0[i] = column[c][1] + stretch * v_own[i];
-            d0[i] = column[c][0] + g.h * r->node[i] * column[c][1] + stretch * d_own[i];
-            f[i] = -g.c * v0[i] - g.count * g.k[i] * d0[i];
-            if (stretch != 0) /* e'' at a fixed phase goes as 1/T^2 */
-                f[i] += 2 * g.bend[i] / step->T;
-        }
-        for (int i = 0; i < S; i++) {
-            base_rate[c][i] = v0[i];
-            base[c][i] = d0[i];
-            for (int j = 0; j < S; j++) {
-                double acceleration = 0;
-                for (int l = 0; l < S; l++)
-                    acceleration += g.inverse[j][l] * f[l];
-                base_rate[c][i] += g.h * r->a[i][j] * acceleration;
-                base[c][i] += g.h * g.h * r->square[i][j] * acceleration;
-            }
-        }
-        for (int n = 0; n < g.count; n++)
-            for (int i = 0; i < S; i++) {
-                const dynamics_approach *v = step->approach[g.flank[n]];
-                double s = sign_of(g.flank[n]), sum = column[c][2 + g.flank[n]];
-                for (int l = 0; l < S; l++) {
-                    double change = v[l].by_load * g.k[l] * s * base[c][l];
-                    sum -= g.h * r->a[i][l] * change;
-                    if (stretch != 0)
-                        sum -= r->a[i][l] *
-                               (stretch * v[l].speed - g.h * v[l].by_entrainment / step->T);
-                }
-                side[c][n * S + i] = sum;
-            }
+        v[c].stretch = c + 1 == DYNAMICS_FILM_COLUMNS ? g.h / step->T : 0;
+        vary_motion(&g, step, column[c], &v[c]);
+        vary_films(&g, step, column[c], &v[c], side[c]);
     }
     if (g.count > 0) {
         build_matrix(&g, step, m);
         if (!eliminate(g.count * S, m, DYNAMICS_FILM_COLUMNS, side))
             return;
     }
-    for (int c = 0; c < DYNAMICS_FILM_COLUMNS; c++) {
-        double force[S] = {0}, delta = base[c][S - 1], rate = base_rate[c][S - 1];
-        for (int n = 0; n < g.count; n++)
-            for (int i = 0; i < S; i++)
-                force[i] -= sign_of(g.flank[n]) * g.k[i] * side[c][n * S + i];
-        for (int j = 0; j < S; j++) {
-            double acceleration = 0;
-            for (int l = 0; l < S; l++)
-                acceleration += g.inverse[j][l] * force[l];
-            rate += g.h * r->a[S - 1][j] * acceleration;
-            delta += g.h * g.h * r->square[S - 1][j] * acceleration;
-        }
-        column[c][0] = delta;
-        column[c][1] = rate;
-        for (int f = 0; f < 2; f++)
-            column[c][2 + f] = -sign_of(f) * delta;
-        for (int n = 0; n < g.count; n++)
-            column[c][2 + g.flank[n]] = side[c][n * S + S - 1];
-    }
+    for (int c = 0; c < DYNAMICS_FILM_COLUMNS; c++)
+        vary_end(&g, &v[c], side[c], column[c]);
 }
 
 dynamics_landing_energy dynamics_landing_energies(const dynamics_radau *r,
