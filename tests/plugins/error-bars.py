@@ -258,15 +258,18 @@ def judge(scene, answers):
 
 def solve(runner, scene, cache):
     kept = cache and os.path.join(cache, f"{scene['seed']}-{scene['number']}.json")
+    answers = {}
     if kept and os.path.exists(kept):
         with open(kept) as stream:
-            return json.load(stream)
-    answers = {level: runner.run(scene, level) for level in GOALS}
-    answers['reference'] = runner.run(scene, 'measured', REFERENCE, True)
-    if kept:
-        with open(kept + '.new', 'w') as stream:
-            json.dump(answers, stream)
-        os.rename(kept + '.new', kept)
+            answers = json.load(stream)
+    for level in [*GOALS, 'reference']:
+        if level in answers:
+            continue
+        answers[level] = runner.run(scene, 'measured', REFERENCE, True) if level == 'reference' else runner.run(scene, level)
+        if kept:
+            with open(kept + '.new', 'w') as stream:
+                json.dump(answers, stream)
+            os.rename(kept + '.new', kept)
     return answers
 
 
