@@ -144,14 +144,14 @@ static ff_status rate(const void *self, size_t n, const double *p, const double 
                       double *drate_dln_eta)
 {
     const carreau *c = self;
+    const rheology_limit limit = rheology_limit_of(c->limiting_stress_coefficient);
     int outside = 0;
     (void)T;
     for (size_t i = 0; i < n; i++) {
-        double size = fmin(fabs(tau[i]), RHEOLOGY_TAU_MAX), slip_slope = 0, slip = 0;
+        double size = fmin(fabs(tau[i]), RHEOLOGY_TAU_MAX), slip_slope;
         int thin = ln_eta[i] < RHEOLOGY_LN_ETA_MIN;
         sheared s = rate_at(c, fmin(fmax(ln_eta[i], RHEOLOGY_LN_ETA_MIN), 1e6), size);
-        if (c->limiting_stress_coefficient > 0)
-            slip = rheology_slip(size, p[i], c->limiting_stress_coefficient, &slip_slope);
+        double slip = rheology_slip(size, p[i], limit, &slip_slope);
         rate[i] = copysign(s.rate + slip, tau[i]);
         if (drate_dtau)
             drate_dtau[i] = s.by_tau + slip_slope;

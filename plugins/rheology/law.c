@@ -14,9 +14,9 @@ int64_t rheology_points(rheology_curve *curve, const void *law, size_t n, const 
     return held;
 }
 
-int64_t rheology_rates(rheology_rate *curve, const void *law, size_t n, const double *p,
-                       const double *ln_eta, const double *tau, double *rate, double *by_tau,
-                       double *by_ln_eta)
+ff_status rheology_rates(rheology_rate *curve, const void *law, size_t n, const double *p,
+                         const double *ln_eta, const double *tau, double *rate, double *by_tau,
+                         double *by_ln_eta)
 {
     enum { BLOCK = 256 };
     double unwanted[BLOCK], unwanted_too[BLOCK];
@@ -25,5 +25,5 @@ int64_t rheology_rates(rheology_rate *curve, const void *law, size_t n, const do
         held |= curve(law, n - from < BLOCK ? n - from : BLOCK, p + from, ln_eta + from, tau + from,
                       rate + from, by_tau ? by_tau + from : unwanted,
                       by_ln_eta ? by_ln_eta + from : unwanted_too);
-    return held;
+    return held ? FF_DOMAIN : FF_OK;
 }

@@ -53,30 +53,40 @@ static const double RHEOLOGY_LN_ETA_MIN = -200;    /* of eta in Pa s */
 static const double RHEOLOGY_RATE_MAX = 1e30;      /* 1/s */
 static const double RHEOLOGY_STRESS_LEAST = 1e-30; /* Pa, of tau0 and G */
 
+/* A coefficient of a limiting stress; `on` is 0 where there is none, 1 else. */
+typedef struct rheology_limit {
+    double on, coefficient;
+} rheology_limit;
+
+static inline rheology_limit rheology_limit_of(double coefficient)
+{
+    return coefficient > 0 ? (rheology_limit){1, coefficient} : (rheology_limit){0, 1};
+}
+
 /*
  * What the limiting stress adds to the rate: the film slips by 1e7 1/s, as much as films do, 1 %
  * above tau_L, and by the square of the excess. tau_L is coefficient p, but 4 MPa at least, that of
  * a PAO at ambient pressure: a film whose limit vanished with p would slip in the inlet.
  */
-FF_SIMD_INLINE double rheology_slip(double size, double p, double coefficient, double *slope)
+FF_SIMD_INLINE double rheology_slip(double size, double p, rheology_limit limiting, double *slope)
 {
     const double least = 4e6, steep = 1e7 / (0.01 * 0.01), far = 1e9;
-    double limit = coefficient * p;
+    double limit = limiting.coefficient * p;
     limit = limit > least ? limit : least;
     double excess = size / limit - 1;
     excess = excess > 0 ? excess : 0;
     double near = excess < far ? excess : far;
-    *slope = 2 * steep * near / limit;
-    return steep * near * (near + 2 * (excess - near));
+    *slope = limiting.on * 2 * steep * near / limit;
+    return limiting.on * steep * near * (near + 2 * (excess - near));
 }
 
 /* Rates of n points and their derivatives; arrays never overlap. Returns whether any was held. */
 typedef int64_t rheology_rate(const void *law, size_t n, const double *p, const double *ln_eta,
                               const double *tau, double *rate, double *by_tau, double *by_ln_eta);
-/* The same, where derivatives may be NULL. */
-int64_t rheology_rates(rheology_rate *curve, const void *law, size_t n, const double *p,
-                       const double *ln_eta, const double *tau, double *rate, double *by_tau,
-                       double *by_ln_eta);
+/* The same, where derivatives may be NULL; FF_DOMAIN when any was held. */
+ff_status rheology_rates(rheology_rate *curve, const void *law, size_t n, const double *p,
+                         const double *ln_eta, const double *tau, double *rate, double *by_tau,
+                         double *by_ln_eta);
 
 /* psi of n points and its derivatives; arrays never overlap. Returns whether any was held. */
 typedef int64_t rheology_curve(const void *law, size_t n, const double *ln_eta, const double *h,

@@ -61,16 +61,16 @@ static int64_t rates(const void *self, size_t n, const double *restrict p,
                      double *restrict rate, double *restrict by_tau, double *restrict by_ln_eta)
 {
     const double most = RHEOLOGY_TAU_MAX, thin = RHEOLOGY_LN_ETA_MIN;
-    const double coefficient = ((const newtonian *)self)->limiting_stress_coefficient;
-    const double limited = coefficient > 0 ? 1 : 0, limit = coefficient > 0 ? coefficient : 1;
+    const rheology_limit limit =
+        rheology_limit_of(((const newtonian *)self)->limiting_stress_coefficient);
     int64_t held = 0;
     for (size_t i = 0; i < n; i++) {
         double size = tau[i] < 0 ? -tau[i] : tau[i], sign = tau[i] < 0 ? -1 : 1;
         double t = size < most ? size : most, slip_slope;
         double l = ln_eta[i] > thin ? ln_eta[i] : thin, fluidity = ff_exp(-l);
         double slip = rheology_slip(t, p[i], limit, &slip_slope);
-        rate[i] = sign * (t * fluidity + limited * slip);
-        by_tau[i] = fluidity + limited * slip_slope;
+        rate[i] = sign * (t * fluidity + slip);
+        by_tau[i] = fluidity + slip_slope;
         by_ln_eta[i] = ln_eta[i] > thin ? -sign * t * fluidity : 0;
         held |= (size > most) | (ln_eta[i] < thin);
     }
@@ -82,9 +82,7 @@ static ff_status rate(const void *self, size_t n, const double *p, const double 
                       double *drate_dln_eta)
 {
     (void)T;
-    return rheology_rates(rates, self, n, p, ln_eta, tau, rate, drate_dtau, drate_dln_eta)
-               ? FF_DOMAIN
-               : FF_OK;
+    return rheology_rates(rates, self, n, p, ln_eta, tau, rate, drate_dtau, drate_dln_eta);
 }
 
 static const ff_param params[] = {

@@ -96,8 +96,8 @@ static int64_t rates(const void *self, size_t n, const double *restrict p,
     const ree_eyring *r = self;
     const double most = RHEOLOGY_TAU_MAX, thin = RHEOLOGY_LN_ETA_MIN;
     const double tau0 = r->tau0 > RHEOLOGY_STRESS_LEAST ? r->tau0 : RHEOLOGY_STRESS_LEAST;
-    const double coefficient = r->limiting_stress_coefficient, top = r->ln_top;
-    const double limited = coefficient > 0 ? 1 : 0, limit = coefficient > 0 ? coefficient : 1;
+    const double top = r->ln_top;
+    const rheology_limit limit = rheology_limit_of(r->limiting_stress_coefficient);
     int64_t held = 0;
     for (size_t i = 0; i < n; i++) {
         double size = tau[i] < 0 ? -tau[i] : tau[i], sign = tau[i] < 0 ? -1 : 1;
@@ -110,8 +110,8 @@ static int64_t rates(const void *self, size_t n, const double *restrict p,
         double value = x < 0.5 ? x * flat_sinh(x) * ff_exp(-l) : rise - fall;
         double plain = -(value + slope * beyond);
         double slip = rheology_slip(t, p[i], limit, &slip_slope);
-        rate[i] = sign * (tau0 * (value + slope * beyond) + limited * slip);
-        by_tau[i] = slope + limited * slip_slope;
+        rate[i] = sign * (tau0 * (value + slope * beyond) + slip);
+        by_tau[i] = slope + slip_slope;
         double by_l = moves * beyond > 0 ? 2 * fall - 2 * fall * beyond - slope : plain;
         by_ln_eta[i] = ln_eta[i] > thin ? sign * tau0 * by_l : 0;
         held |= (size > most) | (ln_eta[i] < thin) | (t > y * tau0);
@@ -124,9 +124,7 @@ static ff_status rate(const void *self, size_t n, const double *p, const double 
                       double *drate_dln_eta)
 {
     (void)T;
-    return rheology_rates(rates, self, n, p, ln_eta, tau, rate, drate_dtau, drate_dln_eta)
-               ? FF_DOMAIN
-               : FF_OK;
+    return rheology_rates(rates, self, n, p, ln_eta, tau, rate, drate_dtau, drate_dln_eta);
 }
 
 static const ff_param params[] = {

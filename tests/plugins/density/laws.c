@@ -3,7 +3,7 @@
 #include "check.h"
 #include "stage.h"
 
-#include "../viscosity/difference.h"
+#include <difference.h>
 
 #include <flankfilm/density.h>
 

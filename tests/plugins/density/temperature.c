@@ -2,6 +2,7 @@
 /* Densities over temperature: at one temperature they are the law with the bulk modulus of it, and
    their slopes are those of central differences, whose error falls at second order. */
 #include "check.h"
+#include "difference.h"
 #include "stage.h"
 
 #include <flankfilm/laws.h>
@@ -59,6 +60,18 @@ static double missed(const ff_density *d, double h)
     return sqrt(sum);
 }
 
+/* A law at one temperature. */
+typedef struct isotherm {
+    const ff_density *law;
+    double T;
+} isotherm;
+
+static double of_p(const void *ctx, double p)
+{
+    const isotherm *line = ctx;
+    return at(line->law, p, line->T).rho;
+}
+
 static void has_its_slopes(const ff_density *d)
 {
     double worst = 0;
@@ -67,8 +80,7 @@ static void has_its_slopes(const ff_density *d)
     check_below("that of 0.1 K", missed(d, 0.1), missed(d, 1) / 90);
     for (double T = 280; T < 420; T += 10)
         for (int i = 0; i < PRESSURES; i++) {
-            double p = pressures[i], h = 1e4;
-            double slope = (at(d, p + h, T).rho - at(d, p - h, T).rho) / (2 * h);
+            double p = pressures[i], slope = difference(of_p, &(isotherm){d, T}, p, 1e4);
             worst = fmax(worst, fabs(slope / at(d, p, T).by_p - 1));
         }
     check_below("drho_dp against differences", worst, 1e-4);

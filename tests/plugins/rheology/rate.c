@@ -7,7 +7,7 @@
 #include "check.h"
 #include "stage.h"
 
-#include "../viscosity/difference.h"
+#include <difference.h>
 
 #include <flankfilm/laws.h>
 

@@ -3,7 +3,7 @@
 #include "check.h"
 #include "stage.h"
 
-#include "difference.h"
+#include <difference.h>
 
 #include <flankfilm/viscosity.h>
 

@@ -7,7 +7,7 @@
 #include "check.h"
 #include "stage.h"
 
-#include "difference.h"
+#include <difference.h>
 
 #include <flankfilm/laws.h>
 
