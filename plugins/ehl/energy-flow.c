@@ -178,7 +178,7 @@ static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double
 {
     enum { MOST = 30 };
     /* what is left is taken off by the slope: its square */
-    const double enough = film->rate > 0 ? 1e-2 : 1e-3, tiny = 1e-6;
+    const double enough = film->rate > 0 ? e->reach / 2 : 1e-3, tiny = 1e-6;
     double slip = film->speed[1] - film->speed[0], all = film->speed[1] + film->speed[0];
     for (int turn = 0; turn < MOST; turn++) {
         int done = 1;

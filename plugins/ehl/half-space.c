@@ -40,13 +40,14 @@ void ehl_half_space_pass(const ehl_half_space *f, double u, double dx, double ra
 {
     double own = f->instant;
     for (size_t k = 0; k < f->count; k++) {
-        double decay = f->lambda[k] + rate, way = u > 0 ? decay * dx / u : HUGE_VAL;
+        double decay = f->lambda[k], way = u > 0 ? decay * dx / u : HUGE_VAL;
         double kept = exp(-way), gone = -expm1(-way);
         /* int_0^1 exp(-way (1 - s)) s ds = (1 - gone/way)/way */
         double here = way > 1e-4 ? 1 - gone / way : way / 2 - way * way / 6;
-        p->keep[k] = kept;
-        p->here[k] = here / decay;
-        p->before[k] = (gone - here) / decay;
+        double before = (gone - here) / decay, per = 1 / (1 + rate * here / decay);
+        p->keep[k] = (kept - rate * before) * per;
+        p->here[k] = here / decay * per;
+        p->before[k] = before * per;
         own += f->weight[k] * p->here[k];
     }
     p->own = f->scale * own;

@@ -12,7 +12,7 @@
  *
  * and remembers all that was before. What decays faster than the oil passes a cell is at its steady
  * value q/lambda, what decays slower than the flank passes the domain is one mode. The modes are
- * solved for from node to node, exactly for a q that is linear between them.
+ * solved for from node to node, exactly for a q - d phi/dt that is linear between them.
  */
 #ifndef EHL_HALF_SPACE_H
 #define EHL_HALF_SPACE_H

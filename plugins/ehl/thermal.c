@@ -100,7 +100,6 @@ ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
     t->energy.conductivity = data->conductivity;
     t->energy.heat_capacity = data->heat_capacity;
     t->energy.T_in = data->bulk;
-    t->energy.reach = REACH;
     status = allocate(t, m);
     if (status != FF_OK)
         return status;
@@ -245,14 +244,22 @@ static void take_factors(ehl_thermal *t, double *heat)
         memcpy(to[k], next + k * t->energy.nodes, t->energy.nodes * sizeof *to[k]);
 }
 
+/* Returns the part of these bounds that a film has whose `tolerance` is below the usual one. */
+static double tightness(const ehl_march *m)
+{
+    const double usual = 1e-5, least = 1e-4;
+    return fmin(fmax(m->solver->tolerance / usual, least), 1);
+}
+
 /* Computes the temperatures of the film and its factors; 1: they were those already. */
 static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, const double c[3],
                   int most)
 {
     ehl_thermal *t = m->thermal;
     ehl_reynolds *r = m->solver->reynolds;
-    const double settled = c[0] > 0 ? SETTLED : SETTLED_STEADY;
-    const double warm = c[0] > 0 ? WARM : WARM_STEADY;
+    const double part = tightness(m);
+    const double settled = part * (c[0] > 0 ? SETTLED : SETTLED_STEADY);
+    const double warm = part * (c[0] > 0 ? WARM : WARM_STEADY);
     ehl_reynolds_evaluate(r, step, film);
     ehl_energy_film f = film_of(m, step, film, c);
     ehl_temperature temperature = ehl_thermal_state(t, m->trial.heat);
@@ -279,6 +286,7 @@ ff_status ehl_thermal_solve(ehl_march *m, const ehl_step *step, ehl_film *film, 
     t->solved++;
     t->off = HUGE_VAL;
     t->damping = 1;
+    t->energy.reach = REACH * sqrt(tightness(m));
     const int on_the_way = m->known == 0 && step->past; /* to a steady film (start.c) */
     for (int round = 0; round < (on_the_way ? 1 : MOST_ROUNDS); round++) {
         take_factors(t, m->trial.heat);

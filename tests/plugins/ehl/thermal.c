@@ -109,6 +109,42 @@ static void test_time(void)
     line_close(&c);
 }
 
+/* What is left at the end of a smooth change of load and speeds, by its steps. */
+static values after_change(double steps)
+{
+    const double pi = 3.14159265358979323846;
+    line c;
+    values v = {0};
+    open_hot(&c, 128, 0.3);
+    line_eyring(&c, 5e6);
+    stage_set(c.film, "steps", steps);
+    stage_set(c.film, "tolerance", 1e-8);
+    line_last(&c, 321, 1e-3);
+    for (size_t k = 0; k < c.count; k++) {
+        double rise = (1 - cos(1.25 * pi * (double)k / 320)) / 2;
+        c.u1[k] *= 1 + 0.3 * rise;
+        c.u2[k] *= 1 + 0.3 * rise;
+        c.load[k] *= 1 + 0.5 * rise;
+    }
+    check_true("runs", line_run(&c, hot_outputs) == FF_OK);
+    v.friction = line_value(&c, "friction_coefficient", (size_t)steps);
+    v.hottest = line_value(&c, "temperature_max", (size_t)steps);
+    v.flash = line_value(&c, "flash_temperature", (size_t)steps);
+    line_close(&c);
+    return v;
+}
+
+/* Second order in time: a factor of four, of which three must be there. */
+static void test_order_in_time(void)
+{
+    values few = after_change(40), some = after_change(80), many = after_change(160);
+    check_true("friction: 3 and more with twice the steps",
+               fabs(few.friction - some.friction) > 3 * fabs(some.friction - many.friction));
+    check_true("hottest place",
+               fabs(few.hottest - some.hottest) > 3 * fabs(some.hottest - many.hottest));
+    check_true("flash", fabs(few.flash - some.flash) > 3 * fabs(some.flash - many.flash));
+}
+
 static void test_refusals(void)
 {
     line c;
@@ -132,6 +168,7 @@ int main(void)
     test_without_slope();
     test_orders();
     test_time();
+    test_order_in_time();
     test_refusals();
     return check_done();
 }
