@@ -22,6 +22,7 @@ had tried them all would take. The answer costs the work of its stages and of al
 """
 import argparse
 import bisect
+import collections
 import json
 import math
 import os
@@ -305,12 +306,18 @@ def print_whole(rows, out):
             low, high = wilson(good, len(mine))
             print(f'\n{what}: held {good} of {len(mine)}, {100 * good / len(mine):.1f} % ({100 * low:.1f} to {100 * high:.1f} %)', file=out)
     print(f"missed by more than twice: {sum(r['twice'] for r in scalars)} scalars", file=out)
-    for names, what in ((['film.h_min', 'film.h_central', 'film.friction_coefficient'], 'h_min, h_central, friction'),
-                        (['film.p_max'], 'p_max')):
+
+
+def print_refused(scenes, out):
+    """Of all answers, also where no reference is known, and what the largest part of their errors comes from."""
+    for names, what in ((['film.h_min', 'film.h_central'], 'h_min and h_central'),
+                        (['film.friction_coefficient'], 'friction'), (['film.p_max'], 'p_max')):
         for level, goal in GOALS.items():
-            every = [r for r in rows if r['output'] in names and r['level'] == level]
-            refused = sum(not r['claimed'] <= goal for r in every)
-            print(f'refused of {what} to {level}: {refused} of {len(every)}', file=out)
+            mine = [answers[level]['outputs'][name] for _, answers in scenes if answers[level]['status'] == 'ok' for name in names]
+            refused = [o for o in mine if not (o['relative'] or math.inf) <= goal]
+            parts = collections.Counter(max(o['parts'], key=o['parts'].get) if o['parts'] else 'not told' for o in refused)
+            by = ', '.join(f'{part} {count}' for part, count in parts.most_common())
+            print(f"refused of {what} to {level}: {len(refused)} of {len(mine)}{': ' if by else ''}{by}", file=out)
 
 
 def print_sums(rows, out):
@@ -428,6 +435,7 @@ def main():
     print(file=out)
     print_sums(rows, out)
     print_whole(rows, out)
+    print_refused(scenes, out)
     if options.lattice:
         print(file=out)
         print_costs(runner, scenes, options.cache or tempfile.mkdtemp(), out)
