@@ -50,8 +50,10 @@ typedef struct study_outcome {
     study_output *outputs; /* one for each output of the context, then one for each extra */
     study_quality *quality;
     size_t quality_count;
-    double work;   /* processor time in s of the stages in which cases differ */
-    double shared; /* wall time in s of the other stages */
+    double work;             /* processor time in s of the stages in which cases differ */
+    double shared;           /* wall time in s of the other stages */
+    double processor, saved; /* s of processor time of the whole case, and that its reused stages
+                                took where they were computed */
 } study_outcome;
 
 typedef struct study_submitted {

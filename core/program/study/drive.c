@@ -5,6 +5,7 @@
 #include "spectrum.h"
 #include "stability.h"
 #include "tradeoff.h"
+#include "uncertainty.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,14 +16,18 @@ const study_driver_row study_drivers[] = {
     {"tradeoff", "measures a trade-off",
      "Error against cost of models and resolutions, with the Pareto front", study_tradeoff_keys,
      STUDY_TRADEOFF_KEYS},
+    {"uncertainty", "samples uncertain inputs",
+     "What uncertain inputs make of the outputs, against the errors of grids and models",
+     study_uncertainty_keys, STUDY_UNCERTAINTY_KEYS},
     {.name = NULL},
 };
 
 typedef struct study_driver {
     const study_driver_row *row;
     study_context context;
-    study_map *map; /* one of these two is set */
+    study_map *map; /* one of these three is set */
     study_tradeoff *tradeoff;
+    study_uncertainty *uncertainty;
 } study_driver;
 
 /* Returns the outputs that the driver requests of its cases, as a file would list them. */
@@ -164,12 +169,14 @@ static bool read_keys(study_driver *driver, const ff_node *map, ff_report *repor
     bool good = ff_report_errors(report) == errors;
     if (good && row->keys == study_map_keys)
         driver->map = study_map_read(&driver->context, values);
-    else if (good)
+    else if (good && row->keys == study_tradeoff_keys)
         driver->tradeoff = study_tradeoff_read(&driver->context, values);
+    else if (good)
+        driver->uncertainty = study_uncertainty_read(&driver->context, values);
     for (size_t i = 0; i < row->key_count; i++)
         ff_value_clear(&values[i].value);
     free(values);
-    return driver->map || driver->tradeoff;
+    return driver->map || driver->tradeoff || driver->uncertainty;
 }
 
 static bool open_driver(study_definition *study, const ff_node *node, const study_driver_row *row,
@@ -300,6 +307,8 @@ void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_
             study_find_number(pipeline, context->knobs[i], &param);
         scaled += param != SIZE_MAX;
     }
+    if (study->driver && study->driver->uncertainty)
+        study_uncertainty_check(study->driver->uncertainty, pipeline, report);
     if (context && context->knobs && scaled == 0)
         ff_warn(report, FF_NOWHERE,
                 "%s: no number is refined, so that verdicts rest on the quality alone",
@@ -344,7 +353,9 @@ bool study_drive(const study_run *run, study_counters *counters, ff_report *repo
     context->run = &own;
     context->counters = counters;
     bool good = (!context->measured || open_cases(context, run)) &&
-                (driver->map ? study_map_run(driver->map) : study_tradeoff_run(driver->tradeoff)) &&
+                (driver->map        ? study_map_run(driver->map)
+                 : driver->tradeoff ? study_tradeoff_run(driver->tradeoff)
+                                    : study_uncertainty_run(driver->uncertainty)) &&
                 study_write_submitted(context);
     for (size_t i = 0; good && i < context->file_count; i++)
         good =

@@ -99,6 +99,8 @@ static void read_costs(const json_t *record, study_outcome *outcome)
 {
     json_t *work = json_object_get(json_object_get(record, "measured"), "work"), *value;
     const char *stage;
+    outcome->processor = number_of(json_object_get(record, "processor"));
+    outcome->saved = number_of(json_object_get(record, "processor_saved"));
     outcome->work = study_record_is_ok(record) ? 0 : (double)NAN;
     json_object_foreach(work, stage, value) outcome->work += json_number_value(value);
     for (const char *const *key = (const char *const[]){"stages", "reused", NULL}; *key; key++)

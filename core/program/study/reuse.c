@@ -17,6 +17,7 @@
 
 static const double worth_keeping = 2e-3; /* s; keeping a file takes a tenth of that */
 enum {
+    FORM = 2, /* of a file: another one is of another version, and counts as damaged */
     LARGEST = 1 << 26,
     /* bytes of a file */ MOST_IDLE =
         1 << 26 /* bytes kept in vain, after which a stage is not kept any more */
@@ -67,6 +68,7 @@ static void write_results(const ff_stage *stage, FILE *out)
             fwrite(result->data, sizeof *result->data, result->count, out);
     }
     fwrite(&stage->seconds, sizeof stage->seconds, 1, out);
+    fwrite(&stage->work, sizeof stage->work, 1, out);
     fwrite(&stage->quality_count, sizeof stage->quality_count, 1, out);
     for (size_t i = 0; i < stage->quality_count; i++) {
         const ff_quality *line = &stage->quality[i];
@@ -97,6 +99,7 @@ static bool read_results(ff_stage *stage, FILE *in)
     }
     size_t lines;
     read_bytes(in, &stage->seconds, sizeof stage->seconds);
+    read_bytes(in, &stage->work, sizeof stage->work);
     read_bytes(in, &lines, sizeof lines);
     for (size_t i = 0; i < lines; i++) {
         ff_quality line;
@@ -121,7 +124,8 @@ static bool read_kept(int fd, const ff_pipeline *pipeline, const ff_stage *stage
     char *text = memory_alloc(size);
     bool whole = pread(fd, text, size, 0) == info.st_size;
     memcpy(&sum, text, sizeof sum);
-    whole = whole && sum == study_hash(STUDY_HASH_START, text + sizeof sum, size - sizeof sum);
+    whole =
+        whole && sum == study_hash(STUDY_HASH_START ^ FORM, text + sizeof sum, size - sizeof sum);
     FILE *in = whole ? fmemopen(text + sizeof sum, size - sizeof sum, "r") : NULL;
     bool good = in != NULL;
     for (size_t i = 0; good && together(pipeline, stage, i); i++)
@@ -186,7 +190,7 @@ static size_t write_kept(int fd, const ff_pipeline *pipeline, const ff_stage *st
         write_results(together(pipeline, stage, i), out);
     bool whole = fclose(out) == 0 && length <= LARGEST;
     if (whole) {
-        sum = study_hash(STUDY_HASH_START, text + sizeof sum, length - sizeof sum);
+        sum = study_hash(STUDY_HASH_START ^ FORM, text + sizeof sum, length - sizeof sum);
         memcpy(text, &sum, sizeof sum);
         whole = ftruncate(fd, 0) == 0 && pwrite(fd, text, length, 0) == (ssize_t)length;
     }

@@ -167,6 +167,12 @@ enum {
     STUDY_FORMAT = 2      /* of the files of a study, which study.json tells */
 };
 
+/* number = si * factor + offset, in the unit; "" for a pure number */
+typedef struct study_readable {
+    double factor, offset;
+    const char *unit;
+} study_readable;
+
 /* What to run, and how. */
 typedef struct study_run {
     const study_definition *study;
@@ -204,7 +210,9 @@ typedef struct study_run {
        they are not all done. */
     const study_definition *described;
     void (*describe)(void *ctx, const study_definition *study, const study_tally *tally, FILE *out);
-    void (*say)(void *ctx, int indent, const char *line);        /* prints a line of a driver */
+    void (*say)(void *ctx, int indent, const char *line); /* prints a line of a driver */
+    /* The unit in which an output of that name and size reads well. */
+    study_readable (*readable)(const char *name, const char *si_unit, double magnitude);
     void (*progress)(void *ctx, const study_counters *counters); /* about every second */
     void *ctx;
 } study_run;

@@ -13,6 +13,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <malloc.h>
+#include <math.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +22,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { MOST_STAGES = 1000, LONGEST_ANSWER = 1 << 24 };
@@ -107,11 +109,22 @@ static void reach_case(study_chain *chain, const study_run *run, size_t index, s
     }
 }
 
+/* Adds the processor time in s, of the whole case and what its reused stages took once. */
+static void add_costs(const study_case *c, double spent, json_t *record)
+{
+    double saved = 0;
+    for (size_t i = 0; c->pipeline && i < c->pipeline->count; i++)
+        saved += c->pipeline->stages[i].reused ? c->pipeline->stages[i].work : 0;
+    json_object_set_new(record, "processor", json_real(round(spent * 1e6) / 1e6));
+    json_object_set_new(record, "processor_saved", json_real(round(saved * 1e6) / 1e6));
+}
+
 static bool run_case(const study_worker *worker, const study_run *run, size_t index,
                      study_records *done, study_memory *memory, study_chain *chain, int to)
 {
     study_case c;
     reach_case(chain, run, index, done);
+    clock_t start = clock(); /* the case is all that this process does */
     study_case_open(&c, run, index, &memory->kept);
     study_chain_enter(chain, run->study, &c);
     memcpy(worker->shared->key, c.key, sizeof c.key);
@@ -123,6 +136,7 @@ static bool run_case(const study_worker *worker, const study_run *run, size_t in
     } else {
         record = study_case_run(&c, run, index, memory);
         char *why = record ? NULL : study_first_error(c.report);
+        add_costs(&c, (double)(clock() - start) / CLOCKS_PER_SEC, record);
         line = record ? study_journal_line(record, memory->said) : memory_print_text("!%s\n", why);
         free(why);
     }

@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Statistics of what uncertain inputs make of an output, each with a 95 % interval. Cheaper models
+ * may serve as control variates (multi-fidelity Monte Carlo: Ng & Willcox 2014; Peherstorfer,
+ * Willcox & Gunzburger 2016, SIAM J. Sci. Comput. 38, A3163). Level 0 is the model whose statistics
+ * are wanted; the others may be wrong, which costs samples and no truth.
+ */
+#ifndef STUDY_ESTIMATE_H
+#define STUDY_ESTIMATE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { ESTIMATE_MOST_LEVELS = 6, ESTIMATE_LEAST = 8 /* samples that a variance is taken from */ };
+
+typedef struct estimate {
+    double value, low, high; /* infinite ends are not bounded by the samples; NaN: not known */
+    double error;            /* standard error of a mean */
+} estimate;
+
+/* What each level gave for the same inputs. The first levels of a sample are missing beyond their
+   count: they rise from level to level, and level k has samples 0 to count[k] - 1. NaN where a case
+   failed: then its sample is left out on all levels. */
+typedef struct estimate_samples {
+    size_t levels;
+    size_t count[ESTIMATE_MOST_LEVELS];
+    const double *values[ESTIMATE_MOST_LEVELS];
+    /* of a pilot whose inputs are independent of those above: the values of all levels for the same
+       inputs. It chooses the weights, so that the estimates stay unbiased. */
+    size_t pilot_count;
+    const double *pilot[ESTIMATE_MOST_LEVELS];
+} estimate_samples;
+
+/* Which levels are worth their cost, and how many samples of each. */
+typedef struct estimate_plan {
+    size_t levels;
+    size_t level[ESTIMATE_MOST_LEVELS];       /* level[0] = 0 */
+    size_t count[ESTIMATE_MOST_LEVELS];       /* rise */
+    double correlation[ESTIMATE_MOST_LEVELS]; /* of every level with level 0, in the pilot */
+    double cost;                              /* of these samples, in cases of level 0 */
+} estimate_plan;
+
+/* What is to be known as well as from plain samples: the mean alone, which takes the fewest, or
+   percentiles and probabilities, too. */
+typedef enum { ESTIMATE_MEAN, ESTIMATE_DISTRIBUTION } estimate_aim;
+
+/* Plans for the standard error that `plain` samples of level 0 alone have. `cost` is that of a case
+   of each level over one of level 0. */
+estimate_plan estimate_allocate(const double *const *pilot, size_t pilot_count, size_t levels,
+                                const double *cost, size_t plain, estimate_aim aim);
+
+estimate estimate_mean(const estimate_samples *s);
+estimate estimate_deviation(const estimate_samples *s); /* the standard deviation */
+/* The probability of a value of at most `limit`. */
+estimate estimate_probability(const estimate_samples *s, double limit);
+/* Writes the values of the level that the two come from, on the scale of level 0: as many as the
+   level has samples at most; returns their number. */
+size_t estimate_values(const estimate_samples *s, double *values);
+/* The value that a share from 0 to 1 of the values does not exceed. */
+estimate estimate_percentile(const estimate_samples *s, double share);
+
+/* First and total Sobol index of each of the groups of inputs, which are independent of each other.
+   `a` and `b` have values for independent inputs; c[g * count + i] is for the inputs of a[i], those
+   of group g being those of b[i]. `seed` is for the resampling that the intervals come from. Rows
+   with a NaN are left out. */
+void estimate_sobol(const double *a, const double *b, const double *c, size_t count, size_t groups,
+                    uint64_t seed, estimate *first, estimate *total);
+
+#endif

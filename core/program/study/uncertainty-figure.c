@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Describes what an uncertainty study found: a histogram of each output with its percentiles, the
+   three error bars, and the share of each input. */
+#include "uncertainty.h"
+
+#include <math.h>
+#include <string.h>
+
+static json_t *percentile_marks(const json_t *of, study_readable unit)
+{
+    json_t *marks = json_array(), *one;
+    size_t i;
+    json_array_foreach(json_object_get(of, "percentiles"), i, one)
+    {
+        char name[24];
+        double value = study_number_of(one, "value");
+        snprintf(name, sizeof name, "%.3g %%", 100 * study_number_of(one, "share"));
+        if (isfinite(value))
+            json_array_append_new(marks,
+                                  json_pack("[f, s]", value * unit.factor + unit.offset, name));
+    }
+    return marks;
+}
+
+static json_t *bars_of(const json_t *histogram, study_readable unit)
+{
+    json_t *from = json_array(), *to = json_array(), *x = json_array(), *y = json_array();
+    const json_t *shares = json_object_get(histogram, "shares");
+    double low = study_number_of(histogram, "from") * unit.factor + unit.offset;
+    double high = study_number_of(histogram, "to") * unit.factor + unit.offset;
+    double width = (high - low) / (double)json_array_size(shares);
+    for (size_t i = 0; isfinite(width) && i < json_array_size(shares); i++) {
+        json_array_append_new(from, json_real(low + width * (double)i));
+        json_array_append_new(to, json_real(low + width * (double)(i + 1)));
+        json_array_append_new(x, json_real(low + width * ((double)i + 0.5)));
+        json_array_append_new(y, json_real(100 * json_number_value(json_array_get(shares, i))));
+    }
+    return json_pack("{s:s, s:i, s:i, s:s, s:o, s:o, s:o, s:o}", "name", "", "colour", 0, "dash", 0,
+                     "style", "bars", "x", x, "y", y, "from", from, "to", to);
+}
+
+/* "value (low to high)" */
+static json_t *cell_of(const json_t *e, double factor, double offset)
+{
+    char text[120];
+    double low = study_number_of(e, "low"), high = study_number_of(e, "high");
+    int used = snprintf(text, sizeof text, "%.4g (", study_number_of(e, "value") * factor + offset);
+    used += isfinite(low) ? snprintf(text + used, sizeof text - (size_t)used, "%.4g to ",
+                                     low * factor + offset)
+                          : snprintf(text + used, sizeof text - (size_t)used, "? to ");
+    if (isfinite(high))
+        snprintf(text + used, sizeof text - (size_t)used, "%.4g)", high * factor + offset);
+    else
+        snprintf(text + used, sizeof text - (size_t)used, "?)");
+    return json_string(text);
+}
+
+static json_t *table_of(const json_t *of, study_readable unit)
+{
+    json_t *rows = json_array(), *one;
+    size_t i;
+    json_array_append_new(
+        rows, json_pack("[s, o, s]", "mean",
+                        cell_of(json_object_get(of, "mean"), unit.factor, unit.offset), unit.unit));
+    json_array_append_new(rows, json_pack("[s, o, s]", "standard deviation",
+                                          cell_of(json_object_get(of, "deviation"), unit.factor, 0),
+                                          strcmp(unit.unit, "degC") ? unit.unit : "K"));
+    json_array_foreach(json_object_get(of, "percentiles"), i, one)
+    {
+        char what[40];
+        snprintf(what, sizeof what, "%.4g %% are below", 100 * study_number_of(one, "share"));
+        json_array_append_new(
+            rows, json_pack("[s, o, s]", what, cell_of(one, unit.factor, unit.offset), unit.unit));
+    }
+    return json_pack("{s:s, s:[s, s, s], s:o}", "summary",
+                     study_text_of(json_object_get(of, "limits"), "sentence"), "head", "",
+                     "value (95 % interval)", "", "rows", rows);
+}
+
+static json_t *histogram_figure(const study_context *context, const char *name, const json_t *of)
+{
+    const char *dot = strrchr(name, '.');
+    double mean = fabs(study_number_of(json_object_get(of, "mean"), "value"));
+    study_readable unit = context->run->readable(dot ? dot + 1 : name, study_text_of(of, "unit"),
+                                                 isfinite(mean) ? mean : 1);
+    char label[160];
+    snprintf(label, sizeof label, *unit.unit ? "%.100s (%.30s)" : "%.100s", dot ? dot + 1 : name,
+             unit.unit);
+    return json_pack("{s:s, s:s+, s:i, s:{s:s}, s:{s:s, s:i}, s:o, s:[o], s:[o]}", "sort", "curves",
+                     "title", name, ": what the inputs make of it", "height", 280, "x", "label",
+                     label, "y", "label", "samples (%)", "low", 0, "marks",
+                     percentile_marks(of, unit), "curves",
+                     bars_of(json_object_get(of, "histogram"), unit), "tables", table_of(of, unit));
+}
+
+/* Points with bars, one for each name. */
+typedef struct points {
+    json_t *x, *y, *bar, *names;
+} points;
+
+static void add_point(points *p, double shift, const json_t *e)
+{
+    double value = study_number_of(e, "value"), low = study_number_of(e, "low"),
+           high = study_number_of(e, "high");
+    json_array_append_new(p->x, json_real((double)json_array_size(p->x) + shift));
+    json_array_append_new(p->y, study_json_real(100 * value));
+    json_array_append_new(p->bar, json_real(isfinite(high - low) ? 50 * (high - low) : 0));
+}
+
+static json_t *curve_of(const points *p, const char *name, int colour)
+{
+    json_t *tags = json_array();
+    for (size_t i = 0; i < json_array_size(p->x); i++)
+        json_array_append_new(tags, json_string(""));
+    return json_pack("{s:s, s:i, s:i, s:s, s:i, s:o, s:o, s:o, s:o}", "name", name, "colour",
+                     colour, "dash", 0, "style", "dots", "size", 60, "x", p->x, "y", p->y, "bar",
+                     p->bar, "tags", tags);
+}
+
+static json_t *shares_figure(const char *name, const json_t *of, const char *by)
+{
+    points first = {json_array(), json_array(), json_array(), json_array()};
+    points total = {json_array(), json_array(), json_array(), NULL};
+    json_t *one;
+    const char *input;
+    json_object_foreach(json_object_get(of, "shares"), input, one)
+    {
+        add_point(&first, -0.08, json_object_get(one, "first"));
+        add_point(&total, 0.08, json_object_get(one, "total"));
+        json_array_append_new(first.names, json_string(input));
+    }
+    char title[200];
+    snprintf(title, sizeof title, "%.80s: share of its variance, by %.80s", name, by);
+    json_t *figure =
+        json_pack("{s:s, s:s, s:i, s:{s:s, s:f, s:f}, s:{s:s}, s:[], s:O, s:[o, o]}", "sort",
+                  "curves", "title", title, "height", 260, "x", "label", "", "low", -0.5, "high",
+                  (double)json_array_size(first.names) - 0.5, "y", "label",
+                  "share of the variance (%)", "marks", "names", first.names, "curves",
+                  curve_of(&first, "alone", 0), curve_of(&total, "with others", 1));
+    json_decref(first.names);
+    return figure;
+}
+
+/* The three error bars of all outputs. */
+static json_t *limits_figure(const json_t *outputs)
+{
+    static const char *const kinds[] = {"numerical", "model", "input"};
+    json_t *curves = json_array(), *names = json_array(), *of;
+    const char *name;
+    for (int k = 0; k < 3; k++) {
+        points p = {json_array(), json_array(), json_array(), NULL};
+        json_object_foreach((json_t *)(size_t)outputs, name, of)
+        {
+            json_t *value = json_pack("{s:O?}", "value",
+                                      json_object_get(json_object_get(of, "limits"), kinds[k]));
+            add_point(&p, 0.12 * (k - 1), value);
+            json_decref(value);
+            if (k == 0)
+                json_array_append_new(names, json_string(name));
+        }
+        json_array_append_new(curves, curve_of(&p, kinds[k], k));
+    }
+    double high = (double)json_array_size(names) - 0.5;
+    return json_pack("{s:s, s:s, s:i, s:{s:s, s:f, s:f}, s:{s:s, s:i}, s:[], s:o, s:o}", "sort",
+                     "curves", "title", "What limits each output", "height", 260, "x", "label", "",
+                     "low", -0.5, "high", high, "y", "label", "of the value (%)", "log", 1, "marks",
+                     "names", names, "curves", curves);
+}
+
+void study_uncertainty_figure(const study_context *context, const json_t *result, FILE *out)
+{
+    json_t *outputs = json_object_get(result, "outputs"), *all = json_array(), *of;
+    const char *name;
+    json_array_append_new(all, limits_figure(outputs));
+    json_object_foreach(outputs, name, of)
+    {
+        json_array_append_new(all, histogram_figure(context, name, of));
+        if (json_object_size(json_object_get(of, "shares")))
+            json_array_append_new(all, shares_figure(name, of, study_text_of(result, "shares_by")));
+    }
+    json_dumpf(all, out, JSON_INDENT(1) | JSON_REAL_PRECISION(6));
+    fputc('\n', out);
+    json_decref(all);
+}

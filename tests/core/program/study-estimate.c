@@ -1,0 +1,242 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Statistics of uncertain inputs on problems whose answers are known: intervals of 95 % must hold
+ * in 90 to 99 of 100 repeats. The mean of the 200 repeats lies within three of its standard errors,
+ * which is 2.1 of those of 100.
+ */
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_randist.h>
+#include <gsl/gsl_rng.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "../../../core/program/study/estimate.h"
+
+enum { REPEATS = 200, LEVELS = 3, PILOT = 60, PLAIN = 400, ROOM = 200000, SOBOL = 256 };
+
+static int failures;
+
+static void check(bool good, const char *what, double found, double least, double most)
+{
+    if (good)
+        return;
+    printf("%s: %g, expected %g to %g\n", what, found, least, most);
+    failures++;
+}
+
+/* A problem of two independent standard normal inputs. */
+typedef struct problem {
+    const char *name;
+    double (*answer)(double x, double y, int level);
+    double mean, deviation, median, p90, probability, first, total; /* of x for the indices */
+    double limit;
+} problem;
+
+/* Cheap levels are off by a factor, a shift and a wave that the inputs do not explain linearly. */
+static double linear(double x, double y, int level)
+{
+    double value = 3 + 2 * x + y;
+    return level == 0 ? value : level == 1 ? 0.9 * value + 0.1 * sin(3 * x * y) : value - 0.5 * y;
+}
+
+static double product(double x, double y, int level)
+{
+    double value = (2 + x) * (2 + y);
+    return level == 0 ? value : level == 1 ? 1.1 * value + 0.2 * sin(3 * x * y) : 4 + 2 * x + 2 * y;
+}
+
+/* A jump, as where a motion leaves its branch; the cheapest level jumps elsewhere. */
+static double fold(double x, double y, int level)
+{
+    double at = level == 2 ? 0.9 : 1;
+    return y / 2 + x / 4 + (x > at ? 3 : 0) + (level ? 0.3 + 0.1 * sin(3 * x * y) : 0);
+}
+
+/* 95 % points of the fold: a mixture of the two sides, by its distribution function. */
+static double fold_below(double t)
+{
+    enum { N = 4000 };
+    double sum = 0, weight = 0;
+    for (int i = 0; i < N; i++) {
+        double x = gsl_cdf_ugaussian_Pinv((i + 0.5) / N);
+        sum += gsl_cdf_ugaussian_P(2 * (t - x / 4 - (x > 1 ? 3 : 0)));
+        weight++;
+    }
+    return sum / weight;
+}
+
+/* P((2 + x)(2 + y) <= t), by the inputs of x. */
+static double product_below(double t)
+{
+    enum { N = 20000 };
+    double sum = 0;
+    for (int i = 0; i < N; i++) {
+        double x = 2 + gsl_cdf_ugaussian_Pinv((i + 0.5) / N);
+        sum += x > 0 ? gsl_cdf_ugaussian_P(t / x - 2) : gsl_cdf_ugaussian_Q(t / x - 2);
+    }
+    return sum / N;
+}
+
+static double solve(double (*below)(double), double share, double low, double high)
+{
+    for (int i = 0; i < 60; i++) {
+        double middle = (low + high) / 2;
+        if (below(middle) < share)
+            low = middle;
+        else
+            high = middle;
+    }
+    return (low + high) / 2;
+}
+
+static void draw(gsl_rng *rng, const problem *p, size_t from, size_t to, double *const *values)
+{
+    for (size_t i = from; i < to; i++) {
+        double x = gsl_ran_gaussian(rng, 1), y = gsl_ran_gaussian(rng, 1);
+        for (int k = 0; k < LEVELS; k++)
+            values[k][i] = p->answer(x, y, k);
+    }
+}
+
+typedef struct tally {
+    const char *what;
+    double truth, sum, squares;
+    size_t held;
+} tally;
+
+static void count(tally *t, estimate e)
+{
+    t->held += e.low <= t->truth && t->truth <= e.high;
+    t->sum += e.value;
+    t->squares += (e.value - t->truth) * (e.value - t->truth);
+}
+
+/* A percentile is biased by the order of 1 / n, as that of every sample is. */
+static void judge(const char *name, const char *how, const tally *t, bool unbiased)
+{
+    char what[200];
+    double share = (double)t->held / REPEATS, off = t->sum / REPEATS - t->truth;
+    double error = sqrt(t->squares / REPEATS - off * off) / sqrt(REPEATS);
+    printf("%-8s %-8s %-12s held %5.1f %%, off by %5.2f standard errors, rms %.3g\n", name, how,
+           t->what, 100 * share, off / error, sqrt(t->squares / REPEATS));
+    snprintf(what, sizeof what, "%s, %s: interval of the %s", name, how, t->what);
+    check(share >= 0.9 && share <= 0.99, what, share, 0.9, 0.99);
+    snprintf(what, sizeof what, "%s, %s: mean of the %s in its standard errors", name, how,
+             t->what);
+    check(!unbiased || fabs(off) <= 3 * error, what, off / error, -3, 3);
+}
+
+static void repeat(const problem *p, bool ladder, estimate_aim aim, gsl_rng *rng,
+                   double *const *values, double *const *pilot)
+{
+    static const double cost[] = {1, 0.05, 0.005};
+    const char *how = !ladder ? "plain" : aim == ESTIMATE_MEAN ? "mean" : "all";
+    tally t[] = {{"mean", p->mean, 0, 0, 0},
+                 {"deviation", p->deviation, 0, 0, 0},
+                 {"median", p->median, 0, 0, 0},
+                 {"90 %", p->p90, 0, 0, 0},
+                 {"probability", p->probability, 0, 0, 0}};
+    double spent = 0;
+    for (int r = 0; r < REPEATS; r++) {
+        estimate_samples s = {.levels = 1, .count = {PLAIN}, .values = {values[0]}};
+        if (ladder) {
+            draw(rng, p, 0, PILOT, pilot);
+            estimate_plan plan =
+                estimate_allocate((const double *const *)pilot, PILOT, LEVELS, cost, PLAIN, aim);
+            s = (estimate_samples){.levels = plan.levels, .pilot_count = PILOT};
+            for (size_t k = 0; k < plan.levels; k++) {
+                s.count[k] = plan.count[k];
+                s.values[k] = values[plan.level[k]];
+                s.pilot[k] = pilot[plan.level[k]];
+            }
+            spent += plan.cost / REPEATS;
+        }
+        draw(rng, p, 0, s.count[s.levels - 1], values);
+        count(&t[0], estimate_mean(&s));
+        count(&t[1], estimate_deviation(&s));
+        count(&t[2], estimate_percentile(&s, 0.5));
+        count(&t[3], estimate_percentile(&s, 0.9));
+        count(&t[4], estimate_probability(&s, p->limit));
+    }
+    for (size_t i = 0; i < (ladder && aim == ESTIMATE_MEAN ? 2 : 5); i++)
+        judge(p->name, how, &t[i], i == 0 || i == 4);
+    double rms = sqrt(t[0].squares / REPEATS) * sqrt(PLAIN) / p->deviation;
+    printf("%-8s %-8s standard error over that of %d plain samples %.3f at the cost of %.0f\n",
+           p->name, how, PLAIN, rms, ladder ? spent : PLAIN);
+    /* the rms of 200 repeats is known to 5 %, the variance that a pilot of 60 leaves to 20 %. That
+       the cheapest level of the fold jumps elsewhere, in 2.5 % of the samples, 22 of 100 pilots
+       miss */
+    double most = p->answer == fold ? 2 : 1.2;
+    check(rms < most, "the standard error against that of plain samples", rms, 0, most);
+}
+
+static void repeat_sobol(const problem *p, gsl_rng *rng)
+{
+    tally first = {"first index", p->first, 0, 0, 0}, total = {"total index", p->total, 0, 0, 0};
+    for (int r = 0; r < REPEATS; r++) {
+        double a[SOBOL], b[SOBOL], c[2 * SOBOL];
+        estimate s[2], t[2];
+        for (size_t i = 0; i < SOBOL; i++) {
+            double x = gsl_ran_gaussian(rng, 1), y = gsl_ran_gaussian(rng, 1);
+            double u = gsl_ran_gaussian(rng, 1), v = gsl_ran_gaussian(rng, 1);
+            a[i] = p->answer(x, y, 0);
+            b[i] = p->answer(u, v, 0);
+            c[i] = p->answer(u, y, 0);
+            c[SOBOL + i] = p->answer(x, v, 0);
+        }
+        estimate_sobol(a, b, c, SOBOL, 2, (uint64_t)r, s, t);
+        count(&first, s[0]);
+        count(&total, t[0]);
+    }
+    judge(p->name, "sobol", &first, false);
+    judge(p->name, "sobol", &total, false);
+}
+
+int main(void)
+{
+    problem problems[] = {
+        {.name = "linear", .answer = linear, .limit = 1, .first = 0.8, .total = 0.8},
+        {.name = "product", .answer = product, .limit = 2, .first = 4 / 9., .total = 5 / 9.},
+        {.name = "fold", .answer = fold, .limit = 1},
+    };
+    double *values[LEVELS], *pilot[LEVELS];
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    for (int k = 0; k < LEVELS; k++) {
+        values[k] = malloc(ROOM * sizeof **values);
+        pilot[k] = malloc(PILOT * sizeof **pilot);
+    }
+    problem *p = problems;
+    p->mean = p->median = 3;
+    p->deviation = sqrt(5);
+    p->p90 = 3 + p->deviation * gsl_cdf_ugaussian_Pinv(0.9);
+    p->probability = gsl_cdf_ugaussian_P((p->limit - 3) / p->deviation);
+    p++;
+    p->mean = 4;
+    p->deviation = 3; /* var = 4 + 4 + 1 */
+    p->median = solve(product_below, 0.5, 0, 10);
+    p->p90 = solve(product_below, 0.9, 0, 30);
+    p->probability = product_below(p->limit);
+    p++;
+    double q = gsl_cdf_ugaussian_Q(1), density = gsl_ran_ugaussian_pdf(1);
+    p->mean = 3 * q;
+    /* x / 4 and the jump: cov(x, x > 1) = density(1) */
+    p->deviation = sqrt(0.25 + 1 / 16. + 9 * q * (1 - q) + 2 * 3 / 4. * density);
+    p->median = solve(fold_below, 0.5, -2, 5);
+    p->p90 = solve(fold_below, 0.9, -2, 8);
+    p->probability = fold_below(p->limit);
+    p->first = 1 - 0.25 / (p->deviation * p->deviation);
+    p->total = p->first;
+    for (size_t i = 0; i < sizeof problems / sizeof *problems; i++) {
+        repeat(&problems[i], false, ESTIMATE_MEAN, rng, values, pilot);
+        repeat(&problems[i], true, ESTIMATE_MEAN, rng, values, pilot);
+        repeat(&problems[i], true, ESTIMATE_DISTRIBUTION, rng, values, pilot);
+        repeat_sobol(&problems[i], rng);
+    }
+    for (int k = 0; k < LEVELS; k++) {
+        free(values[k]);
+        free(pilot[k]);
+    }
+    gsl_rng_free(rng);
+    return failures > 0;
+}

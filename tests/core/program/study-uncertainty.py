@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Uncertain inputs of waves whose total is their amplitude times a number: what is drawn, what is made of it, and that it
+is the same on any number of workers, resumed or not."""
+import csv
+import math
+import statistics
+
+import lab
+
+PIPELINE = """
+format: 2
+pipeline:
+  wave: {use: toy/wave, amplitude: 2 mm}
+  other: {use: toy/wave, amplitude: 2 mm}
+outputs: [wave.total, other.total]
+study:
+  uncertainty:
+    outputs: [wave.total, other.total]
+"""
+TWO = """    inputs: {wave.amplitude: {normal: [2 mm, 5 %]}, other.amplitude: {normal: [2 mm, 0.2 mm]}}
+"""
+
+
+def amplitude(row, stage="wave"):
+    number, unit = row[stage + ".amplitude"].split()
+    return float(number) * {"mm": 1, "cm": 10}[unit]
+
+
+class Uncertainty(lab.Lab):
+    def study(self, name, text, code=0, words=()):
+        self.write(name + ".yaml", PIPELINE + text)
+        return self.call("run", name + ".yaml", "-o", name, *words, code=code)
+
+    def rows(self, name, start):
+        with open(f"{name}/table.csv", encoding="utf-8") as file:
+            rows = list(csv.DictReader(file))
+        return [row for row in rows if row["sample"].startswith(start)]
+
+    def file(self, name):
+        with open(f"{name}/uncertainty.csv", encoding="utf-8") as file:
+            return file.read()
+
+    def test_statistics_are_those_of_the_table(self):
+        self.study("plain", TWO + """    samples: 60
+    conditions: ["wave.total < 0 mm", "wave.total > 0 mm"]
+    models: {longer: {wave.count: 12, other.count: 12}, broken: {wave.end: fail}}
+""", code=4)
+        found, totals = self.read("plain/uncertainty.json"), [
+            float(row["wave.total [m]"]) for row in self.rows("plain", "sample")]
+        of = found["outputs"]["wave.total"]
+        self.assertEqual(len(totals), 60)
+        error = statistics.stdev(totals) / math.sqrt(60)
+        self.assertAlmostEqual(of["mean"]["value"], statistics.mean(totals), delta=1e-9 * abs(totals[0]))
+        self.assertAlmostEqual(of["mean"]["error"], error, delta=1e-6 * error)
+        self.assertAlmostEqual(of["deviation"]["value"], statistics.stdev(totals), delta=1e-6 * error)
+        self.assertAlmostEqual(of["mean"]["high"] - of["mean"]["value"], 2.00100 * error, delta=1e-4 * error)
+        self.assertAlmostEqual(of["percentiles"][1]["value"], statistics.median(totals), delta=1e-9 * abs(totals[0]))
+        self.assertEqual([one["low"] is None or one["low"] < one["value"] for one in of["percentiles"]], [True] * 3)
+        below, above = (found["conditions"]["wave.total " + sign] for sign in ("< 0 mm", "> 0 mm"))
+        self.assertEqual(below["value"] + above["value"], 1)
+        self.assertAlmostEqual(below["low"], 1 - above["high"])
+        # the amplitude spreads by 5 %, the other by 10 %
+        limits = [found["outputs"][name]["limits"] for name in ("wave.total", "other.total")]
+        self.assertAlmostEqual(limits[0]["input"], 0.05, delta=0.015)
+        self.assertAlmostEqual(limits[1]["input"], 0.10, delta=0.03)
+        nominal, longer = (float(self.rows("plain", "medians" + word)[0]["wave.total [m]"]) for word in ("", ", longer"))
+        self.assertAlmostEqual(limits[0]["models"]["longer"], longer / nominal - 1, delta=1e-6)
+        self.assertIn("broken", limits[0]["not_compared"])
+
+    def test_draws(self):
+        self.write("measured.csv", "# of a batch\nx-when;wave.amplitude [mm]\n1;1.5\n2;1.25\n3;1.75\n")
+        both = "[wave.amplitude, other.amplitude]"
+        self.study("one", f"    inputs: {{both: {{lognormal: [2 mm, 20 %], sets: {both}}}}}\n    samples: 40\n")
+        rows = self.rows("one", "sample")
+        self.assertEqual([row["wave.total [m]"] for row in rows], [row["other.total [m]"] for row in rows])
+        logs = [math.log(amplitude(row) / 2) for row in rows]
+        spread = math.sqrt(math.log(1.04))
+        self.assertLess(abs(statistics.mean(logs)), 3 * spread / math.sqrt(40))
+        self.assertLess(abs(statistics.stdev(logs) / spread - 1), 3 / math.sqrt(80))
+        self.study("two", """    inputs: {wave.amplitude: {samples: measured.csv}, other.amplitude: {uniform: [1 mm, 0.2 cm]}}
+    correlations: [[wave.amplitude, other.amplitude, 0.9]]
+    samples: 40
+""")
+        rows = self.rows("two", "sample")
+        pairs = [(amplitude(row), amplitude(row, "other")) for row in rows]
+        self.assertEqual({a for a, _ in pairs}, {1.25, 1.5, 1.75})
+        self.assertTrue(all(1 <= b <= 2 for _, b in pairs))
+        self.assertGreater(statistics.correlation(*zip(*pairs)), 0.6)
+        # the first of more samples are the same ones, which are not computed again
+        said = self.call("run", "two.yaml", "-o", "two", "--set", "study.uncertainty.samples=50")
+        self.assertIn("52 cases done, 42 of them before", said)
+
+    def test_a_ladder_gives_the_same_for_less(self):
+        """The cheap level is half the file's, so that the file's samples leave no variance but need be eight."""
+        text = TWO + """    samples: 400
+    pilot: 8
+    sensitivity: 40
+    ladder: {short: {wave.count: 4, cost: 1 %}}
+"""
+        self.study("ladder", text, words=("-j", "1"))
+        found = self.read("ladder/uncertainty.json")
+        of, levels = found["outputs"]["wave.total"], found["levels"]
+        self.assertEqual((levels[0]["samples"], levels[1]["correlation"]), (8, 1))
+        self.assertAlmostEqual(levels[1]["samples"], 400, delta=1)
+        self.assertAlmostEqual(found["gain"]["predicted"], 400 / (8 + 4 + 8 * 1.01), delta=0.05)
+        nominal = float(self.rows("ladder", "medians")[0]["wave.total [m]"])
+        self.assertLess(of["mean"]["low"], nominal)
+        self.assertGreater(of["mean"]["high"], nominal)
+        self.assertAlmostEqual(of["mean"]["error"] / abs(nominal), 0.05 / 20, delta=0.0005)
+        shares = of["shares"]
+        self.assertAlmostEqual(shares["wave.amplitude"]["first"]["value"], 1)
+        self.assertGreater(shares["wave.amplitude"]["total"]["high"], 0.9)
+        self.assertEqual(shares["other.amplitude"]["total"]["value"], 0)
+        pilot, main = ({row["wave.amplitude"] for row in self.rows("ladder", word)} for word in ("pilot", "sample"))
+        self.assertFalse(pilot & main)
+        self.study("again", text, words=("-j", "2"))
+        self.assertEqual(self.file("ladder"), self.file("again"))
+
+    def test_each_bad_input_has_a_sentence(self):
+        inputs = "    inputs: {wave.amplitude: %s}\n"
+        for text, sentence in (
+                (inputs % "{normal: [2 mm, 3 N]}", "the spread has another dimension"),
+                (inputs % "{normal: [2 mm]}", "expected two numbers"),
+                (inputs % "{normal: [20 degC, 5 %]}", "a spread of a temperature is a number of kelvin"),
+                (inputs % "{lognormal: [-2 mm, 5 %]}", "lognormal wants a positive median"),
+                (inputs % "{uniform: [3 mm, 2 mm]}", "the first end is the lower one"),
+                (inputs % "{gaussian: [3 mm, 2 mm]}", 'unknown key "gaussian"'),
+                (inputs % "{samples: none.csv}", "No such file"),
+                ("    inputs: {amplitude: {normal: [2 mm, 5 %]}}\n", "it is no path of the pipeline"),
+                (TWO + "    correlations: [[wave.amplitude, wave.total, 0.5]]\n", 'there is no input "wave.total"'),
+                (TWO + "    correlations: [[wave.amplitude, other.amplitude, 1]]\n", "a number between -1 and 1"),
+                (TWO + "    conditions: [sum < 1 mm]\n", "a condition is about one of the outputs"),
+                (TWO + "    conditions: [wave.total < 1 N]\n", "wave.total < 1 N"),
+                (TWO + "    percentiles: [5]\n", "a percentile is a share"),
+                (TWO + "    ladder: {short: {wave.amplitude: 1 mm}}\n", "an uncertain input sets it"),
+                (TWO + "    ladder: {short: {cost: 1 %}}\n", "it changes nothing"),
+                (TWO + "    ladder: {short: {wave.count: 4, cost: cheap}}\n", "a cost is a share"),
+                (TWO + "    sample: 4\n", 'did you mean "samples"')):
+            with self.subTest(sentence):
+                self.assertIn(sentence, self.study("bad", text, code=2))
+        three = ", ".join(f"w{i}: {{normal: [2 mm, 5 %], sets: [{path}]}}" for i, path in enumerate(
+            ("wave.amplitude", "other.amplitude", "wave.count")))
+        self.assertIn("not positive definite", self.study(
+            "bad", f"    inputs: {{{three}}}\n    correlations: [[w0, w1, 0.9], [w0, w2, 0.9], [w1, w2, -0.9]]\n", code=2))
+
+
+if __name__ == "__main__":
+    lab.main()
