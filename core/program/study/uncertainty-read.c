@@ -164,37 +164,6 @@ static bool read_patches(study_uncertainty *u, const ff_node *map, const char *k
     return true;
 }
 
-size_t study_uncertainty_submit(const study_uncertainty *u, const char *label,
-                                const double *numbers, const uncertainty_patch *patch,
-                                bool measured)
-{
-    study_context *context = u->context;
-    study_setting *settings = memory_alloc(context->path_count * sizeof *settings);
-    size_t k = 0;
-    settings[k++] = (study_setting){"", label};
-    for (size_t i = 0; i < u->inputs.count; i++) {
-        const variate *one = &u->inputs.all[i];
-        const char *value = variates_value(&u->inputs, context, i, numbers);
-        for (size_t p = 0; p < one->path_count; p++, k++)
-            settings[k] = (study_setting){
-                study_context_format(context, "%s=%s", one->paths[p], value), value};
-    }
-    for (; k < context->path_count; k++) {
-        const char *text = patch && patch->assignments ? patch->assignments[k] : NULL;
-        bool accuracy = measured && !strcmp(context->paths[k], "accuracy");
-        text = accuracy ? "accuracy=measured" : text ? text : "";
-        settings[k] = (study_setting){text, *text ? strchr(text, '=') + 1 : ""};
-    }
-    size_t number = study_submit(context, settings, 0, label, patch ? patch->place : NULL);
-    free(settings);
-    return number;
-}
-
-size_t study_uncertainty_pilot_case(const study_uncertainty *u, size_t level, size_t sample)
-{
-    return u->first_pilot + sample * u->level_count + level;
-}
-
 static void submit_pilot(study_uncertainty *u)
 {
     double *numbers = variates_draw(&u->inputs, u->seed, VARIATES_PILOT, u->pilot);

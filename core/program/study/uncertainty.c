@@ -86,21 +86,6 @@ const ff_param study_uncertainty_keys[STUDY_UNCERTAINTY_KEYS] = {
                                    "medians: {thermal: {film.thermal: full}}"},
 };
 
-double study_uncertainty_value(const study_uncertainty *u, size_t number, size_t output)
-{
-    const study_outcome *outcome = study_outcome_of(u->context, number);
-    const study_output *one = &outcome->outputs[output];
-    return *outcome->reason || !one->values || one->rank ? (double)NAN : one->values[0];
-}
-
-size_t study_uncertainty_main_case(const study_uncertainty *u, size_t slot, size_t sample)
-{
-    size_t number = u->first_main + sample;
-    for (size_t k = 0; k < slot; k++)
-        number += u->plan.count[k];
-    return number;
-}
-
 static int compare(const void *a, const void *b)
 {
     double x = *(const double *)a, y = *(const double *)b;

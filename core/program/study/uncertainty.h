@@ -72,21 +72,23 @@ typedef struct study_uncertainty {
 
 /* uncertainty-read.c: reads the keys and submits the cases that are known; NULL after an error. */
 study_uncertainty *study_uncertainty_read(study_context *context, const study_key_value *values);
+
+/* uncertainty-case.c */
 /* Submits one case: inputs from the numbers of variates_draw, NULL for the medians. */
 size_t study_uncertainty_submit(const study_uncertainty *u, const char *label,
                                 const double *numbers, const uncertainty_patch *patch,
                                 bool measured);
+/* Numbers of cases; `slot` is a level of the plan. */
+size_t study_uncertainty_pilot_case(const study_uncertainty *u, size_t level, size_t sample);
+size_t study_uncertainty_main_case(const study_uncertainty *u, size_t slot, size_t sample);
+/* Returns what a case gave of an output; NaN where it failed. */
+double study_uncertainty_value(const study_uncertainty *u, size_t number, size_t output);
 
 /* uncertainty.c: false when the study cannot go on. */
 bool study_uncertainty_run(study_uncertainty *u);
 /* Checks that limits have the units of their outputs. */
 void study_uncertainty_check(const study_uncertainty *u, const ff_pipeline *pipeline,
                              ff_report *report);
-/* Numbers of cases; `slot` is a level of the plan. */
-size_t study_uncertainty_pilot_case(const study_uncertainty *u, size_t level, size_t sample);
-size_t study_uncertainty_main_case(const study_uncertainty *u, size_t slot, size_t sample);
-/* Returns what a case gave of an output; NaN where it failed. */
-double study_uncertainty_value(const study_uncertainty *u, size_t number, size_t output);
 
 /* uncertainty-result.c: returns the whole result. */
 json_t *study_uncertainty_result(const study_uncertainty *u);
