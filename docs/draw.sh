@@ -12,12 +12,13 @@ lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 # a frame for each; their drawings are gathered when all are there
 count=0
-while [ $((2 * count)) -lt $# ]; do
+while [ $# -gt 0 ]; do
     count=$((count + 1))
-    eval "description=\${$((2 * count - 1))}"
-    "$program" report "$description" -o "$lab/$count.html" >/dev/null
-    echo "<iframe src=\"$count.html#figures\" width=1200 height=900></iframe>"
-done >"$lab/all.html"
+    "$program" report "$1" -o "$lab/$count.html" >/dev/null
+    echo "<iframe src=\"$count.html#figures\" width=1200 height=900></iframe>" >>"$lab/all.html"
+    echo "$2" >>"$lab/places"
+    shift 2
+done
 cat >>"$lab/all.html" <<'HTML'
 <script>
 onload = function gather() {
@@ -29,7 +30,7 @@ onload = function gather() {
 HTML
 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --user-data-dir="$lab/profile" --virtual-time-budget=20000 \
     --allow-file-access-from-files --window-size=1200,900 --dump-dom "file://$lab/all.html" >"$lab/dom" 2>"$lab/said"
-awk -v count=$(($# / 2)) -v lab="$lab" '{ text = text $0 "\n" }
+awk -v count="$count" -v lab="$lab" '{ text = text $0 "\n" }
     END {
         for (i = 1; i <= count; i++) {
             if (!match(text, /<pre class="saved">/)) exit 1
@@ -45,8 +46,7 @@ awk -v count=$(($# / 2)) -v lab="$lab" '{ text = text $0 "\n" }
     exit 1
 }
 count=0
-while [ $# -gt 0 ]; do
+while read -r place; do
     count=$((count + 1))
-    mv "$lab/$count.svg" "$2"
-    shift 2
-done
+    mv "$lab/$count.svg" "$place"
+done <"$lab/places"
