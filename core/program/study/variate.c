@@ -16,8 +16,9 @@
 enum { MOST_SAMPLES = 1000000 };
 
 static const char *const kinds[] = {"normal", "lognormal", "uniform", "samples"};
-static const char hint[] = "write duty.torque: {normal: [250 N m, 10 %]}; also lognormal: [MEDIAN, "
-                           "10 %], uniform: [FROM, TO], samples: FILE.csv or a list";
+static const char hint[] =
+    "write duty.torque: {normal: [250 N m, 10 %]}, or 250 N m +- 5 %; also lognormal: [MEDIAN, "
+    "10 %], uniform: [FROM, TO], samples: FILE.csv or a list";
 
 static bool refuse(study_context *context, const ff_node *at, const char *name, const char *help,
                    const char *what)
@@ -235,9 +236,29 @@ static bool read_paths(study_context *context, const ff_node *sets, const ff_nod
     return true;
 }
 
+/* A value with the tolerance of a drawing: as likely everywhere between its ends. */
+static bool read_toleranced(study_context *context, const ff_node *node, variate *v)
+{
+    ff_tolerance t;
+    char why[200];
+    int found = ff_tolerance_parse(node->text, &t, why, sizeof why);
+    if (found < 0)
+        return refuse(context, node, v->name, NULL, why);
+    if (found == 0)
+        return refuse(context, node, v->name, hint, "expected a distribution");
+    v->kind = VARIATE_UNIFORM;
+    v->a = t.low;
+    v->b = t.high;
+    v->unit = study_context_format(context, "%s", t.unit);
+    v->text = study_context_format(context, "%.200s", node->text);
+    return read_paths(context, NULL, node, v);
+}
+
 static bool read_variate(study_context *context, const ff_node *map, variate *v)
 {
     const ff_node *node = NULL, *own;
+    if (study_word(map))
+        return read_toleranced(context, map, v);
     if (!study_is_map(map))
         return refuse(context, map, v->name, hint, "expected a distribution");
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {

@@ -86,6 +86,11 @@ class Uncertainty(lab.Lab):
         self.assertEqual({a for a, _ in pairs}, {1.25, 1.5, 1.75})
         self.assertTrue(all(1 <= b <= 2 for _, b in pairs))
         self.assertGreater(statistics.correlation(*zip(*pairs)), 0.6)
+        self.study("toleranced", """    inputs: {wave.amplitude: {samples: measured.csv}, other.amplitude: 1.5 mm +- 0.05 cm}
+    correlations: [[wave.amplitude, other.amplitude, 0.9]]
+    samples: 40
+""")
+        self.assertEqual(pairs, [(amplitude(row), amplitude(row, "other")) for row in self.rows("toleranced", "sample")])
         # the first of more samples are the same ones, which are not computed again
         said = self.call("run", "two.yaml", "-o", "two", "--set", "study.uncertainty.samples=50")
         self.assertIn("52 cases done, 42 of them before", said)
@@ -124,6 +129,8 @@ class Uncertainty(lab.Lab):
                 (inputs % "{normal: [20 degC, 5 %]}", "a spread of a temperature is a number of kelvin"),
                 (inputs % "{lognormal: [-2 mm, 5 %]}", "lognormal wants a positive median"),
                 (inputs % "{uniform: [3 mm, 2 mm]}", "the first end is the lower one"),
+                (inputs % "3 mm +- 2 N", "two units that do not agree"),
+                (inputs % "3 mm", "expected a distribution"),
                 (inputs % "{gaussian: [3 mm, 2 mm]}", 'unknown key "gaussian"'),
                 (inputs % "{samples: none.csv}", "No such file"),
                 ("    inputs: {amplitude: {normal: [2 mm, 5 %]}}\n", "it is no path of the pipeline"),
