@@ -182,8 +182,8 @@ and is not compared.
 
 ## What is not here
 
-- The mesh loss at a second temperature of the teeth, with heat in the film: the oil is printed at one temperature.
-- Inlet heating by Gupta and by Wilson & Sheu against a film with heat: it needs `thermal: full`.
+- The mesh loss with heat in the film at two temperatures of the teeth, and inlet heating by Gupta and by Wilson & Sheu
+  against a film with heat: [films with heat](heat.md).
 - Traction of squalane: curves are known as figures alone. Losses of the FZG gears: the same.
 - ISO/TR 6336-30, example 1: helical gears, of virtual numbers of teeth that are no whole numbers; this program is for
   spur gears. The formula of c' for spur gears stands in [benchmarks](benchmarks.md).
