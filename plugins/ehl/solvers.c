@@ -53,7 +53,7 @@ static const ff_param params[] = {
         "oil in the inlet, as if conduction alone took its heat away. full: temperatures across "
         "the film, carried along and conducted into flanks that warm up; smooth flanks. Both need "
         "an oil with its conductivity, full its heat_capacity"),
-    FF_COUNT("thermal_nodes", ehl_model, thermal_nodes, FF_TUNABLE, "8", NULL, EHL_ACROSS_LEAST,
+    FF_COUNT("thermal_nodes", ehl_model, thermal_nodes, 0, "8", NULL, EHL_ACROSS_LEAST,
              EHL_ACROSS_MOST, 0, 0,
              "thermal: full: nodes across the film, those of Gauss, Legendre and Lobatto; the "
              "error falls exponentially with them"),
