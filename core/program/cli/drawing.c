@@ -19,44 +19,42 @@ enum { LABEL = 40, VALUE = 32, MOST_TOLERANCES = 10 };
 
 /* What a row is made of: an output of the gears, doubled where it is a radius. */
 typedef struct drawing_row {
-    const char *label, *output;
-    double factor; /* to the unit */
-    const char *unit;
+    const char *label, *output, *unit;
+    bool radius;
     int decimals;
 } drawing_row;
 
-#define PER_DEGREE (180 / M_PI)
 static const drawing_row rows[] = {
-    {"number of teeth z", "teeth", 1, "", 0},
-    {"module m_n", "module", 1e3, "mm", 4},
-    {"pressure angle alpha_n", "pressure_angle", PER_DEGREE, "deg", 4},
-    {"profile shift x", "profile_shift", 1, "", 4},
-    {"tip diameter d_a", "tip_radius", 2e3, "mm", 4},
-    {"reference diameter d", "reference_radius", 2e3, "mm", 4},
-    {"base diameter d_b", "base_radius", 2e3, "mm", 4},
-    {"active root diameter d_Nf", "active_root_radius", 2e3, "mm", 4},
-    {"root form diameter d_Ff", "root_form_radius", 2e3, "mm", 4},
-    {"root diameter d_f", "root_radius", 2e3, "mm", 4},
-    {"face width b", "face_width", 1e3, "mm", 3},
-    {"tooth thickness s, without allowance", "tooth_thickness", 1e3, "mm", 4},
-    {"tooth thickness allowance E_sn", "thickness_allowance", 1e6, "um", 1},
-    {"tooth thickness at the tip s_a", "tip_thickness", 1e3, "mm", 4},
-    {"span over k teeth: k", "span_teeth", 1, "", 0},
-    {"span measure W_k", "span", 1e3, "mm", 4},
-    {"pin diameter D_M", "pin_diameter", 1e3, "mm", 4},
-    {"measure over pins M_d", "over_pins", 1e3, "mm", 4},
-    {"base pitch p_b", "base_pitch", 1e3, "mm", 4},
-    {"tool tip radius over the module", "tool_tip_radius", 1, "", 4},
-    {"roughness Rq", "roughness", 1e6, "um", 3},
-    {"Young's modulus E", "elastic_modulus", 1e-9, "GPa", 1},
-    {"Poisson's ratio", "poisson_ratio", 1, "", 3},
-    {"mass", "mass", 1, "kg", 4},
-    {"inertia", "inertia", 1, "kg m2", 8},
-    {"centre distance a", "centre_distance", 1e3, "mm", 4},
-    {"working pressure angle alpha_w", "working_pressure_angle", PER_DEGREE, "deg", 4},
-    {"working pitch diameter d_w", "pitch_radius", 2e3, "mm", 4},
-    {"contact ratio epsilon_alpha", "contact_ratio", 1, "", 4},
-    {"backlash, along the line of action j_bn", "backlash", 1e6, "um", 1},
+    {"number of teeth z", "teeth", "", false, 0},
+    {"module m_n", "module", "mm", false, 4},
+    {"pressure angle alpha_n", "pressure_angle", "deg", false, 4},
+    {"profile shift x", "profile_shift", "", false, 4},
+    {"tip diameter d_a", "tip_radius", "mm", true, 4},
+    {"reference diameter d", "reference_radius", "mm", true, 4},
+    {"base diameter d_b", "base_radius", "mm", true, 4},
+    {"active root diameter d_Nf", "active_root_radius", "mm", true, 4},
+    {"root form diameter d_Ff", "root_form_radius", "mm", true, 4},
+    {"root diameter d_f", "root_radius", "mm", true, 4},
+    {"face width b", "face_width", "mm", false, 3},
+    {"tooth thickness s, without allowance", "tooth_thickness", "mm", false, 4},
+    {"tooth thickness allowance E_sn", "thickness_allowance", "um", false, 1},
+    {"tooth thickness at the tip s_a", "tip_thickness", "mm", false, 4},
+    {"span over k teeth: k", "span_teeth", "", false, 0},
+    {"span measure W_k", "span", "mm", false, 4},
+    {"pin diameter D_M", "pin_diameter", "mm", false, 4},
+    {"measure over pins M_d", "over_pins", "mm", false, 4},
+    {"base pitch p_b", "base_pitch", "mm", false, 4},
+    {"tool tip radius over the module", "tool_tip_radius", "", false, 4},
+    {"roughness Rq", "roughness", "um", false, 3},
+    {"Young's modulus E", "elastic_modulus", "GPa", false, 1},
+    {"Poisson's ratio", "poisson_ratio", "", false, 3},
+    {"mass", "mass", "kg", false, 4},
+    {"inertia", "inertia", "kg m2", false, 8},
+    {"centre distance a", "centre_distance", "mm", false, 4},
+    {"working pressure angle alpha_w", "working_pressure_angle", "deg", false, 4},
+    {"working pitch diameter d_w", "pitch_radius", "mm", true, 4},
+    {"contact ratio epsilon_alpha", "contact_ratio", "", false, 4},
+    {"backlash, along the line of action j_bn", "backlash", "um", false, 1},
 };
 enum { ROWS = sizeof rows / sizeof rows[0] };
 
@@ -69,7 +67,7 @@ static const struct {
              {"protuberance", "protuberance"}, {"machining allowance", "machining_allowance"}};
 enum { WORDS = sizeof words / sizeof words[0], WORD = 120 };
 
-/* The numbers of a row: one, or one of each gear. */
+/* The numbers of a row in SI: one, or one of each gear. */
 typedef struct drawing_numbers {
     size_t count;
     double value[2], low[2], high[2];
@@ -111,7 +109,7 @@ static void take(drawing *d, const ff_stage *stage, bool first)
         drawing_numbers *n = &d->numbers[i];
         n->count = result->count < 2 ? result->count : 2;
         for (size_t g = 0; g < n->count; g++) {
-            double value = result->data[g] * rows[i].factor;
+            double value = result->data[g];
             n->value[g] = first ? value : n->value[g];
             n->low[g] = first ? value : fmin(n->low[g], value);
             n->high[g] = first ? value : fmax(n->high[g], value);
@@ -176,10 +174,17 @@ static bool evaluate(drawing *d, long corner)
 static void write_number(const drawing_row *row, const drawing_numbers *n, size_t g,
                          char out[VALUE * 2])
 {
-    int used = snprintf(out, VALUE, "%.*f", row->decimals, n->value[g]);
-    if (n->high[g] - n->low[g] > 0.5 * pow(10, -row->decimals))
-        snprintf(out + used, VALUE, " (%.*f to %.*f)", row->decimals, n->low[g], row->decimals,
-                 n->high[g]);
+    ff_unit unit;
+    char why[200];
+    const double si[] = {n->value[g], n->low[g], n->high[g]};
+    double number[3];
+    ff_unit_parse(row->unit, &unit, why, sizeof why);
+    for (int i = 0; i < 3; i++)
+        number[i] = ff_unit_from_si(&unit, row->radius ? 2 * si[i] : si[i]);
+    int used = snprintf(out, VALUE, "%.*f", row->decimals, number[0]);
+    if (number[2] - number[1] > 0.5 * pow(10, -row->decimals))
+        snprintf(out + used, VALUE, " (%.*f to %.*f)", row->decimals, number[1], row->decimals,
+                 number[2]);
 }
 
 static void print_row(const drawing_row *row, const drawing_numbers *n)
@@ -208,11 +213,11 @@ static void print_table(const drawing *d)
         printf("\nIn brackets: the least and the largest within the tolerances of the file.\n");
 }
 
-static json_t *in_si(const drawing_row *row, const double *numbers, size_t count)
+static json_t *list_of(const double *numbers, size_t count)
 {
     json_t *list = json_array();
     for (size_t g = 0; g < count; g++)
-        json_array_append_new(list, json_real(numbers[g] / row->factor));
+        json_array_append_new(list, json_real(numbers[g]));
     return list;
 }
 
@@ -223,10 +228,9 @@ static json_t *describe(const drawing *d)
     for (size_t i = 0; i < ROWS; i++) {
         const drawing_numbers *n = &d->numbers[i];
         json_object_set_new(object, rows[i].output,
-                            json_pack("{s:o, s:o, s:o}", "value",
-                                      in_si(&rows[i], n->value, n->count), "lowest",
-                                      in_si(&rows[i], n->low, n->count), "highest",
-                                      in_si(&rows[i], n->high, n->count)));
+                            json_pack("{s:o, s:o, s:o}", "value", list_of(n->value, n->count),
+                                      "lowest", list_of(n->low, n->count), "highest",
+                                      list_of(n->high, n->count)));
     }
     return object;
 }
