@@ -92,16 +92,28 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* What all samples share, such as a mesh under one torque, is computed once, and is no cost of a
+   sample: the cases of level 0 reuse it from the second one on. */
+static double shared_seconds(const study_uncertainty *u)
+{
+    double least = INFINITY;
+    for (size_t i = 1; i < u->pilot; i++)
+        least =
+            fmin(least, study_outcome_of(u->context, study_uncertainty_pilot_case(u, 0, i))->saved);
+    return isfinite(least) ? least : 0;
+}
+
 /* The median processor time of the cases of a level in the pilot. */
 static double seconds_of(const study_uncertainty *u, size_t level)
 {
+    double shared = shared_seconds(u);
     double *all = memory_alloc(u->pilot * sizeof *all);
     size_t count = 0;
     for (size_t i = 0; i < u->pilot; i++) {
         const study_outcome *outcome =
             study_outcome_of(u->context, study_uncertainty_pilot_case(u, level, i));
         if (outcome->processor > 0)
-            all[count++] = outcome->processor + outcome->saved;
+            all[count++] = outcome->processor + fmax(0, outcome->saved - shared);
     }
     qsort(all, count, sizeof *all, compare);
     double median = count ? all[count / 2] : (double)NAN;
