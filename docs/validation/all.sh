@@ -49,6 +49,8 @@ TEXT
     cat "$work/rows"
     cat <<'TEXT'
 
+[What was once wrong without a word](rows.md), row by row, before and now, is a [campaign](../campaigns.md) as well.
+
 `meson test -C build validation` runs the script of the paper's figures, but for its last section, and the
 benchmarks into a folder of its own and compares what they write with the pages kept here: words,
 verdicts included, must be the same, numbers within 2 % or 2 of the last digit. Of the other pages the tests hold the numbers:

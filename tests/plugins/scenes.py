@@ -61,10 +61,11 @@ class Runner:
         self.program, self.source = program, os.path.abspath(source)
         self.file = os.path.join(tempfile.mkdtemp(), 'scene.yaml')
 
-    def run(self, scene, outputs, arrays=False, **stages):
+    def run(self, scene, outputs, arrays=False, sets=(), **stages):
         with open(self.file, 'w') as stream:
             stream.write(text_of(scene, self.source, stages, outputs))
         command = [self.program, 'run', self.file, '--json'] + ['--arrays'] * arrays
+        command += [f'--set={s}' for s in sets]
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
                               check=False)
         return json.loads(done.stdout)
