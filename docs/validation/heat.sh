@@ -167,7 +167,7 @@ for name, sets in laws.items():
     row = [losses[name, 6000][0], *others]
     print("| %s | %s |" % (name, " | ".join("%.3f" % x if x is not None else "no film was found" for x in row)), flush=True)
 print("""
-The bars: the temperature of the teeth moves the loss by 1 to 8 %, alpha within 10 % by 12 to 24 %, cells and steps by 0.2 %, the law of
+The bars: the temperature of the teeth moves the loss by 1 to 8 %, alpha within 10 % by 11 to 24 %, cells and steps by 0.2 %, the law of
 eta(p) and the Eyring stress by a factor of four. By these data no law is right. What would settle it: traction of this oil
 over slip and pressure, its viscosity over temperature, the temperature of the teeth, and whether one mesh or two were
 measured. Losses without load are in none of these numbers.""")

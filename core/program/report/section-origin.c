@@ -5,7 +5,7 @@
 static void write_facts(report_page *page)
 {
     const ff_view *view = page->view;
-    fputs("<table><tbody>\n", page->out);
+    fputs("<table class=\"facts\"><tbody>\n", page->out);
     for (size_t i = 0; i < view->fact_count; i++) {
         fputs("<tr><th scope=\"row\">", page->out);
         report_put_text(page->out, view->facts[i]->name);
