@@ -315,13 +315,13 @@ void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_
                 context->name);
 }
 
-/* Builds the cases that are known beforehand, so that errors show before anything runs. Only the
-   first error at each place is reported. */
-static bool open_cases(const study_context *context, const study_run *run)
+/* Builds the first cases, so that errors show before anything runs. Only the first error at each
+   place is reported. */
+static bool open_cases(const study_context *context, const study_run *run, size_t count)
 {
     ff_place wrong = FF_NOWHERE;
     bool good = true;
-    for (size_t i = 0; i < context->planned; i++) {
+    for (size_t i = 0; i < count; i++) {
         const study_submitted *submitted = &context->cases[i];
         const ff_place place = submitted->place;
         study_case c;
@@ -352,7 +352,9 @@ bool study_drive(const study_run *run, study_counters *counters, ff_report *repo
     context->report = report;
     context->run = &own;
     context->counters = counters;
-    bool good = (!context->measured || open_cases(context, run)) &&
+    /* a sample of uncertain inputs may be one that cannot be, but not their medians */
+    size_t opened = context->measured ? context->planned : driver->uncertainty ? 1 : 0;
+    bool good = open_cases(context, run, opened) &&
                 (driver->map        ? study_map_run(driver->map)
                  : driver->tradeoff ? study_tradeoff_run(driver->tradeoff)
                                     : study_uncertainty_run(driver->uncertainty)) &&

@@ -29,7 +29,8 @@ size_t study_uncertainty_submit(const study_uncertainty *u, const char *label,
         text = accuracy ? "accuracy=measured" : text ? text : "";
         settings[k] = (study_setting){text, *text ? strchr(text, '=') + 1 : ""};
     }
-    size_t number = study_submit(context, settings, 0, label, patch ? patch->place : NULL);
+    size_t number =
+        study_submit(context, settings, 0, label, patch ? patch->place : u->inputs.place);
     free(settings);
     return number;
 }

@@ -371,6 +371,7 @@ bool variates_read(variates *v, study_context *context, const ff_node *inputs,
                       "expected a map from paths to distributions");
     if (inputs->count > VARIATE_MOST)
         return refuse(context, inputs, "inputs", NULL, "at most 32 are possible");
+    v->place = inputs;
     for (size_t i = 0; i < inputs->count; i++) {
         v->all[i].name = inputs->keys[i];
         v->count++;

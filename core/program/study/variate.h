@@ -26,6 +26,7 @@ typedef struct variate {
 } variate;
 
 typedef struct variates {
+    const ff_node *place; /* the map of inputs */
     size_t count, groups;
     variate all[VARIATE_MOST];
     double root[VARIATE_MOST * VARIATE_MOST]; /* Cholesky factor of the correlations, by rows */

@@ -142,6 +142,8 @@ class Uncertainty(lab.Lab):
                 (TWO + "    ladder: {short: {wave.amplitude: 1 mm}}\n", "an uncertain input sets it"),
                 (TWO + "    ladder: {short: {cost: 1 %}}\n", "it changes nothing"),
                 (TWO + "    ladder: {short: {wave.count: 4, cost: cheap}}\n", "a cost is a share"),
+                ("    inputs: {wave.amplitud: {normal: [2 mm, 5 %]}}\n", 'bad.yaml:10:13: error: uncertainty: medians: wave: unknown key "amplitud"'),
+                ("    inputs: {wave.amplitude: {normal: [2 N, 5 %]}}\n", "uncertainty: medians: wave.amplitude"),
                 (TWO + "    sample: 4\n", 'did you mean "samples"')):
             with self.subTest(sentence):
                 self.assertIn(sentence, self.study("bad", text, code=2))
