@@ -34,30 +34,18 @@ static size_t companion(const estimate_samples *s, double *scale, double *shift,
     double least = 0.25 / (double)s->count[0];
     size_t best = 0;
     for (size_t k = 1; k < s->levels; k++) {
-        double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0, n = 0;
-        for (size_t i = 0; i < s->pilot_count; i++) {
-            double a = s->pilot[0][i], b = s->pilot[k][i];
-            if (!isfinite(a) || !isfinite(b))
-                continue;
-            double da = a - ma, db = b - mb;
-            n++;
-            ma += da / n;
-            mb += db / n;
-            aa += da * (a - ma);
-            bb += db * (b - mb);
-            ab += da * (b - mb);
-        }
-        if (n < 3 || !(aa > 0 && bb > 0))
+        estimate_moments m = estimate_pairs(s->pilot[0], s->pilot[k], s->pilot_count, NULL, 0);
+        if (m.count < 3 || !(m.aa > 0 && m.bb > 0))
             continue;
-        double apart = acos(fmax(-1, fmin(1, fabs(ab) / sqrt(aa * bb)))) / acos(-1);
+        double r = fmin(1, fabs(m.ab) / sqrt(m.aa * m.bb)), apart = acos(r) / acos(-1);
         double variance = apart / (double)s->count[0] + 0.25 / (double)s->count[k];
         if (variance < least) {
             least = variance;
             *most = apart;
             best = k;
             /* that of the spreads, not of the regression, which would be narrower than level 0 */
-            *scale = copysign(sqrt(aa / bb), ab);
-            *shift = ma - *scale * mb;
+            *scale = copysign(sqrt(m.aa / m.bb), m.ab);
+            *shift = m.mean_a - *scale * m.mean_b;
         }
     }
     return best;

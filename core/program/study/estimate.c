@@ -9,26 +9,34 @@
 #include <math.h>
 #include <stdlib.h>
 
+estimate_moments estimate_pairs(const double *a, const double *b, size_t count,
+                                double (*g)(double, double), double about)
+{
+    estimate_moments m = {0};
+    for (size_t i = 0; i < count; i++) {
+        double x = g ? g(a[i], about) : a[i], y = g ? g(b[i], about) : b[i];
+        if (!isfinite(x) || !isfinite(y))
+            continue;
+        double dx = x - m.mean_a, dy = y - m.mean_b;
+        m.count++;
+        m.mean_a += dx / m.count;
+        m.mean_b += dy / m.count;
+        m.aa += dx * (x - m.mean_a);
+        m.bb += dy * (y - m.mean_b);
+        m.ab += dx * (y - m.mean_b);
+    }
+    return m;
+}
+
 /* Of samples that all levels have. */
 static double correlation(const double *a, const double *b, size_t count)
 {
-    double ma = 0, mb = 0, aa = 0, bb = 0, ab = 0, n = 0;
-    for (size_t i = 0; i < count; i++) {
-        if (!isfinite(a[i]) || !isfinite(b[i]))
-            continue;
-        double da = a[i] - ma, db = b[i] - mb;
-        n++;
-        ma += da / n;
-        mb += db / n;
-        aa += da * (a[i] - ma);
-        bb += db * (b[i] - mb);
-        ab += da * (b[i] - mb);
-    }
-    if (n < 3 || !(aa > 0 && bb > 0))
+    estimate_moments m = estimate_pairs(a, b, count, NULL, 0);
+    if (m.count < 3 || !(m.aa > 0 && m.bb > 0))
         return 0;
     /* the residual variance of n samples has n - 2 degrees of freedom, the variance n - 1 */
-    double rest = (1 - ab * ab / (aa * bb)) * (n - 1) / (n - 2);
-    return rest < 1 ? copysign(sqrt(1 - fmax(rest, 0)), ab) : 0;
+    double rest = (1 - m.ab * m.ab / (m.aa * m.bb)) * (m.count - 1) / (m.count - 2);
+    return rest < 1 ? copysign(sqrt(1 - fmax(rest, 0)), m.ab) : 0;
 }
 
 /* m_i = N sqrt(d_i / w_i) sum sqrt(d_j w_j) gives the variance sum d_i / m_i = 1 / N at the least
@@ -137,19 +145,8 @@ static void find_weights(const estimate_samples *s, double (*g)(double, double),
 {
     weight[0] = 1;
     for (size_t k = 1; k < s->levels; k++) {
-        double ma = 0, mb = 0, bb = 0, ab = 0, n = 0;
-        for (size_t i = 0; i < s->pilot_count; i++) {
-            double a = g(s->pilot[0][i], about), b = g(s->pilot[k][i], about);
-            if (!isfinite(a) || !isfinite(b))
-                continue;
-            double da = a - ma, db = b - mb;
-            n++;
-            ma += da / n;
-            mb += db / n;
-            bb += db * (b - mb);
-            ab += da * (b - mb);
-        }
-        weight[k] = bb > 0 ? ab / bb : 0;
+        estimate_moments m = estimate_pairs(s->pilot[0], s->pilot[k], s->pilot_count, g, about);
+        weight[k] = m.bb > 0 ? m.ab / m.bb : 0;
     }
 }
 

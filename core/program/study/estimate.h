@@ -41,6 +41,15 @@ typedef struct estimate_plan {
     double cost;                              /* of these samples, in cases of level 0 */
 } estimate_plan;
 
+/* Means of pairs of values, and the sums of squares and products about them. */
+typedef struct estimate_moments {
+    double count, mean_a, mean_b, aa, bb, ab;
+} estimate_moments;
+
+/* Of g of the values, or of themselves where g is NULL; pairs with a NaN are left out. */
+estimate_moments estimate_pairs(const double *a, const double *b, size_t count,
+                                double (*g)(double, double), double about);
+
 /* What is to be known as well as from plain samples: the mean alone, which takes the fewest, or
    percentiles and probabilities, too. */
 typedef enum { ESTIMATE_MEAN, ESTIMATE_DISTRIBUTION } estimate_aim;
