@@ -74,10 +74,10 @@ static const char *name_of_group(const study_uncertainty *u, size_t group)
 }
 
 /*
- * The shares of the inputs, of the last level. With r its correlation with the file's model, y = b
- * z
- * + rest, and the parts of a variance that inputs make obey the triangle inequality in their roots:
- * a share of y lies between (r sqrt(S) - e)^2 and (r sqrt(S) + e)^2 with e = sqrt(1 - r^2).
+ * The shares of the inputs, of the last level. Where r is its correlation with the file's model,
+ * that model is a multiple of it and a rest, and the parts of a variance that inputs make obey the
+ * triangle inequality in their roots: a share of the file's model lies between (r sqrt(S) - e)^2
+ * and (r sqrt(S) + e)^2 with e = sqrt(1 - r^2).
  */
 static json_t *shares_of(const study_uncertainty *u, size_t output)
 {
