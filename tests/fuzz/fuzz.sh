@@ -15,19 +15,31 @@ study) more='core/engine/*.c core/program/study/*.c core/program/accuracy/*.c co
 *) more='' libraries='' ;;
 esac
 flags="-g -O1 -std=c11 -D_GNU_SOURCE -Iinclude"
-# shellcheck disable=SC2086
-clang $flags -fsanitize=fuzzer,address,undefined -fno-sanitize-recover=undefined \
-    -DFE_PLUGIN_DIR='"/nonexistent"' -DFE_PLUGIN_FOLDER='"plugins"' \
-    -DFE_UP_FROM_LIBRARY='"../"' "tests/fuzz/$target.c" \
-    core/engine/value/*.c core/engine/plugin/*.c core/engine/pipeline/*.c $more -o "$work/fuzz-$target" \
-    -lyaml $libraries -lm -ldl
-if [ "$target" = bind ] || [ "$target" = study ]; then
+watched="-fsanitize=address,undefined -fno-sanitize-recover=undefined"
+places='-DFE_PLUGIN_DIR="/nonexistent" -DFE_PLUGIN_FOLDER="plugins" -DFE_UP_FROM_LIBRARY="../"'
+
+# what all targets share is compiled once, by the first of those that are built at a time
+build_shared() {
+    rm -rf "$work/objects" "$work/engine.a" && mkdir "$work/objects"
+    for source in core/engine/value/*.c core/engine/plugin/*.c core/engine/pipeline/*.c; do
+        # shellcheck disable=SC2086
+        clang $flags $watched -fsanitize=fuzzer-no-link $places -c "$source" -o "$work/objects/$(basename "$source" .c).o"
+    done
     for toy in tests/bad/plugins/toy/*.c; do
         # shellcheck disable=SC2086
         clang $flags -DSIDE='"mutual"' -fPIC -shared -fvisibility=hidden "$toy" \
             -o "$work/toys/toy/$(basename "$toy" .c).so"
     done
-fi
+    ar rcs "$work/engine.a" "$work"/objects/*.o
+}
+(
+    flock 9
+    [ -e "$work/engine.a" ] &&
+        [ -z "$(find core/engine include tests/bad/plugins/toy -newer "$work/engine.a" -print -quit)" ] || build_shared
+) 9>"$work/lock"
+# shellcheck disable=SC2086
+clang $flags $watched -fsanitize=fuzzer $places "tests/fuzz/$target.c" $more "$work/engine.a" -o "$work/fuzz-$target" \
+    -lyaml $libraries -lm -ldl
 
 set -- "$@" -artifact_prefix="tests/fuzz/found/$target/" "$work/$target" "tests/fuzz/corpus/$target" \
     "tests/fuzz/found/$target"
