@@ -22,9 +22,10 @@ enum { START_CYCLES = 50, DAMPED_LIMIT = 20000, UNDAMPED_LIMIT = 1000, HISTORY =
  */
 static const double nearly_periodic = 1e-3;
 
-static void start_at_rest(dynamics_oscillator *o, const dynamics_excitation *excitation, double T)
+static void start_at_rest(const dynamics_follower *follower, const dynamics_excitation *excitation,
+                          double T)
 {
-    dynamics_oscillator_start(o, T, dynamics_rest_deflection(excitation), 0);
+    follower->start(follower->self, T, dynamics_rest_deflection(excitation), 0);
 }
 
 /* The relative change of the mesh frequency per cycle is well below the damping, so that the motion
@@ -41,10 +42,11 @@ static ff_status stopped(const ff_host *host, double share)
     return host->progress(host->ctx, fmin(fmax(share, 0), 1)) ? FF_STOPPED : FF_OK;
 }
 
-static int is_unbounded(const dynamics_oscillator *o, const dynamics_excitation *excitation)
+static int is_unbounded(const dynamics_follower *follower, const dynamics_excitation *excitation)
 {
-    const double *y = dynamics_oscillator_state(o);
-    return dynamics_is_unbounded(excitation, y[DYNAMICS_DELTA], y[DYNAMICS_RATE]);
+    double x[2];
+    follower->state(follower->self, x);
+    return dynamics_is_unbounded(excitation, x[0], x[1]);
 }
 
 /* The start of the sweep takes five times the time 1/zeta in which a disturbance decays by e. */
@@ -59,17 +61,17 @@ double dynamics_sweep_from(dynamics_branch branch, double frequency)
     return branch == DYNAMICS_BRANCH_UPPER ? fmax(top, frequency) : bottom * frequency;
 }
 
-/* Sweeps from the state of `o` at one frequency to another, both relative to the natural one, after
-   `start` cycles. Where the motion grows without bound it starts from rest again. */
-static ff_status sweep(dynamics_oscillator *o, const dynamics_excitation *excitation,
+/* Sweeps from the state of the follower at one frequency to another, both relative to the natural
+   one, after `start` cycles. Where the motion grows without bound it starts from rest again. */
+static ff_status sweep(const dynamics_follower *follower, const dynamics_excitation *excitation,
                        const ff_host *host, double from, double to, size_t start)
 {
     double frequency = from, way = log(to / from);
     for (size_t i = 0; way < 0 ? frequency > to : frequency < to; i++) {
-        if (!dynamics_oscillator_cycle(o, 2 * M_PI / frequency, NULL))
+        if (!follower->cycle(follower->self, 2 * M_PI / frequency))
             return FF_NOCONV;
-        if (is_unbounded(o, excitation))
-            start_at_rest(o, excitation, 2 * M_PI / frequency);
+        if (is_unbounded(follower, excitation))
+            start_at_rest(follower, excitation, 2 * M_PI / frequency);
         if (i >= start)
             frequency *= 1 + (way < 0 ? -1 : 1) * dynamics_sweep_rate(excitation, frequency);
         if (i % 256 == 0 && stopped(host, 0.5 * log(frequency / from) / way) != FF_OK)
@@ -93,10 +95,10 @@ typedef struct history {
     size_t count;
 } history;
 
-static void remember(history *h, const double *y)
+static void remember(history *h, const double *x)
 {
-    h->delta[h->count % HISTORY] = y[DYNAMICS_DELTA];
-    h->rate[h->count % HISTORY] = y[DYNAMICS_RATE];
+    h->delta[h->count % HISTORY] = x[0];
+    h->rate[h->count % HISTORY] = x[1];
     h->count++;
 }
 
@@ -141,23 +143,26 @@ static void find_period(const history *h, const dynamics_excitation *excitation,
     }
 }
 
-static ff_status settle_here(dynamics_oscillator *o, const dynamics_excitation *excitation,
-                             const dynamics_settling *how, dynamics_settled *result)
+static ff_status settle_here(const dynamics_follower *follower,
+                             const dynamics_excitation *excitation, const dynamics_settling *how,
+                             dynamics_settled *result)
 {
-    const double *y = dynamics_oscillator_state(o);
+    double x[2];
     history h = {.count = 0};
-    remember(&h, y);
+    follower->state(follower->self, x);
+    remember(&h, x);
     while (result->cycles < result->limit && !result->within) {
-        result->delta = y[DYNAMICS_DELTA];
-        result->rate = y[DYNAMICS_RATE];
-        if (!dynamics_oscillator_cycle(o, how->T, NULL))
+        result->delta = x[0];
+        result->rate = x[1];
+        if (!follower->cycle(follower->self, how->T))
             return FF_NOCONV;
         result->cycles++;
-        if (is_unbounded(o, excitation)) {
+        if (is_unbounded(follower, excitation)) {
             result->period = DYNAMICS_UNBOUNDED;
             return FF_OK;
         }
-        remember(&h, y);
+        follower->state(follower->self, x);
+        remember(&h, x);
         find_period(&h, excitation, how, result);
         double share = (double)result->cycles / (double)result->limit;
         if (result->cycles % 256 == 0 && stopped(how->host, 0.5 + 0.4 * share) != FF_OK)
@@ -165,12 +170,12 @@ static ff_status settle_here(dynamics_oscillator *o, const dynamics_excitation *
     }
     if (!result->within && !(result->distance < nearly_periodic))
         result->period = DYNAMICS_APERIODIC;
-    result->delta = y[DYNAMICS_DELTA];
-    result->rate = y[DYNAMICS_RATE];
+    result->delta = x[0];
+    result->rate = x[1];
     return FF_OK;
 }
 
-ff_status dynamics_settle(dynamics_oscillator *o, const dynamics_excitation *excitation,
+ff_status dynamics_settle(const dynamics_follower *follower, const dynamics_excitation *excitation,
                           const dynamics_settling *how, dynamics_settled *result)
 {
     *result = (dynamics_settled){
@@ -188,16 +193,16 @@ ff_status dynamics_settle(dynamics_oscillator *o, const dynamics_excitation *exc
     if (contact == FF_NOMEM)
         return contact;
     if (how->from > 0) {
-        dynamics_oscillator_start(o, 2 * M_PI / how->from, how->start[0], how->start[1]);
-        status = sweep(o, excitation, how->host, how->from, frequency, 0);
+        follower->start(follower->self, 2 * M_PI / how->from, how->start[0], how->start[1]);
+        status = sweep(follower, excitation, how->host, how->from, frequency, 0);
     } else if (contact == FF_OK) {
-        dynamics_oscillator_start(o, how->T, delta, rate);
+        follower->start(follower->self, how->T, delta, rate);
     } else {
-        start_at_rest(o, excitation, 2 * M_PI / from);
-        status = sweep(o, excitation, how->host, from, frequency,
+        start_at_rest(follower, excitation, 2 * M_PI / from);
+        status = sweep(follower, excitation, how->host, from, frequency,
                        dynamics_sweep_start_cycles(excitation, 2 * M_PI / from));
     }
-    return status == FF_OK ? settle_here(o, excitation, how, result) : status;
+    return status == FF_OK ? settle_here(follower, excitation, how, result) : status;
 }
 
 const double dynamics_chaotic_disturbance = 1e6;

@@ -4,7 +4,7 @@
 #ifndef DYNAMICS_SETTLE_H
 #define DYNAMICS_SETTLE_H
 
-#include "oscillator.h"
+#include "excitation.h"
 
 #include <flankfilm/plugin.h>
 
@@ -43,6 +43,15 @@ typedef struct dynamics_settled {
     double delta, rate; /* state at phase 0, before the node */
 } dynamics_settled;
 
+/* What follows the motion: the integrator of oscillator.h, or, with oil between parted flanks, the
+   steps of flow.h. */
+typedef struct dynamics_follower {
+    void *self;
+    void (*start)(void *self, double T, double delta, double rate); /* at phase 0 */
+    int (*cycle)(void *self, double T);                             /* 0: too many steps */
+    void (*state)(const void *self, double x[2]);                   /* delta, rate */
+} dynamics_follower;
+
 /* The sweep that leads to a branch, for models that integrate in another way: the frequency at
    which it starts for a mesh frequency (both relative to the natural one), the relative change of
    the frequency per cycle, and the cycles at the start. */
@@ -65,8 +74,8 @@ void dynamics_chaos_line(double growth, const ff_host *host);
    to settle nor the shear between neighbouring motions gets there. */
 extern const double dynamics_chaotic_disturbance;
 
-/* FF_OK, FF_STOPPED, or FF_NOCONV: too many steps. The state of `o` is the settled one. */
-ff_status dynamics_settle(dynamics_oscillator *o, const dynamics_excitation *excitation,
+/* FF_OK, FF_STOPPED, or FF_NOCONV: too many steps. The follower is then at the settled state. */
+ff_status dynamics_settle(const dynamics_follower *follower, const dynamics_excitation *excitation,
                           const dynamics_settling *how, dynamics_settled *result);
 
 #endif

@@ -3,9 +3,11 @@
 #include "film-wire.h"
 #include "inputs.h"
 #include "motion.h"
+#include "oil.h"
 #include "references.h"
 #include "settle.h"
 #include "stable-motions.h"
+#include "trajectory.h"
 #include "warm-start.h"
 
 #include <flankfilm/author.h>
@@ -19,6 +21,7 @@ typedef struct model {
     double zeta, tolerance, settle_tolerance;
     int32_t damping, branch;
     dynamics_inertia inertia;
+    dynamics_oil oil;
     dynamics_film_wire wire;
     int64_t cycles_settle, cycles_measured, steps_per_cycle;
     dynamics_warm_start from, to; /* what the neighbouring case left, and what it is left */
@@ -33,6 +36,7 @@ static const ff_param params[] = {
               "from 1.4 times the natural frequency; where a study follows the speed, it is for "
               "the first case of a chain"),
     DYNAMICS_INERTIA_ROWS(model),
+    DYNAMICS_OIL_ROWS(model),
     DYNAMICS_FILM_WIRE_ROWS(model),
     FF_COUNT_OR(
         "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
@@ -42,7 +46,9 @@ static const ff_param params[] = {
     FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
              "points shown per mesh cycle; the integrator's steps are its own"),
     FF_QUANTITY("tolerance", "1", model, tolerance, FF_TUNABLE, "1e-9", NULL, 1e-13, 1e-3, 1e-12,
-                1e-6, "error of one integration step over the static deflection"),
+                1e-6,
+                "error of one integration step over the static deflection; with squeeze the "
+                "steps are those of dynamics/shooting"),
     FF_QUANTITY(
         "settle_tolerance", "1", model, settle_tolerance, FF_TUNABLE, "1e-7", NULL, 1e-12, 1e-2,
         1e-11, 1e-4,
@@ -53,7 +59,51 @@ static ff_status ready(void *self)
 {
     const model *m = self;
     dynamics_tell_servings(m->host, &m->inertia, m->zeta);
-    return FF_OK;
+    return dynamics_oil_check(m->host, &m->oil, m->damping);
+}
+
+static void start_steps(void *self, double T, double delta, double rate)
+{
+    dynamics_oscillator_start(self, T, delta, rate);
+}
+
+static int step_through_cycle(void *self, double T)
+{
+    return dynamics_oscillator_cycle(self, T, NULL);
+}
+
+static void read_steps(const void *self, double x[2])
+{
+    const double *y = dynamics_oscillator_state(self);
+    x[0] = y[DYNAMICS_DELTA];
+    x[1] = y[DYNAMICS_RATE];
+}
+
+/* A motion with oil between parted flanks, by the steps of flow.h: the oil is a state law that the
+   explicit steps of oscillator.h would have to resolve in wide gaps, too, where it is stiff. */
+typedef struct oil_motion {
+    dynamics_flow flow;
+    dynamics_state y;
+} oil_motion;
+
+static void start_in_oil(void *self, double T, double delta, double rate)
+{
+    (void)T;
+    oil_motion *o = self;
+    o->y = dynamics_state_at(delta, rate);
+}
+
+static int cycle_in_oil(void *self, double T)
+{
+    oil_motion *o = self;
+    return dynamics_flow_motion(&o->flow, T, &o->y, NULL);
+}
+
+static void read_in_oil(const void *self, double x[2])
+{
+    const oil_motion *o = self;
+    x[0] = o->y.delta;
+    x[1] = o->y.rate;
 }
 
 /* How far the end of the period moves when the steps are halved and the tolerance is a hundredth,
@@ -104,8 +154,9 @@ static void report(const model *m, const dynamics_settled *settled, const dynami
                   FF_GOOD, NULL);
     host->quality(host->ctx, "energy_balance", motion->energy_error, limit,
                   motion->energy_error <= limit ? FF_GOOD : FF_DOUBTFUL, NULL);
-    host->quality(host->ctx, "determinant", motion->det_error, limit,
-                  motion->det_error <= limit ? FF_GOOD : FF_DOUBTFUL, NULL);
+    if (!motion->excitation->film)
+        host->quality(host->ctx, "determinant", motion->det_error, limit,
+                      motion->det_error <= limit ? FF_GOOD : FF_DOUBTFUL, NULL);
     if (settled->period < 1)
         return;
     if (settled->period > 1)
@@ -114,8 +165,9 @@ static void report(const model *m, const dynamics_settled *settled, const dynami
                       "round-off may decide which is reached; dynamics/shooting lists them");
     host->quality(host->ctx, "stability", largest, 1, largest < 1 ? FF_GOOD : FF_DOUBTFUL,
                   largest < 1 ? NULL : "a disturbance of this motion does not die out");
-    host->quality(host->ctx, "state_error", error, 1e-5, error <= 1e-5 ? FF_GOOD : FF_DOUBTFUL,
-                  "error of the steps, over the static deflection");
+    if (!motion->excitation->film)
+        host->quality(host->ctx, "state_error", error, 1e-5, error <= 1e-5 ? FF_GOOD : FF_DOUBTFUL,
+                      "error of the steps, over the static deflection");
 }
 
 static ff_status fail_too_many_steps(const ff_host *host, const dynamics_inputs *inputs)
@@ -127,19 +179,25 @@ static ff_status fail_too_many_steps(const ff_host *host, const dynamics_inputs 
                     inputs->mesh_frequency, inputs->natural_frequency);
 }
 
+/* oil: the settled motion; NULL: there is no oil between parted flanks. */
 static ff_status output_motion(const model *m, const dynamics_excitation *excitation,
                                const dynamics_inputs *inputs, double T,
-                               const dynamics_settled *settled)
+                               const dynamics_settled *settled, const oil_motion *oil)
 {
+    const double x[2] = {settled->delta, settled->rate};
     dynamics_motion motion = {.excitation = excitation, .period = settled->period, .T = T};
     motion.cycles = settled->period > 0 ? (size_t)settled->period : (size_t)m->cycles_measured;
     if (settled->period == DYNAMICS_UNBOUNDED)
         motion.cycles = 1;
     double multipliers[4], error = 0;
-    ff_status status = dynamics_motion_record(
-        &motion, inputs, m->tolerance, (size_t)m->steps_per_cycle, settled->delta, settled->rate);
+    if (oil && settled->period != DYNAMICS_UNBOUNDED)
+        motion.films = oil->y.oil.film;
+    ff_status status =
+        oil ? dynamics_trajectory_record(&oil->flow, inputs, (size_t)m->steps_per_cycle, x, &motion)
+            : dynamics_motion_record(&motion, inputs, m->tolerance, (size_t)m->steps_per_cycle,
+                                     x[0], x[1]);
     double largest = status == FF_OK ? dynamics_motion_multipliers(&motion, multipliers) : 0;
-    if (status == FF_OK && settled->period > 0)
+    if (status == FF_OK && settled->period > 0 && !oil)
         status = step_error(m, excitation, &motion, settled, largest, &error);
     if (status == FF_OK)
         report(m, settled, &motion, largest, error);
@@ -149,55 +207,84 @@ static ff_status output_motion(const model *m, const dynamics_excitation *excita
     return status;
 }
 
-static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
-{
-    model *m = self;
-    dynamics_excitation excitation = {.zeta = m->zeta, .damping = m->damping};
+/* All that one evaluation works on. */
+typedef struct job {
+    model *m;
     dynamics_inputs inputs;
-    dynamics_film_powers powers;
-    dynamics_oscillator *o = NULL;
-    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
-    inputs.wanted = wanted;
-    if (status == FF_OK)
-        status = dynamics_film_wire_read(m->host, in, &m->wire, &inputs, &excitation, &powers);
-    if (status != FF_OK)
-        goto out;
-    if (dynamics_film_is_wired(in)) /* a later round goes on from the one before */
-        m->from = m->to;
+    dynamics_excitation excitation;
+    dynamics_film *film; /* with the motion in oil; NULL: an oscillator takes its place */
+    oil_motion oil;
+    dynamics_oscillator *steps;
+} job;
+
+static ff_status open_follower(job *j, dynamics_follower *follower)
+{
+    if (j->film) {
+        *follower = (dynamics_follower){&j->oil, start_in_oil, cycle_in_oil, read_in_oil};
+        return dynamics_flow_init(&j->oil.flow, &j->excitation) ? FF_OK : FF_NOMEM;
+    }
+    j->steps = dynamics_oscillator_new(&j->excitation, j->m->tolerance, 1, DYNAMICS_MOTION);
+    *follower = (dynamics_follower){j->steps, start_steps, step_through_cycle, read_steps};
+    return j->steps ? FF_OK : FF_NOMEM;
+}
+
+static ff_status evaluate_job(job *j, uint64_t wanted)
+{
+    model *m = j->m;
+    const dynamics_inputs *inputs = &j->inputs;
     dynamics_settling how = {
         .branch = (dynamics_branch)m->branch,
-        .T = 2 * M_PI * inputs.natural_frequency / inputs.mesh_frequency,
+        .T = 2 * M_PI * inputs->natural_frequency / inputs->mesh_frequency,
         .cycles = dynamics_count_or_auto(m->cycles_settle),
         .tolerance = m->settle_tolerance,
         .step_tolerance = m->tolerance,
         .host = m->host,
     };
     dynamics_settled settled;
+    dynamics_follower follower;
     m->to.mesh_frequency = 0;
     if (m->from.mesh_frequency > 0) {
-        how.from = m->from.mesh_frequency / inputs.natural_frequency;
-        dynamics_warm_start_state(&m->from, &excitation, how.start);
+        how.from = m->from.mesh_frequency / inputs->natural_frequency;
+        dynamics_warm_start_state(&m->from, &j->excitation, how.start);
     }
-    if (fmax(how.T, how.from > 0 ? 2 * M_PI / how.from : 0) > dynamics_longest_cycle) {
-        status = fail_too_many_steps(m->host, &inputs);
-        goto out;
-    }
-    o = dynamics_oscillator_new(&excitation, m->tolerance, 1, DYNAMICS_MOTION);
-    status = o ? dynamics_settle(o, &excitation, &how, &settled) : FF_NOMEM;
+    if (fmax(how.T, how.from > 0 ? 2 * M_PI / how.from : 0) > dynamics_longest_cycle)
+        return fail_too_many_steps(m->host, inputs);
+    ff_status status = open_follower(j, &follower);
     if (status == FF_OK)
-        status = output_motion(m, &excitation, &inputs, how.T, &settled);
+        status = dynamics_settle(&follower, &j->excitation, &how, &settled);
+    if (status == FF_OK)
+        status =
+            output_motion(m, &j->excitation, inputs, how.T, &settled, j->film ? &j->oil : NULL);
     if (status == FF_OK && settled.period != DYNAMICS_UNBOUNDED)
-        m->to = dynamics_warm_start_motion(&excitation, inputs.mesh_frequency, settled.period,
+        m->to = dynamics_warm_start_motion(&j->excitation, inputs->mesh_frequency, settled.period,
                                            settled.delta, settled.rate);
     if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
         status = dynamics_stable_motions_put(
-            &excitation, inputs.mesh_frequency / inputs.natural_frequency, m->host);
-    if (status == FF_NOCONV)
-        status = fail_too_many_steps(m->host, &inputs);
-out:
+            &j->excitation, inputs->mesh_frequency / inputs->natural_frequency, m->host);
+    return status == FF_NOCONV ? fail_too_many_steps(m->host, inputs) : status;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    model *m = self;
+    job j = {.m = m, .excitation = {.zeta = m->zeta, .damping = m->damping}};
+    dynamics_film_powers powers;
+    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
+    j.inputs.wanted = wanted;
+    if (status == FF_OK)
+        status = dynamics_oil_read(m->host, in, &m->oil, &j.inputs, &j.excitation, &j.film);
+    if (status == FF_OK)
+        status = dynamics_film_wire_read(m->host, in, &m->wire, &j.inputs, &j.excitation, &powers);
+    if (status == FF_OK &&
+        dynamics_film_is_wired(in)) /* a later round goes on from the one before */
+        m->from = m->to;
+    if (status == FF_OK)
+        status = evaluate_job(&j, wanted);
     m->from.mesh_frequency = 0;
-    dynamics_oscillator_free(o);
-    dynamics_excitation_free(&excitation);
+    dynamics_oscillator_free(j.steps);
+    dynamics_flow_free(&j.oil.flow);
+    free(j.film);
+    dynamics_excitation_free(&j.excitation);
     return status;
 }
 
@@ -214,7 +301,7 @@ FF_MODEL(
     .reference = "Li & Kahraman 2011, Influence of dynamic behaviour on elastohydrodynamic "
                  "lubrication of spur gears, Proc. IMechE J 225, 740-753, eqs 2-5",
     .bibtex = BIB_likahraman2011 "\n", .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
-    .inputs = dynamics_oil_input_ports, .input_count = DYNAMICS_LOOP_INPUT_COUNT,
+    .inputs = dynamics_oil_input_ports, .input_count = DYNAMICS_OIL_INPUT_COUNT,
     .input_stride = sizeof dynamics_oil_input_ports[0], .outputs = dynamics_motion_outputs,
     .output_count = DYNAMICS_SPEED_OUTPUT_COUNT, .output_stride = sizeof dynamics_motion_outputs[0],
     .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry);
