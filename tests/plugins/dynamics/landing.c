@@ -6,7 +6,7 @@
  */
 #include "check.h"
 
-#include "../../../plugins/dynamics/curve.h"
+#include "../../../plugins/dynamics/orbit.h"
 #include "../../../plugins/dynamics/trajectory.h"
 #include "../../../plugins/numerics/integrator.h"
 
@@ -239,69 +239,6 @@ static void check_orbit(int rolling)
     close_fixture(&f);
 }
 
-static int go_on(void *ctx, double done)
-{
-    (void)ctx;
-    (void)done;
-    return 0;
-}
-
-/* The fold that ends the branch of contact loss of a pair of small modulation (k1/k = 0.049, mean
-   stiffness 325.81 N/um, 0.7852 kg, 3547.26 N, half backlash 70 um, one pair of 12.826 mm): a
-   throw-away model that swept down in steps of 10 Hz left it at 1930 Hz dry, 2000 Hz with 5.006 mPa
-   s and 2290 Hz with 27.7 mPa s. */
-static void check_branch_ends(void)
-{
-    enum { LINES = 200 };
-    static const struct {
-        double viscosity, end, swept;
-    } oils[] = {{0, 1935.94, 1930}, {5.006e-3, 2007.83, 2000}, {27.7e-3, 2292.19, 2290}};
-    static double phase[LINES + 1], k[LINES + 1];
-    const double K = 3.2581e8, mass = 0.7852, load = 3547.26, L = load / K, omega = sqrt(K / mass);
-    const double natural = omega / (2 * M_PI);
-    for (int i = 0; i <= LINES; i++) {
-        double x = 2 * M_PI * i / LINES;
-        phase[i] = (double)i / LINES;
-        k[i] = K * (1 - 0.214 * (0.2287 * cos(x) + 0.1427 * cos(2 * x) + 0.0672 * cos(3 * x)));
-    }
-    for (int i = 0; i < 3; i++) {
-        fixture f = {.mesh = {.zeta = 0.01, .load = 1, .half_gap = 70e-6 / L, .length = L}};
-        f.mesh.stiffness = K;
-        f.mesh.omega = omega;
-        f.film = (dynamics_film){.viscosity = oils[i].viscosity * 0.02 * omega / K,
-                                 .hand_over = 0.2e-6 / L,
-                                 .supply = INFINITY,
-                                 .pairs = 1,
-                                 .radius = {0.012826 / L}};
-        f.mesh.film = oils[i].viscosity > 0 ? &f.film : NULL;
-        dynamics_mesh_curves x = {LINES + 1, phase, k, NULL};
-        check_true("builds",
-                   dynamics_excitation_build(&f.mesh, &x) && dynamics_flow_init(&f.flow, &f.mesh));
-        dynamics_state y = dynamics_state_at(f.mesh.half_gap + 1, 0);
-        double hertz = 4500;
-        for (; hertz > 2400; hertz -= 0.5)
-            dynamics_flow_motion(&f.flow, 2 * M_PI * natural / hertz, &y, NULL);
-        dynamics_orbit o = {.period = 1, .lambda = log(hertz / natural), .x = {y.delta, y.rate}};
-        check_true("upper branch at 2400 Hz", dynamics_orbit_solve(&f.flow, 1e-12, &o));
-        ff_host host = {.progress = go_on};
-        dynamics_continuation_range range = {.flow = &f.flow,
-                                             .low = log(1300 / natural),
-                                             .high = o.lambda + 1e-3,
-                                             .step = 0.04,
-                                             .host = &host};
-        dynamics_curve curve = {0};
-        check_true("traced", dynamics_curve_trace(&range, &o, &curve) == FF_OK);
-        double fold = 0;
-        for (size_t n = 0; n < curve.count; n++)
-            if (curve.points[n].kind == DYNAMICS_POINT_FOLD)
-                fold = fmax(fold, natural * exp(curve.points[n].lambda));
-        check_near("end of the branch, Hz", fold, oils[i].end, 0.5 / oils[i].end);
-        check_below("off the sweep of the throw-away model, Hz", fabs(fold - oils[i].swept), 20);
-        dynamics_curve_free(&curve);
-        close_fixture(&f);
-    }
-}
-
 int main(void)
 {
     check_momentum();
@@ -310,6 +247,5 @@ int main(void)
         check_derivatives(rolling);
         check_orbit(rolling);
     }
-    check_branch_ends();
     return check_done();
 }
