@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "coupled-motion.h"
 
+#include "coupled-shooting.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <gsl/gsl_eigen.h>
 
 /* The distance to a periodic motion up to which a motion that has not settled is called periodic.
  */
@@ -78,12 +78,12 @@ static void start_at_rest(dynamics_coupled_run *run, const dynamics_coupled *pai
     dynamics_coupled_start(run, T, rest);
 }
 
+/* Sweeps the speed from one frequency to another, after `start` cycles at the first. Where the
+   motion grows without bound it starts from rest again. */
 static ff_status sweep(dynamics_coupled_run *run, const dynamics_coupled *pair, const ff_host *host,
-                       double from, double to)
+                       double from, double to, size_t start)
 {
     double frequency = from, way = log(to / from);
-    size_t start = dynamics_sweep_start_cycles(pair->excitation, 2 * M_PI / from);
-    start_at_rest(run, pair, 2 * M_PI / from);
     for (size_t i = 0; way < 0 ? frequency > to : frequency < to; i++) {
         if (i % 64 == 0 && host->progress(host->ctx, 0.5 * log(frequency / from) / way))
             return FF_STOPPED;
@@ -127,47 +127,138 @@ static ff_status settle_here(dynamics_coupled_run *run, const dynamics_coupled *
     return FF_OK;
 }
 
-ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
-                                  const dynamics_settling *how, dynamics_coupled_motion *motion)
+/* What a slow sweep of the speed leads to. */
+static ff_status settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
+                        const dynamics_settling *how, dynamics_coupled_motion *motion)
 {
     double frequency = 2 * M_PI / how->T, from = dynamics_sweep_from(how->branch, frequency);
-    motion->settled.limit =
-        how->cycles ? how->cycles : dynamics_settle_limit(pair->excitation, how->T, how->tolerance);
-    ff_status status = sweep(run, pair, how->host, from, frequency);
-    if (from == frequency)
-        start_at_rest(run, pair, how->T);
+    start_at_rest(run, pair, 2 * M_PI / from);
+    ff_status status = sweep(run, pair, how->host, from, frequency,
+                             dynamics_sweep_start_cycles(pair->excitation, 2 * M_PI / from));
     return status == FF_OK ? settle_here(run, pair, how, motion) : status;
 }
 
-/* Multiplies the monodromy by that of one mesh cycle from `state`, found by central differences. */
-static int extend_monodromy(dynamics_coupled_run *run, double T, const double *state,
-                            double *monodromy)
+/* The motion without separation. FF_NOCONV: there is none that is stable. */
+static ff_status shoot_in_contact(dynamics_coupled_run *run, const dynamics_coupled *pair,
+                                  const dynamics_settling *how, dynamics_coupled_orbit *orbit)
 {
-    static const double d = 1e-5;
-    double cycle[DYNAMICS_TAKEN][DYNAMICS_TAKEN], old[DYNAMICS_TAKEN * DYNAMICS_TAKEN],
-        ends[2][DYNAMICS_TAKEN];
-    memcpy(old, monodromy, sizeof old);
-    for (int k = 0; k < DYNAMICS_TAKEN; k++) {
-        for (int sign = 0; sign < 2; sign++) {
-            double start[DYNAMICS_TAKEN];
-            memcpy(start, state, sizeof start);
-            start[k] += sign ? -d : d;
-            dynamics_coupled_start(run, T, start);
-            if (!dynamics_coupled_cycle(run, T, NULL))
-                return 0;
-            memcpy(ends[sign], dynamics_coupled_state(run), sizeof ends[sign]);
-        }
-        for (int i = 0; i < DYNAMICS_TAKEN; i++)
-            cycle[i][k] = (ends[0][i] - ends[1][i]) / (2 * d);
+    dynamics_coupled_rest(pair, orbit->state);
+    ff_status status = dynamics_coupled_shoot(run, INFINITY, how->tolerance, how->host, orbit);
+    return status == FF_OK && !orbit->touches ? FF_NOCONV : status;
+}
+
+/* The farthest that a motion is looked for from a state that has yet to settle, in static
+   deflections. */
+static const double unsettled = 1;
+
+/* Follows a motion to the frequency that is sought. Where the motion ends the speed is swept until
+   another is near. FF_NOCONV: none is near the state at that frequency. */
+static ff_status follow_and_sweep(dynamics_coupled_run *run, const dynamics_coupled *pair,
+                                  const dynamics_settling *how, dynamics_coupled_orbit *orbit)
+{
+    static const double stretch = 0.03; /* of a sweep, in the logarithm of the frequency */
+    double to = 2 * M_PI / how->T;
+    ff_status status = dynamics_coupled_follow(run, to, how->host, orbit);
+    while (status == FF_NOCONV && orbit->frequency != to) {
+        double left = log(to / orbit->frequency);
+        double next = fabs(left) > stretch ? orbit->frequency * exp(copysign(stretch, left)) : to;
+        dynamics_coupled_start(run, 2 * M_PI / orbit->frequency, orbit->state);
+        status = sweep(run, pair, how->host, orbit->frequency, next, 0);
+        if (status != FF_OK)
+            return status;
+        orbit->frequency = next;
+        memcpy(orbit->state, dynamics_coupled_state(run), sizeof orbit->state);
+        dynamics_coupled_orbit nearby = *orbit;
+        status = dynamics_coupled_shoot(run, unsettled, how->tolerance, how->host, &nearby);
+        orbit->cycles = nearby.cycles;
+        if (status != FF_OK)
+            continue;
+        *orbit = nearby;
+        status = dynamics_coupled_follow(run, to, how->host, orbit);
     }
+    return status;
+}
+
+/* Leads to where a sweep of the speed ends, or near it. */
+static ff_status approach(const dynamics_coupled *pair, const dynamics_settling *how,
+                          dynamics_coupled_orbit *orbit)
+{
+    static const double on_the_way = 1e-6; /* error of a step: the end is found more closely */
+    dynamics_coupled_run *run =
+        dynamics_coupled_run_new(pair, fmax(how->step_tolerance, on_the_way));
+    if (!run)
+        return FF_NOMEM;
+    orbit->frequency = dynamics_sweep_from(how->branch, 2 * M_PI / how->T);
+    double T = 2 * M_PI / orbit->frequency;
+    ff_status status = shoot_in_contact(run, pair, how, orbit);
+    if (status == FF_NOCONV) {
+        size_t cycles = dynamics_sweep_start_cycles(pair->excitation, T);
+        start_at_rest(run, pair, T);
+        status = FF_OK;
+        for (size_t i = 0; i < cycles && status == FF_OK; i++)
+            status = dynamics_coupled_cycle(run, T, NULL) ? FF_OK : FF_NOCONV;
+        memcpy(orbit->state, dynamics_coupled_state(run), sizeof orbit->state);
+    }
+    if (status == FF_OK)
+        status = follow_and_sweep(run, pair, how, orbit);
+    dynamics_coupled_run_free(run);
+    return status;
+}
+
+/* What `settle` leads to, by Newton's method where the motion repeats itself after a cycle. */
+static ff_status shoot(dynamics_coupled_run *run, const dynamics_coupled *pair,
+                       const dynamics_settling *how, dynamics_coupled_motion *motion)
+{
+    double frequency = 2 * M_PI / how->T;
+    dynamics_coupled_orbit orbit = {.frequency = frequency};
+    ff_status status = FF_NOCONV;
+    if (how->branch == DYNAMICS_BRANCH_LOWER)
+        status = shoot_in_contact(run, pair, how, &orbit);
+    if (status == FF_NOCONV) {
+        status = approach(pair, how, &orbit);
+        if (orbit.frequency != frequency || (status != FF_OK && status != FF_NOCONV))
+            return status;
+        memcpy(motion->state, orbit.state, sizeof motion->state);
+        status = dynamics_coupled_shoot(run, unsettled, how->tolerance, how->host, &orbit);
+    }
+    if (status == FF_NOCONV) {
+        dynamics_coupled_start(run, how->T, motion->state);
+        return settle_here(run, pair, how, motion);
+    }
+    memcpy(motion->state, orbit.state, sizeof motion->state);
+    motion->settled.period = 1;
+    motion->settled.within = orbit.distance <= how->tolerance;
+    motion->settled.distance = orbit.distance;
+    motion->settled.cycles = orbit.cycles;
+    return status;
+}
+
+ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
+                                  const dynamics_settling *how, dynamics_coupled_motion *motion)
+{
+    motion->settled.limit =
+        how->cycles ? how->cycles : dynamics_settle_limit(pair->excitation, how->T, how->tolerance);
+    return how->cycles ? settle(run, pair, how, motion) : shoot(run, pair, how, motion);
+}
+
+/* The monodromy over the cycles that are shown; what overflows is cut off. */
+static ff_status find_monodromy(dynamics_coupled_motion *motion, const dynamics_coupled *pair,
+                                double tolerance)
+{
+    dynamics_coupled_run *run = dynamics_coupled_run_new(pair, tolerance);
+    if (!run)
+        return FF_NOMEM;
+    ff_status status = FF_OK;
+    dynamics_coupled_start_varied(run, motion->T, motion->state);
+    for (size_t i = 0; i < motion->cycles && status == FF_OK; i++)
+        status = dynamics_coupled_cycle(run, motion->T, NULL) ? FF_OK : FF_NOCONV;
+    const double *columns = dynamics_coupled_columns(run);
     for (int i = 0; i < DYNAMICS_TAKEN; i++)
-        for (int k = 0; k < DYNAMICS_TAKEN; k++) {
-            double sum = 0;
-            for (int j = 0; j < DYNAMICS_TAKEN; j++)
-                sum += cycle[i][j] * old[j * DYNAMICS_TAKEN + k];
-            monodromy[i * DYNAMICS_TAKEN + k] = fmin(fmax(sum, -1e100), 1e100);
-        }
-    return 1;
+        for (int k = 0; k < DYNAMICS_TAKEN; k++)
+            motion->monodromy[i * DYNAMICS_TAKEN + k] =
+                fmin(fmax(columns[k * DYNAMICS_TAKEN + i], -1e100), 1e100);
+    dynamics_coupled_run_free(run);
+    return status;
 }
 
 static void check_energy(dynamics_coupled_motion *motion, const dynamics_coupled_run *run,
@@ -185,26 +276,19 @@ ff_status dynamics_coupled_motion_record(dynamics_coupled_motion *motion,
 {
     double last = (inputs->roll_angle[inputs->stations - 1] - inputs->roll_sap) / inputs->pitch;
     size_t tail = (size_t)ceil(fmax(last, 0) + 1e-9), count = motion->cycles + tail;
-    double fine = fmax(1e-3 * tolerance, 1e-14), kinetic;
-    dynamics_coupled_run *run = dynamics_coupled_run_new(pair, tolerance),
-                         *probe = dynamics_coupled_run_new(pair, fine);
-    ff_status status = FF_NOMEM;
-    if (!run || !probe || !dynamics_coupled_record_init(&motion->record, pair, per_cycle, count))
+    double kinetic;
+    dynamics_coupled_run *run = dynamics_coupled_run_new(pair, tolerance);
+    ff_status status = find_monodromy(motion, pair, tolerance);
+    if (!run || !dynamics_coupled_record_init(&motion->record, pair, per_cycle, count))
+        status = FF_NOMEM;
+    if (status != FF_OK)
         goto out;
-    for (int i = 0; i < DYNAMICS_TAKEN; i++)
-        for (int k = 0; k < DYNAMICS_TAKEN; k++)
-            motion->monodromy[i * DYNAMICS_TAKEN + k] = i == k;
     dynamics_coupled_start(run, motion->T, motion->state);
     double energy = dynamics_coupled_energy(run, &kinetic);
-    status = FF_OK;
     for (size_t i = 0; i < count && status == FF_OK; i++) {
-        double state[DYNAMICS_TAKEN];
-        memcpy(state, dynamics_coupled_state(run), sizeof state);
         if (host->progress(host->ctx, 0.9 + 0.1 * (double)i / (double)count))
             status = FF_STOPPED;
-        else if (!dynamics_coupled_cycle(run, motion->T, &motion->record) ||
-                 (i < motion->cycles &&
-                  !extend_monodromy(probe, motion->T, state, motion->monodromy)))
+        else if (!dynamics_coupled_cycle(run, motion->T, &motion->record))
             status = FF_NOCONV;
         if (i + 1 == motion->cycles) {
             check_energy(motion, run, energy, pair->excitation->load);
@@ -213,31 +297,5 @@ ff_status dynamics_coupled_motion_record(dynamics_coupled_motion *motion,
     }
 out:
     dynamics_coupled_run_free(run);
-    dynamics_coupled_run_free(probe);
-    return status;
-}
-
-ff_status dynamics_coupled_multipliers(const dynamics_coupled_motion *motion, double *multipliers,
-                                       double *largest)
-{
-    double matrix[DYNAMICS_TAKEN * DYNAMICS_TAKEN];
-    memcpy(matrix, motion->monodromy, sizeof matrix);
-    gsl_matrix_view view = gsl_matrix_view_array(matrix, DYNAMICS_TAKEN, DYNAMICS_TAKEN);
-    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(DYNAMICS_TAKEN);
-    gsl_vector_complex *values = gsl_vector_complex_alloc(DYNAMICS_TAKEN);
-    ff_status status = work && values ? FF_OK : FF_NOMEM;
-    *largest = 0;
-    if (status == FF_OK && gsl_eigen_nonsymm(&view.matrix, values, work))
-        status = FF_NOCONV;
-    for (size_t i = 0; i < DYNAMICS_TAKEN && status == FF_OK; i++) {
-        gsl_complex mu = gsl_vector_complex_get(values, i);
-        multipliers[2 * i] = GSL_REAL(mu);
-        multipliers[2 * i + 1] = GSL_IMAG(mu);
-        *largest = fmax(*largest, hypot(GSL_REAL(mu), GSL_IMAG(mu)));
-    }
-    if (work)
-        gsl_eigen_nonsymm_free(work);
-    if (values)
-        gsl_vector_complex_free(values);
     return status;
 }

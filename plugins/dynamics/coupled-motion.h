@@ -32,7 +32,8 @@ typedef struct dynamics_coupled_motion {
     dynamics_coupled_record record;
 } dynamics_coupled_motion;
 
-/* Integrates to the steady motion of a branch; `motion` has T set. FF_OK, FF_STOPPED, FF_NOMEM, or
+/* Finds the steady motion of a branch: by shooting, or where how->cycles are given by a slow sweep
+   of the speed and settling; `motion` has T set. FF_OK, FF_STOPPED, FF_NOMEM, or
    FF_NOCONV: too many steps. */
 ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
                                   const dynamics_settling *how, dynamics_coupled_motion *motion);
@@ -43,10 +44,6 @@ ff_status dynamics_coupled_motion_record(dynamics_coupled_motion *motion,
                                          const dynamics_coupled *pair,
                                          const dynamics_inputs *inputs, double tolerance,
                                          size_t per_cycle, const ff_host *host);
-
-/* The Floquet multipliers as pairs (re, im), and the largest modulus. */
-ff_status dynamics_coupled_multipliers(const dynamics_coupled_motion *motion, double *multipliers,
-                                       double *largest);
 
 ff_status dynamics_coupled_put(const dynamics_coupled_motion *motion, const dynamics_coupled *pair,
                                const dynamics_inputs *inputs, const ff_host *host);

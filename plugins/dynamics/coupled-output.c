@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "coupled-motion.h"
+#include "coupled-shooting.h"
 #include "motion-view.h"
 
 #include <flankfilm/author.h>
@@ -166,8 +167,9 @@ static ff_status put_multipliers(const dynamics_coupled_motion *motion, const ff
 {
     size_t shape[2] = {DYNAMICS_TAKEN, 2};
     double largest, *multipliers = host->output(host->ctx, DYNAMICS_OUT_MULTIPLIERS, 2, shape);
-    ff_status status =
-        multipliers ? dynamics_coupled_multipliers(motion, multipliers, &largest) : FF_NOMEM;
+    ff_status status = multipliers
+                           ? dynamics_coupled_multipliers(motion->monodromy, multipliers, &largest)
+                           : FF_NOMEM;
     return status == FF_OK ? ff_put_scalar(host, DYNAMICS_OUT_FLOQUET_MAX, largest) : status;
 }
 

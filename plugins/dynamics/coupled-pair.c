@@ -67,6 +67,17 @@ static double pair_stiffness_at(const dynamics_coupled *pair, double cycle)
     return dynamics_piece_value(piece->k, piece->degree, phase - piece->start);
 }
 
+/* Its derivative by the cycle. */
+static double pair_slope_at(const dynamics_coupled *pair, double cycle)
+{
+    double from = pair->cycle[0], way = pair->cycle[pair->nodes - 1] - from;
+    double phase = (cycle - from) / way;
+    if (!(phase > 0 && phase < 1))
+        return 0;
+    const dynamics_piece *piece = dynamics_excitation_piece(&pair->table, phase, 0);
+    return dynamics_piece_slope(piece->k, piece->degree, phase - piece->start) / way;
+}
+
 double dynamics_coupled_stiffness_change(const dynamics_coupled *pair, const dynamics_place *place,
                                          double phase, dynamics_pairs now, dynamics_pairs mounted)
 {
@@ -76,6 +87,59 @@ double dynamics_coupled_stiffness_change(const dynamics_coupled *pair, const dyn
     for (int j = mounted.youngest; j <= mounted.oldest; j++)
         change -= pair_stiffness_at(pair, phase + j);
     return change;
+}
+
+void dynamics_coupled_stiffness_slope(const dynamics_coupled *pair, const dynamics_place *place,
+                                      double phase, dynamics_pairs now, dynamics_pairs mounted,
+                                      double *by_shift, double *by_phase)
+{
+    *by_shift = 0;
+    for (int j = now.youngest; j <= now.oldest; j++)
+        *by_shift += pair_slope_at(pair, phase + j + place->shift);
+    *by_phase = *by_shift;
+    for (int j = mounted.youngest; j <= mounted.oldest; j++)
+        *by_phase -= pair_slope_at(pair, phase + j);
+}
+
+/* From cos alpha = R/C: d alpha/dC = cos alpha/(C sin alpha), dL/dC = 1/sin alpha. */
+void dynamics_coupled_shift_slope(const dynamics_coupled *pair, const dynamics_place *place,
+                                  double *shift, double *entry)
+{
+    double wider = place->cos_angle / (place->centre * place->sin_angle);
+    double along[DYNAMICS_COORDINATES] = {[DYNAMICS_X1] = -place->cos_turn,
+                                          [DYNAMICS_Y1] = -place->sin_turn,
+                                          [DYNAMICS_X2] = place->cos_turn,
+                                          [DYNAMICS_Y2] = place->sin_turn};
+    for (int i = 0; i < DYNAMICS_COORDINATES; i++) {
+        shift[i] = wider * pair->base_1 / pair->base_pitch * along[i];
+        if (entry)
+            entry[i] = along[i] / (place->sin_angle * pair->base_pitch);
+    }
+}
+
+/* With u along the line of centres and n across it, C bends by n n/C and psi by -(u n + n u)/C^2;
+   d^2b/dC^2 = cos^2 alpha/(C sin alpha). */
+dynamics_bend dynamics_coupled_bend(const dynamics_place *place, int side)
+{
+    double ux = place->cos_turn, uy = place->sin_turn, sign = side < 0 ? -1 : 1;
+    double turn = sign * place->cos_angle / place->centre;
+    double opens = side ? 1 / place->centre : 0;
+    double along = opens * place->cos_angle * place->cos_angle / place->sin_angle;
+    double across = opens * place->sin_angle;
+    return (dynamics_bend){.xx = -2 * turn * ux * uy - along * ux * ux - across * uy * uy,
+                           .xy = turn * (ux * ux - uy * uy) - (along - across) * ux * uy,
+                           .yy = 2 * turn * ux * uy - along * uy * uy - across * ux * ux};
+}
+
+void dynamics_bend_apply(const dynamics_bend *bend, const double *change, double *product)
+{
+    double x = change[DYNAMICS_X2] - change[DYNAMICS_X1],
+           y = change[DYNAMICS_Y2] - change[DYNAMICS_Y1];
+    product[DYNAMICS_Q] = 0;
+    product[DYNAMICS_X2] = bend->xx * x + bend->xy * y;
+    product[DYNAMICS_Y2] = bend->xy * x + bend->yy * y;
+    product[DYNAMICS_X1] = -product[DYNAMICS_X2];
+    product[DYNAMICS_Y1] = -product[DYNAMICS_Y2];
 }
 
 /* With R = rb1 + rb2, the overlaps are q - R psi - e - b, R psi + e - q - b and q - R psi - e.

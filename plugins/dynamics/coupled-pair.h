@@ -69,6 +69,24 @@ dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dy
                                           int side, const double *position, const double *velocity,
                                           double e, double e_rate);
 
+/* The second derivatives of an overlap, which depends on the coordinates of the centres by their
+   difference alone: by it along the line of centres (x) and across it (y). */
+typedef struct dynamics_bend {
+    double xx, xy, yy;
+} dynamics_bend;
+
+dynamics_bend dynamics_coupled_bend(const dynamics_place *place, int side);
+/* The matrix of second derivatives times a change of the coordinates. */
+void dynamics_bend_apply(const dynamics_bend *bend, const double *change, double *product);
+
+/* The derivatives of place.shift and place.entry (NULL: not wanted) by the coordinates. */
+void dynamics_coupled_shift_slope(const dynamics_coupled *pair, const dynamics_place *place,
+                                  double *shift, double *entry);
+/* The derivatives of dynamics_coupled_stiffness_change by place.shift and by the phase. */
+void dynamics_coupled_stiffness_slope(const dynamics_coupled *pair, const dynamics_place *place,
+                                      double phase, dynamics_pairs now, dynamics_pairs mounted,
+                                      double *by_shift, double *by_phase);
+
 /* The static deflection at phase 0: coordinates and rates. */
 void dynamics_coupled_rest(const dynamics_coupled *pair, double *state);
 

@@ -3,6 +3,7 @@
 
 #include "../numerics/integrator.h"
 #include "bracket.h"
+#include "coupled-variation.h"
 
 #include <float.h>
 #include <math.h>
@@ -23,109 +24,20 @@ static const double round_off = 1e-14;
 enum { MAX_IDLE = 6 };
 static const double slip = 1e-6;
 
-/* A stretch of the mesh cycle between nodes of the excitation or of the mounted pair. */
-typedef struct stretch {
-    const dynamics_piece *piece;
-    double start, length; /* mesh cycles */
-    dynamics_pairs mounted;
-    int jump;
-} stretch;
-
-enum { DRIVING, BACK, FLANKS };
-static const int side_of[FLANKS] = {1, -1};
-
-/* A regime in which the equations are smooth. A flank that touches without being pressed lags
-   behind the teeth, since a clipped damper would have to pull it. */
-typedef struct regime {
-    int touches[FLANKS], pressed[FLANKS];
-    dynamics_pairs pairs;
-} regime;
-
 struct dynamics_coupled_run {
-    const dynamics_coupled *pair;
+    dynamics_field field;
     numerics_integrator gsl;
     gsl_odeiv2_system system;
     double y[DYNAMICS_COUPLED_SIZE];
+    dynamics_variation *variation;
+    int varies; /* its derivatives are followed */
     size_t count;
-    stretch *stretches;
-    const stretch *now;
-    regime regime;
-    double T, t;       /* duration of a mesh cycle, time since the start of the stretch */
+    dynamics_stretch *stretches;
+    double t;          /* since the start of the stretch */
     double longest, h; /* steps */
     double parted, back;
     size_t steps;
 };
-
-/* The mesh force and the generalised forces that it exerts on the coordinates. */
-typedef struct push {
-    double force; /* on q, driving positive */
-    double on[DYNAMICS_COORDINATES];
-    dynamics_overlap overlap[FLANKS];
-    double normal[FLANKS]; /* of each flank, as if it were pressed */
-} push;
-
-static double phase_at(const dynamics_coupled_run *run, double t)
-{
-    return run->now->start + t / run->T;
-}
-
-static void add_force(push *p, const dynamics_overlap *overlap, double normal)
-{
-    for (int i = 0; i < DYNAMICS_COORDINATES; i++)
-        p->on[i] -= normal * overlap->gradient[i];
-}
-
-static push push_at(const dynamics_coupled_run *run, double t, const double *y,
-                    const dynamics_place *place)
-{
-    const dynamics_coupled *pair = run->pair;
-    const dynamics_excitation *excitation = pair->excitation;
-    const dynamics_piece *piece = run->now->piece;
-    double phase = phase_at(run, t), since = phase - piece->start, c = 2 * excitation->zeta;
-    double e = dynamics_piece_value(piece->e, piece->degree, since);
-    double e_rate = dynamics_piece_slope(piece->e, piece->degree, since) / run->T;
-    double k =
-        dynamics_piece_value(piece->k, piece->degree, since) +
-        dynamics_coupled_stiffness_change(pair, place, phase, run->regime.pairs, run->now->mounted);
-    push p = {0};
-    k = fmax(k, 0);
-    for (int i = 0; i < FLANKS; i++) {
-        p.overlap[i] =
-            dynamics_coupled_overlap(pair, place, side_of[i], y, y + DYNAMICS_RATES, e, e_rate);
-        p.normal[i] = k * p.overlap[i].value + c * p.overlap[i].rate;
-        if (run->regime.touches[i] && run->regime.pressed[i])
-            add_force(&p, &p.overlap[i], p.normal[i]);
-    }
-    if (excitation->damping == DYNAMICS_DAMPING_ALWAYS && !run->regime.touches[DRIVING] &&
-        !run->regime.touches[BACK]) {
-        dynamics_overlap free =
-            dynamics_coupled_overlap(pair, place, 0, y, y + DYNAMICS_RATES, e, e_rate);
-        add_force(&p, &free, c * free.rate);
-    }
-    p.force = -p.on[DYNAMICS_Q];
-    return p;
-}
-
-static int derivative(double t, const double y[], double dydt[], void *self)
-{
-    const dynamics_coupled_run *run = self;
-    const dynamics_coupled *pair = run->pair;
-    dynamics_place place;
-    dynamics_coupled_locate(pair, y, &place);
-    push p = push_at(run, t, y, &place);
-    const double *v = y + DYNAMICS_RATES;
-    double *a = dydt + DYNAMICS_RATES;
-    memcpy(dydt, v, DYNAMICS_COORDINATES * sizeof *v);
-    a[DYNAMICS_Q] = pair->excitation->load + p.on[DYNAMICS_Q];
-    dydt[DYNAMICS_TAKEN] = -p.on[DYNAMICS_Q] * v[DYNAMICS_Q];
-    for (int i = DYNAMICS_X1; i <= DYNAMICS_Y2; i++) {
-        int gear = i >= DYNAMICS_X2;
-        double force = p.on[i] - pair->bearing[gear] * y[i] - pair->damper[gear] * v[i];
-        a[i] = force / pair->mass[gear];
-        dydt[DYNAMICS_TAKEN] -= force * v[i];
-    }
-    return isfinite(a[DYNAMICS_Q]) ? GSL_SUCCESS : GSL_EBADFUNC;
-}
 
 /* A bound on the highest frequency: mesh and bearing on the lighter gear. */
 static double highest_frequency(const dynamics_coupled *pair)
@@ -145,7 +57,7 @@ static int by_start(const void *a, const void *z)
 /* Splits the pieces of the mesh cycle where a tooth pair of the mounted gears leaves. */
 static int make_stretches(dynamics_coupled_run *run)
 {
-    const dynamics_coupled *pair = run->pair;
+    const dynamics_coupled *pair = run->field.pair;
     const dynamics_excitation *excitation = pair->excitation;
     double end = pair->cycle[pair->nodes - 1], leaves = end - floor(end);
     double *node = malloc((excitation->count + 2) * sizeof *node);
@@ -169,7 +81,7 @@ static int make_stretches(dynamics_coupled_run *run)
             continue;
         const dynamics_piece *piece =
             dynamics_excitation_piece(excitation, node[i] + 0.5 * length, 0);
-        run->stretches[run->count++] = (stretch){
+        run->stretches[run->count++] = (dynamics_stretch){
             .piece = piece,
             .start = node[i],
             .length = length,
@@ -186,11 +98,12 @@ dynamics_coupled_run *dynamics_coupled_run_new(const dynamics_coupled *pair, dou
     dynamics_coupled_run *run = calloc(1, sizeof *run);
     if (!run)
         return NULL;
-    run->pair = pair;
+    run->field.pair = pair;
     run->longest = longest_step / highest_frequency(pair);
-    run->system = (gsl_odeiv2_system){derivative, NULL, DYNAMICS_COUPLED_SIZE, run};
+    run->system =
+        (gsl_odeiv2_system){dynamics_field_slope, NULL, DYNAMICS_COUPLED_SIZE, &run->field};
     if (numerics_integrator_make(&run->gsl, DYNAMICS_COUPLED_SIZE, tolerance, round_off) &&
-        make_stretches(run))
+        make_stretches(run) && (run->variation = dynamics_variation_new(&run->field)))
         return run;
     dynamics_coupled_run_free(run);
     return NULL;
@@ -201,6 +114,7 @@ void dynamics_coupled_run_free(dynamics_coupled_run *run)
     if (!run)
         return;
     numerics_integrator_free(&run->gsl);
+    dynamics_variation_free(run->variation);
     free(run->stretches);
     free(run);
 }
@@ -208,9 +122,9 @@ void dynamics_coupled_run_free(dynamics_coupled_run *run)
 /* Sets the contact of flanks: they touch where they overlap. */
 static void set_contact(dynamics_coupled_run *run, const dynamics_place *place)
 {
-    push p = push_at(run, run->t, run->y, place);
-    for (int i = 0; i < FLANKS; i++)
-        run->regime.touches[i] = run->regime.pressed[i] = p.overlap[i].value > 0;
+    dynamics_push p = dynamics_field_push(&run->field, run->t, run->y, place);
+    for (int i = 0; i < DYNAMICS_FLANKS; i++)
+        run->field.regime.touches[i] = run->field.regime.pressed[i] = p.overlap[i].value > 0;
 }
 
 void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *state)
@@ -218,16 +132,29 @@ void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *s
     dynamics_place place;
     memcpy(run->y, state, DYNAMICS_TAKEN * sizeof *state);
     run->y[DYNAMICS_TAKEN] = 0;
-    run->T = T;
+    run->field.T = T;
     run->t = 0;
-    run->now = run->stretches;
+    run->field.now = run->stretches;
     run->steps = 0;
     run->parted = run->back = 0;
-    dynamics_coupled_locate(run->pair, run->y, &place);
-    run->regime.pairs = dynamics_coupled_pairs(&place, 0);
-    run->regime.pairs.youngest--; /* as before the wrap that begins a cycle */
-    run->regime.pairs.oldest--;
+    dynamics_coupled_locate(run->field.pair, run->y, &place);
+    run->field.regime.pairs = dynamics_coupled_pairs(&place, 0);
+    run->field.regime.pairs.youngest--; /* as before the wrap that begins a cycle */
+    run->field.regime.pairs.oldest--;
     set_contact(run, &place);
+    run->varies = 0;
+}
+
+void dynamics_coupled_start_varied(dynamics_coupled_run *run, double T, const double *state)
+{
+    dynamics_coupled_start(run, T, state);
+    dynamics_variation_start(run->variation);
+    run->varies = 1;
+}
+
+const double *dynamics_coupled_columns(const dynamics_coupled_run *run)
+{
+    return dynamics_variation_columns(run->variation);
 }
 
 const double *dynamics_coupled_state(const dynamics_coupled_run *run)
@@ -243,32 +170,12 @@ void dynamics_coupled_clocks(const dynamics_coupled_run *run, double *parted, do
 
 double dynamics_coupled_energy(const dynamics_coupled_run *run, double *kinetic)
 {
-    const double *v = run->y + DYNAMICS_RATES, *m = run->pair->mass;
+    const double *v = run->y + DYNAMICS_RATES, *m = run->field.pair->mass;
     *kinetic = 0.5 * (v[DYNAMICS_Q] * v[DYNAMICS_Q] +
                       m[0] * (v[DYNAMICS_X1] * v[DYNAMICS_X1] + v[DYNAMICS_Y1] * v[DYNAMICS_Y1]) +
                       m[1] * (v[DYNAMICS_X2] * v[DYNAMICS_X2] + v[DYNAMICS_Y2] * v[DYNAMICS_Y2]));
-    return *kinetic - run->pair->excitation->load * run->y[DYNAMICS_Q] + run->y[DYNAMICS_TAKEN];
-}
-
-/* Gates: the regime lasts while none of these conditions is below 0. */
-enum { TOUCH, PRESS = FLANKS, COMES = 2 * FLANKS, GOES, GATES };
-
-static void gates_at(const dynamics_coupled_run *run, double t, const double *y, double gate[GATES])
-{
-    dynamics_place place;
-    dynamics_coupled_locate(run->pair, y, &place);
-    push p = push_at(run, t, y, &place);
-    double age = phase_at(run, t) + place.shift;
-    for (int i = 0; i < FLANKS; i++) {
-        int touches = run->regime.touches[i];
-        int clipped = run->pair->excitation->damping == DYNAMICS_DAMPING_CLIPPED && touches;
-        gate[TOUCH + i] = touches ? p.overlap[i].value : -p.overlap[i].value;
-        gate[PRESS + i] = !clipped ? 1 : run->regime.pressed[i] ? p.normal[i] : -p.normal[i];
-        if (clipped && run->regime.pressed[i])
-            gate[TOUCH + i] = 1; /* the damper lets go before the flanks part */
-    }
-    gate[COMES] = place.entry - (age + run->regime.pairs.youngest - 1);
-    gate[GOES] = place.exit - (age + run->regime.pairs.oldest);
+    return *kinetic - run->field.pair->excitation->load * run->y[DYNAMICS_Q] +
+           run->y[DYNAMICS_TAKEN];
 }
 
 static void attempt(dynamics_coupled_run *run, double h, double *y, double *error)
@@ -282,9 +189,9 @@ static void attempt(dynamics_coupled_run *run, double h, double *y, double *erro
 
 static double gate_after(dynamics_coupled_run *run, int i, double h)
 {
-    double y[DYNAMICS_COUPLED_SIZE], error[DYNAMICS_COUPLED_SIZE], gate[GATES];
+    double y[DYNAMICS_COUPLED_SIZE], error[DYNAMICS_COUPLED_SIZE], gate[DYNAMICS_GATES];
     attempt(run, h, y, error);
-    gates_at(run, run->t + h, y, gate);
+    dynamics_field_gates(&run->field, run->t + h, y, gate);
     return gate[i];
 }
 
@@ -313,21 +220,21 @@ static double find_closing(dynamics_coupled_run *run, int i, double at_0, double
    looked at in the middle. */
 static int find_event(dynamics_coupled_run *run, double h, const double *y, double *at, int *which)
 {
-    double a[GATES], z[GATES], m[GATES], middle[DYNAMICS_COUPLED_SIZE],
+    double a[DYNAMICS_GATES], z[DYNAMICS_GATES], m[DYNAMICS_GATES], middle[DYNAMICS_COUPLED_SIZE],
         error[DYNAMICS_COUPLED_SIZE];
     int found = 0, dips = 0;
-    gates_at(run, run->t, run->y, a);
-    gates_at(run, run->t + h, y, z);
-    for (int i = 0; i < COMES; i++) /* near the edge of the gap, over a step */
-        dips |=
-            z[i] >= 0 && fmin(a[i], z[i]) < 0.5 * h * h * (1 + fabs(run->pair->excitation->load));
+    dynamics_field_gates(&run->field, run->t, run->y, a);
+    dynamics_field_gates(&run->field, run->t + h, y, z);
+    for (int i = 0; i < DYNAMICS_COMES; i++) /* near the edge of the gap, over a step */
+        dips |= z[i] >= 0 &&
+                fmin(a[i], z[i]) < 0.5 * h * h * (1 + fabs(run->field.pair->excitation->load));
     if (dips) {
         attempt(run, 0.5 * h, middle, error);
-        gates_at(run, run->t + 0.5 * h, middle, m);
+        dynamics_field_gates(&run->field, run->t + 0.5 * h, middle, m);
     }
-    for (int i = 0; i < GATES; i++) {
+    for (int i = 0; i < DYNAMICS_GATES; i++) {
         double end = h, value = z[i];
-        if (dips && i < COMES && value >= 0 && m[i] < 0 && a[i] > 0)
+        if (dips && i < DYNAMICS_COMES && value >= 0 && m[i] < 0 && a[i] > 0)
             end = 0.5 * h, value = m[i];
         if (value >= 0)
             continue;
@@ -341,30 +248,25 @@ static int find_event(dynamics_coupled_run *run, double h, const double *y, doub
     return found;
 }
 
-static void change_regime(dynamics_coupled_run *run, int gate)
-{
-    regime *r = &run->regime;
-    if (gate == COMES) {
-        r->pairs.youngest--;
-    } else if (gate == GOES) {
-        r->pairs.oldest--;
-    } else if (gate >= PRESS) {
-        r->pressed[gate - PRESS] = !r->pressed[gate - PRESS];
-    } else {
-        r->touches[gate] = !r->touches[gate];
-        r->pressed[gate] = r->touches[gate];
-    }
-}
-
 static void accept_step(dynamics_coupled_run *run, double h, const double *y)
 {
-    const regime *r = &run->regime;
-    int driving = r->touches[DRIVING] && r->pressed[DRIVING];
-    int back = r->touches[BACK] && r->pressed[BACK];
+    const dynamics_regime *r = &run->field.regime;
+    int driving = r->touches[DYNAMICS_DRIVING] && r->pressed[DYNAMICS_DRIVING];
+    int back = r->touches[DYNAMICS_BACK] && r->pressed[DYNAMICS_BACK];
+    if (run->varies)
+        dynamics_variation_step(run->variation, run->t, h, run->y);
     memcpy(run->y, y, sizeof run->y);
     run->t += h;
     run->parted += driving || back ? 0 : h;
     run->back += back ? h : 0;
+}
+
+static void pass_gate(dynamics_coupled_run *run, int gate)
+{
+    if (run->varies)
+        dynamics_variation_pass_gate(run->variation, gate, run->t, run->y);
+    else
+        dynamics_field_pass_gate(&run->field, gate);
 }
 
 /* Integrates to the instant `end` of the stretch; 0: too many steps. */
@@ -394,7 +296,7 @@ static int advance_to(dynamics_coupled_run *run, double end)
             if (at > 0)
                 attempt(run, at, y, error), accept_step(run, at, y);
             idle = at > slip ? 0 : idle + 1;
-            change_regime(run, which);
+            pass_gate(run, which);
             continue;
         }
         accept_step(run, h, y);
@@ -407,32 +309,33 @@ static int advance_to(dynamics_coupled_run *run, double end)
 }
 
 /* Enters a stretch. Where e jumps the dampers that act give an impulse of 2 zeta times the jump. */
-static void enter_stretch(dynamics_coupled_run *run, const stretch *next)
+static void enter_stretch(dynamics_coupled_run *run, const dynamics_stretch *next)
 {
-    const dynamics_piece *before = run->now->piece;
-    double since = run->now->start + run->now->length - before->start;
+    const dynamics_coupled *pair = run->field.pair;
+    const dynamics_piece *before = run->field.now->piece;
+    double since = run->field.now->start + run->field.now->length - before->start;
     double old = dynamics_piece_value(before->e, before->degree, since);
     dynamics_place place;
-    run->now = next;
+    run->field.now = next;
     run->t = 0;
     if (!next->jump)
         return;
     double leap = next->piece->e[0] - old, before_leap, after_leap;
     dynamics_coupled_energy(run, &before_leap);
-    dynamics_coupled_locate(run->pair, run->y, &place);
-    push p = push_at(run, 0, run->y, &place);
+    dynamics_coupled_locate(pair, run->y, &place);
+    dynamics_push p = dynamics_field_push(&run->field, 0, run->y, &place);
     dynamics_overlap open =
-        dynamics_coupled_overlap(run->pair, &place, 0, run->y, run->y + DYNAMICS_RATES, 0, 0);
-    for (int i = 0; i <= FLANKS; i++) {
-        const dynamics_overlap *o = i < FLANKS ? &p.overlap[i] : &open;
-        int parted = !run->regime.touches[DRIVING] && !run->regime.touches[BACK];
-        int acts = i < FLANKS ? run->regime.touches[i] && run->regime.pressed[i]
-                              : parted && run->pair->excitation->damping == DYNAMICS_DAMPING_ALWAYS;
-        double impulse =
-            acts ? 2 * run->pair->excitation->zeta * leap * o->gradient[DYNAMICS_Q] : 0;
+        dynamics_coupled_overlap(pair, &place, 0, run->y, run->y + DYNAMICS_RATES, 0, 0);
+    for (int i = 0; i <= DYNAMICS_FLANKS; i++) {
+        const dynamics_overlap *o = i < DYNAMICS_FLANKS ? &p.overlap[i] : &open;
+        if (!dynamics_field_damps(&run->field, i))
+            continue;
+        double impulse = 2 * pair->excitation->zeta * leap * o->gradient[DYNAMICS_Q];
         for (int k = 0; k < DYNAMICS_COORDINATES; k++)
-            run->y[DYNAMICS_RATES + k] += impulse * o->gradient[k] /
-                                          (k == DYNAMICS_Q ? 1 : run->pair->mass[k >= DYNAMICS_X2]);
+            run->y[DYNAMICS_RATES + k] +=
+                impulse * o->gradient[k] / (k == DYNAMICS_Q ? 1 : pair->mass[k >= DYNAMICS_X2]);
+        if (run->varies)
+            dynamics_variation_leap(run->variation, i, leap, &place);
     }
     dynamics_coupled_energy(run, &after_leap);
     run->y[DYNAMICS_TAKEN] -= after_leap - before_leap;
@@ -444,17 +347,17 @@ static void add_sample(const dynamics_coupled_run *run, double phase,
 {
     if (record->count == record->capacity)
         return;
-    const dynamics_coupled *pair = run->pair;
+    const dynamics_coupled *pair = run->field.pair;
     dynamics_place place;
     dynamics_coupled_locate(pair, run->y, &place);
-    push p = push_at(run, run->t, run->y, &place);
+    dynamics_push p = dynamics_field_push(&run->field, run->t, run->y, &place);
     dynamics_overlap s =
         dynamics_coupled_overlap(pair, &place, 0, run->y, run->y + DYNAMICS_RATES, 0, 0);
     dynamics_coupled_sample sample = {.excitation = {.phase = (double)record->cycles + phase,
                                                      .s = s.value,
                                                      .s_rate = s.rate,
                                                      .force = p.force},
-                                      .gap = fmax(-p.overlap[DRIVING].value, 0),
+                                      .gap = fmax(-p.overlap[DYNAMICS_DRIVING].value, 0),
                                       .centre = place.centre,
                                       .contact_ratio = place.exit - place.entry};
     memcpy(sample.position, run->y, sizeof sample.position);
@@ -464,30 +367,30 @@ static void add_sample(const dynamics_coupled_run *run, double phase,
 /* Integrates a stretch, from sample to sample when there is a record. */
 static int pass_stretch(dynamics_coupled_run *run, size_t *next, dynamics_coupled_record *record)
 {
-    const stretch *now = run->now;
+    const dynamics_stretch *now = run->field.now;
     double n = record ? (double)record->per_cycle : 0, end = now->start + now->length;
     for (; record && (double)*next / n < end - 1e-12; ++*next) {
         double phase = (double)*next / n;
         if (phase <= now->start + 1e-12)
             continue;
-        if (!advance_to(run, (phase - now->start) * run->T))
+        if (!advance_to(run, (phase - now->start) * run->field.T))
             return 0;
         add_sample(run, phase, record);
     }
-    return advance_to(run, now->length * run->T);
+    return advance_to(run, now->length * run->field.T);
 }
 
 int dynamics_coupled_cycle(dynamics_coupled_run *run, double T, dynamics_coupled_record *record)
 {
     size_t next = 0;
-    const stretch *last = &run->stretches[run->count - 1];
-    run->now = last;
-    run->T = T;
+    const dynamics_stretch *last = &run->stretches[run->count - 1];
+    run->field.now = last;
+    run->field.T = T;
     run->h = run->longest;
-    run->regime.pairs.youngest++;
-    run->regime.pairs.oldest++;
+    run->field.regime.pairs.youngest++;
+    run->field.regime.pairs.oldest++;
     for (size_t i = 0; i < run->count; i++) {
-        const stretch *s = &run->stretches[i];
+        const dynamics_stretch *s = &run->stretches[i];
         enter_stretch(run, s);
         if (record && (s->jump || (i == 0 && record->cycles == 0)))
             add_sample(run, s->start, record);

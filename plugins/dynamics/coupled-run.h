@@ -7,15 +7,8 @@
 #ifndef DYNAMICS_COUPLED_RUN_H
 #define DYNAMICS_COUPLED_RUN_H
 
-#include "coupled-pair.h"
+#include "coupled-field.h"
 #include "oscillator.h"
-
-/* The state: the coordinates, their rates, and the energy that mesh and bearings have taken. */
-enum {
-    DYNAMICS_RATES = DYNAMICS_COORDINATES,
-    DYNAMICS_TAKEN = 2 * DYNAMICS_COORDINATES,
-    DYNAMICS_COUPLED_SIZE
-};
 
 typedef struct dynamics_coupled_run dynamics_coupled_run;
 
@@ -37,7 +30,12 @@ void dynamics_coupled_run_free(dynamics_coupled_run *run);
 
 /* Starts at phase 0 of mesh cycles of duration T, from coordinates and rates. Resets the clocks. */
 void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *state);
+/* The same, and follows the derivatives of the motion by its start. */
+void dynamics_coupled_start_varied(dynamics_coupled_run *run, double T, const double *state);
 const double *dynamics_coupled_state(const dynamics_coupled_run *run);
+/* The derivatives of the state by that at the start, DYNAMICS_TAKEN columns one behind the other.
+ */
+const double *dynamics_coupled_columns(const dynamics_coupled_run *run);
 
 /* Integrates one mesh cycle; `record` may be NULL. 0: too many steps. */
 int dynamics_coupled_cycle(dynamics_coupled_run *run, double T, dynamics_coupled_record *record);

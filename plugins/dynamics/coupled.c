@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/coupled: the gear pair on its bearings, two translations and a rotation per gear. */
 #include "coupled-motion.h"
+#include "coupled-shooting.h"
 #include "references.h"
 
 #include <flankfilm/author.h>
@@ -46,7 +47,8 @@ static const ff_param params[] = {
             "masses that move on the bearings; default: the gears'; one value or two"),
     FF_COUNT_OR(
         "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
-        "mesh cycles in which the motion may settle; auto: four times what the damping takes"),
+        "mesh cycles in which the motion may settle behind a slow sweep of the speed; auto: by "
+        "shooting, and where that finds none, four times what the damping takes"),
     FF_COUNT("cycles_measured", model, cycles_measured, 0, "16", NULL, 1, 256, 0, 0,
              "mesh cycles shown when the motion is not periodic"),
     FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
@@ -171,6 +173,7 @@ static ff_status output_motion(const model *m, const dynamics_coupled *pair,
         .T = motion.T,
         .cycles = dynamics_count_or_auto(m->cycles_settle),
         .tolerance = m->settle_tolerance,
+        .step_tolerance = m->tolerance,
         .host = m->host,
     };
     if (motion.T * highest_frequency(pair) > dynamics_longest_cycle)
@@ -184,7 +187,7 @@ static ff_status output_motion(const model *m, const dynamics_coupled *pair,
         status = dynamics_coupled_motion_record(&motion, pair, inputs, m->tolerance,
                                                 (size_t)m->steps_per_cycle, m->host);
     if (status == FF_OK)
-        status = dynamics_coupled_multipliers(&motion, multipliers, &largest);
+        status = dynamics_coupled_multipliers(motion.monodromy, multipliers, &largest);
     if (status == FF_OK)
         report(m, &motion, largest);
     if (status == FF_OK)

@@ -170,6 +170,21 @@ static void test_jump_on_stiff_bearings(void)
     compare_with_rigid(&p, "lower", "always");
 }
 
+/* Shooting, and what a slow sweep and many cycles lead to. */
+static void test_settled(void)
+{
+    static const char *const names[] = {"dte_rms", "dte_mean", "floquet_max", "contact_loss"};
+    pair p = pair_trapezoid(2375);
+    stage *shot = run(&p, 2e9, "branch=upper damping_ratio=0.03 tolerance=1e-8"),
+          *settled =
+              run(&p, 2e9, "branch=upper damping_ratio=0.03 tolerance=1e-8 cycles_settle=200");
+    check_below("shooting takes", stage_quality(shot, "settled_cycles"), 100);
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        check_near(names[i], stage_scalar(shot, names[i]), stage_scalar(settled, names[i]), 3e-6);
+    stage_close(shot);
+    stage_close(settled);
+}
+
 /* Bearings as soft as the mesh move the motion. */
 static void test_soft_bearings(void)
 {
@@ -280,6 +295,7 @@ int main(void)
     test_frequencies();
     test_stiff_bearings();
     test_jump_on_stiff_bearings();
+    test_settled();
     test_soft_bearings();
     test_clipped();
     test_extremes();

@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The equations of a gear pair on its bearings within one smooth regime, what ends the regime, and
+ * the derivatives of both by the state. */
+#ifndef DYNAMICS_COUPLED_FIELD_H
+#define DYNAMICS_COUPLED_FIELD_H
+
+#include "coupled-pair.h"
+
+/* The state: the coordinates, their rates, and the energy that mesh and bearings have taken. */
+enum {
+    DYNAMICS_RATES = DYNAMICS_COORDINATES,
+    DYNAMICS_TAKEN = 2 * DYNAMICS_COORDINATES,
+    DYNAMICS_COUPLED_SIZE
+};
+
+/* A stretch of the mesh cycle between nodes of the excitation or of the mounted pair. */
+typedef struct dynamics_stretch {
+    const dynamics_piece *piece;
+    double start, length; /* mesh cycles */
+    dynamics_pairs mounted;
+    int jump;
+} dynamics_stretch;
+
+enum { DYNAMICS_DRIVING, DYNAMICS_BACK, DYNAMICS_FLANKS };
+
+/* A regime in which the equations are smooth. A flank that touches without being pressed lags
+   behind the teeth, since a clipped damper would have to pull it. */
+typedef struct dynamics_regime {
+    int touches[DYNAMICS_FLANKS], pressed[DYNAMICS_FLANKS];
+    dynamics_pairs pairs;
+} dynamics_regime;
+
+typedef struct dynamics_field {
+    const dynamics_coupled *pair;
+    const dynamics_stretch *now;
+    dynamics_regime regime;
+    double T; /* duration of a mesh cycle */
+} dynamics_field;
+
+/* The mesh force and the generalised forces that it exerts on the coordinates. */
+typedef struct dynamics_push {
+    double force; /* on q, driving positive */
+    double on[DYNAMICS_COORDINATES];
+    dynamics_overlap overlap[DYNAMICS_FLANKS];
+    double normal[DYNAMICS_FLANKS]; /* of each flank, as if it were pressed */
+} dynamics_push;
+
+/* t is the time since the start of the stretch. */
+double dynamics_field_phase(const dynamics_field *field, double t);
+dynamics_push dynamics_field_push(const dynamics_field *field, double t, const double *y,
+                                  const dynamics_place *place);
+
+/* The rate of change of the state, as GSL calls it; `field` is a dynamics_field. */
+int dynamics_field_slope(double t, const double y[], double dydt[], void *field);
+
+/* The derivatives of the accelerations by coordinates and rates. */
+void dynamics_field_jacobian(const dynamics_field *field, double t, const double *y,
+                             double jacobian[DYNAMICS_COORDINATES][DYNAMICS_TAKEN]);
+
+/* Whether the mesh damper acts on a flank (DYNAMICS_FLANKS: on the pair in its gap). */
+int dynamics_field_damps(const dynamics_field *field, int flank);
+
+/* Gates: the regime lasts while none of these conditions is below 0. */
+enum {
+    DYNAMICS_TOUCH,
+    DYNAMICS_PRESS = DYNAMICS_FLANKS,
+    DYNAMICS_COMES = 2 * DYNAMICS_FLANKS,
+    DYNAMICS_GOES,
+    DYNAMICS_GATES
+};
+
+void dynamics_field_gates(const dynamics_field *field, double t, const double *y,
+                          double gate[DYNAMICS_GATES]);
+/* The regime behind the gate that closed. */
+void dynamics_field_pass_gate(dynamics_field *field, int gate);
+/* The derivatives of a gate by coordinates and rates, and by the time where they stay. Gates of the
+   flanks may differ by the sign from the value above. */
+double dynamics_field_gate_slope(const dynamics_field *field, int gate, double t, const double *y,
+                                 double slope[DYNAMICS_TAKEN]);
+
+#endif

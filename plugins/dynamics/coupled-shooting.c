@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "coupled-shooting.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <gsl/gsl_eigen.h>
+#include <gsl/gsl_linalg.h>
+
+/* Newton's method is given up when a correction is more than this of the one before. */
+static const double contraction = 0.25;
+enum { MAX_CORRECTIONS = 12 };
+
+/* Corrections below this, in static deflections, that shrink no more are errors of the integration.
+ */
+static const double round_off = 1e-5;
+
+/* Steps in the logarithm of the frequency: the longest is the width 3 zeta of a resonance with the
+   damping that is usual, the shortest is what a sweep does per cycle. On the way motions are found
+   to `on_the_way`, and none is taken that is farther than `near` from where the last two lead, both
+   in static deflections. */
+static const double longest = 0.03, shortest = 1e-3, on_the_way = 1e-3, near = 0.2;
+
+ff_status dynamics_coupled_multipliers(const double *monodromy, double *multipliers,
+                                       double *largest)
+{
+    double matrix[DYNAMICS_TAKEN * DYNAMICS_TAKEN];
+    memcpy(matrix, monodromy, sizeof matrix);
+    gsl_matrix_view view = gsl_matrix_view_array(matrix, DYNAMICS_TAKEN, DYNAMICS_TAKEN);
+    gsl_eigen_nonsymm_workspace *work = gsl_eigen_nonsymm_alloc(DYNAMICS_TAKEN);
+    gsl_vector_complex *values = gsl_vector_complex_alloc(DYNAMICS_TAKEN);
+    ff_status status = work && values ? FF_OK : FF_NOMEM;
+    *largest = 0;
+    if (status == FF_OK && gsl_eigen_nonsymm(&view.matrix, values, work))
+        status = FF_NOCONV;
+    for (size_t i = 0; i < DYNAMICS_TAKEN && status == FF_OK; i++) {
+        gsl_complex mu = gsl_vector_complex_get(values, i);
+        multipliers[2 * i] = GSL_REAL(mu);
+        multipliers[2 * i + 1] = GSL_IMAG(mu);
+        *largest = fmax(*largest, hypot(GSL_REAL(mu), GSL_IMAG(mu)));
+    }
+    if (work)
+        gsl_eigen_nonsymm_free(work);
+    if (values)
+        gsl_vector_complex_free(values);
+    return status;
+}
+
+/* Turns the miss of a start after a cycle into its correction d, by (1 - M) d = miss. 0: there is
+   none. */
+static int find_correction(const double *columns, double *miss)
+{
+    double matrix[DYNAMICS_TAKEN * DYNAMICS_TAKEN];
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+        for (int k = 0; k < DYNAMICS_TAKEN; k++) {
+            double m = columns[k * DYNAMICS_TAKEN + i];
+            if (!isfinite(m))
+                return 0;
+            matrix[i * DYNAMICS_TAKEN + k] = (i == k) - m;
+        }
+    gsl_matrix_view a = gsl_matrix_view_array(matrix, DYNAMICS_TAKEN, DYNAMICS_TAKEN);
+    gsl_vector_view x = gsl_vector_view_array(miss, DYNAMICS_TAKEN);
+    return gsl_linalg_HH_svx(&a.matrix, &x.vector) == GSL_SUCCESS;
+}
+
+/* Corrects the start once; FF_NOCONV: there is no correction. */
+static ff_status correct(dynamics_coupled_run *run, dynamics_coupled_orbit *orbit)
+{
+    double T = 2 * M_PI / orbit->frequency, miss[DYNAMICS_TAKEN], parted, back;
+    dynamics_coupled_start_varied(run, T, orbit->state);
+    orbit->cycles++;
+    if (!dynamics_coupled_cycle(run, T, NULL))
+        return FF_NOCONV;
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+        miss[i] = dynamics_coupled_state(run)[i] - orbit->state[i];
+    if (!find_correction(dynamics_coupled_columns(run), miss))
+        return FF_NOCONV;
+    orbit->distance = 0;
+    for (int i = 0; i < DYNAMICS_TAKEN; i++) {
+        orbit->state[i] += miss[i];
+        orbit->distance = fmax(orbit->distance, fabs(miss[i]));
+    }
+    dynamics_coupled_clocks(run, &parted, &back);
+    orbit->touches = parted == 0 && back == 0;
+    return isfinite(orbit->distance) ? FF_OK : FF_NOCONV;
+}
+
+ff_status dynamics_coupled_shoot(dynamics_coupled_run *run, double far, double tolerance,
+                                 const ff_host *host, dynamics_coupled_orbit *orbit)
+{
+    double last = far / contraction, start[DYNAMICS_TAKEN], multipliers[2 * DYNAMICS_TAKEN];
+    double largest;
+    memcpy(start, orbit->state, sizeof start);
+    for (int n = 0; n < MAX_CORRECTIONS; n++) {
+        if (host->progress(host->ctx, 0))
+            return FF_STOPPED;
+        double before = orbit->distance;
+        if (correct(run, orbit) != FF_OK)
+            return FF_NOCONV;
+        int ends = n > 0 && before < round_off && orbit->distance > contraction * before;
+        if (!ends && !(orbit->distance <= contraction * last))
+            return FF_NOCONV;
+        last = orbit->distance;
+        for (int i = 0; i < DYNAMICS_TAKEN; i++)
+            if (fabs(orbit->state[i] - start[i]) > far)
+                return FF_NOCONV;
+        if (orbit->distance > tolerance && !ends)
+            continue;
+        ff_status status =
+            dynamics_coupled_multipliers(dynamics_coupled_columns(run), multipliers, &largest);
+        return status == FF_OK && !(largest < 1) ? FF_NOCONV : status;
+    }
+    return FF_NOCONV;
+}
+
+ff_status dynamics_coupled_follow(dynamics_coupled_run *run, double to, const ff_host *host,
+                                  dynamics_coupled_orbit *orbit)
+{
+    double step = longest, slope[DYNAMICS_TAKEN] = {0};
+    while (orbit->frequency != to) {
+        double left = log(to / orbit->frequency);
+        double way = fabs(left) <= step ? left : copysign(step, left);
+        dynamics_coupled_orbit next = *orbit;
+        next.frequency = way == left ? to : orbit->frequency * exp(way);
+        for (int i = 0; i < DYNAMICS_TAKEN; i++)
+            next.state[i] += slope[i] * way;
+        ff_status status = dynamics_coupled_shoot(run, near, on_the_way, host, &next);
+        orbit->cycles = next.cycles;
+        if (status == FF_NOCONV && step > shortest) {
+            step /= 2;
+            continue;
+        }
+        if (status != FF_OK)
+            return status;
+        for (int i = 0; i < DYNAMICS_TAKEN; i++)
+            slope[i] = (next.state[i] - orbit->state[i]) / way;
+        *orbit = next;
+        step = fmin(1.5 * step, longest);
+    }
+    return FF_OK;
+}

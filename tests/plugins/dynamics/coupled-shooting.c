@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The derivatives of a motion on bearings by its start against differences of motions, and motions
+   found by Newton's method against what they are. */
+#include "../../../plugins/dynamics/coupled-shooting.h"
+
+#include "check.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { N = DYNAMICS_TAKEN };
+
+typedef struct scene {
+    const char *name;
+    int damping;
+    double bearing, half_gap, leap, q, rate; /* leap: of e; q, rate: added to the state at rest */
+    int parts, meets;                        /* contact is lost; the back flanks touch */
+} scene;
+
+/* Two levels of stiffness, shares that jump as tooth pairs come and go, centres that give way. */
+static void make(const scene *c, dynamics_excitation *mesh, dynamics_coupled *pair)
+{
+    static const double phase[] = {0, 0.3, 0.6, 0.6, 1}, k[] = {1.2, 1.25, 1.2, 0.7, 0.75};
+    static const double cycle[] = {0, 0.6, 0.6, 1, 1, 1.6}, share[] = {0.4, 0.5, 1, 1, 0.5, 0.6};
+    const double e[] = {0, 0.1, 0.05, 0.05 + c->leap, 0};
+    *mesh = (dynamics_excitation){.zeta = 0.05,
+                                  .load = 1,
+                                  .half_gap = c->half_gap,
+                                  .damping = c->damping,
+                                  .stiffness = 1,
+                                  .length = 1};
+    dynamics_mesh_curves x = {5, phase, k, e};
+    check_true("mesh", dynamics_excitation_build(mesh, &x));
+    *pair = (dynamics_coupled){.excitation = mesh,
+                               .mass = {3, 4},
+                               .bearing = {c->bearing, 1.3 * c->bearing},
+                               .damper = {0.1, 0.2},
+                               .base = 188,
+                               .centre = 200,
+                               .base_1 = 94,
+                               .base_pitch = 11.8};
+    pair->line = sqrt(200.0 * 200 - 188.0 * 188);
+    pair->angle = atan2(pair->line, pair->base);
+    check_true("stiffness", dynamics_coupled_pair_stiffness(pair, 6, cycle, share));
+}
+
+/* Central differences of the state after a cycle, by component k of the start. */
+static void difference(dynamics_coupled_run *run, double T, const double *start, int k, double d,
+                       double *by_start)
+{
+    double ends[2][N];
+    for (int sign = 0; sign < 2; sign++) {
+        double moved[N];
+        memcpy(moved, start, sizeof moved);
+        moved[k] += sign ? -d : d;
+        dynamics_coupled_start(run, T, moved);
+        dynamics_coupled_cycle(run, T, NULL);
+        memcpy(ends[sign], dynamics_coupled_state(run), sizeof ends[sign]);
+    }
+    for (int i = 0; i < N; i++)
+        by_start[i] = (ends[0][i] - ends[1][i]) / (2 * d);
+}
+
+/* The differences of two distances tell their own error, of second order. Where the stiffness of a
+   tooth pair has a corner the slopes of the columns jump within a step, which the control of the
+   motion, whose slope has a corner there, makes as short as the square root of its tolerance. */
+static void test_columns(const scene *c)
+{
+    static const double T = 7, d = 1e-4, tolerance = 1e-13;
+    dynamics_excitation mesh;
+    dynamics_coupled pair;
+    double start[2 * DYNAMICS_COORDINATES], parted, back, worst = 0, bound = 0;
+    make(c, &mesh, &pair);
+    dynamics_coupled_rest(&pair, start);
+    start[DYNAMICS_Q] += c->q;
+    start[DYNAMICS_RATES + DYNAMICS_Q] += c->rate;
+    start[DYNAMICS_RATES + DYNAMICS_X1] += 0.05;
+    dynamics_coupled_run *run = dynamics_coupled_run_new(&pair, tolerance),
+                         *varied = dynamics_coupled_run_new(&pair, tolerance);
+    dynamics_coupled_start_varied(varied, T, start);
+    check_true("runs", dynamics_coupled_cycle(varied, T, NULL));
+    const double *columns = dynamics_coupled_columns(varied);
+    for (int k = 0; k < N; k++) {
+        double wide[N], narrow[N];
+        difference(run, T, start, k, 2 * d, wide);
+        difference(run, T, start, k, d, narrow);
+        for (int i = 0; i < N; i++) {
+            bound = fmax(bound, fabs(wide[i] - narrow[i]));
+            double exact = narrow[i] + (narrow[i] - wide[i]) / 3;
+            worst = fmax(worst, fabs(columns[k * N + i] - exact));
+        }
+    }
+    dynamics_coupled_clocks(varied, &parted, &back);
+    printf("%s: parted %g, back %g of %g\n", c->name, parted, back, T);
+    check_true("is the scene", (parted > 0) == c->parts && (back > 0) == c->meets);
+    check_below("error of differences", bound, 0.3 * sqrt(tolerance));
+    check_below("derivatives differ", worst, 3 * sqrt(tolerance));
+    dynamics_coupled_run_free(run);
+    dynamics_coupled_run_free(varied);
+    dynamics_coupled_free(&pair);
+    dynamics_excitation_free(&mesh);
+}
+
+static int go_on(void *self, double share)
+{
+    (void)self, (void)share;
+    return 0;
+}
+
+/* A motion that Newton's method found is met by integration from rest, and is its own return. */
+static void test_shooting(void)
+{
+    static const ff_host host = {.progress = go_on};
+    const scene c = {"shooting", DYNAMICS_DAMPING_ALWAYS, 3, 7, 0.02, 0, 0, 0, 0};
+    dynamics_excitation mesh;
+    dynamics_coupled pair;
+    dynamics_coupled_orbit orbit = {.frequency = 2 * M_PI / 7};
+    double rest[2 * DYNAMICS_COORDINATES], worst = 0;
+    make(&c, &mesh, &pair);
+    dynamics_coupled_rest(&pair, rest);
+    memcpy(orbit.state, rest, sizeof orbit.state);
+    dynamics_coupled_run *run = dynamics_coupled_run_new(&pair, 1e-11),
+                         *varied = dynamics_coupled_run_new(&pair, 1e-11);
+    check_true("is found", dynamics_coupled_shoot(varied, INFINITY, 1e-9, &host, &orbit) == FF_OK);
+    check_below("corrections", (double)orbit.cycles, 6);
+    dynamics_coupled_start(run, 7, rest);
+    for (int i = 0; i < 150; i++)
+        dynamics_coupled_cycle(run, 7, NULL);
+    for (int i = 0; i < N; i++)
+        worst = fmax(worst, fabs(dynamics_coupled_state(run)[i] - orbit.state[i]));
+    check_below("rest settles elsewhere", worst, 1e-8);
+    dynamics_coupled_orbit there = orbit, straight = orbit;
+    check_true("is followed",
+               dynamics_coupled_follow(varied, 1.2 * orbit.frequency, &host, &there) == FF_OK);
+    check_true("is found there", dynamics_coupled_shoot(varied, 1, 1e-9, &host, &there) == FF_OK);
+    straight.frequency = there.frequency;
+    check_true("is found from rest",
+               dynamics_coupled_shoot(varied, INFINITY, 1e-9, &host, &straight) == FF_OK);
+    for (int i = 0; i < N; i++)
+        worst = fmax(worst, fabs(there.state[i] - straight.state[i]));
+    check_below("the way makes a difference", worst, 1e-8);
+    dynamics_coupled_run_free(run);
+    dynamics_coupled_run_free(varied);
+    dynamics_coupled_free(&pair);
+    dynamics_excitation_free(&mesh);
+}
+
+int main(void)
+{
+    static const scene scenes[] = {
+        {"in contact", DYNAMICS_DAMPING_ALWAYS, 3, 7, 0, 0, 0, 0, 0},
+        {"parts", DYNAMICS_DAMPING_ALWAYS, 3, 7, 0, -1.5, -0.5, 1, 0},
+        {"parts, damped in contact", DYNAMICS_DAMPING_CONTACT, 3, 7, 0, -1.5, -0.5, 1, 0},
+        {"parts, clipped", DYNAMICS_DAMPING_CLIPPED, 3, 7, 0, 0.3, -2, 1, 0},
+        {"meets its back flanks", DYNAMICS_DAMPING_CONTACT, 3, 0.3, 0, -1, -1.5, 1, 1},
+        {"e jumps", DYNAMICS_DAMPING_ALWAYS, 3, 7, 0.3, 0, 0, 0, 0},
+        {"e jumps in the gap", DYNAMICS_DAMPING_ALWAYS, 3, 7, 0.3, 2.5, 0.5, 1, 0},
+        {"bearings softer than the mesh", DYNAMICS_DAMPING_ALWAYS, 0.3, 7, 0.1, 1, 0, 0, 0},
+    };
+    for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++)
+        test_columns(&scenes[i]);
+    test_shooting();
+    return check_done();
+}
