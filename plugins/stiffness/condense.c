@@ -3,7 +3,7 @@
 
 #include "../numerics/room.h"
 
-#include <cblas.h>
+#include <f77blas.h>
 #include <stdlib.h>
 #include <string.h>
 #include <suitesparse/cholmod.h>
@@ -102,6 +102,16 @@ static int factorise(work *w)
     return w->common.status == CHOLMOD_OK ? STIFFNESS_CONDENSED : STIFFNESS_CONDENSE_SINGULAR;
 }
 
+/* A matrix of m x k, or its transpose ('T'), by one of k x n. By its name in Fortran: under that in
+   C a program that is linked with GSL finds GSL's own, which is many times slower. */
+static void multiply(char a_form, char b_form, int m, int n, int k, double *a, int a_rows,
+                     double *b, int b_rows, double *product)
+{
+    double one = 1, zero = 0;
+    BLASFUNC(dgemm)
+    (&a_form, &b_form, &m, &n, &k, &one, a, &a_rows, b, &b_rows, &zero, product, &m);
+}
+
 /* Copies L_ss out of the supernodes, whose columns have the rows of L in order, the diagonal
    first. */
 static void copy_corner(const work *w)
@@ -161,16 +171,14 @@ static int condense_loads(work *w, stiffness_condensed *c, double *product)
         return 0;
     cholmod_dense *y = w->solution;
     w->solution = NULL;
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, loads, n, 1, w->corner, n,
-                column_of(y, 0) + w->inside, rows, 0, product, n);
+    multiply('N', 'N', n, loads, n, w->corner, n, column_of(y, 0) + w->inside, rows, product);
     put_in_order(w, product, c->loads, 0, c->pull);
     for (size_t k = 0; k < c->loads; k++)
         memset(column_of(y, k) + w->inside, 0, both * sizeof(double));
     int done = solve(w, CHOLMOD_Lt, y);
     if (done)
-        cblas_dgemm(CblasColMajor, CblasTrans, CblasNoTrans, loads, loads, rows, 1,
-                    column_of(w->solution, 0), rows, column_of(w->load, 0), rows, 0, c->held,
-                    loads);
+        multiply('T', 'N', loads, loads, rows, column_of(w->solution, 0), rows,
+                 column_of(w->load, 0), rows, c->held);
     cholmod_free_dense(&y, &w->common);
     return done;
 }
@@ -186,8 +194,7 @@ static int condense(work *w, stiffness_condensed *c)
     int done = product != NULL;
     if (done) {
         copy_corner(w);
-        cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, n, n, n, 1, w->corner, n, w->corner, n,
-                    0, product, n);
+        multiply('N', 'T', n, n, n, w->corner, n, w->corner, n, product);
         put_in_order(w, product, both, 1, c->stiffness);
         done = condense_loads(w, c, product);
     }
