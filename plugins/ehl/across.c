@@ -63,7 +63,7 @@ void ehl_across_create(ehl_across *a, size_t count)
                 if (j != l)
                     product /= a->z[l] - a->z[j];
             if (k != l) {
-                a->slope[k][l] = product;
+                a->slope[l][k] = product;
                 sum += 1 / (a->z[l] - a->z[k]);
             }
             for (size_t m = 0; m < count; m++)
@@ -77,7 +77,7 @@ void ehl_across_create(ehl_across *a, size_t count)
     for (size_t k = 0; k < count; k++)
         for (size_t l = 0; l < count; l++)
             for (size_t m = 0; m < count; m++)
-                a->stiffness[k][l] += a->weight[m] * a->slope[m][k] * a->slope[m][l];
+                a->stiffness[k][l] += a->weight[m] * a->slope[k][m] * a->slope[l][m];
 }
 
 double ehl_across_highest(const ehl_across *a, const double *values)

@@ -3,6 +3,8 @@
 #ifndef EHL_ACROSS_H
 #define EHL_ACROSS_H
 
+#include <flankfilm/simd.h>
+
 #include <stddef.h>
 
 enum { EHL_ACROSS_LEAST = 4, EHL_ACROSS_PRESET = 8, EHL_ACROSS_MOST = 16, EHL_ACROSS_FINE = 17 };
@@ -13,11 +15,31 @@ typedef struct ehl_across {
     size_t count;
     double z[EHL_ACROSS_MOST];
     double weight[EHL_ACROSS_MOST]; /* of an integral, exact up to the degree 2 count - 3 */
-    ehl_across_matrix slope;        /* d/dz of the polynomial through values at the nodes */
-    ehl_across_matrix integral;     /* [l][k]: from 0 to node k, of what is 1 at node l alone */
-    ehl_across_matrix stiffness;    /* int (dv/dz) (dT/dz) dz */
+    /* [l][k]: at node k, of the polynomial that is 1 at node l alone */
+    ehl_across_matrix slope;                       /* d/dz */
+    ehl_across_matrix integral;                    /* from 0 to node k */
+    ehl_across_matrix stiffness;                   /* int (dv/dz) (dT/dz) dz */
     double fine[EHL_ACROSS_FINE][EHL_ACROSS_MOST]; /* values at equal distances */
 } ehl_across;
+
+/* Four values at a time, in whole vectors: rows of a matrix, and what is computed from them, have
+   room up to a multiple of this. */
+enum { EHL_ACROSS_LANES = 4 };
+typedef double ehl_lanes __attribute__((vector_size(EHL_ACROSS_LANES * sizeof(double))));
+
+/* Sets out[k] to the sum of m[l * stride + k] values[l] over l < n, k < n. */
+FF_SIMD_INLINE void ehl_across_apply(const double *m, size_t stride, size_t n, const double *values,
+                                     double *out)
+{
+    for (size_t k = 0; k < n; k += EHL_ACROSS_LANES) {
+        ehl_lanes sum = {0}, row;
+        for (size_t l = 0; l < n; l++) {
+            memcpy(&row, m + l * stride + k, sizeof row);
+            sum += values[l] * row;
+        }
+        memcpy(out + k, &sum, sizeof sum);
+    }
+}
 
 /* Returns the highest value of the polynomial through values at the nodes, of EHL_ACROSS_FINE
  * places.

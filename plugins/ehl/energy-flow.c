@@ -16,7 +16,8 @@ ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
     size_t n = nodes, all = nodes * across;
     *e = (ehl_energy){.nodes = nodes, .highest = 2000, .lowest = 150};
     ehl_across_create(&e->across, across);
-    double *next = e->memory = calloc(FIELDS * all + OWN * n + n, sizeof *next);
+    double *next = e->memory =
+        calloc((FIELDS + 2 + across) * all + OWN * n + 2 * n + EHL_ACROSS_LANES, sizeof *next);
     if (!next)
         return FF_NOMEM;
     double **field[FIELDS] = {
@@ -27,9 +28,13 @@ ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
         *field[k] = next;
     double **own[OWN] = {&e->tau_m,   &e->p_x,     &e->mobility, &e->mass,
                          &e->carried, &e->flux[0], &e->flux[1]};
+    e->inverted = next;
+    e->inverse = next + 2 * all;
+    next += (2 + across) * all;
     for (size_t k = 0; k < OWN; k++, next += n)
         *own[k] = next;
     e->reverse = (unsigned char *)next;
+    e->there = e->reverse + n;
     return FF_OK;
 }
 
@@ -37,6 +42,14 @@ void ehl_energy_destroy(ehl_energy *e)
 {
     free(e->memory);
     e->memory = NULL;
+}
+
+void ehl_energy_restart(ehl_energy *e)
+{
+    size_t all = e->nodes * e->across.count;
+    e->guessed = 0;
+    memset(e->called_T, 0, all * sizeof *e->called_T);
+    memset(e->inverted, 0, 2 * all * sizeof *e->inverted);
 }
 
 static void note(ehl_energy *e, ff_status status)
@@ -69,14 +82,21 @@ static void follow(size_t n, const double *restrict p, const double *restrict T,
         value[j] = given[j] + (by_p[j] * (p[j] - from_p[j]) + by_T[j] * (T[j] - from_T[j]));
 }
 
+FF_SIMD
+static int all_within(size_t n, const double *restrict a, const double *restrict b, double most)
+{
+    int64_t beyond = 0;
+    for (size_t j = 0; j < n; j++)
+        beyond |= !(fabs(a[j] - b[j]) <= most);
+    return !beyond;
+}
+
 /* Whether ln(eta) has changed by more than the reach at node i, or has not been called there. */
 static int is_beyond(const ehl_energy *e, size_t i)
 {
     size_t n = e->across.count, from = i * n;
-    int within = e->called_T[from] > 0;
-    for (size_t j = from; j < from + n; j++)
-        within &= fabs(e->ln_eta[j] - e->called_ln_eta[j]) <= e->reach;
-    return !within;
+    return !(e->called_T[from] > 0) ||
+           !all_within(n, e->ln_eta + from, e->called_ln_eta + from, e->reach);
 }
 
 /* Viscosity and density at all places: by their slopes where these reach, whose error is less than
@@ -102,28 +122,21 @@ static void call_laws(ehl_energy *e, const ehl_energy_film *film, const double *
     follow(all, e->p, T, e->called_p, e->called_T, e->called_rho, e->rho_p, e->rho_T, e->rho);
 }
 
-/* Shear rates of e->tau with their slopes, by T at constant stress. */
-static void call_flow(ehl_energy *e, size_t count, const double *T)
+/* Shear rates of e->tau with their slopes, by T at constant stress, at the nodes `from` to `end`.
+ */
+static void call_flow(ehl_energy *e, size_t from, size_t end, const double *T)
 {
-    size_t all = count * e->across.count;
+    size_t n = e->across.count, at = from * n, count = (end - from) * n;
     if (e->flow) {
-        note(e, e->flow->rate(e->flow->self, all, e->p, T, e->ln_eta, e->tau, e->gamma,
-                              e->gamma_tau, e->gamma_T));
+        note(e, e->flow->rate(e->flow->self, count, e->p + at, T + at, e->ln_eta + at, e->tau + at,
+                              e->gamma + at, e->gamma_tau + at, e->gamma_T + at));
         return;
     }
-    for (size_t j = 0; j < all; j++) {
+    for (size_t j = at; j < at + count; j++) {
         e->gamma_tau[j] = exp(-e->ln_eta[j]);
         e->gamma[j] = e->tau[j] * e->gamma_tau[j];
         e->gamma_T[j] = -e->gamma[j];
     }
-}
-
-static void set_stress(ehl_energy *e, const ehl_energy_film *film)
-{
-    size_t n = e->across.count;
-    for (size_t i = 0; i < film->count; i++)
-        for (size_t k = 0; k < n; k++)
-            e->tau[i * n + k] = e->tau_m[i];
 }
 
 /* Means across the film: of the shear rate, and of its slope times 1 and z - h/2 over h. */
@@ -131,12 +144,12 @@ typedef struct means {
     double gamma, slope, tilt;
 } means;
 
-static means means_of(const ehl_energy *e, size_t i)
+FF_SIMD_INLINE means means_of(const ehl_energy *e, size_t i, size_t n)
 {
     const ehl_across *a = &e->across;
-    const double *gamma = e->gamma + i * a->count, *slope = e->gamma_tau + i * a->count;
+    const double *gamma = e->gamma + i * n, *slope = e->gamma_tau + i * n;
     means m = {0, 0, 0};
-    for (size_t k = 0; k < a->count; k++) {
+    for (size_t k = 0; k < n; k++) {
         double here = a->weight[k] * slope[k];
         m.gamma += a->weight[k] * gamma[k];
         m.slope += here;
@@ -173,30 +186,48 @@ static void guess_stress(ehl_energy *e, const ehl_energy_film *film)
     e->guessed = 1;
 }
 
-/* Takes the stress to that which shears the film by the speeds of the flanks. */
+/* Takes the stress at node i towards that which shears the film by the speeds of the flanks; 1: it
+   was that. */
+FF_SIMD_INLINE int take_stress(ehl_energy *e, const ehl_energy_film *film, double enough, size_t i,
+                               size_t n)
+{
+    const double tiny = 1e-6;
+    double per_h = 1 / film->h[i], target = (film->speed[1] - film->speed[0]) * per_h;
+    double scale = tiny * (film->speed[1] + film->speed[0]) * per_h, size = fabs(target);
+    means m = means_of(e, i, n);
+    if (fabs(m.gamma - target) <= enough * (size > scale ? size : scale) || !(m.slope > 1e-290))
+        return 1;
+    double step = stress_step(m, target, scale), most = 0.9 * fabs(e->tau_m[i]);
+    e->tau_m[i] +=
+        fabs(step) > most && most > 0 && step * e->tau_m[i] < 0 ? copysign(most, step) : step;
+    return 0;
+}
+
+static int take_stress_at(ehl_energy *e, const ehl_energy_film *film, double enough, size_t i)
+{
+    return e->across.count == EHL_ACROSS_PRESET ? take_stress(e, film, enough, i, EHL_ACROSS_PRESET)
+                                                : take_stress(e, film, enough, i, e->across.count);
+}
+
+/* Takes the stress of all columns there; those that are there are not computed again. */
 static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     enum { MOST = 30 };
     /* what is left is taken off by the slope: its square */
-    const double enough = film->rate > 0 ? e->reach / 2 : 1e-3, tiny = 1e-6;
-    double slip = film->speed[1] - film->speed[0], all = film->speed[1] + film->speed[0];
-    for (int turn = 0; turn < MOST; turn++) {
-        int done = 1;
-        set_stress(e, film);
-        call_flow(e, film->count, T);
-        for (size_t i = 0; i < film->count; i++) {
-            double target = slip / film->h[i], scale = tiny * all / film->h[i];
-            means m = means_of(e, i);
-            if (fabs(m.gamma - target) <= enough * fmax(fabs(target), scale) || !(m.slope > 1e-290))
-                continue;
-            double step = stress_step(m, target, scale), most = 0.9 * fabs(e->tau_m[i]);
-            e->tau_m[i] += fabs(step) > most && most > 0 && step * e->tau_m[i] < 0
-                               ? copysign(most, step)
-                               : step;
-            done = 0;
+    const double enough = film->rate > 0 ? e->reach / 2 : 1e-3;
+    size_t left = film->count;
+    memset(e->there, 0, left);
+    for (int turn = 0; turn < MOST && left > 0; turn++) {
+        left = 0;
+        for (size_t i = 0, end; i < film->count; i = end + 1) {
+            for (end = i; end < film->count && !e->there[end]; end++)
+                for (size_t k = 0; k < e->across.count; k++)
+                    e->tau[end * e->across.count + k] = e->tau_m[end];
+            if (end > i)
+                call_flow(e, i, end, T);
+            for (; i < end; i++)
+                left += !(e->there[i] = (unsigned char)take_stress_at(e, film, enough, i));
         }
-        if (done)
-            return;
     }
 }
 
@@ -204,10 +235,8 @@ static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double
 FF_SIMD_INLINE double flow_of(const ehl_across *a, size_t n, const double *rho, double u_1,
                               double h, const double *gamma, double *u)
 {
-    double rise[EHL_ACROSS_MOST] = {0}, sum = 0;
-    for (size_t l = 0; l < n; l++)
-        for (size_t k = 0; k < n; k++)
-            rise[k] += a->integral[l][k] * gamma[l];
+    double rise[EHL_ACROSS_MOST], sum = 0;
+    ehl_across_apply(a->integral[0], EHL_ACROSS_MOST, n, gamma, rise);
     for (size_t k = 0; k < n; k++) {
         u[k] = u_1 + h * rise[k];
         sum += a->weight[k] * rho[k] * u[k];
@@ -246,18 +275,20 @@ FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size
     size_t at = i * n;
     double h = film->h[i], slip = film->speed[1] - film->speed[0], p_x = e->p_x[i];
     double mean = (film->speed[0] + film->speed[1]) / 2, per_p_x[EHL_ACROSS_MOST],
-           driven[EHL_ACROSS_MOST] = {0};
+           driven[EHL_ACROSS_MOST];
     double *tau = e->tau + at, *gamma = e->gamma + at, *slope = e->gamma_tau + at, *u = e->u + at;
     const double *rho = e->rho + at;
-    means m = means_of(e, i);
+    means m = means_of(e, i, n);
     int flows = m.slope > 1e-290;
     double tilt = flows ? m.tilt / m.slope : 0;
     double left = flows ? (slip / h - m.gamma) / m.slope : 0;
+    double *gamma_T = e->gamma_T + at;
+    FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {
         double more = left + (a->z[k] - 0.5 - tilt) * h * p_x;
         tau[k] += more;
         gamma[k] = flows ? gamma[k] + more * slope[k] : slip / h;
-        e->gamma_T[at + k] -= more * slope[k];
+        gamma_T[k] -= more * slope[k];
         per_p_x[k] = h * slope[k] * (a->z[k] - 0.5 - tilt);
     }
     e->tau_m[i] += left;
@@ -269,6 +300,7 @@ FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size
     e->carried[i] = (flow + e->mobility[i] * p_x) / mean;
     double more = correction(film, flow, e->mobility[i], p_x, fabs(mean) * e->mass[i], i);
     if (fabs(more) > 0) {
+        FF_SIMD_LOOP
         for (size_t k = 0; k < n; k++) {
             tau[k] += h * (a->z[k] - 0.5 - tilt) * more;
             gamma[k] += per_p_x[k] * more;
@@ -276,11 +308,14 @@ FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size
         }
     }
     e->p_x[i] += more;
-    e->reverse[i] = 0;
+    double *through = e->through + at;
+    int64_t reverse = 0;
+    FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {
-        e->through[at + k] = rho[k] * u[k] * h;
-        e->reverse[i] |= u[k] * mean < 0;
+        through[k] = rho[k] * u[k] * h;
+        reverse |= u[k] * mean < 0;
     }
+    e->reverse[i] = reverse != 0;
 }
 
 /* The preset number of nodes is known when it is compiled. */
@@ -293,9 +328,15 @@ static void flow_at(ehl_energy *e, const ehl_energy_film *film, size_t i)
         flow_across(e, film, i, e->across.count);
 }
 
+FF_SIMD
+static void multiply(size_t n, const double *restrict by, double *restrict values)
+{
+    for (size_t j = 0; j < n; j++)
+        values[j] *= by[j];
+}
+
 void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
-    size_t all = film->count * e->across.count;
     call_laws(e, film, T);
     for (size_t i = 0; i < film->count; i++)
         e->p_x[i] = gradient(film, i);
@@ -304,6 +345,5 @@ void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T
     find_stress(e, film, T);
     for (size_t i = 0; i < film->count; i++)
         flow_at(e, film, i);
-    for (size_t j = 0; j < all; j++)
-        e->gamma_T[j] *= e->ln_eta_T[j];
+    multiply(film->count * e->across.count, e->ln_eta_T, e->gamma_T);
 }

@@ -14,10 +14,14 @@ typedef struct sweep {
     ehl_passage passage[2];
 } sweep;
 
-/* The equations of one column. */
+/* What the equations of one column are made of. */
 typedef struct column {
-    ehl_across_matrix a;
-    double right[EHL_ACROSS_MOST];
+    double below[EHL_ACROSS_MOST + 1]; /* heat that crosses between nodes from the lower one, ... */
+    double above[EHL_ACROSS_MOST + 1]; /* ... and from the upper one, per temperature, >= 0 */
+    double lift[EHL_ACROSS_MOST];      /* transverse transport by the slope at the node */
+    double off[EHL_ACROSS_MOST];       /* what they leave */
+    double diagonal[EHL_ACROSS_MOST];  /* without dissipation */
+    double by_stress[EHL_ACROSS_MOST], moved[EHL_ACROSS_MOST]; /* of the dissipation with tau_m */
 } column;
 
 /* Transverse flow of mass rho (w - z h_x u - z h_t), kg/(m2 s), at the nodes and, below each node,
@@ -36,20 +40,19 @@ FF_SIMD_INLINE void transverse_flow(const sweep *s, size_t i, size_t n, double *
     }
     below[0] = 0;
     for (size_t k = 0; k < n; k++) {
-        at[k] = 0;
-        below[k + 1] = below[k] - a->weight[k] * (out[k] - mean);
+        out[k] = mean - out[k];
+        below[k + 1] = below[k] + a->weight[k] * out[k];
     }
-    for (size_t l = 0; l < n; l++)
-        for (size_t k = 0; k < n; k++)
-            at[k] -= a->integral[l][k] * (out[l] - mean);
+    below[n] = 0;
+    ehl_across_apply(a->integral[0], EHL_ACROSS_MOST, n, out, at);
 }
 
 /*
- * The transverse transport, over the heat capacity. Where conduction does not smooth what is
- * carried between two nodes, as in a thick inlet, the polynomial would swing; the temperature there
- * comes from the node that the oil comes from.
+ * The transverse transport. Where conduction does not smooth what is carried between two nodes, as
+ * in a thick inlet, the polynomial would swing; the temperature there comes from the node that the
+ * oil comes from.
  */
-FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, ehl_across_matrix m)
+FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, column *c)
 {
     const double smooth = 25; /* square of a Peclet number between two nodes */
     const ehl_energy *e = s->e;
@@ -62,48 +65,54 @@ FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, ehl
     }
     double peclet = e->heat_capacity * most * s->film->h[i] / e->conductivity;
     double sharp = peclet * peclet / (peclet * peclet + smooth);
-    for (size_t k = 0; k < n; k++) {
-        double carried = (1 - sharp) * a->weight[k] * at[k];
-        for (size_t l = 0; l < n; l++)
-            m[k][l] = carried * a->slope[k][l];
-    }
-    for (size_t k = 0; k < n; k++) {
-        double up = below[k] > 0 ? sharp * below[k] : 0;
-        double down = below[k + 1] < 0 ? -sharp * below[k + 1] : 0;
-        m[k][k] += up + down;
-        if (k > 0)
-            m[k][k - 1] -= up;
-        if (k + 1 < n)
-            m[k][k + 1] -= down;
-    }
-}
-
-/* Conduction and transverse transport. */
-FF_SIMD_INLINE void add_across(const sweep *s, size_t i, size_t n, column *c)
-{
-    const ehl_energy *e = s->e;
-    const ehl_across *a = &e->across;
-    double conducted = e->conductivity / s->film->h[i];
-    transverse_transport(s, i, n, c->a);
+    double smoothly = (1 - sharp) * e->heat_capacity, sharply = sharp * e->heat_capacity;
     for (size_t k = 0; k < n; k++)
-        for (size_t l = 0; l < n; l++)
-            c->a[k][l] = conducted * a->stiffness[k][l] + e->heat_capacity * c->a[k][l];
+        c->lift[k] = smoothly * a->weight[k] * at[k];
+    for (size_t k = 0; k <= n; k++) {
+        double here = sharply * below[k];
+        c->below[k] = here > 0 ? here : 0;
+        c->above[k] = here < 0 ? -here : 0;
+    }
 }
 
-/* Returns what node k brings from upstream: diag T(i) - the value returned, over dx, of second
-   order away from the ends. */
-FF_SIMD_INLINE double upstream(const sweep *s, size_t i, size_t k, double *diag)
+/* Sets c->off to what conduction and transverse transport take off, and the diagonal to theirs. */
+FF_SIMD_INLINE void begin_across(const sweep *s, size_t i, size_t n, column *c)
 {
-    const double *T = s->t->T;
-    size_t n = s->e->across.count, count = s->film->count;
-    int forward = s->e->u[i * n + k] >= 0, two = forward ? i > 1 : i + 2 < count;
-    if (!forward && i + 1 >= count) {
-        *diag = 0;
-        return 0;
+    const ehl_across *a = &s->e->across;
+    const double *T = s->t->T + i * n;
+    double conducted = s->e->conductivity / s->film->h[i], bend[EHL_ACROSS_MOST],
+           slope[EHL_ACROSS_MOST], step[EHL_ACROSS_MOST + 1];
+    transverse_transport(s, i, n, c);
+    ehl_across_apply(a->stiffness[0], EHL_ACROSS_MOST, n, T, bend);
+    ehl_across_apply(a->slope[0], EHL_ACROSS_MOST, n, T, slope);
+    step[0] = step[n] = 0;
+    for (size_t k = 1; k < n; k++)
+        step[k] = T[k] - T[k - 1];
+    for (size_t k = 0; k < n; k++) {
+        c->off[k] = -(conducted * bend[k] + c->lift[k] * slope[k] + c->below[k] * step[k] -
+                      c->above[k + 1] * step[k + 1]);
+        c->diagonal[k] = conducted * a->stiffness[k][k] + c->lift[k] * a->slope[k][k] +
+                         c->below[k] + c->above[k + 1];
     }
-    double one = T[(forward ? i - 1 : i + 1) * n + k];
-    *diag = two ? 1.5 : 1;
-    return two ? 2 * one - 0.5 * T[(forward ? i - 2 : i + 2) * n + k] : one;
+}
+
+/* What comes from one side of a column: now T(i) - (near T + far T of the columns there), over dx,
+   of second order away from the ends. */
+typedef struct side {
+    double now, near, far;
+    const double *T, *T_far;
+} side;
+
+FF_SIMD_INLINE side side_of(const sweep *s, size_t i, int forward)
+{
+    size_t n = s->e->across.count, count = s->film->count;
+    const double *T = s->t->T + i * n;
+    ptrdiff_t step = forward ? -(ptrdiff_t)n : (ptrdiff_t)n;
+    if (!forward && i + 1 >= count)
+        return (side){0, 0, 0, T, T};
+    if (forward ? i > 1 : i + 2 < count)
+        return (side){1.5, 2, -0.5, T + step, T + 2 * step};
+    return (side){1, 1, 0, T + step, T + step};
 }
 
 /* Storage, transport along x, compression. */
@@ -112,77 +121,131 @@ FF_SIMD_INLINE void add_along(const sweep *s, size_t i, size_t n, column *c)
     const ehl_energy *e = s->e;
     const ehl_energy_film *film = s->film;
     const ehl_across *a = &e->across;
-    double p_t = film->p_t ? film->p_t[i] : 0, h = film->h[i], per_dx = 1 / film->dx;
+    const side ahead = side_of(s, i, 1), behind = side_of(s, i, 0);
+    const double *T = s->t->T + i * n, *u = e->u + i * n, *rho = e->rho + i * n,
+                 *rho_T = e->rho_T + i * n, none[EHL_ACROSS_MOST] = {0},
+                 *past = film->past ? film->past + i * n : none;
+    double p_t = film->p_t ? film->p_t[i] : 0, p_x = e->p_x[i], h = film->h[i],
+           per_dx = 1 / film->dx, rate = film->rate, capacity = e->heat_capacity;
+    FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {
-        size_t at = i * n + k;
-        double diag, from = upstream(s, i, k, &diag), passes = fabs(e->u[at]) * per_dx;
-        double held = h * a->weight[k] * e->rho[at] * e->heat_capacity;
-        double expansion = -e->rho_T[at] / e->rho[at];
-        c->a[k][k] += held * (film->rate + passes * diag) -
-                      h * a->weight[k] * expansion * (p_t + e->u[at] * e->p_x[i]);
-        c->right[k] = held * (passes * from - (film->past ? film->past[at] : 0));
+        double from_ahead = ahead.near * ahead.T[k] + ahead.far * ahead.T_far[k],
+               from_behind = behind.near * behind.T[k] + behind.far * behind.T_far[k];
+        double from = u[k] >= 0 ? from_ahead : from_behind;
+        double now = u[k] >= 0 ? ahead.now : behind.now;
+        double passes = fabs(u[k]) * per_dx, held = h * a->weight[k] * rho[k] * capacity;
+        double expansion = -rho_T[k] / rho[k];
+        double own =
+            held * (rate + passes * now) - h * a->weight[k] * expansion * (p_t + u[k] * p_x);
+        c->diagonal[k] += own;
+        c->off[k] += held * (passes * from - past[k]) - own * T[k];
     }
 }
 
-/* The dissipation, linear in the temperatures of the whole column: with them goes tau_m. */
+/* The dissipation, and its slopes by the temperatures of the whole column: with them goes tau_m. */
 FF_SIMD_INLINE void add_dissipation(const sweep *s, size_t i, size_t n, column *c)
 {
     const ehl_energy *e = s->e;
     const ehl_across *a = &e->across;
     size_t at = i * n;
     const double *tau = e->tau + at, *gamma = e->gamma + at, *slope = e->gamma_tau + at,
-                 *by_T = e->gamma_T + at, *T = s->t->T + at;
-    double h = s->film->h[i], mean = 0, drop = 0, moved[EHL_ACROSS_MOST];
-    for (size_t l = 0; l < n; l++) {
-        moved[l] = a->weight[l] * by_T[l];
-        drop += moved[l] * T[l];
+                 *by_T = e->gamma_T + at;
+    double h = s->film->h[i], mean = 0;
+    for (size_t l = 0; l < n; l++)
         mean += a->weight[l] * slope[l];
-    }
     double per_mean = mean > 1e-290 ? 1 / mean : 0;
+    FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {
         double part = h * a->weight[k], own = per_mean > 0 ? part * tau[k] * by_T[k] : 0;
-        double by_stress = part * (tau[k] * slope[k] + gamma[k]) * per_mean;
-        for (size_t l = 0; l < n; l++)
-            c->a[k][l] += by_stress * moved[l];
-        c->a[k][k] -= own;
-        c->right[k] += part * tau[k] * gamma[k] - (own * T[k] - by_stress * drop);
+        c->moved[k] = a->weight[k] * by_T[k];
+        c->by_stress[k] = part * (tau[k] * slope[k] + gamma[k]) * per_mean;
+        c->diagonal[k] -= own;
+        c->off[k] += part * tau[k] * gamma[k];
     }
 }
 
-/* Solves the equations in place, by elimination with the largest pivot of each column; whole rows
-   are subtracted, which are vectors. 0: singular. */
-FF_SIMD_INLINE int eliminate(column *c, size_t n)
+/* Subtracts `share` times a row from another one, n numbers and what fills the last vector. */
+FF_SIMD_INLINE void subtract_row(size_t n, double share, const double *row, double *from)
 {
+    for (size_t j = 0; j < n; j += EHL_ACROSS_LANES) {
+        ehl_lanes a, b;
+        memcpy(&a, row + j, sizeof a);
+        memcpy(&b, from + j, sizeof b);
+        b -= share * a;
+        memcpy(from + j, &b, sizeof b);
+    }
+}
+
+/* Sets `inverse` to that of a by elimination with the largest pivot of each column; a is spoiled.
+   0: singular. */
+FF_SIMD_INLINE int invert(size_t n, ehl_across_matrix a, ehl_across_matrix inverse)
+{
+    memset(inverse, 0, sizeof(ehl_across_matrix));
+    for (size_t k = 0; k < n; k++)
+        inverse[k][k] = 1;
     for (size_t k = 0; k < n; k++) {
         size_t pivot = k;
         for (size_t i = k + 1; i < n; i++)
-            pivot = fabs(c->a[i][k]) > fabs(c->a[pivot][k]) ? i : pivot;
-        if (!(fabs(c->a[pivot][k]) > 0))
+            pivot = fabs(a[i][k]) > fabs(a[pivot][k]) ? i : pivot;
+        if (!(fabs(a[pivot][k]) > 0))
             return 0;
-        if (pivot != k) {
-            double right = c->right[k];
-            for (size_t j = 0; j < n; j++) {
-                double kept = c->a[k][j];
-                c->a[k][j] = c->a[pivot][j];
-                c->a[pivot][j] = kept;
-            }
-            c->right[k] = c->right[pivot];
-            c->right[pivot] = right;
+        double per = 1 / a[pivot][k];
+        for (size_t j = 0; j < n; j++) {
+            double kept = a[k][j], other = inverse[k][j];
+            a[k][j] = a[pivot][j];
+            inverse[k][j] = inverse[pivot][j];
+            a[pivot][j] = kept;
+            inverse[pivot][j] = other;
         }
-        double per = 1 / c->a[k][k];
-        for (size_t i = k + 1; i < n; i++) {
-            double share = c->a[i][k] * per;
-            for (size_t j = 0; j < n; j++)
-                c->a[i][j] -= share * c->a[k][j];
-            c->right[i] -= share * c->right[k];
+        for (size_t i = 0; i < n; i++) {
+            double share = i == k ? 0 : a[i][k] * per;
+            subtract_row(n, share, a[k], a[i]);
+            subtract_row(n, share, inverse[k], inverse[i]);
         }
-    }
-    for (size_t k = n; k-- > 0;) {
-        for (size_t j = k + 1; j < n; j++)
-            c->right[k] -= c->a[k][j] * c->right[j];
-        c->right[k] /= c->a[k][k];
+        for (size_t j = 0; j < n; j++) {
+            a[k][j] *= per;
+            inverse[k][j] *= per;
+        }
     }
     return 1;
+}
+
+/* Inverts the equations of a column; [l][k] stands before temperature l in equation k. */
+FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n, const column *c)
+{
+    const ehl_across *a = &s->e->across;
+    double conducted = s->e->conductivity / s->film->h[i];
+    double *to = s->e->inverse + i * n * n;
+    ehl_across_matrix m = {{0}}, inverse;
+    for (size_t l = 0; l < n; l++)
+        for (size_t k = 0; k < n; k++)
+            m[l][k] = conducted * a->stiffness[l][k] + c->lift[k] * a->slope[l][k] +
+                      c->by_stress[k] * c->moved[l];
+    for (size_t k = 0; k < n; k++)
+        m[k][k] = c->diagonal[k] + c->by_stress[k] * c->moved[k];
+    for (size_t k = 1; k < n; k++) {
+        m[k - 1][k] -= c->below[k];
+        m[k][k - 1] -= c->above[k];
+    }
+    int found = invert(n, m, inverse);
+    for (size_t l = 0; l < n; l++)
+        for (size_t k = 0; k < n; k++)
+            to[l * n + k] = found ? inverse[l][k] : NAN;
+    memcpy(s->e->inverted + 2 * i * n, c->diagonal, n * sizeof *to);
+    memcpy(s->e->inverted + (2 * i + 1) * n, c->lift, n * sizeof *to);
+}
+
+/* Whether the equations of a column are nearly those that have been inverted. No slope of a node is
+   above n^2/2. */
+FF_SIMD_INLINE int is_inverted(const sweep *s, size_t i, size_t n, const column *c)
+{
+    const double *diagonal = s->e->inverted + 2 * i * n, *lift = diagonal + n;
+    const double keep = s->e->keep, steep = (double)(n * n) / 2;
+    int same = 1;
+    for (size_t k = 0; k < n; k++)
+        same &= fabs(c->diagonal[k] - diagonal[k]) + steep * fabs(c->lift[k] - lift[k]) <=
+                keep * fabs(diagonal[k]);
+    return same && keep > 0;
 }
 
 /* The modes of flank g at node i without the flux there; returns what they make of its
@@ -198,24 +261,32 @@ static double flank_at(const sweep *s, size_t g, size_t i)
                                           past ? past + i * n : NULL, modes);
 }
 
-FF_SIMD_INLINE void keep_temperatures(sweep *s, size_t i, size_t n, const double *T)
+/* Changes the temperatures of a column, unless the change is no number. */
+FF_SIMD_INLINE void change_temperatures(sweep *s, size_t i, size_t n, const double *by)
 {
     const double most = 100; /* K by which a sweep changes a temperature */
     ehl_energy *e = s->e;
-    double *now = s->t->T + i * n, largest = 0, change = e->change;
+    const double *ln_eta_T = e->ln_eta_T + i * n;
+    double *now = s->t->T + i * n, largest = 0, sum = 0, change = e->change, moved[EHL_ACROSS_MOST],
+           lowest = e->lowest, highest = e->highest;
     for (size_t k = 0; k < n; k++) {
-        double here = fabs(T[k] - now[k]);
+        double here = fabs(by[k]);
+        sum += here;
         largest = here > largest ? here : largest;
     }
+    if (!isfinite(sum))
+        return;
     double share = largest > most ? most / largest : 1;
+    FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {
-        double next = now[k] + share * (T[k] - now[k]);
-        next = next > e->lowest ? next : e->lowest;
-        next = next < e->highest ? next : e->highest;
-        double here = fabs((next - now[k]) * e->ln_eta_T[i * n + k]);
-        change = here > change ? here : change;
+        double next = now[k] + share * by[k];
+        next = next > lowest ? next : lowest;
+        next = next < highest ? next : highest;
+        moved[k] = fabs((next - now[k]) * ln_eta_T[k]);
         now[k] = next;
     }
+    for (size_t k = 0; k < n; k++)
+        change = moved[k] > change ? moved[k] : change;
     e->change = change;
 }
 
@@ -223,24 +294,23 @@ FF_SIMD_INLINE void solve_across(sweep *s, size_t i, size_t n)
 {
     ehl_energy *e = s->e;
     size_t end[2] = {0, n - 1};
-    double base[2], sum = 0;
+    double base[2], by[EHL_ACROSS_MOST], *T = s->t->T + i * n;
     column c;
-    add_across(s, i, n, &c);
+    begin_across(s, i, n, &c);
     add_along(s, i, n, &c);
     add_dissipation(s, i, n, &c);
     for (size_t g = 0; g < 2; g++) {
         double per = 1 / s->passage[g].own;
         base[g] = flank_at(s, g, i);
-        c.a[end[g]][end[g]] += per;
-        c.right[end[g]] += base[g] * per;
+        c.diagonal[end[g]] += per;
+        c.off[end[g]] += (base[g] - T[end[g]]) * per;
     }
-    int solved = eliminate(&c, n);
-    for (size_t k = 0; k < n; k++)
-        sum += fabs(c.right[k]);
-    if (solved && isfinite(sum))
-        keep_temperatures(s, i, n, c.right);
+    if (!is_inverted(s, i, n, &c))
+        renew(s, i, n, &c);
+    ehl_across_apply(e->inverse + i * n * n, n, n, c.off, by);
+    change_temperatures(s, i, n, by);
     for (size_t g = 0; g < 2; g++) {
-        e->flux[g][i] = (s->t->T[i * n + end[g]] - base[g]) / s->passage[g].own;
+        e->flux[g][i] = (T[end[g]] - base[g]) / s->passage[g].own;
         ehl_half_space_add(&e->flank[g], &s->passage[g], e->flux[g][i],
                            s->t->modes[g] + i * e->flank[g].count);
     }
@@ -306,6 +376,17 @@ void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temp
     }
 }
 
+/* Returns the heat that transverse transport carries off from node k. */
+static double transverse_rise(const sweep *s, size_t i, size_t n, size_t k, const column *c)
+{
+    const double *T = s->t->T + i * n;
+    double slope = 0;
+    for (size_t l = 0; l < n; l++)
+        slope += s->e->across.slope[l][k] * T[l];
+    return c->lift[k] * slope + c->below[k] * (T[k] - T[k > 0 ? k - 1 : k]) +
+           c->above[k + 1] * (T[k] - T[k + 1 < n ? k + 1 : k]);
+}
+
 ehl_energy_sums ehl_energy_balance(ehl_energy *e, const ehl_energy_film *film,
                                    const ehl_temperature *t)
 {
@@ -313,23 +394,25 @@ ehl_energy_sums ehl_energy_balance(ehl_energy *e, const ehl_energy_film *film,
     ehl_energy_sums sum = {.shear = 0};
     size_t n = e->across.count;
     for (size_t i = 1; i < film->count; i++) {
-        ehl_across_matrix across;
+        column c;
         double h = film->h[i], p_t = film->p_t ? film->p_t[i] : 0;
         if (!is_film(&s, i))
             continue;
-        transverse_transport(&s, i, n, across);
+        const side sides[2] = {side_of(&s, i, 0), side_of(&s, i, 1)};
+        transverse_transport(&s, i, n, &c);
         for (size_t k = 0; k < n; k++) {
             size_t at = i * n + k;
-            double part = film->dx * h * e->across.weight[k], diag, rise = 0;
-            double from = upstream(&s, i, k, &diag), held = part * e->rho[at] * e->heat_capacity;
-            for (size_t l = 0; l < n; l++)
-                rise += across[k][l] * t->T[i * n + l];
+            const side *from = &sides[e->u[at] >= 0];
+            double part = film->dx * h * e->across.weight[k],
+                   rise = transverse_rise(&s, i, n, k, &c);
+            double held = part * e->rho[at] * e->heat_capacity;
+            double more =
+                from->now * t->T[at] - (from->near * from->T[k] + from->far * from->T_far[k]);
             sum.shear += part * e->tau[at] * e->gamma[at];
             sum.compression -=
                 part * e->rho_T[at] / e->rho[at] * t->T[at] * (p_t + e->u[at] * e->p_x[i]);
             sum.stored += held * (film->rate * t->T[at] + (film->past ? film->past[at] : 0));
-            sum.carried += held * fabs(e->u[at]) / film->dx * (diag * t->T[at] - from) +
-                           film->dx * e->heat_capacity * rise;
+            sum.carried += held * fabs(e->u[at]) / film->dx * more + film->dx * rise;
         }
         for (size_t g = 0; g < 2; g++)
             sum.flank[g] += film->dx * e->flux[g][i];

@@ -48,6 +48,9 @@ typedef struct ehl_energy {
     double *memory;
     /* nodes x across */
     double *p, *ln_eta, *rho, *tau, *gamma, *gamma_tau, *gamma_T, *u, *through;
+    double *inverse;  /* of the equations of each node, nodes x across^2 */
+    double *inverted; /* of what they were made then: the diagonal, transverse transport */
+    double keep;      /* change of these, over the diagonal, up to which the inverse is kept */
     double *called_p, *called_T; /* where the laws were called last; T = 0: nowhere yet */
     double *called_ln_eta, *ln_eta_p, *ln_eta_T, *called_rho, *rho_p, *rho_T; /* what they gave */
     /* nodes */
@@ -59,6 +62,7 @@ typedef struct ehl_energy {
     double *carried;        /* mass that flows without dp/dx, over the entrainment, kg/m2 */
     double *flux[2];        /* into the flanks, W/m2 */
     unsigned char *reverse; /* 1: oil flows against the entrainment */
+    unsigned char *there;   /* 1: tau_m has been found */
     double highest, lowest; /* K, of which the laws are called */
     double reach;           /* change of ln(eta) up to which laws are followed by their slopes */
     double change;          /* largest change of ln(eta) by the last sweep */
@@ -67,6 +71,9 @@ typedef struct ehl_energy {
 
 ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across);
 void ehl_energy_destroy(ehl_energy *e);
+
+/* Forgets all that is kept of other films. */
+void ehl_energy_restart(ehl_energy *e);
 
 /* Laws and flow across the film at these temperatures: all of e but for the fluxes. */
 void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T);

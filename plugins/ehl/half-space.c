@@ -4,6 +4,9 @@
 #include <flankfilm/simd.h>
 
 #include <math.h>
+#include <string.h>
+
+typedef double lanes __attribute__((vector_size(EHL_MODES_AT_ONCE * sizeof(double))));
 
 static const double pi = 3.14159265358979323846;
 
@@ -20,7 +23,10 @@ void ehl_half_space_create(ehl_half_space *f, double B, double shortest, double 
         inner = EHL_MODES - 1;
         step = (high - low) / (double)(inner - 1);
     }
-    *f = (ehl_half_space){.count = inner + 1, .scale = 1 / (sqrt(pi) * B)};
+    size_t whole = (inner + EHL_MODES_AT_ONCE) / EHL_MODES_AT_ONCE * EHL_MODES_AT_ONCE;
+    *f = (ehl_half_space){.count = whole, .scale = 1 / (sqrt(pi) * B)};
+    for (size_t k = inner + 1; k < whole; k++)
+        f->lambda[k] = exp(high);
     for (size_t k = 0; k < inner; k++) {
         double y = low + step * (double)k;
         f->lambda[k + 1] = exp(y);
@@ -54,31 +60,37 @@ void ehl_half_space_pass(const ehl_half_space *f, double u, double dx, double ra
 }
 
 FF_SIMD
-static void reach(size_t n, const double *restrict keep, const double *restrict before,
-                  const double *restrict here, const double *restrict modes_before, double flux,
-                  const double *restrict past_before, const double *restrict past,
-                  double *restrict modes)
-{
-    for (size_t k = 0; k < n; k++)
-        modes[k] =
-            keep[k] * modes_before[k] + before[k] * (flux - past_before[k]) - here[k] * past[k];
-}
-
 double ehl_half_space_reach(const ehl_half_space *f, const ehl_passage *p,
                             const double *modes_before, double flux_before,
                             const double *past_before, const double *past, double *modes)
 {
     static const double none[EHL_MODES] = {0};
-    double sum = 0;
-    reach(f->count, p->keep, p->before, p->here, modes_before, flux_before,
-          past ? past_before : none, past ? past : none, modes);
-    for (size_t k = 0; k < f->count; k++)
-        sum += f->weight[k] * modes[k];
-    return f->scale * sum;
+    lanes sum = {0}, keep, before, here, mode, was, now, weight;
+    past_before = past_before ? past_before : none;
+    past = past ? past : none;
+    for (size_t k = 0; k < f->count; k += EHL_MODES_AT_ONCE) {
+        memcpy(&keep, p->keep + k, sizeof keep);
+        memcpy(&before, p->before + k, sizeof before);
+        memcpy(&here, p->here + k, sizeof here);
+        memcpy(&weight, f->weight + k, sizeof weight);
+        memcpy(&mode, modes_before + k, sizeof mode);
+        memcpy(&was, past_before + k, sizeof was);
+        memcpy(&now, past + k, sizeof now);
+        mode = keep * mode + before * (flux_before - was) - here * now;
+        memcpy(modes + k, &mode, sizeof mode);
+        sum += weight * mode;
+    }
+    return f->scale * (sum[0] + sum[1] + (sum[2] + sum[3]));
 }
 
+FF_SIMD
 void ehl_half_space_add(const ehl_half_space *f, const ehl_passage *p, double flux, double *modes)
 {
-    for (size_t k = 0; k < f->count; k++)
-        modes[k] += p->here[k] * flux;
+    lanes here, mode;
+    for (size_t k = 0; k < f->count; k += EHL_MODES_AT_ONCE) {
+        memcpy(&here, p->here + k, sizeof here);
+        memcpy(&mode, modes + k, sizeof mode);
+        mode += here * flux;
+        memcpy(modes + k, &mode, sizeof mode);
+    }
 }

@@ -2,6 +2,7 @@
 #include "thermal.h"
 
 #include <flankfilm/author.h>
+#include <flankfilm/simd.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -26,6 +27,9 @@ static const double WARM = 1e-3, WARM_STEADY = 1e-6;
 /* Change of ln(eta) in time up to which laws are followed by their slopes: their error is below
    half its square, a fifth of SETTLED for laws whose slopes bend as ln(eta)/10. */
 static const double REACH = 0.02;
+/* Change of a column's equations, over their diagonal, up to which the first pass of a step keeps
+   their inverse: it leaves about this share of what it changes, a tenth of WARM. */
+static const double KEPT = 0.1;
 
 /* Fastest and slowest flank of a history along the nodes; FF_UNSUPPORTED where one moves against
    the oil. */
@@ -133,20 +137,30 @@ void ehl_thermal_restart(ehl_march *m)
     memset(heat, 0, t->width * sizeof *heat);
     for (size_t j = 0; j < n * t->energy.across.count; j++)
         heat[j] = t->energy.T_in;
-    t->energy.guessed = 0;
+    ehl_energy_restart(&t->energy);
     double *next = factors_of(t, heat);
     for (size_t j = 0; j < FACTORS * n; j++)
         next[j] = 1;
 }
 
 /* Sets n values to a line in time through the last two, within their bounds. */
-static void go_on(size_t n, const double *one, const double *two, double ahead, double least,
-                  double most, double *now)
+FF_SIMD
+static void go_on(size_t n, const double *restrict one, const double *restrict two, double ahead,
+                  double least, double most, double *restrict now)
 {
     for (size_t j = 0; j < n; j++) {
         double line = one[j] + ahead * (one[j] - two[j]);
-        now[j] = fmin(fmax(line, least), most);
+        line = line > least ? line : least;
+        now[j] = line < most ? line : most;
     }
+}
+
+FF_SIMD
+static void combine(size_t n, const double *restrict one, const double *restrict two,
+                    const double c[3], double *restrict past)
+{
+    for (size_t j = 0; j < n; j++)
+        past[j] = c[1] * one[j] + c[2] * two[j];
 }
 
 /* Sets the temperatures of the trial and its factors to a line in time through the last two, and
@@ -161,8 +175,7 @@ static void predict(ehl_march *m, double time, double c[3])
     double ahead = 0;
     if (m->smooth >= 2)
         ahead = (time - m->state[0].time) / (m->state[0].time - m->state[1].time);
-    for (size_t j = 0; j < kept; j++)
-        past[j] = c[1] * one[j] + c[2] * two[j];
+    combine(kept, one, two, c, past);
     go_on(temperatures, one, two, ahead, t->energy.lowest, t->energy.highest, now);
     memcpy(now + temperatures, one + temperatures, (kept - temperatures) * sizeof *now);
     go_on(FACTORS * n, one + kept, two + kept, ahead, LEAST_FACTOR, 1 / LEAST_FACTOR, now + kept);
@@ -267,6 +280,7 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
     t->film = f;
     do {
         ehl_energy_flow(&t->energy, &f, temperature.T);
+        t->energy.keep = passes == 0 && c[0] > 0 ? KEPT * sqrt(part) : 0;
         ehl_energy_sweep(&t->energy, &f, &temperature);
     } while (++passes < most && t->energy.change > warm);
     double before = t->off;
