@@ -97,7 +97,7 @@ static contact_point point_at(const contact_tooth_path *p, const engagement *e, 
     /* along the flank a surface moves at the speed of its gear times its radius of curvature */
     point.speed_1 = p->speed * point.radius_1;
     point.speed_2 = p->speed * p->ratio * point.radius_2;
-    if (e->gap.value && !(point.load_per_width > 0))
+    if (e->gap.value)
         point.gap = contact_load_at(&e->gap, angle);
     return point;
 }
