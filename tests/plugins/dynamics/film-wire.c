@@ -287,6 +287,24 @@ static void check_twin(double frequency, const char *branch, double teeth_2, dou
     stage_close(both);
 }
 
+/* Without a film the motion is to the bit that of a pair of which no radii and no oil are known. */
+static void check_one_way(const char *id)
+{
+    gears g = gears_of(50, 4e-3);
+    pair p = pair_trapezoid(2375);
+    stage *bare = pair_open(id, &p), *known = open_motion(id, &p, &g, "upper");
+    stage_set_text(bare, "branch", "upper");
+    stage_set_text(bare, "steps_per_cycle", "500");
+    stage_give_scalar(known, "oil.eta0", 5.006e-3);
+    check_true("runs",
+               stage_run_wanted(bare, motion) == FF_OK && stage_run_wanted(known, motion) == FF_OK);
+    size_t count, other;
+    const double *dte = stage_get(bare, "dte", &count), *same = stage_get(known, "dte", &other);
+    check_true(id, count == other && !memcmp(dte, same, count * sizeof *dte));
+    stage_close(bare);
+    stage_close(known);
+}
+
 /* Each switch off is as good as no film; the books of work and loss close with each alone. */
 static void check_switches(void)
 {
@@ -461,6 +479,8 @@ int main(int argc, char **argv)
     check_twin(1250, "lower", 50, 4e-3);
     check_twin(1250, "lower", 75, 2e-2);
     check_twin(2375, "upper", 50, 4e-3);
+    check_one_way("dynamics/shooting");
+    check_one_way("dynamics/time-integration");
     check_switches();
     check_compliance();
     check_methods(argc > 1 ? atoi(argv[1]) : 2, 0);
