@@ -195,7 +195,8 @@ static double value_at(const polynomial *q, double x, double *slope)
     return value;
 }
 
-/* The root of a falling stretch: Newton's method, and halving where it leaves the bracket. */
+/* The root of a falling stretch: Newton's method, and halving where it leaves the bracket. A step
+   of d leaves an error of at most d^2 bend/(2 slope). */
 static double falling_root(const polynomial *q, double low, double high)
 {
     double x = 0.5 * (low + high), slope;
@@ -205,10 +206,12 @@ static double falling_root(const polynomial *q, double low, double high)
             low = x;
         else
             high = x;
-        double next = x - value / slope;
+        double step = -value / slope, next = x + step;
+        if (step * step * q->bend <= 2e-16 * fabs(slope))
+            return fmin(fmax(next, low), high);
         if (!(next > low && next < high))
             next = 0.5 * (low + high);
-        if (fabs(next - x) <= 2e-16 * (1 + x) || high - low <= 2e-16)
+        if (high - low <= 2e-16)
             return next;
         x = next;
     }

@@ -32,9 +32,15 @@ static void bend_in_oil(const dynamics_step *f, double x, double phase, moment *
     m->bend = hypot(step->bend[0][i], step->bend[1][i]);
 }
 
+/* Since the start of the piece. */
+static double phase_at(const dynamics_step *f, double x)
+{
+    return f->at + (f->end - f->at) * (f->x > 0 ? x / f->x : 0) - f->piece->start;
+}
+
 static moment moment_at(const dynamics_step *f, double x)
 {
-    double z[2], phase = f->at + (f->end - f->at) * (f->x > 0 ? x / f->x : 0) - f->piece->start;
+    double z[2], phase = phase_at(f, x);
     dynamics_taylor_at(f->series, DYNAMICS_Z, x, z);
     moment m = {
         .delta = z[0] + f->side * f->excitation->half_gap,
@@ -69,9 +75,11 @@ void dynamics_trajectory_observe_moments(void *self, const dynamics_step *f)
     dynamics_trajectory *t = self;
     double half = 0.5 * f->x, h = half * f->series->h;
     for (int i = 0; i < NODES; i++) {
-        double w = h * weight[i / 2];
-        moment m = moment_at(f, half * (1 + (i % 2 ? node[i / 2] : -node[i / 2])));
-        double s = m.delta + m.e - t->origin;
+        double w = h * weight[i / 2], x = half * (1 + (i % 2 ? node[i / 2] : -node[i / 2])), z = 0;
+        for (int n = f->series->order; n >= 0; n--)
+            z = z * x + f->series->c[n][DYNAMICS_Z];
+        double s = z + f->side * f->excitation->half_gap +
+                   dynamics_piece_value(f->piece->e, f->piece->degree, phase_at(f, x)) - t->origin;
         t->sum += w * s;
         t->square += w * s * s;
     }
