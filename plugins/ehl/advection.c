@@ -4,6 +4,7 @@
 #include "time-stepper.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Below this multiple of the contact film asperities are nearly in contact. */
 static const double NEAR_CONTACT = 2;
@@ -23,6 +24,14 @@ static size_t cells_since(const ehl_march *m, const ehl_state *s)
     return (size_t)fmax(0, m->moved - s->moved);
 }
 
+void ehl_advect_values(const ehl_march *m, const ehl_state *s, size_t each, const double *from,
+                       double *to)
+{
+    size_t cells = cells_since(m, s);
+    for (size_t i = 0; i < m->solver->grid->nodes; i++)
+        memcpy(to + i * each, from + upstream_node(i, cells) * each, each * sizeof *to);
+}
+
 /*
  * The nodes move with the oil, and are moved back by a whole cell when they have moved by one. What
  * is only transported thus stays unchanged in any number of steps, and the change of mass along the
@@ -31,11 +40,8 @@ static size_t cells_since(const ehl_march *m, const ehl_state *s)
 void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
 {
     double *moved[2] = {m->change, m->deflection};
-    for (size_t k = 0; k < 2 && k < m->smooth; k++) {
-        size_t cells = cells_since(m, &m->state[k]);
-        for (size_t i = 0; i < m->solver->grid->nodes; i++)
-            moved[k][i] = m->state[k].mass[upstream_node(i, cells)];
-    }
+    for (size_t k = 0; k < 2 && k < m->smooth; k++)
+        ehl_advect_values(m, &m->state[k], 1, m->state[k].mass, moved[k]);
     *one = m->change;
     *two = m->deflection;
 }

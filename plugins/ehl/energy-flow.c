@@ -193,7 +193,8 @@ FF_SIMD_INLINE int take_stress(ehl_energy *e, const ehl_energy_film *film, doubl
 {
     const double tiny = 1e-6;
     double per_h = 1 / film->h[i], target = (film->speed[1] - film->speed[0]) * per_h;
-    double scale = tiny * (film->speed[1] + film->speed[0]) * per_h, size = fabs(target);
+    double all = film->speed[1] + film->speed[0] + 2 * film->frame;
+    double scale = tiny * all * per_h, size = fabs(target);
     means m = means_of(e, i, n);
     if (fabs(m.gamma - target) <= enough * (size > scale ? size : scale) || !(m.slope > 1e-290))
         return 1;
@@ -260,7 +261,7 @@ static double correction(const ehl_energy_film *film, double flow, double mobili
                          double carried, size_t i)
 {
     const double part = 0.3;
-    if (!film->through || !film->full[i])
+    if (!film->through || !film->full[i] || ehl_energy_touches(film, i))
         return 0;
     double driven = mobility * p_x, other = part * carried;
     double trust = driven * driven / (driven * driven + other * other + 1e-300);
@@ -274,7 +275,7 @@ FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size
     const ehl_across *a = &e->across;
     size_t at = i * n;
     double h = film->h[i], slip = film->speed[1] - film->speed[0], p_x = e->p_x[i];
-    double mean = (film->speed[0] + film->speed[1]) / 2, per_p_x[EHL_ACROSS_MOST],
+    double mean = (film->speed[0] + film->speed[1]) / 2 + film->frame, per_p_x[EHL_ACROSS_MOST],
            driven[EHL_ACROSS_MOST];
     double *tau = e->tau + at, *gamma = e->gamma + at, *slope = e->gamma_tau + at, *u = e->u + at;
     const double *rho = e->rho + at;
@@ -297,7 +298,7 @@ FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size
     for (size_t k = 0; k < n; k++)
         density += a->weight[k] * rho[k];
     e->mass[i] = density * h;
-    e->carried[i] = (flow + e->mobility[i] * p_x) / mean;
+    e->carried[i] = (flow + e->mobility[i] * p_x + film->frame * e->mass[i]) / mean;
     double more = correction(film, flow, e->mobility[i], p_x, fabs(mean) * e->mass[i], i);
     if (fabs(more) > 0) {
         FF_SIMD_LOOP
@@ -313,7 +314,7 @@ FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size
     FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {
         through[k] = rho[k] * u[k] * h;
-        reverse |= u[k] * mean < 0;
+        reverse |= u[k] < 0;
     }
     e->reverse[i] = reverse != 0;
 }
@@ -339,7 +340,7 @@ void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T
 {
     call_laws(e, film, T);
     for (size_t i = 0; i < film->count; i++)
-        e->p_x[i] = gradient(film, i);
+        e->p_x[i] = ehl_energy_touches(film, i) ? 0 : gradient(film, i);
     if (!e->guessed)
         guess_stress(e, film);
     find_stress(e, film, T);

@@ -11,7 +11,7 @@ typedef struct sweep {
     ehl_energy *e;
     const ehl_energy_film *film;
     const ehl_temperature *t;
-    ehl_passage passage[2];
+    ehl_passage passage[2], rest; /* rest: at the end of the nodes, where none comes from */
 } sweep;
 
 /* What the equations of one column are made of. */
@@ -164,6 +164,15 @@ FF_SIMD_INLINE void add_dissipation(const sweep *s, size_t i, size_t n, column *
     }
 }
 
+/* The friction of asperities, which their temperature does not change. */
+static void add_friction(const sweep *s, size_t i, size_t n, column *c)
+{
+    for (size_t k = 0; k < n; k++) {
+        c->moved[k] = c->by_stress[k] = 0;
+        c->off[k] += s->e->across.weight[k] * s->film->friction[i];
+    }
+}
+
 /* Subtracts `share` times a row from another one, n numbers and what fills the last vector. */
 FF_SIMD_INLINE void subtract_row(size_t n, double share, const double *row, double *from)
 {
@@ -248,17 +257,31 @@ FF_SIMD_INLINE int is_inverted(const sweep *s, size_t i, size_t n, const column 
     return same && keep > 0;
 }
 
+/* Flank g moves towards the first node. */
+static int is_backward(const sweep *s, size_t g)
+{
+    return s->film->speed[g] < 0;
+}
+
+/* Its way to node i. */
+static const ehl_passage *passage_to(const sweep *s, size_t g, size_t i)
+{
+    return is_backward(s, g) && i + 1 >= s->e->nodes ? &s->rest : &s->passage[g];
+}
+
 /* The modes of flank g at node i without the flux there; returns what they make of its
    temperature. */
 static double flank_at(const sweep *s, size_t g, size_t i)
 {
     const ehl_energy *e = s->e;
-    size_t n = e->flank[g].count;
-    double *modes = s->t->modes[g] + i * n;
+    const ehl_passage *way = passage_to(s, g, i);
+    size_t n = e->flank[g].count, from = is_backward(s, g) ? i + 1 : i - 1;
+    from = way == &s->rest ? i : from;
+    double *modes = s->t->modes[g];
     const double *past = s->film->past_modes[g];
-    return e->T_in + ehl_half_space_reach(&e->flank[g], &s->passage[g], modes - n,
-                                          e->flux[g][i - 1], past ? past + (i - 1) * n : NULL,
-                                          past ? past + i * n : NULL, modes);
+    return e->T_in + ehl_half_space_reach(&e->flank[g], way, modes + from * n, e->flux[g][from],
+                                          past ? past + from * n : NULL, past ? past + i * n : NULL,
+                                          modes + i * n);
 }
 
 /* Changes the temperatures of a column, unless the change is no number. */
@@ -298,7 +321,10 @@ FF_SIMD_INLINE void solve_across(sweep *s, size_t i, size_t n)
     column c;
     begin_across(s, i, n, &c);
     add_along(s, i, n, &c);
-    add_dissipation(s, i, n, &c);
+    if (ehl_energy_touches(s->film, i))
+        add_friction(s, i, n, &c);
+    else
+        add_dissipation(s, i, n, &c);
     for (size_t g = 0; g < 2; g++) {
         double per = 1 / s->passage[g].own;
         base[g] = flank_at(s, g, i);
@@ -329,8 +355,14 @@ static void solve_column(sweep *s, size_t i)
 /* Where there is no film. */
 static void carry_column(sweep *s, size_t i)
 {
-    size_t n = s->e->across.count;
-    memcpy(s->t->T + i * n, s->t->T + (i - 1) * n, n * sizeof *s->t->T);
+    const ehl_energy *e = s->e;
+    size_t n = e->across.count;
+    double *T = s->t->T + i * n;
+    if (s->film->frame > 0)
+        for (size_t k = 0; k < n; k++)
+            T[k] = fmin(fmax(-s->film->past[i * n + k] / s->film->rate, e->lowest), e->highest);
+    else
+        memcpy(T, T - n, n * sizeof *T);
     for (size_t g = 0; g < 2; g++) {
         flank_at(s, g, i);
         s->e->flux[g][i] = 0;
@@ -345,9 +377,11 @@ static void begin(sweep *s)
     for (size_t g = 0; g < 2; g++) {
         e->flux[g][0] = 0;
         memset(s->t->modes[g], 0, e->flank[g].count * sizeof *s->t->modes[g]);
-        ehl_half_space_pass(&e->flank[g], s->film->speed[g], s->film->dx, s->film->rate,
+        ehl_half_space_pass(&e->flank[g], fabs(s->film->speed[g]), s->film->dx, s->film->rate,
                             &s->passage[g]);
     }
+    if (s->film->frame > 0)
+        ehl_half_space_pass(&e->flank[0], 0, s->film->dx, s->film->rate, &s->rest);
     e->change = 0;
 }
 
@@ -365,9 +399,14 @@ void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temp
     size_t back = film->count;
     while (back > 0 && !(e->reverse[back - 1] && film->full[back - 1]))
         back--;
-    for (size_t i = back; i-- > 1;)
+    if (film->frame > 0)
+        back = e->nodes;
+    for (size_t i = back; i-- > 1;) {
         if (is_film(&s, i))
             solve_column(&s, i);
+        else if (film->frame > 0)
+            carry_column(&s, i);
+    }
     for (size_t i = 1; i < e->nodes; i++) {
         if (is_film(&s, i))
             solve_column(&s, i);
@@ -408,12 +447,15 @@ ehl_energy_sums ehl_energy_balance(ehl_energy *e, const ehl_energy_film *film,
             double held = part * e->rho[at] * e->heat_capacity;
             double more =
                 from->now * t->T[at] - (from->near * from->T[k] + from->far * from->T_far[k]);
-            sum.shear += part * e->tau[at] * e->gamma[at];
+            if (!ehl_energy_touches(film, i))
+                sum.shear += part * e->tau[at] * e->gamma[at];
             sum.compression -=
                 part * e->rho_T[at] / e->rho[at] * t->T[at] * (p_t + e->u[at] * e->p_x[i]);
             sum.stored += held * (film->rate * t->T[at] + (film->past ? film->past[at] : 0));
             sum.carried += held * fabs(e->u[at]) / film->dx * more + film->dx * rise;
         }
+        if (ehl_energy_touches(film, i))
+            sum.asperities += film->dx * film->friction[i];
         for (size_t g = 0; g < 2; g++)
             sum.flank[g] += film->dx * e->flux[g][i];
     }

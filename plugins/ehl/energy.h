@@ -12,6 +12,11 @@
  * is: where all the film has one temperature the flow is the same. Oil that enters has the
  * temperature T_in, and so have flanks that have not been in the contact. Where there is no film
  * the oil carries on as it is, and no heat flows.
+ *
+ * The nodes of rough flanks move with the mean speed of the flanks. u is then the speed beyond it,
+ * of oil and flanks, changes in time are those along the path, and the equations are the same; oil
+ * and flanks come from both sides. Where asperities are in contact their friction is the heat of
+ * the oil between them: it has nearly one temperature, and so have both flanks.
  */
 #ifndef EHL_ENERGY_H
 #define EHL_ENERGY_H
@@ -23,14 +28,24 @@
 /* The film at one instant. */
 typedef struct ehl_energy_film {
     size_t count; /* nodes that pressure can reach */
-    double dx, speed[2], rate;
+    double dx, rate;
+    double speed[2]; /* of the flanks, along the nodes */
+    double frame;    /* of the nodes, along the film: 0, or the mean speed of the flanks */
     const double *p, *h;
-    const double *p_t, *mass_t;  /* dp/dt and d(rho h)/dt; NULL: steady */
-    const double *through;       /* mass that passes, kg/(m s), nodes; NULL: dp/dx is held */
-    const unsigned char *full;   /* 1: the film is full */
-    const double *past;          /* dT/dt = rate T + past; NULL: steady */
-    const double *past_modes[2]; /* the same of the modes of both flanks */
+    const double *p_t;             /* dp/dt; NULL: steady */
+    const double *through;         /* mass that passes, kg/(m s), nodes; NULL: dp/dx is held */
+    const unsigned char *full;     /* 1: the film is full */
+    const unsigned char *asperity; /* 1: and its asperities are in contact; NULL: none are */
+    const double *friction;        /* heat of those, W/m2, nodes */
+    const double *past;            /* dT/dt = rate T + past; NULL: steady */
+    const double *past_modes[2];   /* the same of the modes of both flanks */
 } ehl_energy_film;
+
+/* 1: asperities are in contact at node i, and p is theirs. */
+static inline int ehl_energy_touches(const ehl_energy_film *film, size_t i)
+{
+    return film->asperity && film->asperity[i];
+}
 
 /* The unknowns of one instant. */
 typedef struct ehl_temperature {
@@ -84,7 +99,7 @@ void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temp
 
 /* Heat per width of the film, W/m, of the equations as they are solved: what is left is not. */
 typedef struct ehl_energy_sums {
-    double shear, compression, stored, carried, flank[2];
+    double shear, compression, asperities, stored, carried, flank[2];
 } ehl_energy_sums;
 
 ehl_energy_sums ehl_energy_balance(ehl_energy *e, const ehl_energy_film *film,

@@ -261,6 +261,9 @@ static void fluxes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
         ehl_upwind(r, film, 1, &near, &far);
         add_wedge(1, faces, u, near, far, m, r->flux);
     }
+    for (size_t i = 0; step->follows && r->carry && i < faces; i++)
+        r->flux[i] -= step->entrainment / 2 *
+                      ((r->carried[i] - r->mass[i]) + (r->carried[i + 1] - r->mass[i + 1]));
     add_pressure_flow(r->last, 1 / r->dx, r->mean, film->p, r->flux);
 }
 
@@ -352,7 +355,8 @@ static void add_pinched_flow(ehl_reynolds *r, const ehl_film *film)
     }
 }
 
-/* Adds to the columns of the wedge what the flanks carry along beyond u_r rho h. */
+/* Adds to the columns of the wedge what the flanks carry along beyond u_r rho h; where the nodes
+   move with the oil it passes a face as the mean of both nodes. */
 static void add_carried(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     for (size_t i = 1; i < r->last; i++) {
@@ -361,7 +365,9 @@ static void add_carried(ehl_reynolds *r, const ehl_step *step, const ehl_film *f
             continue;
         transport_stencil(r, step, film, i, c);
         c[2] += rest;
-        for (size_t s = i > 1 ? 0 : 1; s < 3; s++) {
+        c[1] += step->follows ? step->entrainment / 2 : 0;
+        c[3] = step->follows ? -step->entrainment / 2 : 0;
+        for (size_t s = i > 1 ? 0 : 1; s < EHL_STENCIL; s++) {
             size_t k = i + s - 2;
             double more = c[s] * (r->carry[k] - 1);
             if (!ehl_is_cavitated(r, film, k)) {

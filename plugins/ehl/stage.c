@@ -255,10 +255,6 @@ static ff_status thermal_create(const ehl_model *m, const ff_array *in, run *r, 
         return ff_failf(m->host, FF_UNSUPPORTED, "thermal",
                         "this model knows no temperatures across the film: ehl/finite-volume takes "
                         "thermal: full");
-    if (r->rough.count > 0)
-        return ff_failf(m->host, FF_UNSUPPORTED, "thermal",
-                        "thermal: full is of smooth flanks: use thermal: inlet or none with a "
-                        "surface, or roughness: ignored");
     if (m->laws.rheology && !m->shear_rate)
         return ff_failf(m->host, FF_INVALID, "thermal",
                         "thermal: full needs the shear rate at a point of the film "
@@ -278,6 +274,7 @@ static ff_status thermal_create(const ehl_model *m, const ff_array *in, run *r, 
         .bulk = bulk_temperature(m, in),
         .flank_contact = sqrt(m->flank_conductivity * held),
         .flank_diffusivity = m->flank_conductivity / held,
+        .friction = m->boundary_friction,
         .flow = m->shear_rate,
     };
     return ehl_thermal_create(&r->thermal, m->host, &r->march, &data);

@@ -87,15 +87,15 @@ void ehl_thermal_hold(ehl_march *m)
     ehl_temperature now = ehl_thermal_state(t, m->state[0].heat);
     ehl_energy_flow(&t->energy, &f, now.T);
     ehl_energy_sums sum = ehl_energy_balance(&t->energy, &f, &now);
-    double made = sum.shear + sum.compression,
+    double made = sum.shear + sum.compression + sum.asperities,
            gone = sum.stored + sum.carried + sum.flank[0] + sum.flank[1];
-    double scale = sum.shear + fabs(sum.compression);
+    double scale = sum.shear + fabs(sum.compression) + sum.asperities;
     if (!(scale > 0))
         return;
     t->unbalanced = fmax(t->unbalanced, fabs(made - gone) / scale);
     if (!(f.rate > 0))
         t->elsewise = fmax(t->elsewise, steady_balance(m, &f, &sum));
-    double slowest = fmin(f.speed[0], f.speed[1]);
+    double slowest = fmin(f.speed[0], f.speed[1]) + f.frame;
     t->least_peclet = fmin(t->least_peclet, slowest * a / t->diffusivity);
     t->highest = fmax(t->highest, ehl_thermal_highest(m));
 }
@@ -104,17 +104,17 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
 {
     const double limit = 10 * fmax(m->solver->tolerance, 1e-4), slow = 5;
     char text[200];
-    snprintf(
-        text, sizeof text,
-        "heat of shear and compression, less that of the oil and both flanks, over it, thermal: "
-        "full; %.3g solutions per instant",
-        t->rounds / fmax(t->solved, 1));
+    snprintf(text, sizeof text,
+             "heat of shear, compression and asperities, less that of the oil and both flanks, "
+             "over it, thermal: "
+             "full; %.3g solutions per instant",
+             t->rounds / fmax(t->solved, 1));
     host->quality(host->ctx, "heat_balance", t->unbalanced, limit,
                   t->unbalanced <= limit  ? FF_GOOD
                   : t->unbalanced <= 0.05 ? FF_DOUBTFUL
                                           : FF_BAD,
                   text);
-    if (m->history->count == 1)
+    if (m->history->count == 1 && !m->rough)
         host->quality(host->ctx, "heat_of_flanks", t->elsewise, 0.02,
                       t->elsewise <= 0.02 ? FF_GOOD : FF_DOUBTFUL,
                       "the same with the flanks' share by their temperature, the oil's by what "

@@ -17,7 +17,9 @@ enum { MOST_ROUNDS = 80, MOST_PASSES = 8, FACTORS = 3 };
 
 /* Change of the flow of mass by the factors, relative, below which they are those of the film: it
    changes h by about as much. A steady film begins without heat, a step next to its solution. */
-static const double SETTLED = 1e-4, SETTLED_STEADY = 1e-5;
+static const double SETTLED = 1e-4, SETTLED_STEADY = 1e-5, SETTLED_ROUGH = 1e-3;
+/* Multiple of the contact film below which asperities hold a film, whatever flows. */
+static const double HELD = 2;
 /* Of a larger change a share is taken, of this size. */
 static const double LARGE = 0.3;
 /* The share becomes less, down to a least one, while changes do not shrink by this. */
@@ -54,7 +56,7 @@ static ff_status speeds_of(const ff_host *host, const ehl_history *h, double *le
 
 static ff_status allocate(ehl_thermal *t, ehl_march *m)
 {
-    enum { OWN = 6, BLOCKS = EHL_STATES + 2 };
+    enum { OWN = 7, BLOCKS = EHL_STATES + 4 };
     size_t n = t->energy.nodes;
     t->width = n * (t->energy.across.count + t->energy.flank[0].count + t->energy.flank[1].count +
                     FACTORS);
@@ -65,8 +67,11 @@ static ff_status allocate(ehl_thermal *t, ehl_march *m)
         m->state[k].heat = next;
     m->trial.heat = next;
     t->past = next + t->width;
-    next += 2 * t->width;
-    double **own[OWN] = {&t->p_t, &t->mass_t, &t->through, &t->ease, &t->swell, &t->carry};
+    t->moved[0] = next + 2 * t->width;
+    t->moved[1] = next + 3 * t->width;
+    next += 4 * t->width;
+    double **own[OWN] = {&t->p_t,   &t->through,  &t->ease,    &t->swell,
+                         &t->carry, &t->friction, &t->p_before};
     for (size_t k = 0; k < OWN; k++, next += n)
         *own[k] = next;
     return FF_OK;
@@ -94,11 +99,14 @@ ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
     if (status != FF_OK)
         return status;
     double lasts = h->time[h->count - 1] - h->time[0] + length / most;
+    if (m->rough) /* and their way into the contact: start.c */
+        lasts += length / most;
     double longest = least * lasts > length ? length / least : lasts;
     for (size_t k = 0; k < 2; k++)
         ehl_half_space_create(&t->energy.flank[k], data->flank_contact, g->dx / most,
                               fmax(longest, length / most));
     t->diffusivity = data->flank_diffusivity;
+    t->coefficient = data->friction;
     t->energy.laws = r->laws;
     t->energy.flow = data->flow;
     t->energy.conductivity = data->conductivity;
@@ -163,12 +171,32 @@ static void combine(size_t n, const double *restrict one, const double *restrict
         past[j] = c[1] * one[j] + c[2] * two[j];
 }
 
+/* Sets moved[k] to state k, moved with the oil. */
+static void move_state(const ehl_march *m, size_t k)
+{
+    const ehl_thermal *t = m->thermal;
+    const ehl_energy *e = &t->energy;
+    const ehl_state *s = &m->state[k];
+    const double *from = s->heat;
+    double *to = t->moved[k];
+    const size_t parts[] = {e->across.count, e->flank[0].count, e->flank[1].count, 1, 1, 1};
+    for (size_t j = 0; j < sizeof parts / sizeof parts[0]; j++) {
+        ehl_advect_values(m, s, parts[j], from, to);
+        from += parts[j] * e->nodes;
+        to += parts[j] * e->nodes;
+    }
+}
+
 /* Sets the temperatures of the trial and its factors to a line in time through the last two, and
    `past` to what the difference formula takes of them. */
 static void predict(ehl_march *m, double time, double c[3])
 {
     ehl_thermal *t = m->thermal;
-    double *one = m->state[0].heat, *two = m->state[1].heat, *now = m->trial.heat, *past = t->past;
+    double *now = m->trial.heat, *past = t->past;
+    for (size_t k = 0; m->rough && k < 2; k++)
+        move_state(m, k);
+    const double *one = m->rough ? t->moved[0] : m->state[0].heat;
+    const double *two = m->rough ? t->moved[1] : m->state[1].heat;
     size_t n = t->energy.nodes, temperatures = n * t->energy.across.count;
     size_t kept = t->width - FACTORS * n;
     ehl_march_factors(m, time, c);
@@ -181,6 +209,26 @@ static void predict(ehl_march *m, double time, double c[3])
     go_on(FACTORS * n, one + kept, two + kept, ahead, LEAST_FACTOR, 1 / LEAST_FACTOR, now + kept);
 }
 
+/* Sets p_t, along the path where the nodes move; the pressure of asperities is none of the oil. */
+static void pressure_in_time(const ehl_march *m, const ehl_film *film, const double c[3])
+{
+    ehl_thermal *t = m->thermal;
+    size_t n = t->energy.nodes;
+    for (size_t i = 0; i < n; i++)
+        t->p_t[i] = c[0] * film->p[i];
+    for (size_t k = 0; k < 2; k++) {
+        const double *before = m->state[k].film.p;
+        if (m->rough) {
+            ehl_advect_values(m, &m->state[k], 1, before, t->p_before);
+            before = t->p_before;
+        }
+        for (size_t i = 0; i < n; i++)
+            t->p_t[i] += c[k + 1] * before[i];
+    }
+    for (size_t i = 0; m->rough && i < n; i++)
+        t->p_t[i] = film->asperity[i] ? 0 : t->p_t[i];
+}
+
 /* What the energy equation sees of the film; r has been evaluated for it. */
 static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const ehl_film *film,
                                const double c[3])
@@ -189,27 +237,29 @@ static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const e
     const ehl_reynolds *r = m->solver->reynolds;
     size_t n = r->nodes;
     double slide = (m->mirrored ? -step->sliding : step->sliding) / 2;
+    double frame = step->follows ? step->entrainment : 0;
     ehl_energy_film f = {
         .count = r->last + 1,
         .dx = r->dx,
-        .speed = {fmax(step->entrainment + slide, 0), fmax(step->entrainment - slide, 0)},
+        .frame = frame,
+        .speed = {fmax(step->entrainment + slide, 0) - frame,
+                  fmax(step->entrainment - slide, 0) - frame},
         .rate = c[0],
         .p = film->p,
         .h = r->thick,
         .through = t->through,
         .full = film->full,
+        .asperity = m->rough ? film->asperity : NULL,
+        .friction = t->friction,
     };
+    for (size_t i = 0; i < n; i++)
+        t->friction[i] = t->coefficient * film->p[i] * fabs(step->sliding);
     for (size_t i = 0; i < n; i++)
         t->through[i] = i > 0 && i + 1 < n ? -(r->flux[i - 1] + r->flux[i]) / 2 : 0;
     if (!(c[0] > 0))
         return f;
-    const double *one = m->state[0].film.p, *two = m->state[1].film.p;
-    for (size_t i = 0; i < n; i++) {
-        t->p_t[i] = c[0] * film->p[i] + c[1] * one[i] + c[2] * two[i];
-        t->mass_t[i] = step->past ? step->rate * r->mass[i] + step->past[i] : 0;
-    }
+    pressure_in_time(m, film, c);
     f.p_t = t->p_t;
-    f.mass_t = t->mass_t;
     ehl_temperature past = ehl_thermal_state(t, t->past);
     f.past = past.T;
     f.past_modes[0] = past.modes[0];
@@ -226,17 +276,18 @@ static double find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl_ener
 {
     const ehl_energy *e = &t->energy;
     size_t n = r->nodes;
-    double most = 0;
+    double most = 0, held = r->rough ? HELD * r->contact : 0;
     for (size_t i = 0; i < f->count; i++) {
         double mass = r->liquid.rho[i] * r->thick[i], swell = t->swell[i] * e->mass[i] / mass;
-        double carry = ehl_is_cavitated(r, film, i) ? 1 : e->carried[i] / e->mass[i];
-        double ratio = r->f[i] > 0 ? e->mobility[i] / r->f[i] : 1;
-        double driven = fabs(r->f[i] * e->p_x[i]) / ((f->speed[0] + f->speed[1]) / 2 * mass),
-               part = driven / (1 + driven);
+        int within = ehl_is_cavitated(r, film, i) && !(i > 0 && film->full[i - 1]);
+        double carry = within ? 1 : e->carried[i] / e->mass[i];
+        double ratio = r->f[i] > 0 && e->mobility[i] > 0 ? e->mobility[i] / r->f[i] : 1;
+        double u = (f->speed[0] + f->speed[1]) / 2 + f->frame;
+        double driven = fabs(r->f[i] * e->p_x[i]) / (u * mass), part = driven / (1 + driven);
         double off =
             fabs(ratio - 1) * part + fabs(swell / t->swell[i] - 1) + fabs(carry - t->carry[i]);
         double share = t->damping * (off > LARGE ? LARGE / off : 1);
-        if (film->full[i])
+        if (film->full[i] && r->thick[i] > held)
             most = fmax(most, off);
         swell = t->swell[i] + share * (swell - t->swell[i]);
         next[i] = t->ease[i] * (1 + share * (ratio - 1)) * t->swell[i] / swell;
@@ -271,7 +322,8 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
     ehl_thermal *t = m->thermal;
     ehl_reynolds *r = m->solver->reynolds;
     const double part = tightness(m);
-    const double settled = part * (c[0] > 0 ? SETTLED : SETTLED_STEADY);
+    const double in_time = m->rough ? SETTLED_ROUGH : SETTLED;
+    const double settled = part * (c[0] > 0 ? in_time : SETTLED_STEADY);
     const double warm = part * (c[0] > 0 ? WARM : WARM_STEADY);
     ehl_reynolds_evaluate(r, step, film);
     ehl_energy_film f = film_of(m, step, film, c);
@@ -280,7 +332,7 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
     t->film = f;
     do {
         ehl_energy_flow(&t->energy, &f, temperature.T);
-        t->energy.keep = passes == 0 && c[0] > 0 ? KEPT * sqrt(part) : 0;
+        t->energy.keep = passes == 0 && c[0] > 0 && !m->rough ? KEPT * sqrt(part) : 0;
         ehl_energy_sweep(&t->energy, &f, &temperature);
     } while (++passes < most && t->energy.change > warm);
     double before = t->off;

@@ -18,6 +18,7 @@ typedef struct ehl_thermal_data {
     double bulk;                        /* K, of the flanks and of the oil that enters */
     double flank_contact;               /* B = sqrt(k rho c), J/(m2 K s^0.5) */
     double flank_diffusivity;           /* k/(rho c), m2/s */
+    double friction;                    /* coefficient of asperities in contact */
     const ff_rheology_2 *flow;          /* NULL: Newtonian */
 } ehl_thermal_data;
 
@@ -25,7 +26,10 @@ typedef struct ehl_thermal {
     ehl_energy energy;
     ehl_energy_film film; /* that the temperatures are of */
     size_t width;         /* of a state: temperatures, modes and next factors of all nodes */
-    double *memory, *past, *p_t, *mass_t, *through;
+    double *memory, *past, *p_t, *through;
+    double *moved[2];             /* the last two states where the nodes move with the oil */
+    double *friction, *p_before;  /* heat of the asperities, W/m2; pressure of a state, moved */
+    double coefficient;           /* of friction, of asperities in contact */
     double *ease, *swell, *carry; /* reynolds.h: of the film that is solved for */
     double rounds, solved;        /* counts: solutions for a film, and instants */
     double off;                   /* of the last round: what the factors were off */

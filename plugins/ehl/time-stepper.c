@@ -316,10 +316,10 @@ ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at)
             continue;
         if (!step->loaded)
             film->h00 = at->gap;
-        status = solve_with_positive_gap(m, step, at,
-                                         plain     ? EHL_LIMIT_PLAIN
-                                         : carried ? EHL_LIMIT_REPEATED
-                                                   : EHL_LIMIT_GUESSED);
+        int limit = carried ? EHL_LIMIT_REPEATED : EHL_LIMIT_GUESSED;
+        if (carried && m->thermal) /* heat makes mobilities of neighbours differ by decades */
+            limit = EHL_LIMIT_START;
+        status = solve_with_positive_gap(m, step, at, plain ? EHL_LIMIT_PLAIN : limit);
     }
     if (status == FF_NOCONV && step->loaded && !m->rough)
         status = continue_in_load(m, step, at);

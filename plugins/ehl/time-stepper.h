@@ -129,6 +129,11 @@ void ehl_march_place(ehl_march *m, const ehl_instant *at);
 /* Rough flanks: sets the trial to the last film, carried along with the oil to `at`. */
 void ehl_advect_film(ehl_march *m, const ehl_instant *at);
 
+/* Sets `to` to what the state has, `each` values per node, moved with the oil to the instant that
+   is placed. */
+void ehl_advect_values(const ehl_march *m, const ehl_state *s, size_t each, const double *from,
+                       double *to);
+
 /* Returns the masses of the last two films, moved with the oil to the instant that is placed. */
 void ehl_advect_mass(ehl_march *m, const double **one, const double **two);
 
