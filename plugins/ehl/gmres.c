@@ -41,6 +41,10 @@ static const double CURVATURE = 10;
    contact, where it adds up; docs/performance.md has what the presets leave in all. */
 static const double SHARE_OF_STEP = 1. / 20;
 
+/* Flow that a step may leave unbalanced up to any place, in tolerances: between two places it is
+   twice that, of which the lines of quality allow five. */
+static const double MOST_UNBALANCED = 2;
+
 void ehl_linear_deflect(ehl_solver *s, const double *p, double *v)
 {
     ehl_linear *w = s->self;
@@ -228,6 +232,12 @@ int ehl_linear_settles(const ehl_solver *s, double pressure, double film, double
     return left_of(s->self, pressure) <= allowed && left_of(s->self, film) <= times * allowed;
 }
 
+int ehl_linear_balances(const ehl_solver *s)
+{
+    const ehl_linear *w = s->self;
+    return w->unbalanced <= MOST_UNBALANCED * s->tolerance;
+}
+
 /*
  * Returns the share of the residual that may be left of a change of the pressure, relative: that at
  * which the film is accurate to its tolerance, or what Newton's method neglects anyway (a forcing
@@ -390,7 +400,8 @@ static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl
         thin = fmin(thin, r->thick[i]);
     }
     double passing = r->oil.density * thin * (step->entrainment + step->rate * s->grid->half_width);
-    return most_left > MOST_IMBALANCE_LEFT * most && most_left > IMBALANCE_NOTICED * passing;
+    w->unbalanced = most_left / passing;
+    return most_left > MOST_IMBALANCE_LEFT * most && w->unbalanced > IMBALANCE_NOTICED;
 }
 
 ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *film, double *dh00)
@@ -406,6 +417,7 @@ ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *
         ff_status status = gmres(s, film, step->loaded, missing, dh00);
         if (status != FF_OK)
             return status;
+        w->unbalanced = 0;
         if (!w->split || !misses_imbalance(s, step, film, *dh00))
             break;
     }

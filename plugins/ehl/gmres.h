@@ -29,6 +29,8 @@ typedef struct ehl_linear {
     size_t factored_last;
     int factored, factored_loaded;
     double reached; /* norm of the residual that the last solution left, over its first */
+    double unbalanced; /* flow that it left unbalanced, over that through the contact; 0 without the
+                          coarse grid, whose norm alone hides it */
     size_t krylov, krylov_fresh; /* iterations of the last solution, and of the first one after
                                     factorising */
 } ehl_linear;
@@ -53,6 +55,10 @@ static inline int ehl_linear_converged(const ehl_linear *w)
 /* Whether what is predicted to be left after the step of the last solution is as small as the
    tolerance allows, and of the film `times` as much. The step changed them by these shares. */
 int ehl_linear_settles(const ehl_solver *s, double pressure, double film, double times);
+
+/* Whether the last solution left as little of the flow unbalanced as the tolerance allows. What
+   ehl_linear_settles predicts goes by the norm of GMRES, which may hide a hundred times as much. */
+int ehl_linear_balances(const ehl_solver *s);
 
 /* Returns the pressures of a vector of unknowns. The unknown of a cavitated node is a mass, and
    that of a yielding node a plastic part: both count as 0 here. */

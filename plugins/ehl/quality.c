@@ -223,8 +223,9 @@ static void report_conservation(const ehl_results *r, const ehl_march *m)
                    "work of the entrainment, off that by the moment of the pressure");
     if (m->rough)
         return;
+    /* its terms are some hundredths of the flow times P that the volumes are balanced to */
     report_balance(
-        r, "energy_balance", w->energy, limit, broken,
+        r, "energy_balance", w->energy, 2 * limit, 2 * broken,
         "work of the entrainment and of the squeeze less what the pressure flow dissipates, "
         "over them");
     if (wants_loss)
