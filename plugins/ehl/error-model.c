@@ -256,12 +256,14 @@ ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at,
         {space_error(eq, &of_h_min, &c), space_error(eq, &of_h_central, &c), spike->error}};
 }
 
-/* Keeps the larger bound, and its instant. */
-static void keep_worst(ehl_bound *b, double value, const ehl_march *m, const ehl_crest *of)
+/* Keeps the bound that counts more, and its instant. */
+static void keep_worst(ehl_bound *b, double value, double counts, const ehl_march *m,
+                       const ehl_crest *of)
 {
-    if (value > b->worst || !(b->h_central > 0))
-        *b = (ehl_bound){b->worst, of->h_central, of->p_max, m->at};
-    ehl_worse(&b->worst, value);
+    if (counts > b->counts || !(b->h_central > 0))
+        *b = (ehl_bound){counts, value, of->h_central, of->p_max, m->at};
+    if (!isfinite(value))
+        ehl_worse(&b->worst, value);
 }
 
 static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, double p_max)
@@ -270,13 +272,22 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
     const ehl_reynolds *eq = m->solver->reynolds;
     ehl_spike spike;
     ehl_space_errors e = ehl_space_bounds(eq, &m->at, m->history->modulus, &of, &spike);
-    r->by_cells = e.of[EHL_LEAST];
-    for (int k = 0; k < EHL_BOUNDS; k++)
-        keep_worst(&r->bound[k], e.of[k], m, &of);
+    double least = e.of[EHL_LEAST], peak = e.of[EHL_PEAK], h_min = r->row[EHL_H_MIN];
+    r->by_cells = least;
+    keep_worst(&r->bound[EHL_LEAST], least, r->lowest_alone ? -h_min * (1 - least) : least, m, &of);
+    keep_worst(&r->bound[EHL_CENTRAL], e.of[EHL_CENTRAL], e.of[EHL_CENTRAL], m, &of);
+    keep_worst(&r->bound[EHL_PEAK], peak, r->highest_alone ? p_max * (1 + peak) : peak, m, &of);
     if (p_max >= r->highest)
-        r->at_highest = (ehl_bound){e.of[EHL_PEAK], h_central, p_max, m->at};
-    r->row_in_space[EHL_LEAST] = e.of[EHL_LEAST] * r->row[EHL_H_MIN];
+        r->at_highest = (ehl_bound){p_max, peak, h_central, p_max, m->at};
+    r->row_in_space[EHL_LEAST] = least * h_min;
     r->row_in_space[EHL_CENTRAL] = e.of[EHL_CENTRAL] * r->row[EHL_H_CENTRAL];
+    r->row_in_space[EHL_PEAK] = peak * p_max;
+}
+
+static void keep_least(double *least, double value)
+{
+    if (!(value >= *least))
+        *least = isfinite(value) ? value : -1e300;
 }
 
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
@@ -297,6 +308,9 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
             ehl_worse(&r->worst_in_time[k], time[k]);
             ehl_worse(&r->worst_carried[k], carried[k]);
         }
+        double h_min = r->row[EHL_H_MIN];
+        keep_least(&r->least_in_time, h_min * (1 - time[EHL_LEAST]));
+        keep_least(&r->least_carried, h_min * (1 - carried[EHL_LEAST]));
     }
     r->row[EHL_H_MIN_ERROR] = (time[EHL_LEAST] + carried[EHL_LEAST]) * r->row[EHL_H_MIN];
     r->row[EHL_H_CENTRAL_ERROR] =

@@ -28,7 +28,7 @@ typedef struct ehl_linear {
     unsigned char *factored_kind;
     size_t factored_last;
     int factored, factored_loaded;
-    double reached; /* norm of the residual that the last solution left, over its first */
+    double reached;    /* norm of the residual that the last solution left, over its first */
     double unbalanced; /* flow that it left unbalanced, over that through the contact; 0 without the
                           coarse grid, whose norm alone hides it */
     size_t krylov, krylov_fresh; /* iterations of the last solution, and of the first one after

@@ -44,10 +44,14 @@ ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wante
         .wanted = wanted,
         .nodes = nodes,
         .rough = m->rough != NULL,
+        .lowest_alone = !m->solver->outside && ehl_wants_lowest_alone(wanted),
+        .highest_alone = !m->solver->outside && ehl_wants_highest_alone(wanted),
         .series.width = EHL_SERIES,
-        .space.width = 2,
+        .space.width = EHL_BOUNDS,
         .share = {{1, 1, 1}},
         .lowest = HUGE_VAL,
+        .least_in_time = HUGE_VAL,
+        .least_carried = HUGE_VAL,
         .least_lambda = HUGE_VAL,
         .least_resolution = HUGE_VAL,
         .least_inlet = HUGE_VAL,
@@ -433,7 +437,7 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     if (!r->row || !r->row_in_space)
         return FF_NOMEM;
     memset(r->row, 0, EHL_SERIES * sizeof *r->row);
-    memset(r->row_in_space, 0, 2 * sizeof *r->row_in_space);
+    memset(r->row_in_space, 0, EHL_BOUNDS * sizeof *r->row_in_space);
     ehl_reynolds_gap(eq, m->step.radius, film);
     r->row[EHL_TIME] = m->at.time;
     r->row[EHL_ROLL_ANGLE] = m->at.roll;
@@ -471,7 +475,7 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
 /* Returns what the cells add to an error of the film. */
 static double space_part(const ehl_results *r, size_t i, uint32_t k)
 {
-    const double *bound = &r->space.data[2 * i];
+    const double *bound = &r->space.data[EHL_BOUNDS * i];
     return k == EHL_H_MIN_ERROR       ? r->share.of[EHL_LEAST] * bound[EHL_LEAST]
            : k == EHL_H_CENTRAL_ERROR ? r->share.of[EHL_CENTRAL] * bound[EHL_CENTRAL]
                                       : 0;

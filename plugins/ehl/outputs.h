@@ -15,8 +15,9 @@ typedef struct ehl_rows {
     size_t width, count, room;
 } ehl_rows;
 
-/* The largest bound of an error by the cells, and its instant. */
+/* The bound of an error by the cells that counts most, and its instant. */
 typedef struct ehl_bound {
+    double counts; /* the more the larger: the bound itself, or how far its instant may go */
     double worst, h_central, p_max;
     ehl_instant at;
 } ehl_bound;
@@ -48,12 +49,13 @@ typedef struct ehl_results {
     double outlet_load, worst_outlet;    /* share of the load: mean over a passage, its largest */
     /* errors of h_min and h_central, relative: by the steps, and by cells that carry the film */
     double worst_in_time[2], worst_carried[2];
+    double least_in_time, least_carried;     /* m: the lowest that h_min may be with each of them */
     ehl_bound bound[EHL_BOUNDS], at_highest; /* at_highest: of p_max where it is highest */
     double by_cells;                         /* the last bound of h_min, relative; 0: none yet */
     double tolerance;       /* the largest of those that the films were solved to */
     ehl_space_errors share; /* of the bounds that remained where they were measured; 1: all */
     int measured;           /* instants at which they were */
-    ehl_rows space;         /* bounds of h_min_error and h_central_error by the cells, m */
+    ehl_rows space;         /* bounds of the errors of h_min, h_central, p_max by the cells */
     double *row_in_space;   /* its row that is being filled in */
     double worst_gap_excess, widest_gap;                    /* while the contact is lost, m */
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* sums over rough, loaded instants */
@@ -64,6 +66,7 @@ typedef struct ehl_results {
     double undecided;  /* the solver's counter when the mass was recorded last */
     ehl_law_answer laws;
     int rough;
+    int lowest_alone, highest_alone; /* 1: no h_min, or no p_max, of another instant is wanted */
 } ehl_results;
 
 ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wanted,
@@ -81,6 +84,10 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
    takes. */
 ff_status ehl_results_measure(ehl_results *r, const ehl_march *m);
 
+/* 1: of h_min, or of p_max, its extreme over all instants alone is wanted. */
+int ehl_wants_lowest_alone(uint64_t wanted);
+int ehl_wants_highest_alone(uint64_t wanted);
+
 /* The outputs that an error of h_min, of h_central or of p_max is one of. A friction goes with the
    film in the middle, and with the pressure as the viscosity does. */
 int ehl_wants_h_min(uint64_t wanted);
@@ -93,6 +100,9 @@ double ehl_central_film(const ehl_grid *g, const ehl_reynolds *r);
 
 /* Writes all outputs and the quality record. */
 ff_status ehl_results_finish(const ehl_results *r, const ehl_march *m);
+
+/* The lines of those errors. */
+void ehl_results_report_cells(const ehl_results *r, const ehl_march *m);
 
 void ehl_results_quality(const ehl_results *r, const ehl_march *m);
 

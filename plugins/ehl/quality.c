@@ -281,42 +281,6 @@ static void report_resolution(const ehl_results *r)
         "low: move the outlet out");
 }
 
-/* Reports what the cells cost h_min, h_central or p_max. */
-static void report_cells(const ehl_results *r, int kind, const char *name, double limit)
-{
-    const char *output = kind == EHL_LEAST ? "h_min" : kind == EHL_CENTRAL ? "h_central" : "p_max";
-    double share = r->share.of[kind], error = share * r->bound[kind].worst,
-           carried = kind == EHL_PEAK ? 0 : r->worst_carried[kind];
-    char how[128] = "", text[320];
-    if (carried > error)
-        snprintf(how, sizeof how,
-                 "; largest where the film carries a change through the contact that is few cells "
-                 "long");
-    else if (fabs(share - 1) > 0)
-        snprintf(how, sizeof how, "; by steady films on %d times the cells %.3g of what bounds it",
-                 kind == EHL_PEAK ? 4 : 2, share);
-    snprintf(text, sizeof text,
-             "estimate of the error of %s by the cells, over %s; loads above 2 %% of the "
-             "largest%s%s",
-             output, output, how,
-             kind == EHL_PEAK ? "; above 0.1 the cells may cut the spike at the outlet off: use "
-                                "more of them"
-                              : "");
-    report_at_most(r, name, fmax(error, carried), limit, FF_DOUBTFUL, text);
-}
-
-static void report_space_errors(const ehl_results *r)
-{
-    if (r->rough)
-        return;
-    if (ehl_wants_h_min(r->wanted))
-        report_cells(r, EHL_LEAST, "h_min_space_error", EHL_FILM_LIMIT);
-    if (ehl_wants_h_central(r->wanted))
-        report_cells(r, EHL_CENTRAL, "h_central_space_error", EHL_FILM_LIMIT);
-    if (ehl_wants_p_max(r->wanted))
-        report_cells(r, EHL_PEAK, "p_max_space_error", EHL_PEAK_LIMIT);
-}
-
 /* Estimates how far the pressure may rise between two instants, over the highest: twice the height
    of a peak in time over the nearer of its neighbours. A jump on one side is not a peak. */
 static double peak_in_time(const ehl_results *r)
@@ -350,9 +314,13 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
     }
     if (ehl_wants_h_min(r->wanted))
         report_at_most(
-            r, "h_min_time_error", r->worst_in_time[EHL_LEAST], 0.05, FF_DOUBTFUL,
-            "estimate of the error of h_min by the time steps, over h_min; loads above 2 % of the "
-            "largest");
+            r, "h_min_time_error",
+            r->lowest_alone ? 1 - r->least_in_time / r->lowest : r->worst_in_time[EHL_LEAST], 0.05,
+            FF_DOUBTFUL,
+            r->lowest_alone ? "estimate of the error of h_min_lowest by the time steps, over it; "
+                              "loads above 2 % of the largest"
+                            : "estimate of the error of h_min by the time steps, over h_min; loads "
+                              "above 2 % of the largest");
     if (ehl_wants_h_central(r->wanted))
         report_at_most(
             r, "h_central_time_error", r->worst_in_time[EHL_CENTRAL], 0.05, FF_DOUBTFUL,
@@ -366,8 +334,8 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
     if (ehl_wants_p_max(r->wanted))
         report_at_most(r, "p_max_time_error", peak_in_time(r), 0.05, FF_DOUBTFUL,
                        "estimate of the error of p_max by the time steps, over p_max");
-    report_at_most(r, "steps_cut", m->steps_cut, 0.01 * (double)r->series.count, FF_DOUBTFUL,
-                   "time steps that had to be cut");
+    r->host->quality(r->host->ctx, "steps_cut", m->steps_cut, 0, FF_GOOD,
+                     "time steps that failed and were taken again in shorter ones");
     snprintf(text, sizeof text,
              "largest truncation of the film in one step, over it, at %.6g s; %g steps were taken "
              "again for theirs",
@@ -472,7 +440,7 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     report_end_of_film(r, m);
     report_inlet_tail(r);
     report_resolution(r);
-    report_space_errors(r);
+    ehl_results_report_cells(r, m);
     report_time_errors(r, m);
     report_contact_loss(r, m);
     if (m->rough)

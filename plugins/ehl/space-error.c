@@ -3,6 +3,7 @@
 #include "start.h"
 
 #include <math.h>
+#include <stdio.h>
 
 int ehl_wants_h_min(uint64_t wanted)
 {
@@ -25,6 +26,32 @@ int ehl_wants_p_max(uint64_t wanted)
     static const uint64_t all =
         FF_BIT(EHL_P_MAX) | FF_BIT(EHL_P_MAX_HIGHEST) | FF_BIT(EHL_PRESSURE);
     return (wanted & all) != 0 || ehl_loss_of_shear(wanted);
+}
+
+int ehl_wants_lowest_alone(uint64_t wanted)
+{
+    static const uint64_t lowest = FF_BIT(EHL_H_MIN_LOWEST) | FF_BIT(EHL_H_MIN_LOWEST_AT);
+    return ehl_wants_h_min(wanted & lowest) && !ehl_wants_h_min(wanted & ~lowest);
+}
+
+int ehl_wants_highest_alone(uint64_t wanted)
+{
+    static const uint64_t highest = FF_BIT(EHL_P_MAX_HIGHEST);
+    return ehl_wants_p_max(wanted & highest) && !ehl_wants_p_max(wanted & ~highest);
+}
+
+/* Error of the extreme over all instants by the cells, relative: by how much any instant may go
+ * beyond it. */
+static double extreme_error(const ehl_results *r, int kind)
+{
+    double worst = 0, share = r->share.of[kind];
+    for (size_t i = 0; i < r->series.count; i++) {
+        const double *y = &r->series.data[i * EHL_SERIES];
+        double part = share * r->space.data[i * EHL_BOUNDS + (size_t)kind];
+        ehl_worse(&worst, kind == EHL_PEAK ? (y[EHL_P_MAX] + part) / r->highest - 1
+                                           : 1 - (y[EHL_H_MIN] - part) / r->lowest);
+    }
+    return worst;
 }
 
 /* A steady film, and what is looked at of it. */
@@ -178,4 +205,62 @@ ff_status ehl_results_measure(ehl_results *r, const ehl_march *m)
         if (wanted[k] && r->bound[k].worst > limit[k])
             r->share.of[k] = all.of[k];
     return status;
+}
+
+/* Returns how many cells would meet the limit of an error of a film, by its order. */
+static double enough_cells(const ehl_march *m, double error, double limit)
+{
+    double times = pow(error / limit, 1. / m->solver->reynolds->wedge);
+    return 16 * ceil((double)(m->solver->grid->nodes - 1) * times / 16);
+}
+
+/* Reports what the cells cost h_min, h_central or p_max. */
+static void report_cells(const ehl_results *r, const ehl_march *m, int kind, const char *name,
+                         double limit)
+{
+    int alone = kind == EHL_LEAST ? r->lowest_alone : kind == EHL_PEAK && r->highest_alone;
+    const char *of = kind == EHL_LEAST     ? "h_min"
+                     : kind == EHL_CENTRAL ? "h_central"
+                                           : "p_max",
+               *extreme = !alone             ? ""
+                          : kind == EHL_PEAK ? "_highest"
+                                             : "_lowest";
+    double share = r->share.of[kind],
+           error = alone ? extreme_error(r, kind) : share * r->bound[kind].worst,
+           carried = kind == EHL_PEAK ? 0
+                     : alone          ? 1 - r->least_carried / r->lowest
+                                      : r->worst_carried[kind];
+    char how[128] = "", enough[96] = "", text[400];
+    if (carried > error)
+        snprintf(how, sizeof how,
+                 "; largest where the film carries a change through the contact that is few cells "
+                 "long");
+    else if (fabs(share - 1) > 0)
+        snprintf(how, sizeof how, "; by steady films on %d times the cells %.3g of what bounds it",
+                 kind == EHL_PEAK ? 4 : 2, share);
+    error = fmax(error, carried);
+    if (kind == EHL_PEAK)
+        snprintf(enough, sizeof enough,
+                 "; above 0.1 the cells may cut the spike at the outlet off: use more of them");
+    else if (error > limit && error < 0.5)
+        snprintf(enough, sizeof enough, "; cells: %.0f would be about enough",
+                 enough_cells(m, error, limit));
+    snprintf(text, sizeof text,
+             "estimate of the error of %s%s by the cells, over it; loads above 2 %% of the "
+             "largest%s%s",
+             of, extreme, how, enough);
+    r->host->quality(r->host->ctx, name, error, limit, error <= limit ? FF_GOOD : FF_DOUBTFUL,
+                     text);
+}
+
+void ehl_results_report_cells(const ehl_results *r, const ehl_march *m)
+{
+    if (r->rough)
+        return;
+    if (ehl_wants_h_min(r->wanted))
+        report_cells(r, m, EHL_LEAST, "h_min_space_error", EHL_FILM_LIMIT);
+    if (ehl_wants_h_central(r->wanted))
+        report_cells(r, m, EHL_CENTRAL, "h_central_space_error", EHL_FILM_LIMIT);
+    if (ehl_wants_p_max(r->wanted))
+        report_cells(r, m, EHL_PEAK, "p_max_space_error", EHL_PEAK_LIMIT);
 }
