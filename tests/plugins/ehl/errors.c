@@ -203,6 +203,40 @@ static void test_wanted(void)
     }
 }
 
+/* A passage from a heavy load at low speed to a light one at high speed. */
+static void pass(line *c, double cells, const char *outputs)
+{
+    line_open(c, "ehl/finite-volume");
+    line_last(c, 2, 2e-3);
+    for (size_t i = 0; i < 2; i++) {
+        c->u1[i] *= i == 0 ? 0.2 : 1;
+        c->u2[i] *= i == 0 ? 0.2 : 1;
+        c->load[i] *= i == 0 ? 2 : 0.2;
+    }
+    stage_set(c->film, "cells", cells);
+    stage_set(c->film, "steps", 120);
+    check_true("runs", line_run(c, outputs) == FF_OK);
+}
+
+/* Of an extreme asked for alone the error holds against four times the cells, and what is off at
+   other instants does not count. */
+static void test_extreme(const char *extreme, const char *series, const char *name, double limit)
+{
+    static line c, all, fine;
+    pass(&c, 192, extreme);
+    pass(&all, 192, series);
+    pass(&fine, 4 * 192, extreme);
+    double off = fabs(stage_scalar(fine.film, extreme) / stage_scalar(c.film, extreme) - 1),
+           said = stage_quality(c.film, name), elsewhere = stage_quality(all.film, name);
+    printf("%s: off by %.3g, said %.3g, of the series %.3g\n", extreme, off, said, elsewhere);
+    check_true("holds", off < said);
+    check_below("over what is true", said, fmax(3 * off, limit / 10));
+    check_below("over what the series may be off by", said, 1.2 * elsewhere);
+    line_close(&c);
+    line_close(&all);
+    line_close(&fine);
+}
+
 int main(int argc, char **argv)
 {
     enum { FEW = 12 };
@@ -225,6 +259,8 @@ int main(int argc, char **argv)
         return 0;
     }
     test_wanted();
+    test_extreme("h_min_lowest", "h_min", "h_min_space_error", film_limit);
+    test_extreme("p_max_highest", "p_max", "p_max_space_error", peak_limit);
     scene thick = {.M = 1.69, .L = 11.36, .cells = 512};
     counters front = {0};
     judge_cells(&thick, &front, 0);
