@@ -218,6 +218,8 @@ One way the folds are 2 and 11 Hz above those of one pair: here the radii run al
 costs work, takes power from the vibration, 8 % of what the damper takes at point III (`film_power` beside `damper_loss`), and
 the branch ends at a higher speed for it. Near its end the frozen films of an atlas do not tell (`atlas_films`), so
 that this column is by runs at speeds 25 to 200 Hz apart, from the speed of the branch above.
+
+The end over viscosity, load and backlash, and loads that oil keeps apart for good: [oil between parted flanks](rattle.md).
 TEXT
 } > "$here/two-way.md.new"
 mv "$here/two-way.md.new" "$here/two-way.md"
