@@ -131,10 +131,16 @@ static ff_status settle_here(dynamics_coupled_run *run, const dynamics_coupled *
 static ff_status settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
                         const dynamics_settling *how, dynamics_coupled_motion *motion)
 {
-    double frequency = 2 * M_PI / how->T, from = dynamics_sweep_from(how->branch, frequency);
-    start_at_rest(run, pair, 2 * M_PI / from);
-    ff_status status = sweep(run, pair, how->host, from, frequency,
-                             dynamics_sweep_start_cycles(pair->excitation, 2 * M_PI / from));
+    double frequency = 2 * M_PI / how->T, from = motion->from;
+    size_t start = 0;
+    if (from > 0) {
+        dynamics_coupled_start(run, 2 * M_PI / from, motion->state);
+    } else {
+        from = dynamics_sweep_from(how->branch, frequency);
+        start = dynamics_sweep_start_cycles(pair->excitation, 2 * M_PI / from);
+        start_at_rest(run, pair, 2 * M_PI / from);
+    }
+    ff_status status = sweep(run, pair, how->host, from, frequency, start);
     return status == FF_OK ? settle_here(run, pair, how, motion) : status;
 }
 
@@ -179,26 +185,39 @@ static ff_status follow_and_sweep(dynamics_coupled_run *run, const dynamics_coup
     return status;
 }
 
+/* The motion in which a sweep begins. */
+static ff_status begin_sweep(dynamics_coupled_run *run, const dynamics_coupled *pair,
+                             const dynamics_settling *how, dynamics_coupled_orbit *orbit)
+{
+    orbit->frequency = dynamics_sweep_from(how->branch, 2 * M_PI / how->T);
+    double T = 2 * M_PI / orbit->frequency;
+    ff_status status = shoot_in_contact(run, pair, how, orbit);
+    if (status != FF_NOCONV)
+        return status;
+    size_t cycles = dynamics_sweep_start_cycles(pair->excitation, T);
+    start_at_rest(run, pair, T);
+    for (size_t i = 0; i < cycles; i++)
+        if (!dynamics_coupled_cycle(run, T, NULL))
+            return FF_NOCONV;
+    memcpy(orbit->state, dynamics_coupled_state(run), sizeof orbit->state);
+    return FF_OK;
+}
+
 /* Leads to where a sweep of the speed ends, or near it. */
 static ff_status approach(const dynamics_coupled *pair, const dynamics_settling *how,
-                          dynamics_coupled_orbit *orbit)
+                          const dynamics_coupled_motion *motion, dynamics_coupled_orbit *orbit)
 {
     static const double on_the_way = 1e-6; /* error of a step: the end is found more closely */
     dynamics_coupled_run *run =
         dynamics_coupled_run_new(pair, fmax(how->step_tolerance, on_the_way));
     if (!run)
         return FF_NOMEM;
-    orbit->frequency = dynamics_sweep_from(how->branch, 2 * M_PI / how->T);
-    double T = 2 * M_PI / orbit->frequency;
-    ff_status status = shoot_in_contact(run, pair, how, orbit);
-    if (status == FF_NOCONV) {
-        size_t cycles = dynamics_sweep_start_cycles(pair->excitation, T);
-        start_at_rest(run, pair, T);
-        status = FF_OK;
-        for (size_t i = 0; i < cycles && status == FF_OK; i++)
-            status = dynamics_coupled_cycle(run, T, NULL) ? FF_OK : FF_NOCONV;
-        memcpy(orbit->state, dynamics_coupled_state(run), sizeof orbit->state);
-    }
+    ff_status status = FF_OK;
+    orbit->frequency = motion->from;
+    if (motion->from > 0)
+        memcpy(orbit->state, motion->state, sizeof orbit->state);
+    else
+        status = begin_sweep(run, pair, how, orbit);
     if (status == FF_OK)
         status = follow_and_sweep(run, pair, how, orbit);
     dynamics_coupled_run_free(run);
@@ -212,10 +231,10 @@ static ff_status shoot(dynamics_coupled_run *run, const dynamics_coupled *pair,
     double frequency = 2 * M_PI / how->T;
     dynamics_coupled_orbit orbit = {.frequency = frequency};
     ff_status status = FF_NOCONV;
-    if (how->branch == DYNAMICS_BRANCH_LOWER)
+    if (how->branch == DYNAMICS_BRANCH_LOWER && !(motion->from > 0))
         status = shoot_in_contact(run, pair, how, &orbit);
     if (status == FF_NOCONV) {
-        status = approach(pair, how, &orbit);
+        status = approach(pair, how, motion, &orbit);
         if (orbit.frequency != frequency || (status != FF_OK && status != FF_NOCONV))
             return status;
         memcpy(motion->state, orbit.state, sizeof motion->state);

@@ -23,17 +23,19 @@ enum {
 extern const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT];
 
 typedef struct dynamics_coupled_motion {
-    dynamics_settled settled;     /* delta and rate are not set: `state` has all coordinates */
-    size_t cycles;                /* that the outputs show */
-    double T;                     /* duration of a mesh cycle */
-    double state[DYNAMICS_TAKEN]; /* at phase 0 */
+    dynamics_settled settled; /* delta and rate are not set: `state` has all coordinates */
+    size_t cycles;            /* that the outputs show */
+    double T;                 /* duration of a mesh cycle */
+    double from;              /* mesh over natural frequency of a motion to start from; 0: none */
+    double state[DYNAMICS_TAKEN]; /* at phase 0; before it is found, of the one to start from */
     double monodromy[DYNAMICS_TAKEN * DYNAMICS_TAKEN];
     double energy_error, parted, back;
     dynamics_coupled_record record;
 } dynamics_coupled_motion;
 
 /* Finds the steady motion of a branch: by shooting, or where how->cycles are given by a slow sweep
-   of the speed and settling; `motion` has T set. FF_OK, FF_STOPPED, FF_NOMEM, or
+   of the speed and settling; `motion` has T set, and where it
+   starts from. FF_OK, FF_STOPPED, FF_NOMEM, or
    FF_NOCONV: too many steps. */
 ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
                                   const dynamics_settling *how, dynamics_coupled_motion *motion);

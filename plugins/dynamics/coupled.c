@@ -8,6 +8,15 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
+
+/* The motion that a case of a chain hands to its neighbour. */
+typedef struct handed {
+    char mark[16];
+    double mesh_frequency;        /* Hz; 0: there is none */
+    double state[DYNAMICS_TAKEN]; /* at phase 0: m, m/s */
+} handed;
+static const char mark[16] = "coupled 1";
 
 typedef struct model {
     const ff_host *host;
@@ -17,6 +26,7 @@ typedef struct model {
     ff_reals bearing, bearing_zeta,
         mass; /* N/m, 1, kg; one value or two; mass empty: the gears' own */
     int64_t cycles_settle, cycles_measured, steps_per_cycle;
+    handed from, to; /* what the neighbouring case left, and what it is left */
 } model;
 
 static const ff_param params[] = {
@@ -25,9 +35,12 @@ static const ff_param params[] = {
     FF_ONE_OF("always|contact|clipped", "damping", model, damping, 0, "always",
               "when the mesh damper acts: always (also in free flight, as Li & Kahraman 2011), in "
               "contact only, or in contact and clipped so that the flanks never pull"),
-    FF_ONE_OF("lower|upper", "branch", model, branch, 0, "lower",
-              "which of several motions: lower comes up slowly from 0.7 times the mesh frequency, "
-              "upper comes down from 1.4 times the natural frequency of the mesh"),
+    FF_ONE_OF(
+        "lower|upper", "branch", model, branch, 0, "lower",
+        "which of several motions: lower is the one without separation where it is stable, or "
+        "else what comes up slowly from 0.7 times the mesh frequency; upper comes down from "
+        "1.4 times the natural frequency of the mesh; where a study follows the speed, for "
+        "the first case of a chain"),
     FF_QUANTITY("equivalent_mass", "kg", model, inertia.equivalent_mass, FF_MIN_OPEN, NULL,
                 "inertia", 0, 1e9, 0, 0,
                 "mass that the mesh spring sees in rotation; default: the gear's"),
@@ -162,7 +175,30 @@ static double highest_frequency(const dynamics_coupled *pair)
     return sqrt(1 + fmax(pair->bearing[0] / pair->mass[0], pair->bearing[1] / pair->mass[1]));
 }
 
-static ff_status output_motion(const model *m, const dynamics_coupled *pair,
+/* The unit of a component of the state. */
+static double unit_of(const dynamics_excitation *excitation, int i)
+{
+    return excitation->length * (i < DYNAMICS_RATES ? 1 : excitation->omega);
+}
+
+static void take_over(const handed *from, const dynamics_excitation *excitation,
+                      const dynamics_inputs *inputs, dynamics_coupled_motion *motion)
+{
+    motion->from = from->mesh_frequency / inputs->natural_frequency;
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+        motion->state[i] = from->state[i] / unit_of(excitation, i);
+}
+
+static void hand_on(const dynamics_coupled_motion *motion, const dynamics_excitation *excitation,
+                    const dynamics_inputs *inputs, handed *to)
+{
+    memcpy(to->mark, mark, sizeof mark);
+    to->mesh_frequency = inputs->mesh_frequency;
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+        to->state[i] = motion->state[i] * unit_of(excitation, i);
+}
+
+static ff_status output_motion(model *m, const dynamics_coupled *pair,
                                const dynamics_inputs *inputs)
 {
     double multipliers[2 * DYNAMICS_TAKEN], largest = 0;
@@ -176,10 +212,15 @@ static ff_status output_motion(const model *m, const dynamics_coupled *pair,
         .step_tolerance = m->tolerance,
         .host = m->host,
     };
+    if (m->from.mesh_frequency > 0)
+        take_over(&m->from, pair->excitation, inputs, &motion);
+    m->from.mesh_frequency = m->to.mesh_frequency = 0;
     if (motion.T * highest_frequency(pair) > dynamics_longest_cycle)
         return fail_too_many_steps(m->host, inputs);
     dynamics_coupled_run *run = dynamics_coupled_run_new(pair, m->tolerance);
     ff_status status = run ? dynamics_coupled_settle(run, pair, &how, &motion) : FF_NOMEM;
+    if (status == FF_OK && motion.settled.period != DYNAMICS_UNBOUNDED)
+        hand_on(&motion, pair->excitation, inputs, &m->to);
     motion.cycles =
         motion.settled.period > 0 ? (size_t)motion.settled.period : (size_t)m->cycles_measured;
     motion.cycles = motion.settled.period == DYNAMICS_UNBOUNDED ? 1 : motion.cycles;
@@ -201,7 +242,7 @@ static ff_status output_motion(const model *m, const dynamics_coupled *pair,
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    const model *m = self;
+    model *m = self;
     dynamics_excitation excitation = {.zeta = m->zeta, .damping = m->damping};
     dynamics_coupled pair = {.excitation = &excitation};
     dynamics_inputs inputs;
@@ -218,6 +259,19 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     return status;
 }
 
+static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
+{
+    model *m = self;
+    m->from.mesh_frequency = 0;
+    if (from && from->count == sizeof m->from && !memcmp(from->bytes, mark, sizeof mark))
+        memcpy(&m->from, from->bytes, sizeof m->from);
+    if (to) {
+        to->bytes = &m->to;
+        to->count = m->to.mesh_frequency > 0 ? sizeof m->to : 0;
+    }
+    return FF_OK;
+}
+
 FF_MODEL(dynamics_coupled_model, model, .id = "dynamics/coupled", .version = "1.0.0",
          .summary = "non-linear dynamics of the gear pair with two translations and a rotation per "
                     "gear; backlash, pressure angle and contact ratio follow the centre distance",
@@ -229,5 +283,5 @@ FF_MODEL(dynamics_coupled_model, model, .id = "dynamics/coupled", .version = "1.
          .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_coupled_outputs,
          .output_count = DYNAMICS_COUPLED_OUTPUT_COUNT,
          .output_stride = sizeof dynamics_coupled_outputs[0], .ready = ready, .evaluate = evaluate,
-         .destroy = free);
+         .destroy = free, .carry = carry);
 FF_EXPORT_MODELS(&dynamics_coupled_model);
