@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Each attempt is run with its twins, whose errors say which setting is to be refined by how much.
- * An output whose error cannot be brought down is given up, so that it does not take the others
- * with it: it keeps the error that it has.
+ * An output whose error cannot be brought down is left out, so that it does not take the others
+ * with it, unless what is refined for these brings it within reach.
  */
 #include "control.h"
 
@@ -24,6 +24,12 @@ static const double preset_error = 0.005;
 static const double coarsest_start = 2;
 /* Four times as many cells and steps as by preset: 16 times the work. */
 static const double finest = -2;
+/* A stage costs little whose model says that it costs at most this share of the dearest one's, or
+   says nothing. */
+static const double little = 0.1;
+/* Its settings are finer than those of the dearest stage by so many levels, in every attempt and in
+   its twins, too: what all of them sample too coarsely none of them shows. */
+static const double ahead = 2;
 /* Of the reference, over the goal, when models are held against it: they may move half of a goal
    (choice.c), and its error counts with what they move. */
 static const double reference_error = 0.25;
@@ -32,7 +38,7 @@ static const double reference_error = 0.25;
 static const double most_levels = 1;
 /* Parts are brought to this share of a goal, so that the next error does not fall just above it. */
 static const double reserve = 0.8;
-/* An output is given up where settings that the file gives leave less than this of its goal. */
+/* An output is left out where settings that the file gives leave less than this of its goal. */
 static const double least_part = 0.1;
 /* So is one that takes settings finer than they may be by more levels: an order is no better known.
  */
@@ -45,6 +51,7 @@ enum { MOST_ATTEMPTS = 8 };
 typedef struct knob {
     const ff_stage *stage; /* of the pipeline that was asked for */
     accuracy_setting setting;
+    bool cheap;      /* its stage costs little */
     double level;    /* coarser than the preset by so much, in the next attempt */
     double measured; /* in the best one */
 } knob;
@@ -56,7 +63,6 @@ typedef struct target {
     bool pursued;  /* the last attempt was refined for it, beyond the presets, */
     double levels; /* by so many levels at most */
     double order;  /* that attempts showed so; INFINITY: none did */
-    bool given_up;
 } target;
 
 typedef struct attempt {
@@ -81,8 +87,24 @@ typedef struct control {
     memory_arena arena;
 } control;
 
+static double largest_cost(const ff_pipeline *pipeline)
+{
+    double most = 0;
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (pipeline->stages[i].needed && pipeline->stages[i].loaded)
+            most = fmax(most, ff_model_cost(pipeline->stages[i].loaded->model));
+    return most;
+}
+
+/* In a loop a stage costs what the others do. */
+static bool costs_little(const ff_stage *stage, double most)
+{
+    return most > 0 && !stage->loop && ff_model_cost(stage->loaded->model) <= little * most;
+}
+
 static void list_knobs(control *c)
 {
+    const double most = largest_cost(c->asked);
     accuracy_setting settings[ACCURACY_MOST_SETTINGS];
     free(c->knobs);
     c->count = 0;
@@ -94,7 +116,8 @@ static void list_knobs(control *c)
             count = accuracy_settings(stage, &c->arena, settings);
         for (size_t k = 0; k < count; k++)
             if (settings[k].open && accuracy_setting_at(stage, settings[k].param, 0, &c->arena))
-                c->knobs[c->count++] = (knob){.stage = stage, .setting = settings[k]};
+                c->knobs[c->count++] = (knob){
+                    .stage = stage, .setting = settings[k], .cheap = costs_little(stage, most)};
     }
 }
 
@@ -117,10 +140,15 @@ static const char *set_of(control *c, const knob *k)
     return accuracy_setting_at(k->stage, k->setting.param, k->level, &c->arena);
 }
 
+static double finest_of(const knob *k)
+{
+    return k->cheap ? finest - ahead : finest;
+}
+
 /* Sets the level, or the next one towards the preset that the limits of the setting allow. */
 static void move(control *c, knob *k, double level)
 {
-    k->level = fmax(level, finest);
+    k->level = fmax(level, finest_of(k));
     while (k->level != 0 && !set_of(c, k))
         k->level = fabs(k->level) < 1 ? 0 : k->level - copysign(1, k->level);
 }
@@ -143,9 +171,9 @@ static void start(control *c)
 {
     bool open = !c->choice && leaves_models_open(c->asked);
     double error = smallest_goal(c) * (open ? reference_error : 1);
-    double levels = round(log(error / preset_error) / log(4));
+    double levels = fmin(fmax(round(log(error / preset_error) / log(4)), 0), coarsest_start);
     for (size_t i = 0; i < c->count; i++) {
-        move(c, &c->knobs[i], fmin(fmax(levels, 0), coarsest_start));
+        move(c, &c->knobs[i], levels - (c->knobs[i].cheap ? ahead : 0));
         while (c->knobs[i].level > 0 && !has_twins(c, &c->knobs[i]))
             move(c, &c->knobs[i], c->knobs[i].level - 1);
     }
@@ -242,24 +270,27 @@ static double order_shown(const target *t, double error)
     return order > 0 ? order : 0; /* NaN is none */
 }
 
-/* Levels that bring an error down to a share of it, by the order of its twins or that of attempts
-   where this is less. */
+/* Levels that bring an error down to a share of it, by the order of its twins; where they show none
+   by that of the attempts, if this is less. */
 static double levels_for(const accuracy_error *e, const target *t, double share)
 {
     double order = isnan(e->order) ? 1 : fmin(fmax(e->order, least_order), most_order);
-    return share < 1 ? -log2(share) / fmin(order, t->order) : 0;
+    if (!(e->order >= least_order))
+        order = fmin(order, t->order);
+    return share < 1 ? -log2(share) / order : 0;
 }
 
 static bool is_in_reach(const knob *k, double levels)
 {
-    return k->measured - levels >= finest - beyond;
+    return k->measured - levels >= finest_of(k) - beyond;
 }
 
 /* Refines a setting by so many levels, unless another output asked for more; a coarse one to its
    preset at most, where errors are better known. */
 static void refine(control *c, knob *k, double levels, target *t)
 {
-    double level = k->measured - fmin(levels, most_levels);
+    double most = most_levels + (k->cheap ? 1 : 0);
+    double level = k->measured - fmin(levels, most);
     t->pursued = t->pursued && k->measured <= 0;
     t->levels = fmax(t->levels, k->measured - level);
     move(c, k, fmin(k->level, k->measured > 0 ? fmax(level, 0) : level));
@@ -340,9 +371,12 @@ static target *target_of(control *c, const accuracy_error *e)
    is no answer but at the presets. */
 static void settle_doubts(control *c)
 {
-    for (size_t i = 0; i < c->count && c->best.doubtful; i++)
-        if (c->knobs[i].level > 0)
-            move(c, &c->knobs[i], fmax(c->knobs[i].level - most_levels, 0));
+    for (size_t i = 0; i < c->count && c->best.doubtful; i++) {
+        knob *k = &c->knobs[i];
+        double least = k->cheap ? -ahead : 0;
+        if (k->level > least)
+            move(c, k, fmax(k->level - most_levels, least));
+    }
 }
 
 /* The part of an error that refining brings down. */
@@ -369,8 +403,8 @@ static bool go_on(control *c)
             t->order = order_shown(t, reducible(c, e));
         t->error = reducible(c, e);
         t->pursued = false;
-        if (missed && !t->given_up)
-            t->given_up = !refine_for(c, e, t);
+        if (missed)
+            t->pursued = refine_for(c, e, t) && t->pursued;
     }
     for (size_t i = 0; i < c->count; i++)
         moved = moved || c->knobs[i].level != c->knobs[i].measured;

@@ -281,6 +281,50 @@ static void measure_output(const measurement *m, accuracy_error *e)
     add_changes(m, e);
 }
 
+/* The parts keep their shares. */
+static void widen(accuracy_error *number, double bar)
+{
+    double factor = bar / number->bar[0];
+    if (!(factor > 1 && isfinite(factor)))
+        return;
+    number->bar[0] = bar;
+    number->relative *= factor;
+    number->largest *= factor;
+    for (size_t i = 0; i < number->part_count; i++)
+        number->parts[i].error *= factor;
+}
+
+/* Where the answer has the number as the largest or the least one of the series; SIZE_MAX: nowhere.
+ */
+static size_t extreme_of(const ff_result *number, const ff_result *series)
+{
+    const double value = number->data[0];
+    size_t at = SIZE_MAX, above = 0, below = 0;
+    for (size_t i = 0; i < series->count; i++) {
+        above += series->data[i] > value;
+        below += series->data[i] < value;
+        if (series->data[i] == value)
+            at = i;
+    }
+    return (above > 0) != (below > 0) ? at : SIZE_MAX;
+}
+
+/* A single number may be the same on two levels by chance. One that is the extreme of a series is
+   off by what that is off there, at least. */
+static void hold_to_series(const measurement *m, accuracy_error *number)
+{
+    if (number->result->rank != 0 || !number->bar)
+        return;
+    for (size_t i = 0; i < m->record->count; i++) {
+        const accuracy_error *e = &m->record->errors[i];
+        if (e->stage != number->stage || e->result->rank != 1 || !e->bar)
+            continue;
+        size_t at = extreme_of(number->result, e->result);
+        if (at != SIZE_MAX)
+            widen(number, e->bar[at]);
+    }
+}
+
 /* "h_min_space_error" is of the output with the longest name that the line begins with; of fields
    no error is measured. */
 bool accuracy_is_estimate(const ff_stage *stage, const char *line)
@@ -370,6 +414,8 @@ static void conclude(const measurement *m)
     accuracy_record *record = m->record;
     for (size_t i = 0; i < record->count; i++)
         measure_output(m, &record->errors[i]);
+    for (size_t i = 0; i < record->count; i++)
+        hold_to_series(m, &record->errors[i]);
     drop_estimates(m);
     for (size_t i = 0; i < record->count; i++)
         add_line(&record->errors[i],

@@ -2,6 +2,7 @@
 """`accuracy: 1 %`: settings that the file leaves open are chosen for it, on a model whose error is known."""
 import csv
 import json
+import os
 
 import lab
 
@@ -22,6 +23,11 @@ def error_of(settings, stages=("first", "last"), order=2):
 
 
 class Control(lab.Lab):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        os.symlink("order.so", os.path.join(cls.directory, "plugins/toy/silent.so"))
+
     def ask(self, *sets, text=FILE, code=0):
         return self.answer(text, sets, code)
 
@@ -61,6 +67,16 @@ class Control(lab.Lab):
         answer = self.ask("first.cells=100", "first.tolerance=1e-4 %")
         self.assertEqual(answer["verdict"], "good")
         self.assertLess(answer["accuracy"]["attempts"], 4)
+
+    def test_a_stage_that_costs_little_is_finer(self):
+        """By two levels from the first attempt on, and by up to sixteen times in all."""
+        text = FILE.replace("toy/order, before: none", "toy/silent, before: none")
+        settings = self.ask("accuracy=0.5 %", text=text)["accuracy"]["settings"]
+        self.assertEqual((settings["first.cells"], settings["last.cells"]), ("256", "64"))
+        answer = self.ask("accuracy=0.05 %", "first.strength=100", text=text)
+        self.assertEqual(answer["verdict"], "good")
+        self.assertGreater(int(answer["accuracy"]["settings"]["first.cells"]), 256)
+        self.assertEqual(self.ask("accuracy=0.05 %", "first.strength=100")["verdict"], "doubtful")
 
     def test_what_did_not_change_keeps_its_quality(self):
         """A stage whose results the last attempt took from the one before."""

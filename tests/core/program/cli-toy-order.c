@@ -75,4 +75,8 @@ FF_MODEL(model, order, .id = "toy/order", .version = "1.0.0",
          .summary = "a value with a known error", .reference = "", .bibtex = "", .licence = "MIT",
          .params = FF_TABLE(params), .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs),
          .evaluate = evaluate, .destroy = free, .cost = 1);
-FF_EXPORT_MODELS(&model);
+FF_MODEL(silent, order, .id = "toy/silent", .version = "1.0.0",
+         .summary = "the same, without a word about what it costs", .reference = "", .bibtex = "",
+         .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
+         .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free);
+FF_EXPORT_MODELS(&model, &silent);
