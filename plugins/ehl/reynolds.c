@@ -115,6 +115,13 @@ static void masses(ehl_reynolds *r, const ehl_film *film, size_t count)
         r->mass[i] = film->full[i] ? r->mass[i] : film->content[i];
 }
 
+FF_SIMD
+static void scale(size_t n, const double *restrict by, double *restrict value)
+{
+    for (size_t i = 0; i < n; i++)
+        value[i] *= by[i];
+}
+
 void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
 {
     size_t count = last_node(r, film) + 1;
@@ -122,8 +129,8 @@ void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
                                              r->liquid.rho, NULL, NULL);
     if (status != FF_OK)
         r->law_status = status;
-    for (size_t i = 0; r->swell && i < count; i++)
-        r->liquid.rho[i] *= r->swell[i];
+    if (r->swell)
+        scale(count, r->swell, r->liquid.rho);
     masses(r, film, count);
 }
 
@@ -131,15 +138,13 @@ void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
 static void ease_flow(ehl_reynolds *r, size_t count)
 {
     const ehl_liquid *q = &r->liquid;
-    for (size_t i = 0; r->swell && i < count; i++) {
-        q->rho[i] *= r->swell[i];
-        q->rho_p[i] *= r->swell[i];
+    if (r->swell) {
+        scale(count, r->swell, q->rho);
+        scale(count, r->swell, q->rho_p);
     }
-    for (size_t i = 0; i < count; i++) {
-        q->psi[i] *= r->ease[i];
-        q->psi_l[i] *= r->ease[i];
-        q->psi_h[i] *= r->ease[i];
-    }
+    scale(count, r->ease, q->psi);
+    scale(count, r->ease, q->psi_l);
+    scale(count, r->ease, q->psi_h);
 }
 
 FF_SIMD
