@@ -287,7 +287,7 @@ static double asymmetric_gain(const ehl_balance *b, const ehl_march *m, size_t i
     int sharp =
         eq->wedge < 2 || i + 2 >= b->nodes || (i > 0 && is_void(eq, &m->state[0].film, i - 1));
     double q = b->face[i] + (sharp ? 0 : 0.5 * (b->face[i] - b->face[i + 1]));
-    return q - m->step.entrainment * b->mass[0][i];
+    return q - m->step.entrainment * b->mass[0][i] * carrying(eq, i);
 }
 
 static void balance_intervals(ehl_balance *b, const ehl_march *m)

@@ -496,11 +496,12 @@ static double between(const ehl_reynolds *r, const ehl_film *film, size_t i)
 void ehl_asymmetric_balance(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
     size_t n = r->nodes;
+    const double *m = r->carry ? r->carried : r->mass;
     double flow = between(r, film, 0), own = own_part(r);
     for (size_t i = 0; i + 1 < n; i++) {
         face c = face_weights(r, film, i);
         double next = between(r, film, i + 1);
-        r->flux[i] = c.here * flow + c.next * next - step->entrainment * r->mass[i];
+        r->flux[i] = c.here * flow + c.next * next - step->entrainment * m[i];
         flow = next;
     }
     for (size_t i = 1; i + 1 < n; i++)
@@ -529,10 +530,12 @@ static void add_flow(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, 
     r->by_h[s + 1][i] += right * r->f_h[k + 1];
 }
 
-/* Row i += weight m(k) */
-static void add_mass(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, double weight)
+/* Row i += `stored` m(k) + `flows` times what the flanks carry along of it */
+static void add_mass(ehl_reynolds *r, const ehl_film *film, size_t i, size_t k, double stored,
+                     double flows)
 {
     size_t s = k + EHL_ASYMMETRIC_BEFORE - i;
+    double weight = stored + flows * (r->carry ? r->carry[k] : 1);
     if (ehl_is_cavitated(r, film, k)) {
         r->by_p[s][i] += weight * r->unit;
         return;
@@ -553,7 +556,7 @@ void ehl_asymmetric_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film
         add_flow(r, film, i, i - 1, -in.here);
         add_flow(r, film, i, i, out.here - in.next);
         add_flow(r, film, i, i + 1, out.next);
-        add_mass(r, film, i, i, -u - storage * own);
-        add_mass(r, film, i, i - 1, u - storage * (1 - own));
+        add_mass(r, film, i, i, -storage * own, -u);
+        add_mass(r, film, i, i - 1, -storage * (1 - own), u);
     }
 }

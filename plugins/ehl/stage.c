@@ -251,10 +251,6 @@ static ff_status thermal_create(const ehl_model *m, const ff_array *in, run *r, 
 {
     double T = m->laws.temperature, heat_capacity = NAN;
     const double held = m->flank_density * m->flank_heat_capacity;
-    if (m->maker == ehl_line_relaxation)
-        return ff_failf(m->host, FF_UNSUPPORTED, "thermal",
-                        "this model knows no temperatures across the film: ehl/finite-volume takes "
-                        "thermal: full");
     if (m->laws.rheology && !m->shear_rate)
         return ff_failf(m->host, FF_INVALID, "thermal",
                         "thermal: full needs the shear rate at a point of the film "

@@ -254,8 +254,10 @@ static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const e
     };
     for (size_t i = 0; i < n; i++)
         t->friction[i] = t->coefficient * film->p[i] * fabs(step->sliding);
-    for (size_t i = 0; i < n; i++)
-        t->through[i] = i > 0 && i + 1 < n ? -(r->flux[i - 1] + r->flux[i]) / 2 : 0;
+    for (size_t i = 0; i < n; i++) { /* the faces are nodes, or lie between them */
+        double before = r->flux[r->asymmetric || i < 1 ? i : i - 1];
+        t->through[i] = i > 0 && i + 1 < n ? -(before + r->flux[i]) / 2 : 0;
+    }
     if (!(c[0] > 0))
         return f;
     pressure_in_time(m, film, c);

@@ -10,9 +10,9 @@
 static const double T_oil = 333.15;
 
 /* 0.09 Pa s at 2 m/s and 30 % of slip: flashes of some kelvins, 15 K at mid-film. */
-static void open_hot(line *c, double cells, double slip)
+static void open_model(line *c, const char *id, double cells, double slip)
 {
-    line_open(c, "ehl/finite-volume");
+    line_open(c, id);
     line_grade(c, "ISO VG 320", T_oil);
     stage_set_text(c->film, "thermal", "full");
     stage_set(c->film, "cells", cells);
@@ -20,6 +20,11 @@ static void open_hot(line *c, double cells, double slip)
     stage_set(c->film, "outlet", 2);
     c->u1[0] = 2 * (1 + slip / 2);
     c->u2[0] = 2 * (1 - slip / 2);
+}
+
+static void open_hot(line *c, double cells, double slip)
+{
+    open_model(c, "ehl/finite-volume", cells, slip);
 }
 
 static const char hot_outputs[] = "h_min h_central p_max power_loss friction_coefficient "
@@ -93,11 +98,37 @@ static void test_orders(void)
     check_below("heat by other sums", finest.flanks, 1e-2);
 }
 
+/* Volumes around the nodes and volumes between them: the films differ by errors of the cells, of
+   second order. */
+static void test_discretisations(void)
+{
+    const char *id[] = {"ehl/finite-volume", "ehl/control-volume"};
+    const double cells[] = {256, 512};
+    double h[2][2], friction[2][2];
+    for (int k = 0; k < 4; k++) {
+        line c;
+        open_model(&c, id[k / 2], cells[k % 2], 0.3);
+        line_eyring(&c, 5e6);
+        check_true("runs", line_run(&c, hot_outputs) == FF_OK);
+        h[k / 2][k % 2] = line_value(&c, "h_min", 0);
+        friction[k / 2][k % 2] = line_value(&c, "friction_coefficient", 0);
+        check_below("heat balance of the equations", stage_quality(c.film, "heat_balance"),
+                    stage_quality_limit(c.film, "heat_balance") / 10);
+        line_close(&c);
+    }
+    check_near("h_min of both", h[1][1], h[0][1], 5e-3);
+    check_near("friction of both", friction[1][1], friction[0][1], 5e-3);
+    check_true("h_min: 3 and more with twice the cells",
+               fabs(h[1][0] - h[0][0]) > 3 * fabs(h[1][1] - h[0][1]));
+    check_true("friction",
+               fabs(friction[1][0] - friction[0][0]) > 3 * fabs(friction[1][1] - friction[0][1]));
+}
+
 /* Constant conditions in time keep the steady film, its heat and its flanks. */
-static void test_time(void)
+static void test_time(const char *id)
 {
     line c;
-    open_hot(&c, 256, 0.3);
+    open_model(&c, id, 256, 0.3);
     stage_set(c.film, "steps", 10);
     line_last(&c, 2, 5e-4);
     check_true("runs", line_run(&c, hot_outputs) == FF_OK);
@@ -167,7 +198,9 @@ int main(void)
 {
     test_without_slope();
     test_orders();
-    test_time();
+    test_time("ehl/finite-volume");
+    test_time("ehl/control-volume");
+    test_discretisations();
     test_order_in_time();
     test_refusals();
     return check_done();
