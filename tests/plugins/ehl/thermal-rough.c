@@ -131,9 +131,7 @@ static void test_mixed(void)
 
 int main(void)
 {
-    test_moving_nodes(0.3);
     test_moving_nodes(-1);
-    test_asperities(0.4);
     test_asperities(-1.2);
     test_mixed();
     return check_done();
