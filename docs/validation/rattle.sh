@@ -259,7 +259,8 @@ TEXT
     errors
     cat <<'TEXT'
 
-The largest torque, of 0.5, 1, 2, 4, 6, 8 and 12 N m, up to which all are borne for good ("none": not even the first).
+The largest torque, of 0.5, 1, 2, 4, 6, 8 and 12 N m, up to which all are borne for good ("none": not even the first). Where one motion rattles
+and another is borne, that counts to which the search of the branch `lower` came, which round-off may decide, as at 20 um and 1 N m.
 Flanks are rigid and the oil isoviscous: Hertz and piezoviscosity, which both make the film thicker, matter from some 50 MPa on.
 
 ## Points I, II and III
