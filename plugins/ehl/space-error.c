@@ -214,31 +214,38 @@ static double enough_cells(const ehl_march *m, double error, double limit)
     return 16 * ceil((double)(m->solver->grid->nodes - 1) * times / 16);
 }
 
-/* Reports what the cells cost h_min, h_central or p_max. */
+/* What the cells cost an output, relative: where they make the film, and where it carries a change
+   on. */
+typedef struct cost {
+    double error, carried;
+    const char *of;
+} cost;
+
+static cost cost_of(const ehl_results *r, int kind)
+{
+    static const char *const series[] = {"h_min", "h_central", "p_max"};
+    if (kind == EHL_LEAST && r->lowest_alone)
+        return (cost){extreme_error(r, kind), 1 - r->least_carried / r->lowest, "h_min_lowest"};
+    double error = r->share.of[kind] * r->bound[kind].worst;
+    if (kind != EHL_PEAK)
+        return (cost){error, r->worst_carried[kind], series[kind]};
+    return r->highest_alone ? (cost){extreme_error(r, kind), 0, "p_max_highest"}
+                            : (cost){error, 0, series[kind]};
+}
+
 static void report_cells(const ehl_results *r, const ehl_march *m, int kind, const char *name,
                          double limit)
 {
-    int alone = kind == EHL_LEAST ? r->lowest_alone : kind == EHL_PEAK && r->highest_alone;
-    const char *of = kind == EHL_LEAST     ? "h_min"
-                     : kind == EHL_CENTRAL ? "h_central"
-                                           : "p_max",
-               *extreme = !alone             ? ""
-                          : kind == EHL_PEAK ? "_highest"
-                                             : "_lowest";
-    double share = r->share.of[kind],
-           error = alone ? extreme_error(r, kind) : share * r->bound[kind].worst,
-           carried = kind == EHL_PEAK ? 0
-                     : alone          ? 1 - r->least_carried / r->lowest
-                                      : r->worst_carried[kind];
+    const cost c = cost_of(r, kind);
+    double share = r->share.of[kind], error = fmax(c.error, c.carried);
     char how[128] = "", enough[96] = "", text[400];
-    if (carried > error)
+    if (c.carried > c.error)
         snprintf(how, sizeof how,
                  "; largest where the film carries a change through the contact that is few cells "
                  "long");
     else if (fabs(share - 1) > 0)
         snprintf(how, sizeof how, "; by steady films on %d times the cells %.3g of what bounds it",
                  kind == EHL_PEAK ? 4 : 2, share);
-    error = fmax(error, carried);
     if (kind == EHL_PEAK)
         snprintf(enough, sizeof enough,
                  "; above 0.1 the cells may cut the spike at the outlet off: use more of them");
@@ -246,9 +253,9 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
         snprintf(enough, sizeof enough, "; cells: %.0f would be about enough",
                  enough_cells(m, error, limit));
     snprintf(text, sizeof text,
-             "estimate of the error of %s%s by the cells, over it; loads above 2 %% of the "
+             "estimate of the error of %s by the cells, over it; loads above 2 %% of the "
              "largest%s%s",
-             of, extreme, how, enough);
+             c.of, how, enough);
     r->host->quality(r->host->ctx, name, error, limit, error <= limit ? FF_GOOD : FF_DOUBTFUL,
                      text);
 }
