@@ -131,14 +131,12 @@ FF_SIMD_INLINE void add_along(const sweep *s, size_t i, size_t n, column *c)
     for (size_t k = 0; k < n; k++) {
         double from_ahead = ahead.near * ahead.T[k] + ahead.far * ahead.T_far[k],
                from_behind = behind.near * behind.T[k] + behind.far * behind.T_far[k];
-        double from = u[k] >= 0 ? from_ahead : from_behind;
-        double now = u[k] >= 0 ? ahead.now : behind.now;
-        double passes = fabs(u[k]) * per_dx, held = h * a->weight[k] * rho[k] * capacity;
-        double expansion = -rho_T[k] / rho[k];
-        double own =
-            held * (rate + passes * now) - h * a->weight[k] * expansion * (p_t + u[k] * p_x);
+        double on = (u[k] > 0 ? u[k] : 0) * per_dx, back = (u[k] < 0 ? -u[k] : 0) * per_dx;
+        double held = h * a->weight[k] * rho[k] * capacity, expansion = -rho_T[k] / rho[k];
+        double own = held * (rate + (on * ahead.now + back * behind.now)) -
+                     h * a->weight[k] * expansion * (p_t + u[k] * p_x);
         c->diagonal[k] += own;
-        c->off[k] += held * (passes * from - past[k]) - own * T[k];
+        c->off[k] += held * ((on * from_ahead + back * from_behind) - past[k]) - own * T[k];
     }
 }
 

@@ -163,12 +163,15 @@ static void go_on(size_t n, const double *restrict one, const double *restrict t
     }
 }
 
+/* Sets `past` to what the difference formula takes of n values, and `now` to the last ones. */
 FF_SIMD
-static void combine(size_t n, const double *restrict one, const double *restrict two,
-                    const double c[3], double *restrict past)
+static void look_back(size_t n, const double *restrict one, const double *restrict two,
+                      const double c[3], double *restrict past, double *restrict now)
 {
-    for (size_t j = 0; j < n; j++)
+    for (size_t j = 0; j < n; j++) {
         past[j] = c[1] * one[j] + c[2] * two[j];
+        now[j] = one[j];
+    }
 }
 
 /* Sets moved[k] to state k, moved with the oil. */
@@ -203,9 +206,8 @@ static void predict(ehl_march *m, double time, double c[3])
     double ahead = 0;
     if (m->smooth >= 2)
         ahead = (time - m->state[0].time) / (m->state[0].time - m->state[1].time);
-    combine(kept, one, two, c, past);
+    look_back(kept, one, two, c, past, now);
     go_on(temperatures, one, two, ahead, t->energy.lowest, t->energy.highest, now);
-    memcpy(now + temperatures, one + temperatures, (kept - temperatures) * sizeof *now);
     go_on(FACTORS * n, one + kept, two + kept, ahead, LEAST_FACTOR, 1 / LEAST_FACTOR, now + kept);
 }
 
