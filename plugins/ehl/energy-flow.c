@@ -14,7 +14,7 @@ ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
 {
     enum { FIELDS = 17, OWN = 7 };
     size_t n = nodes, all = nodes * across;
-    *e = (ehl_energy){.nodes = nodes, .highest = 2000, .lowest = 150};
+    *e = (ehl_energy){.nodes = nodes, .share = 1, .highest = 2000, .lowest = 150};
     ehl_across_create(&e->across, across);
     double *next = e->memory =
         calloc((FIELDS + 2 + across) * all + OWN * n + 2 * n + EHL_ACROSS_LANES, sizeof *next);

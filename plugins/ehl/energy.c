@@ -297,7 +297,7 @@ FF_SIMD_INLINE void change_temperatures(sweep *s, size_t i, size_t n, const doub
     }
     if (!isfinite(sum))
         return;
-    double share = largest > most ? most / largest : 1;
+    double share = e->share * (largest > most ? most / largest : 1);
     FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {
         double next = now[k] + share * by[k];

@@ -80,6 +80,7 @@ typedef struct ehl_energy {
     unsigned char *there;   /* 1: tau_m has been found */
     double highest, lowest; /* K, of which the laws are called */
     double reach;           /* change of ln(eta) up to which laws are followed by their slopes */
+    double share;           /* of the change of each temperature that a sweep takes */
     double change;          /* largest change of ln(eta) by the last sweep */
     ff_status law_status;
 } ehl_energy;

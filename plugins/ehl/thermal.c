@@ -13,7 +13,7 @@
 static const double LEAST_FACTOR = 1e-3;
 
 /* Solutions for the film of one instant. */
-enum { MOST_ROUNDS = 80, MOST_PASSES = 8, FACTORS = 3 };
+enum { MOST_ROUNDS = 80, MOST_PASSES = 8, WHOLE_PASSES = 3, FACTORS = 3 };
 
 /* Change of the flow of mass by the factors, relative, below which they are those of the film: it
    changes h by about as much. A steady film begins without heat, a step next to its solution. */
@@ -337,6 +337,7 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
     do {
         ehl_energy_flow(&t->energy, &f, temperature.T);
         t->energy.keep = passes == 0 && c[0] > 0 && !m->rough ? KEPT * sqrt(part) : 0;
+        t->energy.share = passes >= WHOLE_PASSES ? 0.5 : 1;
         ehl_energy_sweep(&t->energy, &f, &temperature);
     } while (++passes < most && t->energy.change > warm);
     double before = t->off;

@@ -1,7 +1,8 @@
 # Random line contacts with thermal: full, steady and in time: slide-roll ratios from -1.9 to 1.9, 0.1 to 100 m/s, up to 4 GPa,
 # oils of 40 to 200 degC, Newtonian and Eyring's. None may crash, hang, give a number that is none, or leave the heat balance
-# open; a film that is not found is refused in a sentence. Each scene is a line of LOG, and is not run again.
-#   thermal-scenes.py FLANKFILM SOURCE_ROOT LOG [COUNT [SECONDS]]
+# open; a film that is not found is refused in a sentence. Each scene is a line of LOG, and is not run again. With `rough` the
+# flanks of all scenes are, Rq 0.02 to 0.5 um.
+#   thermal-scenes.py FLANKFILM SOURCE_ROOT LOG [COUNT [SECONDS [rough]]]
 import collections
 import json
 import math
@@ -15,6 +16,7 @@ import time
 flankfilm, root, log = sys.argv[1:4]
 count = int(sys.argv[4]) if len(sys.argv) > 4 else 200
 seconds = float(sys.argv[5]) if len(sys.argv) > 5 else math.inf
+rough = sys.argv[6:] == ['rough']
 LIMIT = 300
 OUTPUTS = ['h_min', 'h_central', 'friction_coefficient', 'temperature_max', 'flash_temperature', 'power_loss']
 
@@ -29,6 +31,8 @@ def draw(number):
         'load': 2 * math.pi * R * (p_H * 1e9) ** 2 / 226.4e9, 'tau0': r.uniform(2, 30) if r.random() < 0.7 else 0,
         'moving': r.random() < 0.4, 'swing': r.uniform(0.05, 0.5), 'passages': r.uniform(1, 20),
     }
+    if rough:
+        scene.update(rq=10 ** r.uniform(math.log10(0.02), math.log10(0.5)), passages=min(scene['passages'], 2))
     return scene
 
 
@@ -48,15 +52,16 @@ def text_of(s, lab):
                 f.write('%r; %r; %r; %r; %r\n' % (lasts * k / 40, s['R'], u * (1 + s['slip'] / 2), u * (1 - s['slip'] / 2),
                                                   s['load'] * (1 + s['swing'] * wave)))
         discs = 'contact/table, file: history.csv'
+    skin = '  skin:  {use: surface/synthetic, rq: %r um}\n' % s['rq'] if rough else ''
     return """format: 2
 include: [%s/configs/lubricants/gear-oil-mineral.yaml]
 pipeline:
   oil:   {grade: ISO VG 100, temperature: %r degC}
   flow:  {use: %s}
   discs: {use: %s}
-  film:  {use: ehl/finite-volume, cells: 256, thermal: full%s}
+%s  film:  {use: ehl/finite-volume, cells: 256, thermal: full%s}
 outputs: [%s]
-""" % (os.path.abspath(root), s['T'], flow, discs, ', steps: 60' if s['moving'] else '', ', '.join('film.' + o for o in OUTPUTS))
+""" % (os.path.abspath(root), s['T'], flow, discs, skin, ', steps: 60' if s['moving'] else '', ', '.join('film.' + o for o in OUTPUTS))
 
 
 def run(s):
