@@ -30,7 +30,7 @@ typedef struct dynamics_piece {
     int degree;           /* 1: straight lines */
     double k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1];
     double drag[DYNAMICS_DEGREE + 1]; /* of friction and rolling */
-    double film[DYNAMICS_DEGREE + 1]; /* thickness of the loaded film, which e has less of */
+    double film[DYNAMICS_DEGREE + 1]; /* growth of the loaded films, which e has less of */
     int jump;                         /* k or e is discontinuous at the start */
 } dynamics_piece;
 

@@ -13,13 +13,16 @@
    acts on the motion is linear in what the film gives, and a loop can settle. */
 enum { DENSITY = 32, SAMPLES = 32 };
 
+/* The most pairs in mesh. */
+enum { PAIRS = 8 };
+
 /* Distance of the pieces from the curves, over the largest of these, from which it is doubtful. */
 static const double doubtful = 0.02;
 
 /* Shares of the highest pressure, of which the square is a share of the load: below the first the
    film is that of flanks which part, and its thickness is no deflection; above the second it counts
-   in full. */
-static const double parted = 0.1, borne = 0.2;
+   in full. The lower ones serve where the motion knows the film in flight. */
+static const double parted[] = {0.1, 0.02}, borne[] = {0.2, 0.04};
 
 static const double at_node = 1e-9;
 
@@ -30,14 +33,16 @@ typedef struct history {
     double *thickness;
     double speed[2]; /* of the gears, rad/s */
     double width;
+    int in_oil; /* the motion knows the film between parted flanks */
     const ff_array *in;
     const dynamics_inputs *inputs;
 } history;
 
-/* Torques of all pairs against the rotation of each gear, the film in series with the mesh, and
-   what the films dissipate. */
+/* Torques of all pairs against the rotation of each gear, the film in series with the mesh, what
+   the films dissipate, and of each pair its film and its share of the load. */
 typedef struct place {
     double against[2], thickness, loss;
+    double film[PAIRS], share[PAIRS];
 } place;
 
 int dynamics_film_is_wired(const ff_array *in)
@@ -63,13 +68,14 @@ static ff_status read_series(const ff_host *host, const ff_array *in, int input,
 /* The thickness x where it is one of loaded flanks, and the straightest way where it is not: least
    sum w (x - h)^2 + bend (x_(i+1) - x_i)^2, a system of three diagonals. It changes smoothly with
    the pressure, so that a loop can settle. */
-static void bridge(size_t count, const double *h, const double *p, double highest, double *x,
-                   double *ratio)
+static void bridge(size_t count, const double *h, const double *p, double highest, int in_oil,
+                   double *x, double *ratio)
 {
     static const double bend = 1e-4;
     double sum = 0;
     for (size_t i = 0; i < count; i++) {
-        double w = highest > 0 ? (p[i] / highest - parted) / (borne - parted) : 0;
+        double w =
+            highest > 0 ? (p[i] / highest - parted[in_oil]) / (borne[in_oil] - parted[in_oil]) : 0;
         w = fmin(fmax(w, 0), 1);
         sum += w;
         double diagonal = w + bend * ((i > 0) + (i + 1 < count)) - (i ? bend * ratio[i - 1] : 0);
@@ -90,7 +96,8 @@ static ff_status read_thickness(const double *h, const double *p, history *y)
         highest = fmax(highest, p[i]);
     for (size_t i = 0; ratio && y->thickness && i < y->engagements; i++) {
         size_t first = y->first[i];
-        bridge(y->first[i + 1] - first, h + first, p + first, highest, y->thickness + first, ratio);
+        bridge(y->first[i + 1] - first, h + first, p + first, highest, y->in_oil,
+               y->thickness + first, ratio);
     }
     free(ratio);
     return ratio && y->thickness ? FF_OK : FF_NOMEM;
@@ -114,7 +121,10 @@ static ff_status read_history(const ff_host *host, const ff_array *in,
     if (status == FF_OK)
         status = read_series(host, in, DYNAMICS_IN_FILM_POWER_LOSS, y->count, &y->loss);
     if (status == FF_OK)
-        status = read_series(host, in, DYNAMICS_IN_FILM_H_CENTRAL, y->count, &h);
+        status = read_series(host, in,
+                             in[DYNAMICS_IN_FILM_SEPARATION].data ? DYNAMICS_IN_FILM_SEPARATION
+                                                                  : DYNAMICS_IN_FILM_H_CENTRAL,
+                             y->count, &h);
     if (status == FF_OK)
         status = read_series(host, in, DYNAMICS_IN_FILM_P_MAX, y->count, &p);
     if (status != FF_OK)
@@ -160,9 +170,9 @@ static void add_engagement(const history *y, size_t first, size_t last, double p
     const dynamics_inputs *inputs = y->inputs;
     const double *radius[2] = {y->in[DYNAMICS_IN_RADIUS_1].data, y->in[DYNAMICS_IN_RADIUS_2].data};
     const double *bearing = inputs->line_force > 0 ? inputs->tooth_force : inputs->load_share;
-    double slack = at_node * inputs->pitch, shares = 0, film = 0;
+    double slack = at_node * inputs->pitch;
     size_t count = last - first;
-    for (int pair = 0; pair < 100; pair++) {
+    for (int pair = 0; pair < PAIRS; pair++) {
         double roll = inputs->roll_sap + (phase + pair) * inputs->pitch;
         double start = y->roll[first], end = y->roll[last - 1];
         if (roll > end + slack || (!before && roll > end - slack))
@@ -180,25 +190,30 @@ static void add_engagement(const history *y, size_t first, size_t last, double p
         rolling /= arm[0] * y->speed[0] + arm[1] * y->speed[1];
         sum->against[0] += (friction + rolling) * arm[0];
         sum->against[1] += (rolling - friction) * arm[1];
-        shares += share;
-        film += share * value_between(&step, y->thickness + first);
+        sum->share[pair] += share;
+        sum->film[pair] += share * value_between(&step, y->thickness + first);
         sum->loss += y->width * value_between(&step, y->loss + first);
     }
-    sum->thickness += shares > 0 ? film / shares : 0;
 }
 
 /* The mean over the engagements. */
 static place place_at(const history *y, double phase, int before)
 {
-    place sum = {{0, 0}, 0, 0};
-    double share = 1 / (double)y->engagements;
+    place sum = {.loss = 0};
+    double share = 1 / (double)y->engagements, all = 0;
     for (size_t i = 0; i < y->engagements; i++)
         if (y->first[i + 1] - y->first[i] > 1)
             add_engagement(y, y->first[i], y->first[i + 1], phase, before, &sum);
     sum.against[0] *= share;
     sum.against[1] *= share;
-    sum.thickness *= share;
     sum.loss *= share;
+    for (int pair = 0; pair < PAIRS; pair++)
+        all += sum.share[pair];
+    for (int pair = 0; pair < PAIRS && all > 0; pair++) {
+        sum.thickness += sum.film[pair] / all;
+        sum.film[pair] = sum.share[pair] > 0 ? sum.film[pair] / sum.share[pair] : 0;
+        sum.share[pair] /= all;
+    }
     return sum;
 }
 
@@ -230,7 +245,7 @@ static int cut_at(dynamics_excitation *x, double phase)
 /* The samples of all pieces, behind each other. */
 typedef struct samples {
     size_t count, *first; /* first sample of each piece, and the number of all */
-    double *phase, *drag, *film;
+    double *phase, *drag, *film, *grown;
     place *at;
 } samples;
 
@@ -252,12 +267,13 @@ static int take_samples(const history *y, const dynamics_excitation *x, samples 
         s->count += SAMPLES * (size_t)ceil(DENSITY * length) + 1;
     }
     s->first[x->count] = s->count;
-    s->phase = malloc(3 * s->count * sizeof *s->phase);
+    s->phase = malloc(4 * s->count * sizeof *s->phase);
     s->at = malloc(s->count * sizeof *s->at);
     if (!s->phase || !s->at)
         return 0;
     s->drag = s->phase + s->count;
     s->film = s->drag + s->count;
+    s->grown = s->film + s->count;
     for (size_t i = 0; i < x->count; i++) {
         size_t n = s->first[i + 1] - s->first[i];
         for (size_t k = 0; k < n; k++) {
@@ -275,7 +291,7 @@ static int take_samples(const history *y, const dynamics_excitation *x, samples 
 /* Mean over the mesh cycle, by trapezia. */
 static place mean_of(const samples *s)
 {
-    place mean = {{0, 0}, 0, 0};
+    place mean = {.loss = 0};
     for (size_t i = 0; i + 1 < s->count; i++) {
         double half = 0.5 * (s->phase[i + 1] - s->phase[i]);
         for (int g = 0; g < 2; g++)
@@ -284,6 +300,18 @@ static place mean_of(const samples *s)
         mean.loss += half * (s->at[i].loss + s->at[i + 1].loss);
     }
     return mean;
+}
+
+/* How much the films of the pairs grow between two samples, each by its share of the load: what
+   the mesh force does work on. The film in series also changes as the shares do, which is the work
+   of k(t) on springs side by side. */
+static double growth(const place *a, const place *z)
+{
+    double sum = 0;
+    for (int pair = 0; pair < PAIRS; pair++)
+        if (a->share[pair] > 0 && z->share[pair] > 0)
+            sum += 0.5 * (a->share[pair] + z->share[pair]) * (z->film[pair] - a->film[pair]);
+    return sum;
 }
 
 /* The drag along the line of action. What torques keep the gears turning sees the mean of gear 1's
@@ -309,6 +337,7 @@ static void make_curves(const history *y, const dynamics_excitation *x, samples 
                     (p->against[g] - mean->against[g]) / base[g];
         s->drag[i] = drag / unit;
         s->film[i] = (p->thickness - mean->thickness) / x->length;
+        s->grown[i] = i ? s->grown[i - 1] + growth(p - 1, p) / x->length : 0;
     }
 }
 
@@ -316,32 +345,30 @@ static void make_curves(const history *y, const dynamics_excitation *x, samples 
 typedef struct builder {
     dynamics_piece *pieces;
     size_t count;
-    double unit[2]; /* largest of drag and film */
-    double off[2];  /* largest distance from them, over it */
+    double unit[3]; /* largest of drag, film and its growth */
+    double off[3];  /* largest distance from them, over it */
 } builder;
 
 /* Fits what lies between two samples. */
 static void add_piece(builder *b, const dynamics_piece *old, const samples *s, size_t first,
                       size_t last)
 {
-    double drag[DYNAMICS_DEGREE + 1], film[DYNAMICS_DEGREE + 1];
-    size_t nodes = last - first + 1;
-    double off[2] = {
-        dynamics_smooth_series(s->phase + first, s->drag + first, nodes, b->unit[0], drag),
-        dynamics_smooth_series(s->phase + first, s->film + first, nodes, b->unit[1], film)};
+    double fit[3][DYNAMICS_DEGREE + 1];
+    const double *series[3] = {s->drag, s->film, s->grown};
     dynamics_piece *p = &b->pieces[b->count++];
     p->start = s->phase[first];
     p->length = s->phase[last] - s->phase[first];
     p->degree = DYNAMICS_DEGREE;
     dynamics_piece_shift(old->k, old->degree, p->start - old->start, 1, p->k);
     dynamics_piece_shift(old->e, old->degree, p->start - old->start, 1, p->e);
+    for (int k = 0; k < 3; k++)
+        b->off[k] = fmax(b->off[k], dynamics_smooth_series(s->phase + first, series[k] + first,
+                                                           last - first + 1, b->unit[k], fit[k]));
     for (int i = 0; i <= DYNAMICS_DEGREE; i++) {
-        p->drag[i] = b->unit[0] * drag[i];
-        p->film[i] = b->unit[1] * film[i];
-        p->e[i] -= p->film[i];
+        p->drag[i] = b->unit[0] * fit[0][i];
+        p->e[i] -= b->unit[1] * fit[1][i];
+        p->film[i] = b->unit[2] * fit[2][i];
     }
-    for (int i = 0; i < 2; i++)
-        b->off[i] = fmax(b->off[i], off[i]);
 }
 
 static void report(const ff_host *host, const history *y, const builder *b)
@@ -409,8 +436,9 @@ static ff_status build(const ff_host *host, const history *y, dynamics_excitatio
         for (size_t i = 0; i < s.count; i++) {
             b.unit[0] = fmax(b.unit[0], fabs(s.drag[i]));
             b.unit[1] = fmax(b.unit[1], fabs(s.film[i]));
+            b.unit[2] = fmax(b.unit[2], fabs(s.grown[i]));
         }
-        for (int i = 0; i < 2; i++)
+        for (int i = 0; i < 3; i++)
             b.unit[i] = b.unit[i] > 0 ? b.unit[i] : 1;
         b.pieces = calloc(s.count / SAMPLES, sizeof *b.pieces);
         for (size_t i = 0; b.pieces && i < x->count; i++)
@@ -436,7 +464,7 @@ ff_status dynamics_film_wire_read(const ff_host *host, const ff_array *in,
                                   const dynamics_film_wire *wire, const dynamics_inputs *inputs,
                                   dynamics_excitation *excitation, dynamics_film_powers *powers)
 {
-    history y = {0};
+    history y = {.in_oil = excitation->film != NULL};
     double *nothing = NULL;
     *powers = (dynamics_film_powers){0, NAN};
     if (!dynamics_film_is_wired(in))

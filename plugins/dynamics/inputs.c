@@ -111,6 +111,10 @@ const ff_port dynamics_oil_input_ports[DYNAMICS_OIL_INPUT_COUNT] = {
                                 "highest pressure, which says where the film "
                                 "bears load",
                                 "t", NULL, FF_OPTIONAL | FF_FEEDBACK, "ehl"},
+    [DYNAMICS_IN_FILM_SEPARATION] = {"film.separation", "m",
+                                     "thickness of the film as the teeth in series with it see "
+                                     "it; in its place h_central",
+                                     "t", NULL, FF_OPTIONAL | FF_FEEDBACK, "ehl"},
     [DYNAMICS_IN_ETA0] = {"oil.eta0", "Pa s", "viscosity of the oil between parted flanks", "",
                           NULL, FF_OPTIONAL, "lubricant"},
 };

@@ -144,6 +144,7 @@ static int eliminate(int n, double m[MOST][MOST], int columns,
 typedef struct stages {
     const dynamics_radau *r;
     double h, c, load[S], bend[S], k[S]; /* load less drag and e''; bend: e'' */
+    double thicken[S];                   /* rate of the loaded film, which the damper is beside */
     int count, flank[2];                 /* of the films that carry */
     dynamics_film_place place[S];
     double (*inverse)[S];
@@ -174,9 +175,13 @@ static int prepare(const dynamics_radau *r, dynamics_landing *step, stages *g)
             dynamics_piece_bend(step->piece->e, step->piece->degree, phase - step->piece->start) /
             (step->T * step->T);
         g->load[i] = x->load - g->bend[i];
-        if (x->fed_back)
-            g->load[i] -= dynamics_piece_value(step->piece->drag, step->piece->degree,
-                                               phase - step->piece->start);
+        if (x->fed_back) {
+            double since = phase - step->piece->start;
+            g->thicken[i] =
+                dynamics_piece_slope(step->piece->film, step->piece->degree, since) / step->T;
+            g->load[i] += g->c * g->thicken[i] -
+                          dynamics_piece_value(step->piece->drag, step->piece->degree, since);
+        }
         g->place[i] = dynamics_film_at(x->film, fmin(phase, step->end - before_node), step->T);
     }
     for (int first = 0; first < S; first += DYNAMICS_FILM_COLUMNS) {
@@ -375,7 +380,8 @@ static void stretch_stages(const stages *g, const dynamics_landing *step, variat
         }
         v->rate[i] += v->stretch * rate;
         v->delta[i] += v->stretch * delta;
-        f[i] = 2 * g->bend[i] / step->T; /* e'' at a fixed phase goes as 1/T^2 */
+        f[i] = (2 * g->bend[i] - g->c * g->thicken[i]) /
+               step->T; /* at a fixed phase e'' goes as 1/T^2, rates as 1/T */
     }
 }
 
@@ -475,15 +481,16 @@ dynamics_landing_energy dynamics_landing_energies(const dynamics_radau *r,
         double k = dynamics_piece_value(p->k, p->degree, phase - p->start);
         double k_rate = dynamics_piece_slope(p->k, p->degree, phase - p->start) / step->T;
         double e_rate = dynamics_piece_slope(p->e, p->degree, phase - p->start) / step->T;
-        double force = c * rate + step->force[j + 1];
-        sum.damper += weight * c * rate * rate;
-        sum.work -= weight * force * e_rate;
+        double thicken = 0;
         if (step->excitation->fed_back) {
+            thicken = dynamics_piece_slope(p->film, p->degree, phase - p->start) / step->T;
             sum.drag += weight * dynamics_piece_value(p->drag, p->degree, phase - p->start) *
                         (rate + e_rate);
-            sum.thickness += weight * force *
-                             dynamics_piece_slope(p->film, p->degree, phase - p->start) / step->T;
+            sum.thickness += weight * step->force[j + 1] * thicken;
         }
+        double damped = rate - thicken;
+        sum.damper += weight * c * damped * damped;
+        sum.work -= weight * (c * damped * (e_rate + thicken) + step->force[j + 1] * e_rate);
         for (int f = 0; f < 2; f++) {
             double bend = step->bend[f][j + 1];
             sum.work += weight * 0.5 * k_rate * bend * bend;

@@ -34,6 +34,7 @@ typedef struct dynamics_oscillator dynamics_oscillator;
 typedef struct dynamics_sample {
     double phase; /* mesh cycles since the start of the record */
     double s, s_rate, force;
+    double film; /* with oil: that in front of the driving flank, beyond the one at hand-over */
 } dynamics_sample;
 
 /* Samples of consecutive mesh cycles, `per_cycle` in each, and where the excitation jumps. */

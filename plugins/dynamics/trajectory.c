@@ -19,7 +19,7 @@ static const double weight[NODES / 2] = {0.3626837833783620, 0.3137066458778873,
 typedef struct moment {
     double delta, rate, e, e_rate;
     double k, k_rate, bend; /* 0 where no flank is pressed */
-    double drag, film, film_rate;
+    double drag, film_rate;
 } moment;
 
 /* Without a flank that is held the teeth bend under the films: k and bend are of both together, so
@@ -57,7 +57,6 @@ static moment moment_at(const dynamics_step *f, double x)
         bend_in_oil(f, x, phase, &m);
     if (f->excitation->fed_back) {
         m.drag = dynamics_piece_value(f->piece->drag, f->piece->degree, phase);
-        m.film = dynamics_piece_value(f->piece->film, f->piece->degree, phase);
         m.film_rate = dynamics_piece_slope(f->piece->film, f->piece->degree, phase) / f->T;
     }
     return m;
@@ -85,13 +84,6 @@ void dynamics_trajectory_observe_moments(void *self, const dynamics_step *f)
     }
 }
 
-/* What the thickness of the film brings in where it jumps: of the change of k bend^2/2 the part
-   that goes with the bend, shared with the jump of e. */
-static double leap_of_film(const dynamics_springs *a, const dynamics_springs *z)
-{
-    return 0.25 * (a->k + z->k) * (a->bend + z->bend) * (z->film - a->film);
-}
-
 /* Accounts for the energy that changes between two steps. At a node the excitation does work. When
    a clipped contact lets go, the damper keeps what the spring had stored. Nothing else changes the
    energy. */
@@ -99,11 +91,6 @@ static void join_strides(dynamics_trajectory *t, const dynamics_step *f)
 {
     moment m = moment_at(f, 0);
     double energy = energy_of(f->excitation, &m), change = energy - t->energy;
-    dynamics_springs springs = {m.k, m.bend, m.film};
-    if (!t->begun)
-        t->first = springs;
-    else if (f->excitation->fed_back)
-        t->thickness += leap_of_film(&t->last, &springs);
     if (!t->begun)
         t->start = energy;
     else if (f->side == t->side && f->pressed != t->pressed)
@@ -138,18 +125,28 @@ static void add_powers(dynamics_trajectory *t, const dynamics_step *f)
         t->thickness += sum.thickness;
     }
     moment end = moment_at(f, f->x);
-    t->last = (dynamics_springs){end.k, end.bend, end.film};
     t->energy = energy_of(f->excitation, &end);
 }
 
-static double force_in_oil(const dynamics_radau *radau, const dynamics_step *f, double x)
+static double value_in_oil(const dynamics_radau *radau, const double *nodes, double x)
 {
-    double power[DYNAMICS_NODES], z[2], force = 0;
-    dynamics_landing_polynomial(radau, f->landing->force, power);
+    double power[DYNAMICS_NODES], value = 0;
+    dynamics_landing_polynomial(radau, nodes, power);
     for (int n = DYNAMICS_NODES; n-- > 0;)
-        force = force * x + power[n];
-    dynamics_taylor_at(f->series, DYNAMICS_Z, x, z);
-    return force + f->damper * z[1];
+        value = value * x + power[n];
+    return value;
+}
+
+/* The film of (4.6) in front of the driving flank: none beyond that at hand-over while it is held,
+   and all of the gap where it does not carry. */
+static double film_ahead(const dynamics_radau *radau, const dynamics_step *f, double x,
+                         double delta)
+{
+    if (f->pressed && f->side > 0)
+        return 0;
+    if (f->landing && f->landing->open[0])
+        return value_in_oil(radau, f->landing->film[0], x);
+    return f->excitation->half_gap - delta;
 }
 
 static void add_sample(dynamics_trajectory *t, const dynamics_step *f, double x, double phase)
@@ -163,8 +160,9 @@ static void add_sample(dynamics_trajectory *t, const dynamics_step *f, double x,
         .phase = (double)record->cycles + phase,
         .s = m.delta + m.e,
         .s_rate = m.rate + m.e_rate,
-        .force = f->landing ? force_in_oil(t->radau, f, x)
+        .force = f->landing ? value_in_oil(t->radau, f->landing->force, x)
                             : dynamics_mesh_force(f->excitation, k, m.delta, m.rate),
+        .film = film_ahead(t->radau, f, x, m.delta),
     };
 }
 
@@ -260,7 +258,7 @@ ff_status dynamics_trajectory_record(const dynamics_flow *flow, const dynamics_i
         motion->drag = trace.drag;
         /* the node at phase 0 lies before the start and behind the end */
         motion->work = trace.work + trace.start - trace.energy;
-        motion->thickness = trace.thickness + leap_of_film(&trace.last, &trace.first);
+        motion->thickness = trace.thickness;
     }
     return take_monodromy(flow, x, motion) ? FF_OK : FF_NOCONV;
 }

@@ -6,11 +6,6 @@
 #include "flow.h"
 #include "motion.h"
 
-/* The springs at an instant, from whose change at a node follows what the film does there. */
-typedef struct dynamics_springs {
-    double k, bend, film;
-} dynamics_springs;
-
 typedef struct dynamics_trajectory {
     double origin;      /* of s in the moments */
     double sum, square; /* integrals over time of s - origin and of its square */
@@ -20,7 +15,6 @@ typedef struct dynamics_trajectory {
     double thickness;   /* what the loaded film brought in, of the work */
     double energy;      /* of the state at the end */
     double start;       /* of the state at the start */
-    dynamics_springs first, last; /* at the start and at the end */
     dynamics_clocks clocks;
     const dynamics_radau *radau; /* of the flow */
     dynamics_record *record;

@@ -127,6 +127,20 @@ double ehl_central_film(const ehl_grid *g, const ehl_reynolds *r)
            (t + 1) * t * (t - 2) / 2 * y[i + 1] + (t + 1) * t * (t - 1) / 6 * y[i + 2];
 }
 
+/* The film as a spring in series with the teeth sees it: h00 less the gap that the motion knows and
+   less that of Hertz' contact under the same force, whose pressure deflects its middle by
+   (4/(pi E')) w (ln(2 X/a) + 1/2) against the ends. */
+static double separation_of(const ehl_march *m)
+{
+    const ehl_grid *g = m->solver->grid;
+    const ehl_film *film = &m->state[0].film;
+    double load = ehl_film_load(film, g->nodes, g->dx), modulus = m->history->modulus;
+    double a = ehl_hertz_half_width(load, m->step.radius, modulus), beyond = film->h00 - m->at.gap;
+    if (load > 0)
+        beyond += 4 * load / (M_PI * modulus) * (log(2 * g->half_width / a) + 0.5);
+    return fmax(beyond, 0);
+}
+
 /*
  * What the film dissipates, per width. The shear stress varies linearly across the film, tau =
  * tau_m + z p_x, and the flow with it: a part that the sliding drives, and a part that the
@@ -412,6 +426,7 @@ static void record_film(ehl_results *r, const ehl_march *m)
     r->row[EHL_H_MIN] = h_min;
     r->row[EHL_H_CENTRAL] = h_central;
     r->row[EHL_P_MAX] = p_max;
+    r->row[EHL_SEPARATION] = separation_of(m);
     ehl_lowest_add(&r->engagements, r->row[EHL_ENGAGEMENT], h_min);
     if (h_min < r->lowest) {
         r->lowest = h_min;

@@ -177,6 +177,11 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                                "highest rise of a flank over its bulk temperature, under the film; "
                                "needs thermal: full",
                                "t", NULL, 0, NULL},
+    [EHL_SEPARATION] = {"separation", "m",
+                        "how much further apart the film keeps the bodies than their gap and a "
+                        "dry contact under the force of the film would: its thickness as a spring "
+                        "in series sees it, near h_central under load, 0 without pressure",
+                        "t", NULL, 0, NULL},
     [EHL_X] = {"x", "m",
                "position along the surface, 0 at the line of contact; with rough flanks the fields "
                "are those of the nodes nearest to it, half a cell away at most",
