@@ -2,19 +2,19 @@
 # Where flanks part and land, the film takes what the motion gives it: the books of power of both close.
 # film-landing.sh FLANKFILM SOURCE_ROOT
 set -eu
-flankfilm=$(realpath "$1")
+flankfilm=$(realpath "$1") source=$(realpath "$2")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work"
 
 balance()
 {
-    "$flankfilm" run "$1/configs/two-way.yaml" --set 'duty.mesh_frequency=2375 Hz' --set motion.branch=upper \
+    "$flankfilm" run "$source/configs/two-way.yaml" --set 'duty.mesh_frequency=2375 Hz' --set motion.branch=upper \
         --set film.cells=256 --set outputs=[motion.film_power] --set motion.squeeze=series --json 2> errors |
         sed -n 's/.*"power_balance":{"value":\([^,]*\).*/\1/p'
 }
 
-series=$(balance "$2")
+series=$(balance)
 echo "in less out over the loss: $series"
 # 3.7e-3 with 256 cells; with the films squeezed twice, by the motion and by the film stage, 8.7e-3
 awk -v series="$series" 'BEGIN { exit !(series != "" && series < 5e-3) }' || { cat errors; exit 1; }
