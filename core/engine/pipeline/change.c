@@ -43,10 +43,24 @@ static void bind_anew(fe_build *b, ff_stage *stage)
     fe_bind_stage(b, stage);
 }
 
-static void close_objects(ff_pipeline *pipeline)
+/* An object whose values stay serves the next case, too: what it gives depends on them and on its
+   inputs alone, and it may have kept what follows from those that stay. One that is wired to a
+   service does not, since the table may be of an object that goes. */
+static bool stays(const ff_stage *stage, bool changed)
 {
-    for (size_t i = pipeline->count; i-- > 0;)
-        fe_close_object(&pipeline->stages[pipeline->order[i]]);
+    bool kept = !changed && stage->loaded && stage->instance->alive;
+    for (size_t i = 0; kept && i < stage->loaded->model->input_count; i++)
+        kept = !ff_model_input(stage->loaded->model, i)->service;
+    return kept;
+}
+
+static void close_objects(ff_pipeline *pipeline, const bool *changed, bool objects)
+{
+    for (size_t i = pipeline->count; i-- > 0;) {
+        size_t k = pipeline->order[i];
+        if (!objects || !stays(&pipeline->stages[k], changed[k]))
+            fe_close_object(&pipeline->stages[k]);
+    }
 }
 
 static void open_objects(fe_build *b)
@@ -54,7 +68,7 @@ static void open_objects(fe_build *b)
     ff_pipeline *pipeline = b->pipeline;
     for (size_t i = 0; i < pipeline->count && ff_report_errors(b->report) == 0; i++) {
         ff_stage *stage = &pipeline->stages[pipeline->order[i]];
-        if (stage->params)
+        if (stage->params && !stage->instance->alive)
             fe_open_instance(b, stage);
     }
 }
@@ -76,7 +90,7 @@ bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const 
                       .engine = pipeline->memory->engine,
                       .report = ff_report_new(),
                       .file_rank = root->rank};
-        close_objects(pipeline); /* none remembers the case before */
+        close_objects(pipeline, changed, objects);
         for (size_t i = 0; i < pipeline->count; i++)
             if (changed[i])
                 bind_anew(&b, &pipeline->stages[i]);

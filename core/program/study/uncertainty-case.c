@@ -37,7 +37,7 @@ size_t study_uncertainty_submit(const study_uncertainty *u, const char *label,
 
 size_t study_uncertainty_pilot_case(const study_uncertainty *u, size_t level, size_t sample)
 {
-    return u->first_pilot + sample * u->level_count + level;
+    return u->first_pilot + level * u->pilot + sample;
 }
 
 size_t study_uncertainty_main_case(const study_uncertainty *u, size_t slot, size_t sample)

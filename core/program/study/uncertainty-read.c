@@ -164,12 +164,13 @@ static bool read_patches(study_uncertainty *u, const ff_node *map, const char *k
     return true;
 }
 
+/* Level by level, so that a worker goes on with the models that it has. */
 static void submit_pilot(study_uncertainty *u)
 {
     double *numbers = variates_draw(&u->inputs, u->seed, VARIATES_PILOT, u->pilot);
     u->first_pilot = u->context->list.count;
-    for (size_t i = 0; i < u->pilot; i++)
-        for (size_t k = 0; k < u->level_count; k++)
+    for (size_t k = 0; k < u->level_count; k++)
+        for (size_t i = 0; i < u->pilot; i++)
             study_uncertainty_submit(
                 u, study_context_format(u->context, "pilot %zu, %s", i + 1, u->levels[k].name),
                 numbers + i * u->inputs.count, &u->levels[k], false);
