@@ -14,7 +14,10 @@ var figures = (function () {
       if (axis === 'x' && curve.style === 'bars') values = values.concat(curve.from, curve.to);
       if (axis === 'y' && curve.style === 'bars') values.push(0);
       var own = curve[axis === 'x' ? 'x' : 'y'], other = curve[axis === 'x' ? 'y' : 'x'];
-      own.forEach(function (v, i) { if (v !== null && other[i] !== null) values.push(v); });
+      own.forEach(function (v, i) {
+        var bar = axis === 'y' && curve.bar ? curve.bar[i] : 0;
+        if (v !== null && other[i] !== null) values.push(v - bar, v + bar);
+      });
     });
     if (asked.log) values = values.filter(function (v) { return v > 0; });
     values = finite(values);

@@ -28,8 +28,7 @@ estimate_moments estimate_pairs(const double *a, const double *b, size_t count,
     return m;
 }
 
-/* Of samples that all levels have. */
-static double correlation(const double *a, const double *b, size_t count)
+double estimate_correlation(const double *a, const double *b, size_t count)
 {
     estimate_moments m = estimate_pairs(a, b, count, NULL, 0);
     if (m.count < 3 || !(m.aa > 0 && m.bb > 0))
@@ -120,7 +119,7 @@ estimate_plan estimate_allocate(const double *const *pilot, size_t pilot_count, 
 {
     estimate_plan best = {.levels = 1, .count = {plain}, .correlation = {1}, .cost = (double)plain};
     for (size_t k = 1; k < levels; k++)
-        best.correlation[k] = correlation(pilot[0], pilot[k], pilot_count);
+        best.correlation[k] = estimate_correlation(pilot[0], pilot[k], pilot_count);
     for (unsigned set = 2; set < 1u << levels; set += 2)
         try_levels(&best, set, cost, levels, (double)plain, aim);
     return best;

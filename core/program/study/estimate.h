@@ -50,6 +50,10 @@ typedef struct estimate_moments {
 estimate_moments estimate_pairs(const double *a, const double *b, size_t count,
                                 double (*g)(double, double), double about);
 
+/* The correlation of two levels. Its square allows for the two degrees of freedom of the line that
+   is fitted; 0 where no correlation is seen. */
+double estimate_correlation(const double *a, const double *b, size_t count);
+
 /* What is to be known as well as from plain samples: the mean alone, which takes the fewest, or
    percentiles and probabilities, too. */
 typedef enum { ESTIMATE_MEAN, ESTIMATE_DISTRIBUTION } estimate_aim;

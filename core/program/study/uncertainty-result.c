@@ -98,15 +98,13 @@ static json_t *shares_of(const study_uncertainty *u, size_t output)
 
 static double pilot_correlation(const study_uncertainty *u, size_t level, size_t output)
 {
-    const double *pilot[2];
-    double *values = memory_alloc(2 * u->pilot * sizeof *values), cost[2] = {1, 1};
-    for (size_t k = 0; k < 2; k++) {
-        pilot[k] = values + k * u->pilot;
-        for (size_t i = 0; i < u->pilot; i++)
-            values[k * u->pilot + i] = study_uncertainty_value(
-                u, study_uncertainty_pilot_case(u, k ? level : 0, i), output);
+    double *values = memory_alloc(2 * u->pilot * sizeof *values);
+    for (size_t i = 0; i < u->pilot; i++) {
+        values[i] = study_uncertainty_value(u, study_uncertainty_pilot_case(u, 0, i), output);
+        values[u->pilot + i] =
+            study_uncertainty_value(u, study_uncertainty_pilot_case(u, level, i), output);
     }
-    double found = estimate_allocate(pilot, u->pilot, 2, cost, 2, ESTIMATE_MEAN).correlation[1];
+    double found = estimate_correlation(values, values + u->pilot, u->pilot);
     free(values);
     return found;
 }

@@ -47,8 +47,8 @@ static void results(void)
     try_close(&a);
 }
 
-/* A pipeline that goes on with other values answers as one that is built with them, and from
-   objects of its own; what is no plain value of a parameter needs another pipeline. */
+/* A pipeline that goes on with other values answers as one that is built with them; objects stay
+   whose values do; what is no plain value of a parameter needs another pipeline. */
 static void changes(void)
 {
     static const char *const values[] = {"one.level=3 mm", "pipeline.law.gain=5"};
@@ -69,7 +69,13 @@ static void changes(void)
                                    ff_pipeline_run(a.pipeline, NULL, a.report));
     check_near("what the changed one feeds", try_scalar(&a, "sum", "sum"), 0.015, 1e-15);
     check_true("its service", try_scalar(&a, "user", "value") == 10);
-    check_true("all objects are new", try_scalar(&a, "one", "evaluations") == 1);
+    check_true("what has another value is new", try_scalar(&a, "one", "evaluations") == 1);
+    check_true("what keeps its values stays",
+               ff_pipeline_change(a.pipeline, a.tree, values + 1, 1, true) &&
+                   ff_pipeline_run(a.pipeline, NULL, a.report) &&
+                   try_scalar(&a, "one", "evaluations") == 2);
+    check_near("and answers as before", try_scalar(&a, "sum", "sum"), 0.015, 1e-15);
+    check_true("what is wired to a service is new", try_scalar(&a, "user", "value") == 10);
     const ff_stage *one = ff_stage_of(a.pipeline, "one.level", &name);
     check_true("values without objects",
                ff_pipeline_change(a.pipeline, a.tree, before, 1, false) &&
