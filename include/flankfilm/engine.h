@@ -620,8 +620,8 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool ever
 
 /*
  * Goes on with other values: "stage.parameter=value", which change the tree that the pipeline was
- * built from, too. Objects stay where their values do and no service is wired to them, others
- * are made anew; the pipeline answers as one built from that tree.
+ * built from, too. An object stays where its values do, unless a service is wired to it or it hands
+ * on a state (`carry`); all others are made anew. The pipeline answers as one built from that tree.
  * False: an assignment says something else than a plain value of a parameter that had one, or it is
  * worth a message; then the pipeline is of no more use, and building another one says why.
  * Without `objects` there are none afterwards, and none says what it has against the values: the

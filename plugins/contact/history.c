@@ -40,7 +40,8 @@ const ff_port contact_outputs[CONTACT_OUTPUTS] = {
      .dims = "t"},
     {.name = "gap",
      .unit = "m",
-     .doc = "separation of the surfaces along the line of action while they bear no load, else 0",
+     .doc = "separation of the surfaces along the line of action, 0 from where they meet; a "
+            "damper may load them before",
      .dims = "t"},
     {.name = "reduced_modulus",
      .unit = "Pa",

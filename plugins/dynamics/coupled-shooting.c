@@ -81,12 +81,14 @@ static ff_status correct(dynamics_coupled_run *run, dynamics_coupled_orbit *orbi
         return FF_NOCONV;
     orbit->distance = 0;
     for (int i = 0; i < DYNAMICS_TAKEN; i++) {
+        if (!isfinite(miss[i]))
+            return FF_NOCONV;
         orbit->state[i] += miss[i];
         orbit->distance = fmax(orbit->distance, fabs(miss[i]));
     }
     dynamics_coupled_clocks(run, &parted, &back);
     orbit->touches = parted == 0 && back == 0;
-    return isfinite(orbit->distance) ? FF_OK : FF_NOCONV;
+    return FF_OK;
 }
 
 ff_status dynamics_coupled_shoot(dynamics_coupled_run *run, double far, double tolerance,
@@ -101,7 +103,8 @@ ff_status dynamics_coupled_shoot(dynamics_coupled_run *run, double far, double t
         double before = orbit->distance;
         if (correct(run, orbit) != FF_OK)
             return FF_NOCONV;
-        int ends = n > 0 && before < round_off && orbit->distance > contraction * before;
+        int ends = n > 0 && fmax(before, orbit->distance) < round_off &&
+                   orbit->distance > contraction * before;
         if (!ends && !(orbit->distance <= contraction * last))
             return FF_NOCONV;
         last = orbit->distance;

@@ -131,7 +131,7 @@ double dynamics_mesh_force(const dynamics_excitation *excitation, double k, doub
         return k * delta + damper; /* the flanks never part */
     int side = (delta > b) - (delta < -b);
     if (side == 0)
-        return excitation->damping == DYNAMICS_DAMPING_ALWAYS && !excitation->film ? damper : 0;
+        return excitation->damping == DYNAMICS_DAMPING_ALWAYS ? damper : 0;
     double force = k * (delta - side * b) + damper;
     return excitation->damping == DYNAMICS_DAMPING_CLIPPED && side * force < 0 ? 0 : force;
 }

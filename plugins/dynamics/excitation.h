@@ -30,8 +30,9 @@ typedef struct dynamics_piece {
     int degree;           /* 1: straight lines */
     double k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1];
     double drag[DYNAMICS_DEGREE + 1]; /* of friction and rolling */
-    double film[DYNAMICS_DEGREE + 1]; /* growth of the loaded films, which e has less of */
-    int jump;                         /* k or e is discontinuous at the start */
+    double
+        film[DYNAMICS_DEGREE + 1]; /* growth of the pairs' films, each by its share of the load */
+    int jump;                      /* k or e is discontinuous at the start */
 } dynamics_piece;
 
 /* What the smooth pieces make of the straight lines of a table. */

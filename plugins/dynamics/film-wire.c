@@ -13,7 +13,7 @@
    acts on the motion is linear in what the film gives, and a loop can settle. */
 enum { DENSITY = 32, SAMPLES = 32 };
 
-/* The most pairs in mesh. */
+/* The most pairs in mesh: twice what gear/involute-spur allows. */
 enum { PAIRS = 8 };
 
 /* Distance of the pieces from the curves, over the largest of these, from which it is doubtful. */
@@ -129,6 +129,11 @@ static ff_status read_history(const ff_host *host, const ff_array *in,
         status = read_series(host, in, DYNAMICS_IN_FILM_P_MAX, y->count, &p);
     if (status != FF_OK)
         return status;
+    if (y->count > 0 && y->roll[y->count - 1] - inputs->roll_sap > PAIRS * inputs->pitch)
+        return ff_failf(host, FF_INVALID, "film.roll_angle",
+                        "film.roll_angle must end within %d mesh cycles of the start of active "
+                        "profile",
+                        PAIRS);
     y->first = calloc(y->count + 1, sizeof *y->first);
     if (!y->first)
         return FF_NOMEM;
@@ -374,11 +379,11 @@ static void add_piece(builder *b, const dynamics_piece *old, const samples *s, s
 static void report(const ff_host *host, const history *y, const builder *b)
 {
     char text[200];
-    double off = fmax(b->off[0], b->off[1]);
+    double off = fmax(fmax(b->off[0], b->off[1]), b->off[2]);
     snprintf(text, sizeof text,
-             "largest distance of %zu pieces from the friction of the film, %.1g, and from its "
-             "thickness, %.1g, over the largest of each",
-             b->count, b->off[0], b->off[1]);
+             "largest distance of %zu pieces from the friction of the film, %.1g, its thickness, "
+             "%.1g, and its growth, %.1g, over the largest of each",
+             b->count, b->off[0], b->off[1], b->off[2]);
     host->quality(host->ctx, "film_representation", off, doubtful,
                   off <= doubtful ? FF_GOOD : FF_DOUBTFUL, text);
     if (y->engagements > 1)

@@ -22,7 +22,9 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
                           "half of it is in the values",
                           "cycle", NULL, 0, NULL},
     [DYNAMICS_OUT_DTE_VELOCITY] = {"dte_velocity", "m/s", "its rate", "cycle", NULL, 0, NULL},
-    [DYNAMICS_OUT_MESH_FORCE] = {"mesh_force", "N", "dynamic mesh force DMF of spring and damper",
+    [DYNAMICS_OUT_MESH_FORCE] = {"mesh_force", "N",
+                                 "dynamic mesh force DMF of spring and damper; "
+                                 "with squeeze, of the oil alone while no flank is held",
                                  "cycle", NULL, 0, NULL},
     [DYNAMICS_OUT_DTE_RMS] = {"dte_rms", "m", "root mean square of the alternating part of s", "",
                               NULL, 0, NULL},
@@ -238,11 +240,11 @@ static void force_and_gap_at(const void *self, double phase, int left, double *f
     const dynamics_motion_view view = view_of(motion);
     size_t low = dynamics_motion_view_before(&view, phase, left);
     const dynamics_sample *a = &s[low], *z = &s[low + 1];
-    double h = z->phase - a->phase;
     if (excitation->film) {
         read_films(a, z, phase, force, gap);
         return;
     }
+    double h = z->phase - a->phase;
     phase = fmin(fmax(phase, a->phase), z->phase);
     double x = h > 0 ? (phase - a->phase) / h : 0;
     double slope_a = a->s_rate * motion->T * h, slope_z = z->s_rate * motion->T * h;

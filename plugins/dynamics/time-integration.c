@@ -174,8 +174,8 @@ static ff_status fail_too_many_steps(const ff_host *host, const dynamics_inputs 
 {
     return ff_failf(host, FF_NOCONV, "operating.mesh_frequency",
                     "a mesh frequency of %g Hz and a natural frequency of %g Hz take more than 20 "
-                    "million steps; give fewer cycles_settle, or take dynamics/quasi-static far "
-                    "below resonance",
+                    "million steps, or a step in the oil has no solution; give fewer "
+                    "cycles_settle, or take dynamics/quasi-static far below resonance",
                     inputs->mesh_frequency, inputs->natural_frequency);
 }
 

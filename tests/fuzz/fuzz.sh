@@ -34,8 +34,10 @@ build_shared() {
 }
 (
     flock 9
-    [ -e "$work/engine.a" ] &&
-        [ -z "$(find core/engine include tests/bad/plugins/toy -newer "$work/engine.a" -print -quit)" ] || build_shared
+    if ! [ -e "$work/engine.a" ] ||
+        [ -n "$(find core/engine include tests/bad/plugins/toy -newer "$work/engine.a" -print -quit)" ]; then
+        build_shared
+    fi
 ) 9>"$work/lock"
 # shellcheck disable=SC2086
 clang $flags $watched -fsanitize=fuzzer $places "tests/fuzz/$target.c" $more "$work/engine.a" -o "$work/fuzz-$target" \

@@ -45,10 +45,11 @@ static void bind_anew(fe_build *b, ff_stage *stage)
 
 /* An object whose values stay serves the next case, too: what it gives depends on them and on its
    inputs alone, and it may have kept what follows from those that stay. One that is wired to a
-   service does not, since the table may be of an object that goes. */
+   service does not, since the table may be of an object that goes, and one that hands on a state
+   does not, since it would start from the case before. */
 static bool stays(const ff_stage *stage, bool changed)
 {
-    bool kept = !changed && stage->loaded && stage->instance->alive;
+    bool kept = !changed && stage->loaded && stage->instance->alive && !ff_stage_has_state(stage);
     for (size_t i = 0; kept && i < stage->loaded->model->input_count; i++)
         kept = !ff_model_input(stage->loaded->model, i)->service;
     return kept;

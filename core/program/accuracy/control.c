@@ -25,7 +25,7 @@ static const double coarsest_start = 2;
 /* Four times as many cells and steps as by preset: 16 times the work. */
 static const double finest = -2;
 /* A stage costs little whose model says that it costs at most this share of the dearest one's, or
-   says nothing. */
+   says nothing and is not asked for itself. */
 static const double little = 0.1;
 /* Its settings are finer than those of the dearest stage by so many levels, in every attempt and in
    its twins, too: what all of them sample too coarsely none of them shows. */
@@ -96,10 +96,15 @@ static double largest_cost(const ff_pipeline *pipeline)
     return most;
 }
 
-/* In a loop a stage costs what the others do. */
+/* In a loop a stage costs what the others do. One that says nothing may be the dearest where its
+   own outputs are asked for. */
 static bool costs_little(const ff_stage *stage, double most)
 {
-    return most > 0 && !stage->loop && ff_model_cost(stage->loaded->model) <= little * most;
+    double cost = ff_model_cost(stage->loaded->model);
+    bool asked = false;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
+        asked = asked || stage->results[i].requested;
+    return most > 0 && !stage->loop && cost <= little * most && (cost > 0 || !asked);
 }
 
 static void list_knobs(control *c)

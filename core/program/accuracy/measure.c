@@ -284,13 +284,12 @@ static void measure_output(const measurement *m, accuracy_error *e)
 /* The parts keep their shares. */
 static void widen(accuracy_error *number, double bar)
 {
-    double factor = bar / number->bar[0];
-    if (!(factor > 1 && isfinite(factor)))
+    if (!(bar > number->bar[0] && isfinite(bar)) || number->result->data[0] == 0)
         return;
+    double factor = bar / number->bar[0];
     number->bar[0] = bar;
-    number->relative *= factor;
-    number->largest *= factor;
-    for (size_t i = 0; i < number->part_count; i++)
+    find_relative(NULL, number);
+    for (size_t i = 0; isfinite(factor) && i < number->part_count; i++)
         number->parts[i].error *= factor;
 }
 
@@ -317,7 +316,8 @@ static void hold_to_series(const measurement *m, accuracy_error *number)
         return;
     for (size_t i = 0; i < m->record->count; i++) {
         const accuracy_error *e = &m->record->errors[i];
-        if (e->stage != number->stage || e->result->rank != 1 || !e->bar)
+        if (e->stage != number->stage || e->result->rank != 1 || !e->bar ||
+            strcmp(e->result->row->unit, number->result->row->unit) != 0)
             continue;
         size_t at = extreme_of(number->result, e->result);
         if (at != SIZE_MAX)

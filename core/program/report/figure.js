@@ -16,7 +16,7 @@ var figures = (function () {
       var own = curve[axis === 'x' ? 'x' : 'y'], other = curve[axis === 'x' ? 'y' : 'x'];
       own.forEach(function (v, i) {
         var bar = axis === 'y' && curve.bar ? curve.bar[i] : 0;
-        if (v !== null && other[i] !== null) values.push(v - bar, v + bar);
+        if (v !== null && other[i] !== null) values.push(v - bar, v, v + bar);
       });
     });
     if (asked.log) values = values.filter(function (v) { return v > 0; });

@@ -25,7 +25,7 @@ typedef struct scene {
     double load, error; /* N; amplitude of e, m */
     double viscosity, hand_over;
     int series;
-    double lost; /* Hz, by the throw-away model that this one repeats */
+    double lost; /* Hz, by an independent program that swept in steps of 10 Hz */
     double fold; /* of the return map; 0: it does not have oil beside the teeth */
 } scene;
 

@@ -188,14 +188,15 @@ static void test_settled(void)
 /* Handed on, a motion stays on its branch at a speed where another one is found alone. */
 static void test_chain(void)
 {
-    static const char settings[] = "branch=upper damping_ratio=0.02 tolerance=1e-7";
+    static const char alone[] = "damping_ratio=0.02 tolerance=1e-7",
+                      first[] = "branch=upper damping_ratio=0.02 tolerance=1e-7";
     static const double speed[3] = {2000, 1950, 1900};
     pair pairs[3];
     stage *last = NULL;
     double rms = 0, cycles = 0;
     for (int i = 0; i < 3; i++) {
         pairs[i] = pair_trapezoid(speed[i]);
-        stage *s = open_pair(&pairs[i], 2e9, i ? "damping_ratio=0.02 tolerance=1e-7" : settings);
+        stage *s = open_pair(&pairs[i], 2e9, i ? alone : first);
         stage_ready(s);
         check_true("a state is handed on", !last || stage_carry(s, last));
         check_true("runs", stage_run(s) == FF_OK);
@@ -205,7 +206,7 @@ static void test_chain(void)
         last = s;
     }
     stage_close(last);
-    stage *upper = run(&pairs[2], 2e9, settings), *lower = run(&pairs[2], 2e9, settings + 13);
+    stage *upper = run(&pairs[2], 2e9, first), *lower = run(&pairs[2], 2e9, alone);
     check_near("stays on the upper branch", rms, stage_scalar(upper, "dte_rms"), 1e-5);
     check_true("the lower one is another", stage_scalar(lower, "dte_rms") < 0.9 * rms);
     check_below("cycles from the neighbour", cycles, 30);
