@@ -24,6 +24,11 @@ static size_t cells_since(const ehl_march *m, const ehl_state *s)
     return (size_t)fmax(0, m->moved - s->moved);
 }
 
+size_t ehl_upstream_node(const ehl_march *m, const ehl_state *s, size_t i)
+{
+    return upstream_node(i, cells_since(m, s));
+}
+
 void ehl_advect_values(const ehl_march *m, const ehl_state *s, size_t each, const double *from,
                        double *to)
 {

@@ -20,7 +20,7 @@ typedef struct column {
     double above[EHL_ACROSS_MOST + 1]; /* ... and from the upper one, per temperature, >= 0 */
     double lift[EHL_ACROSS_MOST];      /* transverse transport by the slope at the node */
     double off[EHL_ACROSS_MOST];       /* what they leave */
-    double diagonal[EHL_ACROSS_MOST];  /* without dissipation */
+    double diagonal[EHL_ACROSS_MOST];  /* without what goes with tau_m */
     double by_stress[EHL_ACROSS_MOST], moved[EHL_ACROSS_MOST]; /* of the dissipation with tau_m */
 } column;
 
@@ -295,8 +295,10 @@ FF_SIMD_INLINE void change_temperatures(sweep *s, size_t i, size_t n, const doub
         sum += here;
         largest = here > largest ? here : largest;
     }
-    if (!isfinite(sum))
+    if (!isfinite(sum)) {
+        e->change = HUGE_VAL;
         return;
+    }
     double share = e->share * (largest > most ? most / largest : 1);
     FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {

@@ -76,7 +76,7 @@ typedef struct ehl_energy {
     double *mass;           /* rho h, kg/m2 */
     double *carried;        /* mass that flows without dp/dx, over the entrainment, kg/m2 */
     double *flux[2];        /* into the flanks, W/m2 */
-    unsigned char *reverse; /* 1: oil flows against the entrainment */
+    unsigned char *reverse; /* 1: oil flows towards the first node */
     unsigned char *there;   /* 1: tau_m has been found */
     double highest, lowest; /* K, of which the laws are called */
     double reach;           /* change of ln(eta) up to which laws are followed by their slopes */
@@ -95,7 +95,8 @@ void ehl_energy_restart(ehl_energy *e);
 void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T);
 
 /* One step of Newton's method for the temperatures: of the dissipation with tau_m in each column,
-   of all else as it is linear. The flow must be that of the temperatures. */
+   of all else as it is linear. It takes `share` of the change, and keeps inverses whose equations
+   have changed by less than `keep`. The flow must be that of the temperatures. */
 void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temperature *t);
 
 /* Heat per width of the film, W/m, of the equations as they are solved: what is left is not. */

@@ -260,10 +260,10 @@ ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at,
 static void keep_worst(ehl_bound *b, double value, double counts, const ehl_march *m,
                        const ehl_crest *of)
 {
+    if (!isfinite(value))
+        value = counts = 1e300; /* as ehl_worse: no other counts more */
     if (counts > b->counts || !(b->h_central > 0))
         *b = (ehl_bound){counts, value, of->h_central, of->p_max, m->at};
-    if (!isfinite(value))
-        ehl_worse(&b->worst, value);
 }
 
 static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, double p_max)

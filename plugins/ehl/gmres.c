@@ -41,8 +41,8 @@ static const double CURVATURE = 10;
    contact, where it adds up; docs/performance.md has what the presets leave in all. */
 static const double SHARE_OF_STEP = 1. / 20;
 
-/* Flow that a step may leave unbalanced up to any place, in tolerances: between two places it is
-   twice that, of which the lines of quality allow five. */
+/* Flow that a step may leave unbalanced up to any place, in tolerances. Between two places it is
+   twice that at most, below the least limit of the lines of quality, 5 tolerances (quality.c). */
 static const double MOST_UNBALANCED = 2;
 
 void ehl_linear_deflect(ehl_solver *s, const double *p, double *v)

@@ -137,10 +137,9 @@ static int is_small(const ehl_solver *s, double dp, double dh)
     const newton *w = s->self;
     double times = s->reynolds->rough || !s->reynolds->conserving ? 10 : 1;
     int whole = s->reynolds->rough || s->tolerance < END_OF_FILM;
-    if (whole || w->cavitation.moved)
-        return dp <= s->tolerance && dh <= times * s->tolerance &&
-               (whole || ehl_linear_balances(s));
-    return ehl_linear_settles(s, dp, dh, times) && ehl_linear_balances(s);
+    int small = whole || w->cavitation.moved ? dp <= s->tolerance && dh <= times * s->tolerance
+                                             : ehl_linear_settles(s, dp, dh, times);
+    return small && (whole || ehl_linear_balances(s));
 }
 
 static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int limit)

@@ -2,6 +2,7 @@
 #include "outputs.h"
 
 #include "asperities.h"
+#include "heat.h"
 #include "thermal.h"
 
 #include <flankfilm/author.h>
@@ -127,9 +128,9 @@ double ehl_central_film(const ehl_grid *g, const ehl_reynolds *r)
            (t + 1) * t * (t - 2) / 2 * y[i + 1] + (t + 1) * t * (t - 1) / 6 * y[i + 2];
 }
 
-/* The film as a spring in series with the teeth sees it: h00 less the gap that the motion knows and
-   less that of Hertz' contact under the same force, whose pressure deflects its middle by
-   (4/(pi E')) w (ln(2 X/a) + 1/2) against the ends. */
+/* The film as a spring in series with the teeth sees it: h00 less the gap that the motion knows,
+   and beyond the dry contact of Hertz under the same force. Its pressure deflects the middle by
+   (4/(pi E')) w (ln(2 X/a) + 1/2), with X = half_width, at which the kernel is 0. */
 static double separation_of(const ehl_march *m)
 {
     const ehl_grid *g = m->solver->grid;
@@ -138,7 +139,7 @@ static double separation_of(const ehl_march *m)
     double a = ehl_hertz_half_width(load, m->step.radius, modulus), beyond = film->h00 - m->at.gap;
     if (load > 0)
         beyond += 4 * load / (M_PI * modulus) * (log(2 * g->half_width / a) + 0.5);
-    return fmax(beyond, 0);
+    return beyond < 0 ? 0 : beyond;
 }
 
 /*
@@ -465,6 +466,10 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     record_loss(r, m);
     record_balance(r, m);
     ehl_law_note(&r->laws, eq->law_status);
+    if (m->thermal)
+        ehl_law_note(&r->laws, m->thermal->energy.law_status);
+    if (m->heat)
+        ehl_law_note(&r->laws, m->heat->law_status);
     if (m->rough)
         record_contact(r, m);
     if (film->plastic)

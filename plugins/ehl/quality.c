@@ -313,14 +313,15 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
         return;
     }
     if (ehl_wants_h_min(r->wanted))
-        report_at_most(
-            r, "h_min_time_error",
-            r->lowest_alone ? 1 - r->least_in_time / r->lowest : r->worst_in_time[EHL_LEAST], 0.05,
-            FF_DOUBTFUL,
-            r->lowest_alone ? "estimate of the error of h_min_lowest by the time steps, over it; "
-                              "loads above 2 % of the largest"
-                            : "estimate of the error of h_min by the time steps, over h_min; loads "
-                              "above 2 % of the largest");
+        report_at_most(r, "h_min_time_error",
+                       r->lowest_alone ? fmax(0, 1 - r->least_in_time / r->lowest)
+                                       : r->worst_in_time[EHL_LEAST],
+                       0.05, FF_DOUBTFUL,
+                       r->lowest_alone
+                           ? "estimate of the error of h_min_lowest by the time steps, over it; "
+                             "loads above 2 % of the largest"
+                           : "estimate of the error of h_min by the time steps, over h_min; loads "
+                             "above 2 % of the largest");
     if (ehl_wants_h_central(r->wanted))
         report_at_most(
             r, "h_central_time_error", r->worst_in_time[EHL_CENTRAL], 0.05, FF_DOUBTFUL,

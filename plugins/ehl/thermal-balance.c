@@ -2,6 +2,8 @@
 /* Checks the heat of a film, and records how far it can be trusted. */
 #include "thermal.h"
 
+#include "balance.h"
+
 #include <math.h>
 #include <stdio.h>
 
@@ -90,11 +92,11 @@ void ehl_thermal_hold(ehl_march *m)
     double made = sum.shear + sum.compression + sum.asperities,
            gone = sum.stored + sum.carried + sum.flank[0] + sum.flank[1];
     double scale = sum.shear + fabs(sum.compression) + sum.asperities;
-    if (!(scale > 0))
+    if (scale <= 0)
         return;
-    t->unbalanced = fmax(t->unbalanced, fabs(made - gone) / scale);
+    ehl_worse(&t->unbalanced, fabs(made - gone) / scale);
     if (!(f.rate > 0))
-        t->elsewise = fmax(t->elsewise, steady_balance(m, &f, &sum));
+        ehl_worse(&t->elsewise, steady_balance(m, &f, &sum));
     double slowest = fmin(f.speed[0], f.speed[1]) + f.frame;
     t->least_peclet = fmin(t->least_peclet, slowest * a / t->diffusivity);
     t->highest = fmax(t->highest, ehl_thermal_highest(m));

@@ -12,8 +12,10 @@
 /* Factors beyond which none is predicted. */
 static const double LEAST_FACTOR = 1e-3;
 
-/* Solutions for the film of one instant. */
+/* Solutions for the film of one instant, sweeps after each, and those of them that take the whole
+   change: a sweep that hesitates alternates between two states, and half of it lies between. */
 enum { MOST_ROUNDS = 80, MOST_PASSES = 8, WHOLE_PASSES = 3, FACTORS = 3 };
+static const double SHARE_THAT_HESITATES = 0.5;
 
 /* Change of the flow of mass by the factors, relative, below which they are those of the film: it
    changes h by about as much. A steady film begins without heat, a step next to its solution. */
@@ -211,7 +213,8 @@ static void predict(ehl_march *m, double time, double c[3])
     go_on(FACTORS * n, one + kept, two + kept, ahead, LEAST_FACTOR, 1 / LEAST_FACTOR, now + kept);
 }
 
-/* Sets p_t, along the path where the nodes move; the pressure of asperities is none of the oil. */
+/* Sets p_t, along the path where the nodes move; where asperities were or are in contact it is 0:
+   their pressure is none of the oil. */
 static void pressure_in_time(const ehl_march *m, const ehl_film *film, const double c[3])
 {
     ehl_thermal *t = m->thermal;
@@ -227,8 +230,13 @@ static void pressure_in_time(const ehl_march *m, const ehl_film *film, const dou
         for (size_t i = 0; i < n; i++)
             t->p_t[i] += c[k + 1] * before[i];
     }
-    for (size_t i = 0; m->rough && i < n; i++)
-        t->p_t[i] = film->asperity[i] ? 0 : t->p_t[i];
+    for (size_t i = 0; m->rough && i < n; i++) {
+        int touches = film->asperity[i];
+        for (size_t k = 0; k < 2; k++)
+            if (fabs(c[k + 1]) > 0)
+                touches |= m->state[k].film.asperity[ehl_upstream_node(m, &m->state[k], i)];
+        t->p_t[i] = touches ? 0 : t->p_t[i];
+    }
 }
 
 /* What the energy equation sees of the film; r has been evaluated for it. */
@@ -254,7 +262,7 @@ static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const e
         .asperity = m->rough ? film->asperity : NULL,
         .friction = t->friction,
     };
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; m->rough && i < n; i++)
         t->friction[i] = t->coefficient * film->p[i] * fabs(step->sliding);
     for (size_t i = 0; i < n; i++) { /* the faces are nodes, or lie between them */
         double before = r->flux[r->asymmetric || i < 1 ? i : i - 1];
@@ -291,8 +299,8 @@ static double find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl_ener
         double off =
             fabs(ratio - 1) * part + fabs(swell / t->swell[i] - 1) + fabs(carry - t->carry[i]);
         double share = t->damping * (off > LARGE ? LARGE / off : 1);
-        if (film->full[i] && r->thick[i] > held)
-            most = fmax(most, off);
+        if (film->full[i] && r->thick[i] > held && !(off <= most))
+            most = isfinite(off) ? off : HUGE_VAL;
         swell = t->swell[i] + share * (swell - t->swell[i]);
         next[i] = t->ease[i] * (1 + share * (ratio - 1)) * t->swell[i] / swell;
         next[n + i] = swell;
@@ -334,10 +342,13 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
     ehl_temperature temperature = ehl_thermal_state(t, m->trial.heat);
     int passes = 0;
     t->film = f;
+    if (!(c[0] >
+          0)) /* a steady film calls all laws anew, and those on the way to it do not count */
+        t->energy.law_status = FF_OK;
     do {
         ehl_energy_flow(&t->energy, &f, temperature.T);
         t->energy.keep = passes == 0 && c[0] > 0 && !m->rough ? KEPT * sqrt(part) : 0;
-        t->energy.share = passes >= WHOLE_PASSES ? 0.5 : 1;
+        t->energy.share = passes >= WHOLE_PASSES ? SHARE_THAT_HESITATES : 1;
         ehl_energy_sweep(&t->energy, &f, &temperature);
     } while (++passes < most && t->energy.change > warm);
     double before = t->off;

@@ -134,6 +134,9 @@ void ehl_advect_film(ehl_march *m, const ehl_instant *at);
 void ehl_advect_values(const ehl_march *m, const ehl_state *s, size_t each, const double *from,
                        double *to);
 
+/* The node of an earlier state that the oil at node i was at. */
+size_t ehl_upstream_node(const ehl_march *m, const ehl_state *s, size_t i);
+
 /* Returns the masses of the last two films, moved with the oil to the instant that is placed. */
 void ehl_advect_mass(ehl_march *m, const double **one, const double **two);
 

@@ -16,6 +16,8 @@ import time
 flankfilm, root, log = sys.argv[1:4]
 count = int(sys.argv[4]) if len(sys.argv) > 4 else 200
 seconds = float(sys.argv[5]) if len(sys.argv) > 5 else math.inf
+if sys.argv[6:] not in ([], ['rough']):
+    sys.exit('%s: expected rough or nothing after SECONDS' % ' '.join(sys.argv[6:]))
 rough = sys.argv[6:] == ['rough']
 LIMIT = 300
 OUTPUTS = ['h_min', 'h_central', 'friction_coefficient', 'temperature_max', 'flash_temperature', 'power_loss']
@@ -93,6 +95,8 @@ done = {}
 if os.path.exists(log):
     with open(log) as f:
         done = {line['scene']: line for line in map(json.loads, f)}
+if any(('rq' in x['of']) != rough for x in done.values()):
+    sys.exit(log + ' has scenes of ' + ('smooth' if rough else 'rough') + ' flanks: give another LOG')
 begin = time.monotonic()
 for number in range(count):
     if number in done or time.monotonic() - begin > seconds:
