@@ -140,8 +140,10 @@ light()
     echo '| torque, N m | no oil in flight | squeeze alone | squeeze and wedge |'
     echo '|---|---|---|---|'
     for torque in 0.3 1 3 10 30; do
-        echo "| $torque | $(motion --set duty.torque="$torque N m" --set motion.squeeze=none) |" \
-            "$(motion --set duty.torque="$torque N m" --set motion.squeeze_rolling=false) | $(motion --set duty.torque="$torque N m") |"
+        none=$(motion --set duty.torque="$torque N m" --set motion.squeeze=none)
+        squeeze=$(motion --set duty.torque="$torque N m" --set motion.squeeze_rolling=false)
+        both=$(motion --set duty.torque="$torque N m")
+        echo "| $torque | $none | $squeeze | $both |"
     done
 }
 
@@ -162,8 +164,10 @@ errors()
     echo '| tip relief, um | 5.006 mPa s | 27.7 mPa s |'
     echo '|---|---|---|'
     for relief in 0 2 5 10 20; do
-        echo "| $relief | $(borne --set gears.tip_relief="$relief um") | $(borne --set gears.tip_relief="$relief um" --set oil.file= \
-            --set oil.at="100 degC" --set oil.density="917.75 kg/m3" --set oil.eta0="27.7 mPa s") |"
+        thin=$(borne --set gears.tip_relief="$relief um")
+        thick=$(borne --set gears.tip_relief="$relief um" --set oil.file= --set oil.at="100 degC" \
+            --set oil.density="917.75 kg/m3" --set oil.eta0="27.7 mPa s")
+        echo "| $relief | $thin | $thick |"
     done
 }
 
@@ -195,7 +199,9 @@ sensitivity()
     echo '| film at hand-over, um | end, Hz | oil fills gaps up to, um | end, Hz |'
     echo '|---|---|---|---|'
     for pair in "0.05 1" "0.1 3" "0.2 10" "0.4 30"; do
-        echo "| ${pair% *} | $(oily 5.006 --set motion.handover_film="${pair% *} um") | ${pair#* } | $(oily 5.006 --set motion.supply_film="${pair#* } um") |"
+        handover=$(oily 5.006 --set motion.handover_film="${pair% *} um")
+        supply=$(oily 5.006 --set motion.supply_film="${pair#* } um")
+        echo "| ${pair% *} | $handover | ${pair#* } | $supply |"
     done
 }
 

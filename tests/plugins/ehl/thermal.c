@@ -174,6 +174,17 @@ static void test_order_in_time(void)
     check_true("flash", fabs(few.flash - some.flash) > 3 * fabs(some.flash - many.flash));
 }
 
+/* An oil known up to 423.15 K, that enters a kelvin below and is beyond it in the film. */
+static void test_law_range(void)
+{
+    line c;
+    open_hot(&c, 128, 1);
+    line_grade(&c, "ISO VG 320", 422.15);
+    check_true("runs", line_run(&c, "h_min") == FF_OK);
+    check_true("law_range", stage_quality(c.film, "law_range") > 0);
+    line_close(&c);
+}
+
 static void test_refusals(void)
 {
     line c;
@@ -200,6 +211,7 @@ int main(void)
     test_time("ehl/control-volume");
     test_discretisations();
     test_order_in_time();
+    test_law_range();
     test_refusals();
     return check_done();
 }
