@@ -19,10 +19,13 @@ enum { PAIRS = 8 };
 /* Distance of the pieces from the curves, over the largest of these, from which it is doubtful. */
 static const double doubtful = 0.02;
 
-/* Shares of the highest pressure, of which the square is a share of the load: below the first the
-   film is that of flanks which part, and its thickness is no deflection; above the second it counts
-   in full. The lower ones serve where the motion knows the film in flight. */
-static const double parted[] = {0.1, 0.02}, borne[] = {0.2, 0.04};
+/* Shares of the highest pressure, of which the square is a share of the load, below which the film
+   is that of flanks which part and its thickness no deflection, and from which it counts in full.
+   As flanks part, load and film decide each other at once, and a loop over h ~ W^-0.13 settles only
+   where the film is stiffer than the teeth, W/(0.13 h) > k: from a thousandth of the load on, or
+   0.03. As flanks land the oil takes its time; where the motion knows the film in flight they count
+   from a smaller load on. */
+static const double parted = 0.1, borne = 0.2, landing = 0.02, landed = 0.04, in_flight = 1e-3;
 
 static const double at_node = 1e-9;
 
@@ -65,6 +68,18 @@ static ff_status read_series(const ff_host *host, const ff_array *in, int input,
     return FF_OK;
 }
 
+/* How far the thickness is that of loaded flanks at a share of the highest pressure; `lands` is
+   kept from instant to instant. */
+static double weight_at(double share, int in_oil, int *lands)
+{
+    if (share >= borne)
+        *lands = 0;
+    else if (share < in_flight)
+        *lands = in_oil;
+    double from = *lands ? landing : parted, to = *lands ? landed : borne;
+    return fmin(fmax((share - from) / (to - from), 0), 1);
+}
+
 /* The thickness x where it is one of loaded flanks, and the straightest way where it is not: least
    sum w (x - h)^2 + bend (x_(i+1) - x_i)^2, a system of three diagonals. It changes smoothly with
    the pressure, so that a loop can settle. */
@@ -73,10 +88,9 @@ static void bridge(size_t count, const double *h, const double *p, double highes
 {
     static const double bend = 1e-4;
     double sum = 0;
+    int lands = 0;
     for (size_t i = 0; i < count; i++) {
-        double w =
-            highest > 0 ? (p[i] / highest - parted[in_oil]) / (borne[in_oil] - parted[in_oil]) : 0;
-        w = fmin(fmax(w, 0), 1);
+        double w = highest > 0 ? weight_at(p[i] / highest, in_oil, &lands) : 0;
         sum += w;
         double diagonal = w + bend * ((i > 0) + (i + 1 < count)) - (i ? bend * ratio[i - 1] : 0);
         ratio[i] = diagonal > 0 ? bend / diagonal : 0;
