@@ -40,10 +40,15 @@ static double end_slope(const lubricant_curve *c, bool last)
 
 bool lubricant_curve_make(lubricant_curve *c, size_t n, const double *x, const double *y)
 {
-    double *memory = malloc(3 * n * sizeof *memory);
+    double *memory = malloc(5 * n * sizeof *memory);
     if (!memory)
         return false;
-    *c = (lubricant_curve){.n = n, .x = memory, .y = memory + n, .slope = memory + 2 * n};
+    *c = (lubricant_curve){.n = n,
+                           .x = memory,
+                           .y = memory + n,
+                           .slope = memory + 2 * n,
+                           .square = memory + 3 * n,
+                           .cube = memory + 4 * n};
     memcpy(c->x, x, n * sizeof *x);
     memcpy(c->y, y, n * sizeof *y);
     c->slope[0] = n > 1 ? secant(c, 0) : 0;
@@ -54,6 +59,11 @@ bool lubricant_curve_make(lubricant_curve *c, size_t n, const double *x, const d
         c->slope[0] = end_slope(c, false);
         c->slope[n - 1] = end_slope(c, true);
     }
+    for (size_t i = 0; i + 1 < n; i++) {
+        double h = c->x[i + 1] - c->x[i], s = secant(c, i), here = c->slope[i];
+        c->square[i] = (3 * s - 2 * here - c->slope[i + 1]) / h;
+        c->cube[i] = (here + c->slope[i + 1] - 2 * s) / (h * h);
+    }
     return true;
 }
 
@@ -63,17 +73,23 @@ void lubricant_curve_free(lubricant_curve *c)
     *c = (lubricant_curve){.n = 0};
 }
 
-double lubricant_curve_at(const lubricant_curve *c, double x, double *slope)
+void lubricant_curve_values(const lubricant_curve *c, size_t n, const double *x, double *y,
+                            double *slope)
 {
-    size_t end = x <= c->x[0] ? 0 : c->n - 1;
-    if (x <= c->x[0] || x >= c->x[c->n - 1]) {
-        *slope = c->slope[end];
-        return c->y[end] + c->slope[end] * (x - c->x[end]);
+    const size_t last = c->n - 1;
+    size_t i = 0;
+    for (size_t k = 0; k < n; k++) {
+        double at = x[k], square = 0, cube = 0;
+        if (!(at > c->x[0] && at < c->x[last])) {
+            i = at >= c->x[last] ? last : 0;
+        } else {
+            if (i == last || !(at >= c->x[i] && at < c->x[i + 1]))
+                i = numerics_interval(c->n, c->x, at);
+            square = c->square[i];
+            cube = c->cube[i];
+        }
+        double d = at - c->x[i];
+        slope[k] = c->slope[i] + d * (2 * square + d * 3 * cube);
+        y[k] = c->y[i] + d * (c->slope[i] + d * (square + d * cube));
     }
-    size_t i = numerics_interval(c->n, c->x, x);
-    double h = c->x[i + 1] - c->x[i], d = x - c->x[i], s = secant(c, i);
-    double a = (c->slope[i] + c->slope[i + 1] - 2 * s) / (h * h);
-    double b = (3 * s - 2 * c->slope[i] - c->slope[i + 1]) / h;
-    *slope = c->slope[i] + d * (2 * b + d * 3 * a);
-    return c->y[i] + d * (c->slope[i] + d * (b + d * a));
 }

@@ -9,13 +9,15 @@
 typedef struct lubricant_curve {
     size_t n; /* 0: there is no curve */
     double *x, *y, *slope;
+    double *square, *cube; /* coefficients from each point to the next */
 } lubricant_curve;
 
 /* Copies n >= 1 points of increasing x. False when there is no memory. */
 bool lubricant_curve_make(lubricant_curve *c, size_t n, const double *x, const double *y);
 void lubricant_curve_free(lubricant_curve *c);
 
-/* Beyond its ends the curve is straight. Through one point alone it is level. */
-double lubricant_curve_at(const lubricant_curve *c, double x, double *slope);
+/* At n points. Beyond its ends the curve is straight. Through one point alone it is level. */
+void lubricant_curve_values(const lubricant_curve *c, size_t n, const double *x, double *y,
+                            double *slope);
 
 #endif

@@ -3,8 +3,12 @@
 
 #include "base-oil.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <stdlib.h>
+
+enum { BLOCK = 256 };
 
 /* How far from the one temperature of its data an oil still is at it, K. */
 static const double SAME = 0.01;
@@ -18,6 +22,13 @@ static const lubricant_curve *table_of(const lubricant_oil *oil, int32_t what)
     return table->n ? table : NULL;
 }
 
+static double on_curve(const lubricant_curve *table, double T, double *slope)
+{
+    double value;
+    lubricant_curve_values(table, 1, &T, &value, slope);
+    return value;
+}
+
 static double unknown(double *slope)
 {
     return *slope = NAN;
@@ -29,17 +40,27 @@ static double constant(double value, double *slope)
     return value;
 }
 
-static double density(const lubricant_oil *oil, double T, double *slope)
+/* The density of one without a table. */
+FF_SIMD
+static void expand(const lubricant_oil *oil, size_t n, const double *restrict T,
+                   double *restrict rho, double *restrict slope)
+{
+    const double density_15 = oil->density_15, expansion = oil->expansion;
+    for (size_t i = 0; i < n; i++) {
+        rho[i] = density_15 * ff_exp(-expansion * (T[i] - 288.15));
+        slope[i] = -expansion * rho[i];
+    }
+}
+
+static void density(const lubricant_oil *oil, size_t n, const double *T, double *rho, double *slope)
 {
     const lubricant_curve *table = table_of(oil, FF_LIQUID_RHO0);
     if (table)
-        return lubricant_curve_at(table, T, slope);
-    if (!isnan(oil->expansion)) {
-        double rho = oil->density_15 * exp(-oil->expansion * (T - 288.15));
-        *slope = -oil->expansion * rho;
-        return rho;
-    }
-    return lubricant_d1250_density(oil->density_15, T, slope);
+        lubricant_curve_values(table, n, T, rho, slope);
+    else if (!isnan(oil->expansion))
+        expand(oil, n, T, rho, slope);
+    else
+        lubricant_d1250_density(oil->density_15, n, T, rho, slope);
 }
 
 static bool has_viscosity(const lubricant_oil *oil, double T)
@@ -47,31 +68,46 @@ static bool has_viscosity(const lubricant_oil *oil, double T)
     return oil->viscosity.n > 1 || fabs(T - oil->low) <= SAME;
 }
 
-/* Kinematic, m2/s. */
-static double kinematic(const lubricant_oil *oil, double T, double *slope)
+FF_SIMD
+static void take_log(size_t n, const double *restrict x, double *restrict ln)
 {
-    double dy_dx, dnu_dy;
-    double y = lubricant_curve_at(&oil->viscosity, log(T), &dy_dx);
-    double nu = lubricant_d341_nu(y, &dnu_dy);
-    *slope = oil->viscosity.n > 1 ? dnu_dy * dy_dx / T : NAN;
-    return nu;
+    for (size_t i = 0; i < n; i++)
+        ln[i] = ff_log(x[i]);
 }
 
-static double ln_eta0(const lubricant_oil *oil, double T, double *slope)
+/* Kinematic viscosity at n <= BLOCK points, m2/s. */
+static void kinematic(const lubricant_oil *oil, size_t n, const double *T, double *nu,
+                      double *slope)
 {
-    double nu_slope, rho_slope;
-    if (!has_viscosity(oil, T))
-        return unknown(slope);
-    double nu = kinematic(oil, T, &nu_slope), rho = density(oil, T, &rho_slope);
-    *slope = nu_slope / nu + rho_slope / rho;
-    return log(nu * rho);
+    double x[BLOCK], y[BLOCK], dy_dx[BLOCK];
+    take_log(n, T, x);
+    lubricant_curve_values(&oil->viscosity, n, x, y, dy_dx);
+    lubricant_d341_nu(n, y, nu, slope);
+    for (size_t i = 0; i < n; i++)
+        slope[i] = oil->viscosity.n > 1 ? slope[i] * dy_dx[i] / T[i] : NAN;
+}
+
+/* At n <= BLOCK points. */
+static void ln_eta0(const lubricant_oil *oil, size_t n, const double *T, double *ln, double *slope)
+{
+    double nu_slope[BLOCK], rho[BLOCK], rho_slope[BLOCK], eta[BLOCK];
+    kinematic(oil, n, T, eta, nu_slope);
+    density(oil, n, T, rho, rho_slope);
+    for (size_t i = 0; i < n; i++) {
+        slope[i] = nu_slope[i] / eta[i] + rho_slope[i] / rho[i];
+        eta[i] *= rho[i];
+    }
+    take_log(n, eta, ln);
+    for (size_t i = 0; i < n; i++)
+        if (!has_viscosity(oil, T[i]))
+            ln[i] = unknown(&slope[i]);
 }
 
 static double conductivity(const lubricant_oil *oil, double T, double *slope)
 {
     const lubricant_curve *table = table_of(oil, FF_LIQUID_CONDUCTIVITY);
     if (table)
-        return lubricant_curve_at(table, T, slope);
+        return on_curve(table, T, slope);
     if (!isnan(oil->conductivity))
         return constant(oil->conductivity, slope);
     if (oil->base < 0)
@@ -83,7 +119,7 @@ static double heat_capacity(const lubricant_oil *oil, double T, double *slope)
 {
     const lubricant_curve *table = table_of(oil, FF_LIQUID_HEAT_CAPACITY);
     if (table)
-        return lubricant_curve_at(table, T, slope);
+        return on_curve(table, T, slope);
     if (!isnan(oil->heat_capacity))
         return constant(oil->heat_capacity, slope);
     if (oil->base < 0)
@@ -94,7 +130,9 @@ static double heat_capacity(const lubricant_oil *oil, double T, double *slope)
 /* By the correlation of the base. */
 static double correlated_alpha(const lubricant_oil *oil, double T, double *slope)
 {
-    double nu_slope, ln_slope, nu = kinematic(oil, T, &nu_slope), ln = ln_eta0(oil, T, &ln_slope);
+    double nu, nu_slope, ln, ln_slope;
+    kinematic(oil, 1, &T, &nu, &nu_slope);
+    ln_eta0(oil, 1, &T, &ln, &ln_slope);
     return lubricant_base_pressure_coefficient(oil->base, nu, ln, nu_slope, ln_slope, slope);
 }
 
@@ -102,7 +140,7 @@ static double pressure_coefficient(const lubricant_oil *oil, double T, double *s
 {
     const lubricant_curve *table = table_of(oil, FF_LIQUID_PRESSURE_COEFFICIENT);
     if (table)
-        return lubricant_curve_at(table, T, slope);
+        return on_curve(table, T, slope);
     if (fabs(T - oil->alpha_at) <= SAME && isnan(oil->alpha_scale)) {
         *slope = NAN;
         return oil->alpha;
@@ -122,42 +160,51 @@ static double reference_temperature(const lubricant_oil *oil, double T, double *
     return constant(isnan(oil->temperature) ? nearest : oil->temperature, slope);
 }
 
+/* Properties that are asked for one by one. */
 static property *const properties[LUBRICANT_PROPERTIES] = {
-    [FF_LIQUID_LN_ETA0] = ln_eta0,
-    [FF_LIQUID_RHO0] = density,
     [FF_LIQUID_CONDUCTIVITY] = conductivity,
     [FF_LIQUID_HEAT_CAPACITY] = heat_capacity,
     [FF_LIQUID_PRESSURE_COEFFICIENT] = pressure_coefficient,
     [FF_LIQUID_REFERENCE_TEMPERATURE] = reference_temperature,
 };
 
-/* Where ASTM D341 does not hold, all stays as it is where it still does. */
-static double value_at(const lubricant_oil *oil, int32_t what, double T, double *slope)
+/* At n <= BLOCK points. Where ASTM D341 does not hold, all stays as it is where it still does. */
+static void values_at(const lubricant_oil *oil, int32_t what, size_t n, const double *T,
+                      double *value, double *slope)
 {
-    double inside = fmin(fmax(T, oil->coldest), oil->hottest);
-    double value = properties[what](oil, inside, slope);
-    if (inside < T || inside > T)
-        *slope = isnan(value) ? NAN : 0;
-    return value;
+    double inside[BLOCK];
+    for (size_t i = 0; i < n; i++)
+        inside[i] = fmin(fmax(T[i], oil->coldest), oil->hottest);
+    if (what == FF_LIQUID_LN_ETA0)
+        ln_eta0(oil, n, inside, value, slope);
+    else if (what == FF_LIQUID_RHO0)
+        density(oil, n, inside, value, slope);
+    for (size_t i = 0; properties[what] && i < n; i++)
+        value[i] = properties[what](oil, inside[i], &slope[i]);
+    for (size_t i = 0; i < n; i++)
+        if (inside[i] < T[i] || inside[i] > T[i])
+            slope[i] = isnan(value[i]) ? NAN : 0;
 }
 
 static ff_status eval(const void *self, int32_t what, size_t n, const double *T, double *value,
                       double *slope)
 {
     const lubricant_oil *oil = self;
+    double unwanted[BLOCK];
     ff_status status = FF_OK;
     if (what < 0 || what >= LUBRICANT_PROPERTIES)
         return FF_UNSUPPORTED;
-    for (size_t i = 0; i < n; i++) {
-        double ignored;
-        bool run = T[i] <= oil->run_temperature && T[i] >= oil->run_temperature; /* no NaN is */
-        double *to = slope ? &slope[i] : &ignored;
-        value[i] = run ? oil->run_value[what] : value_at(oil, what, T[i], to);
-        if (run)
-            *to = oil->run_slope[what];
+    bool runs = n == 1 && *T <= oil->run_temperature && *T >= oil->run_temperature;
+    if (runs) { /* no NaN is */
+        *value = oil->run_value[what];
+        *(slope ? slope : unwanted) = oil->run_slope[what];
+    }
+    for (size_t from = 0; from < n && !runs; from += BLOCK)
+        values_at(oil, what, n - from < BLOCK ? n - from : BLOCK, T + from, value + from,
+                  slope ? slope + from : unwanted);
+    for (size_t i = 0; i < n; i++)
         if (T[i] < oil->low - SAME || T[i] > oil->high + SAME)
             status = FF_DOMAIN;
-    }
     return status;
 }
 
@@ -203,14 +250,15 @@ static ff_status find_alpha(lubricant_oil *oil)
 void lubricant_keep_run(lubricant_oil *oil, double T)
 {
     for (int32_t what = 0; what < LUBRICANT_PROPERTIES; what++)
-        oil->run_value[what] = value_at(oil, what, T, &oil->run_slope[what]);
+        values_at(oil, what, 1, &T, &oil->run_value[what], &oil->run_slope[what]);
     oil->run_temperature = T;
 }
 
 double lubricant_density(const lubricant_oil *oil, double T)
 {
-    double slope;
-    return density(oil, T, &slope);
+    double rho, slope;
+    density(oil, 1, &T, &rho, &slope);
+    return rho;
 }
 
 ff_status lubricant_oil_ready(lubricant_oil *oil)

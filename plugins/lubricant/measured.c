@@ -113,11 +113,13 @@ static ff_status check_companions(const lubricant_oil *oil)
 /* The density at 15 degC that ASTM D1250, or the constant expansion, turns into `density` at T. */
 static double density_15_from(const lubricant_oil *oil, double T)
 {
-    double density_15 = oil->density, slope;
+    double density_15 = oil->density, here, slope;
     if (!isnan(oil->expansion))
         return oil->density * exp(oil->expansion * (T - 288.15));
-    for (int i = 0; i < 60; i++)
-        density_15 *= oil->density / lubricant_d1250_density(density_15, T, &slope);
+    for (int i = 0; i < 60; i++) {
+        lubricant_d1250_density(density_15, 1, &T, &here, &slope);
+        density_15 *= oil->density / here;
+    }
     return density_15;
 }
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "standards.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <stdio.h>
 
@@ -98,34 +100,47 @@ double lubricant_d341_ordinate(double nu)
 }
 
 /* ASTM D341-20, equation 3, a fit that is good to 0.1 % below some 5 cSt; then Newton steps on
-   equation 2, so that data come back as they were given. */
-double lubricant_d341_nu(double y, double *slope)
+   equation 2, so that data come back as they were given. Above 10 cSt both are the same. */
+FF_SIMD
+void lubricant_d341_nu(size_t n, const double *restrict y, double *restrict nu,
+                       double *restrict slope)
 {
-    double lg_Z = pow(10, y), Z = pow(10, lg_Z), z = Z - 0.7, steepness = 1;
-    double nu = z - exp(-0.7487 - 3.295 * z + 0.6119 * z * z - 0.3193 * z * z * z);
-    for (int i = 0; i < 3 && nu < 10; i++) {
-        double rest = exp(-1.47 - 1.84 * nu - 0.51 * nu * nu);
-        steepness = 1 - (1.84 + 1.02 * nu) * rest; /* dZ/dnu */
-        nu -= (nu + 0.7 + rest - Z) / steepness;
+    const double ln_10 = M_LN10, unit = CST;
+    for (size_t k = 0; k < n; k++) {
+        double lg_Z = ff_exp(ln_10 * y[k]), Z = ff_exp(ln_10 * lg_Z), z = Z - 0.7, steepness = 1;
+        double v = z - ff_exp(-0.7487 - 3.295 * z + 0.6119 * z * z - 0.3193 * z * z * z);
+        for (int turn = 0; turn < 3; turn++) {
+            double rest = ff_exp(-1.47 - 1.84 * v - 0.51 * v * v);
+            double here = 1 - (1.84 + 1.02 * v) * rest; /* dZ/dnu */
+            double next = v - (v + 0.7 + rest - Z) / here;
+            steepness = v < 10 ? here : steepness;
+            v = v < 10 ? next : v;
+        }
+        nu[k] = unit * v;
+        slope[k] = unit * Z * ln_10 * lg_Z * ln_10 / steepness;
     }
-    *slope = CST * Z * M_LN10 * lg_Z * M_LN10 / steepness;
-    return CST * nu;
 }
 
 /* The line through 40 and 100 degC. */
 double lubricant_d341_between(double nu_40, double nu_100, double T)
 {
-    double warm = lubricant_d341_ordinate(nu_40), hot = lubricant_d341_ordinate(nu_100), slope;
-    double share = log(T / 313.15) / log(373.15 / 313.15);
-    return lubricant_d341_nu(warm + (hot - warm) * share, &slope);
+    double warm = lubricant_d341_ordinate(nu_40), hot = lubricant_d341_ordinate(nu_100);
+    double share = log(T / 313.15) / log(373.15 / 313.15), y = warm + (hot - warm) * share;
+    double nu, slope;
+    lubricant_d341_nu(1, &y, &nu, &slope);
+    return nu;
 }
 
 /* rho = rho15 exp(-a (1 + 0.8 a)), a = 0.6278 (T - 15 degC)/rho15: lubricating oils of 800 to 1164
    kg/m3, -18 to 150 degC (ASTM D1250, table 54D). */
-double lubricant_d1250_density(double density_15, double T, double *slope)
+FF_SIMD
+void lubricant_d1250_density(double density_15, size_t n, const double *restrict T,
+                             double *restrict rho, double *restrict slope)
 {
-    double per_kelvin = 0.6278 / density_15, a = per_kelvin * (T - 288.15);
-    double density = density_15 * exp(-a * (1 + 0.8 * a));
-    *slope = -density * per_kelvin * (1 + 1.6 * a);
-    return density;
+    const double per_kelvin = 0.6278 / density_15;
+    for (size_t k = 0; k < n; k++) {
+        double a = per_kelvin * (T[k] - 288.15);
+        rho[k] = density_15 * ff_exp(-a * (1 + 0.8 * a));
+        slope[k] = -rho[k] * per_kelvin * (1 + 1.6 * a);
+    }
 }

@@ -3,6 +3,7 @@
 #ifndef LUBRICANT_STANDARDS_H
 #define LUBRICANT_STANDARDS_H
 
+#include <stddef.h>
 #include <stdint.h>
 
 /* Rank of "ISO VG 220" among the grades of ISO 3448 that gear oils come in; -1: no such grade. */
@@ -31,14 +32,15 @@ double lubricant_viscosity_index(double nu_40, double nu_100);
  * line over lg T. It holds from 0.21 to 2e7 cSt.
  */
 double lubricant_d341_ordinate(double nu); /* nu in m2/s */
-/* nu in m2/s, and its slope over y. */
-double lubricant_d341_nu(double y, double *slope);
+/* nu in m2/s at n ordinates, and its slope over them. */
+void lubricant_d341_nu(size_t n, const double *y, double *nu, double *slope);
 /* nu at T (K), m2/s, by the line through two measured viscosities. */
 double lubricant_d341_between(double nu_40, double nu_100, double T);
 #define LUBRICANT_D341_LEAST 0.21e-6 /* m2/s */
 #define LUBRICANT_D341_MOST  20.0
 
-/* Density, kg/m3, at T (K) by ASTM D1250, and its slope. */
-double lubricant_d1250_density(double density_15, double T, double *slope);
+/* Density, kg/m3, at n temperatures (K) by ASTM D1250, and its slope. */
+void lubricant_d1250_density(double density_15, size_t n, const double *T, double *rho,
+                             double *slope);
 
 #endif

@@ -40,37 +40,36 @@ static inline ff_status numerics_worse(ff_status a, ff_status b)
 }
 
 /*
- * Property and slope at n <= NUMERICS_POINTS temperatures; neighbours of one temperature cost but
- * one evaluation. Without T: at the reference temperature, with FF_DOMAIN. What is not known is 0,
- * with FF_DOMAIN, since a law owes finite numbers. So is a slope that is not known. A liquid that
- * fails, or whose numbers are infinite, is no such case: its status is returned, or FF_BUG.
+ * Property and slope at n <= NUMERICS_POINTS temperatures; equal ones cost but one evaluation.
+ * Without T: at the reference temperature, with FF_DOMAIN. What is not known is 0, with FF_DOMAIN,
+ * since a law owes finite numbers. So is a slope that is not known. A liquid that fails, or whose
+ * numbers are infinite, is no such case: its status is returned, or FF_BUG, and all is 0.
  */
 static inline ff_status numerics_liquid_values(const ff_liquid *liquid, int32_t property, size_t n,
                                                const double *T, double *value, double *slope)
 {
     double reference = T ? 0 : numerics_reference_temperature(liquid);
-    ff_status worst = T ? FF_OK : FF_DOMAIN;
-    for (size_t i = 0; i < n; i++) {
-        if (i && (!T || (T[i] <= T[i - 1] && T[i] >= T[i - 1]))) {
-            value[i] = value[i - 1];
-            slope[i] = slope[i - 1];
-            continue;
-        }
-        ff_status status =
-            liquid->eval(liquid->self, property, 1, T ? &T[i] : &reference, &value[i], &slope[i]);
-        int fails = status != FF_OK && status != FF_DOMAIN && status != FF_UNSUPPORTED;
-        int unknown = status == FF_UNSUPPORTED || isnan(value[i]);
-        if (!fails && !unknown && (isinf(value[i]) || isinf(slope[i])))
-            status = FF_BUG, fails = 1;
-        if (fails || unknown)
-            value[i] = slope[i] = 0;
-        if (isnan(slope[i]))
-            slope[i] = 0;
-        if (unknown && !fails)
-            status = FF_DOMAIN;
-        worst = numerics_worse(worst, status);
+    size_t asked = numerics_is_uniform(n, T) && n > 1 ? 1 : n;
+    int infinite = 0, unknown = !T;
+    ff_status status =
+        liquid->eval(liquid->self, property, asked, T ? T : &reference, value, slope);
+    int told = status == FF_OK || status == FF_DOMAIN;
+    for (size_t i = 0; i < asked; i++) {
+        int known = told && !isnan(value[i]);
+        infinite |= known && (isinf(value[i]) || isinf(slope[i]));
+        unknown |= !known;
+        value[i] = known ? value[i] : 0;
+        slope[i] = known && !isnan(slope[i]) ? slope[i] : 0;
     }
-    return worst;
+    for (size_t i = asked; i < n; i++) {
+        value[i] = value[0];
+        slope[i] = slope[0];
+    }
+    if (infinite)
+        memset(value, 0, n * sizeof *value), memset(slope, 0, n * sizeof *slope);
+    if (infinite || (!told && status != FF_UNSUPPORTED))
+        return infinite ? FF_BUG : status;
+    return unknown ? FF_DOMAIN : status;
 }
 
 #endif
