@@ -89,7 +89,7 @@ int dynamics_field_slope(double t, const double y[], double dydt[], void *self)
 typedef struct normal_force {
     dynamics_overlap overlap;
     dynamics_bend bend; /* second derivatives of the overlap */
-    double value, by_state[DYNAMICS_TAKEN], by_time;
+    double value, by_state[DYNAMICS_TAKEN];
 } normal_force;
 
 static normal_force normal_at(const dynamics_field *field, double t, const double *y,
@@ -101,20 +101,15 @@ static normal_force normal_at(const dynamics_field *field, double t, const doubl
     double phase = dynamics_field_phase(field, t), since = phase - piece->start;
     double e = dynamics_piece_value(piece->e, piece->degree, since);
     double e_rate = dynamics_piece_slope(piece->e, piece->degree, since) / field->T;
-    double e_bend = dynamics_piece_bend(piece->e, piece->degree, since) / (field->T * field->T);
-    double c = 2 * pair->excitation->zeta, k = 0, by_shift = 0, by_phase = 0;
-    int side = side_of[flank], sign = side < 0 ? -1 : 1;
+    double c = 2 * pair->excitation->zeta, k = 0, by_shift = 0;
+    int side = side_of[flank];
     if (side)
         k = stiffness_at(field, phase, place);
-    if (k > 0) {
-        dynamics_coupled_stiffness_slope(pair, place, phase, field->regime.pairs,
-                                         field->now->mounted, &by_shift, &by_phase);
-        by_phase += dynamics_piece_slope(piece->k, piece->degree, since);
-    }
+    if (k > 0)
+        by_shift = dynamics_coupled_stiffness_slope(pair, place, phase, field->regime.pairs);
     normal_force n = {.overlap = dynamics_coupled_overlap(pair, place, side, y, v, e, e_rate),
                       .bend = dynamics_coupled_bend(place, side)};
     n.value = k * n.overlap.value + c * n.overlap.rate;
-    n.by_time = by_phase / field->T * n.overlap.value - sign * (k * e_rate + c * e_bend);
     double turning[DYNAMICS_COORDINATES], shift[DYNAMICS_COORDINATES];
     dynamics_bend_apply(&n.bend, v, turning);
     dynamics_coupled_shift_slope(pair, place, shift, NULL);
@@ -190,16 +185,12 @@ double dynamics_field_gate_slope(const dynamics_field *field, int gate, double t
     double entry[DYNAMICS_COORDINATES];
     dynamics_coupled_locate(field->pair, y, &place);
     memset(slope, 0, DYNAMICS_TAKEN * sizeof *slope);
-    if (gate < DYNAMICS_COMES) {
-        normal_force n = normal_at(field, t, y, &place, gate % DYNAMICS_FLANKS);
-        if (gate >= DYNAMICS_PRESS) {
-            memcpy(slope, n.by_state, sizeof n.by_state);
-            return n.by_time;
-        }
-        double by_time = n.overlap.rate;
-        memcpy(slope, n.overlap.gradient, sizeof n.overlap.gradient);
+    if (gate < DYNAMICS_PRESS) {
+        dynamics_overlap overlap = dynamics_field_push(field, t, y, &place).overlap[gate];
+        double by_time = overlap.rate;
+        memcpy(slope, overlap.gradient, sizeof overlap.gradient);
         for (int i = 0; i < DYNAMICS_COORDINATES; i++)
-            by_time -= n.overlap.gradient[i] * y[DYNAMICS_RATES + i];
+            by_time -= overlap.gradient[i] * y[DYNAMICS_RATES + i];
         return by_time;
     }
     dynamics_coupled_shift_slope(field->pair, &place, slope, entry);

@@ -73,8 +73,9 @@ void dynamics_field_gates(const dynamics_field *field, double t, const double *y
                           double gate[DYNAMICS_GATES]);
 /* The regime behind the gate that closed. */
 void dynamics_field_pass_gate(dynamics_field *field, int gate);
-/* The derivatives of a gate by coordinates and rates, and by the time where they stay. Gates of the
-   flanks may differ by the sign from the value above. */
+/* The derivatives of a gate at which flanks touch or a tooth pair comes or goes, by coordinates and
+   rates, and by the time where they stay. Gates of the flanks may differ by the sign from the value
+   above. */
 double dynamics_field_gate_slope(const dynamics_field *field, int gate, double t, const double *y,
                                  double slope[DYNAMICS_TAKEN]);
 

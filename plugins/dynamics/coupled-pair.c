@@ -89,16 +89,13 @@ double dynamics_coupled_stiffness_change(const dynamics_coupled *pair, const dyn
     return change;
 }
 
-void dynamics_coupled_stiffness_slope(const dynamics_coupled *pair, const dynamics_place *place,
-                                      double phase, dynamics_pairs now, dynamics_pairs mounted,
-                                      double *by_shift, double *by_phase)
+double dynamics_coupled_stiffness_slope(const dynamics_coupled *pair, const dynamics_place *place,
+                                        double phase, dynamics_pairs now)
 {
-    *by_shift = 0;
+    double by_shift = 0;
     for (int j = now.youngest; j <= now.oldest; j++)
-        *by_shift += pair_slope_at(pair, phase + j + place->shift);
-    *by_phase = *by_shift;
-    for (int j = mounted.youngest; j <= mounted.oldest; j++)
-        *by_phase -= pair_slope_at(pair, phase + j);
+        by_shift += pair_slope_at(pair, phase + j + place->shift);
+    return by_shift;
 }
 
 /* From cos alpha = R/C: d alpha/dC = cos alpha/(C sin alpha), dL/dC = 1/sin alpha. */

@@ -82,10 +82,9 @@ void dynamics_bend_apply(const dynamics_bend *bend, const double *change, double
 /* The derivatives of place.shift and place.entry (NULL: not wanted) by the coordinates. */
 void dynamics_coupled_shift_slope(const dynamics_coupled *pair, const dynamics_place *place,
                                   double *shift, double *entry);
-/* The derivatives of dynamics_coupled_stiffness_change by place.shift and by the phase. */
-void dynamics_coupled_stiffness_slope(const dynamics_coupled *pair, const dynamics_place *place,
-                                      double phase, dynamics_pairs now, dynamics_pairs mounted,
-                                      double *by_shift, double *by_phase);
+/* The derivative of dynamics_coupled_stiffness_change by place.shift. */
+double dynamics_coupled_stiffness_slope(const dynamics_coupled *pair, const dynamics_place *place,
+                                        double phase, dynamics_pairs now);
 
 /* The static deflection at phase 0: coordinates and rates. */
 void dynamics_coupled_rest(const dynamics_coupled *pair, double *state);

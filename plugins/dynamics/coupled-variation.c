@@ -81,10 +81,15 @@ void dynamics_variation_step(dynamics_variation *v, double t, double h, const do
 /* A start that reaches the gate by dt later moves on by dt at the slope before the gate in place of
    that behind it, and dt is -(slope of the gate . column)/(rate of the gate along the motion)
    (the saltation matrix: Leine & Nijmeijer 2004, Dynamics and Bifurcations of Non-Smooth Mechanical
-   Systems, ch. 7). */
+   Systems, ch. 7). Where a clipped damper lets go, or takes hold again, the force of the flanks is
+   0 on both sides. */
 void dynamics_variation_pass_gate(dynamics_variation *v, int gate, double t, const double *y)
 {
     double before[COLUMNS], behind[COLUMNS], by_state[DYNAMICS_TAKEN];
+    if (gate >= DYNAMICS_PRESS && gate < DYNAMICS_COMES) {
+        dynamics_field_pass_gate(v->field, gate);
+        return;
+    }
     double rate = dynamics_field_gate_slope(v->field, gate, t, y, by_state);
     dynamics_field_slope(t, y, before, v->field);
     dynamics_field_pass_gate(v->field, gate);

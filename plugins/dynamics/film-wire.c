@@ -23,9 +23,12 @@ static const double doubtful = 0.02;
    is that of flanks which part and its thickness no deflection, and from which it counts in full.
    As flanks part, load and film decide each other at once, and a loop over h ~ W^-0.13 settles only
    where the film is stiffer than the teeth, W/(0.13 h) > k: from a thousandth of the load on, or
-   0.03. As flanks land the oil takes its time; where the motion knows the film in flight they count
-   from a smaller load on. */
-static const double parted = 0.1, borne = 0.2, landing = 0.02, landed = 0.04, in_flight = 1e-3;
+   0.03. As flanks land the oil takes its time, and films that the motion knows in flight count from
+   a smaller load on. */
+static const double parted = 0.1, borne = 0.2, landing = 0.01, landed = 0.02;
+
+/* Share of the largest separation from the film that the motion knows, below which flanks fly. */
+static const double flight = 0.1;
 
 static const double at_node = 1e-9;
 
@@ -68,29 +71,40 @@ static ff_status read_series(const ff_host *host, const ff_array *in, int input,
     return FF_OK;
 }
 
-/* How far the thickness is that of loaded flanks at a share of the highest pressure; `lands` is
-   kept from instant to instant. */
-static double weight_at(double share, int in_oil, int *lands)
+/* The largest value; at least 0. */
+static double largest(size_t count, const double *x)
 {
-    if (share >= borne)
-        *lands = 0;
-    else if (share < in_flight)
-        *lands = in_oil;
-    double from = *lands ? landing : parted, to = *lands ? landed : borne;
-    return fmin(fmax((share - from) / (to - from), 0), 1);
+    double most = 0;
+    for (size_t i = 0; i < count; i++)
+        most = fmax(most, x[i]);
+    return most;
+}
+
+/* How far the thickness is that of loaded flanks, given over the whole history. */
+static void weigh(const history *y, const double *h, const double *p, double *weight)
+{
+    double thickest = largest(y->count, h), highest = largest(y->count, p);
+    int lands = 0;
+    for (size_t i = 0; i < y->count; i++) {
+        double share = highest > 0 ? p[i] / highest : 0;
+        if (share >= borne)
+            lands = 0;
+        else if (y->in_oil && h[i] < flight * thickest)
+            lands = 1;
+        double from = lands ? landing : parted, to = lands ? landed : borne;
+        weight[i] = fmin(fmax((share - from) / (to - from), 0), 1);
+    }
 }
 
 /* The thickness x where it is one of loaded flanks, and the straightest way where it is not: least
    sum w (x - h)^2 + bend (x_(i+1) - x_i)^2, a system of three diagonals. It changes smoothly with
    the pressure, so that a loop can settle. */
-static void bridge(size_t count, const double *h, const double *p, double highest, int in_oil,
-                   double *x, double *ratio)
+static void bridge(size_t count, const double *h, const double *weight, double *x, double *ratio)
 {
     static const double bend = 1e-4;
     double sum = 0;
-    int lands = 0;
     for (size_t i = 0; i < count; i++) {
-        double w = highest > 0 ? weight_at(p[i] / highest, in_oil, &lands) : 0;
+        double w = weight[i];
         sum += w;
         double diagonal = w + bend * ((i > 0) + (i + 1 < count)) - (i ? bend * ratio[i - 1] : 0);
         ratio[i] = diagonal > 0 ? bend / diagonal : 0;
@@ -104,17 +118,19 @@ static void bridge(size_t count, const double *h, const double *p, double highes
 
 static ff_status read_thickness(const double *h, const double *p, history *y)
 {
-    double highest = 0, *ratio = malloc(y->count * sizeof *ratio);
+    double *weight = malloc(y->count * sizeof *weight), *ratio = malloc(y->count * sizeof *ratio);
     y->thickness = malloc(y->count * sizeof *y->thickness);
-    for (size_t i = 0; i < y->count; i++)
-        highest = fmax(highest, p[i]);
-    for (size_t i = 0; ratio && y->thickness && i < y->engagements; i++) {
-        size_t first = y->first[i];
-        bridge(y->first[i + 1] - first, h + first, p + first, highest, y->in_oil,
-               y->thickness + first, ratio);
+    if (weight && ratio && y->thickness) {
+        weigh(y, h, p, weight);
+        for (size_t i = 0; i < y->engagements; i++) {
+            size_t first = y->first[i];
+            bridge(y->first[i + 1] - first, h + first, weight + first, y->thickness + first, ratio);
+        }
     }
+    ff_status status = weight && ratio && y->thickness ? FF_OK : FF_NOMEM;
+    free(weight);
     free(ratio);
-    return ratio && y->thickness ? FF_OK : FF_NOMEM;
+    return status;
 }
 
 static ff_status read_history(const ff_host *host, const ff_array *in,
