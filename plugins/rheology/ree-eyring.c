@@ -71,7 +71,10 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
     return outside ? FF_DOMAIN : FF_OK;
 }
 
-/* sinh(x)/x below 1/2, to the last digits. */
+/* x = |tau|/tau0 below which both hyperbolic functions follow from the series of sinh. */
+static const double FLAT = 0.5;
+
+/* sinh(x)/x below FLAT, to the last digits. */
 FF_SIMD_INLINE double flat_sinh(double x)
 {
     double y = x * x, s = 1 + y / 210;
@@ -85,37 +88,77 @@ FF_SIMD_INLINE double flat_sinh(double x)
 
 /*
  * The rate is tau0 sinh(x)/eta, x = |tau|/tau0, up to x = y, where it reaches RHEOLOGY_RATE_MAX;
- * then its tangent. y moves with ln(eta), which the derivative by it knows: there tau0 e^y/eta is
- * constant.
+ * then its tangent. y >= 1 moves with ln(eta), which the derivative by it knows: there tau0
+ * e^y/eta is constant. `flat` and `steep`: points of this kind are there.
  */
-FF_SIMD
-static int64_t rates(const void *self, size_t n, const double *restrict p,
-                     const double *restrict ln_eta, const double *restrict tau,
-                     double *restrict rate, double *restrict by_tau, double *restrict by_ln_eta)
+FF_SIMD_INLINE int64_t rates_of(const ree_eyring *r, size_t n, const double *restrict p,
+                                const double *restrict ln_eta, const double *restrict tau,
+                                double *restrict rate, double *restrict by_tau,
+                                double *restrict by_ln_eta, double tau0, int flat, int steep)
 {
-    const ree_eyring *r = self;
-    const double most = RHEOLOGY_TAU_MAX, thin = RHEOLOGY_LN_ETA_MIN;
-    const double tau0 = r->tau0 > RHEOLOGY_STRESS_LEAST ? r->tau0 : RHEOLOGY_STRESS_LEAST;
-    const double top = r->ln_top;
+    const double most = RHEOLOGY_TAU_MAX, thin = RHEOLOGY_LN_ETA_MIN, top = r->ln_top;
     const rheology_limit limit = rheology_limit_of(r->limiting_stress_coefficient);
     int64_t held = 0;
     for (size_t i = 0; i < n; i++) {
         double size = tau[i] < 0 ? -tau[i] : tau[i], sign = tau[i] < 0 ? -1 : 1;
         double t = size < most ? size : most, slip_slope;
-        double l = ln_eta[i] > thin ? ln_eta[i] : thin;
-        double y = top + l > 1 ? top + l : 1, moves = top + l > 1 ? 1 : 0, x = t / tau0;
-        double beyond = x > y ? x - y : 0;
-        x = x > y ? y : x;
-        double rise = ff_exp(x - l) / 2, fall = ff_exp(-x - l) / 2, slope = rise + fall;
-        double value = x < 0.5 ? x * flat_sinh(x) * ff_exp(-l) : rise - fall;
+        double l = ln_eta[i] > thin ? ln_eta[i] : thin, value = 0, slope = 0, fall = 0, beyond = 0;
+        double x = t / tau0, moves = 0;
+        if (steep) {
+            double y = top + l > 1 ? top + l : 1, within = x > y ? y : x;
+            moves = top + l > 1 ? 1 : 0;
+            beyond = x - within;
+            double rise = ff_exp(within - l) / 2;
+            fall = ff_exp(-within - l) / 2;
+            value = rise - fall;
+            slope = rise + fall;
+        }
+        if (flat) {
+            double sinh_x = x * flat_sinh(x), fluidity = ff_exp(-l);
+            value = x < FLAT ? sinh_x * fluidity : value;
+            slope = x < FLAT ? sqrt(1 + sinh_x * sinh_x) * fluidity : slope;
+        }
         double plain = -(value + slope * beyond);
         double slip = rheology_slip(t, p[i], limit, &slip_slope);
-        rate[i] = sign * (tau0 * (value + slope * beyond) + slip);
+        rate[i] = sign * (slip - tau0 * plain);
         by_tau[i] = slope + slip_slope;
         double by_l = moves * beyond > 0 ? 2 * fall - 2 * fall * beyond - slope : plain;
         by_ln_eta[i] = ln_eta[i] > thin ? sign * tau0 * by_l : 0;
-        held |= (size > most) | (ln_eta[i] < thin) | (t > y * tau0);
+        held |= (size > most) | (ln_eta[i] < thin) | (beyond > 0);
     }
+    return held;
+}
+
+/* At n <= RUN points, of which often all are of one kind. */
+enum { RUN = 64 };
+FF_SIMD
+static int64_t rates_of_some(const ree_eyring *r, size_t n, const double *restrict p,
+                             const double *restrict ln_eta, const double *restrict tau,
+                             double *restrict rate, double *restrict by_tau,
+                             double *restrict by_ln_eta)
+{
+    const double tau0 = r->tau0 > RHEOLOGY_STRESS_LEAST ? r->tau0 : RHEOLOGY_STRESS_LEAST;
+    int64_t flat = 0, steep = 0;
+    for (size_t i = 0; i < n; i++) {
+        double size = tau[i] < 0 ? -tau[i] : tau[i];
+        int64_t is_flat = size / tau0 < FLAT;
+        flat |= is_flat;
+        steep |= !is_flat;
+    }
+    if (!steep)
+        return rates_of(r, n, p, ln_eta, tau, rate, by_tau, by_ln_eta, tau0, 1, 0);
+    if (!flat)
+        return rates_of(r, n, p, ln_eta, tau, rate, by_tau, by_ln_eta, tau0, 0, 1);
+    return rates_of(r, n, p, ln_eta, tau, rate, by_tau, by_ln_eta, tau0, 1, 1);
+}
+
+static int64_t rates(const void *self, size_t n, const double *p, const double *ln_eta,
+                     const double *tau, double *rate, double *by_tau, double *by_ln_eta)
+{
+    int64_t held = 0;
+    for (size_t i = 0; i < n; i += RUN)
+        held |= rates_of_some(self, n - i < RUN ? n - i : RUN, p + i, ln_eta + i, tau + i, rate + i,
+                              by_tau + i, by_ln_eta + i);
     return held;
 }
 
