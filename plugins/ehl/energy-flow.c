@@ -12,12 +12,12 @@
 
 ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
 {
-    enum { FIELDS = 17, OWN = 7 };
+    enum { FIELDS = 17, OWN = 9 };
     size_t n = nodes, all = nodes * across;
     *e = (ehl_energy){.nodes = nodes, .share = 1, .highest = 2000, .lowest = 150};
     ehl_across_create(&e->across, across);
     double *next = e->memory =
-        calloc((FIELDS + 2 + across) * all + OWN * n + 2 * n + EHL_ACROSS_LANES, sizeof *next);
+        calloc((FIELDS + 5 + across) * all + (OWN + 5) * n + EHL_ACROSS_LANES, sizeof *next);
     if (!next)
         return FF_NOMEM;
     double **field[FIELDS] = {
@@ -26,11 +26,12 @@ ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
         &e->ln_eta_T, &e->rho_p,  &e->rho_T,   &e->called_ln_eta, &e->called_rho};
     for (size_t k = 0; k < FIELDS; k++, next += all)
         *field[k] = next;
-    double **own[OWN] = {&e->tau_m,   &e->p_x,     &e->mobility, &e->mass,
-                         &e->carried, &e->flux[0], &e->flux[1]};
+    double **own[OWN] = {&e->tau_m,   &e->p_x,     &e->mobility, &e->mass,   &e->carried,
+                         &e->flux[0], &e->flux[1], &e->base[0],  &e->base[1]};
     e->inverted = next;
     e->inverse = next + 2 * all;
-    next += (2 + across) * all;
+    e->transport = next + (2 + across) * all;
+    next += (5 + across) * all + 3 * n;
     for (size_t k = 0; k < OWN; k++, next += n)
         *own[k] = next;
     e->reverse = (unsigned char *)next;

@@ -16,11 +16,9 @@ typedef struct sweep {
 
 /* What the equations of one column are made of. */
 typedef struct column {
-    double below[EHL_ACROSS_MOST + 1]; /* heat that crosses between nodes from the lower one, ... */
-    double above[EHL_ACROSS_MOST + 1]; /* ... and from the upper one, per temperature, >= 0 */
-    double lift[EHL_ACROSS_MOST];      /* transverse transport by the slope at the node */
-    double off[EHL_ACROSS_MOST];       /* what they leave */
-    double diagonal[EHL_ACROSS_MOST];  /* without what goes with tau_m */
+    const double *lift, *below, *above;                        /* energy.h */
+    double off[EHL_ACROSS_MOST];                               /* what they leave */
+    double diagonal[EHL_ACROSS_MOST];                          /* without what goes with tau_m */
     double by_stress[EHL_ACROSS_MOST], moved[EHL_ACROSS_MOST]; /* of the dissipation with tau_m */
 } column;
 
@@ -52,11 +50,13 @@ FF_SIMD_INLINE void transverse_flow(const sweep *s, size_t i, size_t n, double *
  * in a thick inlet, the polynomial would swing; the temperature there comes from the node that the
  * oil comes from.
  */
-FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, column *c)
+FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n)
 {
     const double smooth = 25; /* square of a Peclet number between two nodes */
     const ehl_energy *e = s->e;
     const ehl_across *a = &e->across;
+    double *to = e->transport + 3 * (n + 1) * i, lift[EHL_ACROSS_MOST], up[EHL_ACROSS_MOST + 1],
+           down[EHL_ACROSS_MOST + 1];
     double at[EHL_ACROSS_MOST], below[EHL_ACROSS_MOST + 1], most = 0;
     transverse_flow(s, i, n, at, below);
     for (size_t k = 1; k < n; k++) {
@@ -67,12 +67,32 @@ FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, col
     double sharp = peclet * peclet / (peclet * peclet + smooth);
     double smoothly = (1 - sharp) * e->heat_capacity, sharply = sharp * e->heat_capacity;
     for (size_t k = 0; k < n; k++)
-        c->lift[k] = smoothly * a->weight[k] * at[k];
+        lift[k] = smoothly * a->weight[k] * at[k];
     for (size_t k = 0; k <= n; k++) {
         double here = sharply * below[k];
-        c->below[k] = here > 0 ? here : 0;
-        c->above[k] = here < 0 ? -here : 0;
+        up[k] = here > 0 ? here : 0;
+        down[k] = here < 0 ? -here : 0;
     }
+    memcpy(to, lift, n * sizeof *to);
+    memcpy(to + n + 1, up, (n + 1) * sizeof *to);
+    memcpy(to + 2 * (n + 1), down, (n + 1) * sizeof *to);
+}
+
+/* The preset number of nodes is known when it is compiled. */
+FF_SIMD
+static void find_transport(const sweep *s, size_t i)
+{
+    if (s->e->across.count == EHL_ACROSS_PRESET)
+        transverse_transport(s, i, EHL_ACROSS_PRESET);
+    else
+        transverse_transport(s, i, s->e->across.count);
+}
+
+FF_SIMD_INLINE void take_transport(const sweep *s, size_t i, size_t n, column *c)
+{
+    c->lift = s->e->transport + 3 * (n + 1) * i;
+    c->below = c->lift + n + 1;
+    c->above = c->below + n + 1;
 }
 
 /* Sets c->off to what conduction and transverse transport take off, and the diagonal to theirs. */
@@ -82,7 +102,7 @@ FF_SIMD_INLINE void begin_across(const sweep *s, size_t i, size_t n, column *c)
     const double *T = s->t->T + i * n;
     double conducted = s->e->conductivity / s->film->h[i], bend[EHL_ACROSS_MOST],
            slope[EHL_ACROSS_MOST], step[EHL_ACROSS_MOST + 1];
-    transverse_transport(s, i, n, c);
+    take_transport(s, i, n, c);
     ehl_across_apply(a->stiffness[0], EHL_ACROSS_MOST, n, T, bend);
     ehl_across_apply(a->slope[0], EHL_ACROSS_MOST, n, T, slope);
     step[0] = step[n] = 0;
@@ -183,37 +203,41 @@ FF_SIMD_INLINE void subtract_row(size_t n, double share, const double *row, doub
     }
 }
 
-/* Sets `inverse` to that of a by elimination with the largest pivot of each column; a is spoiled.
-   0: singular. */
-FF_SIMD_INLINE int invert(size_t n, ehl_across_matrix a, ehl_across_matrix inverse)
+/* Inverts a in place by Gauss-Jordan elimination with the largest pivot of each column; what fills
+   the last vector of a row is a number. 0: singular. */
+FF_SIMD_INLINE int invert(size_t n, ehl_across_matrix a)
 {
-    memset(inverse, 0, sizeof(ehl_across_matrix));
-    for (size_t k = 0; k < n; k++)
-        inverse[k][k] = 1;
+    size_t from[EHL_ACROSS_MOST];
     for (size_t k = 0; k < n; k++) {
         size_t pivot = k;
         for (size_t i = k + 1; i < n; i++)
             pivot = fabs(a[i][k]) > fabs(a[pivot][k]) ? i : pivot;
+        from[k] = pivot;
         if (!(fabs(a[pivot][k]) > 0))
             return 0;
-        double per = 1 / a[pivot][k];
-        for (size_t j = 0; j < n; j++) {
-            double kept = a[k][j], other = inverse[k][j];
+        for (size_t j = 0; j < n && pivot != k; j++) {
+            double kept = a[k][j];
             a[k][j] = a[pivot][j];
-            inverse[k][j] = inverse[pivot][j];
             a[pivot][j] = kept;
-            inverse[pivot][j] = other;
         }
-        for (size_t i = 0; i < n; i++) {
-            double share = i == k ? 0 : a[i][k] * per;
-            subtract_row(n, share, a[k], a[i]);
-            subtract_row(n, share, inverse[k], inverse[i]);
-        }
-        for (size_t j = 0; j < n; j++) {
+        double per = 1 / a[k][k];
+        a[k][k] = 1;
+        for (size_t j = 0; j < n; j++)
             a[k][j] *= per;
-            inverse[k][j] *= per;
+        for (size_t i = 0; i < n; i++) {
+            double share = a[i][k];
+            if (i == k)
+                continue;
+            a[i][k] = 0;
+            subtract_row(n, share, a[k], a[i]);
         }
     }
+    for (size_t k = n; k-- > 0;)
+        for (size_t i = 0; i < n && from[k] != k; i++) {
+            double kept = a[i][k];
+            a[i][k] = a[i][from[k]];
+            a[i][from[k]] = kept;
+        }
     return 1;
 }
 
@@ -223,21 +247,23 @@ FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n, const column *c)
     const ehl_across *a = &s->e->across;
     double conducted = s->e->conductivity / s->film->h[i];
     double *to = s->e->inverse + i * n * n;
-    ehl_across_matrix m = {{0}}, inverse;
-    for (size_t l = 0; l < n; l++)
+    ehl_across_matrix m;
+    for (size_t l = 0; l < n; l++) {
+        memset(m[l], 0, sizeof m[l]);
         for (size_t k = 0; k < n; k++)
             m[l][k] = conducted * a->stiffness[l][k] + c->lift[k] * a->slope[l][k] +
                       c->by_stress[k] * c->moved[l];
+    }
     for (size_t k = 0; k < n; k++)
         m[k][k] = c->diagonal[k] + c->by_stress[k] * c->moved[k];
     for (size_t k = 1; k < n; k++) {
         m[k - 1][k] -= c->below[k];
         m[k][k - 1] -= c->above[k];
     }
-    int found = invert(n, m, inverse);
+    int found = invert(n, m);
     for (size_t l = 0; l < n; l++)
         for (size_t k = 0; k < n; k++)
-            to[l * n + k] = found ? inverse[l][k] : NAN;
+            to[l * n + k] = found ? m[l][k] : NAN;
     memcpy(s->e->inverted + 2 * i * n, c->diagonal, n * sizeof *to);
     memcpy(s->e->inverted + (2 * i + 1) * n, c->lift, n * sizeof *to);
 }
@@ -290,15 +316,14 @@ FF_SIMD_INLINE void change_temperatures(sweep *s, size_t i, size_t n, const doub
     const double *ln_eta_T = e->ln_eta_T + i * n;
     double *now = s->t->T + i * n, largest = 0, sum = 0, change = e->change, moved[EHL_ACROSS_MOST],
            lowest = e->lowest, highest = e->highest;
-    for (size_t k = 0; k < n; k++) {
-        double here = fabs(by[k]);
-        sum += here;
-        largest = here > largest ? here : largest;
-    }
+    for (size_t k = 0; k < n; k++)
+        sum += fabs(by[k]);
     if (!isfinite(sum)) {
         e->change = HUGE_VAL;
         return;
     }
+    for (size_t k = 0; k < n && sum > most; k++)
+        largest = fabs(by[k]) > largest ? fabs(by[k]) : largest;
     double share = e->share * (largest > most ? most / largest : 1);
     FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {
@@ -313,7 +338,8 @@ FF_SIMD_INLINE void change_temperatures(sweep *s, size_t i, size_t n, const doub
     e->change = change;
 }
 
-FF_SIMD_INLINE void solve_across(sweep *s, size_t i, size_t n)
+/* On the way back, flanks are as warm as the last sweep left them without the flux at the node. */
+FF_SIMD_INLINE void solve_across(sweep *s, size_t i, size_t n, int returns)
 {
     ehl_energy *e = s->e;
     size_t end[2] = {0, n - 1};
@@ -327,7 +353,8 @@ FF_SIMD_INLINE void solve_across(sweep *s, size_t i, size_t n)
         add_dissipation(s, i, n, &c);
     for (size_t g = 0; g < 2; g++) {
         double per = 1 / s->passage[g].own;
-        base[g] = flank_at(s, g, i);
+        base[g] = returns ? e->base[g][i] + e->T_in : flank_at(s, g, i);
+        e->base[g][i] = base[g] - e->T_in;
         c.diagonal[end[g]] += per;
         c.off[end[g]] += (base[g] - T[end[g]]) * per;
     }
@@ -335,21 +362,20 @@ FF_SIMD_INLINE void solve_across(sweep *s, size_t i, size_t n)
         renew(s, i, n, &c);
     ehl_across_apply(e->inverse + i * n * n, n, n, c.off, by);
     change_temperatures(s, i, n, by);
-    for (size_t g = 0; g < 2; g++) {
+    for (size_t g = 0; g < 2 && !returns; g++) {
         e->flux[g][i] = (T[end[g]] - base[g]) / s->passage[g].own;
         ehl_half_space_add(&e->flank[g], &s->passage[g], e->flux[g][i],
                            s->t->modes[g] + i * e->flank[g].count);
     }
 }
 
-/* The preset number of nodes is known when it is compiled. */
 FF_SIMD
-static void solve_column(sweep *s, size_t i)
+static void solve_column(sweep *s, size_t i, int returns)
 {
     if (s->e->across.count == EHL_ACROSS_PRESET)
-        solve_across(s, i, EHL_ACROSS_PRESET);
+        solve_across(s, i, EHL_ACROSS_PRESET, returns);
     else
-        solve_across(s, i, s->e->across.count);
+        solve_across(s, i, s->e->across.count, returns);
 }
 
 /* Where there is no film. */
@@ -397,19 +423,22 @@ void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temp
     sweep s = {.e = e, .film = film, .t = t};
     begin(&s);
     size_t back = film->count;
+    for (size_t i = 1; i < film->count; i++)
+        if (film->full[i])
+            find_transport(&s, i);
     while (back > 0 && !(e->reverse[back - 1] && film->full[back - 1]))
         back--;
     if (film->frame > 0)
         back = e->nodes;
     for (size_t i = back; i-- > 1;) {
         if (is_film(&s, i))
-            solve_column(&s, i);
+            solve_column(&s, i, !(film->frame > 0));
         else if (film->frame > 0)
             carry_column(&s, i);
     }
     for (size_t i = 1; i < e->nodes; i++) {
         if (is_film(&s, i))
-            solve_column(&s, i);
+            solve_column(&s, i, 0);
         else
             carry_column(&s, i);
     }
@@ -438,7 +467,8 @@ ehl_energy_sums ehl_energy_balance(ehl_energy *e, const ehl_energy_film *film,
         if (!is_film(&s, i))
             continue;
         const side sides[2] = {side_of(&s, i, 0), side_of(&s, i, 1)};
-        transverse_transport(&s, i, n, &c);
+        find_transport(&s, i);
+        take_transport(&s, i, n, &c);
         for (size_t k = 0; k < n; k++) {
             size_t at = i * n + k;
             const side *from = &sides[e->u[at] >= 0];

@@ -63,6 +63,10 @@ typedef struct ehl_energy {
     double *memory;
     /* nodes x across */
     double *p, *ln_eta, *rho, *tau, *gamma, *gamma_tau, *gamma_T, *u, *through;
+    /* of each node, (across + 1) numbers each: heat that transverse transport carries per slope at
+       the node, and per temperature, >= 0, across the face below it from below and from above */
+    double *transport;
+    double *base[2];  /* temperature of the flanks without the flux at the node, over T_in, nodes */
     double *inverse;  /* of the equations of each node, nodes x across^2 */
     double *inverted; /* of what they were made then: the diagonal, transverse transport */
     double keep;      /* change of these, over the diagonal, up to which the inverse is kept */
