@@ -32,7 +32,7 @@ static const ff_param params[] = {
                 "roll angle over which the load passes linearly from before to after a change in "
                 "the number of pairs, centred on it; left out: less where changes are nearer than "
                 "that; 0: a step, 1e-6 of the path wide"),
-    FF_COUNT("points", tooth_pair, points, FF_TUNABLE, "1000", NULL, 16, 1e6, 0, 0,
+    FF_COUNT("points", tooth_pair, points, FF_TUNABLE, "4000", NULL, 16, 1e6, 0, 0,
              "instants of each engagement; the ends of the ramps are among them"),
     FF_COUNT_OR("all", "engagement", tooth_pair, engagements.one, 0, "all", NULL, 0, 1e6, 0, 0,
                 "which mesh cycle of a motion that lasts several the pair begins in, from 0; all: "
@@ -231,7 +231,7 @@ static ff_status report(const tooth_pair *s, const contact_tooth_path *p, const 
                         uint64_t wanted)
 {
     /* as of the errors by the time steps of a film: the Hertz pressure is off by half as much */
-    const double limit = 0.05;
+    const double limit = 0.02;
     double error = r->top > 0 ? r->error / r->top : 0;
     s->host->quality(s->host->ctx, "load_interpolation", error, limit,
                      error <= limit ? FF_GOOD : FF_DOUBTFUL,

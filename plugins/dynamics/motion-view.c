@@ -153,7 +153,7 @@ static dynamics_between look_between(const dynamics_motion_view *view,
    much. */
 static void report_sampling(const dynamics_between *found, const ff_host *host)
 {
-    const double limit = 0.05;
+    const double limit = 0.02;
     double error = found->largest > 0 ? found->beyond / found->largest : 0;
     host->quality(
         host->ctx, "station_sampling", error, limit, error <= limit ? FF_GOOD : FF_DOUBTFUL,

@@ -100,7 +100,7 @@ static const ff_param params[] = {
             "Poisson's ratios of the gears; left out: those of the material"),
     FF_LIST("density", "kg/m3", spur, density, 0, NULL, NULL, 1, 1e5, 0, 0, 1, 2,
             "densities of the gears, for mass and inertia; left out: those of the material"),
-    FF_COUNT("stations", spur, stations, FF_TUNABLE, "200", NULL, 8, 100000, 0, 0,
+    FF_COUNT("stations", spur, stations, FF_TUNABLE, "800", NULL, 8, 100000, 0, 0,
              "about how many intervals the path of contact is cut into"),
     FF_LIST("tip_relief", "um", spur, flank_spec.tip.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
             "metal taken off at the tip of the flank, normal to it, one value or two"),

@@ -44,7 +44,7 @@ SERIES = ['film.h_min', 'film.h_central', 'film.p_max', 'film.friction_coefficie
 GOALS = {'10 %': 0.1, '2 %': 0.02, '0.5 %': 0.005}
 REFERENCE = 'cells: 2048, time_tolerance: 7e-4, tolerance: 1e-7'
 LATTICE = [(cells, tolerance) for cells in (128, 256, 512, 1024) for tolerance in (2.8e-2, 7e-3, 1.75e-3)]
-FINE = {'gears': 'stations: 1600', 'mesh': 'points: 1600', 'tooth': 'points: 8000'}
+FINE = {'gears': 'stations: 6400', 'mesh': 'points: 1600', 'tooth': 'points: 32000'}
 STEEL = 226.4e9  # Pa, reduced modulus
 
 

@@ -29,7 +29,7 @@ static const double finest = -2;
 static const double little = 0.1;
 /* Its settings are finer than those of the dearest stage by so many levels, in every attempt and in
    its twins, too: what all of them sample too coarsely none of them shows. */
-static const double ahead = 2;
+static const double ahead = 1;
 /* Of the reference, over the goal, when models are held against it: they may move half of a goal
    (choice.c), and its error counts with what they move. */
 static const double reference_error = 0.25;

@@ -69,10 +69,10 @@ class Control(lab.Lab):
         self.assertLess(answer["accuracy"]["attempts"], 4)
 
     def test_a_stage_that_costs_little_is_finer(self):
-        """By two levels from the first attempt on, and by up to sixteen times in all."""
+        """By a level from the first attempt on, and by up to eight times in all."""
         text = FILE.replace("toy/order, before: none", "toy/silent, before: none")
         settings = self.ask("accuracy=0.5 %", text=text)["accuracy"]["settings"]
-        self.assertEqual((settings["first.cells"], settings["last.cells"]), ("256", "64"))
+        self.assertEqual((settings["first.cells"], settings["last.cells"]), ("128", "64"))
         answer = self.ask("accuracy=0.05 %", "first.strength=100", text=text)
         self.assertEqual(answer["verdict"], "good")
         self.assertGreater(int(answer["accuracy"]["settings"]["first.cells"]), 256)
