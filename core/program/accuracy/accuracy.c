@@ -14,5 +14,6 @@ bool accuracy_run(accuracy_record *record, const ff_tree *tree, ff_engine *engin
     if (accuracy_is_asked(tree))
         accuracy_want_axes(pipeline);
     return ff_pipeline_run(pipeline, watch, report) &&
-           (!accuracy_is_asked(tree) || accuracy_measure(record, tree, engine, pipeline, watch));
+           (!accuracy_is_asked(tree) ||
+            accuracy_measure(record, tree, engine, pipeline, watch, NULL));
 }

@@ -17,7 +17,8 @@
 /* Roache's factor of safety with three levels. */
 static const double safety = 1.25;
 /* The growth is taken between that of order 1/2, where the factor on the difference of two levels
-   is Roache's for those, 3, and that of order 2. Below 0 the error changes its sign. */
+   is Roache's for those, 3, and that of order 2. Below 0 the error changes its sign, and above
+   order 4 the coarsest answer has nothing to do with the others: neither is an order. */
 static const double least_growth = 1.4142135623730951, most_growth = 4, unsettled_growth = 2;
 /* On coarse levels errors fall faster than they do from the finest on: what lies between those is
    brought to the next level by up to order 4, and from there by order 2. */
@@ -106,7 +107,7 @@ static double growth_to_use(double observed)
 {
     if (isnan(observed))
         return least_growth;
-    if (observed < 0)
+    if (observed < 0 || observed > most_coarse_growth)
         return unsettled_growth;
     return fmin(fmax(observed, least_growth), most_growth);
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * One ladder for the whole answer: in its first twin all settings of all stages are one level
- * coarser, in its second two; then, one after the other, each setting is a level finer than in the
- * second, which shows what comes of it. The twins of a setting are cheap, since all else is coarse
- * and what lies before its stage is known. Where a coarser twin fails, the answer is coarse itself,
- * and a finer one tells.
+ * coarser, in its second two; then, where no others are known, one after the other, each setting is
+ * a level finer than in the second, which shows what comes of it. The twins of a setting are cheap,
+ * since all else is coarse and what lies before its stage is known. Where a coarser twin fails, the
+ * answer is coarse itself, and a finer one tells.
  */
 #include "measure.h"
 
@@ -54,7 +54,9 @@ typedef struct measurement {
     const ff_pipeline *answer;
     knob *knobs;
     size_t count;
-    accuracy_twin half, quarter, twice, *refined; /* one for each knob */
+    const accuracy_known *known;
+    const accuracy_twin *half, *quarter, *twice; /* NULL: it cannot be had */
+    accuracy_twin *refined; /* one for each knob; not good: errors are not split by it */
     bool stopped;
 } measurement;
 
@@ -164,7 +166,7 @@ static void run_twin(measurement *m, level at, size_t finer, accuracy_twin *twin
 {
     const char **sets = memory_alloc((m->count + 1) * sizeof *sets);
     bool *changed = memory_alloc((m->answer->count + 1) * sizeof *changed);
-    m->scene.donor = finer == SIZE_MAX ? m->answer : m->quarter.pipeline;
+    m->scene.donor = finer == SIZE_MAX ? m->answer : m->quarter->pipeline;
     if (list_sets(m, at, finer, sets, changed)) {
         accuracy_twin_run(twin, &m->scene, sets, m->count, NULL, changed);
         m->record->twins++;
@@ -177,6 +179,37 @@ static void run_twin(measurement *m, level at, size_t finer, accuracy_twin *twin
     free(sets);
 }
 
+/* Whether an answer has the settings of a twin. */
+static bool is_twin(const measurement *m, level at, const ff_pipeline *answer)
+{
+    bool same = answer->count == m->answer->count;
+    for (size_t i = 0; same && i < answer->count; i++)
+        same = answer->stages[i].loaded == m->answer->stages[i].loaded;
+    for (size_t i = 0; same && i < m->count; i++) {
+        const accuracy_setting *setting = &m->knobs[i].setting;
+        const char *has = accuracy_setting_at(&answer->stages[m->knobs[i].stage], setting->param, 0,
+                                              &m->record->arena),
+                   *wanted = assignment_at(setting, at);
+        same = has && wanted && !strcmp(has, wanted);
+    }
+    return same;
+}
+
+/* Finds a twin whose settings are all at a level, or runs it; NULL: it cannot be had. */
+static const accuracy_twin *find_twin(measurement *m, level at)
+{
+    for (size_t i = 0; m->known && i < m->known->count; i++) {
+        const accuracy_twin *run = m->known->runs[i];
+        if (run->pipeline && is_twin(m, at, run->pipeline))
+            return run->good ? run : NULL;
+    }
+    if (m->stopped)
+        return NULL;
+    accuracy_twin *own = m->record->own[at] = memory_alloc(sizeof *own);
+    run_twin(m, at, SIZE_MAX, own);
+    return own->good ? own : NULL;
+}
+
 /* Fills the error of an output over its value: typical of a series, and the largest. */
 static void find_relative(const double *at, accuracy_error *e)
 {
@@ -187,9 +220,9 @@ static void find_relative(const double *at, accuracy_error *e)
 static const double *numbers_of_twin(const measurement *m, const accuracy_error *e,
                                      const accuracy_twin *twin)
 {
-    return twin->good ? accuracy_numbers_like(m->answer, e->stage, e->result, twin->pipeline,
-                                              &m->record->arena)
-                      : NULL;
+    return twin && twin->good ? accuracy_numbers_like(m->answer, e->stage, e->result,
+                                                      twin->pipeline, &m->record->arena)
+                              : NULL;
 }
 
 /* The largest part first. */
@@ -245,20 +278,9 @@ static accuracy_ladder ladder_of(const measurement *m, const accuracy_error *e)
                              .at = along ? along->data : NULL,
                              .scale = scale,
                              .answer = e->result->data,
-                             .half = numbers_of_twin(m, e, &m->half),
-                             .quarter = numbers_of_twin(m, e, &m->quarter),
-                             .twice = numbers_of_twin(m, e, &m->twice)};
-}
-
-static void run_ladder(measurement *m)
-{
-    run_twin(m, HALF, SIZE_MAX, &m->half);
-    if (!m->stopped && m->half.good)
-        run_twin(m, QUARTER, SIZE_MAX, &m->quarter);
-    if (!m->stopped && !m->quarter.good)
-        run_twin(m, TWICE, SIZE_MAX, &m->twice);
-    for (size_t i = 0; m->count > 1 && m->quarter.good && i < m->count && !m->stopped; i++)
-        run_twin(m, QUARTER, i, &m->refined[i]);
+                             .half = numbers_of_twin(m, e, m->half),
+                             .quarter = numbers_of_twin(m, e, m->quarter),
+                             .twice = numbers_of_twin(m, e, m->twice)};
 }
 
 static void measure_output(const measurement *m, accuracy_error *e)
@@ -422,20 +444,28 @@ static void conclude(const measurement *m)
                  &m->answer->stages[record->errors[i].stage - m->answer->stages]);
 }
 
+static void run_ladder(measurement *m, bool split)
+{
+    m->half = find_twin(m, HALF);
+    m->quarter = m->half ? find_twin(m, QUARTER) : NULL;
+    m->twice = m->quarter ? NULL : find_twin(m, TWICE);
+    for (size_t i = 0; split && m->count > 1 && m->quarter && i < m->count && !m->stopped; i++)
+        run_twin(m, QUARTER, i, &m->refined[i]);
+}
+
 bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
-                      const ff_pipeline *pipeline, const ff_observer *watch)
+                      const ff_pipeline *pipeline, const ff_observer *watch,
+                      const accuracy_known *known)
 {
     measurement m = {.record = record,
                      .answer = pipeline,
+                     .known = known,
                      .scene = {.tree = tree, .engine = engine, .start = pipeline, .watch = watch}};
     list_outputs(&m);
     list_knobs(&m);
-    run_ladder(&m);
+    run_ladder(&m, !known);
     if (!m.stopped)
         conclude(&m);
-    accuracy_twin_free(&m.half);
-    accuracy_twin_free(&m.quarter);
-    accuracy_twin_free(&m.twice);
     for (size_t i = 0; i < m.count; i++)
         accuracy_twin_free(&m.refined[i]);
     return !m.stopped;
@@ -443,6 +473,11 @@ bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *e
 
 void accuracy_free(accuracy_record *record)
 {
+    for (size_t i = 0; i < ACCURACY_OWN; i++) {
+        if (record->own[i])
+            accuracy_twin_free(record->own[i]);
+        free(record->own[i]);
+    }
     if (record->twin)
         accuracy_twin_free(record->twin);
     if (record->choice)

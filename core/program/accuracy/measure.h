@@ -17,6 +17,15 @@ typedef struct accuracy_part {
 /* What files and pages call the bar of an output: "h_min_error_bar". */
 #define ACCURACY_BAR "_error_bar"
 
+/* Runs of the same file. */
+typedef struct accuracy_known {
+    const struct accuracy_twin *const *runs;
+    size_t count;
+} accuracy_known;
+
+/* Twins of an answer at most: a level coarser, two, a level finer. */
+enum { ACCURACY_OWN = 3 };
+
 /* The numerical error of an output. */
 typedef struct accuracy_error {
     const ff_stage *stage;
@@ -42,6 +51,7 @@ typedef struct accuracy_record {
     size_t chosen_count;
     ff_pipeline *answer; /* the pipeline that was run, or another one of `twin` */
     struct accuracy_twin *twin;
+    struct accuracy_twin *own[ACCURACY_OWN]; /* that were run for it */
     struct accuracy_choice
         *choice; /* of models, whose part counts with the rest; NULL: none was made */
     memory_arena arena;
@@ -50,10 +60,12 @@ typedef struct accuracy_record {
 /*
  * Measures the errors of the scalars and series that the file asks for, from a pipeline that has
  * run, and adds them to the quality of its stages, in place of what these estimated themselves.
- * False where the observer stopped it.
+ * Known runs serve as twins where they have their settings; then the errors are not split by
+ * settings, which takes more twins than the rest. False where the observer stopped it.
  */
 bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
-                      const ff_pipeline *pipeline, const ff_observer *watch);
+                      const ff_pipeline *pipeline, const ff_observer *watch,
+                      const accuracy_known *known);
 void accuracy_free(accuracy_record *record);
 
 /* "0.54 %: film.cells 0.3 %, tooth.points 0.1 %; order 2.1", to be freed. */

@@ -165,7 +165,7 @@ static void print_error(const paper *page, const ff_result *result, char *out, s
 static void print_result(const paper *page, const ff_pipeline *pipeline, const ff_stage *stage,
                          size_t output, int width)
 {
-    const int value_width = VALUE + (page->errors->twins > 0 ? BAR : 0);
+    const int value_width = VALUE + (page->errors->count > 0 ? BAR : 0);
     const ff_result *result = &stage->results[output];
     char value[96] = "(none)", place[256] = "";
     size_t least = 0, greatest = 0;
@@ -284,7 +284,7 @@ static void print_errors(paper *page, const results_outcome *outcome)
         terminal_print_wrapped(errors->failure, printf("  a twin failed: "), 4);
     if (errors->attempts > 0)
         print_chosen(errors);
-    if (errors->twins > 0)
+    if (errors->count > 0)
         printf("  %zu twins took %.3g s of CPU time\n", errors->twins, errors->seconds);
 }
 

@@ -88,7 +88,7 @@ static void write_scalars(const results_outcome *outcome, const ff_stage *stage,
                           results_folder *folder)
 {
     FILE *stream = NULL;
-    const bool measured = outcome->errors->twins > 0;
+    const bool measured = outcome->errors->count > 0;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const ff_result *result = &stage->results[i];
         if (!result->data || result->rank != 0)

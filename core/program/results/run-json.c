@@ -254,7 +254,7 @@ static json_t *describe_tried(const results_outcome *outcome)
 static json_t *describe_accuracy(const results_outcome *outcome)
 {
     const accuracy_record *errors = outcome->errors;
-    if (!errors->twins)
+    if (errors->twins + errors->attempts == 0)
         return json_null();
     return json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o}", "asked", outcome->input->accuracy,
                      "attempts", (json_int_t)errors->attempts, "twins", (json_int_t)errors->twins,

@@ -35,11 +35,12 @@ class Models(lab.Lab):
         return next(s["model"] for s in answer["stages"] if s["stage"] == stage)
 
     def test_a_cheap_model_is_taken_and_its_part_counts(self):
-        """1 % of the first value of 1 is 0.5 % of the last one of 2."""
+        """1 % of the first value of 1 is 0.5 % of the last one of 2; the reference is known to a quarter of the accuracy."""
         answer = self.ask()
         self.assertEqual(self.used(answer, "first"), "toy/guess")
         error = answer["outputs"]["last.value"]["error"]
-        self.assertAlmostEqual(error["parts"]["first.use"], 0.005, delta=0.002)
+        self.assertGreater(error["parts"]["first.use"], 0.005)
+        self.assertLess(error["parts"]["first.use"], 0.005 + 0.04 / 4)
         self.assertLess(error["parts"]["first.use"], error["relative"])
         self.assertLessEqual(error["relative"], 0.04)
         self.assertEqual(answer["verdict"], "good")
