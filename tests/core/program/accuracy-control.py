@@ -59,6 +59,8 @@ class Control(lab.Lab):
         self.assertEqual(answer["verdict"], "doubtful")
         self.assertGreater(self.error(answer), 0.001)
         self.assertLess(answer["accuracy"]["attempts"], 4)
+        answer = self.ask("first.cells=60", "first.tolerance=1e-4 %")["accuracy"] # 0.17 % at the least
+        self.assertEqual((answer["attempts"], answer["settings"]["last.cells"]), (4, "128"))
         answer = self.ask("first.cells=400", "last.cells=400", "first.tolerance=1e-4 %", "last.tolerance=1e-4 %", "last.steps=1001")
         self.assertEqual((answer["verdict"], answer["accuracy"]["settings"]), ("good", {}))
 
