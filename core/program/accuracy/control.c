@@ -33,9 +33,6 @@ static const double ahead = 1;
 /* Of the reference, over the goal, when models are held against it: they may move half of a goal
    (choice.c), and its error counts with what they move. */
 static const double reference_error = 0.25;
-/* An output is left out that takes more levels than this: what the coarser levels show of its order
-   is no promise for so many finer ones. */
-static const double most_levels = 1.5;
 enum { MOST_ATTEMPTS = 8 };
 
 /* A setting that the file leaves open. */
@@ -246,12 +243,12 @@ static double order_of(const control *c, size_t error)
     return order;
 }
 
-/* Whether finer settings will do for an error that is too large. */
+/* Whether the finest settings will do for an error that is too large. */
 static bool is_in_reach(const control *c, size_t error)
 {
     const accuracy_error *e = &c->best->record.errors[error];
     double order = order_of(c, error);
-    return order > 0 && log2(e->relative / goal_of(c, e)) / order <= most_levels;
+    return order > 0 && log2(e->relative / goal_of(c, e)) / order <= c->level - finest;
 }
 
 /* Chooses the settings of the next attempt; false: this one is the answer. */
