@@ -27,6 +27,11 @@ typedef struct ehl_across {
 enum { EHL_ACROSS_LANES = 4 };
 typedef double ehl_lanes __attribute__((vector_size(EHL_ACROSS_LANES * sizeof(double))));
 
+FF_SIMD_INLINE double ehl_across_sum(ehl_lanes values)
+{
+    return values[0] + values[1] + (values[2] + values[3]);
+}
+
 /* Sets out[k] to the sum of m[l * stride + k] values[l] over l < n, k < n. */
 FF_SIMD_INLINE void ehl_across_apply(const double *m, size_t stride, size_t n, const double *values,
                                      double *out)

@@ -17,7 +17,7 @@ ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
     *e = (ehl_energy){.nodes = nodes, .share = 1, .highest = 2000, .lowest = 150};
     ehl_across_create(&e->across, across);
     double *next = e->memory =
-        calloc((FIELDS + 5 + across) * all + (OWN + 5) * n + EHL_ACROSS_LANES, sizeof *next);
+        calloc((FIELDS + 2 + across) * all + (OWN + 2) * n + EHL_ACROSS_LANES, sizeof *next);
     if (!next)
         return FF_NOMEM;
     double **field[FIELDS] = {
@@ -30,19 +30,21 @@ ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
                          &e->flux[0], &e->flux[1], &e->base[0],  &e->base[1]};
     e->inverted = next;
     e->inverse = next + 2 * all;
-    e->transport = next + (2 + across) * all;
-    next += (5 + across) * all + 3 * n;
+    next += (2 + across) * all;
     for (size_t k = 0; k < OWN; k++, next += n)
         *own[k] = next;
     e->reverse = (unsigned char *)next;
     e->there = e->reverse + n;
-    return FF_OK;
+    e->column = calloc(n, sizeof *e->column);
+    return e->column ? FF_OK : FF_NOMEM;
 }
 
 void ehl_energy_destroy(ehl_energy *e)
 {
     free(e->memory);
+    free(e->column);
     e->memory = NULL;
+    e->column = NULL;
 }
 
 void ehl_energy_restart(ehl_energy *e)
@@ -149,14 +151,17 @@ FF_SIMD_INLINE means means_of(const ehl_energy *e, size_t i, size_t n)
 {
     const ehl_across *a = &e->across;
     const double *gamma = e->gamma + i * n, *slope = e->gamma_tau + i * n;
-    means m = {0, 0, 0};
-    for (size_t k = 0; k < n; k++) {
-        double here = a->weight[k] * slope[k];
-        m.gamma += a->weight[k] * gamma[k];
-        m.slope += here;
-        m.tilt += here * (a->z[k] - 0.5);
+    ehl_lanes rate = {0}, ease = {0}, tilt = {0}, weight, z, here;
+    for (size_t k = 0; k < n; k += EHL_ACROSS_LANES) { /* beyond n the weights are 0 */
+        memcpy(&weight, a->weight + k, sizeof weight);
+        memcpy(&z, a->z + k, sizeof z);
+        memcpy(&here, gamma + k, sizeof here);
+        rate += weight * here;
+        memcpy(&here, slope + k, sizeof here);
+        ease += weight * here;
+        tilt += weight * here * (z - 0.5);
     }
-    return m;
+    return (means){ehl_across_sum(rate), ehl_across_sum(ease), ehl_across_sum(tilt)};
 }
 
 /* Returns the step of tau_m towards the mean shear rate `target`, of Newton's method in the
@@ -205,6 +210,7 @@ FF_SIMD_INLINE int take_stress(ehl_energy *e, const ehl_energy_film *film, doubl
     return 0;
 }
 
+FF_SIMD
 static int take_stress_at(ehl_energy *e, const ehl_energy_film *film, double enough, size_t i)
 {
     return e->across.count == EHL_ACROSS_PRESET ? take_stress(e, film, enough, i, EHL_ACROSS_PRESET)
@@ -237,13 +243,19 @@ static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double
 FF_SIMD_INLINE double flow_of(const ehl_across *a, size_t n, const double *rho, double u_1,
                               double h, const double *gamma, double *u)
 {
-    double rise[EHL_ACROSS_MOST], sum = 0;
+    double rise[EHL_ACROSS_MOST];
+    ehl_lanes sum = {0}, weight, here, dense;
     ehl_across_apply(a->integral[0], EHL_ACROSS_MOST, n, gamma, rise);
-    for (size_t k = 0; k < n; k++) {
-        u[k] = u_1 + h * rise[k];
-        sum += a->weight[k] * rho[k] * u[k];
+    for (size_t k = 0; k < n; k += EHL_ACROSS_LANES) {
+        memcpy(&weight, a->weight + k, sizeof weight);
+        memcpy(&dense, rho + k, sizeof dense);
+        memcpy(&here, rise + k, sizeof here);
+        sum += weight * dense * (u_1 + h * here);
     }
-    return sum;
+    FF_SIMD_LOOP
+    for (size_t k = 0; k < n; k++)
+        u[k] = u_1 + h * rise[k];
+    return ehl_across_sum(sum);
 }
 
 /* Returns the pressure gradient at node i by differences. */

@@ -14,14 +14,6 @@ typedef struct sweep {
     ehl_passage passage[2], rest; /* rest: at the end of the nodes, where none comes from */
 } sweep;
 
-/* What the equations of one column are made of. */
-typedef struct column {
-    const double *lift, *below, *above;                        /* energy.h */
-    double off[EHL_ACROSS_MOST];                               /* what they leave */
-    double diagonal[EHL_ACROSS_MOST];                          /* without what goes with tau_m */
-    double by_stress[EHL_ACROSS_MOST], moved[EHL_ACROSS_MOST]; /* of the dissipation with tau_m */
-} column;
-
 /* Transverse flow of mass rho (w - z h_x u - z h_t), kg/(m2 s), at the nodes and, below each node,
    between them: what the flow along x does not carry off. */
 FF_SIMD_INLINE void transverse_flow(const sweep *s, size_t i, size_t n, double *at, double *below)
@@ -50,13 +42,11 @@ FF_SIMD_INLINE void transverse_flow(const sweep *s, size_t i, size_t n, double *
  * in a thick inlet, the polynomial would swing; the temperature there comes from the node that the
  * oil comes from.
  */
-FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n)
+FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n, ehl_column *c)
 {
     const double smooth = 25; /* square of a Peclet number between two nodes */
     const ehl_energy *e = s->e;
     const ehl_across *a = &e->across;
-    double *to = e->transport + 3 * (n + 1) * i, lift[EHL_ACROSS_MOST], up[EHL_ACROSS_MOST + 1],
-           down[EHL_ACROSS_MOST + 1];
     double at[EHL_ACROSS_MOST], below[EHL_ACROSS_MOST + 1], most = 0;
     transverse_flow(s, i, n, at, below);
     for (size_t k = 1; k < n; k++) {
@@ -67,52 +57,11 @@ FF_SIMD_INLINE void transverse_transport(const sweep *s, size_t i, size_t n)
     double sharp = peclet * peclet / (peclet * peclet + smooth);
     double smoothly = (1 - sharp) * e->heat_capacity, sharply = sharp * e->heat_capacity;
     for (size_t k = 0; k < n; k++)
-        lift[k] = smoothly * a->weight[k] * at[k];
+        c->lift[k] = smoothly * a->weight[k] * at[k];
     for (size_t k = 0; k <= n; k++) {
         double here = sharply * below[k];
-        up[k] = here > 0 ? here : 0;
-        down[k] = here < 0 ? -here : 0;
-    }
-    memcpy(to, lift, n * sizeof *to);
-    memcpy(to + n + 1, up, (n + 1) * sizeof *to);
-    memcpy(to + 2 * (n + 1), down, (n + 1) * sizeof *to);
-}
-
-/* The preset number of nodes is known when it is compiled. */
-FF_SIMD
-static void find_transport(const sweep *s, size_t i)
-{
-    if (s->e->across.count == EHL_ACROSS_PRESET)
-        transverse_transport(s, i, EHL_ACROSS_PRESET);
-    else
-        transverse_transport(s, i, s->e->across.count);
-}
-
-FF_SIMD_INLINE void take_transport(const sweep *s, size_t i, size_t n, column *c)
-{
-    c->lift = s->e->transport + 3 * (n + 1) * i;
-    c->below = c->lift + n + 1;
-    c->above = c->below + n + 1;
-}
-
-/* Sets c->off to what conduction and transverse transport take off, and the diagonal to theirs. */
-FF_SIMD_INLINE void begin_across(const sweep *s, size_t i, size_t n, column *c)
-{
-    const ehl_across *a = &s->e->across;
-    const double *T = s->t->T + i * n;
-    double conducted = s->e->conductivity / s->film->h[i], bend[EHL_ACROSS_MOST],
-           slope[EHL_ACROSS_MOST], step[EHL_ACROSS_MOST + 1];
-    take_transport(s, i, n, c);
-    ehl_across_apply(a->stiffness[0], EHL_ACROSS_MOST, n, T, bend);
-    ehl_across_apply(a->slope[0], EHL_ACROSS_MOST, n, T, slope);
-    step[0] = step[n] = 0;
-    for (size_t k = 1; k < n; k++)
-        step[k] = T[k] - T[k - 1];
-    for (size_t k = 0; k < n; k++) {
-        c->off[k] = -(conducted * bend[k] + c->lift[k] * slope[k] + c->below[k] * step[k] -
-                      c->above[k + 1] * step[k + 1]);
-        c->diagonal[k] = conducted * a->stiffness[k][k] + c->lift[k] * a->slope[k][k] +
-                         c->below[k] + c->above[k + 1];
+        c->below[k] = here > 0 ? here : 0;
+        c->above[k] = here < 0 ? -here : 0;
     }
 }
 
@@ -135,59 +84,37 @@ FF_SIMD_INLINE side side_of(const sweep *s, size_t i, int forward)
     return (side){1, 1, 0, T + step, T + step};
 }
 
-/* Storage, transport along x, compression. */
-FF_SIMD_INLINE void add_along(const sweep *s, size_t i, size_t n, column *c)
+/* Returns 1 over the mean slope of the shear rates by the stress; 0: none flows. */
+FF_SIMD_INLINE double per_mean_slope(const ehl_energy *e, size_t i, size_t n)
 {
-    const ehl_energy *e = s->e;
-    const ehl_energy_film *film = s->film;
-    const ehl_across *a = &e->across;
+    double mean = 0;
+    for (size_t l = 0; l < n; l++)
+        mean += e->across.weight[l] * e->gamma_tau[i * n + l];
+    return mean > 1e-290 ? 1 / mean : 0;
+}
+
+/* Sets `off` to what the temperatures leave of the equations of a column, without the flanks. */
+FF_SIMD_INLINE void find_rest(const sweep *s, size_t i, size_t n, double *off)
+{
+    const ehl_across *a = &s->e->across;
+    const ehl_column *c = &s->e->column[i];
     const side ahead = side_of(s, i, 1), behind = side_of(s, i, 0);
-    const double *T = s->t->T + i * n, *u = e->u + i * n, *rho = e->rho + i * n,
-                 *rho_T = e->rho_T + i * n, none[EHL_ACROSS_MOST] = {0},
-                 *past = film->past ? film->past + i * n : none;
-    double p_t = film->p_t ? film->p_t[i] : 0, p_x = e->p_x[i], h = film->h[i],
-           per_dx = 1 / film->dx, rate = film->rate, capacity = e->heat_capacity;
+    const double *T = s->t->T + i * n;
+    double conducted = s->e->conductivity / s->film->h[i], bend[EHL_ACROSS_MOST],
+           slope[EHL_ACROSS_MOST], step[EHL_ACROSS_MOST + 1];
+    ehl_across_apply(a->stiffness[0], EHL_ACROSS_MOST, n, T, bend);
+    ehl_across_apply(a->slope[0], EHL_ACROSS_MOST, n, T, slope);
+    step[0] = step[n] = 0;
+    for (size_t k = 1; k < n; k++)
+        step[k] = T[k] - T[k - 1];
     FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {
         double from_ahead = ahead.near * ahead.T[k] + ahead.far * ahead.T_far[k],
                from_behind = behind.near * behind.T[k] + behind.far * behind.T_far[k];
-        double on = (u[k] > 0 ? u[k] : 0) * per_dx, back = (u[k] < 0 ? -u[k] : 0) * per_dx;
-        double held = h * a->weight[k] * rho[k] * capacity, expansion = -rho_T[k] / rho[k];
-        double own = held * (rate + (on * ahead.now + back * behind.now)) -
-                     h * a->weight[k] * expansion * (p_t + u[k] * p_x);
-        c->diagonal[k] += own;
-        c->off[k] += held * ((on * from_ahead + back * from_behind) - past[k]) - own * T[k];
-    }
-}
-
-/* The dissipation, and its slopes by the temperatures of the whole column: with them goes tau_m. */
-FF_SIMD_INLINE void add_dissipation(const sweep *s, size_t i, size_t n, column *c)
-{
-    const ehl_energy *e = s->e;
-    const ehl_across *a = &e->across;
-    size_t at = i * n;
-    const double *tau = e->tau + at, *gamma = e->gamma + at, *slope = e->gamma_tau + at,
-                 *by_T = e->gamma_T + at;
-    double h = s->film->h[i], mean = 0;
-    for (size_t l = 0; l < n; l++)
-        mean += a->weight[l] * slope[l];
-    double per_mean = mean > 1e-290 ? 1 / mean : 0;
-    FF_SIMD_LOOP
-    for (size_t k = 0; k < n; k++) {
-        double part = h * a->weight[k], own = per_mean > 0 ? part * tau[k] * by_T[k] : 0;
-        c->moved[k] = a->weight[k] * by_T[k];
-        c->by_stress[k] = part * (tau[k] * slope[k] + gamma[k]) * per_mean;
-        c->diagonal[k] -= own;
-        c->off[k] += part * tau[k] * gamma[k];
-    }
-}
-
-/* The friction of asperities, which their temperature does not change. */
-static void add_friction(const sweep *s, size_t i, size_t n, column *c)
-{
-    for (size_t k = 0; k < n; k++) {
-        c->moved[k] = c->by_stress[k] = 0;
-        c->off[k] += s->e->across.weight[k] * s->film->friction[i];
+        double across = conducted * bend[k] + c->lift[k] * slope[k] + c->below[k] * step[k] -
+                        c->above[k + 1] * step[k + 1];
+        off[k] = c->source[k] + c->on[k] * from_ahead + c->back[k] * from_behind -
+                 c->own[k] * T[k] - across;
     }
 }
 
@@ -242,20 +169,30 @@ FF_SIMD_INLINE int invert(size_t n, ehl_across_matrix a)
 }
 
 /* Inverts the equations of a column; [l][k] stands before temperature l in equation k. */
-FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n, const column *c)
+FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n)
 {
     const ehl_across *a = &s->e->across;
     double conducted = s->e->conductivity / s->film->h[i];
-    double *to = s->e->inverse + i * n * n;
+    const ehl_energy *e = s->e;
+    const ehl_column *c = &e->column[i];
+    const double *tau = e->tau + i * n, *gamma = e->gamma + i * n, *slope = e->gamma_tau + i * n,
+                 *by_T = e->gamma_T + i * n;
+    double *to = e->inverse + i * n * n, by_stress[EHL_ACROSS_MOST], moved[EHL_ACROSS_MOST];
+    /* tau_m goes with the temperatures of the whole column */
+    double per = ehl_energy_touches(s->film, i) ? 0 : s->film->h[i] * per_mean_slope(e, i, n);
     ehl_across_matrix m;
+    for (size_t k = 0; k < n; k++) {
+        moved[k] = a->weight[k] * by_T[k];
+        by_stress[k] = a->weight[k] * (tau[k] * slope[k] + gamma[k]) * per;
+    }
     for (size_t l = 0; l < n; l++) {
         memset(m[l], 0, sizeof m[l]);
         for (size_t k = 0; k < n; k++)
             m[l][k] = conducted * a->stiffness[l][k] + c->lift[k] * a->slope[l][k] +
-                      c->by_stress[k] * c->moved[l];
+                      by_stress[k] * moved[l];
     }
     for (size_t k = 0; k < n; k++)
-        m[k][k] = c->diagonal[k] + c->by_stress[k] * c->moved[k];
+        m[k][k] = c->diagonal[k] + by_stress[k] * moved[k];
     for (size_t k = 1; k < n; k++) {
         m[k - 1][k] -= c->below[k];
         m[k][k - 1] -= c->above[k];
@@ -264,21 +201,71 @@ FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n, const column *c)
     for (size_t l = 0; l < n; l++)
         for (size_t k = 0; k < n; k++)
             to[l * n + k] = found ? m[l][k] : NAN;
-    memcpy(s->e->inverted + 2 * i * n, c->diagonal, n * sizeof *to);
-    memcpy(s->e->inverted + (2 * i + 1) * n, c->lift, n * sizeof *to);
+    memcpy(e->inverted + 2 * i * n, c->diagonal, n * sizeof *to);
+    memcpy(e->inverted + (2 * i + 1) * n, c->lift, n * sizeof *to);
 }
 
 /* Whether the equations of a column are nearly those that have been inverted. No slope of a node is
    above n^2/2. */
-FF_SIMD_INLINE int is_inverted(const sweep *s, size_t i, size_t n, const column *c)
+FF_SIMD_INLINE int is_inverted(const sweep *s, size_t i, size_t n)
 {
+    const ehl_column *c = &s->e->column[i];
     const double *diagonal = s->e->inverted + 2 * i * n, *lift = diagonal + n;
     const double keep = s->e->keep, steep = (double)(n * n) / 2;
-    int same = 1;
+    int64_t other = 0;
     for (size_t k = 0; k < n; k++)
-        same &= fabs(c->diagonal[k] - diagonal[k]) + steep * fabs(c->lift[k] - lift[k]) <=
-                keep * fabs(diagonal[k]);
-    return same && keep > 0;
+        other |= !(fabs(c->diagonal[k] - diagonal[k]) + steep * fabs(c->lift[k] - lift[k]) <=
+                   keep * fabs(diagonal[k]));
+    return !other && keep > 0;
+}
+
+/* Storage, transport along x, compression, and the dissipation or friction of asperities, which
+   their temperature does not change; the diagonal knows all but what goes with tau_m. */
+FF_SIMD_INLINE void prepare_column(const sweep *s, size_t i, size_t n)
+{
+    const ehl_energy *e = s->e;
+    const ehl_energy_film *film = s->film;
+    const ehl_across *a = &e->across;
+    ehl_column *c = &e->column[i];
+    const side ahead = side_of(s, i, 1), behind = side_of(s, i, 0);
+    const double *u = e->u + i * n, *rho = e->rho + i * n, *rho_T = e->rho_T + i * n,
+                 *tau = e->tau + i * n, *gamma = e->gamma + i * n, *by_T = e->gamma_T + i * n,
+                 none[EHL_ACROSS_MOST] = {0}, *past = film->past ? film->past + i * n : none;
+    double p_t = film->p_t ? film->p_t[i] : 0, p_x = e->p_x[i], h = film->h[i],
+           per_dx = 1 / film->dx, rate = film->rate, capacity = e->heat_capacity;
+    int touches = ehl_energy_touches(film, i);
+    double friction = touches ? film->friction[i] : 0, sheared = touches ? 0 : h;
+    double warmed = per_mean_slope(e, i, n) > 0 ? sheared : 0, conducted = e->conductivity / h;
+    transverse_transport(s, i, n, c);
+    FF_SIMD_LOOP
+    for (size_t k = 0; k < n; k++) {
+        double held = h * a->weight[k] * rho[k] * capacity, expansion = -rho_T[k] / rho[k];
+        double on = held * (u[k] > 0 ? u[k] : 0) * per_dx,
+               back = held * (u[k] < 0 ? -u[k] : 0) * per_dx;
+        double own = held * rate + on * ahead.now + back * behind.now -
+                     h * a->weight[k] * expansion * (p_t + u[k] * p_x);
+        c->on[k] = on;
+        c->back[k] = back;
+        c->own[k] = own;
+        c->source[k] = a->weight[k] * (sheared * tau[k] * gamma[k] + friction) - held * past[k];
+        c->diagonal[k] = conducted * a->stiffness[k][k] + c->lift[k] * a->slope[k][k] +
+                         c->below[k] + c->above[k + 1] + own -
+                         warmed * a->weight[k] * tau[k] * by_T[k];
+    }
+    c->diagonal[0] += 1 / s->passage[0].own;
+    c->diagonal[n - 1] += 1 / s->passage[1].own;
+    if (!is_inverted(s, i, n))
+        renew(s, i, n);
+}
+
+/* The equations of a column, inverted. The preset number of nodes is known when it is compiled. */
+FF_SIMD
+static void prepare(const sweep *s, size_t i)
+{
+    if (s->e->across.count == EHL_ACROSS_PRESET)
+        prepare_column(s, i, EHL_ACROSS_PRESET);
+    else
+        prepare_column(s, i, s->e->across.count);
 }
 
 /* Flank g moves towards the first node. */
@@ -344,23 +331,14 @@ FF_SIMD_INLINE void solve_across(sweep *s, size_t i, size_t n, int returns)
     ehl_energy *e = s->e;
     size_t end[2] = {0, n - 1};
     double base[2], by[EHL_ACROSS_MOST], *T = s->t->T + i * n;
-    column c;
-    begin_across(s, i, n, &c);
-    add_along(s, i, n, &c);
-    if (ehl_energy_touches(s->film, i))
-        add_friction(s, i, n, &c);
-    else
-        add_dissipation(s, i, n, &c);
+    double off[EHL_ACROSS_MOST];
+    find_rest(s, i, n, off);
     for (size_t g = 0; g < 2; g++) {
-        double per = 1 / s->passage[g].own;
         base[g] = returns ? e->base[g][i] + e->T_in : flank_at(s, g, i);
         e->base[g][i] = base[g] - e->T_in;
-        c.diagonal[end[g]] += per;
-        c.off[end[g]] += (base[g] - T[end[g]]) * per;
+        off[end[g]] += (base[g] - T[end[g]]) / s->passage[g].own;
     }
-    if (!is_inverted(s, i, n, &c))
-        renew(s, i, n, &c);
-    ehl_across_apply(e->inverse + i * n * n, n, n, c.off, by);
+    ehl_across_apply(e->inverse + i * n * n, n, n, off, by);
     change_temperatures(s, i, n, by);
     for (size_t g = 0; g < 2 && !returns; g++) {
         e->flux[g][i] = (T[end[g]] - base[g]) / s->passage[g].own;
@@ -425,7 +403,7 @@ void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temp
     size_t back = film->count;
     for (size_t i = 1; i < film->count; i++)
         if (film->full[i])
-            find_transport(&s, i);
+            prepare(&s, i);
     while (back > 0 && !(e->reverse[back - 1] && film->full[back - 1]))
         back--;
     if (film->frame > 0)
@@ -445,7 +423,7 @@ void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temp
 }
 
 /* Returns the heat that transverse transport carries off from node k. */
-static double transverse_rise(const sweep *s, size_t i, size_t n, size_t k, const column *c)
+static double transverse_rise(const sweep *s, size_t i, size_t n, size_t k, const ehl_column *c)
 {
     const double *T = s->t->T + i * n;
     double slope = 0;
@@ -462,13 +440,12 @@ ehl_energy_sums ehl_energy_balance(ehl_energy *e, const ehl_energy_film *film,
     ehl_energy_sums sum = {.shear = 0};
     size_t n = e->across.count;
     for (size_t i = 1; i < film->count; i++) {
-        column c;
+        ehl_column c;
         double h = film->h[i], p_t = film->p_t ? film->p_t[i] : 0;
         if (!is_film(&s, i))
             continue;
         const side sides[2] = {side_of(&s, i, 0), side_of(&s, i, 1)};
-        find_transport(&s, i);
-        take_transport(&s, i, n, &c);
+        transverse_transport(&s, i, n, &c);
         for (size_t k = 0; k < n; k++) {
             size_t at = i * n + k;
             const side *from = &sides[e->u[at] >= 0];

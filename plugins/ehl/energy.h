@@ -53,6 +53,17 @@ typedef struct ehl_temperature {
     double *modes[2]; /* of the flanks, nodes x their count */
 } ehl_temperature;
 
+/* What the equations of one column are made of but its temperatures. */
+typedef struct ehl_column {
+    double below[EHL_ACROSS_MOST + 1]; /* heat that crosses between nodes from the lower one, ... */
+    double above[EHL_ACROSS_MOST + 1]; /* ... and from the upper one, per temperature, >= 0 */
+    double lift[EHL_ACROSS_MOST];      /* transverse transport by the slope at the node */
+    double on[EHL_ACROSS_MOST], back[EHL_ACROSS_MOST]; /* along the nodes, from before and behind */
+    double own[EHL_ACROSS_MOST];      /* what storage, these and compression take by temperature */
+    double source[EHL_ACROSS_MOST];   /* heat, and what was stored before */
+    double diagonal[EHL_ACROSS_MOST]; /* without what goes with tau_m */
+} ehl_column;
+
 typedef struct ehl_energy {
     size_t nodes;
     ehl_across across;
@@ -63,9 +74,7 @@ typedef struct ehl_energy {
     double *memory;
     /* nodes x across */
     double *p, *ln_eta, *rho, *tau, *gamma, *gamma_tau, *gamma_T, *u, *through;
-    /* of each node, (across + 1) numbers each: heat that transverse transport carries per slope at
-       the node, and per temperature, >= 0, across the face below it from below and from above */
-    double *transport;
+    ehl_column *column; /* nodes */
     double *base[2];  /* temperature of the flanks without the flux at the node, over T_in, nodes */
     double *inverse;  /* of the equations of each node, nodes x across^2 */
     double *inverted; /* of what they were made then: the diagonal, transverse transport */
