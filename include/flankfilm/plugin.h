@@ -282,7 +282,7 @@ typedef struct ff_model {
                          has a place */
     double cost; /* seconds on one core of an ordinary evaluation, of a law for a million points:
                     where a file leaves the model open, cheaper ones are tried first; 0: it is
-                    never tried */
+                    not known, and the model is never tried */
 } ff_model;
 
 #if defined(__GNUC__)

@@ -95,6 +95,22 @@ static void changes(void)
     }
 }
 
+/* An object that hands on a state is made anew where its values stay, so that no case starts from
+   the one before: it counts its evaluations, and would have two. */
+static void no_state_is_kept(void)
+{
+    static const char *const values[] = {"one.level=3 mm"};
+    attempt a = try_run("pipeline:\n"
+                        "  one: {use: toy/source, level: 2 mm}\n"
+                        "  a: {use: loop/linear, base: 1 m}\n"
+                        "outputs: [one.series, a.evaluations]\n");
+    check_good("a run with a state", &a);
+    check_true("from no state", ff_pipeline_change(a.pipeline, a.tree, values, 1, true) &&
+                                    ff_pipeline_run(a.pipeline, NULL, a.report) &&
+                                    try_scalar(&a, "a", "evaluations") == 1);
+    try_close(&a);
+}
+
 /* toy/wide gives each output its rank, and the last one the number of those wanted. */
 static void many_outputs(void)
 {
@@ -238,6 +254,7 @@ int main(void)
 {
     results();
     changes();
+    no_state_is_kept();
     many_outputs();
     shapes();
     lengths_of_inputs();

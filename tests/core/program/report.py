@@ -118,6 +118,24 @@ study:
             self.assertIn(words, page)
         self.assertIn("rank correlation", dom)
 
+    def test_uncertainty(self):
+        """What limits an output, its histogram with percentiles, and the share of each input."""
+        page, dom, figures = self.study("uncertainty", """
+pipeline: {wave: {use: toy/wave, amplitude: 2 mm, count: 8}}
+outputs: [wave.total]
+study:
+  uncertainty:
+    outputs: [wave.total]
+    inputs: {wave.amplitude: {normal: [2 mm, 5 %]}}
+    samples: 40
+    sensitivity: 10
+    models: {longer: {wave.count: 12}}
+""")
+        self.assertEqual(figures, 3)
+        self.assertIn("better inputs would", page)
+        for words in ("What limits each output", "what the inputs make of it", "50 % are below", "share of the variance"):
+            self.assertIn(words, dom)
+
     def test_tradeoff(self):
         """Its cases are named by what they set, with a table of the front and one of all candidates."""
         page, dom, figures = self.study("tradeoff", """
