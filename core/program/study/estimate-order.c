@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Probabilities and percentiles. What a cheap level gives is first put on the scale of level 0 by
- * the line that the pilot shows; then
+ * the line that the samples on both show; then
  *   P(y <= t) = P(z <= t) + P(y <= t < z) - P(z <= t < y):
  * the first from the many samples of the cheap level, the others from the few that have both. The
  * interval is that of a sum of proportions: Wilson's of each, joined as Newcombe 1998 does
@@ -34,7 +34,7 @@ static size_t companion(const estimate_samples *s, double *scale, double *shift,
     double least = 0.25 / (double)s->count[0];
     size_t best = 0;
     for (size_t k = 1; k < s->levels; k++) {
-        estimate_moments m = estimate_pairs(s->pilot[0], s->pilot[k], s->pilot_count, NULL, 0);
+        estimate_moments m = estimate_pairs(s->values[0], s->values[k], s->count[0], NULL, 0);
         if (m.count < 3 || !(m.aa > 0 && m.bb > 0))
             continue;
         double r = fmin(1, fabs(m.ab) / sqrt(m.aa * m.bb)), apart = acos(r) / acos(-1);

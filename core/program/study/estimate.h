@@ -26,11 +26,19 @@ typedef struct estimate_samples {
     size_t levels;
     size_t count[ESTIMATE_MOST_LEVELS];
     const double *values[ESTIMATE_MOST_LEVELS];
-    /* of a pilot whose inputs are independent of those above: the values of all levels for the same
-       inputs. It chooses the weights, so that the estimates stay unbiased. */
-    size_t pilot_count;
-    const double *pilot[ESTIMATE_MOST_LEVELS];
+    /* what the samples of the last level were made from: so many independent standard normal
+       numbers each, sample by sample. The mean takes them as control variates; 0: it does not. */
+    size_t inputs;
+    const double *numbers;
 } estimate_samples;
+
+/* What a pilot gave: the first samples, on all levels. */
+typedef struct estimate_pilot {
+    size_t levels, count;
+    const double *values[ESTIMATE_MOST_LEVELS];
+    size_t inputs;
+    const double *numbers;
+} estimate_pilot;
 
 /* Which levels are worth their cost, and how many samples of each. */
 typedef struct estimate_plan {
@@ -58,10 +66,17 @@ double estimate_correlation(const double *a, const double *b, size_t count);
    percentiles and probabilities, too. */
 typedef enum { ESTIMATE_MEAN, ESTIMATE_DISTRIBUTION } estimate_aim;
 
-/* Plans for the standard error that `plain` samples of level 0 alone have. `cost` is that of a case
-   of each level over one of level 0. */
-estimate_plan estimate_allocate(const double *const *pilot, size_t pilot_count, size_t levels,
-                                const double *cost, size_t plain, estimate_aim aim);
+/* Plans for the standard error that `plain` samples of level 0 alone have; those of the pilot are
+   the first. `cost` is that of a case of each level over one of level 0. */
+estimate_plan estimate_allocate(const estimate_pilot *pilot, const double *cost, size_t plain,
+                                estimate_aim aim);
+
+/* estimate-inputs.c: the regression of values on the numbers that they were made from, and on their
+   squares where there are samples enough. Writes to `part` what of each value the others say that
+   its numbers make, which has the mean 0; 0 where there are too few samples, NaN where the value
+   is. Returns the share of the variance that the numbers do not explain. */
+double estimate_explained(const double *values, const double *numbers, size_t count, size_t inputs,
+                          double *part);
 
 estimate estimate_mean(const estimate_samples *s);
 estimate estimate_deviation(const estimate_samples *s); /* the standard deviation */

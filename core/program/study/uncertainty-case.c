@@ -40,11 +40,13 @@ size_t study_uncertainty_pilot_case(const study_uncertainty *u, size_t level, si
     return u->first_pilot + level * u->pilot + sample;
 }
 
-size_t study_uncertainty_main_case(const study_uncertainty *u, size_t slot, size_t sample)
+size_t study_uncertainty_sample_case(const study_uncertainty *u, size_t slot, size_t sample)
 {
-    size_t number = u->first_main + sample;
+    if (sample < u->pilot)
+        return study_uncertainty_pilot_case(u, u->plan.level[slot], sample);
+    size_t number = u->first_main + sample - u->pilot;
     for (size_t k = 0; k < slot; k++)
-        number += u->plan.count[k];
+        number += u->plan.count[k] - u->pilot;
     return number;
 }
 

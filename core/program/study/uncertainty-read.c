@@ -167,7 +167,7 @@ static bool read_patches(study_uncertainty *u, const ff_node *map, const char *k
 /* Level by level, so that a worker goes on with the models that it has. */
 static void submit_pilot(study_uncertainty *u)
 {
-    double *numbers = variates_draw(&u->inputs, u->seed, VARIATES_PILOT, u->pilot);
+    double *numbers = variates_draw(&u->inputs, u->seed, VARIATES_MAIN, u->pilot);
     u->first_pilot = u->context->list.count;
     for (size_t k = 0; k < u->level_count; k++)
         for (size_t i = 0; i < u->pilot; i++)
@@ -211,8 +211,9 @@ static void submit_planned(study_uncertainty *u)
         study_uncertainty_submit(u,
                                  study_context_format(u->context, "medians, %s", u->models[i].name),
                                  NULL, &u->models[i], false);
-    if (u->level_count > 1)
-        submit_pilot(u);
+    if (u->level_count == 1)
+        u->pilot = 0;
+    submit_pilot(u);
     submit_sensitivity(u);
     u->first_main = u->context->list.count;
 }

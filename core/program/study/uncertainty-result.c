@@ -24,18 +24,15 @@ static estimate_samples samples_of(const study_uncertainty *u, size_t output)
 {
     memory_arena *arena = &u->context->arena;
     estimate_samples s = {.levels = u->plan.levels,
-                          .pilot_count = u->level_count > 1 ? u->pilot : 0};
+                          .inputs = u->aim == ESTIMATE_MEAN ? u->inputs.count : 0,
+                          .numbers = u->numbers};
     for (size_t slot = 0; slot < s.levels; slot++) {
         double *values = memory_arena_alloc(arena, u->plan.count[slot] * sizeof *values);
-        double *pilot = memory_arena_alloc(arena, (s.pilot_count + 1) * sizeof *pilot);
         for (size_t i = 0; i < u->plan.count[slot]; i++)
-            values[i] = study_uncertainty_value(u, study_uncertainty_main_case(u, slot, i), output);
-        for (size_t i = 0; i < s.pilot_count; i++)
-            pilot[i] = study_uncertainty_value(
-                u, study_uncertainty_pilot_case(u, u->plan.level[slot], i), output);
+            values[i] =
+                study_uncertainty_value(u, study_uncertainty_sample_case(u, slot, i), output);
         s.count[slot] = u->plan.count[slot];
         s.values[slot] = values;
-        s.pilot[slot] = pilot;
     }
     return s;
 }
@@ -207,16 +204,20 @@ static json_t *gain_of(const study_uncertainty *u, const json_t *outputs)
     const json_t *of = json_object_get(outputs, u->context->outputs[0]->text);
     double error = study_number_of(json_object_get(of, "mean"), "error");
     double deviation = study_number_of(json_object_get(of, "deviation"), "value");
-    double pilot = 0, spent = 0, plain = deviation * deviation / (error * error);
-    for (size_t k = 0; k < u->level_count; k++)
-        pilot += (double)u->pilot * u->cost[k];
+    double unused = 0, spent = 0, plain = deviation * deviation / (error * error);
+    for (size_t k = 0; k < u->level_count; k++) {
+        bool used = false;
+        for (size_t slot = 0; slot < u->plan.levels; slot++)
+            used = used || u->plan.level[slot] == k;
+        unused += used ? 0 : (double)u->pilot * u->cost[k];
+    }
     for (size_t i = u->first_pilot; i < u->context->list.count; i++)
         if (i < u->first_sensitivity || i >= u->first_main) {
             double processor = study_outcome_of(u->context, i)->processor;
             spent += isfinite(processor) ? processor : 0;
         }
     return json_pack("{s:f, s:o, s:o, s:f}", "predicted",
-                     (double)u->samples / (u->plan.cost + pilot), "found",
+                     (double)u->samples / (u->plan.cost + unused), "found",
                      study_json_real(plain * u->seconds[0] / spent), "plain",
                      study_json_real(plain), "seconds", spent);
 }

@@ -62,8 +62,8 @@ const ff_param study_uncertainty_keys[STUDY_UNCERTAINTY_KEYS] = {
                            .preset = "20",
                            .min = 5,
                            .max = 10000,
-                           .doc = "samples on every level of the ladder that tell how many are "
-                                  "worth their cost; they serve for nothing else"},
+                           .doc = "first samples, on every level of the ladder, which tell how "
+                                  "many more are worth their cost"},
     [UNCERTAINTY_AIM] = {.name = "aim",
                          .unit = "",
                          .type = FF_CHOICE,
@@ -143,30 +143,32 @@ static void find_costs(study_uncertainty *u)
 static void plan_samples(study_uncertainty *u)
 {
     double *values = memory_alloc(u->level_count * u->pilot * sizeof *values);
-    const double *pilot[ESTIMATE_MOST_LEVELS];
+    double *numbers = variates_draw(&u->inputs, u->seed, VARIATES_MAIN, u->pilot);
+    estimate_pilot pilot = {
+        .levels = u->level_count, .count = u->pilot, .inputs = u->inputs.count, .numbers = numbers};
     for (size_t k = 0; k < u->level_count; k++) {
-        pilot[k] = values + k * u->pilot;
+        pilot.values[k] = values + k * u->pilot;
         for (size_t i = 0; i < u->pilot; i++)
             values[k * u->pilot + i] =
                 study_uncertainty_value(u, study_uncertainty_pilot_case(u, k, i), 0);
     }
     find_costs(u);
-    u->plan = estimate_allocate(pilot, u->pilot, u->level_count, u->cost, u->samples, u->aim);
+    u->plan = estimate_allocate(&pilot, u->cost, u->samples, u->aim);
     free(values);
+    free(numbers);
 }
 
 static void submit_main(study_uncertainty *u)
 {
     size_t last = u->plan.count[u->plan.levels - 1];
-    double *numbers = variates_draw(&u->inputs, u->seed, VARIATES_MAIN, last);
+    u->numbers = variates_draw(&u->inputs, u->seed, VARIATES_MAIN, last);
     for (size_t slot = 0; slot < u->plan.levels; slot++) {
         const uncertainty_patch *level = &u->levels[u->plan.level[slot]];
-        for (size_t i = 0; i < u->plan.count[slot]; i++)
+        for (size_t i = u->pilot; i < u->plan.count[slot]; i++)
             study_uncertainty_submit(
                 u, study_context_format(u->context, "sample %zu, %s", i + 1, level->name),
-                numbers + i * u->inputs.count, level, false);
+                u->numbers + i * u->inputs.count, level, false);
     }
-    free(numbers);
 }
 
 static void write_file(study_context *context, const char *name, const json_t *result,
@@ -196,9 +198,12 @@ bool study_uncertainty_run(study_uncertainty *u)
     if (u->level_count > 1)
         plan_samples(u);
     submit_main(u);
-    if (!study_run_submitted(context, u->first_main, context->list.count))
+    if (!study_run_submitted(context, u->first_main, context->list.count)) {
+        free(u->numbers);
         return false;
+    }
     json_t *result = study_uncertainty_result(u);
+    free(u->numbers);
     write_file(context, "uncertainty.csv", result, study_uncertainty_table);
     write_file(context, "uncertainty.json", result, put_json);
     write_file(context, "uncertainty.figure.json", result, study_uncertainty_figure);

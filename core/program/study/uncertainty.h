@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * What uncertain inputs make of the outputs, beside what the grid and the choice of models do: the
- * answer at the medians, with its error bar and by other models; a pilot on all levels of a ladder
- * of cheaper models; then as many samples of each level as the pilot shows to be worth their cost;
+ * answer at the medians, with its error bar and by other models; the first samples, a pilot, on all
+ * levels of a ladder of cheaper models; then as many more of each level as those show to be worth
+ * their cost;
  * and samples of the cheapest level for the share of each input.
  */
 #ifndef STUDY_UNCERTAINTY_H
@@ -51,7 +52,8 @@ typedef struct uncertainty_condition {
 typedef struct study_uncertainty {
     study_context *context;
     variates inputs;
-    size_t samples, pilot, sensitivity;
+    size_t samples, sensitivity;
+    size_t pilot; /* 0 without a ladder */
     uint64_t seed;
     estimate_aim aim;
     double shares[UNCERTAINTY_MOST_SHARES]; /* of the percentiles */
@@ -63,9 +65,10 @@ typedef struct study_uncertainty {
     size_t first_patch; /* paths before it are those of the inputs */
 
     /* numbers of the first cases: nominal, with its error bar, by each model; of pilot sample i on
-       level k, main sample i on slot k of the plan, and of the samples of the cheapest level */
+       level k, the further samples of the plan, and those of the cheapest level */
     size_t nominal, measured, first_model, first_pilot, first_sensitivity, first_main;
     estimate_plan plan;
+    double *numbers;                      /* that the samples are made from */
     double cost[ESTIMATE_MOST_LEVELS];    /* over a case of level 0 */
     double seconds[ESTIMATE_MOST_LEVELS]; /* s of processor time of a case in the pilot, or NaN */
 } study_uncertainty;
@@ -80,7 +83,7 @@ size_t study_uncertainty_submit(const study_uncertainty *u, const char *label,
                                 bool measured);
 /* Numbers of cases; `slot` is a level of the plan. */
 size_t study_uncertainty_pilot_case(const study_uncertainty *u, size_t level, size_t sample);
-size_t study_uncertainty_main_case(const study_uncertainty *u, size_t slot, size_t sample);
+size_t study_uncertainty_sample_case(const study_uncertainty *u, size_t slot, size_t sample);
 /* Returns what a case gave of an output; NaN where it failed. */
 double study_uncertainty_value(const study_uncertainty *u, size_t number, size_t output);
 

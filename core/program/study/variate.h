@@ -37,7 +37,7 @@ bool variates_read(variates *v, study_context *context, const ff_node *inputs,
                    const ff_node *correlations);
 
 /* Streams of draws that are independent of each other. */
-enum { VARIATES_PILOT, VARIATES_MAIN, VARIATES_FIRST, VARIATES_SECOND };
+enum { VARIATES_MAIN = 1, VARIATES_FIRST, VARIATES_SECOND };
 
 /* Returns `count` times one standard normal number for each input, independent of each other; the
    first ones of a longer list are the same. To be freed. */

@@ -131,7 +131,7 @@ study:
     sensitivity: 10
     models: {longer: {wave.count: 12}}
 """)
-        self.assertEqual(figures, 3)
+        self.assertEqual(figures, 6)  # and the three of its samples
         self.assertIn("better inputs would", page)
         for words in ("What limits each output", "what the inputs make of it", "50 % are below", "share of the variance"):
             self.assertIn(words, dom)

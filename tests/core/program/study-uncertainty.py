@@ -42,6 +42,7 @@ class Uncertainty(lab.Lab):
 
     def test_statistics_are_those_of_the_table(self):
         self.study("plain", TWO + """    samples: 60
+    aim: distribution
     conditions: ["wave.total < 0 mm", "wave.total > 0 mm"]
     models: {longer: {wave.count: 12, other.count: 12}, broken: {wave.end: fail}}
 """, code=4)
@@ -53,7 +54,7 @@ class Uncertainty(lab.Lab):
         self.assertAlmostEqual(of["mean"]["value"], statistics.mean(totals), delta=1e-9 * abs(totals[0]))
         self.assertAlmostEqual(of["mean"]["error"], error, delta=1e-6 * error)
         self.assertAlmostEqual(of["deviation"]["value"], statistics.stdev(totals), delta=1e-6 * error)
-        self.assertAlmostEqual(of["mean"]["high"] - of["mean"]["value"], 2.00100 * error, delta=1e-4 * error)
+        self.assertAlmostEqual(of["mean"]["high"] - of["mean"]["value"], 2.00100 * error, delta=0.02 * error)
         self.assertAlmostEqual(of["percentiles"][1]["value"], statistics.median(totals), delta=1e-9 * abs(totals[0]))
         self.assertEqual([one["low"] is None or one["low"] < one["value"] for one in of["percentiles"]], [True] * 3)
         below, above = (found["conditions"]["wave.total " + sign] for sign in ("< 0 mm", "> 0 mm"))
@@ -66,6 +67,15 @@ class Uncertainty(lab.Lab):
         nominal, longer = (float(self.rows("plain", "medians" + word)[0]["wave.total [m]"]) for word in ("", ", longer"))
         self.assertAlmostEqual(limits[0]["models"]["longer"], longer / nominal - 1, delta=1e-6)
         self.assertIn("broken", limits[0]["not_compared"])
+
+    def test_the_inputs_are_control_variates_of_the_mean(self):
+        """The total is linear in its amplitude, so that any samples tell its mean to rounding; a test of the whole path:
+        the numbers that regress it are those that made it."""
+        self.study("regressed", TWO + "    samples: 40\n")
+        mean = self.read("regressed/uncertainty.json")["outputs"]["wave.total"]["mean"]
+        nominal = float(self.rows("regressed", "medians")[0]["wave.total [m]"])
+        self.assertAlmostEqual(mean["value"] / nominal, 1, delta=1e-6)
+        self.assertLess(mean["error"], 1e-6 * abs(nominal))
 
     def test_draws(self):
         self.write("measured.csv", "# of a batch\nx-when;wave.amplitude [mm]\n1;1.5\n2;1.25\n3;1.75\n")
@@ -107,11 +117,9 @@ class Uncertainty(lab.Lab):
         of, levels = found["outputs"]["wave.total"], found["levels"]
         self.assertEqual((levels[0]["samples"], levels[1]["correlation"]), (8, 1))
         self.assertAlmostEqual(levels[1]["samples"], 400, delta=1)
-        self.assertAlmostEqual(found["gain"]["predicted"], 400 / (8 + 4 + 8 * 1.01), delta=0.05)
+        self.assertAlmostEqual(found["gain"]["predicted"], 400 / (8 + 4), delta=0.05)
         nominal = float(self.rows("ladder", "medians")[0]["wave.total [m]"])
-        self.assertLess(of["mean"]["low"], nominal)
-        self.assertGreater(of["mean"]["high"], nominal)
-        self.assertAlmostEqual(of["mean"]["error"] / abs(nominal), 0.05 / 20, delta=0.0005)
+        self.assertAlmostEqual(of["mean"]["value"] / nominal, 1, delta=1e-6)
         shares = of["shares"]
         self.assertAlmostEqual(shares["wave.amplitude"]["first"]["value"], 1)
         self.assertGreater(shares["wave.amplitude"]["total"]["high"], 0.9)
