@@ -175,6 +175,92 @@ static void test_eyring(void)
     ehl_energy_destroy(&b.e);
 }
 
+/* Temperature of the middle column at zeta: the polynomial through its nodes. */
+static double temperature_at(const bench *b, double zeta)
+{
+    const ehl_across *a = &b->e.across;
+    double sum = 0;
+    for (size_t l = 0; l < a->count; l++) {
+        double one = b->T[a->count + l];
+        for (size_t k = 0; k < a->count; k++)
+            one *= k == l ? 1 : (zeta - a->z[k]) / (a->z[l] - a->z[k]);
+        sum += one;
+    }
+    return sum;
+}
+
+/* The flow of Eyring's oil across the middle column by its law itself, not by the tangent at the
+   stress without a gradient: tau_m by Newton's method, integrals by Simpson's rule. Returns
+   int u dz/h; *tau_m: first guess, and the stress found. */
+static double exact_flow(const bench *b, double stress, double *tau_m)
+{
+    enum { STEPS = 200 };
+    const double h = b->h[1], target = (b->film.speed[1] - b->film.speed[0]) / h;
+    double moment = 0;
+    for (int turn = 0; turn < 20; turn++) {
+        double mean = 0, slope = 0;
+        moment = 0;
+        for (int j = 0; j <= STEPS; j++) {
+            double zeta = (double)j / STEPS, x = (*tau_m + (zeta - 0.5) * stress) / tau0;
+            double part = (j == 0 || j == STEPS ? 1 : 2 + 2 * (j % 2)) / (3. * STEPS);
+            double fluidity = part * exp(beta * (temperature_at(b, zeta) - T0)) / eta0;
+            mean += fluidity * tau0 * sinh(x);
+            slope += fluidity * cosh(x);
+            moment += zeta * fluidity * tau0 * sinh(x);
+        }
+        *tau_m += (target - mean) / slope;
+    }
+    return b->film.speed[1] - h * moment;
+}
+
+/* By how much the law's own flow that a pressure gradient drives differs from that of the tangent,
+   relative, at s = h p_x/tau0 and sliding speed u; and the same of the stress. */
+static double tangent_error(double s, double u, double *stress)
+{
+    static bench b;
+    const double h = 1e-7, p_x = s * tau0 / h;
+    open_bench(&b, NODES, 10, 1e15, 10 + u / 2, 10 - u / 2, h);
+    b.e.flow = &eyring;
+    for (size_t i = 0; i < NODES; i++)
+        b.p[i] = p_x * b.film.dx * (double)i;
+    turns_to_settle(&b);
+    double flow = 0, tau_m = b.e.tau_m[1];
+    for (size_t k = 0; k < 10; k++)
+        flow += b.e.across.weight[k] * b.e.through[10 + k];
+    double exact = 860 * h * exact_flow(&b, h * p_x, &tau_m);
+    double driven = -b.e.mobility[1] * p_x;
+    *stress = tau_m / b.e.tau_m[1] - 1;
+    ehl_energy_destroy(&b.e);
+    return (exact - flow) / driven;
+}
+
+/*
+ * One temperature, with sinh(m_0) = eta u_s/(tau0 h): the flow that is driven, over that of the
+ * tangent, is 12 (cosh(s/2) - sinh(s/2)/(s/2))/s^2 cosh(m)/cosh(m_0), sinh(m) = sinh(m_0)
+ * (s/2)/sinh(s/2), or 1 + s^2 (1/40 - tanh(m_0)^2/24) + O(s^4). Of a heated film, whose middle is
+ * thinner than its rims, it is of second order, too.
+ */
+static void test_tangent(void)
+{
+    double stress, unwanted;
+    beta = 0;
+    for (int k = 0; k < 6; k++) {
+        double s = 0.5 * (1 << k % 3), u = k < 3 ? 1 : 30, m_0 = asinh(eta0 * u / (tau0 * 1e-7));
+        double flat = sinh(s / 2) / (s / 2), m = asinh(sinh(m_0) / flat);
+        double ratio = 12 * (cosh(s / 2) - flat) / (s * s) * cosh(m) / cosh(m_0);
+        double series = s * s * (1. / 40 - tanh(m_0) * tanh(m_0) / 24);
+        check_near("flow of the law over its tangent", 1 + tangent_error(s, u, &stress), ratio,
+                   1e-5);
+        check_near("its stress", 1 + stress, m / m_0, 1e-5);
+        check_below("beyond the second order", fabs(ratio - 1 - series), s * s * s * s / 300);
+    }
+    beta = 0.03;
+    double coarse = tangent_error(0.5, 10, &stress), fine = tangent_error(0.25, 10, &unwanted);
+    check_near("of a heated film, of second order", coarse / fine, 4, 0.05);
+    check_below("and no larger", fabs(coarse), 0.25 / 40);
+    check_below("nor is the stress", fabs(stress), 0.25 / 24);
+}
+
 /* What the oil has taken along, and the flanks, is what was dissipated: of second order in x,
    since heat that the oil carries is a difference of its content at the ends here. */
 static double open_balance(size_t nodes)
@@ -213,6 +299,7 @@ int main(void)
     test_couette();
     test_nahme();
     test_eyring();
+    test_tangent();
     test_balance();
     return check_done();
 }
