@@ -333,11 +333,11 @@ static ff_status explain(const ehl_model *m, const run *r, ff_status status, dou
         "More cells, more steps or a wider domain may help, if its Hertz pressure of %.3g GPa is "
         "meant",
         1e-9 * hertz);
-    if (m->thermal == EHL_THERMAL_FULL && !gone)
-        snprintf(
-            advice, sizeof advice,
-            "Heat may be why: with much of it no film is found by thermal: full where thermal: "
-            "inlet or none finds one; more cells, less speed or less sliding may help");
+    if (m->thermal == EHL_THERMAL_FULL && !gone && !r->thermal.cold_fails)
+        snprintf(advice, sizeof advice,
+                 "Heat %s why: with much of it no film is found by thermal: full where thermal: "
+                 "inlet or none finds one; more cells, less speed or less sliding may help",
+                 r->march.known > 0 ? "may be" : "is");
     return ff_failf(m->host, status, NULL, "at time %.6g s%s (load %.4g N/m): %s%s. %s", time, roll,
                     at.load, r->march.why, good,
                     gone ? "It has been squeezed or starved to less than a molecule at one place: "

@@ -4,6 +4,7 @@
 
 #include "deflection.h"
 #include "heat.h"
+#include "thermal.h"
 #include "time-stepper.h"
 
 #include <math.h>
@@ -207,8 +208,8 @@ static ff_status solve_from_trial(ehl_march *m, const ehl_step *step, const ehl_
     return status;
 }
 
-/* Finds the steady film in the trial: from coarser grids, from a guess, or by settling. */
-static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_instant *at)
+/* Looks for the steady film in the trial: from coarser grids, from a guess, or by settling. */
+static ff_status look_for_steady(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     ehl_solver *s = m->solver;
     ehl_film *film = &m->trial.film;
@@ -223,6 +224,21 @@ static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_insta
     if (status == FF_NOCONV && settle(m, step, at) == FF_OK)
         status = solve_from_trial(m, step, at);
     return status;
+}
+
+/* Finds the steady film in the trial. Where there is none with heat, whether heat is why is told by
+   whether there is one without. */
+static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_instant *at)
+{
+    ff_status status = look_for_steady(m, step, at), cold;
+    if (status != FF_NOCONV || !m->thermal)
+        return status;
+    ehl_thermal_restart(m);
+    m->thermal->without = 1;
+    cold = look_for_steady(m, step, at);
+    m->thermal->without = 0;
+    m->thermal->cold_fails = cold == FF_NOCONV;
+    return cold == FF_OK ? status : cold;
 }
 
 /* Fills the gap with oil without pressure, as it is at rest. */

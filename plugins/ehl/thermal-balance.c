@@ -106,6 +106,10 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
 {
     const double limit = 10 * fmax(m->solver->tolerance, 1e-4), slow = 5;
     char text[200];
+    /* first: what is wrong with a film that is cut is said by this line */
+    host->quality(host->ctx, "temperature_max", t->highest, t->energy.highest,
+                  t->highest < t->energy.highest ? FF_GOOD : FF_BAD,
+                  "highest temperature of the film, K, below that at which it is cut");
     snprintf(text, sizeof text,
              "heat of shear, compression and asperities, less that of the oil and both flanks, "
              "over it, thermal: "
@@ -126,7 +130,4 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
         t->least_peclet >= slow ? FF_GOOD : FF_DOUBTFUL,
         "u a rho c/k of the slower flank: below it heat spreads along the flank, which is "
         "left out");
-    host->quality(host->ctx, "temperature_max", t->highest, t->energy.highest,
-                  t->highest < t->energy.highest ? FF_GOOD : FF_BAD,
-                  "highest temperature of the film, K, below that at which it is cut");
 }

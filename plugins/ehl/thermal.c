@@ -24,6 +24,10 @@ static const double SETTLED = 1e-4, SETTLED_STEADY = 1e-5, SETTLED_ROUGH = 1e-3;
 static const double HELD = 2;
 /* Of a larger change a share is taken, of this size. */
 static const double LARGE = 0.3;
+/* Rounds of a steady film after which its factors are accelerated, and the share of their change
+   that is mixed with what the rounds before have shown. */
+static const int PLAIN_ROUNDS = 12;
+static const double MIXED = 0.5;
 /* The share becomes less, down to a least one, while changes do not shrink by this. */
 static const double SHRINKING = 0.95, LEAST_SHARE = 0.15;
 /* Change of ln(eta) by a sweep below which the temperatures are those of the film. */
@@ -58,7 +62,7 @@ static ff_status speeds_of(const ff_host *host, const ehl_history *h, double *le
 
 static ff_status allocate(ehl_thermal *t, ehl_march *m)
 {
-    enum { OWN = 7, BLOCKS = EHL_STATES + 4 };
+    enum { OWN = 7 + 2 * FACTORS, BLOCKS = EHL_STATES + 4 };
     size_t n = t->energy.nodes;
     t->width = n * (t->energy.across.count + t->energy.flank[0].count + t->energy.flank[1].count +
                     FACTORS);
@@ -72,11 +76,13 @@ static ff_status allocate(ehl_thermal *t, ehl_march *m)
     t->moved[0] = next + 2 * t->width;
     t->moved[1] = next + 3 * t->width;
     next += 4 * t->width;
-    double **own[OWN] = {&t->p_t,   &t->through,  &t->ease,    &t->swell,
-                         &t->carry, &t->friction, &t->p_before};
-    for (size_t k = 0; k < OWN; k++, next += n)
+    double **own[] = {&t->p_t,   &t->through,  &t->ease,    &t->swell,
+                      &t->carry, &t->friction, &t->p_before};
+    for (size_t k = 0; k < sizeof own / sizeof own[0]; k++, next += n)
         *own[k] = next;
-    return FF_OK;
+    t->now = next;
+    t->change = next + FACTORS * n;
+    return ehl_anderson_create(&t->anderson, FACTORS * n) ? FF_OK : FF_NOMEM;
 }
 
 /* Of the temperatures of a state: those of mobility, density and carried mass. */
@@ -128,6 +134,7 @@ ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
 void ehl_thermal_destroy(ehl_thermal *t)
 {
     ehl_energy_destroy(&t->energy);
+    ehl_anderson_destroy(&t->anderson);
     free(t->memory);
     t->memory = NULL;
 }
@@ -137,6 +144,14 @@ ehl_temperature ehl_thermal_state(const ehl_thermal *t, double *heat)
     size_t n = t->energy.nodes;
     double *modes = heat + n * t->energy.across.count;
     return (ehl_temperature){heat, {modes, modes + n * t->energy.flank[0].count}};
+}
+
+static void take_factors(ehl_thermal *t, double *heat)
+{
+    const double *next = factors_of(t, heat);
+    double *to[FACTORS] = {t->ease, t->swell, t->carry};
+    for (size_t k = 0; k < FACTORS; k++)
+        memcpy(to[k], next + k * t->energy.nodes, t->energy.nodes * sizeof *to[k]);
 }
 
 void ehl_thermal_restart(ehl_march *m)
@@ -151,6 +166,7 @@ void ehl_thermal_restart(ehl_march *m)
     double *next = factors_of(t, heat);
     for (size_t j = 0; j < FACTORS * n; j++)
         next[j] = 1;
+    take_factors(t, heat);
 }
 
 /* Sets n values to a line in time through the last two, within their bounds. */
@@ -312,12 +328,33 @@ static double find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl_ener
     return most;
 }
 
-static void take_factors(ehl_thermal *t, double *heat)
+/*
+ * Changes the next factors of a steady film as the rounds before make it seem best. Of sheared oil
+ * of which one layer takes all, the factors held make waves of a few cells in h, and these waves
+ * such factors: rounds by themselves go away from the film, however small a share of the change
+ * they take.
+ */
+static void accelerate(ehl_thermal *t, size_t count, double *next)
 {
-    const double *next = factors_of(t, heat);
-    double *to[FACTORS] = {t->ease, t->swell, t->carry};
-    for (size_t k = 0; k < FACTORS; k++)
-        memcpy(to[k], next + k * t->energy.nodes, t->energy.nodes * sizeof *to[k]);
+    size_t n = t->energy.nodes;
+    double *now = t->now, *by = t->change, largest = 0;
+    const double *of[FACTORS] = {t->ease, t->swell, t->carry};
+    for (size_t i = 0; i < n; i++) {
+        now[i] = log(of[0][i]);
+        next[i] = log(next[i] / of[0][i]);
+        for (size_t k = 1; k < FACTORS; k++) {
+            now[k * n + i] = of[k][i];
+            next[k * n + i] -= of[k][i];
+        }
+    }
+    ehl_anderson_step(&t->anderson, now, next, by);
+    for (size_t j = 0; j < FACTORS * n; j++)
+        largest = fmax(largest, fabs(by[j]));
+    double share = largest > LARGE ? LARGE / largest : 1;
+    for (size_t j = 0; j < FACTORS * n; j++)
+        next[j] = now[j] + share * by[j];
+    for (size_t i = 0; i < n; i++)
+        next[i] = i < count ? exp(next[i]) : 1;
 }
 
 /* Returns the part of these bounds that a film has whose `tolerance` is below the usual one. */
@@ -355,6 +392,10 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
     t->off = find_factors(t, r, &f, film, factors_of(t, m->trial.heat));
     t->damping = t->off > SHRINKING * before ? fmax(LEAST_SHARE, 0.7 * t->damping)
                                              : fmin(1, 1.3 * t->damping);
+    if (!(c[0] > 0) && t->round >= PLAIN_ROUNDS) {
+        accelerate(t, f.count, factors_of(t, m->trial.heat));
+        t->damping = MIXED;
+    }
     return t->off <= settled && t->energy.change <= warm;
 }
 
@@ -363,14 +404,17 @@ ff_status ehl_thermal_solve(ehl_march *m, const ehl_step *step, ehl_film *film, 
 {
     ehl_thermal *t = m->thermal;
     double c[3] = {0, 0, 0};
+    if (t->without)
+        return m->solver->solve(m->solver, step, film, limit);
     if (m->known > 0)
         predict(m, time, c);
     t->solved++;
     t->off = HUGE_VAL;
     t->damping = 1;
+    ehl_anderson_begin(&t->anderson);
     t->energy.reach = REACH * sqrt(tightness(m));
     const int on_the_way = m->known == 0 && step->past; /* to a steady film (start.c) */
-    for (int round = 0; round < (on_the_way ? 1 : MOST_ROUNDS); round++) {
+    for (t->round = 0; t->round < (on_the_way ? 1 : MOST_ROUNDS); t->round++) {
         take_factors(t, m->trial.heat);
         ff_status status = m->solver->solve(m->solver, step, film, limit);
         if (status != FF_OK)

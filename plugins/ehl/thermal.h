@@ -8,6 +8,7 @@
 #ifndef EHL_THERMAL_H
 #define EHL_THERMAL_H
 
+#include "anderson.h"
 #include "energy.h"
 #include "time-stepper.h"
 
@@ -34,6 +35,11 @@ typedef struct ehl_thermal {
     double rounds, solved;        /* counts: solutions for a film, and instants */
     double off;                   /* of the last round: what the factors were off */
     double damping;               /* share of their change that is taken */
+    int round;                    /* solutions for the film of this instant */
+    ehl_anderson anderson;        /* of the factors of a steady film */
+    double *now, *change;         /* of them, as they are accelerated */
+    int without;                  /* 1: films are solved for without heat */
+    int cold_fails;               /* 1: the steady film was not found without heat either */
     double diffusivity;           /* of the flanks, m2/s */
     double least_peclet;          /* u a rho c/k of the slower flank, loaded instants */
     double highest;               /* K */
@@ -47,7 +53,7 @@ ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
                              const ehl_thermal_data *data);
 void ehl_thermal_destroy(ehl_thermal *t);
 
-/* Forgets the temperatures before another engagement starts. */
+/* Forgets the temperatures: another engagement starts, or a film is looked for anew. */
 void ehl_thermal_restart(ehl_march *m);
 
 /* Solves for the film of `step` as solver->solve does, with its temperatures. */

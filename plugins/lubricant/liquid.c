@@ -13,6 +13,9 @@ enum { BLOCK = 256 };
 /* How far from the one temperature of its data an oil still is at it, K. */
 static const double SAME = 0.01;
 
+/* K before the upper end of an oil, and as many behind it, over which its slopes go to 0. */
+static const double BEND = 50;
+
 /* A function of T: its value and slope. */
 typedef double property(const lubricant_oil *oil, double T, double *slope);
 
@@ -168,22 +171,35 @@ static property *const properties[LUBRICANT_PROPERTIES] = {
     [FF_LIQUID_REFERENCE_TEMPERATURE] = reference_temperature,
 };
 
-/* At n <= BLOCK points. Where ASTM D341 does not hold, all stays as it is where it still does. */
+/*
+ * Returns the temperature whose values hold at T, and its slope: where ASTM D341 does not hold, all
+ * stays as it is where it still does. Heated films run into the upper end, which is reached on a
+ * parabola: the heat of compression goes with the slope of the density, which must not jump.
+ */
+static double held_at(const lubricant_oil *oil, double T, double *by_T)
+{
+    double above = fmax(T, oil->coldest);
+    double part = fmax(oil->hottest + BEND - above, 0) / (2 * BEND);
+    *by_T = T < oil->coldest ? 0 : fmin(part, 1);
+    return part < 1 ? oil->hottest - BEND * part * part : above;
+}
+
+/* At n <= BLOCK points. */
 static void values_at(const lubricant_oil *oil, int32_t what, size_t n, const double *T,
                       double *value, double *slope)
 {
-    double inside[BLOCK];
+    double held[BLOCK], by_T[BLOCK];
     for (size_t i = 0; i < n; i++)
-        inside[i] = fmin(fmax(T[i], oil->coldest), oil->hottest);
+        held[i] = held_at(oil, T[i], &by_T[i]);
     if (what == FF_LIQUID_LN_ETA0)
-        ln_eta0(oil, n, inside, value, slope);
+        ln_eta0(oil, n, held, value, slope);
     else if (what == FF_LIQUID_RHO0)
-        density(oil, n, inside, value, slope);
+        density(oil, n, held, value, slope);
     for (size_t i = 0; properties[what] && i < n; i++)
-        value[i] = properties[what](oil, inside[i], &slope[i]);
+        value[i] = properties[what](oil, held[i], &slope[i]);
     for (size_t i = 0; i < n; i++)
-        if (inside[i] < T[i] || inside[i] > T[i])
-            slope[i] = isnan(value[i]) ? NAN : 0;
+        if (!(by_T[i] >= 1))
+            slope[i] = isnan(value[i]) ? NAN : by_T[i] > 0 ? by_T[i] * slope[i] : 0;
 }
 
 static ff_status eval(const void *self, int32_t what, size_t n, const double *T, double *value,
@@ -219,7 +235,7 @@ static void find_limits(lubricant_oil *oil)
     oil->hottest = oil->high;
     if (last == 0) { /* the thermal data may reach further */
         oil->coldest = fmin(oil->low, 150);
-        oil->hottest = fmax(oil->high, 700);
+        oil->hottest = fmax(oil->high + BEND, 700);
         return;
     }
     oil->coldest = fmax(150, exp(c->x[0] + (most - c->y[0]) / c->slope[0]));

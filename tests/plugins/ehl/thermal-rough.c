@@ -96,8 +96,10 @@ static void test_asperities(double slip)
     stage_set(c.film, "contact_film", 50e-9);
     c.u1[0] *= 1e-3;
     c.u2[0] *= 1e-3;
-    if (!check_true("runs", line_run(&c, outputs) == FF_OK))
+    if (!check_true("runs", line_run(&c, outputs) == FF_OK)) {
+        line_close(&c);
         return;
+    }
     double W = c.load[0], R = c.radius[0], u1 = c.u1[0], u2 = c.u2[0];
     double a = sqrt(8 * W * R / (pi * c.modulus)), share = line_value(&c, "asperity_load_share", 0);
     double q = mu * 2 * W / (pi * a) * fabs(u1 - u2);

@@ -1,7 +1,7 @@
 # Random line contacts with thermal: full, steady and in time: slide-roll ratios from -1.9 to 1.9, 0.1 to 100 m/s, up to 4 GPa,
 # oils of 40 to 200 degC, Newtonian and Eyring's. None may crash, hang, give a number that is none, or leave the heat balance
-# open; a film that is not found is refused in a sentence. Each scene is a line of LOG, and is not run again. With `rough` the
-# flanks of all scenes are, Rq 0.02 to 0.5 um.
+# open; a film that is not found is refused in a sentence, and looked for with 1024 cells in place of 256. Each scene is a
+# line of LOG, and is not run again. With `rough` the flanks of all scenes are, Rq 0.02 to 0.5 um.
 #   thermal-scenes.py FLANKFILM SOURCE_ROOT LOG [COUNT [SECONDS [rough]]]
 import collections
 import json
@@ -38,7 +38,7 @@ def draw(number):
     return scene
 
 
-def text_of(s, lab):
+def text_of(s, lab, cells=256):
     """The file of the scene, with a table of its history."""
     flow = 'rheology/ree-eyring, tau0: %g MPa' % s['tau0'] if s['tau0'] else 'rheology/newtonian'
     discs = ('contact/constant, radius: %r m, entrainment_speed: %r m/s, slide_roll_ratio: %r, load_per_width: %r N/m'
@@ -61,16 +61,16 @@ pipeline:
   oil:   {grade: ISO VG 100, temperature: %r degC}
   flow:  {use: %s}
   discs: {use: %s}
-%s  film:  {use: ehl/finite-volume, cells: 256, thermal: full%s}
+%s  film:  {use: ehl/finite-volume, cells: %d, thermal: full%s}
 outputs: [%s]
-""" % (os.path.abspath(root), s['T'], flow, discs, skin, ', steps: 60' if s['moving'] else '', ', '.join('film.' + o for o in OUTPUTS))
+""" % (os.path.abspath(root), s['T'], flow, discs, skin, cells, ', steps: 60' if s['moving'] else '', ', '.join('film.' + o for o in OUTPUTS))
 
 
-def run(s):
+def run(s, cells=256):
     with tempfile.TemporaryDirectory() as lab:
         path = lab + '/scene.yaml'
         with open(path, 'w') as f:
-            f.write(text_of(s, lab))
+            f.write(text_of(s, lab, cells))
         try:
             told = subprocess.run([flankfilm, 'run', path, '--json', '-o', lab + '/out'], capture_output=True, text=True,
                                   timeout=LIMIT, check=False)
@@ -102,7 +102,10 @@ for number in range(count):
     if number in done or time.monotonic() - begin > seconds:
         continue
     scene = draw(number)
-    done[number] = {'scene': number, **run(scene), 'of': scene}
+    came, cells = run(scene), 256
+    if came['end'] == 'refused':
+        came, cells = {'first': came['text'], **run(scene, 1024)}, 1024
+    done[number] = {'scene': number, 'cells': cells, **came, 'of': scene}
     with open(log, 'a') as f:
         f.write(json.dumps(done[number]) + '\n')
 lines = [done[k] for k in sorted(done) if k < count]

@@ -185,6 +185,40 @@ static void test_law_range(void)
     line_close(&c);
 }
 
+/* One layer across the film takes all of the shear: solutions with factors held go away from this
+   film, however small a share of their change they take. */
+static void test_localised_shear(void)
+{
+    line c;
+    open_hot(&c, 128, 0);
+    line_grade(&c, "ISO VG 100", 315);
+    line_eyring(&c, 11e6);
+    c.u1[0] = 10.6;
+    c.u2[0] = 3.5;
+    c.radius[0] = 13.5e-3;
+    c.load[0] = 1.37e6; /* 1.9 GPa */
+    if (check_true("runs", line_run(&c, hot_outputs) == FF_OK)) {
+        check_true("hot", line_value(&c, "temperature_max", 0) > 415);
+        check_below("heat balance of the equations", stage_quality(c.film, "heat_balance"),
+                    stage_quality_limit(c.film, "heat_balance") / 10);
+    }
+    line_close(&c);
+}
+
+/* Too few cells for a film, with heat or without: heat is not blamed. */
+static void test_too_coarse(void)
+{
+    line c;
+    open_hot(&c, 64, 0.35);
+    c.u1[0] *= 0.02;
+    c.u2[0] *= 0.02;
+    c.radius[0] = 44e-3;
+    c.load[0] = 4.7e6; /* 2 GPa */
+    check_true("no film", line_run(&c, "h_min") == FF_NOCONV);
+    check_true("more cells", strstr(stage_why(c.film), "More cells") != NULL);
+    line_close(&c);
+}
+
 static void test_refusals(void)
 {
     line c;
@@ -212,6 +246,8 @@ int main(void)
     test_discretisations();
     test_order_in_time();
     test_law_range();
+    test_localised_shear();
+    test_too_coarse();
     test_refusals();
     return check_done();
 }

@@ -70,6 +70,23 @@ static void slopes_agree(const char *name, stage *oil)
     check_below(name, worst, 1e-4);
 }
 
+/* The slope of the density ends without a jump where the oil is no longer followed. */
+static void ends_smoothly(const char *name, stage *oil)
+{
+    const ff_liquid *l = liquid(oil);
+    double T = 600, value, slope, before, steepest = 0;
+    l->eval(l->self, FF_LIQUID_RHO0, 1, &T, &value, &slope);
+    double first = slope;
+    while (T < 800) {
+        T += 1;
+        before = slope;
+        l->eval(l->self, FF_LIQUID_RHO0, 1, &T, &value, &slope);
+        steepest = fmax(steepest, fabs(slope - before));
+    }
+    check_true(name, fabs(slope) <= 0 && first < 0);
+    check_below(name, steepest, 0.1 * fabs(first));
+}
+
 static void stays_finite_at_extremes(const char *name, stage *oil)
 {
     static const double T[] = {-DBL_MAX, -1, 0, 1e-300, 1, 100, 150, 700, 1e4, DBL_MAX};
@@ -92,6 +109,7 @@ static void are_smooth_functions(void)
     for (int i = 0; i < 4; i++) {
         stage *oil = open_grade(i % 2 ? "ISO VG 32" : "ISO VG 680", bases[i]);
         slopes_agree(bases[i], oil);
+        ends_smoothly(bases[i], oil);
         stays_finite_at_extremes(bases[i], oil);
         stage_close(oil);
     }
