@@ -84,6 +84,8 @@ static void refuse_key(binding *k, const char *path, ff_place place)
                                  owner, path);
     else
         advice = nearest_key(k, path);
+    if (!hint && !*advice && strchr(path, ' '))
+        hint = "a key ends with a colon and a blank, as in \"key: value\"";
     ff_error(k->b->report, FF_FAULT_INPUT, place, hint, "%s: unknown key \"%.80s\"%s%s%s",
              k->stage->name, path, *advice ? "" : " for ", *advice ? "" : k->id, advice);
 }

@@ -99,24 +99,37 @@ static bool check_name(fe_build *b, const char *name, ff_place place)
     if (length > 0 && length < LONGEST_NAME && !strchr(digits, name[0]) &&
         strspn(name, letters) == length)
         return true;
+    const char *dot = strchr(name, '.'), *hint = NULL;
+    if (dot)
+        hint = fe_pipeline_print(b->pipeline,
+                                 "paths are for --set; in a file it is %.*s: {%.80s: ...}",
+                                 (int)(dot - name), name, dot + 1);
     return ff_error(
-        b->report, FF_FAULT_INPUT, place, NULL,
+        b->report, FF_FAULT_INPUT, place, hint,
         "\"%.80s\" is not a name for a stage: a letter, then letters, digits, \"_\" and "
         "\"-\", fewer than %d",
         name, LONGEST_NAME);
 }
 
-/* Suggests the stage whose name was perhaps mistyped. */
-static const char *meant(fe_build *b, const ff_stage *stage, const ff_node *map)
+/* Reports a stage without a model: one whose name was perhaps mistyped, as in --set. */
+static void refuse_unused(fe_build *b, const ff_stage *stage, const ff_node *map)
 {
-    const char **others = fe_alloc(map->count * sizeof *others);
+    const char **others = fe_alloc(map->count * sizeof *others), *list = "";
     size_t count = 0;
     for (size_t i = 0; i < map->count; i++)
-        if (ff_node_get(map->items[i], "use"))
+        if (ff_node_get(map->items[i], "use")) {
             others[count++] = map->keys[i];
-    const char *text = fe_did_you_mean(b, stage->name, others, count);
+            list = fe_join(b->pipeline, list, map->keys[i]);
+        }
+    const char *near = fe_did_you_mean(b, stage->name, others, count);
+    const char *hint =
+        *near || !*list
+            ? "add use: KIND/MODEL"
+            : fe_pipeline_print(b->pipeline, "add use: KIND/MODEL, or name one of the stages %s",
+                                list);
+    ff_error(b->report, FF_FAULT_INPUT, stage->place, hint,
+             "%s: the stage does not say which model it uses%s", stage->name, near);
     fe_free(others);
-    return text;
 }
 
 static void read_use(fe_build *b, ff_stage *stage, const ff_node *map)
@@ -129,9 +142,7 @@ static void read_use(fe_build *b, ff_stage *stage, const ff_node *map)
                  "%s: expected a map that says which model it uses, found %s", stage->name,
                  fe_found(node));
     else if (!use)
-        ff_error(b->report, FF_FAULT_INPUT, stage->place, "add use: KIND/MODEL",
-                 "%s: the stage does not say which model it uses%s", stage->name,
-                 meant(b, stage, map));
+        refuse_unused(b, stage, map);
     else if (use->kind != FF_SCALAR || !use->text[0])
         fe_expected(b, use, fe_pipeline_print(b->pipeline, "%s.use", stage->name),
                     "a model such as KIND/MODEL");

@@ -3,6 +3,7 @@
 
 #include "../value/limits.h"
 #include "../value/memory.h"
+#include "../value/near-file.h"
 #include "../value/tree.h"
 #include "../value/unit.h"
 
@@ -230,8 +231,13 @@ static bool read_file(const reading *r, const ff_node *node, ff_value *value)
     if (stat(path, &status) == 0 && !S_ISREG(status.st_mode))
         return refuse(r, node, NULL, "the file \"%s\" cannot be read: it is not a regular file",
                       path);
-    return access(path, R_OK) == 0 ||
-           refuse(r, node, NULL, "the file \"%s\" cannot be read: %s", path, fe_errno_text());
+    if (access(path, R_OK) == 0)
+        return true;
+    const char *why = fe_errno_text();
+    char *hint = fe_near_file(path);
+    refuse(r, node, hint, "the file \"%s\" cannot be read: %s", path, why);
+    fe_free(hint);
+    return false;
 }
 
 static bool read_scalar(const reading *r, const ff_node *node, ff_value *value)

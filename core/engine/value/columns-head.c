@@ -50,8 +50,9 @@ static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const ch
 {
     fe_columns *c = r->c;
     size_t k = (size_t)r->column_of[index];
-    char unit[80] = "", why[200], example[160];
+    char unit[80] = "", why[200], example[160], hint[200];
     print_head(c, k, example, sizeof example);
+    snprintf(hint, sizeof hint, "write for example \"%s\"", example);
     if (open && head.end[-1] != ']')
         return fe_column_refuse(r, head, NULL,
                                 "the unit belongs in brackets at the end, as in \"%s\"", example);
@@ -66,7 +67,7 @@ static bool read_unit(fe_column_reader *r, size_t index, fe_field head, const ch
                                 "the column \"%s\" needs its unit in brackets, such as \"%s\"",
                                 word, example);
     if (!ff_unit_parse(unit, &r->unit_of[index], why, sizeof why))
-        return fe_column_refuse(r, head, NULL, "the unit \"%s\" %s", unit, why);
+        return fe_column_refuse(r, head, hint, "the unit \"%s\" %s", unit, why);
     return ff_unit_same_dimension(&r->unit_of[index], &c->units[k]) ||
            fe_column_refuse(r, head, NULL,
                             "the column \"%s\" is in \"%s\", but should be in %s or the like", word,

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "home.h"
+#include "near-file.h"
 #include "node.h"
 #include "tree.h"
 
@@ -79,9 +80,23 @@ static char *shipped(const char *path)
     return found;
 }
 
-/* A copy of an example that is not where it was: a file of "../gears" is among the examples. The
-   caller frees it. NULL: it is not. */
-static char *hint_above(const char *path)
+/* The example whose name is near to that of a path; the caller frees it. NULL: none is. */
+static char *near_example(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *word = slash ? slash + 1 : path;
+    char *below = slash ? fe_copy_text(path, (size_t)(slash - path)) : fe_copy_text(".", 1);
+    char *folder = shipped(below);
+    char *there = folder ? fe_print_text("%s/%s", folder, word) : NULL;
+    char *hint = there ? fe_near_file(there) : NULL;
+    fe_free(below);
+    fe_free(folder);
+    fe_free(there);
+    return hint;
+}
+
+/* What may be meant by a path where no file is: one of a near name, there or among the examples, or
+   an example, as "../gears/x.yaml" is in a copy of one. The caller frees it; NULL: nothing. */
+static char *hint_at(const char *whole, const char *path)
 {
     const char *below = path;
     while (!strncmp(below, "../", 3))
@@ -90,7 +105,9 @@ static char *hint_above(const char *path)
     char *hint =
         found ? fe_print_text("among the examples there is \"%s\": write it so", below) : NULL;
     fe_free(found);
-    return hint;
+    if (!hint)
+        hint = fe_near_file(whole);
+    return hint ? hint : near_example(path);
 }
 
 static ff_node *load_entry(const file *f, const ff_node *entry)
@@ -106,7 +123,7 @@ static ff_node *load_entry(const file *f, const ff_node *entry)
         fe_free(path);
         path = other;
     } else if (access(path, F_OK) != 0)
-        hint = hint_above(entry->text);
+        hint = hint_at(path, entry->text);
     file inner = {.tree = f->tree,
                   .report = f->report,
                   .parent = f,
@@ -162,7 +179,9 @@ static ff_node *read_source(const file *f, const ff_source *source)
     ff_node *root = fe_yaml_read(f->tree, source, source->text, f->report), *base;
     ff_place whole = {.source = source};
     if (root && fe_node_is_empty(root)) {
-        ff_error(f->report, FF_FAULT_INPUT, whole, NULL, "there is nothing in it to read");
+        ff_error(f->report, FF_FAULT_INPUT, whole,
+                 "it begins with \"format: " FE_FORMAT "\"; stages stand under \"pipeline:\"",
+                 "there is nothing in it to read");
         return NULL;
     }
     if (root && root->kind != FF_MAP) {
@@ -222,7 +241,9 @@ bool fe_node_include(ff_tree *tree, const ff_node *named, ff_report *report)
 ff_tree *ff_tree_load(const char *path, ff_report *report)
 {
     ff_tree *tree = fe_alloc(sizeof *tree);
-    tree->root = load(&(file){.tree = tree, .report = report, .path = path});
+    char *hint = access(path, F_OK) == 0 ? NULL : fe_near_file(path);
+    tree->root = load(&(file){.tree = tree, .report = report, .path = path, .hint = hint});
+    fe_free(hint);
     return tree;
 }
 

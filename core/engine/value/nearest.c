@@ -54,15 +54,19 @@ const char *ff_nearest(const char *word, const char *const *candidates, size_t c
     const char *best = NULL;
     /* one mistake in three letters is near; two letters with a mistake are another word */
     size_t n = strlen(word);
-    int near = n < 3 ? 0 : min((int)((n + 1) / 3), 4), shared = -1;
+    int near = n < 3 ? 0 : min((int)((n + 1) / 3), 4), shared = -1, least = NEVER;
     for (size_t i = 0; i < count; i++) {
-        int cost = distance(word, candidates[i]), same = beginning(word, candidates[i]);
+        int mistakes = distance(word, candidates[i]), cost = mistakes;
+        int same = beginning(word, candidates[i]);
         if (n >= 3 && (size_t)same == n)
             cost = min(cost, 1); /* the rest was left out */
-        if (cost < near || (cost == near && same > shared)) {
+        if (cost > near || (cost == near && same < shared))
+            continue;
+        if (cost < near || same > shared || mistakes < least) {
             best = candidates[i];
             near = cost;
             shared = same;
+            least = mistakes;
         }
     }
     return best;

@@ -274,7 +274,7 @@ void study_rows_free(study_rows *rows)
     free(rows);
 }
 
-/* Reads a regular file whole; NULL with errno, which is 0 for what is none or too large. */
+/* Reads a regular file whole; NULL with errno, which is 0 for a device and what is too large. */
 static char *read_file(const char *path, size_t *length)
 {
     struct stat info;
@@ -283,8 +283,10 @@ static char *read_file(const char *path, size_t *length)
     *length = 0;
     if (fd < 0)
         return NULL;
-    errno = 0;
-    if (fstat(fd, &info) == 0 && S_ISREG(info.st_mode) && info.st_size <= LARGEST_FILE) {
+    bool known = fstat(fd, &info) == 0;
+    if (known)
+        errno = S_ISDIR(info.st_mode) ? EISDIR : 0;
+    if (known && S_ISREG(info.st_mode) && info.st_size <= LARGEST_FILE) {
         ssize_t got = 1;
         text = memory_alloc((size_t)info.st_size + 1);
         while (*length < (size_t)info.st_size && got > 0) {

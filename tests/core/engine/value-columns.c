@@ -254,6 +254,7 @@ START_TEST(hints)
                      "the columns are time [s], angle [deg], length [um], gear, temperature [K]; "
                      "one of your own begins with x-");
     ck_assert_str_eq(hint_of("time [s]; angle [deg]\n0,5; 1\n"), "write a decimal point");
+    ck_assert_str_eq(hint_of("time [s]; angle [foo]\n0;1\n"), "write for example \"angle [deg]\"");
 }
 END_TEST
 

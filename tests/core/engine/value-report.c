@@ -233,9 +233,10 @@ START_TEST(finds_the_nearest_word)
     }
     ck_assert_ptr_null(ff_nearest("a", NULL, 0));
     /* of words at one distance that which begins alike */
-    static const char *const stages[] = {"oil", "film"};
-    ck_assert_str_eq(ff_nearest("fil", stages, 2), "film");
-    ck_assert_str_eq(ff_nearest("il", stages, 2) ? "near" : "none", "none");
+    static const char *const stages[] = {"oil", "film_static", "film"};
+    ck_assert_str_eq(ff_nearest("fil", stages, 3), "film");
+    ck_assert_str_eq(ff_nearest("film_s", stages, 3), "film_static");
+    ck_assert_str_eq(ff_nearest("il", stages, 3) ? "near" : "none", "none");
 }
 END_TEST
 

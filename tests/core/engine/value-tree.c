@@ -286,6 +286,22 @@ START_TEST(every_lost_include_is_reported)
 }
 END_TEST
 
+/* A file that is not there was mistyped: the nearest name of its folder. */
+START_TEST(lost_files_have_a_nearest_name)
+{
+    write_file("gears.yaml", "a: 1\n");
+    write_file("main.yaml", "include: [gear.yaml]\n");
+    load("main.yaml");
+    ck_assert_str_eq(ff_report_at(report, 0)->hint, "did you mean \"gears.yaml\"?");
+    ff_tree_free(tree);
+    load("mian.yaml");
+    ck_assert_str_eq(ff_report_at(report, 1)->hint, "did you mean \"main.yaml\"?");
+    ff_tree_free(tree);
+    load("else.yaml");
+    ck_assert_ptr_null(ff_report_at(report, 2)->hint);
+}
+END_TEST
+
 START_TEST(includes_have_a_depth)
 {
     for (int i = 0; i < 20; i++) {
@@ -540,6 +556,7 @@ int main(void)
         &same_file_may_be_included_twice,
         &circle_of_includes_is_refused,
         &every_lost_include_is_reported,
+        &lost_files_have_a_nearest_name,
         &includes_have_a_depth,
         &includes_have_a_number,
         &unreadable_files_are_named,
