@@ -27,9 +27,10 @@ typedef struct ehl_across {
 enum { EHL_ACROSS_LANES = 4 };
 typedef double ehl_lanes __attribute__((vector_size(EHL_ACROSS_LANES * sizeof(double))));
 
-FF_SIMD_INLINE double ehl_across_sum(ehl_lanes values)
+/* By a pointer: a vector that is passed by value has another ABI without AVX. */
+FF_SIMD_INLINE double ehl_across_sum(const ehl_lanes *values)
 {
-    return values[0] + values[1] + (values[2] + values[3]);
+    return (*values)[0] + (*values)[1] + ((*values)[2] + (*values)[3]);
 }
 
 /* Sets out[k] to the sum of m[l * stride + k] values[l] over l < n, k < n. */

@@ -161,7 +161,7 @@ FF_SIMD_INLINE means means_of(const ehl_energy *e, size_t i, size_t n)
         ease += weight * here;
         tilt += weight * here * (z - 0.5);
     }
-    return (means){ehl_across_sum(rate), ehl_across_sum(ease), ehl_across_sum(tilt)};
+    return (means){ehl_across_sum(&rate), ehl_across_sum(&ease), ehl_across_sum(&tilt)};
 }
 
 /* Returns the step of tau_m towards the mean shear rate `target`, of Newton's method in the
@@ -255,7 +255,7 @@ FF_SIMD_INLINE double flow_of(const ehl_across *a, size_t n, const double *rho, 
     FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++)
         u[k] = u_1 + h * rise[k];
-    return ehl_across_sum(sum);
+    return ehl_across_sum(&sum);
 }
 
 /* Returns the pressure gradient at node i by differences. */

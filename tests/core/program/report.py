@@ -132,7 +132,8 @@ study:
     models: {longer: {wave.count: 12}}
 """)
         self.assertEqual(figures, 6)  # and the three of its samples
-        self.assertIn("better inputs would", page)
+        # 8 points make 3.6 amplitudes, 12 make 0.2; an amplitude is known to 5 %
+        self.assertIn("the choice of the model does", page)
         for words in ("What limits each output", "what the inputs make of it", "50 % are below", "share of the variance"):
             self.assertIn(words, dom)
 
