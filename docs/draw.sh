@@ -1,5 +1,6 @@
 #!/bin/sh
-# Draws figures from their descriptions, by the script of the report's pages in one browser without a window.
+# Draws figures from their descriptions, by the script of the report's pages in one browser without a window, and gives
+# them a second set of colours for pages that are dark.
 #   sh docs/draw.sh PROGRAM (DESCRIPTION.json OUT.svg)...
 set -eu
 program=$(realpath "$1")
@@ -8,6 +9,14 @@ command -v chromium >/dev/null || {
     echo "$2 and those after it stay as they are: there is no Chromium" >&2
     exit 0
 }
+# the colours of figure.css as page.css has them in the dark, and greys and blues of the drawings' own
+dark='<style>@media (prefers-color-scheme:dark){
+svg>rect[fill="#fff"]{fill:#1f2226}
+[fill="#1a1a1a"],text[font-weight="bold"]{fill:#e8eaed}[fill="#5f6368"]{fill:#a2a8b0}[stroke="#5f6368"]{stroke:#a2a8b0}[stroke="#d9dce0"]{stroke:#353a41}
+[stroke="#444444"]{stroke:#c4c8ce}[stroke="#666666"]{stroke:#a2a8b0}
+[fill="#0072b2"]{fill:#5ab4e8}[fill="#d55e00"]{fill:#ff9154}[fill="#009e73"]{fill:#2fcb9c}[fill="#cc79a7"]{fill:#e5a3c9}
+[stroke="#0072b2"]{stroke:#5ab4e8}[stroke="#d55e00"]{stroke:#ff9154}[stroke="#009e73"]{stroke:#2fcb9c}[stroke="#cc79a7"]{stroke:#e5a3c9}
+}</style>'
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 # a frame for each; their drawings are gathered when all are there
@@ -30,7 +39,7 @@ onload = function gather() {
 HTML
 chromium --headless --no-sandbox --disable-gpu --disable-dev-shm-usage --user-data-dir="$lab/profile" --virtual-time-budget=20000 \
     --allow-file-access-from-files --window-size=1200,900 --dump-dom "file://$lab/all.html" >"$lab/dom" 2>"$lab/said"
-awk -v count="$count" -v lab="$lab" '{ text = text $0 "\n" }
+awk -v count="$count" -v lab="$lab" -v dark="$dark" '{ text = text $0 "\n" }
     END {
         for (i = 1; i <= count; i++) {
             if (!match(text, /<pre class="saved">/)) exit 1
@@ -38,6 +47,7 @@ awk -v count="$count" -v lab="$lab" '{ text = text $0 "\n" }
             end = index(text, "</pre>")
             figure = substr(text, 1, end - 1)
             gsub(/&lt;/, "<", figure); gsub(/&gt;/, ">", figure); gsub(/&nbsp;/, " ", figure); gsub(/&amp;/, "\\&", figure)
+            sub(/\n/, "\n" dark "\n", figure)
             printf "%s", figure > (lab "/" i ".svg")
             text = substr(text, end)
         }

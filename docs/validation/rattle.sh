@@ -109,7 +109,7 @@ table()
         n && NF == 2 && $1 + 0 == $1 { if (!($1 in seen)) order[++count] = $1; seen[$1]; cell[$1, n] = $2 }
         END {
             printf "| %s |", x
-            for (i = 1; i <= n; i++) printf " %s |", name[i]
+            for (i = 1; i <= n; i++) printf " %s, Hz |", name[i]
             printf "\n|---|"
             for (i = 1; i <= n; i++) printf "---|"
             print ""
@@ -161,7 +161,7 @@ borne()
 
 errors()
 {
-    echo '| tip relief, um | 5.006 mPa s | 27.7 mPa s |'
+    echo '| tip relief, um | largest torque borne at 5.006 mPa s, N m | at 27.7 mPa s, N m |'
     echo '|---|---|---|'
     for relief in 0 2 5 10 20; do
         thin=$(borne --set gears.tip_relief="$relief um")
