@@ -57,7 +57,7 @@ typedef struct control {
     ff_tree *tree;           /* of the models that were chosen; NULL: those of the file */
     knob *knobs;
     size_t count;
-    bool given;                  /* the file gives settings itself */
+    const char *given;           /* settings that the file gives itself; "": none */
     double level;                /* of the next attempt */
     attempt kept[MOST_ATTEMPTS]; /* with the models as they are */
     size_t kept_count;
@@ -88,13 +88,20 @@ static bool costs_little(const ff_stage *stage, double most)
     return most > 0 && !stage->loop && cost <= little * most && (cost > 0 || !asked);
 }
 
+static void note_given(control *c, const char *stage, const char *setting)
+{
+    char *list = memory_print_text("%s%s%s.%s", c->given, *c->given ? ", " : "", stage, setting);
+    c->given = memory_arena_text(&c->arena, list, strlen(list));
+    free(list);
+}
+
 static void list_knobs(control *c)
 {
     const double most = largest_cost(c->asked);
     accuracy_setting settings[ACCURACY_MOST_SETTINGS];
     free(c->knobs);
     c->count = 0;
-    c->given = false;
+    c->given = "";
     c->knobs = memory_alloc((c->asked->count * ACCURACY_MOST_SETTINGS + 1) * sizeof *c->knobs);
     for (size_t i = 0; i < c->asked->count; i++) {
         const ff_stage *stage = &c->asked->stages[c->asked->order[i]];
@@ -102,8 +109,9 @@ static void list_knobs(control *c)
         if (stage->needed && stage->loaded)
             count = accuracy_settings(stage, &c->arena, settings);
         for (size_t k = 0; k < count; k++) {
-            c->given = c->given || !settings[k].open;
-            if (settings[k].open && accuracy_setting_at(stage, settings[k].param, 0, &c->arena))
+            if (!settings[k].open)
+                note_given(c, stage->name, settings[k].name);
+            else if (accuracy_setting_at(stage, settings[k].param, 0, &c->arena))
                 c->knobs[c->count++] = (knob){
                     .stage = stage, .setting = settings[k], .cheap = costs_little(stage, most)};
         }
@@ -238,7 +246,7 @@ static double order_of(const control *c, size_t error)
     const accuracy_error *e = &c->best->record.errors[error];
     const attempt *before = c->best > c->kept ? c->best - 1 : NULL;
     double order = isnan(e->order) ? 1 : e->order;
-    if (c->given && before && before->level <= 0 && before->record.count > error)
+    if (*c->given && before && before->level <= 0 && before->record.count > error)
         order = fmin(order, log2(before->record.errors[error].relative / e->relative));
     return order;
 }
@@ -378,6 +386,7 @@ static void adopt(control *c, accuracy_record *record)
     record->seconds = c->seconds - record->twin->work;
     if (c->failure)
         record->failure = memory_arena_text(&record->arena, c->failure, strlen(c->failure));
+    record->given = memory_arena_text(&record->arena, c->given, strlen(c->given));
     size_t models = record->choice ? record->choice->use_count : 0;
     record->chosen =
         memory_arena_alloc(&record->arena, (models + c->count + 1) * sizeof *record->chosen);

@@ -394,20 +394,27 @@ char *accuracy_describe(const accuracy_error *e)
     char *text = NULL;
     size_t length = 0;
     FILE *out = memory_require(open_memstream(&text, &length));
-    if (e->bar)
-        fprintf(out, "%.2g %%", 100 * e->relative);
-    else
-        fputs("not known", out);
-    if (e->bar && e->largest > much_larger * e->relative)
-        fprintf(out, ", at few points up to %.2g %%", 100 * e->largest);
+    const char *between = "";
+    if (e->bar && e->largest > much_larger * e->relative) {
+        fprintf(out, "at few points up to %.2g %%", 100 * e->largest);
+        between = "; ";
+    }
     for (size_t i = 0; i < e->part_count; i++)
-        if (i < 1 || e->parts[i].error > least_part * e->relative)
-            fprintf(out, "%s%s.%s %.2g %%", i ? ", " : ": ", e->parts[i].stage->name,
+        if (i < 1 || e->parts[i].error > least_part * e->relative) {
+            fprintf(out, "%s%s.%s %.2g %%", i ? ", " : between, e->parts[i].stage->name,
                     e->parts[i].setting, 100 * e->parts[i].error);
+            between = "; ";
+        }
     if (isfinite(e->order))
-        fprintf(out, "; order %.2g", e->order);
+        fprintf(out, "%sorder %.2g", between, e->order);
     fclose(out);
     return text;
+}
+
+char *accuracy_print_relative(const accuracy_error *e)
+{
+    return e->bar ? memory_print_text("%.2g %%", 100 * e->relative)
+                  : memory_print_text("not known");
 }
 
 /* How the text of its line begins. */
@@ -422,11 +429,13 @@ static void add_line(const accuracy_error *e, ff_stage *stage)
 {
     double limit = isnan(e->goal) ? doubtful_above : e->goal;
     char *name = memory_print_text("%s_error", e->result->row->name);
-    char *parts = accuracy_describe(e), *text = memory_print_text("%s%s", measured, parts);
+    char *error = accuracy_print_relative(e), *rest = accuracy_describe(e);
+    char *text = memory_print_text("%s%s%s%s", measured, error, *rest ? "; " : "", rest);
     ff_add_quality(stage, name, e->relative, limit, e->relative <= limit ? FF_GOOD : FF_DOUBTFUL,
                    text);
     free(text);
-    free(parts);
+    free(rest);
+    free(error);
     free(name);
 }
 

@@ -49,6 +49,7 @@ typedef struct accuracy_record {
     size_t attempts;     /* answers that were measured, the last one included; 0: none had a goal */
     const char **chosen; /* "film.cells=362": settings that the file leaves open, of the answer */
     size_t chosen_count;
+    const char *given;   /* "film.cells, film.steps": settings that the file gives; "": none */
     ff_pipeline *answer; /* the pipeline that was run, or another one of `twin` */
     struct accuracy_twin *twin;
     struct accuracy_twin *own[ACCURACY_OWN]; /* that were run for it */
@@ -68,7 +69,10 @@ bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *e
                       const accuracy_known *known);
 void accuracy_free(accuracy_record *record);
 
-/* "0.54 %: film.cells 0.3 %, tooth.points 0.1 %; order 2.1", to be freed. */
+/* "0.54 %", of an error that no twin tells "not known"; to be freed. */
+char *accuracy_print_relative(const accuracy_error *error);
+/* "at few points up to 3 %; film.cells 0.3 %, tooth.points 0.1 %; order 2.1", or less of it; to be
+   freed. */
 char *accuracy_describe(const accuracy_error *error);
 /* Whether a line of quality tells an error that was measured. */
 bool accuracy_is_line(const ff_quality *line);

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { VALUE = 24, BAR = 12, MOST_NAME = 40, VERDICT = 65 }; /* columns */
+enum { VALUE = 24, BAR = 12, MOST_NAME = 40, VERDICT = 65, ERROR = 9 }; /* columns */
 
 static const double noise = 1e-9; /* relative; figures show 5 digits at most */
 
@@ -249,43 +249,99 @@ static void print_log(paper *page, const json_t *log)
     }
 }
 
-/* The settings that were chosen for the accuracy. */
-static void print_chosen(const accuracy_record *errors)
+static bool is_missed(const accuracy_error *e)
 {
+    return !isnan(e->goal) && !(e->relative <= e->goal);
+}
+
+/* Of one output: the error, what the file asks for, and what the error comes from. */
+static void print_error_row(const paper *page, const accuracy_error *e, int width)
+{
+    char *error = accuracy_print_relative(e), *rest = accuracy_describe(e);
+    char *name = memory_print_text("%s.%s", e->stage->name, e->result->row->name);
+    char goal[32] = "";
+    if (!isnan(e->goal))
+        snprintf(goal, sizeof goal, "%.3g %%", 100 * e->goal);
+    int column = printf("  %-*s  %-*s", width, name, ERROR, error);
+    if (page->errors->attempts > 0)
+        column += printf("%-*s", ERROR, goal);
+    int start = column;
+    if (is_missed(e)) {
+        paint_verdict(page, FF_DOUBTFUL, "not reached");
+        column += (int)strlen("not reached") + printf("%s", *rest ? "; " : "");
+    }
+    terminal_print_wrapped(rest, column, start);
+    free(name);
+    free(rest);
+    free(error);
+}
+
+/* What the search for the accuracy ended with. */
+static void print_search(const accuracy_record *errors, size_t missed)
+{
+    if (missed > 0 && *errors->given)
+        terminal_print_wrapped(errors->given, printf("  the file's own settings stay: "), 4);
+    else if (missed > 0)
+        puts("  no finer settings that may be tried promise what is not reached");
     char *text = NULL;
     size_t length = 0;
     FILE *out = memory_require(open_memstream(&text, &length));
     for (size_t i = 0; i < errors->chosen_count; i++)
         fprintf(out, "%s%s", i ? ", " : "", errors->chosen[i]);
-    fprintf(out,
-            errors->chosen_count ? "; attempt %zu" : "nothing: the file leaves no setting open",
-            errors->attempts);
+    if (errors->chosen_count == 0)
+        fputs("nothing: the file leaves no setting open", out);
     fclose(out);
     terminal_print_wrapped(text, printf("  chosen: "), 4);
     free(text);
 }
 
-/* What the measured errors come from, the largest first in each line. */
+/* Counts the outputs with a goal, and those that miss it; returns the width of the longest name. */
+static int survey_errors(const accuracy_record *errors, size_t *goals, size_t *missed)
+{
+    size_t width = strlen("output");
+    for (size_t i = 0; i < errors->count; i++) {
+        const accuracy_error *e = &errors->errors[i];
+        size_t own = strlen(e->stage->name) + 1 + strlen(e->result->row->name);
+        *goals += isnan(e->goal) ? 0 : 1;
+        *missed += is_missed(e);
+        if (e->relative != 0 && own > width)
+            width = own;
+    }
+    return (int)width;
+}
+
+/* What was reached of what was asked for, and where errors come from, the largest first. */
 static void print_errors(paper *page, const results_outcome *outcome)
 {
     const accuracy_record *errors = outcome->errors;
-    page->heading = "Errors, measured by twins";
-    for (size_t i = 0; i < errors->count; i++) {
-        const accuracy_error *e = &errors->errors[i];
-        if (e->relative == 0)
-            continue;
+    const bool asked = errors->attempts > 0;
+    size_t goals = 0, missed = 0;
+    const int width = survey_errors(errors, &goals, &missed);
+    char heading[120] = "Errors, measured by twins";
+    if (asked)
+        snprintf(heading, sizeof heading,
+                 "Accuracy, measured by twins: %zu of %zu outputs as asked", goals - missed, goals);
+    page->heading = heading;
+    if (errors->count > 0) {
         start_line(page);
-        char *text = accuracy_describe(e);
-        int column = printf("  %s.%s: ", e->stage->name, e->result->row->name);
-        terminal_print_wrapped(text, column, 4);
-        free(text);
+        printf("  %-*s  %-*s%s\n", width, "output", asked ? ERROR : 0, "error",
+               asked ? "asked" : "");
     }
+    for (size_t i = 0; i < errors->count; i++)
+        if (errors->errors[i].relative != 0) /* else no setting changes it */
+            print_error_row(page, &errors->errors[i], width);
     if (errors->failure)
         terminal_print_wrapped(errors->failure, printf("  a twin failed: "), 4);
-    if (errors->attempts > 0)
-        print_chosen(errors);
-    if (errors->count > 0)
-        printf("  %zu twins took %.3g s of CPU time\n", errors->twins, errors->seconds);
+    if (asked)
+        print_search(errors, missed);
+    if (errors->count > 0) {
+        printf("  %zu %s", errors->twins, errors->twins == 1 ? "twin" : "twins");
+        if (asked)
+            printf(" and %zu %s before", errors->attempts - 1,
+                   errors->attempts == 2 ? "attempt" : "attempts");
+        printf(": %.3g s of CPU time\n", errors->seconds);
+    }
+    page->heading = NULL;
 }
 
 void cli_print_summary(const results_outcome *outcome)

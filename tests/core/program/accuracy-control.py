@@ -158,6 +158,19 @@ class Control(lab.Lab):
         self.assertNotIn("replaced", self.call("run", "order.yaml", "-o", "order"))
         self.assertIn("replaced (accuracy: 0.1 % -> 1 %)", self.call("run", "order.yaml", "-o", "order", "--set", "accuracy=1 %"))
 
+    def test_the_terminal_says_what_was_reached(self):
+        self.write("block.yaml", FILE)
+        said = self.call("run", "block.yaml", "-o", "block", "--set", "accuracy={last.value: 1 %}")
+        self.assertIn("1 of 1 outputs as asked", said)
+        self.assertRegex(said, r"\n  last.value  0\.\d+ % +1 % +order 2\n  last.wave   \S+ % {11,}order 2\n")
+        self.assertNotIn("not reached", said)
+        said = self.call("run", "block.yaml", "-o", "block", "--set", "first.cells=20")
+        self.assertIn("0 of 2 outputs as asked", said)
+        self.assertRegex(said, r"\n  last.value  \S+ % +0.1 % +not reached; order")
+        self.assertIn("the file's own settings stay: first.cells\n", said)
+        said = self.call("run", "block.yaml", "-o", "block", "--set", "accuracy=1e-6 %")
+        self.assertIn("no finer settings", said)
+
     def test_a_study(self):
         self.write("study.yaml", FILE + "study: {sweep: {last.strength: [1, 30]}}\n")
         self.call("run", "study.yaml", "-o", "study")
