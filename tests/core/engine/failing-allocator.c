@@ -19,7 +19,7 @@ void __libc_free(void *old);
 
 static bool is_spared(void *caller)
 {
-    static const char *const names[] = {"/libfftw3.so", "/libgomp.so", "/ld-linux"};
+    static const char *const names[] = {"/libfftw3.so", "/libgomp.so", "/libopenblas", "/ld-linux"};
     struct dl_find_object found;
     if (_dl_find_object(caller, &found) != 0)
         return false;

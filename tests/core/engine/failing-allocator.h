@@ -10,8 +10,8 @@
 extern struct failing_allocator {
     size_t calls, fail_at; /* the first that fails; 0: none */
     bool onwards;          /* and all later ones */
-    bool spares;           /* no call fails by libraries that cannot go on without: FFTW, libgomp
-                              and the dynamic linker with the libraries of shipped models */
+    bool spares;           /* no call fails by libraries that cannot go on without: FFTW, libgomp,
+                              OpenBLAS and the dynamic linker with the libraries of shipped models */
     size_t spared;         /* those calls, which are not among the others */
     long live;             /* blocks */
 } memory;

@@ -122,7 +122,7 @@ static void fail_warm(const attempt *plan, draw start, bool onwards)
     printf("%s: %zu failed%s, of one in %zu\n", plan->file, s->failed,
            onwards ? " with all later ones" : "", start.stride);
     if (memory.spares)
-        printf("    none of the %zu that FFTW, libgomp and the linker make\n", s->spared);
+        printf("    none of the %zu that FFTW, libgomp, OpenBLAS and the linker make\n", s->spared);
     check_true("no wrong answer, and nothing left behind", !s->wrong);
     check_true("some failed", s->failed > 0);
     munmap(s, sizeof *s);
