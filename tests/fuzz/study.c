@@ -28,8 +28,7 @@ static void read_table(const uint8_t *data, size_t size)
     snprintf(document, sizeof document, "study: {cases: /proc/self/fd/%d}", file);
     ff_report *report = ff_report_new();
     ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", document, report);
-    study_definition *study =
-        study_read(ff_node_get(ff_tree_root(tree), "study"), ff_tree_root(tree), report);
+    study_definition *study = study_read(ff_node_get(ff_tree_root(tree), "study"), report);
     bool good = study && ff_report_errors(report) == 0;
     must(!good || study->count > 0);
     for (size_t i = 0; good && i < study->count; i++)
@@ -56,7 +55,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     ff_report *report = ff_report_new();
     ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
     const ff_node *node = ff_node_get(ff_tree_root(tree), "study");
-    study_definition *study = node ? study_read(node, ff_tree_root(tree), report) : NULL;
+    study_definition *study = node ? study_read(node, report) : NULL;
     bool good = study && ff_report_errors(report) == 0;
     must(!node || good || ff_report_errors(report) > 0);
     size_t chains = good ? study_chains(study) : 0;

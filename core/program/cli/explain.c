@@ -8,6 +8,7 @@
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
+#include "../study/case.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -216,6 +217,56 @@ static void print_plan(const ff_pipeline *pipeline, const char *file, const json
     }
 }
 
+/* What a case assigns beside its name that the first case does not. */
+static json_t *settings_of(const study_definition *study, size_t index)
+{
+    json_t *list = json_array();
+    for (size_t k = 0; k < study->varied_count; k++) {
+        const char *text = study_assignment(study, k, index);
+        if (*text && strcmp(text, study_assignment(study, k, 0)) != 0)
+            json_array_append_new(list, json_string(text));
+    }
+    return list;
+}
+
+/* Returns [{model, settings, fault}], of the models that a study compares the file's with; the
+   fault, or null, is why one cannot be. */
+static json_t *describe_compared(const cli_session *session, const cli_options *options)
+{
+    json_t *list = json_array();
+    const char *name;
+    size_t index;
+    for (size_t i = 0; (name = study_compared(session->study, i, &index)); i++) {
+        ff_report *tried = ff_report_new();
+        cli_session_try(session, options, index, tried);
+        char *fault = ff_report_errors(tried) ? study_first_error(tried) : NULL;
+        json_array_append_new(list, json_pack("{s:s, s:o, s:o}", "model", name, "settings",
+                                              settings_of(session->study, index), "fault",
+                                              results_json_text(fault)));
+        free(fault);
+        ff_report_free(tried);
+    }
+    return list;
+}
+
+static void print_compared(const json_t *list)
+{
+    const json_t *entry, *setting;
+    size_t i, k;
+    if (json_array_size(list))
+        printf("\nmodels that the study compares:\n");
+    json_array_foreach(list, i, entry)
+    {
+        const char *fault = text_of(entry, "fault");
+        printf("  %-*s", NAME, text_of(entry, "model"));
+        json_array_foreach(json_object_get(entry, "settings"), k, setting)
+        {
+            printf(" %s", json_string_value(setting));
+        }
+        printf("%s%s\n", fault ? "; cannot be compared: " : "", fault ? fault : "");
+    }
+}
+
 static int explain(cli_session *session, const cli_options *options)
 {
     const ff_pipeline *pipeline = session->pipeline;
@@ -232,7 +283,9 @@ static int explain(cli_session *session, const cli_options *options)
     if (pipeline->loop_count)
         json_object_set_new(answer, "loops", describe_loops(pipeline));
     study_reuse_counts savings = {0};
+    json_t *compared = session->study ? describe_compared(session, options) : NULL;
     if (session->study) {
+        json_object_set_new(answer, "compared", compared);
         char *directory = cli_study_directory(options);
         savings = study_savings(directory);
         free(directory);
@@ -244,6 +297,7 @@ static int explain(cli_session *session, const cli_options *options)
     }
     terminal_print_messages(session->report, stderr, terminal_colour(stderr));
     print_plan(pipeline, options->operand, stages);
+    print_compared(compared);
     if (savings.computed + savings.reused)
         printf("\nthe cases of the study so far: ");
     cli_print_savings(&savings);

@@ -3,7 +3,6 @@
 #include "listed.h"
 #include "rows.h"
 #include "spectrum.h"
-#include "tolerances.h"
 #include "yaml.h"
 
 #include <math.h>
@@ -19,8 +18,7 @@ typedef struct reading {
     bool sampled;       /* ranges without "points" are sampled, on axis 0 */
     uint32_t dimension; /* the next dimension of the sample */
     uint64_t seed;
-    study_spread spread; /* of the values with a tolerance; STUDY_NO_SPREAD: they are not drawn */
-    ff_place place;      /* of the path that is being read */
+    ff_place place; /* of the path that is being read */
 } reading;
 
 static bool refuse(reading *r, ff_place place, const char *hint, const char *what, const char *name)
@@ -320,62 +318,25 @@ static bool read_zip(reading *r, const ff_node *map)
     return true;
 }
 
-static bool read_spread(reading *r, const ff_node *node)
-{
-    r->spread = node->kind == FF_SCALAR ? study_spread_of(node->text) : STUDY_NO_SPREAD;
-    return r->spread != STUDY_NO_SPREAD ||
-           refuse(r, node->place, NULL, "\"tolerances\" is uniform or normal", "sample");
-}
-
 static bool read_sample(reading *r, const ff_node *map)
 {
-    static const char *const known[] = {"sobol", "seed", "tolerances", NULL};
+    static const char *const known[] = {"sobol", "seed", NULL};
     const ff_node *points = ff_node_get(map, "sobol"), *seed = ff_node_get(map, "seed");
-    const ff_node *spread = ff_node_get(map, "tolerances");
+    const ff_node *toleranced = ff_node_get(map, "tolerances");
     int64_t count = 0, number = 0;
+    if (toleranced)
+        return refuse(r, toleranced->place,
+                      "write study: {uncertainty: {outputs: [film.h_min_lowest], samples: 64}}",
+                      "values that have a tolerance are inputs of \"uncertainty\"", "sample");
     if (map->kind != FF_MAP || !points)
         return refuse(r, map->place, NULL, "expected {sobol: NUMBER OF POINTS, seed: 1}", "sample");
     if (!study_check_keys(map, "sample", known, r->report) ||
         !read_count(r, points, "sobol", 1, &count) ||
-        (seed && !read_count(r, seed, "seed", 0, &number)) || (spread && !read_spread(r, spread)))
+        (seed && !read_count(r, seed, "seed", 0, &number)))
         return false;
     r->seed = (uint64_t)number;
     r->sampled = true;
     add_axis(r, (size_t)count);
-    return true;
-}
-
-static bool is_varied(const study_definition *study, const char *path)
-{
-    for (size_t k = 0; k < study->varied_count; k++) {
-        const char *varied = study->varied[k].path;
-        varied += !strncmp(varied, "pipeline.", 9) ? 9 : 0;
-        size_t length = strlen(varied);
-        if (!strncmp(varied, path, length) && (!path[length] || path[length] == '.'))
-            return true;
-    }
-    return false;
-}
-
-/* Draws the values with a tolerance that the study does not vary otherwise. */
-static bool draw_toleranced(reading *r, const study_toleranced *list, size_t count, ff_place place)
-{
-    for (size_t k = 0; k < count; k++) {
-        if (is_varied(r->study, list[k].path))
-            continue;
-        if (!has_dimension(r, place, list[k].path))
-            return false;
-        r->place = list[k].place;
-        study_varied *varied = add_varied(r, list[k].path, 0);
-        for (size_t i = 0; i < r->study->points[0]; i++) {
-            double share = study_sobol((uint32_t)i, r->dimension, r->seed);
-            double value = study_spread_value(r->spread, &list[k].tolerance, share);
-            varied->assignments[i] = keep_text(
-                r, memory_print_text("%s=%.12g%s%s", list[k].path, value,
-                                     *list[k].tolerance.unit ? " " : "", list[k].tolerance.unit));
-        }
-        r->dimension++;
-    }
     return true;
 }
 
@@ -414,13 +375,8 @@ static bool finish_axes(reading *r, const ff_node *node)
             if (!strcmp(study->varied[k].path, study->varied[l].path))
                 return refuse(r, node->place, NULL, "it is varied twice", study->varied[k].path);
     if (r->sampled && r->dimension == 0)
-        return refuse(r, node->place,
-                      r->spread == STUDY_NO_SPREAD
-                          ? "give it {from: ..., to: ...} under sweep, without points"
-                          : "write for example centre_distance: 120 mm +- 20 um in the pipeline",
-                      r->spread == STUDY_NO_SPREAD ? "there is no range to draw from"
-                                                   : "no value has a tolerance to draw from",
-                      "sample");
+        return refuse(r, node->place, "give it {from: ..., to: ...} under sweep, without points",
+                      "there is no range to draw from", "sample");
     study->followed = study->followed < study->axis_count ? study->followed : study->axis_count;
     study->direction = study->direction < study->axis_count ? study->direction : study->axis_count;
     study->count = cases <= MOST_CASES ? (size_t)cases : 0;
@@ -440,7 +396,7 @@ static void begin_axes(reading *r, size_t paths)
     study->followed = study->direction = SIZE_MAX;
 }
 
-static bool read_all(reading *r, const ff_node *node, const ff_node *root)
+static bool read_all(reading *r, const ff_node *node)
 {
     const ff_node *sweep = ff_node_get(node, "sweep"), *zip = ff_node_get(node, "zip");
     const ff_node *sample = ff_node_get(node, "sample"), *cases = ff_node_get(node, "cases");
@@ -454,16 +410,13 @@ static bool read_all(reading *r, const ff_node *node, const ff_node *root)
     if (ff_node_get(node, "below"))
         return refuse(r, ff_node_get(node, "below")->place, NULL,
                       "it is for cases with a column \"time\"", "below");
-    const bool spreads = sample && ff_node_get(sample, "tolerances");
-    if (node->kind != FF_MAP || (!sweep && !zip && !spreads))
+    const ff_node *toleranced = sample ? ff_node_get(sample, "tolerances") : NULL;
+    if (node->kind != FF_MAP || (!sweep && !zip && !toleranced))
         return refuse(r, node->place, "write study: {sweep: {duty.torque: [100 N m, 200 N m]}}",
                       "there is nothing to vary", "");
-    size_t count = 0;
-    study_toleranced *list = spreads ? study_find_toleranced(root, &r->study->arena, &count) : NULL;
-    begin_axes(r, (sweep ? sweep->count : 0) + (zip ? zip->count : 0) + count);
+    begin_axes(r, (sweep ? sweep->count : 0) + (zip ? zip->count : 0));
     return (!sample || read_sample(r, sample)) && (!sweep || read_sweep(r, sweep)) &&
-           (!zip || read_zip(r, zip)) &&
-           (!spreads || draw_toleranced(r, list, count, sample->place)) && finish_axes(r, node);
+           (!zip || read_zip(r, zip)) && finish_axes(r, node);
 }
 
 study_definition *study_expand(const ff_node *sweep, ff_report *report)
@@ -477,11 +430,11 @@ study_definition *study_expand(const ff_node *sweep, ff_report *report)
     return NULL;
 }
 
-study_definition *study_read(const ff_node *node, const ff_node *root, ff_report *report)
+study_definition *study_read(const ff_node *node, ff_report *report)
 {
     study_definition *study = memory_alloc(sizeof *study);
     reading r = {.study = study, .report = report};
-    if (study_read_limits(study, node, report) && read_all(&r, node, root))
+    if (study_read_limits(study, node, report) && read_all(&r, node))
         return study;
     if (study->rows) /* the table stays, which messages quote */
         return study;

@@ -72,9 +72,10 @@ typedef struct study_result_file {
 enum { STUDY_RESULT_FILES = 4, STUDY_MOST_SUBMITTED = 1000000 };
 
 typedef struct study_context {
-    const char *name;   /* the key under `study:` */
-    ff_report *report;  /* of the current call */
-    memory_arena arena; /* memory that lives as long as the study */
+    const char *name;    /* the key under `study:` */
+    const ff_node *root; /* of the file, as it stands */
+    ff_report *report;   /* of the current call */
+    memory_arena arena;  /* memory that lives as long as the study */
 
     /* The driver sets these before anything has run. */
     bool measured; /* costs count: cases run one after the other on one core, what differs between

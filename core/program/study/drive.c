@@ -179,14 +179,19 @@ static bool read_keys(study_driver *driver, const ff_node *map, ff_report *repor
     return driver->map || driver->tradeoff || driver->uncertainty;
 }
 
-static bool open_driver(study_definition *study, const ff_node *node, const study_driver_row *row,
+static bool open_driver(study_definition *study, const ff_node *root, const study_driver_row *row,
                         ff_report *report)
 {
+    const ff_node *node = ff_node_get(root, "study");
     study_driver *driver = study->driver = memory_alloc(sizeof *driver);
     const ff_node *map = ff_node_get(node, row->name);
     driver->row = row;
-    driver->context = (study_context){
-        .name = row->name, .report = report, .further = "", .list = *study, .verdict = -1};
+    driver->context = (study_context){.name = row->name,
+                                      .root = root,
+                                      .report = report,
+                                      .further = "",
+                                      .list = *study,
+                                      .verdict = -1};
     driver->context.list.arena = (memory_arena){0};
     driver->context.list.points = &driver->context.list.count;
     driver->context.list.axis_count = driver->context.list.followed =
@@ -241,10 +246,10 @@ study_definition *study_open(const ff_node *root, ff_report *report)
     if (ff_report_errors(report) > errors)
         return NULL;
     if (!row)
-        return study_read(node, root, report);
+        return study_read(node, report);
     study_definition *study = memory_alloc(sizeof *study);
     if (study_read_limits(study, node, report))
-        open_driver(study, node, row, report);
+        open_driver(study, root, row, report);
     return study;
 }
 
@@ -315,6 +320,23 @@ void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_
                 context->name);
 }
 
+/* Builds a case, and reports its first error; false when there is one. */
+static bool open_case(const study_context *context, const study_run *run, size_t number)
+{
+    const study_submitted *submitted = &context->cases[number];
+    study_case c;
+    study_case_open(&c, run, number, NULL);
+    bool good = study_case_is_good(&c);
+    if (!good) {
+        char *why = study_first_error(c.report);
+        ff_error(context->report, FF_FAULT_INPUT, submitted->place, NULL, "%s: %s: %s",
+                 context->name, submitted->label, why);
+        free(why);
+    }
+    study_case_close(&c);
+    return good;
+}
+
 /* Builds the first cases, so that errors show before anything runs. Only the first error at each
    place is reported. */
 static bool open_cases(const study_context *context, const study_run *run, size_t count)
@@ -322,23 +344,34 @@ static bool open_cases(const study_context *context, const study_run *run, size_
     ff_place wrong = FF_NOWHERE;
     bool good = true;
     for (size_t i = 0; i < count; i++) {
-        const study_submitted *submitted = &context->cases[i];
-        const ff_place place = submitted->place;
-        study_case c;
+        const ff_place place = context->cases[i].place;
         if (context->repeats[i] > 0 || (wrong.source && wrong.source == place.source &&
                                         wrong.line == place.line && wrong.column == place.column))
             continue;
-        study_case_open(&c, run, i, NULL);
-        if (!study_case_is_good(&c)) {
-            char *why = study_first_error(c.report);
-            good = ff_error(context->report, FF_FAULT_INPUT, place, NULL, "%s: %s: %s",
-                            context->name, submitted->label, why);
-            free(why);
+        if (!open_case(context, run, i)) {
+            good = false;
             wrong = place;
         }
-        study_case_close(&c);
     }
     return good;
+}
+
+/* A level of a ladder that cannot be, whatever the inputs, is found with the first sample that the
+   file's own model takes. */
+static bool open_levels(const study_uncertainty *u, const study_run *run)
+{
+    for (size_t i = 0; i < u->pilot; i++) {
+        study_case c;
+        study_case_open(&c, run, study_uncertainty_pilot_case(u, 0, i), NULL);
+        bool possible = study_case_is_good(&c);
+        study_case_close(&c);
+        for (size_t k = 1; possible && k < u->level_count; k++)
+            if (!open_case(u->context, run, study_uncertainty_pilot_case(u, k, i)))
+                return false;
+        if (possible)
+            return true;
+    }
+    return true;
 }
 
 bool study_drive(const study_run *run, study_counters *counters, ff_report *report)
@@ -355,6 +388,7 @@ bool study_drive(const study_run *run, study_counters *counters, ff_report *repo
     /* a sample of uncertain inputs may be one that cannot be, but not their medians */
     size_t opened = context->measured ? context->planned : driver->uncertainty ? 1 : 0;
     bool good = open_cases(context, run, opened) &&
+                (!driver->uncertainty || open_levels(driver->uncertainty, run)) &&
                 (driver->map        ? study_map_run(driver->map)
                  : driver->tradeoff ? study_tradeoff_run(driver->tradeoff)
                                     : study_uncertainty_run(driver->uncertainty)) &&
@@ -365,6 +399,15 @@ bool study_drive(const study_run *run, study_counters *counters, ff_report *repo
                              "the journal has all cases; the same command writes the file", report);
     context->run = NULL;
     return good && ff_report_errors(report) == 0;
+}
+
+const char *study_compared(const study_definition *study, size_t i, size_t *index)
+{
+    const study_uncertainty *u = study->driver ? study->driver->uncertainty : NULL;
+    if (!u || i >= u->model_count)
+        return NULL;
+    *index = u->first_model + i;
+    return u->models[i].name;
 }
 
 const char *study_cases(const study_definition *study)

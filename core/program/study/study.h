@@ -94,8 +94,8 @@ extern const study_driver_row study_drivers[]; /* ends with a row without a name
 /* The keys under `study:` that do not name a driver; NULL ends the list. */
 extern const char *const study_keys[];
 
-/* Reads a study without a driver of the file at the root; NULL after an error. */
-study_definition *study_read(const ff_node *node, const ff_node *root, ff_report *report);
+/* Reads a study without a driver; NULL after an error. */
+study_definition *study_read(const ff_node *node, ff_report *report);
 
 /* Reports every key that is not in the list, which NULL ends; keys that begin with "x-" are
    allowed. */
@@ -110,6 +110,9 @@ study_definition *study_expand(const ff_node *sweep, ff_report *report);
 
 /* Checks that the pipeline has what the driver of the study names. */
 void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_report *report);
+/* Returns the name of the i-th model that a study compares the file's with, and its case; NULL
+   after the last one. */
+const char *study_compared(const study_definition *study, size_t i, size_t *index);
 const char *study_cases(const study_definition *study); /* what its cases are called: "cases" */
 const char *
 study_further(const study_definition *study); /* which cases may follow; "" when none do */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tolerances.h"
 
-#include <gsl/gsl_cdf.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -37,6 +36,7 @@ static void look_at(search *s, const ff_node *node, const char *path)
     }
     s->list[s->count++] =
         (study_toleranced){.path = memory_arena_text(s->arena, path, strlen(path)),
+                           .text = node->text,
                            .place = node->place,
                            .tolerance = tolerance};
 }
@@ -69,20 +69,4 @@ study_toleranced *study_find_toleranced(const ff_node *root, memory_arena *arena
     free(s.list);
     *count = s.count;
     return kept;
-}
-
-study_spread study_spread_of(const char *word)
-{
-    return !strcmp(word, "uniform")  ? STUDY_UNIFORM
-           : !strcmp(word, "normal") ? STUDY_NORMAL
-                                     : STUDY_NO_SPREAD;
-}
-
-double study_spread_value(study_spread spread, const ff_tolerance *t, double share)
-{
-    if (spread == STUDY_UNIFORM)
-        return t->low + (t->high - t->low) * share;
-    const double deviations = 3, below = gsl_cdf_ugaussian_P(-deviations);
-    double at = gsl_cdf_ugaussian_Pinv(below + share * (1 - 2 * below));
-    return t->middle + at / deviations * (t->high - t->low) / 2;
 }

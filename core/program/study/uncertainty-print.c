@@ -64,6 +64,14 @@ static void print_output(study_context *context, const char *name, const json_t 
         snprintf(what, sizeof what, "%.4g %% are below", 100 * study_number_of(one, "share"));
         print_estimate(context, what, one, unit.factor, unit.offset, unit.unit);
     }
+    json_array_foreach(json_object_get(of, "words"), i, one)
+    {
+        char what[100];
+        snprintf(what, sizeof what, "mean, %.40s: %.40s", study_text_of(one, "input"),
+                 study_text_of(one, "word"));
+        print_estimate(context, what, json_object_get(one, "mean"), unit.factor, unit.offset,
+                       unit.unit);
+    }
     json_object_foreach(json_object_get(of, "shares"), input, one)
     {
         char what[100];
@@ -170,6 +178,13 @@ void study_uncertainty_table(const study_context *context, const json_t *result,
             char what[40];
             snprintf(what, sizeof what, "%.6g %%", 100 * study_number_of(one, "share"));
             put_row(out, name, what, one, unit);
+        }
+        json_array_foreach(json_object_get(of, "words"), i, one)
+        {
+            char what[200];
+            snprintf(what, sizeof what, "mean, %.80s: %.80s", study_text_of(one, "input"),
+                     study_text_of(one, "word"));
+            put_row(out, name, what, json_object_get(one, "mean"), unit);
         }
         json_object_foreach(json_object_get(of, "shares"), input, one)
         {

@@ -10,7 +10,7 @@
 
 enum { MOST_BINS = 24 };
 
-static json_t *json_estimate(estimate e)
+json_t *study_uncertainty_estimate(estimate e)
 {
     json_t *json = json_pack("{s:o, s:o, s:o}", "value", study_json_real(e.value), "low",
                              study_json_real(e.low), "high", study_json_real(e.high));
@@ -87,8 +87,8 @@ static json_t *shares_of(const study_uncertainty *u, size_t output)
     estimate_sobol(values, values + n, values + 2 * n, n, groups, u->seed, first, total);
     for (size_t g = 0; g < groups; g++)
         json_object_set_new(shares, name_of_group(u, g),
-                            json_pack("{s:o, s:o}", "first", json_estimate(first[g]), "total",
-                                      json_estimate(total[g])));
+                            json_pack("{s:o, s:o}", "first", study_uncertainty_estimate(first[g]),
+                                      "total", study_uncertainty_estimate(total[g])));
     free(values);
     return shares;
 }
@@ -138,7 +138,7 @@ static json_t *output_of(const study_uncertainty *u, size_t output)
     json_t *percentiles = json_array();
     size_t failed = 0;
     for (size_t i = 0; i < u->share_count; i++) {
-        json_t *one = json_estimate(estimate_percentile(&s, u->shares[i]));
+        json_t *one = study_uncertainty_estimate(estimate_percentile(&s, u->shares[i]));
         json_object_set_new(one, "share", json_real(u->shares[i]));
         json_array_append_new(percentiles, one);
     }
@@ -149,10 +149,11 @@ static json_t *output_of(const study_uncertainty *u, size_t output)
                 break;
             }
     json_t *of = json_pack("{s:s, s:o, s:o, s:o, s:o, s:I, s:o}", "unit", unit_of(u, output),
-                           "mean", json_estimate(estimate_mean(&s)), "deviation",
-                           json_estimate(estimate_deviation(&s)), "percentiles", percentiles,
-                           "histogram", histogram_of(&s), "failed", (json_int_t)failed,
+                           "mean", study_uncertainty_estimate(estimate_mean(&s)), "deviation",
+                           study_uncertainty_estimate(estimate_deviation(&s)), "percentiles",
+                           percentiles, "histogram", histogram_of(&s), "failed", (json_int_t)failed,
                            "correlations", correlations_of(u, output));
+    json_object_set_new(of, "words", study_uncertainty_words(u, &s));
     if (u->sensitivity)
         json_object_set_new(of, "shares", shares_of(u, output));
     json_object_set_new(of, "limits", study_uncertainty_limits(u, output, of));
@@ -175,7 +176,7 @@ static json_t *conditions_of(const study_uncertainty *u, const json_t *outputs)
         estimate e = estimate_probability(&s, c->above ? limit : nextafter(limit, -INFINITY));
         if (c->above)
             e = (estimate){1 - e.value, 1 - e.high, 1 - e.low, e.error};
-        json_object_set_new(all, c->text, json_estimate(e));
+        json_object_set_new(all, c->text, study_uncertainty_estimate(e));
     }
     return all;
 }

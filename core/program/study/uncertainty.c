@@ -17,11 +17,11 @@ const ff_param study_uncertainty_keys[STUDY_UNCERTAINTY_KEYS] = {
     [UNCERTAINTY_INPUTS] = {.name = "inputs",
                             .unit = "",
                             .type = STUDY_TREE,
-                            .flags = FF_REQUIRED,
                             .doc =
                                 "map from paths to {normal: [MEAN, SPREAD]}, {lognormal: [MEDIAN, "
                                 "SPREAD]}, {uniform: [FROM, TO]} or {samples: FILE.csv or a "
-                                "list}; with sets: [PATHS] one value for several"},
+                                "list}; with sets: [PATHS] one value for several. Left out: the "
+                                "values of the pipeline that have a tolerance"},
     [UNCERTAINTY_CORRELATIONS] = {.name = "correlations",
                                   .unit = "",
                                   .type = STUDY_TREE,

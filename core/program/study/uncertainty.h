@@ -93,8 +93,13 @@ bool study_uncertainty_run(study_uncertainty *u);
 void study_uncertainty_check(const study_uncertainty *u, const ff_pipeline *pipeline,
                              ff_report *report);
 
-/* uncertainty-result.c: returns the whole result. */
+/* uncertainty-result.c: returns the whole result; {value, low, high, error}. */
 json_t *study_uncertainty_result(const study_uncertainty *u);
+json_t *study_uncertainty_estimate(estimate e);
+
+/* uncertainty-words.c: returns a list of {input, word, samples, mean, deviation}, of the samples
+   in which an input of words is that word. */
+json_t *study_uncertainty_words(const study_uncertainty *u, const estimate_samples *s);
 
 /* uncertainty-limits.c: returns what limits an output: {value, numerical, models, input, sentence};
    `of` is its result, which has the shares of the inputs where they are known. */

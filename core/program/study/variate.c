@@ -4,6 +4,7 @@
 #include "../memory/memory.h"
 #include "csv.h"
 #include "text.h"
+#include "tolerances.h"
 #include "yaml.h"
 
 #include <errno.h>
@@ -19,6 +20,8 @@ static const char *const kinds[] = {"normal", "lognormal", "uniform", "samples"}
 static const char hint[] =
     "write duty.torque: {normal: [250 N m, 10 %]}, or 250 N m +- 5 %; also lognormal: [MEDIAN, "
     "10 %], uniform: [FROM, TO], samples: FILE.csv or a list";
+
+static const char too_many[] = "at most 32 are possible";
 
 static bool refuse(study_context *context, const ff_node *at, const char *name, const char *help,
                    const char *what)
@@ -113,6 +116,7 @@ static void sort_samples(variate *v)
                   (!unit || !strcmp(unit, end));
         unit = end;
     }
+    v->words = !numbers;
     if (numbers)
         qsort(all, v->sample_count, sizeof *all, by_number);
     for (size_t i = 0; i < v->sample_count; i++)
@@ -236,7 +240,18 @@ static bool read_paths(study_context *context, const ff_node *sets, const ff_nod
     return true;
 }
 
-/* A value with the tolerance of a drawing: as likely everywhere between its ends. */
+/* As likely everywhere between the ends. */
+static void spread_evenly(study_context *context, const ff_tolerance *t, const char *text,
+                          variate *v)
+{
+    v->kind = VARIATE_UNIFORM;
+    v->a = t->low;
+    v->b = t->high;
+    v->unit = study_context_format(context, "%s", t->unit);
+    v->text = study_context_format(context, "%.200s", text);
+}
+
+/* A value with the tolerance of a drawing. */
 static bool read_toleranced(study_context *context, const ff_node *node, variate *v)
 {
     ff_tolerance t;
@@ -246,12 +261,30 @@ static bool read_toleranced(study_context *context, const ff_node *node, variate
         return refuse(context, node, v->name, NULL, why);
     if (found == 0)
         return refuse(context, node, v->name, hint, "expected a distribution");
-    v->kind = VARIATE_UNIFORM;
-    v->a = t.low;
-    v->b = t.high;
-    v->unit = study_context_format(context, "%s", t.unit);
-    v->text = study_context_format(context, "%.200s", node->text);
+    spread_evenly(context, &t, node->text, v);
     return read_paths(context, NULL, node, v);
+}
+
+/* The values of the pipeline that have a tolerance. */
+static bool find_toleranced(variates *v, study_context *context)
+{
+    size_t count;
+    v->place = ff_node_get(ff_node_get(context->root, "study"), context->name);
+    const study_toleranced *list = study_find_toleranced(context->root, &context->arena, &count);
+    if (count == 0)
+        return refuse(context, v->place, "inputs",
+                      "write inputs: {duty.torque: {normal: [250 N m, 10 %]}}, or in the pipeline "
+                      "for example centre_distance: 120 mm +- 20 um",
+                      "no value of the pipeline has a tolerance, and none is named here");
+    for (size_t i = 0; i < count && i <= VARIATE_MOST; i++) {
+        if (i == VARIATE_MOST)
+            return refuse(context, v->place, "inputs", NULL, too_many);
+        variate *one = &v->all[v->count++];
+        one->name = list[i].path;
+        spread_evenly(context, &list[i].tolerance, list[i].text, one);
+        read_paths(context, NULL, NULL, one);
+    }
+    return true;
 }
 
 static bool read_variate(study_context *context, const ff_node *map, variate *v)
@@ -366,11 +399,13 @@ static bool read_correlations(variates *v, study_context *context, const ff_node
 bool variates_read(variates *v, study_context *context, const ff_node *inputs,
                    const ff_node *correlations)
 {
+    if (!inputs)
+        return find_toleranced(v, context) && read_correlations(v, context, correlations);
     if (!study_is_map(inputs) || inputs->count == 0)
         return refuse(context, inputs, "inputs", hint,
                       "expected a map from paths to distributions");
     if (inputs->count > VARIATE_MOST)
-        return refuse(context, inputs, "inputs", NULL, "at most 32 are possible");
+        return refuse(context, inputs, "inputs", NULL, too_many);
     v->place = inputs;
     for (size_t i = 0; i < inputs->count; i++) {
         v->all[i].name = inputs->keys[i];

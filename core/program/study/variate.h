@@ -21,18 +21,20 @@ typedef struct variate {
     double a, b;          /* mean and deviation; median and that of the logarithm; both ends */
     const char *unit;     /* of these, or "" */
     const char **samples; /* sorted where all are numbers */
+    bool words;           /* they are not numbers of one unit */
     size_t sample_count;
     size_t group; /* inputs of different groups are independent */
 } variate;
 
 typedef struct variates {
-    const ff_node *place; /* the map of inputs */
+    const ff_node *place; /* the map of inputs, or of the study */
     size_t count, groups;
     variate all[VARIATE_MOST];
     double root[VARIATE_MOST * VARIATE_MOST]; /* Cholesky factor of the correlations, by rows */
 } variates;
 
-/* Reads `inputs` and `correlations`, which may be NULL. False after an error. */
+/* Reads `inputs` and `correlations`, which may be NULL: the values of the pipeline that have a
+   tolerance are the inputs then. False after an error. */
 bool variates_read(variates *v, study_context *context, const ff_node *inputs,
                    const ff_node *correlations);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What stands under `study:` as axes and points; the Sobol sequence. */
 #include "../../../core/program/study/study.h"
+#include "../../../core/program/study/tolerances.h"
 
 #include <check.h>
 #include <math.h>
@@ -14,7 +15,7 @@ static study_definition *read_study(const char *text)
 {
     report = ff_report_new();
     tree = ff_tree_parse("study.yaml", ".", text, report);
-    return study_read(ff_node_get(ff_tree_root(tree), "study"), ff_tree_root(tree), report);
+    return study_read(ff_node_get(ff_tree_root(tree), "study"), report);
 }
 
 static void forget(study_definition *study)
@@ -156,41 +157,31 @@ static void test_pairs(void)
         }
 }
 
-/* Values with a tolerance become inputs of a sample, but for those that the study varies itself.
-   Both spreads are about the middle, within both ends; of a normal one 68.2 % lie within a third of
-   the tolerance (68.1 % when it ends at three deviations). */
-static void test_tolerances(const char *spread, double within)
+/* Values of lists have one, and those of the model that is used. */
+static void test_tolerances(void)
 {
-    enum { CASES = 1024 };
-    char text[400];
-    snprintf(text, sizeof text,
-             "pipeline:\n  g: {use: a/b, d: 3 mm +- 1 mm, l: [5 um to 7 um, 2 um], s: 1 to 2,\n"
-             "      with: {a/b: {p: 1 +- 0.5}, a/c: {p: 1 +- 0.5}}}\n"
-             "study: {sample: {sobol: %d, tolerances: %s}, sweep: {g.s: [1, 2]}}",
-             CASES, spread);
-    study_definition *study = read_study(text);
-    if (!check_true(spread, study && study->varied_count == 4 && study->count == 2 * CASES))
-        return;
-    double sum = 0, inside = 0;
-    check_true("the list under sweep", !strcmp(study->varied[0].path, "g.s"));
-    check_true("a value", !strcmp(study->varied[1].path, "g.d"));
-    check_true("an item of a list", !strcmp(study->varied[2].path, "g.l.0"));
-    check_true("of the model that is used", !strcmp(study->varied[3].path, "g.with.a/b.p"));
-    for (size_t i = 0; i < CASES; i++) {
-        double value = strtod(study_value(study, 1, 2 * i), NULL);
-        sum += value;
-        inside += fabs(value - 3) <= 1.0 / 3;
-        check_true("within both ends", value >= 2 && value <= 4);
-    }
-    check_near("mean", sum / CASES, 3, 1e-3);
-    check_near("near the middle", inside / CASES, within, 5e-3);
-    forget(study);
+    static const char *const paths[] = {"g.d", "g.l.0", "g.s", "g.with.a/b.p"};
+    memory_arena arena = {0};
+    size_t count;
+    ff_report *unused = ff_report_new();
+    ff_tree *file = ff_tree_parse(
+        "file.yaml", ".",
+        "pipeline:\n  g: {use: a/b, d: 3 mm +- 1 mm, l: [5 um to 7 um, 2 um], s: 1 to 2, t: 2 mm,\n"
+        "      with: {a/b: {p: 1 +- 0.5}, a/c: {p: 1 +- 0.5}}}\n",
+        unused);
+    const study_toleranced *list = study_find_toleranced(ff_tree_root(file), &arena, &count);
+    check_true("four values", count == 4);
+    for (size_t i = 0; i < count && i < 4; i++)
+        check_true(paths[i], !strcmp(list[i].path, paths[i]));
+    check_true("their ends", list[1].tolerance.low == 5 && list[1].tolerance.high == 7);
+    memory_arena_free(&arena);
+    ff_tree_free(file);
+    ff_report_free(unused);
 }
 
 int main(void)
 {
-    test_tolerances("uniform", 1.0 / 3);
-    test_tolerances("normal", 0.6818);
+    test_tolerances();
     test_ranges();
     test_product();
     test_chains();

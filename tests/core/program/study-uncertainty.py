@@ -105,6 +105,19 @@ class Uncertainty(lab.Lab):
         said = self.call("run", "two.yaml", "-o", "two", "--set", "study.uncertainty.samples=50")
         self.assertIn("52 cases done, 42 of them before", said)
 
+    def test_values_with_a_tolerance_are_the_inputs_where_none_is_named(self):
+        text = PIPELINE.replace("amplitude: 2 mm}\n  other", "amplitude: 2 mm +- 0.5 mm}\n  other")
+        self.write("drawing.yaml", text + "    samples: 40\n")
+        self.call("run", "drawing.yaml", "-o", "drawing")
+        rows = self.rows("drawing", "sample")
+        values = [amplitude(row) for row in rows]
+        self.assertTrue(1.5 <= min(values) < 1.6 and 2.4 < max(values) <= 2.5, values)
+        self.assertEqual(len({row["other.total [m]"] for row in rows}), 1)
+        self.write("none.yaml", PIPELINE)
+        self.assertIn("no value of the pipeline has a tolerance", self.call("check", "none.yaml", code=2))
+        self.write("sample.yaml", text.split("study:")[0] + "study: {sample: {sobol: 8, tolerances: uniform}}\n")
+        self.assertIn("write study: {uncertainty: {outputs: ", self.call("check", "sample.yaml", code=2))
+
     def test_a_ladder_gives_the_same_for_less(self):
         """The cheap level is half the file's, so that the file's samples leave no variance but need be eight."""
         text = TWO + """    samples: 400
@@ -128,6 +141,39 @@ class Uncertainty(lab.Lab):
         self.assertFalse(pilot & main)
         self.study("again", text, words=("-j", "2"))
         self.assertEqual(self.file("ladder"), self.file("again"))
+
+    def test_each_word_of_an_input_has_its_own_mean(self):
+        words = """    inputs: {wave.end: {samples: [good, good, doubtful]}, wave.amplitude: {normal: [2 mm, 5 %]}}
+    samples: 40
+"""
+        self.study("words", words)
+        rows = self.rows("words", "sample")
+        found = self.read("words/uncertainty.json")["outputs"]["wave.total"]["words"]
+        self.assertEqual([(one["input"], one["word"]) for one in found], [("wave.end", "good"), ("wave.end", "doubtful")])
+        for one in found:
+            own = [float(row["wave.total [m]"]) for row in rows if row["wave.end"] == one["word"]]
+            self.assertEqual(one["samples"], len(own))
+            self.assertAlmostEqual(one["mean"]["value"], statistics.mean(own), delta=1e-8 * abs(own[0]))
+            self.assertAlmostEqual(one["deviation"]["value"] / statistics.stdev(own), 1, delta=1e-6)
+        # the cheap level is half the file's, so that the mean of the word is that of its samples on that level
+        self.study("laddered", words.replace("samples: 40", "samples: 400") +
+                   "    pilot: 30\n    ladder: {short: {wave.count: 4, cost: 1 %}}\n    aim: distribution\n")
+        rows = self.rows("laddered", "pilot") + self.rows("laddered", "sample")
+        of = self.read("laddered/uncertainty.json")["outputs"]["wave.total"]
+        for one in of["words"]:
+            short = [float(row["wave.total [m]"]) for row in rows if row["wave.end"] == one["word"] and row["wave.count"]]
+            scale = of["mean"]["value"] / statistics.mean(float(row["wave.total [m]"]) for row in rows if row["wave.count"])
+            self.assertAlmostEqual(one["mean"]["value"] / statistics.mean(short) / scale, 1, delta=1e-6)
+
+    def test_explain_says_which_models_are_compared(self):
+        self.write("models.yaml", PIPELINE + TWO + "    models: {longer: {wave.count: 12}, none: {wave.counts: 12}}\n")
+        said = self.call("explain", "models.yaml")
+        self.assertIn("  longer                   wave.count=12\n", said)
+        self.assertIn('wave.counts=12; cannot be compared: wave: unknown key "counts"', said)
+
+    def test_a_level_that_cannot_be_is_said_before_anything_runs(self):
+        self.write("level.yaml", PIPELINE + TWO + "    ladder: {short: {wave.counts: 4}}\n")
+        self.assertIn('pilot 1, short: wave: unknown key "counts"', self.call("run", "level.yaml", "-o", "level", code=2))
 
     def test_each_bad_input_has_a_sentence(self):
         inputs = "    inputs: {wave.amplitude: %s}\n"
