@@ -218,13 +218,23 @@ static void report_engagements(const tooth_pair *s, const contact_tooth_path *p)
 static void report_load(const tooth_pair *s, const contact_tooth_path *p, const load_record *r)
 {
     const double limit = 0.01, turns = p->pitch * (double)p->count;
+    char text[240];
     if (!(p->line_force > 0))
         return;
     double off = fabs((r->load_sum - r->negative) / turns / p->line_force - 1);
+    if (p->count < p->available)
+        snprintf(text, sizeof text,
+                 "mean force of all pairs in mesh against torque over base radius, over that; %zu "
+                 "of %zu engagements are not the whole motion; %s takes more",
+                 p->count, p->available,
+                 s->engagements.one == CONTACT_ENGAGEMENTS_ALL ? "max_engagements"
+                                                               : "engagement: all");
+    else
+        snprintf(text, sizeof text,
+                 "mean force of all pairs in mesh against torque over base radius, over that; over "
+                 "whole periods of the motion both are equal, unless forces beyond the path bear");
     s->host->quality(s->host->ctx, "mesh_load", off, limit, off <= limit ? FF_GOOD : FF_DOUBTFUL,
-                     "mean force of all pairs in mesh against torque over base radius, over that; "
-                     "over whole periods of the motion both are equal, and engagements that stand "
-                     "for others, or forces beyond the path, make them differ");
+                     text);
 }
 
 static ff_status report(const tooth_pair *s, const contact_tooth_path *p, const load_record *r,

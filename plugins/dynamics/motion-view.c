@@ -6,6 +6,7 @@
 #include <flankfilm/author.h>
 
 #include <math.h>
+#include <stdio.h>
 
 static const dynamics_sample *sample_at(const dynamics_motion_view *view, size_t i)
 {
@@ -151,14 +152,22 @@ static dynamics_between look_between(const dynamics_motion_view *view,
    of the damper's force at a corner of the transmission error, is ramped over and does not. The
    limit is that of the errors of a film by its time steps: the Hertz pressure is off by half as
    much. */
-static void report_sampling(const dynamics_between *found, const ff_host *host)
+static void report_sampling(const dynamics_between *found, const dynamics_inputs *inputs,
+                            const ff_host *host)
 {
     const double limit = 0.02;
     double error = found->largest > 0 ? found->beyond / found->largest : 0;
-    host->quality(
-        host->ctx, "station_sampling", error, limit, error <= limit ? FF_GOOD : FF_DOUBTFUL,
-        "tooth force half-way between two stations of the gear, beyond that at both of them, over "
-        "the largest; more stations follow the vibration");
+    double enough = (double)inputs->stations * sqrt(error / limit); /* 1 - cos(w/2) is w^2/8 */
+    char more[96] = "", text[240];
+    if (error > limit)
+        snprintf(more, sizeof more, "; the gear's stations: %.0f or more follow the vibration",
+                 100 * ceil(enough / 100));
+    snprintf(text, sizeof text,
+             "tooth force half-way between two stations of the gear, beyond that at both of them, "
+             "over the largest%s",
+             more);
+    host->quality(host->ctx, "station_sampling", error, limit,
+                  error <= limit ? FF_GOOD : FF_DOUBTFUL, text);
 }
 
 static double largest_static(const dynamics_inputs *inputs)
@@ -181,7 +190,7 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
     ff_status status = put_engagements(view, excitation, inputs, host);
     if (inputs->wanted & of_stations) {
         between = look_between(view, inputs);
-        report_sampling(&between, host);
+        report_sampling(&between, inputs, host);
     }
     double tooth = between.largest * excitation->stiffness * excitation->length;
     const struct {
