@@ -185,6 +185,7 @@ awk '
     }' "$work/test-pinned"
 worst "own folds and doublings by steps along the branch that differ by 4, relative" "fold_frequency|doubling_frequency" pinned
 worst "determinant of the monodromy against exp(-2 zeta omega_n T)" "det|det M|det by steps|determinant" pinned flow twin extremes atlas
+worst "the same at 3 to 40 Hz, thousands of radians in a mesh cycle" "determinant, slow mesh" extremes
 worst "energy balance" "energy balance" pinned twin extremes atlas
 worst "Mathieu characteristic values a1, b1, a2, b2" "Mathieu.s characteristic value" flow
 worst "return map without separation against its closed form" "fixed point|monodromy" flow
