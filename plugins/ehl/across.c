@@ -71,18 +71,27 @@ void ehl_across_create(ehl_across *a, size_t count)
         }
         a->slope[l][l] = sum;
     }
-    for (size_t k = 0; k < EHL_ACROSS_FINE; k++)
+    for (size_t k = 0; k < EHL_ACROSS_FINE; k++) {
+        double sum = 0;
         for (size_t l = 0; l < count; l++)
-            a->fine[k][l] = one_at(a, l, (double)k / (EHL_ACROSS_FINE - 1));
+            sum += fabs(a->fine[k][l] = one_at(a, l, (double)k / (EHL_ACROSS_FINE - 1)));
+        a->swing = fmax(a->swing, sum);
+    }
     for (size_t k = 0; k < count; k++)
         for (size_t l = 0; l < count; l++)
             for (size_t m = 0; m < count; m++)
                 a->stiffness[k][l] += a->weight[m] * a->slope[k][m] * a->slope[l][m];
 }
 
-double ehl_across_highest(const ehl_across *a, const double *values)
+double ehl_across_highest(const ehl_across *a, const double *values, double most)
 {
-    double most = -HUGE_VAL;
+    double low = values[0], high = values[0];
+    for (size_t l = 1; l < a->count; l++) {
+        low = values[l] < low ? values[l] : low;
+        high = values[l] > high ? values[l] : high;
+    }
+    if ((high + low) / 2 + a->swing * (high - low) / 2 < most)
+        return most;
     for (size_t k = 0; k < EHL_ACROSS_FINE; k++) {
         double here = 0;
         for (size_t l = 0; l < a->count; l++)

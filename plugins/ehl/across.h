@@ -20,6 +20,7 @@ typedef struct ehl_across {
     ehl_across_matrix integral;                    /* from 0 to node k */
     ehl_across_matrix stiffness;                   /* int (dv/dz) (dT/dz) dz */
     double fine[EHL_ACROSS_FINE][EHL_ACROSS_MOST]; /* values at equal distances */
+    double swing; /* largest size of one of these where those at the nodes are between -1 and 1 */
 } ehl_across;
 
 /* Four values at a time, in whole vectors: rows of a matrix, and what is computed from them, have
@@ -47,10 +48,9 @@ FF_SIMD_INLINE void ehl_across_apply(const double *m, size_t stride, size_t n, c
     }
 }
 
-/* Returns the highest value of the polynomial through values at the nodes, of EHL_ACROSS_FINE
- * places.
- */
-double ehl_across_highest(const ehl_across *a, const double *values);
+/* Returns the highest of `most` and EHL_ACROSS_FINE values of the polynomial through those at the
+   nodes. */
+double ehl_across_highest(const ehl_across *a, const double *values, double most);
 
 /* EHL_ACROSS_LEAST to EHL_ACROSS_MOST nodes. */
 void ehl_across_create(ehl_across *a, size_t count);

@@ -12,7 +12,7 @@
 
 ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
 {
-    enum { FIELDS = 17, OWN = 9 };
+    enum { FIELDS = 19, OWN = 9 };
     size_t n = nodes, all = nodes * across;
     *e = (ehl_energy){.nodes = nodes, .share = 1, .highest = 2000, .lowest = 150};
     ehl_across_create(&e->across, across);
@@ -20,10 +20,11 @@ ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
         calloc((FIELDS + 2 + across) * all + (OWN + 2) * n + EHL_ACROSS_LANES, sizeof *next);
     if (!next)
         return FF_NOMEM;
-    double **field[FIELDS] = {
-        &e->p,        &e->ln_eta, &e->rho,     &e->tau,           &e->gamma,     &e->gamma_tau,
-        &e->gamma_T,  &e->u,      &e->through, &e->called_p,      &e->called_T,  &e->ln_eta_p,
-        &e->ln_eta_T, &e->rho_p,  &e->rho_T,   &e->called_ln_eta, &e->called_rho};
+    double **field[FIELDS] = {&e->p,          &e->ln_eta,    &e->rho,       &e->tau,
+                              &e->gamma,      &e->gamma_tau, &e->gamma_eta, &e->u,
+                              &e->through,    &e->called_p,  &e->called_T,  &e->ln_eta_p,
+                              &e->ln_eta_T,   &e->rho_p,     &e->rho_T,     &e->called_ln_eta,
+                              &e->called_rho, &e->bend,      &e->before};
     for (size_t k = 0; k < FIELDS; k++, next += all)
         *field[k] = next;
     double **own[OWN] = {&e->tau_m,   &e->p_x,     &e->mobility, &e->mass,   &e->carried,
@@ -52,6 +53,7 @@ void ehl_energy_restart(ehl_energy *e)
     size_t all = e->nodes * e->across.count;
     e->guessed = 0;
     memset(e->called_T, 0, all * sizeof *e->called_T);
+    memset(e->bend, 0, all * sizeof *e->bend);
     memset(e->inverted, 0, 2 * all * sizeof *e->inverted);
 }
 
@@ -60,18 +62,21 @@ static void note(ehl_energy *e, ff_status status)
     e->law_status = numerics_worse(e->law_status, status);
 }
 
-/* Calls the laws at the nodes `from` to `end`. */
-static void call_laws_at(ehl_energy *e, size_t from, size_t end, const double *T)
+/*
+ * Sets the curvature of n values to that on the way from a call, which gave `from` and slopes that
+ * lead to `line`, to the next one, which gave `given`. A way below `least` tells little. Within
+ * 1/most the parabola adds half of what the slopes do, at most, whatever way it was.
+ */
+FF_SIMD
+static void bend_by(size_t n, const double *restrict from, const double *restrict line,
+                    const double *restrict given, double least, double most, double *restrict bend)
 {
-    const ff_viscosity *v = e->laws.viscosity;
-    const ff_density *d = e->laws.density;
-    size_t n = e->across.count, at = from * n, count = (end - from) * n;
-    const double *p = e->p + at;
-    note(e, v->eval(v->self, count, p, T + at, e->called_ln_eta + at, e->ln_eta_p + at,
-                    e->ln_eta_T + at));
-    note(e, d->eval(d->self, count, p, T + at, e->called_rho + at, e->rho_p + at, e->rho_T + at));
-    memcpy(e->called_p + at, p, count * sizeof *p);
-    memcpy(e->called_T + at, T + at, count * sizeof *T);
+    for (size_t j = 0; j < n; j++) {
+        double way = line[j] - from[j], is = 2 * (given[j] - line[j]) / (way * way);
+        is = is < most ? is : most;
+        is = is > -most ? is : -most;
+        bend[j] = fabs(way) > least ? is : bend[j];
+    }
 }
 
 /* Follows n values by their slopes from where they were given. */
@@ -85,60 +90,134 @@ static void follow(size_t n, const double *restrict p, const double *restrict T,
         value[j] = given[j] + (by_p[j] * (p[j] - from_p[j]) + by_T[j] * (T[j] - from_T[j]));
 }
 
+/* The same on a parabola. */
 FF_SIMD
-static int all_within(size_t n, const double *restrict a, const double *restrict b, double most)
+static void follow_bent(size_t n, const double *restrict p, const double *restrict T,
+                        const double *restrict from_p, const double *restrict from_T,
+                        const double *restrict given, const double *restrict by_p,
+                        const double *restrict by_T, const double *restrict bend,
+                        double *restrict value)
 {
-    int64_t beyond = 0;
-    for (size_t j = 0; j < n; j++)
-        beyond |= !(fabs(a[j] - b[j]) <= most);
-    return !beyond;
+    for (size_t j = 0; j < n; j++) {
+        double way = by_p[j] * (p[j] - from_p[j]) + by_T[j] * (T[j] - from_T[j]);
+        value[j] = given[j] + way * (1 + 0.5 * bend[j] * way);
+    }
 }
 
-/* Whether ln(eta) has changed by more than the reach at node i, or has not been called there. */
-static int is_beyond(const ehl_energy *e, size_t i)
+/* Sets ln(eta) at the nodes `from` to `end` to what was given and its slopes make of it. */
+static void follow_viscosity(ehl_energy *e, size_t from, size_t end, const double *T)
 {
-    size_t n = e->across.count, from = i * n;
-    return !(e->called_T[from] > 0) ||
-           !all_within(n, e->ln_eta + from, e->called_ln_eta + from, e->reach);
+    size_t n = e->across.count, at = from * n;
+    follow_bent((end - from) * n, e->p + at, T + at, e->called_p + at, e->called_T + at,
+                e->called_ln_eta + at, e->ln_eta_p + at, e->ln_eta_T + at, e->bend + at,
+                e->ln_eta + at);
 }
 
-/* Viscosity and density at all places: by their slopes where these reach, whose error is less than
-   half the square of the reach. */
+/* Calls the laws at the nodes `from` to `end`. */
+static void call_laws_at(ehl_energy *e, size_t from, size_t end, const double *T)
+{
+    const ff_viscosity *v = e->laws.viscosity;
+    const ff_density *d = e->laws.density;
+    size_t n = e->across.count, at = from * n, count = (end - from) * n;
+    const double *p = e->p + at, least = e->reach / 4;
+    double *line = e->ln_eta + at, *given = e->tau + at;
+    follow(count, p, T + at, e->called_p + at, e->called_T + at, e->called_ln_eta + at,
+           e->ln_eta_p + at, e->ln_eta_T + at, line);
+    note(e, v->eval(v->self, count, p, T + at, given, e->ln_eta_p + at, e->ln_eta_T + at));
+    if (e->called_T[at] > 0)
+        bend_by(count, e->called_ln_eta + at, line, given, least, 1 / e->reach, e->bend + at);
+    memcpy(e->called_ln_eta + at, given, count * sizeof *given);
+    memcpy(line, given, count * sizeof *given);
+    note(e, d->eval(d->self, count, p, T + at, e->called_rho + at, e->rho_p + at, e->rho_T + at));
+    memcpy(e->called_p + at, p, count * sizeof *p);
+    memcpy(e->called_T + at, T + at, count * sizeof *T);
+}
+
+/* Sets each of `nodes` values at all places across. */
+FF_SIMD_INLINE void spread_to(size_t nodes, size_t n, const double *restrict values,
+                              double *restrict to)
+{
+    for (size_t i = 0; i < nodes; i++)
+        for (size_t k = 0; k < n; k++)
+            to[i * n + k] = values[i];
+}
+
+/* Marks the nodes at which ln(eta) has changed by more than the reach. */
+FF_SIMD_INLINE void mark_beyond(size_t nodes, size_t n, const double *restrict now,
+                                const double *restrict called, double reach,
+                                unsigned char *restrict mark)
+{
+    for (size_t i = 0; i < nodes; i++) {
+        int64_t beyond = 0;
+        for (size_t k = 0; k < n; k++)
+            beyond |= !(fabs(now[i * n + k] - called[i * n + k]) <= reach);
+        mark[i] = beyond != 0;
+    }
+}
+
+/* Both with the preset number of nodes known when it is compiled. */
+FF_SIMD
+static void spread(size_t nodes, size_t across, const double *values, double *to)
+{
+    if (across == EHL_ACROSS_PRESET)
+        spread_to(nodes, EHL_ACROSS_PRESET, values, to);
+    else
+        spread_to(nodes, across, values, to);
+}
+
+FF_SIMD
+static void find_beyond(ehl_energy *e, size_t nodes)
+{
+    size_t n = e->across.count;
+    if (n == EHL_ACROSS_PRESET)
+        mark_beyond(nodes, EHL_ACROSS_PRESET, e->ln_eta, e->called_ln_eta, e->reach, e->there);
+    else
+        mark_beyond(nodes, n, e->ln_eta, e->called_ln_eta, e->reach, e->there);
+}
+
+/* Whether the laws are to be called at node i: ln(eta) has changed by more than the reach, or they
+   have not been. */
+static int is_due(const ehl_energy *e, const ehl_energy_film *film, size_t i)
+{
+    return !(film->rate > 0) || e->there[i] || !(e->called_T[i * e->across.count] > 0);
+}
+
+/* Viscosity and density at all places: by their slopes where these reach, which for ln(eta) change
+   as they did on the way to the last call. */
 static void call_laws(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     size_t across = e->across.count, all = film->count * across;
-    for (size_t i = 0; i < film->count; i++)
-        for (size_t k = 0; k < across; k++)
-            e->p[i * across + k] = film->p[i];
-    follow(all, e->p, T, e->called_p, e->called_T, e->called_ln_eta, e->ln_eta_p, e->ln_eta_T,
-           e->ln_eta);
+    double *before = e->ln_eta;
+    e->ln_eta = e->before;
+    e->before = before;
+    spread(film->count, across, film->p, e->p);
+    follow_viscosity(e, 0, film->count, T);
+    find_beyond(e, film->count);
     for (size_t i = 0, end; i < film->count; i = end) {
-        for (end = i; end < film->count && (!(film->rate > 0) || is_beyond(e, end)); end++)
+        for (end = i; end < film->count && is_due(e, film, end); end++)
             ;
         if (end > i)
             call_laws_at(e, i, end, T);
         else
             end++;
     }
-    follow(all, e->p, T, e->called_p, e->called_T, e->called_ln_eta, e->ln_eta_p, e->ln_eta_T,
-           e->ln_eta);
     follow(all, e->p, T, e->called_p, e->called_T, e->called_rho, e->rho_p, e->rho_T, e->rho);
 }
 
-/* Shear rates of e->tau with their slopes, by T at constant stress, at the nodes `from` to `end`.
- */
+/* Shear rates of tau_m with their slopes at the nodes `from` to `end`. */
 static void call_flow(ehl_energy *e, size_t from, size_t end, const double *T)
 {
     size_t n = e->across.count, at = from * n, count = (end - from) * n;
+    spread(end - from, n, e->tau_m + from, e->tau + at);
     if (e->flow) {
         note(e, e->flow->rate(e->flow->self, count, e->p + at, T + at, e->ln_eta + at, e->tau + at,
-                              e->gamma + at, e->gamma_tau + at, e->gamma_T + at));
+                              e->gamma + at, e->gamma_tau + at, e->gamma_eta + at));
         return;
     }
     for (size_t j = at; j < at + count; j++) {
         e->gamma_tau[j] = exp(-e->ln_eta[j]);
         e->gamma[j] = e->tau[j] * e->gamma_tau[j];
-        e->gamma_T[j] = -e->gamma[j];
+        e->gamma_eta[j] = -e->gamma[j];
     }
 }
 
@@ -210,6 +289,28 @@ FF_SIMD_INLINE int take_stress(ehl_energy *e, const ehl_energy_film *film, doubl
     return 0;
 }
 
+/* Changes the stress at node i by what the slopes of the last flow make of the change of ln(eta),
+   gap and speeds since, if that is less than half of it. */
+FF_SIMD_INLINE void expect_stress(ehl_energy *e, const ehl_energy_film *film, size_t i, size_t n)
+{
+    const double *now = e->ln_eta + i * n, *before = e->before + i * n,
+                 *by_eta = e->gamma_eta + i * n;
+    const double target = (film->speed[1] - film->speed[0]) / film->h[i],
+                 *weight = e->across.weight;
+    ehl_lanes rate = {0}, w, was, is, slope;
+    means m = means_of(e, i, n);
+    for (size_t k = 0; k < n; k += EHL_ACROSS_LANES) {
+        memcpy(&w, weight + k, sizeof w);
+        memcpy(&was, before + k, sizeof was);
+        memcpy(&is, now + k, sizeof is);
+        memcpy(&slope, by_eta + k, sizeof slope);
+        rate += w * slope * (is - was);
+    }
+    double step = m.slope > 1e-290 ? (target - m.gamma - ehl_across_sum(&rate)) / m.slope : 0;
+    if (fabs(step) <= 0.5 * fabs(e->tau_m[i]))
+        e->tau_m[i] += step;
+}
+
 FF_SIMD
 static int take_stress_at(ehl_energy *e, const ehl_energy_film *film, double enough, size_t i)
 {
@@ -217,20 +318,28 @@ static int take_stress_at(ehl_energy *e, const ehl_energy_film *film, double eno
                                                 : take_stress(e, film, enough, i, e->across.count);
 }
 
+FF_SIMD
+static void expect_stress_at(ehl_energy *e, const ehl_energy_film *film, size_t i)
+{
+    if (e->across.count == EHL_ACROSS_PRESET)
+        expect_stress(e, film, i, EHL_ACROSS_PRESET);
+    else
+        expect_stress(e, film, i, e->across.count);
+}
+
 /* Takes the stress of all columns there; those that are there are not computed again. */
 static void find_stress(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     enum { MOST = 30 };
-    /* what is left is taken off by the slope: its square */
-    const double enough = film->rate > 0 ? e->reach / 2 : 1e-3;
+    /* what is left is taken off by the slope: half its square, a hundredth of that of the reach */
+    const double enough = film->rate > 0 ? e->reach / 10 : 1e-3;
     size_t left = film->count;
     memset(e->there, 0, left);
     for (int turn = 0; turn < MOST && left > 0; turn++) {
         left = 0;
         for (size_t i = 0, end; i < film->count; i = end + 1) {
             for (end = i; end < film->count && !e->there[end]; end++)
-                for (size_t k = 0; k < e->across.count; k++)
-                    e->tau[end * e->across.count + k] = e->tau_m[end];
+                ;
             if (end > i)
                 call_flow(e, i, end, T);
             for (; i < end; i++)
@@ -296,13 +405,13 @@ FF_SIMD_INLINE void flow_across(ehl_energy *e, const ehl_energy_film *film, size
     int flows = m.slope > 1e-290;
     double tilt = flows ? m.tilt / m.slope : 0;
     double left = flows ? (slip / h - m.gamma) / m.slope : 0;
-    double *gamma_T = e->gamma_T + at;
+    double *gamma_eta = e->gamma_eta + at;
     FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {
         double more = left + (a->z[k] - 0.5 - tilt) * h * p_x;
         tau[k] += more;
         gamma[k] = flows ? gamma[k] + more * slope[k] : slip / h;
-        gamma_T[k] -= more * slope[k];
+        gamma_eta[k] -= more * slope[k];
         per_p_x[k] = h * slope[k] * (a->z[k] - 0.5 - tilt);
     }
     e->tau_m[i] += left;
@@ -342,13 +451,6 @@ static void flow_at(ehl_energy *e, const ehl_energy_film *film, size_t i)
         flow_across(e, film, i, e->across.count);
 }
 
-FF_SIMD
-static void multiply(size_t n, const double *restrict by, double *restrict values)
-{
-    for (size_t j = 0; j < n; j++)
-        values[j] *= by[j];
-}
-
 void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T)
 {
     call_laws(e, film, T);
@@ -356,8 +458,10 @@ void ehl_energy_flow(ehl_energy *e, const ehl_energy_film *film, const double *T
         e->p_x[i] = ehl_energy_touches(film, i) ? 0 : gradient(film, i);
     if (!e->guessed)
         guess_stress(e, film);
+    else if (film->rate > 0)
+        for (size_t i = 0; i < film->count; i++)
+            expect_stress_at(e, film, i);
     find_stress(e, film, T);
     for (size_t i = 0; i < film->count; i++)
         flow_at(e, film, i);
-    multiply(film->count * e->across.count, e->ln_eta_T, e->gamma_T);
 }

@@ -176,13 +176,13 @@ FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n)
     const ehl_energy *e = s->e;
     const ehl_column *c = &e->column[i];
     const double *tau = e->tau + i * n, *gamma = e->gamma + i * n, *slope = e->gamma_tau + i * n,
-                 *by_T = e->gamma_T + i * n;
+                 *by_eta = e->gamma_eta + i * n, *ln_eta_T = e->ln_eta_T + i * n;
     double *to = e->inverse + i * n * n, by_stress[EHL_ACROSS_MOST], moved[EHL_ACROSS_MOST];
     /* tau_m goes with the temperatures of the whole column */
     double per = ehl_energy_touches(s->film, i) ? 0 : s->film->h[i] * per_mean_slope(e, i, n);
     ehl_across_matrix m;
     for (size_t k = 0; k < n; k++) {
-        moved[k] = a->weight[k] * by_T[k];
+        moved[k] = a->weight[k] * by_eta[k] * ln_eta_T[k];
         by_stress[k] = a->weight[k] * (tau[k] * slope[k] + gamma[k]) * per;
     }
     for (size_t l = 0; l < n; l++) {
@@ -229,8 +229,9 @@ FF_SIMD_INLINE void prepare_column(const sweep *s, size_t i, size_t n)
     ehl_column *c = &e->column[i];
     const side ahead = side_of(s, i, 1), behind = side_of(s, i, 0);
     const double *u = e->u + i * n, *rho = e->rho + i * n, *rho_T = e->rho_T + i * n,
-                 *tau = e->tau + i * n, *gamma = e->gamma + i * n, *by_T = e->gamma_T + i * n,
-                 none[EHL_ACROSS_MOST] = {0}, *past = film->past ? film->past + i * n : none;
+                 *tau = e->tau + i * n, *gamma = e->gamma + i * n, *by_eta = e->gamma_eta + i * n,
+                 *ln_eta_T = e->ln_eta_T + i * n, none[EHL_ACROSS_MOST] = {0},
+                 *past = film->past ? film->past + i * n : none;
     double p_t = film->p_t ? film->p_t[i] : 0, p_x = e->p_x[i], h = film->h[i],
            per_dx = 1 / film->dx, rate = film->rate, capacity = e->heat_capacity;
     int touches = ehl_energy_touches(film, i);
@@ -250,7 +251,7 @@ FF_SIMD_INLINE void prepare_column(const sweep *s, size_t i, size_t n)
         c->source[k] = a->weight[k] * (sheared * tau[k] * gamma[k] + friction) - held * past[k];
         c->diagonal[k] = conducted * a->stiffness[k][k] + c->lift[k] * a->slope[k][k] +
                          c->below[k] + c->above[k + 1] + own -
-                         warmed * a->weight[k] * tau[k] * by_T[k];
+                         warmed * a->weight[k] * tau[k] * (by_eta[k] * ln_eta_T[k]);
     }
     c->diagonal[0] += 1 / s->passage[0].own;
     c->diagonal[n - 1] += 1 / s->passage[1].own;
@@ -422,14 +423,12 @@ void ehl_energy_sweep(ehl_energy *e, const ehl_energy_film *film, const ehl_temp
     }
 }
 
-/* Returns the heat that transverse transport carries off from node k. */
-static double transverse_rise(const sweep *s, size_t i, size_t n, size_t k, const ehl_column *c)
+/* Returns the heat that transverse transport carries off from node k, of temperatures T with their
+   slopes. */
+static double transverse_rise(const ehl_column *c, size_t n, size_t k, const double *T,
+                              const double *slope)
 {
-    const double *T = s->t->T + i * n;
-    double slope = 0;
-    for (size_t l = 0; l < n; l++)
-        slope += s->e->across.slope[l][k] * T[l];
-    return c->lift[k] * slope + c->below[k] * (T[k] - T[k > 0 ? k - 1 : k]) +
+    return c->lift[k] * slope[k] + c->below[k] * (T[k] - T[k > 0 ? k - 1 : k]) +
            c->above[k + 1] * (T[k] - T[k + 1 < n ? k + 1 : k]);
 }
 
@@ -441,16 +440,17 @@ ehl_energy_sums ehl_energy_balance(ehl_energy *e, const ehl_energy_film *film,
     size_t n = e->across.count;
     for (size_t i = 1; i < film->count; i++) {
         ehl_column c;
-        double h = film->h[i], p_t = film->p_t ? film->p_t[i] : 0;
+        double slope[EHL_ACROSS_MOST], h = film->h[i], p_t = film->p_t ? film->p_t[i] : 0;
         if (!is_film(&s, i))
             continue;
         const side sides[2] = {side_of(&s, i, 0), side_of(&s, i, 1)};
         transverse_transport(&s, i, n, &c);
+        ehl_across_apply(e->across.slope[0], EHL_ACROSS_MOST, n, t->T + i * n, slope);
         for (size_t k = 0; k < n; k++) {
             size_t at = i * n + k;
             const side *from = &sides[e->u[at] >= 0];
             double part = film->dx * h * e->across.weight[k],
-                   rise = transverse_rise(&s, i, n, k, &c);
+                   rise = transverse_rise(&c, n, k, t->T + i * n, slope);
             double held = part * e->rho[at] * e->heat_capacity;
             double more =
                 from->now * t->T[at] - (from->near * from->T[k] + from->far * from->T_far[k]);

@@ -73,14 +73,17 @@ typedef struct ehl_energy {
     ehl_half_space flank[2];
     double *memory;
     /* nodes x across */
-    double *p, *ln_eta, *rho, *tau, *gamma, *gamma_tau, *gamma_T, *u, *through;
-    ehl_column *column; /* nodes */
+    double *p, *ln_eta, *rho, *tau, *gamma, *u, *through;
+    double *gamma_tau, *gamma_eta; /* slopes of the shear rate by tau and by ln(eta) */
+    ehl_column *column;            /* nodes */
     double *base[2];  /* temperature of the flanks without the flux at the node, over T_in, nodes */
     double *inverse;  /* of the equations of each node, nodes x across^2 */
     double *inverted; /* of what they were made then: the diagonal, transverse transport */
     double keep;      /* change of these, over the diagonal, up to which the inverse is kept */
     double *called_p, *called_T; /* where the laws were called last; T = 0: nowhere yet */
     double *called_ln_eta, *ln_eta_p, *ln_eta_T, *called_rho, *rho_p, *rho_T; /* what they gave */
+    double *bend;   /* curvature of ln(eta), by its own first-order change since the last call */
+    double *before; /* ln(eta) of the last flow */
     /* nodes */
     int guessed;            /* tau_m has been computed before; 0: guess it first */
     double *tau_m;          /* tau_s, Pa, the stress without dp/dx */

@@ -32,8 +32,10 @@ static const double MIXED = 0.5;
 static const double SHRINKING = 0.95, LEAST_SHARE = 0.15;
 /* Change of ln(eta) by a sweep below which the temperatures are those of the film. */
 static const double WARM = 1e-3, WARM_STEADY = 1e-6;
-/* Change of ln(eta) in time up to which laws are followed by their slopes: their error is below
-   half its square, a fifth of SETTLED for laws whose slopes bend as ln(eta)/10. */
+/* Change of ln(eta) in time up to which laws are followed by their slopes, and ln(eta) by the
+   curvature on the way to the last call: half its square times that curvature is a fifth of SETTLED
+   for laws whose slopes bend as ln(eta)/10, and a twentieth of this is left where the curvature
+   changes by as much of itself. */
 static const double REACH = 0.02;
 /* Change of a column's equations, over their diagonal, up to which the first pass of a step keeps
    their inverse: it leaves about this share of what it changes, a tenth of WARM. */
@@ -181,15 +183,14 @@ static void go_on(size_t n, const double *restrict one, const double *restrict t
     }
 }
 
-/* Sets `past` to what the difference formula takes of n values, and `now` to the last ones. */
+/* Sets `past` to what the difference formula takes of n values. */
 FF_SIMD
 static void look_back(size_t n, const double *restrict one, const double *restrict two,
-                      const double c[3], double *restrict past, double *restrict now)
+                      const double c[3], double *restrict past)
 {
-    for (size_t j = 0; j < n; j++) {
-        past[j] = c[1] * one[j] + c[2] * two[j];
-        now[j] = one[j];
-    }
+    const double by_one = c[1], by_two = c[2];
+    for (size_t j = 0; j < n; j++)
+        past[j] = by_one * one[j] + by_two * two[j];
 }
 
 /* Sets moved[k] to state k, moved with the oil. */
@@ -224,7 +225,9 @@ static void predict(ehl_march *m, double time, double c[3])
     double ahead = 0;
     if (m->smooth >= 2)
         ahead = (time - m->state[0].time) / (m->state[0].time - m->state[1].time);
-    look_back(kept, one, two, c, past, now);
+    look_back(kept, one, two, c, past);
+    if (m->rough) /* a flank that moves back has its modes from the node behind */
+        memcpy(now + temperatures, one + temperatures, (kept - temperatures) * sizeof *now);
     go_on(temperatures, one, two, ahead, t->energy.lowest, t->energy.highest, now);
     go_on(FACTORS * n, one + kept, two + kept, ahead, LEAST_FACTOR, 1 / LEAST_FACTOR, now + kept);
 }
@@ -457,7 +460,7 @@ double ehl_thermal_highest(const ehl_march *m)
     double most = t->energy.T_in;
     for (size_t i = 0; i < t->energy.nodes; i++)
         if (m->state[0].film.full[i])
-            most = fmax(most, ehl_across_highest(a, m->state[0].heat + i * a->count));
+            most = ehl_across_highest(a, m->state[0].heat + i * a->count, most);
     return most;
 }
 

@@ -4,6 +4,8 @@
 
 #include "../numerics/interval.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,23 +75,41 @@ void lubricant_curve_free(lubricant_curve *c)
     *c = (lubricant_curve){.n = 0};
 }
 
+/* A cubic of the distance from a point, and where it holds: low <= x < high. */
+typedef struct piece {
+    double low, high, from, y, slope, square, cube;
+} piece;
+
+static piece piece_at(const lubricant_curve *c, double x)
+{
+    const size_t last = c->n - 1;
+    if (!(x >= c->x[0])) /* or no number */
+        return (piece){-HUGE_VAL, c->x[0], c->x[0], c->y[0], c->slope[0], 0, 0};
+    if (x >= c->x[last])
+        return (piece){c->x[last], HUGE_VAL, c->x[last], c->y[last], c->slope[last], 0, 0};
+    size_t i = numerics_interval(c->n, c->x, x);
+    return (piece){c->x[i], c->x[i + 1], c->x[i], c->y[i], c->slope[i], c->square[i], c->cube[i]};
+}
+
+FF_SIMD
+static void on_piece(const piece *p, size_t n, const double *restrict x, double *restrict y,
+                     double *restrict slope)
+{
+    const double from = p->from, at = p->y, tilt = p->slope, square = p->square, cube = p->cube;
+    for (size_t k = 0; k < n; k++) {
+        double d = x[k] - from;
+        slope[k] = tilt + d * (2 * square + d * 3 * cube);
+        y[k] = at + d * (tilt + d * (square + d * cube));
+    }
+}
+
 void lubricant_curve_values(const lubricant_curve *c, size_t n, const double *x, double *y,
                             double *slope)
 {
-    const size_t last = c->n - 1;
-    size_t i = 0;
-    for (size_t k = 0; k < n; k++) {
-        double at = x[k], square = 0, cube = 0;
-        if (!(at > c->x[0] && at < c->x[last])) {
-            i = at >= c->x[last] ? last : 0;
-        } else {
-            if (i == last || !(at >= c->x[i] && at < c->x[i + 1]))
-                i = numerics_interval(c->n, c->x, at);
-            square = c->square[i];
-            cube = c->cube[i];
-        }
-        double d = at - c->x[i];
-        slope[k] = c->slope[i] + d * (2 * square + d * 3 * cube);
-        y[k] = c->y[i] + d * (c->slope[i] + d * (square + d * cube));
+    for (size_t k = 0, end; k < n; k = end) {
+        piece p = piece_at(c, x[k]);
+        for (end = k + 1; end < n && x[end] >= p.low && x[end] < p.high; end++)
+            ;
+        on_piece(&p, end - k, x + k, y + k, slope + k);
     }
 }

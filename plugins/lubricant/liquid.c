@@ -78,6 +78,15 @@ static void take_log(size_t n, const double *restrict x, double *restrict ln)
         ln[i] = ff_log(x[i]);
 }
 
+/* Turns slopes by y, a function of ln(T), into slopes by T. */
+FF_SIMD
+static void by_temperature(size_t n, const double *restrict T, const double *restrict dy_dx,
+                           double *restrict slope)
+{
+    for (size_t i = 0; i < n; i++)
+        slope[i] = slope[i] * dy_dx[i] / T[i];
+}
+
 /* Kinematic viscosity at n <= BLOCK points, m2/s. */
 static void kinematic(const lubricant_oil *oil, size_t n, const double *T, double *nu,
                       double *slope)
@@ -86,8 +95,21 @@ static void kinematic(const lubricant_oil *oil, size_t n, const double *T, doubl
     take_log(n, T, x);
     lubricant_curve_values(&oil->viscosity, n, x, y, dy_dx);
     lubricant_d341_nu(n, y, nu, slope);
-    for (size_t i = 0; i < n; i++)
-        slope[i] = oil->viscosity.n > 1 ? slope[i] * dy_dx[i] / T[i] : NAN;
+    by_temperature(n, T, dy_dx, slope);
+    for (size_t i = 0; i < n && oil->viscosity.n < 2; i++)
+        slope[i] = NAN;
+}
+
+/* Multiplies n values by others; slopes of the logarithm. */
+FF_SIMD
+static void take_product(size_t n, double *restrict a, const double *restrict a_slope,
+                         const double *restrict b, const double *restrict b_slope,
+                         double *restrict slope)
+{
+    for (size_t i = 0; i < n; i++) {
+        slope[i] = a_slope[i] / a[i] + b_slope[i] / b[i];
+        a[i] *= b[i];
+    }
 }
 
 /* At n <= BLOCK points. */
@@ -96,12 +118,9 @@ static void ln_eta0(const lubricant_oil *oil, size_t n, const double *T, double 
     double nu_slope[BLOCK], rho[BLOCK], rho_slope[BLOCK], eta[BLOCK];
     kinematic(oil, n, T, eta, nu_slope);
     density(oil, n, T, rho, rho_slope);
-    for (size_t i = 0; i < n; i++) {
-        slope[i] = nu_slope[i] / eta[i] + rho_slope[i] / rho[i];
-        eta[i] *= rho[i];
-    }
+    take_product(n, eta, nu_slope, rho, rho_slope, slope);
     take_log(n, eta, ln);
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < n && oil->viscosity.n < 2; i++)
         if (!has_viscosity(oil, T[i]))
             ln[i] = unknown(&slope[i]);
 }
@@ -172,16 +191,33 @@ static property *const properties[LUBRICANT_PROPERTIES] = {
 };
 
 /*
- * Returns the temperature whose values hold at T, and its slope: where ASTM D341 does not hold, all
+ * The temperatures whose values hold at T, and their slopes: where ASTM D341 does not hold, all
  * stays as it is where it still does. Heated films run into the upper end, which is reached on a
  * parabola: the heat of compression goes with the slope of the density, which must not jump.
  */
-static double held_at(const lubricant_oil *oil, double T, double *by_T)
+FF_SIMD
+static void hold(const lubricant_oil *oil, size_t n, const double *restrict T,
+                 double *restrict held, double *restrict by_T)
 {
-    double above = fmax(T, oil->coldest);
-    double part = fmax(oil->hottest + BEND - above, 0) / (2 * BEND);
-    *by_T = T < oil->coldest ? 0 : fmin(part, 1);
-    return part < 1 ? oil->hottest - BEND * part * part : above;
+    const double coldest = oil->coldest, hottest = oil->hottest, bend = BEND;
+    for (size_t i = 0; i < n; i++) {
+        double above = T[i] > coldest ? T[i] : coldest, left = hottest + bend - above;
+        double part = (left > 0 ? left : 0) / (2 * bend), rise = part < 1 ? part : 1;
+        by_T[i] = T[i] < coldest ? 0 : rise;
+        held[i] = part < 1 ? hottest - bend * part * part : above;
+    }
+}
+
+/* Multiplies slopes by those of the temperatures that were held; what is level stays so. */
+FF_SIMD
+static void hold_slopes(size_t n, const double *restrict by_T, const double *restrict value,
+                        double *restrict slope)
+{
+    for (size_t i = 0; i < n; i++) {
+        double level = value[i] - value[i]; /* 0, or no number */
+        double bent = by_T[i] > 0 ? by_T[i] * slope[i] : level;
+        slope[i] = by_T[i] < 1 ? bent : slope[i];
+    }
 }
 
 /* At n <= BLOCK points. */
@@ -189,17 +225,14 @@ static void values_at(const lubricant_oil *oil, int32_t what, size_t n, const do
                       double *value, double *slope)
 {
     double held[BLOCK], by_T[BLOCK];
-    for (size_t i = 0; i < n; i++)
-        held[i] = held_at(oil, T[i], &by_T[i]);
+    hold(oil, n, T, held, by_T);
     if (what == FF_LIQUID_LN_ETA0)
         ln_eta0(oil, n, held, value, slope);
     else if (what == FF_LIQUID_RHO0)
         density(oil, n, held, value, slope);
     for (size_t i = 0; properties[what] && i < n; i++)
         value[i] = properties[what](oil, held[i], &slope[i]);
-    for (size_t i = 0; i < n; i++)
-        if (!(by_T[i] >= 1))
-            slope[i] = isnan(value[i]) ? NAN : by_T[i] > 0 ? by_T[i] * slope[i] : 0;
+    hold_slopes(n, by_T, value, slope);
 }
 
 static ff_status eval(const void *self, int32_t what, size_t n, const double *T, double *value,

@@ -8,6 +8,8 @@ import json
 import math
 import os
 import random
+import resource
+import signal
 import subprocess
 import sys
 import tempfile
@@ -19,7 +21,7 @@ seconds = float(sys.argv[5]) if len(sys.argv) > 5 else math.inf
 if sys.argv[6:] not in ([], ['rough']):
     sys.exit('%s: expected rough or nothing after SECONDS' % ' '.join(sys.argv[6:]))
 rough = sys.argv[6:] == ['rough']
-LIMIT = 300
+LIMIT = 300  # s of processor time; by the clock twenty times that, since other work may stand beside it
 OUTPUTS = ['h_min', 'h_central', 'friction_coefficient', 'temperature_max', 'flash_temperature', 'power_loss']
 
 
@@ -73,8 +75,11 @@ def run(s, cells=256):
             f.write(text_of(s, lab, cells))
         try:
             told = subprocess.run([flankfilm, 'run', path, '--json', '-o', lab + '/out'], capture_output=True, text=True,
-                                  timeout=LIMIT, check=False)
+                                  timeout=20 * LIMIT, check=False,
+                                  preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT + 1)))
         except subprocess.TimeoutExpired:
+            return {'end': 'hang'}
+        if told.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
             return {'end': 'hang'}
     if told.returncode not in (0, 1):
         return {'end': 'crash', 'code': told.returncode, 'text': told.stderr[-300:] + told.stdout[-300:]}
