@@ -13,7 +13,7 @@ command -v chromium >/dev/null || {
 dark='<style>@media (prefers-color-scheme:dark){
 svg>rect[fill="#fff"]{fill:#1f2226}
 [fill="#1a1a1a"],text[font-weight="bold"],text[fill="#000"][font-weight]{fill:#e8eaed}[fill="#5f6368"]{fill:#a2a8b0}[stroke="#5f6368"]{stroke:#a2a8b0}[stroke="#d9dce0"]{stroke:#353a41}
-[stroke="#444444"]{stroke:#c4c8ce}[stroke="#666666"]{stroke:#a2a8b0}
+[stroke="#444444"]{stroke:#c4c8ce}[stroke="#56b4e9"]{stroke:#c3e3f8}[stroke="#666666"]{stroke:#a2a8b0}
 [fill="#0072b2"]{fill:#5ab4e8}[fill="#d55e00"]{fill:#ff9154}[fill="#009e73"]{fill:#2fcb9c}[fill="#cc79a7"]{fill:#e5a3c9}
 [stroke="#0072b2"]{stroke:#5ab4e8}[stroke="#d55e00"]{stroke:#ff9154}[stroke="#009e73"]{stroke:#2fcb9c}[stroke="#cc79a7"]{stroke:#e5a3c9}
 }</style>'
