@@ -10,7 +10,7 @@ cd "$work"
 run()
 {
     "$flankfilm" run "$source/configs/two-way.yaml" --set 'duty.mesh_frequency=2375 Hz' --set motion.branch=upper \
-        --set gears.stations=800 --set tooth.points=4000 --set film.cells=256 --set outputs=[motion.film_power] \
+        --set film.cells=256 --set outputs=[motion.film_power] \
         --set motion.squeeze=series --json > run.json 2> errors || {
         cat errors
         grep -o '"message":"[^"]*"' run.json
