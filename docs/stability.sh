@@ -51,7 +51,7 @@ map() {
             printf ' %s' "$word"
         done
         printf '`\n\n![map](stability/%s.svg)\n\n```text\n' "$name"
-        sed -e '/^boundaries/,$d' -e '/^[0-9]* cases done/d' -e '/^results in/d' -e 's/ *$//' "$results/$name.txt" | cat -s
+        sed -e '/^boundaries/,$d' -e '/^[0-9]* cases done/d' -e '/^results in/d' -e '/^stages: /d' -e '/^as a page /d' -e '/^removed, /d' -e 's/ *$//' "$results/$name.txt" | cat -s
         printf '```\n'
     } >>"$results/maps.md"
 }
