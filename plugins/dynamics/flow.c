@@ -324,19 +324,33 @@ static void notify_observer(const dynamics_run *r, const dynamics_taylor_series 
     r->observer->observe(r->observer->ctx, &stride);
 }
 
+/* Expands the motion up to `end`, or to an earlier time up to which the series converges. Returns
+   that time. */
+static double expand(const dynamics_run *r, const dynamics_piece_equation *q, double end,
+                     dynamics_taylor_series *s)
+{
+    enum { HALVINGS = 8 };
+    double z[2] = {r->y->delta - r->side * r->excitation->half_gap, r->y->rate};
+    s->converged = 0;
+    for (int k = 0; k <= HALVINGS && !s->converged; k++) {
+        end = k ? r->at + (end - r->at) / 2 : end;
+        if (r->variation)
+            dynamics_taylor_expand(q, r->T, (end - r->at) * r->T, z, r->y->change, s);
+        else
+            dynamics_taylor_expand_motion(q, (end - r->at) * r->T, z, s);
+    }
+    return end;
+}
+
 static void take_step(dynamics_run *r)
 {
     dynamics_piece_equation q;
     dynamics_taylor_series s;
     dynamics_gate g[2];
     const dynamics_gate *which = NULL;
-    double end = plan_step(r, &q), h = (end - r->at) * r->T;
-    double z[2] = {r->y->delta - r->side * r->excitation->half_gap, r->y->rate};
-    if (r->variation)
-        dynamics_taylor_expand(&q, r->T, h, z, r->y->change, &s);
-    else
-        dynamics_taylor_expand_motion(&q, h, z, &s);
-    r->end = end;
+    double end = plan_step(r, &q);
+    r->end = end = expand(r, &q, end, &s);
+    double h = (end - r->at) * r->T;
     double x = r->idle > DYNAMICS_MAX_IDLE ? -1 : find_event(r, &s, g, &which);
     if (x >= 0)
         end = fmin(r->at + x * (end - r->at), end);

@@ -73,7 +73,8 @@ FF_SIMD_INLINE void recur_straight(const dynamics_piece_equation *q, double T, i
         if (columns == DYNAMICS_COLUMNS)
             c[n][3] += (2 * c[n][0] - fa * c[n - 1][0]) / T;
         s->order = n;
-        if (n >= likely && has_converged(s, n, columns, unit))
+        s->converged = n >= likely && has_converged(s, n, columns, unit);
+        if (s->converged)
             break;
     }
 }
@@ -112,7 +113,8 @@ FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int
             c[n][3] += (2 * c[n][0] - fa * c[n - 1][0]) / T; /* c_n has no -e_n yet */
         c[n][0] -= bend;
         s->order = n;
-        if (n >= likely && n > q->degree + 2 && has_converged(s, n, columns, unit))
+        s->converged = n >= likely && n > q->degree + 2 && has_converged(s, n, columns, unit);
+        if (s->converged)
             break;
     }
 }

@@ -33,12 +33,13 @@ typedef struct dynamics_piece_equation {
 /* The coefficients of the powers of t/h. */
 typedef struct dynamics_taylor_series {
     int order;
+    int converged; /* whether what is left out is round-off */
     double h;
     double c[DYNAMICS_ORDER_MAX + 1][DYNAMICS_COLUMNS];
 } dynamics_taylor_series;
 
 /* A step of this size, as dynamics_taylor_step_size has it, is expanded to round-off with some 24
- * terms. */
+ * terms, but for a k that bends within it: a series that has not converged wants a shorter one. */
 extern const double dynamics_taylor_longest_step;
 double dynamics_taylor_step_size(const dynamics_piece_equation *q, double h);
 

@@ -102,6 +102,19 @@ static void test_damping(void)
     check_true("undamped motion is periodic", check_scene(&p, &c) >= 1);
 }
 
+/* A curve that bends within a step: its series converges later, or the step is too long for it. */
+static void test_bent(void)
+{
+    const double speeds[] = {3000, 4000, 4800, 5318, 6500, 8270};
+    for (int f = 0; f < 6; f++) {
+        pair p = pair_cosine(speeds[f], 0.2, 0, 200);
+        stage *s = pair_open("dynamics/shooting", &p);
+        check_true("runs", stage_run_wanted(s, "period multipliers") == FF_OK);
+        check_below("determinant of a curve", stage_quality(s, "determinant"), 1e-13);
+        stage_close(s);
+    }
+}
+
 /* Thousands of radians in a mesh cycle, where the round-off of all steps is not 1e-12. */
 static void test_slow(void)
 {
@@ -309,6 +322,7 @@ int main(void)
 {
     test_damping();
     test_slow();
+    test_bent();
     test_torque();
     test_contact_ratio();
     test_tables();
