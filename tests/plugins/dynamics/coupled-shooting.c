@@ -162,6 +162,7 @@ int main(void)
         {"meets its back flanks", DYNAMICS_DAMPING_CONTACT, 3, 0.3, 0, -1, -1.5, 1, 1},
         {"e jumps", DYNAMICS_DAMPING_ALWAYS, 3, 7, 0.3, 0, 0, 0, 0},
         {"e jumps in the gap", DYNAMICS_DAMPING_ALWAYS, 3, 7, 0.3, 2.5, 0.5, 1, 0},
+        {"e jumps on the back flanks", DYNAMICS_DAMPING_ALWAYS, 3, 4, 0.3, -1, -5, 1, 1},
         {"bearings softer than the mesh", DYNAMICS_DAMPING_ALWAYS, 0.3, 7, 0.1, 1, 0, 0, 0},
     };
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++)
