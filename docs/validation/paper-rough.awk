@@ -137,9 +137,10 @@ function figure11(  set, first, i, fine_touch, cells, why) {
         why = why "The oil between two asperities is all but solid under their peak of p and has little way out: the film thins to some nanometres there, and for part of the time to the 1 nm that counts as contact; waves of 20 um ask for more cells than these runs have before that share is settled ([mixed lubrication](mixed.md)). "
     cells = over("Is", "entrainment_speed", pitch) * (tip - sap) / deg / s["duty.speed"] / 1000 / (4 * highest("Is", "hertz_half_width") / 512)
     why = why F("In one of the paper's 1000 steps the oil moves %.1f of its cells, which smears waves of 20 um; here it moves one at most. ", cells)
-    say(why F("Waves down to 5 um (first surface, 1024 cells) touch over %.1f %% of the time, with up to %.0f GPa; the traces of the paper may reach down to its cells of 1.3 um. ", \
-        100 * fine_touch / count["finer"], highest("finer", "p_max") / 1e9) \
-        F("No pressure exceeds the hardness of 7 GPa, at which the metal yields here: it is reached over %s %% of the time. The flanks of the paper deform elastically only.", shown(set, "yield_time", 1, 100)))
+    if (!quick)
+        why = why F("Waves down to 5 um (first surface, 1024 cells) touch over %.1f %% of the time, with up to %.0f GPa; the traces of the paper may reach down to its cells of 1.3 um. ", \
+            100 * fine_touch / count["finer"], highest("finer", "p_max") / 1e9)
+    say(why F("No pressure exceeds the hardness of 7 GPa, at which the metal yields here: it is reached over %s %% of the time. The flanks of the paper deform elastically only.", shown(set, "yield_time", 1, 100)))
 }
 
 # where each figure of ten positions is

@@ -97,7 +97,7 @@ function snapshots(key, dir, stage, points) {
 # rough ones: "r" point load seed
 function read_fields(  q, P, i, load_, stage) {
     seed_count = split(seeds, surface, " ")
-    load(in_ "/finer", "film", "finer")
+    if (!quick) load(in_ "/finer", "film", "finer")
     snap["I", "s"] = "7"; snap["I", "d"] = "8"; snap["III", "d"] = "9"
     snap["II", "s"] = "IIfields"; snap["II", "d"] = "IIfieldd"; snap["III", "s"] = "IIIfields"
     aim("I")

@@ -1,8 +1,8 @@
 #!/bin/sh
 # Writes paper.md and its figures: those of Li & Kahraman 2011 by this program, and what agrees.
 #   sh docs/validation/paper.sh build [FOLDER [quick]]
-# FOLDER, for another place than docs/validation; quick leaves out the last part, rough flanks at all
-# points.
+# FOLDER, for another place than docs/validation; quick leaves out the finer surface and the last part,
+# rough flanks at all points.
 set -eu
 
 build=$(realpath "${1:-build}")
@@ -86,7 +86,7 @@ for point in I II III; do
         rm -f "$work/$name"/*.npy
     done
 done
-at I finer "$here/paper-rough.yaml" --set flanks.shortest='5 um' --set film.cells=1024 \
+[ $quick = 1 ] || at I finer "$here/paper-rough.yaml" --set flanks.shortest='5 um' --set film.cells=1024 \
     --set 'outputs=[film.roll_angle, film.contact_ratio, film.p_max]'
 
 stage=all digest paper-figures.awk

@@ -5,7 +5,7 @@
 
 Without `all` each misdeed is tried once by a law and once by a stage, in places and by commands that
 take turns; with it in every place by every command. `watched`: by a sanitizer, which has ends and an
-allocator of its own.
+allocator of its own; there law and stage take turns.
 """
 import collections
 import concurrent.futures
@@ -285,6 +285,8 @@ def trials():
     kinds = [what for what in {**TOLD, **SET_BACK, **PRINTED, **HIDDEN} if not (watched and what in OWN_WAY)]
     for role, places in PLACES.items():
         for i, what in enumerate(kinds):
+            if watched and i % 2 == (role == "law"):
+                continue
             if everything:
                 for place in places + (MORE_PLACES[role] if what in TOLD else []):
                     for command in COMMANDS if place in places else ["json"]:
@@ -329,4 +331,4 @@ if not watched:
 print(*failures, sep="\n")
 print(", ".join(f"{counts[column]} by {column}" for column in [*COMMANDS, "other"]))
 print(f"{len(failures)} of {sum(counts.values())} misdeeds did not end as they must")
-sys.exit(1 if failures or sum(counts.values()) < 150 else 0)
+sys.exit(1 if failures or sum(counts.values()) < (80 if watched else 150) else 0)
