@@ -17,7 +17,7 @@ ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
     *e = (ehl_energy){.nodes = nodes, .share = 1, .highest = 2000, .lowest = 150};
     ehl_across_create(&e->across, across);
     double *next = e->memory =
-        calloc((FIELDS + 2 + across) * all + (OWN + 2) * n + EHL_ACROSS_LANES, sizeof *next);
+        calloc((FIELDS + 3 + across) * all + (OWN + 2) * n + EHL_ACROSS_LANES, sizeof *next);
     if (!next)
         return FF_NOMEM;
     double **field[FIELDS] = {&e->p,          &e->ln_eta,    &e->rho,       &e->tau,
@@ -30,8 +30,8 @@ ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
     double **own[OWN] = {&e->tau_m,   &e->p_x,     &e->mobility, &e->mass,   &e->carried,
                          &e->flux[0], &e->flux[1], &e->base[0],  &e->base[1]};
     e->inverted = next;
-    e->inverse = next + 2 * all;
-    next += (2 + across) * all;
+    e->inverse = next + 3 * all;
+    next += (3 + across) * all;
     for (size_t k = 0; k < OWN; k++, next += n)
         *own[k] = next;
     e->reverse = (unsigned char *)next;
@@ -54,7 +54,7 @@ void ehl_energy_restart(ehl_energy *e)
     e->guessed = 0;
     memset(e->called_T, 0, all * sizeof *e->called_T);
     memset(e->bend, 0, all * sizeof *e->bend);
-    memset(e->inverted, 0, 2 * all * sizeof *e->inverted);
+    memset(e->inverted, 0, 3 * all * sizeof *e->inverted);
 }
 
 static void note(ehl_energy *e, ff_status status)

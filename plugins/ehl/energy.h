@@ -61,7 +61,8 @@ typedef struct ehl_column {
     double on[EHL_ACROSS_MOST], back[EHL_ACROSS_MOST]; /* along the nodes, from before and behind */
     double own[EHL_ACROSS_MOST];      /* what storage, these and compression take by temperature */
     double source[EHL_ACROSS_MOST];   /* heat, and what was stored before */
-    double diagonal[EHL_ACROSS_MOST]; /* without what goes with tau_m */
+    double level[EHL_ACROSS_MOST];    /* what resists a change that is one across, without tau_m */
+    double diagonal[EHL_ACROSS_MOST]; /* and with what resists differences across */
 } ehl_column;
 
 typedef struct ehl_energy {
@@ -78,7 +79,7 @@ typedef struct ehl_energy {
     ehl_column *column;            /* nodes */
     double *base[2];  /* temperature of the flanks without the flux at the node, over T_in, nodes */
     double *inverse;  /* of the equations of each node, nodes x across^2 */
-    double *inverted; /* of what they were made then: the diagonal, transverse transport */
+    double *inverted; /* of what they were made then: diagonal, transverse transport, level */
     double keep;      /* change of these, over the diagonal, up to which the inverse is kept */
     double *called_p, *called_T; /* where the laws were called last; T = 0: nowhere yet */
     double *called_ln_eta, *ln_eta_p, *ln_eta_T, *called_rho, *rho_p, *rho_T; /* what they gave */

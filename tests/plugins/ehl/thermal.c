@@ -174,6 +174,28 @@ static void test_order_in_time(void)
     check_true("flash", fabs(few.flash - some.flash) > 3 * fabs(some.flash - many.flash));
 }
 
+/* A thin film at 0.2 m/s under a load that swings, in steps of several cells: all heat leaves by
+   conduction, so that temperatures which are off by little leave much of it. */
+static void test_slow_in_time(void)
+{
+    const double pi = 3.14159265358979323846;
+    line c;
+    open_hot(&c, 256, 0.8);
+    line_grade(&c, "ISO VG 100", 440);
+    line_eyring(&c, 18.7e6);
+    stage_set(c.film, "steps", 60);
+    line_last(&c, 41, 0.03);
+    for (size_t k = 0; k < c.count; k++) {
+        double wave = sin(2 * pi * (double)k / 40);
+        c.u1[k] *= 0.1 * (1 + 0.2 * wave);
+        c.u2[k] *= 0.1 * (1 + 0.2 * wave);
+        c.load[k] *= 1 + 0.4 * wave;
+    }
+    check_true("runs", line_run(&c, hot_outputs) == FF_OK);
+    check_below("heat balance of a slow film", stage_quality(c.film, "heat_balance"), 1e-3);
+    line_close(&c);
+}
+
 /* An oil known up to 423.15 K, that enters a kelvin below and is beyond it in the film. */
 static void test_law_range(void)
 {
@@ -245,6 +267,7 @@ int main(void)
     test_time("ehl/control-volume");
     test_discretisations();
     test_order_in_time();
+    test_slow_in_time();
     test_law_range();
     test_localised_shear();
     test_too_coarse();
