@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "film-wire.h"
 
-#include "../numerics/interval.h"
+#include "film-history.h"
 #include "smooth-piece.h"
 
 #include <math.h>
@@ -13,243 +13,15 @@
    acts on the motion is linear in what the film gives, and a loop can settle. */
 enum { DENSITY = 32, SAMPLES = 32 };
 
-/* The most pairs in mesh: twice what gear/involute-spur allows. */
-enum { PAIRS = 8 };
-
 /* Distance of the pieces from the curves, over the largest of these, from which it is doubtful. */
 static const double doubtful = 0.02;
 
-/* Shares of the highest pressure, of which the square is a share of the load, below which the film
-   is that of flanks which part and its thickness no deflection, and from which it counts in full.
-   As flanks part, load and film decide each other at once, and a loop over h ~ W^-0.13 settles only
-   where the film is stiffer than the teeth, W/(0.13 h) > k: from a thousandth of the load on, or
-   0.03. As flanks land the oil takes its time, and films that the motion knows in flight count from
-   a smaller load on. */
-static const double parted = 0.1, borne = 0.2, landing = 0.01, landed = 0.02;
-
-/* Share of the largest separation from the film that the motion knows, below which flanks fly. */
-static const double flight = 0.1;
-
+/* Mesh cycles by which two phases differ at least. */
 static const double at_node = 1e-9;
-
-/* One film history: several engagements behind each other. */
-typedef struct history {
-    size_t count, engagements, *first; /* first: of each engagement, and the count behind them */
-    const double *roll, *engagement, *traction, *rolling, *loss;
-    double *thickness;
-    double speed[2]; /* of the gears, rad/s */
-    double width;
-    int in_oil; /* the motion knows the film between parted flanks */
-    const ff_array *in;
-    const dynamics_inputs *inputs;
-} history;
-
-/* Torques of all pairs against the rotation of each gear, the film in series with the mesh, what
-   the films dissipate, and of each pair its film and its share of the load. */
-typedef struct place {
-    double against[2], thickness, loss;
-    double film[PAIRS], share[PAIRS];
-} place;
 
 int dynamics_film_is_wired(const ff_array *in)
 {
     return in[DYNAMICS_IN_FILM_ROLL_ANGLE].data != NULL;
-}
-
-static ff_status read_series(const ff_host *host, const ff_array *in, int input, size_t count,
-                             const double **data)
-{
-    const ff_array *a = &in[input];
-    const char *name = dynamics_oil_input_ports[input].name;
-    if (!a->data || a->rank != 1 || a->shape[0] != count || count < 2)
-        return ff_failf(host, FF_INVALID, name,
-                        "the film must give a series of %zu values, of at least 2", count);
-    for (size_t i = 0; i < count; i++)
-        if (!isfinite(a->data[i]))
-            return ff_failf(host, FF_INVALID, name, "value %zu is not a finite number", i + 1);
-    *data = a->data;
-    return FF_OK;
-}
-
-/* The largest value; at least 0. */
-static double largest(size_t count, const double *x)
-{
-    double most = 0;
-    for (size_t i = 0; i < count; i++)
-        most = fmax(most, x[i]);
-    return most;
-}
-
-/* How far the thickness is that of loaded flanks, given over the whole history. */
-static void weigh(const history *y, const double *h, const double *p, double *weight)
-{
-    double thickest = largest(y->count, h), highest = largest(y->count, p);
-    int lands = 0;
-    for (size_t i = 0; i < y->count; i++) {
-        double share = highest > 0 ? p[i] / highest : 0;
-        if (share >= borne)
-            lands = 0;
-        else if (y->in_oil && h[i] < flight * thickest)
-            lands = 1;
-        double from = lands ? landing : parted, to = lands ? landed : borne;
-        weight[i] = fmin(fmax((share - from) / (to - from), 0), 1);
-    }
-}
-
-/* The thickness x where it is one of loaded flanks, and the straightest way where it is not: least
-   sum w (x - h)^2 + bend (x_(i+1) - x_i)^2, a system of three diagonals. It changes smoothly with
-   the pressure, so that a loop can settle. */
-static void bridge(size_t count, const double *h, const double *weight, double *x, double *ratio)
-{
-    static const double bend = 1e-4;
-    double sum = 0;
-    for (size_t i = 0; i < count; i++) {
-        double w = weight[i];
-        sum += w;
-        double diagonal = w + bend * ((i > 0) + (i + 1 < count)) - (i ? bend * ratio[i - 1] : 0);
-        ratio[i] = diagonal > 0 ? bend / diagonal : 0;
-        x[i] = diagonal > 0 ? (w * h[i] + (i ? bend * x[i - 1] : 0)) / diagonal : 0;
-    }
-    for (size_t i = count - 1; i-- > 0;)
-        x[i] += ratio[i] * x[i + 1];
-    for (size_t i = 0; i < count && !(sum > 0); i++)
-        x[i] = 0;
-}
-
-static ff_status read_thickness(const double *h, const double *p, history *y)
-{
-    double *weight = malloc(y->count * sizeof *weight), *ratio = malloc(y->count * sizeof *ratio);
-    y->thickness = malloc(y->count * sizeof *y->thickness);
-    if (weight && ratio && y->thickness) {
-        weigh(y, h, p, weight);
-        for (size_t i = 0; i < y->engagements; i++) {
-            size_t first = y->first[i];
-            bridge(y->first[i + 1] - first, h + first, weight + first, y->thickness + first, ratio);
-        }
-    }
-    ff_status status = weight && ratio && y->thickness ? FF_OK : FF_NOMEM;
-    free(weight);
-    free(ratio);
-    return status;
-}
-
-static ff_status read_history(const ff_host *host, const ff_array *in,
-                              const dynamics_inputs *inputs, history *y)
-{
-    const double *h = NULL, *p = NULL, *teeth = in[DYNAMICS_IN_TEETH].data;
-    y->count =
-        in[DYNAMICS_IN_FILM_ROLL_ANGLE].rank == 1 ? in[DYNAMICS_IN_FILM_ROLL_ANGLE].shape[0] : 0;
-    y->in = in;
-    y->inputs = inputs;
-    ff_status status = read_series(host, in, DYNAMICS_IN_FILM_ROLL_ANGLE, y->count, &y->roll);
-    if (status == FF_OK)
-        status = read_series(host, in, DYNAMICS_IN_FILM_ENGAGEMENT, y->count, &y->engagement);
-    if (status == FF_OK)
-        status = read_series(host, in, DYNAMICS_IN_FILM_TRACTION, y->count, &y->traction);
-    if (status == FF_OK)
-        status = read_series(host, in, DYNAMICS_IN_FILM_ROLLING_LOSS, y->count, &y->rolling);
-    if (status == FF_OK)
-        status = read_series(host, in, DYNAMICS_IN_FILM_POWER_LOSS, y->count, &y->loss);
-    if (status == FF_OK)
-        status = read_series(host, in,
-                             in[DYNAMICS_IN_FILM_SEPARATION].data ? DYNAMICS_IN_FILM_SEPARATION
-                                                                  : DYNAMICS_IN_FILM_H_CENTRAL,
-                             y->count, &h);
-    if (status == FF_OK)
-        status = read_series(host, in, DYNAMICS_IN_FILM_P_MAX, y->count, &p);
-    if (status != FF_OK)
-        return status;
-    if (y->count > 0 && y->roll[y->count - 1] - inputs->roll_sap > PAIRS * inputs->pitch)
-        return ff_failf(host, FF_INVALID, "film.roll_angle",
-                        "film.roll_angle must end within %d mesh cycles of the start of active "
-                        "profile",
-                        PAIRS);
-    y->first = calloc(y->count + 1, sizeof *y->first);
-    if (!y->first)
-        return FF_NOMEM;
-    for (size_t i = 1; i <= y->count; i++)
-        if (i == y->count || y->engagement[i] != y->engagement[i - 1])
-            y->first[++y->engagements] = i;
-    y->width = in[DYNAMICS_IN_FACE_WIDTH].data[0];
-    y->speed[0] = inputs->mesh_frequency * inputs->pitch;
-    y->speed[1] = y->speed[0] * teeth[0] / teeth[1];
-    return read_thickness(h, p, y);
-}
-
-/* A place among non-decreasing stations: behind the first of two, by a share of their distance. */
-typedef struct between {
-    size_t i;
-    double share;
-} between;
-
-/* Where one station stands twice, it is that `before` the place or that behind it. */
-static between find_between(size_t count, const double *x, double at, int before)
-{
-    size_t i = numerics_interval(count, x, at);
-    while (before && i > 0 && x[i] >= at)
-        i--;
-    double h = x[i + 1] - x[i];
-    return (between){i, h > 0 ? fmin(fmax((at - x[i]) / h, 0), 1) : 0};
-}
-
-static double value_between(const between *b, const double *y)
-{
-    return y[b->i] + b->share * (y[b->i + 1] - y[b->i]);
-}
-
-/* Adds one engagement's pairs at a phase; at the ends of an engagement `before` the phase or behind
-   it. */
-static void add_engagement(const history *y, size_t first, size_t last, double phase, int before,
-                           place *sum)
-{
-    const dynamics_inputs *inputs = y->inputs;
-    const double *radius[2] = {y->in[DYNAMICS_IN_RADIUS_1].data, y->in[DYNAMICS_IN_RADIUS_2].data};
-    const double *bearing = inputs->line_force > 0 ? inputs->tooth_force : inputs->load_share;
-    double slack = at_node * inputs->pitch;
-    size_t count = last - first;
-    for (int pair = 0; pair < PAIRS; pair++) {
-        double roll = inputs->roll_sap + (phase + pair) * inputs->pitch;
-        double start = y->roll[first], end = y->roll[last - 1];
-        if (roll > end + slack || (!before && roll > end - slack))
-            break;
-        if (roll < start - slack || (before && roll < start + slack))
-            continue;
-        between step = find_between(count, y->roll + first, roll, before);
-        between station = find_between(inputs->stations, inputs->roll_angle, roll, before);
-        double friction = y->width * value_between(&step, y->traction + first);
-        double rolling = y->width * value_between(&step, y->rolling + first);
-        double share = bearing ? value_between(&station, bearing) : 1, arm[2];
-        for (int g = 0; g < 2; g++)
-            arm[g] = value_between(&station, radius[g]);
-        /* rolling resistance is the loss over 2 u_r = r1 w1 + r2 w2 */
-        rolling /= arm[0] * y->speed[0] + arm[1] * y->speed[1];
-        sum->against[0] += (friction + rolling) * arm[0];
-        sum->against[1] += (rolling - friction) * arm[1];
-        sum->share[pair] += share;
-        sum->film[pair] += share * value_between(&step, y->thickness + first);
-        sum->loss += y->width * value_between(&step, y->loss + first);
-    }
-}
-
-/* The mean over the engagements. */
-static place place_at(const history *y, double phase, int before)
-{
-    place sum = {.loss = 0};
-    double share = 1 / (double)y->engagements, all = 0;
-    for (size_t i = 0; i < y->engagements; i++)
-        if (y->first[i + 1] - y->first[i] > 1)
-            add_engagement(y, y->first[i], y->first[i + 1], phase, before, &sum);
-    sum.against[0] *= share;
-    sum.against[1] *= share;
-    sum.loss *= share;
-    for (int pair = 0; pair < PAIRS; pair++)
-        all += sum.share[pair];
-    for (int pair = 0; pair < PAIRS && all > 0; pair++) {
-        sum.thickness += sum.film[pair] / all;
-        sum.film[pair] = sum.share[pair] > 0 ? sum.film[pair] / sum.share[pair] : 0;
-        sum.share[pair] /= all;
-    }
-    return sum;
 }
 
 /* Adds a node at a phase, where the curves of the film may jump. */
@@ -281,7 +53,7 @@ static int cut_at(dynamics_excitation *x, double phase)
 typedef struct samples {
     size_t count, *first; /* first sample of each piece, and the number of all */
     double *phase, *drag, *film, *grown;
-    place *at;
+    dynamics_film_sum *at;
 } samples;
 
 static void free_samples(samples *s)
@@ -291,7 +63,7 @@ static void free_samples(samples *s)
     free(s->at);
 }
 
-static int take_samples(const history *y, const dynamics_excitation *x, samples *s)
+static int take_samples(const dynamics_film_history *y, const dynamics_excitation *x, samples *s)
 {
     s->first = malloc((x->count + 1) * sizeof *s->first);
     if (!s->first)
@@ -317,16 +89,16 @@ static int take_samples(const history *y, const dynamics_excitation *x, samples 
                            : i + 1 < x->count ? p[1].start
                                               : 1;
             s->phase[s->first[i] + k] = phase;
-            s->at[s->first[i] + k] = place_at(y, phase, k + 1 == n);
+            s->at[s->first[i] + k] = dynamics_film_history_at(y, phase, k + 1 == n);
         }
     }
     return 1;
 }
 
 /* Mean over the mesh cycle, by trapezia. */
-static place mean_of(const samples *s)
+static dynamics_film_sum mean_of(const samples *s)
 {
-    place mean = {.loss = 0};
+    dynamics_film_sum mean = {.loss = 0};
     for (size_t i = 0; i + 1 < s->count; i++) {
         double half = 0.5 * (s->phase[i + 1] - s->phase[i]);
         for (int g = 0; g < 2; g++)
@@ -340,10 +112,10 @@ static place mean_of(const samples *s)
 /* How much the films of the pairs grow between two samples, each by its share of the load: what
    the mesh force does work on. The film in series also changes as the shares do, which is the work
    of k(t) on springs side by side. */
-static double growth(const place *a, const place *z)
+static double growth(const dynamics_film_sum *a, const dynamics_film_sum *z)
 {
     double sum = 0;
-    for (int pair = 0; pair < PAIRS; pair++)
+    for (int pair = 0; pair < DYNAMICS_FILM_PAIRS; pair++)
         if (a->share[pair] > 0 && z->share[pair] > 0)
             sum += 0.5 * (a->share[pair] + z->share[pair]) * (z->film[pair] - a->film[pair]);
     return sum;
@@ -352,8 +124,8 @@ static double growth(const place *a, const place *z)
 /* The drag along the line of action. What torques keep the gears turning sees the mean of gear 1's
    alone, since its torque is given; the vibration sees what is left, weighted by the gears'
    compliance to it. */
-static void make_curves(const history *y, const dynamics_excitation *x, samples *s,
-                        const place *mean)
+static void make_curves(const dynamics_film_history *y, const dynamics_excitation *x, samples *s,
+                        const dynamics_film_sum *mean)
 {
     const ff_array *in = y->in;
     const double *inertia = in[DYNAMICS_IN_INERTIA].data, *teeth = in[DYNAMICS_IN_TEETH].data;
@@ -365,7 +137,7 @@ static void make_curves(const history *y, const dynamics_excitation *x, samples 
     for (int g = 0; g < 2; g++)
         give[g] = base[g] * base[g] / inertia[g];
     for (size_t i = 0; i < s->count; i++) {
-        const place *p = &s->at[i];
+        const dynamics_film_sum *p = &s->at[i];
         double drag = mean->against[0] / base[0];
         for (int g = 0; g < 2; g++)
             drag += (g ? -1 : 1) * give[g] / (give[0] + give[1]) *
@@ -406,7 +178,7 @@ static void add_piece(builder *b, const dynamics_piece *old, const samples *s, s
     }
 }
 
-static void report(const ff_host *host, const history *y, const builder *b)
+static void report(const ff_host *host, const dynamics_film_history *y, const builder *b)
 {
     char text[200];
     double off = fmax(fmax(b->off[0], b->off[1]), b->off[2]);
@@ -445,7 +217,8 @@ static ff_status check_gear(const ff_host *host, const ff_array *in, size_t stat
 }
 
 /* Takes out what the user has switched off. */
-static void switch_off(const dynamics_film_wire *wire, history *y, const double *nothing)
+static void switch_off(const dynamics_film_wire *wire, dynamics_film_history *y,
+                       const double *nothing)
 {
     if (!wire->friction)
         y->traction = nothing;
@@ -455,7 +228,7 @@ static void switch_off(const dynamics_film_wire *wire, history *y, const double 
         memset(y->thickness, 0, y->count * sizeof *y->thickness);
 }
 
-static ff_status build(const ff_host *host, const history *y, dynamics_excitation *x,
+static ff_status build(const ff_host *host, const dynamics_film_history *y, dynamics_excitation *x,
                        dynamics_film_powers *powers)
 {
     samples s = {0};
@@ -464,7 +237,7 @@ static ff_status build(const ff_host *host, const history *y, dynamics_excitatio
     double pitch = y->inputs->pitch, first = (y->roll[0] - y->inputs->roll_sap) / pitch;
     double last = (y->roll[y->count - 1] - y->inputs->roll_sap) / pitch;
     if (cut_at(x, first) && cut_at(x, last) && take_samples(y, x, &s)) {
-        place mean = mean_of(&s);
+        dynamics_film_sum mean = mean_of(&s);
         make_curves(y, x, &s, &mean);
         powers->torques = y->speed[0] * mean.against[0] + y->speed[1] * mean.against[1];
         powers->loss = mean.loss;
@@ -499,14 +272,14 @@ ff_status dynamics_film_wire_read(const ff_host *host, const ff_array *in,
                                   const dynamics_film_wire *wire, const dynamics_inputs *inputs,
                                   dynamics_excitation *excitation, dynamics_film_powers *powers)
 {
-    history y = {.in_oil = excitation->film != NULL};
+    dynamics_film_history y = {.in_oil = excitation->film != NULL};
     double *nothing = NULL;
     *powers = (dynamics_film_powers){0, NAN};
     if (!dynamics_film_is_wired(in))
         return FF_OK;
     ff_status status = check_gear(host, in, inputs->stations);
     if (status == FF_OK)
-        status = read_history(host, in, inputs, &y);
+        status = dynamics_film_history_read(host, in, inputs, &y);
     if (status == FF_OK) {
         nothing = calloc(y.count, sizeof *nothing);
         status = nothing ? FF_OK : FF_NOMEM;
@@ -516,7 +289,6 @@ ff_status dynamics_film_wire_read(const ff_host *host, const ff_array *in,
         status = build(host, &y, excitation, powers);
     }
     free(nothing);
-    free(y.thickness);
-    free(y.first);
+    dynamics_film_history_free(&y);
     return status;
 }
