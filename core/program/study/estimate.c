@@ -259,10 +259,9 @@ static estimate mean_of(const estimate_samples *s, double (*g)(double, double), 
     for (size_t block = 0; block < s->levels; block++) {
         size_t begin = begin_of(s, block);
         double own, freedom;
-        double of = block_sum(p.value + begin, s->count[block] - begin, &own, &freedom);
+        sum += block_sum(p.value + begin, s->count[block] - begin, &own, &freedom);
         if (!isfinite(own))
-            continue;
-        sum += of;
+            continue; /* of a single sample, whose spread is not known */
         variance += own;
         fourth += own * own / freedom;
     }

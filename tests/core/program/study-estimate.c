@@ -243,8 +243,20 @@ static void repeat_sobol(const problem *p, gsl_rng *rng)
     judge(p->name, "sobol", &total, false);
 }
 
+/* Where all but one of the further samples failed, that one counts. */
+static void test_one_left(void)
+{
+    double values[16];
+    for (int i = 0; i < 16; i++)
+        values[i] = i < 9 ? i : (double)NAN;
+    const estimate_samples s = {.levels = 2, .count = {8, 16}, .values = {values, values}};
+    double mean = estimate_mean(&s).value;
+    check(fabs(mean - 4) < 1e-12, "one sample left of a level", mean, 4, 4);
+}
+
 int main(void)
 {
+    test_one_left();
     problem problems[] = {
         {.name = "linear", .answer = linear, .limit = 1, .first = 0.8, .total = 0.8},
         {.name = "product", .answer = product, .limit = 2, .first = 4 / 9., .total = 5 / 9.},
