@@ -78,7 +78,7 @@ What was aimed at, with times turned into instructions at the rate of that machi
 | 512 cells, 1000 steps | 0.6e9 | 0.571e9 |
 | `h_min(t)` within 0.1 % everywhere, with its bar: 1024 cells, 2000 steps, [below](#a-tenth-of-a-per-cent) | 2.7e9 (180 ms) | 2.155e9, bar 0.32 % |
 | 512 cells, `thermal: inlet` over `none`, instructions of the film (`valgrind --tool=callgrind flankfilm run configs/li-kahraman-2011.yaml --set mesh.use=stiffness/iso-6336 --set film.cells=512 --set film.thermal=inlet --set "outputs=[film.h_min]"`, `ehl_evaluate`) | 1.05 | 1.0498 with 1000 steps, 1.052 with 200 |
-| 512 cells, 1000 steps, `thermal: full`, instructions of the film (`ehl_evaluate`) | 3.4e9 | 3.37e9; motion and report add 0.28e9 ([where it goes](theory.md#temperatures-across-the-film)) |
+| 512 cells, 1000 steps, `thermal: full`, instructions of the film (`ehl_evaluate`) | 3.4e9 | 3.38e9; motion and report add 0.28e9 ([where it goes](theory.md#temperatures-across-the-film)) |
 | rough, 150 rpm, 512 cells, by output step (`valgrind --tool=callgrind build/tests/bench/bench-ehl 512 1000 150`) | 23e6 (1.5 ms) | 28.5e6 |
 
 ## What the presets leave

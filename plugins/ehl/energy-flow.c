@@ -104,16 +104,7 @@ static void follow_bent(size_t n, const double *restrict p, const double *restri
     }
 }
 
-/* Sets ln(eta) at the nodes `from` to `end` to what was given and its slopes make of it. */
-static void follow_viscosity(ehl_energy *e, size_t from, size_t end, const double *T)
-{
-    size_t n = e->across.count, at = from * n;
-    follow_bent((end - from) * n, e->p + at, T + at, e->called_p + at, e->called_T + at,
-                e->called_ln_eta + at, e->ln_eta_p + at, e->ln_eta_T + at, e->bend + at,
-                e->ln_eta + at);
-}
-
-/* Calls the laws at the nodes `from` to `end`. */
+/* Calls the laws at the nodes `from` to `end`, for which ln(eta) is followed by its slopes. */
 static void call_laws_at(ehl_energy *e, size_t from, size_t end, const double *T)
 {
     const ff_viscosity *v = e->laws.viscosity;
@@ -121,13 +112,10 @@ static void call_laws_at(ehl_energy *e, size_t from, size_t end, const double *T
     size_t n = e->across.count, at = from * n, count = (end - from) * n;
     const double *p = e->p + at, least = e->reach / 4;
     double *line = e->ln_eta + at, *given = e->tau + at;
-    follow(count, p, T + at, e->called_p + at, e->called_T + at, e->called_ln_eta + at,
-           e->ln_eta_p + at, e->ln_eta_T + at, line);
     note(e, v->eval(v->self, count, p, T + at, given, e->ln_eta_p + at, e->ln_eta_T + at));
     if (e->called_T[at] > 0)
         bend_by(count, e->called_ln_eta + at, line, given, least, 1 / e->reach, e->bend + at);
     memcpy(e->called_ln_eta + at, given, count * sizeof *given);
-    memcpy(line, given, count * sizeof *given);
     note(e, d->eval(d->self, count, p, T + at, e->called_rho + at, e->rho_p + at, e->rho_T + at));
     memcpy(e->called_p + at, p, count * sizeof *p);
     memcpy(e->called_T + at, T + at, count * sizeof *T);
@@ -142,7 +130,8 @@ FF_SIMD_INLINE void spread_to(size_t nodes, size_t n, const double *restrict val
             to[i * n + k] = values[i];
 }
 
-/* Marks the nodes at which ln(eta) has changed by more than the reach. */
+/* Marks the nodes at which ln(eta) has changed by more than the reach, by its slopes alone: a
+   parabola may come back. */
 FF_SIMD_INLINE void mark_beyond(size_t nodes, size_t n, const double *restrict now,
                                 const double *restrict called, double reach,
                                 unsigned char *restrict mark)
@@ -191,7 +180,8 @@ static void call_laws(ehl_energy *e, const ehl_energy_film *film, const double *
     e->ln_eta = e->before;
     e->before = before;
     spread(film->count, across, film->p, e->p);
-    follow_viscosity(e, 0, film->count, T);
+    follow(all, e->p, T, e->called_p, e->called_T, e->called_ln_eta, e->ln_eta_p, e->ln_eta_T,
+           e->ln_eta);
     find_beyond(e, film->count);
     for (size_t i = 0, end; i < film->count; i = end) {
         for (end = i; end < film->count && is_due(e, film, end); end++)
@@ -201,6 +191,8 @@ static void call_laws(ehl_energy *e, const ehl_energy_film *film, const double *
         else
             end++;
     }
+    follow_bent(all, e->p, T, e->called_p, e->called_T, e->called_ln_eta, e->ln_eta_p, e->ln_eta_T,
+                e->bend, e->ln_eta);
     follow(all, e->p, T, e->called_p, e->called_T, e->called_rho, e->rho_p, e->rho_T, e->rho);
 }
 
