@@ -3,7 +3,7 @@
 #ifndef EHL_ACROSS_H
 #define EHL_ACROSS_H
 
-#include <flankfilm/simd.h>
+#include "lanes.h"
 
 #include <stddef.h>
 
@@ -23,22 +23,12 @@ typedef struct ehl_across {
     double swing; /* largest size of one of these where those at the nodes are between -1 and 1 */
 } ehl_across;
 
-/* Four values at a time, in whole vectors: rows of a matrix, and what is computed from them, have
-   room up to a multiple of this. */
-enum { EHL_ACROSS_LANES = 4 };
-typedef double ehl_lanes __attribute__((vector_size(EHL_ACROSS_LANES * sizeof(double))));
-
-/* By a pointer: a vector that is passed by value has another ABI without AVX. */
-FF_SIMD_INLINE double ehl_across_sum(const ehl_lanes *values)
-{
-    return (*values)[0] + (*values)[1] + ((*values)[2] + (*values)[3]);
-}
-
-/* Sets out[k] to the sum of m[l * stride + k] values[l] over l < n, k < n. */
+/* Sets out[k] to the sum of m[l * stride + k] values[l] over l < n, k < n. Rows of a matrix, and
+   what is computed from them, have room up to a multiple of EHL_LANES. */
 FF_SIMD_INLINE void ehl_across_apply(const double *m, size_t stride, size_t n, const double *values,
                                      double *out)
 {
-    for (size_t k = 0; k < n; k += EHL_ACROSS_LANES) {
+    for (size_t k = 0; k < n; k += EHL_LANES) {
         ehl_lanes sum = {0}, row;
         for (size_t l = 0; l < n; l++) {
             memcpy(&row, m + l * stride + k, sizeof row);

@@ -6,8 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-/* Below this multiple of the contact film asperities are nearly in contact. */
-static const double NEAR_CONTACT = 2;
 /* Shortest way of the oil in a step, in cells: shorter steps gain nothing that the cells
    resolve. */
 static const double SHORTEST_ADVECTION = 0.25;
@@ -98,7 +96,7 @@ double ehl_largest_advection(const ehl_march *m)
 {
     double contact = m->solver->reynolds->contact;
     double inlet = ehl_roughness_inlet(m->rough, contact) / m->solver->grid->dx;
-    return m->state[0].thinnest < NEAR_CONTACT * contact
+    return m->state[0].thinnest < EHL_NEAR_CONTACT * contact
                ? fmin(fmax(inlet / 2, SHORTEST_ADVECTION), 1)
                : 1;
 }

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "band.h"
 
+#include "lanes.h"
 #include "reynolds.h"
-
-#include <flankfilm/simd.h>
 
 #include <stdlib.h>
 #include <string.h>
@@ -15,7 +14,7 @@ enum {
     REACH = EHL_BAND_REACH - 1,
     LOWER = REACH + 2,
     UPPER = EHL_BAND_REACH,
-    LANES = 4,
+    LANES = EHL_LANES,
     BEHIND = (UPPER + LANES - 1) / LANES * LANES,
     WIDTH = 32,
     PAD = 16 /* zeros on either side of a vector */
@@ -32,8 +31,6 @@ typedef struct block {
     double below[LOWER][LANES], below_inverse[LANES - 1][LANES]; /* L, with ones on its diagonal */
     double above[UPPER][LANES], above_inverse[LANES][LANES];     /* U */
 } block;
-
-typedef double lanes __attribute__((vector_size(LANES * sizeof(double))));
 
 struct ehl_band {
     size_t rows;
@@ -140,7 +137,7 @@ static void eliminate(double *matrix, double *restrict inverse, size_t first, si
             const double *pivot = matrix + (i - s) * WIDTH + LOWER + 1;
             double *entry = row + LOWER - s, factor = *entry *= inverse[i - s];
             for (size_t j = 0; j < BEHIND; j += LANES) {
-                lanes to, from;
+                ehl_lanes to, from;
                 memcpy(&to, entry + 1 + j, sizeof to);
                 memcpy(&from, pivot + j, sizeof from);
                 to -= factor * from;
@@ -198,7 +195,7 @@ static void substitute(const block *restrict blocks, size_t count, double *x)
     for (size_t n = 0; n < count; n++) {
         const block *k = blocks + n;
         const double *known = x + n * LANES - LOWER;
-        lanes sum, other = {0}, column;
+        ehl_lanes sum, other = {0}, column;
         memcpy(&sum, x + n * LANES, sizeof sum);
         for (size_t j = 0; j < LOWER; j += 2) {
             memcpy(&column, k->below[j], sizeof column);
@@ -217,7 +214,7 @@ static void substitute(const block *restrict blocks, size_t count, double *x)
     for (size_t n = count; n-- > 0;) {
         const block *k = blocks + n;
         const double *known = x + (n + 1) * LANES;
-        lanes sum, other = {0}, column;
+        ehl_lanes sum, other = {0}, column;
         memcpy(&sum, x + n * LANES, sizeof sum);
         for (size_t j = UPPER; j-- > 0;) { /* the nearest were found last */
             memcpy(&column, k->above[j], sizeof column);
@@ -227,7 +224,7 @@ static void substitute(const block *restrict blocks, size_t count, double *x)
                 other += known[j] * column;
         }
         sum -= other;
-        other = (lanes){0};
+        other = (ehl_lanes){0};
         for (size_t j = 0; j < LANES; j++) {
             memcpy(&column, k->above_inverse[j], sizeof column);
             other += sum[j] * column;
@@ -240,7 +237,7 @@ static void substitute(const block *restrict blocks, size_t count, double *x)
 FF_SIMD
 static double carried(size_t blocks, const double *restrict carries, const double *restrict x)
 {
-    lanes sum = {0}, a, b;
+    ehl_lanes sum = {0}, a, b;
     for (size_t i = 0; i < blocks * LANES; i += LANES) {
         memcpy(&a, carries + i, sizeof a);
         memcpy(&b, x + i, sizeof b);

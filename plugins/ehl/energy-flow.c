@@ -17,7 +17,7 @@ ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
     *e = (ehl_energy){.nodes = nodes, .share = 1, .highest = 2000, .lowest = 150};
     ehl_across_create(&e->across, across);
     double *next = e->memory =
-        calloc((FIELDS + 3 + across) * all + (OWN + 2) * n + EHL_ACROSS_LANES, sizeof *next);
+        calloc((FIELDS + 3 + across) * all + (OWN + 2) * n + EHL_LANES, sizeof *next);
     if (!next)
         return FF_NOMEM;
     double **field[FIELDS] = {&e->p,          &e->ln_eta,    &e->rho,       &e->tau,
@@ -223,7 +223,7 @@ FF_SIMD_INLINE means means_of(const ehl_energy *e, size_t i, size_t n)
     const ehl_across *a = &e->across;
     const double *gamma = e->gamma + i * n, *slope = e->gamma_tau + i * n;
     ehl_lanes rate = {0}, ease = {0}, tilt = {0}, weight, z, here;
-    for (size_t k = 0; k < n; k += EHL_ACROSS_LANES) { /* beyond n the weights are 0 */
+    for (size_t k = 0; k < n; k += EHL_LANES) { /* beyond n the weights are 0 */
         memcpy(&weight, a->weight + k, sizeof weight);
         memcpy(&z, a->z + k, sizeof z);
         memcpy(&here, gamma + k, sizeof here);
@@ -232,7 +232,7 @@ FF_SIMD_INLINE means means_of(const ehl_energy *e, size_t i, size_t n)
         ease += weight * here;
         tilt += weight * here * (z - 0.5);
     }
-    return (means){ehl_across_sum(&rate), ehl_across_sum(&ease), ehl_across_sum(&tilt)};
+    return (means){ehl_lanes_sum(&rate), ehl_lanes_sum(&ease), ehl_lanes_sum(&tilt)};
 }
 
 /* Returns the step of tau_m towards the mean shear rate `target`, of Newton's method in the
@@ -291,14 +291,14 @@ FF_SIMD_INLINE void expect_stress(ehl_energy *e, const ehl_energy_film *film, si
                  *weight = e->across.weight;
     ehl_lanes rate = {0}, w, was, is, slope;
     means m = means_of(e, i, n);
-    for (size_t k = 0; k < n; k += EHL_ACROSS_LANES) {
+    for (size_t k = 0; k < n; k += EHL_LANES) {
         memcpy(&w, weight + k, sizeof w);
         memcpy(&was, before + k, sizeof was);
         memcpy(&is, now + k, sizeof is);
         memcpy(&slope, by_eta + k, sizeof slope);
         rate += w * slope * (is - was);
     }
-    double step = m.slope > 1e-290 ? (target - m.gamma - ehl_across_sum(&rate)) / m.slope : 0;
+    double step = m.slope > 1e-290 ? (target - m.gamma - ehl_lanes_sum(&rate)) / m.slope : 0;
     if (fabs(step) <= 0.5 * fabs(e->tau_m[i]))
         e->tau_m[i] += step;
 }
@@ -347,7 +347,7 @@ FF_SIMD_INLINE double flow_of(const ehl_across *a, size_t n, const double *rho, 
     double rise[EHL_ACROSS_MOST];
     ehl_lanes sum = {0}, weight, here, dense;
     ehl_across_apply(a->integral[0], EHL_ACROSS_MOST, n, gamma, rise);
-    for (size_t k = 0; k < n; k += EHL_ACROSS_LANES) {
+    for (size_t k = 0; k < n; k += EHL_LANES) {
         memcpy(&weight, a->weight + k, sizeof weight);
         memcpy(&dense, rho + k, sizeof dense);
         memcpy(&here, rise + k, sizeof here);
@@ -356,7 +356,7 @@ FF_SIMD_INLINE double flow_of(const ehl_across *a, size_t n, const double *rho, 
     FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++)
         u[k] = u_1 + h * rise[k];
-    return ehl_across_sum(&sum);
+    return ehl_lanes_sum(&sum);
 }
 
 /* Returns the pressure gradient at node i by differences. */

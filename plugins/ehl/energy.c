@@ -121,7 +121,7 @@ FF_SIMD_INLINE void find_rest(const sweep *s, size_t i, size_t n, double *off)
 /* Subtracts `share` times a row from another one, n numbers and what fills the last vector. */
 FF_SIMD_INLINE void subtract_row(size_t n, double share, const double *row, double *from)
 {
-    for (size_t j = 0; j < n; j += EHL_ACROSS_LANES) {
+    for (size_t j = 0; j < n; j += EHL_LANES) {
         ehl_lanes a, b;
         memcpy(&a, row + j, sizeof a);
         memcpy(&b, from + j, sizeof b);

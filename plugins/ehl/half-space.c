@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "half-space.h"
 
-#include <flankfilm/simd.h>
+#include "lanes.h"
 
 #include <math.h>
 #include <string.h>
-
-typedef double lanes __attribute__((vector_size(EHL_MODES_AT_ONCE * sizeof(double))));
 
 static const double pi = 3.14159265358979323846;
 
@@ -23,7 +21,7 @@ void ehl_half_space_create(ehl_half_space *f, double B, double shortest, double 
         inner = EHL_MODES - 1;
         step = (high - low) / (double)(inner - 1);
     }
-    size_t whole = (inner + EHL_MODES_AT_ONCE) / EHL_MODES_AT_ONCE * EHL_MODES_AT_ONCE;
+    size_t whole = (inner + EHL_LANES) / EHL_LANES * EHL_LANES;
     *f = (ehl_half_space){.count = whole, .scale = 1 / (sqrt(pi) * B)};
     for (size_t k = inner + 1; k < whole; k++)
         f->lambda[k] = exp(high);
@@ -65,10 +63,10 @@ double ehl_half_space_reach(const ehl_half_space *f, const ehl_passage *p,
                             const double *past_before, const double *past, double *modes)
 {
     static const double none[EHL_MODES] = {0};
-    lanes sum = {0}, keep, before, here, mode, was, now, weight;
+    ehl_lanes sum = {0}, keep, before, here, mode, was, now, weight;
     past_before = past_before ? past_before : none;
     past = past ? past : none;
-    for (size_t k = 0; k < f->count; k += EHL_MODES_AT_ONCE) {
+    for (size_t k = 0; k < f->count; k += EHL_LANES) {
         memcpy(&keep, p->keep + k, sizeof keep);
         memcpy(&before, p->before + k, sizeof before);
         memcpy(&here, p->here + k, sizeof here);
@@ -80,14 +78,14 @@ double ehl_half_space_reach(const ehl_half_space *f, const ehl_passage *p,
         memcpy(modes + k, &mode, sizeof mode);
         sum += weight * mode;
     }
-    return f->scale * (sum[0] + sum[1] + (sum[2] + sum[3]));
+    return f->scale * ehl_lanes_sum(&sum);
 }
 
 FF_SIMD
 void ehl_half_space_add(const ehl_half_space *f, const ehl_passage *p, double flux, double *modes)
 {
-    lanes here, mode;
-    for (size_t k = 0; k < f->count; k += EHL_MODES_AT_ONCE) {
+    ehl_lanes here, mode;
+    for (size_t k = 0; k < f->count; k += EHL_LANES) {
         memcpy(&here, p->here + k, sizeof here);
         memcpy(&mode, modes + k, sizeof mode);
         mode += here * flux;

@@ -21,7 +21,7 @@
 
 /* EHL_MODES: a multiple of the modes that are treated at once, as is `count`; those beyond the last
    one have no weight. */
-enum { EHL_MODES = 40, EHL_MODES_AT_ONCE = 4 };
+enum { EHL_MODES = 40 };
 
 typedef struct ehl_half_space {
     size_t count;

@@ -20,8 +20,6 @@ static const double SHARE_THAT_HESITATES = 0.5;
 /* Change of the flow of mass by the factors, relative, below which they are those of the film: it
    changes h by about as much. A steady film begins without heat, a step next to its solution. */
 static const double SETTLED = 1e-4, SETTLED_STEADY = 1e-5, SETTLED_ROUGH = 1e-3;
-/* Multiple of the contact film below which asperities hold a film, whatever flows. */
-static const double HELD = 2;
 /* Of a larger change a share is taken, of this size. */
 static const double LARGE = 0.3;
 /* Rounds of a steady film after which its factors are accelerated, and the share of their change
@@ -307,7 +305,7 @@ static double find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl_ener
 {
     const ehl_energy *e = &t->energy;
     size_t n = r->nodes;
-    double most = 0, held = r->rough ? HELD * r->contact : 0;
+    double most = 0, held = r->rough ? EHL_NEAR_CONTACT * r->contact : 0;
     for (size_t i = 0; i < f->count; i++) {
         double mass = r->liquid.rho[i] * r->thick[i], swell = t->swell[i] * e->mass[i] / mass;
         int within = ehl_is_cavitated(r, film, i) && !(i > 0 && film->full[i - 1]);

@@ -9,6 +9,8 @@
 #include "surface.h"
 
 enum { EHL_EULER = 0, EHL_BDF2 = 1, EHL_STATES = 3 };
+/* Multiple of the contact film below which asperities nearly touch, and hold the film. */
+enum { EHL_NEAR_CONTACT = 2 };
 
 typedef struct ehl_state {
     ehl_film film;
