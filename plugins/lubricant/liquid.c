@@ -273,6 +273,7 @@ static void find_limits(lubricant_oil *oil)
     }
     oil->coldest = fmax(150, exp(c->x[0] + (most - c->y[0]) / c->slope[0]));
     oil->hottest = fmin(700, exp(c->x[last] + (least - c->y[last]) / c->slope[last]));
+    oil->hottest = fmax(oil->hottest, oil->high + BEND); /* data come back as they were given */
 }
 
 static ff_status find_alpha(lubricant_oil *oil)

@@ -119,6 +119,19 @@ static void are_smooth_functions(void)
     stage_close(table);
 }
 
+/* A thin oil, whose data end near the least viscosity of ASTM D341, and hot. */
+static void thin_oils_are_what_was_given(void)
+{
+    stage *oil = open_table("temperature [degC]; kinematic_viscosity [cSt]; density [kg/m3]\n"
+                            "40; 2.0; 800\n250; 0.36; 650\n400; 0.22; 540\n");
+    check_near("rho0 at 400 degC", property(oil, FF_LIQUID_RHO0, 673.15), 540, 1e-12);
+    check_near("eta0 at 400 degC", exp(property(oil, FF_LIQUID_LN_ETA0, 673.15)), 0.22e-6 * 540,
+               1e-9);
+    stays_finite_at_extremes("a thin oil", oil);
+    ends_smoothly("a thin oil", oil);
+    stage_close(oil);
+}
+
 /* The curve goes through its points, and near those that are left out. */
 static void tables_interpolate(void)
 {
@@ -222,6 +235,7 @@ int main(void)
     int file = mkstemp(table_path);
     are_smooth_functions();
     tables_interpolate();
+    thin_oils_are_what_was_given();
     one_point_serves_its_temperature();
     pressure_coefficients_are_those_measured();
     alpha_follows_its_base();
