@@ -10,14 +10,21 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Arrays of nodes x across, and of nodes. */
+enum { FIELDS = 19, OWN = 9 };
+
+/* Numbers in e->memory. */
+static size_t room_of(size_t nodes, size_t across)
+{
+    return (FIELDS + 3 + across) * nodes * across + (OWN + 2) * nodes + EHL_LANES;
+}
+
 ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
 {
-    enum { FIELDS = 19, OWN = 9 };
     size_t n = nodes, all = nodes * across;
     *e = (ehl_energy){.nodes = nodes, .share = 1, .highest = 2000, .lowest = 150};
     ehl_across_create(&e->across, across);
-    double *next = e->memory =
-        calloc((FIELDS + 3 + across) * all + (OWN + 2) * n + EHL_LANES, sizeof *next);
+    double *next = e->memory = calloc(room_of(nodes, across), sizeof *next);
     if (!next)
         return FF_NOMEM;
     double **field[FIELDS] = {&e->p,          &e->ln_eta,    &e->rho,       &e->tau,
@@ -50,11 +57,8 @@ void ehl_energy_destroy(ehl_energy *e)
 
 void ehl_energy_restart(ehl_energy *e)
 {
-    size_t all = e->nodes * e->across.count;
     e->guessed = 0;
-    memset(e->called_T, 0, all * sizeof *e->called_T);
-    memset(e->bend, 0, all * sizeof *e->bend);
-    memset(e->inverted, 0, 3 * all * sizeof *e->inverted);
+    memset(e->memory, 0, room_of(e->nodes, e->across.count) * sizeof *e->memory);
 }
 
 static void note(ehl_energy *e, ff_status status)
@@ -64,8 +68,9 @@ static void note(ehl_energy *e, ff_status status)
 
 /*
  * Sets the curvature of n values to that on the way from a call, which gave `from` and slopes that
- * lead to `line`, to the next one, which gave `given`. A way below `least` tells little. Within
- * 1/most the parabola adds half of what the slopes do, at most, whatever way it was.
+ * lead to `line`, to the next one, which gave `given`. A way below `least` tells little, and
+ * the first call has none. Within 1/most the parabola adds half of what the slopes do, at most,
+ * whatever way it was.
  */
 FF_SIMD
 static void bend_by(size_t n, const double *restrict from, const double *restrict line,
@@ -113,8 +118,7 @@ static void call_laws_at(ehl_energy *e, size_t from, size_t end, const double *T
     const double *p = e->p + at, least = e->reach / 4;
     double *line = e->ln_eta + at, *given = e->tau + at;
     note(e, v->eval(v->self, count, p, T + at, given, e->ln_eta_p + at, e->ln_eta_T + at));
-    if (e->called_T[at] > 0)
-        bend_by(count, e->called_ln_eta + at, line, given, least, 1 / e->reach, e->bend + at);
+    bend_by(count, e->called_ln_eta + at, line, given, least, 1 / e->reach, e->bend + at);
     memcpy(e->called_ln_eta + at, given, count * sizeof *given);
     note(e, d->eval(d->self, count, p, T + at, e->called_rho + at, e->rho_p + at, e->rho_T + at));
     memcpy(e->called_p + at, p, count * sizeof *p);

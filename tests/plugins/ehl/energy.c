@@ -261,6 +261,55 @@ static void test_tangent(void)
     check_below("nor is the stress", fabs(stress), 0.25 / 24);
 }
 
+/* Heats a film of that thickness for a few steps; oil flows back in it. */
+static void heat_up(bench *b, size_t count, double h)
+{
+    const double p_x = 30 * eta0 * 8 / (h * h);
+    b->film.count = count;
+    for (size_t i = 0; i < LINE; i++) {
+        b->h[i] = h * (1 + 1e-3 * (double)i);
+        b->p[i] = p_x * b->film.dx * (double)i;
+    }
+    for (int turn = 0; turn < 3; turn++) {
+        ehl_energy_flow(&b->e, &b->film, b->T);
+        ehl_energy_sweep(&b->e, &b->film, &b->t);
+    }
+}
+
+/* What is kept of one film does not reach the next one. */
+static void test_restart(void)
+{
+    enum { ACROSS = 10 };
+    static bench one, two;
+    static double past[LINE * ACROSS];
+    beta = 0.03;
+    for (size_t i = 0; i < LINE * ACROSS; i++)
+        past[i] = -1e5 * T0;
+    for (int k = 0; k < 2; k++) {
+        bench *b = k ? &two : &one;
+        open_bench(b, LINE, ACROSS, 1.3e4, 9, 6, 1e-6);
+        b->film.dx = 1e-6;
+        b->film.rate = 1e5;
+        b->film.past = past;
+        b->e.reach = 0.02;
+        b->e.flow = &eyring;
+    }
+    heat_up(&two, LINE, 3e-6);
+    check_true("oil flows back", two.e.reverse[LINE / 2] == 1);
+    ehl_energy_restart(&two.e);
+    memcpy(two.T, one.T, sizeof two.T);
+    memset(two.modes, 0, sizeof two.modes);
+    for (int k = 0; k < 2; k++) {
+        heat_up(k ? &two : &one, LINE / 2, 1e-6);
+        heat_up(k ? &two : &one, LINE, 1e-6);
+    }
+    check_true("it is heated", one.T[LINE / 2 * ACROSS + ACROSS / 2] > T0 + 1);
+    check_true("temperatures, to the bit", !memcmp(one.T, two.T, sizeof one.T));
+    check_true("flanks, to the bit", !memcmp(one.modes, two.modes, sizeof one.modes));
+    ehl_energy_destroy(&one.e);
+    ehl_energy_destroy(&two.e);
+}
+
 /* What the oil has taken along, and the flanks, is what was dissipated: of second order in x,
    since heat that the oil carries is a difference of its content at the ends here. */
 static double open_balance(size_t nodes)
@@ -300,6 +349,7 @@ int main(void)
     test_nahme();
     test_eyring();
     test_tangent();
+    test_restart();
     test_balance();
     return check_done();
 }
