@@ -51,9 +51,9 @@ static void weigh(const dynamics_film_history *y, const double *h, const double 
     int lands = 0;
     for (size_t i = 0; i < y->count; i++) {
         double share = highest > 0 ? p[i] / highest : 0;
-        if (share >= borne)
+        if (share >= borne || y->engagement[i] != y->engagement[i > 0 ? i - 1 : i])
             lands = 0;
-        else if (y->in_oil && h[i] < flight * thickest)
+        if (share < borne && y->in_oil && h[i] < flight * thickest)
             lands = 1;
         double from = lands ? landing : parted, to = lands ? landed : borne;
         weight[i] = fmin(fmax((share - from) / (to - from), 0), 1);
