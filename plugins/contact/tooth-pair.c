@@ -240,7 +240,7 @@ static void report_load(const tooth_pair *s, const contact_tooth_path *p, const 
 static ff_status report(const tooth_pair *s, const contact_tooth_path *p, const load_record *r,
                         uint64_t wanted)
 {
-    /* as of the errors by the time steps of a film: the Hertz pressure is off by half as much */
+    /* the Hertz pressure is off by half as much */
     const double limit = 0.02;
     double error = r->top > 0 ? r->error / r->top : 0;
     s->host->quality(s->host->ctx, "load_interpolation", error, limit,

@@ -150,8 +150,7 @@ static dynamics_between look_between(const dynamics_motion_view *view,
 /* A vibration that turns by w between two stations leaves their span by 1 - cos(w/2) of its
    amplitude where it turns back, which is what a monotone cubic cuts off; a jump between them, as
    of the damper's force at a corner of the transmission error, is ramped over and does not. The
-   limit is that of the errors of a film by its time steps: the Hertz pressure is off by half as
-   much. */
+   Hertz pressure is off by half as much. */
 static void report_sampling(const dynamics_between *found, const dynamics_inputs *inputs,
                             const ff_host *host)
 {
