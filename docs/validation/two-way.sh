@@ -232,8 +232,8 @@ TEXT
     cat <<'TEXT'
 
 The loop takes three films at most at I and II, and at III six to 1e-4: from the third round on `separation` of the flanks that land falls to a
-seventh in each. Anderson's method with one past round, tried in the engine, saves none of the six, with or without squeeze in flight, since what
-changes from the second round to the third is another thing, the instant at which flanks part; with the wedge in flight it takes five for seven. It was left out.
+seventh in each. Anderson's method with one past round, tried in the engine, saves none of the six, with or without squeeze in flight; with the wedge in flight it takes
+five for seven. What keeps it from saving more was not measured; that the instant at which flanks part changes from the second round to the third may be why. It was left out.
 
 ## Where oil ends the branch of parted flanks
 

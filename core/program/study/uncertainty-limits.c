@@ -66,6 +66,8 @@ static const char *advice(double numerical, double model, double input)
 {
     double other = fmax(model, input); /* of those that are known */
     bool grid_is_nothing = numerical <= counts_for_nothing * other;
+    if (!(numerical > 0) && other <= 0)
+        return "none of these is known to move it";
     if (numerical > other)
         return "finer cells and steps would help most";
     if (isnan(other))
@@ -90,7 +92,7 @@ json_t *study_uncertainty_limits(const study_uncertainty *u, size_t output, cons
     char number[UNCERTAINTY_TEXT];
     study_line line = {0};
     study_uncertainty_number(u->context, name, of, nominal, number);
-    study_line_add(&line, "%s %s: ", name, number);
+    study_line_add(&line, "%s %s: ", name, isfinite(nominal) ? number : "not known at the medians");
     add_part(&line, numerical, "numerical, ", "numerical error not known, ");
     add_part(&line, by_model, "model", "no other model compared");
     if (isfinite(by_model))

@@ -108,14 +108,14 @@ static void print_levels(study_context *context, const json_t *result)
         double found =
             study_number_of(level, "seconds") /
             study_number_of(json_array_get(json_object_get(result, "levels"), 0), "seconds");
-        if (json_is_true(json_object_get(level, "stated")))
-            study_line_add(&line, ", %.2g %% found", 100 * found);
+        if (json_is_true(json_object_get(level, "stated")) && i > 0 && isfinite(found))
+            study_line_add(&line, ", %.3g %% found", 100 * found);
         study_line_print(context, &line, 0);
     }
     study_line_add(&line,
-                   "the mean is known as from %.0f plain samples; %.3g times cheaper than they "
+                   "the mean is known as from %.7g plain samples; %.3g times cheaper than they "
                    "would be, pilot included (%.3g predicted from it)",
-                   study_number_of(gain, "plain"), study_number_of(gain, "found"),
+                   round(study_number_of(gain, "plain")), study_number_of(gain, "found"),
                    study_number_of(gain, "predicted"));
     study_line_print(context, &line, 2);
 }

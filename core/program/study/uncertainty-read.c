@@ -202,6 +202,16 @@ static void submit_sensitivity(study_uncertainty *u)
     free(b);
 }
 
+/* Refuses too many cases before any is made; those that a ladder chooses are not known yet. */
+static bool check_count(const study_uncertainty *u)
+{
+    size_t samples = u->level_count > 1 ? u->level_count * u->pilot : u->samples;
+    size_t count = 2 + u->model_count + samples + u->sensitivity * (u->inputs.groups + 2);
+    return count <= STUDY_MOST_SUBMITTED ||
+           refuse(u, ff_node_get(ff_node_get(u->context->root, "study"), u->context->name), NULL,
+                  "more than 1000000 cases: fewer samples, or a smaller sensitivity");
+}
+
 static void submit_planned(study_uncertainty *u)
 {
     u->nominal = study_uncertainty_submit(u, "medians", NULL, NULL, false);
@@ -253,7 +263,8 @@ study_uncertainty *study_uncertainty_read(study_context *context, const study_ke
     if (!read_patches(u, values[UNCERTAINTY_LADDER].node, "ladder", true, paths, u->levels,
                       ESTIMATE_MOST_LEVELS, &u->level_count) ||
         !read_patches(u, values[UNCERTAINTY_MODELS].node, "models", false, paths, u->models,
-                      UNCERTAINTY_MOST_MODELS, &u->model_count))
+                      UNCERTAINTY_MOST_MODELS, &u->model_count) ||
+        !check_count(u))
         return NULL;
     find_path(paths, "accuracy");
     context->paths = paths->names;

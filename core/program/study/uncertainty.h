@@ -3,8 +3,7 @@
  * What uncertain inputs make of the outputs, beside what the grid and the choice of models do: the
  * answer at the medians, with its error bar and by other models; the first samples, a pilot, on all
  * levels of a ladder of cheaper models; then as many more of each level as those show to be worth
- * their cost;
- * and samples of the cheapest level for the share of each input.
+ * their cost; and samples of the cheapest level for the share of each input.
  */
 #ifndef STUDY_UNCERTAINTY_H
 #define STUDY_UNCERTAINTY_H

@@ -13,6 +13,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { MOST_SAMPLES = 1000000 };
 
@@ -160,9 +161,13 @@ static size_t find_column(study_csv_line *head, const char *name, const char **u
 static bool read_table(study_context *context, const ff_node *node, variate *v)
 {
     char *path = ff_path_beside(node->place.source->directory, node->text), *text = NULL;
-    FILE *file = fopen(path, "re");
+    struct stat info;
+    bool regular = stat(path, &info) != 0 || S_ISREG(info.st_mode); /* a device may never end */
+    FILE *file = regular ? fopen(path, "re") : NULL;
     size_t room = 0, column = SIZE_MAX;
-    const char *unit = "", *fault = file ? NULL : strerror(errno);
+    const char *unit = "", *fault = !regular ? "it is not a regular file"
+                                    : file   ? NULL
+                                             : strerror(errno);
     study_csv_line head = {.count = 0};
     char separator = 0;
     while (file && !fault && getline(&text, &room, file) > 0) {

@@ -254,9 +254,19 @@ static void test_one_left(void)
     check(fabs(mean - 4) < 1e-12, "one sample left of a level", mean, 4, 4);
 }
 
+/* Two samples are as far from their mean as each other, which tells nothing of the spread. */
+static void test_two(void)
+{
+    const double values[] = {1, 2.1};
+    const estimate_samples s = {.levels = 1, .count = {2}, .values = {values}};
+    estimate e = estimate_deviation(&s);
+    check(!(e.low > 0) && isinf(e.high), "deviation of two samples", e.low, 0, 0);
+}
+
 int main(void)
 {
     test_one_left();
+    test_two();
     problem problems[] = {
         {.name = "linear", .answer = linear, .limit = 1, .first = 0.8, .total = 0.8},
         {.name = "product", .answer = product, .limit = 2, .first = 4 / 9., .total = 5 / 9.},

@@ -187,6 +187,8 @@ class Uncertainty(lab.Lab):
                 (inputs % "3 mm", "expected a distribution"),
                 (inputs % "{gaussian: [3 mm, 2 mm]}", 'unknown key "gaussian"'),
                 (inputs % "{samples: none.csv}", "No such file"),
+                (inputs % "{samples: /dev/zero}", "it is not a regular file"),
+                (TWO + "    samples: 999999\n", "more than 1000000 cases"),
                 ("    inputs: {amplitude: {normal: [2 mm, 5 %]}}\n", "it is no path of the pipeline"),
                 (TWO + "    correlations: [[wave.amplitude, wave.total, 0.5]]\n", 'there is no input "wave.total"'),
                 (TWO + "    correlations: [[wave.amplitude, other.amplitude, 1]]\n", "a number between -1 and 1"),
