@@ -309,7 +309,6 @@ ff_status ehl_march_start(ehl_march *m)
     ff_status status = start_smooth(m, first - lasts);
     if (status == FF_OK)
         status = ehl_march_to(m, first);
-    m->rough->ramp = 0;
     m->steps_cut = 0;
     return status;
 }

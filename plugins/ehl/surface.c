@@ -153,7 +153,7 @@ static double integral(const ehl_roughness *r, int g, double s)
 /* Share of the height that has run in at x: 1 to 0 with level ends. */
 static double run_in(const ehl_roughness *r, double x, double time)
 {
-    if (!(r->ramp > 0))
+    if (!(r->ramp > 0) || time > r->history->time[0])
         return 1;
     double share = 1 - (x - r->speed * (time - r->passed)) / r->ramp;
     share = fmin(fmax(share, 0), 1);

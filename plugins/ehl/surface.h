@@ -21,8 +21,8 @@ typedef struct ehl_roughness {
     double curvature;  /* root mean square of the gap between the flanks, 1/m */
     double *memory;
     const ehl_history *history;
-    /* m, m/s, s: until x = speed (time - passed) the flanks are rough, `ramp` further on smooth;
-       ramp 0: rough all over */
+    /* m, m/s, s: up to the first row of the history and at it the flanks are rough until x = speed
+       (time - passed), `ramp` further on smooth; behind it, and with ramp 0, rough all over */
     double ramp, speed, passed;
 } ehl_roughness;
 

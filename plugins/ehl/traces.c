@@ -52,6 +52,8 @@ double ehl_traces_height(const ehl_roughness *r, double x, double width, double 
         double s = r->origin - way_of(h, g ? h->speed_2 : h->speed_1, time) + place;
         height += mean_height(r, r->height[g], s - width / 2, s + width / 2);
     }
-    double in = r->ramp > 0 ? (x - r->speed * (time - r->passed)) / r->ramp : 0;
+    double in = 0;
+    if (r->ramp > 0 && time <= h->time[0])
+        in = (x - r->speed * (time - r->passed)) / r->ramp;
     return in <= 0 ? height : in < 1 ? height * (1 - in) * (1 - in) * (1 + 2 * in) : 0;
 }

@@ -62,8 +62,12 @@ int main(void)
     check_true("flanks that stand still", off_traces(&r, &g, 0, after) > 1e-7);
     h.mirrored = 1;
     r.ramp = 40e-6;
+    ehl_roughness_heights(&r, &g, 0, before);
+    check_below("mirrored and run in", off_traces(&r, &g, 0, before), 1e-14);
+    check_near("smooth where they have not", before[NODES - 1], 0, 1e-20);
     ehl_roughness_heights(&r, &g, 0.02, before);
-    check_below("mirrored and run in", off_traces(&r, &g, 0.02, before), 1e-14);
+    check_below("rough all over", off_traces(&r, &g, 0.02, before), 1e-14);
+    check_true("where they were smooth, too", fabs(before[NODES - 1]) > 1e-8);
     h.mirrored = 0;
     r.ramp = r.period = 0;
     ehl_roughness_heights(&r, &g, 1e-4, before);

@@ -162,9 +162,34 @@ static void test_domain(void)
     check_true("the domain grows with Rq", length[1] > 1.2 * length[0]);
 }
 
+/* At the first instant flanks have run in up to 1.5 a behind the contact, 0.24 mm, and fade out up
+   to 2 a. A crest between both comes closest under a light load: the film is held against the
+   heights that it has there. */
+static void test_first_instant(void)
+{
+    const double crest = 0.38e-3;
+    static flank f;
+    line c;
+    flank_sine(&f, 4.5e-6, 1e-3);
+    f.origin = 0.25e-3 - crest;
+    open_rough(&c, &f, 1, 0, 128, 1);
+    line_last(&c, 2, 1e-6);
+    c.load[0] *= 0.1;
+    if (check_true("a crest behind a light load", line_run(&c, "x film h_min") == FF_OK)) {
+        size_t n, least = 0;
+        const double *x = stage_get(c.film, "x", &n), *h = stage_get(c.film, "film", NULL);
+        for (size_t i = 1; i < n; i++)
+            least = h[i] < h[least] ? i : least;
+        check_true("it comes closest", x[least] > 0.24e-3 && x[least] < 0.32e-3);
+        check_below("heights at the first instant", stage_quality(c.film, "film_shape"), 1e-9);
+    }
+    line_close(&c);
+}
+
 int main(void)
 {
     test_domain();
+    test_first_instant();
     test_flat();
     test_refusals();
     double share = test_run("nominal speed", 0.5e-6, 1, 0.3);
