@@ -8,12 +8,12 @@
 bool accuracy_run(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
                   ff_pipeline *pipeline, const ff_observer *watch, ff_report *report)
 {
+    const bool asked = accuracy_is_asked(tree) && accuracy_has_outputs(pipeline);
     record->answer = pipeline;
-    if (accuracy_has_goals(tree))
+    if (asked && accuracy_has_goals(tree))
         return accuracy_control(record, tree, engine, pipeline, watch, report);
-    if (accuracy_is_asked(tree))
+    if (asked)
         accuracy_want_axes(pipeline);
     return ff_pipeline_run(pipeline, watch, report) &&
-           (!accuracy_is_asked(tree) ||
-            accuracy_measure(record, tree, engine, pipeline, watch, NULL));
+           (!asked || accuracy_measure(record, tree, engine, pipeline, watch, NULL));
 }

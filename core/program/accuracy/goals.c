@@ -88,13 +88,22 @@ char *accuracy_print_goals(const ff_tree *tree)
     return text;
 }
 
-/* A scalar or a series: of fields no error is measured. */
+/* A scalar or a series, or what is one where its optional dimension is absent: of fields no error
+   is measured. */
 static bool may_have_goal(const ff_result *result)
 {
-    return result->requested && !result->row->service && !strchr(result->row->dims, ' ');
+    const char *dims = result->row->dims;
+    return result->requested && !result->row->service && (!strchr(dims, ' ') || strchr(dims, '?'));
 }
 
-/* Outputs that may have a goal: their names, in an array to be freed with them. */
+static void free_names(char **names, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        free(names[i]);
+    free(names);
+}
+
+/* Outputs that may have a goal: their names, in an array for free_names. */
 static char **list_names(const ff_pipeline *pipeline, size_t *count)
 {
     size_t most = 0;
@@ -112,6 +121,14 @@ static char **list_names(const ff_pipeline *pipeline, size_t *count)
                     memory_print_text("%s.%s", stage->name, stage->results[k].row->name);
     }
     return names;
+}
+
+bool accuracy_has_outputs(const ff_pipeline *pipeline)
+{
+    size_t count;
+    char **names = list_names(pipeline, &count);
+    free_names(names, count);
+    return count > 0;
 }
 
 static bool check_name(const ff_node *map, size_t item, char *const *names, size_t count,
@@ -144,8 +161,6 @@ bool accuracy_check(const ff_tree *tree, const ff_pipeline *pipeline, ff_report 
     if (count == 0 && ff_report_errors(report) == errors)
         ff_warn(report, node->place,
                 "accuracy: no scalar or series is asked for, so that it changes nothing");
-    for (size_t i = 0; i < count; i++)
-        free(names[i]);
-    free(names);
+    free_names(names, count);
     return ff_report_errors(report) == errors;
 }

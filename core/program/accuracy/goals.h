@@ -12,6 +12,8 @@
 bool accuracy_is_asked(const ff_tree *tree);
 /* Whether it says how large one of them may be. */
 bool accuracy_has_goals(const ff_tree *tree);
+/* Whether a scalar or a series is asked for: other outputs have no error that is measured. */
+bool accuracy_has_outputs(const ff_pipeline *pipeline);
 /* How large, relative, the error of an output may be; NaN: the file does not say. */
 double accuracy_goal(const ff_tree *tree, const ff_stage *stage, const ff_result *result);
 /* Where the file asks; FF_NOWHERE: it does not. */

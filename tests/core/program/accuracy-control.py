@@ -45,6 +45,14 @@ class Control(lab.Lab):
             if answer["accuracy"]["attempts"] > 1:
                 self.assertGreater(error_of(settings) / 2, goal / 100 / 6)
 
+    def test_without_an_output_that_has_an_error_nothing_changes(self):
+        text = FILE.split("outputs:")[0].replace("first: {", "wave: {use: toy/wave, amplitude: 2 mm}\n  first: {") + "outputs: [wave.field]\n"
+        self.write("field.yaml", text)
+        said = self.call("run", "field.yaml", "-o", "field")
+        self.assertIn("it changes nothing", said)
+        self.assertNotIn("twin", said)
+        self.assertIsNone(self.read("field/result.json")["accuracy"])
+
     def test_what_was_chosen_gives_the_same_bits(self):
         answer = self.ask()
         sets = [f"{path}={value}" for path, value in answer["accuracy"]["settings"].items()]
