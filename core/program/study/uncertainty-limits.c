@@ -61,18 +61,55 @@ static void add_part(study_line *line, double part, const char *what, const char
         study_line_add(line, "%s", missing);
 }
 
-/* Says what to do about the largest of the three. */
-static const char *advice(double numerical, double model, double input)
+/* The relative spread by the inputs, with its 95 % interval; NaN where an end is not bounded. */
+typedef struct input_bar {
+    double value, low, high;
+} input_bar;
+
+static input_bar input_bar_of(const json_t *of)
 {
-    double other = fmax(model, input); /* of those that are known */
+    const json_t *deviation = json_object_get(of, "deviation");
+    double mean = fabs(study_number_of(json_object_get(of, "mean"), "value"));
+    return (input_bar){study_number_of(deviation, "value") / mean,
+                       study_number_of(deviation, "low") / mean,
+                       study_number_of(deviation, "high") / mean};
+}
+
+/* Whether the samples leave open which is larger, the spread by the inputs or another bar. */
+static bool is_open(const input_bar *input, double bar)
+{
+    return input->value > 0 && isfinite(bar) && !(bar < input->low) && !(bar > input->high);
+}
+
+/* Names the inputs beside the larger of the two other bars, and the smaller one where it counts. */
+static const char *open_advice(double numerical, double model, const input_bar *input)
+{
+    double least = counts_for_nothing * fmax(numerical, model);
+    bool by_grid = numerical > least && is_open(input, numerical);
+    bool by_model = model > least && is_open(input, model);
+    if (by_grid && by_model)
+        return "the inputs, the choice of the model, cells and steps may matter alike";
+    if (by_grid)
+        return "the inputs, cells and steps may matter alike";
+    return numerical <= least ? "finer cells would change nothing, the inputs and the choice of "
+                                "the model may matter alike"
+                              : "the inputs and the choice of the model may matter alike";
+}
+
+/* Says what to do about the largest of the three. */
+static const char *advice(double numerical, double model, const input_bar *input)
+{
+    double other = fmax(model, input->value); /* of those that are known */
     bool grid_is_nothing = numerical <= counts_for_nothing * other;
     if (!(numerical > 0) && other <= 0)
         return "none of these is known to move it";
+    if (is_open(input, fmax(numerical, model)))
+        return open_advice(numerical, model, input);
     if (numerical > other)
         return "finer cells and steps would help most";
     if (isnan(other))
         return "nothing to compare with";
-    if (input >= model || isnan(model))
+    if (input->value >= model || isnan(model))
         return grid_is_nothing ? "finer cells would change nothing, better inputs would"
                                : "better inputs would help most";
     return grid_is_nothing ? "finer cells would change nothing, the choice of the model does"
@@ -85,8 +122,7 @@ json_t *study_uncertainty_limits(const study_uncertainty *u, size_t output, cons
     double nominal = study_uncertainty_value(u, u->nominal, output), share;
     double bar = study_uncertainty_value(u, u->measured, u->context->output_count + output);
     double numerical = fabs(bar / nominal);
-    double input = study_number_of(json_object_get(of, "deviation"), "value") /
-                   fabs(study_number_of(json_object_get(of, "mean"), "value"));
+    input_bar input = input_bar_of(of);
     json_t *limits = json_object();
     double by_model = add_models(u, output, nominal, limits, &model);
     char number[UNCERTAINTY_TEXT];
@@ -98,14 +134,14 @@ json_t *study_uncertainty_limits(const study_uncertainty *u, size_t output, cons
     if (isfinite(by_model))
         study_line_add(&line, " (%s)", model);
     study_line_add(&line, ", ");
-    add_part(&line, input, "input", "spread of the inputs not known");
-    if (isfinite(input) && (source = largest_share(of, &share)))
+    add_part(&line, input.value, "input", "spread of the inputs not known");
+    if (isfinite(input.value) && (source = largest_share(of, &share)))
         study_line_add(&line, " (%s %.0f %% of it)", source, 100 * fmin(1, fmax(0, share)));
-    study_line_add(&line, ": %s", advice(numerical, by_model, input));
+    study_line_add(&line, ": %s", advice(numerical, by_model, &input));
     json_object_set_new(limits, "medians", study_json_real(nominal));
     json_object_set_new(limits, "numerical", study_json_real(numerical));
     json_object_set_new(limits, "model", study_json_real(by_model));
-    json_object_set_new(limits, "input", study_json_real(input));
+    json_object_set_new(limits, "input", study_json_real(input.value));
     json_object_set_new(limits, "sentence", json_string(line.text));
     return limits;
 }

@@ -81,6 +81,44 @@ class Uncertainty(lab.Lab):
         self.assertAlmostEqual(limits[0]["models"]["longer"], longer / nominal - 1, delta=1e-6)
         self.assertIn("broken", limits[0]["not_compared"])
 
+    def limits(self, name):
+        """The bars of an output, and the sentence, without the numbers."""
+        of = next(iter(self.read(f"{name}/uncertainty.json")["outputs"].values()))
+        low, high = (of["deviation"][end] / of["mean"]["value"] for end in ("low", "high"))
+        return of["limits"], low, high, of["limits"]["sentence"].split(": ")[-1]
+
+    def test_the_sentence_does_not_choose_where_the_samples_leave_it_open(self):
+        """Six points of the wave make 5.8 % more than eight, an amplitude is known to 5 %; which is more takes many samples."""
+        text = TWO + "    models: {fewer: {wave.count: 6}}\n    aim: distribution\n    samples: "
+        for samples, is_open in ((20, True), (1000, False)):
+            self.study("open", f"{text}{samples}\n")
+            limits, low, high, said = self.limits("open")
+            self.assertEqual(low < limits["model"] < high, is_open)
+            self.assertEqual(said, "finer cells would change nothing, the " + (
+                "inputs and the choice of the model may matter alike" if is_open else "choice of the model does"))
+
+    def test_cells_that_may_matter_as_much_as_the_inputs(self):
+        """The cells of the stage make 0.1 m of 1.1 m, and so does the spread of its strength; of a model, too, or much less."""
+        text = """
+format: 2
+pipeline: {last: {use: toy/order, tolerance: 1e-4 %, strength: 400, cells: 64}}
+outputs: [last.value]
+study:
+  uncertainty:
+    outputs: [last.value]
+    inputs: {last.strength: {normal: [400, 120 %]}}
+    samples: 20
+    aim: distribution
+"""
+        alike = "the inputs, cells and steps may matter alike"
+        for tolerance, sentence in (("", alike), ("1 %", alike), ("40 %", "finer cells would change nothing, the choice of the model does"),
+                                    ("10 %", "the inputs, the choice of the model, cells and steps may matter alike")):
+            with self.subTest(tolerance):
+                name = "cells" + tolerance.rstrip(" %")
+                self.write(name + ".yaml", text + (f"    models: {{loose: {{last.tolerance: {tolerance}}}}}\n" if tolerance else ""))
+                self.call("run", name + ".yaml", "-o", name)
+                self.assertEqual(self.limits(name)[-1], sentence)
+
     def test_the_inputs_are_control_variates_of_the_mean(self):
         """The total is linear in its amplitude, so that any samples tell its mean to rounding; a test of the whole path:
         the numbers that regress it are those that made it."""
