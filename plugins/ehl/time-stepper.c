@@ -259,6 +259,23 @@ static void repeat_last_film(ehl_march *m, const ehl_step *step, const ehl_insta
                         film);
 }
 
+/*
+ * Moves the flanks of the last film on at the speed that they had. Where the slope of the load
+ * breaks, this speed goes on, since load and film do; flanks that part drive the end of the film
+ * back by it. From flanks at rest that end is sought among nodes which only the wedge would fill,
+ * and with the pressures cut off there goes the balance of the load.
+ */
+static int move_on_last_film(ehl_march *m, const ehl_step *step, const ehl_instant *at)
+{
+    const ehl_state *s = m->state;
+    if (m->known < 2 || !step->loaded || !s[0].loaded || !s[1].loaded)
+        return 0;
+    repeat_last_film(m, step, at);
+    m->trial.film.h00 +=
+        (at->time - s[0].time) * (s[0].film.h00 - s[1].film.h00) / (s[0].time - s[1].time);
+    return 1;
+}
+
 static ff_status solve_with_positive_gap(ehl_march *m, const ehl_step *step, const ehl_instant *at,
                                          int limit)
 {
@@ -321,6 +338,8 @@ ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at)
             limit = EHL_LIMIT_START;
         status = solve_with_positive_gap(m, step, at, plain ? EHL_LIMIT_PLAIN : limit);
     }
+    if (status == FF_NOCONV && !m->rough && move_on_last_film(m, step, at))
+        status = solve_with_positive_gap(m, step, at, EHL_LIMIT_PLAIN);
     if (status == FF_NOCONV && step->loaded && !m->rough)
         status = continue_in_load(m, step, at);
     return status;

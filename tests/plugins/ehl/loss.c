@@ -144,6 +144,60 @@ static void test_jump(void)
     line_close(&c);
 }
 
+enum { PARTING = 11 };
+
+/* The end of a slow and light tooth contact, 10 rpm and 1 N m. */
+static ff_status part(line *c, const char *tolerance)
+{
+    static const double load[PARTING] = {578, 578, 563, 516, 420, 194, 26, 8.94, 1.344, 0, 0};
+    line_open(c, model);
+    line_oil(c, "viscosity/roelands", 59.07e-3, 18e-9);
+    line_last(c, PARTING, 0);
+    for (size_t i = 0; i < PARTING; i++) {
+        c->time[i] = i > 0 ? 10e-3 + (double)i * 0.1026e-3 : 0;
+        c->radius[i] = 15.2e-3;
+        c->u1[i] = 25.6e-3;
+        c->u2[i] = 14.5e-3;
+        c->load[i] = load[i];
+    }
+    stage_set_text(c->film, "steps", "auto");
+    stage_set_text(c->film, "time_tolerance", tolerance);
+    return line_run(c, "h_min time x film pressure");
+}
+
+/* Largest departure of h_min from that of finer steps, relative, until the load is gone. */
+static double off_finer(const line *c, const line *fine)
+{
+    double off = 0;
+    size_t n;
+    const double *t = stage_get(c->film, "time", &n);
+    for (size_t k = 0; k < n && t[k] < c->time[PARTING - 2]; k++)
+        off = fmax(off, fabs(line_value(c, "h_min", k) / line_at(fine, "h_min", t[k]) - 1));
+    return off;
+}
+
+/* The load breaks its slope while the flanks part, at a speed that goes on through each break. */
+static void test_parting(void)
+{
+    static const char *const tolerance[] = {"5e-3", "1.25e-3", "7e-5"};
+    static line c[3];
+    int found = 1;
+    for (int k = 0; k < 3; k++) {
+        ff_status status = part(&c[k], tolerance[k]);
+        check_true(status == FF_OK ? "flanks part" : stage_why(c[k].film), status == FF_OK);
+        found &= status == FF_OK;
+    }
+    if (found) {
+        double load = 0;
+        for (size_t k = 0; line_value(&c[0], "time", k) < c[0].time[PARTING - 2]; k++)
+            load = fmax(load, balance_load(&c[0], k));
+        check_below("load while flanks part", load, 1e-8);
+        check_below("film by finer steps", off_finer(&c[1], &c[2]), off_finer(&c[0], &c[2]) / 2);
+    }
+    for (int k = 0; k < 3; k++)
+        line_close(&c[k]);
+}
+
 int main(void)
 {
     static const char *const models[] = {"ehl/finite-volume", "ehl/control-volume"};
@@ -157,6 +211,7 @@ int main(void)
         test_unloaded_start();
         test_light_load();
         test_jump();
+        test_parting();
     }
     return check_done();
 }
