@@ -37,7 +37,6 @@ static void look_at(search *s, const ff_node *node, const char *path)
     s->list[s->count++] =
         (study_toleranced){.path = memory_arena_text(s->arena, path, strlen(path)),
                            .text = node->text,
-                           .place = node->place,
                            .tolerance = tolerance};
 }
 

@@ -10,7 +10,6 @@
 typedef struct study_toleranced {
     const char *path; /* as --set takes it */
     const char *text; /* "3 mm +- 1 mm" */
-    ff_place place;
     ff_tolerance tolerance;
 } study_toleranced;
 

@@ -235,12 +235,14 @@ static bool read_paths(study_context *context, const ff_node *sets, const ff_nod
                       "\"sets\" is a list of the paths that share the value");
     if (!sets)
         v->paths[0] = v->name;
-    if (!sets && !strchr(v->name, '.'))
-        return refuse(context, at, v->name, "name a path, or say sets: [STAGE.PARAMETER, ...]",
-                      "it is no path of the pipeline");
-    for (size_t i = 0; sets && i < count; i++)
-        if (!(v->paths[i] = study_word(sets->items[i])))
+    for (size_t i = 0; i < count; i++) {
+        if (sets && !(v->paths[i] = study_word(sets->items[i])))
             return refuse(context, sets, v->name, NULL, "\"sets\" is a list of paths");
+        if (!strchr(v->paths[i], '.'))
+            return refuse(context, sets ? sets->items[i] : at, v->paths[i],
+                          "name a path, or say sets: [STAGE.PARAMETER, ...]",
+                          "it is no path of the pipeline");
+    }
     v->path_count = count;
     return true;
 }
@@ -401,6 +403,15 @@ static bool read_correlations(variates *v, study_context *context, const ff_node
                   "no inputs can have these correlations: their matrix is not positive definite");
 }
 
+static size_t count_setters(const variates *v, const char *path)
+{
+    size_t count = 0;
+    for (size_t k = 0; k < v->count; k++)
+        for (size_t i = 0; i < v->all[k].path_count; i++)
+            count += !strcmp(v->all[k].paths[i], path);
+    return count;
+}
+
 bool variates_read(variates *v, study_context *context, const ff_node *inputs,
                    const ff_node *correlations)
 {
@@ -417,12 +428,10 @@ bool variates_read(variates *v, study_context *context, const ff_node *inputs,
         v->count++;
         if (!read_variate(context, inputs->items[i], &v->all[i]))
             return false;
-        for (size_t k = 0; k < i; k++)
-            for (size_t a = 0; a < v->all[i].path_count; a++)
-                for (size_t b = 0; b < v->all[k].path_count; b++)
-                    if (!strcmp(v->all[i].paths[a], v->all[k].paths[b]))
-                        return refuse(context, inputs->items[i], v->all[i].paths[a], NULL,
-                                      "two inputs set it");
+        for (size_t a = 0; a < v->all[i].path_count; a++)
+            if (count_setters(v, v->all[i].paths[a]) > 1)
+                return refuse(context, inputs->items[i], v->all[i].paths[a], NULL,
+                              "it is set twice");
     }
     return read_correlations(v, context, correlations);
 }

@@ -240,6 +240,8 @@ study:
                 (inputs % "{samples: none.csv}", "No such file"),
                 (inputs % "{samples: /dev/zero}", "it is not a regular file"),
                 (TWO + "    samples: 999999\n", "more than 1000000 cases"),
+                ("    inputs: {w: {uniform: [1 mm, 2 mm], sets: [wave.amplitude, wave.amplitude]}}\n", "wave.amplitude: it is set twice"),
+                ("    inputs: {w: {uniform: [1 mm, 2 mm], sets: [sample, wave.amplitude]}}\n", "sample: it is no path of the pipeline"),
                 ("    inputs: {amplitude: {normal: [2 mm, 5 %]}}\n", "it is no path of the pipeline"),
                 (TWO + "    correlations: [[wave.amplitude, wave.total, 0.5]]\n", 'there is no input "wave.total"'),
                 (TWO + "    correlations: [[wave.amplitude, other.amplitude, 1]]\n", "a number between -1 and 1"),
