@@ -67,7 +67,7 @@ The sentence that ends a study of [uncertain inputs](../guide.md#what-limits-me)
 - *inputs*: plain samples of the whole case, drawn by another seed than the study's. Numbers behind ± are their standard errors.
 
 ```sh
-python3 docs/validation/uncertainty.py build/flankfilm . DIRECTORY 1700 > docs/validation/uncertainty.md
+python3 docs/validation/uncertainty.py build/flankfilm . DIRECTORY SAMPLES > docs/validation/uncertainty.md
 ```
 
 It goes on where it was broken off. A bar of grids *holds* where it is not below the change; one of a model where it is that on the finer cells
@@ -77,13 +77,13 @@ The brute force of a share is a range, from what straight lines explain: T_i >= 
 DIFFERS = """
 ## What differs
 
-At 32c6103b, 1700 samples: all lines hold but three, shares of torque and speed. Shares are those of the cheap level (`film.use:
+At 32c6103b (the end of the sentence at ae63269), SAMPLES samples: all lines hold but three, shares of torque and speed. Shares are those of the cheap level (`film.use:
 ehl/inlet-analysis` on 30 points of the mesh), which vibrates otherwise than the file's model: the roots of the two may differ by
 sqrt(1 - r^2), 0.08 of pair and 0.26 of own ([theory](../theory.md#15-uncertain-inputs)). The input that the sentence names has the largest share in all three.
 
 The bar of the inputs is known from the 16 samples of the pilot alone, since the mean needs no more, and is 9 to 14 % too small here, within its
-interval. Of own it stands just below the bar of the model, 9 and 9.6 %, and so the sentence ends with the model; by 1700 samples it is
-10.3 %. Where two bars are that near, read the interval of the standard deviation, or ask for `aim: distribution`.
+interval. Of pair and own that interval holds the bar of the model, 9.9 and 9.6 %, and so the sentence does not choose; by SAMPLES samples the
+inputs are the larger, 11 and 10.3 %.
 
 Bars of grids are 3 to 9 times what grids doubled twice move: they are bounds."""
 
@@ -219,7 +219,7 @@ def main():
     count = int(sys.argv[4]) if len(sys.argv) > 4 else 10000
     configs = f"{source}/configs"
     os.makedirs(directory, exist_ok=True)
-    print(INTRODUCTION)
+    print(INTRODUCTION.replace("SAMPLES", str(count)))
     for name, title, pipeline, inputs, condition, models, film, rest, level in GEARS:
         gear = Gear(program, configs, directory, name, pipeline, inputs, condition)
         said = gear.said(models, level, f"{configs}/{pipeline}" if pipeline.startswith("studies/") else None)
@@ -235,7 +235,7 @@ def main():
         judge_models(limits, changes, few)
         judge_inputs(said["outputs"][OUTPUT], said["conditions"], limits, columns, y)
         sys.stdout.flush()
-    print(DIFFERS)
+    print(DIFFERS.replace("SAMPLES", str(count)))
 
 
 if __name__ == "__main__":
