@@ -238,12 +238,13 @@ static json_t *describe_compared(const cli_session *session, const cli_options *
     size_t index;
     for (size_t i = 0; (name = study_compared(session->study, i, &index)); i++) {
         ff_report *tried = ff_report_new();
-        cli_session_try(session, options, index, tried);
+        ff_tree *tree = cli_session_try(session, options, index, tried);
         char *fault = ff_report_errors(tried) ? study_first_error(tried) : NULL;
         json_array_append_new(list, json_pack("{s:s, s:o, s:o}", "model", name, "settings",
                                               settings_of(session->study, index), "fault",
                                               results_json_text(fault)));
         free(fault);
+        ff_tree_free(tree);
         ff_report_free(tried);
     }
     return list;

@@ -56,13 +56,13 @@ static void copy_messages(cli_session *session, const ff_report *captured, ff_se
     }
 }
 
-void cli_session_try(const cli_session *session, const cli_options *options, size_t index,
-                     ff_report *report)
+ff_tree *cli_session_try(const cli_session *session, const cli_options *options, size_t index,
+                         ff_report *report)
 {
     ff_tree *tree = ff_tree_load(options->operand, report);
     study_overlay(session->study, index, options->sets, options->set_count, tree, report);
     ff_pipeline_free(accuracy_build(tree, session->engine, true, report));
-    ff_tree_free(tree);
+    return tree;
 }
 
 /* Adds the messages of that severity of a case to the report. */
@@ -70,8 +70,9 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
                      ff_severity severity)
 {
     ff_report *captured = ff_report_new();
-    cli_session_try(session, options, index, captured);
+    ff_tree *tree = cli_session_try(session, options, index, captured);
     copy_messages(session, captured, severity);
+    ff_tree_free(tree);
     ff_report_free(captured);
 }
 

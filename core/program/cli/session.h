@@ -23,9 +23,10 @@ ff_engine *cli_engine_new(const cli_options *options);
 /* Loads the file, applies --set and builds the pipeline. False with errors in the report. */
 bool cli_session_open(cli_session *session, const cli_options *options, bool everything);
 void cli_session_close(cli_session *session);
-/* Builds a case of the study, which leaves its errors in the report. */
-void cli_session_try(const cli_session *session, const cli_options *options, size_t index,
-                     ff_report *report);
+/* Builds a case of the study, which leaves its errors in the report. Their places are in the tree
+   that is returned and is the caller's. */
+ff_tree *cli_session_try(const cli_session *session, const cli_options *options, size_t index,
+                         ff_report *report);
 
 /* Where the results of a run are: -o, or results/<name of the file without its ending>, with what
    --set says behind it, so that a variant stands beside what it varies. Freed by the caller. */
