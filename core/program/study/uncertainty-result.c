@@ -10,7 +10,8 @@
 
 enum { MOST_BINS = 24 };
 
-json_t *study_uncertainty_estimate(estimate e)
+/* {value, low, high, error} */
+static json_t *describe(estimate e)
 {
     json_t *json = json_pack("{s:o, s:o, s:o}", "value", study_json_real(e.value), "low",
                              study_json_real(e.low), "high", study_json_real(e.high));
@@ -86,9 +87,9 @@ static json_t *shares_of(const study_uncertainty *u, size_t output)
         values[i] = study_uncertainty_value(u, u->first_sensitivity + i, output);
     estimate_sobol(values, values + n, values + 2 * n, n, groups, u->seed, first, total);
     for (size_t g = 0; g < groups; g++)
-        json_object_set_new(shares, name_of_group(u, g),
-                            json_pack("{s:o, s:o}", "first", study_uncertainty_estimate(first[g]),
-                                      "total", study_uncertainty_estimate(total[g])));
+        json_object_set_new(
+            shares, name_of_group(u, g),
+            json_pack("{s:o, s:o}", "first", describe(first[g]), "total", describe(total[g])));
     free(values);
     return shares;
 }
@@ -132,13 +133,35 @@ static const char *unit_of(const study_uncertainty *u, size_t output)
     return unit;
 }
 
+/* A list of {input, word, samples, mean, deviation}. */
+static json_t *words_of(const study_uncertainty *u, const estimate_samples *s)
+{
+    json_t *all = json_array();
+    for (size_t k = 0; k < u->inputs.count; k++) {
+        const variate *v = &u->inputs.all[k];
+        const char *words[UNCERTAINTY_MOST_WORDS];
+        size_t count = v->words ? study_uncertainty_words(v, words) : 0;
+        for (size_t i = 0; count > 1 && i < count; i++) {
+            estimate_samples own;
+            size_t left = study_uncertainty_of_word(u, s, k, words[i], &own);
+            if (left)
+                json_array_append_new(all,
+                                      json_pack("{s:s, s:s, s:I, s:o, s:o}", "input", v->name,
+                                                "word", words[i], "samples", (json_int_t)left,
+                                                "mean", describe(estimate_mean(&own)), "deviation",
+                                                describe(estimate_deviation(&own))));
+        }
+    }
+    return all;
+}
+
 static json_t *output_of(const study_uncertainty *u, size_t output)
 {
     estimate_samples s = samples_of(u, output);
     json_t *percentiles = json_array();
     size_t failed = 0;
     for (size_t i = 0; i < u->share_count; i++) {
-        json_t *one = study_uncertainty_estimate(estimate_percentile(&s, u->shares[i]));
+        json_t *one = describe(estimate_percentile(&s, u->shares[i]));
         json_object_set_new(one, "share", json_real(u->shares[i]));
         json_array_append_new(percentiles, one);
     }
@@ -148,12 +171,12 @@ static json_t *output_of(const study_uncertainty *u, size_t output)
                 failed++;
                 break;
             }
-    json_t *of = json_pack("{s:s, s:o, s:o, s:o, s:o, s:I, s:o}", "unit", unit_of(u, output),
-                           "mean", study_uncertainty_estimate(estimate_mean(&s)), "deviation",
-                           study_uncertainty_estimate(estimate_deviation(&s)), "percentiles",
-                           percentiles, "histogram", histogram_of(&s), "failed", (json_int_t)failed,
-                           "correlations", correlations_of(u, output));
-    json_object_set_new(of, "words", study_uncertainty_words(u, &s));
+    json_t *of =
+        json_pack("{s:s, s:o, s:o, s:o, s:o, s:I, s:o}", "unit", unit_of(u, output), "mean",
+                  describe(estimate_mean(&s)), "deviation", describe(estimate_deviation(&s)),
+                  "percentiles", percentiles, "histogram", histogram_of(&s), "failed",
+                  (json_int_t)failed, "correlations", correlations_of(u, output));
+    json_object_set_new(of, "words", words_of(u, &s));
     if (u->sensitivity)
         json_object_set_new(of, "shares", shares_of(u, output));
     json_object_set_new(of, "limits", study_uncertainty_limits(u, output, of));
@@ -176,7 +199,7 @@ static json_t *conditions_of(const study_uncertainty *u, const json_t *outputs)
         estimate e = estimate_probability(&s, c->above ? limit : nextafter(limit, -INFINITY));
         if (c->above)
             e = (estimate){1 - e.value, 1 - e.high, 1 - e.low, e.error};
-        json_object_set_new(all, c->text, study_uncertainty_estimate(e));
+        json_object_set_new(all, c->text, describe(e));
     }
     return all;
 }

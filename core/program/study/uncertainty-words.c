@@ -5,13 +5,10 @@
 #include <math.h>
 #include <string.h>
 
-enum {
-    MOST_WORDS = 8,
-    LEAST = 3 /* samples that each count of levels needs for a mean with its spread */
-};
+/* Samples that each count of levels needs for a mean with its spread. */
+enum { LEAST = 3 };
 
-/* Lists the words of an input; returns 0 where there are more than MOST_WORDS. */
-static size_t list_words(const variate *v, const char *words[MOST_WORDS])
+size_t study_uncertainty_words(const variate *v, const char *words[UNCERTAINTY_MOST_WORDS])
 {
     size_t count = 0;
     for (size_t i = 0; i < v->sample_count; i++) {
@@ -20,18 +17,17 @@ static size_t list_words(const variate *v, const char *words[MOST_WORDS])
             k++;
         if (k < count)
             continue;
-        if (count == MOST_WORDS)
+        if (count == UNCERTAINTY_MOST_WORDS)
             return 0;
         words[count++] = v->samples[i];
     }
     return count;
 }
 
-/* Leaves out all samples in which the input is another word; *left: how many of the file's model
-   stay. Where the counts of levels leave too few, level 0 stands alone. */
-static estimate_samples only_word(const study_uncertainty *u, estimate_samples s, size_t input,
-                                  const char *word, size_t *left)
+size_t study_uncertainty_of_word(const study_uncertainty *u, const estimate_samples *all,
+                                 size_t input, const char *word, estimate_samples *own)
 {
+    estimate_samples s = *all;
     size_t good[ESTIMATE_MOST_LEVELS] = {0}, levels = s.levels;
     double *values[ESTIMATE_MOST_LEVELS];
     for (size_t k = 0; k < s.levels; k++) {
@@ -53,29 +49,8 @@ static estimate_samples only_word(const study_uncertainty *u, estimate_samples s
     }
     for (size_t block = 0; block < s.levels; block++)
         levels = good[block] < LEAST ? 1 : levels;
-    *left = good[0];
     s.levels = levels;
     s.inputs = 0;
-    return s;
-}
-
-json_t *study_uncertainty_words(const study_uncertainty *u, const estimate_samples *s)
-{
-    json_t *all = json_array();
-    for (size_t k = 0; k < u->inputs.count; k++) {
-        const char *words[MOST_WORDS];
-        size_t count = u->inputs.all[k].words ? list_words(&u->inputs.all[k], words) : 0;
-        for (size_t i = 0; count > 1 && i < count; i++) {
-            size_t left;
-            estimate_samples own = only_word(u, *s, k, words[i], &left);
-            if (left < LEAST)
-                continue;
-            json_array_append_new(
-                all, json_pack("{s:s, s:s, s:I, s:o, s:o}", "input", u->inputs.all[k].name, "word",
-                               words[i], "samples", (json_int_t)left, "mean",
-                               study_uncertainty_estimate(estimate_mean(&own)), "deviation",
-                               study_uncertainty_estimate(estimate_deviation(&own))));
-        }
-    }
-    return all;
+    *own = s;
+    return good[0] < LEAST ? 0 : good[0];
 }

@@ -92,13 +92,17 @@ bool study_uncertainty_run(study_uncertainty *u);
 void study_uncertainty_check(const study_uncertainty *u, const ff_pipeline *pipeline,
                              ff_report *report);
 
-/* uncertainty-result.c: returns the whole result; {value, low, high, error}. */
+/* uncertainty-result.c: returns the whole result. */
 json_t *study_uncertainty_result(const study_uncertainty *u);
-json_t *study_uncertainty_estimate(estimate e);
 
-/* uncertainty-words.c: returns a list of {input, word, samples, mean, deviation}, of the samples
-   in which an input of words is that word. */
-json_t *study_uncertainty_words(const study_uncertainty *u, const estimate_samples *s);
+/* uncertainty-words.c: lists the words of an input; returns 0 where it has more than these. */
+enum { UNCERTAINTY_MOST_WORDS = 8 };
+size_t study_uncertainty_words(const variate *v, const char *words[UNCERTAINTY_MOST_WORDS]);
+/* Sets *own to the samples in which the input is that word, of level 0 alone where the counts of
+   levels leave too few. Returns how many of the file's model stay, 0 where they are too few for a
+   mean with its spread. */
+size_t study_uncertainty_of_word(const study_uncertainty *u, const estimate_samples *all,
+                                 size_t input, const char *word, estimate_samples *own);
 
 /* uncertainty-limits.c: returns what limits an output: {value, numerical, models, input, sentence};
    `of` is its result, which has the shares of the inputs where they are known. */
