@@ -18,7 +18,7 @@
 enum { CHECKS = 3 * (14 + 5 + 2), RISK = 100 };
 static const double risk = 1.0 / RISK / CHECKS;
 
-enum { REPEATS = 200, LEVELS = 3, PILOT = 60, PLAIN = 400, ROOM = 200000, SOBOL = 256 };
+enum { LEVELS = 3, PILOT = 60, PLAIN = 400, ROOM = 200000, SOBOL = 256 };
 
 static int failures;
 
@@ -110,13 +110,14 @@ static void draw(gsl_rng *rng, const problem *p, size_t from, size_t to, double 
 typedef struct tally {
     const char *what;
     double truth, sum, squares, fourths; /* sums over the repeats; powers of what it is off by */
-    size_t held;
+    size_t repeats, held;
 } tally;
 
 /* The inputs explain all of the linear problem, whose intervals are as narrow as rounding. */
 static void count(tally *t, estimate e)
 {
     static const double rounding = 1e-13;
+    t->repeats++;
     t->held += e.low - rounding <= t->truth && t->truth <= e.high + rounding;
     t->sum += e.value;
     t->squares += pow(e.value - t->truth, 2);
@@ -124,10 +125,10 @@ static void count(tally *t, estimate e)
 }
 
 /* The number of repeats that intervals of 95 % hold in at least, or at most. */
-static double held_bound(bool most)
+static double held_bound(bool most, size_t repeats)
 {
     unsigned k = 0;
-    while (gsl_cdf_binomial_P(k, 0.95, REPEATS) < (most ? 1 - risk / 2 : risk / 2))
+    while (gsl_cdf_binomial_P(k, 0.95, (unsigned)repeats) < (most ? 1 - risk / 2 : risk / 2))
         k++;
     return k;
 }
@@ -136,14 +137,16 @@ static double held_bound(bool most)
 static void judge(const char *name, const char *how, const tally *t, bool unbiased)
 {
     char what[200];
-    double z = gsl_cdf_ugaussian_Qinv(risk / 2), off = t->sum / REPEATS - t->truth;
-    double error = sqrt(t->squares / REPEATS - off * off) / sqrt(REPEATS);
+    double z = gsl_cdf_ugaussian_Qinv(risk / 2), repeats = (double)t->repeats;
+    double off = t->sum / repeats - t->truth;
+    double error = sqrt(t->squares / repeats - off * off) / sqrt(repeats);
+    double least = held_bound(false, t->repeats), most = held_bound(true, t->repeats);
     printf("%-8s %-8s %-12s held %5.1f %%, off by %5.2f standard errors, rms %.3g\n", name, how,
-           t->what, 100. * (double)t->held / REPEATS, off / error, sqrt(t->squares / REPEATS));
+           t->what, 100. * (double)t->held / repeats, off / error, sqrt(t->squares / repeats));
     snprintf(what, sizeof what, "%s, %s: intervals of the %s that hold", name, how, t->what);
-    bool exact = t->squares / REPEATS < 1e-24;
-    check((double)t->held >= held_bound(false) && (exact || (double)t->held <= held_bound(true)),
-          what, (double)t->held, held_bound(false), held_bound(true));
+    bool exact = t->squares / repeats < 1e-24;
+    check((double)t->held >= least && (exact || (double)t->held <= most), what, (double)t->held,
+          least, most);
     snprintf(what, sizeof what, "%s, %s: mean of the %s in its standard errors", name, how,
              t->what);
     check(!unbiased || fabs(off) <= z * error, what, off / error, -z, z);
@@ -167,8 +170,9 @@ static double expected_variance(const problem *p)
 /* Whether the standard error of the mean of a ladder is that of the plain samples. */
 static void judge_error(const problem *p, const char *how, const tally *t, double spent)
 {
-    double plain = p->deviation * p->deviation / PLAIN, square = t->squares / REPEATS;
-    double error = sqrt((t->fourths / REPEATS - square * square) / REPEATS);
+    double plain = p->deviation * p->deviation / PLAIN, repeats = (double)t->repeats;
+    double square = t->squares / repeats;
+    double error = sqrt((t->fourths / repeats - square * square) / repeats);
     double most = expected_variance(p) + gsl_cdf_ugaussian_Qinv(risk) * error / plain;
     printf("%-8s %-8s variance over that of %d plain samples %.3f at the cost of %.0f\n", p->name,
            how, PLAIN, square / plain, spent);
@@ -176,7 +180,7 @@ static void judge_error(const problem *p, const char *how, const tally *t, doubl
           most);
 }
 
-static void repeat(const problem *p, bool ladder, estimate_aim aim, gsl_rng *rng,
+static void repeat(const problem *p, int repeats, bool ladder, estimate_aim aim, gsl_rng *rng,
                    double *const *values, double *numbers)
 {
     static const double cost[] = {1, 0.05, 0.005};
@@ -187,7 +191,7 @@ static void repeat(const problem *p, bool ladder, estimate_aim aim, gsl_rng *rng
                  {.what = "90 %", .truth = p->p90},
                  {.what = "probability", .truth = p->probability}};
     double spent = 0;
-    for (int r = 0; r < REPEATS; r++) {
+    for (int r = 0; r < repeats; r++) {
         estimate_samples s = {.levels = 1, .count = {PLAIN}, .values = {values[0]}};
         size_t drawn = ladder ? PILOT : 0;
         draw(rng, p, 0, drawn, values, numbers);
@@ -203,7 +207,7 @@ static void repeat(const problem *p, bool ladder, estimate_aim aim, gsl_rng *rng
                 s.count[k] = plan.count[k];
                 s.values[k] = values[plan.level[k]];
             }
-            spent += plan.cost / REPEATS;
+            spent += plan.cost / repeats;
         }
         s.inputs = aim == ESTIMATE_MEAN ? 2 : 0;
         s.numbers = numbers;
@@ -220,11 +224,11 @@ static void repeat(const problem *p, bool ladder, estimate_aim aim, gsl_rng *rng
         judge_error(p, how, &t[0], spent);
 }
 
-static void repeat_sobol(const problem *p, gsl_rng *rng)
+static void repeat_sobol(const problem *p, int repeats, gsl_rng *rng)
 {
     tally first = {.what = "first index", .truth = p->first};
     tally total = {.what = "total index", .truth = p->total};
-    for (int r = 0; r < REPEATS; r++) {
+    for (int r = 0; r < repeats; r++) {
         double a[SOBOL], b[SOBOL], c[2 * SOBOL];
         estimate s[2], t[2];
         for (size_t i = 0; i < SOBOL; i++) {
@@ -263,8 +267,10 @@ static void test_two(void)
     check(!(e.low > 0) && isinf(e.high), "deviation of two samples", e.low, 0, 0);
 }
 
-int main(void)
+/* The argument is the number of repeats: 200. */
+int main(int argc, char **argv)
 {
+    int repeats = argc > 1 ? atoi(argv[1]) : 200;
     test_one_left();
     test_two();
     problem problems[] = {
@@ -298,10 +304,10 @@ int main(void)
     p->first = 1 - 0.25 / (p->deviation * p->deviation);
     p->total = p->first;
     for (size_t i = 0; i < sizeof problems / sizeof *problems; i++) {
-        repeat(&problems[i], false, ESTIMATE_MEAN, rng, values, numbers);
-        repeat(&problems[i], true, ESTIMATE_MEAN, rng, values, numbers);
-        repeat(&problems[i], true, ESTIMATE_DISTRIBUTION, rng, values, numbers);
-        repeat_sobol(&problems[i], rng);
+        repeat(&problems[i], repeats, false, ESTIMATE_MEAN, rng, values, numbers);
+        repeat(&problems[i], repeats, true, ESTIMATE_MEAN, rng, values, numbers);
+        repeat(&problems[i], repeats, true, ESTIMATE_DISTRIBUTION, rng, values, numbers);
+        repeat_sobol(&problems[i], repeats, rng);
     }
     for (int k = 0; k < LEVELS; k++)
         free(values[k]);
