@@ -226,8 +226,10 @@ static ff_status look_for_steady(ehl_march *m, const ehl_step *step, const ehl_i
     return status;
 }
 
-/* Finds the steady film in the trial. Where there is none with heat, whether heat is why is told by
-   whether there is one without. */
+/* Finds the steady film in the trial. Where there is none with heat from the guess, the film
+   without heat is looked for, which tells whether heat is why, and the one with heat from there:
+   settling with heat takes the temperatures through decades of viscosity, and where it ends is
+   chance. */
 static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     ff_status status = look_for_steady(m, step, at), cold;
@@ -238,7 +240,7 @@ static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_insta
     cold = look_for_steady(m, step, at);
     m->thermal->without = 0;
     m->thermal->cold_fails = cold == FF_NOCONV;
-    return cold == FF_OK ? status : cold;
+    return cold == FF_OK ? solve_from_trial(m, step, at) : cold;
 }
 
 /* Fills the gap with oil without pressure, as it is at rest. */

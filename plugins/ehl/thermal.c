@@ -13,9 +13,13 @@
 static const double LEAST_FACTOR = 1e-3;
 
 /* Solutions for the film of one instant, sweeps after each, and those of them that take the whole
-   change: a sweep that hesitates alternates between two states, and half of it lies between. */
-enum { MOST_ROUNDS = 80, MOST_PASSES = 8, WHOLE_PASSES = 3, FACTORS = 3 };
-static const double SHARE_THAT_HESITATES = 0.5;
+   change: a sweep that hesitates alternates between two states, and half of it lies between. Along
+   the nodes of rough flanks the oil of one flank flows against that of the other, and in a thin
+   film whole sweeps may go away from its temperatures: after a round that did not end by itself,
+   all sweeps of this instant take half of what they took. Where factors have settled, rounds of
+   temperatures that do not are alike. */
+enum { MOST_ROUNDS = 80, MOST_PASSES = 8, WHOLE_PASSES = 3, MOST_IDLE = 6, FACTORS = 3 };
+static const double SHARE_THAT_HESITATES = 0.5, LEAST_SWEEP = 0.125;
 
 /* Change of the flow of mass by the factors, relative, below which they are those of the film: it
    changes h by about as much. A steady film begins without heat, a step next to its solution. A
@@ -376,7 +380,7 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
     const double part = tightness(m);
     const double in_time = m->rough ? SETTLED_ROUGH : SETTLED;
     const double settled = part * (c[0] > 0 ? in_time : SETTLED_STEADY);
-    const double warm = part * (c[0] > 0 ? WARM : WARM_STEADY);
+    const double warm = part * t->share * (c[0] > 0 ? WARM : WARM_STEADY);
     ehl_reynolds_evaluate(r, step, film);
     ehl_energy_film f = film_of(m, step, film, c);
     ehl_temperature temperature = ehl_thermal_state(t, m->trial.heat);
@@ -388,9 +392,12 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
     do {
         ehl_energy_flow(&t->energy, &f, temperature.T);
         t->energy.keep = passes == 0 && c[0] > 0 && !m->rough ? KEPT * sqrt(part) : 0;
-        t->energy.share = passes >= WHOLE_PASSES ? SHARE_THAT_HESITATES : 1;
+        t->energy.share = passes < WHOLE_PASSES ? t->share : fmin(t->share, SHARE_THAT_HESITATES);
         ehl_energy_sweep(&t->energy, &f, &temperature);
     } while (++passes < most && t->energy.change > warm);
+    const int hesitates = c[0] > 0 && passes == MOST_PASSES && t->energy.change > warm;
+    if (hesitates)
+        t->share = fmax(SHARE_THAT_HESITATES * t->share, LEAST_SWEEP);
     double before = t->off;
     t->off = find_factors(t, r, &f, film, factors_of(t, m->trial.heat));
     t->damping = t->off > SHRINKING * before ? fmax(LEAST_SHARE, 0.7 * t->damping)
@@ -399,6 +406,7 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
         accelerate(t, f.count, factors_of(t, m->trial.heat));
         t->damping = MIXED;
     }
+    t->idle = hesitates && t->off <= settled ? t->idle + 1 : 0;
     return t->off <= settled && t->energy.change <= warm;
 }
 
@@ -413,7 +421,8 @@ ff_status ehl_thermal_solve(ehl_march *m, const ehl_step *step, ehl_film *film, 
         predict(m, time, c);
     t->solved++;
     t->off = HUGE_VAL;
-    t->damping = 1;
+    t->damping = t->share = 1;
+    t->idle = 0;
     ehl_anderson_begin(&t->anderson);
     t->energy.reach = REACH * sqrt(tightness(m));
     const int on_the_way = m->known == 0 && step->past; /* to a steady film (start.c) */
@@ -425,6 +434,8 @@ ff_status ehl_thermal_solve(ehl_march *m, const ehl_step *step, ehl_film *film, 
         t->rounds++;
         if (update(m, step, film, c, on_the_way ? 2 : MOST_PASSES))
             return FF_OK;
+        if (t->idle > MOST_IDLE)
+            return FF_NOCONV;
     }
     return on_the_way ? FF_OK : FF_NOCONV;
 }

@@ -35,6 +35,8 @@ typedef struct ehl_thermal {
     double rounds, solved;        /* counts: solutions for a film, and instants */
     double off;                   /* of the last round: what the factors were off */
     double damping;               /* share of their change that is taken */
+    double share;                 /* of the change of temperatures that sweeps take */
+    int idle;                     /* rounds since factors settled, of temperatures that did not */
     int round;                    /* solutions for the film of this instant */
     ehl_anderson anderson;        /* of the factors of a steady film */
     double *now, *change;         /* of them, as they are accelerated */

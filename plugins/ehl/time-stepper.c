@@ -312,7 +312,10 @@ static ff_status continue_in_load(ehl_march *m, const ehl_step *step, const ehl_
             ehl_copy_film(kept, film, g->nodes);
         } else {
             ehl_copy_film(film, kept, g->nodes);
-            ratio = sqrt(ratio);
+            do /* the same from the same film would fail again */
+                ratio = sqrt(ratio);
+            while (last && fabs(ratio - 1) > 1e-3 &&
+                   (ratio > 1 ? reached * ratio >= step->load : reached * ratio <= step->load));
         }
     }
     return FF_NOCONV;
