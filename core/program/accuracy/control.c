@@ -259,11 +259,12 @@ static bool is_in_reach(const control *c, size_t error)
     return order > 0 && log2(e->relative / goal_of(c, e)) / order <= c->level - finest;
 }
 
-/* Chooses the settings of the next attempt; false: this one is the answer. */
+/* Chooses the settings of the next attempt; false: this one is the answer. Where no error is told,
+   as of outputs that turn out to be fields, that is one by the presets. */
 static bool go_on(control *c)
 {
     const accuracy_record *record = &c->best->record;
-    bool missed = !c->best->run.good || c->best->doubtful, reached = false;
+    bool missed = !c->best->run.good || c->best->doubtful || record->count == 0, reached = false;
     for (size_t i = 0; i < record->count; i++)
         if (is_missed(c, &record->errors[i])) {
             missed = true;

@@ -472,7 +472,8 @@ bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *e
                      .scene = {.tree = tree, .engine = engine, .start = pipeline, .watch = watch}};
     list_outputs(&m);
     list_knobs(&m);
-    run_ladder(&m, !known);
+    if (record->count > 0)
+        run_ladder(&m, !known);
     if (!m.stopped)
         conclude(&m);
     for (size_t i = 0; i < m.count; i++)

@@ -326,6 +326,9 @@ static void print_errors(paper *page, const results_outcome *outcome)
         start_line(page);
         printf("  %-*s  %-*s%s\n", width, "output", asked ? ERROR : 0, "error",
                asked ? "asked" : "");
+    } else if (asked) {
+        start_line(page);
+        puts("  no error is told: no output is a scalar or a series of finite numbers");
     }
     for (size_t i = 0; i < errors->count; i++)
         if (errors->errors[i].relative != 0) /* else no setting changes it */

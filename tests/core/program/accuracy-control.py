@@ -53,6 +53,12 @@ class Control(lab.Lab):
         self.assertNotIn("twin", said)
         self.assertIsNone(self.read("field/result.json")["accuracy"])
 
+    def test_a_series_that_turns_out_to_be_a_field_is_no_coarser_than_by_preset(self):
+        answer = self.ask(text=FILE.replace("last.value, last.wave", "last.pairs"))
+        self.assertEqual(answer["accuracy"]["twins"], 0)
+        self.assertIsNone(answer["accuracy"]["failure"])
+        self.assertGreaterEqual(int(answer["accuracy"]["settings"]["last.cells"]), 64)
+
     def test_what_was_chosen_gives_the_same_bits(self):
         answer = self.ask()
         sets = [f"{path}={value}" for path, value in answer["accuracy"]["settings"].items()]

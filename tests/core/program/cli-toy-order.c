@@ -41,6 +41,7 @@ static const ff_port outputs[] = {
     {.name = "value", .unit = "m", .dims = "", .doc = "1 m, and what the stage before gives"},
     {.name = "time", .unit = "s", .dims = "t", .doc = "0 to 1 s"},
     {.name = "wave", .unit = "m", .dims = "t", .doc = "2 + sin(2 pi t), times the value"},
+    {.name = "pairs", .unit = "m", .dims = "pair? t", .doc = "the value, of two pairs of points"},
 };
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
@@ -62,6 +63,12 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
             time[i] = points > 1 ? (double)i / (double)(points - 1) : 0;
             wave[i] = value * (2 + sin(6.283185307179586 * time[i]));
         }
+    }
+    if (wanted & FF_BIT(3)) {
+        const size_t shape[] = {2, 2};
+        double *pairs = o->host->output(o->host->ctx, 3, 2, shape);
+        for (size_t i = 0; pairs && i < 4; i++)
+            pairs[i] = value;
     }
     o->host->quality(o->host->ctx, "value_guess_error", 0.9, 0.1, FF_DOUBTFUL, "a guess");
     o->host->quality(o->host->ctx, "balance", (double)o->sure / (double)o->cells, 1,
