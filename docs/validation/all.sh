@@ -50,7 +50,7 @@ TEXT
     cat "$work/rows"
     cat <<'TEXT'
 
-Not written by these, since they take 45 and 20 minutes: [do the error bars hold?](error-bars.md) and
+Not written by these, since they take 30 and 20 minutes: [do the error bars hold?](error-bars.md) and
 [what limits me, against brute force](uncertainty.md), [campaigns](../campaigns.md).
 
 [What was once wrong without a word](rows.md), row by row, before and now, is a [campaign](../campaigns.md) as well.
