@@ -80,6 +80,8 @@ static const char *object_to(trial *t, size_t stage, const accuracy_twin *next, 
         return keep(t, memory_print_text("%s", accuracy_twin_reason(next)));
     if (doubt)
         return keep(t, memory_print_text("%s of it is doubtful", doubt));
+    if (t->measured->count == 0)
+        return "no output can be compared";
     for (size_t i = 0; i < t->measured->count; i++) {
         const accuracy_error *e = &t->measured->errors[i];
         double moved = distance(t, e, next->pipeline), most = share_of_models * e->goal;

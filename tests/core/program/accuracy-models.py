@@ -48,6 +48,12 @@ class Models(lab.Lab):
         self.assertGreater(bar, 0.01)
         self.assertAlmostEqual(value, 2.01, delta=2 * error["relative"])
 
+    def test_no_model_is_taken_where_nothing_is_compared(self):
+        """A series that turns out to be a field has no error."""
+        answer = self.ask(text=FILE.replace("last.value, first.wave", "last.pairs"))
+        self.assertEqual(self.used(answer, "first"), "toy/order")
+        self.assertIn("no output can be compared", self.tried(answer)["first", "toy/guess"]["reason"])
+
     def test_the_answer_that_follows_holds_its_bar(self):
         """Whatever is taken, the truth is 2."""
         for goal in (0.5, 2, 4, 20):
