@@ -130,7 +130,8 @@ machine at the beginning and at the end: $load and $(cut -d' ' -f1 /proc/loadavg
 
 Cost is the processor time of the stages that the candidates change, the median of the repeats;
 *spread* is from the least to the most. *Error* is the largest relative difference from the reference
-along the mesh cycle, **bold** on the front: nothing cheaper is as good. *Claimed* is what the model
+along the mesh cycle, **bold** on the front: nothing cheaper is as good; the front of what crosses
+zero, as friction does at the pitch point, is that of the rms error. *Claimed* is what the model
 says of its own error; (!) marks a claim below a third of the error, (+) one above ten times. How to
 measure a trade-off of your own stands in the [guide](guide.md#speed-against-accuracy).
 
