@@ -81,9 +81,9 @@ At 32c6103b (the end of the sentence at ae63269), SAMPLES samples: all lines hol
 ehl/inlet-analysis` on 30 points of the mesh), which vibrates otherwise than the file's model: the roots of the two may differ by
 sqrt(1 - r^2), 0.08 of pair and 0.26 of own ([theory](../theory.md#15-uncertain-inputs)). The input that the sentence names has the largest share in all three.
 
-The bar of the inputs is known from the 16 samples of the pilot alone, since the mean needs no more, and is 9 to 13 % too small here, within its
+The bar of the inputs is known from the 16 samples of the pilot alone, since the mean needs no more, and is 10 to 11 % too small here, within its
 interval. Of pair and own that interval holds the bar of the model, 9.9 and 9.6 %, and so the sentence does not choose; by SAMPLES samples the
-inputs are the larger, 10.9 and 10.1 %.
+inputs are the larger, 11.1 and 10 %.
 
 Bars of grids are 3 to 9 times what grids doubled twice move: they are bounds."""
 
