@@ -4,6 +4,7 @@
 #include "asperities.h"
 #include "heat.h"
 #include "thermal.h"
+#include "time-error.h"
 
 #include <flankfilm/author.h>
 
@@ -436,6 +437,7 @@ static void record_film(ehl_results *r, const ehl_march *m)
     r->highest = fmax(r->highest, p_max);
     double middle = m->rough ? mean_film(m) : h_central;
     ehl_results_errors(r, m, node, middle, p_max);
+    ehl_results_peak_in_time(r, m, p_max);
     if (r->roughness > 0) {
         r->row[EHL_LAMBDA_RATIO] = middle / r->roughness;
         r->least_lambda = fmin(r->least_lambda, r->row[EHL_LAMBDA_RATIO]);

@@ -49,7 +49,9 @@ typedef struct ehl_results {
     double outlet_load, worst_outlet;    /* share of the load: mean over a passage, its largest */
     /* errors of h_min and h_central, relative: by the steps, and by cells that carry the film */
     double worst_in_time[2], worst_carried[2];
-    double least_in_time, least_carried;     /* m: the lowest that h_min may be with each of them */
+    double least_in_time, least_carried; /* m: the lowest that h_min may be with each of them */
+    double worst_peak_in_time,
+        highest_in_time;                     /* p_max: relative; Pa, the highest that it may be */
     ehl_bound bound[EHL_BOUNDS], at_highest; /* at_highest: of p_max where it is highest */
     double by_cells;                         /* the last bound of h_min, relative; 0: none yet */
     double tolerance;       /* the largest of those that the films were solved to */

@@ -6,6 +6,7 @@
 #include "stage.h"
 #include "surface.h"
 #include "thermal.h"
+#include "time-error.h"
 
 #include <flankfilm/author.h>
 
@@ -314,8 +315,9 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
     }
     if (ehl_wants_h_min(r->wanted))
         report_at_most(r, "h_min_time_error",
-                       r->lowest_alone ? fmax(0, 1 - r->least_in_time / r->lowest)
-                                       : r->worst_in_time[EHL_LEAST],
+                       ehl_beyond_instants(r, EHL_H_MIN, -1) +
+                           (r->lowest_alone ? fmax(0, 1 - r->least_in_time / r->lowest)
+                                            : r->worst_in_time[EHL_LEAST]),
                        0.05, FF_DOUBTFUL,
                        r->lowest_alone
                            ? "estimate of the error of h_min_lowest by the time steps, over it; "
@@ -333,8 +335,15 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
                            : fmax(0.5, 10 * r->worst_in_time[EHL_LEAST]),
         "oil that came into the contact and left it, off the change of what is there, over it");
     if (ehl_wants_p_max(r->wanted))
-        report_at_most(r, "p_max_time_error", peak_in_time(r), 0.05, FF_DOUBTFUL,
-                       "estimate of the error of p_max by the time steps, over p_max");
+        report_at_most(r, "p_max_time_error",
+                       fmax(peak_in_time(r),
+                            ehl_beyond_instants(r, EHL_P_MAX, 1) +
+                                (r->highest_alone ? fmax(0, r->highest_in_time / r->highest - 1)
+                                                  : r->worst_peak_in_time)),
+                       0.05, FF_DOUBTFUL,
+                       r->highest_alone
+                           ? "estimate of the error of p_max_highest by the time steps, over it"
+                           : "estimate of the error of p_max by the time steps, over p_max");
     r->host->quality(r->host->ctx, "steps_cut", m->steps_cut, 0, FF_GOOD,
                      "time steps that failed and were taken again in shorter ones");
     snprintf(text, sizeof text,

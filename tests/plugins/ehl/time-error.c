@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Errors of p_max by the time steps: of a film that is off by a known pressure, of extremes that
+   lie between instants, and of whole runs against much shorter steps. */
+#include "check.h"
+#include "line.h"
+
+#include "../../../plugins/ehl/time-error.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* The pressure P T_n(x/a) (1 - x^2/a^2)^(-1/2) has no load, and deflects both half-planes by
+   4 a P/(n E') T_n: the logarithm's integral equation, T_n being Chebyshev's polynomial. */
+static void test_chebyshev(int n)
+{
+    enum { NODES = 385 };
+    const double E = 226e9, a = 1e-4, P = 1e7, dx = a / 128;
+    double h[NODES], error[NODES];
+    ehl_reynolds eq = {.nodes = NODES, .dx = dx, .first = -1.5 * a, .h = h};
+    for (size_t i = 0; i < NODES; i++) {
+        double s = (eq.first + (double)i * dx) / a;
+        h[i] = 1e-6 * (1 + s * s);
+        error[i] = 4 * a * P / (n * E) * cos(n * acos(fmin(1, fmax(-1, s)))) / h[i];
+    }
+    for (int i = 129; i < 256; i += 21) {
+        double s = (eq.first + i * dx) / a, exact = P * cos(n * acos(s)) / sqrt(1 - s * s);
+        char what[64];
+        snprintf(what, sizeof what, "T_%d at %.3f a", n, s);
+        check_below(what, fabs(ehl_pressure_of_error(&eq, error, E, a, s * a) - exact) / P, 2e-3);
+    }
+}
+
+/* Instants of a parabola, at unequal distances, and of two engagements. */
+static void test_between(double way)
+{
+    static const double time[] = {0, 0.3, 0.4, 0.9, 1.2, 0, 0.5}, top = 0.55;
+    enum { COUNT = sizeof time / sizeof time[0] };
+    double data[COUNT * EHL_SERIES] = {0}, extreme = -HUGE_VAL;
+    for (size_t k = 0; k < COUNT; k++) {
+        double *row = &data[k * EHL_SERIES], off = time[k] - top;
+        row[EHL_TIME] = time[k];
+        row[EHL_ENGAGEMENT] = k < 5 ? 0 : 1;
+        row[EHL_P_MAX] = way * (way * 3 - off * off) - (k < 5 ? 0 : way);
+        extreme = fmax(extreme, way * row[EHL_P_MAX]);
+    }
+    const ehl_results r = {.series = {.data = data, .count = COUNT, .width = EHL_SERIES}};
+    check_near("between instants", ehl_beyond_instants(&r, EHL_P_MAX, way),
+               0.15 * 0.15 / fabs(extreme), 1e-12);
+}
+
+/* The load of a pair of teeth beside another one, and alone in the middle: the film of either break
+   of the load is carried through the contact, and the pressure bears it. */
+static double run(double steps, double *said)
+{
+    static line c;
+    line_open(&c, "ehl/finite-volume");
+    line_last(&c, 9, 240e-6);
+    for (size_t i = 0; i < c.count; i++)
+        c.load[i] *= i < 3 || i > 5 ? 1 : 2;
+    stage_set(c.film, "cells", 256);
+    stage_set(c.film, "steps", steps);
+    double highest = NAN;
+    if (check_true("runs", line_run(&c, "p_max_highest") == FF_OK))
+        highest = stage_scalar(c.film, "p_max_highest");
+    *said = stage_quality(c.film, "p_max_time_error");
+    line_close(&c);
+    return highest;
+}
+
+/* A cell of a map is silent beyond three estimates. */
+static void test_runs(void)
+{
+    double none, exact = run(3200, &none);
+    for (int steps = 60; steps <= 480; steps *= 2) {
+        char what[64];
+        double said, off = fabs(run(steps, &said) / exact - 1);
+        snprintf(what, sizeof what, "%d steps: off by %.2g, said %.2g", steps, off, said);
+        check_true(what, off < 3 * said && said < 10 * off);
+    }
+}
+
+int main(void)
+{
+    for (int n = 1; n <= 4; n++)
+        test_chebyshev(n);
+    test_between(1);
+    test_between(-1);
+    test_runs();
+    return check_done();
+}
