@@ -201,10 +201,31 @@ static shear shear_of(ehl_results *r, const ehl_march *m)
 /* Powers per width of the flow that the pressure drives. */
 typedef struct pressure_flow {
     double dissipated, rolling, tail;
+    double squeezed; /* by the flanks far from the contact */
 } pressure_flow;
 
+/*
+ * Returns what faces in the outer half of the inlet dissipate, `power` by 2 dx, off what the
+ * entrainment of a steady film does, 12 eta0 u_r^2 (h - h_e)^2/h^3: flanks whose radius changes by
+ * R' in time squeeze x^2 R'/(2 R^2) there, whose power grows with the domain
+ * (docs/theory.md, 7.17).
+ */
+static double squeezed_far_off(const ehl_march *m, const double *power)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const double *h = eq->h, u = m->at.entrainment;
+    size_t outer = (size_t)(-eq->first / (2 * eq->dx)), centre = 2 * outer;
+    double end = m->state[0].mass[centre] / eq->oil.density, sum = 0, entrained = 0;
+    for (size_t i = 0; i < outer; i++) {
+        double gap = (h[i] + h[i + 1]) / 2, flow = u * (gap - end);
+        sum += power[i];
+        entrained += flow * flow / (gap * gap * gap);
+    }
+    return fabs(sum / (2 * eq->dx) - 12 * eq->oil.viscosity * entrained * eq->dx);
+}
+
 /* The mobility of the faces is made anew: that of the last Newton step is off by its change. */
-static pressure_flow flow_of(const ehl_march *m)
+static pressure_flow flow_of(const ehl_results *r, const ehl_march *m)
 {
     ehl_reynolds *eq = m->solver->reynolds;
     ehl_reynolds_evaluate(eq, &m->step, &m->state[0].film);
@@ -212,7 +233,8 @@ static pressure_flow flow_of(const ehl_march *m)
     double u = m->at.entrainment, dissipated = 0, work = 0, flow = 0;
     for (size_t i = 0; i < eq->last; i++) {
         double rise = p[i + 1] - p[i];
-        dissipated += eq->mean[i] * rise * rise * (rho[i] + rho[i + 1]) / (rho[i] * rho[i + 1]);
+        r->tau[i] = eq->mean[i] * rise * rise * (rho[i] + rho[i + 1]) / (rho[i] * rho[i + 1]);
+        dissipated += r->tau[i];
         work += (h[i] + h[i + 1]) * rise;
     }
     if (m->thermal)
@@ -221,7 +243,8 @@ static pressure_flow flow_of(const ehl_march *m)
         flow = dissipated / (2 * eq->dx);
     int flooded = p[1] > 0;
     double tail = flooded ? 24 * eq->oil.viscosity * u * m->at.radius / fabs(eq->first) : 0;
-    return (pressure_flow){flow + u * tail, u * (work / 2 + tail), u * tail};
+    double squeezed = flooded && u > 0 ? squeezed_far_off(m, r->tau) : 0;
+    return (pressure_flow){flow + u * tail, u * (work / 2 + tail), u * tail, squeezed};
 }
 
 int ehl_loss_of_shear(uint64_t wanted)
@@ -240,10 +263,12 @@ int ehl_loss_of_flow(uint64_t wanted)
 static void record_loss(ehl_results *r, const ehl_march *m)
 {
     const shear force = ehl_loss_of_shear(r->wanted) ? shear_of(r, m) : (shear){0, 0};
-    const pressure_flow f = ehl_loss_of_flow(r->wanted) ? flow_of(m) : (pressure_flow){0, 0, 0};
+    const pressure_flow f =
+        ehl_loss_of_flow(r->wanted) ? flow_of(r, m) : (pressure_flow){0, 0, 0, 0};
     if (ehl_march_is_loaded(m) && m->at.entrainment > 0 && f.dissipated > 0) {
         r->tail_share = fmax(r->tail_share, f.tail / f.dissipated);
         r->starved += !(f.tail > 0);
+        ehl_worse(&r->worst_squeezed, f.squeezed);
     }
     double traction = force.fluid + force.asperities;
     double sliding = force.fluid * m->at.sliding, asperity = force.asperities * m->at.sliding;

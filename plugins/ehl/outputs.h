@@ -63,9 +63,10 @@ typedef struct ehl_results {
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* sums over rough, loaded instants */
     double yield_sum, deepest_yield, worst_yield; /* the same; deepest_yield: plastic part, m */
     size_t loaded;
-    double tail_share; /* share of the pressure flow's loss that lies upstream of the domain */
-    size_t starved;    /* instants without such a loss: the domain begins cavitated */
-    double undecided;  /* the solver's counter when the mass was recorded last */
+    double worst_squeezed; /* W/m, in the outer half of the inlet */
+    double tail_share;     /* share of the pressure flow's loss that lies upstream of the domain */
+    size_t starved;        /* instants without such a loss: the domain begins cavitated */
+    double undecided;      /* the solver's counter when the mass was recorded last */
     ehl_law_answer laws;
     int rough;
     int lowest_alone, highest_alone; /* 1: no h_min, or no p_max, of another instant is wanted */
@@ -102,6 +103,9 @@ double ehl_central_film(const ehl_grid *g, const ehl_reynolds *r);
 
 /* Writes all outputs and the quality record. */
 ff_status ehl_results_finish(const ehl_results *r, const ehl_march *m);
+
+/* Estimates the error of power_loss by the time steps, W/m: the largest of all instants. */
+double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m);
 
 /* The lines of those errors. */
 void ehl_results_report_cells(const ehl_results *r, const ehl_march *m);

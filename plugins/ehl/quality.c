@@ -236,6 +236,23 @@ static void report_conservation(const ehl_results *r, const ehl_march *m)
             "work of the flanks; loads above 2 % of the largest");
 }
 
+static double largest_loss(const ehl_results *r)
+{
+    double most = 0;
+    for (size_t k = 0; k < r->series.count; k++)
+        most = fmax(most, r->series.data[k * EHL_SERIES + EHL_POWER_LOSS]);
+    return fmax(most, 1e-300);
+}
+
+static void report_end_of_inlet(const ehl_results *r)
+{
+    if (!r->rough && (r->wanted & FF_BIT(EHL_POWER_LOSS)))
+        report_at_most(
+            r, "power_loss_inlet_error", r->worst_squeezed / largest_loss(r), 0.05, FF_DOUBTFUL,
+            "estimate of the error of power_loss by where the domain begins, over the largest: the "
+            "squeeze of the flanks in the outer half of the inlet, of which as much is left out");
+}
+
 /* The loss that is added upstream of the domain is off by about a sixth of its share. */
 static void report_inlet_tail(const ehl_results *r)
 {
@@ -344,6 +361,12 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
                        r->highest_alone
                            ? "estimate of the error of p_max_highest by the time steps, over it"
                            : "estimate of the error of p_max by the time steps, over p_max");
+    if (r->wanted & FF_BIT(EHL_POWER_LOSS))
+        report_at_most(
+            r, "power_loss_time_error", ehl_results_loss_in_time(r, m) / largest_loss(r), 0.05,
+            FF_DOUBTFUL,
+            "estimate of the error of power_loss by the time steps, over the largest; loads above "
+            "2 % of the largest");
     r->host->quality(r->host->ctx, "steps_cut", m->steps_cut, 0, FF_GOOD,
                      "time steps that failed and were taken again in shorter ones");
     snprintf(text, sizeof text,
@@ -449,6 +472,7 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     report_conservation(r, m);
     report_end_of_film(r, m);
     report_inlet_tail(r);
+    report_end_of_inlet(r);
     report_resolution(r);
     ehl_results_report_cells(r, m);
     report_time_errors(r, m);

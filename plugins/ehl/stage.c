@@ -359,23 +359,22 @@ static ff_status march_equal_steps(const ehl_model *m, run *r)
     const ehl_history *h = &r->history;
     double begin = h->time[0], end = h->time[h->count - 1];
     const size_t steps = (size_t)m->steps;
-    for (size_t k = 1; k <= steps; k++) {
+    ff_status status = FF_OK;
+    for (size_t k = 1; status == FF_OK && k <= steps; k++) {
         if (stopped(m, r, k))
             return FF_STOPPED;
         double time = k == steps ? end : begin + (end - begin) * (double)k / (double)steps;
-        ff_status status = ehl_march_to(&r->march, time);
+        status = ehl_step_control_to(&r->control, &r->march, time);
         if (status != FF_OK)
             return explain(m, r, status, time);
         status = record(m, r, k == steps);
-        if (status != FF_OK)
-            return status;
     }
-    return FF_OK;
+    return status;
 }
 
 static ff_status march_own_steps(const ehl_model *m, run *r)
 {
-    ff_status status = ehl_step_control_create(&r->control, &r->march, m->time_tolerance);
+    ff_status status = FF_OK;
     for (size_t k = 1; status == FF_OK && !ehl_step_control_done(&r->control); k++) {
         if (stopped(m, r, k))
             return FF_STOPPED;
@@ -384,7 +383,6 @@ static ff_status march_own_steps(const ehl_model *m, run *r)
             return explain(m, r, status, r->march.state[0].time);
         status = record(m, r, ehl_step_control_done(&r->control));
     }
-    ehl_step_control_destroy(&r->control);
     return status;
 }
 
@@ -398,7 +396,11 @@ static ff_status march_engagement(const ehl_model *m, run *r)
     status = record(m, r, h->count == 1);
     if (status != FF_OK || h->count == 1)
         return status;
-    return m->steps > 0 ? march_equal_steps(m, r) : march_own_steps(m, r);
+    status = ehl_step_control_create(&r->control, &r->march, m->time_tolerance, m->steps > 0);
+    if (status == FF_OK)
+        status = m->steps > 0 ? march_equal_steps(m, r) : march_own_steps(m, r);
+    ehl_step_control_destroy(&r->control);
+    return status;
 }
 
 /* Marches each engagement from its own steady film, on a grid that fits all of them. */

@@ -46,7 +46,22 @@ static int is_breakpoint(const ehl_march *m, size_t i)
            lost != after;
 }
 
-ff_status ehl_step_control_create(ehl_step_control *p, const ehl_march *m, double tolerance)
+/*
+ * Returns 1 where the radius changes its slope R' by more than that share of the entrainment: as
+ * flanks far from the contact part by x^2 R'/(2 R^2), the film's change in time leaps there, and
+ * (10.2) across the leap makes 3/2 of it, however short the step.
+ */
+static int radius_bends(const ehl_march *m, size_t i)
+{
+    const ehl_history *h = m->history;
+    double bend = slope_of_row(h, h->radius, i) - slope_of_row(h, h->radius, i - 1);
+    int jumps = !(h->time[i] > h->time[i - 1] && h->time[i + 1] > h->time[i]);
+    return !jumps && !m->rough &&
+           fabs(bend) > SHARP_BREAKPOINT * fabs(h->speed_1[i] + h->speed_2[i]) / 2;
+}
+
+ff_status ehl_step_control_create(ehl_step_control *p, const ehl_march *m, double tolerance,
+                                  int equal)
 {
     const ehl_history *h = m->history;
     double passage = ehl_march_passage(m, m->at.entrainment);
@@ -56,7 +71,7 @@ ff_status ehl_step_control_create(ehl_step_control *p, const ehl_march *m, doubl
         return FF_NOMEM;
     double begin = h->time[0], apart = 1e-9 * passage, before = begin;
     for (size_t i = 1; i + 1 < h->count; i++)
-        if (is_breakpoint(m, i) && h->time[i] > before + apart)
+        if (((!equal && is_breakpoint(m, i)) || radius_bends(m, i)) && h->time[i] > before + apart)
             before = p->breakpoint[p->breakpoints++] = h->time[i];
     if (!(h->time[h->count - 1] > before + apart) && p->breakpoints > 0)
         p->breakpoints--;
@@ -183,6 +198,20 @@ static double cell_time(const ehl_march *m)
     const ehl_history *h = m->history;
     double all = h->time[h->count - 1] - h->time[0];
     return fmin(g->dx / fmax(h->speed_max, 1e-300), all / (double)g->nodes);
+}
+
+ff_status ehl_step_control_to(ehl_step_control *p, ehl_march *m, double time)
+{
+    const double apart = 1e-6 * (time - m->state[0].time);
+    ff_status status;
+    do {
+        double breakpoint = p->breakpoint[p->next];
+        int meets = breakpoint < time + apart;
+        status = ehl_march_to(m, breakpoint < time - apart ? breakpoint : time);
+        if (status == FF_OK && meets)
+            pass_breakpoint(p, m);
+    } while (status == FF_OK && m->state[0].time < time);
+    return status;
 }
 
 ff_status ehl_step_control_next(ehl_step_control *p, ehl_march *m)

@@ -14,11 +14,16 @@ typedef struct ehl_step_control {
     double dt; /* s, length of the next step */
 } ehl_step_control;
 
-ff_status ehl_step_control_create(ehl_step_control *p, const ehl_march *m, double tolerance);
+/* equal: the lengths of the steps are given, and only kinks of the radius are breakpoints. */
+ff_status ehl_step_control_create(ehl_step_control *p, const ehl_march *m, double tolerance,
+                                  int equal);
 void ehl_step_control_destroy(ehl_step_control *p);
 
 /* Takes one step; FF_OK, or FF_NOCONV with m->why. */
 ff_status ehl_step_control_next(ehl_step_control *p, ehl_march *m);
+
+/* Advances to `time` in one step, or in several that end at the breakpoints on the way. */
+ff_status ehl_step_control_to(ehl_step_control *p, ehl_march *m, double time);
 
 int ehl_step_control_done(const ehl_step_control *p);
 

@@ -63,7 +63,8 @@ def errors(scene, healthy):
     return {'h_min': max(LEAST, value('h_min_space_error', 'h_min_time_error')),
             'p_max': max(LEAST, value('p_max_space_error', 'p_max_time_error')),
             'traction': max(LEAST, film),
-            'power_loss': max(LEAST, film, value('power_loss_space_error'))}
+            'power_loss': max(LEAST, film, value('power_loss_space_error', 'power_loss_time_error',
+                                                   'power_loss_inlet_error'))}
 
 
 def at(times, values, time):

@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the error of a loss by the time steps is taken to be, from series that are made up. */
+#include "check.h"
+
+#include "../../../plugins/ehl/outputs.h"
+#include "../../../plugins/ehl/stage.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { ROWS = 20, AT = 9 };
+
+static double series[ROWS * EHL_SERIES], space[ROWS * EHL_BOUNDS];
+static double time_of[ROWS];
+
+static double stated(double (*power)(double), int scheme)
+{
+    static ehl_march m;
+    static ehl_results r;
+    memset(&m, 0, sizeof m);
+    memset(&r, 0, sizeof r);
+    m.scheme = scheme;
+    r.series.data = series;
+    r.space.data = space;
+    r.series.count = r.space.count = ROWS;
+    for (size_t k = 0; k < ROWS; k++) {
+        time_of[k] = (double)k + 0.3 * sin((double)k);
+        series[k * EHL_SERIES + EHL_TIME] = time_of[k];
+        series[k * EHL_SERIES + EHL_SQUEEZE_LOSS] = power(time_of[k]);
+        space[k * EHL_BOUNDS + EHL_LEAST] = 1;
+    }
+    return ehl_results_loss_in_time(&r, &m);
+}
+
+static double straight(double t)
+{
+    return 3 * t - 2;
+}
+
+static double bent(double t)
+{
+    return t * t;
+}
+
+static double leaping(double t)
+{
+    return t < AT + 0.5 ? 1 : 5 + 0.1 * t;
+}
+
+static double off_at_one(double t)
+{
+    return straight(t) + (t > AT - 0.5 && t < AT + 0.5 ? 0.7 : 0);
+}
+
+/* The largest third of dt (dt + dt_1), half the second derivative being 1, on the nearer side. */
+static double third_of_bend(void)
+{
+    double most = 0;
+    for (size_t k = 3; k + 3 < ROWS; k++) {
+        double before = (time_of[k] - time_of[k - 1]) * (time_of[k] - time_of[k - 2]),
+               behind = (time_of[k + 1] - time_of[k]) * (time_of[k + 2] - time_of[k]);
+        most = fmax(most, fmin(before, behind) / 3);
+    }
+    return most;
+}
+
+int main(void)
+{
+    check_below("a straight line", stated(straight, EHL_BDF2), 1e-10);
+    double bend = stated(bent, EHL_BDF2);
+    check_near("a parabola", bend, third_of_bend(), 1e-10);
+    check_below("a power that leaps", stated(leaping, EHL_BDF2), 1e-10);
+    check_near("one instant off", stated(off_at_one, EHL_BDF2), 0.7, 1e-10);
+    double late = 0;
+    stated(straight, EHL_EULER);
+    for (size_t k = 3; k + 3 < ROWS; k++)
+        late = fmax(late, 1.5 * (time_of[k] - time_of[k - 1]));
+    check_near("half a step late", stated(straight, EHL_EULER), late, 1e-10);
+    return check_done();
+}
