@@ -294,7 +294,7 @@ void ehl_march_restart(ehl_march *m)
 
 /*
  * Rough flanks start smooth, at an earlier time, and their roughness enters with the oil: by the
- * first instant it has reached the far side of the widest contact.
+ * first instant it has reached the far side of the widest contact, and goes on from there.
  */
 ff_status ehl_march_start(ehl_march *m)
 {
@@ -303,12 +303,11 @@ ff_status ehl_march_start(ehl_march *m)
         return start_smooth(m, first);
     const ehl_grid *g = m->solver->grid;
     ehl_instant at = ehl_history_before(m->history, first);
-    double a = g->half_width, way = 0.5 * a + fmin(2 * a, g->inlet) + fmin(1.5 * a, g->outlet);
-    double lasts = way / at.entrainment;
+    double a = g->half_width;
     m->rough->ramp = 0.5 * a;
-    m->rough->speed = at.entrainment;
-    m->rough->passed = first - fmin(1.5 * a, g->outlet) / at.entrainment;
-    ff_status status = start_smooth(m, first - lasts);
+    m->rough->front = fmin(1.5 * a, g->outlet);
+    double way = m->rough->ramp + fmin(2 * a, g->inlet) + m->rough->front;
+    ff_status status = start_smooth(m, first - way / at.entrainment);
     if (status == FF_OK)
         status = ehl_march_to(m, first);
     m->steps_cut = 0;

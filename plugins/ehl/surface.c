@@ -150,13 +150,10 @@ static double integral(const ehl_roughness *r, int g, double s)
     return whole + sum[i] + r->spacing * part * (z[i] + part * (next - z[i]) / 2);
 }
 
-/* Share of the height that has run in at x: 1 to 0 with level ends. */
-static double run_in(const ehl_roughness *r, double x, double time)
+/* Share of the height that has run in `beyond` the front: 1 to 0 with level ends. */
+static double run_in(const ehl_roughness *r, double beyond)
 {
-    if (!(r->ramp > 0) || time > r->history->time[0])
-        return 1;
-    double share = 1 - (x - r->speed * (time - r->passed)) / r->ramp;
-    share = fmin(fmax(share, 0), 1);
+    double share = fmin(fmax(1 - beyond / r->ramp, 0), 1);
     return share * share * (3 - 2 * share);
 }
 
@@ -174,8 +171,9 @@ void ehl_roughness_heights(const ehl_roughness *r, const ehl_grid *g, double tim
             before = behind;
         }
     }
+    double front = r->front + ehl_roughness_travel(r, time);
     for (size_t i = 0; r->ramp > 0 && i < g->nodes; i++)
-        sum[i] *= run_in(r, g->first + (double)i * g->dx, time);
+        sum[i] *= run_in(r, g->first + (double)i * g->dx - front);
 }
 
 ff_status ehl_combined_roughness(const ff_host *host, const ff_array *gear, const ff_array *rq_1,

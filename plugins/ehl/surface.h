@@ -21,9 +21,9 @@ typedef struct ehl_roughness {
     double curvature;  /* root mean square of the gap between the flanks, 1/m */
     double *memory;
     const ehl_history *history;
-    /* m, m/s, s: up to the first row of the history and at it the flanks are rough until x = speed
-       (time - passed), `ramp` further on smooth; behind it, and with ramp 0, rough all over */
-    double ramp, speed, passed;
+    /* m: at the first row of the history the flanks are rough up to x = `front`, `ramp` further on
+       they are smooth, and the oil carries that on; with ramp 0 they are rough all over */
+    double ramp, front;
 } ehl_roughness;
 
 /* Checks position[0 .. count-1], the heights, rq, period and origin, which are set; FF_NOMEM. */

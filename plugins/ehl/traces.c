@@ -47,13 +47,12 @@ static double mean_height(const ehl_roughness *r, const double *z, double from, 
 double ehl_traces_height(const ehl_roughness *r, double x, double width, double time)
 {
     const ehl_history *h = r->history;
-    double height = 0, place = h->mirrored ? -x : x;
+    double height = 0, place = h->mirrored ? -x : x, carried = 0;
     for (int g = 0; g < 2; g++) {
-        double s = r->origin - way_of(h, g ? h->speed_2 : h->speed_1, time) + place;
+        double way = way_of(h, g ? h->speed_2 : h->speed_1, time), s = r->origin - way + place;
         height += mean_height(r, r->height[g], s - width / 2, s + width / 2);
+        carried += way / 2;
     }
-    double in = 0;
-    if (r->ramp > 0 && time <= h->time[0])
-        in = (x - r->speed * (time - r->passed)) / r->ramp;
+    double in = r->ramp > 0 ? (x - r->front - fabs(carried)) / r->ramp : 0;
     return in <= 0 ? height : in < 1 ? height * (1 - in) * (1 - in) * (1 + 2 * in) : 0;
 }

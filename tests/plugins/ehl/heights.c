@@ -65,6 +65,10 @@ int main(void)
     ehl_roughness_heights(&r, &g, 0, before);
     check_below("mirrored and run in", off_traces(&r, &g, 0, before), 1e-14);
     check_near("smooth where they have not", before[NODES - 1], 0, 1e-20);
+    for (int k = 1; k <= 3; k++) { /* the oil goes 20 um in 0.4 ms */
+        ehl_roughness_heights(&r, &g, 4e-4 * k, before);
+        check_below("the front moves on", off_traces(&r, &g, 4e-4 * k, before), 1e-14);
+    }
     ehl_roughness_heights(&r, &g, 0.02, before);
     check_below("rough all over", off_traces(&r, &g, 0.02, before), 1e-14);
     check_true("where they were smooth, too", fabs(before[NODES - 1]) > 1e-8);
