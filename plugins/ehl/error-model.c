@@ -256,29 +256,71 @@ ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at,
         {space_error(eq, &of_h_min, &c), space_error(eq, &of_h_central, &c), spike->error}};
 }
 
-/* Keeps the bound that counts more, and its instant. */
+/*
+ * Returns the speed at which the pressure of the outlet moves, which leaves least of its change in
+ * time: p_t + v p_x = 0 by least squares.
+ */
+static double speed_of_outlet(const ehl_march *m, const contact *c)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const double *p = m->state[0].film.p, *before = m->state[1].film.p;
+    double dt = m->state[0].time - m->state[1].time, sum = 0, square = 0,
+           from = (c->a - 1.6 * c->buildup - eq->first) / eq->dx;
+    for (size_t i = (size_t)fmax(1, ceil(from)); i + 1 < eq->nodes; i++) {
+        double slope = (p[i + 1] - p[i - 1] + before[i + 1] - before[i - 1]) / (4 * eq->dx);
+        sum += (p[i] - before[i]) / dt * slope;
+        square += slope * slope;
+    }
+    return square > 0 ? -sum / square : 0;
+}
+
+/* Keeps the film of the instant, with the change of its mass in a frame of that speed; the slope
+   of the mass is that of the wedge, so that the frame alone changes no film on the same cells. */
+static void keep_film(ehl_bound *b, const ehl_march *m, const ehl_crest *of, double frame)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const double *past = m->step.past, *mass = m->state[0].mass;
+    b->h_central = of->h_central;
+    b->p_max = of->p_max;
+    b->at = m->at;
+    b->frame = frame;
+    for (size_t i = 0; i < eq->nodes; i++) {
+        double slope = i > 0 ? mass[i] - mass[i - 1] : 0;
+        if (eq->wedge == 2 && i > 1)
+            slope += (slope - (mass[i - 1] - mass[i - 2])) / 2;
+        b->change[i] = past ? m->step.rate * mass[i] + past[i] + frame * slope / eq->dx : 0;
+    }
+}
+
+/* Keeps the bound that counts more, and the film of its instant. */
 static void keep_worst(ehl_bound *b, double value, double counts, const ehl_march *m,
-                       const ehl_crest *of)
+                       const ehl_crest *of, double frame)
 {
     if (!isfinite(value))
         value = counts = 1e300; /* as ehl_worse: no other counts more */
-    if (counts > b->counts || !(b->h_central > 0))
-        *b = (ehl_bound){counts, value, of->h_central, of->p_max, m->at};
+    if (!(counts > b->counts || !(b->h_central > 0)))
+        return;
+    b->counts = counts;
+    b->worst = value;
+    keep_film(b, m, of, frame);
 }
 
-static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, double p_max)
+static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, double p_max,
+                          const contact *c)
 {
     const ehl_crest of = {m->state[0].film.p, h_central, p_max};
     const ehl_reynolds *eq = m->solver->reynolds;
     ehl_spike spike;
     ehl_space_errors e = ehl_space_bounds(eq, &m->at, m->history->modulus, &of, &spike);
     double least = e.of[EHL_LEAST], peak = e.of[EHL_PEAK], h_min = r->row[EHL_H_MIN];
+    double outlet = m->step.past && m->known > 1 ? speed_of_outlet(m, c) : 0;
     r->by_cells = least;
-    keep_worst(&r->bound[EHL_LEAST], least, r->lowest_alone ? -h_min * (1 - least) : least, m, &of);
-    keep_worst(&r->bound[EHL_CENTRAL], e.of[EHL_CENTRAL], e.of[EHL_CENTRAL], m, &of);
-    keep_worst(&r->bound[EHL_PEAK], peak, r->highest_alone ? p_max * (1 + peak) : peak, m, &of);
-    if (p_max >= r->highest)
-        r->at_highest = (ehl_bound){p_max, peak, h_central, p_max, m->at};
+    keep_worst(&r->bound[EHL_LEAST], least, r->lowest_alone ? -h_min * (1 - least) : least, m, &of,
+               0);
+    keep_worst(&r->bound[EHL_CENTRAL], e.of[EHL_CENTRAL], e.of[EHL_CENTRAL], m, &of, 0);
+    keep_worst(&r->bound[EHL_PEAK], peak, r->highest_alone ? p_max * (1 + peak) : peak, m, &of,
+               outlet);
+    keep_worst(&r->at_highest, peak, p_max, m, &of, outlet);
     r->row_in_space[EHL_LEAST] = least * h_min;
     r->row_in_space[EHL_CENTRAL] = e.of[EHL_CENTRAL] * r->row[EHL_H_CENTRAL];
     r->row_in_space[EHL_PEAK] = peak * p_max;
@@ -303,7 +345,7 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
         carried[EHL_LEAST] = carried_error(r, m, node, &c);
         carried[EHL_CENTRAL] = carried_error(r, m, centre, &c);
         record_resolution(r, m, h_central, &c);
-        record_bounds(r, m, h_central, p_max);
+        record_bounds(r, m, h_central, p_max, &c);
         for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {
             ehl_worse(&r->worst_in_time[k], time[k]);
             ehl_worse(&r->worst_carried[k], carried[k]);

@@ -15,13 +15,6 @@ typedef struct ehl_rows {
     size_t width, count, room;
 } ehl_rows;
 
-/* The bound of an error by the cells that counts most, and its instant. */
-typedef struct ehl_bound {
-    double counts; /* the more the larger: the bound itself, or how far its instant may go */
-    double worst, h_central, p_max;
-    ehl_instant at;
-} ehl_bound;
-
 /* What the cells have made of the film on its way through the contact, at the nodes, relative. */
 typedef struct ehl_carried {
     double *error, time; /* time: of the instant that it belongs to */
@@ -57,6 +50,7 @@ typedef struct ehl_results {
     double tolerance;       /* the largest of those that the films were solved to */
     ehl_space_errors share; /* of the bounds that remained where they were measured; 1: all */
     int measured;           /* instants at which they were */
+    int finest;             /* the most cells at which, over those of the run */
     ehl_rows space;         /* bounds of the errors of h_min, h_central, p_max by the cells */
     double *row_in_space;   /* its row that is being filled in */
     double worst_gap_excess, widest_gap;                    /* while the contact is lost, m */

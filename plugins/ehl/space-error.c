@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 int ehl_wants_h_min(uint64_t wanted)
 {
@@ -54,7 +55,7 @@ static double extreme_error(const ehl_results *r, int kind)
     return worst;
 }
 
-/* A steady film, and what is looked at of it. */
+/* A film, and what is looked at of it. */
 typedef struct twin {
     double least, central, p_max;
     ehl_spike spike;
@@ -78,53 +79,119 @@ static twin look_at(ehl_grid_level *l, const ehl_instant *at)
     return t;
 }
 
-/* Films on 1, 2, 4 times the cells of `s`, `count` of them. */
-static ff_status find_twins(const ehl_solver *s, const ehl_instant *at, int count, twin *t)
+/* Films on 1, 2, 4, 8, 16 times the cells. */
+enum { TWINS = 5 };
+
+/*
+ * Returns the tip of a spike on the finer of two grids. What the cells cut off it is some multiple
+ * of what the formula says on either, which the spikes of both tell; it is bounded, since few cells
+ * show a spike beside the place where it will stand.
+ */
+static double tip_by_formula(const ehl_spike *coarse, const ehl_spike *fine)
 {
-    const ehl_step step = {.entrainment = at->entrainment,
-                           .sliding = at->sliding,
-                           .radius = at->radius,
-                           .load = at->load,
-                           .loaded = 1};
+    const double most = 1.5;
+    if (!(fine->seen > 0 && coarse->seen > 0))
+        return fine->seen > 0 ? fine->tip : 0;
+    double grown = fine->seen / coarse->seen, steep = grown * coarse->cut - fine->cut;
+    double times = !(grown > 1) ? 0 : steep > 0 ? fmin(most, (grown - 1) / steep) : most;
+    return fine->seen / (1 - fmin(0.9, times * fine->cut));
+}
+
+static double crest_of(const twin *t)
+{
+    return t->spike.seen > 0 ? t->spike.seen : t->p_max;
+}
+
+/*
+ * Returns the tip by what the spike grows by from grid to grid, t being the finest. What is cut off
+ * falls at first order, by 1/2, once cells are short, and by no less than the formula says before;
+ * the spike of one grid alone is uncertain by where its nodes lie, so that the growth of both
+ * halvings counts as much as that of the last.
+ */
+static double tip_by_growth(const twin *t, double slowest)
+{
+    double last = crest_of(t) - crest_of(t - 1), before = crest_of(t - 1) - crest_of(t - 2);
+    if (!(last > 0))
+        return crest_of(t);
+    double ratio = before > 0 ? fmin(fmax(last / before, 0.5), slowest) : slowest;
+    double square = ratio * ratio;
+    return crest_of(t) + fmax(last * ratio / (1 - ratio), (last + before) * square / (1 - square));
+}
+
+/* Returns the error of p_max on the cells of t[0], from the films to t[k], k > 1. By the formula,
+   x/(x + w), cells are shorter than a tip of length w where a halving takes a third off the share
+   that they cut. */
+static double peak_error(const twin *t, int k)
+{
+    double slowest = t[k].spike.cut / t[k - 1].spike.cut, tip = 0;
+    if (k > 2 && slowest < 2. / 3)
+        tip = tip_by_growth(t + k, slowest);
+    else
+        tip = tip_by_formula(&t[k - 2].spike, &t[k].spike);
+    return fmax(fmax(0, tip / t[0].p_max - 1), fabs(t[k].p_max / t[0].p_max - 1));
+}
+
+/* Whether it is known if the error of the peak exceeds `enough`, by the films to t[k]. */
+static int is_told(const twin *t, int k, double enough)
+{
+    return !(enough > 0) ||
+           (k > 1 && (peak_error(t, k) <= enough || t[k].p_max > (1 + enough) * t[0].p_max));
+}
+
+/* Straight lines between the nodes: `times` cells in place of each of the `cells` of `from`. */
+static void spread(const double *from, size_t cells, size_t times, double *to)
+{
+    for (size_t i = 0; i < cells * times; i++) {
+        double far = (double)(i % times) / (double)times;
+        to[i] = (1 - far) * from[i / times] + far * from[i / times + 1];
+    }
+    to[cells * times] = from[cells];
+}
+
+/* Finds the film on `times` the cells of `s`, from that of the level before, if any. */
+static ff_status find_twin(const ehl_solver *s, const ehl_bound *run, size_t times,
+                           const ehl_grid_level *before, ehl_grid_level *l, twin *t)
+{
+    const ehl_instant *at = &run->at;
+    size_t cells = s->grid->nodes - 1;
     double thinnest = ehl_moes_film(at, s->modulus, &s->reynolds->oil);
+    double *change = malloc((cells * times + 1) * sizeof *change);
+    ff_status status = change ? ehl_grid_level_create(l, s, cells * times, s->modulus) : FF_NOMEM;
+    if (status == FF_OK) {
+        const ehl_step step = {.entrainment = at->entrainment - run->frame,
+                               .sliding = at->sliding,
+                               .radius = at->radius,
+                               .load = at->load,
+                               .loaded = 1,
+                               .past = change};
+        spread(run->change, cells, times, change);
+        status = ehl_grid_level_solve(l, before, &step, at, s->modulus, thinnest);
+    }
+    if (status == FF_OK)
+        *t = look_at(l, at);
+    free(change);
+    return status == FF_OK && !(t->p_max > 0) ? FF_NOCONV : status;
+}
+
+/* Fills t with the films of the instant, two at least, until the peak is told; *last: of them. */
+static ff_status find_twins(const ehl_solver *s, const ehl_bound *run, double enough, twin *t,
+                            int *last)
+{
     ehl_grid_level l[2] = {0};
     ff_status status = FF_OK;
     ehl_solver kind = *s;
     if (kind.maker != ehl_line_relaxation) /* the dense solver has the same films */
         kind.maker = ehl_newton_krylov;
-    for (int k = 0; k < count && status == FF_OK; k++) {
+    for (int k = 0, told = 0; k < TWINS && status == FF_OK && !told; k++) {
         ehl_grid_level *here = &l[k % 2], *before = k > 0 ? &l[1 - k % 2] : NULL;
         ehl_grid_level_destroy(here);
-        status = ehl_grid_level_create(here, &kind, (s->grid->nodes - 1) << k, s->modulus);
-        if (status == FF_OK)
-            status = ehl_grid_level_solve(here, before, &step, at, s->modulus, thinnest);
-        if (status == FF_OK)
-            t[k] = look_at(here, at);
-        if (status == FF_OK && !(t[k].p_max > 0))
-            status = FF_NOCONV;
+        status = find_twin(&kind, run, (size_t)1 << k, before, here, &t[k]);
+        *last = k;
+        told = status == FF_OK && k > 0 && is_told(t, k, enough);
     }
     ehl_grid_level_destroy(&l[0]);
     ehl_grid_level_destroy(&l[1]);
     return status;
-}
-
-/*
- * Error of p_max on coarse cells. What they cut off the tip is some multiple of what the formula
- * says on either grid, which the spikes of both tell; it is bounded, since few cells show a spike
- * beside the place where it will stand.
- */
-static double peak_error(const twin *coarse, const twin *fine)
-{
-    const double most = 1.5;
-    double seen = coarse->spike.seen, finer = fine->spike.seen, tip = 0;
-    if (finer > 0 && !(seen > 0))
-        tip = fine->spike.tip;
-    else if (finer > 0) {
-        double grown = finer / seen, steep = grown * coarse->spike.cut - fine->spike.cut;
-        double times = !(grown > 1) ? 0 : steep > 0 ? fmin(most, (grown - 1) / steep) : most;
-        tip = finer / (1 - fmin(0.9, times * fine->spike.cut));
-    }
-    return fmax(fmax(0, tip / coarse->p_max - 1), fabs(fine->p_max / coarse->p_max - 1));
 }
 
 /* Error of a film from that on twice the cells (Richardson). */
@@ -144,15 +211,18 @@ static int are_within(double a, double b, double factor)
     return a < factor * b && b < factor * a;
 }
 
-ff_status ehl_space_measure(const ehl_solver *s, const ehl_instant *at, const ehl_crest *run,
-                            int peak, ehl_space_errors *share)
+ff_status ehl_space_measure(const ehl_solver *s, const ehl_bound *run, double enough,
+                            ehl_space_errors *share, int *finest)
 {
-    const double thicker = 1.2, higher = 1.1; /* by squeezing, and still much the same film */
-    twin t[3];
-    int order = s->reynolds->wedge == 2 ? 2 : 1;
-    ff_status status = find_twins(s, at, peak ? 3 : 2, t);
+    const double thicker = 1.2, higher = 1.1; /* without heat, and still much the same film */
+    twin t[TWINS];
+    int order = s->reynolds->wedge == 2 ? 2 : 1, last = 0;
+    if (!(run->at.entrainment > fmax(0, run->frame)))
+        return FF_NOCONV;
+    ff_status status = find_twins(s, run, enough, t, &last);
     if (status != FF_OK)
         return status;
+    *finest = 1 << last;
     if (!are_within(t[0].central, run->h_central, thicker) ||
         !are_within(t[0].p_max, run->p_max, higher))
         return FF_NOCONV;
@@ -160,7 +230,7 @@ ff_status ehl_space_measure(const ehl_solver *s, const ehl_instant *at, const eh
     *share = (ehl_space_errors){{
         share_of(film_error(t[0].least, t[1].least, order), bound[EHL_LEAST], EHL_FILM_LIMIT),
         share_of(film_error(t[0].central, t[1].central, order), bound[EHL_CENTRAL], EHL_FILM_LIMIT),
-        peak ? share_of(peak_error(&t[0], &t[2]), bound[EHL_PEAK], EHL_PEAK_LIMIT) : 0,
+        last > 1 ? share_of(peak_error(t, last), bound[EHL_PEAK], EHL_PEAK_LIMIT) : 0,
     }};
     return FF_OK;
 }
@@ -170,18 +240,19 @@ ff_status ehl_space_measure(const ehl_solver *s, const ehl_instant *at, const eh
 static ff_status raise_shares(ehl_results *r, const ehl_march *m, const ehl_bound *b, int kind,
                               ehl_space_errors *all)
 {
-    const int peak = ehl_wants_p_max(r->wanted) && r->bound[EHL_PEAK].worst > EHL_PEAK_LIMIT;
-    const ehl_crest run = {NULL, b->h_central, b->p_max};
+    double highest = r->highest_alone ? r->highest : b->p_max;
+    double enough = kind == EHL_PEAK ? (1 + EHL_PEAK_LIMIT) * highest / b->p_max - 1 : 0;
     ehl_space_errors share = {0};
-    ff_status status = b->at.entrainment > 0
-                           ? ehl_space_measure(m->solver, &b->at, &run, peak, &share)
-                           : FF_NOCONV;
+    int finest = 0;
+    ff_status status = ehl_space_measure(m->solver, b, enough, &share, &finest);
     if (status == FF_NOMEM)
         return FF_NOMEM;
     r->measured += status == FF_OK;
+    r->finest = finest > r->finest ? finest : r->finest;
     if (status != FF_OK || !(share.of[kind] > 0))
         share.of[kind] = 1;
-    for (int k = 0; k < EHL_BOUNDS; k++)
+    int peak = kind == EHL_PEAK; /* whose frame is not that of the films */
+    for (int k = peak ? EHL_PEAK : 0; k < (peak ? EHL_BOUNDS : EHL_PEAK); k++)
         all->of[k] = fmax(all->of[k], share.of[k]);
     return FF_OK;
 }
@@ -199,7 +270,8 @@ ff_status ehl_results_measure(ehl_results *r, const ehl_march *m)
     for (int k = 0; k < EHL_BOUNDS && status == FF_OK; k++)
         if (wanted[k] && r->bound[k].worst > limit[k])
             status = raise_shares(r, m, &r->bound[k], k, &all);
-    if (status == FF_OK && wanted[EHL_PEAK] && r->at_highest.worst > EHL_PEAK_LIMIT)
+    int other = fabs(r->at_highest.at.time - r->bound[EHL_PEAK].at.time) > 0;
+    if (status == FF_OK && wanted[EHL_PEAK] && other && r->at_highest.worst > EHL_PEAK_LIMIT)
         status = raise_shares(r, m, &r->at_highest, EHL_PEAK, &all);
     for (int k = 0; k < EHL_BOUNDS; k++)
         if (wanted[k] && r->bound[k].worst > limit[k])
@@ -244,8 +316,8 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
                  "; largest where the film carries a change through the contact that is few cells "
                  "long");
     else if (fabs(share - 1) > 0)
-        snprintf(how, sizeof how, "; by steady films on %d times the cells %.3g of what bounds it",
-                 kind == EHL_PEAK ? 4 : 2, share);
+        snprintf(how, sizeof how, "; by its film on %d times the cells %.3g of what bounds it",
+                 kind == EHL_PEAK ? r->finest : 2, share);
     if (kind == EHL_PEAK)
         snprintf(enough, sizeof enough,
                  "; above 0.1 the cells may cut the spike at the outlet off: use more of them");

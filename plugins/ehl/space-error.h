@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Errors of a film by the cells, relative: bounds, from what is known of films like it, and what
- * the steady film of the same contact misses of them, by twins on twice and four times the cells.
+ * they are at an instant, by twins of its film on more cells.
  */
 #ifndef EHL_SPACE_ERROR_H
 #define EHL_SPACE_ERROR_H
@@ -35,14 +35,26 @@ typedef struct ehl_space_errors {
 ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at, double modulus,
                                   const ehl_crest *of, ehl_spike *spike);
 
+/* The bound of an error by the cells that counts most, and the film of its instant. */
+typedef struct ehl_bound {
+    double counts; /* the more the larger: the bound itself, or how far its instant may go */
+    double worst, h_central, p_max;
+    ehl_instant at;
+    double frame;   /* m/s, speed of a frame in which the film changes slowly */
+    double *change; /* of its mass there in time, at the nodes, kg/(m2 s) */
+} ehl_bound;
+
 /*
- * Solves the steady contact of an instant, whose load and entrainment are > 0, on the cells of `s`
- * and on twice as many, for the peak on four times as many, and gives the errors as shares of
- * their bounds there; 0 where a bound is below half of its limit, and tells nothing of large ones.
- * `run`: of the run there. FF_OK; FF_NOMEM; FF_NOCONV where there is no such film, or another one
- * than that of the run.
+ * Solves the contact of an instant, whose load is > 0, on the cells of `s` and on twice as many,
+ * and gives the errors of the films as shares of their bounds there; 0 where a bound is below half
+ * of its limit, and tells nothing of large ones. With `enough` > 0 also that of the peak, on four
+ * times as many cells and on more, to 16 times, until it is known whether it exceeds `enough`.
+ * *finest: over the cells of `s`. The mass changes in time as it does in the run, in the frame that
+ * moves with the spike of the outlet: what is carried along, or moves with the outlet, is a change
+ * in time at one place which the cells have smoothed. FF_OK; FF_NOMEM; FF_NOCONV where there is no
+ * such film, or another one than that of the run.
  */
-ff_status ehl_space_measure(const ehl_solver *s, const ehl_instant *at, const ehl_crest *run,
-                            int peak, ehl_space_errors *share);
+ff_status ehl_space_measure(const ehl_solver *s, const ehl_bound *run, double enough,
+                            ehl_space_errors *share, int *finest);
 
 #endif
