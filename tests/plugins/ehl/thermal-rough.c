@@ -131,10 +131,56 @@ static void test_mixed(void)
     line_close(&c);
 }
 
+/* Ground flanks in thin and slow oil of ISO VG 100, which flows forth beside one flank and back
+   beside the other along the nodes: whole sweeps of the temperatures go away from them. */
+static void test_sweeps(unsigned seed, size_t cells, double most)
+{
+    static flank f;
+    line c;
+    flank_random(&f, seed, 0.4e-6, 40e-6, 400e-6);
+    open_hot(&c, cells, -1.4);
+    line_grade(&c, "ISO VG 100", 353);
+    line_eyring(&c, 27e6);
+    c.load[0] = 87e3;
+    c.u1[0] = 0.87 * 0.3;
+    c.u2[0] = 0.87 * 1.7;
+    flank_give(&f, c.film);
+    if (check_true("runs", line_run(&c, "newton_steps h_min") == FF_OK)) {
+        check_below("no round is lost", stage_scalar(c.film, "newton_steps"), most);
+        check_heat(&c, 10);
+    }
+    line_close(&c);
+}
+
+/* With that much heat a steady film is not found from the guess, and settling ends by chance. It is
+   found from the one without heat. */
+static void test_start(void)
+{
+    static flank f;
+    line c;
+    flank_random(&f, 1, 0.05e-6, 40e-6, 400e-6);
+    open_hot(&c, 168, 1.01);
+    stage_set_text(c.film, "inlet", "auto");
+    stage_set_text(c.film, "outlet", "auto");
+    line_grade(&c, "ISO VG 100", 314.96);
+    line_eyring(&c, 10.94e6);
+    c.radius[0] = 13.51e-3;
+    c.load[0] = 1367e3;
+    c.u1[0] = 7.049 * 1.505;
+    c.u2[0] = 7.049 * 0.495;
+    flank_give(&f, c.film);
+    if (check_true("found", line_run(&c, "h_min") == FF_OK))
+        check_heat(&c, 10);
+    line_close(&c);
+}
+
 int main(void)
 {
     test_moving_nodes(-1);
     test_asperities(-1.2);
     test_mixed();
+    test_sweeps(2, 64, 1400);
+    test_sweeps(1, 128, 2600);
+    test_start();
     return check_done();
 }
