@@ -45,13 +45,13 @@ var figures = (function () {
         tag: curve.tags ? curve.tags[i] : ''};
     });
   }
-  /* A long name in two lines. */
-  function folded(label) {
+  /* A name of more than so many letters in two lines. */
+  function folded(label, most) {
     var middle = label.indexOf(' ', label.length / 2 - 4);
-    return label.length > 30 && middle > 0 ? [label.slice(0, middle), label.slice(middle + 1)] : label;
+    return label.length > most && middle > 0 ? [label.slice(0, middle), label.slice(middle + 1)] : label;
   }
   function axis(orient, scale, label, extra) {
-    return Object.assign({orient: orient, scale: scale, title: folded(label), grid: true, gridColor: 'var(--line)',
+    return Object.assign({orient: orient, scale: scale, title: folded(label, 30), grid: true, gridColor: 'var(--line)',
       domainColor: 'var(--soft)', tickColor: 'var(--soft)', labelColor: 'var(--soft)', titleColor: 'var(--ink)',
       labelFont: 'sans-serif', titleFont: 'sans-serif', titleFontWeight: 'normal', titleFontSize: 12.5, labelFontSize: 11,
       labelOverlap: 'greedy', titlePadding: 8, tickCount: {signal: scale === 'x' ? 'max(2, width / 70)' : '6'}}, extra);
@@ -113,6 +113,7 @@ var figures = (function () {
       labelOverlap: false, labelAngle: width < 90 * figure.names.length ? -25 : 0, labelAlign: width < 90 * figure.names.length ? 'right' : 'center',
       labelLimit: 160, encode: {labels: {update: {text: {signal: 'xn[round(datum.value)]'}}}}});
     var shown = figure.curves.filter(function (c) { return c.name && !c.hidden; });
+    var longest = Math.max.apply(null, shown.map(function (c) { return c.name.length; })); /* 40 for its line, 6 a letter */
     return frame(figure, width, [clip(inside), names], {
       signals: [{name: 'xn', value: figure.names || []}, {name: 'xd', value: figure.xd || domain(figure, 'x')}, {name: 'yd', value: figure.yd || domain(figure, 'y')},
         {name: 'zd', value: figure.z ? domain(figure, 'z') : [0, 1]}],
@@ -125,7 +126,7 @@ var figures = (function () {
           range: shown.map(function (c) { return c.dash instanceof Array ? c.dash : DASHES[(c.dash || 0) % DASHES.length]; })}]),
       axes: axes,
       legends: legend && shown.length ? [{stroke: 'key', strokeDash: 'dash', symbolType: 'stroke', symbolSize: 400, orient: 'top', direction: 'horizontal', offset: marks.length ? 30 : 8,
-        columns: 3, labelColor: 'var(--ink)', labelLimit: 400}] : []});
+        columns: Math.max(1, Math.min(3, Math.floor(width / (40 + 6 * longest)))), labelColor: 'var(--ink)', labelLimit: 400}] : []});
   }
 
   /* Maps: over the ranks of rows and columns, each with its value beside it. */
@@ -249,7 +250,7 @@ var figures = (function () {
           domain: figure.value ? [figure.value.low, figure.value.high] : [0, 1], zero: false}],
       axes: [axis('bottom', 'x', figure.x.label, {grid: false, tickCount: columns, values: ranks(columns, Math.max(2, width / 75)),
         encode: {labels: {update: {text: {signal: 'xl[floor(datum.value)]'}}}}}),
-      axis('left', 'y', figure.y.label, {grid: false, tickCount: rows, values: ranks(rows, 12),
+      axis('left', 'y', figure.y.label, {title: folded(figure.y.label, ((figure.height || 250) - 130) / 7), grid: false, tickCount: rows, values: ranks(rows, 12),
         encode: {labels: {update: {text: {signal: 'yl[floor(datum.value)]'}}}}})]}, more));
   }
   /* What the letters of a map mean, for where no list stands below it. */

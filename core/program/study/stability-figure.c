@@ -138,7 +138,10 @@ static json_t *describe_slice(const study_map *map, size_t slice)
     json_t *x = side(map, 0, columns), *y = side(map, 1, rank);
     json_t *head = json_pack("[O, O, s]", json_object_get(y, "label"), json_object_get(x, "label"),
                              "verdict and reason");
-    int height = (int)(rank < 8 ? 34 * rank + 70 : rank < 20 ? 22 * rank + 60 : 440);
+    int height = (int)(rank < 5    ? 230 /* the name of the rows is as long as they are high */
+                       : rank < 8  ? 34 * rank + 70
+                       : rank < 20 ? 22 * rank + 60
+                                   : 440);
     return json_pack(
         "{s:s, s:s, s:i, s:o, s:o, s:o, s:o, s:o, s:o, s:[{s:s, s:o, s:o, s:i}]}", "sort",
         "classes", "title", *title ? title : "Where the pipeline can be trusted", "height", height,
