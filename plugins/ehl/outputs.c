@@ -511,7 +511,8 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     ff_status status = record_fields(r, m);
     int undecided = m->solver->counters.undecided > r->undecided;
     r->undecided = m->solver->counters.undecided;
-    int wholly = wants(r, EHL_MASS_ERROR) || k % SAMPLE == 0 || last || undecided;
+    int begins = m->smooth < EHL_STATES; /* films that the formula in time begins anew with */
+    int wholly = wants(r, EHL_MASS_ERROR) || k % SAMPLE == 0 || last || undecided || begins;
     double mass = ehl_balance_hold(&r->balance, m, wholly);
     if (wholly && m->thermal)
         ehl_thermal_hold(m);

@@ -47,7 +47,8 @@ static double mean_height(const ehl_roughness *r, const double *z, double from, 
 double ehl_traces_height(const ehl_roughness *r, double x, double width, double time)
 {
     const ehl_history *h = r->history;
-    double height = 0, place = h->mirrored ? -x : x, carried = 0;
+    int mirrored = h->speed_1[0] + h->speed_2[0] < 0; /* no rough film turns or begins at rest */
+    double height = 0, place = mirrored ? -x : x, carried = 0;
     for (int g = 0; g < 2; g++) {
         double way = way_of(h, g ? h->speed_2 : h->speed_1, time), s = r->origin - way + place;
         height += mean_height(r, r->height[g], s - width / 2, s + width / 2);

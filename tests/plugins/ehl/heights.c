@@ -10,7 +10,7 @@
 
 enum { POINTS = 64, NODES = 49 };
 
-static const double pi = 3.14159265358979323846;
+static const double pi = 3.14159265358979323846, repeats = 64e-6; /* m */
 
 static double sum_of(const double *y)
 {
@@ -31,13 +31,38 @@ static double off_traces(const ehl_roughness *r, const ehl_grid *g, double time,
     return most;
 }
 
+/* Flanks that run towards -x, and roughness that enters with the oil. */
+static void test_mirrored(const double *time, const double *u1, const double *u2,
+                          const double *position, const double height[2][POINTS], const ehl_grid *g)
+{
+    const double back_1[] = {-u1[0], -u1[1]}, back_2[] = {-u2[0], -u2[1]};
+    static double before[NODES];
+    ehl_history h = {.count = 2, .time = time, .speed_1 = back_1, .speed_2 = back_2, .mirrored = 1};
+    ehl_roughness s = {
+        .count = POINTS, .height = {height[0], height[1]}, .period = repeats, .history = &h};
+    if (!check_true("takes it mirrored", ehl_roughness_create(&s, position, &h, NULL) == FF_OK))
+        return;
+    s.ramp = 40e-6;
+    ehl_roughness_heights(&s, g, 0, before);
+    check_below("mirrored and run in", off_traces(&s, g, 0, before), 1e-14);
+    check_near("smooth where they have not", before[NODES - 1], 0, 1e-20);
+    for (int k = 1; k <= 3; k++) { /* the oil goes 20 um in 0.4 ms */
+        ehl_roughness_heights(&s, g, 4e-4 * k, before);
+        check_below("the front moves on", off_traces(&s, g, 4e-4 * k, before), 1e-14);
+    }
+    ehl_roughness_heights(&s, g, 0.02, before);
+    check_below("rough all over", off_traces(&s, g, 0.02, before), 1e-14);
+    check_true("where they were smooth, too", fabs(before[NODES - 1]) > 1e-8);
+    ehl_roughness_destroy(&s);
+}
+
 int main(void)
 {
     /* flank 1 stands, then gains speed evenly: 0.5 m/s2 makes 1 mm in 63.2 ms; flank 2 is flat */
     double time[] = {0, 0.0632455532}, u1[] = {0, 0.0316227766}, u2[] = {0.1, 0.1};
     ehl_history h = {.count = 2, .time = time, .speed_1 = u1, .speed_2 = u2};
     static double position[POINTS], height[2][POINTS], before[NODES], after[NODES];
-    const double period = 64e-6;
+    const double period = repeats;
     for (size_t i = 0; i < POINTS; i++) {
         position[i] = period * (double)i / POINTS;
         height[0][i] = 1e-6 * (0.3 + sin(2 * pi * (double)i / POINTS));
@@ -60,20 +85,8 @@ int main(void)
                (1e-3 + 0.1 * time[1]) / 2, 1e-8);
     ehl_roughness_heights(&r, &g, time[1], after);
     check_true("flanks that stand still", off_traces(&r, &g, 0, after) > 1e-7);
-    h.mirrored = 1;
-    r.ramp = 40e-6;
-    ehl_roughness_heights(&r, &g, 0, before);
-    check_below("mirrored and run in", off_traces(&r, &g, 0, before), 1e-14);
-    check_near("smooth where they have not", before[NODES - 1], 0, 1e-20);
-    for (int k = 1; k <= 3; k++) { /* the oil goes 20 um in 0.4 ms */
-        ehl_roughness_heights(&r, &g, 4e-4 * k, before);
-        check_below("the front moves on", off_traces(&r, &g, 4e-4 * k, before), 1e-14);
-    }
-    ehl_roughness_heights(&r, &g, 0.02, before);
-    check_below("rough all over", off_traces(&r, &g, 0.02, before), 1e-14);
-    check_true("where they were smooth, too", fabs(before[NODES - 1]) > 1e-8);
-    h.mirrored = 0;
-    r.ramp = r.period = 0;
+    test_mirrored(time, u1, u2, position, (const double(*)[POINTS])height, &g);
+    r.period = 0;
     ehl_roughness_heights(&r, &g, 1e-4, before);
     check_below("a trace that ends", off_traces(&r, &g, 1e-4, before), 1e-14);
     r.period = period;
