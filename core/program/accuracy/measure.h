@@ -53,6 +53,8 @@ typedef struct accuracy_record {
     ff_pipeline *answer; /* the pipeline that was run, or another one of `twin` */
     struct accuracy_twin *twin;
     struct accuracy_twin *own[ACCURACY_OWN]; /* that were run for it */
+    const struct accuracy_twin *half,
+        *quarter; /* twins a level coarser, and two; NULL: there is none */
     struct accuracy_choice
         *choice; /* of models, whose part counts with the rest; NULL: none was made */
     memory_arena arena;
