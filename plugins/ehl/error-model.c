@@ -83,21 +83,28 @@ static span carried_span(const ehl_reynolds *eq, const contact *c)
 {
     double first = (c->buildup - c->a - eq->first) / eq->dx,
            end = (c->a - 1.6 * c->buildup - eq->first) / eq->dx;
-    first = fmax(ceil(first), 2);
+    first = fmax(ceil(first), 3);
     end = fmin(end, (double)eq->nodes - 3);
     return end > first ? (span){(size_t)first, (size_t)end} : (span){0, 0};
 }
 
-/* Leading error of the difference that carries the film from node to node, over a cell's way: of
-   second order dx^2/3 h_xxx; of control volumes, whose change in time is that of both nodes,
-   dx^2/12 h_xxx; of first order dx/2 h_xx. */
+/*
+ * What the difference that carries the film from node to node makes of it over a cell's way, as a
+ * share: the slope, by differences of sixth order, less that difference. Of control volumes, whose
+ * change in time is that of both nodes, its leading error: dx^2/12 h_xxx, or dx/2 h_xx.
+ */
 static double local_error(const ehl_reynolds *eq, const double *mass, size_t i)
 {
-    double bend = mass[i + 1] - 2 * mass[i] + mass[i - 1];
-    double third = mass[i + 2] - 3 * mass[i + 1] + 3 * mass[i] - mass[i - 1];
-    if (eq->wedge < 2 || (eq->asymmetric && eq->conserving))
-        return bend / (2 * mass[i]);
-    return third / ((eq->asymmetric ? 12 : 3) * mass[i]);
+    const double *m = mass + i;
+    double slope = (45 * (m[1] - m[-1]) - 9 * (m[2] - m[-2]) + (m[3] - m[-3])) / 60;
+    double taken = m[0] - m[-1];
+    if (eq->asymmetric && eq->conserving)
+        return (m[1] - 2 * m[0] + m[-1]) / (2 * m[0]);
+    if (eq->asymmetric && eq->wedge == 2)
+        return (m[2] - 3 * m[1] + 3 * m[0] - m[-1]) / (12 * m[0]);
+    if (eq->wedge == 2)
+        taken += (taken - (m[-1] - m[-2])) / 2;
+    return (slope - taken) / m[0];
 }
 
 /* Adds up what that makes of the film on its way: dips of few cells are filled. The sums move with
@@ -122,14 +129,23 @@ static void carry_errors(ehl_results *r, const ehl_march *m, const contact *c)
         sum->error[i] += cells * local_error(eq, m->state[0].mass, i);
 }
 
-/* Returns the largest of these errors near that node; 0 where something else makes the film. */
-static double carried_error(const ehl_results *r, const ehl_march *m, size_t node, const contact *c)
+/* Returns that error at a node; behind the span it is that of what arrives there. */
+static double carried_to(const ehl_results *r, const span *of, size_t node)
 {
-    span of = carried_span(m->solver->reynolds, c);
-    double worst = 0;
-    for (size_t i = node - 2; node >= of.first && node < of.end && i <= node + 2; i++)
-        worst = fmax(worst, fabs(r->carried.error[i]));
-    return worst;
+    return of->end > 0 ? r->carried.error[node < of->end ? node : of->end - 1] : 0;
+}
+
+/* Returns by how much these errors change the least film, relative: where a dip is only moved they
+   are large, and its depth stays. */
+static double carried_of_least(const ehl_results *r, const ehl_reynolds *eq, const contact *c)
+{
+    const span of = carried_span(eq, c);
+    double least = HUGE_VAL, without = HUGE_VAL;
+    for (size_t i = 0; i < eq->nodes; i++) {
+        least = fmin(least, eq->h[i]);
+        without = fmin(without, eq->h[i] * (1 - carried_to(r, &of, i)));
+    }
+    return fabs(without / least - 1);
 }
 
 /*
@@ -342,8 +358,10 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
     if (ehl_march_is_loaded(m)) {
         contact c = contact_at(m->solver->reynolds, &m->at, m->history->modulus, h_central);
         carry_errors(r, m, &c);
-        carried[EHL_LEAST] = carried_error(r, m, node, &c);
-        carried[EHL_CENTRAL] = carried_error(r, m, centre, &c);
+        const ehl_reynolds *eq = m->solver->reynolds;
+        const span of = carried_span(eq, &c);
+        carried[EHL_LEAST] = carried_of_least(r, eq, &c);
+        carried[EHL_CENTRAL] = fabs(carried_to(r, &of, centre));
         record_resolution(r, m, h_central, &c);
         record_bounds(r, m, h_central, p_max, &c);
         for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {

@@ -118,7 +118,7 @@ static void test_carried(void)
            says_central = stage_quality(c.film, "h_central_space_error");
     printf("carried: h_min %.4f (%.4f), h_central %.4f (%.4f)\n", least, says, central,
            says_central);
-    check_below("h_min over what is stated", least / says, 1.5);
+    check_below("h_min over what is stated", least / says, 1); /* the dip has reached the outlet */
     check_below("what is stated over it", says / least, 3);
     check_below("h_central over what is stated", central / says_central, 1.5);
     check_below("what is stated over it", says_central / central, 3);
