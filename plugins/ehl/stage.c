@@ -174,14 +174,9 @@ static ff_status check_hardness(const ehl_model *m, const run *r)
                     1e-9 * m->asperity_hardness, 1e-9 * mean);
 }
 
-static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
+/* Fits the domain and its nodes to the contact, the oil and the roughness. */
+static ff_status fit_grid(const ehl_model *m, run *r)
 {
-    ff_status status = ehl_read_history(m->host, in, m->light_load, &r->history);
-    if (status != FF_OK)
-        return status;
-    status = read_surface(m, in, r);
-    if (status != FF_OK)
-        return status;
     if (ehl_fluid_oil(&m->laws, &r->oil) < 0)
         return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
     double rq = r->rough.count > 0 ? ehl_roughness_rq(&r->rough) : 0;
@@ -191,28 +186,36 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
     if (!(r->grid.dx > 0 && isfinite(r->grid.dx)))
         return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
                         "the contact and the oil give no finite length of the domain");
-    status = check_hardness(m, r);
-    if (status != FF_OK)
-        return status;
-    if (ehl_reynolds_create(&r->reynolds, &r->grid, &m->laws, &r->oil, m->wedge + 1) != FF_OK)
+    return check_hardness(m, r);
+}
+
+static ff_status equations_create(const ehl_model *m, run *r)
+{
+    ehl_reynolds *eq = &r->reynolds;
+    size_t nodes = r->grid.nodes;
+    if (ehl_reynolds_create(eq, &r->grid, &m->laws, &r->oil, m->wedge + 1) != FF_OK)
         return FF_NOMEM;
-    r->kernel = malloc(r->grid.nodes * sizeof *r->kernel);
+    r->kernel = malloc(nodes * sizeof *r->kernel);
     if (!r->kernel)
         return FF_NOMEM;
-    ehl_kernel_fill(r->grid.nodes, r->grid.dx, r->history.modulus, r->grid.half_width, r->kernel);
-    r->reynolds.conserving = m->cavitation == EHL_CONSERVING;
-    r->reynolds.unit = r->oil.density * (r->kernel[0] - r->kernel[r->grid.nodes - 1]);
+    ehl_kernel_fill(nodes, r->grid.dx, r->history.modulus, r->grid.half_width, r->kernel);
+    eq->conserving = m->cavitation == EHL_CONSERVING;
+    eq->unit = r->oil.density * (r->kernel[0] - r->kernel[nodes - 1]);
     if (r->rough.count > 0) {
         /* mass-conserving cavitation: a bubble in a valley must give way; first-order wedge: the
            film boundary must make no waves */
-        r->reynolds.conserving = 1;
-        r->reynolds.wedge = 1;
-        r->reynolds.contact = r->reynolds.floor = m->contact_film;
-        r->reynolds.leak =
-            m->valleys == EHL_VENTILATED ? 12 / (m->valley_length * m->valley_length) : 0;
-        r->reynolds.hardness = m->asperity_hardness;
-        r->reynolds.give = r->kernel[0] - r->kernel[r->grid.nodes - 1];
+        eq->conserving = 1;
+        eq->wedge = 1;
+        eq->contact = eq->floor = m->contact_film;
+        eq->leak = m->valleys == EHL_VENTILATED ? 12 / (m->valley_length * m->valley_length) : 0;
+        eq->hardness = m->asperity_hardness;
+        eq->give = r->kernel[0] - r->kernel[nodes - 1];
     }
+    return FF_OK;
+}
+
+static ff_status solver_create(const ehl_model *m, run *r)
+{
     r->solver = (ehl_solver){
         .grid = &r->grid,
         .reynolds = &r->reynolds,
@@ -222,7 +225,7 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
         .outside = m->outside,
         .maker = m->outside ? ehl_outside : m->maker,
     };
-    status = r->solver.maker(&r->solver);
+    ff_status status = r->solver.maker(&r->solver);
     if (status == FF_UNSUPPORTED && m->outside)
         return ff_failf(
             m->host, status, "discretisation",
@@ -231,6 +234,20 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
             r->reynolds.wedge == 2 ? "second-order" : "first-order");
     if (status == FF_UNSUPPORTED)
         return ff_failf(m->host, status, NULL, "LAPACK, which this model needs, cannot be loaded");
+    return status;
+}
+
+static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
+{
+    ff_status status = ehl_read_history(m->host, in, m->light_load, &r->history);
+    if (status == FF_OK)
+        status = read_surface(m, in, r);
+    if (status == FF_OK)
+        status = fit_grid(m, r);
+    if (status == FF_OK)
+        status = equations_create(m, r);
+    if (status == FF_OK)
+        status = solver_create(m, r);
     if (status != FF_OK)
         return status;
     status = ehl_march_create(&r->march, &r->history, &r->solver, m->time_scheme);

@@ -287,6 +287,14 @@ static double roughness_of(const spur *s, int gear)
     return s->roughness_rq.count > 0 ? ff_of_both(&s->roughness_rq, gear) : 0;
 }
 
+static ff_status put_pair(const spur *s, uint64_t wanted, uint32_t row, const double values[2])
+{
+    double *data = wanted & FF_BIT(row) ? ff_put_series(s->host, row, 2) : NULL;
+    if (data)
+        memcpy(data, values, 2 * sizeof *data);
+    return data || !(wanted & FF_BIT(row)) ? FF_OK : FF_NOMEM;
+}
+
 static ff_status write_pairs(const spur *s, uint64_t wanted)
 {
     const gear_spur_pair *p = &s->pair;
@@ -336,16 +344,10 @@ static ff_status write_pairs(const spur *s, uint64_t wanted)
         {OUT_ACTIVE_ROOT_RADIUS, active},
         {OUT_YIELD_STRENGTH, yield},
     };
-    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
-        if (!(wanted & FF_BIT(pairs[i].row)))
-            continue;
-        double *data = ff_put_series(s->host, pairs[i].row, 2);
-        if (!data)
-            return FF_NOMEM;
-        data[0] = pairs[i].values[0];
-        data[1] = pairs[i].values[1];
-    }
-    return FF_OK;
+    ff_status status = FF_OK;
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0] && status == FF_OK; i++)
+        status = put_pair(s, wanted, pairs[i].row, pairs[i].values);
+    return status;
 }
 
 /* On the path of contact R1 + R2 is the length of the common tangent of the base circles, and the
