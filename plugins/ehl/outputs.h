@@ -73,6 +73,9 @@ void ehl_results_destroy(ehl_results *r);
 /* Records the newest film of the march; `last`: no other will follow. */
 ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last);
 
+/* Fills in what the film dissipates. */
+void ehl_results_loss(ehl_results *r, const ehl_march *m);
+
 /* Estimates the errors of the row that is being filled in; h_min is at `node`. */
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
                         double p_max);
