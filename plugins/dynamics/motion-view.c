@@ -124,21 +124,25 @@ typedef struct dynamics_between {
     double beyond; /* half-way between two stations, by how much it leaves the span of both */
 } dynamics_between;
 
+/* As on `parts` times the stations. */
 static dynamics_between look_between(const dynamics_motion_view *view,
-                                     const dynamics_inputs *inputs)
+                                     const dynamics_inputs *inputs, size_t parts)
 {
     dynamics_between found = {0, 0};
     for (size_t cycle = 0; cycle < view->cycles; cycle++)
-        for (size_t i = 0; i + 1 < inputs->stations; i++) {
+        for (size_t j = 0; j < (inputs->stations - 1) * parts; j++) {
+            size_t i = j / parts;
+            double from = (double)(j % parts) / (double)parts, part = 1 / (double)parts;
             double begin = dynamics_station_phase(inputs, i),
-                   end = dynamics_station_phase(inputs, i + 1), gap, force[3];
-            if (end - begin < 1e-12)
+                   way = dynamics_station_phase(inputs, i + 1) - begin, gap, force[3];
+            if (way < 1e-12)
                 continue;
             double share = static_share(inputs, i), step = static_share(inputs, i + 1) - share;
             for (int k = 0; k < 3; k++) {
-                view->look_up(view->self, (double)cycle + begin + 0.5 * k * (end - begin), k == 2,
-                              &force[k], &gap);
-                force[k] *= share + 0.5 * k * step;
+                double at = from + 0.5 * k * part;
+                view->look_up(view->self, (double)cycle + begin + at * way, k == 2, &force[k],
+                              &gap);
+                force[k] *= share + at * step;
             }
             double high = fmax(force[0], force[2]), low = fmin(force[0], force[2]);
             found.beyond = fmax(found.beyond, fmax(force[1] - high, low - force[1]));
@@ -147,20 +151,34 @@ static dynamics_between look_between(const dynamics_motion_view *view,
     return found;
 }
 
+/* Returns how many stations follow the motion, by what it does on two, three, five and more times
+   as many: few of them see little of a vibration that turns between two. */
+static double enough_stations(const dynamics_motion_view *view, const dynamics_inputs *inputs,
+                              double limit)
+{
+    enum { MOST = 27 };
+    size_t parts = 1;
+    dynamics_between found;
+    do {
+        parts += (parts + 1) / 2;
+        found = look_between(view, inputs, parts);
+    } while (found.beyond > limit * found.largest && parts < MOST);
+    return (double)(inputs->stations * parts);
+}
+
 /* A vibration that turns by w between two stations leaves their span by 1 - cos(w/2) of its
    amplitude where it turns back, which is what a monotone cubic cuts off; a jump between them, as
    of the damper's force at a corner of the transmission error, is ramped over and does not. The
    Hertz pressure is off by half as much. */
-static void report_sampling(const dynamics_between *found, const dynamics_inputs *inputs,
-                            const ff_host *host)
+static void report_sampling(const dynamics_motion_view *view, const dynamics_between *found,
+                            const dynamics_inputs *inputs, const ff_host *host)
 {
     const double limit = 0.02;
     double error = found->largest > 0 ? found->beyond / found->largest : 0;
-    double enough = (double)inputs->stations * sqrt(error / limit); /* 1 - cos(w/2) is w^2/8 */
     char more[96] = "", text[240];
     if (error > limit)
         snprintf(more, sizeof more, "; the gear's stations: %.0f or more follow the vibration",
-                 100 * ceil(enough / 100));
+                 100 * ceil(enough_stations(view, inputs, limit) / 100));
     snprintf(text, sizeof text,
              "tooth force half-way between two stations of the gear, beyond that at both of them, "
              "over the largest%s",
@@ -188,8 +206,8 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
     dynamics_between between = {0, 0};
     ff_status status = put_engagements(view, excitation, inputs, host);
     if (inputs->wanted & of_stations) {
-        between = look_between(view, inputs);
-        report_sampling(&between, inputs, host);
+        between = look_between(view, inputs, 1);
+        report_sampling(view, &between, inputs, host);
     }
     double tooth = between.largest * excitation->stiffness * excitation->length;
     const struct {

@@ -35,8 +35,12 @@ def call(*settings, command='run'):
     return json.loads(done.stdout)
 
 
+def line(answer, stage, name):
+    return next(s for s in answer['stages'] if s['stage'] == stage)['quality'][name]
+
+
 def quality(answer, stage, name):
-    return next(s for s in answer['stages'] if s['stage'] == stage)['quality'][name]['value']
+    return line(answer, stage, name)['value']
 
 
 def check_accuracy():
@@ -65,6 +69,12 @@ def check_engagements():
     one = [quality(call(outputs, f'tooth.engagement={k}'), 'tooth', 'mesh_load') for k in (0, 1)]
     print('mean load off by', both, 'of each alone', one)
     assert both < 2e-3 and min(one) > 5e-3, (both, one)
+    said = [line(call(outputs, *more), 'tooth', 'mesh_load')['text']
+            for more in ([], ['tooth.engagement=1'], ['tooth.max_engagements=1'])]
+    print(*said, sep='\n')
+    assert 'takes more' not in said[0], said
+    assert '1 of 2 engagements are not the whole motion; engagement: all takes more' in said[1], said
+    assert '1 of 2 engagements are not the whole motion; max_engagements takes more' in said[2], said
 
 
 if __name__ == '__main__':
