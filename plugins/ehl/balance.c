@@ -156,6 +156,8 @@ static void check_gap(ehl_balance *b, const ehl_march *m)
     for (size_t i = 1; i + 1 < b->nodes; i++)
         least = eq->h[i] < eq->h[least] ? i : least;
     double there = gap_off_shape(b, m, least);
+    if (!m->solver->outside) /* whose h00 may be counted from elsewhere */
+        ehl_worse(&b->worst.gap, fabs(there - m->state[0].film.h00) / eq->h[least]);
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
         double node = (places[k] * fmax(a, 4 * g->dx) - eq->first) / eq->dx;
         if (node >= 1 && node + 2 < (double)b->nodes) {
