@@ -18,7 +18,8 @@ points at which that holds, with a shift along the series of up to 0.2 of a pass
 
 --lattice asks what the answers cost. Twelve fixed settings of the film are held against the reference; the
 cheapest from which on all finer ones keep the accuracy too, in each output whose error bar is within it, is what a user who
-had tried them all would take. The answer costs the work of its stages and of all its attempts and twins.
+had tried them all would take. Cost is counted in cell-steps, cells times instants of the film; attempts and twins of the answer
+count by their processor time over that of its own run.
 """
 import argparse
 import bisect
@@ -359,8 +360,13 @@ def keeps(answer, exact, name, goal):
     return bool(verdict) and (verdict['share'] >= 0.95 if 'share' in verdict else verdict['held'])
 
 
+def cell_steps(answer, cells):
+    return cells * len(answer['outputs']['film.time']['value'])
+
+
 def cost_of(answer):
-    return answer['seconds'] + (answer['twins'].get('seconds') or 0)
+    own = cell_steps(answer, int(answer['twins']['settings']['film.cells']))
+    return own, own * (1 + (answer['twins'].get('seconds') or 0) / answer['seconds'])
 
 
 def lattice_of(runner, scene, cache):
@@ -376,14 +382,14 @@ def lattice_of(runner, scene, cache):
 def cheapest(points, exact, names, goal):
     """The least cost from which on all finer settings keep the accuracy."""
     good = [all(keeps(answer, exact, name, goal) for name in names) for answer in points]
-    costs = [points[i]['seconds'] for i, (cells, tolerance) in enumerate(LATTICE)
+    costs = [cell_steps(points[i], cells) for i, (cells, tolerance) in enumerate(LATTICE)
              if all(good[k] for k, (c, t) in enumerate(LATTICE) if c >= cells and t <= tolerance)]
     return min(costs, default=None)
 
 
 def print_costs(runner, scenes, cache, out):
-    print('| scene | what | accuracy | outputs within it | cost of the answer, s | of the cheapest of the lattice, s | ratio |\n|'
-          + '---|' * 7, file=out)
+    print('| scene | what | accuracy | outputs within it | cell-steps of the answer, in thousands | of the cheapest of the lattice | ratio | of its own run alone |\n|'
+          + '---|' * 8, file=out)
     ratios = {level: [] for level in GOALS}
     for scene, answers in scenes:
         exact = answers['reference']
@@ -397,15 +403,18 @@ def print_costs(runner, scenes, cache, out):
             names = [n for n in scene['outputs'] if answer['outputs'][n]['relative'] is not None
                      and answer['outputs'][n]['relative'] <= goal]
             least = cheapest(points, exact, names, goal)
-            ratio = cost_of(answer) / least if least else None
+            own, cost = cost_of(answer)
+            ratio = cost / least if least else None
             if ratio:
-                ratios[level].append(ratio)
-            print(f"| {scene['number']} | {scene['kind']} | {level} | {len(names)} of {len(scene['outputs'])} | {cost_of(answer):.3g} "
-                  f"| {f'{least:.3g}' if least else 'none does'} | {f'{ratio:.2g}' if ratio else ''} |", file=out)
+                ratios[level].append((ratio, own / least))
+            print(f"| {scene['number']} | {scene['kind']} | {level} | {len(names)} of {len(scene['outputs'])} | {cost / 1e3:.3g} "
+                  f"| {f'{least / 1e3:.3g}' if least else 'none does'} | {f'{ratio:.2g} | {own / least:.2g}' if ratio else ' | '} |", file=out)
     for level, found in ratios.items():
         if found:
-            high = sorted(found)[math.ceil(0.9 * len(found)) - 1]
-            print(f'\n{level}: median {statistics.median(found):.2g} times, 90 % below {high:.2g} times, of {len(found)} scenes', file=out)
+            costs = sorted(f[0] for f in found)
+            print(f'\n{level}: median {statistics.median(costs):.2g} times, 90 % at most {costs[math.ceil(0.9 * len(costs)) - 1]:.2g} times, '
+                  f'at most 6 times {sum(c <= 6 for c in costs)} of {len(costs)} scenes, '
+                  f'own run alone {statistics.median(f[1] for f in found):.2g} times (median)', file=out)
 
 
 def main():
