@@ -151,19 +151,21 @@ static dynamics_between look_between(const dynamics_motion_view *view,
     return found;
 }
 
+/* Most parts of the way between two stations that a number of stations is looked for with. */
+enum { MOST_PARTS = 27 };
+
 /* Returns how many stations follow the motion, by what it does on two, three, five and more times
-   as many: few of them see little of a vibration that turns between two. */
+   as many: few of them see little of a vibration that turns between two. 0: more than those. */
 static double enough_stations(const dynamics_motion_view *view, const dynamics_inputs *inputs,
                               double limit)
 {
-    enum { MOST = 27 };
     size_t parts = 1;
     dynamics_between found;
     do {
         parts += (parts + 1) / 2;
         found = look_between(view, inputs, parts);
-    } while (found.beyond > limit * found.largest && parts < MOST);
-    return (double)(inputs->stations * parts);
+    } while (found.beyond > limit * found.largest && parts < MOST_PARTS);
+    return found.beyond > limit * found.largest ? 0 : (double)(inputs->stations * parts);
 }
 
 /* A vibration that turns by w between two stations leaves their span by 1 - cos(w/2) of its
@@ -176,9 +178,13 @@ static void report_sampling(const dynamics_motion_view *view, const dynamics_bet
     const double limit = 0.02;
     double error = found->largest > 0 ? found->beyond / found->largest : 0;
     char more[96] = "", text[240];
-    if (error > limit)
+    double enough = error > limit ? enough_stations(view, inputs, limit) : 0;
+    if (enough > 0)
         snprintf(more, sizeof more, "; the gear's stations: %.0f or more follow the vibration",
-                 100 * ceil(enough_stations(view, inputs, limit) / 100));
+                 100 * ceil(enough / 100));
+    else if (error > limit)
+        snprintf(more, sizeof more, "; the gear's stations: more than %zu follow the vibration",
+                 inputs->stations * MOST_PARTS);
     snprintf(text, sizeof text,
              "tooth force half-way between two stations of the gear, beyond that at both of them, "
              "over the largest%s",

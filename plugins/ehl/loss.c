@@ -93,10 +93,11 @@ static pressure_flow flow_of(const ehl_results *r, const ehl_march *m)
     ehl_reynolds_evaluate(eq, &m->step, &m->state[0].film);
     const double *p = m->state[0].film.p, *h = eq->h, *rho = eq->liquid.rho;
     double u = m->at.entrainment, dissipated = 0, work = 0, flow = 0;
+    double *power = r->tau; /* the stress has been summed */
     for (size_t i = 0; i < eq->last; i++) {
         double rise = p[i + 1] - p[i];
-        r->tau[i] = eq->mean[i] * rise * rise * (rho[i] + rho[i + 1]) / (rho[i] * rho[i + 1]);
-        dissipated += r->tau[i];
+        power[i] = eq->mean[i] * rise * rise * (rho[i] + rho[i + 1]) / (rho[i] * rho[i + 1]);
+        dissipated += power[i];
         work += (h[i] + h[i + 1]) * rise;
     }
     if (m->thermal)
@@ -105,7 +106,7 @@ static pressure_flow flow_of(const ehl_results *r, const ehl_march *m)
         flow = dissipated / (2 * eq->dx);
     int flooded = p[1] > 0;
     double tail = flooded ? 24 * eq->oil.viscosity * u * m->at.radius / fabs(eq->first) : 0;
-    double squeezed = flooded && u > 0 ? squeezed_far_off(m, r->tau) : 0;
+    double squeezed = flooded && u > 0 ? squeezed_far_off(m, power) : 0;
     return (pressure_flow){flow + u * tail, u * (work / 2 + tail), u * tail, squeezed};
 }
 

@@ -76,6 +76,9 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last);
 /* Fills in what the film dissipates. */
 void ehl_results_loss(ehl_results *r, const ehl_march *m);
 
+/* Estimates the error of power_loss by the time steps, W/m: the largest of all instants. */
+double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m);
+
 /* Estimates the errors of the row that is being filled in; h_min is at `node`. */
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
                         double p_max);
@@ -100,9 +103,6 @@ double ehl_central_film(const ehl_grid *g, const ehl_reynolds *r);
 
 /* Writes all outputs and the quality record. */
 ff_status ehl_results_finish(const ehl_results *r, const ehl_march *m);
-
-/* Estimates the error of power_loss by the time steps, W/m: the largest of all instants. */
-double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m);
 
 /* The lines of those errors. */
 void ehl_results_report_cells(const ehl_results *r, const ehl_march *m);

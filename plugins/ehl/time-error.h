@@ -8,7 +8,7 @@
  * What a film that is off makes of the pressure at x, Pa. Where the oil is carried along the flanks
  * bend by d = e h, with e the error at the nodes, over h, under an unchanged load and but for h00:
  *   dp(x) = E'/(4 pi (a^2 - x^2)^(1/2)) PV int (a^2 - s^2)^(1/2) d'(s)/(x - s) ds,  |x| < a
- * (Johnson 1985, Contact Mechanics, 2.7; docs/theory.md, 12.10). x is that of a node.
+ * (Johnson 1985, Contact Mechanics, 2.7; docs/theory.md, 12.11). x is that of a node.
  */
 double ehl_pressure_of_error(const ehl_reynolds *eq, const double *error, double modulus, double a,
                              double x);

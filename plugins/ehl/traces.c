@@ -54,6 +54,6 @@ double ehl_traces_height(const ehl_roughness *r, double x, double width, double 
         height += mean_height(r, r->height[g], s - width / 2, s + width / 2);
         carried += way / 2;
     }
-    double in = r->ramp > 0 ? (x - r->front - fabs(carried)) / r->ramp : 0;
+    double in = r->ramp > 0 ? (x - r->front - (mirrored ? -carried : carried)) / r->ramp : 0;
     return in <= 0 ? height : in < 1 ? height * (1 - in) * (1 - in) * (1 + 2 * in) : 0;
 }
