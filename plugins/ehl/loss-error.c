@@ -36,7 +36,12 @@ static double off_polynomial(const ehl_results *r, size_t k, int way, size_t cou
     return flow_power(r, k) - q[0];
 }
 
-/* A power that leaps lies on the polynomial from the side which it has leapt to. */
+/*
+ * A power that leaps lies on the polynomial from the side which it has leapt to. A smooth curve is
+ * to the same side of its lines (count 2) from either side, and a cubic to opposite sides of its
+ * parabolas (count 3), which would make an error of what is none: only an instant that is itself
+ * off is so to the same side of both.
+ */
 static double off_both(const ehl_results *r, size_t k, size_t count)
 {
     double before = off_polynomial(r, k, -1, count), behind = off_polynomial(r, k, 1, count);
@@ -58,11 +63,11 @@ static int is_inside(const ehl_results *r, size_t k)
  * (10.2) takes the change in time wrongly by dt (dt + dt_1)/6 of its second derivative, and a power
  * that goes with this change is off by a third of what it is off the line through two neighbours.
  * (10.1) is late by half a step, and one of them behind a kink leaves the parabola of what follows
- * by its error.
+ * by its error. Negative where no instant is REACH from both ends of its engagement.
  */
 double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m)
 {
-    double worst = 0;
+    double worst = -1;
     for (size_t k = REACH; k + REACH < r->series.count; k++) {
         if (!is_inside(r, k))
             continue;

@@ -76,7 +76,8 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last);
 /* Fills in what the film dissipates. */
 void ehl_results_loss(ehl_results *r, const ehl_march *m);
 
-/* Estimates the error of power_loss by the time steps, W/m: the largest of all instants. */
+/* Estimates the error of the rolling and squeeze in power_loss by the time steps, W/m: the largest
+   of all instants; negative where none is looked at. */
 double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m);
 
 /* Estimates the errors of the row that is being filled in; h_min is at `node`. */

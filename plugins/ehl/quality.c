@@ -246,7 +246,8 @@ static double largest_loss(const ehl_results *r)
 
 static void report_end_of_inlet(const ehl_results *r)
 {
-    if (!r->rough && (r->wanted & FF_BIT(EHL_POWER_LOSS)))
+    int flooded = r->tail_share > 0; /* at some instant: of a starved inlet nothing is looked at */
+    if (!r->rough && flooded && (r->wanted & FF_BIT(EHL_POWER_LOSS)))
         report_at_most(
             r, "power_loss_inlet_error", r->worst_squeezed / largest_loss(r), 0.05, FF_DOUBTFUL,
             "estimate of the error of power_loss by where the domain begins, over the largest: the "
@@ -301,23 +302,6 @@ static void report_resolution(const ehl_results *r)
         "low: move the outlet out");
 }
 
-/* Estimates how far the pressure may rise between two instants, over the highest: twice the height
-   of a peak in time over the nearer of its neighbours. A jump on one side is not a peak. */
-static double peak_in_time(const ehl_results *r)
-{
-    double worst = 0;
-    for (size_t k = 1; k + 1 < r->series.count; k++) {
-        const double *row = &r->series.data[k * EHL_SERIES], *p = row + EHL_P_MAX;
-        const double *number = row + EHL_ENGAGEMENT;
-        if (number[-EHL_SERIES] != number[0] || number[EHL_SERIES] != number[0])
-            continue; /* another film begins or ends */
-        double nearer = fmin(p[0] - p[-EHL_SERIES], p[0] - p[EHL_SERIES]);
-        if (nearer > 0)
-            worst = fmax(worst, (p[0] + 2 * nearer) / r->highest - 1);
-    }
-    return worst;
-}
-
 static void report_time_errors(const ehl_results *r, const ehl_march *m)
 {
     char text[192];
@@ -355,20 +339,19 @@ static void report_time_errors(const ehl_results *r, const ehl_march *m)
         "oil that came into the contact and left it, off the change of what is there, over it");
     if (ehl_wants_p_max(r->wanted))
         report_at_most(r, "p_max_time_error",
-                       fmax(peak_in_time(r),
-                            ehl_beyond_instants(r, EHL_P_MAX, 1) +
-                                (r->highest_alone ? fmax(0, r->highest_in_time / r->highest - 1)
-                                                  : r->worst_peak_in_time)),
+                       ehl_beyond_instants(r, EHL_P_MAX, 1) +
+                           (r->highest_alone ? fmax(0, r->highest_in_time / r->highest - 1)
+                                             : r->worst_peak_in_time),
                        0.05, FF_DOUBTFUL,
                        r->highest_alone
                            ? "estimate of the error of p_max_highest by the time steps, over it"
                            : "estimate of the error of p_max by the time steps, over p_max");
-    if (r->wanted & FF_BIT(EHL_POWER_LOSS))
+    double loss = r->wanted & FF_BIT(EHL_POWER_LOSS) ? ehl_results_loss_in_time(r, m) : -1;
+    if (loss >= 0)
         report_at_most(
-            r, "power_loss_time_error", ehl_results_loss_in_time(r, m) / largest_loss(r), 0.05,
-            FF_DOUBTFUL,
-            "estimate of the error of power_loss by the time steps, over the largest; loads above "
-            "2 % of the largest");
+            r, "power_loss_time_error", loss / largest_loss(r), 0.05, FF_DOUBTFUL,
+            "estimate of the error of the rolling and squeeze in power_loss by the time steps, "
+            "over the largest power_loss; loads above 2 % of the largest");
     r->host->quality(r->host->ctx, "steps_cut", m->steps_cut, 0, FF_GOOD,
                      "time steps that failed and were taken again in shorter ones");
     snprintf(text, sizeof text,

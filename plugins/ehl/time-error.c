@@ -40,35 +40,47 @@ void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, double p_max)
     double x = eq->first + fmin(fmax((double)peak, first), last) * eq->dx;
     double off = fabs(ehl_pressure_of_error(eq, m->accumulated_error, m->history->modulus, a, x));
     ehl_worse(&r->worst_peak_in_time, off / p_max);
-    r->highest_in_time = fmax(r->highest_in_time, p_max + off);
+    ehl_worse(&r->highest_in_time, p_max + off);
 }
 
-/* How far the parabola in time through three instants, at t[0] ... t[2], goes beyond a middle value
-   that is not below the others. */
-static double beyond_middle(const double t[3], const double y[3])
+/*
+ * How far a parabola goes beyond both values in the middle, between t[1] and t[2]. Of the two
+ * parabolas through three neighbours of four the flatter counts: of a peak both are bent; of a
+ * value that drops or turns at an instant the one on the other side is straight.
+ */
+static double beyond_both(const double t[4], const double y[4])
 {
-    double up = (y[1] - y[0]) / (t[1] - t[0]), down = (y[1] - y[2]) / (t[2] - t[1]);
-    double before = t[1] - t[0], after = t[2] - t[1], both = before + after;
-    double slope = (up * after - down * before) / both, bend = 2 * (up + down) / both;
-    return bend > 0 ? slope * slope / (2 * bend) : 0;
+    double slope[3], within = t[2] - t[1];
+    for (int i = 0; i < 3; i++)
+        slope[i] = (y[i + 1] - y[i]) / (t[i + 1] - t[i]);
+    double bend =
+        fmin(2 * (slope[0] - slope[1]) / (t[2] - t[0]), 2 * (slope[1] - slope[2]) / (t[3] - t[1]));
+    double rise = bend * within / 2 - fabs(slope[1]);
+    return rise > 0 ? rise * rise / (2 * bend) : 0;
+}
+
+/* Whether that row is of the same engagement as the one before, and later. */
+static int goes_on(const double *row)
+{
+    const double *before = row - EHL_SERIES;
+    return row[EHL_TIME] > before[EHL_TIME] && !(row[EHL_ENGAGEMENT] > before[EHL_ENGAGEMENT]);
 }
 
 double ehl_beyond_instants(const ehl_results *r, uint32_t column, double way)
 {
     double most = -HUGE_VAL, extreme = -HUGE_VAL;
     for (size_t k = 0; k < r->series.count; k++) {
-        const double *row = &r->series.data[k * EHL_SERIES], *before = row - EHL_SERIES,
-                     *after = row + EHL_SERIES;
-        double here = way * row[column], beyond = 0;
-        extreme = fmax(extreme, here);
-        int inner = k > 0 && k + 1 < r->series.count &&
-                    !(before[EHL_ENGAGEMENT] < row[EHL_ENGAGEMENT]) &&
-                    !(row[EHL_ENGAGEMENT] < after[EHL_ENGAGEMENT]) &&
-                    before[EHL_TIME] < row[EHL_TIME] && row[EHL_TIME] < after[EHL_TIME];
-        if (inner && way * before[column] <= here && way * after[column] <= here)
-            beyond = beyond_middle((double[]){before[EHL_TIME], row[EHL_TIME], after[EHL_TIME]},
-                                   (double[]){way * before[column], here, way * after[column]});
-        most = fmax(most, here + beyond);
+        const double *row = &r->series.data[k * EHL_SERIES];
+        double t[4], y[4];
+        extreme = fmax(extreme, way * row[column]);
+        if (k < 3 || !goes_on(row) || !goes_on(row - EHL_SERIES) || !goes_on(row - 2 * EHL_SERIES))
+            continue;
+        for (size_t i = 0; i < 4; i++) {
+            const double *of = row - (3 - i) * EHL_SERIES;
+            t[i] = of[EHL_TIME];
+            y[i] = way * of[column];
+        }
+        most = fmax(most, fmax(y[1], y[2]) + beyond_both(t, y));
     }
-    return (most - extreme) / fabs(extreme);
+    return (fmax(most, extreme) - extreme) / fabs(extreme);
 }

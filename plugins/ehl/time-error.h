@@ -16,8 +16,9 @@ double ehl_pressure_of_error(const ehl_reynolds *eq, const double *error, double
 /* Keeps what the steps have made of p_max in the newest film. */
 void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, double p_max);
 
-/* By how much a parabola in time through three instants goes beyond the extreme of all, over it:
-   of the highest value with way = 1, of the lowest with -1. */
+/* By how much parabolas in time through neighbours go beyond the extreme of all instants, over it:
+   of the highest value with way = 1, of the lowest with -1. Between the first two and the last two
+   of an engagement nothing is looked for. */
 double ehl_beyond_instants(const ehl_results *r, uint32_t column, double way);
 
 #endif

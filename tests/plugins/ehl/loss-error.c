@@ -13,7 +13,7 @@ enum { ROWS = 20, AT = 9 };
 static double series[ROWS * EHL_SERIES], space[ROWS * EHL_BOUNDS];
 static double time_of[ROWS];
 
-static double stated(double (*power)(double), int scheme)
+static double stated_of(size_t rows, double (*power)(double), int scheme)
 {
     static ehl_march m;
     static ehl_results r;
@@ -22,7 +22,7 @@ static double stated(double (*power)(double), int scheme)
     m.scheme = scheme;
     r.series.data = series;
     r.space.data = space;
-    r.series.count = r.space.count = ROWS;
+    r.series.count = r.space.count = rows;
     for (size_t k = 0; k < ROWS; k++) {
         time_of[k] = (double)k + 0.3 * sin((double)k);
         series[k * EHL_SERIES + EHL_TIME] = time_of[k];
@@ -30,6 +30,11 @@ static double stated(double (*power)(double), int scheme)
         space[k * EHL_BOUNDS + EHL_LEAST] = 1;
     }
     return ehl_results_loss_in_time(&r, &m);
+}
+
+static double stated(double (*power)(double), int scheme)
+{
+    return stated_of(ROWS, power, scheme);
 }
 
 static double straight(double t)
@@ -71,6 +76,8 @@ int main(void)
     check_near("a parabola", bend, third_of_bend(), 1e-10);
     check_below("a power that leaps", stated(leaping, EHL_BDF2), 1e-10);
     check_near("one instant off", stated(off_at_one, EHL_BDF2), 0.7, 1e-10);
+    check_true("too few instants say nothing", stated_of(6, off_at_one, EHL_BDF2) < 0);
+    check_true("seven say something", stated_of(7, bent, EHL_BDF2) > 0);
     double late = 0;
     stated(straight, EHL_EULER);
     for (size_t k = 3; k + 3 < ROWS; k++)

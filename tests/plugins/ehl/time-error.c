@@ -30,22 +30,47 @@ static void test_chebyshev(int n)
     }
 }
 
-/* Instants of a parabola, at unequal distances, and of two engagements. */
-static void test_between(double way)
+/* Instants of a function, at unequal distances, and of two engagements. */
+static const double time_of[] = {0, 0.3, 0.4, 0.9, 1.2, 0, 0.5};
+enum { INSTANTS = sizeof time_of / sizeof time_of[0] };
+
+/* What the highest value between them is said to be beyond their highest, in its own unit. */
+static double beyond(double (*y)(double), double way)
 {
-    static const double time[] = {0, 0.3, 0.4, 0.9, 1.2, 0, 0.5}, top = 0.55;
-    enum { COUNT = sizeof time / sizeof time[0] };
-    double data[COUNT * EHL_SERIES] = {0}, extreme = -HUGE_VAL;
-    for (size_t k = 0; k < COUNT; k++) {
-        double *row = &data[k * EHL_SERIES], off = time[k] - top;
-        row[EHL_TIME] = time[k];
+    double data[INSTANTS * EHL_SERIES] = {0}, extreme = -HUGE_VAL;
+    for (size_t k = 0; k < INSTANTS; k++) {
+        double *row = &data[k * EHL_SERIES];
+        row[EHL_TIME] = time_of[k];
         row[EHL_ENGAGEMENT] = k < 5 ? 0 : 1;
-        row[EHL_P_MAX] = way * (way * 3 - off * off) - (k < 5 ? 0 : way);
+        row[EHL_P_MAX] = 3 + way * (y(time_of[k]) - (k < 5 ? 0 : 1));
         extreme = fmax(extreme, way * row[EHL_P_MAX]);
     }
-    const ehl_results r = {.series = {.data = data, .count = COUNT, .width = EHL_SERIES}};
-    check_near("between instants", ehl_beyond_instants(&r, EHL_P_MAX, way),
-               0.15 * 0.15 / fabs(extreme), 1e-12);
+    const ehl_results r = {.series = {.data = data, .count = INSTANTS, .width = EHL_SERIES}};
+    return ehl_beyond_instants(&r, EHL_P_MAX, way) * fabs(extreme);
+}
+
+static double parabola(double t)
+{
+    return -(t - 0.55) * (t - 0.55);
+}
+
+/* The third instant is the last one before the drop: a parabola through it and its neighbours is
+   0.8 % of the drop higher. */
+static double drop(double t)
+{
+    return 0.01 * t - (t > 0.4);
+}
+
+static double turn(double t)
+{
+    return t < 0.4 ? t : 0.4 - 3 * (t - 0.4);
+}
+
+static void test_between(double way)
+{
+    check_near("between instants", beyond(parabola, way), 0.15 * 0.15, 1e-12);
+    check_below("a drop is no peak", beyond(drop, way), 1e-15);
+    check_below("a break of slope is highest at its instant", beyond(turn, way), 1e-15);
 }
 
 /* The load of a pair of teeth beside another one, and alone in the middle: the film of either break
