@@ -291,7 +291,8 @@ static double speed_of_outlet(const ehl_march *m, const contact *c)
 }
 
 /* Keeps the film of the instant, with the change of its mass in a frame of that speed; the slope
-   of the mass is that of the wedge, so that the frame alone changes no film on the same cells. */
+   of the mass is that of the wedge of volumes around full nodes, so that the frame alone changes no
+   such film on the same cells. */
 static void keep_film(ehl_bound *b, const ehl_march *m, const ehl_crest *of, double frame)
 {
     const ehl_reynolds *eq = m->solver->reynolds;

@@ -10,6 +10,10 @@
 /* A change of the slope of the load by this much of the largest load per passage is a
    breakpoint. */
 static const double SHARP_BREAKPOINT = 0.25;
+/* So is a change of the slope of the radius by this much of the entrainment u: what flanks squeeze
+   from x on, x^3 R'/(6 R^2), then changes by a twelfth of u x^2/(2 R) at x = R, further out than
+   most domains begin. */
+static const double SHARP_BEND = 0.25;
 /* First step after a breakpoint, as a share of the passage time. */
 static const double FIRST_STEP = 5e-4;
 /* Shortest steps, in units of dx/u: SHORT_STEP for the sake of truncation, SHORTEST_STEP for that
@@ -47,9 +51,9 @@ static int is_breakpoint(const ehl_march *m, size_t i)
 }
 
 /*
- * Returns 1 where the radius changes its slope R' by more than that share of the entrainment: as
- * flanks far from the contact part by x^2 R'/(2 R^2), the film's change in time leaps there, and
- * (10.2) across the leap makes 3/2 of it, however short the step.
+ * Returns 1 where the radius changes its slope R' sharply, at rest beside the creep: as flanks far
+ * from the contact part by x^2 R'/(2 R^2), the film's change in time leaps there, and (10.2) across
+ * the leap makes 3/2 of it, however short the step.
  */
 static int radius_bends(const ehl_march *m, size_t i)
 {
@@ -57,7 +61,8 @@ static int radius_bends(const ehl_march *m, size_t i)
     double bend = slope_of_row(h, h->radius, i) - slope_of_row(h, h->radius, i - 1);
     int jumps = !(h->time[i] > h->time[i - 1] && h->time[i + 1] > h->time[i]);
     return !jumps && !m->rough &&
-           fabs(bend) > SHARP_BREAKPOINT * fabs(h->speed_1[i] + h->speed_2[i]) / 2;
+           fabs(bend) >
+               SHARP_BEND * fmax(fabs(h->speed_1[i] + h->speed_2[i]) / 2, EHL_CREEP * h->speed_max);
 }
 
 ff_status ehl_step_control_create(ehl_step_control *p, const ehl_march *m, double tolerance,

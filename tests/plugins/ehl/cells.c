@@ -80,6 +80,9 @@ static void swelling(line *c, double cells)
     check_true("runs", line_run(c, "p_max_highest") == FF_OK);
 }
 
+/* On the finer cells an eighth of an error of first order is left: 8/7 of the difference would be
+   right to state. 1.08 is measured, and 0.2 with a frame at rest, which 1/1.2 to 1.5 tell apart
+   with room for where the nodes of three spikes lie. */
 static void test_moving(void)
 {
     const double cells = 224;
