@@ -2,19 +2,16 @@
 /*
  * All settings become finer together: an attempt that is finer by a level than the one before, and
  * that by one than the one before it, has both as its twins, and what is spent on all of them is
- * little more than the last one costs. A setting of the dearest stage that adds little to the error
- * stays as it is, for which a coarse twin is tried. An output whose error grows, or falls too
- * slowly to come below what is asked for, is left out, so that it does not take the others with it.
+ * little more than the last one costs. An output whose error grows, or falls too slowly to come
+ * below what is asked for, is left out, so that it does not take the others with it.
  */
 #include "control.h"
 
-#include "axis.h"
 #include "choice.h"
-#include "compare.h"
 #include "doubts.h"
 #include "goals.h"
 #include "models.h"
-#include "open-settings.h"
+#include "settings.h"
 #include "twin.h"
 
 #include <math.h>
@@ -25,21 +22,31 @@
    one, so that those before are its twins; a level costs four times as much, and all before a third
    of the last. */
 static const double coarsest = 2;
+/* Four times as many cells and steps as by preset: 16 times the work. */
+static const double finest = -2;
+/* A stage costs little whose model says that it costs at most this share of the dearest one's, or
+   says nothing and is not asked for itself. */
+static const double little = 0.1;
+/* Its settings are finer than those of the dearest stage by so many levels, in every attempt and in
+   its twins, too: what all of them sample too coarsely none of them shows. */
+static const double ahead = 1;
 /* Of the reference, over the goal, when models are held against it: they may move half of a goal
    (choice.c), and its error counts with what they move. */
 static const double reference_error = 0.25;
-/* A setting of the dearest stage whose share of the error is at most this stays as it is when the
-   others become finer: their errors fall to a quarter, and it then adds at most half of that. */
-static const double minor = 0.125;
 enum { MOST_ATTEMPTS = 8 };
+
+/* A setting that the file leaves open. */
+typedef struct knob {
+    const ff_stage *stage; /* of the pipeline that was asked for */
+    accuracy_setting setting;
+    bool cheap;   /* its stage costs little */
+    double level; /* coarser than the preset by so much */
+} knob;
 
 typedef struct attempt {
     accuracy_twin run;
-    accuracy_record record;                       /* of a doubtful one empty */
-    accuracy_twin trials[ACCURACY_MOST_SETTINGS]; /* one setting is a level coarser in each */
-    size_t trial_count;
+    accuracy_record record; /* of a doubtful one empty */
     double level;
-    double *levels; /* of the open settings */
     bool doubtful; /* coarser than the presets, and in doubt or without room for twins: no answer */
 } attempt;
 
@@ -48,7 +55,9 @@ typedef struct control {
     ff_pipeline *asked;      /* with the models that were chosen, when they are */
     accuracy_choice *choice; /* of models; NULL: not made yet, or the file names them all */
     ff_tree *tree;           /* of the models that were chosen; NULL: those of the file */
-    accuracy_open open;
+    knob *knobs;
+    size_t count;
+    const char *given;           /* settings that the file gives itself; "": none */
     double level;                /* of the next attempt */
     attempt kept[MOST_ATTEMPTS]; /* with the models as they are */
     size_t kept_count;
@@ -59,6 +68,85 @@ typedef struct control {
     memory_arena arena;
 } control;
 
+static double largest_cost(const ff_pipeline *pipeline)
+{
+    double most = 0;
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (pipeline->stages[i].needed && pipeline->stages[i].loaded)
+            most = fmax(most, ff_model_cost(pipeline->stages[i].loaded->model));
+    return most;
+}
+
+/* In a loop a stage costs what the others do. One that says nothing may be the dearest where its
+   own outputs are asked for. */
+static bool costs_little(const ff_stage *stage, double most)
+{
+    double cost = ff_model_cost(stage->loaded->model);
+    bool asked = false;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
+        asked = asked || stage->results[i].requested;
+    return most > 0 && !stage->loop && cost <= little * most && (cost > 0 || !asked);
+}
+
+static void note_given(control *c, const char *stage, const char *setting)
+{
+    char *list = memory_print_text("%s%s%s.%s", c->given, *c->given ? ", " : "", stage, setting);
+    c->given = memory_arena_text(&c->arena, list, strlen(list));
+    free(list);
+}
+
+static void list_knobs(control *c)
+{
+    const double most = largest_cost(c->asked);
+    accuracy_setting settings[ACCURACY_MOST_SETTINGS];
+    free(c->knobs);
+    c->count = 0;
+    c->given = "";
+    c->knobs = memory_alloc((c->asked->count * ACCURACY_MOST_SETTINGS + 1) * sizeof *c->knobs);
+    for (size_t i = 0; i < c->asked->count; i++) {
+        const ff_stage *stage = &c->asked->stages[c->asked->order[i]];
+        size_t count = 0;
+        if (stage->needed && stage->loaded)
+            count = accuracy_settings(stage, &c->arena, settings);
+        for (size_t k = 0; k < count; k++) {
+            if (!settings[k].open)
+                note_given(c, stage->name, settings[k].name);
+            else if (accuracy_setting_at(stage, settings[k].param, 0, &c->arena))
+                c->knobs[c->count++] = (knob){
+                    .stage = stage, .setting = settings[k], .cheap = costs_little(stage, most)};
+        }
+    }
+}
+
+static const char *set_of(control *c, const knob *k)
+{
+    return accuracy_setting_at(k->stage, k->setting.param, k->level, &c->arena);
+}
+
+static double finest_of(const knob *k)
+{
+    return k->cheap ? finest - ahead : finest;
+}
+
+/* Sets the level, or the next one towards the preset that the limits of the setting allow. */
+static void move(control *c, knob *k, double level)
+{
+    k->level = fmax(level, finest_of(k));
+    while (k->level != 0 && !set_of(c, k))
+        k->level = fabs(k->level) < 1 ? 0 : k->level - copysign(1, k->level);
+}
+
+/* Twins are coarser by two levels. */
+static bool all_have_twins(control *c)
+{
+    for (size_t i = 0; i < c->count; i++) {
+        const knob *k = &c->knobs[i];
+        if (!accuracy_setting_at(k->stage, k->setting.param, k->level + 2, &c->arena))
+            return false;
+    }
+    return true;
+}
+
 static bool leaves_models_open(const ff_pipeline *pipeline)
 {
     for (size_t i = 0; i < pipeline->count; i++)
@@ -67,32 +155,37 @@ static bool leaves_models_open(const ff_pipeline *pipeline)
     return false;
 }
 
+/* Returns whether a setting changes. */
 static bool set_level(control *c, double level)
 {
+    bool moved = false;
     c->level = level;
-    return accuracy_open_move(&c->open, level);
+    for (size_t i = 0; i < c->count; i++) {
+        double before = c->knobs[i].level;
+        move(c, &c->knobs[i], level - (c->knobs[i].cheap ? ahead : 0));
+        moved = moved || c->knobs[i].level != before;
+    }
+    return moved;
 }
 
 /* The models that were chosen, and the settings as they are; to be freed. */
 static const char **list_sets(control *c, size_t *count)
 {
     size_t models = c->tree ? c->choice->use_count : 0;
-    const char **sets = memory_alloc((models + c->open.count + 1) * sizeof *sets);
-    *count = models + c->open.count;
+    const char **sets = memory_alloc((models + c->count + 1) * sizeof *sets);
+    *count = models + c->count;
     for (size_t i = 0; i < *count; i++)
-        sets[i] = i < models ? c->choice->uses[i] : accuracy_open_set(&c->open, i - models);
+        sets[i] = i < models ? c->choice->uses[i] : set_of(c, &c->knobs[i - models]);
     return sets;
 }
 
 /* What was run before serves as twins. */
 static void measure(control *c, attempt *a)
 {
-    const accuracy_twin *runs[MOST_ATTEMPTS * (1 + ACCURACY_OWN + ACCURACY_MOST_SETTINGS)];
+    const accuracy_twin *runs[MOST_ATTEMPTS * (1 + ACCURACY_OWN)];
     accuracy_known known = {.runs = runs};
     for (size_t i = 0; i < c->kept_count; i++) {
         runs[known.count++] = &c->kept[i].run;
-        for (size_t k = 0; k < c->kept[i].trial_count; k++)
-            runs[known.count++] = &c->kept[i].trials[k];
         for (size_t k = 0; k < ACCURACY_OWN; k++)
             if (c->kept[i].record.own[k])
                 runs[known.count++] = c->kept[i].record.own[k];
@@ -112,16 +205,13 @@ static void try_settings(control *c, attempt *next)
     bool *changed = memory_alloc((c->asked->count + 1) * sizeof *changed);
     const ff_place place = accuracy_place(c->scene.tree);
     c->scene.donor = c->best && c->best->run.good ? c->best->run.pipeline : NULL;
-    for (size_t i = 0; i < c->open.count; i++)
-        changed[c->open.all[i].stage - c->asked->stages] = true;
+    for (size_t i = 0; i < c->count; i++)
+        changed[c->knobs[i].stage - c->asked->stages] = true;
     accuracy_twin_run(&next->run, &c->scene, sets, count, &place, changed);
     next->level = c->level;
-    next->levels = memory_arena_alloc(&c->arena, (c->open.count + 1) * sizeof *next->levels);
-    for (size_t i = 0; i < c->open.count; i++)
-        next->levels[i] = c->open.all[i].level;
-    next->doubtful = next->run.good && c->level > 0 &&
-                     (!accuracy_open_have_twins(&c->open) ||
-                      accuracy_has_doubts(next->run.pipeline, c->scene.donor));
+    next->doubtful =
+        next->run.good && c->level > 0 &&
+        (!all_have_twins(c) || accuracy_has_doubts(next->run.pipeline, c->scene.donor));
     if (next->run.good && !next->doubtful)
         measure(c, next);
     c->attempts++;
@@ -130,17 +220,10 @@ static void try_settings(control *c, attempt *next)
     free(sets);
 }
 
-static void free_trials(attempt *a)
-{
-    for (size_t i = 0; i < a->trial_count; i++)
-        accuracy_twin_free(&a->trials[i]);
-}
-
 static void attempt_free(attempt *a)
 {
     a->record.choice = NULL; /* all attempts share it */
     accuracy_free(&a->record);
-    free_trials(a);
     accuracy_twin_free(&a->run);
 }
 
@@ -163,113 +246,21 @@ static double order_of(const control *c, size_t error)
     const accuracy_error *e = &c->best->record.errors[error];
     const attempt *before = c->best > c->kept ? c->best - 1 : NULL;
     double order = isnan(e->order) ? 1 : e->order;
-    if (*c->open.given && before && before->level <= 0 && before->record.count > error)
+    if (*c->given && before && before->level <= 0 && before->record.count > error)
         order = fmin(order, log2(before->record.errors[error].relative / e->relative));
     return order;
 }
 
-/* Whether the finest settings will do for an error that is too large. Two levels show no order. */
+/* Whether the finest settings will do for an error that is too large. Two levels show no order:
+   then it is of second order at best, and three may tell an eighth of it (estimate.c). */
 static bool is_in_reach(const control *c, size_t error)
 {
     const accuracy_error *e = &c->best->record.errors[error];
-    double order = order_of(c, error);
-    if (isnan(e->order) && c->best->record.half && !c->best->record.quarter)
-        return c->level > accuracy_finest;
-    return order > 0 && log2(e->relative / goal_of(c, e)) / order <= c->level - accuracy_finest;
-}
-
-/* Whether the setting changed nothing, as a tolerance of steps where the file gives these. */
-static bool is_idle(const control *c, const accuracy_open_setting *s, const ff_report *report)
-{
-    const ff_place chosen = accuracy_place(c->scene.tree);
-    char *start = memory_print_text("%s.%s changes nothing", s->stage->name, s->setting.name);
-    bool idle = false;
-    for (size_t i = 0; i < ff_report_count(report) && !idle; i++)
-        idle = accuracy_is_about(ff_report_at(report, i), chosen) &&
-               !strncmp(ff_report_at(report, i)->text, start, strlen(start));
-    free(start);
-    return idle;
-}
-
-/* What lies between an output of two twins, over that of the best attempt; NaN: they cannot be
-   compared. */
-static double apart(control *c, const accuracy_error *e, const accuracy_twin *one,
-                    const accuracy_twin *other)
-{
-    const ff_pipeline *answer = c->best->run.pipeline;
-    const ff_result *result = e->result, *along = accuracy_axis_of(answer, e->stage, result);
-    const accuracy_series at = {result->rank, result->count, along ? along->data : NULL,
-                                result->data};
-    const double *a = accuracy_numbers_like(answer, e->stage, result, one->pipeline, &c->arena);
-    const double *b = accuracy_numbers_like(answer, e->stage, result, other->pipeline, &c->arena);
-    double *off = memory_arena_alloc(&c->arena, result->count * sizeof *off), largest;
-    for (size_t i = 0; a && b && i < result->count; i++)
-        off[i] = fabs(a[i] - b[i]);
-    return a && b ? accuracy_relative(off, &at, &largest) : NAN;
-}
-
-/* Settings are tried on the two coarsest of the answers to the scene. */
-static const accuracy_twin *tried_on(const control *c)
-{
-    const accuracy_record *record = &c->best->record;
-    return record->quarter ? record->half : &c->best->run;
-}
-
-/* Whether what a setting moves by a level is a small part of what all move, in each output that
-   takes another attempt. */
-static bool is_minor(control *c, const accuracy_twin *trial)
-{
-    const accuracy_record *record = &c->best->record;
-    const accuracy_twin *coarser = record->quarter ? record->quarter : record->half;
-    bool small = trial->good;
-    for (size_t i = 0; small && i < record->count; i++) {
-        const accuracy_error *e = &record->errors[i];
-        if (is_missed(c, e) && is_in_reach(c, i))
-            small = apart(c, e, tried_on(c), trial) <= minor * apart(c, e, tried_on(c), coarser);
-    }
-    return small;
-}
-
-/* Where the setting stays as it is, this is a twin of the next attempt. */
-static const accuracy_twin *try_coarser(control *c, const accuracy_open_setting *tried)
-{
-    accuracy_twin *trial = &c->best->trials[c->best->trial_count++];
-    const ff_place place = accuracy_place(c->scene.tree);
-    const double level = c->best->record.quarter ? 1 : 0;
-    bool *changed = memory_alloc((c->asked->count + 1) * sizeof *changed);
-    size_t count;
-    for (size_t i = 0; i < c->open.count; i++)
-        c->open.all[i].level += level + (&c->open.all[i] == tried ? 1 : 0);
-    const char **sets = list_sets(c, &count);
-    for (size_t i = 0; i < c->open.count; i++)
-        c->open.all[i].level = c->best->levels[i];
-    changed[tried->stage - c->asked->stages] = true;
-    c->scene.donor = tried_on(c)->pipeline;
-    accuracy_twin_run(trial, &c->scene, sets, count, &place, changed);
-    c->twins++;
-    c->seconds += trial->work;
-    free(changed);
-    free(sets);
-    return trial;
-}
-
-/* Finds a setting of the dearest stage that need not become finer; its first one always does. */
-static void leave_behind(control *c)
-{
-    const ff_report *report = c->best->run.report;
-    bool first = true, found = false;
-    for (size_t i = 0; i < c->open.count && !found && !c->best->run.stopped; i++) {
-        accuracy_open_setting *s = &c->open.all[i];
-        if (!s->dearest || is_idle(c, s, report))
-            continue;
-        if (!first) {
-            const accuracy_twin *trial = try_coarser(c, s);
-            c->best->run.stopped = trial->stopped;
-            found = is_minor(c, trial);
-            s->behind += found ? 1 : 0;
-        }
-        first = false;
-    }
+    double order = order_of(c, error), lacks = log2(e->relative / goal_of(c, e));
+    double left = c->level - finest;
+    if (c->best->record.two_levels && isnan(e->order))
+        return left > 0 && lacks - 3 <= 2 * left;
+    return order > 0 && lacks / order <= left;
 }
 
 /* Chooses the settings of the next attempt; false: this one is the answer. Where no error is told,
@@ -285,9 +276,7 @@ static bool go_on(control *c)
         }
     if (c->level <= 0) /* where the presets fail something finer may do */
         missed = c->best->run.good ? reached : c->level > -1;
-    if (missed && reached && record->half && !*c->open.given)
-        leave_behind(c);
-    return missed && !c->best->run.stopped && set_level(c, c->level - 1);
+    return missed && set_level(c, c->level - 1);
 }
 
 static void take(control *c, const attempt *next)
@@ -317,7 +306,7 @@ static void begin_with(control *c, const accuracy_choice *choice)
     accuracy_hand_states(c->scene.start, c->asked);
     c->scene.start = c->asked;
     drop_attempts(c);
-    accuracy_open_list(&c->open, c->asked);
+    list_knobs(c);
     set_level(c, coarsest);
 }
 
@@ -372,18 +361,27 @@ static bool search(control *c)
     return !c->best->run.stopped;
 }
 
+/* Whether the setting changes nothing, as a tolerance of steps that the file gives. */
+static bool is_idle(const knob *k, const ff_report *report, ff_place chosen)
+{
+    char *start = memory_print_text("%s.%s changes nothing", k->stage->name, k->setting.name);
+    bool idle = false;
+    for (size_t i = 0; i < ff_report_count(report) && !idle; i++)
+        idle = accuracy_is_about(ff_report_at(report, i), chosen) &&
+               !strncmp(ff_report_at(report, i)->text, start, strlen(start));
+    free(start);
+    return idle;
+}
+
 /* Makes the best attempt the answer. */
 static void adopt(control *c, accuracy_record *record)
 {
     ff_pipeline *asked = record->answer;
-    for (size_t i = 0; i < c->open.count; i++)
-        c->open.all[i].level = c->best->levels[i];
+    set_level(c, c->best->level);
     *record = c->best->record;
-    record->half = record->quarter = NULL;
     record->twin = memory_alloc(sizeof *record->twin);
     *record->twin = c->best->run;
     record->answer = c->best->run.pipeline ? c->best->run.pipeline : asked;
-    free_trials(c->best);
     c->kept_count--; /* the last one is the best */
     drop_attempts(c);
     record->choice = c->choice;
@@ -393,16 +391,16 @@ static void adopt(control *c, accuracy_record *record)
     record->seconds = c->seconds - record->twin->work;
     if (c->failure)
         record->failure = memory_arena_text(&record->arena, c->failure, strlen(c->failure));
-    record->given = memory_arena_text(&record->arena, c->open.given, strlen(c->open.given));
+    record->given = memory_arena_text(&record->arena, c->given, strlen(c->given));
     size_t models = record->choice ? record->choice->use_count : 0;
     record->chosen =
-        memory_arena_alloc(&record->arena, (models + c->open.count + 1) * sizeof *record->chosen);
+        memory_arena_alloc(&record->arena, (models + c->count + 1) * sizeof *record->chosen);
     for (size_t i = 0; i < models; i++)
         record->chosen[record->chosen_count++] = record->choice->uses[i];
-    for (size_t i = 0; i < c->open.count; i++) {
-        if (is_idle(c, &c->open.all[i], record->twin->report))
+    for (size_t i = 0; i < c->count; i++) {
+        if (is_idle(&c->knobs[i], record->twin->report, accuracy_place(c->scene.tree)))
             continue;
-        const char *set = accuracy_open_set(&c->open, i);
+        const char *set = set_of(c, &c->knobs[i]);
         record->chosen[record->chosen_count++] =
             memory_arena_text(&record->arena, set, strlen(set));
     }
@@ -413,8 +411,7 @@ bool accuracy_control(accuracy_record *record, const ff_tree *tree, ff_engine *e
 {
     control c = {.scene = {.tree = tree, .engine = engine, .start = pipeline, .watch = watch},
                  .asked = pipeline};
-    c.open.arena = &c.arena;
-    accuracy_open_list(&c.open, c.asked);
+    list_knobs(&c);
     bool finished = search(&c);
     if (finished) {
         adopt(&c, record);
@@ -428,7 +425,7 @@ bool accuracy_control(accuracy_record *record, const ff_tree *tree, ff_engine *e
     if (c.tree)
         ff_pipeline_free(c.asked);
     ff_tree_free(c.tree);
-    accuracy_open_free(&c.open);
+    free(c.knobs);
     memory_arena_free(&c.arena);
     return good;
 }

@@ -455,10 +455,12 @@ static void conclude(const measurement *m)
 
 static void run_ladder(measurement *m, bool split)
 {
-    m->half = m->record->half = find_twin(m, HALF);
-    m->quarter = m->record->quarter = m->half ? find_twin(m, QUARTER) : NULL;
-    /* what is tried next is finer anyway */
+    m->half = find_twin(m, HALF);
+    m->quarter = m->half ? find_twin(m, QUARTER) : NULL;
+    /* where attempts are made the next one is finer itself, and two levels tell the last one's
+     * error */
     m->twice = m->quarter || (m->half && m->known) ? NULL : find_twin(m, TWICE);
+    m->record->two_levels = m->half && !m->quarter && !m->twice;
     for (size_t i = 0; split && m->count > 1 && m->quarter && i < m->count && !m->stopped; i++)
         run_twin(m, QUARTER, i, &m->refined[i]);
 }

@@ -44,6 +44,7 @@ typedef struct accuracy_record {
     accuracy_error *errors;
     size_t count;
     size_t twins;        /* that were run */
+    bool two_levels;     /* errors are told by one coarser twin */
     double seconds;      /* s, work of their stages: CPU time */
     const char *failure; /* why a twin failed; NULL: none did */
     size_t attempts;     /* answers that were measured, the last one included; 0: none had a goal */
@@ -53,8 +54,6 @@ typedef struct accuracy_record {
     ff_pipeline *answer; /* the pipeline that was run, or another one of `twin` */
     struct accuracy_twin *twin;
     struct accuracy_twin *own[ACCURACY_OWN]; /* that were run for it */
-    const struct accuracy_twin *half,
-        *quarter; /* twins a level coarser, and two; NULL: there is none */
     struct accuracy_choice
         *choice; /* of models, whose part counts with the rest; NULL: none was made */
     memory_arena arena;
