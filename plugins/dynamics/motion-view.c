@@ -183,8 +183,9 @@ static void report_sampling(const dynamics_motion_view *view, const dynamics_bet
         snprintf(more, sizeof more, "; the gear's stations: %.0f or more follow the vibration",
                  100 * ceil(enough / 100));
     else if (error > limit)
-        snprintf(more, sizeof more, "; the gear's stations: more than %zu follow the vibration",
-                 inputs->stations * MOST_PARTS);
+        snprintf(more, sizeof more,
+                 "; the gear's stations: more than %d times as many follow the vibration",
+                 MOST_PARTS);
     snprintf(text, sizeof text,
              "tooth force half-way between two stations of the gear, beyond that at both of them, "
              "over the largest%s",

@@ -39,8 +39,8 @@ static double off_polynomial(const ehl_results *r, size_t k, int way, size_t cou
 /*
  * A power that leaps lies on the polynomial from the side which it has leapt to. A smooth curve is
  * to the same side of its lines (count 2) from either side, and a cubic to opposite sides of its
- * parabolas (count 3), which would make an error of what is none: only an instant that is itself
- * off is so to the same side of both.
+ * parabolas (count 3), and is no error: only an instant that is itself off is so to the same side
+ * of both.
  */
 static double off_both(const ehl_results *r, size_t k, size_t count)
 {
@@ -63,7 +63,7 @@ static int is_inside(const ehl_results *r, size_t k)
  * (10.2) takes the change in time wrongly by dt (dt + dt_1)/6 of its second derivative, and a power
  * that goes with this change is off by a third of what it is off the line through two neighbours.
  * (10.1) is late by half a step, and one of them behind a kink leaves the parabola of what follows
- * by its error. Negative where no instant is REACH from both ends of its engagement.
+ * by its error. Negative where no instant has REACH loaded ones on both sides.
  */
 double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m)
 {

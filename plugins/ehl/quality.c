@@ -282,7 +282,7 @@ static void report_end_of_film(const ehl_results *r, const ehl_march *m)
 static void report_resolution(const ehl_results *r)
 {
     if (r->rough || !(ehl_wants_h_min(r->wanted) || ehl_wants_h_central(r->wanted)))
-        report_at_least(/* else the errors of both by the cells say as much */
+        report_at_least(/* else their errors by the cells say as much */
                         r, "film_resolution", r->least_resolution, 4,
                         "least cells over the inlet's pressure rise; below 4 the film depends on "
                         "the grid by "

@@ -48,7 +48,8 @@ typedef struct ehl_bound {
  * Solves the contact of an instant, whose load is > 0, on the cells of `s` and on twice as many,
  * and gives the errors of the films as shares of their bounds there; 0 where a bound is below half
  * of its limit, and tells nothing of large ones. With `enough` > 0 also that of the peak, on four
- * times as many cells and on more, to 16 times, until it is known whether it exceeds `enough`.
+ * times as many cells and on more, to 16 times, until it is known whether it exceeds `enough`, or
+ * there is no such film on 8 or 16 times: then from those before.
  * *finest: over the cells of `s`. The mass changes in time as it does in the run, in the frame that
  * moves with the spike of the outlet: what is carried along, or moves with the outlet, is a change
  * in time at one place which the cells have smoothed. FF_OK; FF_NOMEM; FF_NOCONV where there is no

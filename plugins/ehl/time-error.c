@@ -46,7 +46,7 @@ void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, double p_max)
 /*
  * How far a parabola goes beyond both values in the middle, between t[1] and t[2]. Of the two
  * parabolas through three neighbours of four the flatter counts: of a peak both are bent; of a
- * value that drops or turns at an instant the one on the other side is straight.
+ * value that drops or turns at an instant one is that of the smooth side alone.
  */
 static double beyond_both(const double t[4], const double y[4])
 {

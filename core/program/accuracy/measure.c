@@ -457,8 +457,7 @@ static void run_ladder(measurement *m, bool split)
 {
     m->half = find_twin(m, HALF);
     m->quarter = m->half ? find_twin(m, QUARTER) : NULL;
-    /* where attempts are made the next one is finer itself, and two levels tell the last one's
-     * error */
+    /* where attempts are made two levels do, since the next one is finer itself */
     m->twice = m->quarter || (m->half && m->known) ? NULL : find_twin(m, TWICE);
     m->record->two_levels = m->half && !m->quarter && !m->twice;
     for (size_t i = 0; split && m->count > 1 && m->quarter && i < m->count && !m->stopped; i++)

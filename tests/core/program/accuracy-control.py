@@ -140,7 +140,7 @@ class Control(lab.Lab):
             self.assertGreaterEqual(int(answer["accuracy"]["settings"]["last.cells"]), least)
             self.assertLessEqual(self.error(answer), 0.05)
 
-    def test_a_coarse_twin_that_fails_takes_no_finer_run(self):
+    def test_where_the_coarser_twin_alone_fails_no_finer_one_is_run(self):
         """Of the attempt on 16 cells the twin with 8 fails, so that one with 32 is run; that on 32 has the one with 16."""
         for goal, cells, twins in ((10, "32", 2), (2, "64", 2)):
             answer = self.ask("last.least=9", f"accuracy={goal} %")
