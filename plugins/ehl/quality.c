@@ -281,12 +281,10 @@ static void report_end_of_film(const ehl_results *r, const ehl_march *m)
 
 static void report_resolution(const ehl_results *r)
 {
-    if (r->rough || !(ehl_wants_h_min(r->wanted) || ehl_wants_h_central(r->wanted)))
-        report_at_least(/* else their errors by the cells say as much */
-                        r, "film_resolution", r->least_resolution, 4,
-                        "least cells over the inlet's pressure rise; below 4 the film depends on "
-                        "the grid by "
-                        "more than 2 %: use more cells");
+    report_at_least(
+        r, "film_resolution", r->least_resolution, 4,
+        "least cells over the inlet's pressure rise; below 4 the film depends on the grid by "
+        "more than 2 %: use more cells");
     report_at_least(r, "inlet_length", r->least_inlet, 4,
                     "least length of the domain in front of the contact over sqrt(2 R h); below 4 "
                     "the film is starved by about 1 % or more: move the inlet out");
