@@ -3,6 +3,8 @@
 #include "inlet.h"
 #include "outputs.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <string.h>
 
@@ -72,80 +74,6 @@ static double accumulated_error_near(const ehl_march *m, size_t node)
     for (size_t i = from; i < n && i <= node + NEAR; i++)
         worst = fmax(worst, fabs(m->accumulated_error[i]));
     return worst;
-}
-
-/* The nodes of the contact where the oil is carried along and nothing else moves the film. */
-typedef struct span {
-    size_t first, end;
-} span;
-
-static span carried_span(const ehl_reynolds *eq, const contact *c)
-{
-    double first = (c->buildup - c->a - eq->first) / eq->dx,
-           end = (c->a - 1.6 * c->buildup - eq->first) / eq->dx;
-    first = fmax(ceil(first), 3);
-    end = fmin(end, (double)eq->nodes - 3);
-    return end > first ? (span){(size_t)first, (size_t)end} : (span){0, 0};
-}
-
-/*
- * What the difference that carries the film from node to node makes of it over a cell's way, as a
- * share: the slope, by differences of sixth order, less that difference. Of control volumes, whose
- * change in time is that of both nodes, its leading error: dx^2/12 h_xxx, or dx/2 h_xx.
- */
-static double local_error(const ehl_reynolds *eq, const double *mass, size_t i)
-{
-    const double *m = mass + i;
-    double slope = (45 * (m[1] - m[-1]) - 9 * (m[2] - m[-2]) + (m[3] - m[-3])) / 60;
-    double taken = m[0] - m[-1];
-    if (eq->asymmetric && eq->conserving)
-        return (m[1] - 2 * m[0] + m[-1]) / (2 * m[0]);
-    if (eq->asymmetric && eq->wedge == 2)
-        return (m[2] - 3 * m[1] + 3 * m[0] - m[-1]) / (12 * m[0]);
-    if (eq->wedge == 2)
-        taken += (taken - (m[-1] - m[-2])) / 2;
-    return (slope - taken) / m[0];
-}
-
-/* Adds up what that makes of the film on its way: dips of few cells are filled. The sums move with
-   the oil by whole cells, so that they do not spread. */
-static void carry_errors(ehl_results *r, const ehl_march *m, const contact *c)
-{
-    const ehl_reynolds *eq = m->solver->reynolds;
-    ehl_carried *sum = &r->carried;
-    size_t n = eq->nodes;
-    double cells = m->at.entrainment * (m->at.time - sum->time) / eq->dx;
-    int goes_on = m->known > 1 && sum->mirrored == m->mirrored && cells >= 0;
-    sum->time = m->at.time;
-    sum->mirrored = m->mirrored;
-    sum->part = goes_on ? sum->part + cells : 0;
-    size_t whole = goes_on && sum->part < (double)n ? (size_t)sum->part : n;
-    memmove(sum->error + whole, sum->error, (n - whole) * sizeof *sum->error);
-    memset(sum->error, 0, whole * sizeof *sum->error);
-    sum->part -= floor(sum->part);
-    span of = carried_span(eq, c);
-    memset(sum->error, 0, of.first * sizeof *sum->error);
-    for (size_t i = of.first; goes_on && i < of.end; i++)
-        sum->error[i] += cells * local_error(eq, m->state[0].mass, i);
-}
-
-/* Returns that error at a node; behind the span it is that of what arrives there. */
-static double carried_to(const ehl_results *r, const span *of, size_t node)
-{
-    return of->end > 0 ? r->carried.error[node < of->end ? node : of->end - 1] : 0;
-}
-
-/* Returns by how much these errors change the least film, relative: where a dip is only moved they
-   are large, and its depth stays. */
-static double carried_of_least(const ehl_results *r, const ehl_reynolds *eq, const contact *c)
-{
-    const span of = carried_span(eq, c);
-    double least = HUGE_VAL, without = HUGE_VAL;
-    for (size_t i = 0; i < eq->nodes; i++) {
-        least = fmin(least, eq->h[i]);
-        without = fmin(without, eq->h[i] * (1 - carried_to(r, &of, i)));
-    }
-    return fabs(without / least - 1);
 }
 
 /*
@@ -224,14 +152,20 @@ static int is_steep(const double *p, size_t i, size_t last, double share)
     return p[i] - lowest > share * p[i];
 }
 
+/* Returns the first node of the outlet. */
+static size_t outlet_from(const ehl_reynolds *eq, const contact *c)
+{
+    return (size_t)fmax(1, ceil(ehl_carrying_stretch(eq, c->a, c->buildup).end));
+}
+
 /* Highest pressure of the outlet's spike: of a maximum not further in than 1.6 build-up lengths of
    which the cells may cut off the share `cut`. Where that length exceeds 0.6 a the maximum is the
    spike itself, even upstream of x = 0. 0: there is none. */
 static double highest_spike(const ehl_reynolds *eq, const double *p, const contact *c, double cut)
 {
-    double highest = 0, from = (c->a - 1.6 * c->buildup - eq->first) / eq->dx;
-    size_t first = (size_t)fmax(1, ceil(from)), last = eq->nodes - 1;
-    for (size_t i = first; i < last; i++)
+    double highest = 0;
+    size_t last = eq->nodes - 1;
+    for (size_t i = outlet_from(eq, c); i < last; i++)
         if (p[i] > highest && p[i] >= p[i - 1] && p[i] > p[i + 1] && is_steep(p, i, last, cut))
             highest = p[i];
     return highest;
@@ -280,9 +214,8 @@ static double speed_of_outlet(const ehl_march *m, const contact *c)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p, *before = m->state[1].film.p;
-    double dt = m->state[0].time - m->state[1].time, sum = 0, square = 0,
-           from = (c->a - 1.6 * c->buildup - eq->first) / eq->dx;
-    for (size_t i = (size_t)fmax(1, ceil(from)); i + 1 < eq->nodes; i++) {
+    double dt = m->state[0].time - m->state[1].time, sum = 0, square = 0;
+    for (size_t i = outlet_from(eq, c); i + 1 < eq->nodes; i++) {
         double slope = (p[i + 1] - p[i - 1] + before[i + 1] - before[i - 1]) / (4 * eq->dx);
         sum += (p[i] - before[i]) / dt * slope;
         square += slope * slope;
@@ -290,28 +223,43 @@ static double speed_of_outlet(const ehl_march *m, const contact *c)
     return square > 0 ? -sum / square : 0;
 }
 
-/* Keeps the film of the instant, with the change of its mass in a frame of that speed; the slope
-   of the mass is that of the wedge of volumes around full nodes, so that the frame alone changes no
-   such film on the same cells. */
+/* The change of the mass in a frame that moves by `frame`; the slope of the mass is that of the
+   wedge of volumes around full nodes, so that the frame alone changes no such film on the same
+   cells. */
+FF_SIMD
+static void change_in_frame(size_t n, const double *restrict mass, const double *restrict past,
+                            double rate, double frame, double dx, int wedge,
+                            double *restrict change)
+{
+    const double bend = wedge == 2 ? 0.5 : 0;
+    change[0] = rate * mass[0] + past[0];
+    change[1] = rate * mass[1] + past[1] + frame * (mass[1] - mass[0]) / dx;
+    for (size_t i = 2; i < n; i++) {
+        double slope = mass[i] - mass[i - 1];
+        slope += bend * (slope - (mass[i - 1] - mass[i - 2]));
+        change[i] = rate * mass[i] + past[i] + frame * slope / dx;
+    }
+}
+
+/* Keeps the film of the instant, with the change of its mass in a frame of that speed. */
 static void keep_film(ehl_bound *b, const ehl_march *m, const ehl_crest *of, double frame)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *past = m->step.past, *mass = m->state[0].mass;
     b->h_central = of->h_central;
     b->p_max = of->p_max;
     b->at = m->at;
     b->frame = frame;
-    for (size_t i = 0; i < eq->nodes; i++) {
-        double slope = i > 0 ? mass[i] - mass[i - 1] : 0;
-        if (eq->wedge == 2 && i > 1)
-            slope += (slope - (mass[i - 1] - mass[i - 2])) / 2;
-        b->change[i] = past ? m->step.rate * mass[i] + past[i] + frame * slope / eq->dx : 0;
-    }
+    if (m->step.past)
+        change_in_frame(eq->nodes, m->state[0].mass, m->step.past, m->step.rate, frame, eq->dx,
+                        eq->wedge, b->change);
+    else
+        memset(b->change, 0, eq->nodes * sizeof *b->change);
 }
 
-/* Keeps the bound that counts more, and the film of its instant. */
+/* Keeps the bound that counts more, and the film of its instant: with `outlet`, that contact's, in
+   the frame of its outlet. */
 static void keep_worst(ehl_bound *b, double value, double counts, const ehl_march *m,
-                       const ehl_crest *of, double frame)
+                       const ehl_crest *of, const contact *outlet)
 {
     if (!isfinite(value))
         value = counts = 1e300; /* as ehl_worse: no other counts more */
@@ -319,7 +267,7 @@ static void keep_worst(ehl_bound *b, double value, double counts, const ehl_marc
         return;
     b->counts = counts;
     b->worst = value;
-    keep_film(b, m, of, frame);
+    keep_film(b, m, of, outlet && m->step.past && m->known > 1 ? speed_of_outlet(m, outlet) : 0);
 }
 
 static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, double p_max,
@@ -330,14 +278,12 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
     ehl_spike spike;
     ehl_space_errors e = ehl_space_bounds(eq, &m->at, m->history->modulus, &of, &spike);
     double least = e.of[EHL_LEAST], peak = e.of[EHL_PEAK], h_min = r->row[EHL_H_MIN];
-    double outlet = m->step.past && m->known > 1 ? speed_of_outlet(m, c) : 0;
     r->by_cells = least;
     keep_worst(&r->bound[EHL_LEAST], least, r->lowest_alone ? -h_min * (1 - least) : least, m, &of,
-               0);
-    keep_worst(&r->bound[EHL_CENTRAL], e.of[EHL_CENTRAL], e.of[EHL_CENTRAL], m, &of, 0);
-    keep_worst(&r->bound[EHL_PEAK], peak, r->highest_alone ? p_max * (1 + peak) : peak, m, &of,
-               outlet);
-    keep_worst(&r->at_highest, peak, p_max, m, &of, outlet);
+               NULL);
+    keep_worst(&r->bound[EHL_CENTRAL], e.of[EHL_CENTRAL], e.of[EHL_CENTRAL], m, &of, NULL);
+    keep_worst(&r->bound[EHL_PEAK], peak, r->highest_alone ? p_max * (1 + peak) : peak, m, &of, c);
+    keep_worst(&r->at_highest, peak, p_max, m, &of, c);
     r->row_in_space[EHL_LEAST] = least * h_min;
     r->row_in_space[EHL_CENTRAL] = e.of[EHL_CENTRAL] * r->row[EHL_H_CENTRAL];
     r->row_in_space[EHL_PEAK] = peak * p_max;
@@ -357,12 +303,12 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
     double time[] = {accumulated_error_near(m, node), accumulated_error_near(m, centre)},
            carried[] = {0, 0};
     if (ehl_march_is_loaded(m)) {
-        contact c = contact_at(m->solver->reynolds, &m->at, m->history->modulus, h_central);
-        carry_errors(r, m, &c);
         const ehl_reynolds *eq = m->solver->reynolds;
-        const span of = carried_span(eq, &c);
-        carried[EHL_LEAST] = carried_of_least(r, eq, &c);
-        carried[EHL_CENTRAL] = fabs(carried_to(r, &of, centre));
+        contact c = contact_at(eq, &m->at, m->history->modulus, h_central);
+        const ehl_stretch stretch = ehl_carrying_stretch(eq, c.a, c.buildup);
+        ehl_carried_add(&r->carried, m, &stretch);
+        carried[EHL_LEAST] = ehl_carried_of_least(&r->carried, eq->nodes, eq->h, eq->h[node]);
+        carried[EHL_CENTRAL] = fabs(ehl_carried_to(&r->carried, centre));
         record_resolution(r, m, h_central, &c);
         record_bounds(r, m, h_central, p_max, &c);
         for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {

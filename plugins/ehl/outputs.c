@@ -309,11 +309,14 @@ static void record_film(ehl_results *r, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
-    size_t node;
+    size_t node, peak = 0;
     double h_min = ehl_least_film(eq, &node), h_central = ehl_central_film(m->solver->grid, eq),
            p_max = 0;
     for (size_t i = 0; i < r->nodes; i++)
-        p_max = p[i] > p_max ? p[i] : p_max;
+        if (p[i] > p_max) {
+            p_max = p[i];
+            peak = i;
+        }
     r->row[EHL_H_MIN] = h_min;
     r->row[EHL_H_CENTRAL] = h_central;
     r->row[EHL_P_MAX] = p_max;
@@ -326,7 +329,7 @@ static void record_film(ehl_results *r, const ehl_march *m)
     r->highest = fmax(r->highest, p_max);
     double middle = m->rough ? mean_film(m) : h_central;
     ehl_results_errors(r, m, node, middle, p_max);
-    ehl_results_peak_in_time(r, m, p_max);
+    ehl_results_peak_in_time(r, m, peak, p_max);
     if (r->roughness > 0) {
         r->row[EHL_LAMBDA_RATIO] = middle / r->roughness;
         r->least_lambda = fmin(r->least_lambda, r->row[EHL_LAMBDA_RATIO]);

@@ -4,6 +4,7 @@
 #define EHL_OUTPUTS_H
 
 #include "balance.h"
+#include "carried.h"
 #include "history.h"
 #include "space-error.h"
 #include "stage.h"
@@ -14,13 +15,6 @@ typedef struct ehl_rows {
     double *data;
     size_t width, count, room;
 } ehl_rows;
-
-/* What the cells have made of the film on its way through the contact, at the nodes, relative. */
-typedef struct ehl_carried {
-    double *error, time; /* time: of the instant that it belongs to */
-    double part;         /* of a cell, by which the oil is ahead of it */
-    int mirrored;
-} ehl_carried;
 
 typedef struct ehl_results {
     const ff_host *host;

@@ -5,38 +5,52 @@
 
 #include "grid.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
 
+/* Fills in (a^2 - s^2)^(1/2) d'(s) dx/(x - s) of n cells, e and h being those of their nodes and s
+   the middle of the first. */
+FF_SIMD
+static void fill_parts(size_t n, const double *restrict e, const double *restrict h, double a,
+                       double s, double dx, double x, double *restrict part)
+{
+    for (size_t i = 0; i < n; i++) {
+        double here = s + (double)(int)i * dx, square = a * a - here * here;
+        double change = e[i + 1] * h[i + 1] - e[i] * h[i];
+        part[i] = sqrt(square > 0 ? square : 0) * change / (x - here);
+    }
+}
+
 double ehl_pressure_of_error(const ehl_reynolds *eq, const double *error, double modulus, double a,
                              double x)
 {
-    const double *h = eq->h;
-    size_t first = (size_t)fmax(0, ceil((-a - eq->first) / eq->dx - 0.5));
-    double sum = 0;
-    for (size_t i = first; i + 1 < eq->nodes; i++) {
-        double s = eq->first + ((double)i + 0.5) * eq->dx;
-        if (!(s < a))
-            break;
-        sum += sqrt(fmax(0, a * a - s * s)) * (error[i + 1] * h[i + 1] - error[i] * h[i]) / (x - s);
+    enum { AT_ONCE = 64 };
+    const double inside = (a - eq->first) / eq->dx - 0.5; /* cells whose middle is in front of a */
+    size_t i = (size_t)fmax(0, ceil((-a - eq->first) / eq->dx - 0.5)),
+           end = (size_t)fmax(0, fmin((double)eq->nodes - 1, ceil(inside)));
+    double sum = 0, part[AT_ONCE];
+    for (size_t n; i < end; i += n) {
+        n = end - i < AT_ONCE ? end - i : AT_ONCE;
+        fill_parts(n, error + i, eq->h + i, a, eq->first + ((double)i + 0.5) * eq->dx, eq->dx, x,
+                   part);
+        for (size_t k = 0; k < n; k++)
+            sum += part[k];
     }
     return modulus / (4 * pi * sqrt(a * a - x * x)) * sum;
 }
 
-void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, double p_max)
+void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, size_t peak, double p_max)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *p = m->state[0].film.p;
     double a = ehl_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
-    double buildup = ehl_inlet_buildup(a, m->at.radius, r->row[EHL_H_CENTRAL]);
-    double first = ceil((buildup - a - eq->first) / eq->dx),
-           last = floor((a - 1.6 * buildup - eq->first) / eq->dx);
-    size_t peak = 0;
-    if (m->rough || !ehl_march_is_loaded(m) || !(last > first))
+    const ehl_stretch s =
+        ehl_carrying_stretch(eq, a, ehl_inlet_buildup(a, m->at.radius, r->row[EHL_H_CENTRAL]));
+    double first = ceil(s.begin), last = floor(s.end);
+    if (m->rough || !ehl_wants_p_max(r->wanted) || !ehl_march_is_loaded(m) || !(last > first))
         return;
-    while (peak + 1 < eq->nodes && p[peak] < p_max)
-        peak++;
     double x = eq->first + fmin(fmax((double)peak, first), last) * eq->dx;
     double off = fabs(ehl_pressure_of_error(eq, m->accumulated_error, m->history->modulus, a, x));
     ehl_worse(&r->worst_peak_in_time, off / p_max);

@@ -13,8 +13,8 @@
 double ehl_pressure_of_error(const ehl_reynolds *eq, const double *error, double modulus, double a,
                              double x);
 
-/* Keeps what the steps have made of p_max in the newest film. */
-void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, double p_max);
+/* Keeps what the steps have made of p_max, that of node `peak`, in the newest film. */
+void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, size_t peak, double p_max);
 
 /* By how much parabolas in time through neighbours go beyond the extreme of all instants, over it:
    of the highest value with way = 1, of the lowest with -1. Between the first two and the last two

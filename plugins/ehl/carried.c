@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "carried.h"
+
+#include "lanes.h"
+
+#include <flankfilm/simd.h>
+
+#include <math.h>
+#include <string.h>
+
+ehl_stretch ehl_carrying_stretch(const ehl_reynolds *eq, double a, double buildup)
+{
+    return (ehl_stretch){(buildup - a - eq->first) / eq->dx,
+                         (a - 1.6 * buildup - eq->first) / eq->dx};
+}
+
+/* Factors of the differences between neighbours, from nodes i-3, i-2 to i+2, i+3. */
+typedef struct stencil {
+    double of[6];
+} stencil;
+
+/*
+ * What the difference that carries the film from node to node makes of it over a cell's way: the
+ * slope, by differences of sixth order, less that difference. Of control volumes, whose change in
+ * time is that of both nodes, its leading error: dx^2/12 h_xxx, or dx/2 h_xx.
+ */
+static stencil local_error(const ehl_reynolds *eq)
+{
+    if (eq->asymmetric && eq->conserving)
+        return (stencil){{0, 0, -1. / 2, 1. / 2, 0, 0}};
+    if (eq->asymmetric && eq->wedge == 2)
+        return (stencil){{0, 0, 1. / 12, -2. / 12, 1. / 12, 0}};
+    if (eq->wedge == 2)
+        return (stencil){{1. / 60, 22. / 60, -53. / 60, 37. / 60, -8. / 60, 1. / 60}};
+    return (stencil){{1. / 60, -8. / 60, -23. / 60, 37. / 60, -8. / 60, 1. / 60}};
+}
+
+FF_SIMD
+static void add_local(size_t n, const double *restrict mass, double cells, const stencil *s,
+                      double *restrict error)
+{
+    const double c0 = s->of[0], c1 = s->of[1], c2 = s->of[2], c3 = s->of[3], c4 = s->of[4],
+                 c5 = s->of[5];
+    for (size_t i = 0; i < n; i++) {
+        const double *m = mass + i;
+        double off = c0 * (m[-2] - m[-3]) + c1 * (m[-1] - m[-2]) + c2 * (m[0] - m[-1]) +
+                     c3 * (m[1] - m[0]) + c4 * (m[2] - m[1]) + c5 * (m[3] - m[2]);
+        error[i] += cells * off / m[0];
+    }
+}
+
+/* Sets the nodes of the stretch; all errors in front of it are 0 then. */
+static void place(ehl_carried *c, const ehl_stretch *s, size_t nodes)
+{
+    enum { REACH = 3 }; /* of the stencil */
+    double first = fmax(ceil(s->begin), REACH), end = fmin(s->end, (double)nodes - REACH);
+    size_t before = c->first;
+    c->first = end > first ? (size_t)first : 0;
+    c->end = end > first ? (size_t)end : 0;
+    if (c->first > before)
+        memset(c->error + before, 0, (c->first - before) * sizeof *c->error);
+}
+
+/* Dips of few cells are filled. The errors move with the oil by whole cells, so that they do not
+   spread. */
+void ehl_carried_add(ehl_carried *c, const ehl_march *m, const ehl_stretch *s)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    size_t n = eq->nodes;
+    double cells = m->at.entrainment * (m->at.time - c->time) / eq->dx;
+    int goes_on = m->known > 1 && c->mirrored == m->mirrored && cells >= 0;
+    c->time = m->at.time;
+    c->mirrored = m->mirrored;
+    c->part = goes_on ? c->part + cells : 0;
+    size_t whole = goes_on && c->part < (double)n ? (size_t)c->part : n;
+    memmove(c->error + whole, c->error, (n - whole) * sizeof *c->error);
+    memset(c->error, 0, whole * sizeof *c->error);
+    c->part -= floor(c->part);
+    place(c, s, n);
+    stencil local = local_error(eq);
+    if (goes_on)
+        add_local(c->end - c->first, m->state[0].mass + c->first, cells, &local,
+                  c->error + c->first);
+}
+
+double ehl_carried_to(const ehl_carried *c, size_t node)
+{
+    return c->end > 0 ? c->error[node < c->end ? node : c->end - 1] : 0;
+}
+
+/* Returns the least of h (1 - error). */
+FF_SIMD
+static double least_without(size_t n, const double *restrict h, const double *restrict error)
+{
+    ehl_lanes least = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL}, here, off;
+    size_t i = 0;
+    for (; i + EHL_LANES <= n; i += EHL_LANES) {
+        memcpy(&here, h + i, sizeof here);
+        memcpy(&off, error + i, sizeof off);
+        here *= 1 - off;
+        ehl_lanes_keep_least(&least, &here);
+    }
+    for (; i < n; i++)
+        least[0] = fmin(least[0], h[i] * (1 - error[i]));
+    return fmin(fmin(least[0], least[1]), fmin(least[2], least[3]));
+}
+
+double ehl_carried_of_least(const ehl_carried *c, size_t nodes, const double *h, double least)
+{
+    double without = least_without(c->end, h, c->error), kept = 1 - ehl_carried_to(c, nodes);
+    for (size_t i = c->end; i < nodes; i++)
+        without = h[i] * kept < without ? h[i] * kept : without;
+    return fabs(without / least - 1);
+}
