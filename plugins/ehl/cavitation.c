@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cavitation.h"
 
-#include <flankfilm/simd.h>
+#include "lanes.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -113,28 +113,9 @@ double ehl_cavitation_shrink_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_
     return cut;
 }
 
-/* The greatest of x and least, in any order of them. */
-FF_SIMD
-static double greatest(size_t n, const double *restrict x, double least)
-{
-    enum { LANES = 8 };
-    double most[LANES];
-    for (size_t k = 0; k < LANES; k++)
-        most[k] = least;
-    size_t i = 0;
-    for (; i + LANES <= n; i += LANES)
-        for (size_t k = 0; k < LANES; k++)
-            most[k] = x[i + k] > most[k] ? x[i + k] : most[k];
-    for (; i < n; i++)
-        most[0] = x[i] > most[0] ? x[i] : most[0];
-    for (size_t k = 1; k < LANES; k++)
-        most[0] = most[k] > most[0] ? most[k] : most[0];
-    return most[0];
-}
-
 double ehl_pressure_scale(const ehl_grid *g, const ehl_film *film, size_t nodes)
 {
-    return greatest(nodes, film->p, LEAST_SCALE * g->pressure);
+    return ehl_greatest(nodes, film->p, LEAST_SCALE * g->pressure);
 }
 
 double ehl_step_share(const ehl_grid *g, const ehl_reynolds *r, const ehl_film *film, double dp,

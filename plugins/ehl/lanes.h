@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Four numbers at a time, in one vector. */
+/* Four numbers at a time, in one vector: compilers take sums and extremes of an array in its order,
+   and so one by one. */
 #ifndef EHL_LANES_H
 #define EHL_LANES_H
 
@@ -7,6 +8,7 @@
 
 enum { EHL_LANES = 4 };
 typedef double ehl_lanes __attribute__((vector_size(EHL_LANES * sizeof(double))));
+typedef int64_t ehl_lanes_bits __attribute__((vector_size(EHL_LANES * sizeof(double))));
 
 /* By a pointer: a vector that is passed by value has another ABI without AVX. */
 FF_SIMD_INLINE double ehl_lanes_sum(const ehl_lanes *values)
@@ -14,12 +16,21 @@ FF_SIMD_INLINE double ehl_lanes_sum(const ehl_lanes *values)
     return (*values)[0] + (*values)[1] + ((*values)[2] + (*values)[3]);
 }
 
-/* Keeps the lesser of both in each lane; what is no number is passed over. */
+/* Keep the lesser, or the greater, of both in each lane; what is no number is passed over. */
 FF_SIMD_INLINE void ehl_lanes_keep_least(ehl_lanes *least, const ehl_lanes *x)
 {
-    typedef int64_t mask __attribute__((vector_size(sizeof *x)));
-    mask less = *x < *least;
-    *least = (ehl_lanes)((less & (mask)*x) | (~less & (mask)*least));
+    ehl_lanes_bits chosen = *x < *least;
+    *least = (ehl_lanes)((chosen & (ehl_lanes_bits)*x) | (~chosen & (ehl_lanes_bits)*least));
 }
+
+FF_SIMD_INLINE void ehl_lanes_keep_greatest(ehl_lanes *most, const ehl_lanes *x)
+{
+    ehl_lanes_bits chosen = *x > *most;
+    *most = (ehl_lanes)((chosen & (ehl_lanes_bits)*x) | (~chosen & (ehl_lanes_bits)*most));
+}
+
+/* The greatest of `least` and all x, and of all |x|. */
+double ehl_greatest(size_t n, const double *x, double least);
+double ehl_greatest_size(size_t n, const double *x);
 
 #endif

@@ -20,8 +20,6 @@ static const double MOST_CHANGE_AT_CONTACT_LOSS = 0.05;
 
 /* Below this share of the load of the step a film is taken to carry none. */
 static const double NO_LOAD = 1e-3;
-/* Truncation counts where the pressure exceeds this share of the highest. */
-static const double CONTACT_PRESSURE = 0.02;
 /* The last step of an interval takes all that is left when it would leave less than 1e-3 of it. */
 static const double ALMOST_ALL = 0.999;
 /* Steps that Newton's method cannot take without load are followed by one 16th of the interval. */
@@ -196,8 +194,7 @@ static void time_derivative(ehl_march *m, ehl_step *step, const ehl_instant *at)
         m->past[i] = c[1] * one[i] + c[2] * two[i];
 }
 
-/* Lagrange's factors that extrapolate the `count` newest states to `time`; 0 for older states. */
-static void lagrange_factors(const ehl_march *m, double time, size_t count, double *c)
+void ehl_lagrange_factors(const ehl_march *m, double time, size_t count, double *c)
 {
     for (size_t k = 0; k < 3; k++) {
         c[k] = k < count;
@@ -207,8 +204,7 @@ static void lagrange_factors(const ehl_march *m, double time, size_t count, doub
     }
 }
 
-/* Counts the newest states, loaded or all unloaded, that a polynomial in time may go through. */
-static size_t run_of_states(const ehl_march *m, int loaded, size_t most)
+size_t ehl_run_of_states(const ehl_march *m, int loaded, size_t most)
 {
     size_t count = 0;
     while (count < most && count < m->smooth && m->state[count].loaded == loaded)
@@ -225,11 +221,11 @@ static size_t run_of_states(const ehl_march *m, int loaded, size_t most)
 static int extrapolate_films(ehl_march *m, double time, int loaded)
 {
     const ehl_state *s = m->state;
-    size_t n = m->solver->grid->nodes, count = run_of_states(m, loaded, 3);
+    size_t n = m->solver->grid->nodes, count = ehl_run_of_states(m, loaded, 3);
     if (count < 2 || (count < 3 && m->known == m->smooth))
         return 0;
     double c[3];
-    lagrange_factors(m, time, count, c);
+    ehl_lagrange_factors(m, time, count, c);
     ehl_film *film = &m->trial.film;
     const ehl_film *f0 = &s[0].film, *f1 = &s[1].film, *f2 = &s[2].film;
     memcpy(film->full, f0->full, n);
@@ -348,41 +344,6 @@ ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at)
     return status;
 }
 
-/*
- * Estimates the truncation of the step: the error of the differentiation formula for a polynomial
- * one order higher, whose leading term is the difference between the new film and the extrapolation
- * of the old ones, (y - y_extrapolated)/(rate (t - t_oldest)).
- */
-static void estimate_truncation(ehl_march *m)
-{
-    size_t n = m->solver->grid->nodes, order = m->scheme == EHL_EULER || m->smooth < 2 ? 2 : 3;
-    const double *y = m->trial.mass, *y0 = m->state[0].mass, *y1 = m->state[1].mass,
-                 *y2 = m->state[2].mass, *p = m->trial.film.p;
-    double time = m->trial_at.time, c[3], p_max = 0;
-    memset(m->local, 0, n * sizeof *m->local);
-    if (m->rough)
-        return;
-    if (run_of_states(m, m->trial_step.loaded, order) < order)
-        return;
-    lagrange_factors(m, time, order, c);
-    double scale = 1 / (m->trial_step.rate * (time - m->state[order - 1].time));
-    for (size_t i = 0; i < n; i++)
-        p_max = p[i] > p_max ? p[i] : p_max;
-    for (size_t i = 0; i < n; i++)
-        if (p[i] > CONTACT_PRESSURE * p_max)
-            m->local[i] = scale * (y[i] - c[0] * y0[i] - c[1] * y1[i] - c[2] * y2[i]) / y[i];
-}
-
-double ehl_march_truncation(const ehl_march *m)
-{
-    double worst = 0;
-    for (size_t i = 0; i < m->solver->grid->nodes; i++) {
-        double here = fabs(m->local[i]);
-        worst = here > worst ? here : worst;
-    }
-    return worst;
-}
-
 int ehl_march_step_too_large(const ehl_march *m)
 {
     double kept = m->trial.thinnest / m->state[0].thinnest;
@@ -454,7 +415,7 @@ ff_status ehl_march_try(ehl_march *m, const ehl_instant *at)
     m->trial_step = step;
     m->trial_at = *at;
     ehl_march_update_mass(m);
-    estimate_truncation(m);
+    ehl_estimate_truncation(m);
     return FF_OK;
 }
 

@@ -108,7 +108,8 @@ int ehl_contact_is_lost(const ehl_march *m, const ehl_instant *at);
 void ehl_first_guess(ehl_solver *s, const ehl_instant *at, double modulus, double thinnest,
                      ehl_film *film);
 
-/* What start.c, contact-loss.c, advection.c and step-control.c share with time-stepper.c. */
+/* What start.c, contact-loss.c, advection.c, truncation.c and step-control.c share with
+   time-stepper.c. */
 
 /* Most Newton steps from an extrapolated film, a carried film, the last film, and a first guess. */
 enum {
@@ -145,6 +146,15 @@ void ehl_advect_mass(ehl_march *m, const double **one, const double **two);
 /* Rough flanks: returns the cells by which the oil may move in a step: one, or half the inlet of an
    asperity where asperities are in contact or nearly so. */
 double ehl_largest_advection(const ehl_march *m);
+
+/* Lagrange's factors that extrapolate the `count` newest states to `time`; 0 for older states. */
+void ehl_lagrange_factors(const ehl_march *m, double time, size_t count, double *c);
+
+/* Counts the newest states, loaded or all unloaded, that a polynomial in time may go through. */
+size_t ehl_run_of_states(const ehl_march *m, int loaded, size_t most);
+
+/* Estimates the truncation of the step to the trial, in `local`. */
+void ehl_estimate_truncation(ehl_march *m);
 
 /* Moves the accumulated truncation on with the film by `distance` and adds that of the trial. */
 void ehl_advect_error(ehl_march *m, double distance);

@@ -1,0 +1,33 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "lanes.h"
+
+#include <math.h>
+
+FF_SIMD
+double ehl_greatest(size_t n, const double *restrict x, double least)
+{
+    ehl_lanes most = {least, least, least, least}, here;
+    size_t i = 0;
+    for (; i + EHL_LANES <= n; i += EHL_LANES) {
+        memcpy(&here, x + i, sizeof here);
+        ehl_lanes_keep_greatest(&most, &here);
+    }
+    for (; i < n; i++)
+        most[0] = fmax(most[0], x[i]);
+    return fmax(fmax(most[0], most[1]), fmax(most[2], most[3]));
+}
+
+FF_SIMD
+double ehl_greatest_size(size_t n, const double *restrict x)
+{
+    ehl_lanes most = {0, 0, 0, 0}, here;
+    size_t i = 0;
+    for (; i + EHL_LANES <= n; i += EHL_LANES) {
+        memcpy(&here, x + i, sizeof here);
+        here = (ehl_lanes)((ehl_lanes_bits)here & INT64_MAX); /* without its sign */
+        ehl_lanes_keep_greatest(&most, &here);
+    }
+    for (; i < n; i++)
+        most[0] = fmax(most[0], fabs(x[i]));
+    return fmax(fmax(most[0], most[1]), fmax(most[2], most[3]));
+}
