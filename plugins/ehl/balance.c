@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "balance.h"
+
+#include "lanes.h"
 #include "traces.h"
 
 #include <math.h>
@@ -57,12 +59,25 @@ static double share_of_row(ehl_balance *b, const ehl_history *h, double time)
     return span > 0 ? since / span : 0;
 }
 
+FF_SIMD
+static double sum_of(const double *restrict p, size_t n)
+{
+    ehl_lanes sum = {0}, here;
+    size_t i = 0;
+    for (; i + EHL_LANES <= n; i += EHL_LANES) {
+        memcpy(&here, p + i, sizeof here);
+        sum += here;
+    }
+    for (; i < n; i++)
+        sum[0] += p[i];
+    return ehl_lanes_sum(&sum);
+}
+
 /* Checks radius, speeds and load of the step against the rows of the history. */
 static void check_conditions(ehl_balance *b, const ehl_march *m)
 {
     const ehl_history *h = m->history;
-    const ehl_film *film = &m->state[0].film;
-    double share = share_of_row(b, h, m->at.time), sum = 0;
+    double share = share_of_row(b, h, m->at.time);
     size_t i = b->row, k = i + 1 < h->count ? i + 1 : i;
     if (share < 0)
         return;
@@ -79,9 +94,8 @@ static void check_conditions(ehl_balance *b, const ehl_march *m)
     if (m->contact_lost || !m->step.loaded)
         return;
     ehl_worse(&b->worst.conditions, fabs(m->step.load - load) / h->load_max);
-    for (size_t j = 0; j < b->nodes; j++)
-        sum += film->p[j];
-    ehl_worse(&b->worst.load, fabs(sum * m->solver->reynolds->dx - load) / h->load_max);
+    double carried = sum_of(m->state[0].film.p, b->nodes) * m->solver->reynolds->dx;
+    ehl_worse(&b->worst.load, fabs(carried - load) / h->load_max);
     ehl_worse(&b->worst.rescaling, m->solver->rescaling);
 }
 
@@ -103,15 +117,28 @@ static const double *smooth_gaps(ehl_balance *b, const ehl_march *m)
     return b->left;
 }
 
-/* Returns the sum of x p over nodes i to end - 1. */
-static double moment_of(const ehl_reynolds *eq, const double *p, size_t i, size_t end)
+/* Returns the sum of x p over n nodes, the first of which is at x; adds that of the gap times the
+   rise of p to the node behind each to *work. */
+FF_SIMD
+static double moment_of(size_t n, const double *restrict p, const double *restrict gap, double x,
+                        double dx, double *work)
 {
-    double sum = 0, sum_of_places = 0, place = (double)i;
-    for (; i < end; i++, place += 1) {
-        sum += p[i];
-        sum_of_places += place * p[i];
+    ehl_lanes moment = {0}, rise = {0}, place = {0, 1, 2, 3}, of[4];
+    size_t i = 0;
+    for (; i + EHL_LANES <= n; i += EHL_LANES, place += (double)EHL_LANES) {
+        for (size_t k = 0; k < 2; k++) {
+            memcpy(&of[k], p + i + k, sizeof of[k]);
+            memcpy(&of[2 + k], gap + i + k, sizeof of[k]);
+        }
+        moment += (x + place * dx) * of[0];
+        rise += (of[2] + of[3]) / 2 * (of[1] - of[0]);
     }
-    return eq->first * sum + eq->dx * sum_of_places;
+    for (; i < n; i++) {
+        moment[0] += (x + (double)i * dx) * p[i];
+        rise[0] += (gap[i] + gap[i + 1]) / 2 * (p[i + 1] - p[i]);
+    }
+    *work += ehl_lanes_sum(&rise);
+    return ehl_lanes_sum(&moment);
 }
 
 /* Checks u_r int h dp/dx dx against the moment of the pressure, -(1/R) int x p dx: the deflection
@@ -122,9 +149,9 @@ static void check_moment(ehl_balance *b, const ehl_march *m)
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p, *gap = smooth_gaps(b, m);
     size_t n = b->nodes, centre = (size_t)fmin(fmax(ceil(-eq->first / eq->dx), 0), (double)n - 1);
-    double work = 0, before = moment_of(eq, p, 0, centre), behind = moment_of(eq, p, centre, n - 1);
-    for (size_t i = 0; i + 1 < n; i++)
-        work += (gap[i] + gap[i + 1]) / 2 * (p[i + 1] - p[i]);
+    double middle = eq->first + (double)centre * eq->dx, work = 0,
+           before = moment_of(centre, p, gap, eq->first, eq->dx, &work),
+           behind = moment_of(n - 1 - centre, p + centre, gap + centre, middle, eq->dx, &work);
     double scale = eq->dx / m->step.radius, arm = behind - before;
     if (arm > 0)
         ehl_worse(&b->worst.moment, fabs(work + scale * (behind + before)) / (scale * arm));
@@ -384,39 +411,40 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
     b->unbalanced = fabs(D - work + stored);
 }
 
-/* Returns f of (7.1) at node i. */
-static double mobility_at(const ehl_march *m, size_t i)
+/* Most nodes that the flow through a face takes. */
+enum { MOST_OF_FACE = 3 };
+
+/* Fills in f of (7.1) at n nodes, from node i on. */
+static void fill_mobilities(const ehl_march *m, size_t i, size_t n, double *f)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    double p = m->state[0].film.p[i], h = eq->h[i], rho, ln_eta, psi, slopes[2];
-    eq->laws.density->eval(eq->laws.density->self, 1, &p, NULL, &rho, NULL, NULL);
-    eq->laws.viscosity->eval(eq->laws.viscosity->self, 1, &p, NULL, &ln_eta, NULL, NULL);
-    psi = exp(-ln_eta);
+    const double *p = m->state[0].film.p + i, *h = eq->h + i;
+    double rho[MOST_OF_FACE], ln_eta[MOST_OF_FACE], slopes[2][MOST_OF_FACE];
+    eq->laws.density->eval(eq->laws.density->self, n, p, NULL, rho, NULL, NULL);
+    eq->laws.viscosity->eval(eq->laws.viscosity->self, n, p, NULL, ln_eta, NULL, NULL);
     if (eq->laws.rheology)
-        eq->laws.rheology->flow(eq->laws.rheology->self, 1, &ln_eta, &h, m->step.sliding, &psi,
-                                slopes, slopes + 1);
-    return rho * h * h * h * psi / 12 * (eq->ease ? eq->ease[i] * swelling(eq, i) : 1);
-}
-
-/* Returns the pressure flow from node i + 1 to node i. */
-static double pressure_flow(const ehl_march *m, size_t i)
-{
-    const double *p = m->state[0].film.p;
-    return between(mobility_at(m, i), mobility_at(m, i + 1)) * (p[i + 1] - p[i]) /
-           m->solver->reynolds->dx;
+        eq->laws.rheology->flow(eq->laws.rheology->self, n, ln_eta, h, m->step.sliding, f,
+                                slopes[0], slopes[1]);
+    for (size_t k = 0; k < n; k++) {
+        double psi = eq->laws.rheology ? f[k] : exp(-ln_eta[k]);
+        f[k] = rho[k] * h[k] * h[k] * h[k] * psi / 12 *
+               (eq->ease ? eq->ease[i + k] * swelling(eq, i + k) : 1);
+    }
 }
 
 /* Returns the oil that leaves the volume of node i. */
 static double outflow(const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *mass = m->state[0].mass;
-    double half = eq->wedge == 2 ? 0.5 : 0, q = pressure_flow(m, i);
-    double carried = mass[i] * carrying(eq, i);
-    if (eq->asymmetric)
-        q += half * (q - (half > 0 ? pressure_flow(m, i + 1) : 0));
-    else
-        carried += half * (carried - mass[i - 1] * carrying(eq, i - 1));
+    const double *mass = m->state[0].mass, *p = m->state[0].film.p + i;
+    const int second = eq->wedge == 2, extrapolated = second && eq->asymmetric;
+    double f[MOST_OF_FACE], carried = mass[i] * carrying(eq, i);
+    fill_mobilities(m, i, extrapolated ? 3 : 2, f);
+    double q = between(f[0], f[1]) * (p[1] - p[0]) / eq->dx;
+    if (extrapolated)
+        q += (q - between(f[1], f[2]) * (p[2] - p[1]) / eq->dx) / 2;
+    else if (second)
+        carried += (carried - mass[i - 1] * carrying(eq, i - 1)) / 2;
     return m->step.entrainment * carried - q;
 }
 
