@@ -56,6 +56,10 @@ void ehl_balance_destroy(ehl_balance *b);
    cheap checks of every film, all of them when `wholly`. Returns the error of its mass. */
 double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly);
 
+/* Of that: the moment of the pressure, and the gap. */
+void ehl_balance_moment(ehl_balance *b, const ehl_march *m);
+void ehl_balance_gap(ehl_balance *b, const ehl_march *m);
+
 /* After it, wholly: the row of outputs against the fields, `boundary` being the friction of the
    asperities. */
 void ehl_balance_outputs(ehl_balance *b, const ehl_march *m, const double *row, uint64_t wanted,

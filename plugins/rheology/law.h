@@ -39,9 +39,10 @@ FF_SIMD_INLINE double rheology_film(double h)
 }
 
 /* The limiting shear stress of Bair & Winer 1979, tau_L = coefficient p, cuts the stress off. */
-static inline double rheology_limited(double tau, double p, double coefficient)
+FF_SIMD_INLINE double rheology_limited(double tau, double p, double coefficient)
 {
-    return coefficient > 0 ? fmin(tau, coefficient * fmax(p, 0)) : tau;
+    double most = coefficient * (p > 0 ? p : 0), cut = tau < most ? tau : most;
+    return coefficient > 0 ? cut : tau;
 }
 
 /*

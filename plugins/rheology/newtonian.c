@@ -35,24 +35,33 @@ static ff_status flow(const void *self, size_t n, const double *ln_eta, const do
                                                                                      : FF_OK;
 }
 
+FF_SIMD
+static int64_t stresses(size_t n, const double *restrict p, const double *restrict ln_eta,
+                        const double *restrict h, double ln_speed, double limiting, double sign,
+                        double *restrict tau)
+{
+    int64_t held = 0;
+    for (size_t i = 0; i < n; i++) {
+        double ln_tau = ln_eta[i] + ln_speed - ff_log(rheology_film(h[i]));
+        double plain = ff_exp(ln_tau < RHEOLOGY_LN_MAX ? ln_tau : RHEOLOGY_LN_MAX);
+        tau[i] = sign * rheology_limited(plain, p[i], limiting);
+        held |= (ln_tau > RHEOLOGY_LN_MAX) | (h[i] < RHEOLOGY_FILM_MIN);
+    }
+    return held;
+}
+
 static ff_status shear(const void *self, size_t n, const double *p, const double *ln_eta,
                        const double *h, double u_s, double *tau)
 {
     const newtonian *law = self;
-    int outside = 0;
     if (u_s == 0) {
-        for (size_t i = 0; i < n; i++)
-            tau[i] = 0;
+        memset(tau, 0, n * sizeof *tau);
         return FF_OK;
     }
-    const double ln_speed = log(fabs(u_s));
-    for (size_t i = 0; i < n; i++) {
-        double ln_tau = ln_eta[i] + ln_speed - log(rheology_film(h[i]));
-        double plain = exp(fmin(ln_tau, RHEOLOGY_LN_MAX));
-        tau[i] = copysign(rheology_limited(plain, p[i], law->limiting_stress_coefficient), u_s);
-        outside |= ln_tau > RHEOLOGY_LN_MAX || h[i] < RHEOLOGY_FILM_MIN;
-    }
-    return outside ? FF_DOMAIN : FF_OK;
+    return stresses(n, p, ln_eta, h, log(fabs(u_s)), law->limiting_stress_coefficient,
+                    u_s < 0 ? -1 : 1, tau)
+               ? FF_DOMAIN
+               : FF_OK;
 }
 
 FF_SIMD

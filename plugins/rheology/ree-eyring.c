@@ -49,26 +49,44 @@ static ff_status flow(const void *self, size_t n, const double *ln_eta, const do
     return held || slip == 1e100 ? FF_DOMAIN : FF_OK;
 }
 
+/* asinh S = ln(1 + u) with u = S + S^2/(1 + sqrt(1 + S^2)); ln(1 + u) loses no digits as u times
+   ln v over v - 1, v being 1 + u as it is rounded. */
+FF_SIMD_INLINE double arsinh(double S)
+{
+    double square = S * S, u = S + square / (1 + sqrt(1 + square)), v = 1 + u;
+    double scaled = ff_log(v) * (u / (v - 1));
+    return v > 1 ? scaled : u;
+}
+
+FF_SIMD
+static int64_t stresses(const ree_eyring *r, size_t n, const double *restrict p,
+                        const double *restrict ln_eta, const double *restrict h, double ln_slip,
+                        double sign, double *restrict tau)
+{
+    const double tau0 = r->tau0, limiting = r->limiting_stress_coefficient;
+    int64_t held = 0;
+    for (size_t i = 0; i < n; i++) {
+        double ln_S = ln_eta[i] + ln_slip - ff_log(rheology_film(h[i]));
+        /* asinh S = ln 2S where S is large; the cut at e^300 is exact in double precision */
+        double near = ln_S < 300 ? ln_S : 300;
+        double stress = tau0 * (arsinh(ff_exp(near)) + (ln_S > 300 ? ln_S - 300 : 0));
+        double plain = stress < STRESS_MAX ? stress : STRESS_MAX;
+        tau[i] = sign * rheology_limited(plain, p[i], limiting);
+        held |= !(stress < STRESS_MAX) | (h[i] < RHEOLOGY_FILM_MIN);
+    }
+    return held;
+}
+
 static ff_status shear(const void *self, size_t n, const double *p, const double *ln_eta,
                        const double *h, double u_s, double *tau)
 {
     const ree_eyring *r = self;
-    int outside = 0;
     if (u_s == 0) {
-        for (size_t i = 0; i < n; i++)
-            tau[i] = 0;
+        memset(tau, 0, n * sizeof *tau);
         return FF_OK;
     }
     const double ln_slip = log(fabs(u_s)) - log(r->tau0);
-    for (size_t i = 0; i < n; i++) {
-        double ln_S = ln_eta[i] + ln_slip - log(rheology_film(h[i]));
-        /* asinh S = ln 2S where S is large; the cut at e^300 is exact in double precision */
-        double rise = asinh(exp(fmin(ln_S, 300))) + fmax(ln_S - 300, 0);
-        double plain = fmin(r->tau0 * rise, STRESS_MAX);
-        tau[i] = copysign(rheology_limited(plain, p[i], r->limiting_stress_coefficient), u_s);
-        outside |= plain == STRESS_MAX || h[i] < RHEOLOGY_FILM_MIN;
-    }
-    return outside ? FF_DOMAIN : FF_OK;
+    return stresses(r, n, p, ln_eta, h, ln_slip, u_s < 0 ? -1 : 1, tau) ? FF_DOMAIN : FF_OK;
 }
 
 /* x = |tau|/tau0 below which both hyperbolic functions follow from the series of sinh. */
