@@ -58,20 +58,6 @@ static double share_of_row(ehl_balance *b, const ehl_history *h, double time)
     return span > 0 ? since / span : 0;
 }
 
-FF_SIMD
-static double sum_of(const double *restrict p, size_t n)
-{
-    ehl_lanes sum = {0}, here;
-    size_t i = 0;
-    for (; i + EHL_LANES <= n; i += EHL_LANES) {
-        memcpy(&here, p + i, sizeof here);
-        sum += here;
-    }
-    for (; i < n; i++)
-        sum[0] += p[i];
-    return ehl_lanes_sum(&sum);
-}
-
 /* Checks radius, speeds and load of the step against the rows of the history. */
 static void check_conditions(ehl_balance *b, const ehl_march *m)
 {
@@ -93,7 +79,7 @@ static void check_conditions(ehl_balance *b, const ehl_march *m)
     if (m->contact_lost || !m->step.loaded)
         return;
     ehl_worse(&b->worst.conditions, fabs(m->step.load - load) / h->load_max);
-    double carried = sum_of(m->state[0].film.p, b->nodes) * m->solver->reynolds->dx;
+    double carried = ehl_sum(b->nodes, m->state[0].film.p) * m->solver->reynolds->dx;
     ehl_worse(&b->worst.load, fabs(carried - load) / h->load_max);
     ehl_worse(&b->worst.rescaling, m->solver->rescaling);
 }

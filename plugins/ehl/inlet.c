@@ -4,6 +4,8 @@
 #include "grid.h"
 #include "inlet-heat.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <stdio.h>
 
@@ -242,18 +244,24 @@ typedef struct lost {
  * the oil as at ambient pressure:
  *   p = 12 eta0 u int (gap - h)/gap^3 dx,   x = -end/t,   0 < t < 1
  */
+FF_SIMD
 static lost pressure_upstream(const ehl_oil *oil, const ehl_instant *at, double a, double h,
                               double end)
 {
     enum { POINTS = 12 };
-    double push = 12 * oil->viscosity * fabs(at->entrainment);
+    const double push = 12 * oil->viscosity * fabs(at->entrainment),
+                 bend = a * a / (2 * at->radius);
+    double pressure[POINTS], load[POINTS];
     lost sum = {0, 0};
     for (int k = 0; k < POINTS; k++) {
         double t = (k + 0.5) / POINTS, x = end / t, s = x / a, y = sqrt((s - 1) * (s + 1));
-        double opened = a * a / (2 * at->radius) * (s * y - asinh(y)), gap = h + opened;
-        double rise = push * opened / (gap * gap * gap) * x / t / POINTS;
-        sum.pressure += rise;
-        sum.load += (x - end) * rise;
+        double opened = bend * (s * y - ff_log(s + y)), gap = h + opened; /* asinh y = ln(s + y) */
+        pressure[k] = push * opened / (gap * gap * gap) * x / t / POINTS;
+        load[k] = (x - end) * pressure[k];
+    }
+    for (int k = 0; k < POINTS; k++) {
+        sum.pressure += pressure[k];
+        sum.load += load[k];
     }
     return sum;
 }

@@ -4,6 +4,20 @@
 #include <math.h>
 
 FF_SIMD
+double ehl_sum(size_t n, const double *restrict x)
+{
+    ehl_lanes sum = {0}, here;
+    size_t i = 0;
+    for (; i + EHL_LANES <= n; i += EHL_LANES) {
+        memcpy(&here, x + i, sizeof here);
+        sum += here;
+    }
+    for (; i < n; i++)
+        sum[0] += x[i];
+    return ehl_lanes_sum(&sum);
+}
+
+FF_SIMD
 double ehl_greatest(size_t n, const double *restrict x, double least)
 {
     ehl_lanes most = {least, least, least, least}, here;

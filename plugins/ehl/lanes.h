@@ -29,6 +29,8 @@ FF_SIMD_INLINE void ehl_lanes_keep_greatest(ehl_lanes *most, const ehl_lanes *x)
     *most = (ehl_lanes)((chosen & (ehl_lanes_bits)*x) | (~chosen & (ehl_lanes_bits)*most));
 }
 
+double ehl_sum(size_t n, const double *x);
+
 /* The greatest of `least` and all x, and of all |x|. */
 double ehl_greatest(size_t n, const double *x, double least);
 double ehl_greatest_size(size_t n, const double *x);

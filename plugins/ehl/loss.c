@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "outputs.h"
 
+#include "lanes.h"
 #include "thermal.h"
 
 #include <math.h>
@@ -66,6 +67,25 @@ typedef struct pressure_flow {
     double squeezed; /* by the flanks far from the contact */
 } pressure_flow;
 
+/* Returns the sum of (h - end)^2/h^3 over n faces between nodes. */
+FF_SIMD
+static double entrained_past(size_t n, const double *restrict h, double end)
+{
+    ehl_lanes sum = {0}, gap, next;
+    size_t i = 0;
+    for (; i + EHL_LANES <= n; i += EHL_LANES) {
+        memcpy(&gap, h + i, sizeof gap);
+        memcpy(&next, h + i + 1, sizeof next);
+        gap = (gap + next) / 2;
+        sum += (gap - end) * (gap - end) / (gap * gap * gap);
+    }
+    for (; i < n; i++) {
+        double here = (h[i] + h[i + 1]) / 2;
+        sum[0] += (here - end) * (here - end) / (here * here * here);
+    }
+    return ehl_lanes_sum(&sum);
+}
+
 /*
  * Returns what faces in the outer half of the inlet dissipate, `power` by 2 dx, off what the
  * entrainment of a steady film does, 12 eta0 u_r^2 (h - h_e)^2/h^3: flanks whose radius changes by
@@ -75,15 +95,11 @@ typedef struct pressure_flow {
 static double squeezed_far_off(const ehl_march *m, const double *power)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *h = eq->h, u = m->at.entrainment;
+    double u = m->at.entrainment;
     size_t outer = (size_t)(-eq->first / (2 * eq->dx)), centre = 2 * outer;
-    double end = m->state[0].mass[centre] / eq->oil.density, sum = 0, entrained = 0;
-    for (size_t i = 0; i < outer; i++) {
-        double gap = (h[i] + h[i + 1]) / 2, flow = u * (gap - end);
-        sum += power[i];
-        entrained += flow * flow / (gap * gap * gap);
-    }
-    return fabs(sum / (2 * eq->dx) - 12 * eq->oil.viscosity * entrained * eq->dx);
+    double end = m->state[0].mass[centre] / eq->oil.density;
+    double entrained = 12 * eq->oil.viscosity * u * u * entrained_past(outer, eq->h, end);
+    return fabs(ehl_sum(outer, power) / (2 * eq->dx) - entrained * eq->dx);
 }
 
 /* The mobility of the faces is made anew: that of the last Newton step is off by its change. */
