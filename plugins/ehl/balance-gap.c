@@ -59,9 +59,11 @@ void ehl_balance_moment(ehl_balance *b, const ehl_march *m)
     double middle = eq->first + (double)centre * eq->dx, work = 0,
            before = moment_of(centre, p, gap, eq->first, eq->dx, &work),
            behind = moment_of(n - 1 - centre, p + centre, gap + centre, middle, eq->dx, &work);
-    double scale = eq->dx / m->step.radius, arm = behind - before;
-    if (arm > 0)
-        ehl_worse(&b->worst.moment, fabs(work + scale * (behind + before)) / (scale * arm));
+    double scale = eq->dx / m->step.radius;
+    b->moment = behind + before;
+    b->arm = behind - before;
+    if (b->arm > 0)
+        ehl_worse(&b->worst.moment, fabs(work + scale * b->moment) / (scale * b->arm));
 }
 
 /* Returns how far h is off the shape of the flanks, rough ones where their traces stand, except for
@@ -70,14 +72,10 @@ static double gap_off_shape(const ehl_balance *b, const ehl_march *m, size_t i)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
-    double x = eq->first + (double)i * eq->dx, v = 0, gap = smooth_gap(m, i);
+    double x = eq->first + (double)i * eq->dx, gap = smooth_gap(m, i);
     if (m->rough)
         gap += ehl_traces_height(m->rough, x, eq->dx, m->at.time) - eq->rough[i];
-    for (size_t j = 0; j < i; j++)
-        v += b->kernel[i - j] * p[j];
-    for (size_t j = i; j < b->nodes; j++)
-        v += b->kernel[j - i] * p[j];
-    return gap - x * x / (2 * m->step.radius) - v;
+    return gap - x * x / (2 * m->step.radius) - ehl_dot(b->nodes, b->kernel - i, p);
 }
 
 void ehl_balance_gap(ehl_balance *b, const ehl_march *m)

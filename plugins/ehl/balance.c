@@ -11,23 +11,25 @@ static const double pi = 3.14159265358979323846;
 
 ff_status ehl_balance_create(ehl_balance *b, const ehl_march *m)
 {
-    enum { OWN = 12 };
+    enum { OWN = 11, KERNEL = 2 };
     const ehl_grid *g = m->solver->grid;
     size_t n = g->nodes;
     *b = (ehl_balance){.nodes = n};
-    double *next = b->memory = calloc(OWN * n, sizeof *next);
+    double *next = b->memory = calloc((OWN + KERNEL) * n, sizeof *next);
     if (!next)
         return FF_NOMEM;
-    double **own[OWN] = {&b->kernel,  &b->rho,     &b->ln_eta,  &b->psi,
-                         &b->slope_1, &b->slope_2, &b->mass[0], &b->mass[1],
-                         &b->mass[2], &b->change,  &b->face,    &b->left};
+    double **own[OWN] = {&b->rho,     &b->ln_eta,  &b->psi,     &b->slope_1,
+                         &b->slope_2, &b->mass[0], &b->mass[1], &b->mass[2],
+                         &b->change,  &b->face,    &b->left};
     for (size_t k = 0; k < OWN; k++, next += n)
         *own[k] = next;
+    b->kernel = next + n;
     /* -4/(pi E') int ln|x/a| dx over a cell: int ln s ds = s ln s - s, and 1/2 from there */
     for (size_t k = 0; k < n; k++) {
         double far = ((double)k + 0.5) * g->dx / g->half_width, near = far - g->dx / g->half_width;
         double whole = far * (log(far) - 1) - near * (log(fabs(near)) - 1);
         b->kernel[k] = -4 * g->half_width / (pi * m->history->modulus) * whole;
+        *(b->kernel - k) = b->kernel[k];
     }
     return FF_OK;
 }
@@ -108,7 +110,9 @@ static void compute_mass(const ehl_balance *b, const ehl_march *m, size_t k)
     const double *h = k == 0 ? eq->h : m->state[k].gap;
     eq->laws.density->eval(eq->laws.density->self, b->nodes, film->p, NULL, b->rho, NULL, NULL);
     for (size_t i = 0; i < b->nodes; i++)
-        b->mass[k][i] = is_void(eq, film, i) ? film->content[i] : b->rho[i] * h[i];
+        b->mass[k][i] = b->rho[i] * h[i];
+    for (size_t i = 0; eq->conserving && i < b->nodes; i++)
+        b->mass[k][i] = is_void(eq, film, i) ? film->content[i] : b->mass[k][i];
     if (eq->swell && k > 0)
         memcpy(b->mass[k], m->state[k].mass, b->nodes * sizeof *b->mass[k]);
     for (size_t i = 0; eq->swell && k == 0 && i < b->nodes; i++)
@@ -121,8 +125,10 @@ static void check_kept_oil(ehl_balance *b, const ehl_march *m)
 {
     const ehl_state *s = &m->state[0];
     for (size_t i = 0; i < b->nodes; i++) {
-        double more = s->mass[i] - b->mass[0][i], whole = fmax(fabs(b->mass[0][i]), 1e-300);
-        ehl_worse(&b->worst.mass, s->film.asperity[i] ? more / whole : fabs(more) / whole);
+        double more = s->mass[i] - b->mass[0][i], whole = fabs(b->mass[0][i]) + 1e-300;
+        double off = s->film.asperity[i] ? more : fabs(more);
+        if (!(off <= b->worst.mass * whole))
+            ehl_worse(&b->worst.mass, off / whole);
     }
 }
 
@@ -132,9 +138,10 @@ static void differentiate(ehl_balance *b, const ehl_march *m)
 {
     const ehl_state *s = m->state;
     size_t n = b->nodes;
-    memset(b->change, 0, n * sizeof *b->change);
-    if (!m->step.past || m->known < 2)
+    if (!m->step.past || m->known < 2) {
+        memset(b->change, 0, n * sizeof *b->change);
         return;
+    }
     double dt = s[0].time - s[1].time, line = 1 / dt, c[3] = {line, -line, 0};
     if (m->known > 2) {
         double whole = s[0].time - s[2].time, parabola = 1 / dt + 1 / whole;
@@ -151,10 +158,27 @@ static void differentiate(ehl_balance *b, const ehl_march *m)
 }
 
 /* Returns the mobility between two nodes from those of both. */
-static double between(double f, double next)
+FF_SIMD_INLINE double between(double f, double next)
 {
     double sum = f + next, s = sum > 0 ? 4 * f * next / (sum * sum) : 0;
     return sum / 2 * (1 - s / 2 + s * s / 2);
+}
+
+/* f rho h^3/12 for the fluidity in f. */
+FF_SIMD
+static void fill_mobility(size_t n, const double *restrict rho, const double *restrict h,
+                          double *restrict f)
+{
+    for (size_t i = 0; i < n; i++)
+        f[i] *= rho[i] * h[i] * h[i] * h[i] / 12;
+}
+
+FF_SIMD
+static void fill_faces(size_t n, const double *restrict f, const double *restrict p, double dx,
+                       double *restrict face)
+{
+    for (size_t i = 0; i < n; i++)
+        face[i] = between(f[i], f[i + 1]) * (p[i + 1] - p[i]) / dx;
 }
 
 /* Computes b->psi = f of (7.1), and the pressure flow between the nodes, with b->rho of the newest
@@ -173,10 +197,10 @@ static void compute_flow(ehl_balance *b, const ehl_march *m)
             b->psi[i] = exp(-b->ln_eta[i]);
     for (size_t i = 0; eq->ease && i < n; i++)
         b->psi[i] *= eq->ease[i];
-    for (size_t i = 0; i < n; i++)
-        b->psi[i] *= b->rho[i] * swelling(eq, i) * h[i] * h[i] * h[i] / 12;
-    for (size_t i = 0; i + 1 < n; i++)
-        b->face[i] = between(b->psi[i], b->psi[i + 1]) * (p[i + 1] - p[i]) / eq->dx;
+    for (size_t i = 0; eq->swell && i < n; i++)
+        b->psi[i] *= eq->swell[i];
+    fill_mobility(n, b->rho, h, b->psi);
+    fill_faces(n - 1, b->psi, p, eq->dx, b->face);
     b->face[n - 1] = 0;
 }
 
@@ -232,12 +256,14 @@ static double check_mass(ehl_balance *b, const ehl_march *m, double flow_scale, 
     double most = 0, sum = 0, per_cell = film->p[peak] / eq->dx;
     for (size_t i = peak + 1; i + 1 < b->nodes && (film->full[i] || eq->conserving); i++) {
         sum += b->left[i];
-        most = fmax(most, fabs(sum) / (flow_scale + b->psi[i] * per_cell));
+        double off = fabs(sum) / (flow_scale + b->psi[i] * per_cell);
+        most = off > most ? off : most;
     }
     sum = 0;
     for (size_t i = peak; i > 0 && (film->full[i] || eq->conserving); i--) {
         sum += b->left[i];
-        most = fmax(most, fabs(sum) / (flow_scale + b->psi[i] * per_cell));
+        double off = fabs(sum) / (flow_scale + b->psi[i] * per_cell);
+        most = off > most ? off : most;
     }
     ehl_worse(&b->worst.mass, most);
     return most;
@@ -251,8 +277,10 @@ static void check_cavitated(ehl_balance *b, const ehl_march *m, double p_max)
     const ehl_film *film = &m->state[0].film;
     double least = fmax(p_max, 1e-2 * m->solver->grid->pressure);
     for (size_t i = 1; i + 1 < b->nodes; i++) {
+        if (film->full[i] && film->p[i] >= 0)
+            continue;
         if (film->full[i])
-            ehl_worse(&b->worst.cavitated, fmax(0, -film->p[i]) / least);
+            ehl_worse(&b->worst.cavitated, -film->p[i] / least);
         else if (eq->conserving)
             ehl_worse(&b->worst.cavitated, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
         else
@@ -284,14 +312,14 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
     const double shortest = 100;
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p, *h = eq->h;
-    double off = 0, D = 0, work = 0, stored = 0;
+    double D = 0, work = 0;
     integrate_volume(b, m);
     for (size_t i = 1; i + 1 < b->nodes; i++) {
-        off += b->slope_1[i] * b->left[i];
         D += b->face[i] * (b->slope_1[i + 1] - b->slope_1[i]);
         work += h[i] * swelling(eq, i) * carrying(eq, i) * (p[i + 1] - p[i - 1]) / 2;
-        stored += b->slope_1[i] * b->change[i] * eq->dx;
     }
+    double off = ehl_dot(b->nodes - 2, b->slope_1 + 1, b->left + 1),
+           stored = ehl_dot(b->nodes - 2, b->slope_1 + 1, b->change + 1) * eq->dx;
     work *= m->step.entrainment;
     double scale = D + fabs(work) + fabs(stored);
     if (!(scale > 0))
@@ -301,15 +329,19 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
     b->unbalanced = fabs(D - work + stored);
 }
 
-/* Most nodes that the flow through a face takes. */
-enum { MOST_OF_FACE = 3 };
+/* Two faces, and the nodes whose mobility the flow through each takes. */
+enum { FACES = 2, MOST_OF_FACE = 3 };
 
-/* Fills in f of (7.1) at n nodes, from node i on. */
-static void fill_mobilities(const ehl_march *m, size_t i, size_t n, double *f)
+/* Fills in f of (7.1) at n nodes. */
+static void fill_mobilities(const ehl_march *m, size_t n, const size_t *node, double *f)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *p = m->state[0].film.p + i, *h = eq->h + i;
-    double rho[MOST_OF_FACE], ln_eta[MOST_OF_FACE], slopes[2][MOST_OF_FACE];
+    enum { MOST = FACES * MOST_OF_FACE };
+    double p[MOST], h[MOST], rho[MOST], ln_eta[MOST], slopes[2][MOST];
+    for (size_t k = 0; k < n; k++) {
+        p[k] = m->state[0].film.p[node[k]];
+        h[k] = eq->h[node[k]];
+    }
     eq->laws.density->eval(eq->laws.density->self, n, p, NULL, rho, NULL, NULL);
     eq->laws.viscosity->eval(eq->laws.viscosity->self, n, p, NULL, ln_eta, NULL, NULL);
     if (eq->laws.rheology)
@@ -318,24 +350,36 @@ static void fill_mobilities(const ehl_march *m, size_t i, size_t n, double *f)
     for (size_t k = 0; k < n; k++) {
         double psi = eq->laws.rheology ? f[k] : exp(-ln_eta[k]);
         f[k] = rho[k] * h[k] * h[k] * h[k] * psi / 12 *
-               (eq->ease ? eq->ease[i + k] * swelling(eq, i + k) : 1);
+               (eq->ease ? eq->ease[node[k]] * swelling(eq, node[k]) : 1);
     }
 }
 
-/* Returns the oil that leaves the volume of node i. */
-static double outflow(const ehl_march *m, size_t i)
+/* Returns the oil that leaves the volume of node i, with the mobilities from there on. */
+static double outflow(const ehl_march *m, size_t i, const double *f)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *mass = m->state[0].mass, *p = m->state[0].film.p + i;
-    const int second = eq->wedge == 2, extrapolated = second && eq->asymmetric;
-    double f[MOST_OF_FACE], carried = mass[i] * carrying(eq, i);
-    fill_mobilities(m, i, extrapolated ? 3 : 2, f);
+    double half = eq->wedge == 2 ? 0.5 : 0, carried = mass[i] * carrying(eq, i);
     double q = between(f[0], f[1]) * (p[1] - p[0]) / eq->dx;
-    if (extrapolated)
-        q += (q - between(f[1], f[2]) * (p[2] - p[1]) / eq->dx) / 2;
-    else if (second)
-        carried += (carried - mass[i - 1] * carrying(eq, i - 1)) / 2;
+    if (!eq->asymmetric)
+        carried += half * (carried - mass[i - 1] * carrying(eq, i - 1));
+    else if (half > 0)
+        q += half * (q - between(f[1], f[2]) * (p[2] - p[1]) / eq->dx);
     return m->step.entrainment * carried - q;
+}
+
+/* Returns the oil that stays between the volumes of two nodes. */
+static double gain_between(const ehl_march *m, size_t first, size_t last)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    size_t each = eq->asymmetric && eq->wedge == 2 ? 3 : 2, node[FACES * MOST_OF_FACE];
+    double f[FACES * MOST_OF_FACE];
+    for (size_t k = 0; k < each; k++) {
+        node[k] = first + k;
+        node[each + k] = last + k;
+    }
+    fill_mobilities(m, FACES * each, node, f);
+    return outflow(m, first, f) - outflow(m, last, f + each);
 }
 
 /*
@@ -359,7 +403,7 @@ static void check_content(ehl_balance *b, const ehl_march *m)
     for (size_t i = first + 1; i <= last; i++)
         c->mass += s->mass[i];
     c->mass *= eq->dx;
-    c->gain = outflow(m, first) - outflow(m, last);
+    c->gain = gain_between(m, first, last);
     c->known = 1;
     c->mirrored = m->mirrored;
     if (!before.known || before.mirrored != m->mirrored || m->known < 2 ||

@@ -107,8 +107,7 @@ static double least_without(size_t n, const double *restrict h, const double *re
 
 double ehl_carried_of_least(const ehl_carried *c, size_t nodes, const double *h, double least)
 {
-    double without = least_without(c->end, h, c->error), kept = 1 - ehl_carried_to(c, nodes);
-    for (size_t i = c->end; i < nodes; i++)
-        without = h[i] * kept < without ? h[i] * kept : without;
-    return fabs(without / least - 1);
+    double without = least_without(c->end, h, c->error),
+           behind = ehl_least(nodes - c->end, h + c->end) * (1 - ehl_carried_to(c, nodes));
+    return fabs(fmin(without, behind) / least - 1);
 }

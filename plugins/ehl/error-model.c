@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Estimates the errors of a film by the cells, by the time steps and by the ends of the domain. */
 #include "inlet.h"
+#include "lanes.h"
 #include "outputs.h"
-
-#include <flankfilm/simd.h>
 
 #include <math.h>
 #include <string.h>
@@ -57,7 +56,8 @@ static const double light_first = 0.6, light_asymmetric = 0.65;
 static double space_error(const ehl_reynolds *eq, const in_space *c, const contact *at)
 {
     double n = at->buildup / eq->dx, wide = fmin(1, at->buildup / at->a);
-    double g = 1 / (1 + pow(2 * at->a / at->opening, 4)), L = at->L, square = L * L;
+    double narrow = at->opening / (2 * at->a), fourth = narrow * narrow * narrow * narrow;
+    double g = fourth / (fourth + 1), L = at->L, square = L * L;
     if (eq->wedge != 2)
         return fmin(1, (c->first_base + g * light_first + (1 - g) * c->first_by_L * L) / n);
     double sum = c->base + (eq->asymmetric ? g * light_asymmetric : 0);
@@ -69,11 +69,9 @@ static double space_error(const ehl_reynolds *eq, const in_space *c, const conta
 static double accumulated_error_near(const ehl_march *m, size_t node)
 {
     enum { NEAR = 4 };
-    size_t n = m->solver->grid->nodes, from = node > NEAR ? node - NEAR : 0;
-    double worst = 0;
-    for (size_t i = from; i < n && i <= node + NEAR; i++)
-        worst = fmax(worst, fabs(m->accumulated_error[i]));
-    return worst;
+    size_t n = m->solver->grid->nodes, from = node > NEAR ? node - NEAR : 0,
+           end = node + NEAR < n ? node + NEAR + 1 : n;
+    return ehl_greatest_size(end - from, m->accumulated_error + from);
 }
 
 /*
@@ -197,13 +195,19 @@ static ehl_spike spike_at(const ehl_reynolds *eq, const contact *c, const ehl_cr
     return (ehl_spike){seen, tip, cut, error};
 }
 
+static ehl_space_errors bounds_at(const ehl_reynolds *eq, const contact *c, const ehl_crest *of,
+                                  ehl_spike *spike)
+{
+    *spike = spike_at(eq, c, of);
+    return (ehl_space_errors){
+        {space_error(eq, &of_h_min, c), space_error(eq, &of_h_central, c), spike->error}};
+}
+
 ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at, double modulus,
                                   const ehl_crest *of, ehl_spike *spike)
 {
     contact c = contact_at(eq, at, modulus, of->h_central);
-    *spike = spike_at(eq, &c, of);
-    return (ehl_space_errors){
-        {space_error(eq, &of_h_min, &c), space_error(eq, &of_h_central, &c), spike->error}};
+    return bounds_at(eq, &c, of, spike);
 }
 
 /*
@@ -274,9 +278,8 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
                           const contact *c)
 {
     const ehl_crest of = {m->state[0].film.p, h_central, p_max};
-    const ehl_reynolds *eq = m->solver->reynolds;
     ehl_spike spike;
-    ehl_space_errors e = ehl_space_bounds(eq, &m->at, m->history->modulus, &of, &spike);
+    ehl_space_errors e = bounds_at(m->solver->reynolds, c, &of, &spike);
     double least = e.of[EHL_LEAST], peak = e.of[EHL_PEAK], h_min = r->row[EHL_H_MIN];
     r->by_cells = least;
     keep_worst(&r->bound[EHL_LEAST], least, r->lowest_alone ? -h_min * (1 - least) : least, m, &of,

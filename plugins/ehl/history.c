@@ -225,9 +225,8 @@ static ehl_instant interpolate(const ehl_history *h, size_t next, double time)
 {
     size_t low = next > 0 ? next - 1 : 0, high = next < h->count ? next : h->count - 1;
     double span = h->time[high] - h->time[low];
-    ehl_instant at = ehl_history_row(h, low);
-    if (span > 0)
-        at = instant(h, (between){low, high, (time - h->time[low]) / span});
+    double share = span > 0 ? (time - h->time[low]) / span : 0;
+    ehl_instant at = instant(h, (between){low, span > 0 ? high : low, share});
     at.time = time;
     return at;
 }
@@ -283,12 +282,12 @@ double ehl_history_straight(const ehl_history *h, double from, double to, double
 
 void ehl_history_sample(const ehl_history *h, double from, double to, ehl_sampling *sum)
 {
-    ehl_instant begin = ehl_history_at(h, from), end = ehl_history_before(h, to), last = begin;
-    size_t past = rows_before(h, to, 0);
+    size_t first = rows_before(h, from, 1), past = rows_before(h, to, 0);
+    ehl_instant begin = interpolate(h, first, from), end = interpolate(h, past, to), last = begin;
     double before = 0;
     sum->sampled = fmax(sum->sampled, fmax(begin.load / begin.radius, end.load / end.radius));
     sum->passed = fmax(sum->passed, sum->sampled);
-    for (size_t i = rows_before(h, from, 1); i <= past; i++) {
+    for (size_t i = first; i <= past; i++) {
         ehl_instant at = i < past ? ehl_history_row(h, i) : end;
         double share = (at.time - from) / (to - from);
         double off = fabs(at.load - (1 - share) * begin.load - share * end.load);

@@ -18,6 +18,35 @@ double ehl_sum(size_t n, const double *restrict x)
 }
 
 FF_SIMD
+double ehl_dot(size_t n, const double *restrict x, const double *restrict y)
+{
+    ehl_lanes sum = {0}, of_x, of_y;
+    size_t i = 0;
+    for (; i + EHL_LANES <= n; i += EHL_LANES) {
+        memcpy(&of_x, x + i, sizeof of_x);
+        memcpy(&of_y, y + i, sizeof of_y);
+        sum += of_x * of_y;
+    }
+    for (; i < n; i++)
+        sum[0] += x[i] * y[i];
+    return ehl_lanes_sum(&sum);
+}
+
+FF_SIMD
+double ehl_least(size_t n, const double *restrict x)
+{
+    ehl_lanes least = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL}, here;
+    size_t i = 0;
+    for (; i + EHL_LANES <= n; i += EHL_LANES) {
+        memcpy(&here, x + i, sizeof here);
+        ehl_lanes_keep_least(&least, &here);
+    }
+    for (; i < n; i++)
+        least[0] = fmin(least[0], x[i]);
+    return fmin(fmin(least[0], least[1]), fmin(least[2], least[3]));
+}
+
+FF_SIMD
 double ehl_greatest(size_t n, const double *restrict x, double least)
 {
     ehl_lanes most = {least, least, least, least}, here;

@@ -76,17 +76,17 @@ static force friction(ehl_balance *b, const ehl_march *m, double boundary)
     const ehl_film *film = &m->state[0].film;
     double slide = m->step.sliding, way = slide > 0 ? 1 : slide < 0 ? -1 : 0;
     force f = {0, 0, 0, 0};
-    eq->laws.viscosity->eval(eq->laws.viscosity->self, b->nodes, film->p, NULL, b->ln_eta, NULL,
-                             NULL);
+    if (m->rough) /* of smooth flanks the balance of mass has it */
+        eq->laws.viscosity->eval(eq->laws.viscosity->self, b->nodes, film->p, NULL, b->ln_eta, NULL,
+                                 NULL);
     if (eq->laws.rheology)
         eq->laws.rheology->shear(eq->laws.rheology->self, b->nodes, film->p, b->ln_eta, eq->h,
                                  slide, b->left);
+    for (size_t i = 0; i < b->nodes && (m->thermal || !eq->laws.rheology); i++)
+        b->left[i] =
+            m->thermal ? ehl_thermal_stress(m, i) : slide / eq->h[i] * exp(fmin(b->ln_eta[i], 230));
     for (size_t i = 0; i < b->nodes; i++) {
-        double tau =
-                   eq->laws.rheology ? b->left[i] : slide / eq->h[i] * exp(fmin(b->ln_eta[i], 230)),
-               p = film->p[i];
-        if (m->thermal)
-            tau = ehl_thermal_stress(m, i);
+        double tau = b->left[i], p = film->p[i];
         if (film->asperity[i])
             f.asperities += way * boundary * p * eq->dx;
         else if (p > 0)
@@ -102,19 +102,16 @@ static void compare_loss_outputs(ehl_balance *b, const ehl_march *m, const doubl
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
-    double D = 0, moment = 0, arm = 0, u = m->step.entrainment;
-    for (size_t i = 0; i + 1 < b->nodes; i++) {
-        double x = eq->first + (double)i * eq->dx;
+    double D = 0, u = m->step.entrainment;
+    for (size_t i = 0; i + 1 < b->nodes; i++)
         D += b->face[i] * (p[i + 1] - p[i]) * (1 / b->rho[i] + 1 / b->rho[i + 1]) / 2;
-        moment += x * p[i];
-        arm += fabs(x) * p[i];
-    }
     if (m->thermal)
         D = ehl_thermal_pressure_flow(m);
     double scale = eq->dx / m->step.radius;
     double tail = p[1] > 0 ? 24 * eq->oil.viscosity * u * m->step.radius / -eq->first : 0;
     double power = (f.fluid + f.asperities) * m->step.sliding + D + u * tail;
-    compare_output(b, row[EHL_ROLLING_LOSS], u * (tail - scale * moment), u * (tail + scale * arm));
+    compare_output(b, row[EHL_ROLLING_LOSS], u * (tail - scale * b->moment),
+                   u * (tail + scale * b->arm));
     compare_output(b, row[EHL_POWER_LOSS],
                    with_end(row[EHL_POWER_LOSS], power, f.end * m->step.sliding),
                    fabs(power) + u * tail);

@@ -3,6 +3,7 @@
 
 #include "asperities.h"
 #include "heat.h"
+#include "lanes.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -90,9 +91,7 @@ double ehl_thinnest(ehl_march *m, double radius, const ehl_film *film)
 {
     ehl_reynolds *r = m->solver->reynolds;
     ehl_reynolds_gap(r, radius, film);
-    double least = r->h[0];
-    for (size_t i = 1; i < r->nodes; i++)
-        least = r->h[i] < least ? r->h[i] : least;
+    double least = ehl_least(r->nodes, r->h);
     return r->rough ? fmax(least, r->contact) : least;
 }
 

@@ -83,23 +83,49 @@ static double error_at_kink(double local, double third, double second)
     return fabs(third) > fabs(second) / 2 && fabs(second) > 2 * fabs(local) ? second / 2 : local;
 }
 
+/* to = (1 - part) from + part times that of the node in front, and gain/cells. */
+FF_SIMD
+static void fill_moved(size_t n, const double *restrict from, double part,
+                       const double *restrict gain, double cells, double *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] = (1 - part) * from[i] + part * from[i - 1] + gain[i] / cells;
+}
+
+/* Fills in the sum of `local` along the last `cells` of the oil's way to each node behind
+   `first`. */
+static void sum_on_way(const double *local, size_t first, size_t n, double cells, double *sum)
+{
+    size_t whole = (size_t)cells;
+    double part = cells - (double)whole, met = 0;
+    size_t i = first;
+    for (; i < n && i < first + whole; i++)
+        sum[i] = met += local[i];
+    for (; i < n; i++) {
+        met += local[i] - local[i - whole];
+        sum[i] = met + part * local[i - whole];
+    }
+}
+
 /* Moves the accumulated error on with the film by `cells`, and adds the mean of `local` along that
    path downstream of node `first`; upstream of it nothing accumulates. */
 static void advect_and_add(ehl_march *m, size_t first, double cells)
 {
-    size_t n = m->solver->grid->nodes, whole = (size_t)fmin(cells, (double)n);
-    double part = fmin(cells, (double)n) - (double)whole, met = 0;
-    double *sum = m->accumulated_error, *local = m->local;
-    for (size_t i = n > whole + first ? n - whole : first; i < n; i++)
-        met += local[i];
-    for (size_t i = n; i-- > first;) {
-        double near = i >= whole ? sum[i - whole] : 0, far = i > whole ? sum[i - whole - 1] : 0;
-        double enters = i >= whole + first ? local[i - whole] : 0;
-        double gain = cells > 1 ? (met + part * enters) / cells : local[i];
-        met += enters - local[i];
-        sum[i] = (1 - part) * near + part * far + gain;
-    }
-    memcpy(sum, local, (first < n ? first : n) * sizeof *sum);
+    size_t n = m->solver->grid->nodes, whole = (size_t)fmin(cells, (double)n), start = whole + 1;
+    double *sum = m->accumulated_error, *moved = m->deflection, *gain = m->change;
+    first = first < n ? first : n;
+    start = start < first ? first : start < n ? start : n; /* what was in front is not known */
+    if (cells > 1)
+        sum_on_way(m->local, first, n, fmin(cells, (double)n), gain);
+    else
+        gain = m->local;
+    memcpy(moved, m->local, first * sizeof *moved);
+    for (size_t i = first; i < start; i++)
+        moved[i] = gain[i] / fmax(cells, 1);
+    fill_moved(n - start, sum + start - whole, cells - (double)whole, gain + start, fmax(cells, 1),
+               moved + start);
+    m->accumulated_error = moved;
+    m->deflection = sum;
 }
 
 void ehl_advect_error(ehl_march *m, double distance)
