@@ -399,9 +399,7 @@ static void check_content(ehl_balance *b, const ehl_march *m)
         memchr(s->film.full + first - 1, 0, last - first + 3))
         return;
     double lag = eq->asymmetric && eq->wedge == 2 && !eq->conserving ? 0.5 : 0;
-    c->mass = lag * (s->mass[first] - s->mass[last]);
-    for (size_t i = first + 1; i <= last; i++)
-        c->mass += s->mass[i];
+    c->mass = lag * (s->mass[first] - s->mass[last]) + ehl_sum(last - first, s->mass + first + 1);
     c->mass *= eq->dx;
     c->gain = gain_between(m, first, last);
     c->known = 1;

@@ -213,7 +213,7 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
                               const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil)
 {
     const double slope = slope_of(heating, laws);
-    double lost = 0;
+    double lost = 0, p_worst = -1, Q_worst = 0, S_worst = 0;
     char text[256];
     for (size_t i = 0; i < h->count; i++) {
         ehl_instant at = ehl_history_row(h, i);
@@ -221,8 +221,16 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
             continue;
         double p_hertz = sqrt(at.load * h->modulus / (2 * M_PI * at.radius));
         double Q = oil->viscosity * slope * at.entrainment * at.entrainment / heating->conductivity;
-        double factor = ehl_gupta_factor(p_hertz, h->modulus, Q, fabs(at.sliding) / at.entrainment);
-        lost = fmax(lost, 1 - factor);
+        double S = fabs(at.sliding) / at.entrainment;
+        if (p_hertz <= p_worst && Q <= Q_worst && S <= S_worst)
+            continue; /* the share grows with each of them */
+        double here = 1 - ehl_gupta_factor(p_hertz, h->modulus, Q, S);
+        if (here > lost) {
+            lost = here;
+            p_worst = p_hertz;
+            Q_worst = Q;
+            S_worst = S;
+        }
     }
     snprintf(text, sizeof text,
              "largest share of the film that shear heating in the inlet would take off by Gupta's "

@@ -2,6 +2,7 @@
 /* Checks the outputs of each instant against the same quantities from its fields, and writes the
    quality record of a run: how far its results can be trusted. */
 #include "balance.h"
+#include "lanes.h"
 #include "outputs.h"
 #include "stage.h"
 #include "surface.h"
@@ -40,16 +41,14 @@ static void compare_film_outputs(ehl_balance *b, const ehl_march *m, const doubl
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *h = eq->h, *p = m->state[0].film.p;
-    size_t low = 0, high = 0;
-    for (size_t i = 0; i < b->nodes; i++) {
-        low = h[i] < h[low] ? i : low;
-        high = p[i] > p[high] ? i : high;
-    }
-    double least = h[low];
+    double least = ehl_least(b->nodes, h), highest = ehl_greatest(b->nodes, p, 0);
+    size_t low = 0;
+    while (low + 1 < b->nodes && h[low] > least)
+        low++;
     if (low > 0 && low + 1 < b->nodes && !m->rough && vertex(h, low) > least / 2)
         least = vertex(h, low);
     compare_output(b, row[EHL_H_MIN], least, least);
-    compare_output(b, row[EHL_P_MAX], p[high], p[high] + 1);
+    compare_output(b, row[EHL_P_MAX], highest, highest + 1);
     double place = -eq->first / eq->dx, node = fmin(fmax(floor(place), 1), (double)b->nodes - 3);
     const double *near = h + (size_t)node;
     double central = m->rough ? near[0] + (place - node) * (near[1] - near[0])
