@@ -40,4 +40,13 @@ typedef struct ehl_model {
     int rough;                       /* a surface is wired */
 } ehl_model;
 
+struct ehl_heat;
+struct ehl_march;
+struct ehl_thermal;
+
+/* Lets the march heat the film, by what it makes of `heat` or `thermal`; without the parameter
+   thermal it stays as it is. */
+ff_status ehl_stage_heat(const ehl_model *m, const ff_array *in, struct ehl_march *march,
+                         struct ehl_heat *heat, struct ehl_thermal *thermal);
+
 #endif
