@@ -260,10 +260,9 @@ static void keep_film(ehl_bound *b, const ehl_march *m, const ehl_crest *of, dou
         memset(b->change, 0, eq->nodes * sizeof *b->change);
 }
 
-/* Keeps the bound that counts more, and the film of its instant: with `outlet`, that contact's, in
-   the frame of its outlet. */
+/* Keeps the bound that counts more, and the film of its instant, in the frame of the outlet. */
 static void keep_worst(ehl_bound *b, double value, double counts, const ehl_march *m,
-                       const ehl_crest *of, const contact *outlet)
+                       const ehl_crest *of, const contact *c)
 {
     if (!isfinite(value))
         value = counts = 1e300; /* as ehl_worse: no other counts more */
@@ -271,24 +270,24 @@ static void keep_worst(ehl_bound *b, double value, double counts, const ehl_marc
         return;
     b->counts = counts;
     b->worst = value;
-    keep_film(b, m, of, outlet && m->step.past && m->known > 1 ? speed_of_outlet(m, outlet) : 0);
+    keep_film(b, m, of, m->step.past && m->known > 1 ? speed_of_outlet(m, c) : 0);
 }
 
+/* carried: what the cells have made of h_min and h_central on the film's way, relative. */
 static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, double p_max,
-                          const contact *c)
+                          const double *carried, const contact *c)
 {
     const ehl_crest of = {m->state[0].film.p, h_central, p_max};
     ehl_spike spike;
     ehl_space_errors e = bounds_at(m->solver->reynolds, c, &of, &spike);
-    double least = e.of[EHL_LEAST], peak = e.of[EHL_PEAK], h_min = r->row[EHL_H_MIN];
-    r->by_cells = least;
-    keep_worst(&r->bound[EHL_LEAST], least, r->lowest_alone ? -h_min * (1 - least) : least, m, &of,
-               NULL);
-    keep_worst(&r->bound[EHL_CENTRAL], e.of[EHL_CENTRAL], e.of[EHL_CENTRAL], m, &of, NULL);
-    keep_worst(&r->bound[EHL_PEAK], peak, r->highest_alone ? p_max * (1 + peak) : peak, m, &of, c);
+    double peak = e.of[EHL_PEAK];
+    r->by_cells = e.of[EHL_LEAST];
+    ehl_worse(&r->worst_by_cells, r->by_cells);
+    keep_worst(&r->worst_peak, peak, r->highest_alone ? p_max * (1 + peak) : peak, m, &of, c);
     keep_worst(&r->at_highest, peak, p_max, m, &of, c);
-    r->row_in_space[EHL_LEAST] = least * h_min;
-    r->row_in_space[EHL_CENTRAL] = e.of[EHL_CENTRAL] * r->row[EHL_H_CENTRAL];
+    r->row_in_space[EHL_LEAST] = (e.of[EHL_LEAST] + carried[EHL_LEAST]) * r->row[EHL_H_MIN];
+    r->row_in_space[EHL_CENTRAL] =
+        (e.of[EHL_CENTRAL] + carried[EHL_CENTRAL]) * r->row[EHL_H_CENTRAL];
     r->row_in_space[EHL_PEAK] = peak * p_max;
 }
 
@@ -303,26 +302,22 @@ void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double 
 {
     const ehl_grid *g = m->solver->grid;
     size_t centre = (size_t)(g->inlet / g->dx + 0.5);
-    double time[] = {accumulated_error_near(m, node), accumulated_error_near(m, centre)},
-           carried[] = {0, 0};
+    double time[] = {accumulated_error_near(m, node), accumulated_error_near(m, centre)};
     if (ehl_march_is_loaded(m)) {
         const ehl_reynolds *eq = m->solver->reynolds;
         contact c = contact_at(eq, &m->at, m->history->modulus, h_central);
         const ehl_stretch stretch = ehl_carrying_stretch(eq, c.a, c.buildup);
         ehl_carried_add(&r->carried, m, &stretch);
-        carried[EHL_LEAST] = ehl_carried_of_least(&r->carried, eq->nodes, eq->h, eq->h[node]);
-        carried[EHL_CENTRAL] = fabs(ehl_carried_to(&r->carried, centre));
+        const double carried[] = {
+            ehl_carried_of_least(&r->carried, eq->nodes, eq->h, eq->h[node]),
+            fabs(ehl_carried_to(&r->carried, centre)),
+        };
         record_resolution(r, m, h_central, &c);
-        record_bounds(r, m, h_central, p_max, &c);
-        for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++) {
+        record_bounds(r, m, h_central, p_max, carried, &c);
+        for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++)
             ehl_worse(&r->worst_in_time[k], time[k]);
-            ehl_worse(&r->worst_carried[k], carried[k]);
-        }
-        double h_min = r->row[EHL_H_MIN];
-        keep_least(&r->least_in_time, h_min * (1 - time[EHL_LEAST]));
-        keep_least(&r->least_carried, h_min * (1 - carried[EHL_LEAST]));
+        keep_least(&r->least_in_time, r->row[EHL_H_MIN] * (1 - time[EHL_LEAST]));
     }
-    r->row[EHL_H_MIN_ERROR] = (time[EHL_LEAST] + carried[EHL_LEAST]) * r->row[EHL_H_MIN];
-    r->row[EHL_H_CENTRAL_ERROR] =
-        (time[EHL_CENTRAL] + carried[EHL_CENTRAL]) * r->row[EHL_H_CENTRAL];
+    r->row[EHL_H_MIN_ERROR] = time[EHL_LEAST] * r->row[EHL_H_MIN];
+    r->row[EHL_H_CENTRAL_ERROR] = time[EHL_CENTRAL] * r->row[EHL_H_CENTRAL];
 }

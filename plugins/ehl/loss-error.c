@@ -54,7 +54,7 @@ static int is_inside(const ehl_results *r, size_t k)
     const double *number = &r->series.data[k * EHL_SERIES + EHL_ENGAGEMENT];
     int inside = !(fabs(number[REACH * EHL_SERIES] - number[-REACH * EHL_SERIES]) > 0);
     for (size_t i = k - REACH; i <= k + REACH; i++) /* without load a film has no bound */
-        inside = inside && r->space.data[EHL_BOUNDS * i + EHL_LEAST] > 0 &&
+        inside = inside && fabs(r->space.data[EHL_SPACE * i + EHL_LEAST]) > 0 &&
                  (i == k - REACH || time_of(r, i) > time_of(r, i - 1));
     return inside;
 }

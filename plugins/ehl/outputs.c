@@ -49,11 +49,10 @@ ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wante
         .lowest_alone = !m->solver->outside && ehl_wants_lowest_alone(wanted),
         .highest_alone = !m->solver->outside && ehl_wants_highest_alone(wanted),
         .series.width = EHL_SERIES,
-        .space.width = EHL_BOUNDS,
-        .share = {{1, 1, 1}},
+        .space.width = EHL_SPACE,
+        .share = 1,
         .lowest = HUGE_VAL,
         .least_in_time = HUGE_VAL,
-        .least_carried = HUGE_VAL,
         .least_lambda = HUGE_VAL,
         .least_resolution = HUGE_VAL,
         .least_inlet = HUGE_VAL,
@@ -62,15 +61,14 @@ ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wante
         r->field[k].width = wants(r, EHL_FIRST_FIELD + k) ? nodes : 0;
     if (ehl_balance_create(&r->balance, m) != FF_OK)
         return FF_NOMEM;
-    r->memory = calloc((4 + EHL_BOUNDS) * nodes, sizeof *r->memory);
+    r->memory = calloc(5 * nodes, sizeof *r->memory);
     if (!r->memory)
         return FF_NOMEM;
     r->tau = r->memory;
     r->ln_eta = r->memory + nodes;
     r->carried.error = r->memory + 2 * nodes;
     r->at_highest.change = r->memory + 3 * nodes;
-    for (size_t k = 0; k < EHL_BOUNDS; k++)
-        r->bound[k].change = r->memory + (4 + k) * nodes;
+    r->worst_peak.change = r->memory + 4 * nodes;
     return FF_OK;
 }
 
@@ -347,7 +345,7 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     if (!r->row || !r->row_in_space)
         return FF_NOMEM;
     memset(r->row, 0, EHL_SERIES * sizeof *r->row);
-    memset(r->row_in_space, 0, EHL_BOUNDS * sizeof *r->row_in_space);
+    memset(r->row_in_space, 0, EHL_SPACE * sizeof *r->row_in_space);
     ehl_reynolds_gap(eq, m->step.radius, film);
     r->row[EHL_TIME] = m->at.time;
     r->row[EHL_ROLL_ANGLE] = m->at.roll;
@@ -390,9 +388,9 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
 /* Returns what the cells add to an error of the film. */
 static double space_part(const ehl_results *r, size_t i, uint32_t k)
 {
-    const double *bound = &r->space.data[EHL_BOUNDS * i];
-    return k == EHL_H_MIN_ERROR       ? r->share.of[EHL_LEAST] * bound[EHL_LEAST]
-           : k == EHL_H_CENTRAL_ERROR ? r->share.of[EHL_CENTRAL] * bound[EHL_CENTRAL]
+    const double *part = &r->space.data[EHL_SPACE * i];
+    return k == EHL_H_MIN_ERROR       ? fabs(part[EHL_LEAST])
+           : k == EHL_H_CENTRAL_ERROR ? fabs(part[EHL_CENTRAL])
                                       : 0;
 }
 

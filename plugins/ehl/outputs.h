@@ -10,6 +10,11 @@
 #include "stage.h"
 #include "time-stepper.h"
 
+/* Columns of the errors by the cells: those of EHL_BOUNDS, m and Pa, bounds or, of films, where
+   EHL_MEASURED + EHL_LEAST or EHL_CENTRAL is 1, what they are, negative of a film that is too thin.
+ */
+enum { EHL_MEASURED = EHL_BOUNDS, EHL_SPACE = EHL_BOUNDS + EHL_PEAK };
+
 /* A table of rows of equal width, which grows: their number is known at the end only. */
 typedef struct ehl_rows {
     double *data;
@@ -34,20 +39,20 @@ typedef struct ehl_results {
     double least_resolution, least_inlet;
     double starvation, worst_starvation; /* share of the film: mean over a passage, its largest */
     double outlet_load, worst_outlet;    /* share of the load: mean over a passage, its largest */
-    /* errors of h_min and h_central, relative: by the steps, and by cells that carry the film */
-    double worst_in_time[2], worst_carried[2];
-    double least_in_time, least_carried; /* m: the lowest that h_min may be with each of them */
+    double worst_in_time[2];             /* errors of h_min and h_central by the steps, relative */
+    double least_in_time;                /* m, the lowest that h_min may be with it */
     double worst_peak_in_time,
-        highest_in_time;                     /* p_max: relative; Pa, the highest that it may be */
-    ehl_bound bound[EHL_BOUNDS], at_highest; /* at_highest: of p_max where it is highest */
-    double by_cells;                         /* the last bound of h_min, relative; 0: none yet */
-    double tolerance;       /* the largest of those that the films were solved to */
-    ehl_space_errors share; /* of the bounds that remained where they were measured; 1: all */
-    int measured;           /* instants at which they were */
-    int finest;             /* the most cells at which, over those of the run */
-    ehl_rows space;         /* bounds of the errors of h_min, h_central, p_max by the cells */
-    double *row_in_space;   /* its row that is being filled in */
-    double worst_gap_excess, widest_gap;                    /* while the contact is lost, m */
+        highest_in_time;              /* p_max: relative; Pa, the highest that it may be */
+    ehl_bound worst_peak, at_highest; /* of p_max: where it counts most, and where it is highest */
+    /* what bounds h_min where it is made, relative: at the last instant, 0: none yet; at all */
+    double by_cells, worst_by_cells;
+    double tolerance; /* the largest of those that the films were solved to */
+    double share;     /* of the bounds of p_max that remained where they were measured; 1: all */
+    int measured[EHL_PEAK];              /* 1: h_min, h_central were measured at some rows */
+    int finest;                          /* the most cells at which, over those of the run */
+    ehl_rows space;                      /* what the cells add to h_min, h_central, p_max */
+    double *row_in_space;                /* its row that is being filled in */
+    double worst_gap_excess, widest_gap; /* while the contact is lost, m */
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* sums over rough, loaded instants */
     double yield_sum, deepest_yield, worst_yield; /* the same; deepest_yield: plastic part, m */
     size_t loaded;
@@ -78,9 +83,10 @@ double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m);
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
                         double p_max);
 
-/* Measures the errors whose bounds are above their limits; not in a run that is shorter than that
-   takes. */
-ff_status ehl_results_measure(ehl_results *r, const ehl_march *m);
+/* Measures the errors whose bounds are above their limits; those of a film unless it is the only
+   one. `whole` has all engagements; equal: the lengths of the steps were given. */
+ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_history *whole,
+                              int equal);
 
 /* 1: of h_min, or of p_max, its extreme over all instants alone is wanted. */
 int ehl_wants_lowest_alone(uint64_t wanted);

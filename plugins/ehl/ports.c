@@ -135,14 +135,14 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
         {"h_min_error", "m",
          "estimate of the error of h_min: (0.16 + 0.0063 L^2)/n^2 of it (first-order wedge: "
          "(0.4 + 0.012 L)/n) with n cells over the inlet's pressure rise and Moes' L, plus the "
-         "truncation of the time steps, which the film "
-         "gathers on its way through the contact",
+         "truncation of the time steps and of the cells that the film gathers on its way through "
+         "the contact; above 2 % what twice the cells make of the last passage",
          "t", NULL, 0, NULL},
     [EHL_H_CENTRAL_ERROR] =
         {"h_central_error", "m",
          "estimate of the error of h_central: (0.2 + 0.05 L)/n^2 of it (first-order wedge: "
          "(0.4 + 0.02 L)/n), n and L as for h_min_error, plus the truncation that the film at "
-         "x = 0 has gathered",
+         "x = 0 has gathered; above 2 % by the cells as h_min_error",
          "t", NULL, 0, NULL},
     [EHL_ONE_WAY_GAP_ERROR] =
         {"one_way_gap_error", "m",

@@ -167,7 +167,7 @@ static tolerances tolerances_of(const ehl_results *r, const ehl_march *m)
 {
     const double unknown = 0.02; /* no instant has a load by which the cells could be judged */
     double most = fmax(20 * fmin(r->tolerance, 2e-5), 5 * r->tolerance);
-    double same = fmax(most, 1e-9), cells = r->bound[EHL_LEAST].worst;
+    double same = fmax(most, 1e-9), cells = r->worst_by_cells;
     if (!m->solver->outside)
         return (tolerances){same, fmax(0.01, 10 * same)};
     double limit = fmax(same, cells > 0 ? cells : unknown);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-#include "outputs.h"
+#include "passage.h"
 #include "start.h"
 
 #include <math.h>
@@ -41,41 +41,37 @@ int ehl_wants_highest_alone(uint64_t wanted)
     return ehl_wants_p_max(wanted & highest) && !ehl_wants_p_max(wanted & ~highest);
 }
 
-/* Error of the extreme over all instants by the cells, relative: by how much any instant may go
- * beyond it. */
-static double extreme_error(const ehl_results *r, int kind)
+/* Films of the row, and what the cells add to them, m: a bound, or what was measured, negative
+   where the film is too thin. */
+static double film_of(const ehl_results *r, size_t row, int kind)
 {
-    double worst = 0, share = r->share.of[kind];
-    for (size_t i = 0; i < r->series.count; i++) {
-        const double *y = &r->series.data[i * EHL_SERIES];
-        double part = share * r->space.data[i * EHL_BOUNDS + (size_t)kind];
-        ehl_worse(&worst, kind == EHL_PEAK ? (y[EHL_P_MAX] + part) / r->highest - 1
-                                           : 1 - (y[EHL_H_MIN] - part) / r->lowest);
-    }
-    return worst;
+    static const uint32_t of[] = {EHL_H_MIN, EHL_H_CENTRAL, EHL_P_MAX};
+    return r->series.data[row * EHL_SERIES + of[kind]];
+}
+
+static double *part_of(const ehl_results *r, size_t row, int kind)
+{
+    return &r->space.data[row * EHL_SPACE + (size_t)kind];
 }
 
 /* A film, and what is looked at of it. */
 typedef struct twin {
-    double least, central, p_max;
+    double central, p_max, bound; /* bound: of the error of p_max */
     ehl_spike spike;
-    ehl_space_errors bound;
 } twin;
 
 static twin look_at(ehl_grid_level *l, const ehl_instant *at)
 {
     ehl_reynolds *eq = &l->reynolds;
     twin t = {.p_max = 0};
-    size_t node;
     ehl_reynolds_gap(eq, at->radius, &l->film);
-    t.least = ehl_least_film(eq, &node);
     t.central = ehl_central_film(&l->grid, eq);
     for (size_t i = 0; i < eq->nodes; i++)
         t.p_max = fmax(t.p_max, l->film.p[i]);
-    if (!(t.least > 0 && t.central > 0 && t.p_max > 0))
+    if (!(t.central > 0 && t.p_max > 0))
         return (twin){.p_max = 0};
     const ehl_crest of = {l->film.p, t.central, t.p_max};
-    t.bound = ehl_space_bounds(eq, at, l->solver.modulus, &of, &t.spike);
+    t.bound = ehl_space_bounds(eq, at, l->solver.modulus, &of, &t.spike).of[EHL_PEAK];
     return t;
 }
 
@@ -134,8 +130,7 @@ static double peak_error(const twin *t, int k)
 /* Whether it is known if the error of the peak exceeds `enough`, by the films to t[k]. */
 static int is_told(const twin *t, int k, double enough)
 {
-    return !(enough > 0) ||
-           (k > 1 && (peak_error(t, k) <= enough || t[k].p_max > (1 + enough) * t[0].p_max));
+    return k > 1 && (peak_error(t, k) <= enough || t[k].p_max > (1 + enough) * t[0].p_max);
 }
 
 /* Straight lines between the nodes: `times` cells in place of each of the `cells` of `from`. */
@@ -173,7 +168,7 @@ static ff_status find_twin(const ehl_solver *s, const ehl_bound *run, size_t tim
     return status == FF_OK && !(t->p_max > 0) ? FF_NOCONV : status;
 }
 
-/* Fills t with the films of the instant, two at least, until the peak is told; *last: of them. */
+/* Fills t with the films of the instant, three at least, until the peak is told; *last: of them. */
 static ff_status find_twins(const ehl_solver *s, const ehl_bound *run, double enough, twin *t,
                             int *last)
 {
@@ -191,23 +186,11 @@ static ff_status find_twins(const ehl_solver *s, const ehl_bound *run, double en
             break;
         }
         *last = k;
-        told = status == FF_OK && k > 0 && is_told(t, k, enough);
+        told = status == FF_OK && is_told(t, k, enough);
     }
     ehl_grid_level_destroy(&l[0]);
     ehl_grid_level_destroy(&l[1]);
     return status;
-}
-
-/* Error of a film from that on twice the cells (Richardson). */
-static double film_error(double coarse, double fine, int order)
-{
-    return fabs(coarse / fine - 1) / (1 - ldexp(1, -order));
-}
-
-/* A bound that is as good as none tells nothing of those that are large: 0. */
-static double share_of(double error, double bound, double limit)
-{
-    return bound > limit / 2 ? error / bound : 0;
 }
 
 static int are_within(double a, double b, double factor)
@@ -215,12 +198,12 @@ static int are_within(double a, double b, double factor)
     return a < factor * b && b < factor * a;
 }
 
-ff_status ehl_space_measure(const ehl_solver *s, const ehl_bound *run, double enough,
-                            ehl_space_errors *share, int *finest)
+ff_status ehl_space_measure(const ehl_solver *s, const ehl_bound *run, double enough, double *share,
+                            int *finest)
 {
     const double thicker = 1.2, higher = 1.1; /* without heat, and still much the same film */
     twin t[TWINS];
-    int order = s->reynolds->wedge == 2 ? 2 : 1, last = 0;
+    int last = 0;
     if (!(run->at.entrainment > fmax(0, run->frame)))
         return FF_NOCONV;
     ff_status status = find_twins(s, run, enough, t, &last);
@@ -230,57 +213,164 @@ ff_status ehl_space_measure(const ehl_solver *s, const ehl_bound *run, double en
     if (!are_within(t[0].central, run->h_central, thicker) ||
         !are_within(t[0].p_max, run->p_max, higher))
         return FF_NOCONV;
-    const double *bound = t[0].bound.of;
-    *share = (ehl_space_errors){{
-        share_of(film_error(t[0].least, t[1].least, order), bound[EHL_LEAST], EHL_FILM_LIMIT),
-        share_of(film_error(t[0].central, t[1].central, order), bound[EHL_CENTRAL], EHL_FILM_LIMIT),
-        last > 1 ? share_of(peak_error(t, last), bound[EHL_PEAK], EHL_PEAK_LIMIT) : 0,
-    }};
+    /* a bound that is as good as none tells nothing of those that are large */
+    *share = t[0].bound > EHL_PEAK_LIMIT / 2 ? peak_error(t, last) / t[0].bound : 0;
     return FF_OK;
 }
 
-/* Raises the shares by those at the instant of a bound. Where its own is not known there, it
-   stands. */
-static ff_status raise_shares(ehl_results *r, const ehl_march *m, const ehl_bound *b, int kind,
-                              ehl_space_errors *all)
+/* Raises the share of the peaks by that at the instant of a bound. Where its own is not known
+   there, it stands. */
+static ff_status raise_peak(ehl_results *r, const ehl_march *m, const ehl_bound *b, double *all)
 {
-    double highest = r->highest_alone ? r->highest : b->p_max;
-    double enough = kind == EHL_PEAK ? (1 + EHL_PEAK_LIMIT) * highest / b->p_max - 1 : 0;
-    ehl_space_errors share = {0};
+    double highest = r->highest_alone ? r->highest : b->p_max, share = 0;
+    double enough = (1 + EHL_PEAK_LIMIT) * highest / b->p_max - 1;
     int finest = 0;
     ff_status status = ehl_space_measure(m->solver, b, enough, &share, &finest);
     if (status == FF_NOMEM)
         return FF_NOMEM;
-    r->measured += status == FF_OK;
     r->finest = finest > r->finest ? finest : r->finest;
-    if (status != FF_OK || !(share.of[kind] > 0))
-        share.of[kind] = 1;
-    int peak = kind == EHL_PEAK; /* whose frame is not that of the films */
-    for (int k = peak ? EHL_PEAK : 0; k < (peak ? EHL_BOUNDS : EHL_PEAK); k++)
-        all->of[k] = fmax(all->of[k], share.of[k]);
+    *all = fmax(*all, status == FF_OK && share > 0 ? share : 1);
     return FF_OK;
 }
 
-ff_status ehl_results_measure(ehl_results *r, const ehl_march *m)
+static ff_status measure_peaks(ehl_results *r, const ehl_march *m)
 {
-    enum { LEAST_COUNT = 100 };
-    const double limit[] = {EHL_FILM_LIMIT, EHL_FILM_LIMIT, EHL_PEAK_LIMIT};
-    const int wanted[] = {ehl_wants_h_min(r->wanted), ehl_wants_h_central(r->wanted),
-                          ehl_wants_p_max(r->wanted)};
-    ehl_space_errors all = {0};
-    ff_status status = FF_OK;
-    if (r->rough || m->solver->outside || r->series.count < LEAST_COUNT)
+    double all = 0;
+    if (!(ehl_wants_p_max(r->wanted) && r->worst_peak.worst > EHL_PEAK_LIMIT))
         return FF_OK;
-    for (int k = 0; k < EHL_BOUNDS && status == FF_OK; k++)
-        if (wanted[k] && r->bound[k].worst > limit[k])
-            status = raise_shares(r, m, &r->bound[k], k, &all);
-    int other = fabs(r->at_highest.at.time - r->bound[EHL_PEAK].at.time) > 0;
-    if (status == FF_OK && wanted[EHL_PEAK] && other && r->at_highest.worst > EHL_PEAK_LIMIT)
-        status = raise_shares(r, m, &r->at_highest, EHL_PEAK, &all);
-    for (int k = 0; k < EHL_BOUNDS; k++)
-        if (wanted[k] && r->bound[k].worst > limit[k])
-            r->share.of[k] = all.of[k];
+    ff_status status = raise_peak(r, m, &r->worst_peak, &all);
+    int other = fabs(r->at_highest.at.time - r->worst_peak.at.time) > 0;
+    if (status == FF_OK && other && r->at_highest.worst > EHL_PEAK_LIMIT)
+        status = raise_peak(r, m, &r->at_highest, &all);
+    r->share = all;
     return status;
+}
+
+static int is_measured(const ehl_results *r, size_t row, int kind)
+{
+    return *part_of(r, row, EHL_MEASURED + kind) > 0;
+}
+
+static int is_extreme(const ehl_results *r, int kind)
+{
+    return kind == EHL_LEAST ? r->lowest_alone : kind == EHL_PEAK && r->highest_alone;
+}
+
+/* Returns what a row makes of the error of the output by the cells: its own, or by how much it goes
+   beyond the extreme of all, where that alone is wanted. */
+static double error_of_row(const ehl_results *r, size_t row, int kind)
+{
+    double value = film_of(r, row, kind), part = *part_of(r, row, kind), error = 0;
+    if (!is_extreme(r, kind))
+        error = value > 0 ? fabs(part) / value : 0;
+    else if (kind == EHL_PEAK)
+        error = (value + r->share * part) / r->highest - 1;
+    else
+        error = 1 - (value - part) / r->lowest;
+    return isfinite(error) ? error : 1e300;
+}
+
+static size_t worst_row(const ehl_results *r, int kind)
+{
+    size_t worst = 0;
+    double most = -HUGE_VAL;
+    for (size_t i = 0; i < r->series.count; i++) {
+        double error = error_of_row(r, i, kind);
+        if (error > most) {
+            most = error;
+            worst = i;
+        }
+    }
+    return worst;
+}
+
+/* Returns the error of an output by the cells, relative. The lowest film may be as low as the films
+   of all instants may be, or be higher as far as all of them are. */
+static double error_of(const ehl_results *r, int kind)
+{
+    if (kind == EHL_PEAK && !is_extreme(r, kind))
+        return r->share * r->worst_peak.worst;
+    double error = error_of_row(r, worst_row(r, kind), kind), highest = HUGE_VAL;
+    for (size_t i = 0; i < r->series.count && kind == EHL_LEAST && r->lowest_alone; i++) {
+        double part = *part_of(r, i, kind);
+        highest = fmin(highest, film_of(r, i, kind) + (is_measured(r, i, kind) ? -part : part));
+    }
+    return isfinite(highest) ? fmax(error, highest / r->lowest - 1) : error;
+}
+
+static int is_doubtful(const ehl_results *r, size_t row, int kind)
+{
+    return error_of_row(r, row, kind) > EHL_FILM_LIMIT / 2;
+}
+
+/* Returns the largest share of their bounds that errors have, all at most; of bounds that are as
+   good as none aside, which tell nothing of those that are large. */
+static double largest_share(const ehl_results *r, const ehl_passage *p, double (*error)[EHL_PEAK],
+                            int kind)
+{
+    double share = 0;
+    for (size_t i = p->first; i <= p->last; i++) {
+        double bound = fabs(*part_of(r, i, kind)) / film_of(r, i, kind),
+               e = fabs(error[i - p->first][kind]);
+        if (bound > EHL_FILM_LIMIT / 2)
+            share = fmax(share, e <= bound ? e / bound : 1);
+    }
+    return share;
+}
+
+/* Puts the errors that are known in place of what bounds them, and leaves that share of the bounds
+   at the rows that were not looked at. */
+static void put_errors(ehl_results *r, const ehl_passage *p, double (*error)[EHL_PEAK], int kind)
+{
+    double share = largest_share(r, p, error, kind);
+    for (size_t i = 0; i < r->series.count; i++) {
+        double *part = part_of(r, i, kind);
+        if (i < p->first || i > p->last) {
+            *part *= is_measured(r, i, kind) ? 1 : share;
+        } else if (isfinite(error[i - p->first][kind])) {
+            *part = error[i - p->first][kind] * film_of(r, i, kind);
+            *part_of(r, i, EHL_MEASURED + kind) = 1;
+            r->measured[kind] = 1;
+        }
+    }
+}
+
+/* Measures the films that the error of an output hangs on, and once more where those were not all.
+   The lowest film of all is looked at from half of the limit on: a film that moves may be further
+   off than its bound says. */
+static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p, int kind)
+{
+    enum { MOST = 2 };
+    double enough = is_extreme(r, kind) ? EHL_FILM_LIMIT / 2 : EHL_FILM_LIMIT;
+    ff_status status = FF_OK;
+    for (int k = 0; k < MOST && status == FF_OK; k++, enough = EHL_FILM_LIMIT) {
+        size_t row = worst_row(r, kind);
+        if (!(error_of_row(r, row, kind) > enough) || (k > 0 && row >= p->first && row <= p->last))
+            break;
+        ehl_passage_about(p, r, m, row, is_doubtful, kind);
+        double(*error)[EHL_PEAK] = calloc(p->last - p->first + 1, sizeof *error);
+        status = error ? ehl_passage_errors(r, m, p, error) : FF_NOMEM;
+        if (status == FF_OK)
+            put_errors(r, p, error, kind);
+        free(error);
+    }
+    return status == FF_NOMEM || status == FF_STOPPED ? status : FF_OK;
+}
+
+ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_history *whole,
+                              int equal)
+{
+    enum { LEAST_COUNT = 100 }; /* a peak takes as long however short the run */
+    ehl_passage p = {.whole = whole, .equal = equal};
+    size_t count = r->series.count;
+    ff_status status = FF_OK;
+    if (r->rough || m->solver->outside)
+        return FF_OK;
+    if (count > 1 && ehl_wants_h_min(r->wanted))
+        status = measure_film(r, m, &p, EHL_LEAST);
+    if (status == FF_OK && count > 1 && ehl_wants_h_central(r->wanted))
+        status = measure_film(r, m, &p, EHL_CENTRAL);
+    return status == FF_OK && count >= LEAST_COUNT ? measure_peaks(r, m) : status;
 }
 
 /* Returns how many cells would meet the limit of an error of a film, by its order. */
@@ -290,38 +380,20 @@ static double enough_cells(const ehl_march *m, double error, double limit)
     return 16 * ceil((double)(m->solver->grid->nodes - 1) * times / 16);
 }
 
-/* What the cells cost an output, relative: where they make the film, and where it carries a change
-   on. */
-typedef struct cost {
-    double error, carried;
-    const char *of;
-} cost;
-
-static cost cost_of(const ehl_results *r, int kind)
-{
-    static const char *const series[] = {"h_min", "h_central", "p_max"};
-    if (kind == EHL_LEAST && r->lowest_alone)
-        return (cost){extreme_error(r, kind), 1 - r->least_carried / r->lowest, "h_min_lowest"};
-    double error = r->share.of[kind] * r->bound[kind].worst;
-    if (kind != EHL_PEAK)
-        return (cost){error, r->worst_carried[kind], series[kind]};
-    return r->highest_alone ? (cost){extreme_error(r, kind), 0, "p_max_highest"}
-                            : (cost){error, 0, series[kind]};
-}
-
 static void report_cells(const ehl_results *r, const ehl_march *m, int kind, const char *name,
                          double limit)
 {
-    const cost c = cost_of(r, kind);
-    double share = r->share.of[kind], error = fmax(c.error, c.carried);
+    static const char *const all[] = {"h_min", "h_central", "p_max"};
+    static const char *const extreme[] = {"h_min_lowest", "", "p_max_highest"};
+    const char *of = is_extreme(r, kind) ? extreme[kind] : all[kind];
+    double error = error_of(r, kind);
     char how[128] = "", enough[96] = "", text[400];
-    if (c.carried > c.error)
-        snprintf(how, sizeof how,
-                 "; largest where the film carries a change through the contact that is few cells "
-                 "long");
-    else if (fabs(share - 1) > 0)
+    if (kind == EHL_PEAK && fabs(r->share - 1) > 0)
         snprintf(how, sizeof how, "; by its film on %d times the cells %.3g of what bounds it",
-                 kind == EHL_PEAK ? r->finest : 2, share);
+                 r->finest, r->share);
+    else if (kind != EHL_PEAK && r->measured[kind])
+        snprintf(how, sizeof how,
+                 "; measured by the last passage of the contact on twice the cells");
     if (kind == EHL_PEAK)
         snprintf(enough, sizeof enough,
                  "; above 0.1 the cells may cut the spike at the outlet off: use more of them");
@@ -331,7 +403,7 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
     snprintf(text, sizeof text,
              "estimate of the error of %s by the cells, over it; loads above 2 %% of the "
              "largest%s%s",
-             c.of, how, enough);
+             of, how, enough);
     r->host->quality(r->host->ctx, name, error, limit, error <= limit ? FF_GOOD : FF_DOUBTFUL,
                      text);
 }

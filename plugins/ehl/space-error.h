@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Errors of a film by the cells, relative: bounds, from what is known of films like it, and what
- * they are at an instant, by twins of its film on more cells.
+ * that of the peak is at an instant, by twins of its film on more cells. Those of h_min and
+ * h_central: passage.h.
  */
 #ifndef EHL_SPACE_ERROR_H
 #define EHL_SPACE_ERROR_H
@@ -35,7 +36,7 @@ typedef struct ehl_space_errors {
 ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at, double modulus,
                                   const ehl_crest *of, ehl_spike *spike);
 
-/* The bound of an error by the cells that counts most, and the film of its instant. */
+/* The bound of the error of a peak that counts most, and the film of its instant. */
 typedef struct ehl_bound {
     double counts; /* the more the larger: the bound itself, or how far its instant may go */
     double worst, h_central, p_max;
@@ -45,17 +46,16 @@ typedef struct ehl_bound {
 } ehl_bound;
 
 /*
- * Solves the contact of an instant, whose load is > 0, on the cells of `s` and on twice as many,
- * and gives the errors of the films as shares of their bounds there; 0 where a bound is below half
- * of its limit, and tells nothing of large ones. With `enough` > 0 also that of the peak, on four
- * times as many cells and on more, to 16 times, until it is known whether it exceeds `enough`, or
- * there is no such film on 8 or 16 times: then from those before.
- * *finest: over the cells of `s`. The mass changes in time as it does in the run, in the frame that
- * moves with the spike of the outlet: what is carried along, or moves with the outlet, is a change
- * in time at one place which the cells have smoothed. FF_OK; FF_NOMEM; FF_NOCONV where there is no
- * such film, or another one than that of the run.
+ * Solves the contact of an instant, whose load is > 0, on the cells of `s`, on twice, four times as
+ * many and on more, to 16 times, until it is known whether the error of the peak exceeds `enough`
+ * > 0, or there is no such film on 8 or 16 times: then from those before. Gives that error as a
+ * share of its bound there; 0 where that is below half of its limit, and tells nothing of large
+ * ones. *finest: over the cells of `s`. The mass changes in time as it does in the run, in the
+ * frame that moves with the spike of the outlet: what moves with it is a change in time at one
+ * place which the cells have smoothed. FF_OK; FF_NOMEM; FF_NOCONV where there is no such film, or
+ * another one than that of the run.
  */
-ff_status ehl_space_measure(const ehl_solver *s, const ehl_bound *run, double enough,
-                            ehl_space_errors *share, int *finest);
+ff_status ehl_space_measure(const ehl_solver *s, const ehl_bound *run, double enough, double *share,
+                            int *finest);
 
 #endif

@@ -427,7 +427,7 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status = march(m, in, &r);
     if (status == FF_OK)
-        status = ehl_results_measure(&r.results, &r.march);
+        status = ehl_results_measure(&r.results, &r.march, &r.whole, m->steps > 0);
     if (status == FF_OK)
         status = ehl_results_finish(&r.results, &r.march);
     if (status == FF_OK)

@@ -256,7 +256,7 @@ static void fill_gap(ehl_march *m, const ehl_instant *at)
     }
 }
 
-static ff_status start_smooth(ehl_march *m, double time)
+ff_status ehl_march_start_at(ehl_march *m, double time)
 {
     ehl_instant at = ehl_history_before(m->history, time);
     ff_status status = FF_OK;
@@ -300,14 +300,14 @@ ff_status ehl_march_start(ehl_march *m)
 {
     double first = m->history->time[0];
     if (!m->rough)
-        return start_smooth(m, first);
+        return ehl_march_start_at(m, first);
     const ehl_grid *g = m->solver->grid;
     ehl_instant at = ehl_history_before(m->history, first);
     double a = g->half_width;
     m->rough->ramp = 0.5 * a;
     m->rough->front = fmin(1.5 * a, g->outlet);
     double way = m->rough->ramp + fmin(2 * a, g->inlet) + m->rough->front;
-    ff_status status = start_smooth(m, first - way / at.entrainment);
+    ff_status status = ehl_march_start_at(m, first - way / at.entrainment);
     if (status == FF_OK)
         status = ehl_march_to(m, first);
     m->steps_cut = 0;

@@ -74,7 +74,7 @@ ff_status ehl_step_control_create(ehl_step_control *p, const ehl_march *m, doubl
     p->breakpoint = malloc(h->count * sizeof *p->breakpoint);
     if (!p->breakpoint)
         return FF_NOMEM;
-    double begin = h->time[0], apart = 1e-9 * passage, before = begin;
+    double apart = 1e-9 * passage, before = m->state[0].time;
     for (size_t i = 1; i + 1 < h->count; i++)
         if (((!equal && is_breakpoint(m, i)) || radius_bends(m, i)) && h->time[i] > before + apart)
             before = p->breakpoint[p->breakpoints++] = h->time[i];

@@ -64,6 +64,9 @@ void ehl_march_destroy(ehl_march *m);
    load, and at rest that of a slow motion, or the gap full of oil. */
 ff_status ehl_march_start(ehl_march *m);
 
+/* Starts with the steady film of that time, between smooth flanks. */
+ff_status ehl_march_start_at(ehl_march *m, double time);
+
 /* Forgets the film before another engagement starts; the counters go on. */
 void ehl_march_restart(ehl_march *m);
 

@@ -10,7 +10,7 @@
 
 enum { ROWS = 20, AT = 9 };
 
-static double series[ROWS * EHL_SERIES], space[ROWS * EHL_BOUNDS];
+static double series[ROWS * EHL_SERIES], space[ROWS * EHL_SPACE];
 static double time_of[ROWS];
 
 static double stated_of(size_t rows, double (*power)(double), int scheme)
@@ -27,7 +27,7 @@ static double stated_of(size_t rows, double (*power)(double), int scheme)
         time_of[k] = (double)k + 0.3 * sin((double)k);
         series[k * EHL_SERIES + EHL_TIME] = time_of[k];
         series[k * EHL_SERIES + EHL_SQUEEZE_LOSS] = power(time_of[k]);
-        space[k * EHL_BOUNDS + EHL_LEAST] = 1;
+        space[k * EHL_SPACE + EHL_LEAST] = 1;
     }
     return ehl_results_loss_in_time(&r, &m);
 }

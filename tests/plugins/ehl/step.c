@@ -23,7 +23,7 @@ static void solve(line *c, double ratio, double steps)
     for (int k = 0; k < 4; k++)
         c->load[k] = (k < 2) == (ratio > 1) ? load / fmax(ratio, 1 / ratio) : load;
     stage_set(c->film, "steps", steps);
-    stage_set(c->film, "cells", 256);
+    stage_set(c->film, "cells", 512); /* what they add is a tenth of what is compared */
     check_true("runs", line_run(c, "h_min h_central h_min_error h_central_error time") == FF_OK);
 }
 

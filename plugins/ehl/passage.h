@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Instants of a run, and the passage of the contact before the first of them, on the cells of the
+ * run and on twice as many: what the films owe to the cells in the inlet, on their way and at the
+ * outlet.
+ */
+#ifndef EHL_PASSAGE_H
+#define EHL_PASSAGE_H
+
+#include "outputs.h"
+
+typedef struct ehl_passage {
+    const ehl_history *whole;  /* of all engagements */
+    int equal;                 /* the lengths of the steps were given */
+    size_t begin, first, last; /* rows of the series, of one engagement: looked at from first on */
+} ehl_passage;
+
+/* Sets the rows: looks at those about one that `count`, no further than a passage away from it, and
+   begins a passage before. */
+void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m, size_t row,
+                       int (*counts)(const ehl_results *r, size_t row, int kind), int kind);
+
+/*
+ * error: of h_min and h_central by the cells for each of the rows, relative, positive where the
+ * film is too thick; 0 in all of them before. NaN where the film on the cells of the run is not
+ * that of the run within a quarter of the error or of its limit: where it remembers more than a
+ * passage, or, ten times of these, with heat. FF_OK, or a failure that leaves no errors.
+ */
+ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
+                             double (*error)[EHL_PEAK]);
+
+#endif
