@@ -18,8 +18,8 @@ points at which that holds, with a shift along the series of up to 0.2 of a pass
 
 --lattice asks what the answers cost. Twelve fixed settings of the film are held against the reference; the
 cheapest from which on all finer ones keep the accuracy too, in each output whose error bar is within it, is what a user who
-had tried them all would take. Cost is counted in cell-steps, cells times instants of the film; attempts and twins of the answer
-count by their processor time over that of its own run.
+had tried them all would take. Cost is counted in cell-steps, cells times instants of the film: those of the answer, of its attempts and
+of their twins, each of which is run once more with its settings of the film to count its instants.
 """
 import argparse
 import bisect
@@ -364,19 +364,32 @@ def cell_steps(answer, cells):
     return cells * len(answer['outputs']['film.time']['value'])
 
 
-def cost_of(answer):
+def kept_in(cache, name, compute):
+    path = os.path.join(cache, name)
+    if not os.path.exists(path):
+        with open(path, 'w') as stream:
+            json.dump(compute(), stream)
+    with open(path) as stream:
+        return json.load(stream)
+
+
+def instants_of(runner, scene, settings):
+    """Of a film with these settings; 0 where it fails."""
+    answer = runner.run(scene, '', f"cells: {settings['film.cells']}, time_tolerance: {settings['film.time_tolerance']}")
+    return len(answer['outputs']['film.time']['value']) if answer['status'] == 'ok' else 0
+
+
+def cost_of(runner, scene, level, answer, cache):
+    runs = [run['settings'] for run in answer['twins']['runs']]
+    counts = kept_in(cache, f"{scene['seed']}-{scene['number']}-{level.split()[0]}-instants.json",
+                     lambda: [instants_of(runner, scene, settings) for settings in runs])
     own = cell_steps(answer, int(answer['twins']['settings']['film.cells']))
-    return own, own * (1 + (answer['twins'].get('seconds') or 0) / answer['seconds'])
+    return own, sum(int(settings['film.cells']) * count for settings, count in zip(runs, counts))
 
 
 def lattice_of(runner, scene, cache):
-    kept = os.path.join(cache, f"{scene['seed']}-{scene['number']}-lattice.json")
-    if not os.path.exists(kept):
-        found = [runner.run(scene, '', f'cells: {cells}, time_tolerance: {tolerance}') for cells, tolerance in LATTICE]
-        with open(kept, 'w') as stream:
-            json.dump(found, stream)
-    with open(kept) as stream:
-        return json.load(stream)
+    return kept_in(cache, f"{scene['seed']}-{scene['number']}-lattice.json",
+                   lambda: [runner.run(scene, '', f'cells: {cells}, time_tolerance: {tolerance}') for cells, tolerance in LATTICE])
 
 
 def cheapest(points, exact, names, goal):
@@ -403,7 +416,7 @@ def print_costs(runner, scenes, cache, out):
             names = [n for n in scene['outputs'] if answer['outputs'][n]['relative'] is not None
                      and answer['outputs'][n]['relative'] <= goal]
             least = cheapest(points, exact, names, goal)
-            own, cost = cost_of(answer)
+            own, cost = cost_of(runner, scene, level, answer, cache)
             ratio = cost / least if least else None
             if ratio:
                 ratios[level].append((ratio, own / least))

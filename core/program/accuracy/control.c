@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * All settings become finer together: an attempt that is finer by a level than the one before, and
- * that by one than the one before it, has both as its twins, and what is spent on all of them is
- * little more than the last one costs. An output whose error grows, or falls too slowly to come
+ * Counts and tolerances become finer apart, each by what its part of the errors takes. Cells and
+ * points of a level more have the answers before as their twins, and what is spent on all of them
+ * is some twice what the last one costs. An output whose error grows, or falls too slowly to come
  * below what is asked for, is left out, so that it does not take the others with it.
  */
 #include "control.h"
 
 #include "choice.h"
 #include "doubts.h"
+#include "estimate.h"
 #include "goals.h"
 #include "models.h"
 #include "settings.h"
@@ -18,9 +19,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* From the first attempt on, which is coarser than the presets by so many levels, each is finer by
-   one, so that those before are its twins; a level costs four times as much, and all before a third
-   of the last. */
+/* The first attempt is coarser than the presets by so many levels. */
 static const double coarsest = 2;
 /* Four times as many cells and steps as by preset: 16 times the work. */
 static const double finest = -2;
@@ -33,7 +32,11 @@ static const double ahead = 1;
 /* Of the reference, over the goal, when models are held against it: they may move half of a goal
    (choice.c), and its error counts with what they move. */
 static const double reference_error = 0.25;
-enum { MOST_ATTEMPTS = 8 };
+/* Of an accuracy, that the counts and the tolerances may each take before they become finer. */
+static const double part = 0.5;
+/* By how many levels tolerances become finer at most from one attempt to the next. */
+static const double most_at_once = 2;
+enum { MOST_ATTEMPTS = 10 };
 
 /* A setting that the file leaves open. */
 typedef struct knob {
@@ -43,10 +46,15 @@ typedef struct knob {
     double level; /* coarser than the preset by so much */
 } knob;
 
+/* Coarser than the presets by so many levels. */
+typedef struct levels {
+    double counts, tolerances;
+} levels;
+
 typedef struct attempt {
     accuracy_twin run;
     accuracy_record record; /* of a doubtful one empty */
-    double level;
+    levels at;
     bool doubtful; /* coarser than the presets, and in doubt or without room for twins: no answer */
 } attempt;
 
@@ -58,7 +66,7 @@ typedef struct control {
     knob *knobs;
     size_t count;
     const char *given;           /* settings that the file gives itself; "": none */
-    double level;                /* of the next attempt */
+    levels at;                   /* of the next attempt */
     attempt kept[MOST_ATTEMPTS]; /* with the models as they are */
     size_t kept_count;
     attempt *best; /* the last one, good if any was; NULL: none was made */
@@ -107,7 +115,7 @@ static void list_knobs(control *c)
         const ff_stage *stage = &c->asked->stages[c->asked->order[i]];
         size_t count = 0;
         if (stage->needed && stage->loaded)
-            count = accuracy_settings(stage, &c->arena, settings);
+            count = accuracy_settings(stage, settings);
         for (size_t k = 0; k < count; k++) {
             if (!settings[k].open)
                 note_given(c, stage->name, settings[k].name);
@@ -136,12 +144,13 @@ static void move(control *c, knob *k, double level)
         k->level = fabs(k->level) < 1 ? 0 : k->level - copysign(1, k->level);
 }
 
-/* Twins are coarser by two levels. */
+/* Twins are coarser, in the counts by up to two levels. */
 static bool all_have_twins(control *c)
 {
     for (size_t i = 0; i < c->count; i++) {
         const knob *k = &c->knobs[i];
-        if (!accuracy_setting_at(k->stage, k->setting.param, k->level + 2, &c->arena))
+        double coarser = k->setting.tolerance ? 1 : 2;
+        if (!accuracy_setting_at(k->stage, k->setting.param, k->level + coarser, &c->arena))
             return false;
     }
     return true;
@@ -156,14 +165,15 @@ static bool leaves_models_open(const ff_pipeline *pipeline)
 }
 
 /* Returns whether a setting changes. */
-static bool set_level(control *c, double level)
+static bool set_levels(control *c, levels at)
 {
     bool moved = false;
-    c->level = level;
+    c->at = at;
     for (size_t i = 0; i < c->count; i++) {
-        double before = c->knobs[i].level;
-        move(c, &c->knobs[i], level - (c->knobs[i].cheap ? ahead : 0));
-        moved = moved || c->knobs[i].level != before;
+        knob *k = &c->knobs[i];
+        double before = k->level, level = k->setting.tolerance ? at.tolerances : at.counts;
+        move(c, k, level - (k->cheap ? ahead : 0));
+        moved = moved || k->level != before;
     }
     return moved;
 }
@@ -179,6 +189,11 @@ static const char **list_sets(control *c, size_t *count)
     return sets;
 }
 
+static bool is_coarser_than_presets(levels at)
+{
+    return at.counts > 0 || at.tolerances > 0;
+}
+
 /* What was run before serves as twins. */
 static void measure(control *c, attempt *a)
 {
@@ -186,9 +201,8 @@ static void measure(control *c, attempt *a)
     accuracy_known known = {.runs = runs};
     for (size_t i = 0; i < c->kept_count; i++) {
         runs[known.count++] = &c->kept[i].run;
-        for (size_t k = 0; k < ACCURACY_OWN; k++)
-            if (c->kept[i].record.own[k])
-                runs[known.count++] = c->kept[i].record.own[k];
+        for (size_t k = 0; k < c->kept[i].record.own_count; k++)
+            runs[known.count++] = c->kept[i].record.own[k];
     }
     a->record.choice = c->choice;
     a->run.stopped = !accuracy_measure(&a->record, a->run.tree, c->scene.engine, a->run.pipeline,
@@ -208,10 +222,11 @@ static void try_settings(control *c, attempt *next)
     for (size_t i = 0; i < c->count; i++)
         changed[c->knobs[i].stage - c->asked->stages] = true;
     accuracy_twin_run(&next->run, &c->scene, sets, count, &place, changed);
-    next->level = c->level;
+    next->at = c->at;
     next->doubtful =
-        next->run.good && c->level > 0 &&
-        (!all_have_twins(c) || accuracy_has_doubts(next->run.pipeline, c->scene.donor));
+        next->run.good && is_coarser_than_presets(c->at) &&
+        (!all_have_twins(c) || accuracy_has_doubts(next->run.pipeline, c->scene.donor,
+                                                   c->at.counts > 0 ? c->scene.tree : NULL));
     if (next->run.good && !next->doubtful)
         measure(c, next);
     c->attempts++;
@@ -239,16 +254,16 @@ static bool is_missed(const control *c, const accuracy_error *e)
     return !isnan(e->goal) && !(e->relative <= goal_of(c, e));
 }
 
-/* The order at which an error falls, below 0 where it grows: that of its twins. What settings that
-   the file gives make of it falls in twins, too, but in no attempt. */
+/* The order at which the part of the counts falls, below 0 where it grows: that of its twins. What
+   settings that the file gives make of it falls in twins, too, but in no attempt. */
 static double order_of(const control *c, size_t error)
 {
     const accuracy_error *e = &c->best->record.errors[error];
     const attempt *before = c->best > c->kept ? c->best - 1 : NULL;
     double order = isnan(e->order) ? 1 : e->order;
-    if (*c->given && before && before->level <= 0 && before->record.count > error)
+    if (*c->given && before && before->at.counts <= 0 && before->record.count > error)
         order = fmin(order, log2(before->record.errors[error].relative / e->relative));
-    return order;
+    return fmax(order, 0);
 }
 
 /* Whether the finest settings will do for an error that is too large. Two levels show no order:
@@ -256,11 +271,25 @@ static double order_of(const control *c, size_t error)
 static bool is_in_reach(const control *c, size_t error)
 {
     const accuracy_error *e = &c->best->record.errors[error];
-    double order = order_of(c, error), lacks = log2(e->relative / goal_of(c, e));
-    double left = c->level - finest;
+    double counts = e->relative - e->by_tolerances, left = c->at.counts - finest;
     if (c->best->record.two_levels && isnan(e->order))
-        return left > 0 && lacks - 3 <= 2 * left;
-    return order > 0 && lacks / order <= left;
+        return left > 0 && log2(counts / goal_of(c, e)) - 3 <= 2 * left;
+    return counts * exp2(-left * order_of(c, error)) +
+               e->by_tolerances * pow(accuracy_tolerance_growth, finest - c->at.tolerances) <=
+           goal_of(c, e);
+}
+
+/* What a missed error takes: counts a level finer, tolerances as many as bring their part down. */
+static levels finer_for(const control *c, const accuracy_error *e)
+{
+    levels next = c->at;
+    double most = part * goal_of(c, e);
+    if (!(e->relative - e->by_tolerances <= most))
+        next.counts -= 1;
+    if (e->by_tolerances > most)
+        next.tolerances -=
+            fmin(ceil(log(e->by_tolerances / most) / log(accuracy_tolerance_growth)), most_at_once);
+    return next;
 }
 
 /* Chooses the settings of the next attempt; false: this one is the answer. Where no error is told,
@@ -268,15 +297,20 @@ static bool is_in_reach(const control *c, size_t error)
 static bool go_on(control *c)
 {
     const accuracy_record *record = &c->best->record;
-    bool missed = !c->best->run.good || c->best->doubtful || record->count == 0, reached = false;
+    levels next = c->at;
+    if (!c->best->run.good && c->at.counts > -1) /* where the presets fail something finer may do */
+        next = (levels){c->at.counts - 1, c->at.tolerances - 1};
+    if (c->best->run.good && (c->best->doubtful || record->count == 0)) {
+        next.counts -= c->at.counts > 0 ? 1 : 0;
+        next.tolerances -= c->at.counts > 0 ? 0 : fmax(c->at.tolerances, 0);
+    }
     for (size_t i = 0; i < record->count; i++)
-        if (is_missed(c, &record->errors[i])) {
-            missed = true;
-            reached = reached || is_in_reach(c, i);
+        if (is_missed(c, &record->errors[i]) && (c->at.counts > 0 || is_in_reach(c, i))) {
+            levels finer = finer_for(c, &record->errors[i]);
+            next.counts = fmin(next.counts, finer.counts);
+            next.tolerances = fmin(next.tolerances, finer.tolerances);
         }
-    if (c->level <= 0) /* where the presets fail something finer may do */
-        missed = c->best->run.good ? reached : c->level > -1;
-    return missed && set_level(c, c->level - 1);
+    return set_levels(c, next);
 }
 
 static void take(control *c, const attempt *next)
@@ -307,7 +341,7 @@ static void begin_with(control *c, const accuracy_choice *choice)
     c->scene.start = c->asked;
     drop_attempts(c);
     list_knobs(c);
-    set_level(c, coarsest);
+    set_levels(c, (levels){coarsest, coarsest});
 }
 
 /* Chooses the models that the file leaves open, by what they move the answer. Returns whether there
@@ -346,10 +380,31 @@ static bool try_next(control *c)
     return false;
 }
 
+static size_t count_kept(const control *c, const attempt *a)
+{
+    size_t kept = 0;
+    for (size_t i = 0; a->run.good && !a->doubtful && i < a->record.count; i++)
+        kept += !isnan(a->record.errors[i].goal) && !is_missed(c, &a->record.errors[i]);
+    return kept;
+}
+
+/* The attempt with most outputs within what is asked for, of these the last one, becomes the last
+   of all: finer settings for one output may show more of what makes another one uncertain. */
+static void choose_best(control *c)
+{
+    attempt *best = c->best;
+    for (attempt *a = best; a-- > c->kept;)
+        if (count_kept(c, a) > count_kept(c, best))
+            best = a;
+    const attempt last = *c->best;
+    *c->best = *best;
+    *best = last;
+}
+
 /* Makes attempts until one is the answer; false where the observer stopped one. */
 static bool search(control *c)
 {
-    set_level(c, coarsest);
+    set_levels(c, (levels){coarsest, coarsest});
     for (bool again = true; again;) {
         again = try_next(c) && go_on(c) && c->kept_count < MOST_ATTEMPTS;
         if (!again && c->best->run.good && !c->best->run.stopped && !c->choice &&
@@ -358,6 +413,8 @@ static bool search(control *c)
     }
     if (c->best->doubtful && !c->best->run.stopped) /* nothing better was had */
         measure(c, c->best);
+    if (!c->best->run.stopped)
+        choose_best(c);
     return !c->best->run.stopped;
 }
 
@@ -373,12 +430,43 @@ static bool is_idle(const knob *k, const ff_report *report, ff_place chosen)
     return idle;
 }
 
+static void note_spent(const control *c, const accuracy_twin *run, accuracy_record *record)
+{
+    accuracy_spent *spent = &record->spent[record->spent_count];
+    if (!run->pipeline)
+        return;
+    *spent = (accuracy_spent){.seconds = run->work};
+    spent->settings = memory_arena_alloc(&record->arena, c->count * sizeof *spent->settings + 1);
+    for (size_t i = 0; i < c->count; i++) {
+        const knob *k = &c->knobs[i];
+        const ff_stage *stage = &run->pipeline->stages[k->stage - c->asked->stages];
+        const char *set = accuracy_setting_at(stage, k->setting.param, 0, &record->arena);
+        if (set)
+            spent->settings[spent->setting_count++] = set;
+    }
+    record->spent_count++;
+}
+
+/* Lists the attempts, with the models as they are, and their twins. */
+static void list_spent(const control *c, accuracy_record *record)
+{
+    size_t most = c->kept_count * (1 + ACCURACY_OWN);
+    record->spent = memory_arena_alloc(&record->arena, most * sizeof *record->spent);
+    for (size_t i = 0; i < c->kept_count; i++) {
+        const attempt *a = &c->kept[i];
+        note_spent(c, &a->run, record);
+        for (size_t k = 0; k < a->record.own_count; k++)
+            note_spent(c, a->record.own[k], record);
+    }
+}
+
 /* Makes the best attempt the answer. */
 static void adopt(control *c, accuracy_record *record)
 {
     ff_pipeline *asked = record->answer;
-    set_level(c, c->best->level);
+    set_levels(c, c->best->at);
     *record = c->best->record;
+    list_spent(c, record);
     record->twin = memory_alloc(sizeof *record->twin);
     *record->twin = c->best->run;
     record->answer = c->best->run.pipeline ? c->best->run.pipeline : asked;

@@ -124,15 +124,20 @@ static bool goes_down(const accuracy_ladder *l)
     return (l->half && l->quarter) || !l->twice;
 }
 
+static const double *middle(const accuracy_ladder *l)
+{
+    return l->middle ? l->middle : l->half;
+}
+
 static convergence convergence_of(const accuracy_ladder *l)
 {
     const double *a = goes_down(l) ? l->answer : l->twice, *b = goes_down(l) ? l->half : l->answer,
-                 *c = goes_down(l) ? l->quarter : l->half;
+                 *c = goes_down(l) ? l->quarter : l->half, *d = goes_down(l) ? middle(l) : b;
     if (!a || !b || !c)
         return (convergence){NAN, NAN, INFINITY, INFINITY};
-    const differences near = between(l, b, a), far = between(l, c, b);
+    const differences near = between(l, b, a), far = between(l, c, d);
     /* a single number may overshoot */
-    double sign = l->count == 1 && (c[0] - b[0]) * (b[0] - a[0]) < 0 ? -1 : 1;
+    double sign = l->count == 1 && (c[0] - d[0]) * (b[0] - a[0]) < 0 ? -1 : 1;
     return (convergence){growth_of(near.typical, far.typical, sign),
                          growth_of(near.all, far.all, sign), near.limit, INFINITY};
 }
@@ -144,7 +149,7 @@ static double coarse_difference(const accuracy_ladder *l, size_t i)
     double sum = 0;
     for (size_t k = 0; l->quarter && k < l->refined_count; k++)
         sum += l->refined[k] ? apart(l, l->refined[k], l->quarter, i) : 0;
-    return l->half && l->quarter ? fmax(apart(l, l->quarter, l->half, i), sum) : sum;
+    return l->half && l->quarter ? fmax(apart(l, l->quarter, middle(l), i), sum) : sum;
 }
 
 static double coarse_limit(const accuracy_ladder *l)
@@ -204,4 +209,27 @@ double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares
     find_shares(l, shares);
     double observed = c.typical;
     return isfinite(observed) && observed != 0 ? log2(fabs(observed)) : NAN;
+}
+
+/* What the tolerances make of number i, relative; none of it moves more than is typical where the
+   answer does not. */
+static double tolerance_error_at(const accuracy_ladder *l, size_t i, double limit)
+{
+    const double growth = accuracy_tolerance_growth;
+    double moved = fmin(apart(l, l->tight, l->loose, i), limit);
+    return safety * moved * (l->is_finer ? growth : 1) / (growth - 1);
+}
+
+double accuracy_add_tolerances(const accuracy_ladder *l, double *error)
+{
+    const convergence c = convergence_of(l);
+    const differences d = between(l, l->tight, l->loose);
+    double *all = memory_alloc(l->count * sizeof *all);
+    for (size_t i = 0; i < l->count; i++) {
+        all[i] = tolerance_error_at(l, i, is_typical(l, i, &c) ? d.limit : INFINITY);
+        error[i] += all[i] * (l->scale ? l->scale[i] : 1);
+    }
+    double typical = accuracy_typical(all, l->at, l->count);
+    free(all);
+    return typical;
 }

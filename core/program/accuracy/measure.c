@@ -13,6 +13,7 @@
 #include "compare.h"
 #include "estimate.h"
 #include "goals.h"
+#include "lines.h"
 #include "settings.h"
 #include "twin.h"
 
@@ -20,15 +21,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* A measured error above this is doubtful where the file names no accuracy. */
-static const double doubtful_above = 0.05;
-
-/* An error at few points that is so many times that of the others is told. */
-static const double much_larger = 2;
-
-/* Parts below this share of an error are not worth a reader's time. */
-static const double least_part = 0.01;
 
 /* A time, an angle, or what its dimension is named after: series are compared along it. */
 static bool is_axis(const ff_result *result)
@@ -56,6 +48,8 @@ typedef struct measurement {
     size_t count;
     const accuracy_known *known;
     const accuracy_twin *half, *quarter, *twice; /* NULL: it cannot be had */
+    const accuracy_twin *middle, *tight, *loose; /* estimate.h; NULL: not told apart */
+    bool is_finer;
     accuracy_twin *refined; /* one for each knob; not good: errors are not split by it */
     bool stopped;
 } measurement;
@@ -118,7 +112,7 @@ static void list_knobs(measurement *m)
         const ff_stage *stage = &answer->stages[at];
         size_t count = 0;
         if (stage->needed && stage->loaded)
-            count = accuracy_settings(stage, &m->record->arena, settings);
+            count = accuracy_settings(stage, settings);
         for (size_t k = 0; k < count; k++)
             m->knobs[m->count++] = (knob){at, settings[k]};
     }
@@ -131,28 +125,34 @@ static void note_failure(measurement *m, const char *why)
         m->record->failure = memory_arena_text(&m->record->arena, why, strlen(why));
 }
 
-/* How much coarser the settings of a twin are. */
-typedef enum level { TWICE, HALF, QUARTER } level;
+/* By how many levels the settings of a twin are coarser. */
+typedef struct coarser {
+    int counts, tolerances;
+} coarser;
 
-static const char *assignment_at(const accuracy_setting *setting, level at)
+static const coarser half = {1, 1}, quarter = {2, 2}, twice = {-1, -1};
+
+/* NULL: its limits forbid it. */
+static const char *assignment_at(const measurement *m, const knob *k, coarser at)
 {
-    const char *const sets[] = {setting->finer, setting->coarser[0], setting->coarser[1]};
-    return sets[at];
+    int levels = k->setting.tolerance ? at.tolerances : at.counts;
+    return accuracy_setting_at(&m->answer->stages[k->stage], k->setting.param, levels,
+                               &m->record->arena);
 }
 
 /* Fills the assignments of a twin, and marks the stages that they change. False: the limits of a
    setting forbid one. */
-static bool list_sets(measurement *m, level at, size_t finer, const char **sets, bool *changed)
+static bool list_sets(measurement *m, coarser at, size_t finer, const char **sets, bool *changed)
 {
     for (size_t i = 0; i < m->count; i++) {
         const knob *k = &m->knobs[i];
-        sets[i] = assignment_at(&k->setting, i == finer ? HALF : at);
+        sets[i] = assignment_at(m, k, i == finer ? half : at);
         changed[k->stage] |= finer == SIZE_MAX || i == finer;
         if (sets[i])
             continue;
         char *why = memory_print_text("%s.%s has no %s value within its limits",
                                       m->answer->stages[k->stage].name, k->setting.name,
-                                      at == TWICE ? "finer" : "coarser");
+                                      at.counts < 0 ? "finer" : "coarser");
         note_failure(m, why);
         free(why);
         return false;
@@ -160,9 +160,8 @@ static bool list_sets(measurement *m, level at, size_t finer, const char **sets,
     return true;
 }
 
-/* Runs a twin whose settings are all at a level, but for one that is at the level of half;
-   SIZE_MAX: none. */
-static void run_twin(measurement *m, level at, size_t finer, accuracy_twin *twin)
+/* Runs a twin; one of its settings is at the level of half; SIZE_MAX: none. */
+static void run_twin(measurement *m, coarser at, size_t finer, accuracy_twin *twin)
 {
     const char **sets = memory_alloc((m->count + 1) * sizeof *sets);
     bool *changed = memory_alloc((m->answer->count + 1) * sizeof *changed);
@@ -180,32 +179,42 @@ static void run_twin(measurement *m, level at, size_t finer, accuracy_twin *twin
 }
 
 /* Whether an answer has the settings of a twin. */
-static bool is_twin(const measurement *m, level at, const ff_pipeline *answer)
+static bool is_twin(const measurement *m, coarser at, const ff_pipeline *answer)
 {
     bool same = answer->count == m->answer->count;
     for (size_t i = 0; same && i < answer->count; i++)
         same = answer->stages[i].loaded == m->answer->stages[i].loaded;
     for (size_t i = 0; same && i < m->count; i++) {
-        const accuracy_setting *setting = &m->knobs[i].setting;
-        const char *has = accuracy_setting_at(&answer->stages[m->knobs[i].stage], setting->param, 0,
+        const knob *k = &m->knobs[i];
+        const char *has = accuracy_setting_at(&answer->stages[k->stage], k->setting.param, 0,
                                               &m->record->arena),
-                   *wanted = assignment_at(setting, at);
+                   *wanted = assignment_at(m, k, at);
         same = has && wanted && !strcmp(has, wanted);
     }
     return same;
 }
 
-/* Finds a twin whose settings are all at a level, or runs it; NULL: it cannot be had. */
-static const accuracy_twin *find_twin(measurement *m, level at)
+/* A twin that was run before, good or not; NULL: none was. */
+static const accuracy_twin *known_twin(const measurement *m, coarser at)
 {
-    for (size_t i = 0; m->known && i < m->known->count; i++) {
-        const accuracy_twin *run = m->known->runs[i];
-        if (run->pipeline && is_twin(m, at, run->pipeline))
-            return run->good ? run : NULL;
-    }
-    if (m->stopped)
+    for (size_t i = 0; i < m->record->own_count; i++)
+        if (m->record->own[i]->pipeline && is_twin(m, at, m->record->own[i]->pipeline))
+            return m->record->own[i];
+    for (size_t i = 0; m->known && i < m->known->count; i++)
+        if (m->known->runs[i]->pipeline && is_twin(m, at, m->known->runs[i]->pipeline))
+            return m->known->runs[i];
+    return NULL;
+}
+
+/* Finds a twin, or runs it; NULL: it cannot be had. */
+static const accuracy_twin *find_twin(measurement *m, coarser at)
+{
+    const accuracy_twin *known = known_twin(m, at);
+    if (known)
+        return known->good ? known : NULL;
+    if (m->stopped || m->record->own_count == ACCURACY_OWN)
         return NULL;
-    accuracy_twin *own = m->record->own[at] = memory_alloc(sizeof *own);
+    accuracy_twin *own = m->record->own[m->record->own_count++] = memory_alloc(sizeof *own);
     run_twin(m, at, SIZE_MAX, own);
     return own->good ? own : NULL;
 }
@@ -280,7 +289,11 @@ static accuracy_ladder ladder_of(const measurement *m, const accuracy_error *e)
                              .answer = e->result->data,
                              .half = numbers_of_twin(m, e, m->half),
                              .quarter = numbers_of_twin(m, e, m->quarter),
-                             .twice = numbers_of_twin(m, e, m->twice)};
+                             .twice = numbers_of_twin(m, e, m->twice),
+                             .middle = numbers_of_twin(m, e, m->middle),
+                             .tight = numbers_of_twin(m, e, m->tight),
+                             .loose = numbers_of_twin(m, e, m->loose),
+                             .is_finer = m->is_finer};
 }
 
 static void measure_output(const measurement *m, accuracy_error *e)
@@ -296,6 +309,8 @@ static void measure_output(const measurement *m, accuracy_error *e)
         return;
     e->bar = take(m, levels.count, sizeof *e->bar);
     e->order = accuracy_estimate(&levels, e->bar, shares);
+    if (levels.tight && levels.loose)
+        e->by_tolerances = accuracy_add_tolerances(&levels, e->bar);
     for (size_t i = 0; i < levels.count; i++) /* fmax drops NaN */
         e->bar[i] = fmax(e->bar[i], least_error * e->goal * levels.scale[i]);
     find_relative(levels.at, e);
@@ -347,99 +362,6 @@ static void hold_to_series(const measurement *m, accuracy_error *number)
     }
 }
 
-/* "h_min_space_error" is of the output with the longest name that the line begins with; of fields
-   no error is measured. */
-bool accuracy_is_estimate(const ff_stage *stage, const char *line)
-{
-    static const char ending[] = "_error";
-    size_t length = strlen(line), tail = sizeof ending - 1, longest = 0;
-    const ff_result *found = NULL;
-    if (length <= tail || strcmp(line + length - tail, ending) != 0)
-        return false;
-    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const char *name = stage->results[i].row->name;
-        size_t own = strlen(name);
-        if (own > longest && !strncmp(line, name, own) && line[own] == '_') {
-            longest = own;
-            found = &stage->results[i];
-        }
-    }
-    return found && !(found->requested && found->rank > 1);
-}
-
-/* Takes the estimates of the stages away that measured outputs come from: two numbers for one
-   error would contradict each other, and what comes of an error on the way is measured. */
-static void drop_estimates(const measurement *m)
-{
-    const ff_pipeline *answer = m->answer;
-    bool *feeds = memory_alloc((answer->count + 1) * sizeof *feeds);
-    for (size_t i = 0; i < m->record->count; i++)
-        feeds[m->record->errors[i].stage - answer->stages] = true;
-    for (size_t n = answer->count; n-- > 0;) {
-        ff_stage *stage = &answer->stages[answer->order[n]];
-        if (!feeds[answer->order[n]])
-            continue;
-        for (size_t k = 0; k < stage->wire_count; k++)
-            if (stage->wires[k].stage >= 0)
-                feeds[stage->wires[k].stage] = true;
-        for (size_t k = stage->quality_count; k-- > 0;)
-            if (accuracy_is_estimate(stage, stage->quality[k].name))
-                ff_drop_quality(stage, k);
-    }
-    free(feeds);
-}
-
-char *accuracy_describe(const accuracy_error *e)
-{
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = memory_require(open_memstream(&text, &length));
-    const char *between = "";
-    if (e->bar && e->largest > much_larger * e->relative) {
-        fprintf(out, "at few points up to %.2g %%", 100 * e->largest);
-        between = "; ";
-    }
-    for (size_t i = 0; i < e->part_count; i++)
-        if (i < 1 || e->parts[i].error > least_part * e->relative) {
-            fprintf(out, "%s%s.%s %.2g %%", i ? ", " : between, e->parts[i].stage->name,
-                    e->parts[i].setting, 100 * e->parts[i].error);
-            between = "; ";
-        }
-    if (isfinite(e->order))
-        fprintf(out, "%sorder %.2g", between, e->order);
-    fclose(out);
-    return text;
-}
-
-char *accuracy_print_relative(const accuracy_error *e)
-{
-    return e->bar ? memory_print_text("%.2g %%", 100 * e->relative)
-                  : memory_print_text("not known");
-}
-
-/* How the text of its line begins. */
-static const char measured[] = "measured: ";
-
-bool accuracy_is_line(const ff_quality *line)
-{
-    return line->text && !strncmp(line->text, measured, sizeof measured - 1);
-}
-
-static void add_line(const accuracy_error *e, ff_stage *stage)
-{
-    double limit = isnan(e->goal) ? doubtful_above : e->goal;
-    char *name = memory_print_text("%s_error", e->result->row->name);
-    char *error = accuracy_print_relative(e), *rest = accuracy_describe(e);
-    char *text = memory_print_text("%s%s%s%s", measured, error, *rest ? "; " : "", rest);
-    ff_add_quality(stage, name, e->relative, limit, e->relative <= limit ? FF_GOOD : FF_DOUBTFUL,
-                   text);
-    free(text);
-    free(rest);
-    free(error);
-    free(name);
-}
-
-/* The quality of the stages is the one bookkeeping. */
 static void conclude(const measurement *m)
 {
     accuracy_record *record = m->record;
@@ -447,21 +369,65 @@ static void conclude(const measurement *m)
         measure_output(m, &record->errors[i]);
     for (size_t i = 0; i < record->count; i++)
         hold_to_series(m, &record->errors[i]);
-    drop_estimates(m);
-    for (size_t i = 0; i < record->count; i++)
-        add_line(&record->errors[i],
-                 &m->answer->stages[record->errors[i].stage - m->answer->stages]);
+    accuracy_tell(record, m->answer);
 }
 
-static void run_ladder(measurement *m, bool split)
+static void run_ladder(measurement *m)
 {
-    m->half = find_twin(m, HALF);
-    m->quarter = m->half ? find_twin(m, QUARTER) : NULL;
-    /* where attempts are made two levels do, since the next one is finer itself */
-    m->twice = m->quarter || (m->half && m->known) ? NULL : find_twin(m, TWICE);
-    m->record->two_levels = m->half && !m->quarter && !m->twice;
-    for (size_t i = 0; split && m->count > 1 && m->quarter && i < m->count && !m->stopped; i++)
-        run_twin(m, QUARTER, i, &m->refined[i]);
+    m->half = find_twin(m, half);
+    m->quarter = m->half ? find_twin(m, quarter) : NULL;
+    m->twice = m->quarter ? NULL : find_twin(m, twice);
+    for (size_t i = 0; m->count > 1 && m->quarter && i < m->count && !m->stopped; i++)
+        run_twin(m, quarter, i, &m->refined[i]);
+}
+
+static bool have_tolerances(const measurement *m)
+{
+    bool any = false;
+    for (size_t i = 0; i < m->count; i++)
+        any = any || m->knobs[i].setting.tolerance;
+    return any;
+}
+
+/* Finds two twins of one level of the counts whose tolerances differ: those that were run before,
+   or the one beside half. */
+static void find_loose(measurement *m)
+{
+    static const coarser tight[] = {{1, 0}, {2, 0}};
+    for (size_t i = 0; i < 2 && !m->loose; i++) {
+        m->tight = known_twin(m, tight[i]);
+        m->loose = m->tight ? known_twin(m, (coarser){tight[i].counts, 1}) : NULL;
+        if (m->loose && !(m->tight->good && m->loose->good))
+            m->loose = NULL;
+    }
+    if (m->loose)
+        return;
+    m->tight = m->half;
+    m->loose = find_twin(m, (coarser){1, 1});
+    m->is_finer = !m->loose;
+    if (m->is_finer)
+        m->loose = find_twin(m, (coarser){1, -1});
+}
+
+/* Where attempts are made: counts and tolerances become finer apart. Two levels do where the
+   coarser twin fails, since the next attempt is finer itself. */
+static void run_attempt_ladder(measurement *m)
+{
+    m->half = find_twin(m, (coarser){1, 0});
+    for (int k = 0; m->half && k <= 2 && !(m->middle && m->quarter); k++) {
+        m->middle = known_twin(m, (coarser){1, k});
+        m->quarter = known_twin(m, (coarser){2, k});
+    }
+    if (m->half && !(m->middle && m->quarter)) {
+        m->middle = m->half;
+        m->quarter = find_twin(m, (coarser){2, 0});
+    }
+    if (m->quarter && !(m->quarter->good && m->middle->good))
+        m->quarter = NULL;
+    if (m->half && have_tolerances(m))
+        find_loose(m);
+    m->twice = m->half ? NULL : find_twin(m, twice);
+    m->record->two_levels = m->half && !m->quarter;
 }
 
 bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
@@ -474,8 +440,10 @@ bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *e
                      .scene = {.tree = tree, .engine = engine, .start = pipeline, .watch = watch}};
     list_outputs(&m);
     list_knobs(&m);
-    if (record->count > 0)
-        run_ladder(&m, !known);
+    if (record->count > 0 && known)
+        run_attempt_ladder(&m);
+    else if (record->count > 0)
+        run_ladder(&m);
     if (!m.stopped)
         conclude(&m);
     for (size_t i = 0; i < m.count; i++)
@@ -485,9 +453,8 @@ bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *e
 
 void accuracy_free(accuracy_record *record)
 {
-    for (size_t i = 0; i < ACCURACY_OWN; i++) {
-        if (record->own[i])
-            accuracy_twin_free(record->own[i]);
+    for (size_t i = 0; i < record->own_count; i++) {
+        accuracy_twin_free(record->own[i]);
         free(record->own[i]);
     }
     if (record->twin)

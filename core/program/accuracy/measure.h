@@ -23,8 +23,8 @@ typedef struct accuracy_known {
     size_t count;
 } accuracy_known;
 
-/* Twins of an answer at most: a level coarser, two, a level finer. */
-enum { ACCURACY_OWN = 3 };
+/* Twins of an answer at most. */
+enum { ACCURACY_OWN = 5 };
 
 /* The numerical error of an output. */
 typedef struct accuracy_error {
@@ -34,10 +34,18 @@ typedef struct accuracy_error {
     double *bar;          /* of each number, SI, at least 0; NULL: not known */
     double relative;      /* over the number; of a series at 95 of 100 points; NaN: not known */
     double largest;       /* along a series, over the number there */
+    double by_tolerances; /* of `relative`; 0: they are not told from the counts */
     double order;         /* observed; NaN: none was */
     accuracy_part *parts; /* the largest first; none where no twin tells them apart */
     size_t part_count;
 } accuracy_error;
+
+/* What was run for an answer. */
+typedef struct accuracy_spent {
+    const char **settings; /* as those of the answer, `chosen` without the models */
+    size_t setting_count;
+    double seconds; /* s: CPU time */
+} accuracy_spent;
 
 /* Starts zeroed. */
 typedef struct accuracy_record {
@@ -50,10 +58,13 @@ typedef struct accuracy_record {
     size_t attempts;     /* answers that were measured, the last one included; 0: none had a goal */
     const char **chosen; /* "film.cells=362": settings that the file leaves open, of the answer */
     size_t chosen_count;
+    accuracy_spent *spent; /* attempts and their twins; none where nothing was chosen */
+    size_t spent_count;
     const char *given;   /* "film.cells, film.steps": settings that the file gives; "": none */
     ff_pipeline *answer; /* the pipeline that was run, or another one of `twin` */
     struct accuracy_twin *twin;
     struct accuracy_twin *own[ACCURACY_OWN]; /* that were run for it */
+    size_t own_count;
     struct accuracy_choice
         *choice; /* of models, whose part counts with the rest; NULL: none was made */
     memory_arena arena;
@@ -62,23 +73,15 @@ typedef struct accuracy_record {
 /*
  * Measures the errors of the scalars and series that the file asks for, from a pipeline that has
  * run, and adds them to the quality of its stages, in place of what these estimated themselves.
- * Known runs serve as twins where they have their settings; then the errors are not split by
- * settings, which takes more twins than the rest. False where the observer stopped it.
+ * Known runs serve as twins where they have their settings; then the errors are told apart by
+ * counts and tolerances, and not by settings, which takes more twins than the rest. False where the
+ * observer stopped it.
  */
 bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
                       const ff_pipeline *pipeline, const ff_observer *watch,
                       const accuracy_known *known);
 void accuracy_free(accuracy_record *record);
 
-/* "0.54 %", of an error that no twin tells "not known"; to be freed. */
-char *accuracy_print_relative(const accuracy_error *error);
-/* "at few points up to 3 %; film.cells 0.3 %, tooth.points 0.1 %; order 2.1", or less of it; to be
-   freed. */
-char *accuracy_describe(const accuracy_error *error);
-/* Whether a line of quality tells an error that was measured. */
-bool accuracy_is_line(const ff_quality *line);
-/* Whether the line of that name estimates an error of the stage's outputs, which is measured. */
-bool accuracy_is_estimate(const ff_stage *stage, const char *line);
 /* NULL: the error of the output was not measured. */
 const accuracy_error *accuracy_find(const accuracy_record *record, const ff_result *result);
 

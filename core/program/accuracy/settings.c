@@ -42,8 +42,7 @@ static bool is_number(const ff_bound *bound)
            (bound->row->type == FF_INT || bound->row->type == FF_REAL) && !bound->value.text;
 }
 
-size_t accuracy_settings(const ff_stage *stage, memory_arena *arena,
-                         accuracy_setting list[ACCURACY_MOST_SETTINGS])
+size_t accuracy_settings(const ff_stage *stage, accuracy_setting list[ACCURACY_MOST_SETTINGS])
 {
     size_t count = 0, rows = stage->params ? stage->loaded->model->param_count : 0;
     for (size_t i = 0; i < rows && count < ACCURACY_MOST_SETTINGS; i++) {
@@ -52,9 +51,7 @@ size_t accuracy_settings(const ff_stage *stage, memory_arena *arena,
         list[count++] = (accuracy_setting){.name = stage->params[i].row->name,
                                            .param = i,
                                            .open = !stage->params[i].place.source,
-                                           .finer = accuracy_setting_at(stage, i, -1, arena),
-                                           .coarser = {accuracy_setting_at(stage, i, 1, arena),
-                                                       accuracy_setting_at(stage, i, 2, arena)}};
+                                           .tolerance = stage->params[i].row->type != FF_INT};
     }
     return count;
 }

@@ -10,10 +10,9 @@
 /* A row with FF_TUNABLE that has a number. */
 typedef struct accuracy_setting {
     const char *name;
-    size_t param; /* of the stage */
-    bool open;    /* the file leaves it to the model's preset */
-    /* "film.cells=256": finer by a level, coarser by one, by two; NULL: its limits forbid it */
-    const char *finer, *coarser[2];
+    size_t param;   /* of the stage */
+    bool open;      /* the file leaves it to the model's preset */
+    bool tolerance; /* it is no count */
 } accuracy_setting;
 
 enum { ACCURACY_MOST_SETTINGS = 16 };
@@ -27,7 +26,6 @@ const char *accuracy_setting_at(const ff_stage *stage, size_t param, double leve
    or steps; another number is a tolerance or a distance of points and is taken four times as large,
    which is one level where the error is of second order. What a word says, "auto", the model knows
    alone. */
-size_t accuracy_settings(const ff_stage *stage, memory_arena *arena,
-                         accuracy_setting list[ACCURACY_MOST_SETTINGS]);
+size_t accuracy_settings(const ff_stage *stage, accuracy_setting list[ACCURACY_MOST_SETTINGS]);
 
 #endif

@@ -4,6 +4,7 @@
 #include "../terminal/terminal.h"
 
 #include "../accuracy/axis.h"
+#include "../accuracy/lines.h"
 #include "../memory/memory.h"
 #include "../results/number.h"
 

@@ -250,18 +250,32 @@ static json_t *describe_tried(const results_outcome *outcome)
     return list;
 }
 
+/* Returns {settings, seconds} of each run that was made for the answer. */
+static json_t *describe_spent(const accuracy_record *errors)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < errors->spent_count; i++) {
+        const accuracy_spent *spent = &errors->spent[i];
+        json_array_append_new(
+            list, json_pack("{s:o, s:o}", "settings",
+                            study_settings_record(spent->settings, spent->setting_count), "seconds",
+                            study_json_real(spent->seconds)));
+    }
+    return list;
+}
+
 /* What measuring the errors took; null where the file does not ask for them. */
 static json_t *describe_accuracy(const results_outcome *outcome)
 {
     const accuracy_record *errors = outcome->errors;
     if (errors->twins + errors->attempts == 0)
         return json_null();
-    return json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o}", "asked", outcome->input->accuracy,
+    return json_pack("{s:s, s:I, s:I, s:o, s:o, s:o, s:o, s:o}", "asked", outcome->input->accuracy,
                      "attempts", (json_int_t)errors->attempts, "twins", (json_int_t)errors->twins,
                      "seconds", study_json_real(errors->seconds), "failure",
                      results_json_text(errors->failure), "settings",
                      study_settings_record(errors->chosen, errors->chosen_count), "models",
-                     describe_tried(outcome));
+                     describe_tried(outcome), "runs", describe_spent(errors));
 }
 
 static json_t *describe_head(const results_outcome *outcome)

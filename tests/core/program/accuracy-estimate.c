@@ -199,8 +199,33 @@ static void test_no_difference(void)
     check_true("no error", error == 0 && share == 0);
 }
 
+/* Errors of the counts and of the tolerances, of second order both: each is found as it is, also
+   where the coarser levels have other tolerances, and where the twin's tolerances are finer. */
+static void test_tolerances(void)
+{
+    const double c = 1e-3, t = 4e-4; /* of the answer */
+    for (int finer = 0; finer < 2; finer++) {
+        double answer = 1 + c + t, half = 1 + 4 * c + t, middle = 1 + 4 * c + 16 * t,
+               quarter = 1 + 16 * c + 16 * t, error, share,
+               loose = 1 + 4 * c + (finer ? t / 4 : 4 * t);
+        accuracy_ladder l = {.count = 1,
+                             .answer = &answer,
+                             .half = &half,
+                             .quarter = &quarter,
+                             .middle = &middle,
+                             .tight = &half,
+                             .loose = &loose,
+                             .is_finer = finer};
+        check_near("order", accuracy_estimate(&l, &error, &share), 2, 1e-9);
+        check_near("counts", error, safety * c, 1e-9);
+        check_near("tolerances", accuracy_add_tolerances(&l, &error), safety * t, 1e-9);
+        check_near("both", error, safety * (c + t), 1e-9);
+    }
+}
+
 int main(void)
 {
+    test_tolerances();
     test_orders();
     test_high_orders();
     test_two_levels();

@@ -8,8 +8,8 @@
 
 typedef struct order {
     const ff_host *host;
-    int64_t cells, steps, least, sure;
-    double tolerance, order, strength, gain, heat;
+    int64_t cells, steps, least, sure, shown;
+    double tolerance, order, strength, gain, heat, guess, loosest;
 } order;
 
 static const ff_param params[] = {
@@ -24,7 +24,13 @@ static const ff_param params[] = {
     FF_QUANTITY("gain", "1", order, gain, 0, "1", NULL, -1e6, 1e6, 0, 0,
                 "what the value before is multiplied by"),
     FF_QUANTITY("heat", "1", order, heat, 0, "0", NULL, 0, 1, 0, 0, "a doubt of no setting"),
+    FF_QUANTITY("loosest", "%", order, loosest, 0, "100 %", NULL, 0, 100, 0, 0,
+                "with a larger tolerance it fails"),
+    FF_QUANTITY("guess", "1", order, guess, 0, "0.5", NULL, 0, 1e6, 0, 0,
+                "what it estimates to be its error with one cell"),
     FF_COUNT("least", order, least, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it fails"),
+    FF_COUNT("shown", order, shown, 0, "1000000", NULL, 1, 1e6, 0, 0,
+             "from so many cells on the value is 5 % higher"),
     FF_COUNT("sure", order, sure, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it has doubts"),
 };
 
@@ -51,6 +57,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     size_t points = o->steps > 0 ? (size_t)o->steps : 101;
     if (o->cells < o->least)
         return ff_failf(o->host, FF_NOCONV, NULL, "%d cells are too few", (int)o->cells);
+    if (o->tolerance > o->loosest)
+        return ff_failf(o->host, FF_NOCONV, NULL, "%g is too loose", o->tolerance);
+    if (o->cells >= o->shown)
+        value += 0.05;
     if (in[0].data)
         value += o->gain * in[0].data[0];
     if (wanted & 1)
@@ -70,7 +80,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         for (size_t i = 0; pairs && i < 4; i++)
             pairs[i] = value;
     }
-    o->host->quality(o->host->ctx, "value_guess_error", 0.9, 0.1, FF_DOUBTFUL, "a guess");
+    const double guess = o->guess / (double)o->cells;
+    o->host->quality(o->host->ctx, "value_guess_error", guess, 0.001, FF_DOUBTFUL, "a guess");
     o->host->quality(o->host->ctx, "balance", (double)o->sure / (double)o->cells, 1,
                      o->cells < o->sure ? FF_DOUBTFUL : FF_GOOD, "no estimate of an error");
     if (o->heat > 0)

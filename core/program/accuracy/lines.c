@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "lines.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A measured error above this is doubtful where the file names no accuracy. */
+static const double doubtful_above = 0.05;
+
+/* An error at few points that is so many times that of the others is told. */
+static const double much_larger = 2;
+
+/* Parts below this share of an error are not worth a reader's time. */
+static const double least_part = 0.01;
+
+/* "h_min_space_error" is of the output with the longest name that the line begins with; of fields
+   no error is measured. */
+const ff_result *accuracy_estimated(const ff_stage *stage, const char *line)
+{
+    static const char ending[] = "_error";
+    size_t length = strlen(line), tail = sizeof ending - 1, longest = 0;
+    const ff_result *found = NULL;
+    if (length <= tail || strcmp(line + length - tail, ending) != 0)
+        return NULL;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        const char *name = stage->results[i].row->name;
+        size_t own = strlen(name);
+        if (own > longest && !strncmp(line, name, own) && line[own] == '_') {
+            longest = own;
+            found = &stage->results[i];
+        }
+    }
+    return found && found->requested && found->rank > 1 ? NULL : found;
+}
+
+/* Takes the estimates of the stages away that measured outputs come from: two numbers for one
+   error would contradict each other, and what comes of an error on the way is measured. */
+static void drop_estimates(const accuracy_record *record, const ff_pipeline *answer)
+{
+    bool *feeds = memory_alloc((answer->count + 1) * sizeof *feeds);
+    for (size_t i = 0; i < record->count; i++)
+        feeds[record->errors[i].stage - answer->stages] = true;
+    for (size_t n = answer->count; n-- > 0;) {
+        ff_stage *stage = &answer->stages[answer->order[n]];
+        if (!feeds[answer->order[n]])
+            continue;
+        for (size_t k = 0; k < stage->wire_count; k++)
+            if (stage->wires[k].stage >= 0)
+                feeds[stage->wires[k].stage] = true;
+        for (size_t k = stage->quality_count; k-- > 0;)
+            if (accuracy_estimated(stage, stage->quality[k].name))
+                ff_drop_quality(stage, k);
+    }
+    free(feeds);
+}
+
+char *accuracy_describe(const accuracy_error *e)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = memory_require(open_memstream(&text, &length));
+    const char *between = "";
+    if (e->bar && e->largest > much_larger * e->relative) {
+        fprintf(out, "at few points up to %.2g %%", 100 * e->largest);
+        between = "; ";
+    }
+    for (size_t i = 0; i < e->part_count; i++)
+        if (i < 1 || e->parts[i].error > least_part * e->relative) {
+            fprintf(out, "%s%s.%s %.2g %%", i ? ", " : between, e->parts[i].stage->name,
+                    e->parts[i].setting, 100 * e->parts[i].error);
+            between = "; ";
+        }
+    if (isfinite(e->order))
+        fprintf(out, "%sorder %.2g", between, e->order);
+    fclose(out);
+    return text;
+}
+
+char *accuracy_print_relative(const accuracy_error *e)
+{
+    return e->bar ? memory_print_text("%.2g %%", 100 * e->relative)
+                  : memory_print_text("not known");
+}
+
+/* How the text of its line begins. */
+static const char measured[] = "measured: ";
+
+bool accuracy_is_line(const ff_quality *line)
+{
+    return line->text && !strncmp(line->text, measured, sizeof measured - 1);
+}
+
+static void add_line(const accuracy_error *e, ff_stage *stage)
+{
+    double limit = isnan(e->goal) ? doubtful_above : e->goal;
+    char *name = memory_print_text("%s_error", e->result->row->name);
+    char *error = accuracy_print_relative(e), *rest = accuracy_describe(e);
+    char *text = memory_print_text("%s%s%s%s", measured, error, *rest ? "; " : "", rest);
+    ff_add_quality(stage, name, e->relative, limit, e->relative <= limit ? FF_GOOD : FF_DOUBTFUL,
+                   text);
+    free(text);
+    free(rest);
+    free(error);
+    free(name);
+}
+
+void accuracy_tell(const accuracy_record *record, const ff_pipeline *answer)
+{
+    drop_estimates(record, answer);
+    for (size_t i = 0; i < record->count; i++)
+        add_line(&record->errors[i], &answer->stages[record->errors[i].stage - answer->stages]);
+}
