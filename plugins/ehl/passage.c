@@ -62,6 +62,21 @@ static size_t row_away(const ehl_results *r, const ehl_history *h, size_t row, d
     return row;
 }
 
+static double half_width(const ehl_results *r, const ehl_history *h, size_t row)
+{
+    ehl_instant at = ehl_history_at(h, value(r, row, EHL_TIME));
+    return ehl_hertz_half_width(at.load, at.radius, h->modulus);
+}
+
+int ehl_outlet_moves(const ehl_passage *p, const ehl_results *r, size_t row)
+{
+    const ehl_history h = engagement_of(r, p, row);
+    double far = half_width(r, &h, row) / 10;
+    size_t before = row_away(r, &h, row, far, 0), behind = row_away(r, &h, row, far, 1);
+    double way = way_between(r, &h, before, behind);
+    return fabs(half_width(r, &h, behind) - half_width(r, &h, before)) > way / 2;
+}
+
 void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m, size_t row,
                        int (*counts)(const ehl_results *r, size_t row, int kind), int kind)
 {

@@ -20,6 +20,9 @@ typedef struct ehl_passage {
 void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m, size_t row,
                        int (*counts)(const ehl_results *r, size_t row, int kind), int kind);
 
+/* Returns 1 when the end of the contact moves at more than half the speed of the oil there. */
+int ehl_outlet_moves(const ehl_passage *p, const ehl_results *r, size_t row);
+
 /*
  * error: of h_min and h_central by the cells for each of the rows, relative, positive where the
  * film is too thick; 0 in all of them before. NaN where the film on the cells of the run is not

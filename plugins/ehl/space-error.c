@@ -303,6 +303,13 @@ static int is_doubtful(const ehl_results *r, size_t row, int kind)
     return error_of_row(r, row, kind) > EHL_FILM_LIMIT / 2;
 }
 
+/* Where the outlet moves errors are larger than their bounds: a film that is somewhat thicker may
+   be the lowest, too. */
+static int is_low(const ehl_results *r, size_t row, int kind)
+{
+    return is_doubtful(r, row, kind) || film_of(r, row, kind) < 1.1 * r->lowest;
+}
+
 /* Returns the largest share of their bounds that errors have, all at most; of bounds that are as
    good as none aside, which tell nothing of those that are large. */
 static double largest_share(const ehl_results *r, const ehl_passage *p, double (*error)[EHL_PEAK],
@@ -336,8 +343,8 @@ static void put_errors(ehl_results *r, const ehl_passage *p, double (*error)[EHL
 }
 
 /* Measures the films that the error of an output hangs on, and once more where those were not all.
-   The lowest film of all is looked at from half of the limit on: a film that moves may be further
-   off than its bound says. */
+   The lowest film of all is looked at from half of the limit on, and wherever the outlet moves: the
+   bounds are those of steady films. */
 static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p, int kind)
 {
     enum { MOST = 2 };
@@ -345,9 +352,11 @@ static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p
     ff_status status = FF_OK;
     for (int k = 0; k < MOST && status == FF_OK; k++, enough = EHL_FILM_LIMIT) {
         size_t row = worst_row(r, kind);
-        if (!(error_of_row(r, row, kind) > enough) || (k > 0 && row >= p->first && row <= p->last))
+        int moves = k == 0 && is_extreme(r, kind) && ehl_outlet_moves(p, r, row);
+        if (!(moves || error_of_row(r, row, kind) > enough) ||
+            (k > 0 && row >= p->first && row <= p->last))
             break;
-        ehl_passage_about(p, r, m, row, is_doubtful, kind);
+        ehl_passage_about(p, r, m, row, moves ? is_low : is_doubtful, kind);
         double(*error)[EHL_PEAK] = calloc(p->last - p->first + 1, sizeof *error);
         status = error ? ehl_passage_errors(r, m, p, error) : FF_NOMEM;
         if (status == FF_OK)

@@ -147,11 +147,39 @@ static void test_lowest(void)
     line_close(&fine);
 }
 
+/* The end of the contact moves at 0.4 to 0.9 of the speed of the oil, and the bound, of films that
+   are steady, is half of what is true. */
+static void unloading(line *c, double cells)
+{
+    line_open(c, "ehl/finite-volume");
+    line_last(c, 2, 40e-6);
+    c->load[1] = 0.2 * c->load[0];
+    stage_set(c->film, "steps", 400);
+    stage_set(c->film, "cells", cells);
+    check_true("runs", line_run(c, "h_min_lowest") == FF_OK);
+}
+
+static void test_unloading(void)
+{
+    line c, fine;
+    unloading(&c, 256);
+    unloading(&fine, FINER * 256);
+    double is =
+        fabs(stage_scalar(c.film, "h_min_lowest") / stage_scalar(fine.film, "h_min_lowest") - 1);
+    double says = stage_quality(c.film, "h_min_space_error");
+    printf("unloading: %.4f (%.4f)\n", is, says);
+    check_below("h_min_lowest over what is stated", is / says, 1.2);
+    check_below("what is stated over it", says / is, 1.2);
+    line_close(&c);
+    line_close(&fine);
+}
+
 int main(void)
 {
     test_measured();
     test_moving();
     test_carried();
     test_lowest();
+    test_unloading();
     return check_done();
 }
