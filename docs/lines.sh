@@ -24,6 +24,7 @@ callgrind_annotate --inclusive=yes --threshold=100 "$lab/counts" | awk '
         sub(/\..*/, "", name)
         count = $1
         gsub(",", "", count)
+        count += 0
         if (name == "ehl_evaluate") films += count
         if (name in line && count > 5000) { sum += count; printf "%-26s %9.2f\n", name, count / 1e6 }
     }
