@@ -164,17 +164,28 @@ static bool leaves_models_open(const ff_pipeline *pipeline)
     return false;
 }
 
+/* The level that was reached: limits may forbid coarser settings, and where none is open none can
+   become finer. */
+static double reached(const control *c, bool tolerance, double level)
+{
+    double most = finest;
+    for (size_t i = 0; i < c->count; i++)
+        if (c->knobs[i].setting.tolerance == tolerance)
+            most = fmax(most, c->knobs[i].level + (c->knobs[i].cheap ? ahead : 0));
+    return level > 0 ? most : fmax(level, finest);
+}
+
 /* Returns whether a setting changes. */
 static bool set_levels(control *c, levels at)
 {
     bool moved = false;
-    c->at = at;
     for (size_t i = 0; i < c->count; i++) {
         knob *k = &c->knobs[i];
         double before = k->level, level = k->setting.tolerance ? at.tolerances : at.counts;
         move(c, k, level - (k->cheap ? ahead : 0));
         moved = moved || k->level != before;
     }
+    c->at = (levels){reached(c, false, at.counts), reached(c, true, at.tolerances)};
     return moved;
 }
 
@@ -297,18 +308,19 @@ static levels finer_for(const control *c, const accuracy_error *e)
 static bool go_on(control *c)
 {
     const accuracy_record *record = &c->best->record;
+    const double finer = fmax(c->at.counts, c->at.tolerances) - 1;
     levels next = c->at;
-    if (!c->best->run.good && c->at.counts > -1) /* where the presets fail something finer may do */
-        next = (levels){c->at.counts - 1, c->at.tolerances - 1};
+    if (!c->best->run.good && finer >= -1) /* where the presets fail something finer may do */
+        next = (levels){fmin(next.counts, finer), fmin(next.tolerances, finer)};
     if (c->best->run.good && (c->best->doubtful || record->count == 0)) {
         next.counts -= c->at.counts > 0 ? 1 : 0;
         next.tolerances -= c->at.counts > 0 ? 0 : fmax(c->at.tolerances, 0);
     }
     for (size_t i = 0; i < record->count; i++)
         if (is_missed(c, &record->errors[i]) && (c->at.counts > 0 || is_in_reach(c, i))) {
-            levels finer = finer_for(c, &record->errors[i]);
-            next.counts = fmin(next.counts, finer.counts);
-            next.tolerances = fmin(next.tolerances, finer.tolerances);
+            levels wanted = finer_for(c, &record->errors[i]);
+            next.counts = fmin(next.counts, wanted.counts);
+            next.tolerances = fmin(next.tolerances, wanted.tolerances);
         }
     return set_levels(c, next);
 }

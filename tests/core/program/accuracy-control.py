@@ -122,6 +122,26 @@ class Control(lab.Lab):
             true = (strength * int(cells) ** -2 + float(tolerance.split()[0]) / 100) / 1.0001  # of both stages, over 2
             self.assertGreater(self.error(answer), true)
 
+    def test_where_no_counts_are_open_tolerances_become_finer(self):
+        """Whatever a stage doubts: 0.16 % of the first attempt is more than the accuracy, 0.01 % is not."""
+        given = [f"{stage}.{setting}" for stage in ("first", "last") for setting in ("cells=400", "steps=1001", "strength=0.1")]
+        answer = self.ask("accuracy=0.05 %", "last.heat=0.5", *given)
+        self.assertEqual((answer["reasons"], answer["accuracy"]["settings"]["last.tolerance"]), (["heat"], "0.01 %"))
+        self.assertLessEqual(self.error(answer), 5e-4)
+
+    def test_where_no_tolerances_are_open_counts_become_finer(self):
+        """Beyond the presets, too, where a stage has doubts."""
+        answer = self.ask("first.tolerance=1e-4 %", "last.tolerance=1e-4 %", "last.sure=100")
+        self.assertEqual((answer["verdict"], answer["accuracy"]["settings"]["last.cells"]), ("good", "128"))
+
+    def test_the_finest_tolerances_leave_the_rest_to_the_counts(self):
+        """6.25e-4 % of the tolerance, the finest, takes 0.65 of the accuracy; 128 cells take 0.8 of it, and 256 a quarter of that."""
+        rest = [f"{stage}.{setting}" for stage in ("first", "last") for setting in ("strength=0.126", "guess=0")]
+        answer = self.ask("accuracy=1.2e-3 %", *rest)
+        settings = answer["accuracy"]["settings"]
+        self.assertEqual((settings["last.cells"], settings["last.tolerance"]), ("256", "0.000625 %"))
+        self.assertEqual(answer["verdict"], "good")
+
     def test_where_no_coarser_tolerances_can_be_had_finer_ones_tell(self):
         """The error of 0.16 % by what lies between it and 0.04 %."""
         strengths = [f"{stage}.strength=0.001" for stage in ("first", "last")]
