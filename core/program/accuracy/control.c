@@ -69,7 +69,7 @@ typedef struct control {
     levels at;                   /* of the next attempt */
     attempt kept[MOST_ATTEMPTS]; /* with the models as they are */
     size_t kept_count;
-    attempt *best; /* the last one, good if any was; NULL: none was made */
+    attempt *best; /* the last good one, the last one if none was; NULL: none was made */
     size_t attempts, twins;
     double seconds; /* s: CPU time of all that was run */
     const char *failure;
@@ -356,11 +356,22 @@ static void begin_with(control *c, const accuracy_choice *choice)
     set_levels(c, (levels){coarsest, coarsest});
 }
 
+/* Measures a doubtful answer, when nothing better was had; false: the observer stopped it. */
+static bool measure_doubtful(control *c)
+{
+    if (c->best->doubtful && c->best->record.count == 0 && !c->best->run.stopped)
+        measure(c, c->best);
+    return !c->best->run.stopped;
+}
+
 /* Chooses the models that the file leaves open, by what they move the answer. Returns whether there
    is more to do. */
 static bool choose_models(control *c)
 {
     size_t count;
+    set_levels(c, c->best->at); /* not those of an attempt that failed */
+    if (!measure_doubtful(c))
+        return false;
     const char **sets = list_sets(c, &count);
     c->choice = memory_alloc(sizeof *c->choice);
     c->best->record.choice = c->choice;
@@ -372,7 +383,7 @@ static bool choose_models(control *c)
     if (c->best->run.stopped)
         return false;
     if (!c->choice->differs)
-        return go_on(c);
+        return !c->failure && go_on(c);
     begin_with(c, c->choice);
     return true;
 }
@@ -388,7 +399,7 @@ static bool try_next(control *c)
     }
     const char *why = accuracy_twin_reason(&next.run);
     c->failure = memory_arena_text(&c->arena, why, strlen(why));
-    attempt_free(&next);
+    c->kept[c->kept_count++] = next;
     return false;
 }
 
@@ -404,13 +415,14 @@ static size_t count_kept(const control *c, const attempt *a)
    of all: finer settings for one output may show more of what makes another one uncertain. */
 static void choose_best(control *c)
 {
-    attempt *best = c->best;
+    attempt *best = c->best, *last = &c->kept[c->kept_count - 1];
     for (attempt *a = best; a-- > c->kept;)
         if (count_kept(c, a) > count_kept(c, best))
             best = a;
-    const attempt last = *c->best;
-    *c->best = *best;
-    *best = last;
+    const attempt chosen = *best;
+    *best = *last;
+    *last = chosen;
+    c->best = last;
 }
 
 /* Makes attempts until one is the answer; false where the observer stopped one. */
@@ -423,11 +435,10 @@ static bool search(control *c)
             leaves_models_open(c->asked))
             again = choose_models(c) && c->kept_count < MOST_ATTEMPTS;
     }
-    if (c->best->doubtful && !c->best->run.stopped) /* nothing better was had */
-        measure(c, c->best);
-    if (!c->best->run.stopped)
-        choose_best(c);
-    return !c->best->run.stopped;
+    if (!measure_doubtful(c))
+        return false;
+    choose_best(c);
+    return true;
 }
 
 /* Whether the setting changes nothing, as a tolerance of steps that the file gives. */

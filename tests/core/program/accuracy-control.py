@@ -112,6 +112,13 @@ class Control(lab.Lab):
         self.assertIn(answer["settings"], [run["settings"] for run in answer["runs"]])
         self.assertAlmostEqual(sum(run["seconds"] for run in answer["runs"][:-1]), answer["seconds"], delta=1e-9)
 
+    def test_an_attempt_that_fails_is_listed_and_no_answer(self):
+        answer = self.ask("last.most=100")["accuracy"]
+        self.assertIn("128 cells are too many", answer["failure"])
+        self.assertEqual(answer["settings"]["last.cells"], "64")
+        self.assertEqual(len(answer["runs"]), answer["attempts"] + answer["twins"])
+        self.assertIn("128", [run["settings"]["last.cells"] for run in answer["runs"]])
+
     def test_counts_and_tolerances_become_finer_apart(self):
         """By preset 10 over 64^2, and 0.01 %: the one that adds little stays coarse, and counts in the error."""
         for strength, goal, cells, tolerance in ((100, 1, "128", "0.16 %"), (0.01, 0.02, "64", "0.01 %")):

@@ -74,6 +74,15 @@ class Models(lab.Lab):
         tried = self.tried(self.ask("first.with.toy/guess.sure=false"))
         self.assertEqual(tried["first", "toy/guess"]["reason"], "trust of it is doubtful")
 
+    def test_models_are_tried_with_the_settings_of_the_reference(self):
+        """And not with those of a finer attempt that failed; one with doubts is measured for them."""
+        for sets in (("accuracy=2 %", "last.strength=3", "first.with.toy/order.strength=3", "last.most=50"),
+                     ("accuracy=5 %", "last.most=20", "last.sure=1000")):
+            answer = self.ask("outputs=[last.value]", "first.with.toy/guess.off=0.001 %", *sets)
+            self.assertIn("cells are too many", answer["accuracy"]["failure"])
+            self.assertIsNone(self.tried(answer)["first", "toy/guess"]["reason"])
+            self.assertLessEqual(answer["outputs"]["last.value"]["error"]["relative"], float(sets[0].split("=")[1].split()[0]) / 100)
+
     def test_the_cheapest_first(self):
         answer = self.ask("outputs=[last.value]", "first.with.toy/brief.off=1 %")
         self.assertEqual(self.used(answer, "first"), "toy/brief")

@@ -8,7 +8,7 @@
 
 typedef struct order {
     const ff_host *host;
-    int64_t cells, steps, least, sure, shown;
+    int64_t cells, steps, least, most, sure, shown;
     double tolerance, order, strength, gain, heat, guess, loosest;
 } order;
 
@@ -29,6 +29,7 @@ static const ff_param params[] = {
     FF_QUANTITY("guess", "1", order, guess, 0, "0.5", NULL, 0, 1e6, 0, 0,
                 "what it estimates to be its error with one cell"),
     FF_COUNT("least", order, least, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it fails"),
+    FF_COUNT("most", order, most, 0, "1000000", NULL, 1, 1e6, 0, 0, "with more cells it fails"),
     FF_COUNT("shown", order, shown, 0, "1000000", NULL, 1, 1e6, 0, 0,
              "from so many cells on the value is 5 % higher"),
     FF_COUNT("sure", order, sure, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it has doubts"),
@@ -57,6 +58,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     size_t points = o->steps > 0 ? (size_t)o->steps : 101;
     if (o->cells < o->least)
         return ff_failf(o->host, FF_NOCONV, NULL, "%d cells are too few", (int)o->cells);
+    if (o->cells > o->most)
+        return ff_failf(o->host, FF_NOCONV, NULL, "%d cells are too many", (int)o->cells);
     if (o->tolerance > o->loosest)
         return ff_failf(o->host, FF_NOCONV, NULL, "%g is too loose", o->tolerance);
     if (o->cells >= o->shown)
