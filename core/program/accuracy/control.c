@@ -453,19 +453,23 @@ static bool is_idle(const knob *k, const ff_report *report, ff_place chosen)
     return idle;
 }
 
-static void note_spent(const control *c, const accuracy_twin *run, accuracy_record *record)
+static void note_spent(const accuracy_twin *run, accuracy_record *record)
 {
     accuracy_spent *spent = &record->spent[record->spent_count];
+    accuracy_setting settings[ACCURACY_MOST_SETTINGS];
     if (!run->pipeline)
         return;
     *spent = (accuracy_spent){.seconds = run->work};
-    spent->settings = memory_arena_alloc(&record->arena, c->count * sizeof *spent->settings + 1);
-    for (size_t i = 0; i < c->count; i++) {
-        const knob *k = &c->knobs[i];
-        const ff_stage *stage = &run->pipeline->stages[k->stage - c->asked->stages];
-        const char *set = accuracy_setting_at(stage, k->setting.param, 0, &record->arena);
-        if (set)
-            spent->settings[spent->setting_count++] = set;
+    size_t most = run->pipeline->count * ACCURACY_MOST_SETTINGS;
+    spent->settings = memory_arena_alloc(&record->arena, most * sizeof *spent->settings + 1);
+    for (size_t i = 0; i < run->pipeline->count; i++) {
+        const ff_stage *stage = &run->pipeline->stages[i];
+        size_t count = stage->needed && stage->loaded ? accuracy_settings(stage, settings) : 0;
+        for (size_t k = 0; k < count; k++) {
+            const char *set = accuracy_setting_at(stage, settings[k].param, 0, &record->arena);
+            if (set)
+                spent->settings[spent->setting_count++] = set;
+        }
     }
     record->spent_count++;
 }
@@ -477,9 +481,9 @@ static void list_spent(const control *c, accuracy_record *record)
     record->spent = memory_arena_alloc(&record->arena, most * sizeof *record->spent);
     for (size_t i = 0; i < c->kept_count; i++) {
         const attempt *a = &c->kept[i];
-        note_spent(c, &a->run, record);
+        note_spent(&a->run, record);
         for (size_t k = 0; k < a->record.own_count; k++)
-            note_spent(c, a->record.own[k], record);
+            note_spent(a->record.own[k], record);
     }
 }
 

@@ -42,7 +42,7 @@ typedef struct accuracy_error {
 
 /* What was run for an answer. */
 typedef struct accuracy_spent {
-    const char **settings; /* as those of the answer, `chosen` without the models */
+    const char **settings; /* "film.cells=362": all tunable ones, also those that the file gives */
     size_t setting_count;
     double seconds; /* s: CPU time */
 } accuracy_spent;

@@ -111,6 +111,8 @@ class Control(lab.Lab):
         self.assertEqual(len(answer["runs"]), answer["attempts"] + answer["twins"])
         self.assertIn(answer["settings"], [run["settings"] for run in answer["runs"]])
         self.assertAlmostEqual(sum(run["seconds"] for run in answer["runs"][:-1]), answer["seconds"], delta=1e-9)
+        runs = self.ask("first.cells=400")["accuracy"]["runs"]
+        self.assertEqual({run["settings"]["first.cells"] for run in runs}, {"400", "200", "100"})
 
     def test_an_attempt_that_fails_is_listed_and_no_answer(self):
         answer = self.ask("last.most=100")["accuracy"]
