@@ -53,7 +53,7 @@ typedef struct levels {
 
 typedef struct attempt {
     accuracy_twin run;
-    accuracy_record record; /* of a doubtful one empty */
+    accuracy_record record; /* empty where it was not measured */
     levels at;
     bool doubtful; /* coarser than the presets, and in doubt or without room for twins: no answer */
 } attempt;
@@ -236,10 +236,10 @@ static void try_settings(control *c, attempt *next)
     next->at = c->at;
     next->doubtful =
         next->run.good && is_coarser_than_presets(c->at) &&
-        (!all_have_twins(c) || accuracy_has_doubts(next->run.pipeline, c->scene.donor,
-                                                   c->at.counts > 0 ? c->scene.tree : NULL));
+        (!all_have_twins(c) || accuracy_has_doubts(next->run.pipeline, c->scene.donor));
     if (next->run.good && !next->doubtful)
         measure(c, next);
+    next->doubtful |= c->at.counts > 0 && next->record.contradicted;
     c->attempts++;
     c->seconds += next->run.work;
     free(changed);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "doubts.h"
 
-#include "goals.h"
 #include "lines.h"
 
 #include <math.h>
@@ -22,19 +21,14 @@ static bool is_lasting(const ff_stage *before, const ff_quality *line)
     return false;
 }
 
-static bool is_doubt(const ff_stage *stage, const ff_quality *line, const ff_tree *goals)
-{
-    const ff_result *of = accuracy_estimated(stage, line->name);
-    bool larger = of && goals && line->value > accuracy_goal(goals, stage, of);
-    return line->verdict != FF_GOOD && !accuracy_is_line(line) && (!of || larger);
-}
-
-bool accuracy_has_doubts(const ff_pipeline *answer, const ff_pipeline *before, const ff_tree *goals)
+bool accuracy_has_doubts(const ff_pipeline *answer, const ff_pipeline *before)
 {
     for (size_t i = 0; i < answer->count; i++)
         for (size_t k = 0; k < answer->stages[i].quality_count; k++) {
-            const ff_quality *line = &answer->stages[i].quality[k];
-            if (is_doubt(&answer->stages[i], line, goals) &&
+            const ff_stage *stage = &answer->stages[i];
+            const ff_quality *line = &stage->quality[k];
+            if (line->verdict != FF_GOOD && !accuracy_is_line(line) &&
+                !accuracy_estimated(stage, line->name) &&
                 !(before && is_lasting(&before->stages[i], line)))
                 return true;
         }

@@ -5,13 +5,8 @@
 
 #include <flankfilm/engine.h>
 
-/*
- * Whether a stage doubts its numbers, and finer settings may help. Of an error that is measured it
- * does where it estimates more than the file of `goals` asks for: what all twins sample too
- * coarsely none of them shows. goals: NULL, such estimates are no doubts. before: NULL, or a
- * coarser answer, of the same stages.
- */
-bool accuracy_has_doubts(const ff_pipeline *answer, const ff_pipeline *before,
-                         const ff_tree *goals);
+/* Whether a stage doubts its numbers by anything but the errors that are measured, and that finer
+   settings may help. before: NULL, or a coarser answer, of the same stages. */
+bool accuracy_has_doubts(const ff_pipeline *answer, const ff_pipeline *before);
 
 #endif

@@ -211,22 +211,13 @@ double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares
     return isfinite(observed) && observed != 0 ? log2(fabs(observed)) : NAN;
 }
 
-/* What the tolerances make of number i, relative; none of it moves more than is typical where the
-   answer does not. */
-static double tolerance_error_at(const accuracy_ladder *l, size_t i, double limit)
-{
-    const double growth = accuracy_tolerance_growth;
-    double moved = fmin(apart(l, l->tight, l->loose, i), limit);
-    return safety * moved * (l->is_finer ? growth : 1) / (growth - 1);
-}
-
 double accuracy_add_tolerances(const accuracy_ladder *l, double *error)
 {
-    const convergence c = convergence_of(l);
-    const differences d = between(l, l->tight, l->loose);
+    const double growth = accuracy_tolerance_growth;
+    const double factor = safety * (l->is_finer ? growth : 1) / (growth - 1);
     double *all = memory_alloc(l->count * sizeof *all);
     for (size_t i = 0; i < l->count; i++) {
-        all[i] = tolerance_error_at(l, i, is_typical(l, i, &c) ? d.limit : INFINITY);
+        all[i] = factor * apart(l, l->tight, l->loose, i);
         error[i] += all[i] * (l->scale ? l->scale[i] : 1);
     }
     double typical = accuracy_typical(all, l->at, l->count);

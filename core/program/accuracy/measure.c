@@ -362,6 +362,20 @@ static void hold_to_series(const measurement *m, accuracy_error *number)
     }
 }
 
+/* Whether a stage estimates more than twice an error that was measured, and so much that it matters
+   to what is asked. */
+static bool is_contradicted(const accuracy_error *e)
+{
+    const double twice_as_large = 2, matters = 0.25;
+    for (size_t k = 0; k < e->stage->quality_count; k++) {
+        const ff_quality *line = &e->stage->quality[k];
+        if (accuracy_estimated(e->stage, line->name) == e->result &&
+            line->value > fmax(twice_as_large * e->relative, matters * e->goal))
+            return true;
+    }
+    return false;
+}
+
 static void conclude(const measurement *m)
 {
     accuracy_record *record = m->record;
@@ -369,6 +383,8 @@ static void conclude(const measurement *m)
         measure_output(m, &record->errors[i]);
     for (size_t i = 0; i < record->count; i++)
         hold_to_series(m, &record->errors[i]);
+    for (size_t i = 0; i < record->count; i++)
+        record->contradicted = record->contradicted || is_contradicted(&record->errors[i]);
     accuracy_tell(record, m->answer);
 }
 

@@ -53,6 +53,8 @@ typedef struct accuracy_record {
     size_t count;
     size_t twins;        /* that were run */
     bool two_levels;     /* errors are told by one coarser twin */
+    bool contradicted;   /* a stage estimates an error more than twice as large: what all twins
+                            sample too coarsely none of them shows */
     double seconds;      /* s, work of their stages: CPU time */
     const char *failure; /* why a twin failed; NULL: none did */
     size_t attempts;     /* answers that were measured, the last one included; 0: none had a goal */

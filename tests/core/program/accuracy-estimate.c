@@ -223,8 +223,23 @@ static void test_tolerances(void)
     }
 }
 
+/* Where the tolerances alone move a number, as behind a jump, it has all of that. */
+static void test_tolerances_at_a_jump(void)
+{
+    double answer[POINTS], loose[POINTS], error[POINTS] = {0};
+    for (int i = 0; i < POINTS; i++)
+        answer[i] = loose[i] = 1;
+    loose[100] = 1.3;
+    accuracy_ladder l = {
+        .count = POINTS, .answer = answer, .half = answer, .tight = answer, .loose = loose};
+    check_near("typical", accuracy_add_tolerances(&l, error), 0, 1e-12);
+    check_near("there", error[100], safety * 0.1, 1e-9);
+    check_near("beside", error[101], 0, 1e-12);
+}
+
 int main(void)
 {
+    test_tolerances_at_a_jump();
     test_tolerances();
     test_orders();
     test_high_orders();
