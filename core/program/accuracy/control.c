@@ -12,6 +12,7 @@
 #include "estimate.h"
 #include "goals.h"
 #include "models.h"
+#include "open.h"
 #include "settings.h"
 #include "twin.h"
 
@@ -19,16 +20,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The first attempt is coarser than the presets by so many levels. */
-static const double coarsest = 2;
-/* Four times as many cells and steps as by preset: 16 times the work. */
-static const double finest = -2;
-/* A stage costs little whose model says that it costs at most this share of the dearest one's, or
-   says nothing and is not asked for itself. */
-static const double little = 0.1;
-/* Its settings are finer than those of the dearest stage by so many levels, in every attempt and in
-   its twins, too: what all of them sample too coarsely none of them shows. */
-static const double ahead = 1;
 /* Of the reference, over the goal, when models are held against it: they may move half of a goal
    (choice.c), and its error counts with what they move. */
 static const double reference_error = 0.25;
@@ -38,35 +29,19 @@ static const double part = 0.5;
 static const double most_at_once = 2;
 enum { MOST_ATTEMPTS = 10 };
 
-/* A setting that the file leaves open. */
-typedef struct knob {
-    const ff_stage *stage; /* of the pipeline that was asked for */
-    accuracy_setting setting;
-    bool cheap;   /* its stage costs little */
-    double level; /* coarser than the preset by so much */
-} knob;
-
-/* Coarser than the presets by so many levels. */
-typedef struct levels {
-    double counts, tolerances;
-} levels;
-
 typedef struct attempt {
     accuracy_twin run;
     accuracy_record record; /* empty where it was not measured */
-    levels at;
+    accuracy_levels at;
     bool doubtful; /* coarser than the presets, and in doubt or without room for twins: no answer */
 } attempt;
 
 typedef struct control {
     accuracy_scene scene;
-    ff_pipeline *asked;      /* with the models that were chosen, when they are */
-    accuracy_choice *choice; /* of models; NULL: not made yet, or the file names them all */
-    ff_tree *tree;           /* of the models that were chosen; NULL: those of the file */
-    knob *knobs;
-    size_t count;
-    const char *given;           /* settings that the file gives itself; "": none */
-    levels at;                   /* of the next attempt */
+    ff_pipeline *asked;          /* with the models that were chosen, when they are */
+    accuracy_choice *choice;     /* of models; NULL: not made yet, or the file names them all */
+    ff_tree *tree;               /* of the models that were chosen; NULL: those of the file */
+    accuracy_open open;          /* at the levels of the next attempt */
     attempt kept[MOST_ATTEMPTS]; /* with the models as they are */
     size_t kept_count;
     attempt *best; /* the last good one, the last one if none was; NULL: none was made */
@@ -76,86 +51,6 @@ typedef struct control {
     memory_arena arena;
 } control;
 
-static double largest_cost(const ff_pipeline *pipeline)
-{
-    double most = 0;
-    for (size_t i = 0; i < pipeline->count; i++)
-        if (pipeline->stages[i].needed && pipeline->stages[i].loaded)
-            most = fmax(most, ff_model_cost(pipeline->stages[i].loaded->model));
-    return most;
-}
-
-/* In a loop a stage costs what the others do. One that says nothing may be the dearest where its
-   own outputs are asked for. */
-static bool costs_little(const ff_stage *stage, double most)
-{
-    double cost = ff_model_cost(stage->loaded->model);
-    bool asked = false;
-    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
-        asked = asked || stage->results[i].requested;
-    return most > 0 && !stage->loop && cost <= little * most && (cost > 0 || !asked);
-}
-
-static void note_given(control *c, const char *stage, const char *setting)
-{
-    char *list = memory_print_text("%s%s%s.%s", c->given, *c->given ? ", " : "", stage, setting);
-    c->given = memory_arena_text(&c->arena, list, strlen(list));
-    free(list);
-}
-
-static void list_knobs(control *c)
-{
-    const double most = largest_cost(c->asked);
-    accuracy_setting settings[ACCURACY_MOST_SETTINGS];
-    free(c->knobs);
-    c->count = 0;
-    c->given = "";
-    c->knobs = memory_alloc((c->asked->count * ACCURACY_MOST_SETTINGS + 1) * sizeof *c->knobs);
-    for (size_t i = 0; i < c->asked->count; i++) {
-        const ff_stage *stage = &c->asked->stages[c->asked->order[i]];
-        size_t count = 0;
-        if (stage->needed && stage->loaded)
-            count = accuracy_settings(stage, settings);
-        for (size_t k = 0; k < count; k++) {
-            if (!settings[k].open)
-                note_given(c, stage->name, settings[k].name);
-            else if (accuracy_setting_at(stage, settings[k].param, 0, &c->arena))
-                c->knobs[c->count++] = (knob){
-                    .stage = stage, .setting = settings[k], .cheap = costs_little(stage, most)};
-        }
-    }
-}
-
-static const char *set_of(control *c, const knob *k)
-{
-    return accuracy_setting_at(k->stage, k->setting.param, k->level, &c->arena);
-}
-
-static double finest_of(const knob *k)
-{
-    return k->cheap ? finest - ahead : finest;
-}
-
-/* Sets the level, or the next one towards the preset that the limits of the setting allow. */
-static void move(control *c, knob *k, double level)
-{
-    k->level = fmax(level, finest_of(k));
-    while (k->level != 0 && !set_of(c, k))
-        k->level = fabs(k->level) < 1 ? 0 : k->level - copysign(1, k->level);
-}
-
-/* Twins are coarser, in the counts by up to two levels. */
-static bool all_have_twins(control *c)
-{
-    for (size_t i = 0; i < c->count; i++) {
-        const knob *k = &c->knobs[i];
-        double coarser = k->setting.tolerance ? 1 : 2;
-        if (!accuracy_setting_at(k->stage, k->setting.param, k->level + coarser, &c->arena))
-            return false;
-    }
-    return true;
-}
-
 static bool leaves_models_open(const ff_pipeline *pipeline)
 {
     for (size_t i = 0; i < pipeline->count; i++)
@@ -164,43 +59,18 @@ static bool leaves_models_open(const ff_pipeline *pipeline)
     return false;
 }
 
-/* The level that was reached: limits may forbid coarser settings, and where none is open none can
-   become finer. */
-static double reached(const control *c, bool tolerance, double level)
-{
-    double most = finest;
-    for (size_t i = 0; i < c->count; i++)
-        if (c->knobs[i].setting.tolerance == tolerance)
-            most = fmax(most, c->knobs[i].level + (c->knobs[i].cheap ? ahead : 0));
-    return level > 0 ? most : fmax(level, finest);
-}
-
-/* Returns whether a setting changes. */
-static bool set_levels(control *c, levels at)
-{
-    bool moved = false;
-    for (size_t i = 0; i < c->count; i++) {
-        knob *k = &c->knobs[i];
-        double before = k->level, level = k->setting.tolerance ? at.tolerances : at.counts;
-        move(c, k, level - (k->cheap ? ahead : 0));
-        moved = moved || k->level != before;
-    }
-    c->at = (levels){reached(c, false, at.counts), reached(c, true, at.tolerances)};
-    return moved;
-}
-
 /* The models that were chosen, and the settings as they are; to be freed. */
 static const char **list_sets(control *c, size_t *count)
 {
     size_t models = c->tree ? c->choice->use_count : 0;
-    const char **sets = memory_alloc((models + c->count + 1) * sizeof *sets);
-    *count = models + c->count;
+    const char **sets = memory_alloc((models + c->open.count + 1) * sizeof *sets);
+    *count = models + c->open.count;
     for (size_t i = 0; i < *count; i++)
-        sets[i] = i < models ? c->choice->uses[i] : set_of(c, &c->knobs[i - models]);
+        sets[i] = i < models ? c->choice->uses[i] : accuracy_open_set(&c->open, i - models);
     return sets;
 }
 
-static bool is_coarser_than_presets(levels at)
+static bool is_coarser_than_presets(accuracy_levels at)
 {
     return at.counts > 0 || at.tolerances > 0;
 }
@@ -230,16 +100,16 @@ static void try_settings(control *c, attempt *next)
     bool *changed = memory_alloc((c->asked->count + 1) * sizeof *changed);
     const ff_place place = accuracy_place(c->scene.tree);
     c->scene.donor = c->best && c->best->run.good ? c->best->run.pipeline : NULL;
-    for (size_t i = 0; i < c->count; i++)
-        changed[c->knobs[i].stage - c->asked->stages] = true;
+    for (size_t i = 0; i < c->open.count; i++)
+        changed[c->open.knobs[i].stage - c->asked->stages] = true;
     accuracy_twin_run(&next->run, &c->scene, sets, count, &place, changed);
-    next->at = c->at;
-    next->doubtful =
-        next->run.good && is_coarser_than_presets(c->at) &&
-        (!all_have_twins(c) || accuracy_has_doubts(next->run.pipeline, c->scene.donor));
+    next->at = c->open.at;
+    next->doubtful = next->run.good && is_coarser_than_presets(c->open.at) &&
+                     (!accuracy_open_has_twins(&c->open) ||
+                      accuracy_has_doubts(next->run.pipeline, c->scene.donor));
     if (next->run.good && !next->doubtful)
         measure(c, next);
-    next->doubtful |= c->at.counts > 0 && next->record.contradicted;
+    next->doubtful |= c->open.at.counts > 0 && next->record.contradicted;
     c->attempts++;
     c->seconds += next->run.work;
     free(changed);
@@ -272,7 +142,7 @@ static double order_of(const control *c, size_t error)
     const accuracy_error *e = &c->best->record.errors[error];
     const attempt *before = c->best > c->kept ? c->best - 1 : NULL;
     double order = isnan(e->order) ? 1 : e->order;
-    if (*c->given && before && before->at.counts <= 0 && before->record.count > error)
+    if (*c->open.given && before && before->at.counts <= 0 && before->record.count > error)
         order = fmin(order, log2(before->record.errors[error].relative / e->relative));
     return fmax(order, 0);
 }
@@ -282,18 +152,19 @@ static double order_of(const control *c, size_t error)
 static bool is_in_reach(const control *c, size_t error)
 {
     const accuracy_error *e = &c->best->record.errors[error];
-    double counts = e->relative - e->by_tolerances, left = c->at.counts - finest;
+    double counts = e->relative - e->by_tolerances, left = c->open.at.counts - accuracy_finest;
     if (c->best->record.two_levels && isnan(e->order))
         return left > 0 && log2(counts / goal_of(c, e)) - 3 <= 2 * left;
     return counts * exp2(-left * order_of(c, error)) +
-               e->by_tolerances * pow(accuracy_tolerance_growth, finest - c->at.tolerances) <=
+               e->by_tolerances *
+                   pow(accuracy_tolerance_growth, accuracy_finest - c->open.at.tolerances) <=
            goal_of(c, e);
 }
 
 /* What a missed error takes: counts a level finer, tolerances as many as bring their part down. */
-static levels finer_for(const control *c, const accuracy_error *e)
+static accuracy_levels finer_for(const control *c, const accuracy_error *e)
 {
-    levels next = c->at;
+    accuracy_levels next = c->open.at;
     double most = part * goal_of(c, e);
     if (!(e->relative - e->by_tolerances <= most))
         next.counts -= 1;
@@ -308,21 +179,21 @@ static levels finer_for(const control *c, const accuracy_error *e)
 static bool go_on(control *c)
 {
     const accuracy_record *record = &c->best->record;
-    const double finer = fmax(c->at.counts, c->at.tolerances) - 1;
-    levels next = c->at;
+    const double finer = fmax(c->open.at.counts, c->open.at.tolerances) - 1;
+    accuracy_levels next = c->open.at;
     if (!c->best->run.good && finer >= -1) /* where the presets fail something finer may do */
-        next = (levels){fmin(next.counts, finer), fmin(next.tolerances, finer)};
+        next = (accuracy_levels){fmin(next.counts, finer), fmin(next.tolerances, finer)};
     if (c->best->run.good && (c->best->doubtful || record->count == 0)) {
-        next.counts -= c->at.counts > 0 ? 1 : 0;
-        next.tolerances -= c->at.counts > 0 ? 0 : fmax(c->at.tolerances, 0);
+        next.counts -= c->open.at.counts > 0 ? 1 : 0;
+        next.tolerances -= c->open.at.counts > 0 ? 0 : fmax(c->open.at.tolerances, 0);
     }
     for (size_t i = 0; i < record->count; i++)
-        if (is_missed(c, &record->errors[i]) && (c->at.counts > 0 || is_in_reach(c, i))) {
-            levels wanted = finer_for(c, &record->errors[i]);
+        if (is_missed(c, &record->errors[i]) && (c->open.at.counts > 0 || is_in_reach(c, i))) {
+            accuracy_levels wanted = finer_for(c, &record->errors[i]);
             next.counts = fmin(next.counts, wanted.counts);
             next.tolerances = fmin(next.tolerances, wanted.tolerances);
         }
-    return set_levels(c, next);
+    return accuracy_open_move(&c->open, next);
 }
 
 static void take(control *c, const attempt *next)
@@ -352,8 +223,8 @@ static void begin_with(control *c, const accuracy_choice *choice)
     accuracy_hand_states(c->scene.start, c->asked);
     c->scene.start = c->asked;
     drop_attempts(c);
-    list_knobs(c);
-    set_levels(c, (levels){coarsest, coarsest});
+    accuracy_open_list(&c->open, c->asked);
+    accuracy_open_move(&c->open, (accuracy_levels){accuracy_coarsest, accuracy_coarsest});
 }
 
 /* Measures a doubtful answer, when nothing better was had; false: the observer stopped it. */
@@ -369,7 +240,7 @@ static bool measure_doubtful(control *c)
 static bool choose_models(control *c)
 {
     size_t count;
-    set_levels(c, c->best->at); /* not those of an attempt that failed */
+    accuracy_open_move(&c->open, c->best->at); /* not those of an attempt that failed */
     if (!measure_doubtful(c))
         return false;
     const char **sets = list_sets(c, &count);
@@ -428,7 +299,7 @@ static void choose_best(control *c)
 /* Makes attempts until one is the answer; false where the observer stopped one. */
 static bool search(control *c)
 {
-    set_levels(c, (levels){coarsest, coarsest});
+    accuracy_open_move(&c->open, (accuracy_levels){accuracy_coarsest, accuracy_coarsest});
     for (bool again = true; again;) {
         again = try_next(c) && go_on(c) && c->kept_count < MOST_ATTEMPTS;
         if (!again && c->best->run.good && !c->best->run.stopped && !c->choice &&
@@ -442,7 +313,7 @@ static bool search(control *c)
 }
 
 /* Whether the setting changes nothing, as a tolerance of steps that the file gives. */
-static bool is_idle(const knob *k, const ff_report *report, ff_place chosen)
+static bool is_idle(const accuracy_knob *k, const ff_report *report, ff_place chosen)
 {
     char *start = memory_print_text("%s.%s changes nothing", k->stage->name, k->setting.name);
     bool idle = false;
@@ -491,7 +362,7 @@ static void list_spent(const control *c, accuracy_record *record)
 static void adopt(control *c, accuracy_record *record)
 {
     ff_pipeline *asked = record->answer;
-    set_levels(c, c->best->at);
+    accuracy_open_move(&c->open, c->best->at);
     *record = c->best->record;
     list_spent(c, record);
     record->twin = memory_alloc(sizeof *record->twin);
@@ -506,16 +377,16 @@ static void adopt(control *c, accuracy_record *record)
     record->seconds = c->seconds - record->twin->work;
     if (c->failure)
         record->failure = memory_arena_text(&record->arena, c->failure, strlen(c->failure));
-    record->given = memory_arena_text(&record->arena, c->given, strlen(c->given));
+    record->given = memory_arena_text(&record->arena, c->open.given, strlen(c->open.given));
     size_t models = record->choice ? record->choice->use_count : 0;
     record->chosen =
-        memory_arena_alloc(&record->arena, (models + c->count + 1) * sizeof *record->chosen);
+        memory_arena_alloc(&record->arena, (models + c->open.count + 1) * sizeof *record->chosen);
     for (size_t i = 0; i < models; i++)
         record->chosen[record->chosen_count++] = record->choice->uses[i];
-    for (size_t i = 0; i < c->count; i++) {
-        if (is_idle(&c->knobs[i], record->twin->report, accuracy_place(c->scene.tree)))
+    for (size_t i = 0; i < c->open.count; i++) {
+        if (is_idle(&c->open.knobs[i], record->twin->report, accuracy_place(c->scene.tree)))
             continue;
-        const char *set = set_of(c, &c->knobs[i]);
+        const char *set = accuracy_open_set(&c->open, i);
         record->chosen[record->chosen_count++] =
             memory_arena_text(&record->arena, set, strlen(set));
     }
@@ -526,7 +397,7 @@ bool accuracy_control(accuracy_record *record, const ff_tree *tree, ff_engine *e
 {
     control c = {.scene = {.tree = tree, .engine = engine, .start = pipeline, .watch = watch},
                  .asked = pipeline};
-    list_knobs(&c);
+    accuracy_open_list(&c.open, pipeline);
     bool finished = search(&c);
     if (finished) {
         adopt(&c, record);
@@ -540,7 +411,7 @@ bool accuracy_control(accuracy_record *record, const ff_tree *tree, ff_engine *e
     if (c.tree)
         ff_pipeline_free(c.asked);
     ff_tree_free(c.tree);
-    free(c.knobs);
+    accuracy_open_free(&c.open);
     memory_arena_free(&c.arena);
     return good;
 }

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "open.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A stage costs little whose model says that it costs at most this share of the dearest one's, or
+   says nothing and is not asked for itself. */
+static const double little = 0.1;
+/* Its settings are finer than those of the dearest stage by so many levels, in every attempt and in
+   its twins, too: what all of them sample too coarsely none of them shows. */
+static const double ahead = 1;
+
+static double largest_cost(const ff_pipeline *pipeline)
+{
+    double most = 0;
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (pipeline->stages[i].needed && pipeline->stages[i].loaded)
+            most = fmax(most, ff_model_cost(pipeline->stages[i].loaded->model));
+    return most;
+}
+
+/* In a loop a stage costs what the others do. One that says nothing may be the dearest where its
+   own outputs are asked for. */
+static bool costs_little(const ff_stage *stage, double most)
+{
+    double cost = ff_model_cost(stage->loaded->model);
+    bool asked = false;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
+        asked = asked || stage->results[i].requested;
+    return most > 0 && !stage->loop && cost <= little * most && (cost > 0 || !asked);
+}
+
+static void note_given(accuracy_open *open, const char *stage, const char *setting)
+{
+    char *list =
+        memory_print_text("%s%s%s.%s", open->given, *open->given ? ", " : "", stage, setting);
+    open->given = memory_arena_text(&open->arena, list, strlen(list));
+    free(list);
+}
+
+void accuracy_open_list(accuracy_open *open, const ff_pipeline *asked)
+{
+    const double most = largest_cost(asked);
+    accuracy_setting settings[ACCURACY_MOST_SETTINGS];
+    free(open->knobs);
+    open->count = 0;
+    open->given = "";
+    open->knobs = memory_alloc((asked->count * ACCURACY_MOST_SETTINGS + 1) * sizeof *open->knobs);
+    for (size_t i = 0; i < asked->count; i++) {
+        const ff_stage *stage = &asked->stages[asked->order[i]];
+        size_t count = 0;
+        if (stage->needed && stage->loaded)
+            count = accuracy_settings(stage, settings);
+        for (size_t k = 0; k < count; k++) {
+            if (!settings[k].open)
+                note_given(open, stage->name, settings[k].name);
+            else if (accuracy_setting_at(stage, settings[k].param, 0, &open->arena))
+                open->knobs[open->count++] = (accuracy_knob){
+                    .stage = stage, .setting = settings[k], .cheap = costs_little(stage, most)};
+        }
+    }
+}
+
+const char *accuracy_open_set(accuracy_open *open, size_t knob)
+{
+    const accuracy_knob *k = &open->knobs[knob];
+    return accuracy_setting_at(k->stage, k->setting.param, k->level, &open->arena);
+}
+
+/* Sets the level, or the next one towards the preset that the limits of the setting allow. */
+static void move(accuracy_open *open, size_t knob, double level)
+{
+    accuracy_knob *k = &open->knobs[knob];
+    k->level = fmax(level, accuracy_finest - (k->cheap ? ahead : 0));
+    while (k->level != 0 && !accuracy_open_set(open, knob))
+        k->level = fabs(k->level) < 1 ? 0 : k->level - copysign(1, k->level);
+}
+
+/* Twins are coarser, in the counts by up to two levels. */
+bool accuracy_open_has_twins(accuracy_open *open)
+{
+    for (size_t i = 0; i < open->count; i++) {
+        const accuracy_knob *k = &open->knobs[i];
+        double coarser = k->setting.tolerance ? 1 : 2;
+        if (!accuracy_setting_at(k->stage, k->setting.param, k->level + coarser, &open->arena))
+            return false;
+    }
+    return true;
+}
+
+/* The level that was reached: limits may forbid coarser settings, and where none is open none can
+   become finer. */
+static double reached(const accuracy_open *open, bool tolerance, double level)
+{
+    double most = accuracy_finest;
+    for (size_t i = 0; i < open->count; i++)
+        if (open->knobs[i].setting.tolerance == tolerance)
+            most = fmax(most, open->knobs[i].level + (open->knobs[i].cheap ? ahead : 0));
+    return level > 0 ? most : fmax(level, accuracy_finest);
+}
+
+bool accuracy_open_move(accuracy_open *open, accuracy_levels to)
+{
+    bool moved = false;
+    for (size_t i = 0; i < open->count; i++) {
+        accuracy_knob *k = &open->knobs[i];
+        double before = k->level, level = k->setting.tolerance ? to.tolerances : to.counts;
+        move(open, i, level - (k->cheap ? ahead : 0));
+        moved = moved || k->level != before;
+    }
+    open->at =
+        (accuracy_levels){reached(open, false, to.counts), reached(open, true, to.tolerances)};
+    return moved;
+}
+
+void accuracy_open_free(accuracy_open *open)
+{
+    free(open->knobs);
+    memory_arena_free(&open->arena);
+}
