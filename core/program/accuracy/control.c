@@ -23,10 +23,13 @@
 /* Of the reference, over the goal, when models are held against it: they may move half of a goal
    (choice.c), and its error counts with what they move. */
 static const double reference_error = 0.25;
-/* Of an accuracy, that the counts and the tolerances may each take before they become finer. */
+/* Of an accuracy, that the counts and the tolerances may each take before they become finer: half,
+   so that both together are within it. */
 static const double part = 0.5;
-/* By how many levels tolerances become finer at most from one attempt to the next. */
+/* By how many levels tolerances become finer at most from one attempt to the next: a sixteenth of
+   their part by the growth that is assumed (estimate.h), and the next attempt measures it anew. */
 static const double most_at_once = 2;
+/* The first, and one for each level that counts and tolerances become finer by, are 9. */
 enum { MOST_ATTEMPTS = 10 };
 
 typedef struct attempt {
@@ -154,7 +157,7 @@ static bool is_in_reach(const control *c, size_t error)
     const accuracy_error *e = &c->best->record.errors[error];
     double counts = e->relative - e->by_tolerances, left = c->open.at.counts - accuracy_finest;
     if (c->best->record.two_levels && isnan(e->order))
-        return left > 0 && log2(counts / goal_of(c, e)) - 3 <= 2 * left;
+        return left > 0 && counts <= goal_of(c, e) * exp2(3 + 2 * left);
     return counts * exp2(-left * order_of(c, error)) +
                e->by_tolerances *
                    pow(accuracy_tolerance_growth, accuracy_finest - c->open.at.tolerances) <=

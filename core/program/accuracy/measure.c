@@ -3,8 +3,9 @@
  * One ladder for the whole answer: in its first twin all settings of all stages are one level
  * coarser, in its second two; then, where no others are known, one after the other, each setting is
  * a level finer than in the second, which shows what comes of it. The twins of a setting are cheap,
- * since all else is coarse and what lies before its stage is known. Where a coarser twin fails, the
- * answer is coarse itself, and a finer one tells.
+ * since all else is coarse and what lies before its stage is known. Where attempts are made, the
+ * levels are those of the counts, and one more twin tells what the tolerances add. Where a coarser
+ * twin fails, the answer is coarse itself, and a finer one tells.
  */
 #include "measure.h"
 
