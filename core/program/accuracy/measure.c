@@ -368,7 +368,7 @@ static void hold_to_series(const measurement *m, accuracy_error *number)
 static bool is_contradicted(const accuracy_error *e)
 {
     const double twice_as_large = 2, matters = 0.25;
-    for (size_t k = 0; k < e->stage->quality_count; k++) {
+    for (size_t k = 0; !isnan(e->goal) && k < e->stage->quality_count; k++) {
         const ff_quality *line = &e->stage->quality[k];
         if (accuracy_estimated(e->stage, line->name) == e->result &&
             line->value > fmax(twice_as_large * e->relative, matters * e->goal))

@@ -163,6 +163,10 @@ class Control(lab.Lab):
         for guess, cells in ((1, "16"), (2, "64")):
             self.assertEqual(self.ask("accuracy=10 %", f"last.guess={guess}")["accuracy"]["settings"]["last.cells"], cells)
 
+    def test_an_estimate_of_what_nobody_asks_is_no_doubt(self):
+        answer = self.ask("accuracy={last.wave: 10 %}", "last.guess=50")["accuracy"]
+        self.assertEqual((answer["attempts"], answer["settings"]["last.cells"]), (1, "16"))
+
     def test_a_measured_answer_has_the_same_bar(self):
         """Twins that were attempts are those that the settings by themselves have."""
         answer = self.ask()
