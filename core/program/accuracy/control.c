@@ -82,7 +82,8 @@ static bool is_coarser_than_presets(accuracy_levels at)
 static void measure(control *c, attempt *a)
 {
     const accuracy_twin *runs[MOST_ATTEMPTS * (1 + ACCURACY_OWN)];
-    accuracy_known known = {.runs = runs};
+    accuracy_known known = {
+        .runs = runs, .said = a->run.report, .place = accuracy_place(c->scene.tree)};
     for (size_t i = 0; i < c->kept_count; i++) {
         runs[known.count++] = &c->kept[i].run;
         for (size_t k = 0; k < c->kept[i].record.own_count; k++)
@@ -106,6 +107,7 @@ static void try_settings(control *c, attempt *next)
     for (size_t i = 0; i < c->open.count; i++)
         changed[c->open.knobs[i].stage - c->asked->stages] = true;
     accuracy_twin_run(&next->run, &c->scene, sets, count, &place, changed);
+    accuracy_open_leave_idle(&c->open, next->run.report, place);
     next->at = c->open.at;
     next->doubtful = next->run.good && is_coarser_than_presets(c->open.at) &&
                      (!accuracy_open_has_twins(&c->open) ||
@@ -315,18 +317,6 @@ static bool search(control *c)
     return true;
 }
 
-/* Whether the setting changes nothing, as a tolerance of steps that the file gives. */
-static bool is_idle(const accuracy_knob *k, const ff_report *report, ff_place chosen)
-{
-    char *start = memory_print_text("%s.%s changes nothing", k->stage->name, k->setting.name);
-    bool idle = false;
-    for (size_t i = 0; i < ff_report_count(report) && !idle; i++)
-        idle = accuracy_is_about(ff_report_at(report, i), chosen) &&
-               !strncmp(ff_report_at(report, i)->text, start, strlen(start));
-    free(start);
-    return idle;
-}
-
 static void note_spent(const accuracy_twin *run, accuracy_record *record)
 {
     accuracy_spent *spent = &record->spent[record->spent_count];
@@ -387,7 +377,7 @@ static void adopt(control *c, accuracy_record *record)
     for (size_t i = 0; i < models; i++)
         record->chosen[record->chosen_count++] = record->choice->uses[i];
     for (size_t i = 0; i < c->open.count; i++) {
-        if (is_idle(&c->open.knobs[i], record->twin->report, accuracy_place(c->scene.tree)))
+        if (c->open.knobs[i].idle)
             continue;
         const char *set = accuracy_open_set(&c->open, i);
         record->chosen[record->chosen_count++] =

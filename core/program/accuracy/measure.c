@@ -115,7 +115,9 @@ static void list_knobs(measurement *m)
         if (stage->needed && stage->loaded)
             count = accuracy_settings(stage, settings);
         for (size_t k = 0; k < count; k++)
-            m->knobs[m->count++] = (knob){at, settings[k]};
+            if (!m->known ||
+                !accuracy_is_idle(m->known->said, m->known->place, stage->name, settings[k].name))
+                m->knobs[m->count++] = (knob){at, settings[k]};
     }
     m->refined = take(m, m->count, sizeof *m->refined);
 }

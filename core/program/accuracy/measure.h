@@ -17,10 +17,12 @@ typedef struct accuracy_part {
 /* What files and pages call the bar of an output: "h_min_error_bar". */
 #define ACCURACY_BAR "_error_bar"
 
-/* Runs of the same file. */
+/* Runs of the same file, and what the answer said of the settings at a place. */
 typedef struct accuracy_known {
     const struct accuracy_twin *const *runs;
     size_t count;
+    const ff_report *said;
+    ff_place place;
 } accuracy_known;
 
 /* Twins of an answer at most. */

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "open.h"
 
+#include "twin.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -84,7 +86,8 @@ bool accuracy_open_has_twins(accuracy_open *open)
     for (size_t i = 0; i < open->count; i++) {
         const accuracy_knob *k = &open->knobs[i];
         double coarser = k->setting.tolerance ? 1 : 2;
-        if (!accuracy_setting_at(k->stage, k->setting.param, k->level + coarser, &open->arena))
+        if (!k->idle &&
+            !accuracy_setting_at(k->stage, k->setting.param, k->level + coarser, &open->arena))
             return false;
     }
     return true;
@@ -96,9 +99,24 @@ static double reached(const accuracy_open *open, bool tolerance, double level)
 {
     double most = accuracy_finest;
     for (size_t i = 0; i < open->count; i++)
-        if (open->knobs[i].setting.tolerance == tolerance)
+        if (open->knobs[i].setting.tolerance == tolerance && !open->knobs[i].idle)
             most = fmax(most, open->knobs[i].level + (open->knobs[i].cheap ? ahead : 0));
     return level > 0 ? most : fmax(level, accuracy_finest);
+}
+
+static void note_levels(accuracy_open *open, accuracy_levels to)
+{
+    open->at =
+        (accuracy_levels){reached(open, false, to.counts), reached(open, true, to.tolerances)};
+}
+
+void accuracy_open_leave_idle(accuracy_open *open, const ff_report *said, ff_place place)
+{
+    for (size_t i = 0; i < open->count; i++) {
+        accuracy_knob *k = &open->knobs[i];
+        k->idle = k->idle || accuracy_is_idle(said, place, k->stage->name, k->setting.name);
+    }
+    note_levels(open, open->at);
 }
 
 bool accuracy_open_move(accuracy_open *open, accuracy_levels to)
@@ -107,11 +125,11 @@ bool accuracy_open_move(accuracy_open *open, accuracy_levels to)
     for (size_t i = 0; i < open->count; i++) {
         accuracy_knob *k = &open->knobs[i];
         double before = k->level, level = k->setting.tolerance ? to.tolerances : to.counts;
-        move(open, i, level - (k->cheap ? ahead : 0));
+        if (!k->idle)
+            move(open, i, level - (k->cheap ? ahead : 0));
         moved = moved || k->level != before;
     }
-    open->at =
-        (accuracy_levels){reached(open, false, to.counts), reached(open, true, to.tolerances)};
+    note_levels(open, to);
     return moved;
 }
 

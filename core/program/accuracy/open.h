@@ -15,6 +15,7 @@ typedef struct accuracy_knob {
     const ff_stage *stage; /* of the pipeline that was asked for */
     accuracy_setting setting;
     bool cheap;   /* its stage costs little */
+    bool idle;    /* it changes nothing */
     double level; /* coarser than the preset by so much */
 } accuracy_knob;
 
@@ -34,6 +35,8 @@ typedef struct accuracy_open {
 
 /* Lists the settings of the stages that are needed, as by preset. */
 void accuracy_open_list(accuracy_open *open, const ff_pipeline *asked);
+/* Leaves the settings at their levels that changed nothing in a run which set them at the place. */
+void accuracy_open_leave_idle(accuracy_open *open, const ff_report *said, ff_place place);
 /* Sets the levels, or what is nearest to them within the limits of the settings. Returns whether a
    setting changes. */
 bool accuracy_open_move(accuracy_open *open, accuracy_levels to);

@@ -167,6 +167,18 @@ bool accuracy_is_about(const ff_message *m, ff_place place)
            m->place.line == place.line && m->place.column == place.column;
 }
 
+bool accuracy_is_idle(const ff_report *report, ff_place place, const char *stage,
+                      const char *setting)
+{
+    char *start = memory_print_text("%s.%s changes nothing", stage, setting);
+    bool idle = false;
+    for (size_t i = 0; i < ff_report_count(report) && !idle; i++)
+        idle = accuracy_is_about(ff_report_at(report, i), place) &&
+               !strncmp(ff_report_at(report, i)->text, start, strlen(start));
+    free(start);
+    return idle;
+}
+
 void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_observer *watch,
                            ff_report *report)
 {

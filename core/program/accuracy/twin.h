@@ -49,6 +49,10 @@ void accuracy_hand_states(const ff_pipeline *from, ff_pipeline *to);
 const char *accuracy_twin_reason(const accuracy_twin *twin);
 /* Whether it is a warning about what was set at that place, which the file does not say. */
 bool accuracy_is_about(const ff_message *message, ff_place place);
+/* Whether a setting that was set at that place changes nothing, as a tolerance of steps that the
+   file gives. */
+bool accuracy_is_idle(const ff_report *report, ff_place place, const char *stage,
+                      const char *setting);
 /* Says what the run has to say, but for what the report has already, and what is about the place.
  */
 void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_observer *watch,

@@ -151,6 +151,14 @@ class Control(lab.Lab):
         self.assertEqual((settings["last.cells"], settings["last.tolerance"]), ("256", "0.000625 %"))
         self.assertEqual(answer["verdict"], "good")
 
+    def test_tolerances_that_change_nothing_stay_and_have_no_twins(self):
+        """Where doubts end on the presets, 64 cells are run once."""
+        exact = [f"{stage}.exact=true" for stage in ("first", "last")]
+        answer = self.ask("accuracy=5 %", "last.sure=60", *exact)["accuracy"]
+        self.assertEqual((answer["attempts"], answer["twins"]), (3, 0))
+        self.assertEqual(sorted(answer["settings"]), ["first.cells", "last.cells"])
+        self.assertEqual({run["settings"]["last.tolerance"] for run in answer["runs"]}, {"0.16 %"})
+
     def test_where_no_coarser_tolerances_can_be_had_finer_ones_tell(self):
         """The error of 0.16 % by what lies between it and 0.04 %."""
         strengths = [f"{stage}.strength=0.001" for stage in ("first", "last")]

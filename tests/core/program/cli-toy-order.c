@@ -9,6 +9,7 @@
 typedef struct order {
     const ff_host *host;
     int64_t cells, steps, least, most, sure, shown;
+    int32_t exact;
     double tolerance, order, strength, gain, heat, guess, loosest;
 } order;
 
@@ -18,6 +19,7 @@ static const ff_param params[] = {
                 "points of the wave; auto: 101"),
     FF_QUANTITY("tolerance", "%", order, tolerance, FF_TUNABLE, "0.01 %", NULL, 1e-6, 50, 0, 0,
                 "relative error of everything"),
+    FF_SWITCH("exact", order, exact, "false", "the tolerance changes nothing"),
     FF_QUANTITY("order", "1", order, order, 0, "2", NULL, 0.1, 10, 0, 0, "of the cells"),
     FF_QUANTITY("strength", "1", order, strength, 0, "10", NULL, -1e6, 1e6, 0, 0,
                 "error of the value with one cell"),
@@ -51,10 +53,18 @@ static const ff_port outputs[] = {
     {.name = "pairs", .unit = "m", .dims = "pair? t", .doc = "the value, of two pairs of points"},
 };
 
+static ff_status ready(void *self)
+{
+    const order *o = self;
+    const ff_serving rows[] = {{o->exact, "tolerance", "", NULL, "it is exact"}};
+    ff_serve(o->host, rows, 1);
+    return FF_OK;
+}
+
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     order *o = self;
-    double value = 1 + o->strength * pow((double)o->cells, -o->order) + o->tolerance;
+    double value = 1 + o->strength * pow((double)o->cells, -o->order);
     size_t points = o->steps > 0 ? (size_t)o->steps : 101;
     if (o->cells < o->least)
         return ff_failf(o->host, FF_NOCONV, NULL, "%d cells are too few", (int)o->cells);
@@ -62,6 +72,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         return ff_failf(o->host, FF_NOCONV, NULL, "%d cells are too many", (int)o->cells);
     if (o->tolerance > o->loosest)
         return ff_failf(o->host, FF_NOCONV, NULL, "%g is too loose", o->tolerance);
+    value += o->exact ? 0 : o->tolerance;
     if (o->cells >= o->shown)
         value += 0.05;
     if (in[0].data)
@@ -95,9 +106,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 FF_MODEL(model, order, .id = "toy/order", .version = "1.0.0",
          .summary = "a value with a known error", .reference = "", .bibtex = "", .licence = "MIT",
          .params = FF_TABLE(params), .inputs = FF_TABLE(inputs), .outputs = FF_TABLE(outputs),
-         .evaluate = evaluate, .destroy = free, .cost = 1);
+         .ready = ready, .evaluate = evaluate, .destroy = free, .cost = 1);
 FF_MODEL(silent, order, .id = "toy/silent", .version = "1.0.0",
          .summary = "the same, without a word about what it costs", .reference = "", .bibtex = "",
          .licence = "MIT", .params = FF_TABLE(params), .inputs = FF_TABLE(inputs),
-         .outputs = FF_TABLE(outputs), .evaluate = evaluate, .destroy = free);
+         .outputs = FF_TABLE(outputs), .ready = ready, .evaluate = evaluate, .destroy = free);
 FF_EXPORT_MODELS(&model, &silent);
