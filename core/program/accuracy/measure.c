@@ -365,8 +365,9 @@ static void hold_to_series(const measurement *m, accuracy_error *number)
     }
 }
 
-/* Whether a stage estimates more than twice an error that was measured, and so much that it matters
-   to what is asked. */
+/* Whether a stage estimates more than twice an error that was measured: no number is to be off by
+   more than two of its bars. With the half of what is asked that counts and tolerances may each
+   take, a quarter of it is left for what none of them shows. */
 static bool is_contradicted(const accuracy_error *e)
 {
     const double twice_as_large = 2, matters = 0.25;
