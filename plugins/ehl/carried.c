@@ -14,6 +14,11 @@ ehl_stretch ehl_carrying_stretch(const ehl_reynolds *eq, double a, double buildu
                          (a - 1.6 * buildup - eq->first) / eq->dx};
 }
 
+int ehl_carrying_order(const ehl_reynolds *eq)
+{
+    return eq->asymmetric && eq->conserving ? 1 : eq->wedge;
+}
+
 /* Factors of the differences between neighbours, from nodes i-3, i-2 to i+2, i+3. */
 typedef struct stencil {
     double of[6];

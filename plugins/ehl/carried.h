@@ -13,6 +13,10 @@ typedef struct ehl_stretch {
 
 ehl_stretch ehl_carrying_stretch(const ehl_reynolds *eq, double a, double buildup);
 
+/* Returns the order of the error that the cells make of a film on its way: of control volumes the
+   change in time is that of one node where they may be cavitated, and it is 1. */
+int ehl_carrying_order(const ehl_reynolds *eq);
+
 typedef struct ehl_carried {
     double *error, time; /* relative, at the nodes; time: of the instant that it belongs to */
     double part;         /* of a cell, by which the oil is ahead of it */

@@ -159,7 +159,7 @@ ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl
     const uint32_t of[] = {EHL_H_MIN, EHL_H_CENTRAL};
     /* what both twins miss alike falls out of their difference; with heat it is much the same */
     const double within = m->heat || m->thermal ? 10 : 0.25;
-    const double left = ldexp(1, m->solver->reynolds->wedge == 2 ? -2 : -1);
+    const double left = ldexp(1, -ehl_carrying_order(m->solver->reynolds));
     size_t count = p->last - p->first + 1;
     double(*fine)[EHL_PEAK] = malloc(count * sizeof *fine);
     ff_status status = fine ? pass_on(r, m, p, 1, error) : FF_NOMEM;
@@ -168,9 +168,12 @@ ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl
     for (size_t i = count; i-- > 0 && status == FF_OK;)
         for (int k = EHL_LEAST; k < EHL_PEAK; k++) {
             double coarse = error[i][k], film = value(r, p->first + i, of[k]);
-            error[i][k] = coarse > 0 ? (coarse / fine[i][k] - 1) / (1 - left) : error[i + 1][k];
-            if (coarse > 0 &&
-                !(fabs(coarse / film - 1) <= within * fmax(EHL_FILM_LIMIT, fabs(error[i][k]))))
+            if (i + 1 < count && !(coarse > 0)) { /* no step led there */
+                error[i][k] = error[i + 1][k];
+                continue;
+            }
+            error[i][k] = (coarse / fine[i][k] - 1) / (1 - left);
+            if (!(fabs(coarse / film - 1) <= within * fmax(EHL_FILM_LIMIT, fabs(error[i][k]))))
                 error[i][k] = NAN;
         }
     free(fine);

@@ -262,7 +262,7 @@ static double error_of_row(const ehl_results *r, size_t row, int kind)
 {
     double value = film_of(r, row, kind), part = *part_of(r, row, kind), error = 0;
     if (!is_extreme(r, kind))
-        error = value > 0 ? fabs(part) / value : 0;
+        error = fabs(part) / value;
     else if (kind == EHL_PEAK)
         error = (value + r->share * part) / r->highest - 1;
     else
@@ -310,8 +310,8 @@ static int is_low(const ehl_results *r, size_t row, int kind)
     return is_doubtful(r, row, kind) || film_of(r, row, kind) < 1.1 * r->lowest;
 }
 
-/* Returns the largest share of their bounds that errors have, all at most; of bounds that are as
-   good as none aside, which tell nothing of those that are large. */
+/* Returns the largest share of their bounds that errors have, all at most, and all where no bound
+   is large: those that are as good as none tell nothing of others. */
 static double largest_share(const ehl_results *r, const ehl_passage *p, double (*error)[EHL_PEAK],
                             int kind)
 {
@@ -322,11 +322,12 @@ static double largest_share(const ehl_results *r, const ehl_passage *p, double (
         if (bound > EHL_FILM_LIMIT / 2)
             share = fmax(share, e <= bound ? e / bound : 1);
     }
-    return share;
+    return share > 0 ? share : 1;
 }
 
 /* Puts the errors that are known in place of what bounds them, and leaves that share of the bounds
-   at the rows that were not looked at. */
+   at the rows that were not looked at. A film without load has no bound, and its error does not
+   count. */
 static void put_errors(ehl_results *r, const ehl_passage *p, double (*error)[EHL_PEAK], int kind)
 {
     double share = largest_share(r, p, error, kind);
@@ -334,7 +335,7 @@ static void put_errors(ehl_results *r, const ehl_passage *p, double (*error)[EHL
         double *part = part_of(r, i, kind);
         if (i < p->first || i > p->last) {
             *part *= is_measured(r, i, kind) ? 1 : share;
-        } else if (isfinite(error[i - p->first][kind])) {
+        } else if (fabs(*part) > 0 && isfinite(error[i - p->first][kind])) {
             *part = error[i - p->first][kind] * film_of(r, i, kind);
             *part_of(r, i, EHL_MEASURED + kind) = 1;
             r->measured[kind] = 1;
@@ -385,7 +386,7 @@ ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_hist
 /* Returns how many cells would meet the limit of an error of a film, by its order. */
 static double enough_cells(const ehl_march *m, double error, double limit)
 {
-    double times = pow(error / limit, 1. / m->solver->reynolds->wedge);
+    double times = pow(error / limit, 1. / ehl_carrying_order(m->solver->reynolds));
     return 16 * ceil((double)(m->solver->grid->nodes - 1) * times / 16);
 }
 
