@@ -35,14 +35,15 @@ double ehl_dot(size_t n, const double *restrict x, const double *restrict y)
 FF_SIMD
 double ehl_least(size_t n, const double *restrict x)
 {
-    ehl_lanes least = {HUGE_VAL, HUGE_VAL, HUGE_VAL, HUGE_VAL}, here;
+    const double first = n > 0 ? x[0] : HUGE_VAL;
+    ehl_lanes least = {first, first, first, first}, here;
     size_t i = 0;
     for (; i + EHL_LANES <= n; i += EHL_LANES) {
         memcpy(&here, x + i, sizeof here);
         ehl_lanes_keep_least(&least, &here);
     }
     for (; i < n; i++)
-        least[0] = fmin(least[0], x[i]);
+        least[0] = x[i] < least[0] ? x[i] : least[0];
     return fmin(fmin(least[0], least[1]), fmin(least[2], least[3]));
 }
 

@@ -32,7 +32,7 @@ FF_SIMD_INLINE void ehl_lanes_keep_greatest(ehl_lanes *most, const ehl_lanes *x)
 double ehl_sum(size_t n, const double *x);
 double ehl_dot(size_t n, const double *x, const double *y);
 
-/* The least of all x; infinite without any. */
+/* The least of all x; infinite without any, and no number where the first is none. */
 double ehl_least(size_t n, const double *x);
 
 /* The greatest of `least` and all x, and of all |x|. */
