@@ -92,12 +92,17 @@ void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m,
 }
 
 /* Returns the row that a step from this one leads to. Many steps of a run are shorter than a fifth
-   of a cell; of longer ones the films are less and less those of the run. */
+   of a cell; of longer ones the films are less and less those of the run. Where the oil hardly
+   moves the flanks squeeze it instead: steps are no longer there than at a tenth of the largest
+   speed. */
 static size_t next_row(const ehl_results *r, const ehl_passage *p, const ehl_history *h, double dx,
                        size_t row)
 {
+    const double way = dx / 5, longest = way / (0.1 * h->speed_max);
+    double time = value(r, row, EHL_TIME);
     size_t next = row + 1;
-    while (next < p->last && way_between(r, h, row, next) < dx / 5)
+    while (next < p->last && way_between(r, h, row, next) < way &&
+           value(r, next, EHL_TIME) - time < longest)
         next++;
     return next;
 }

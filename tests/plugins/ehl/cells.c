@@ -220,6 +220,36 @@ static void test_unloading(void)
     line_close(&fine);
 }
 
+/* The oil comes nearly to rest, at a hundredth of its speed, and the flanks squeeze it. */
+static void slowing(line *c, double cells)
+{
+    static const double speed[] = {1, 0.5, 0.01, 0.01};
+    line_open(c, "ehl/finite-volume");
+    line_last(c, 4, 200e-6);
+    c->time[1] = 44e-6;
+    c->time[2] = 100e-6;
+    for (int k = 0; k < 4; k++) {
+        c->u1[k] *= speed[k];
+        c->u2[k] *= speed[k];
+    }
+    stage_set(c->film, "steps", 800);
+    stage_set(c->film, "cells", cells);
+    check_true("runs", line_run(c, "time h_min") == FF_OK);
+}
+
+static void test_slowing(void)
+{
+    line c, fine;
+    slowing(&c, 128);
+    slowing(&fine, FINER * 128);
+    double is = off(&c, &fine, "h_min"), says = stage_quality(c.film, "h_min_space_error");
+    printf("slowing: %.4f (%.4f)\n", is, says);
+    check_below("h_min over what is stated", is / says, 1.2);
+    check_below("what is stated over it", says / is, 1.2);
+    line_close(&c);
+    line_close(&fine);
+}
+
 int main(void)
 {
     test_measured();
@@ -229,5 +259,6 @@ int main(void)
     test_light();
     test_lowest();
     test_unloading();
+    test_slowing();
     return check_done();
 }
