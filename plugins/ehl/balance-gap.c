@@ -62,7 +62,7 @@ void ehl_balance_moment(ehl_balance *b, const ehl_march *m)
     double scale = eq->dx / m->step.radius;
     b->moment = behind + before;
     b->arm = behind - before;
-    if (b->arm > 0)
+    if (!(b->arm <= 0)) /* as well where it is no number */
         ehl_worse(&b->worst.moment, fabs(work + scale * b->moment) / (scale * b->arm));
 }
 

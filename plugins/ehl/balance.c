@@ -246,25 +246,31 @@ static void balance_intervals(ehl_balance *b, const ehl_march *m)
     }
 }
 
-/* Returns the mass that the volumes between the highest pressure and any other node do not balance,
-   over what passes there: the entrained oil, and the pressure flow of p_max over a cell, since the
-   pressure is known to a share of p_max alone. */
-static double check_mass(ehl_balance *b, const ehl_march *m, double flow_scale, size_t peak)
+/* Returns the largest mass that the volumes from `first` to another node do not balance, downstream
+   of it with way = 1 and upstream with -1, over what passes there: the entrained oil, and the
+   pressure flow of `per_cell`, the pressure over a cell. */
+static double largest_left(const ehl_balance *b, const ehl_march *m, double flow_scale,
+                           double per_cell, size_t first, int way)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[0].film;
-    double most = 0, sum = 0, per_cell = film->p[peak] / eq->dx;
-    for (size_t i = peak + 1; i + 1 < b->nodes && (film->full[i] || eq->conserving); i++) {
+    double most = 0, sum = 0;
+    for (size_t i = first; i > 0 && i + 1 < b->nodes && (film->full[i] || eq->conserving);
+         i = way > 0 ? i + 1 : i - 1) {
         sum += b->left[i];
         double off = fabs(sum) / (flow_scale + b->psi[i] * per_cell);
         most = off > most ? off : most;
     }
-    sum = 0;
-    for (size_t i = peak; i > 0 && (film->full[i] || eq->conserving); i--) {
-        sum += b->left[i];
-        double off = fabs(sum) / (flow_scale + b->psi[i] * per_cell);
-        most = off > most ? off : most;
-    }
+    return isfinite(sum) ? most : NAN;
+}
+
+/* Returns the mass that the volumes between the highest pressure and any other node do not balance;
+   the pressure is known to a share of p_max alone. */
+static double check_mass(ehl_balance *b, const ehl_march *m, double flow_scale, size_t peak)
+{
+    double most = 0, per_cell = m->state[0].film.p[peak] / m->solver->reynolds->dx;
+    ehl_worse(&most, largest_left(b, m, flow_scale, per_cell, peak + 1, 1));
+    ehl_worse(&most, largest_left(b, m, flow_scale, per_cell, peak, -1));
     ehl_worse(&b->worst.mass, most);
     return most;
 }
@@ -322,7 +328,7 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
            stored = ehl_dot(b->nodes - 2, b->slope_1 + 1, b->change + 1) * eq->dx;
     work *= m->step.entrainment;
     double scale = D + fabs(work) + fabs(stored);
-    if (!(scale > 0))
+    if (scale <= 0)
         return;
     if (m->step.rate * 2 * m->solver->grid->half_width < shortest * m->step.entrainment)
         ehl_worse(&b->worst.energy, fabs(off) / scale);

@@ -127,6 +127,25 @@ static void test_spoiled(scene *s)
     check_below("and sound again", largest(hold(s)), 1e-7);
 }
 
+/* One number that is none. */
+static void test_no_number(scene *s)
+{
+    ehl_film *film = &s->march.state[0].film;
+    const ehl_imbalance *w = hold(s);
+    size_t centre = (size_t)(s->grid.inlet / s->grid.dx);
+    double *place[] = {&film->p[centre], &film->p[centre - 40], &film->v[centre - 30]};
+    for (int k = 0; k < 3; k++) {
+        double kept = *place[k];
+        *place[k] = NAN;
+        hold(s);
+        check_true("the moment", w->moment > 1);
+        check_true("the mass", w->mass > 1);
+        check_true("the energy", w->energy > 1);
+        *place[k] = kept;
+    }
+    check_below("and sound again", largest(hold(s)), 1e-7);
+}
+
 /* The oil that comes and goes over the steps to the end; some of it lost at each. */
 static double lost(scene *s, double share)
 {
@@ -180,6 +199,7 @@ int main(void)
                      .rheology = stage_service(flow, FF_RHEOLOGY_ID)};
     make(&s, &laws);
     test_spoiled(&s);
+    test_no_number(&s);
     test_outputs(&s);
     double kept = lost(&s, 0);
     destroy(&s);
