@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What the error of a loss by the time steps is taken to be, from series that are made up. */
+/* What the errors of a loss by the time steps, and of a film by the cells, are taken to be, from
+   series that are made up. */
 #include "check.h"
 
 #include "../../../plugins/ehl/outputs.h"
@@ -69,8 +70,36 @@ static double third_of_bend(void)
     return most;
 }
 
+static double worst;
+
+static void keep(void *ctx, const char *name, double value, double limit, int32_t verdict,
+                 const char *text)
+{
+    (void)ctx, (void)name, (void)limit, (void)verdict, (void)text;
+    worst = value;
+}
+
+/* Returns what the line of h_min's error by the cells says of a row with that film. */
+static double stated_of_film(double h_min, double part)
+{
+    static ehl_march m;
+    static ehl_results r;
+    const ff_host host = {.quality = keep};
+    r = (ehl_results){.host = &host, .wanted = FF_BIT(EHL_H_MIN)};
+    r.series.data = series;
+    r.space.data = space;
+    r.series.count = r.space.count = 1;
+    series[EHL_H_MIN] = h_min;
+    space[EHL_LEAST] = part;
+    ehl_results_report_cells(&r, &m);
+    return worst;
+}
+
 int main(void)
 {
+    check_near("a film that is too thin", stated_of_film(1e-6, -1e-8), 0.01, 1e-10);
+    check_true("a film that is no number", stated_of_film(NAN, 1e-8) > 1);
+    check_true("nor its error", stated_of_film(1e-6, NAN) > 1);
     check_below("a straight line", stated(straight, EHL_BDF2), 1e-10);
     double bend = stated(bent, EHL_BDF2);
     check_near("a parabola", bend, third_of_bend(), 1e-10);
