@@ -55,7 +55,8 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
 {
     const newtonian *law = self;
     if (u_s == 0) {
-        memset(tau, 0, n * sizeof *tau);
+        for (size_t i = 0; i < n; i++)
+            tau[i] = 0;
         return FF_OK;
     }
     return stresses(n, p, ln_eta, h, log(fabs(u_s)), law->limiting_stress_coefficient,

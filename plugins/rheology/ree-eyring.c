@@ -82,7 +82,8 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
 {
     const ree_eyring *r = self;
     if (u_s == 0) {
-        memset(tau, 0, n * sizeof *tau);
+        for (size_t i = 0; i < n; i++)
+            tau[i] = 0;
         return FF_OK;
     }
     const double ln_slip = log(fabs(u_s)) - log(r->tau0);
