@@ -170,12 +170,13 @@ static bool is_in_reach(const control *c, size_t error)
 static accuracy_levels finer_for(const control *c, const accuracy_error *e)
 {
     accuracy_levels next = c->open.at;
-    double most = part * goal_of(c, e);
-    if (!(e->relative - e->by_tolerances <= most))
-        next.counts -= 1;
-    if (e->by_tolerances > most)
+    double goal = goal_of(c, e), counts = e->relative - e->by_tolerances;
+    bool finer = !(counts <= part * goal);
+    double room = finer ? part * goal : goal - counts;
+    next.counts -= finer ? 1 : 0;
+    if (e->by_tolerances > room)
         next.tolerances -=
-            fmin(ceil(log(e->by_tolerances / most) / log(accuracy_tolerance_growth)), most_at_once);
+            fmin(ceil(log(e->by_tolerances / room) / log(accuracy_tolerance_growth)), most_at_once);
     return next;
 }
 
@@ -215,6 +216,19 @@ static void drop_attempts(control *c)
     c->best = NULL;
 }
 
+/* The least of what is asked for. */
+static double least_goal(const control *c)
+{
+    double least = INFINITY;
+    for (size_t i = 0; i < c->asked->count; i++) {
+        const ff_stage *stage = &c->asked->stages[i];
+        for (size_t k = 0; stage->results && k < stage->loaded->model->output_count; k++)
+            if (stage->results[k].requested)
+                least = fmin(least, accuracy_goal(c->scene.tree, stage, &stage->results[k]));
+    }
+    return least;
+}
+
 /* Begins anew with the models that were chosen. */
 static void begin_with(control *c, const accuracy_choice *choice)
 {
@@ -229,7 +243,7 @@ static void begin_with(control *c, const accuracy_choice *choice)
     c->scene.start = c->asked;
     drop_attempts(c);
     accuracy_open_list(&c->open, c->asked);
-    accuracy_open_move(&c->open, (accuracy_levels){accuracy_coarsest, accuracy_coarsest});
+    accuracy_open_begin(&c->open, least_goal(c));
 }
 
 /* Measures a doubtful answer, when nothing better was had; false: the observer stopped it. */
@@ -304,7 +318,7 @@ static void choose_best(control *c)
 /* Makes attempts until one is the answer; false where the observer stopped one. */
 static bool search(control *c)
 {
-    accuracy_open_move(&c->open, (accuracy_levels){accuracy_coarsest, accuracy_coarsest});
+    accuracy_open_begin(&c->open, least_goal(c));
     for (bool again = true; again;) {
         again = try_next(c) && go_on(c) && c->kept_count < MOST_ATTEMPTS;
         if (!again && c->best->run.good && !c->best->run.stopped && !c->choice &&

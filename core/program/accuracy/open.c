@@ -7,6 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The first attempt is coarser than the presets by so many levels. */
+static const double coarsest = 2;
 /* A stage costs little whose model says that it costs at most this share of the dearest one's, or
    says nothing and is not asked for itself. */
 static const double little = 0.1;
@@ -131,6 +133,27 @@ bool accuracy_open_move(accuracy_open *open, accuracy_levels to)
     }
     note_levels(open, to);
     return moved;
+}
+
+/* A tolerance without a unit is an error itself: at first it is at the level next to what is asked,
+   since with fewer steps an extreme between two of them is in no answer and in no twin. */
+static double first_tolerance(const accuracy_open *open, double asked)
+{
+    double level = coarsest;
+    for (size_t i = 0; i < open->count; i++) {
+        const accuracy_knob *k = &open->knobs[i];
+        const ff_bound *bound = &k->stage->params[k->setting.param];
+        bool bare = !strcmp(bound->row->unit, "1") || !strcmp(bound->row->unit, "%");
+        if (k->setting.tolerance && bare)
+            level =
+                fmin(level, round(log(asked / bound->value.real) / log(accuracy_tolerance_factor)));
+    }
+    return fmax(level, 0);
+}
+
+void accuracy_open_begin(accuracy_open *open, double asked)
+{
+    accuracy_open_move(open, (accuracy_levels){coarsest, first_tolerance(open, asked)});
 }
 
 void accuracy_open_free(accuracy_open *open)

@@ -5,8 +5,6 @@
 
 #include "settings.h"
 
-/* The first attempt is coarser than the presets by so many levels. */
-static const double accuracy_coarsest = 2;
 /* Four times as many cells and steps as by preset: 16 times the work. */
 static const double accuracy_finest = -2;
 
@@ -37,6 +35,8 @@ typedef struct accuracy_open {
 void accuracy_open_list(accuracy_open *open, const ff_pipeline *asked);
 /* Leaves the settings at their levels that changed nothing in a run which set them at the place. */
 void accuracy_open_leave_idle(accuracy_open *open, const ff_report *said, ff_place place);
+/* Sets the levels of the first attempt for outputs that may be off by `asked`, relative. */
+void accuracy_open_begin(accuracy_open *open, double asked);
 /* Sets the levels, or what is nearest to them within the limits of the settings. Returns whether a
    setting changes. */
 bool accuracy_open_move(accuracy_open *open, accuracy_levels to);

@@ -5,8 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double tolerance_factor = 4; /* of a level */
-
 /* Whether the limits of the row, which hold when min < max, allow the value. */
 static bool is_allowed(const ff_param *row, double si)
 {
@@ -25,7 +23,8 @@ const char *accuracy_setting_at(const ff_stage *stage, size_t param, double leve
             text = memory_print_text("%s.%s=%.0f", stage->name, row->name, count);
     } else {
         const ff_unit *unit = &stage->loaded->param_units[param];
-        double number = ff_unit_from_si(unit, bound->value.real) * pow(tolerance_factor, levels);
+        double number =
+            ff_unit_from_si(unit, bound->value.real) * pow(accuracy_tolerance_factor, levels);
         if (number > 0 && is_allowed(row, number))
             text = memory_print_text("%s.%s=%.4g%s%s", stage->name, row->name, number,
                                      strcmp(row->unit, "1") ? " " : "",

@@ -15,6 +15,9 @@ typedef struct accuracy_setting {
     bool tolerance; /* it is no count */
 } accuracy_setting;
 
+/* Of a level. */
+static const double accuracy_tolerance_factor = 4;
+
 enum { ACCURACY_MOST_SETTINGS = 16 };
 
 /* The assignment that makes a number `levels` levels coarser, or finer where that is below 0; NULL:
