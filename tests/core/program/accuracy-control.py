@@ -159,6 +159,12 @@ class Control(lab.Lab):
         self.assertEqual(sorted(answer["settings"]), ["first.cells", "last.cells"])
         self.assertEqual({run["settings"]["last.tolerance"] for run in answer["runs"]}, {"0.16 %"})
 
+    def test_tolerances_begin_at_the_level_next_to_what_is_asked(self):
+        """0.01 % by preset, and its twins a level coarser: 0.64 % at 10 %, 0.16 % at 0.02 %."""
+        for goal, most in ((10, 0.64), (0.02, 0.16)):
+            runs = self.ask(f"accuracy={goal} %")["accuracy"]["runs"]
+            self.assertEqual(max(float(run["settings"]["last.tolerance"].split()[0]) for run in runs), most)
+
     def test_where_no_coarser_tolerances_can_be_had_finer_ones_tell(self):
         """The error of 0.16 % by what lies between it and 0.04 %."""
         strengths = [f"{stage}.strength=0.001" for stage in ("first", "last")]
