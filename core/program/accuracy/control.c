@@ -27,7 +27,7 @@ static const double reference_error = 0.25;
    so that both together are within it. */
 static const double part = 0.5;
 /* By how many levels tolerances become finer at most from one attempt to the next: a sixteenth of
-   their part by the growth that is assumed (estimate.h), and the next attempt measures it anew. */
+   their part (estimate.h), and the next attempt measures it anew. */
 static const double most_at_once = 2;
 /* The first, and one for each level that counts and tolerances become finer by, are 9. */
 enum { MOST_ATTEMPTS = 10 };
@@ -162,7 +162,7 @@ static bool is_in_reach(const control *c, size_t error)
         return left > 0 && counts <= goal_of(c, e) * exp2(3 + 2 * left);
     return counts * exp2(-left * order_of(c, error)) +
                e->by_tolerances *
-                   pow(accuracy_tolerance_growth, accuracy_finest - c->open.at.tolerances) <=
+                   pow(accuracy_tolerance_factor, accuracy_finest - c->open.at.tolerances) <=
            goal_of(c, e);
 }
 
@@ -176,7 +176,7 @@ static accuracy_levels finer_for(const control *c, const accuracy_error *e)
     next.counts -= finer ? 1 : 0;
     if (e->by_tolerances > room)
         next.tolerances -=
-            fmin(ceil(log(e->by_tolerances / room) / log(accuracy_tolerance_growth)), most_at_once);
+            fmin(ceil(log(e->by_tolerances / room) / log(accuracy_tolerance_factor)), most_at_once);
     return next;
 }
 

@@ -10,6 +10,7 @@
 #include "estimate.h"
 
 #include "../memory/memory.h"
+#include "settings.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -213,7 +214,7 @@ double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares
 
 double accuracy_add_tolerances(const accuracy_ladder *l, double *error)
 {
-    const double growth = accuracy_tolerance_growth;
+    const double growth = accuracy_tolerance_factor;
     const double factor = safety * (l->is_finer ? growth : 1) / (growth - 1);
     double *all = memory_alloc(l->count * sizeof *all);
     for (size_t i = 0; i < l->count; i++) {

@@ -25,12 +25,6 @@ typedef struct accuracy_ladder {
     bool is_finer;
 } accuracy_ladder;
 
-/* What an error by the tolerances falls by from level to level: 4 where it goes with them. Of the
-   films of 62 random scenes (draw bcfa7f8f of error-bars.py, differences between time tolerances of
-   2.8e-2, 7e-3 and 1.75e-3 on 128 to 1024 cells) the median is 3 to 4, and one of ten is below
-   1.8. */
-static const double accuracy_tolerance_growth = 4;
-
 /*
  * Writes the estimated error of each number of the answer into error[count], and into
  * shares[refined_count] what part of it each setting has; they are 0 where that is not known, else
@@ -39,8 +33,8 @@ static const double accuracy_tolerance_growth = 4;
  */
 double accuracy_estimate(const accuracy_ladder *ladder, double *error, double *shares);
 
-/* Adds what the tolerances make of each number to its error; returns what is typical of it,
-   relative. There must be `tight` and `loose`. */
+/* Adds what the tolerances make of each number to its error, which goes with them; returns what is
+   typical of it, relative. There must be `tight` and `loose`. */
 double accuracy_add_tolerances(const accuracy_ladder *ladder, double *error);
 
 /* What the values stay below along 95 % of the length; of few or one, the largest. `at` rises and
