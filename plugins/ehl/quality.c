@@ -275,12 +275,8 @@ static void report_end_of_film(const ehl_results *r, const ehl_march *m)
             "complementarity");
 }
 
-static void report_resolution(const ehl_results *r)
+static void report_ends(const ehl_results *r)
 {
-    report_at_least(
-        r, "film_resolution", r->least_resolution, 4,
-        "least cells over the inlet's pressure rise; below 4 the film depends on the grid by "
-        "more than 2 %: use more cells");
     report_at_least(r, "inlet_length", r->least_inlet, 4,
                     "least length of the domain in front of the contact over sqrt(2 R h); below 4 "
                     "the film is starved by about 1 % or more: move the inlet out");
@@ -425,6 +421,10 @@ static void report_asperities(const ehl_results *r, const ehl_march *m)
         r, "contact_supply", r->worst_supply, 0.01, FF_DOUBTFUL,
         "oil that asperities in contact press out beyond what is between them, over the flow");
     report_at_least(
+        r, "film_resolution", r->least_resolution, 4,
+        "least cells over the inlet's pressure rise; below 4 the film depends on the grid by "
+        "more than 2 %: use more cells");
+    report_at_least(
         r, "cells_per_wavelength", ehl_roughness_wavelength(m->rough) / m->solver->grid->dx, 8,
         "cells over the mean distance of the peaks; below 8 the finest asperities are coarse");
 }
@@ -452,7 +452,7 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     report_end_of_film(r, m);
     report_inlet_tail(r);
     report_end_of_inlet(r);
-    report_resolution(r);
+    report_ends(r);
     ehl_results_report_cells(r, m);
     report_time_errors(r, m);
     report_contact_loss(r, m);

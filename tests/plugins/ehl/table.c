@@ -50,6 +50,14 @@ typedef struct result {
     double resolved;       /* cells over the inlet's pressure rise */
 } result;
 
+/* Theory (12.3). */
+static double cells_of_inlet(const line *c, double h_central, double dx)
+{
+    double R = c->radius[0], a = sqrt(8 * c->load[0] * R / (M_PI * c->modulus));
+    double l = a * pow(3 * h_central * R / (2 * sqrt(2) * a * a), 2. / 3);
+    return fmin(l, sqrt(2 * R * h_central)) / dx;
+}
+
 /* wedge: NULL for the models without one. */
 static result solve(const film_model *m, const row *r, size_t cells, const char *wedge)
 {
@@ -81,8 +89,7 @@ static result solve(const film_model *m, const row *r, size_t cells, const char 
     const double *x = stage_get(c.film, "x", &nodes), *p = stage_get(c.film, "pressure", NULL);
     for (size_t i = 0; i < nodes; i++)
         centre = fabs(x[i]) < fabs(x[centre]) ? i : centre;
-    if (m->solves)
-        out.resolved = stage_quality(c.film, "film_resolution");
+    out.resolved = cells_of_inlet(&c, line_value(&c, "h_central", 0), x[1] - x[0]);
     out.density = 1 + 0.34 * p[centre] / (0.59e9 + p[centre]);
     out.central = line_moes_film(&c, line_value(&c, "h_central", 0));
     out.error = line_value(&c, "h_min_error", 0) / line_value(&c, "h_min", 0);
