@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static double value(const ehl_results *r, size_t row, uint32_t output)
 {
@@ -71,10 +72,9 @@ static double half_width(const ehl_results *r, const ehl_history *h, size_t row)
 int ehl_outlet_moves(const ehl_passage *p, const ehl_results *r, size_t row)
 {
     const ehl_history h = engagement_of(r, p, row);
-    double far = half_width(r, &h, row) / 10;
-    size_t before = row_away(r, &h, row, far, 0), behind = row_away(r, &h, row, far, 1);
-    double way = way_between(r, &h, before, behind);
-    return fabs(half_width(r, &h, behind) - half_width(r, &h, before)) > way / 2;
+    double a = half_width(r, &h, row);
+    size_t before = row_away(r, &h, row, a / 10, 0);
+    return fabs(a - half_width(r, &h, before)) > way_between(r, &h, before, row) / 2;
 }
 
 void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m, size_t row,
@@ -89,16 +89,16 @@ void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m,
     while (p->last > row && !counts(r, p->last, kind))
         p->last--;
     p->begin = row_away(r, &h, p->first, length, 0);
+    p->row = row;
 }
 
-/* Returns the row that a step from this one leads to. Many steps of a run are shorter than a fifth
-   of a cell; of longer ones the films are less and less those of the run. Where the oil hardly
-   moves the flanks squeeze it instead: steps are no longer there than at a tenth of the largest
-   speed. */
-static size_t next_row(const ehl_results *r, const ehl_passage *p, const ehl_history *h, double dx,
+/* Returns the row that a step from this one leads to, on which the oil moves by `way` at least.
+   Where it hardly moves the flanks squeeze it instead: steps are no longer there than at a tenth of
+   the largest speed. */
+static size_t next_row(const ehl_results *r, const ehl_passage *p, const ehl_history *h, double way,
                        size_t row)
 {
-    const double way = dx / 5, longest = way / (0.1 * h->speed_max);
+    const double longest = way / (0.1 * h->speed_max);
     double time = value(r, row, EHL_TIME);
     size_t next = row + 1;
     while (next < p->last && way_between(r, h, row, next) < way &&
@@ -109,7 +109,7 @@ static size_t next_row(const ehl_results *r, const ehl_passage *p, const ehl_his
 
 /* Marches to the last row and keeps h_min and h_central of those that a step leads to, from the
    first one on. */
-static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_passage *p,
+static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_passage *p, double way,
                       ehl_grid_level *l, double (*film)[EHL_PEAK])
 {
     enum { BETWEEN = 16 };
@@ -130,7 +130,7 @@ static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_pass
         }
         if (row == p->last)
             break;
-        row = next_row(r, p, &h, run->solver->grid->dx, row);
+        row = next_row(r, p, &h, way, row);
         status = k % BETWEEN == 0 && r->host->progress(r->host->ctx, 1)
                      ? FF_STOPPED
                      : ehl_step_control_to(&steps, &m, value(r, row, EHL_TIME));
@@ -142,7 +142,7 @@ static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_pass
 
 /* Does so on `times` the cells of the run. */
 static ff_status pass_on(const ehl_results *r, const ehl_march *run, const ehl_passage *p,
-                         size_t times, double (*film)[EHL_PEAK])
+                         double way, size_t times, double (*film)[EHL_PEAK])
 {
     const double tolerance = 2e-4; /* what films leave adds up on the way */
     ehl_solver kind = *run->solver;
@@ -153,23 +153,24 @@ static ff_status pass_on(const ehl_results *r, const ehl_march *run, const ehl_p
         ehl_grid_level_create(&l, &kind, times * (kind.grid->nodes - 1), kind.modulus);
     l.solver.tolerance = tolerance;
     if (status == FF_OK)
-        status = pass(r, run, p, &l, film);
+        status = pass(r, run, p, way, &l, film);
     ehl_grid_level_destroy(&l);
     return status;
 }
 
-ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
-                             double (*error)[EHL_PEAK])
+/* As ehl_passage_errors, by steps of that way at least; fine: of as many rows. */
+static ff_status find_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
+                             double way, double (*fine)[EHL_PEAK], double (*error)[EHL_PEAK])
 {
     const uint32_t of[] = {EHL_H_MIN, EHL_H_CENTRAL};
     /* what both twins miss alike falls out of their difference; with heat it is much the same */
     const double within = m->heat || m->thermal ? 10 : 0.25;
     const double left = ldexp(1, -ehl_carrying_order(m->solver->reynolds));
     size_t count = p->last - p->first + 1;
-    double(*fine)[EHL_PEAK] = malloc(count * sizeof *fine);
-    ff_status status = fine ? pass_on(r, m, p, 1, error) : FF_NOMEM;
+    memset(error, 0, count * sizeof *error);
+    ff_status status = pass_on(r, m, p, way, 1, error);
     if (status == FF_OK)
-        status = pass_on(r, m, p, 2, fine);
+        status = pass_on(r, m, p, way, 2, fine);
     for (size_t i = count; i-- > 0 && status == FF_OK;)
         for (int k = EHL_LEAST; k < EHL_PEAK; k++) {
             double coarse = error[i][k], film = value(r, p->first + i, of[k]);
@@ -181,6 +182,22 @@ ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl
             if (!(fabs(coarse / film - 1) <= within * fmax(EHL_FILM_LIMIT, fabs(error[i][k]))))
                 error[i][k] = NAN;
         }
+    return status;
+}
+
+ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
+                             int kind, double (*error)[EHL_PEAK])
+{
+    /* Many steps of a run are shorter than a fifth of a cell. Where its load vibrates, films by
+       longer ones are not its own. */
+    static const double ways[] = {0.2, 0.05, 0.0125};
+    double(*fine)[EHL_PEAK] = malloc((p->last - p->first + 1) * sizeof *fine);
+    ff_status status = fine ? FF_OK : FF_NOMEM;
+    for (size_t k = 0; k < sizeof ways / sizeof *ways && status == FF_OK; k++) {
+        status = find_errors(r, m, p, ways[k] * m->solver->grid->dx, fine, error);
+        if (status == FF_OK && !isnan(error[p->row - p->first][kind]))
+            break;
+    }
     free(fine);
     return status;
 }

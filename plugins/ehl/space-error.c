@@ -343,23 +343,45 @@ static void put_errors(ehl_results *r, const ehl_passage *p, double (*error)[EHL
     }
 }
 
+/* Returns the row of the lowest film of all. */
+static size_t lowest_row(const ehl_results *r)
+{
+    size_t row = 0;
+    while (row + 1 < r->series.count && film_of(r, row, EHL_LEAST) > r->lowest)
+        row++;
+    return row;
+}
+
+/* Returns the row that the error of an output hangs on, when that is not known: the worst; else
+   that of the lowest film of all, wherever its outlet moves, since bounds are those of steady
+   films. SIZE_MAX: there is none. */
+static size_t find_row(const ehl_results *r, const ehl_passage *p, int kind, double enough)
+{
+    size_t row = worst_row(r, kind);
+    if (error_of_row(r, row, kind) > enough && !(p->last > 0 && row >= p->first && row <= p->last))
+        return row;
+    row = lowest_row(r);
+    return is_extreme(r, kind) && !is_measured(r, row, kind) && ehl_outlet_moves(p, r, row)
+               ? row
+               : SIZE_MAX;
+}
+
 /* Measures the films that the error of an output hangs on, and once more where those were not all.
-   The lowest film of all is looked at from half of the limit on, and wherever the outlet moves: the
-   bounds are those of steady films. */
+   The lowest film of all is looked at from half of the limit on. */
 static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p, int kind)
 {
     enum { MOST = 2 };
     double enough = is_extreme(r, kind) ? EHL_FILM_LIMIT / 2 : EHL_FILM_LIMIT;
     ff_status status = FF_OK;
+    p->first = p->last = 0;
     for (int k = 0; k < MOST && status == FF_OK; k++, enough = EHL_FILM_LIMIT) {
-        size_t row = worst_row(r, kind);
-        int moves = k == 0 && is_extreme(r, kind) && ehl_outlet_moves(p, r, row);
-        if (!(moves || error_of_row(r, row, kind) > enough) ||
-            (k > 0 && row >= p->first && row <= p->last))
+        size_t row = find_row(r, p, kind, enough);
+        if (row == SIZE_MAX)
             break;
+        int moves = is_extreme(r, kind) && ehl_outlet_moves(p, r, row);
         ehl_passage_about(p, r, m, row, moves ? is_low : is_doubtful, kind);
         double(*error)[EHL_PEAK] = calloc(p->last - p->first + 1, sizeof *error);
-        status = error ? ehl_passage_errors(r, m, p, error) : FF_NOMEM;
+        status = error ? ehl_passage_errors(r, m, p, kind, error) : FF_NOMEM;
         if (status == FF_OK)
             put_errors(r, p, error, kind);
         free(error);
