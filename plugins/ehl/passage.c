@@ -78,7 +78,7 @@ int ehl_outlet_moves(const ehl_passage *p, const ehl_results *r, size_t row)
 }
 
 void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m, size_t row,
-                       int (*counts)(const ehl_results *r, size_t row, int kind), int kind)
+                       ehl_row_counts *counts, int kind)
 {
     const ehl_history h = engagement_of(r, p, row);
     const double length = length_of_passage(r, m, &h, row);
@@ -89,7 +89,6 @@ void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m,
     while (p->last > row && !counts(r, p->last, kind))
         p->last--;
     p->begin = row_away(r, &h, p->first, length, 0);
-    p->row = row;
 }
 
 /* Returns the row that a step from this one leads to, on which the oil moves by `way` at least.
@@ -186,17 +185,19 @@ static ff_status find_errors(const ehl_results *r, const ehl_march *m, const ehl
 }
 
 ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
-                             int kind, double (*error)[EHL_PEAK])
+                             ehl_row_counts *counts, int kind, double (*error)[EHL_PEAK])
 {
     /* Many steps of a run are shorter than a fifth of a cell. Where its load vibrates, films by
        longer ones are not its own. */
     static const double ways[] = {0.2, 0.05, 0.0125};
     double(*fine)[EHL_PEAK] = malloc((p->last - p->first + 1) * sizeof *fine);
     ff_status status = fine ? FF_OK : FF_NOMEM;
-    for (size_t k = 0; k < sizeof ways / sizeof *ways && status == FF_OK; k++) {
+    int left = 1;
+    for (size_t k = 0; k < sizeof ways / sizeof *ways && status == FF_OK && left; k++) {
         status = find_errors(r, m, p, ways[k] * m->solver->grid->dx, fine, error);
-        if (status == FF_OK && !isnan(error[p->row - p->first][kind]))
-            break;
+        left = 0;
+        for (size_t i = p->first; i <= p->last && status == FF_OK; i++)
+            left |= isnan(error[i - p->first][kind]) && counts(r, i, kind);
     }
     free(fine);
     return status;

@@ -13,26 +13,28 @@ typedef struct ehl_passage {
     const ehl_history *whole;  /* of all engagements */
     int equal;                 /* the lengths of the steps were given */
     size_t begin, first, last; /* rows of the series, of one engagement: looked at from first on */
-    size_t row;                /* of these, the one that they are looked at for */
 } ehl_passage;
+
+/* Whether a row counts for the error of an output. */
+typedef int ehl_row_counts(const ehl_results *r, size_t row, int kind);
 
 /* Sets the rows: looks at those about one that `count`, no further than a passage away from it, and
    begins a passage before. */
 void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m, size_t row,
-                       int (*counts)(const ehl_results *r, size_t row, int kind), int kind);
+                       ehl_row_counts *counts, int kind);
 
 /* Returns 1 when the end of the contact has moved at more than half the speed of the oil there,
    since the film of the row has come from a tenth of its half-width upstream. */
 int ehl_outlet_moves(const ehl_passage *p, const ehl_results *r, size_t row);
 
 /*
- * kind: what the row is looked at for. error: of h_min and h_central by the cells for each of the
+ * kind: what the rows are looked at for. error: of h_min and h_central by the cells for each of the
  * rows, relative, positive where the film is too thick. NaN where the film on the cells of the run
  * is not that of the run within a quarter of the error or of its limit, or, with heat, ten times of
  * these, however short the steps: where it remembers more than a passage. FF_OK, or a failure that
  * leaves no errors.
  */
 ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
-                             int kind, double (*error)[EHL_PEAK]);
+                             ehl_row_counts *counts, int kind, double (*error)[EHL_PEAK]);
 
 #endif

@@ -379,9 +379,10 @@ static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p
         if (row == SIZE_MAX)
             break;
         int moves = is_extreme(r, kind) && ehl_outlet_moves(p, r, row);
-        ehl_passage_about(p, r, m, row, moves ? is_low : is_doubtful, kind);
+        ehl_row_counts *counts = moves ? is_low : is_doubtful;
+        ehl_passage_about(p, r, m, row, counts, kind);
         double(*error)[EHL_PEAK] = calloc(p->last - p->first + 1, sizeof *error);
-        status = error ? ehl_passage_errors(r, m, p, kind, error) : FF_NOMEM;
+        status = error ? ehl_passage_errors(r, m, p, counts, kind, error) : FF_NOMEM;
         if (status == FF_OK)
             put_errors(r, p, error, kind);
         free(error);

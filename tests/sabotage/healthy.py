@@ -19,8 +19,8 @@ With --reference each scene is run again with four times the stations and three 
 a third of the time_tolerance, and twice the cells, which are doubled until it is known whether
 h_min_lowest and p_max_highest are within the limits of their lines (2 and 10 %) and dte_rms within
 2 %: until that holds, or not, also if the reference moved once more by as much as it did last.
-Where p_max_space_error is not good they are doubled to the end unless it is found off, since 1024
-cells may leave a spike out altogether. The references are added to FILE, from which a campaign
+Where p_max_space_error or h_min_space_error is not good they are doubled to the end unless it is
+found off, since 1024 cells may leave a spike out altogether, and the dip of a film half in. The references are added to FILE, from which a campaign
 goes on; the scene itself is run anew. A scene
 is healthy when it is known to be within these limits and its model leaves nothing out; of the
 healthy those are counted of which a line of any stage is not good, and of those that are off those
@@ -44,6 +44,7 @@ BALANCES = {'contact_conditions', 'load_balance', 'load_rescaling', 'film_shape'
             'film_end', 'contact_supply'}
 LEFT_OUT = {'inlet_heating', 'lambda', 'lambda_ratio', 'law_range', 'continuum',
             'one_way_gap_error'}
+SPACE = {'film.h_min_space_error', 'film.p_max_space_error'}
 OUTPUTS = ['film.h_min', 'film.p_max', 'film.traction', 'film.power_loss']
 COMPARED = ['film.h_central', 'film.engagement', 'film.time', 'tooth.time', 'tooth.load_per_width']
 
@@ -133,11 +134,11 @@ def verdict(own, references):
     return 'healthy' if within else ''
 
 
-def refer(runner, seed, own, references, film, spike):
+def refer(runner, seed, own, references, film, doubted):
     """Adds references of more and more cells until they tell; None: there is none."""
     for cells in CELLS[len(references):]:
         word = verdict(own, references) if references else ''
-        if word == 'off' or word and not spike:
+        if word == 'off' or word and not doubted:
             break
         finer = headlines(runner.run(drawn(seed), list(HEADLINES), film=film,
                                      sets=REFINED + [f'film.cells={cells}']))
@@ -156,9 +157,9 @@ def against_reference(runner, options):
         answer = runner.run(drawn(seed), list(HEADLINES), film=options.film)
         own, lines = headlines(answer), poor_lines(answer)
         before = known.get(seed, [])
-        spike, references = 'film.p_max_space_error' in lines, None
+        doubted, references = SPACE & lines.keys(), None
         if None not in own:
-            references = refer(runner, seed, own, list(before), options.film, spike)
+            references = refer(runner, seed, own, list(before), options.film, doubted)
         if references and len(references) > len(before):
             with open(options.reference, 'a', encoding='utf-8') as stream:
                 print(json.dumps({'seed': seed, 'references': references}), file=stream)
