@@ -105,9 +105,11 @@ static ff_status eval_cold(const void *law, const density_shape *shape, size_t n
     for (size_t from = 0; !drho_dp && from < n; from += BLOCK)
         shape->curve(law, ambient.rho0, n - from < BLOCK ? n - from : BLOCK, p + from, rho + from,
                      unwanted);
-    if (any_outside(n, p, 0, HUGE_VAL))
+    int outside = any_outside(n, p, 0, shape->highest);
+    if (outside) {
         bend_tension(ambient.rho0, shape->K0, n, p, rho, drho_dp);
-    int outside = any_outside(n, p, -shape->K0 / 2, shape->highest);
+        outside = any_outside(n, p, -shape->K0 / 2, shape->highest);
+    }
     return density_end(law, &ambient, outside ? FF_DOMAIN : FF_OK, n, T, rho, drho_dp, drho_dT);
 }
 

@@ -24,46 +24,55 @@ static const double *smooth_gaps(ehl_balance *b, const ehl_march *m)
     return b->left;
 }
 
-/* Returns the sum of x p over n nodes, the first of which is at x; adds that of the gap times the
-   rise of p to the node behind each to *work. */
+typedef struct moments {
+    double load, moment, arm; /* of p, x p and |x p| */
+    double rise;              /* of p and the gap from the node before to the one behind */
+} moments;
+
+/* Returns their sums over the nodes that have one on each side, the first of which is at x. */
 FF_SIMD
-static double moment_of(size_t n, const double *restrict p, const double *restrict gap, double x,
-                        double dx, double *work)
+static moments moments_of(size_t n, const double *restrict p, const double *restrict gap, double x,
+                          double dx)
 {
-    ehl_lanes moment = {0}, rise = {0}, place = {0, 1, 2, 3}, of[4];
-    size_t i = 0;
-    for (; i + EHL_LANES <= n; i += EHL_LANES, place += (double)EHL_LANES) {
-        for (size_t k = 0; k < 2; k++) {
-            memcpy(&of[k], p + i + k, sizeof of[k]);
-            memcpy(&of[2 + k], gap + i + k, sizeof of[k]);
-        }
-        moment += (x + place * dx) * of[0];
-        rise += (of[2] + of[3]) / 2 * (of[1] - of[0]);
+    ehl_lanes load = {0}, moment = {0}, arm = {0}, rise = {0}, here, before, behind,
+              place = {x, x + dx, x + 2 * dx, x + 3 * dx};
+    size_t i = 1;
+    for (; i + EHL_LANES < n; i += EHL_LANES, place += EHL_LANES * dx) {
+        memcpy(&here, p + i, sizeof here);
+        memcpy(&before, gap + i - 1, sizeof before);
+        memcpy(&behind, gap + i + 1, sizeof behind);
+        load += here;
+        rise += here * (behind - before);
+        here *= place;
+        moment += here;
+        arm += (ehl_lanes)((ehl_lanes_bits)here & INT64_MAX); /* without its sign */
     }
-    for (; i < n; i++) {
-        moment[0] += (x + (double)i * dx) * p[i];
-        rise[0] += (gap[i] + gap[i + 1]) / 2 * (p[i + 1] - p[i]);
+    moments sum = {ehl_lanes_sum(&load), ehl_lanes_sum(&moment), ehl_lanes_sum(&arm),
+                   ehl_lanes_sum(&rise)};
+    for (; i + 1 < n; i++) {
+        double turn = (x + (double)(i - 1) * dx) * p[i];
+        sum.load += p[i];
+        sum.moment += turn;
+        sum.arm += fabs(turn);
+        sum.rise += p[i] * (gap[i + 1] - gap[i - 1]);
     }
-    *work += ehl_lanes_sum(&rise);
-    return ehl_lanes_sum(&moment);
+    return sum;
 }
 
-/* Checks u_r int h dp/dx dx against the moment of the pressure, -(1/R) int x p dx: the deflection
-   by a pressure adds nothing to it. The first and the last gap are not those of the flanks where
-   they are rough. */
+/* Checks -int h dp/dx dx = int p dh/dx dx, p being 0 at both ends, against the moment of the
+   pressure, (1/R) int x p dx: the deflection by a pressure adds nothing to it. The first and the
+   last gap are not those of the flanks where they are rough. */
 void ehl_balance_moment(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *p = m->state[0].film.p, *gap = smooth_gaps(b, m);
-    size_t n = b->nodes, centre = (size_t)fmin(fmax(ceil(-eq->first / eq->dx), 0), (double)n - 1);
-    double middle = eq->first + (double)centre * eq->dx, work = 0,
-           before = moment_of(centre, p, gap, eq->first, eq->dx, &work),
-           behind = moment_of(n - 1 - centre, p + centre, gap + centre, middle, eq->dx, &work);
+    const double *p = m->state[0].film.p;
+    moments sum = moments_of(b->nodes, p, smooth_gaps(b, m), eq->first + eq->dx, eq->dx);
     double scale = eq->dx / m->step.radius;
-    b->moment = behind + before;
-    b->arm = behind - before;
+    b->load = sum.load * eq->dx;
+    b->moment = sum.moment;
+    b->arm = sum.arm;
     if (!(b->arm <= 0)) /* as well where it is no number */
-        ehl_worse(&b->worst.moment, fabs(work + scale * b->moment) / (scale * b->arm));
+        ehl_worse(&b->worst.moment, fabs(sum.rise / 2 - scale * b->moment) / (scale * b->arm));
 }
 
 /* Returns how far h is off the shape of the flanks, rough ones where their traces stand, except for
@@ -85,8 +94,8 @@ void ehl_balance_gap(ehl_balance *b, const ehl_march *m)
     const ehl_grid *g = m->solver->grid;
     double a = ehl_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
     size_t least = 1;
-    for (size_t i = 1; i + 1 < b->nodes; i++)
-        least = eq->h[i] < eq->h[least] ? i : least;
+    for (double h = ehl_least(b->nodes - 2, eq->h + 1); eq->h[least] > h;)
+        least++;
     double there = gap_off_shape(b, m, least);
     if (!m->solver->outside) /* whose h00 may be counted from elsewhere */
         ehl_worse(&b->worst.gap, fabs(there - m->state[0].film.h00) / eq->h[least]);

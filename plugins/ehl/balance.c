@@ -11,16 +11,15 @@ static const double pi = 3.14159265358979323846;
 
 ff_status ehl_balance_create(ehl_balance *b, const ehl_march *m)
 {
-    enum { OWN = 11, KERNEL = 2 };
+    enum { OWN = 10, KERNEL = 2 };
     const ehl_grid *g = m->solver->grid;
     size_t n = g->nodes;
     *b = (ehl_balance){.nodes = n};
     double *next = b->memory = calloc((OWN + KERNEL) * n, sizeof *next);
     if (!next)
         return FF_NOMEM;
-    double **own[OWN] = {&b->rho,     &b->ln_eta,  &b->psi,     &b->slope_1,
-                         &b->slope_2, &b->mass[0], &b->mass[1], &b->mass[2],
-                         &b->change,  &b->face,    &b->left};
+    double **own[OWN] = {&b->rho,     &b->ln_eta,  &b->psi,    &b->volume, &b->mass[0],
+                         &b->mass[1], &b->mass[2], &b->change, &b->face,   &b->left};
     for (size_t k = 0; k < OWN; k++, next += n)
         *own[k] = next;
     b->kernel = next + n;
@@ -81,8 +80,7 @@ static void check_conditions(ehl_balance *b, const ehl_march *m)
     if (m->contact_lost || !m->step.loaded)
         return;
     ehl_worse(&b->worst.conditions, fabs(m->step.load - load) / h->load_max);
-    double carried = ehl_sum(b->nodes, m->state[0].film.p) * m->solver->reynolds->dx;
-    ehl_worse(&b->worst.load, fabs(carried - load) / h->load_max);
+    ehl_worse(&b->worst.load, fabs(b->load - load) / h->load_max);
     ehl_worse(&b->worst.rescaling, m->solver->rescaling);
 }
 
@@ -102,15 +100,17 @@ static double carrying(const ehl_reynolds *eq, size_t i)
     return eq->carry ? eq->carry[i] : 1;
 }
 
-/* Computes the masses of one of the newest films from its pressure and gap. */
+/* Computes the masses of one of the newest films from its pressure and gap; of the newest b->rho,
+   too. */
 static void compute_mass(const ehl_balance *b, const ehl_march *m, size_t k)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[k].film;
     const double *h = k == 0 ? eq->h : m->state[k].gap;
-    eq->laws.density->eval(eq->laws.density->self, b->nodes, film->p, NULL, b->rho, NULL, NULL);
+    double *rho = k == 0 ? b->rho : b->mass[k];
+    eq->laws.density->eval(eq->laws.density->self, b->nodes, film->p, NULL, rho, NULL, NULL);
     for (size_t i = 0; i < b->nodes; i++)
-        b->mass[k][i] = b->rho[i] * h[i];
+        b->mass[k][i] = rho[i] * h[i];
     for (size_t i = 0; eq->conserving && i < b->nodes; i++)
         b->mass[k][i] = is_void(eq, film, i) ? film->content[i] : b->mass[k][i];
     if (eq->swell && k > 0)
@@ -181,8 +181,7 @@ static void fill_faces(size_t n, const double *restrict f, const double *restric
         face[i] = between(f[i], f[i + 1]) * (p[i + 1] - p[i]) / dx;
 }
 
-/* Computes b->psi = f of (7.1), and the pressure flow between the nodes, with b->rho of the newest
-   film. */
+/* Computes b->psi = f of (7.1), and the pressure flow between the nodes. */
 static void compute_flow(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
@@ -191,7 +190,7 @@ static void compute_flow(ehl_balance *b, const ehl_march *m)
     eq->laws.viscosity->eval(eq->laws.viscosity->self, n, p, NULL, b->ln_eta, NULL, NULL);
     if (eq->laws.rheology)
         eq->laws.rheology->flow(eq->laws.rheology->self, n, b->ln_eta, h, m->step.sliding, b->psi,
-                                b->slope_1, b->slope_2);
+                                NULL, NULL);
     else
         for (size_t i = 0; i < n; i++)
             b->psi[i] = exp(-b->ln_eta[i]);
@@ -294,17 +293,17 @@ static void check_cavitated(ehl_balance *b, const ehl_march *m, double p_max)
     }
 }
 
-/* Computes P = int dp/rho by Simpson's rule, in b->slope_1. */
+/* Computes b->volume = int dp/rho by Simpson's rule. */
 static void integrate_volume(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
+    double *half = b->mass[1], *volume = b->volume; /* the change of the masses is known */
     for (size_t i = 0; i < b->nodes; i++)
-        b->slope_2[i] = p[i] / 2;
-    eq->laws.density->eval(eq->laws.density->self, b->nodes, b->slope_2, NULL, b->slope_1, NULL,
-                           NULL);
+        half[i] = p[i] / 2;
+    eq->laws.density->eval(eq->laws.density->self, b->nodes, half, NULL, volume, NULL, NULL);
     for (size_t i = 0; i < b->nodes; i++)
-        b->slope_1[i] = p[i] / 6 * (1 / eq->oil.density + 4 / b->slope_1[i] + 1 / b->rho[i]);
+        volume[i] = p[i] / 6 * (1 / eq->oil.density + 4 / volume[i] + 1 / b->rho[i]);
 }
 
 /*
@@ -321,11 +320,11 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
     double D = 0, work = 0;
     integrate_volume(b, m);
     for (size_t i = 1; i + 1 < b->nodes; i++) {
-        D += b->face[i] * (b->slope_1[i + 1] - b->slope_1[i]);
+        D += b->face[i] * (b->volume[i + 1] - b->volume[i]);
         work += h[i] * swelling(eq, i) * carrying(eq, i) * (p[i + 1] - p[i - 1]) / 2;
     }
-    double off = ehl_dot(b->nodes - 2, b->slope_1 + 1, b->left + 1),
-           stored = ehl_dot(b->nodes - 2, b->slope_1 + 1, b->change + 1) * eq->dx;
+    double off = ehl_dot(b->nodes - 2, b->volume + 1, b->left + 1),
+           stored = ehl_dot(b->nodes - 2, b->volume + 1, b->change + 1) * eq->dx;
     work *= m->step.entrainment;
     double scale = D + fabs(work) + fabs(stored);
     if (scale <= 0)
@@ -338,25 +337,24 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
 /* Two faces, and the nodes whose mobility the flow through each takes. */
 enum { FACES = 2, MOST_OF_FACE = 3 };
 
-/* Fills in f of (7.1) at n nodes. */
+/* Fills in f of (7.1) at n nodes, with rho h by the masses. */
 static void fill_mobilities(const ehl_march *m, size_t n, const size_t *node, double *f)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     enum { MOST = FACES * MOST_OF_FACE };
-    double p[MOST], h[MOST], rho[MOST], ln_eta[MOST], slopes[2][MOST];
+    double p[MOST], h[MOST], ln_eta[MOST];
     for (size_t k = 0; k < n; k++) {
         p[k] = m->state[0].film.p[node[k]];
         h[k] = eq->h[node[k]];
     }
-    eq->laws.density->eval(eq->laws.density->self, n, p, NULL, rho, NULL, NULL);
     eq->laws.viscosity->eval(eq->laws.viscosity->self, n, p, NULL, ln_eta, NULL, NULL);
     if (eq->laws.rheology)
-        eq->laws.rheology->flow(eq->laws.rheology->self, n, ln_eta, h, m->step.sliding, f,
-                                slopes[0], slopes[1]);
+        eq->laws.rheology->flow(eq->laws.rheology->self, n, ln_eta, h, m->step.sliding, f, NULL,
+                                NULL);
     for (size_t k = 0; k < n; k++) {
         double psi = eq->laws.rheology ? f[k] : exp(-ln_eta[k]);
-        f[k] = rho[k] * h[k] * h[k] * h[k] * psi / 12 *
-               (eq->ease ? eq->ease[node[k]] * swelling(eq, node[k]) : 1);
+        f[k] =
+            m->state[0].mass[node[k]] * h[k] * h[k] * psi / 12 * (eq->ease ? eq->ease[node[k]] : 1);
     }
 }
 
@@ -426,8 +424,8 @@ double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const double *p = m->state[0].film.p;
-    check_conditions(b, m);
     ehl_balance_moment(b, m);
+    check_conditions(b, m);
     if (!m->rough)
         check_content(b, m);
     if (!wholly)
@@ -437,11 +435,11 @@ double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly)
     check_kept_oil(b, m);
     if (m->rough)
         return 0;
-    size_t peak = 0;
-    for (size_t i = 0; i < b->nodes; i++)
-        peak = p[i] > p[peak] ? i : peak;
+    double p_max = ehl_greatest(b->nodes, p, 0);
+    size_t peak = b->nodes - 1;
+    while (peak > 0 && !(p[peak] >= p_max))
+        peak--;
     differentiate(b, m);
-    eq->laws.density->eval(eq->laws.density->self, b->nodes, p, NULL, b->rho, NULL, NULL);
     compute_flow(b, m);
     if (eq->asymmetric)
         balance_intervals(b, m);

@@ -36,13 +36,15 @@ typedef struct ehl_balance {
     size_t nodes, row; /* of the history, at or in front of the last instant */
     double *memory;
     double *kernel; /* deflection by a pressure on the cell k nodes away, k from 1 - nodes on */
-    double *rho, *ln_eta, *psi, *slope_1, *slope_2;
+    double *rho, *ln_eta, *psi;
+    double *volume;  /* int dp/rho, J/kg */
     double *mass[3]; /* of the three newest films */
     double *change;  /* of the mass, in time */
     double *face;    /* pressure flow between node i and i + 1 */
     double *left;    /* mass that volume i gains */
     ehl_content content;
-    double moment, arm; /* N: sums of x p and |x| p over the nodes, of the last instant */
+    double load;        /* N/m, that the pressure of the last instant carries */
+    double moment, arm; /* N: sums of x p and |x p| over the nodes, of the last instant */
     double unbalanced;  /* W/m, of the energy of the last instant by other sums */
     ehl_imbalance worst;
 } ehl_balance;

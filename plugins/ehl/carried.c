@@ -19,9 +19,9 @@ int ehl_carrying_order(const ehl_reynolds *eq)
     return eq->asymmetric && eq->conserving ? 1 : eq->wedge;
 }
 
-/* Factors of the differences between neighbours, from nodes i-3, i-2 to i+2, i+3. */
+/* Factors of the nodes i-3 to i+3. */
 typedef struct stencil {
-    double of[6];
+    double of[7];
 } stencil;
 
 /*
@@ -32,12 +32,12 @@ typedef struct stencil {
 static stencil local_error(const ehl_reynolds *eq)
 {
     if (eq->asymmetric && eq->conserving)
-        return (stencil){{0, 0, -1. / 2, 1. / 2, 0, 0}};
+        return (stencil){{0, 0, 1. / 2, -1, 1. / 2, 0, 0}};
     if (eq->asymmetric && eq->wedge == 2)
-        return (stencil){{0, 0, 1. / 12, -2. / 12, 1. / 12, 0}};
+        return (stencil){{0, 0, -1. / 12, 3. / 12, -3. / 12, 1. / 12, 0}};
     if (eq->wedge == 2)
-        return (stencil){{1. / 60, 22. / 60, -53. / 60, 37. / 60, -8. / 60, 1. / 60}};
-    return (stencil){{1. / 60, -8. / 60, -23. / 60, 37. / 60, -8. / 60, 1. / 60}};
+        return (stencil){{-1. / 60, -21. / 60, 75. / 60, -90. / 60, 45. / 60, -9. / 60, 1. / 60}};
+    return (stencil){{-1. / 60, 9. / 60, 15. / 60, -60. / 60, 45. / 60, -9. / 60, 1. / 60}};
 }
 
 FF_SIMD
@@ -45,11 +45,11 @@ static void add_local(size_t n, const double *restrict mass, double cells, const
                       double *restrict error)
 {
     const double c0 = s->of[0], c1 = s->of[1], c2 = s->of[2], c3 = s->of[3], c4 = s->of[4],
-                 c5 = s->of[5];
+                 c5 = s->of[5], c6 = s->of[6];
     for (size_t i = 0; i < n; i++) {
         const double *m = mass + i;
-        double off = c0 * (m[-2] - m[-3]) + c1 * (m[-1] - m[-2]) + c2 * (m[0] - m[-1]) +
-                     c3 * (m[1] - m[0]) + c4 * (m[2] - m[1]) + c5 * (m[3] - m[2]);
+        double off =
+            c0 * m[-3] + c1 * m[-2] + c2 * m[-1] + c3 * m[0] + c4 * m[1] + c5 * m[2] + c6 * m[3];
         error[i] += cells * off / m[0];
     }
 }
@@ -71,17 +71,18 @@ static void place(ehl_carried *c, const ehl_stretch *s, size_t nodes)
 void ehl_carried_add(ehl_carried *c, const ehl_march *m, const ehl_stretch *s)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    size_t n = eq->nodes;
+    size_t n = eq->nodes - c->first;
+    double *error = c->error + c->first;
     double cells = m->at.entrainment * (m->at.time - c->time) / eq->dx;
     int goes_on = m->known > 1 && c->mirrored == m->mirrored && cells >= 0;
     c->time = m->at.time;
     c->mirrored = m->mirrored;
     c->part = goes_on ? c->part + cells : 0;
     size_t whole = goes_on && c->part < (double)n ? (size_t)c->part : n;
-    memmove(c->error + whole, c->error, (n - whole) * sizeof *c->error);
-    memset(c->error, 0, whole * sizeof *c->error);
+    memmove(error + whole, error, (n - whole) * sizeof *error);
+    memset(error, 0, whole * sizeof *error);
     c->part -= floor(c->part);
-    place(c, s, n);
+    place(c, s, eq->nodes);
     stencil local = local_error(eq);
     if (goes_on)
         add_local(c->end - c->first, m->state[0].mass + c->first, cells, &local,
@@ -105,9 +106,10 @@ static double least_without(size_t n, const double *restrict h, const double *re
         here *= 1 - off;
         ehl_lanes_keep_least(&least, &here);
     }
+    double lowest = ehl_lanes_least(&least);
     for (; i < n; i++)
-        least[0] = fmin(least[0], h[i] * (1 - error[i]));
-    return fmin(fmin(least[0], least[1]), fmin(least[2], least[3]));
+        lowest = ehl_lesser(h[i] * (1 - error[i]), lowest);
+    return lowest;
 }
 
 double ehl_carried_of_least(const ehl_carried *c, size_t nodes, const double *h, double least)

@@ -27,7 +27,7 @@ static contact contact_at(const ehl_reynolds *eq, const ehl_instant *at, double 
                      .sliding = at->sliding,
                      .opening = sqrt(2 * radius * h),
                      .buildup = ehl_inlet_buildup(a, radius, h),
-                     .L = oil->alpha * modulus * pow(2 * U, 0.25)};
+                     .L = oil->alpha * modulus * sqrt(sqrt(2 * U))};
 }
 
 /* Errors as shares: by the cells and by the time steps. */

@@ -42,9 +42,10 @@ double ehl_least(size_t n, const double *restrict x)
         memcpy(&here, x + i, sizeof here);
         ehl_lanes_keep_least(&least, &here);
     }
+    double lowest = ehl_lanes_least(&least);
     for (; i < n; i++)
-        least[0] = x[i] < least[0] ? x[i] : least[0];
-    return fmin(fmin(least[0], least[1]), fmin(least[2], least[3]));
+        lowest = ehl_lesser(x[i], lowest);
+    return lowest;
 }
 
 FF_SIMD
@@ -56,9 +57,10 @@ double ehl_greatest(size_t n, const double *restrict x, double least)
         memcpy(&here, x + i, sizeof here);
         ehl_lanes_keep_greatest(&most, &here);
     }
+    double highest = ehl_lanes_greatest(&most);
     for (; i < n; i++)
-        most[0] = fmax(most[0], x[i]);
-    return fmax(fmax(most[0], most[1]), fmax(most[2], most[3]));
+        highest = ehl_greater(x[i], highest);
+    return highest;
 }
 
 FF_SIMD
@@ -71,7 +73,8 @@ double ehl_greatest_size(size_t n, const double *restrict x)
         here = (ehl_lanes)((ehl_lanes_bits)here & INT64_MAX); /* without its sign */
         ehl_lanes_keep_greatest(&most, &here);
     }
+    double highest = ehl_lanes_greatest(&most);
     for (; i < n; i++)
-        most[0] = fmax(most[0], fabs(x[i]));
-    return fmax(fmax(most[0], most[1]), fmax(most[2], most[3]));
+        highest = ehl_greater(fabs(x[i]), highest);
+    return highest;
 }

@@ -16,17 +16,46 @@ FF_SIMD_INLINE double ehl_lanes_sum(const ehl_lanes *values)
     return (*values)[0] + (*values)[1] + ((*values)[2] + (*values)[3]);
 }
 
+/* The lesser, or the greater, of a and b; b where one is no number. */
+FF_SIMD_INLINE double ehl_lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+FF_SIMD_INLINE double ehl_greater(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+FF_SIMD_INLINE double ehl_lanes_least(const ehl_lanes *x)
+{
+    double found = (*x)[EHL_LANES - 1];
+    for (size_t k = 0; k + 1 < EHL_LANES; k++)
+        found = ehl_lesser((*x)[k], found);
+    return found;
+}
+
+FF_SIMD_INLINE double ehl_lanes_greatest(const ehl_lanes *x)
+{
+    double found = (*x)[EHL_LANES - 1];
+    for (size_t k = 0; k + 1 < EHL_LANES; k++)
+        found = ehl_greater((*x)[k], found);
+    return found;
+}
+
 /* Keep the lesser, or the greater, of both in each lane; what is no number is passed over. */
 FF_SIMD_INLINE void ehl_lanes_keep_least(ehl_lanes *least, const ehl_lanes *x)
 {
-    ehl_lanes_bits chosen = *x < *least;
-    *least = (ehl_lanes)((chosen & (ehl_lanes_bits)*x) | (~chosen & (ehl_lanes_bits)*least));
+#pragma GCC unroll 1 /* unrolled, gcc takes the lanes one by one */
+    for (size_t k = 0; k < EHL_LANES; k++)
+        (*least)[k] = ehl_lesser((*x)[k], (*least)[k]);
 }
 
 FF_SIMD_INLINE void ehl_lanes_keep_greatest(ehl_lanes *most, const ehl_lanes *x)
 {
-    ehl_lanes_bits chosen = *x > *most;
-    *most = (ehl_lanes)((chosen & (ehl_lanes_bits)*x) | (~chosen & (ehl_lanes_bits)*most));
+#pragma GCC unroll 1
+    for (size_t k = 0; k < EHL_LANES; k++)
+        (*most)[k] = ehl_greater((*x)[k], (*most)[k]);
 }
 
 double ehl_sum(size_t n, const double *x);

@@ -309,12 +309,9 @@ static void record_film(ehl_results *r, const ehl_march *m)
     const double *p = m->state[0].film.p;
     size_t node, peak = 0;
     double h_min = ehl_least_film(eq, &node), h_central = ehl_central_film(m->solver->grid, eq),
-           p_max = 0;
-    for (size_t i = 0; i < r->nodes; i++)
-        if (p[i] > p_max) {
-            p_max = p[i];
-            peak = i;
-        }
+           p_max = m->state[0].highest;
+    while (peak + 1 < r->nodes && !(p[peak] >= p_max))
+        peak++;
     r->row[EHL_H_MIN] = h_min;
     r->row[EHL_H_CENTRAL] = h_central;
     r->row[EHL_P_MAX] = p_max;

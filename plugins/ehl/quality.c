@@ -43,7 +43,7 @@ static void compare_film_outputs(ehl_balance *b, const ehl_march *m, const doubl
     const double *h = eq->h, *p = m->state[0].film.p;
     double least = ehl_least(b->nodes, h), highest = ehl_greatest(b->nodes, p, 0);
     size_t low = 0;
-    while (low + 1 < b->nodes && h[low] > least)
+    while (h[low] > least)
         low++;
     if (low > 0 && low + 1 < b->nodes && !m->rough && vertex(h, low) > least / 2)
         least = vertex(h, low);
@@ -68,33 +68,35 @@ static double with_end(double given, double sum, double end)
     return fmin(fmax(given, sum + fmin(-end / 2, end)), sum + fmax(-end / 2, end));
 }
 
-/* b->left = tau */
+/* b->left = tau, up to the last node that has pressure */
 static force friction(ehl_balance *b, const ehl_march *m, double boundary)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[0].film;
     double slide = m->step.sliding, way = slide > 0 ? 1 : slide < 0 ? -1 : 0;
     force f = {0, 0, 0, 0};
+    size_t n = b->nodes;
+    while (n > 1 && !(film->p[n - 1] > 0))
+        n--;
     if (m->rough) /* of smooth flanks the balance of mass has it */
-        eq->laws.viscosity->eval(eq->laws.viscosity->self, b->nodes, film->p, NULL, b->ln_eta, NULL,
-                                 NULL);
+        eq->laws.viscosity->eval(eq->laws.viscosity->self, n, film->p, NULL, b->ln_eta, NULL, NULL);
     if (eq->laws.rheology)
-        eq->laws.rheology->shear(eq->laws.rheology->self, b->nodes, film->p, b->ln_eta, eq->h,
-                                 slide, b->left);
-    for (size_t i = 0; i < b->nodes && (m->thermal || !eq->laws.rheology); i++)
+        eq->laws.rheology->shear(eq->laws.rheology->self, n, film->p, b->ln_eta, eq->h, slide,
+                                 b->left);
+    for (size_t i = 0; i < n && (m->thermal || !eq->laws.rheology); i++)
         b->left[i] =
             m->thermal ? ehl_thermal_stress(m, i) : slide / eq->h[i] * exp(fmin(b->ln_eta[i], 230));
-    for (size_t i = 0; i < b->nodes; i++) {
+    for (size_t i = 0; i < n; i++) {
         double tau = b->left[i], p = film->p[i];
         if (film->asperity[i])
-            f.asperities += way * boundary * p * eq->dx;
+            f.asperities += way * boundary * p;
         else if (p > 0)
-            f.fluid += tau * eq->dx;
-        if (!eq->rough && p > 0 && i + 1 < b->nodes && !(film->p[i + 1] > 0))
-            f.end += tau * eq->dx;
-        f.all += (fabs(tau) + boundary * p) * eq->dx;
+            f.fluid += tau;
+        if (p > 0 && i + 1 < b->nodes && !(film->p[i + 1] > 0))
+            f.end += eq->rough ? 0 : tau;
+        f.all += fabs(tau) + boundary * p;
     }
-    return f;
+    return (force){f.fluid * eq->dx, f.asperities * eq->dx, f.all * eq->dx, f.end * eq->dx};
 }
 
 static void compare_loss_outputs(ehl_balance *b, const ehl_march *m, const double *row, force f)

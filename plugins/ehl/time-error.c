@@ -4,6 +4,7 @@
 #include "time-error.h"
 
 #include "grid.h"
+#include "lanes.h"
 
 #include <flankfilm/simd.h>
 
@@ -36,8 +37,7 @@ double ehl_pressure_of_error(const ehl_reynolds *eq, const double *error, double
         n = end - i < AT_ONCE ? end - i : AT_ONCE;
         fill_parts(n, error + i, eq->h + i, a, eq->first + ((double)i + 0.5) * eq->dx, eq->dx, x,
                    part);
-        for (size_t k = 0; k < n; k++)
-            sum += part[k];
+        sum += ehl_sum(n, part);
     }
     return modulus / (4 * pi * sqrt(a * a - x * x)) * sum;
 }
@@ -45,13 +45,12 @@ double ehl_pressure_of_error(const ehl_reynolds *eq, const double *error, double
 void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, size_t peak, double p_max)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_carried *c = &r->carried;
     double a = ehl_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
-    const ehl_stretch s =
-        ehl_carrying_stretch(eq, a, ehl_inlet_buildup(a, m->at.radius, r->row[EHL_H_CENTRAL]));
-    double first = ceil(s.begin), last = floor(s.end);
-    if (m->rough || !ehl_wants_p_max(r->wanted) || !ehl_march_is_loaded(m) || !(last > first))
+    if (m->rough || !ehl_wants_p_max(r->wanted) || !ehl_march_is_loaded(m) || c->end <= c->first)
         return;
-    double x = eq->first + fmin(fmax((double)peak, first), last) * eq->dx;
+    size_t node = peak < c->first ? c->first : peak < c->end ? peak : c->end;
+    double x = eq->first + (double)node * eq->dx;
     double off = fabs(ehl_pressure_of_error(eq, m->accumulated_error, m->history->modulus, a, x));
     ehl_worse(&r->worst_peak_in_time, off / p_max);
     ehl_worse(&r->highest_in_time, p_max + off);

@@ -116,6 +116,7 @@ void ehl_march_update_mass(ehl_march *m)
 {
     ehl_reynolds *r = m->solver->reynolds;
     m->trial.thinnest = ehl_thinnest(m, m->trial_step.radius, &m->trial.film);
+    m->trial.highest = ehl_greatest(r->nodes, m->trial.film.p, 0);
     ehl_reynolds_mass(r, &m->trial.film);
     memcpy(m->trial.mass, r->mass, r->nodes * sizeof *r->mass);
     memcpy(m->trial.gap, r->h, r->nodes * sizeof *r->h);

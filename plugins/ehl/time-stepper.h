@@ -20,6 +20,7 @@ typedef struct ehl_state {
     double time;
     double moved;    /* whole cells by which the nodes had moved with the oil; rough flanks */
     double thinnest; /* least h of all nodes, m */
+    double highest;  /* greatest p of all nodes, Pa */
     int loaded;
 } ehl_state;
 

@@ -9,7 +9,7 @@
 /* Truncation counts where the pressure exceeds this share of the highest. */
 static const double CONTACT_PRESSURE = 0.02;
 
-/* local = (y - c[0] y0 - c[1] y1 - c[2] y2) scale/y where p exceeds `least`, and 0 elsewhere. */
+/* local = scale - (c[0] y0 + c[1] y1 + c[2] y2)/y where p exceeds `least`, and 0 elsewhere. */
 FF_SIMD
 static void fill_local(size_t n, const double *restrict y, const double *restrict y0,
                        const double *restrict y1, const double *restrict y2,
@@ -18,7 +18,7 @@ static void fill_local(size_t n, const double *restrict y, const double *restric
 {
     const double c0 = c[0], c1 = c[1], c2 = c[2];
     for (size_t i = 0; i < n; i++) {
-        double off = scale * (y[i] - c0 * y0[i] - c1 * y1[i] - c2 * y2[i]) / y[i];
+        double off = scale - (c0 * y0[i] + c1 * y1[i] + c2 * y2[i]) / y[i];
         local[i] = p[i] > least ? off : 0;
     }
 }
@@ -38,9 +38,10 @@ void ehl_estimate_truncation(ehl_march *m)
     }
     ehl_lagrange_factors(m, time, order, c);
     double scale = 1 / (m->trial_step.rate * (time - m->state[order - 1].time));
-    const double *p = m->trial.film.p;
-    fill_local(n, m->trial.mass, m->state[0].mass, m->state[1].mass, m->state[2].mass, p,
-               CONTACT_PRESSURE * ehl_greatest(n, p, 0), c, scale, m->local);
+    for (size_t k = 0; k < 3; k++)
+        c[k] *= scale;
+    fill_local(n, m->trial.mass, m->state[0].mass, m->state[1].mass, m->state[2].mass,
+               m->trial.film.p, CONTACT_PRESSURE * m->trial.highest, c, scale, m->local);
 }
 
 double ehl_march_truncation(const ehl_march *m)
@@ -92,19 +93,17 @@ static void fill_moved(size_t n, const double *restrict from, double part,
         to[i] = (1 - part) * from[i] + part * from[i - 1] + gain[i] / cells;
 }
 
-/* Fills in the sum of `local` along the last `cells` of the oil's way to each node behind
-   `first`. */
-static void sum_on_way(const double *local, size_t first, size_t n, double cells, double *sum)
+/* Fills in the sums of `local` up to each node. What the oil meets on its way is the sum at its end
+   less that at its beginning, which is taken off what comes from there. */
+FF_SIMD
+static void sum_on_way(size_t n, const double *restrict local, double cells, double *restrict sum,
+                       double *restrict error)
 {
-    size_t whole = (size_t)cells;
-    double part = cells - (double)whole, met = 0;
-    size_t i = first;
-    for (; i < n && i < first + whole; i++)
+    double met = 0;
+    for (size_t i = 0; i < n; i++)
         sum[i] = met += local[i];
-    for (; i < n; i++) {
-        met += local[i] - local[i - whole];
-        sum[i] = met + part * local[i - whole];
-    }
+    for (size_t i = 0; i < n; i++)
+        error[i] -= sum[i] / cells;
 }
 
 /* Moves the accumulated error on with the film by `cells`, and adds the mean of `local` along that
@@ -116,7 +115,7 @@ static void advect_and_add(ehl_march *m, size_t first, double cells)
     first = first < n ? first : n;
     start = start < first ? first : start < n ? start : n; /* what was in front is not known */
     if (cells > 1)
-        sum_on_way(m->local, first, n, fmin(cells, (double)n), gain);
+        sum_on_way(n - first, m->local + first, cells, gain + first, sum + first);
     else
         gain = m->local;
     memcpy(moved, m->local, first * sizeof *moved);
