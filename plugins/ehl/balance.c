@@ -326,12 +326,12 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
     double off = ehl_dot(b->nodes - 2, b->volume + 1, b->left + 1),
            stored = ehl_dot(b->nodes - 2, b->volume + 1, b->change + 1) * eq->dx;
     work *= m->step.entrainment;
+    b->unbalanced = fabs(D - work + stored);
     double scale = D + fabs(work) + fabs(stored);
     if (scale <= 0)
         return;
     if (m->step.rate * 2 * m->solver->grid->half_width < shortest * m->step.entrainment)
         ehl_worse(&b->worst.energy, fabs(off) / scale);
-    b->unbalanced = fabs(D - work + stored);
 }
 
 /* Two faces, and the nodes whose mobility the flow through each takes. */
@@ -426,6 +426,7 @@ double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly)
     const double *p = m->state[0].film.p;
     ehl_balance_moment(b, m);
     check_conditions(b, m);
+    b->unbalanced = 0;
     if (!m->rough)
         check_content(b, m);
     if (!wholly)

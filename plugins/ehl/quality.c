@@ -117,7 +117,7 @@ static void compare_loss_outputs(ehl_balance *b, const ehl_march *m, const doubl
                    with_end(row[EHL_POWER_LOSS], power, f.end * m->step.sliding),
                    fabs(power) + u * tail);
     if (ehl_march_is_loaded(m))
-        b->worst.dissipation = fmax(b->worst.dissipation, b->unbalanced / power);
+        ehl_worse(&b->worst.dissipation, b->unbalanced / (fabs(power) + 1e-300));
 }
 
 void ehl_balance_outputs(ehl_balance *b, const ehl_march *m, const double *row, uint64_t wanted,

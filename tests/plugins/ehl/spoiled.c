@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { CELLS = 256, ROWS = 3, STEPS = 24 };
 
@@ -130,6 +131,7 @@ static void test_spoiled(scene *s)
 /* One number that is none. */
 static void test_no_number(scene *s)
 {
+    static double row[EHL_SERIES];
     ehl_film *film = &s->march.state[0].film;
     const ehl_imbalance *w = hold(s);
     size_t centre = (size_t)(s->grid.inlet / s->grid.dx);
@@ -141,9 +143,25 @@ static void test_no_number(scene *s)
         check_true("the moment", w->moment > 1);
         check_true("the mass", w->mass > 1);
         check_true("the energy", w->energy > 1);
+        ehl_balance_outputs(&s->balance, &s->march, row, FF_BIT(EHL_POWER_LOSS), 0.1);
+        check_true("the dissipation", w->dissipation > 1);
         *place[k] = kept;
     }
     check_below("and sound again", largest(hold(s)), 1e-7);
+}
+
+/* A film that loses its pressure: what the film before left of the energy is not its own. */
+static void test_no_pressure(scene *s)
+{
+    ehl_march *m = &s->march;
+    double kept[CELLS + 1], *p = m->state[0].film.p;
+    hold(s);
+    check_true("the energy of cells", s->balance.unbalanced > 0);
+    memcpy(kept, p, sizeof kept);
+    memset(p, 0, sizeof kept);
+    ehl_balance_hold(&s->balance, m, 1);
+    check_near("nothing without pressure", s->balance.unbalanced, 0, 0);
+    memcpy(p, kept, sizeof kept);
 }
 
 /* The oil that comes and goes over the steps to the end; some of it lost at each. */
@@ -200,6 +218,7 @@ int main(void)
     make(&s, &laws);
     test_spoiled(&s);
     test_no_number(&s);
+    test_no_pressure(&s);
     test_outputs(&s);
     double kept = lost(&s, 0);
     destroy(&s);
