@@ -409,24 +409,45 @@ static bool have_tolerances(const measurement *m)
     return any;
 }
 
+/* Whether series have fewer points in the loose twin than in the tight one, but hardly: what the
+   steps of both miss neither of them shows. */
+static bool hardly_differ(const measurement *m)
+{
+    const double hardly = 0.8;
+    for (size_t i = 0; i < m->record->count; i++) {
+        const accuracy_error *e = &m->record->errors[i];
+        const size_t stage = (size_t)(e->stage - m->answer->stages),
+                     output = (size_t)(e->result - e->stage->results);
+        double tight = (double)m->tight->pipeline->stages[stage].results[output].count,
+               loose = (double)m->loose->pipeline->stages[stage].results[output].count;
+        if (loose < tight && loose > hardly * tight)
+            return true;
+    }
+    return false;
+}
+
 /* Finds two twins of one level of the counts whose tolerances differ: those that were run before,
-   or the one beside half. */
+   or the one beside half; a finer one where the coarser cannot be had, or hardly differs. */
 static void find_loose(measurement *m)
 {
     static const coarser tight[] = {{1, 0}, {2, 0}};
+    int counts = 1;
     for (size_t i = 0; i < 2 && !m->loose; i++) {
         m->tight = known_twin(m, tight[i]);
         m->loose = m->tight ? known_twin(m, (coarser){tight[i].counts, 1}) : NULL;
         if (m->loose && !(m->tight->good && m->loose->good))
             m->loose = NULL;
+        counts = m->loose ? tight[i].counts : 1;
     }
-    if (m->loose)
+    if (!m->loose) {
+        m->tight = m->half;
+        m->loose = find_twin(m, (coarser){1, 1});
+    }
+    if (m->loose && !hardly_differ(m))
         return;
-    m->tight = m->half;
-    m->loose = find_twin(m, (coarser){1, 1});
-    m->is_finer = !m->loose;
-    if (m->is_finer)
-        m->loose = find_twin(m, (coarser){1, -1});
+    const accuracy_twin *finer = find_twin(m, (coarser){counts, -1});
+    m->is_finer = finer != NULL;
+    m->loose = finer ? finer : m->loose;
 }
 
 /* Where attempts are made: counts and tolerances become finer apart. Two levels do where the

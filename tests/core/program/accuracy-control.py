@@ -172,6 +172,13 @@ class Control(lab.Lab):
         self.assertEqual(answer["accuracy"]["settings"]["last.tolerance"], "0.16 %")
         self.assertAlmostEqual(self.error(answer) / 0.0016, 1.25, delta=0.05)
 
+    def test_where_steps_hardly_follow_coarser_tolerances_finer_ones_tell(self):
+        """0.16 and 0.64 % are both off by 0.3 %, on 101 and 99 points, and 0.04 % by itself."""
+        blunt = [f"{stage}.{set}" for stage in ("first", "last") for set in ("strength=0.001", "blunt=0.1 %")]
+        answer = self.ask("accuracy=1 %", *blunt)
+        self.assertEqual(answer["accuracy"]["settings"]["last.tolerance"], "0.16 %")
+        self.assertAlmostEqual(self.error(answer) / 0.003, 1.25 * 4 / 3 * 0.26 / 0.3, delta=0.05)
+
     def test_an_estimate_of_more_than_twice_the_error_is_a_doubt(self):
         """What all twins sample too coarsely none of them shows: 16 cells have 5 %, and the stage estimates 6 or 12 %."""
         for guess, cells in ((1, "16"), (2, "64")):

@@ -10,7 +10,7 @@ typedef struct order {
     const ff_host *host;
     int64_t cells, steps, least, most, sure, shown;
     int32_t exact;
-    double tolerance, order, strength, gain, heat, guess, loosest;
+    double tolerance, order, strength, gain, heat, guess, loosest, blunt;
 } order;
 
 static const ff_param params[] = {
@@ -28,6 +28,9 @@ static const ff_param params[] = {
     FF_QUANTITY("heat", "1", order, heat, 0, "0", NULL, 0, 1, 0, 0, "a doubt of no setting"),
     FF_QUANTITY("loosest", "%", order, loosest, 0, "100 %", NULL, 0, 100, 0, 0,
                 "with a larger tolerance it fails"),
+    FF_QUANTITY(
+        "blunt", "%", order, blunt, 0, "100 %", NULL, 1e-6, 100, 0, 0,
+        "larger tolerances have an error of three times this, and points that hardly follow"),
     FF_QUANTITY("guess", "1", order, guess, 0, "0.5", NULL, 0, 1e6, 0, 0,
                 "what it estimates to be its error with one cell"),
     FF_COUNT("least", order, least, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it fails"),
@@ -72,7 +75,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         return ff_failf(o->host, FF_NOCONV, NULL, "%d cells are too many", (int)o->cells);
     if (o->tolerance > o->loosest)
         return ff_failf(o->host, FF_NOCONV, NULL, "%g is too loose", o->tolerance);
-    value += o->exact ? 0 : o->tolerance;
+    if (o->tolerance > o->blunt)
+        points -= (size_t)log2(o->tolerance / o->blunt);
+    value += o->exact ? 0 : o->tolerance > o->blunt ? 3 * o->blunt : o->tolerance;
     if (o->cells >= o->shown)
         value += 0.05;
     if (in[0].data)
