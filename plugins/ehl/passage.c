@@ -106,6 +106,18 @@ static size_t next_row(const ehl_results *r, const ehl_passage *p, const ehl_his
     return next;
 }
 
+/* Whether a step of that way at least joins steps of the run. */
+static int joins(const ehl_results *r, const ehl_passage *p, double way)
+{
+    const ehl_history h = engagement_of(r, p, p->first);
+    for (size_t row = p->begin, next; row < p->last; row = next) {
+        next = next_row(r, p, &h, way, row);
+        if (next > row + 1)
+            return 1;
+    }
+    return 0;
+}
+
 /* Marches to the last row and keeps h_min and h_central of those that a step leads to, from the
    first one on. */
 static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_passage *p, double way,
@@ -184,6 +196,16 @@ static ff_status find_errors(const ehl_results *r, const ehl_march *m, const ehl
     return status;
 }
 
+/* Returns how many films that count are not those of the run. */
+static size_t differing(const ehl_results *r, const ehl_passage *p, ehl_row_counts *counts,
+                        int kind, double (*error)[EHL_PEAK])
+{
+    size_t count = 0;
+    for (size_t i = p->first; i <= p->last; i++)
+        count += isnan(error[i - p->first][kind]) && counts(r, i, kind);
+    return count;
+}
+
 ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
                              ehl_row_counts *counts, int kind, double (*error)[EHL_PEAK])
 {
@@ -192,12 +214,14 @@ ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl
     static const double ways[] = {0.2, 0.05, 0.0125};
     double(*fine)[EHL_PEAK] = malloc((p->last - p->first + 1) * sizeof *fine);
     ff_status status = fine ? FF_OK : FF_NOMEM;
-    int left = 1;
-    for (size_t k = 0; k < sizeof ways / sizeof *ways && status == FF_OK && left; k++) {
-        status = find_errors(r, m, p, ways[k] * m->solver->grid->dx, fine, error);
-        left = 0;
-        for (size_t i = p->first; i <= p->last && status == FF_OK; i++)
-            left |= isnan(error[i - p->first][kind]) && counts(r, i, kind);
+    size_t before = SIZE_MAX;
+    for (size_t k = 0; k < sizeof ways / sizeof *ways && status == FF_OK; k++) {
+        const double way = ways[k] * m->solver->grid->dx;
+        status = find_errors(r, m, p, way, fine, error);
+        size_t differ = status == FF_OK ? differing(r, p, counts, kind, error) : 0;
+        if (differ == 0 || differ == before || !joins(r, p, way))
+            break;
+        before = differ;
     }
     free(fine);
     return status;
