@@ -26,10 +26,10 @@ static const double *smooth_gaps(ehl_balance *b, const ehl_march *m)
 
 typedef struct moments {
     double load, moment, arm; /* of p, x p and |x p| */
-    double rise;              /* of p and the gap from the node before to the one behind */
+    double rise;              /* of p times what the gap rises by over both cells */
 } moments;
 
-/* Returns their sums over the nodes that have one on each side, the first of which is at x. */
+/* Returns these sums over the nodes that have one on each side, the first of which is at x. */
 FF_SIMD
 static moments moments_of(size_t n, const double *restrict p, const double *restrict gap, double x,
                           double dx)
@@ -68,7 +68,7 @@ void ehl_balance_moment(ehl_balance *b, const ehl_march *m)
     const double *p = m->state[0].film.p;
     moments sum = moments_of(b->nodes, p, smooth_gaps(b, m), eq->first + eq->dx, eq->dx);
     double scale = eq->dx / m->step.radius;
-    b->load = sum.load * eq->dx;
+    b->load = (sum.load + p[0] + p[b->nodes - 1]) * eq->dx;
     b->moment = sum.moment;
     b->arm = sum.arm;
     if (!(b->arm <= 0)) /* as well where it is no number */

@@ -105,6 +105,8 @@ double ehl_central_film(const ehl_grid *g, const ehl_reynolds *r);
 /* Writes all outputs and the quality record. */
 ff_status ehl_results_finish(const ehl_results *r, const ehl_march *m);
 
+/* Returns 1 when an error of a film by the cells is estimated. */
+int ehl_results_estimate_cells(const ehl_results *r);
 /* The lines of those errors. */
 void ehl_results_report_cells(const ehl_results *r, const ehl_march *m);
 

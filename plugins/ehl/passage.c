@@ -212,16 +212,21 @@ ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl
     /* Many steps of a run are shorter than a fifth of a cell. Where its load vibrates, films by
        longer ones are not its own. */
     static const double ways[] = {0.2, 0.05, 0.0125};
-    double(*fine)[EHL_PEAK] = malloc((p->last - p->first + 1) * sizeof *fine);
+    const size_t count = p->last - p->first + 1;
+    double(*fine)[EHL_PEAK] = malloc(2 * count * sizeof *fine), (*tried)[EHL_PEAK] = fine + count;
     ff_status status = fine ? FF_OK : FF_NOMEM;
-    size_t before = SIZE_MAX;
-    for (size_t k = 0; k < sizeof ways / sizeof *ways && status == FF_OK; k++) {
-        const double way = ways[k] * m->solver->grid->dx;
-        status = find_errors(r, m, p, way, fine, error);
-        size_t differ = status == FF_OK ? differing(r, p, counts, kind, error) : 0;
-        if (differ == 0 || differ == before || !joins(r, p, way))
+    size_t least = SIZE_MAX;
+    for (size_t k = 0; k < sizeof ways / sizeof *ways && status == FF_OK && least > 0; k++) {
+        if (k > 0 && !joins(r, p, ways[k - 1] * m->solver->grid->dx))
             break;
-        before = differ;
+        status = find_errors(r, m, p, ways[k] * m->solver->grid->dx, fine, tried);
+        size_t differ = status == FF_OK ? differing(r, p, counts, kind, tried) : SIZE_MAX;
+        if (k > 0 && status != FF_NOMEM && status != FF_STOPPED)
+            status = FF_OK; /* the errors before stand */
+        if (differ >= least)
+            break;
+        memcpy(error, tried, count * sizeof *error);
+        least = differ;
     }
     free(fine);
     return status;

@@ -294,6 +294,16 @@ static void report_ends(const ehl_results *r)
         "low: move the outlet out");
 }
 
+/* Where no error of a film by the cells is estimated. */
+static void report_resolution(const ehl_results *r)
+{
+    if (!ehl_results_estimate_cells(r))
+        report_at_least(
+            r, "film_resolution", r->least_resolution, 4,
+            "least cells over the inlet's pressure rise; below 3 to 4 the film depends on the grid "
+            "by more than 2 %: use more cells");
+}
+
 static void report_time_errors(const ehl_results *r, const ehl_march *m)
 {
     char text[192];
@@ -423,10 +433,6 @@ static void report_asperities(const ehl_results *r, const ehl_march *m)
         r, "contact_supply", r->worst_supply, 0.01, FF_DOUBTFUL,
         "oil that asperities in contact press out beyond what is between them, over the flow");
     report_at_least(
-        r, "film_resolution", r->least_resolution, 4,
-        "least cells over the inlet's pressure rise; below 4 the film depends on the grid by "
-        "more than 2 %: use more cells");
-    report_at_least(
         r, "cells_per_wavelength", ehl_roughness_wavelength(m->rough) / m->solver->grid->dx, 8,
         "cells over the mean distance of the peaks; below 8 the finest asperities are coarse");
 }
@@ -455,6 +461,7 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     report_inlet_tail(r);
     report_end_of_inlet(r);
     report_ends(r);
+    report_resolution(r);
     ehl_results_report_cells(r, m);
     report_time_errors(r, m);
     report_contact_loss(r, m);

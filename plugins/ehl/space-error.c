@@ -251,6 +251,12 @@ static int is_measured(const ehl_results *r, size_t row, int kind)
     return *part_of(r, row, EHL_MEASURED + kind) > 0;
 }
 
+/* Films below 2 % of the largest load have none. */
+static int has_bound(const ehl_results *r, size_t row, int kind)
+{
+    return fabs(*part_of(r, row, kind)) > 0;
+}
+
 static int is_extreme(const ehl_results *r, int kind)
 {
     return kind == EHL_LEAST ? r->lowest_alone : kind == EHL_PEAK && r->highest_alone;
@@ -307,7 +313,8 @@ static int is_doubtful(const ehl_results *r, size_t row, int kind)
    be the lowest, too. */
 static int is_low(const ehl_results *r, size_t row, int kind)
 {
-    return is_doubtful(r, row, kind) || film_of(r, row, kind) < 1.1 * r->lowest;
+    return is_doubtful(r, row, kind) ||
+           (has_bound(r, row, kind) && film_of(r, row, kind) < 1.1 * r->lowest);
 }
 
 /* Returns the largest share of their bounds that errors have, all at most, and all where no bound
@@ -335,7 +342,7 @@ static void put_errors(ehl_results *r, const ehl_passage *p, double (*error)[EHL
         double *part = part_of(r, i, kind);
         if (i < p->first || i > p->last) {
             *part *= is_measured(r, i, kind) ? 1 : share;
-        } else if (fabs(*part) > 0 && isfinite(error[i - p->first][kind])) {
+        } else if (has_bound(r, i, kind) && isfinite(error[i - p->first][kind])) {
             *part = error[i - p->first][kind] * film_of(r, i, kind);
             *part_of(r, i, EHL_MEASURED + kind) = 1;
             r->measured[kind] = 1;
@@ -352,28 +359,35 @@ static size_t lowest_row(const ehl_results *r)
     return row;
 }
 
-/* Returns the row that the error of an output hangs on, when that is not known: the worst; else
-   that of the lowest film of all, wherever its outlet moves, since bounds are those of steady
-   films. SIZE_MAX: there is none. */
+static int is_looked_at(const ehl_passage *p, size_t row)
+{
+    return row >= p->first && row <= p->last;
+}
+
+/* Returns the row to look at, SIZE_MAX when there is none: the worst one where the error is not
+   known yet, else that of the lowest film of all where its outlet moves, since bounds are those of
+   steady films. */
 static size_t find_row(const ehl_results *r, const ehl_passage *p, int kind, double enough)
 {
     size_t row = worst_row(r, kind);
-    if (error_of_row(r, row, kind) > enough && !(p->last > 0 && row >= p->first && row <= p->last))
+    if (error_of_row(r, row, kind) > enough && !is_looked_at(p, row))
         return row;
     row = lowest_row(r);
-    return is_extreme(r, kind) && !is_measured(r, row, kind) && ehl_outlet_moves(p, r, row)
+    return is_extreme(r, kind) && has_bound(r, row, kind) && !is_measured(r, row, kind) &&
+                   !is_looked_at(p, row) && ehl_outlet_moves(p, r, row)
                ? row
                : SIZE_MAX;
 }
 
 /* Measures the films that the error of an output hangs on, and once more where those were not all.
-   The lowest film of all is looked at from half of the limit on. */
+   The lowest film of all is first looked at from half of the limit on. */
 static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p, int kind)
 {
     enum { MOST = 2 };
     double enough = is_extreme(r, kind) ? EHL_FILM_LIMIT / 2 : EHL_FILM_LIMIT;
     ff_status status = FF_OK;
-    p->first = p->last = 0;
+    p->first = 1; /* none was looked at */
+    p->last = 0;
     for (int k = 0; k < MOST && status == FF_OK; k++, enough = EHL_FILM_LIMIT) {
         size_t row = find_row(r, p, kind, enough);
         if (row == SIZE_MAX)
@@ -439,6 +453,13 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
              of, how, enough);
     r->host->quality(r->host->ctx, name, error, limit, error <= limit ? FF_GOOD : FF_DOUBTFUL,
                      text);
+}
+
+int ehl_results_estimate_cells(const ehl_results *r)
+{
+    if (r->rough || !(ehl_wants_h_min(r->wanted) || ehl_wants_h_central(r->wanted)))
+        return 0;
+    return !r->lowest_alone || r->series.count == 0 || has_bound(r, lowest_row(r), EHL_LEAST);
 }
 
 void ehl_results_report_cells(const ehl_results *r, const ehl_march *m)

@@ -20,8 +20,8 @@ a third of the time_tolerance, and twice the cells, which are doubled until it i
 h_min_lowest and p_max_highest are within the limits of their lines (2 and 10 %) and dte_rms within
 2 %: until that holds, or not, also if the reference moved once more by as much as it did last.
 Where p_max_space_error or h_min_space_error is not good they are doubled to the end unless it is
-found off, since 1024 cells may leave a spike out altogether, and the dip of a film half in. The references are added to FILE, from which a campaign
-goes on; the scene itself is run anew. A scene
+found off, since 1024 cells may leave a spike out altogether, and the dip of a film half in. The
+references are added to FILE, from which a campaign goes on; the scene itself is run anew. A scene
 is healthy when it is known to be within these limits and its model leaves nothing out; of the
 healthy those are counted of which a line of any stage is not good, and of those that are off those
 of which none is.

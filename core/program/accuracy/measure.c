@@ -409,8 +409,8 @@ static bool have_tolerances(const measurement *m)
     return any;
 }
 
-/* Whether series have fewer points in the loose twin than in the tight one, but hardly: what the
-   steps of both miss neither of them shows. */
+/* Whether a series has fewer points in the loose twin than in the tight one, but hardly: what the
+   steps of both miss neither of them shows. As many points are no steps. */
 static bool hardly_differ(const measurement *m)
 {
     const double hardly = 0.8;

@@ -303,6 +303,28 @@ static void test_vibrating(void)
     line_close(&fine);
 }
 
+/* Where no error of a film is estimated the cells of the inlet are told: without a film, and of a
+   lowest film whose load is 1 % of the largest. */
+static void test_resolution(void)
+{
+    static const char *const wanted[] = {"rolling_loss", "h_min_lowest"};
+    for (int k = 0; k < 2; k++) {
+        line c;
+        line_open(&c, "ehl/finite-volume");
+        line_last(&c, 2, 600e-6);
+        c.load[1] *= k == 1 ? 0.01 : 1;
+        c.u1[1] *= k == 1 ? 0.02 : 1;
+        c.u2[1] *= k == 1 ? 0.02 : 1;
+        stage_set(c.film, "steps", 400);
+        stage_set(c.film, "cells", 64);
+        check_true(wanted[k], line_run(&c, wanted[k]) == FF_OK);
+        double cells = stage_quality(c.film, "film_resolution");
+        printf("resolution: %g cells\n", cells);
+        check_below("told where nothing else is", cells, 4);
+        line_close(&c);
+    }
+}
+
 int main(void)
 {
     test_measured();
@@ -315,5 +337,6 @@ int main(void)
     test_slowing();
     test_rising();
     test_vibrating();
+    test_resolution();
     return check_done();
 }
