@@ -42,6 +42,17 @@ static void check_told(const char *what, double is, double says)
     check_below("what is stated over it", says / is, 1.2);
 }
 
+static void check_lowest(const char *what, void (*run)(line *c, double cells), double cells)
+{
+    line c, fine;
+    run(&c, cells);
+    run(&fine, FINER * cells);
+    double is = off_lowest(&c, &fine), says = stage_quality(c.film, "h_min_space_error");
+    check_told(what, is, says);
+    line_close(&c);
+    line_close(&fine);
+}
+
 static void steady(line *c, double rows, double cells)
 {
     line_open(c, "ehl/finite-volume");
@@ -209,17 +220,6 @@ static void unloading(line *c, double cells)
     check_true("runs", line_run(c, "h_min_lowest") == FF_OK);
 }
 
-static void test_unloading(void)
-{
-    line c, fine;
-    unloading(&c, 256);
-    unloading(&fine, FINER * 256);
-    double is = off_lowest(&c, &fine), says = stage_quality(c.film, "h_min_space_error");
-    check_told("unloading: h_min_lowest", is, says);
-    line_close(&c);
-    line_close(&fine);
-}
-
 /* The oil comes nearly to rest, at a hundredth of its speed, and the flanks squeeze it. */
 static void slowing(line *c, double cells)
 {
@@ -262,17 +262,6 @@ static void rising(line *c, double cells)
     stage_set(c->film, "steps", 800);
     stage_set(c->film, "cells", cells);
     check_true("runs", line_run(c, "h_min_lowest") == FF_OK);
-}
-
-static void test_rising(void)
-{
-    line c, fine;
-    rising(&c, 384);
-    rising(&fine, FINER * 384);
-    double is = off_lowest(&c, &fine), says = stage_quality(c.film, "h_min_space_error");
-    check_told("rising: h_min_lowest", is, says);
-    line_close(&c);
-    line_close(&fine);
 }
 
 /* A load that vibrates ten times in a passage: steps of a fifth of a cell make another film of it
@@ -333,9 +322,9 @@ int main(void)
     test_carried_by_volumes();
     test_light();
     test_lowest();
-    test_unloading();
+    check_lowest("unloading: h_min_lowest", unloading, 256);
     test_slowing();
-    test_rising();
+    check_lowest("rising: h_min_lowest", rising, 384);
     test_vibrating();
     test_resolution();
     return check_done();
