@@ -410,10 +410,11 @@ static bool have_tolerances(const measurement *m)
 }
 
 /* Whether a series has fewer points in the loose twin than in the tight one, but hardly: what the
-   steps of both miss neither of them shows. As many points are no steps. */
+   steps of both miss neither of them shows. As many points are no steps. Of 247 pairs of films a
+   level apart (draw ad901314 of error-bars.py) the median has 0.64 times as many, 49 above 0.8. */
 static bool hardly_differ(const measurement *m)
 {
-    const double hardly = 0.8; /* a film has 0.6 to 0.73 times as many where its steps follow */
+    const double hardly = 0.8;
     for (size_t i = 0; i < m->record->count; i++) {
         const accuracy_error *e = &m->record->errors[i];
         const size_t stage = (size_t)(e->stage - m->answer->stages),
