@@ -66,7 +66,7 @@ def engagements(answer, name):
 
 
 def differences(answer, finer, name):
-    """Of the cells, over the value, sorted; with p_max over that of the run itself."""
+    """Of the cells, over the value of the run itself, sorted."""
     load = answer['outputs']['tooth.load_per_width']['data']
     at, most, off = answer['outputs']['tooth.time']['data'], max(load), []
     for (times, values), (fine_times, fine) in zip(engagements(answer, name),
@@ -74,7 +74,7 @@ def differences(answer, finer, name):
         for time, value in zip(times, values):
             exact = scenes.sample(fine_times, fine, time) if len(fine) > 1 else fine[0]
             if scenes.sample(at, load, time) > 0.02 * most:
-                off.append(abs(exact / value - 1) if name == 'p_max' else abs(value / exact - 1))
+                off.append(abs(exact / value - 1))
     return sorted(off) or [0]
 
 
@@ -123,11 +123,12 @@ def drawn(seed):
 
 
 def verdict(own, references):
-    """'healthy', 'off', or '' where the references do not tell."""
+    """'healthy', 'off', or '' where the references do not tell. What is off is over the value of
+    the run, as the errors are that a run states of itself."""
     last, before = references[-1], references[-2] if len(references) > 1 else own
     within = True
     for value, finest, coarser, limit in zip(own, last, before, HEADLINES.values()):
-        off, moved = abs(value / finest - 1), abs(coarser / finest - 1)
+        off, moved = abs(finest / value - 1), abs((finest - coarser) / value)
         if off - moved > limit:
             return 'off'
         within &= off + moved <= limit
