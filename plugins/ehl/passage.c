@@ -8,6 +8,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* h_min and h_central of the rows that are looked at. */
+typedef double (*films)[EHL_PEAK];
+
 static double value(const ehl_results *r, size_t row, uint32_t output)
 {
     return r->series.data[row * EHL_SERIES + output];
@@ -121,7 +124,7 @@ static int joins(const ehl_results *r, const ehl_passage *p, double way)
 /* Marches to the last row and keeps h_min and h_central of those that a step leads to, from the
    first one on. */
 static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_passage *p, double way,
-                      ehl_grid_level *l, double (*film)[EHL_PEAK])
+                      ehl_grid_level *l, films film)
 {
     enum { BETWEEN = 16 };
     const ehl_history h = engagement_of(r, p, p->first);
@@ -153,7 +156,7 @@ static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_pass
 
 /* Does so on `times` the cells of the run. */
 static ff_status pass_on(const ehl_results *r, const ehl_march *run, const ehl_passage *p,
-                         double way, size_t times, double (*film)[EHL_PEAK])
+                         double way, size_t times, films film)
 {
     const double tolerance = 2e-4; /* what films leave adds up on the way */
     ehl_solver kind = *run->solver;
@@ -169,36 +172,39 @@ static ff_status pass_on(const ehl_results *r, const ehl_march *run, const ehl_p
     return status;
 }
 
-/* As ehl_passage_errors, by steps of that way at least; fine: of as many rows. */
-static ff_status find_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
-                             double way, double (*fine)[EHL_PEAK], double (*error)[EHL_PEAK])
+/* Returns those on 2^level times the cells of the run. */
+static films films_on(const ehl_passage *p, films all, int level)
+{
+    return all + (size_t)level * (p->last - p->first + 1);
+}
+
+/* Finds the errors from the films of all levels to the finest, what is left on that by order. */
+static void find_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p, films all,
+                        int finest, films error)
 {
     const uint32_t of[] = {EHL_H_MIN, EHL_H_CENTRAL};
-    /* what both twins miss alike falls out of their difference; with heat it is much the same */
+    /* what all twins miss alike falls out of their difference; with heat it is much the same */
     const double within = m->heat || m->thermal ? 10 : 0.25;
     const double left = ldexp(1, -ehl_carrying_order(m->solver->reynolds));
+    const films before = films_on(p, all, finest - 1), fine = films_on(p, all, finest);
     size_t count = p->last - p->first + 1;
-    memset(error, 0, count * sizeof *error);
-    ff_status status = pass_on(r, m, p, way, 1, error);
-    if (status == FF_OK)
-        status = pass_on(r, m, p, way, 2, fine);
-    for (size_t i = count; i-- > 0 && status == FF_OK;)
+    for (size_t i = count; i-- > 0;)
         for (int k = EHL_LEAST; k < EHL_PEAK; k++) {
-            double coarse = error[i][k], film = value(r, p->first + i, of[k]);
+            double coarse = all[i][k], film = value(r, p->first + i, of[k]);
             if (i + 1 < count && !(coarse > 0)) { /* no step led there */
                 error[i][k] = error[i + 1][k];
                 continue;
             }
-            error[i][k] = (coarse / fine[i][k] - 1) / (1 - left);
+            double exact = fine[i][k] + (fine[i][k] - before[i][k]) * left / (1 - left);
+            error[i][k] = 1 - exact / coarse;
             if (!(fabs(coarse / film - 1) <= within * fmax(EHL_FILM_LIMIT, fabs(error[i][k]))))
                 error[i][k] = NAN;
         }
-    return status;
 }
 
 /* Returns how many films that count are not those of the run. */
 static size_t differing(const ehl_results *r, const ehl_passage *p, ehl_row_counts *counts,
-                        int kind, double (*error)[EHL_PEAK])
+                        int kind, films error)
 {
     size_t count = 0;
     for (size_t i = p->first; i <= p->last; i++)
@@ -206,28 +212,60 @@ static size_t differing(const ehl_results *r, const ehl_passage *p, ehl_row_coun
     return count;
 }
 
-ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
-                             ehl_row_counts *counts, int kind, double (*error)[EHL_PEAK])
+/* Finds the films on the cells of the run and on twice as many, and their errors. */
+static ff_status pass_twins(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
+                            double way, films all, films error)
+{
+    memset(all, 0, 2 * (p->last - p->first + 1) * sizeof *all);
+    ff_status status = pass_on(r, m, p, way, 1, films_on(p, all, 0));
+    if (status == FF_OK)
+        status = pass_on(r, m, p, way, 2, films_on(p, all, 1));
+    if (status == FF_OK)
+        find_errors(r, m, p, all, 1, error);
+    return status;
+}
+
+ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passage *p,
+                             ehl_row_counts *counts, int kind)
 {
     /* Many steps of a run are shorter than a fifth of a cell. Where its load vibrates, films by
        longer ones are not its own. */
-    static const double ways[] = {0.2, 0.05, 0.0125};
+    const double dx = m->solver->grid->dx, shorter = 0.25;
     const size_t count = p->last - p->first + 1;
-    double(*fine)[EHL_PEAK] = malloc(2 * count * sizeof *fine), (*tried)[EHL_PEAK] = fine + count;
-    ff_status status = fine ? FF_OK : FF_NOMEM;
-    size_t least = SIZE_MAX;
-    for (size_t k = 0; k < sizeof ways / sizeof *ways && status == FF_OK && least > 0; k++) {
-        if (k > 0 && !joins(r, p, ways[k - 1] * m->solver->grid->dx))
-            break;
-        status = find_errors(r, m, p, ways[k] * m->solver->grid->dx, fine, tried);
-        size_t differ = status == FF_OK ? differing(r, p, counts, kind, tried) : SIZE_MAX;
-        if (k > 0 && status != FF_NOMEM && status != FF_STOPPED)
-            status = FF_OK; /* the errors before stand */
-        if (differ >= least)
-            break;
-        memcpy(error, tried, count * sizeof *error);
-        least = differ;
+    films tried = malloc(3 * count * sizeof *tried);
+    p->film = calloc(3 * count, sizeof *p->film);
+    p->error = calloc(count, sizeof *p->error);
+    p->way = 0.2 * dx;
+    ff_status status = tried && p->film && p->error ? FF_OK : FF_NOMEM;
+    if (status == FF_OK)
+        status = pass_twins(r, m, p, p->way, p->film, p->error);
+    size_t differ = status == FF_OK ? differing(r, p, counts, kind, p->error) : 0;
+    if (differ > 0 && joins(r, p, p->way)) {
+        films error = films_on(p, tried, 2);
+        ff_status again = pass_twins(r, m, p, shorter * p->way, tried, error);
+        if (again == FF_OK && differing(r, p, counts, kind, error) < differ) {
+            p->way *= shorter;
+            memcpy(p->film, tried, 2 * count * sizeof *tried);
+            memcpy(p->error, error, count * sizeof *error);
+        } else if (again == FF_NOMEM || again == FF_STOPPED) {
+            status = again;
+        }
     }
-    free(fine);
+    free(tried);
     return status;
+}
+
+ff_status ehl_passage_refine(const ehl_results *r, const ehl_march *m, ehl_passage *p)
+{
+    ff_status status = pass_on(r, m, p, p->way, 4, films_on(p, p->film, 2));
+    if (status == FF_OK)
+        find_errors(r, m, p, p->film, 2, p->error);
+    return status;
+}
+
+void ehl_passage_destroy(ehl_passage *p)
+{
+    free(p->film);
+    free(p->error);
+    p->film = p->error = NULL;
 }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Instants of a run, and the passage of the contact before the first of them, on the cells of the
- * run and on twice as many: what the films owe to the cells in the inlet, on their way and at the
- * outlet.
+ * run, on twice and on four times as many: what the films owe to the cells in the inlet, on their
+ * way and at the outlet.
  */
 #ifndef EHL_PASSAGE_H
 #define EHL_PASSAGE_H
@@ -13,6 +13,12 @@ typedef struct ehl_passage {
     const ehl_history *whole;  /* of all engagements */
     int equal;                 /* the lengths of the steps were given */
     size_t begin, first, last; /* rows of the series, of one engagement: looked at from first on */
+    double way;                /* m, that the oil moves by in a step at least */
+    /* h_min and h_central of these rows on 1, 2, 4 times the cells, and their errors by the cells,
+       relative, positive where the film is too thick. NaN where the film on the cells of the run
+       is not that of the run within a quarter of the error or of its limit, or, with heat, ten
+       times of these: where it remembers more than a passage. */
+    double (*film)[EHL_PEAK], (*error)[EHL_PEAK];
 } ehl_passage;
 
 /* Whether a row counts for the error of an output. */
@@ -27,14 +33,14 @@ void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m,
    since the film of the row has come from a tenth of its half-width upstream. */
 int ehl_outlet_moves(const ehl_passage *p, const ehl_results *r, size_t row);
 
-/*
- * kind: what the rows are looked at for. error: of h_min and h_central by the cells for each of the
- * rows, relative, positive where the film is too thick. NaN where the film on the cells of the run
- * is not that of the run within a quarter of the error or of its limit, or, with heat, ten times of
- * these, however short the steps: where it remembers more than a passage. FF_OK, or a failure that
- * leaves no errors.
- */
-ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
-                             ehl_row_counts *counts, int kind, double (*error)[EHL_PEAK]);
+/* Fills in the errors by twice the cells; kind: what the rows are looked at for. FF_OK, or a
+   failure that leaves none. */
+ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passage *p,
+                             ehl_row_counts *counts, int kind);
+
+/* After that: by four times the cells. FF_OK, or a failure that leaves those before. */
+ff_status ehl_passage_refine(const ehl_results *r, const ehl_march *m, ehl_passage *p);
+
+void ehl_passage_destroy(ehl_passage *p);
 
 #endif

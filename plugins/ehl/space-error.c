@@ -319,13 +319,12 @@ static int is_low(const ehl_results *r, size_t row, int kind)
 
 /* Returns the largest share of their bounds that errors have, all at most, and all where no bound
    is large: those that are as good as none tell nothing of others. */
-static double largest_share(const ehl_results *r, const ehl_passage *p, double (*error)[EHL_PEAK],
-                            int kind)
+static double largest_share(const ehl_results *r, const ehl_passage *p, int kind)
 {
     double share = 0;
     for (size_t i = p->first; i <= p->last; i++) {
         double bound = fabs(*part_of(r, i, kind)) / film_of(r, i, kind),
-               e = fabs(error[i - p->first][kind]);
+               e = fabs(p->error[i - p->first][kind]);
         if (bound > EHL_FILM_LIMIT / 2)
             share = fmax(share, e <= bound ? e / bound : 1);
     }
@@ -335,15 +334,15 @@ static double largest_share(const ehl_results *r, const ehl_passage *p, double (
 /* Puts the errors that are known in place of what bounds them, and leaves that share of the bounds
    at the rows that were not looked at. A film without load has no bound, and its error does not
    count. */
-static void put_errors(ehl_results *r, const ehl_passage *p, double (*error)[EHL_PEAK], int kind)
+static void put_errors(ehl_results *r, const ehl_passage *p, int kind)
 {
-    double share = largest_share(r, p, error, kind);
+    double share = largest_share(r, p, kind);
     for (size_t i = 0; i < r->series.count; i++) {
         double *part = part_of(r, i, kind);
         if (i < p->first || i > p->last) {
             *part *= is_measured(r, i, kind) ? 1 : share;
-        } else if (has_bound(r, i, kind) && isfinite(error[i - p->first][kind])) {
-            *part = error[i - p->first][kind] * film_of(r, i, kind);
+        } else if (has_bound(r, i, kind) && isfinite(p->error[i - p->first][kind])) {
+            *part = p->error[i - p->first][kind] * film_of(r, i, kind);
             *part_of(r, i, EHL_MEASURED + kind) = 1;
             r->measured[kind] = 1;
         }
@@ -379,6 +378,29 @@ static size_t find_row(const ehl_results *r, const ehl_passage *p, int kind, dou
                : SIZE_MAX;
 }
 
+/* Whether the verdict hangs on how much is left of an error on twice the cells: on half of what is
+   there on the cells of the run, or on nothing. */
+static int order_decides(const ehl_results *r, const ehl_march *m, int kind)
+{
+    double left = ldexp(1, -ehl_carrying_order(m->solver->reynolds));
+    double found = (1 - left) * error_of(r, kind);
+    return found <= EHL_FILM_LIMIT && 2 * found > EHL_FILM_LIMIT;
+}
+
+/* Measures the films about a row. */
+static ff_status measure_passage(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
+                                 int kind)
+{
+    int moves = is_extreme(r, kind) && ehl_outlet_moves(p, r, row);
+    ehl_row_counts *counts = moves ? is_low : is_doubtful;
+    ehl_passage_destroy(p);
+    ehl_passage_about(p, r, m, row, counts, kind);
+    ff_status status = ehl_passage_errors(r, m, p, counts, kind);
+    if (status == FF_OK)
+        put_errors(r, p, kind);
+    return status;
+}
+
 /* Measures the films that the error of an output hangs on, and once more where those were not all.
    The lowest film of all is first looked at from half of the limit on. */
 static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p, int kind)
@@ -392,15 +414,14 @@ static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p
         size_t row = find_row(r, p, kind, enough);
         if (row == SIZE_MAX)
             break;
-        int moves = is_extreme(r, kind) && ehl_outlet_moves(p, r, row);
-        ehl_row_counts *counts = moves ? is_low : is_doubtful;
-        ehl_passage_about(p, r, m, row, counts, kind);
-        double(*error)[EHL_PEAK] = calloc(p->last - p->first + 1, sizeof *error);
-        status = error ? ehl_passage_errors(r, m, p, counts, kind, error) : FF_NOMEM;
-        if (status == FF_OK)
-            put_errors(r, p, error, kind);
-        free(error);
+        status = measure_passage(r, m, p, row, kind);
     }
+    if (status == FF_OK && p->film && order_decides(r, m, kind)) {
+        status = ehl_passage_refine(r, m, p);
+        if (status == FF_OK)
+            put_errors(r, p, kind);
+    }
+    ehl_passage_destroy(p);
     return status == FF_NOMEM || status == FF_STOPPED ? status : FF_OK;
 }
 
@@ -439,8 +460,7 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
         snprintf(how, sizeof how, "; by its film on %d times the cells %.3g of what bounds it",
                  r->finest, r->share);
     else if (kind != EHL_PEAK && r->measured[kind])
-        snprintf(how, sizeof how,
-                 "; measured by the last passage of the contact on twice the cells");
+        snprintf(how, sizeof how, "; measured by the last passage of the contact on more cells");
     if (kind == EHL_PEAK)
         snprintf(enough, sizeof enough,
                  "; above 0.1 the cells may cut the spike at the outlet off: use more of them");

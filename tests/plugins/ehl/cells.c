@@ -24,13 +24,13 @@ static double off(const line *c, const line *fine, const char *output)
     const double *t = stage_get(c->film, "time", &n), *y = stage_get(c->film, output, NULL);
     double worst = 0;
     for (size_t i = 0; i < n; i++)
-        worst = fmax(worst, fabs(y[i] / line_at(fine, output, t[i]) - 1));
+        worst = fmax(worst, fabs(line_at(fine, output, t[i]) / y[i] - 1));
     return worst;
 }
 
 static double off_lowest(const line *c, const line *fine)
 {
-    return fabs(stage_scalar(c->film, "h_min_lowest") / stage_scalar(fine->film, "h_min_lowest") -
+    return fabs(stage_scalar(fine->film, "h_min_lowest") / stage_scalar(c->film, "h_min_lowest") -
                 1);
 }
 
@@ -77,7 +77,7 @@ static void test_measured(void)
     for (int k = 0; k < 3; k++) {
         double bound = stage_quality(one.film, line_of[k]),
                stated = stage_quality(few.film, line_of[k]),
-               error = fabs(line_value(&one, output[k], 0) / line_value(&fine, output[k], 0) - 1);
+               error = fabs(line_value(&fine, output[k], 0) / line_value(&one, output[k], 0) - 1);
         printf("%s: error %.4f, stated %.4f, bound %.4f\n", output[k], error, stated, bound);
         check_true("the bound is doubtful", bound > (k < 2 ? 0.02 : 0.1));
         check_below("stated over bound", stated / bound, 0.8);
@@ -258,32 +258,32 @@ static void rising(line *c, double cells)
     check_true("runs", line_run(c, "h_min_lowest") == FF_OK);
 }
 
-/* A load that vibrates ten times in a passage: steps of a fifth of a cell make another film of it
-   than the run's own, of a fortieth, and the bound would stand, 4.7 times as large as what is true.
-   The lowest films come again every 8 us, and those that no passage looks at keep a share of it. */
-static void vibrating(line *c, double cells)
+static void vibrating_by(line *c, double share, double period, double steps, double cells)
 {
     enum { ROWS = 321 };
     line_open(c, "ehl/finite-volume");
     line_last(c, ROWS, 160e-6);
     for (int k = 0; k < ROWS; k++)
-        c->load[k] *= 1 + 0.2 * sin(2 * M_PI * c->time[k] / 8e-6);
-    stage_set(c->film, "steps", 3200);
+        c->load[k] *= 1 + share * sin(2 * M_PI * c->time[k] / period);
+    stage_set(c->film, "steps", steps);
     stage_set(c->film, "cells", cells);
     check_true("runs", line_run(c, "h_min_lowest") == FF_OK);
 }
 
-static void test_vibrating(void)
+/* A load that vibrates ten times in a passage: steps of a fifth of a cell make another film of it
+   than the run's own, of a fortieth, and the bound would stand, 4.7 times as large as what is true.
+ */
+static void vibrating(line *c, double cells)
 {
-    line c, fine;
-    vibrating(&c, 128);
-    vibrating(&fine, FINER * 128);
-    double is = off_lowest(&c, &fine), says = stage_quality(c.film, "h_min_space_error");
-    printf("vibrating: h_min_lowest %.4f (%.4f)\n", is, says);
-    check_below("the error over what is stated", is / says, 1.2);
-    check_below("what is stated over it", says / is, 3);
-    line_close(&c);
-    line_close(&fine);
+    vibrating_by(c, 0.2, 8e-6, 3200, cells);
+}
+
+/* The outlet moves at up to five times the speed of the oil, and the error does not fall by four as
+   the cells are halved: it would be 2.5 % by twice the cells where 2.1 is true, and the verdict
+   hangs on the order. */
+static void swaying(line *c, double cells)
+{
+    vibrating_by(c, 0.6, 16e-6, 1600, cells);
 }
 
 /* Where no error of a film is estimated the cells of the inlet are told: without a film, and of a
@@ -319,7 +319,8 @@ int main(void)
     check_lowest("unloading: h_min_lowest", unloading, 256);
     test_slowing();
     check_lowest("rising: h_min_lowest", rising, 384);
-    test_vibrating();
+    check_lowest("vibrating: h_min_lowest", vibrating, 128);
+    check_lowest("swaying: h_min_lowest", swaying, 128);
     test_resolution();
     return check_done();
 }
