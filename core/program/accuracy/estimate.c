@@ -194,19 +194,34 @@ static void find_shares(const accuracy_ladder *l, double *shares)
         shares[k] /= all;
 }
 
+/* Raises each error to the largest one near it, that of a typical point to those of typical ones.
+ */
+static void spread(const accuracy_ladder *l, const double *all, const bool *typical, double *error)
+{
+    const size_t near = l->count > 1 ? 1 + (size_t)(reach / 2 * (double)l->count) : 0;
+    for (size_t i = 0; i < l->count; i++) {
+        double largest = 0;
+        for (size_t k = i > near ? i - near : 0; k < l->count && k <= i + near; k++)
+            if (!typical[i] || typical[k])
+                largest = fmax(largest, all[k]);
+        error[i] += largest * (l->scale ? l->scale[i] : 1);
+    }
+}
+
 double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares)
 {
     convergence c = convergence_of(l);
+    double *all = memory_alloc(l->count * sizeof *all);
+    bool *typical = memory_alloc(l->count * sizeof *typical);
     c.coarse_limit = coarse_limit(l);
-    const size_t near = l->count > 1 ? 1 + (size_t)(reach / 2 * (double)l->count) : 0;
     for (size_t i = 0; i < l->count; i++) {
-        bool typical = is_typical(l, i, &c);
+        all[i] = error_at(l, i, &c);
+        typical[i] = is_typical(l, i, &c);
         error[i] = 0;
-        for (size_t k = i > near ? i - near : 0; k < l->count && k <= i + near; k++)
-            if (!typical || is_typical(l, k, &c))
-                error[i] = fmax(error[i], error_at(l, k, &c));
-        error[i] *= l->scale ? l->scale[i] : 1;
     }
+    spread(l, all, typical, error);
+    free(typical);
+    free(all);
     find_shares(l, shares);
     double observed = c.typical;
     return isfinite(observed) && observed != 0 ? log2(fabs(observed)) : NAN;
@@ -217,11 +232,14 @@ double accuracy_add_tolerances(const accuracy_ladder *l, double *error)
     const double growth = accuracy_tolerance_factor;
     const double factor = safety * (l->is_finer ? growth : 1) / (growth - 1);
     double *all = memory_alloc(l->count * sizeof *all);
-    for (size_t i = 0; i < l->count; i++) {
+    bool *typical = memory_alloc(l->count * sizeof *typical);
+    for (size_t i = 0; i < l->count; i++)
         all[i] = factor * apart(l, l->tight, l->loose, i);
-        error[i] += all[i] * (l->scale ? l->scale[i] : 1);
-    }
-    double typical = accuracy_typical(all, l->at, l->count);
+    double limit = accuracy_typical(all, l->at, l->count);
+    for (size_t i = 0; i < l->count; i++)
+        typical[i] = all[i] <= limit;
+    spread(l, all, typical, error);
+    free(typical);
     free(all);
-    return typical;
+    return limit;
 }
