@@ -194,18 +194,22 @@ static void find_shares(const accuracy_ladder *l, double *shares)
         shares[k] /= all;
 }
 
-/* Raises each error to the largest one near it, that of a typical point to those of typical ones.
- */
-static void spread(const accuracy_ladder *l, const double *all, const bool *typical, double *error)
+/* Raises each relative error to the largest one near it, that of a typical point to those of
+   typical ones, adds it to the error of the number, and returns what is typical of it. */
+static double add_largest(const accuracy_ladder *l, const double *all, const bool *typical,
+                          double *error)
 {
     const size_t near = l->count > 1 ? 1 + (size_t)(reach / 2 * (double)l->count) : 0;
+    double *largest = memory_alloc(l->count * sizeof *largest);
     for (size_t i = 0; i < l->count; i++) {
-        double largest = 0;
         for (size_t k = i > near ? i - near : 0; k < l->count && k <= i + near; k++)
             if (!typical[i] || typical[k])
-                largest = fmax(largest, all[k]);
-        error[i] += largest * (l->scale ? l->scale[i] : 1);
+                largest[i] = fmax(largest[i], all[k]);
+        error[i] += largest[i] * (l->scale ? l->scale[i] : 1);
     }
+    double of_most = accuracy_typical(largest, l->at, l->count);
+    free(largest);
+    return of_most;
 }
 
 double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares)
@@ -219,7 +223,7 @@ double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares
         typical[i] = is_typical(l, i, &c);
         error[i] = 0;
     }
-    spread(l, all, typical, error);
+    add_largest(l, all, typical, error);
     free(typical);
     free(all);
     find_shares(l, shares);
@@ -238,8 +242,8 @@ double accuracy_add_tolerances(const accuracy_ladder *l, double *error)
     double limit = accuracy_typical(all, l->at, l->count);
     for (size_t i = 0; i < l->count; i++)
         typical[i] = all[i] <= limit;
-    spread(l, all, typical, error);
+    double of_most = add_largest(l, all, typical, error);
     free(typical);
     free(all);
-    return limit;
+    return of_most;
 }

@@ -237,8 +237,23 @@ static void test_tolerances_at_a_jump(void)
     check_near("beside", error[101], 0, 1e-12);
 }
 
+/* What tolerances move passes through 0 where two films cross: beside that they err as much. */
+static void test_tolerances_where_they_cross(void)
+{
+    double answer[POINTS], loose[POINTS], error[POINTS] = {0};
+    for (int i = 0; i < POINTS; i++) {
+        answer[i] = 1;
+        loose[i] = 1 + 0.3 * (i != 100);
+    }
+    accuracy_ladder l = {
+        .count = POINTS, .answer = answer, .half = answer, .tight = answer, .loose = loose};
+    check_near("typical", accuracy_add_tolerances(&l, error), safety * 0.1, 1e-9);
+    check_near("where they cross", error[100], safety * 0.1, 1e-9);
+}
+
 int main(void)
 {
+    test_tolerances_where_they_cross();
     test_tolerances_at_a_jump();
     test_tolerances();
     test_orders();
