@@ -245,32 +245,20 @@ static void change_in_frame(size_t n, const double *restrict mass, const double 
     }
 }
 
-/* Keeps the film of the instant, with the change of its mass in a frame of that speed. */
-static void keep_film(ehl_bound *b, const ehl_march *m, const ehl_crest *of, double frame)
+void ehl_space_keep(const ehl_march *m, ehl_instant_film *f)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    b->h_central = of->h_central;
-    b->p_max = of->p_max;
-    b->at = m->at;
-    b->frame = frame;
+    f->h_central = ehl_central_film(m->solver->grid, eq);
+    f->p_max = m->state[0].highest;
+    f->at = m->at;
+    f->cells = eq->nodes - 1;
+    contact c = contact_at(eq, &m->at, m->history->modulus, f->h_central);
+    f->frame = m->step.past && m->known > 1 ? speed_of_outlet(m, &c) : 0;
     if (m->step.past)
-        change_in_frame(eq->nodes, m->state[0].mass, m->step.past, m->step.rate, frame, eq->dx,
-                        eq->wedge, b->change);
+        change_in_frame(eq->nodes, m->state[0].mass, m->step.past, m->step.rate, f->frame, eq->dx,
+                        eq->wedge, f->change);
     else
-        memset(b->change, 0, eq->nodes * sizeof *b->change);
-}
-
-/* Keeps the bound that counts more, and the film of its instant, in the frame of the outlet. */
-static void keep_worst(ehl_bound *b, double value, double counts, const ehl_march *m,
-                       const ehl_crest *of, const contact *c)
-{
-    if (!isfinite(value))
-        value = counts = 1e300; /* as ehl_worse: no other counts more */
-    if (!(counts > b->counts || !(b->h_central > 0)))
-        return;
-    b->counts = counts;
-    b->worst = value;
-    keep_film(b, m, of, m->step.past && m->known > 1 ? speed_of_outlet(m, c) : 0);
+        memset(f->change, 0, eq->nodes * sizeof *f->change);
 }
 
 /* carried: what the cells have made of h_min and h_central on the film's way, relative. */
@@ -280,15 +268,12 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
     const ehl_crest of = {m->state[0].film.p, h_central, p_max};
     ehl_spike spike;
     ehl_space_errors e = bounds_at(m->solver->reynolds, c, &of, &spike);
-    double peak = e.of[EHL_PEAK];
     r->by_cells = e.of[EHL_LEAST];
     ehl_worse(&r->worst_by_cells, r->by_cells);
-    keep_worst(&r->worst_peak, peak, r->highest_alone ? p_max * (1 + peak) : peak, m, &of, c);
-    keep_worst(&r->at_highest, peak, p_max, m, &of, c);
     r->row_in_space[EHL_LEAST] = (e.of[EHL_LEAST] + carried[EHL_LEAST]) * r->row[EHL_H_MIN];
     r->row_in_space[EHL_CENTRAL] =
         (e.of[EHL_CENTRAL] + carried[EHL_CENTRAL]) * r->row[EHL_H_CENTRAL];
-    r->row_in_space[EHL_PEAK] = peak * p_max;
+    r->row_in_space[EHL_PEAK] = e.of[EHL_PEAK] * p_max;
 }
 
 static void keep_least(double *least, double value)

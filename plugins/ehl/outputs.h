@@ -21,6 +21,14 @@ typedef struct ehl_rows {
     size_t width, count, room;
 } ehl_rows;
 
+/* A row at whose p_max was looked, on more cells. */
+typedef struct ehl_look {
+    size_t row, begin; /* begin: of the passage before it */
+    double tip;        /* Pa, what p_max is without the error of the cells */
+} ehl_look;
+
+enum { EHL_LOOKS = 4 };
+
 typedef struct ehl_results {
     const ff_host *host;
     ehl_balance balance;
@@ -42,12 +50,13 @@ typedef struct ehl_results {
     double worst_in_time[2];             /* errors of h_min and h_central by the steps, relative */
     double least_in_time;                /* m, the lowest that h_min may be with it */
     double worst_peak_in_time,
-        highest_in_time;              /* p_max: relative; Pa, the highest that it may be */
-    ehl_bound worst_peak, at_highest; /* of p_max: where it counts most, and where it is highest */
+        highest_in_time; /* p_max: relative; Pa, the highest that it may be */
     /* what bounds h_min where it is made, relative: at the last instant, 0: none yet; at all */
     double by_cells, worst_by_cells;
     double tolerance; /* the largest of those that the films were solved to */
-    double share;     /* of the bounds of p_max that remained where they were measured; 1: all */
+    double share;     /* of the bounds of p_max that remains where it was not looked at; 1: all */
+    ehl_look look[EHL_LOOKS]; /* at rows, by their order */
+    size_t looks;
     int measured[EHL_PEAK];              /* 1: h_min, h_central were measured at some rows */
     int finest;                          /* the most cells at which, over those of the run */
     ehl_rows space;                      /* what the cells add to h_min, h_central, p_max */
@@ -82,6 +91,9 @@ double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m);
 /* Estimates the errors of the row that is being filled in; h_min is at `node`. */
 void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
                         double p_max);
+
+/* Keeps the newest film of the march; f->change has room for its nodes. */
+void ehl_space_keep(const ehl_march *m, ehl_instant_film *f);
 
 /* Measures the errors whose bounds are above their limits; those of a film unless it is the only
    one. `whole` has all engagements; equal: the lengths of the steps were given. */

@@ -11,6 +11,9 @@
 /* h_min and h_central of the rows that are looked at. */
 typedef double (*films)[EHL_PEAK];
 
+/* Steps join those of the run to this share of a cell. */
+static const double joined = 0.2;
+
 static double value(const ehl_results *r, size_t row, uint32_t output)
 {
     return r->series.data[row * EHL_SERIES + output];
@@ -122,9 +125,9 @@ static int joins(const ehl_results *r, const ehl_passage *p, double way)
 }
 
 /* Marches to the last row and keeps h_min and h_central of those that a step leads to, from the
-   first one on. */
+   first one on; of the last one how it changes, too, unless `at_last` is NULL. */
 static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_passage *p, double way,
-                      ehl_grid_level *l, films film)
+                      ehl_grid_level *l, films film, ehl_instant_film *at_last)
 {
     enum { BETWEEN = 16 };
     const ehl_history h = engagement_of(r, p, p->first);
@@ -142,6 +145,8 @@ static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_pass
             film[row - p->first][EHL_LEAST] = ehl_least_film(&l->reynolds, &node);
             film[row - p->first][EHL_CENTRAL] = ehl_central_film(&l->grid, &l->reynolds);
         }
+        if (row == p->last && at_last)
+            ehl_space_keep(&m, at_last);
         if (row == p->last)
             break;
         row = next_row(r, p, &h, way, row);
@@ -156,7 +161,7 @@ static ff_status pass(const ehl_results *r, const ehl_march *run, const ehl_pass
 
 /* Does so on `times` the cells of the run. */
 static ff_status pass_on(const ehl_results *r, const ehl_march *run, const ehl_passage *p,
-                         double way, size_t times, films film)
+                         double way, size_t times, films film, ehl_instant_film *at_last)
 {
     const double tolerance = 2e-4; /* what films leave adds up on the way */
     ehl_solver kind = *run->solver;
@@ -167,7 +172,7 @@ static ff_status pass_on(const ehl_results *r, const ehl_march *run, const ehl_p
         ehl_grid_level_create(&l, &kind, times * (kind.grid->nodes - 1), kind.modulus);
     l.solver.tolerance = tolerance;
     if (status == FF_OK)
-        status = pass(r, run, p, way, &l, film);
+        status = pass(r, run, p, way, &l, film, at_last);
     ehl_grid_level_destroy(&l);
     return status;
 }
@@ -217,9 +222,9 @@ static ff_status pass_twins(const ehl_results *r, const ehl_march *m, const ehl_
                             double way, films all, films error)
 {
     memset(all, 0, 2 * (p->last - p->first + 1) * sizeof *all);
-    ff_status status = pass_on(r, m, p, way, 1, films_on(p, all, 0));
+    ff_status status = pass_on(r, m, p, way, 1, films_on(p, all, 0), NULL);
     if (status == FF_OK)
-        status = pass_on(r, m, p, way, 2, films_on(p, all, 1));
+        status = pass_on(r, m, p, way, 2, films_on(p, all, 1), NULL);
     if (status == FF_OK)
         find_errors(r, m, p, all, 1, error);
     return status;
@@ -230,12 +235,12 @@ ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passa
 {
     /* Many steps of a run are shorter than a fifth of a cell. Where its load vibrates, films by
        longer ones are not its own. */
-    const double dx = m->solver->grid->dx, shorter = 0.25;
+    const double shorter = 0.25;
     const size_t count = p->last - p->first + 1;
     films tried = malloc(3 * count * sizeof *tried);
     p->film = calloc(3 * count, sizeof *p->film);
     p->error = calloc(count, sizeof *p->error);
-    p->way = 0.2 * dx;
+    p->way = joined * m->solver->grid->dx;
     ff_status status = tried && p->film && p->error ? FF_OK : FF_NOMEM;
     if (status == FF_OK)
         status = pass_twins(r, m, p, p->way, p->film, p->error);
@@ -257,10 +262,21 @@ ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passa
 
 ff_status ehl_passage_refine(const ehl_results *r, const ehl_march *m, ehl_passage *p)
 {
-    ff_status status = pass_on(r, m, p, p->way, 4, films_on(p, p->film, 2));
+    ff_status status = pass_on(r, m, p, p->way, 4, films_on(p, p->film, 2), NULL);
     if (status == FF_OK)
         find_errors(r, m, p, p->film, 2, p->error);
     return status;
+}
+
+ff_status ehl_passage_to(const ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
+                         size_t times, ehl_instant_film *f)
+{
+    const ehl_history h = engagement_of(r, p, row);
+    const double length = length_of_passage(r, m, &h, row);
+    double film[1][EHL_PEAK];
+    p->first = p->last = row;
+    p->begin = row_away(r, &h, row, length, 0);
+    return pass_on(r, m, p, joined * m->solver->grid->dx, times, film, f);
 }
 
 void ehl_passage_destroy(ehl_passage *p)

@@ -41,6 +41,11 @@ ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passa
 /* After that: by four times the cells. FF_OK, or a failure that leaves those before. */
 ff_status ehl_passage_refine(const ehl_results *r, const ehl_march *m, ehl_passage *p);
 
+/* Marches from a passage before to a row, on so many times the cells of the run, and keeps the film
+   there; f->change has room for its nodes. */
+ff_status ehl_passage_to(const ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
+                         size_t times, ehl_instant_film *f);
+
 void ehl_passage_destroy(ehl_passage *p);
 
 #endif

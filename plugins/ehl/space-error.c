@@ -54,198 +54,6 @@ static double *part_of(const ehl_results *r, size_t row, int kind)
     return &r->space.data[row * EHL_SPACE + (size_t)kind];
 }
 
-/* A film, and what is looked at of it. */
-typedef struct twin {
-    double central, p_max, bound; /* bound: of the error of p_max */
-    ehl_spike spike;
-} twin;
-
-static twin look_at(ehl_grid_level *l, const ehl_instant *at)
-{
-    ehl_reynolds *eq = &l->reynolds;
-    twin t = {.p_max = 0};
-    ehl_reynolds_gap(eq, at->radius, &l->film);
-    t.central = ehl_central_film(&l->grid, eq);
-    for (size_t i = 0; i < eq->nodes; i++)
-        t.p_max = fmax(t.p_max, l->film.p[i]);
-    if (!(t.central > 0 && t.p_max > 0))
-        return (twin){.p_max = 0};
-    const ehl_crest of = {l->film.p, t.central, t.p_max};
-    t.bound = ehl_space_bounds(eq, at, l->solver.modulus, &of, &t.spike).of[EHL_PEAK];
-    return t;
-}
-
-/* Films on 1, 2, 4, 8, 16 times the cells. */
-enum { TWINS = 5 };
-
-/*
- * Returns the tip of a spike on the finer of two grids. What the cells cut off it is some multiple
- * of what the formula says on either, which the spikes of both tell; it is bounded, since few cells
- * show a spike beside the place where it will stand.
- */
-static double tip_by_formula(const ehl_spike *coarse, const ehl_spike *fine)
-{
-    const double most = 1.5;
-    if (!(fine->seen > 0 && coarse->seen > 0))
-        return fine->seen > 0 ? fine->tip : 0;
-    double grown = fine->seen / coarse->seen, steep = grown * coarse->cut - fine->cut;
-    double times = !(grown > 1) ? 0 : steep > 0 ? fmin(most, (grown - 1) / steep) : most;
-    return fine->seen / (1 - fmin(0.9, times * fine->cut));
-}
-
-static double crest_of(const twin *t)
-{
-    return t->spike.seen > 0 ? t->spike.seen : t->p_max;
-}
-
-/*
- * Returns the tip by what the spike grows by from grid to grid, t being the finest. What is cut off
- * falls at first order, by 1/2, once cells are short, and by no less than the formula says before;
- * the spike of one grid alone is uncertain by where its nodes lie, so that the growth of both
- * halvings counts as much as that of the last.
- */
-static double tip_by_growth(const twin *t, double slowest)
-{
-    double last = crest_of(t) - crest_of(t - 1), before = crest_of(t - 1) - crest_of(t - 2);
-    if (!(last > 0))
-        return crest_of(t);
-    double ratio = before > 0 ? fmin(fmax(last / before, 0.5), slowest) : slowest;
-    double square = ratio * ratio;
-    return crest_of(t) + fmax(last * ratio / (1 - ratio), (last + before) * square / (1 - square));
-}
-
-/* Returns the error of p_max on the cells of t[0], from the films to t[k], k > 1. By the formula,
-   x/(x + w), cells are shorter than a tip of length w where a halving takes a third off the share
-   that they cut. */
-static double peak_error(const twin *t, int k)
-{
-    double slowest = t[k].spike.cut / t[k - 1].spike.cut, tip = 0;
-    if (k > 2 && slowest < 2. / 3)
-        tip = tip_by_growth(t + k, slowest);
-    else
-        tip = tip_by_formula(&t[k - 2].spike, &t[k].spike);
-    return fmax(fmax(0, tip / t[0].p_max - 1), fabs(t[k].p_max / t[0].p_max - 1));
-}
-
-/* Whether it is known if the error of the peak exceeds `enough`, by the films to t[k]. */
-static int is_told(const twin *t, int k, double enough)
-{
-    return k > 1 && (peak_error(t, k) <= enough || t[k].p_max > (1 + enough) * t[0].p_max);
-}
-
-/* Straight lines between the nodes: `times` cells in place of each of the `cells` of `from`. */
-static void spread(const double *from, size_t cells, size_t times, double *to)
-{
-    for (size_t i = 0; i < cells * times; i++) {
-        double far = (double)(i % times) / (double)times;
-        to[i] = (1 - far) * from[i / times] + far * from[i / times + 1];
-    }
-    to[cells * times] = from[cells];
-}
-
-/* Finds the film on `times` the cells of `s`, from that of the level before, if any. */
-static ff_status find_twin(const ehl_solver *s, const ehl_bound *run, size_t times,
-                           const ehl_grid_level *before, ehl_grid_level *l, twin *t)
-{
-    const ehl_instant *at = &run->at;
-    size_t cells = s->grid->nodes - 1;
-    double thinnest = ehl_moes_film(at, s->modulus, &s->reynolds->oil);
-    double *change = malloc((cells * times + 1) * sizeof *change);
-    ff_status status = change ? ehl_grid_level_create(l, s, cells * times, s->modulus) : FF_NOMEM;
-    if (status == FF_OK) {
-        const ehl_step step = {.entrainment = at->entrainment - run->frame,
-                               .sliding = at->sliding,
-                               .radius = at->radius,
-                               .load = at->load,
-                               .loaded = 1,
-                               .past = change};
-        spread(run->change, cells, times, change);
-        status = ehl_grid_level_solve(l, before, &step, at, s->modulus, thinnest);
-    }
-    if (status == FF_OK)
-        *t = look_at(l, at);
-    free(change);
-    return status == FF_OK && !(t->p_max > 0) ? FF_NOCONV : status;
-}
-
-/* Fills t with the films of the instant, three at least, until the peak is told; *last: of them. */
-static ff_status find_twins(const ehl_solver *s, const ehl_bound *run, double enough, twin *t,
-                            int *last)
-{
-    ehl_grid_level l[2] = {0};
-    ff_status status = FF_OK;
-    ehl_solver kind = *s;
-    if (kind.maker != ehl_line_relaxation) /* the dense solver has the same films */
-        kind.maker = ehl_newton_krylov;
-    for (int k = 0, told = 0; k < TWINS && status == FF_OK && !told; k++) {
-        ehl_grid_level *here = &l[k % 2], *before = k > 0 ? &l[1 - k % 2] : NULL;
-        ehl_grid_level_destroy(here);
-        status = find_twin(&kind, run, (size_t)1 << k, before, here, &t[k]);
-        if (status == FF_NOCONV && k > 2) { /* three films tell of the peak what they can */
-            status = FF_OK;
-            break;
-        }
-        *last = k;
-        told = status == FF_OK && is_told(t, k, enough);
-    }
-    ehl_grid_level_destroy(&l[0]);
-    ehl_grid_level_destroy(&l[1]);
-    return status;
-}
-
-static int are_within(double a, double b, double factor)
-{
-    return a < factor * b && b < factor * a;
-}
-
-ff_status ehl_space_measure(const ehl_solver *s, const ehl_bound *run, double enough, double *share,
-                            int *finest)
-{
-    const double thicker = 1.2, higher = 1.1; /* without heat, and still much the same film */
-    twin t[TWINS];
-    int last = 0;
-    if (!(run->at.entrainment > fmax(0, run->frame)))
-        return FF_NOCONV;
-    ff_status status = find_twins(s, run, enough, t, &last);
-    if (status != FF_OK)
-        return status;
-    *finest = 1 << last;
-    if (!are_within(t[0].central, run->h_central, thicker) ||
-        !are_within(t[0].p_max, run->p_max, higher))
-        return FF_NOCONV;
-    /* a bound that is as good as none tells nothing of those that are large */
-    *share = t[0].bound > EHL_PEAK_LIMIT / 2 ? peak_error(t, last) / t[0].bound : 0;
-    return FF_OK;
-}
-
-/* Raises the share of the peaks by that at the instant of a bound. Where its own is not known
-   there, it stands. */
-static ff_status raise_peak(ehl_results *r, const ehl_march *m, const ehl_bound *b, double *all)
-{
-    double highest = r->highest_alone ? r->highest : b->p_max, share = 0;
-    double enough = (1 + EHL_PEAK_LIMIT) * highest / b->p_max - 1;
-    int finest = 0;
-    ff_status status = ehl_space_measure(m->solver, b, enough, &share, &finest);
-    if (status == FF_NOMEM)
-        return FF_NOMEM;
-    r->finest = finest > r->finest ? finest : r->finest;
-    *all = fmax(*all, status == FF_OK && share > 0 ? share : 1);
-    return FF_OK;
-}
-
-static ff_status measure_peaks(ehl_results *r, const ehl_march *m)
-{
-    double all = 0;
-    if (!(ehl_wants_p_max(r->wanted) && r->worst_peak.worst > EHL_PEAK_LIMIT))
-        return FF_OK;
-    ff_status status = raise_peak(r, m, &r->worst_peak, &all);
-    int other = fabs(r->at_highest.at.time - r->worst_peak.at.time) > 0;
-    if (status == FF_OK && other && r->at_highest.worst > EHL_PEAK_LIMIT)
-        status = raise_peak(r, m, &r->at_highest, &all);
-    r->share = all;
-    return status;
-}
-
 static int is_measured(const ehl_results *r, size_t row, int kind)
 {
     return *part_of(r, row, EHL_MEASURED + kind) > 0;
@@ -255,6 +63,23 @@ static int is_measured(const ehl_results *r, size_t row, int kind)
 static int has_bound(const ehl_results *r, size_t row, int kind)
 {
     return fabs(*part_of(r, row, kind)) > 0;
+}
+
+/* Returns what p_max of a row is without the error of the cells. Between two looks of one passage
+   by a straight line: on more cells it changes steadily, while the nodes of the run lie anywhere
+   beside the tip; else by the largest share of a bound. */
+static double tip_of(const ehl_results *r, size_t row)
+{
+    const ehl_look *l = r->look;
+    for (size_t k = 0; k < r->looks; k++) {
+        if (l[k].row == row)
+            return l[k].tip;
+        if (k > 0 && l[k - 1].row < row && row < l[k].row && l[k - 1].row >= l[k].begin) {
+            double far = (double)(row - l[k - 1].row) / (double)(l[k].row - l[k - 1].row);
+            return (1 - far) * l[k - 1].tip + far * l[k].tip;
+        }
+    }
+    return film_of(r, row, EHL_PEAK) + r->share * *part_of(r, row, EHL_PEAK);
 }
 
 static int is_extreme(const ehl_results *r, int kind)
@@ -267,10 +92,10 @@ static int is_extreme(const ehl_results *r, int kind)
 static double error_of_row(const ehl_results *r, size_t row, int kind)
 {
     double value = film_of(r, row, kind), part = *part_of(r, row, kind), error = 0;
-    if (!is_extreme(r, kind))
+    if (kind == EHL_PEAK)
+        error = tip_of(r, row) / (is_extreme(r, kind) ? r->highest : value) - 1;
+    else if (!is_extreme(r, kind))
         error = fabs(part) / value;
-    else if (kind == EHL_PEAK)
-        error = (value + r->share * part) / r->highest - 1;
     else
         error = 1 - (value - part) / r->lowest;
     return isfinite(error) ? error : 1e300;
@@ -294,8 +119,6 @@ static size_t worst_row(const ehl_results *r, int kind)
    of all instants may be, or be higher as far as all of them are. */
 static double error_of(const ehl_results *r, int kind)
 {
-    if (kind == EHL_PEAK && !is_extreme(r, kind))
-        return r->share * r->worst_peak.worst;
     double error = error_of_row(r, worst_row(r, kind), kind), highest = HUGE_VAL;
     for (size_t i = 0; i < r->series.count && kind == EHL_LEAST && r->lowest_alone; i++) {
         double part = *part_of(r, i, kind);
@@ -425,6 +248,94 @@ static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p
     return status == FF_NOMEM || status == FF_STOPPED ? status : FF_OK;
 }
 
+/* Keeps a look by the order of the rows. */
+static void keep_look(ehl_results *r, ehl_look look)
+{
+    size_t k = r->looks++;
+    for (; k > 0 && r->look[k - 1].row > look.row; k--)
+        r->look[k] = r->look[k - 1];
+    r->look[k] = look;
+}
+
+/* Finds the error of p_max of a row. Of a spike that moves twice the cells are marched to it: those
+   of the run have smoothed how it changes. */
+static ff_status find_peak_error(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
+                                 double *error)
+{
+    enum { FINER = 2 };
+    double value = film_of(r, row, EHL_PEAK);
+    double highest = is_extreme(r, EHL_PEAK) ? r->highest : value;
+    double *change = malloc((1 + FINER) * r->nodes * sizeof *change);
+    ehl_instant_film run = {.change = change}, fine = {.change = change ? change + r->nodes : NULL};
+    int finest = 0;
+    ff_status status = change ? ehl_passage_to(r, m, p, row, 1, &run) : FF_NOMEM;
+    if (status == FF_OK)
+        status = ehl_passage_to(r, m, p, row, FINER, &fine);
+    if (status == FF_OK)
+        status = ehl_peak_error(m->solver, &run, &fine, (1 + EHL_PEAK_LIMIT) * highest / value - 1,
+                                error, &finest);
+    r->finest = finest > r->finest ? finest : r->finest;
+    free(change);
+    if (status == FF_OK && !ehl_is_like(&run, film_of(r, row, EHL_CENTRAL), value))
+        return FF_NOCONV;
+    return status;
+}
+
+/* Looks at p_max of a row. Where its error is not told there, all bounds stand. */
+static ff_status look_at_peak(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row)
+{
+    double value = film_of(r, row, EHL_PEAK), bound = *part_of(r, row, EHL_PEAK) / value, error = 0;
+    ff_status status = find_peak_error(r, m, p, row, &error);
+    if (status == FF_NOMEM || status == FF_STOPPED)
+        return status;
+    if (status != FF_OK)
+        error = bound;
+    /* a bound that is as good as none tells nothing of those that are large */
+    double share = bound > EHL_PEAK_LIMIT / 2 ? error / bound : 0;
+    r->share = r->looks > 0 ? fmax(r->share, share) : share;
+    keep_look(r, (ehl_look){row, p->begin, (1 + error) * value});
+    return FF_OK;
+}
+
+static size_t highest_row(const ehl_results *r)
+{
+    size_t row = 0;
+    while (row + 1 < r->series.count && film_of(r, row, EHL_PEAK) < r->highest)
+        row++;
+    return row;
+}
+
+/* Returns the row to look at, SIZE_MAX when there is none: the worst and that of the highest p_max
+   from half of the limit on, then what may exceed the limit, until that is known of one. */
+static size_t find_peak(const ehl_results *r)
+{
+    size_t worst = worst_row(r, EHL_PEAK), highest = highest_row(r);
+    double error = error_of_row(r, worst, EHL_PEAK);
+    int seen = 0;
+    for (size_t k = 0; k < r->looks; k++) {
+        seen |= r->look[k].row == highest;
+        if (error_of_row(r, r->look[k].row, EHL_PEAK) > EHL_PEAK_LIMIT)
+            return SIZE_MAX;
+    }
+    if (r->looks == 0)
+        return error > EHL_PEAK_LIMIT / 2 ? worst : SIZE_MAX;
+    if (r->looks == 1 && !seen && *part_of(r, highest, EHL_PEAK) > EHL_PEAK_LIMIT / 2 * r->highest)
+        return highest;
+    return error > EHL_PEAK_LIMIT && r->looks < EHL_LOOKS ? worst : SIZE_MAX;
+}
+
+static ff_status measure_peaks(ehl_results *r, const ehl_march *m, ehl_passage *p)
+{
+    ff_status status = FF_OK;
+    while (status == FF_OK && ehl_wants_p_max(r->wanted)) {
+        size_t row = find_peak(r);
+        if (row == SIZE_MAX)
+            break;
+        status = look_at_peak(r, m, p, row);
+    }
+    return status;
+}
+
 ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_history *whole,
                               int equal)
 {
@@ -438,7 +349,7 @@ ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_hist
         status = measure_film(r, m, &p, EHL_LEAST);
     if (status == FF_OK && count > 1 && ehl_wants_h_central(r->wanted))
         status = measure_film(r, m, &p, EHL_CENTRAL);
-    return status == FF_OK && count >= LEAST_COUNT ? measure_peaks(r, m) : status;
+    return status == FF_OK && count >= LEAST_COUNT ? measure_peaks(r, m, &p) : status;
 }
 
 /* Returns how many cells would meet the limit of an error of a film, by its order. */

@@ -36,26 +36,28 @@ typedef struct ehl_space_errors {
 ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at, double modulus,
                                   const ehl_crest *of, ehl_spike *spike);
 
-/* The bound of the error of a peak that counts most, and the film of its instant. */
-typedef struct ehl_bound {
-    double counts; /* the more the larger: the bound itself, or how far its instant may go */
-    double worst, h_central, p_max;
+/* The film of an instant, and how it changes. */
+typedef struct ehl_instant_film {
+    double h_central, p_max;
     ehl_instant at;
+    size_t cells;
     double frame;   /* m/s, speed of a frame in which the film changes slowly */
     double *change; /* of its mass there in time, at the nodes, kg/(m2 s) */
-} ehl_bound;
+} ehl_instant_film;
+
+/* Whether such a film is much the same. */
+int ehl_is_like(const ehl_instant_film *f, double h_central, double p_max);
 
 /*
  * Solves the contact of an instant, whose load is > 0, on the cells of `s`, on twice, four times as
  * many and on more, to 16 times, until it is known whether the error of the peak exceeds `enough`
- * > 0, or there is no such film on 8 or 16 times: then from those before. Gives that error as a
- * share of its bound there; 0 where that is below half of its limit, and tells nothing of large
- * ones. *finest: over the cells of `s`. The mass changes in time as it does in the run, in the
- * frame that moves with the spike of the outlet: what moves with it is a change in time at one
- * place which the cells have smoothed. FF_OK; FF_NOMEM; FF_NOCONV where there is no such film, or
- * another one than that of the run.
+ * > 0, or there is no such film on 8 or 16 times: then from those before. Gives that error of
+ * run->p_max, relative. *finest: over the cells of `s`. On more cells than those of `run` the mass
+ * changes in time as it does in `fine`, in the frame that moves with the spike of the outlet: what
+ * moves with it is a change in time at one place which the cells have smoothed. FF_OK; FF_NOMEM;
+ * FF_NOCONV where there is no such film, or another one than `run`.
  */
-ff_status ehl_space_measure(const ehl_solver *s, const ehl_bound *run, double enough, double *share,
-                            int *finest);
+ff_status ehl_peak_error(const ehl_solver *s, const ehl_instant_film *run,
+                         const ehl_instant_film *fine, double enough, double *error, int *finest);
 
 #endif
