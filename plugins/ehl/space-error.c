@@ -136,8 +136,7 @@ static int is_doubtful(const ehl_results *r, size_t row, int kind)
    be the lowest, too. */
 static int is_low(const ehl_results *r, size_t row, int kind)
 {
-    return is_doubtful(r, row, kind) ||
-           (has_bound(r, row, kind) && film_of(r, row, kind) < 1.1 * r->lowest);
+    return is_doubtful(r, row, kind) || film_of(r, row, kind) < 1.1 * r->lowest;
 }
 
 /* Returns the largest share of their bounds that errors have, all at most, and all where no bound
@@ -164,7 +163,8 @@ static void put_errors(ehl_results *r, const ehl_passage *p, int kind)
         double *part = part_of(r, i, kind);
         if (i < p->first || i > p->last) {
             *part *= is_measured(r, i, kind) ? 1 : share;
-        } else if (has_bound(r, i, kind) && isfinite(p->error[i - p->first][kind])) {
+        } else if ((has_bound(r, i, kind) || is_extreme(r, kind)) &&
+                   isfinite(p->error[i - p->first][kind])) {
             *part = p->error[i - p->first][kind] * film_of(r, i, kind);
             *part_of(r, i, EHL_MEASURED + kind) = 1;
             r->measured[kind] = 1;
@@ -195,8 +195,8 @@ static size_t find_row(const ehl_results *r, const ehl_passage *p, int kind, dou
     if (error_of_row(r, row, kind) > enough && !is_looked_at(p, row))
         return row;
     row = lowest_row(r);
-    return is_extreme(r, kind) && has_bound(r, row, kind) && !is_measured(r, row, kind) &&
-                   !is_looked_at(p, row) && ehl_outlet_moves(p, r, row)
+    return is_extreme(r, kind) && !is_measured(r, row, kind) && !is_looked_at(p, row) &&
+                   ehl_outlet_moves(p, r, row)
                ? row
                : SIZE_MAX;
 }
@@ -390,7 +390,8 @@ int ehl_results_estimate_cells(const ehl_results *r)
 {
     if (r->rough || !(ehl_wants_h_min(r->wanted) || ehl_wants_h_central(r->wanted)))
         return 0;
-    return !r->lowest_alone || r->series.count == 0 || has_bound(r, lowest_row(r), EHL_LEAST);
+    return !r->lowest_alone || r->series.count == 0 || has_bound(r, lowest_row(r), EHL_LEAST) ||
+           is_measured(r, lowest_row(r), EHL_LEAST);
 }
 
 void ehl_results_report_cells(const ehl_results *r, const ehl_march *m)
