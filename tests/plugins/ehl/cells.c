@@ -231,10 +231,10 @@ static void falling_by_much(line *c, double cells)
 
 /* The end of the contact moves at 0.4 to 0.9 of the speed of the oil, and the bound, of films that
    are steady, is half of what is true. */
-static void unloading_to(line *c, double share, double cells)
+static void unloading_to(line *c, double share, double duration, double cells)
 {
     line_open(c, "ehl/finite-volume");
-    line_last(c, 2, 40e-6);
+    line_last(c, 2, duration);
     c->load[1] = share * c->load[0];
     stage_set(c->film, "steps", 400);
     stage_set(c->film, "cells", cells);
@@ -243,13 +243,14 @@ static void unloading_to(line *c, double share, double cells)
 
 static void unloading(line *c, double cells)
 {
-    unloading_to(c, 0.2, cells);
+    unloading_to(c, 0.2, 40e-6, cells);
 }
 
-/* The film is lowest where the load is below 2 %, of which no error is bounded. */
+/* The film is lowest where the load is below 2 %, of which no error is bounded: an eighth of it
+   would be told. */
 static void emptying(line *c, double cells)
 {
-    unloading_to(c, 0.005, cells);
+    unloading_to(c, 0.005, 60e-6, cells);
 }
 
 /* The oil comes nearly to rest, at a hundredth of its speed, and the flanks squeeze it. */
