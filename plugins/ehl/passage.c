@@ -183,6 +183,20 @@ static films films_on(const ehl_passage *p, films all, int level)
     return all + (size_t)level * (p->last - p->first + 1);
 }
 
+/* Gives rows that no step led to the larger error of those before and behind, where a film may jump
+   from one dip to another. */
+static void take_larger(films all, size_t count, films error)
+{
+    for (int k = EHL_LEAST; k < EHL_PEAK; k++)
+        for (size_t i = 1, led = all[0][k] > 0; i + 1 < count; i++) {
+            double before = error[i - 1][k];
+            if (all[i][k] > 0)
+                led = 1;
+            else if (led && !isnan(error[i][k]) && !(fabs(error[i][k]) >= fabs(before)))
+                error[i][k] = before;
+        }
+}
+
 /* Finds the errors from the films of all levels to the finest, what is left on that by order. */
 static void find_errors(const ehl_results *r, const ehl_march *m, const ehl_passage *p, films all,
                         int finest, films error)
@@ -205,6 +219,7 @@ static void find_errors(const ehl_results *r, const ehl_march *m, const ehl_pass
             if (!(fabs(coarse / film - 1) <= within * fmax(EHL_FILM_LIMIT, fabs(error[i][k]))))
                 error[i][k] = NAN;
         }
+    take_larger(all, count, error);
 }
 
 /* Returns how many films that count are not those of the run. */
@@ -217,11 +232,10 @@ static size_t differing(const ehl_results *r, const ehl_passage *p, ehl_row_coun
     return count;
 }
 
-/* Finds the films on the cells of the run and on twice as many, and their errors. */
+/* Finds the films on the cells of the run and on twice as many, and their errors; all: zeroed. */
 static ff_status pass_twins(const ehl_results *r, const ehl_march *m, const ehl_passage *p,
                             double way, films all, films error)
 {
-    memset(all, 0, 2 * (p->last - p->first + 1) * sizeof *all);
     ff_status status = pass_on(r, m, p, way, 1, films_on(p, all, 0), NULL);
     if (status == FF_OK)
         status = pass_on(r, m, p, way, 2, films_on(p, all, 1), NULL);
@@ -237,7 +251,7 @@ ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passa
        longer ones are not its own. */
     const double shorter = 0.25;
     const size_t count = p->last - p->first + 1;
-    films tried = malloc(3 * count * sizeof *tried);
+    films tried = calloc(3 * count, sizeof *tried);
     p->film = calloc(3 * count, sizeof *p->film);
     p->error = calloc(count, sizeof *p->error);
     p->way = joined * m->solver->grid->dx;

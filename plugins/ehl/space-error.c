@@ -76,7 +76,7 @@ static double tip_of(const ehl_results *r, size_t row)
             return l[k].tip;
         if (k > 0 && l[k - 1].row < row && row < l[k].row && l[k - 1].row >= l[k].begin) {
             double far = (double)(row - l[k - 1].row) / (double)(l[k].row - l[k - 1].row);
-            return (1 - far) * l[k - 1].tip + far * l[k].tip;
+            return fmax(film_of(r, row, EHL_PEAK), (1 - far) * l[k - 1].tip + far * l[k].tip);
         }
     }
     return film_of(r, row, EHL_PEAK) + r->share * *part_of(r, row, EHL_PEAK);
@@ -88,10 +88,12 @@ static int is_extreme(const ehl_results *r, int kind)
 }
 
 /* Returns what a row makes of the error of the output by the cells: its own, or by how much it goes
-   beyond the extreme of all, where that alone is wanted. */
+   beyond the extreme of all, where that alone is wanted. A peak without a bound has none. */
 static double error_of_row(const ehl_results *r, size_t row, int kind)
 {
     double value = film_of(r, row, kind), part = *part_of(r, row, kind), error = 0;
+    if (kind == EHL_PEAK && !has_bound(r, row, kind))
+        return 0;
     if (kind == EHL_PEAK)
         error = tip_of(r, row) / (is_extreme(r, kind) ? r->highest : value) - 1;
     else if (!is_extreme(r, kind))
@@ -155,7 +157,7 @@ static double largest_share(const ehl_results *r, const ehl_passage *p, int kind
 
 /* Puts the errors that are known in place of what bounds them, and leaves that share of the bounds
    at the rows that were not looked at. A film without load has no bound, and its error does not
-   count. */
+   count unless the lowest film alone is wanted. */
 static void put_errors(ehl_results *r, const ehl_passage *p, int kind)
 {
     double share = largest_share(r, p, kind);
@@ -269,19 +271,21 @@ static ff_status find_peak_error(ehl_results *r, const ehl_march *m, ehl_passage
     ehl_instant_film run = {.change = change}, fine = {.change = change ? change + r->nodes : NULL};
     int finest = 0;
     ff_status status = change ? ehl_passage_to(r, m, p, row, 1, &run) : FF_NOMEM;
+    if (status == FF_OK && !ehl_is_like(&run, film_of(r, row, EHL_CENTRAL), value))
+        status = FF_NOCONV;
     if (status == FF_OK)
         status = ehl_passage_to(r, m, p, row, FINER, &fine);
     if (status == FF_OK)
         status = ehl_peak_error(m->solver, &run, &fine, (1 + EHL_PEAK_LIMIT) * highest / value - 1,
                                 error, &finest);
-    r->finest = finest > r->finest ? finest : r->finest;
+    if (status == FF_OK && finest > r->finest)
+        r->finest = finest;
     free(change);
-    if (status == FF_OK && !ehl_is_like(&run, film_of(r, row, EHL_CENTRAL), value))
-        return FF_NOCONV;
     return status;
 }
 
-/* Looks at p_max of a row. Where its error is not told there, all bounds stand. */
+/* Looks at p_max of a row. Where its error is not told there the bound stands, and those of all
+   rows that are not between two looks. */
 static ff_status look_at_peak(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row)
 {
     double value = film_of(r, row, EHL_PEAK), bound = *part_of(r, row, EHL_PEAK) / value, error = 0;
