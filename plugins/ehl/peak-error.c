@@ -161,7 +161,7 @@ ff_status ehl_peak_error(const ehl_solver *s, const ehl_instant_film *run,
 {
     twin t[TWINS];
     int last = 0;
-    if (!(fine->at.entrainment > fmax(0, fmax(run->frame, fine->frame))))
+    if (!(fine->at.entrainment > fmax(0, fine->frame)))
         return FF_NOCONV;
     ff_status status = find_twins(s, run, fine, enough, t, &last);
     if (status != FF_OK)

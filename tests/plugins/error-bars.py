@@ -13,8 +13,8 @@ is known to its own measured error; where that is above a quarter of the accurac
 as open and not judged. An error bar above the accuracy is a refusal: it is judged like the others, and counted.
 
 Scalars: held, when |answer - reference| <= bar + error of the reference. Series: the share of the
-points at which that holds; until a passage of the contact after a jump of a history's load, with a shift along the series of
-up to 0.2 of one.
+points at which that holds; from 0.2 of a passage before a jump of a history to 1.2 after it with a shift along the series of up
+to 0.2 of one.
 --cache keeps what was computed, so that the campaign can be stopped and goes on.
 
 --lattice asks what the answers cost. Twelve fixed settings of the film are held against the reference; the
@@ -207,7 +207,7 @@ def passage_of(answer):
 
 
 def jumps_of(scene):
-    """Times at which the load jumps: rows of a history that have the same one."""
+    """Times at which a history jumps: two rows have the same one."""
     rows = scene.get('rows', [])
     return [row[0] for row, before in zip(rows[1:], rows) if row[0] == before[0]]
 

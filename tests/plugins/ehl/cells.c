@@ -224,6 +224,29 @@ static void test_light(void)
     line_close(&c);
 }
 
+/* The contact is lost to a gap so wide that the film between the flanks has no pressure, and found
+   again: there is no peak that would be off. */
+static void test_lost(void)
+{
+    static const double at[] = {0, 20e-6, 30e-6, 60e-6, 80e-6, 120e-6};
+    line c;
+    line_open(&c, "ehl/finite-volume");
+    line_last(&c, 6, at[5]);
+    memcpy(c.time, at, sizeof at);
+    c.load[1] = c.load[2] = c.load[3] = 0;
+    c.gap[2] = 1e-3;
+    stage_set(c.film, "steps", 240);
+    stage_set(c.film, "cells", 128);
+    check_true("runs", line_run(&c, "time p_max") == FF_OK);
+    double least = HUGE_VAL;
+    for (size_t i = 0; i <= 240; i++)
+        least = fmin(least, line_at(&c, "p_max", at[5] * (double)i / 240));
+    printf("lost: %.4f stated\n", stage_quality(c.film, "p_max_space_error"));
+    check_true("without pressure", !(least > 0));
+    check_below("of the peaks that there are", stage_quality(c.film, "p_max_space_error"), 0.5);
+    line_close(&c);
+}
+
 static void falling_by_much(line *c, double cells)
 {
     falling(c, cells, 0.6, "h_min_lowest");
@@ -360,6 +383,7 @@ int main(void)
     test_carried();
     test_carried_by_volumes();
     test_light();
+    test_lost();
     check_lowest("falling", falling_by_much, 192);
     check_lowest("unloading", unloading, 256);
     check_lowest("emptying", emptying, 256);
