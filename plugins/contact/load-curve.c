@@ -4,6 +4,7 @@
 #include "../numerics/interval.h"
 
 #include <math.h>
+#include <stddef.h>
 
 size_t contact_pieces_find(size_t n, const double *angle, double least, contact_piece *pieces)
 {
@@ -66,6 +67,32 @@ void contact_monotone_slopes(size_t n, const double *x, const double *y, double 
     }
 }
 
+/* Continues the line through stations `before` and `last` over the next two without load: below 0,
+   or not at all. They lie in the direction of `step`, and before `end`. */
+static void continue_line(const double *angle, double *value, ptrdiff_t last, ptrdiff_t step,
+                          ptrdiff_t end)
+{
+    double slope = (value[last] - value[last - step]) / (angle[last] - angle[last - step]);
+    double from = value[last];
+    for (ptrdiff_t i = last + step; i != end && i <= last + 2 && i >= last - 2; i += step)
+        if (value[i] == 0)
+            value[i] = fmin(from + slope * (angle[i] - angle[last]), 0);
+}
+
+void contact_load_continue(size_t count, const contact_piece *pieces, const double *angle,
+                           double *value)
+{
+    for (size_t k = 0; k < count; k++) {
+        const ptrdiff_t first = (ptrdiff_t)pieces[k].first, last = (ptrdiff_t)pieces[k].last;
+        for (ptrdiff_t i = first + 1; i < last; i++)
+            if (value[i - 1] > value[i] && value[i] > 0 && value[i + 1] == 0)
+                continue_line(angle, value, i, 1, last + 1);
+        for (ptrdiff_t i = last - 1; i > first; i--)
+            if (value[i + 1] > value[i] && value[i] > 0 && value[i - 1] == 0)
+                continue_line(angle, value, i, -1, first - 1);
+    }
+}
+
 /* The cubic through (x, y) with these slopes; x[0] <= at <= x[n-1]. */
 static double cubic_at(size_t n, const double *x, const double *y, const double *slope, double at)
 {
@@ -94,6 +121,18 @@ double contact_load_at(const contact_load_curve *c, double angle)
         return piece_value(c, p, angle);
     double before = piece_value(c, p, p->to), after = piece_value(c, p + 1, p[1].from);
     return before + (after - before) * (angle - p->to) / (p[1].from - p->to);
+}
+
+double contact_load_end(const contact_load_curve *c, size_t i)
+{
+    if (!(c->value[i] * c->value[i + 1] < 0 && c->angle[i] < c->angle[i + 1]))
+        return NAN;
+    double loaded = c->angle[c->value[i] > 0 ? i : i + 1],
+           free = c->angle[c->value[i] > 0 ? i + 1 : i];
+    for (double middle = (loaded + free) / 2; middle != loaded && middle != free;
+         middle = (loaded + free) / 2)
+        *(contact_load_at(c, middle) > 0 ? &loaded : &free) = middle;
+    return free;
 }
 
 double contact_load_error(const contact_load_curve *c)

@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double degree = M_PI / 180;
 
@@ -33,7 +34,7 @@ static const ff_param params[] = {
                 "the number of pairs, centred on it; left out: less where changes are nearer than "
                 "that; 0: a step, 1e-6 of the path wide"),
     FF_COUNT("points", tooth_pair, points, FF_TUNABLE, "4000", NULL, 16, 1e6, 0, 0,
-             "instants of each engagement; the ends of the ramps are among them"),
+             "instants of each engagement; the ends of the ramps and of the load are among them"),
     FF_COUNT_OR("all", "engagement", tooth_pair, engagements.one, 0, "all", NULL, 0, 1e6, 0, 0,
                 "which mesh cycle of a motion that lasts several the pair begins in, from 0; all: "
                 "one after the other, each a history of its own"),
@@ -71,6 +72,31 @@ static size_t list_breakpoints(const contact_piece *pieces, size_t count,
         breaks[n++] = pieces[i].from;
     }
     breaks[n++] = p->angle[p->n - 1];
+    return n;
+}
+
+static int by_angle(const void *a, const void *b)
+{
+    const double *one = a, *other = b;
+    return (*one > *other) - (*one < *other);
+}
+
+/* Adds the roll angles at which the load begins and ends between stations, as far as there are
+   instants for them. One that another breakpoint is next to needs none. */
+static size_t add_load_ends(const contact_load_curve *force, size_t most, double *breaks,
+                            size_t count)
+{
+    const double least = step_width * (force->angle[force->n - 1] - force->angle[0]);
+    size_t n = count;
+    for (size_t i = 0; i + 1 < force->n && n < most; i++) {
+        double end = contact_load_end(force, i);
+        bool apart = end > breaks[0] + least && end < breaks[count - 1] - least;
+        for (size_t k = 0; k < n && apart; k++)
+            apart = fabs(end - breaks[k]) > least;
+        if (apart)
+            breaks[n++] = end;
+    }
+    qsort(breaks, n, sizeof *breaks, by_angle);
     return n;
 }
 
@@ -180,10 +206,9 @@ static ff_status make_ramps(const tooth_pair *s, const contact_tooth_path *p, co
 }
 
 /* Takes in the largest force and error of one engagement, and its forces below 0. */
-static void add_force_extremes(load_record *r, const contact_tooth_path *p,
+static void add_force_extremes(load_record *r, const contact_tooth_path *p, const double *f,
                                const contact_load_curve *force)
 {
-    const double *f = force->value;
     for (size_t i = 0; i < force->n; i++) {
         r->top = fmax(r->top, f[i]);
         if (i > 0)
@@ -267,37 +292,42 @@ static void set_slopes(const contact_load_curve *curve, double *slope)
     }
 }
 
-/* `slopes` holds 2 n numbers, `breaks` n, and `pieces` n/2 pieces, for n stations. */
+/* `curves` holds 3 n numbers, `breaks` 3 n, and `pieces` n/2 pieces, for n stations. */
 static ff_status make_history(const tooth_pair *s, const contact_tooth_path *p, uint64_t wanted,
-                              contact_piece *pieces, double *slopes, double *breaks)
+                              contact_piece *pieces, double *curves, double *breaks)
 {
     double path_length = p->angle[p->n - 1] - p->angle[0];
     size_t count = contact_pieces_find(p->n, p->angle, 2 * step_width * path_length, pieces);
     ff_status status = make_ramps(s, p, pieces, count);
     if (status != FF_OK)
         return status;
-    size_t break_count = list_breakpoints(pieces, count, p, breaks);
-    const size_t points = (size_t)s->points;
+    const size_t points = (size_t)s->points,
+                 break_count = list_breakpoints(pieces, count, p, breaks);
+    double *ends = breaks + break_count, *load = curves + 2 * p->n;
     if (break_count > points)
         return ff_failf(s->host, FF_INVALID, "points",
                         "points is %zu; the history needs at least %zu for the ramps of its load",
                         points, break_count);
     load_record r = {0};
-    engagement e = {.force = {p->n, count, p->angle, NULL, slopes, pieces},
-                    .gap = {p->n, count, p->angle, NULL, slopes + p->n, pieces}};
+    engagement e = {.force = {p->n, count, p->angle, load, curves, pieces},
+                    .gap = {p->n, count, p->angle, NULL, curves + p->n, pieces}};
     status = contact_history_open(&r.history, s->host, wanted, p->count * points,
                                   p->reduced_modulus, s->law, p->oil);
     for (size_t k = 0; k < p->count && status == FF_OK; k++) {
         size_t number = p->engagement[k];
         e.number = (double)number;
-        e.force.value = p->force + number * p->n;
-        set_slopes(&e.force, slopes);
+        const double *force = p->force + number * p->n;
+        memcpy(load, force, p->n * sizeof *load);
+        contact_load_continue(count, pieces, p->angle, load);
+        set_slopes(&e.force, curves);
         if (p->gap) {
             e.gap.value = p->gap + (p->gaps > 1 ? number * p->n : 0);
-            set_slopes(&e.gap, slopes + p->n);
+            set_slopes(&e.gap, curves + p->n);
         }
-        status = add_instants(s, p, &e, breaks, break_count, &r);
-        add_force_extremes(&r, p, &e.force);
+        memcpy(ends, breaks, break_count * sizeof *ends);
+        status =
+            add_instants(s, p, &e, ends, add_load_ends(&e.force, points, ends, break_count), &r);
+        add_force_extremes(&r, p, force, &e.force);
         e.begin += path_length / p->speed;
     }
     return status == FF_OK ? report(s, p, &r, wanted) : status;
@@ -309,18 +339,18 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     contact_tooth_path p;
     ff_status status = contact_tooth_path_read(s->host, in, s->engagements, &p);
     contact_piece *pieces = NULL;
-    double *slopes = NULL, *breaks = NULL;
+    double *curves = NULL, *breaks = NULL;
     if (status != FF_OK)
         goto out;
     pieces = malloc((p.n / 2) * sizeof *pieces);
-    slopes = malloc(2 * p.n * sizeof *slopes);
-    breaks = malloc(p.n * sizeof *breaks);
+    curves = malloc(3 * p.n * sizeof *curves);
+    breaks = malloc(3 * p.n * sizeof *breaks); /* and those of an engagement */
     status =
-        pieces && slopes && breaks ? make_history(s, &p, wanted, pieces, slopes, breaks) : FF_NOMEM;
+        pieces && curves && breaks ? make_history(s, &p, wanted, pieces, curves, breaks) : FF_NOMEM;
 out:
     free(p.engagement);
     free(pieces);
-    free(slopes);
+    free(curves);
     free(breaks);
     return status;
 }

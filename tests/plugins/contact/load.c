@@ -106,6 +106,36 @@ static void check_interpolation(void)
 
 /* A force that is negative for a while: no load there, and the gap as given, which a small force
    does not end. */
+/* A force that falls and rises along straight lines and is 0 between them: where it ends and begins
+   lies between stations, and is an instant of the history. */
+static void check_ends(void)
+{
+    static double load[MOST];
+    pair p = pair_open(0);
+    size_t n;
+    const double *x = pair_stations(&p, &n);
+    const double path = x[n - 1] - x[0], slope = 1e5, ends = x[0] + 0.317 * path,
+                 begins = x[0] + 0.633 * path;
+    double worst = 0, nearest[2] = {1, 1};
+    for (size_t i = 0; i < n; i++)
+        load[i] = slope * fmax(fmax(ends - x[i], x[i] - begins), 0);
+    stage_give_series(p.tooth, "load.tooth_force", n, load);
+    if (check_true("a load with ends", stage_run_wanted(p.tooth, pair_dry) == FF_OK)) {
+        const double *roll = stage_get(p.tooth, "roll_angle", &n),
+                     *w = stage_get(p.tooth, "load_per_width", NULL);
+        for (size_t i = 0; i < n; i++) {
+            double exact = slope * fmax(fmax(ends - roll[i], roll[i] - begins), 0) / 0.02;
+            worst = fmax(worst, fabs(w[i] - exact) / (slope * path / 0.02));
+            nearest[0] = fmin(nearest[0], fabs(roll[i] - ends) / path);
+            nearest[1] = fmin(nearest[1], fabs(roll[i] - begins) / path);
+        }
+        check_below("the load follows the lines to their ends", worst, 1e-12);
+        check_below("an instant at the end", nearest[0], 1e-12);
+        check_below("an instant at the begin", nearest[1], 1e-12);
+    }
+    pair_close(&p);
+}
+
 static void check_separation(void)
 {
     static double load[MOST], gap[MOST];
@@ -187,6 +217,7 @@ int main(void)
     check_ramp("1.5 deg", 1.5 * degree);
     check_ramp("0 deg", 0);
     check_interpolation();
+    check_ends();
     check_separation();
     check_engagements();
     check_refused("a ramp wider than single contact", "load_ramp", "2 deg", 1000, 0, "load_ramp");
