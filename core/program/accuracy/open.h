@@ -5,8 +5,8 @@
 
 #include "settings.h"
 
-/* Four times as many cells and steps as by preset: 16 times the work. */
-static const double accuracy_finest = -2;
+/* Eight times as many cells and steps as by preset: 64 times the work. */
+static const double accuracy_finest = -3;
 
 /* A setting that the file leaves open. */
 typedef struct accuracy_knob {
