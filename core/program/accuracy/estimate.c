@@ -27,7 +27,7 @@ static const double most_coarse_growth = 16;
 /* The error of a series passes through 0 where it changes its sign, and a difference between two
    levels does so elsewhere: what counts is the largest within this share of the points. What is not
    typical stays where it is: an instant that moves does not make its neighbours wrong. */
-static const double reach = 0.05;
+static const double reach = 0.02;
 
 /* Where a load jumps or contact is lost, a short stretch of a series is off by as much as it moves
    and converges slowly: this share of its length tells how the rest does. */
