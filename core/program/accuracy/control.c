@@ -23,12 +23,6 @@
 /* Of the reference, over the goal, when models are held against it: they may move half of a goal
    (choice.c), and its error counts with what they move. */
 static const double reference_error = 0.25;
-/* Of an accuracy, that the counts and the tolerances may each take before they become finer: half,
-   so that both together are within it. */
-static const double part = 0.5;
-/* By how many levels tolerances become finer at most from one attempt to the next: a sixteenth of
-   their part (estimate.h), and the next attempt measures it anew. */
-static const double most_at_once = 2;
 /* The first, and one for each level that counts and tolerances become finer by, are 11. */
 enum { MOST_ATTEMPTS = 11 };
 
@@ -166,17 +160,16 @@ static bool is_in_reach(const control *c, size_t error)
            goal_of(c, e);
 }
 
-/* What a missed error takes: counts a level finer, tolerances as many as bring their part down. */
+/* What a missed error takes: a level of what makes more of it. Tolerances wait until the counts
+   will do, which not every output comes to. */
 static accuracy_levels finer_for(const control *c, const accuracy_error *e)
 {
+    const double counts = e->relative - e->by_tolerances;
     accuracy_levels next = c->open.at;
-    double goal = goal_of(c, e), counts = e->relative - e->by_tolerances;
-    bool finer = !(counts <= part * goal);
-    double room = finer ? part * goal : goal - counts;
-    next.counts -= finer ? 1 : 0;
-    if (e->by_tolerances > room)
-        next.tolerances -=
-            fmin(ceil(log(e->by_tolerances / room) / log(accuracy_tolerance_factor)), most_at_once);
+    if (counts <= goal_of(c, e) && counts < e->by_tolerances)
+        next.tolerances -= 1;
+    else
+        next.counts -= 1;
     return next;
 }
 
