@@ -67,29 +67,31 @@ void contact_monotone_slopes(size_t n, const double *x, const double *y, double 
     }
 }
 
-/* Continues the line through stations `before` and `last` over the next two without load: below 0,
-   or not at all. They lie in the direction of `step`, and before `end`. */
-static void continue_line(const double *angle, double *value, ptrdiff_t last, ptrdiff_t step,
-                          ptrdiff_t end)
+/* Continues the line of the forces at `last` and at the station before it, in the direction of
+   `step`, over the two stations without force that follow it before `end`. */
+static void continue_line(const double *angle, const double *force, ptrdiff_t last, ptrdiff_t step,
+                          ptrdiff_t end, double *value)
 {
-    double slope = (value[last] - value[last - step]) / (angle[last] - angle[last - step]);
-    double from = value[last];
-    for (ptrdiff_t i = last + step; i != end && i <= last + 2 && i >= last - 2; i += step)
-        if (value[i] == 0)
-            value[i] = fmin(from + slope * (angle[i] - angle[last]), 0);
+    double slope = (force[last] - force[last - step]) / (angle[last] - angle[last - step]);
+    ptrdiff_t i = last + step;
+    for (int count = 0; count < 2 && i != end && force[i] == 0; count++, i += step) {
+        double line = force[last] + slope * (angle[i] - angle[last]);
+        if (line < 0 && !(value[i] < 0 && value[i] > line)) /* of two lines the one nearer to 0 */
+            value[i] = line;
+    }
 }
 
 void contact_load_continue(size_t count, const contact_piece *pieces, const double *angle,
-                           double *value)
+                           const double *force, double *value)
 {
     for (size_t k = 0; k < count; k++) {
         const ptrdiff_t first = (ptrdiff_t)pieces[k].first, last = (ptrdiff_t)pieces[k].last;
-        for (ptrdiff_t i = first + 1; i < last; i++)
-            if (value[i - 1] > value[i] && value[i] > 0 && value[i + 1] == 0)
-                continue_line(angle, value, i, 1, last + 1);
-        for (ptrdiff_t i = last - 1; i > first; i--)
-            if (value[i + 1] > value[i] && value[i] > 0 && value[i - 1] == 0)
-                continue_line(angle, value, i, -1, first - 1);
+        for (ptrdiff_t i = first + 1; i < last; i++) {
+            if (force[i - 1] > force[i] && force[i] > 0 && force[i + 1] == 0)
+                continue_line(angle, force, i, 1, last + 1, value);
+            if (force[i + 1] > force[i] && force[i] > 0 && force[i - 1] == 0)
+                continue_line(angle, force, i, -1, first - 1, value);
+        }
     }
 }
 
@@ -125,14 +127,14 @@ double contact_load_at(const contact_load_curve *c, double angle)
 
 double contact_load_end(const contact_load_curve *c, size_t i)
 {
-    if (!(c->value[i] * c->value[i + 1] < 0 && c->angle[i] < c->angle[i + 1]))
+    if ((c->value[i] > 0) == (c->value[i + 1] > 0) || !(c->angle[i] < c->angle[i + 1]))
         return NAN;
     double loaded = c->angle[c->value[i] > 0 ? i : i + 1],
-           free = c->angle[c->value[i] > 0 ? i + 1 : i];
-    for (double middle = (loaded + free) / 2; middle != loaded && middle != free;
-         middle = (loaded + free) / 2)
-        *(contact_load_at(c, middle) > 0 ? &loaded : &free) = middle;
-    return free;
+           unloaded = c->angle[c->value[i] > 0 ? i + 1 : i];
+    for (double middle = (loaded + unloaded) / 2; middle != loaded && middle != unloaded;
+         middle = (loaded + unloaded) / 2)
+        *(contact_load_at(c, middle) > 0 ? &loaded : &unloaded) = middle;
+    return unloaded;
 }
 
 double contact_load_error(const contact_load_curve *c)

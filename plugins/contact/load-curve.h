@@ -27,11 +27,12 @@ double contact_pieces_make_ramps(size_t count, contact_piece *pieces, double wid
 /* Slopes of Steffen's monotone cubic; n >= 2 increasing x. */
 void contact_monotone_slopes(size_t n, const double *x, const double *y, double *slope);
 
-/* Where a load ends its last two stations carry on along a straight line, below 0 at the next two:
-   the curve, which is cut off at 0, ends where they point, and not at the first station without
-   load. Stations that have no load are 0. */
+/* Where a force falls towards stations at which it is 0, or rises from them, the line of its last
+   or first two stations carries on below 0 at the next two: the curve, which is cut off at 0, ends
+   and begins where they point, and not at the station without force. `value` has the forces before.
+ */
 void contact_load_continue(size_t count, const contact_piece *pieces, const double *angle,
-                           double *value);
+                           const double *force, double *value);
 
 /* The curve is cut off at 0, and the ramps join the values that are left. */
 typedef struct contact_load_curve {
@@ -43,8 +44,8 @@ typedef struct contact_load_curve {
 /* The value of the curve at that roll angle. */
 double contact_load_at(const contact_load_curve *curve, double angle);
 
-/* Where the curve reaches 0 between stations i and i + 1: the first angle without load; NAN: it
-   does not. */
+/* Where the load ends or begins between stations i and i + 1: the angle without load next to those
+   with load; NAN: it does neither. */
 double contact_load_end(const contact_load_curve *curve, size_t i);
 
 /* Error estimate of the cubic: the largest deviation of the cubic through every other station at

@@ -81,11 +81,12 @@ static int by_angle(const void *a, const void *b)
     return (*one > *other) - (*one < *other);
 }
 
-/* Adds the roll angles at which the load begins and ends between stations, as far as there are
-   instants for them. One that another breakpoint is next to needs none. */
-static size_t add_load_ends(const contact_load_curve *force, size_t most, double *breaks,
+/* Adds the roll angles at which the load begins and ends, while half of the instants that are left
+   stay free for the rest. One that another breakpoint is next to needs none. */
+static size_t add_load_ends(const contact_load_curve *force, size_t points, double *breaks,
                             size_t count)
 {
+    const size_t most = (count + points) / 2;
     const double least = step_width * (force->angle[force->n - 1] - force->angle[0]);
     size_t n = count;
     for (size_t i = 0; i + 1 < force->n && n < most; i++) {
@@ -318,7 +319,7 @@ static ff_status make_history(const tooth_pair *s, const contact_tooth_path *p, 
         e.number = (double)number;
         const double *force = p->force + number * p->n;
         memcpy(load, force, p->n * sizeof *load);
-        contact_load_continue(count, pieces, p->angle, load);
+        contact_load_continue(count, pieces, p->angle, force, load);
         set_slopes(&e.force, curves);
         if (p->gap) {
             e.gap.value = p->gap + (p->gaps > 1 ? number * p->n : 0);

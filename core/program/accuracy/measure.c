@@ -4,7 +4,7 @@
  * coarser, in its second two; then, where no others are known, one after the other, each setting is
  * a level finer than in the second, which shows what comes of it. The twins of a setting are cheap,
  * since all else is coarse and what lies before its stage is known. Where attempts are made, the
- * levels are those of the counts, and one more twin tells what the tolerances add. Where a coarser
+ * levels are those of the counts, and other twins tell what the tolerances add. Where a coarser
  * twin fails, the answer is coarse itself, and a finer one tells.
  */
 #include "measure.h"
@@ -441,11 +441,12 @@ static void find_loose(measurement *m)
 {
     int counts = know_tolerances(m, 1) ? 1 : 2;
     if (counts == 2 && !know_tolerances(m, 2)) {
-        counts = m->quarter ? 2 : 1;
-        m->tight = find_twin(m, (coarser){counts, 0});
-        m->loose = m->tight ? find_twin(m, (coarser){counts, 1}) : NULL;
+        m->tight = m->quarter ? find_twin(m, (coarser){2, 0}) : NULL;
+        counts = m->tight ? 2 : 1;
+        m->tight = m->tight ? m->tight : m->half;
+        m->loose = find_twin(m, (coarser){counts, 1});
     }
-    if (!m->tight || (m->loose && !hardly_differ(m)))
+    if (m->loose && !hardly_differ(m))
         return;
     const accuracy_twin *finer = find_twin(m, (coarser){counts, -1});
     m->is_finer = finer != NULL;

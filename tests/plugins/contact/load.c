@@ -104,18 +104,16 @@ static void check_interpolation(void)
     check_below("the estimate is not wild", estimate[1], 5 * fine);
 }
 
-/* A force that is negative for a while: no load there, and the gap as given, which a small force
-   does not end. */
 /* A force that falls and rises along straight lines and is 0 between them: where it ends and begins
    lies between stations, and is an instant of the history. */
-static void check_ends(void)
+static void check_ends(double ends_at, double begins_at)
 {
     static double load[MOST];
     pair p = pair_open(0);
     size_t n;
     const double *x = pair_stations(&p, &n);
-    const double path = x[n - 1] - x[0], slope = 1e5, ends = x[0] + 0.317 * path,
-                 begins = x[0] + 0.633 * path;
+    const double path = x[n - 1] - x[0], slope = 1e5, ends = x[0] + ends_at * path,
+                 begins = x[0] + begins_at * path;
     double worst = 0, nearest[2] = {1, 1};
     for (size_t i = 0; i < n; i++)
         load[i] = slope * fmax(fmax(ends - x[i], x[i] - begins), 0);
@@ -136,6 +134,8 @@ static void check_ends(void)
     pair_close(&p);
 }
 
+/* A force that is negative for a while: no load there, and the gap as given, which a small force
+   does not end. */
 static void check_separation(void)
 {
     static double load[MOST], gap[MOST];
@@ -217,7 +217,8 @@ int main(void)
     check_ramp("1.5 deg", 1.5 * degree);
     check_ramp("0 deg", 0);
     check_interpolation();
-    check_ends();
+    check_ends(0.317, 0.633);
+    check_ends(0.4, 0.407); /* two stations without load */
     check_separation();
     check_engagements();
     check_refused("a ramp wider than single contact", "load_ramp", "2 deg", 1000, 0, "load_ramp");
