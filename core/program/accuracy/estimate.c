@@ -104,13 +104,19 @@ static double growth_of(double near, double far, double sign)
     return near > 0 ? sign * far / near : far > 0 ? INFINITY : NAN;
 }
 
-static double growth_to_use(double observed)
+/* Errors that fell faster than by order 2 come to what falls more slowly, by as much as they are
+   above it: along a series down to order 3/2, and to order 1 where a single number tells, which may
+   be near by chance. */
+static double growth_to_use(const accuracy_ladder *l, double observed)
 {
+    const double settles = l->count > 1 ? unsettled_growth * least_growth : unsettled_growth;
     if (isnan(observed))
         return least_growth;
     if (observed < 0 || observed > most_coarse_growth)
         return unsettled_growth;
-    return fmin(fmax(observed, least_growth), most_growth);
+    if (observed > most_growth)
+        return fmax(most_coarse_growth / observed, settles);
+    return fmax(observed, least_growth);
 }
 
 /* How the differences of a ladder grow: of typical points, and of all. */
@@ -172,7 +178,7 @@ static bool is_typical(const accuracy_ladder *l, size_t i, const convergence *c)
 static double error_at(const accuracy_ladder *l, size_t i, const convergence *c)
 {
     bool typical = is_typical(l, i, c);
-    double observed = typical ? c->typical : c->all, growth = growth_to_use(observed);
+    double observed = typical ? c->typical : c->all, growth = growth_to_use(l, observed);
     double coarse = fmax(growth, fmin(fabs(observed), most_coarse_growth)); /* these drop NaN */
     if (!goes_down(l))
         return safety * apart(l, l->answer, l->twice, i) * growth / (growth - 1);
