@@ -18,8 +18,9 @@
 /* Roache's factor of safety with three levels. */
 static const double safety = 1.25;
 /* The growth is taken between that of order 1/2, where the factor on the difference of two levels
-   is Roache's for those, 3, and that of order 2. Below 0 the error changes its sign, and above
-   order 4 the coarsest answer has nothing to do with the others: neither is an order. */
+   is Roache's for those, 3, and that of order 2. Below 0 the error changes its sign, and is taken
+   to fall by no more than order 1. Above order 4 the coarsest answer has nothing to do with the
+   others: that is no order. */
 static const double least_growth = 1.4142135623730951, most_growth = 4, unsettled_growth = 2;
 /* On coarse levels errors fall faster than they do from the finest on: what lies between those is
    brought to the next level by up to order 4, and from there by order 2. */
@@ -112,8 +113,10 @@ static double growth_to_use(const accuracy_ladder *l, double observed)
     const double settles = l->count > 1 ? unsettled_growth * least_growth : unsettled_growth;
     if (isnan(observed))
         return least_growth;
-    if (observed < 0 || observed > most_coarse_growth)
+    if (observed > most_coarse_growth)
         return unsettled_growth;
+    if (observed < 0)
+        return fmin(fmax(-observed, least_growth), unsettled_growth);
     if (observed > most_growth)
         return fmax(most_coarse_growth / observed, settles);
     return fmax(observed, least_growth);

@@ -81,7 +81,8 @@ static void test_a_finer_level(void)
     check_near("error", error, safety * c, 1e-9);
 }
 
-/* An answer that overshoots from level to level has no order; the bar still holds it. */
+/* An answer that overshoots from level to level has no order; the bar still holds it, also where
+   what lies between the levels does not fall. */
 static void test_oscillation(void)
 {
     double answer = 1.001, half = 0.998, quarter = 1.004, error, share;
@@ -89,6 +90,9 @@ static void test_oscillation(void)
     accuracy_estimate(&l, &error, &share);
     check_true("the error is held", error >= 0.001);
     check_true("and not lost", error < 0.01);
+    quarter = 1.0005;
+    accuracy_estimate(&l, &error, &share);
+    check_near("as two levels have it", error, 0.009, 0.01);
 }
 
 /* Errors of two settings that cancel in the answers are both counted, and told apart. */
