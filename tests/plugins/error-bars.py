@@ -8,8 +8,8 @@ A scene is drawn by the seed and its number: gear pairs of 17 to 80 teeth, modul
 relief and index errors, pitch line speeds from 0.3 to 40 m/s, Hertz pressures from 0.2 to 2 GPa,
 quasi-static and dynamic motions; steady contacts; histories from 1e-5 to 1e3 s, smooth and with
 jumps. Each is solved to three accuracies with the settings that the program chooses, and once
-refined: eight times the cells and counts of the presets, tolerances to match. The reference
-is known to its own measured error; where that is above a quarter of the accuracy, or the answer has as many cells, the
+refined: eight times the cells and counts of the presets (four times the steps of a motion), a tenth of the time tolerance. The reference
+is known to its own measured error; where that is above a quarter of the accuracy, or the film of the answer has as many cells, the
 output is listed as open and not judged. An error bar above the accuracy is a refusal: it is judged like the others, and counted.
 
 Scalars: held, when |answer - reference| <= bar + error of the reference. Series: the share of the
@@ -268,7 +268,7 @@ def judge(scene, answers):
         for name in scene['outputs']:
             verdict = (judge_series if name in SERIES else judge_scalar)(answer, exact, name, goal)
             if verdict:
-                verdict['open'] = verdict['open'] or (as_fine and name.startswith('film.'))
+                verdict['open'] = max(verdict['open'], as_fine and name.startswith('film.'))
                 rows.append(dict(verdict, scene=scene['number'], level=level, output=name, goal=goal))
     return rows
 
@@ -300,7 +300,7 @@ def print_rows(scene, answers, rows, out):
         held = f"{100 * row['share']:.1f} % of the points" if 'share' in row else 'held' if row['held'] else \
             'TWICE' if row['twice'] else 'missed'
         print(f"| {row['scene']} | {scene['kind']} | {row['level']} | {row['output']} | {100 * row['claimed']:.3g} | "
-              f"{100 * row['error']:.3g} | {100 * row['known']:.2g} | {held}{', open' if row['open'] else ''} |", file=out)
+              f"{100 * row['error']:.3g} | {100 * row['known']:.2g} | {held}{', open' if is_open(row) else ''} |", file=out)
 
 
 def is_open(row):

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Counts and tolerances become finer apart, each by what its part of the errors takes. Cells and
+ * Counts and tolerances become finer apart, the larger part of an error by a level. Cells and
  * points of a level more have the answers before as their twins, and what is spent on all of them
  * is some twice what the last one costs. An output whose error grows, or falls too slowly to come
  * below what is asked for, is left out, so that it does not take the others with it.
@@ -161,12 +161,15 @@ static bool is_in_reach(const control *c, size_t error)
 }
 
 /* What a missed error takes: a level of what makes more of it. Tolerances wait until the counts
-   will do, which not every output comes to. */
+   will do, which not every output comes to. What is as fine as it gets leaves the rest to the
+   other. */
 static accuracy_levels finer_for(const control *c, const accuracy_error *e)
 {
     const double counts = e->relative - e->by_tolerances;
     accuracy_levels next = c->open.at;
-    if (counts <= goal_of(c, e) && counts < e->by_tolerances)
+    const bool by_tolerances = counts <= goal_of(c, e) && counts < e->by_tolerances;
+    if ((by_tolerances && c->open.at.tolerances > accuracy_finest) ||
+        c->open.at.counts <= accuracy_finest)
         next.tolerances -= 1;
     else
         next.counts -= 1;

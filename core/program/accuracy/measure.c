@@ -366,8 +366,7 @@ static void hold_to_series(const measurement *m, accuracy_error *number)
 }
 
 /* Whether a stage estimates more than twice an error that was measured: no number is to be off by
-   more than two of its bars. With the half of what is asked that counts and tolerances may each
-   take, a quarter of it is left for what none of them shows. */
+   more than two of its bars. Below a quarter of what is asked that does not matter. */
 static bool is_contradicted(const accuracy_error *e)
 {
     const double twice_as_large = 2, matters = 0.25;
@@ -427,7 +426,8 @@ static bool hardly_differ(const measurement *m)
     return false;
 }
 
-/* Two twins that were run before, as coarse in the counts; false: there are none. */
+/* Two twins that were run before, as coarse in the counts; false: there are none, and `tight` and
+   `loose` are to be set. */
 static bool know_tolerances(measurement *m, int counts)
 {
     m->tight = known_twin(m, (coarser){counts, 0});

@@ -138,6 +138,12 @@ class Control(lab.Lab):
         self.assertEqual((answer["reasons"], answer["accuracy"]["settings"]["last.tolerance"]), (["heat"], "0.01 %"))
         self.assertLessEqual(self.error(answer), 5e-4)
 
+    def test_where_the_larger_part_is_given_the_other_becomes_finer(self):
+        """400 cells take 0.6 of the accuracy, and 0.04 % of the tolerance 0.5 of it."""
+        given = [f"{stage}.{setting}" for stage in ("first", "last") for setting in ("cells=400", "strength=77", "guess=0")]
+        answer = self.ask(*given)
+        self.assertEqual((answer["verdict"], answer["accuracy"]["settings"]["last.tolerance"]), ("good", "0.01 %"))
+
     def test_where_no_tolerances_are_open_counts_become_finer(self):
         """Beyond the presets, too, where a stage has doubts."""
         answer = self.ask("first.tolerance=1e-4 %", "last.tolerance=1e-4 %", "last.sure=100")
