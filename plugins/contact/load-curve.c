@@ -76,8 +76,8 @@ static void continue_line(const double *angle, const double *force, ptrdiff_t la
     ptrdiff_t i = last + step;
     for (int count = 0; count < 2 && i != end && force[i] == 0; count++, i += step) {
         double line = force[last] + slope * (angle[i] - angle[last]);
-        if (line < 0 && !(value[i] < 0 && value[i] > line)) /* of two lines the one nearer to 0 */
-            value[i] = line;
+        if (line < 0) /* of two lines the one nearer to 0 */
+            value[i] = value[i] < 0 ? fmax(value[i], line) : line;
     }
 }
 

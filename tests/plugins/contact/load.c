@@ -218,7 +218,7 @@ int main(void)
     check_ramp("0 deg", 0);
     check_interpolation();
     check_ends(0.317, 0.633);
-    check_ends(0.4, 0.407); /* two stations without load */
+    check_ends(0.4, 0.407); /* a few stations without load */
     check_separation();
     check_engagements();
     check_refused("a ramp wider than single contact", "load_ramp", "2 deg", 1000, 0, "load_ramp");
