@@ -54,6 +54,36 @@ static void add_local(size_t n, const double *restrict mass, double cells, const
     }
 }
 
+/* Adds what the oil meets on its way of so many cells to each node, the last of which make `local`
+   of it there; oil from in front of the stretch meets what is in it. `local` becomes its sums. */
+static void add_way(size_t n, double *restrict local, double cells, double *restrict error)
+{
+    const size_t whole = (size_t)fmin(cells, (double)n);
+    const double part = cells - (double)whole;
+    double met = 0;
+    for (size_t i = 0; i < n; i++)
+        local[i] = met += local[i];
+    for (size_t i = 0; i < whole; i++)
+        error[i] += local[i];
+    for (size_t i = whole; i < n; i++) {
+        double in_front = local[i - whole], further = i > whole ? local[i - whole - 1] : 0;
+        error[i] += local[i] - in_front + part * (in_front - further);
+    }
+}
+
+/* Adds what the cells make of the film while the oil moves by so many of them. */
+static void add_moved(ehl_carried *c, const double *mass, double cells, const stencil *s)
+{
+    const size_t n = c->end - c->first;
+    if (cells <= 1) {
+        add_local(n, mass + c->first, cells, s, c->error + c->first);
+        return;
+    }
+    memset(c->room, 0, n * sizeof *c->room);
+    add_local(n, mass + c->first, 1, s, c->room);
+    add_way(n, c->room, cells, c->error + c->first);
+}
+
 /* Sets the nodes of the stretch; all errors in front of it are 0 then. */
 static void place(ehl_carried *c, const ehl_stretch *s, size_t nodes)
 {
@@ -85,8 +115,7 @@ void ehl_carried_add(ehl_carried *c, const ehl_march *m, const ehl_stretch *s)
     place(c, s, eq->nodes);
     stencil local = local_error(eq);
     if (goes_on)
-        add_local(c->end - c->first, m->state[0].mass + c->first, cells, &local,
-                  c->error + c->first);
+        add_moved(c, m->state[0].mass, cells, &local);
 }
 
 double ehl_carried_to(const ehl_carried *c, size_t node)

@@ -19,6 +19,7 @@ int ehl_carrying_order(const ehl_reynolds *eq);
 
 typedef struct ehl_carried {
     double *error, time; /* relative, at the nodes; time: of the instant that it belongs to */
+    double *room;        /* for as many numbers */
     double part;         /* of a cell, by which the oil is ahead of it */
     size_t first, end;   /* the nodes of the stretch; upstream of it there is no error */
     int mirrored;

@@ -61,12 +61,13 @@ ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wante
         r->field[k].width = wants(r, EHL_FIRST_FIELD + k) ? nodes : 0;
     if (ehl_balance_create(&r->balance, m) != FF_OK)
         return FF_NOMEM;
-    r->memory = calloc(3 * nodes, sizeof *r->memory);
+    r->memory = calloc(4 * nodes, sizeof *r->memory);
     if (!r->memory)
         return FF_NOMEM;
     r->tau = r->memory;
     r->ln_eta = r->memory + nodes;
     r->carried.error = r->memory + 2 * nodes;
+    r->carried.room = r->memory + 3 * nodes;
     return FF_OK;
 }
 
@@ -380,12 +381,12 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
     return status;
 }
 
-/* Returns what the cells add to an error of the film. */
+/* Returns what the cells add to an error that is an output. */
 static double space_part(const ehl_results *r, size_t i, uint32_t k)
 {
-    const double *part = &r->space.data[EHL_SPACE * i];
-    return k == EHL_H_MIN_ERROR       ? fabs(part[EHL_LEAST])
-           : k == EHL_H_CENTRAL_ERROR ? fabs(part[EHL_CENTRAL])
+    return k == EHL_H_MIN_ERROR       ? ehl_space_part(r, i, EHL_LEAST)
+           : k == EHL_H_CENTRAL_ERROR ? ehl_space_part(r, i, EHL_CENTRAL)
+           : k == EHL_P_MAX_ERROR     ? ehl_space_part(r, i, EHL_PEAK)
                                       : 0;
 }
 

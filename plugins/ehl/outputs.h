@@ -100,6 +100,9 @@ void ehl_space_keep(const ehl_march *m, ehl_instant_film *f);
 ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_history *whole,
                               int equal);
 
+/* What the cells add to the error of h_min, h_central or p_max of a row, m or Pa. */
+double ehl_space_part(const ehl_results *r, size_t row, int kind);
+
 /* 1: of h_min, or of p_max, its extreme over all instants alone is wanted. */
 int ehl_wants_lowest_alone(uint64_t wanted);
 int ehl_wants_highest_alone(uint64_t wanted);

@@ -144,6 +144,12 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
          "(0.4 + 0.02 L)/n), n and L as for h_min_error, plus the truncation that the film at "
          "x = 0 has gathered; above 2 % by the cells as h_min_error",
          "t", NULL, 0, NULL},
+    [EHL_P_MAX_ERROR] =
+        {"p_max_error", "Pa",
+         "estimate of the error of p_max: what the cells may cut off the spike at the outlet, by "
+         "its film on more cells where that is above 5 %, plus the pressure of what the time steps "
+         "leave out of the film",
+         "t", NULL, 0, NULL},
     [EHL_ONE_WAY_GAP_ERROR] =
         {"one_way_gap_error", "m",
          "without load: how much further than contact.gap the force of the film keeps the flanks "

@@ -24,8 +24,8 @@ int ehl_wants_h_central(uint64_t wanted)
 
 int ehl_wants_p_max(uint64_t wanted)
 {
-    static const uint64_t all =
-        FF_BIT(EHL_P_MAX) | FF_BIT(EHL_P_MAX_HIGHEST) | FF_BIT(EHL_PRESSURE);
+    static const uint64_t all = FF_BIT(EHL_P_MAX) | FF_BIT(EHL_P_MAX_ERROR) |
+                                FF_BIT(EHL_P_MAX_HIGHEST) | FF_BIT(EHL_PRESSURE);
     return (wanted & all) != 0 || ehl_loss_of_shear(wanted);
 }
 
@@ -80,6 +80,13 @@ static double tip_of(const ehl_results *r, size_t row)
         }
     }
     return film_of(r, row, EHL_PEAK) + r->share * *part_of(r, row, EHL_PEAK);
+}
+
+double ehl_space_part(const ehl_results *r, size_t row, int kind)
+{
+    if (!has_bound(r, row, kind))
+        return 0;
+    return kind == EHL_PEAK ? tip_of(r, row) - film_of(r, row, kind) : fabs(*part_of(r, row, kind));
 }
 
 static int is_extreme(const ehl_results *r, int kind)

@@ -47,11 +47,13 @@ void ehl_results_peak_in_time(ehl_results *r, const ehl_march *m, size_t peak, d
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_carried *c = &r->carried;
     double a = ehl_hertz_half_width(m->at.load, m->at.radius, m->history->modulus);
+    r->row[EHL_P_MAX_ERROR] = 0;
     if (m->rough || !ehl_wants_p_max(r->wanted) || !ehl_march_is_loaded(m) || c->end <= c->first)
         return;
     size_t node = peak < c->first ? c->first : peak < c->end ? peak : c->end;
     double x = eq->first + (double)node * eq->dx;
     double off = fabs(ehl_pressure_of_error(eq, m->accumulated_error, m->history->modulus, a, x));
+    r->row[EHL_P_MAX_ERROR] = off;
     ehl_worse(&r->worst_peak_in_time, off / p_max);
     ehl_worse(&r->highest_in_time, p_max + off);
 }

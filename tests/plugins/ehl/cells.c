@@ -188,6 +188,49 @@ static void test_carried(void)
     line_close(&fine);
 }
 
+/* A load that swings in a hundred thousand passages: in a step the oil goes a thousand times
+   through the contact, and what the film carries is of the last. Added up over all of them it would
+   be ten times the film. */
+static void slow(line *c, double cells)
+{
+    line_open(c, "ehl/finite-volume");
+    line_last(c, 4, 8);
+    c->load[1] *= 0.7;
+    c->load[3] *= 1.3;
+    stage_set(c->film, "steps", 80);
+    stage_set(c->film, "cells", cells);
+    check_true("runs", line_run(c, outputs) == FF_OK);
+}
+
+static void test_slow(void)
+{
+    line c, fine;
+    slow(&c, 128);
+    slow(&fine, FINER * 128);
+    check_told("slow: h_min", off(&c, &fine, "h_min"), stage_quality(c.film, "h_min_space_error"));
+    check_told("slow: h_central", off(&c, &fine, "h_central"),
+               stage_quality(c.film, "h_central_space_error"));
+    line_close(&c);
+    line_close(&fine);
+}
+
+/* Number by number the same as in the lines, which have the worst by the cells and by the steps. */
+static void test_series_of_peaks(void)
+{
+    line c;
+    size_t n;
+    falling(&c, 192, 0.8, "p_max p_max_error");
+    const double *p = stage_get(c.film, "p_max", &n), *e = stage_get(c.film, "p_max_error", NULL);
+    double worst = 0, by_cells = stage_quality(c.film, "p_max_space_error");
+    for (size_t i = 0; i < n; i++)
+        worst = fmax(worst, e[i] / p[i]);
+    printf("peaks: %.4f, by the cells %.4f\n", worst, by_cells);
+    check_below("what the cells make is in it", by_cells / worst, 1);
+    check_below("with what the steps make it is all",
+                worst / (by_cells + stage_quality(c.film, "p_max_time_error")), 1);
+    line_close(&c);
+}
+
 /* Control volumes of which a node may be cavitated carry the film at first order: half of the error
    is left on twice the cells. */
 static void test_carried_by_volumes(void)
@@ -381,6 +424,8 @@ int main(void)
     check_highest("swelling slowly", swelling_slowly, 256);
     check_highest("beating", beating, 512);
     test_carried();
+    test_slow();
+    test_series_of_peaks();
     test_carried_by_volumes();
     test_light();
     test_lost();
