@@ -13,7 +13,7 @@ bool accuracy_run(accuracy_record *record, const ff_tree *tree, ff_engine *engin
     if (asked && accuracy_has_goals(tree))
         return accuracy_control(record, tree, engine, pipeline, watch, report);
     if (asked)
-        accuracy_want_axes(pipeline);
+        accuracy_want_beside(pipeline);
     return ff_pipeline_run(pipeline, watch, report) &&
            (!asked || accuracy_measure(record, tree, engine, pipeline, watch, NULL));
 }

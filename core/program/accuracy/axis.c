@@ -3,6 +3,7 @@
 #include "axis.h"
 
 #include "compare.h"
+#include "lines.h"
 
 #include <math.h>
 #include <string.h>
@@ -105,7 +106,7 @@ static bool may_be_axis(const ff_port *row, const ff_port *of)
            (!strcmp(row->unit, "s") || !strcmp(row->unit, "rad") || !strcmp(row->name, of->dims));
 }
 
-void accuracy_want_axes(const ff_pipeline *pipeline)
+void accuracy_want_beside(const ff_pipeline *pipeline)
 {
     for (size_t s = 0; s < pipeline->count; s++) {
         const ff_stage *stage = &pipeline->stages[s];
@@ -113,7 +114,8 @@ void accuracy_want_axes(const ff_pipeline *pipeline)
         for (size_t i = 0; i < count; i++)
             for (size_t k = 0; stage->results[i].requested && k < count; k++)
                 if (stage->results[i].row->dims &&
-                    may_be_axis(stage->results[k].row, stage->results[i].row))
+                    (may_be_axis(stage->results[k].row, stage->results[i].row) ||
+                     accuracy_may_estimate(stage->results[k].row, stage->results[i].row)))
                     stage->results[k].wanted = true;
     }
 }

@@ -26,7 +26,8 @@ const double *accuracy_numbers_like(const ff_pipeline *pipeline, const ff_stage 
                                     const ff_result *result, const ff_pipeline *other,
                                     memory_arena *arena);
 
-/* Makes the pipeline compute what its series are compared along. Before it runs. */
-void accuracy_want_axes(const ff_pipeline *pipeline);
+/* Makes the pipeline compute what lies beside its results: what series are compared along, and what
+   stages estimate that an output is off by. Before it runs. */
+void accuracy_want_beside(const ff_pipeline *pipeline);
 
 #endif

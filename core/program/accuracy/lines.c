@@ -15,11 +15,12 @@ static const double much_larger = 2;
 /* Parts below this share of an error are not worth a reader's time. */
 static const double least_part = 0.01;
 
+static const char ending[] = "_error";
+
 /* "h_min_space_error" is of the output with the longest name that the line begins with; of fields
    no error is measured. */
 const ff_result *accuracy_estimated(const ff_stage *stage, const char *line)
 {
-    static const char ending[] = "_error";
     size_t length = strlen(line), tail = sizeof ending - 1, longest = 0;
     const ff_result *found = NULL;
     if (length <= tail || strcmp(line + length - tail, ending) != 0)
@@ -33,6 +34,58 @@ const ff_result *accuracy_estimated(const ff_stage *stage, const char *line)
         }
     }
     return found && found->requested && found->rank > 1 ? NULL : found;
+}
+
+bool accuracy_may_estimate(const ff_port *row, const ff_port *of)
+{
+    size_t stem = strlen(of->name);
+    return !row->service && !strncmp(row->name, of->name, stem) &&
+           !strcmp(row->name + stem, ending) && !strcmp(row->unit, of->unit) && row->dims &&
+           !strcmp(row->dims, of->dims);
+}
+
+static bool has_line_of(const ff_stage *stage, const ff_result *result)
+{
+    for (size_t i = 0; i < stage->quality_count; i++)
+        if (accuracy_estimated(stage, stage->quality[i].name) == result)
+            return true;
+    return false;
+}
+
+const ff_result *accuracy_estimate_of(const ff_stage *stage, const ff_result *result)
+{
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        const ff_result *estimate = &stage->results[i];
+        if (accuracy_may_estimate(estimate->row, result->row) && estimate->data &&
+            estimate->count == result->count && has_line_of(stage, result))
+            return estimate;
+    }
+    return NULL;
+}
+
+/* Whether an output was computed for the error of another one alone. */
+static bool is_beside(const ff_pipeline *pipeline, const ff_stage *stage, const ff_result *result)
+{
+    bool beside = false;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++)
+        beside = beside || (stage->results[i].requested &&
+                            accuracy_may_estimate(result->row, stage->results[i].row));
+    for (size_t i = 0; i < pipeline->count && beside; i++) {
+        const ff_stage *other = &pipeline->stages[i];
+        for (size_t k = 0; other->loaded && k < other->loaded->model->input_count; k++)
+            beside = beside && ff_feeding_result(pipeline, other, k) != result;
+    }
+    return beside && !result->requested;
+}
+
+static void drop_estimates_of(const ff_pipeline *pipeline, ff_stage *stage)
+{
+    for (size_t k = stage->quality_count; k-- > 0;)
+        if (accuracy_estimated(stage, stage->quality[k].name))
+            ff_drop_quality(stage, k);
+    for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++)
+        if (is_beside(pipeline, stage, &stage->results[i]))
+            ff_drop_result(stage, i);
 }
 
 /* Takes the estimates of the stages away that measured outputs come from: two numbers for one
@@ -49,9 +102,7 @@ static void drop_estimates(const accuracy_record *record, const ff_pipeline *ans
         for (size_t k = 0; k < stage->wire_count; k++)
             if (stage->wires[k].stage >= 0)
                 feeds[stage->wires[k].stage] = true;
-        for (size_t k = stage->quality_count; k-- > 0;)
-            if (accuracy_estimated(stage, stage->quality[k].name))
-                ff_drop_quality(stage, k);
+        drop_estimates_of(answer, stage);
     }
     free(feeds);
 }

@@ -299,6 +299,15 @@ static accuracy_ladder ladder_of(const measurement *m, const accuracy_error *e)
                              .is_finer = m->is_finer};
 }
 
+/* Twins may see less of an error than the stage, which knows where it comes from: no number is
+   better known than by what the stage estimates there. */
+static void hold_to_estimate(accuracy_error *e)
+{
+    const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
+    for (size_t i = 0; estimate && i < estimate->count; i++) /* fmax drops NaN */
+        e->bar[i] = fmax(e->bar[i], fabs(estimate->data[i]));
+}
+
 static void measure_output(const measurement *m, accuracy_error *e)
 {
     const double **refined = take(m, m->count, sizeof *refined);
@@ -316,6 +325,7 @@ static void measure_output(const measurement *m, accuracy_error *e)
         e->by_tolerances = accuracy_add_tolerances(&levels, e->bar);
     for (size_t i = 0; i < levels.count; i++) /* fmax drops NaN */
         e->bar[i] = fmax(e->bar[i], least_error * e->goal * levels.scale[i]);
+    hold_to_estimate(e);
     find_relative(levels.at, e);
     add_parts(m, shares, e);
     add_changes(m, e);

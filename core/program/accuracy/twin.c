@@ -133,7 +133,7 @@ void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const c
     twin->pipeline = ff_pipeline_build(twin->tree, scene->engine, false, twin->report);
     if (twin->pipeline && ff_report_errors(twin->report) == 0) {
         spread(twin->pipeline, affected); /* another model may have other wires */
-        accuracy_want_axes(twin->pipeline);
+        accuracy_want_beside(twin->pipeline);
         accuracy_hand_states(like, twin->pipeline);
         if (!scene->outputs)
             want_the_same(like, twin->pipeline);

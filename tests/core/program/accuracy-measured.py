@@ -67,6 +67,16 @@ class Measured(lab.Lab):
             self.assertLess(bar["data"][count // 4], 2 * exact * 3)
             self.assertEqual("last.steps" in bar["parts"], steps != "auto")
 
+    def test_no_bar_is_below_what_the_stage_estimates_there(self):
+        """Number by number; what it says without a line of quality is of the model."""
+        wave, plain = self.ask()["outputs"]["last.wave"]["data"], self.error(self.ask(), "last.wave")["data"]
+        seen = self.error(self.ask("last.seen=0.2"), "last.wave")["data"]
+        middle = len(wave) // 2
+        self.assertEqual(seen[:middle], plain[:middle])
+        for bar, value in zip(seen[middle:], wave[middle:]):
+            self.assertAlmostEqual(bar / (0.2 * value), 1, places=9)
+        self.assertEqual(self.error(self.ask("last.scatter=0.2"), "last.wave")["data"], plain)
+
     def test_an_extreme_is_off_by_what_its_series_is_off_there(self):
         """The value is the least of the wave, where that has the error of its steps, too."""
         answer = self.ask("last.steps=401")

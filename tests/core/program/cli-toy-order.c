@@ -10,7 +10,7 @@ typedef struct order {
     const ff_host *host;
     int64_t cells, steps, least, most, sure, shown;
     int32_t exact;
-    double tolerance, order, strength, gain, heat, guess, loosest, blunt;
+    double tolerance, order, strength, gain, heat, guess, loosest, blunt, seen, scatter;
 } order;
 
 static const ff_param params[] = {
@@ -33,6 +33,10 @@ static const ff_param params[] = {
         "larger tolerances have an error of three times this, and points that hardly follow"),
     FF_QUANTITY("guess", "1", order, guess, 0, "0.5", NULL, 0, 1e6, 0, 0,
                 "what it estimates to be its error with one cell"),
+    FF_QUANTITY("seen", "1", order, seen, 0, "0", NULL, 0, 1, 0, 0,
+                "what it estimates the wave to be off by from the middle on, over it"),
+    FF_QUANTITY("scatter", "1", order, scatter, 0, "0", NULL, 0, 1, 0, 0,
+                "what the model is off by there"),
     FF_COUNT("least", order, least, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it fails"),
     FF_COUNT("most", order, most, 0, "1000000", NULL, 1, 1e6, 0, 0, "with more cells it fails"),
     FF_COUNT("shown", order, shown, 0, "1000000", NULL, 1, 1e6, 0, 0,
@@ -53,6 +57,7 @@ static const ff_port outputs[] = {
     {.name = "value", .unit = "m", .dims = "", .doc = "1 m, and what the stage before gives"},
     {.name = "time", .unit = "s", .dims = "t", .doc = "0 to 1 s"},
     {.name = "wave", .unit = "m", .dims = "t", .doc = "2 + sin(2 pi t), times the value"},
+    {.name = "wave_error", .unit = "m", .dims = "t", .doc = "by `seen` and `scatter`"},
     {.name = "pairs", .unit = "m", .dims = "pair? t", .doc = "the value, of two pairs of points"},
 };
 
@@ -84,18 +89,20 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         value += o->gain * in[0].data[0];
     if (wanted & 1)
         ff_put_scalar(o->host, 0, value);
-    if (wanted & 6) {
-        double *time = ff_put_series(o->host, 1, points), *wave = ff_put_series(o->host, 2, points);
-        if (!time || !wave)
+    if (wanted & 14) {
+        double *time = ff_put_series(o->host, 1, points), *wave = ff_put_series(o->host, 2, points),
+               *off = ff_put_series(o->host, 3, points);
+        if (!time || !wave || !off)
             return FF_NOMEM;
         for (size_t i = 0; i < points; i++) {
             time[i] = points > 1 ? (double)i / (double)(points - 1) : 0;
             wave[i] = value * (2 + sin(6.283185307179586 * time[i]));
+            off[i] = time[i] >= 0.5 ? (o->seen + o->scatter) * wave[i] : 0;
         }
     }
-    if (wanted & FF_BIT(3)) {
+    if (wanted & FF_BIT(4)) {
         const size_t shape[] = {2, 2};
-        double *pairs = o->host->output(o->host->ctx, 3, 2, shape);
+        double *pairs = o->host->output(o->host->ctx, 4, 2, shape);
         for (size_t i = 0; pairs && i < 4; i++)
             pairs[i] = value;
     }
@@ -103,6 +110,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     o->host->quality(o->host->ctx, "value_guess_error", guess, 0.001, FF_DOUBTFUL, "a guess");
     o->host->quality(o->host->ctx, "balance", (double)o->sure / (double)o->cells, 1,
                      o->cells < o->sure ? FF_DOUBTFUL : FF_GOOD, "no estimate of an error");
+    if (o->seen > 0)
+        o->host->quality(o->host->ctx, "wave_seen_error", o->seen, 0.1, FF_DOUBTFUL, "a guess");
     if (o->heat > 0)
         o->host->quality(o->host->ctx, "heat", o->heat, 0, FF_DOUBTFUL, "whatever the cells are");
     return FF_OK;
