@@ -74,29 +74,39 @@ static double apart(const accuracy_ladder *l, const double *a, const double *b, 
     return fabs(a[i] - b[i]) / (l->scale ? l->scale[i] : 1);
 }
 
-/* Relative differences between two answers: of all points, and of those where they are typical. */
-typedef struct differences {
-    double all, typical; /* root mean squares */
-    double limit;        /* a typical one is at most this */
-} differences;
+/* Marks the numbers whose sizes are typical. */
+static void mark_typical(const accuracy_ladder *l, const double *sizes, bool *typical)
+{
+    const double limit = accuracy_typical(sizes, l->at, l->count);
+    for (size_t i = 0; i < l->count; i++)
+        typical[i] = sizes[i] <= limit;
+}
 
-static differences between(const accuracy_ladder *l, const double *a, const double *b)
+/* Root mean square of what lies between the marked numbers of two answers; NULL: all. */
+static double between(const accuracy_ladder *l, const double *a, const double *b, const bool *marks)
+{
+    double squares = 0, count = 0;
+    for (size_t i = 0; i < l->count; i++) {
+        if (marks && !marks[i])
+            continue;
+        squares += apart(l, a, b, i) * apart(l, a, b, i);
+        count++;
+    }
+    return sqrt(squares / count);
+}
+
+/* The same of the numbers where it is typical. */
+static double typical_between(const accuracy_ladder *l, const double *a, const double *b)
 {
     double *sizes = memory_alloc(l->count * sizeof *sizes);
-    differences d = {.all = 0};
-    size_t typical = 0;
+    bool *typical = memory_alloc(l->count * sizeof *typical);
     for (size_t i = 0; i < l->count; i++)
         sizes[i] = apart(l, a, b, i);
-    d.limit = accuracy_typical(sizes, l->at, l->count);
-    for (size_t i = 0; i < l->count; i++) {
-        d.all += sizes[i] * sizes[i];
-        d.typical += sizes[i] <= d.limit ? sizes[i] * sizes[i] : 0;
-        typical += sizes[i] <= d.limit;
-    }
+    mark_typical(l, sizes, typical);
+    double root = between(l, a, b, typical);
+    free(typical);
     free(sizes);
-    d.all = sqrt(d.all / (double)l->count);
-    d.typical = sqrt(d.typical / (double)typical);
-    return d;
+    return root;
 }
 
 /* Growth from one difference to the next coarser one. */
@@ -125,8 +135,7 @@ static double growth_to_use(const accuracy_ladder *l, double observed)
 /* How the differences of a ladder grow: of typical points, and of all. */
 typedef struct convergence {
     double typical, all;
-    double limit;        /* a typical point differs by at most this from the next coarser level */
-    double coarse_limit; /* as typical points of the coarser levels do from each other */
+    double coarse_limit; /* typical points of the coarser levels differ by at most this */
 } convergence;
 
 static bool goes_down(const accuracy_ladder *l)
@@ -139,17 +148,16 @@ static const double *middle(const accuracy_ladder *l)
     return l->middle ? l->middle : l->half;
 }
 
-static convergence convergence_of(const accuracy_ladder *l)
+static convergence convergence_of(const accuracy_ladder *l, const bool *typical)
 {
     const double *a = goes_down(l) ? l->answer : l->twice, *b = goes_down(l) ? l->half : l->answer,
                  *c = goes_down(l) ? l->quarter : l->half, *d = goes_down(l) ? middle(l) : b;
     if (!a || !b || !c)
-        return (convergence){NAN, NAN, INFINITY, INFINITY};
-    const differences near = between(l, b, a), far = between(l, c, d);
+        return (convergence){NAN, NAN, INFINITY};
     /* a single number may overshoot */
     double sign = l->count == 1 && (c[0] - d[0]) * (b[0] - a[0]) < 0 ? -1 : 1;
-    return (convergence){growth_of(near.typical, far.typical, sign),
-                         growth_of(near.all, far.all, sign), near.limit, INFINITY};
+    return (convergence){growth_of(between(l, b, a, typical), typical_between(l, c, d), sign),
+                         growth_of(between(l, b, a, NULL), between(l, c, d, NULL), sign), INFINITY};
 }
 
 /* What the coarser levels of number i differ by: all settings at once, or one after the other, for
@@ -172,15 +180,30 @@ static double coarse_limit(const accuracy_ladder *l)
     return limit;
 }
 
-static bool is_typical(const accuracy_ladder *l, size_t i, const convergence *c)
+/* What the tolerances make of number i. */
+static double tolerance_error(const accuracy_ladder *l, size_t i)
 {
-    return apart(l, goes_down(l) ? l->half : l->twice, l->answer, i) <= c->limit;
+    const double growth = accuracy_tolerance_factor;
+    if (!l->tight || !l->loose)
+        return 0;
+    return safety * (l->is_finer ? growth : 1) / (growth - 1) * apart(l, l->tight, l->loose, i);
 }
 
-/* The error of number i alone, relative. */
-static double error_at(const accuracy_ladder *l, size_t i, const convergence *c)
+/* Marks the numbers where what counts and tolerances move together is typical: with 5 % for each of
+   them it would be a tenth of a series that is not. */
+static void mark_answer(const accuracy_ladder *l, bool *typical)
 {
-    bool typical = is_typical(l, i, c);
+    double *sizes = memory_alloc(l->count * sizeof *sizes);
+    for (size_t i = 0; i < l->count; i++)
+        sizes[i] =
+            apart(l, goes_down(l) ? l->half : l->twice, l->answer, i) + tolerance_error(l, i);
+    mark_typical(l, sizes, typical);
+    free(sizes);
+}
+
+/* What the counts make of number i alone, relative. */
+static double count_error(const accuracy_ladder *l, size_t i, bool typical, const convergence *c)
+{
     double observed = typical ? c->typical : c->all, growth = growth_to_use(l, observed);
     double coarse = fmax(growth, fmin(fabs(observed), most_coarse_growth)); /* these drop NaN */
     if (!goes_down(l))
@@ -196,7 +219,7 @@ static void find_shares(const accuracy_ladder *l, double *shares)
     double all = 0;
     for (size_t k = 0; k < l->refined_count; k++) {
         bool known = l->quarter && l->refined[k];
-        shares[k] = known ? between(l, l->refined[k], l->quarter).typical : 0;
+        shares[k] = known ? typical_between(l, l->refined[k], l->quarter) : 0;
         all += shares[k];
     }
     for (size_t k = 0; k < l->refined_count && all > 0; k++)
@@ -204,55 +227,39 @@ static void find_shares(const accuracy_ladder *l, double *shares)
 }
 
 /* Raises each relative error to the largest one near it, that of a typical point to those of
-   typical ones, adds it to the error of the number, and returns what is typical of it. */
-static double add_largest(const accuracy_ladder *l, const double *all, const bool *typical,
-                          double *error)
+   typical ones, and returns what is typical of it. */
+static double raise_to_largest(const accuracy_ladder *l, const double *all, const bool *typical,
+                               double *largest)
 {
     const size_t near = l->count > 1 ? 1 + (size_t)(reach / 2 * (double)l->count) : 0;
-    double *largest = memory_alloc(l->count * sizeof *largest);
     for (size_t i = 0; i < l->count; i++) {
+        largest[i] = 0;
         for (size_t k = i > near ? i - near : 0; k < l->count && k <= i + near; k++)
             if (!typical[i] || typical[k])
                 largest[i] = fmax(largest[i], all[k]);
-        error[i] += largest[i] * (l->scale ? l->scale[i] : 1);
     }
-    double of_most = accuracy_typical(largest, l->at, l->count);
-    free(largest);
-    return of_most;
+    return accuracy_typical(largest, l->at, l->count);
 }
 
-double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares)
+double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares,
+                         double *by_tolerances)
 {
-    convergence c = convergence_of(l);
     double *all = memory_alloc(l->count * sizeof *all);
     bool *typical = memory_alloc(l->count * sizeof *typical);
+    mark_answer(l, typical);
+    convergence c = convergence_of(l, typical);
     c.coarse_limit = coarse_limit(l);
-    for (size_t i = 0; i < l->count; i++) {
-        all[i] = error_at(l, i, &c);
-        typical[i] = is_typical(l, i, &c);
-        error[i] = 0;
-    }
-    add_largest(l, all, typical, error);
+    for (size_t i = 0; i < l->count; i++)
+        all[i] = tolerance_error(l, i);
+    *by_tolerances = raise_to_largest(l, all, typical, error);
+    for (size_t i = 0; i < l->count; i++)
+        all[i] += count_error(l, i, typical[i], &c);
+    raise_to_largest(l, all, typical, error);
+    for (size_t i = 0; i < l->count; i++)
+        error[i] *= l->scale ? l->scale[i] : 1;
     free(typical);
     free(all);
     find_shares(l, shares);
     double observed = c.typical;
     return isfinite(observed) && observed != 0 ? log2(fabs(observed)) : NAN;
-}
-
-double accuracy_add_tolerances(const accuracy_ladder *l, double *error)
-{
-    const double growth = accuracy_tolerance_factor;
-    const double factor = safety * (l->is_finer ? growth : 1) / (growth - 1);
-    double *all = memory_alloc(l->count * sizeof *all);
-    bool *typical = memory_alloc(l->count * sizeof *typical);
-    for (size_t i = 0; i < l->count; i++)
-        all[i] = factor * apart(l, l->tight, l->loose, i);
-    double limit = accuracy_typical(all, l->at, l->count);
-    for (size_t i = 0; i < l->count; i++)
-        typical[i] = all[i] <= limit;
-    double of_most = add_largest(l, all, typical, error);
-    free(typical);
-    free(all);
-    return of_most;
 }

@@ -26,16 +26,14 @@ typedef struct accuracy_ladder {
 } accuracy_ladder;
 
 /*
- * Writes the estimated error of each number of the answer into error[count], and into
- * shares[refined_count] what part of it each setting has; they are 0 where that is not known, else
- * their sum is 1. Returns the order observed, log2 of the growth of the differences from level to
- * level; NaN where nothing differs or there are two levels alone. There must be `half` or `twice`.
+ * Writes the estimated error of each number of the answer into error[count], of which the
+ * tolerances make *by_tolerances, what is typical of that, relative, and into shares[refined_count]
+ * what part of the rest each setting has; they are 0 where that is not known, else their sum is 1.
+ * Returns the order observed, log2 of the growth of the differences from level to level; NaN where
+ * nothing differs or there are two levels alone. There must be `half` or `twice`.
  */
-double accuracy_estimate(const accuracy_ladder *ladder, double *error, double *shares);
-
-/* Adds what the tolerances make of each number to its error, which goes with them; returns what is
-   typical of it, relative. There must be `tight` and `loose`. */
-double accuracy_add_tolerances(const accuracy_ladder *ladder, double *error);
+double accuracy_estimate(const accuracy_ladder *ladder, double *error, double *shares,
+                         double *by_tolerances);
 
 /* What the values stay below along 95 % of the length; of few or one, the largest. `at` rises and
    says where they are; NULL: the index does. */

@@ -320,9 +320,7 @@ static void measure_output(const measurement *m, accuracy_error *e)
     if (!levels.half && !levels.twice)
         return;
     e->bar = take(m, levels.count, sizeof *e->bar);
-    e->order = accuracy_estimate(&levels, e->bar, shares);
-    if (levels.tight && levels.loose)
-        e->by_tolerances = accuracy_add_tolerances(&levels, e->bar);
+    e->order = accuracy_estimate(&levels, e->bar, shares, &e->by_tolerances);
     for (size_t i = 0; i < levels.count; i++) /* fmax drops NaN */
         e->bar[i] = fmax(e->bar[i], least_error * e->goal * levels.scale[i]);
     hold_to_estimate(e);

@@ -9,6 +9,13 @@
 enum { POINTS = 201 };
 static const double safety = 1.25; /* Roache's, as the estimate has it */
 
+/* Returns the order; no settings are told apart. */
+static double estimate(const accuracy_ladder *l, double *error)
+{
+    double none, tolerances;
+    return accuracy_estimate(l, error, &none, &tolerances);
+}
+
 /* The exact answer is 1; its error at a level is c 2^(order level). */
 static double answer_at(double c, double order, double level)
 {
@@ -20,10 +27,10 @@ static void test_orders(void)
 {
     static const double orders[] = {0.5, 1, 1.5, 2};
     for (int i = 0; i < 4; i++) {
-        double p = orders[i], c = 1e-3, error, share;
+        double p = orders[i], c = 1e-3, error;
         double answer = answer_at(c, p, 0), half = answer_at(c, p, 1), quarter = answer_at(c, p, 2);
         accuracy_ladder l = {.count = 1, .answer = &answer, .half = &half, .quarter = &quarter};
-        check_near("order", accuracy_estimate(&l, &error, &share), p, 1e-9);
+        check_near("order", estimate(&l, &error), p, 1e-9);
         check_near("error", error, safety * c, 1e-9);
     }
 }
@@ -32,7 +39,7 @@ static void test_orders(void)
    alike, where two levels differ by what order p makes of it. */
 static void check_high_order(double p, double factor_of_one, double factor_of_two)
 {
-    double answer[2], half[2], quarter[2], error[2], share;
+    double answer[2], half[2], quarter[2], error[2];
     for (int i = 0; i < 2; i++) {
         answer[i] = answer_at(1e-3, p, 0);
         half[i] = answer_at(1e-3, p, 1);
@@ -40,10 +47,10 @@ static void check_high_order(double p, double factor_of_one, double factor_of_tw
     }
     accuracy_ladder l = {.count = 1, .answer = answer, .half = half, .quarter = quarter};
     double near = fmax(half[0] - answer[0], (quarter[0] - half[0]) / fmin(exp2(p), 16));
-    check_near("order", accuracy_estimate(&l, error, &share), p, 1e-9);
+    check_near("order", estimate(&l, error), p, 1e-9);
     check_near("error of one", error[0], safety * factor_of_one * near, 1e-9);
     l.count = 2;
-    check_near("order", accuracy_estimate(&l, error, &share), p, 1e-9);
+    check_near("order", estimate(&l, error), p, 1e-9);
     check_near("error of two", error[1], safety * factor_of_two * near, 1e-9);
 }
 
@@ -61,13 +68,13 @@ static void test_high_orders(void)
 /* No order, or two levels: three times what lies between them, as Roache has it. */
 static void test_two_levels(void)
 {
-    double answer = 1, half = 1.01, error, share;
+    double answer = 1, half = 1.01, error;
     accuracy_ladder l = {.count = 1, .answer = &answer, .half = &half};
-    check_true("no order", isnan(accuracy_estimate(&l, &error, &share)));
+    check_true("no order", isnan(estimate(&l, &error)));
     check_near("three times", error, 0.03, 0.01);
     double twice = 0.99;
     l = (accuracy_ladder){.count = 1, .answer = &answer, .twice = &twice};
-    check_true("no order", isnan(accuracy_estimate(&l, &error, &share)));
+    check_true("no order", isnan(estimate(&l, &error)));
     check_true("that and the rest", error > safety * 0.01 * 1.5 && error < 0.05);
 }
 
@@ -75,9 +82,9 @@ static void test_two_levels(void)
 static void test_a_finer_level(void)
 {
     double c = 1e-2, twice = answer_at(c, 2, -1), answer = answer_at(c, 2, 0),
-           half = answer_at(c, 2, 1), error, share;
+           half = answer_at(c, 2, 1), error;
     accuracy_ladder l = {.count = 1, .answer = &answer, .half = &half, .twice = &twice};
-    check_near("order", accuracy_estimate(&l, &error, &share), 2, 1e-9);
+    check_near("order", estimate(&l, &error), 2, 1e-9);
     check_near("error", error, safety * c, 1e-9);
 }
 
@@ -85,20 +92,20 @@ static void test_a_finer_level(void)
    what lies between the levels does not fall. */
 static void test_oscillation(void)
 {
-    double answer = 1.001, half = 0.998, quarter = 1.004, error, share;
+    double answer = 1.001, half = 0.998, quarter = 1.004, error;
     accuracy_ladder l = {.count = 1, .answer = &answer, .half = &half, .quarter = &quarter};
-    accuracy_estimate(&l, &error, &share);
+    estimate(&l, &error);
     check_true("the error is held", error >= 0.001);
     check_true("and not lost", error < 0.01);
     quarter = 1.0005;
-    accuracy_estimate(&l, &error, &share);
+    estimate(&l, &error);
     check_near("as two levels have it", error, 0.009, 0.01);
 }
 
 /* Errors of two settings that cancel in the answers are both counted, and told apart. */
 static void test_cancelling_settings(void)
 {
-    double c = 1e-3, answer = 1, half = 1, quarter = 1, error;
+    double c = 1e-3, answer = 1, half = 1, quarter = 1, error, tolerances;
     double one = 1 - 12 * c, other = 1 + 12 * c, shares[2]; /* of 16 c - 4 c, from level 2 to 1 */
     const double *refined[] = {&one, &other};
     accuracy_ladder l = {.count = 1,
@@ -107,7 +114,7 @@ static void test_cancelling_settings(void)
                          .quarter = &quarter,
                          .refined = refined,
                          .refined_count = 2};
-    accuracy_estimate(&l, &error, shares);
+    accuracy_estimate(&l, &error, shares, &tolerances);
     check_true("neither is lost", error >= c);
     check_near("halves", shares[0], 0.5, 1e-9);
     check_near("halves", shares[1], 0.5, 1e-9);
@@ -116,7 +123,7 @@ static void test_cancelling_settings(void)
 /* The error of a series passes through zero, and its differences do so elsewhere. */
 static void test_series(void)
 {
-    double answer[POINTS], half[POINTS], quarter[POINTS], error[POINTS], share;
+    double answer[POINTS], half[POINTS], quarter[POINTS], error[POINTS];
     int held = 0;
     for (int i = 0; i < POINTS; i++) {
         double x = 0.05 * i, wave = sin(x), late = sin(x + 0.05), later = sin(x + 0.1);
@@ -125,7 +132,7 @@ static void test_series(void)
         quarter[i] = 16e-3 * later;
     }
     accuracy_ladder l = {.count = POINTS, .answer = answer, .half = half, .quarter = quarter};
-    check_near("order", accuracy_estimate(&l, error, &share), 2, 0.03);
+    check_near("order", estimate(&l, error), 2, 0.03);
     for (int i = 0; i < POINTS; i++)
         held += fabs(answer[i]) <= error[i];
     printf("points held: %d of %d\n", held, POINTS);
@@ -136,14 +143,14 @@ static void test_series(void)
 /* A jump converges by one order, along ever fewer points; the rest of the series keeps its own. */
 static void test_jump(void)
 {
-    double answer[POINTS], half[POINTS], quarter[POINTS], error[POINTS], share;
+    double answer[POINTS], half[POINTS], quarter[POINTS], error[POINTS];
     for (int i = 0; i < POINTS; i++) {
         answer[i] = 1e-3 + (i == 100);
         half[i] = 4e-3 + (i >= 100 && i < 102);
         quarter[i] = 16e-3 + (i >= 100 && i < 104);
     }
     accuracy_ladder l = {.count = POINTS, .answer = answer, .half = half, .quarter = quarter};
-    check_near("the order beside it", accuracy_estimate(&l, error, &share), 2, 1e-6);
+    check_near("the order beside it", estimate(&l, error), 2, 1e-6);
     check_near("the error there", error[20], safety * 1e-3, 1e-9);
     check_true("at it", error[101] >= 1);
     check_near("what is typical", accuracy_typical(error, NULL, POINTS), safety * 1e-3, 1e-9);
@@ -153,7 +160,7 @@ static void test_jump(void)
    keeps its own error, although the neighbours of all jumps are more than 5 % of the series. */
 static void test_moving_jumps(void)
 {
-    double answer[POINTS], half[POINTS], quarter[POINTS], error[POINTS], share;
+    double answer[POINTS], half[POINTS], quarter[POINTS], error[POINTS];
     for (int i = 0; i < POINTS; i++) {
         int at = i % 100;
         answer[i] = 1 + 1e-3 + (at < 20);
@@ -161,7 +168,7 @@ static void test_moving_jumps(void)
         quarter[i] = 1 + 16e-3 + (at < 24);
     }
     accuracy_ladder l = {.count = POINTS, .answer = answer, .half = half, .quarter = quarter};
-    accuracy_estimate(&l, error, &share);
+    estimate(&l, error);
     check_near("in between", error[19], safety * 1e-3, 1e-9);
     check_near("where a coarser level jumps", error[23], safety * 1e-3, 1e-9);
     check_true("at the jump", error[20] >= 1);
@@ -171,7 +178,7 @@ static void test_moving_jumps(void)
 /* What is typical is so relative to the scale of each number, as the error is. */
 static void test_scales(void)
 {
-    double answer[POINTS], half[POINTS], quarter[POINTS], scale[POINTS], error[POINTS], share;
+    double answer[POINTS], half[POINTS], quarter[POINTS], scale[POINTS], error[POINTS];
     for (int i = 0; i < POINTS; i++) {
         scale[i] = i % 10 ? 1 : 100;
         answer[i] = scale[i] * (1 + 1e-3);
@@ -184,7 +191,7 @@ static void test_scales(void)
                          .answer = answer,
                          .half = half,
                          .quarter = quarter};
-    check_near("order", accuracy_estimate(&l, error, &share), 2, 1e-9);
+    check_near("order", estimate(&l, error), 2, 1e-9);
     for (int i = 0; i < POINTS; i++)
         check_near("error", error[i], safety * 1e-3 * scale[i], 1e-9);
 }
@@ -206,7 +213,7 @@ static void test_typical(void)
 /* What no setting changes has no error. */
 static void test_no_difference(void)
 {
-    double answer = 1, error, share = 1;
+    double answer = 1, error, share = 1, tolerances;
     const double *refined[] = {&answer};
     accuracy_ladder l = {.count = 1,
                          .answer = &answer,
@@ -214,7 +221,7 @@ static void test_no_difference(void)
                          .quarter = &answer,
                          .refined = refined,
                          .refined_count = 1};
-    check_true("no order", isnan(accuracy_estimate(&l, &error, &share)));
+    check_true("no order", isnan(accuracy_estimate(&l, &error, &share, &tolerances)));
     check_true("no error", error == 0 && share == 0);
 }
 
@@ -225,19 +232,21 @@ static void test_tolerances(void)
     const double c = 1e-3, t = 4e-4; /* of the answer */
     for (int finer = 0; finer < 2; finer++) {
         double answer = 1 + c + t, half = 1 + 4 * c + t, middle = 1 + 4 * c + 16 * t,
-               quarter = 1 + 16 * c + 16 * t, error, share,
+               quarter = 1 + 16 * c + 16 * t, error, none, tolerances,
                loose = 1 + 4 * c + (finer ? t / 4 : 4 * t);
         accuracy_ladder l = {.count = 1,
                              .answer = &answer,
                              .half = &half,
                              .quarter = &quarter,
                              .middle = &middle,
-                             .tight = &half,
-                             .loose = &loose,
                              .is_finer = finer};
-        check_near("order", accuracy_estimate(&l, &error, &share), 2, 1e-9);
+        check_near("order", accuracy_estimate(&l, &error, &none, &tolerances), 2, 1e-9);
         check_near("counts", error, safety * c, 1e-9);
-        check_near("tolerances", accuracy_add_tolerances(&l, &error), safety * t, 1e-9);
+        check_near("not told", tolerances, 0, 1e-12);
+        l.tight = &half;
+        l.loose = &loose;
+        check_near("order", accuracy_estimate(&l, &error, &none, &tolerances), 2, 1e-9);
+        check_near("tolerances", tolerances, safety * t, 1e-9);
         check_near("both", error, safety * (c + t), 1e-9);
     }
 }
@@ -245,13 +254,14 @@ static void test_tolerances(void)
 /* Where the tolerances alone move a number, as behind a jump, it has all of that. */
 static void test_tolerances_at_a_jump(void)
 {
-    double answer[POINTS], loose[POINTS], error[POINTS] = {0};
+    double answer[POINTS], loose[POINTS], error[POINTS], none, typical;
     for (int i = 0; i < POINTS; i++)
         answer[i] = loose[i] = 1;
     loose[100] = 1.3;
     accuracy_ladder l = {
         .count = POINTS, .answer = answer, .half = answer, .tight = answer, .loose = loose};
-    check_near("typical", accuracy_add_tolerances(&l, error), 0, 1e-12);
+    accuracy_estimate(&l, error, &none, &typical);
+    check_near("typical", typical, 0, 1e-12);
     check_near("there", error[100], safety * 0.1, 1e-9);
     check_near("beside", error[101], 0, 1e-12);
 }
@@ -259,19 +269,46 @@ static void test_tolerances_at_a_jump(void)
 /* What tolerances move passes through 0 where two films cross: beside that they err as much. */
 static void test_tolerances_where_they_cross(void)
 {
-    double answer[POINTS], loose[POINTS], error[POINTS] = {0};
+    double answer[POINTS], loose[POINTS], error[POINTS], none, typical;
     for (int i = 0; i < POINTS; i++) {
         answer[i] = 1;
         loose[i] = 1 + 0.3 * (i != 100);
     }
     accuracy_ladder l = {
         .count = POINTS, .answer = answer, .half = answer, .tight = answer, .loose = loose};
-    check_near("typical", accuracy_add_tolerances(&l, error), safety * 0.1, 1e-9);
+    accuracy_estimate(&l, error, &none, &typical);
+    check_near("typical", typical, safety * 0.1, 1e-9);
     check_near("where they cross", error[100], safety * 0.1, 1e-9);
+}
+
+/* Counts move the end of a series most, and one point of it for good; tolerances move the beginning
+   for good. What is neither is known along 95 % of it. */
+static void test_counts_and_tolerances_elsewhere(void)
+{
+    const double c = 1e-3, t = 4e-4;
+    double answer[POINTS], half[POINTS], quarter[POINTS], loose[POINTS], error[POINTS], none,
+        typical;
+    for (int i = 0; i < POINTS; i++) {
+        double more = 1 + 0.2 * i / (POINTS - 1), jump = i == POINTS - 1;
+        answer[i] = 1 + c * more;
+        half[i] = 1 + 4 * c * more + jump;
+        quarter[i] = 1 + 16 * c * more + 2 * jump;
+        loose[i] = 1 + 4 * c * more + jump + 3 * t + (i < 4);
+    }
+    accuracy_ladder l = {.count = POINTS,
+                         .answer = answer,
+                         .half = half,
+                         .quarter = quarter,
+                         .tight = half,
+                         .loose = loose};
+    check_near("order", accuracy_estimate(&l, error, &none, &typical), 2, 0.01);
+    check_below("along 95 %", accuracy_typical(error, NULL, POINTS), 1.01 * safety * (1.2 * c + t));
+    check_true("at both ends", error[1] > 0.1 && error[POINTS - 1] > 1);
 }
 
 int main(void)
 {
+    test_counts_and_tolerances_elsewhere();
     test_tolerances_where_they_cross();
     test_tolerances_at_a_jump();
     test_tolerances();
