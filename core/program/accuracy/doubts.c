@@ -27,8 +27,7 @@ bool accuracy_has_doubts(const ff_pipeline *answer, const ff_pipeline *before)
         for (size_t k = 0; k < answer->stages[i].quality_count; k++) {
             const ff_stage *stage = &answer->stages[i];
             const ff_quality *line = &stage->quality[k];
-            if (line->verdict != FF_GOOD && !accuracy_is_line(line) &&
-                !accuracy_estimated(stage, line->name) &&
+            if (line->verdict != FF_GOOD && !accuracy_estimated(stage, line->name) &&
                 !(before && is_lasting(&before->stages[i], line)))
                 return true;
         }

@@ -135,20 +135,12 @@ char *accuracy_print_relative(const accuracy_error *e)
                   : memory_print_text("not known");
 }
 
-/* How the text of its line begins. */
-static const char measured[] = "measured: ";
-
-bool accuracy_is_line(const ff_quality *line)
-{
-    return line->text && !strncmp(line->text, measured, sizeof measured - 1);
-}
-
 static void add_line(const accuracy_error *e, ff_stage *stage)
 {
     double limit = isnan(e->goal) ? doubtful_above : e->goal;
     char *name = memory_print_text("%s_error", e->result->row->name);
     char *error = accuracy_print_relative(e), *rest = accuracy_describe(e);
-    char *text = memory_print_text("%s%s%s%s", measured, error, *rest ? "; " : "", rest);
+    char *text = memory_print_text("measured: %s%s%s", error, *rest ? "; " : "", rest);
     ff_add_quality(stage, name, e->relative, limit, e->relative <= limit ? FF_GOOD : FF_DOUBTFUL,
                    text);
     free(text);

@@ -1,12 +1,4 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/*
- * One ladder for the whole answer: in its first twin all settings of all stages are one level
- * coarser, in its second two; then, where no others are known, one after the other, each setting is
- * a level finer than in the second, which shows what comes of it. The twins of a setting are cheap,
- * since all else is coarse and what lies before its stage is known. Where attempts are made, the
- * levels are those of the counts, and other twins tell what the tolerances add. Where a coarser
- * twin fails, the answer is coarse itself, and a finer one tells.
- */
 #include "measure.h"
 
 #include "axis.h"
@@ -15,8 +7,7 @@
 #include "estimate.h"
 #include "goals.h"
 #include "lines.h"
-#include "settings.h"
-#include "twin.h"
+#include "twins.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -31,33 +22,12 @@ static bool is_axis(const ff_result *result)
             !strcmp(result->row->name, result->dims[0]));
 }
 
-/* A setting with the stage that it belongs to. */
-typedef struct knob {
-    size_t stage; /* in the pipeline */
-    accuracy_setting setting;
-} knob;
-
 /* Twins may agree by chance: an error is told to this share of what the file asks for. */
 static const double least_error = 0.1;
 
-/* What is at work while errors are measured. */
-typedef struct measurement {
-    accuracy_record *record;
-    accuracy_scene scene;
-    const ff_pipeline *answer;
-    knob *knobs;
-    size_t count;
-    const accuracy_known *known;
-    const accuracy_twin *half, *quarter, *twice; /* NULL: it cannot be had */
-    const accuracy_twin *middle, *tight, *loose; /* estimate.h; NULL: not told apart */
-    bool is_finer;
-    accuracy_twin *refined; /* one for each knob; not good: errors are not split by it */
-    bool stopped;
-} measurement;
-
-static void *take(const measurement *m, size_t count, size_t size)
+static void *take(const accuracy_twins *t, size_t count, size_t size)
 {
-    return memory_arena_alloc(&m->record->arena, count * size + 1);
+    return memory_arena_alloc(&t->record->arena, count * size + 1);
 }
 
 static bool is_headline(const ff_result *result)
@@ -69,15 +39,15 @@ static bool is_headline(const ff_result *result)
 }
 
 /* Lists what is to be measured, and says it as the outputs of the twins. */
-static void list_outputs(measurement *m)
+static void list_outputs(accuracy_twins *t)
 {
-    const ff_pipeline *answer = m->answer;
-    accuracy_record *record = m->record;
+    const ff_pipeline *answer = t->answer;
+    accuracy_record *record = t->record;
     char *text = NULL;
     size_t length = 0, most = 0;
     for (size_t s = 0; s < answer->count; s++)
         most += answer->stages[s].ran ? answer->stages[s].loaded->model->output_count : 0;
-    record->errors = take(m, most, sizeof *record->errors);
+    record->errors = take(t, most, sizeof *record->errors);
     FILE *out = memory_require(open_memstream(&text, &length));
     fputs("outputs=[", out);
     for (size_t s = 0; s < answer->count; s++) {
@@ -88,7 +58,7 @@ static void list_outputs(measurement *m)
             accuracy_error *e = &record->errors[record->count++];
             *e = (accuracy_error){.stage = stage,
                                   .result = &stage->results[i],
-                                  .goal = accuracy_goal(m->scene.tree, stage, &stage->results[i]),
+                                  .goal = accuracy_goal(t->scene.tree, stage, &stage->results[i]),
                                   .relative = NAN,
                                   .largest = NAN,
                                   .order = NAN};
@@ -98,128 +68,8 @@ static void list_outputs(measurement *m)
     }
     putc(']', out);
     fclose(out);
-    m->scene.outputs = memory_arena_text(&record->arena, text, length);
+    t->scene.outputs = memory_arena_text(&record->arena, text, length);
     free(text);
-}
-
-/* The settings of all stages that something measured depends on. */
-static void list_knobs(measurement *m)
-{
-    accuracy_setting settings[ACCURACY_MOST_SETTINGS];
-    const ff_pipeline *answer = m->answer;
-    m->knobs = take(m, answer->count * ACCURACY_MOST_SETTINGS, sizeof *m->knobs);
-    for (size_t i = 0; i < answer->count; i++) {
-        size_t at = answer->order[i];
-        const ff_stage *stage = &answer->stages[at];
-        size_t count = 0;
-        if (stage->needed && stage->loaded)
-            count = accuracy_settings(stage, settings);
-        for (size_t k = 0; k < count; k++)
-            if (!m->known ||
-                !accuracy_is_idle(m->known->said, m->known->place, stage->name, settings[k].name))
-                m->knobs[m->count++] = (knob){at, settings[k]};
-    }
-    m->refined = take(m, m->count, sizeof *m->refined);
-}
-
-static void note_failure(measurement *m, const char *why)
-{
-    if (!m->record->failure)
-        m->record->failure = memory_arena_text(&m->record->arena, why, strlen(why));
-}
-
-/* By how many levels the settings of a twin are coarser. */
-typedef struct coarser {
-    int counts, tolerances;
-} coarser;
-
-static const coarser half = {1, 1}, quarter = {2, 2}, twice = {-1, -1};
-
-/* NULL: its limits forbid it. */
-static const char *assignment_at(const measurement *m, const knob *k, coarser at)
-{
-    int levels = k->setting.tolerance ? at.tolerances : at.counts;
-    return accuracy_setting_at(&m->answer->stages[k->stage], k->setting.param, levels,
-                               &m->record->arena);
-}
-
-/* Fills the assignments of a twin, and marks the stages that they change. False: the limits of a
-   setting forbid one. */
-static bool list_sets(measurement *m, coarser at, size_t finer, const char **sets, bool *changed)
-{
-    for (size_t i = 0; i < m->count; i++) {
-        const knob *k = &m->knobs[i];
-        sets[i] = assignment_at(m, k, i == finer ? half : at);
-        changed[k->stage] |= finer == SIZE_MAX || i == finer;
-        if (sets[i])
-            continue;
-        char *why = memory_print_text("%s.%s has no %s value within its limits",
-                                      m->answer->stages[k->stage].name, k->setting.name,
-                                      at.counts < 0 ? "finer" : "coarser");
-        note_failure(m, why);
-        free(why);
-        return false;
-    }
-    return true;
-}
-
-/* Runs a twin; one of its settings is at the level of half; SIZE_MAX: none. */
-static void run_twin(measurement *m, coarser at, size_t finer, accuracy_twin *twin)
-{
-    const char **sets = memory_alloc((m->count + 1) * sizeof *sets);
-    bool *changed = memory_alloc((m->answer->count + 1) * sizeof *changed);
-    m->scene.donor = finer == SIZE_MAX ? m->answer : m->quarter->pipeline;
-    if (list_sets(m, at, finer, sets, changed)) {
-        accuracy_twin_run(twin, &m->scene, sets, m->count, NULL, changed);
-        m->record->twins++;
-        m->record->seconds += twin->work;
-        m->stopped = twin->stopped;
-        if (!twin->good)
-            note_failure(m, accuracy_twin_reason(twin));
-    }
-    free(changed);
-    free(sets);
-}
-
-/* Whether an answer has the settings of a twin. */
-static bool is_twin(const measurement *m, coarser at, const ff_pipeline *answer)
-{
-    bool same = answer->count == m->answer->count;
-    for (size_t i = 0; same && i < answer->count; i++)
-        same = answer->stages[i].loaded == m->answer->stages[i].loaded;
-    for (size_t i = 0; same && i < m->count; i++) {
-        const knob *k = &m->knobs[i];
-        const char *has = accuracy_setting_at(&answer->stages[k->stage], k->setting.param, 0,
-                                              &m->record->arena),
-                   *wanted = assignment_at(m, k, at);
-        same = has && wanted && !strcmp(has, wanted);
-    }
-    return same;
-}
-
-/* A twin that was run before, good or not; NULL: none was. */
-static const accuracy_twin *known_twin(const measurement *m, coarser at)
-{
-    for (size_t i = 0; i < m->record->own_count; i++)
-        if (m->record->own[i]->pipeline && is_twin(m, at, m->record->own[i]->pipeline))
-            return m->record->own[i];
-    for (size_t i = 0; m->known && i < m->known->count; i++)
-        if (m->known->runs[i]->pipeline && is_twin(m, at, m->known->runs[i]->pipeline))
-            return m->known->runs[i];
-    return NULL;
-}
-
-/* Finds a twin, or runs it; NULL: it cannot be had. */
-static const accuracy_twin *find_twin(measurement *m, coarser at)
-{
-    const accuracy_twin *known = known_twin(m, at);
-    if (known)
-        return known->good ? known : NULL;
-    if (m->stopped || m->record->own_count == ACCURACY_OWN)
-        return NULL;
-    accuracy_twin *own = m->record->own[m->record->own_count++] = memory_alloc(sizeof *own);
-    run_twin(m, at, SIZE_MAX, own);
-    return own->good ? own : NULL;
 }
 
 /* Fills the error of an output over its value: typical of a series, and the largest. */
@@ -229,11 +79,11 @@ static void find_relative(const double *at, accuracy_error *e)
     e->relative = accuracy_relative(e->bar, &answer, &e->largest);
 }
 
-static const double *numbers_of_twin(const measurement *m, const accuracy_error *e,
+static const double *numbers_of_twin(const accuracy_twins *t, const accuracy_error *e,
                                      const accuracy_twin *twin)
 {
-    return twin && twin->good ? accuracy_numbers_like(m->answer, e->stage, e->result,
-                                                      twin->pipeline, &m->record->arena)
+    return twin && twin->good ? accuracy_numbers_like(t->answer, e->stage, e->result,
+                                                      twin->pipeline, &t->record->arena)
                               : NULL;
 }
 
@@ -245,28 +95,28 @@ static int by_error(const void *a, const void *b)
 }
 
 /* Splits the error by the settings. */
-static void add_parts(const measurement *m, const double *shares, accuracy_error *e)
+static void add_parts(const accuracy_twins *t, const double *shares, accuracy_error *e)
 {
-    size_t most = m->count + (m->record->choice ? m->record->choice->change_count : 0);
-    e->parts = take(m, most, sizeof *e->parts);
-    for (size_t i = 0; i < m->count; i++)
+    size_t most = t->count + (t->record->choice ? t->record->choice->change_count : 0);
+    e->parts = take(t, most, sizeof *e->parts);
+    for (size_t i = 0; i < t->count; i++)
         if (shares[i] > 0)
             e->parts[e->part_count++] =
-                (accuracy_part){.stage = &m->answer->stages[m->knobs[i].stage],
-                                .setting = m->knobs[i].setting.name,
+                (accuracy_part){.stage = &t->answer->stages[t->knobs[i].stage],
+                                .setting = t->knobs[i].setting.name,
                                 .error = e->relative * shares[i]};
     qsort(e->parts, e->part_count, sizeof *e->parts, by_error);
 }
 
 /* Adds what the models that were chosen move. */
-static void add_changes(const measurement *m, accuracy_error *e)
+static void add_changes(const accuracy_twins *t, accuracy_error *e)
 {
-    const accuracy_choice *choice = m->record->choice;
+    const accuracy_choice *choice = t->record->choice;
     const ff_result *result = e->result;
     double most = accuracy_largest_magnitude(result->data, result->count);
     for (size_t i = 0; choice && i < choice->change_count; i++) {
         const accuracy_change *c = &choice->changes[i];
-        if (c->of != (size_t)(e->stage - m->answer->stages) ||
+        if (c->of != (size_t)(e->stage - t->answer->stages) ||
             strcmp(c->output, result->row->name) != 0)
             continue;
         for (size_t k = 0; k < result->count; k++) /* NaN: it could not be compared */
@@ -274,15 +124,15 @@ static void add_changes(const measurement *m, accuracy_error *e)
         e->relative += c->error;
         e->largest += c->error;
         e->parts[e->part_count++] = (accuracy_part){
-            .stage = &m->answer->stages[c->stage], .setting = "use", .error = c->error};
+            .stage = &t->answer->stages[c->stage], .setting = "use", .error = c->error};
     }
     qsort(e->parts, e->part_count, sizeof *e->parts, by_error);
 }
 
-static accuracy_ladder ladder_of(const measurement *m, const accuracy_error *e)
+static accuracy_ladder ladder_of(const accuracy_twins *t, const accuracy_error *e)
 {
-    const ff_result *result = e->result, *along = accuracy_axis_of(m->answer, e->stage, result);
-    double *scale = take(m, result->count, sizeof *scale);
+    const ff_result *result = e->result, *along = accuracy_axis_of(t->answer, e->stage, result);
+    double *scale = take(t, result->count, sizeof *scale);
     double most = accuracy_largest_magnitude(result->data, result->count);
     for (size_t i = 0; i < result->count; i++)
         scale[i] = accuracy_error_scale(result->data[i], most, result->rank);
@@ -290,43 +140,74 @@ static accuracy_ladder ladder_of(const measurement *m, const accuracy_error *e)
                              .at = along ? along->data : NULL,
                              .scale = scale,
                              .answer = e->result->data,
-                             .half = numbers_of_twin(m, e, m->half),
-                             .quarter = numbers_of_twin(m, e, m->quarter),
-                             .twice = numbers_of_twin(m, e, m->twice),
-                             .middle = numbers_of_twin(m, e, m->middle),
-                             .tight = numbers_of_twin(m, e, m->tight),
-                             .loose = numbers_of_twin(m, e, m->loose),
-                             .is_finer = m->is_finer};
+                             .half = numbers_of_twin(t, e, t->half),
+                             .quarter = numbers_of_twin(t, e, t->quarter),
+                             .twice = numbers_of_twin(t, e, t->twice),
+                             .middle = numbers_of_twin(t, e, t->middle),
+                             .tight = numbers_of_twin(t, e, t->tight),
+                             .loose = numbers_of_twin(t, e, t->loose),
+                             .is_finer = t->is_finer};
+}
+
+/* What is typical of the stage's estimate in a twin, over the answer; NaN: it has none. */
+static double estimate_in(const accuracy_twins *t, const double *at, const ff_result *estimate,
+                          const accuracy_error *e, const accuracy_twin *twin)
+{
+    const accuracy_series answer = {e->result->rank, e->result->count, at, e->result->data};
+    const double *numbers = twin ? accuracy_numbers_like(t->answer, e->stage, estimate,
+                                                         twin->pipeline, &t->record->arena)
+                                 : NULL;
+    double largest;
+    return numbers ? accuracy_relative(numbers, &answer, &largest) : NAN;
+}
+
+/* An error that the stage estimates is of the tolerances where a level of these makes half of it or
+   less, and less than a level of the counts does. */
+static void attribute(const accuracy_twins *t, const double *at, const ff_result *estimate,
+                      accuracy_error *e)
+{
+    double counts = estimate_in(t, at, estimate, e, t->half) / e->relative,
+           tight = estimate_in(t, at, estimate, e, t->tight),
+           loose = estimate_in(t, at, estimate, e, t->loose),
+           tolerances = t->is_finer ? tight / loose : loose / tight;
+    if (tolerances >= 2 && tolerances > counts) /* not where one is NaN */
+        e->by_tolerances = e->relative;
 }
 
 /* Twins may see less of an error than the stage, which knows where it comes from: no number is
    better known than by what the stage estimates there. */
-static void hold_to_estimate(accuracy_error *e)
+static void hold_to_estimate(const accuracy_twins *t, const double *at, accuracy_error *e)
 {
     const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
-    for (size_t i = 0; estimate && i < estimate->count; i++) /* fmax drops NaN */
+    const double measured = e->relative;
+    if (!estimate)
+        return;
+    for (size_t i = 0; i < estimate->count; i++) /* fmax drops NaN */
         e->bar[i] = fmax(e->bar[i], fabs(estimate->data[i]));
+    find_relative(at, e);
+    if (e->relative > measured)
+        attribute(t, at, estimate, e);
 }
 
-static void measure_output(const measurement *m, accuracy_error *e)
+static void measure_output(const accuracy_twins *t, accuracy_error *e)
 {
-    const double **refined = take(m, m->count, sizeof *refined);
-    double *shares = take(m, m->count, sizeof *shares);
-    accuracy_ladder levels = ladder_of(m, e);
-    for (size_t i = 0; i < m->count; i++)
-        refined[i] = numbers_of_twin(m, e, &m->refined[i]);
+    const double **refined = take(t, t->count, sizeof *refined);
+    double *shares = take(t, t->count, sizeof *shares);
+    accuracy_ladder levels = ladder_of(t, e);
+    for (size_t i = 0; i < t->count; i++)
+        refined[i] = numbers_of_twin(t, e, &t->refined[i]);
     levels.refined = refined;
-    levels.refined_count = m->count;
+    levels.refined_count = t->count;
     if (!levels.half && !levels.twice)
         return;
-    e->bar = take(m, levels.count, sizeof *e->bar);
+    e->bar = take(t, levels.count, sizeof *e->bar);
     e->order = accuracy_estimate(&levels, e->bar, shares, &e->by_tolerances);
     for (size_t i = 0; i < levels.count; i++) /* fmax drops NaN */
         e->bar[i] = fmax(e->bar[i], least_error * e->goal * levels.scale[i]);
-    hold_to_estimate(e);
     find_relative(levels.at, e);
-    add_parts(m, shares, e);
-    add_changes(m, e);
+    add_parts(t, shares, e);
+    hold_to_estimate(t, levels.at, e);
+    add_changes(t, e);
 }
 
 /* The parts keep their shares. */
@@ -341,8 +222,8 @@ static void widen(accuracy_error *number, double bar)
         number->parts[i].error *= factor;
 }
 
-/* Where the answer has the number as the largest or the least one of the series; SIZE_MAX: nowhere.
- */
+/* Where the answer has the number as the largest or the least one of the series, or the only one;
+   SIZE_MAX: nowhere. */
 static size_t extreme_of(const ff_result *number, const ff_result *series)
 {
     const double value = number->data[0];
@@ -353,17 +234,17 @@ static size_t extreme_of(const ff_result *number, const ff_result *series)
         if (series->data[i] == value)
             at = i;
     }
-    return (above > 0) != (below > 0) ? at : SIZE_MAX;
+    return above > 0 && below > 0 ? SIZE_MAX : at;
 }
 
 /* A single number may be the same on two levels by chance. One that is the extreme of a series is
    off by what that is off there, at least. */
-static void hold_to_series(const measurement *m, accuracy_error *number)
+static void hold_to_series(const accuracy_twins *t, accuracy_error *number)
 {
     if (number->result->rank != 0 || !number->bar)
         return;
-    for (size_t i = 0; i < m->record->count; i++) {
-        const accuracy_error *e = &m->record->errors[i];
+    for (size_t i = 0; i < t->record->count; i++) {
+        const accuracy_error *e = &t->record->errors[i];
         if (e->stage != number->stage || e->result->rank != 1 || !e->bar ||
             strcmp(e->result->row->unit, number->result->row->unit) != 0)
             continue;
@@ -387,120 +268,32 @@ static bool is_contradicted(const accuracy_error *e)
     return false;
 }
 
-static void conclude(const measurement *m)
+static void conclude(const accuracy_twins *t)
 {
-    accuracy_record *record = m->record;
+    accuracy_record *record = t->record;
     for (size_t i = 0; i < record->count; i++)
-        measure_output(m, &record->errors[i]);
+        measure_output(t, &record->errors[i]);
     for (size_t i = 0; i < record->count; i++)
-        hold_to_series(m, &record->errors[i]);
+        hold_to_series(t, &record->errors[i]);
     for (size_t i = 0; i < record->count; i++)
         record->contradicted = record->contradicted || is_contradicted(&record->errors[i]);
-    accuracy_tell(record, m->answer);
-}
-
-static void run_ladder(measurement *m)
-{
-    m->half = find_twin(m, half);
-    m->quarter = m->half ? find_twin(m, quarter) : NULL;
-    m->twice = m->quarter ? NULL : find_twin(m, twice);
-    for (size_t i = 0; m->count > 1 && m->quarter && i < m->count && !m->stopped; i++)
-        run_twin(m, quarter, i, &m->refined[i]);
-}
-
-static bool have_tolerances(const measurement *m)
-{
-    bool any = false;
-    for (size_t i = 0; i < m->count; i++)
-        any = any || m->knobs[i].setting.tolerance;
-    return any;
-}
-
-/* Whether a series has fewer points in the loose twin than in the tight one, but hardly: between
-   them an error of second order does not even double, and what the steps of both miss neither of
-   them shows. As many points are no steps. */
-static bool hardly_differ(const measurement *m)
-{
-    const double hardly = sqrt(1 / 2.0);
-    for (size_t i = 0; i < m->record->count; i++) {
-        const accuracy_error *e = &m->record->errors[i];
-        const size_t stage = (size_t)(e->stage - m->answer->stages),
-                     output = (size_t)(e->result - e->stage->results);
-        double tight = (double)m->tight->pipeline->stages[stage].results[output].count,
-               loose = (double)m->loose->pipeline->stages[stage].results[output].count;
-        if (loose < tight && loose > hardly * tight)
-            return true;
-    }
-    return false;
-}
-
-/* Two twins that were run before, as coarse in the counts; false: there are none, and `tight` and
-   `loose` are to be set. */
-static bool know_tolerances(measurement *m, int counts)
-{
-    m->tight = known_twin(m, (coarser){counts, 0});
-    m->loose = known_twin(m, (coarser){counts, 1});
-    return m->tight && m->tight->good && m->loose && m->loose->good;
-}
-
-/* Finds two twins of one level of the counts whose tolerances differ: those that were run before,
-   or the cheapest; a finer one where the coarser cannot be had, or hardly differs. */
-static void find_loose(measurement *m)
-{
-    int counts = know_tolerances(m, 1) ? 1 : 2;
-    if (counts == 2 && !know_tolerances(m, 2)) {
-        m->tight = m->quarter ? find_twin(m, (coarser){2, 0}) : NULL;
-        counts = m->tight ? 2 : 1;
-        m->tight = m->tight ? m->tight : m->half;
-        m->loose = find_twin(m, (coarser){counts, 1});
-    }
-    if (m->loose && !hardly_differ(m))
-        return;
-    const accuracy_twin *finer = find_twin(m, (coarser){counts, -1});
-    m->is_finer = finer != NULL;
-    m->loose = finer ? finer : m->loose;
-}
-
-/* Where attempts are made: counts and tolerances become finer apart. Two levels do where the
-   coarser twin fails, since the next attempt is finer itself. */
-static void run_attempt_ladder(measurement *m)
-{
-    m->half = find_twin(m, (coarser){1, 0});
-    for (int k = 0; m->half && k <= 2 && !(m->middle && m->quarter); k++) {
-        m->middle = known_twin(m, (coarser){1, k});
-        m->quarter = known_twin(m, (coarser){2, k});
-    }
-    if (m->half && !(m->middle && m->quarter)) {
-        m->middle = m->half;
-        m->quarter = find_twin(m, (coarser){2, 0});
-    }
-    if (m->quarter && !(m->quarter->good && m->middle->good))
-        m->quarter = NULL;
-    if (m->half && have_tolerances(m))
-        find_loose(m);
-    m->twice = m->half ? NULL : find_twin(m, twice);
-    m->record->two_levels = m->half && !m->quarter;
 }
 
 bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
                       const ff_pipeline *pipeline, const ff_observer *watch,
                       const accuracy_known *known)
 {
-    measurement m = {.record = record,
-                     .answer = pipeline,
-                     .known = known,
-                     .scene = {.tree = tree, .engine = engine, .start = pipeline, .watch = watch}};
-    list_outputs(&m);
-    list_knobs(&m);
-    if (record->count > 0 && known)
-        run_attempt_ladder(&m);
-    else if (record->count > 0)
-        run_ladder(&m);
-    if (!m.stopped)
-        conclude(&m);
-    for (size_t i = 0; i < m.count; i++)
-        accuracy_twin_free(&m.refined[i]);
-    return !m.stopped;
+    accuracy_twins t = {
+        .record = record,
+        .answer = pipeline,
+        .known = known,
+        .scene = {.tree = tree, .engine = engine, .start = pipeline, .watch = watch}};
+    list_outputs(&t);
+    accuracy_twins_find(&t);
+    if (!t.stopped)
+        conclude(&t);
+    accuracy_twins_free(&t);
+    return !t.stopped;
 }
 
 void accuracy_free(accuracy_record *record)

@@ -38,6 +38,7 @@ typedef struct accuracy_error {
     double largest;       /* along a series, over the number there */
     double by_tolerances; /* of `relative`; 0: they are not told from the counts */
     double order;         /* observed; NaN: none was */
+    double falls; /* the order at which finer counts make `relative` smaller; NaN: unknown */
     accuracy_part *parts; /* the largest first; none where no twin tells them apart */
     size_t part_count;
 } accuracy_error;
@@ -76,8 +77,7 @@ typedef struct accuracy_record {
 
 /*
  * Measures the errors of the scalars and series that the file asks for, from a pipeline that has
- * run, and adds them to the quality of its stages, in place of what these estimated themselves.
- * Known runs serve as twins where they have their settings; then the errors are told apart by
+ * run. Known runs serve as twins where they have their settings; then the errors are told apart by
  * counts and tolerances, and not by settings, which takes more twins than the rest. False where the
  * observer stopped it.
  */

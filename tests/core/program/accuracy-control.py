@@ -190,6 +190,22 @@ class Control(lab.Lab):
         for guess, cells in ((1, "16"), (2, "64")):
             self.assertEqual(self.ask("accuracy=10 %", f"last.guess={guess}")["accuracy"]["settings"]["last.cells"], cells)
 
+    def test_where_the_stage_estimates_more_the_settings_that_it_falls_with_become_finer(self):
+        """20 % with a tolerance of 0.01 %, however many cells there are."""
+        answer = self.ask("accuracy={last.wave: 5 %}", "last.seen=0.2")["accuracy"]["settings"]
+        self.assertEqual((answer["last.cells"], answer["last.tolerance"]), ("16", "0.0025 %"))
+
+    def test_a_stage_that_attempts_take_over_keeps_what_it_estimates(self):
+        """Nothing of `first` is open, and what it says of its own model is no measured error."""
+        text = FILE.replace("before: none", "before: none, cells: 128, steps: 101, tolerance: 0.01 %").replace(
+            "before: first", "before: none").replace("0.1 %", "{last.value: 0.05 %}").replace("last.wave", "first.wave")
+        answer = self.ask("first.seen=0.2", text=text)
+        self.assertLessEqual(self.error(answer), 0.0005)
+        self.assertAlmostEqual(self.error(answer, "first.wave"), 0.2, places=6)
+        answer = self.ask("first.scatter=0.2", text=text.replace("first.wave", "first.wave, first.wave_error"))
+        self.assertGreater(answer["accuracy"]["attempts"], 1)
+        self.assertLess(self.error(answer, "first.wave"), 0.01)
+
     def test_an_estimate_of_what_nobody_asks_is_no_doubt(self):
         answer = self.ask("accuracy={last.wave: 10 %}", "last.guess=50")["accuracy"]
         self.assertEqual((answer["attempts"], answer["settings"]["last.cells"]), (1, "16"))

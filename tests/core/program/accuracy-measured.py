@@ -77,6 +77,16 @@ class Measured(lab.Lab):
             self.assertAlmostEqual(bar / (0.2 * value), 1, places=9)
         self.assertEqual(self.error(self.ask("last.scatter=0.2"), "last.wave")["data"], plain)
 
+    def test_parts_are_of_what_twins_tell(self):
+        parts = {name: self.error(self.ask(f"last.seen={seen}"), "last.wave")["parts"] for name, seen in (("plain", 0), ("seen", 0.2))}
+        self.assertEqual(parts["seen"], parts["plain"])
+
+    def test_a_series_of_one_point_has_the_bar_of_its_extreme(self):
+        """The value is the largest and the least of the wave at 0.75 s."""
+        answer = self.ask("last.steady=true", "last.seen=0.2")
+        for name in ("last.value", "last.wave"):
+            self.assertAlmostEqual(self.error(answer, name)["relative"], 0.2, places=9)
+
     def test_an_extreme_is_off_by_what_its_series_is_off_there(self):
         """The value is the least of the wave, where that has the error of its steps, too."""
         answer = self.ask("last.steps=401")

@@ -9,7 +9,7 @@
 typedef struct order {
     const ff_host *host;
     int64_t cells, steps, least, most, sure, shown;
-    int32_t exact;
+    int32_t exact, steady;
     double tolerance, order, strength, gain, heat, guess, loosest, blunt, seen, scatter;
 } order;
 
@@ -19,6 +19,7 @@ static const ff_param params[] = {
                 "points of the wave; auto: 101"),
     FF_QUANTITY("tolerance", "%", order, tolerance, FF_TUNABLE, "0.01 %", NULL, 1e-6, 50, 0, 0,
                 "relative error of everything"),
+    FF_SWITCH("steady", order, steady, "false", "the wave has one point, at 0.75 s"),
     FF_SWITCH("exact", order, exact, "false", "the tolerance changes nothing"),
     FF_QUANTITY("order", "1", order, order, 0, "2", NULL, 0.1, 10, 0, 0, "of the cells"),
     FF_QUANTITY("strength", "1", order, strength, 0, "10", NULL, -1e6, 1e6, 0, 0,
@@ -34,7 +35,8 @@ static const ff_param params[] = {
     FF_QUANTITY("guess", "1", order, guess, 0, "0.5", NULL, 0, 1e6, 0, 0,
                 "what it estimates to be its error with one cell"),
     FF_QUANTITY("seen", "1", order, seen, 0, "0", NULL, 0, 1, 0, 0,
-                "what it estimates the wave to be off by from the middle on, over it"),
+                "what it estimates the wave to be off by from the middle on, over it, with a "
+                "tolerance of 0.01 %"),
     FF_QUANTITY("scatter", "1", order, scatter, 0, "0", NULL, 0, 1, 0, 0,
                 "what the model is off by there"),
     FF_COUNT("least", order, least, 0, "0", NULL, 0, 1e6, 0, 0, "with fewer cells it fails"),
@@ -73,7 +75,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     order *o = self;
     double value = 1 + o->strength * pow((double)o->cells, -o->order);
-    size_t points = o->steps > 0 ? (size_t)o->steps : 101;
+    const double seen = o->seen * o->tolerance / 1e-4;
+    size_t points = o->steady ? 1 : o->steps > 0 ? (size_t)o->steps : 101;
     if (o->cells < o->least)
         return ff_failf(o->host, FF_NOCONV, NULL, "%d cells are too few", (int)o->cells);
     if (o->cells > o->most)
@@ -95,9 +98,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         if (!time || !wave || !off)
             return FF_NOMEM;
         for (size_t i = 0; i < points; i++) {
-            time[i] = points > 1 ? (double)i / (double)(points - 1) : 0;
+            time[i] = points > 1 ? (double)i / (double)(points - 1) : 0.75;
             wave[i] = value * (2 + sin(6.283185307179586 * time[i]));
-            off[i] = time[i] >= 0.5 ? (o->seen + o->scatter) * wave[i] : 0;
+            off[i] = time[i] >= 0.5 ? (seen + o->scatter) * wave[i] : 0;
         }
     }
     if (wanted & FF_BIT(4)) {
@@ -111,7 +114,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     o->host->quality(o->host->ctx, "balance", (double)o->sure / (double)o->cells, 1,
                      o->cells < o->sure ? FF_DOUBTFUL : FF_GOOD, "no estimate of an error");
     if (o->seen > 0)
-        o->host->quality(o->host->ctx, "wave_seen_error", o->seen, 0.1, FF_DOUBTFUL, "a guess");
+        o->host->quality(o->host->ctx, "wave_seen_error", seen, 0.1, FF_DOUBTFUL, "a guess");
     if (o->heat > 0)
         o->host->quality(o->host->ctx, "heat", o->heat, 0, FF_DOUBTFUL, "whatever the cells are");
     return FF_OK;

@@ -1,0 +1,236 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * One ladder for the whole answer: in its first twin all settings of all stages are one level
+ * coarser, in its second two; then, where no others are known, one after the other, each setting is
+ * a level finer than in the second, which shows what comes of it. The twins of a setting are cheap,
+ * since all else is coarse and what lies before its stage is known. Where attempts are made, the
+ * levels are those of the counts, and other twins tell what the tolerances add. Where a coarser
+ * twin fails, the answer is coarse itself, and a finer one tells.
+ */
+#include "twins.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The settings of all stages that something measured depends on. */
+static void list_knobs(accuracy_twins *t)
+{
+    accuracy_setting settings[ACCURACY_MOST_SETTINGS];
+    const ff_pipeline *answer = t->answer;
+    memory_arena *arena = &t->record->arena;
+    t->knobs =
+        memory_arena_alloc(arena, answer->count * ACCURACY_MOST_SETTINGS * sizeof *t->knobs + 1);
+    for (size_t i = 0; i < answer->count; i++) {
+        size_t at = answer->order[i];
+        const ff_stage *stage = &answer->stages[at];
+        size_t count = 0;
+        if (stage->needed && stage->loaded)
+            count = accuracy_settings(stage, settings);
+        for (size_t k = 0; k < count; k++)
+            if (!t->known ||
+                !accuracy_is_idle(t->known->said, t->known->place, stage->name, settings[k].name))
+                t->knobs[t->count++] = (accuracy_knob){at, settings[k]};
+    }
+    t->refined = memory_arena_alloc(arena, t->count * sizeof *t->refined + 1);
+}
+
+static void note_failure(accuracy_twins *t, const char *why)
+{
+    if (!t->record->failure)
+        t->record->failure = memory_arena_text(&t->record->arena, why, strlen(why));
+}
+
+/* By how many levels the settings of a twin are coarser. */
+typedef struct coarser {
+    int counts, tolerances;
+} coarser;
+
+static const coarser half = {1, 1}, quarter = {2, 2}, twice = {-1, -1};
+
+/* NULL: its limits forbid it. */
+static const char *assignment_at(const accuracy_twins *t, const accuracy_knob *k, coarser at)
+{
+    int levels = k->setting.tolerance ? at.tolerances : at.counts;
+    return accuracy_setting_at(&t->answer->stages[k->stage], k->setting.param, levels,
+                               &t->record->arena);
+}
+
+/* Fills the assignments of a twin, and marks the stages that they change. False: the limits of a
+   setting forbid one. */
+static bool list_sets(accuracy_twins *t, coarser at, size_t finer, const char **sets, bool *changed)
+{
+    for (size_t i = 0; i < t->count; i++) {
+        const accuracy_knob *k = &t->knobs[i];
+        sets[i] = assignment_at(t, k, i == finer ? half : at);
+        changed[k->stage] |= finer == SIZE_MAX || i == finer;
+        if (sets[i])
+            continue;
+        char *why = memory_print_text("%s.%s has no %s value within its limits",
+                                      t->answer->stages[k->stage].name, k->setting.name,
+                                      at.counts < 0 ? "finer" : "coarser");
+        note_failure(t, why);
+        free(why);
+        return false;
+    }
+    return true;
+}
+
+/* Runs a twin; one of its settings is at the level of half; SIZE_MAX: none. */
+static void run_twin(accuracy_twins *t, coarser at, size_t finer, accuracy_twin *twin)
+{
+    const char **sets = memory_alloc((t->count + 1) * sizeof *sets);
+    bool *changed = memory_alloc((t->answer->count + 1) * sizeof *changed);
+    t->scene.donor = finer == SIZE_MAX ? t->answer : t->quarter->pipeline;
+    if (list_sets(t, at, finer, sets, changed)) {
+        accuracy_twin_run(twin, &t->scene, sets, t->count, NULL, changed);
+        t->record->twins++;
+        t->record->seconds += twin->work;
+        t->stopped = twin->stopped;
+        if (!twin->good)
+            note_failure(t, accuracy_twin_reason(twin));
+    }
+    free(changed);
+    free(sets);
+}
+
+/* Whether an answer has the settings of a twin. */
+static bool is_twin(const accuracy_twins *t, coarser at, const ff_pipeline *answer)
+{
+    bool same = answer->count == t->answer->count;
+    for (size_t i = 0; same && i < answer->count; i++)
+        same = answer->stages[i].loaded == t->answer->stages[i].loaded;
+    for (size_t i = 0; same && i < t->count; i++) {
+        const accuracy_knob *k = &t->knobs[i];
+        const char *has = accuracy_setting_at(&answer->stages[k->stage], k->setting.param, 0,
+                                              &t->record->arena),
+                   *wanted = assignment_at(t, k, at);
+        same = has && wanted && !strcmp(has, wanted);
+    }
+    return same;
+}
+
+/* A twin that was run before, good or not; NULL: none was. */
+static const accuracy_twin *known_twin(const accuracy_twins *t, coarser at)
+{
+    for (size_t i = 0; i < t->record->own_count; i++)
+        if (t->record->own[i]->pipeline && is_twin(t, at, t->record->own[i]->pipeline))
+            return t->record->own[i];
+    for (size_t i = 0; t->known && i < t->known->count; i++)
+        if (t->known->runs[i]->pipeline && is_twin(t, at, t->known->runs[i]->pipeline))
+            return t->known->runs[i];
+    return NULL;
+}
+
+/* Finds a twin, or runs it; NULL: it cannot be had. */
+static const accuracy_twin *find_twin(accuracy_twins *t, coarser at)
+{
+    const accuracy_twin *known = known_twin(t, at);
+    if (known)
+        return known->good ? known : NULL;
+    if (t->stopped || t->record->own_count == ACCURACY_OWN)
+        return NULL;
+    accuracy_twin *own = t->record->own[t->record->own_count++] = memory_alloc(sizeof *own);
+    run_twin(t, at, SIZE_MAX, own);
+    return own->good ? own : NULL;
+}
+
+static void run_ladder(accuracy_twins *t)
+{
+    t->half = find_twin(t, half);
+    t->quarter = t->half ? find_twin(t, quarter) : NULL;
+    t->twice = t->quarter ? NULL : find_twin(t, twice);
+    for (size_t i = 0; t->count > 1 && t->quarter && i < t->count && !t->stopped; i++)
+        run_twin(t, quarter, i, &t->refined[i]);
+}
+
+static bool have_tolerances(const accuracy_twins *t)
+{
+    bool any = false;
+    for (size_t i = 0; i < t->count; i++)
+        any = any || t->knobs[i].setting.tolerance;
+    return any;
+}
+
+/* Whether a series has fewer points in the loose twin than in the tight one, but hardly: between
+   them an error of second order does not even double, and what the steps of both miss neither of
+   them shows. As many points are no steps. */
+static bool hardly_differ(const accuracy_twins *t)
+{
+    const double hardly = sqrt(1 / 2.0);
+    for (size_t i = 0; i < t->record->count; i++) {
+        const accuracy_error *e = &t->record->errors[i];
+        const size_t stage = (size_t)(e->stage - t->answer->stages),
+                     output = (size_t)(e->result - e->stage->results);
+        double tight = (double)t->tight->pipeline->stages[stage].results[output].count,
+               loose = (double)t->loose->pipeline->stages[stage].results[output].count;
+        if (loose < tight && loose > hardly * tight)
+            return true;
+    }
+    return false;
+}
+
+/* Two twins that were run before, as coarse in the counts; false: there are none, and `tight` and
+   `loose` are to be set. */
+static bool know_tolerances(accuracy_twins *t, int counts)
+{
+    t->tight = known_twin(t, (coarser){counts, 0});
+    t->loose = known_twin(t, (coarser){counts, 1});
+    return t->tight && t->tight->good && t->loose && t->loose->good;
+}
+
+/* Finds two twins of one level of the counts whose tolerances differ: those that were run before,
+   or the cheapest; a finer one where the coarser cannot be had, or hardly differs. */
+static void find_loose(accuracy_twins *t)
+{
+    int counts = know_tolerances(t, 1) ? 1 : 2;
+    if (counts == 2 && !know_tolerances(t, 2)) {
+        t->tight = t->quarter ? find_twin(t, (coarser){2, 0}) : NULL;
+        counts = t->tight ? 2 : 1;
+        t->tight = t->tight ? t->tight : t->half;
+        t->loose = find_twin(t, (coarser){counts, 1});
+    }
+    if (t->loose && !hardly_differ(t))
+        return;
+    const accuracy_twin *finer = find_twin(t, (coarser){counts, -1});
+    t->is_finer = finer != NULL;
+    t->loose = finer ? finer : t->loose;
+}
+
+/* Where attempts are made: counts and tolerances become finer apart. Two levels do where the
+   coarser twin fails, since the next attempt is finer itself. */
+static void run_attempt_ladder(accuracy_twins *t)
+{
+    t->half = find_twin(t, (coarser){1, 0});
+    for (int k = 0; t->half && k <= 2 && !(t->middle && t->quarter); k++) {
+        t->middle = known_twin(t, (coarser){1, k});
+        t->quarter = known_twin(t, (coarser){2, k});
+    }
+    if (t->half && !(t->middle && t->quarter)) {
+        t->middle = t->half;
+        t->quarter = find_twin(t, (coarser){2, 0});
+    }
+    if (t->quarter && !(t->quarter->good && t->middle->good))
+        t->quarter = NULL;
+    if (t->half && have_tolerances(t))
+        find_loose(t);
+    t->twice = t->half ? NULL : find_twin(t, twice);
+    t->record->two_levels = t->half && !t->quarter;
+}
+
+void accuracy_twins_find(accuracy_twins *t)
+{
+    list_knobs(t);
+    if (t->record->count == 0)
+        return;
+    if (t->known)
+        run_attempt_ladder(t);
+    else
+        run_ladder(t);
+}
+
+void accuracy_twins_free(accuracy_twins *t)
+{
+    for (size_t i = 0; i < t->count; i++)
+        accuracy_twin_free(&t->refined[i]);
+}
