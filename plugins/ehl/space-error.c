@@ -84,9 +84,11 @@ static double tip_of(const ehl_results *r, size_t row)
 
 double ehl_space_part(const ehl_results *r, size_t row, int kind)
 {
-    if (!has_bound(r, row, kind))
-        return 0;
-    return kind == EHL_PEAK ? tip_of(r, row) - film_of(r, row, kind) : fabs(*part_of(r, row, kind));
+    double part = 0;
+    if (has_bound(r, row, kind))
+        part = kind == EHL_PEAK ? tip_of(r, row) - film_of(r, row, kind)
+                                : fabs(*part_of(r, row, kind));
+    return isfinite(part) ? part : 1e300;
 }
 
 static int is_extreme(const ehl_results *r, int kind)

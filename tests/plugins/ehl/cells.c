@@ -225,7 +225,7 @@ static void test_series_of_peaks(void)
     for (size_t i = 0; i < n; i++)
         worst = fmax(worst, e[i] / p[i]);
     printf("peaks: %.4f, by the cells %.4f\n", worst, by_cells);
-    check_below("what the cells make is in it", by_cells / worst, 1);
+    check_below("more than what the cells make", by_cells / worst, 0.97); /* 0.94 */
     check_below("with what the steps make it is all",
                 worst / (by_cells + stage_quality(c.film, "p_max_time_error")), 1);
     line_close(&c);
