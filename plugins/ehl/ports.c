@@ -146,10 +146,9 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
          "t", NULL, 0, NULL},
     [EHL_P_MAX_ERROR] =
         {"p_max_error", "Pa",
-         "estimate of the error of p_max, of smooth flanks: what the cells may cut off the spike "
-         "at "
-         "the outlet, from 100 instants on by its film on more cells where that is above 5 %, plus "
-         "the pressure of what the time steps leave out of the film",
+         "estimate of the error of p_max, of smooth flanks: what the cells may cut off the spike, "
+         "from 100 instants on by its film on more cells where that is above 5 %, plus the "
+         "pressure of what the time steps leave out of the film",
          "t", NULL, 0, NULL},
     [EHL_ONE_WAY_GAP_ERROR] =
         {"one_way_gap_error", "m",

@@ -66,29 +66,33 @@ static int has_bound(const ehl_results *r, size_t row, int kind)
 }
 
 /* Returns what p_max of a row is without the error of the cells. Between two looks of one passage
-   by a straight line: on more cells it changes steadily, while the nodes of the run lie anywhere
-   beside the tip; else by the largest share of a bound. */
+   by a straight line, no higher than what bounds it, where the load falls in between: on more cells
+   it changes steadily, while the nodes of the run lie anywhere beside the tip; else by the largest
+   share of a bound. */
 static double tip_of(const ehl_results *r, size_t row)
 {
+    const double value = film_of(r, row, EHL_PEAK), bound = *part_of(r, row, EHL_PEAK);
     const ehl_look *l = r->look;
     for (size_t k = 0; k < r->looks; k++) {
         if (l[k].row == row)
             return l[k].tip;
         if (k > 0 && l[k - 1].row < row && row < l[k].row && l[k - 1].row >= l[k].begin) {
             double far = (double)(row - l[k - 1].row) / (double)(l[k].row - l[k - 1].row);
-            return fmax(film_of(r, row, EHL_PEAK), (1 - far) * l[k - 1].tip + far * l[k].tip);
+            double tip = (1 - far) * l[k - 1].tip + far * l[k].tip;
+            return fmax(value, fmin(tip, value + bound));
         }
     }
-    return film_of(r, row, EHL_PEAK) + r->share * *part_of(r, row, EHL_PEAK);
+    return value + r->share * bound;
 }
 
 double ehl_space_part(const ehl_results *r, size_t row, int kind)
 {
+    const double as_good_as_none = 1e9;
     double part = 0;
     if (has_bound(r, row, kind))
         part = kind == EHL_PEAK ? tip_of(r, row) - film_of(r, row, kind)
                                 : fabs(*part_of(r, row, kind));
-    return isfinite(part) ? part : 1e300;
+    return isfinite(part) ? part : as_good_as_none * film_of(r, row, kind);
 }
 
 static int is_extreme(const ehl_results *r, int kind)
