@@ -650,8 +650,6 @@ const char *ff_verdict_name(int verdict); /* "good", "doubtful", "bad" */
 
 /* Makes room for an output, zeroed: rank and shape are such as its row allows. */
 double *ff_result_fill(ff_stage *stage, size_t output, uint32_t rank, const size_t *shape);
-/* Frees what was given: data is NULL then, and what takes results from the stage has none. */
-void ff_drop_result(ff_stage *stage, size_t output);
 void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
                     const char *text);
 void ff_drop_quality(ff_stage *stage, size_t line);

@@ -290,13 +290,6 @@ double *ff_result_fill(ff_stage *stage, size_t output, uint32_t rank, const size
     return data;
 }
 
-void ff_drop_result(ff_stage *stage, size_t output)
-{
-    ff_result *result = &stage->results[output];
-    ff_guarded_free(result->data, result->count);
-    result->data = NULL;
-}
-
 typedef struct output_call {
     ff_stage *stage;
     uint32_t index, rank;
@@ -413,8 +406,10 @@ void fe_host_init(fe_instance *instance)
 
 void fe_forget_results(ff_stage *stage)
 {
-    for (size_t i = 0; stage->results && i < stage->loaded->model->output_count; i++)
-        ff_drop_result(stage, i);
+    for (size_t i = 0; stage->results && i < stage->loaded->model->output_count; i++) {
+        ff_guarded_free(stage->results[i].data, stage->results[i].count);
+        stage->results[i].data = NULL;
+    }
     for (size_t i = 0; i < stage->quality_count; i++) {
         fe_free((void *)stage->quality[i].name);
         fe_free((void *)stage->quality[i].text);

@@ -189,7 +189,8 @@ static double tolerance_error(const accuracy_ladder *l, size_t i)
     return safety * (l->is_finer ? growth : 1) / (growth - 1) * apart(l, l->tight, l->loose, i);
 }
 
-/* Marks the numbers where what counts and tolerances move together is typical: with 5 % for each of
+/* Marks the numbers where what lies between two levels of the counts and what the tolerances make
+   are typical together, the first as it is, since its order is not known yet: with 5 % for each of
    them it would be a tenth of a series that is not. */
 static void mark_answer(const accuracy_ladder *l, bool *typical)
 {

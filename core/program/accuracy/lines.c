@@ -63,29 +63,13 @@ const ff_result *accuracy_estimate_of(const ff_stage *stage, const ff_result *re
     return NULL;
 }
 
-/* Whether an output was computed for the error of another one alone. */
-static bool is_beside(const ff_pipeline *pipeline, const ff_stage *stage, const ff_result *result)
+bool accuracy_is_estimate(const ff_stage *stage, const ff_result *result)
 {
-    bool beside = false;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++)
-        beside = beside || (stage->results[i].requested &&
-                            accuracy_may_estimate(result->row, stage->results[i].row));
-    for (size_t i = 0; i < pipeline->count && beside; i++) {
-        const ff_stage *other = &pipeline->stages[i];
-        for (size_t k = 0; other->loaded && k < other->loaded->model->input_count; k++)
-            beside = beside && ff_feeding_result(pipeline, other, k) != result;
-    }
-    return beside && !result->requested;
-}
-
-static void drop_estimates_of(const ff_pipeline *pipeline, ff_stage *stage)
-{
-    for (size_t k = stage->quality_count; k-- > 0;)
-        if (accuracy_estimated(stage, stage->quality[k].name))
-            ff_drop_quality(stage, k);
-    for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++)
-        if (is_beside(pipeline, stage, &stage->results[i]))
-            ff_drop_result(stage, i);
+        if (stage->results[i].requested &&
+            accuracy_may_estimate(result->row, stage->results[i].row))
+            return true;
+    return false;
 }
 
 /* Takes the estimates of the stages away that measured outputs come from: two numbers for one
@@ -94,7 +78,7 @@ static void drop_estimates(const accuracy_record *record, const ff_pipeline *ans
 {
     bool *feeds = memory_alloc((answer->count + 1) * sizeof *feeds);
     for (size_t i = 0; i < record->count; i++)
-        feeds[record->errors[i].stage - answer->stages] = true;
+        feeds[record->errors[i].stage - answer->stages] |= record->errors[i].bar != NULL;
     for (size_t n = answer->count; n-- > 0;) {
         ff_stage *stage = &answer->stages[answer->order[n]];
         if (!feeds[answer->order[n]])
@@ -102,7 +86,9 @@ static void drop_estimates(const accuracy_record *record, const ff_pipeline *ans
         for (size_t k = 0; k < stage->wire_count; k++)
             if (stage->wires[k].stage >= 0)
                 feeds[stage->wires[k].stage] = true;
-        drop_estimates_of(answer, stage);
+        for (size_t k = stage->quality_count; k-- > 0;)
+            if (accuracy_estimated(stage, stage->quality[k].name))
+                ff_drop_quality(stage, k);
     }
     free(feeds);
 }
@@ -123,6 +109,10 @@ char *accuracy_describe(const accuracy_error *e)
                     e->parts[i].setting, 100 * e->parts[i].error);
             between = "; ";
         }
+    if (e->by_stage) {
+        fprintf(out, "%sas the stage estimates", between);
+        between = "; ";
+    }
     if (isfinite(e->order))
         fprintf(out, "%sorder %.2g", between, e->order);
     fclose(out);

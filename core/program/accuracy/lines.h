@@ -20,6 +20,8 @@ const ff_result *accuracy_estimated(const ff_stage *stage, const char *line);
 /* Whether an output may say what another one is off by: "h_min_error", in its unit and along its
    dimensions. */
 bool accuracy_may_estimate(const ff_port *row, const ff_port *of);
+/* Whether it may say so of an output that is asked for. */
+bool accuracy_is_estimate(const ff_stage *stage, const ff_result *result);
 /* What the stage estimates itself that an output is off by, number by number: such an output,
    beside lines of quality for the same. Without lines it is of the model, as the scatter of a
    formula. NULL: there is none. */

@@ -30,9 +30,11 @@ static void *take(const accuracy_twins *t, size_t count, size_t size)
     return memory_arena_alloc(&t->record->arena, count * size + 1);
 }
 
-static bool is_headline(const ff_result *result)
+/* Of an estimate of an error no error is measured. */
+static bool is_headline(const ff_stage *stage, const ff_result *result)
 {
-    bool finite = result->data && result->requested && result->rank <= 1 && result->count > 0;
+    bool finite = result->data && result->requested && result->rank <= 1 && result->count > 0 &&
+                  !accuracy_is_estimate(stage, result);
     for (size_t i = 0; finite && i < result->count; i++)
         finite = isfinite(result->data[i]);
     return finite && !is_axis(result);
@@ -53,7 +55,7 @@ static void list_outputs(accuracy_twins *t)
     for (size_t s = 0; s < answer->count; s++) {
         const ff_stage *stage = &answer->stages[s];
         for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
-            if (!is_headline(&stage->results[i]))
+            if (!is_headline(stage, &stage->results[i]))
                 continue;
             accuracy_error *e = &record->errors[record->count++];
             *e = (accuracy_error){.stage = stage,
@@ -162,7 +164,7 @@ static double estimate_in(const accuracy_twins *t, const double *at, const ff_re
 }
 
 /* An error that the stage estimates is of the tolerances where a level of these makes half of it or
-   less, and less than a level of the counts does. */
+   less, and less than a level of the counts does; else it falls with the counts as it did. */
 static void attribute(const accuracy_twins *t, const double *at, const ff_result *estimate,
                       accuracy_error *e)
 {
@@ -170,8 +172,11 @@ static void attribute(const accuracy_twins *t, const double *at, const ff_result
            tight = estimate_in(t, at, estimate, e, t->tight),
            loose = estimate_in(t, at, estimate, e, t->loose),
            tolerances = t->is_finer ? tight / loose : loose / tight;
+    e->by_stage = true;
     if (tolerances >= 2 && tolerances > counts) /* not where one is NaN */
         e->by_tolerances = e->relative;
+    else if (counts > 0)
+        e->order = log2(counts);
 }
 
 /* Twins may see less of an error than the stage, which knows where it comes from: no number is
@@ -210,31 +215,35 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
     add_changes(t, e);
 }
 
-/* The parts keep their shares. */
-static void widen(accuracy_error *number, double bar)
+/* Gives a number the bar that a series has there, of which the tolerances make as much as of the
+   series; the parts keep their shares. */
+static void widen(accuracy_error *number, const accuracy_error *series, double bar)
 {
     if (!(bar > number->bar[0] && isfinite(bar)) || number->result->data[0] == 0)
         return;
     double factor = bar / number->bar[0];
     number->bar[0] = bar;
     find_relative(NULL, number);
+    if (series->relative > 0)
+        number->by_tolerances = number->relative * series->by_tolerances / series->relative;
     for (size_t i = 0; isfinite(factor) && i < number->part_count; i++)
         number->parts[i].error *= factor;
 }
 
-/* Where the answer has the number as the largest or the least one of the series, or the only one;
-   SIZE_MAX: nowhere. */
-static size_t extreme_of(const ff_result *number, const ff_result *series)
+/* The largest bar of the series where it has the number, which is its largest or its least; 0: it
+   is neither. */
+static double bar_at_extreme(const ff_result *number, const accuracy_error *series)
 {
-    const double value = number->data[0];
-    size_t at = SIZE_MAX, above = 0, below = 0;
-    for (size_t i = 0; i < series->count; i++) {
-        above += series->data[i] > value;
-        below += series->data[i] < value;
-        if (series->data[i] == value)
-            at = i;
+    const double value = number->data[0], *data = series->result->data;
+    size_t above = 0, below = 0;
+    double bar = 0;
+    for (size_t i = 0; i < series->result->count; i++) {
+        above += data[i] > value;
+        below += data[i] < value;
+        if (data[i] == value)
+            bar = fmax(bar, series->bar[i]);
     }
-    return above > 0 && below > 0 ? SIZE_MAX : at;
+    return above > 0 && below > 0 ? 0 : bar;
 }
 
 /* A single number may be the same on two levels by chance. One that is the extreme of a series is
@@ -245,12 +254,9 @@ static void hold_to_series(const accuracy_twins *t, accuracy_error *number)
         return;
     for (size_t i = 0; i < t->record->count; i++) {
         const accuracy_error *e = &t->record->errors[i];
-        if (e->stage != number->stage || e->result->rank != 1 || !e->bar ||
-            strcmp(e->result->row->unit, number->result->row->unit) != 0)
-            continue;
-        size_t at = extreme_of(number->result, e->result);
-        if (at != SIZE_MAX)
-            widen(number, e->bar[at]);
+        if (e->stage == number->stage && e->result->rank == 1 && e->bar &&
+            !strcmp(e->result->row->unit, number->result->row->unit))
+            widen(number, e, bar_at_extreme(number->result, e));
     }
 }
 

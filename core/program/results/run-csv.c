@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "write.h"
 
+#include "../accuracy/lines.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -25,10 +27,12 @@ static const char *main_dim(const ff_stage *stage)
     return "";
 }
 
+/* What was computed for the error of another series alone has no column. */
 static bool is_series(const ff_stage *stage, size_t output, const char *dim)
 {
     const ff_result *result = &stage->results[output];
-    return result->data && result->rank == 1 && !results_has_file(result) &&
+    bool beside = !result->requested && accuracy_is_estimate(stage, result);
+    return result->data && !beside && result->rank == 1 && !results_has_file(result) &&
            strcmp(result->dims[0], dim) == 0;
 }
 

@@ -194,6 +194,9 @@ class Control(lab.Lab):
         """20 % with a tolerance of 0.01 %, however many cells there are."""
         answer = self.ask("accuracy={last.wave: 5 %}", "last.seen=0.2")["accuracy"]["settings"]
         self.assertEqual((answer["last.cells"], answer["last.tolerance"]), ("16", "0.0025 %"))
+        answer = self.ask("accuracy=5 %", "last.seen=0.2")  # of the value, which is the least of the wave, as well
+        self.assertEqual(answer["accuracy"]["settings"]["last.cells"], "16")
+        self.assertIn("as the stage estimates", answer["stages"][-1]["quality"]["wave_error"]["text"])
 
     def test_a_stage_that_attempts_take_over_keeps_what_it_estimates(self):
         """Nothing of `first` is open, and what it says of its own model is no measured error."""

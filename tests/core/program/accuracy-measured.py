@@ -77,6 +77,14 @@ class Measured(lab.Lab):
             self.assertAlmostEqual(bar / (0.2 * value), 1, places=9)
         self.assertEqual(self.error(self.ask("last.scatter=0.2"), "last.wave")["data"], plain)
 
+    def test_an_estimate_of_an_error_has_none(self):
+        answer = self.ask(text=FILE.replace("last.wave", "last.wave, last.wave_error"))
+        self.assertNotIn("error", answer["outputs"]["last.wave_error"])
+
+    def test_where_no_twin_can_be_had_the_stage_keeps_what_it_estimates(self):
+        answer = self.ask("last.seen=0.2", "last.least=128", "last.most=128")
+        self.assertIn("wave_seen_error", answer["stages"][-1]["quality"])
+
     def test_parts_are_of_what_twins_tell(self):
         parts = {name: self.error(self.ask(f"last.seen={seen}"), "last.wave")["parts"] for name, seen in (("plain", 0), ("seen", 0.2))}
         self.assertEqual(parts["seen"], parts["plain"])
