@@ -51,8 +51,9 @@ const ff_result *accuracy_axis(const ff_pipeline *pipeline, const ff_stage *stag
         const ff_dims *dims = i < own ? &loaded->output_dims[i] : &loaded->input_dims[i - own];
         const ff_result *series =
             i < own ? &stage->results[i] : ff_feeding_result(pipeline, stage, i - own);
-        if (!series || !series->data || series == self || series->rank != 1 ||
-            series->count != count || strcmp(dims->name[dims->rank - 1], dim) != 0)
+        if (!series || (i < own && accuracy_is_estimate(stage, series)) || !series->data ||
+            series == self || series->rank != 1 || series->count != count ||
+            strcmp(dims->name[dims->rank - 1], dim) != 0)
             continue;
         int merit = fitness_of(series, i < own, dim, better);
         if (merit > best_merit) {
