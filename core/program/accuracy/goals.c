@@ -2,6 +2,7 @@
 #include "goals.h"
 
 #include "../memory/memory.h"
+#include "lines.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -89,11 +90,12 @@ char *accuracy_print_goals(const ff_tree *tree)
 }
 
 /* A scalar or a series, or what is one where its optional dimension is absent: of fields no error
-   is measured. */
-static bool may_have_goal(const ff_result *result)
+   is measured, nor of an estimate of one. */
+static bool may_have_goal(const ff_stage *stage, const ff_result *result)
 {
     const char *dims = result->row->dims;
-    return result->requested && !result->row->service && (!strchr(dims, ' ') || strchr(dims, '?'));
+    return result->requested && !result->row->service &&
+           (!strchr(dims, ' ') || strchr(dims, '?')) && !accuracy_is_estimate(stage, result);
 }
 
 static void free_names(char **names, size_t count)
@@ -116,7 +118,7 @@ static char **list_names(const ff_pipeline *pipeline, size_t *count)
         const ff_stage *stage = &pipeline->stages[i];
         for (size_t k = 0;
              stage->loaded && stage->results && k < stage->loaded->model->output_count; k++)
-            if (may_have_goal(&stage->results[k]))
+            if (may_have_goal(stage, &stage->results[k]))
                 names[(*count)++] =
                     memory_print_text("%s.%s", stage->name, stage->results[k].row->name);
     }
@@ -139,9 +141,11 @@ static bool check_name(const ff_node *map, size_t item, char *const *names, size
             return true;
     const char *nearest = ff_nearest(map->keys[item], (const char *const *)names, count);
     char *hint = nearest ? memory_print_text("did you mean \"%s\"?", nearest) : NULL;
-    ff_error(report, FF_FAULT_INPUT, map->key_places[item], hint,
-             "accuracy: \"%.100s\" is no scalar or series that \"outputs\" asks for",
-             map->keys[item]);
+    ff_error(
+        report, FF_FAULT_INPUT, map->key_places[item], hint,
+        "accuracy: \"%.100s\" is no scalar or series that \"outputs\" asks for, or estimates the "
+        "error of one",
+        map->keys[item]);
     free(hint);
     return false;
 }

@@ -263,7 +263,7 @@ static void print_error_row(const paper *page, const accuracy_error *e, int widt
     char goal[32] = "";
     if (!isnan(e->goal))
         snprintf(goal, sizeof goal, "%.3g %%", 100 * e->goal);
-    int column = printf("  %-*s  %-*s", width, name, ERROR, error);
+    int column = printf("  %-*s  %-*s ", width, name, ERROR - 1, error);
     if (page->errors->attempts > 0)
         column += printf("%-*s", ERROR, goal);
     int start = column;
