@@ -39,7 +39,7 @@ const ff_result *accuracy_estimated(const ff_stage *stage, const char *line)
 bool accuracy_may_estimate(const ff_port *row, const ff_port *of)
 {
     size_t stem = strlen(of->name);
-    return !row->service && !strncmp(row->name, of->name, stem) &&
+    return !row->service && !of->service && !strncmp(row->name, of->name, stem) &&
            !strcmp(row->name + stem, ending) && !strcmp(row->unit, of->unit) && row->dims &&
            !strcmp(row->dims, of->dims);
 }

@@ -39,7 +39,6 @@ typedef struct accuracy_error {
     double by_tolerances; /* of `relative`; 0: they are not told from the counts */
     double order;         /* observed; NaN: none was */
     bool by_stage;        /* it is what the stage estimates, which is more than twins tell */
-    double falls; /* the order at which finer counts make `relative` smaller; NaN: unknown */
     accuracy_part *parts; /* the largest first; none where no twin tells them apart */
     size_t part_count;
 } accuracy_error;
