@@ -31,8 +31,10 @@ typedef struct spur {
 static const double standard_tip_radius = 0.38;
 
 static const ff_param params[] = {
-    FF_LIST("teeth", "1", spur, spec.teeth, FF_REQUIRED | FF_WHOLE, NULL, NULL, 3, 1e6, 0, 0, 1, 2,
-            "numbers of teeth of gear 1 (driving) and gear 2; one value: both the same"),
+    FF_LIST(
+        "teeth", "1", spur, spec.teeth, FF_REQUIRED | FF_WHOLE, NULL, NULL, 3, 1e6, 0, 0, 1, 2,
+        "numbers of teeth of gear 1, which drives where its torque is positive, and gear 2; one "
+        "value: both the same"),
     FF_QUANTITY("module", "mm", spur, spec.module, FF_REQUIRED, NULL, NULL, 1e-3, 1e3, 0, 0,
                 "module: reference diameter over number of teeth"),
     FF_QUANTITY("pressure_angle", "deg", spur, spec.pressure_angle, 0, "20 deg", NULL, 5, 45, 0, 0,
@@ -271,6 +273,7 @@ static ff_status write_scalars(const spur *s, uint64_t wanted)
         {OUT_PRESSURE_ANGLE, s->spec.pressure_angle},
         {OUT_EQUIVALENT_MASS, 1 / (rb1 * rb1 / J[0] + rb2 * rb2 / J[1])},
         {OUT_REDUCED_MODULUS, 2 / compliance},
+        {OUT_PINION, ff_of_both(&s->spec.teeth, 1) < ff_of_both(&s->spec.teeth, 0) ? 2 : 1},
     };
     for (size_t i = 0; i < sizeof scalars / sizeof scalars[0]; i++)
         if (wanted & FF_BIT(scalars[i].row) &&

@@ -155,4 +155,9 @@ const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS] = {
      .unit = "Pa",
      .doc = "yield strengths of the flanks that the materials have, 0: not known",
      .dims = "gear"},
+    {.name = "pinion",
+     .unit = "1",
+     .doc = "the gear with fewer teeth, 1 or 2; of equal ones 1. Standards give it index 1, "
+            "whoever drives",
+     .dims = ""},
 };

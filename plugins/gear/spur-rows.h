@@ -53,6 +53,7 @@ enum {
     OUT_TIP_THICKNESS,
     OUT_ACTIVE_ROOT_RADIUS,
     OUT_YIELD_STRENGTH,
+    OUT_PINION,
     GEAR_SPUR_OUTPUTS
 };
 extern const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS];

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "pair.h"
 
+#include "../numerics/pinion.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -8,6 +10,7 @@
 const ff_port rating_inputs[1 + RATING_INPUTS + 1] = {
     {"ehl.h_min", "m", "least film of the tooth pair", "t", NULL, FF_OPTIONAL, "ehl"},
     {"gear.teeth", "1", "numbers of teeth", "gear", NULL, 0, "gear"},
+    NUMERICS_PINION_ROW("gear"),
     {"gear.base_radius", "m", "base circles", "gear", NULL, 0, "gear"},
     {"gear.pitch_radius", "m", "working pitch circles", "gear", NULL, 0, "gear"},
     {"gear.tip_radius", "m", "tip circles", "gear", NULL, 0, "gear"},
@@ -92,6 +95,8 @@ ff_status rating_pair_read(const ff_host *host, const ff_array *in, const ff_liq
     if (status == FF_OK && in[RATING_IN_DYNAMIC_FACTOR].data)
         status = read_one(host, &in[RATING_IN_DYNAMIC_FACTOR], "dynamics.dynamic_factor_tooth",
                           &p->dynamic_factor);
+    if (status == FF_OK)
+        status = numerics_pinion(host, &in[RATING_IN_PINION], p->teeth, &p->pinion);
     if (status == FF_OK && in[RATING_IN_YIELD].data)
         status = read_two(host, &in[RATING_IN_YIELD], "gear.yield_strength", yield);
     if (status != FF_OK)

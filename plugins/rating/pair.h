@@ -15,6 +15,7 @@
 /* The inputs that all ratings have, in the order of their rows. */
 enum {
     RATING_IN_TEETH,
+    RATING_IN_PINION,
     RATING_IN_BASE,
     RATING_IN_PITCH,
     RATING_IN_TIP,
@@ -41,6 +42,7 @@ extern const ff_port rating_inputs[1 + RATING_INPUTS + 1];
 typedef struct rating_pair {
     double teeth[2], base[2], pitch[2], tip[2];
     double ratio; /* z2/z1 */
+    int pinion;   /* 0 or 1; a standard gives it index 1 where it does not ask who drives */
     double centre_distance, working_angle, pressure_angle, width, modulus;
     double roughness;     /* Ra, mean of both flanks */
     double tip_relief[2]; /* 0: none, or not known */

@@ -223,8 +223,8 @@ static ff_status rate_by_flash(const scuffing *s, const rating_pair *p, double *
     return FF_OK;
 }
 
-/* Contact ratio factor X_eps, formulas 39 to 44 of part 2, of the addendum contact ratios of gears
- * 1 and 2. */
+/* Contact ratio factor X_eps, formulas 39 to 44 of part 2, of the addendum contact ratios of
+ * pinion and wheel. */
 static double contact_ratio_factor(double e1, double e2)
 {
     const double all = e1 + e2, k = 1 / (2 * all * e1);
@@ -239,14 +239,24 @@ static double contact_ratio_factor(double e1, double e2)
     return k * (0.70 * (e1 * e1 + e2 * e2) - 0.22 * all + 0.52 - 0.60 * e1 * e2);
 }
 
-/* Tip relief factor X_Ca, formulas 32 to 38; class 6 and better alone have it. */
-static double tip_relief_factor(const scuffing *s, const rating_pair *p, double e1, double e2)
+/* Approach factor X_Q: the driven tip comes in with its addendum, the driving one goes out. */
+static double ingoing_factor(double driving, double driven)
+{
+    const double ratio = driven / driving;
+    return ratio <= 1.5 ? 1 : ratio >= 3 ? 0.6 : 1.4 - 4.0 / 15 * ratio;
+}
+
+/* Tip relief factor X_Ca, formulas 32 to 38, of the addendum contact ratios of the driving and of
+   the driven gear; class 6 and better alone have it. */
+static double tip_relief_factor(const scuffing *s, const rating_pair *p, double driving,
+                                double driven)
 {
     if (s->load.grade > 6)
         return 1;
     double best =
         s->load.application * p->force * cos(p->pressure_angle) / (p->width * s->tooth_stiffness);
-    double share = fmin(1, p->tip_relief[e1 > 1.5 * e2 ? 0 : 1] / best), e = fmax(e1, e2);
+    double share = fmin(1, p->tip_relief[driving > 1.5 * driven ? 0 : 1] / best),
+           e = fmax(driving, driven);
     return 1 + (0.06 + 0.18 * share) * e + (0.02 + 0.69 * share) * e * e;
 }
 
@@ -271,16 +281,17 @@ static ff_status rate_by_integral(const scuffing *s, const rating_pair *p, ratin
     const double w = p->working_angle, a = p->pressure_angle;
     const double angle =
         1.22 * pow(sin(w) * cos(a), 0.25) / sqrt(cos(w) * cos(a)); /* X_alpha_beta, formula 13 */
-    const double rho1 = 1e3 * p->end, rho2 = 1e3 * (p->line - p->end);
+    const int one = p->pinion, two = 1 - one;
+    const double u = p->teeth[two] / p->teeth[one];
+    const double rho1 = 1e3 * (one == 0 ? p->end : p->line - p->sap), rho2 = 1e3 * p->line - rho1;
     const double geometry =
-        0.51 * sqrt(p->ratio + 1) * (sqrt(rho1) - sqrt(rho2 / p->ratio)) / pow(rho1 * rho2, 0.25);
-    const double e1 = rating_addendum_ratio(p, 0), e2 = rating_addendum_ratio(p, 1);
-    const double ratio = e2 / e1;
-    const double approach = ratio <= 1.5 ? 1 : ratio >= 3 ? 0.6 : 1.4 - 4.0 / 15 * ratio; /* X_Q */
+        0.51 * sqrt(u + 1) * (sqrt(rho1) - sqrt(rho2 / u)) / pow(rho1 * rho2, 0.25); /* X_BE */
+    const double e[2] = {rating_addendum_ratio(p, 0), rating_addendum_ratio(p, 1)};
     const double tip = friction * thermoelastic_factor(s, p) * geometry * angle * pow(load, 0.75) *
                        sqrt(p->pitch_speed) / pow(1e3 * p->centre_distance, 0.25) /
-                       (approach * tip_relief_factor(s, p, e1, e2));
-    const double mean = tip * contact_ratio_factor(e1, e2), oil = p->oil_temperature - celsius;
+                       (ingoing_factor(e[0], e[1]) * tip_relief_factor(s, p, e[0], e[1]));
+    const double mean = tip * contact_ratio_factor(e[one], e[two]),
+                 oil = p->oil_temperature - celsius;
     r->integral = oil + 0.7 * mean * supply_factor(s) + 1.5 * mean; /* formulas 20 and 17 */
     const double torque =
         3.726 * (double)s->stage * (double)s->stage; /* of the test, N m: formula 97 */

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "inputs.h"
 
+#include "../numerics/pinion.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -69,6 +71,7 @@ const ff_port stiffness_inputs[STIFFNESS_INPUTS] = {
          "tip radius of the rack that cuts the teeth, over the module; 0.38 where it is not told",
      .dims = "gear",
      .flags = FF_OPTIONAL},
+    NUMERICS_PINION_ROW(NULL),
 };
 
 ff_status stiffness_input_read(const ff_host *host, const ff_array *in, int row, size_t i,

@@ -5,8 +5,8 @@
 
 #include <flankfilm/plugin.h>
 
-/* In the order of the rows. A model takes all of them, or, as the table does, those of the path of
-   contact alone, which stand first. */
+/* In the order of the rows. A table takes those of the path of contact, which stand first, what
+   follows a standard takes all of them, and other models all but the pinion. */
 enum {
     STIFFNESS_IN_ROLL,
     STIFFNESS_IN_SAP,
@@ -30,6 +30,8 @@ enum {
     STIFFNESS_IN_BACKLASH,
     STIFFNESS_IN_ALLOWANCE,
     STIFFNESS_IN_TOOL_TIP,
+    STIFFNESS_BODY_INPUTS,
+    STIFFNESS_IN_PINION = STIFFNESS_BODY_INPUTS,
     STIFFNESS_INPUTS
 };
 extern const ff_port stiffness_inputs[STIFFNESS_INPUTS];

@@ -11,6 +11,8 @@
 #include "params.h"
 #include "references.h"
 
+#include "../numerics/pinion.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -73,23 +75,25 @@ static double profile_shift(const stiffness_gear *g)
 }
 
 /* ISO 6336-1, clause 9, theoretical single stiffness: the series for q' = 1/c'_th, in mm um/N, of
-   spur gears, whose virtual number of teeth is that of teeth. */
-static double theoretical_compliance(const stiffness_gears *g, const double x[2])
+   spur gears, whose virtual number of teeth is that of teeth. The pinion has index 0 here and 1 in
+   the standard. */
+static double theoretical_compliance(const double z[2], const double x[2])
 {
-    double z1 = g->gear[0].teeth, z2 = g->gear[1].teeth;
+    double z1 = z[0], z2 = z[1];
     return 0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x[0] - 0.11654 * x[0] / z1 -
            0.00193 * x[1] - 0.24188 * x[1] / z2 + 0.00529 * x[0] * x[0] + 0.00182 * x[1] * x[1];
 }
 
 /* ISO 6336-1, clause 9, basic rack factor C_B = [1 + 0.5 (1.2 - h_fP/m)] [1 - 0.02 (20 deg -
    alpha)]: the mean of both gears, each with its own dedendum h_fP. */
-static double rack_factor(const stiffness_gears *g, const double x[2])
+static double rack_factor(const stiffness_gears *g)
 {
     double sum = 0;
     for (int i = 0; i < 2; i++) {
         const stiffness_gear *gear = &g->gear[i];
         double module = 2 * gear->reference_radius / gear->teeth;
-        double dedendum = (gear->reference_radius - gear->root_radius) / module + x[i];
+        double dedendum =
+            (gear->reference_radius - gear->root_radius) / module + profile_shift(gear);
         double degrees = acos(gear->base_radius / gear->reference_radius) * 180 / M_PI;
         sum += (1 + 0.5 * (1.2 - dedendum)) * (1 - 0.02 * (20 - degrees)) / 2;
     }
@@ -98,15 +102,16 @@ static double rack_factor(const stiffness_gears *g, const double x[2])
 
 /* c' b = c'_th C_M C_R C_B (E/E_steel) b with E = 2 E1 E2/(E1 + E2); below a load of 100 N/mm it
    falls in proportion to the load. */
-static ff_status set_single(const iso_model *m, const stiffness_gears *g, double line_force,
-                            double *single)
+static ff_status set_single(const iso_model *m, const stiffness_gears *g, int pinion,
+                            double line_force, double *single)
 {
     const double steel = 206e9;    /* Pa */
     const double full_load = 1e5;  /* N/m */
     const double per_micron = 1e9; /* N/(mm um) in N/m per m of width */
-    double x[2] = {profile_shift(&g->gear[0]), profile_shift(&g->gear[1])};
-    double e1 = g->gear[0].elastic_modulus, e2 = g->gear[1].elastic_modulus;
-    double compliance = theoretical_compliance(g, x), rack = rack_factor(g, x);
+    const stiffness_gear *one = &g->gear[pinion], *two = &g->gear[1 - pinion];
+    const double z[2] = {one->teeth, two->teeth}, x[2] = {profile_shift(one), profile_shift(two)};
+    double e1 = one->elastic_modulus, e2 = two->elastic_modulus;
+    double compliance = theoretical_compliance(z, x), rack = rack_factor(g);
     double load = line_force * g->gear[0].base_radius / g->gear[0].reference_radius / g->width;
     if (!(compliance > 0) || !(rack > 0))
         return ff_failf(m->host, FF_INVALID, rack > 0 ? "gear.tooth_thickness" : "gear.root_radius",
@@ -188,9 +193,13 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     stiffness_conditions conditions;
     const bool trapezoidal = m->shape == 1;
     iso_pair f = {.ramp = trapezoidal ? m->ramp : 0};
+    int pinion = 0;
     ff_status status = stiffness_conditions_read(m->host, in, &rim, m->cycles, &conditions);
     if (status == FF_OK)
-        status = set_single(m, &conditions.gears, conditions.path.line_force, &f.single);
+        status = numerics_pinion(m->host, &in[STIFFNESS_IN_PINION], in[STIFFNESS_IN_TEETH].data,
+                                 &pinion);
+    if (status == FF_OK)
+        status = set_single(m, &conditions.gears, pinion, conditions.path.line_force, &f.single);
     if (status != FF_OK)
         return status;
     report_range(m, &conditions.path);

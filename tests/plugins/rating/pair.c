@@ -7,10 +7,10 @@
 
 static const double degree = M_PI / 180, mm = 1e-3;
 
-const pair pair_a = {{16, 24}, {0.853, -0.5}, {88.77, 112.5}, 20, 536.5, 2170,
-                     90,       0.35,          "ISO VG 100"};
+const pair pair_a = {{16, 24}, {0.853, -0.5}, {88.77, 112.5}, 20,    536.5, 2170,
+                     90,       0.35,          "ISO VG 100",   {0, 0}};
 const pair pair_c = {{16, 24}, {0.182, 0.171}, {82.46, 118.36}, 14, 265.1, 2250, 90,
-                     0.5,      "ISO VG 220"};
+                     0.5,      "ISO VG 220",   {0, 0}};
 
 double oil_viscosity(stage *oil, double T)
 {
@@ -28,15 +28,31 @@ double oil_density(stage *oil, double T)
     return rho;
 }
 
+pair pair_reversed(const pair *p)
+{
+    pair r = *p;
+    for (int i = 0; i < 2; i++) {
+        r.teeth[i] = p->teeth[1 - i];
+        r.shift[i] = p->shift[1 - i];
+        r.tip_diameter[i] = p->tip_diameter[1 - i];
+        r.relief[i] = p->relief[1 - i];
+    }
+    r.torque = p->torque * p->teeth[1] / p->teeth[0];
+    r.rpm = p->rpm * p->teeth[0] / p->teeth[1];
+    return r;
+}
+
 stage *pair_open(const char *id, const pair *p, stage **oil)
 {
     const double r = 4.5 * mm / 2, a = 91.5 * mm;
-    double base[2], pitch[2], tip[2], roughness[2];
+    const size_t shape[2] = {2, 2};
+    double base[2], pitch[2], tip[2], roughness[2], profile[2][2] = {{0}};
     for (int i = 0; i < 2; i++) {
         base[i] = r * p->teeth[i] * cos(20 * degree);
         pitch[i] = a * p->teeth[i] / (p->teeth[0] + p->teeth[1]);
         tip[i] = p->tip_diameter[i] / 2 * mm;
-        roughness[i] = p->roughness * 1e-6 * sqrt(M_PI / 2);
+        roughness[i] = p->roughness * (i == 0 ? 0.8 : 1.2) * 1e-6 * sqrt(M_PI / 2);
+        profile[i][1] = -1e-6 * p->relief[i];
     }
     stage *s = stage_open(id);
     *oil = stage_open("lubricant/grade");
@@ -53,6 +69,7 @@ stage *pair_open(const char *id, const pair *p, stage **oil)
     stage_give_scalar(s, "gear.face_width", p->width * mm);
     stage_give_scalar(s, "gear.reduced_modulus", 206e9 / 0.91);
     stage_give_series(s, "gear.roughness", 2, roughness);
+    stage_give(s, "gear.profile_deviation", 2, shape, profile[0]);
     stage_give_scalar(s, "operating.line_force", p->torque / base[0]);
     stage_give_scalar(s, "operating.speed", p->rpm * 2 * M_PI / 60);
     stage_give_scalar(s, "operating.oil_temperature", p->oil + 273.15);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* ISO 6336-1 against figures worked by hand for the 50/50 pair. */
+/* ISO 6336-1 against figures worked by hand for the 50/50 pair, against two printed reports, and
+   its series, typed a second time, for unequal pairs that are entered in either order. */
 #include "chain.h"
 #include "check.h"
 
@@ -105,6 +106,115 @@ static void test_relief_unloads_a_pair(void)
     chain_close(&c);
 }
 
+/* A pair in both orders: the values of gear 2 come second, or first. */
+typedef struct unequal {
+    double teeth[2], shift[2], modulus[2], dedendum[2]; /* GPa */
+    double module, width, centre, blank;                /* mm; centre 0: from the shifts */
+} unequal;
+
+static chain open_unequal(const unequal *u, int first)
+{
+    chain c = {stage_open("gear/involute-spur"), stage_open("operating/steady"), stage_open(model)};
+    const struct {
+        const char *name;
+        const double *of;
+        double unit;
+    } pairs[] = {{"teeth", u->teeth, 1},
+                 {"profile_shift", u->shift, 1},
+                 {"elastic_modulus", u->modulus, 1e9},
+                 {"dedendum", u->dedendum, 1}};
+    for (size_t k = 0; k < sizeof pairs / sizeof pairs[0]; k++) {
+        const double both[2] = {pairs[k].of[first] * pairs[k].unit,
+                                pairs[k].of[1 - first] * pairs[k].unit};
+        stage_set_reals(c.gear, pairs[k].name, 2, both);
+    }
+    stage_set(c.gear, "module", 1e-3 * u->module);
+    stage_set(c.gear, "face_width", 1e-3 * u->width);
+    if (u->centre > 0)
+        stage_set(c.gear, "centre_distance", 1e-3 * u->centre);
+    stage_set(c.mesh, "blank_factor", u->blank);
+    /* 600 N/mm at the reference circle of gear 1 */
+    stage_set(c.duty, "torque", 600 * u->width * 1e-3 * u->module * u->teeth[first] / 2);
+    stage_set_text(c.duty, "speed", "100 rpm");
+    stage_link(c.duty, "gear", c.gear);
+    stage_link(c.mesh, "gear", c.gear);
+    stage_link(c.mesh, "operating", c.duty);
+    return c;
+}
+
+/* KISSsoft 03/2017, ISO 6336:2006 method B, in the repository gfsReboucas/Drivetrain, files
+   @NREL_5MW/stage_01.rtf and stage_02.rtf: [cgalf] in N/(mm um) of sun and planet, with [CR] 0.862.
+   The pinion of the first is the planet. */
+static void test_printed_reports(void)
+{
+    static const struct {
+        const char *what;
+        unequal pair;
+        double printed;
+        int pinion;
+    } reports[] = {
+        {"19/17, c_gamma 13.426",
+         {{19, 17}, {0.617, 0.8021}, {206, 206}, {1.25, 1.25}, 45, 491, 863, 0.862},
+         13.426,
+         1},
+        {"18/36, c_gamma 15.640",
+         {{18, 36}, {0.389, 0.5039}, {206, 206}, {1.25, 1.25}, 21, 550, 0, 0.862},
+         15.640,
+         0},
+    };
+    for (size_t k = 0; k < sizeof reports / sizeof reports[0]; k++)
+        for (int first = 0; first < 2; first++) {
+            chain c = open_unequal(&reports[k].pair, first);
+            double mean = chain_mean(&c) / (1e-3 * reports[k].pair.width) / 1e9;
+            check_near(reports[k].what, mean, reports[k].printed, 3e-3);
+            check_near("the pinion", stage_scalar(c.gear, "pinion"),
+                       reports[k].pinion == first ? 1 : 2, 0);
+            chain_close(&c);
+        }
+}
+
+/* The series and its factors of ISO 6336-1, clause 9, typed a second time, for a steel pinion with
+   a wheel of cast iron. */
+static void test_series(void)
+{
+    static const unequal pairs[] = {
+        {{17, 43}, {0.35, -0.1}, {206, 118}, {1.25, 1.1}, 3, 22, 0, 1},
+        {{60, 21}, {-0.2, 0.2}, {170, 206}, {1.2, 1.4}, 4, 30, 0, 0.9},
+    };
+    for (size_t k = 0; k < 2; k++)
+        for (int first = 0; first < 2; first++) {
+            const unequal *u = &pairs[k];
+            const int one = u->teeth[1] < u->teeth[0];
+            const double z1 = u->teeth[one], z2 = u->teeth[1 - one], x1 = u->shift[one],
+                         x2 = u->shift[1 - one];
+            const double q = 0.04723 + 0.15551 / z1 + 0.25791 / z2 - 0.00635 * x1 -
+                             0.11654 * x1 / z1 - 0.00193 * x2 - 0.24188 * x2 / z2 +
+                             0.00529 * x1 * x1 + 0.00182 * x2 * x2;
+            const double rack = 1 + 0.5 * (1.2 - (u->dedendum[0] + u->dedendum[1]) / 2);
+            const double modulus =
+                2 * u->modulus[0] * u->modulus[1] / (u->modulus[0] + u->modulus[1]) / 206;
+            chain c = open_unequal(u, first);
+            double mean = chain_mean(&c) / (1e-3 * u->width) / 1e9;
+            double ratio_of = stage_scalar(c.gear, "contact_ratio");
+            check_near("c_gamma of an unequal pair", mean,
+                       0.8 * u->blank * rack * modulus / q * (0.75 * ratio_of + 0.25), 1e-10);
+            chain_close(&c);
+        }
+}
+
+/* A third party's gear may say which gear it is, and nothing else than 1 or 2. */
+static void test_pinion_told(void)
+{
+    chain c = open_pair("250 N m");
+    chain_run(&c);
+    stage_give_scalar(c.mesh, "gear.pinion", 1.5);
+    check_true("no such pinion",
+               stage_run(c.mesh) < 0 && !strcmp(stage_why_item(c.mesh), "gear.pinion"));
+    stage_give_scalar(c.mesh, "gear.pinion", 2);
+    check_true("gear 2 of equal ones", stage_run(c.mesh) == FF_OK);
+    chain_close(&c);
+}
+
 static void test_refusals(void)
 {
     chain c = open_pair("250 N m");
@@ -122,6 +232,9 @@ int main(void)
     test_dedendum();
     test_light_load();
     test_relief_unloads_a_pair();
+    test_printed_reports();
+    test_series();
+    test_pinion_told();
     test_refusals();
     return check_done();
 }

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Which gear a standard means by index 1: its pinion, whoever drives. */
+#ifndef NUMERICS_PINION_H
+#define NUMERICS_PINION_H
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+
+/* The input row gear.pinion of a stage that follows a standard; `kind` as in its other rows of the
+   gear. */
+#define NUMERICS_PINION_ROW(kind)                                                                  \
+    {                                                                                              \
+        "gear.pinion", "1",                                                                        \
+            "gear, 1 or 2, that has index 1 in the standard; left out: the gear with fewer "       \
+            "teeth, "                                                                              \
+            "of equal ones gear 1",                                                                \
+            "", NULL, FF_OPTIONAL, kind                                                            \
+    }
+
+/* Index of the pinion, 0 or 1. */
+static inline ff_status numerics_pinion(const ff_host *host, const ff_array *in,
+                                        const double teeth[2], int *pinion)
+{
+    *pinion = in->data ? in->data[0] > 1.5 : teeth[1] < teeth[0];
+    if (in->data && !(fabs(in->data[0] - 1 - *pinion) <= 0))
+        return ff_failf(host, FF_INVALID, "gear.pinion",
+                        "the pinion is gear 1 or gear 2, this is %g", in->data[0]);
+    return FF_OK;
+}
+
+#endif
