@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "flank-deviations.h"
 
+#include "drawing-rounding.h"
+
 #include "../numerics/interval.h"
 
 #include <flankfilm/author.h>
@@ -14,8 +16,8 @@ enum { PROFILE_STEPS = 2048, MORE_POINTS = 8 /* ends and starts of reliefs at mo
 
 static const double degree = M_PI / 180;
 
-/* Tolerance for the rounding of a stated roll angle, rad. */
-static const double slack = 1e-9;
+/* Roll angles nearer than this are one, rad. */
+static const double same_roll = 1e-9;
 
 /* Roll angles of contact on the flank of each gear. Along the path the tip of gear 2 meets the
    start of gear 1. */
@@ -32,21 +34,87 @@ static void set_limits(const gear_spur_pair *p, double lpstc[2], double hpstc[2]
     hpstc[1] = (length - p->lpstc) / r2;
 }
 
-/* Finds where a relief of gear g that ends at `end` begins. */
-static ff_status set_start(const ff_host *host, const gear_flanks *f, const gear_relief *relief,
-                           int g, const char *item, double preset, double end, double *start)
+/* One end of a flank: the names of what says how it is relieved. */
+typedef struct relief_end {
+    bool tip;
+    const char *start, *diameter, *length;
+} relief_end;
+
+static const relief_end tip_end = {true, "tip_relief_start", "tip_relief_diameter",
+                                   "tip_relief_length"};
+static const relief_end root_end = {false, "root_relief_start", "root_relief_diameter",
+                                    "root_relief_length"};
+
+/* A start in the words of the drawing, the same of both ends of the flank, and what the digits of
+   the drawing leave open; `unit` turns all four into what users read. */
+typedef struct stated_start {
+    const char *item, *what, *unit;
+    double value, from, to, open, scale;
+} stated_start;
+
+static double diameter_at(double base, double roll)
 {
-    *start = relief->start.count > 0 ? ff_of_both(&relief->start, g) : preset;
-    if (relief->start.count > 0 && !(*start >= f->low[g] - slack && *start <= f->high[g] + slack))
-        return ff_failf(host, FF_INVALID, item,
-                        "gear %d: the relief starts at the roll angle %.4f deg, but its flank is "
-                        "in contact from %.4f to %.4f deg; the relief must lie on it",
-                        g + 1, *start / degree, f->low[g] / degree, f->high[g] / degree);
-    if (ff_of_both(&relief->amount, g) > 0 && fabs(end - *start) <= slack)
-        return ff_failf(host, FF_INVALID, item,
+    return 2 * base * hypot(1, roll);
+}
+
+/* Gives the roll angle of the start of a relief of gear g that is stated in one of three ways. */
+static double stated_roll(const gear_flanks *f, const gear_relief *r, const relief_end *end, int g,
+                          double base, stated_start *s)
+{
+    const double low = f->low[g], high = f->high[g];
+    if (r->diameter.count > 0) {
+        const double d = ff_of_both(&r->diameter, g);
+        *s = (stated_start){end->diameter,
+                            "diameter",
+                            "mm",
+                            d,
+                            diameter_at(base, low),
+                            diameter_at(base, high),
+                            gear_rounding_diameter,
+                            1e3};
+        return sqrt(fmax((d / 2 - base) * (d / 2 + base), 0)) / base;
+    }
+    if (r->length.count > 0) {
+        const double from_end = ff_of_both(&r->length, g);
+        *s = (stated_start){end->length,
+                            "length along the line of action",
+                            "mm",
+                            from_end,
+                            0,
+                            (high - low) * base,
+                            gear_rounding_diameter,
+                            1e3};
+        return end->tip ? high - from_end / base : low + from_end / base;
+    }
+    const double roll = ff_of_both(&r->start, g);
+    *s = (stated_start){end->start, "roll angle",       "deg",     roll, low,
+                        high,       gear_rounding_roll, 1 / degree};
+    return roll;
+}
+
+/* Finds where the relief of one end of the flank of gear g begins. */
+static ff_status set_start(const ff_host *host, gear_flanks *f, const gear_relief *relief,
+                           const relief_end *end, int g, double base, double preset, double *start)
+{
+    const double last = end->tip ? f->high[g] : f->low[g];
+    stated_start s = {.item = end->start};
+    *start = preset;
+    if (relief->start.count + relief->diameter.count + relief->length.count > 0) {
+        const double roll = stated_roll(f, relief, end, g, base, &s);
+        if (!(s.value >= s.from - s.open && s.value <= s.to + s.open))
+            return ff_failf(host, FF_INVALID, s.item,
+                            "gear %d: the relief starts at the %s %.4f %s, but its flank is in "
+                            "contact from %.4f to %.4f %s; the relief must lie on it",
+                            g + 1, s.what, s.value * s.scale, s.unit, s.from * s.scale,
+                            s.to * s.scale, s.unit);
+        *start = fmin(fmax(roll, f->low[g]), f->high[g]);
+        f->moved_start = fmax(f->moved_start, fabs(*start - roll));
+    }
+    if (ff_of_both(&relief->amount, g) > 0 && fabs(last - *start) <= same_roll)
+        return ff_failf(host, FF_INVALID, s.item,
                         "gear %d: the relief starts where it ends, at the roll angle %.4f deg; "
                         "give %s a place inside the flank, from %.4f to %.4f deg",
-                        g + 1, *start / degree, item, f->low[g] / degree, f->high[g] / degree);
+                        g + 1, *start / degree, s.item, f->low[g] / degree, f->high[g] / degree);
     return FF_OK;
 }
 
@@ -56,11 +124,11 @@ static ff_status set_reliefs(const ff_host *host, const gear_flank_spec *s, cons
     double lpstc[2], hpstc[2];
     set_limits(p, lpstc, hpstc, f);
     for (int g = 0; g < 2; g++) {
-        ff_status status = set_start(host, f, &s->tip, g, "tip_relief_start", hpstc[g], f->high[g],
-                                     &f->tip_start[g]);
+        const double base = p->base_radius[g];
+        ff_status status =
+            set_start(host, f, &s->tip, &tip_end, g, base, hpstc[g], &f->tip_start[g]);
         if (status == FF_OK)
-            status = set_start(host, f, &s->root, g, "root_relief_start", lpstc[g], f->low[g],
-                               &f->root_start[g]);
+            status = set_start(host, f, &s->root, &root_end, g, base, lpstc[g], &f->root_start[g]);
         if (status != FF_OK)
             return status;
     }

@@ -12,10 +12,12 @@
 
 #include <flankfilm/plugin.h>
 
-/* A relief from `start` to the end of the flank; one value or two. */
+/* A relief of `amount`, m, at the end of the flank, one value or two. Where it starts is said in
+   one way of three, or not at all: as a roll angle of the own gear, rad, as a diameter, or as a
+   length along the line of action from the end of the flank. */
 typedef struct gear_relief {
-    ff_reals amount, start; /* m, roll angle of the own gear in rad; start may be empty */
-    int32_t shape;          /* 1: parabolic */
+    ff_reals amount, start, diameter, length;
+    int32_t shape; /* 1: parabolic */
 } gear_relief;
 
 typedef struct gear_flank_spec {
@@ -30,6 +32,7 @@ typedef struct gear_flank_spec {
 typedef struct gear_flanks {
     double low[2], high[2]; /* roll angles of the lowest contact and of the tip, own gear */
     double tip_start[2], root_start[2];
+    double moved_start; /* the farthest that the rounding of a drawing has moved a start, rad */
     gear_curve measured[2];
     size_t points;                  /* of either profile */
     double *roll[2], *deviation[2]; /* at these points, linear between them */

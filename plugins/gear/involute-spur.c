@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gear/involute-spur: path of contact, radii of curvature and inertia of a spur gear pair. */
+#include "drawing-rounding.h"
 #include "flank-deviations.h"
 #include "materials.h"
 #include "references.h"
@@ -107,15 +108,30 @@ static const ff_param params[] = {
     FF_LIST("tip_relief", "um", spur, flank_spec.tip.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
             "metal taken off at the tip of the flank, normal to it, one value or two"),
     FF_LIST(
-        "tip_relief_start", "deg", spur, flank_spec.tip.start, 0, NULL, NULL, 0, 1e4, 0, 0, 1, 2,
+        "tip_relief_start", "deg", spur, flank_spec.tip.start, 0, NULL, "tip_relief_start", 0, 1e4,
+        0, 0, 1, 2,
         "roll angle of the own gear from which the tip is relieved; left out: each gear's HPSTC"),
+    FF_LIST("tip_relief_diameter", "mm", spur, flank_spec.tip.diameter, 0, NULL, "tip_relief_start",
+            1e-3, 1e9, 0, 0, 1, 2, "diameter from which the tip is relieved, instead"),
+    FF_LIST("tip_relief_length", "mm", spur, flank_spec.tip.length, 0, NULL, "tip_relief_start", 0,
+            1e5, 0, 0, 1, 2,
+            "length of the tip relief from the tip, along the line of action as in profile "
+            "diagrams, instead"),
     FF_ONE_OF("linear|parabolic", "tip_relief_shape", spur, flank_spec.tip.shape, 0, "linear",
               "growth of the tip relief from its start to the tip"),
     FF_LIST("root_relief", "um", spur, flank_spec.root.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
             "metal taken off at the lowest point of contact, one value or two"),
     FF_LIST(
-        "root_relief_start", "deg", spur, flank_spec.root.start, 0, NULL, NULL, 0, 1e4, 0, 0, 1, 2,
+        "root_relief_start", "deg", spur, flank_spec.root.start, 0, NULL, "root_relief_start", 0,
+        1e4, 0, 0, 1, 2,
         "roll angle of the own gear below which the root is relieved; left out: each gear's LPSTC"),
+    FF_LIST("root_relief_diameter", "mm", spur, flank_spec.root.diameter, 0, NULL,
+            "root_relief_start", 1e-3, 1e9, 0, 0, 1, 2,
+            "diameter below which the root is relieved, instead"),
+    FF_LIST("root_relief_length", "mm", spur, flank_spec.root.length, 0, NULL, "root_relief_start",
+            0, 1e5, 0, 0, 1, 2,
+            "length of the root relief from the lowest contact, along the line of action as in "
+            "profile diagrams, instead"),
     FF_ONE_OF("linear|parabolic", "root_relief_shape", spur, flank_spec.root.shape, 0, "linear",
               "growth of the root relief from its start to the lowest point of contact"),
     FF_LIST("crowning", "um", spur, flank_spec.crown, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
@@ -181,13 +197,21 @@ static void tell_servings(const spur *s)
         {1, "inertia", "inertia|equivalent_mass", NULL, NULL},
         {1, "tip_relief", form, NULL, NULL},
         {1, "tip_relief_start", form, NULL, NULL},
+        {1, "tip_relief_diameter", form, NULL, NULL},
+        {1, "tip_relief_length", form, NULL, NULL},
         {1, "tip_relief_shape", form, NULL, NULL},
         {!tip, "tip_relief_start", "", NULL, "tip_relief is 0"},
+        {!tip, "tip_relief_diameter", "", NULL, "tip_relief is 0"},
+        {!tip, "tip_relief_length", "", NULL, "tip_relief is 0"},
         {!tip, "tip_relief_shape", "", NULL, "tip_relief is 0"},
         {1, "root_relief", form, NULL, NULL},
         {1, "root_relief_start", form, NULL, NULL},
+        {1, "root_relief_diameter", form, NULL, NULL},
+        {1, "root_relief_length", form, NULL, NULL},
         {1, "root_relief_shape", form, NULL, NULL},
         {!root, "root_relief_start", "", NULL, "root_relief is 0"},
+        {!root, "root_relief_diameter", "", NULL, "root_relief is 0"},
+        {!root, "root_relief_length", "", NULL, "root_relief is 0"},
         {!root, "root_relief_shape", "", NULL, "root_relief is 0"},
         {1, "crowning", form, NULL, NULL},
         {1, "profile_slope", form, NULL, NULL},
@@ -412,12 +436,26 @@ static ff_status write_flanks(const spur *s, uint64_t wanted)
     return FF_OK;
 }
 
+/* Says what the rounding of the drawing has moved. */
+static void report_rounding(const spur *s)
+{
+    const gear_spur_pair *p = &s->pair;
+    char text[400];
+    gear_rounding_say(p, s->flanks.moved_start, text, sizeof text);
+    if (!*text)
+        return;
+    s->host->log(s->host->ctx, FF_LOG_INFO, text);
+    s->host->quality(s->host->ctx, "rounding", 1e6 * p->moved_backlash,
+                     1e6 * p->rounding_of_backlash, FF_GOOD, text);
+}
+
 static void report_quality(const spur *s)
 {
     const gear_spur_pair *p = &s->pair;
     const ff_host *host = s->host;
     const double m = s->spec.module;
     double tip = fmin(p->tip_thickness[0], p->tip_thickness[1]) / m;
+    report_rounding(s);
     host->quality(host->ctx, "pitch_error", p->pitch_error, 1e-9,
                   p->pitch_error <= 1e-9 ? FF_GOOD : FF_BAD,
                   "tooth thicknesses and backlash fill the working pitch");

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "spur-geometry.h"
 
+#include "drawing-rounding.h"
 #include "tooth-measures.h"
 
 #include <flankfilm/author.h>
@@ -13,9 +14,6 @@ static const double addendum = 1.0, clearance = 0.25;
 /* An undercut of this depth, in modules, is none: 17 teeth at 20 degrees, which are usually cut
    without profile shift, lie 0.006 below the limit. */
 static const double harmless_undercut = 0.01;
-
-/* Tolerance for the rounding of a stated centre distance, in modules of backlash. */
-static const double rounding = 1e-3;
 
 /* Places on the path of contact that are nearer than this, in base pitches, are the same. */
 static const double same_place = 1e-9;
@@ -84,37 +82,35 @@ static ff_status mount(const ff_host *host, const gear_spur_spec *g, gear_spur_p
     return FF_OK;
 }
 
-/* Allowances and backlash. Teeth of full thickness have the backlash
-   j = m cos(a) (z1 + z2) (inv a_w - inv a_tight) along the line of action at this centre distance;
-   allowances A1 and A2 of the arcs add -(A1 + A2) cos(a). */
-static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
+/* Backlash along the line of action of teeth of full thickness at a stated centre distance,
+   j = m cos(a) (z1 + z2) (inv a_w - inv a_tight). */
+static double full_backlash(const gear_spur_spec *g, const gear_spur_pair *p)
 {
-    double tight = tight_involute(g), full = 0;
-    if (g->centre_distance > 0)
-        full = g->module * cos(g->pressure_angle) *
-               (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1)) *
-               (gear_involute(p->working_angle) - tight);
-    for (int i = 0; i < 2; i++)
-        p->thickness[i] =
-            g->module * (M_PI_2 + 2 * ff_of_both(&g->shift, i) * tan(g->pressure_angle));
-    bool measured = g->allowance.count > 0 || g->span.count > 0 || g->over_pins.count > 0;
-    if (!isnan(g->backlash)) {
-        double unit = g->backlash_measure == 1 ? cos(p->working_angle) : 1;
-        p->backlash = g->backlash * unit;
-        if (p->backlash < full - rounding * g->module)
-            return ff_failf(host, FF_INVALID, "backlash",
-                            "backlash %g mm is less than the %.4f mm that teeth of these profile "
-                            "shifts have at centre_distance %g mm; state the backlash of the "
-                            "mounted pair, or leave it out",
-                            1e3 * g->backlash, 1e3 * full / unit, 1e3 * p->centre_distance);
-        for (int i = 0; i < 2; i++)
-            p->allowance[i] = -(p->backlash - full) / (2 * cos(g->pressure_angle));
-        return FF_OK;
-    }
-    for (int i = 0; i < 2 && measured; i++)
-        p->allowance[i] = gear_measured_allowance(g, p, i);
-    double backlash = full - (p->allowance[0] + p->allowance[1]) * cos(g->pressure_angle);
-    if (backlash < -rounding * g->module && measured)
+    if (!(g->centre_distance > 0))
+        return 0;
+    return g->module * cos(g->pressure_angle) *
+           (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1)) *
+           (gear_involute(p->working_angle) - tight_involute(g));
+}
+
+/* What a stated backlash is multiplied by to be measured along the line of action. */
+static double backlash_unit(const gear_spur_spec *g, const gear_spur_pair *p)
+{
+    return g->backlash_measure == 1 ? cos(p->working_angle) : 1;
+}
+
+/* Refuses teeth that jam by more than the drawing's digits leave open. */
+static ff_status refuse_jam(const ff_host *host, const gear_spur_spec *g, const gear_spur_pair *p,
+                            double full, double backlash)
+{
+    if (!isnan(g->backlash))
+        return ff_failf(host, FF_INVALID, "backlash",
+                        "backlash %g mm is less than the %.4f mm that teeth of these profile "
+                        "shifts have at centre_distance %g mm; state the backlash of the "
+                        "mounted pair, or leave it out",
+                        1e3 * g->backlash, 1e3 * full / backlash_unit(g, p),
+                        1e3 * p->centre_distance);
+    if (g->allowance.count > 0 || g->span.count > 0 || g->over_pins.count > 0)
         return ff_failf(host, FF_INVALID,
                         g->span.count > 0        ? "span"
                         : g->over_pins.count > 0 ? "over_pins"
@@ -124,15 +120,66 @@ static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear
                         "must sum to %.4g mm or less",
                         1e3 * p->allowance[0], 1e3 * p->allowance[1], -1e3 * backlash,
                         1e3 * p->centre_distance, 1e3 * full / cos(g->pressure_angle));
-    if (backlash < -rounding * g->module)
-        return ff_failf(host, FF_INVALID, "centre_distance",
-                        "at centre_distance %g mm teeth of these profile shifts do not fit into "
-                        "each other; it must be at least %.4f mm, or give thickness_allowance, "
-                        "span, over_pins or backlash",
-                        1e3 * p->centre_distance,
-                        1e3 * (p->base_radius[0] + p->base_radius[1]) /
-                            cos(gear_involute_inverse(tight)));
-    p->backlash = fmax(backlash, 0);
+    return ff_failf(host, FF_INVALID, "centre_distance",
+                    "at centre_distance %g mm teeth of these profile shifts do not fit into "
+                    "each other; it must be at least %.4f mm, or give thickness_allowance, "
+                    "span, over_pins or backlash",
+                    1e3 * p->centre_distance,
+                    1e3 * (p->base_radius[0] + p->base_radius[1]) /
+                        cos(gear_involute_inverse(tight_involute(g))));
+}
+
+/* Allowances and backlash: allowances A1 and A2 of the arcs add -(A1 + A2) cos(a) to the backlash
+   of teeth of full thickness. Teeth that overlap by less than the digits of the drawing leave open
+   get the allowances at which they just fit. */
+static ff_status set_backlash(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
+{
+    const bool stated = !isnan(g->backlash);
+    const double full = full_backlash(g, p), cosine = cos(g->pressure_angle);
+    for (int i = 0; i < 2; i++)
+        p->thickness[i] =
+            g->module * (M_PI_2 + 2 * ff_of_both(&g->shift, i) * tan(g->pressure_angle));
+    if (stated)
+        p->backlash = g->backlash * backlash_unit(g, p);
+    for (int i = 0; i < 2 && stated; i++)
+        p->allowance[i] = -(p->backlash - full) / (2 * cosine);
+    for (int i = 0; i < 2 && !stated; i++)
+        if (g->allowance.count > 0 || g->span.count > 0 || g->over_pins.count > 0)
+            p->allowance[i] = gear_measured_allowance(g, p, i);
+    /* how far the pair is from the least that it can have: of a stated backlash what full teeth
+       leave, otherwise none */
+    const double spare =
+        stated ? p->backlash - full : full - (p->allowance[0] + p->allowance[1]) * cosine;
+    p->rounding_of_backlash = gear_rounding_of_backlash(g, p);
+    if (spare < -p->rounding_of_backlash)
+        return refuse_jam(host, g, p, full, spare);
+    p->moved_backlash = fmax(-spare, 0);
+    for (int i = 0; i < 2; i++)
+        p->allowance[i] -= p->moved_backlash / (2 * cosine);
+    p->backlash = stated ? p->backlash + p->moved_backlash : fmax(spare, 0);
+    return FF_OK;
+}
+
+/* A tip that strikes its mate's root by less than the digits of the drawing leave open moves the
+   root away. */
+static ff_status set_clearance(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)
+{
+    p->clearance = HUGE_VAL;
+    for (int tip = 0; tip < 2; tip++) {
+        const int root = 1 - tip;
+        double gap = p->centre_distance - p->tip_radius[tip] - p->root_radius[root];
+        if (gap < -gear_rounding_of_clearance(g))
+            return ff_failf(host, FF_INVALID,
+                            ff_of_both(&g->root_diameter, root) > 0 ? "root_diameter"
+                                                                    : "tip_diameter",
+                            "the tip of gear %d (diameter %g mm) strikes the root of gear %d (%g "
+                            "mm) at centre distance %g mm; tip and root radius must sum to less",
+                            tip + 1, 2e3 * p->tip_radius[tip], root + 1, 2e3 * p->root_radius[root],
+                            1e3 * p->centre_distance);
+        p->moved_root[root] = fmax(-gap, 0);
+        p->root_radius[root] -= p->moved_root[root];
+        p->clearance = fmin(p->clearance, fmax(gap, 0));
+    }
     return FF_OK;
 }
 
@@ -163,18 +210,7 @@ static ff_status set_depths(const ff_host *host, const gear_spur_spec *g, gear_s
                             i + 1, 2e3 * p->tip_radius[i], 2e3 * least,
                             p->root_radius[i] > p->base_radius[i] ? "root" : "base");
     }
-    p->clearance = fmin(p->centre_distance - p->tip_radius[0] - p->root_radius[1],
-                        p->centre_distance - p->tip_radius[1] - p->root_radius[0]);
-    int tip = p->tip_radius[0] + p->root_radius[1] > p->tip_radius[1] + p->root_radius[0] ? 0 : 1;
-    if (p->clearance < 0)
-        return ff_failf(host, FF_INVALID,
-                        ff_of_both(&g->root_diameter, 1 - tip) > 0 ? "root_diameter"
-                                                                   : "tip_diameter",
-                        "the tip of gear %d (diameter %g mm) strikes the root of gear %d (%g mm) "
-                        "at centre distance %g mm; tip and root radius must sum to less",
-                        tip + 1, 2e3 * p->tip_radius[tip], 2 - tip, 2e3 * p->root_radius[1 - tip],
-                        1e3 * p->centre_distance);
-    return FF_OK;
+    return set_clearance(host, g, p);
 }
 
 /* The tip of the tool that cuts gear i: its round, the depth of the round's centre below the middle

@@ -50,6 +50,9 @@ typedef struct gear_spur_pair {
     double undercut[2]; /* radius of curvature up to which undercut takes the involute; 0: none */
     double form[2];     /* radius of curvature where the involute begins */
     double clearance;   /* least gap between a tip and the mating root */
+    /* What the rounding of the stated dimensions has moved: the backlash along the line of action,
+       of at most rounding_of_backlash, and the root radii inwards; 0: nothing. */
+    double moved_backlash, rounding_of_backlash, moved_root[2];
 } gear_spur_pair;
 
 double gear_involute(double angle);         /* inv a = tan a - a */

@@ -61,10 +61,22 @@ enum { ROWS = sizeof rows / sizeof rows[0] };
 /* Parameters of the gears that stand below the numbers. */
 static const struct {
     const char *label, *param;
-} words[] = {{"material", "material"},         {"material of gear 2", "material_2"},
-             {"tip relief", "tip_relief"},     {"root relief", "root_relief"},
-             {"profile crown", "crowning"},    {"dedendum of the tool over the module", "dedendum"},
-             {"protuberance", "protuberance"}, {"machining allowance", "machining_allowance"}};
+} words[] = {{"material", "material"},
+             {"material of gear 2", "material_2"},
+             {"tip relief", "tip_relief"},
+             {"tip relief from the roll angle", "tip_relief_start"},
+             {"tip relief from the diameter", "tip_relief_diameter"},
+             {"length of the tip relief", "tip_relief_length"},
+             {"shape of the tip relief", "tip_relief_shape"},
+             {"root relief", "root_relief"},
+             {"root relief from the roll angle", "root_relief_start"},
+             {"root relief from the diameter", "root_relief_diameter"},
+             {"length of the root relief", "root_relief_length"},
+             {"shape of the root relief", "root_relief_shape"},
+             {"profile crown", "crowning"},
+             {"dedendum of the tool over the module", "dedendum"},
+             {"protuberance", "protuberance"},
+             {"machining allowance", "machining_allowance"}};
 enum { WORDS = sizeof words / sizeof words[0], WORD = 120 };
 
 /* The numbers of a row in SI: one, or one of each gear. */

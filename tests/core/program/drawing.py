@@ -122,6 +122,13 @@ with tempfile.TemporaryDirectory() as place:
     code, text, _ = explain(file, "--json")
     check_numbers(json.loads(text)["gears"])
 
+    reliefs = {"tip_relief": "[20 um, 8 um]", "tip_relief_diameter": "[69.4 mm, 179.2 mm]", "tip_relief_shape": "parabolic",
+               "root_relief": "6 um", "root_relief_length": "[1.5 mm, 2 mm]"}
+    code, text, _ = explain(file, *[word for name, value in reliefs.items() for word in ("--set", f"gears.{name}={value}")])
+    rows = {line[:42].strip(): line[42:].strip() for line in text.splitlines()}
+    assert [rows.get(row) for row in ("tip relief", "tip relief from the diameter", "shape of the tip relief", "root relief",
+                                      "length of the root relief")] == list(reliefs.values()), text
+
     code, _, said = explain(file, "--set", "gears.thickness_allowance=[-60 um to 0 um, -60 um to 120 um]")
     assert code == 2 and "jam by" in said and "cannot be made" in said, said
     code, _, said = explain(os.path.join(source, "configs/line-contact.yaml"))

@@ -103,6 +103,80 @@ static void test_parabola(void)
     stage_close(s);
 }
 
+/* Two pairs whose flanks are the same to the bit. */
+static void check_same(const char *what, const stage *a, const stage *b)
+{
+    size_t n, m;
+    const double *x = stage_get(a, "profile_deviation", &n);
+    const double *y = stage_get(b, "profile_deviation", &m);
+    const double *roll_x = stage_get(a, "profile_roll", NULL);
+    const double *roll_y = stage_get(b, "profile_roll", NULL);
+    check_true(what, n == m && n > 1000 && memcmp(x, y, n * sizeof *x) == 0 &&
+                         memcmp(roll_x, roll_y, n * sizeof *x) == 0);
+}
+
+/* Reliefs of both gears that start where the literature says in one of three ways. */
+static stage *relieved(const char *end, const char *way, double first, double second)
+{
+    char name[40];
+    stage *s = open_pair();
+    snprintf(name, sizeof name, "%s_relief", end);
+    stage_set_text(s, name, "[20 um, 8 um]");
+    snprintf(name, sizeof name, "%s_relief_%s", end, way);
+    stage_set_reals(s, name, 2, (double[]){first, second});
+    check_true(name, stage_run(s) == FF_OK);
+    return s;
+}
+
+/* Roll angle of the flank at a radius, sqrt(r^2 - r_b^2)/r_b. */
+static double roll_of(double base, double diameter)
+{
+    return sqrt((diameter / 2 - base) * (diameter / 2 + base)) / base;
+}
+
+static void test_start_as_drawn(void)
+{
+    stage *plain = run_with("tip_relief", "0 um");
+    const double *base = stage_get(plain, "base_radius", NULL);
+    const double *tip = stage_get(plain, "tip_radius", NULL);
+    const double *foot = stage_get(plain, "active_root_radius", NULL);
+    const struct {
+        const char *end;
+        double d[2];
+    } of[] = {{"tip", {153.21e-3, 124.87e-3}}, {"root", {147.66e-3, 117.43e-3}}};
+    for (size_t k = 0; k < 2; k++) {
+        const double roll[2] = {roll_of(base[0], of[k].d[0]), roll_of(base[1], of[k].d[1])};
+        const double *at = k == 0 ? tip : foot;
+        double length[2];
+        for (size_t g = 0; g < 2; g++)
+            length[g] = base[g] * fabs(roll_of(base[g], 2 * at[g]) - roll[g]);
+        stage *angle = relieved(of[k].end, "start", roll[0], roll[1]);
+        stage *diameter = relieved(of[k].end, "diameter", of[k].d[0], of[k].d[1]);
+        stage *along = relieved(of[k].end, "length", length[0], length[1]);
+        check_same("by diameter as by roll angle", diameter, angle);
+        for (size_t g = 0; g < 2; g++)
+            for (int i = 0; i <= 10; i++)
+                check_below("by length as by roll angle, m",
+                            fabs(deviation(along, g, i / 10.0) - deviation(angle, g, i / 10.0)),
+                            1e-15);
+        stage_close(angle);
+        stage_close(diameter);
+        stage_close(along);
+    }
+    stage_close(plain);
+}
+
+/* A relief of the whole flank whose start is typed 3 um of diameter below its lowest contact. */
+static void test_rounded_start(void)
+{
+    stage *plain = run_with("tip_relief", "0 um");
+    const double *foot = stage_get(plain, "active_root_radius", NULL);
+    stage *s = relieved("tip", "diameter", 2 * foot[0] - 3e-6, 2 * foot[1]);
+    check_near("starts at the lowest contact", deviation(s, 0, 0.5), -10e-6, 1e-9);
+    stage_close(s);
+    stage_close(plain);
+}
+
 static void test_root_relief(void)
 {
     stage *s = run_with("root_relief", "12 um");
@@ -195,6 +269,15 @@ static void test_refusals(void)
     expect_refusal(s, "tip_relief_start",
                    "gear 1: the relief starts at the roll angle 13.0000 deg");
     s = open_pair();
+    stage_set_text(s, "tip_relief", "20 um");
+    stage_set_text(s, "tip_relief_diameter", "[153 mm, 131 mm]");
+    expect_refusal(s, "tip_relief_diameter",
+                   "gear 2: the relief starts at the diameter 131.0000 mm");
+    s = open_pair();
+    stage_set_text(s, "root_relief", "20 um");
+    stage_set_text(s, "root_relief_length", "[3 mm, 0 mm]");
+    expect_refusal(s, "root_relief_length", "gear 2: the relief starts where it ends");
+    s = open_pair();
     stage_set_text(s, "root_relief_start", "[20 deg, 40 deg]");
     expect_refusal(s, "root_relief_start", "gear 2");
     s = open_pair();
@@ -222,6 +305,8 @@ int main(void)
     test_flanks_reach_from_contact_to_contact();
     test_tip_relief();
     test_parabola();
+    test_start_as_drawn();
+    test_rounded_start();
     test_root_relief();
     test_crown_and_slope();
     test_pitch_error();
