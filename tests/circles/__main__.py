@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Fails when files or folders of core/ use each other in a circle, and prints each circle with what makes it.
+"""Fails when files or folders of core/ or plugins/ehl/ use each other in a circle, and prints each circle with what
+makes it.
 
   python3 tests/circles BUILD
 
 One file uses another when it needs a function or a variable that the other defines, as `nm` reads it from the objects of
 the build; a function that libc has, too, is libc's, also where the program defines it for plugins. A folder uses another
-when one of its files does, or includes one of its headers. The folders of the engine use each other in one direction
-alone: that is asked for by name, too.
+when one of its files does, or includes one of its headers. The folders of the engine and of the film use each other in
+one direction alone: that is asked for by name, too.
 """
 
 import collections
@@ -17,17 +18,21 @@ import subprocess
 import sys
 from pathlib import Path
 
-LAYERS = ['core/engine/value', 'core/engine/plugin', 'core/engine/pipeline', 'core/engine', 'core/program']
+# each part with its folders, which may use those named before them
+PARTS = {
+    'core': ['engine/value', 'engine/plugin', 'engine/pipeline', 'engine', 'program'],
+    'plugins/ehl': ['contact', 'equations', 'solvers', 'estimates', 'heat', 'time', 'errors', 'stage'],
+}
 
 
-def find_objects(build):
-    """{file of core: its object}"""
+def find_objects(build, part):
+    """{file of the part: its object}"""
     source = json.loads((build / 'meson-info/intro-buildsystem_files.json').read_text())
     root = Path(min(source, key=len)).parent.resolve()
     objects = {}
     for entry in json.loads((build / 'compile_commands.json').read_text()):
         file = (Path(entry['directory']) / entry['file']).resolve()
-        if file.is_relative_to(root / 'core'):
+        if file.is_relative_to(root / part):
             objects[file.relative_to(root)] = Path(entry['directory']) / entry['output']
     return root, objects
 
@@ -58,17 +63,17 @@ def uses_of_files(objects):
     return uses
 
 
-def uses_of_folders(root, files):
+def uses_of_folders(root, part, files):
     """The same between folders, includes of headers counted."""
     uses = collections.defaultdict(lambda: collections.defaultdict(set))
     for file, used in files.items():
         for other, names in used.items():
             if file.parent != other.parent:
                 uses[file.parent][other.parent] |= {f'{name} in {file.name}' for name in names}
-    for file in sorted((root / 'core').rglob('*.[ch]')):
+    for file in sorted((root / part).rglob('*.[ch]')):
         for name in re.findall(r'^#include "(.*)"', file.read_text(), re.MULTILINE):
             other = (file.parent / name).resolve()
-            if other.is_relative_to(root / 'core') and other.parent != file.parent:
+            if other.is_relative_to(root / part) and other.parent != file.parent:
                 folder = file.parent.relative_to(root)
                 uses[folder][other.parent.relative_to(root)].add(f'{other.name} in {file.name}')
     return uses
@@ -114,12 +119,11 @@ def print_circles(what, uses):
     return len(circles)
 
 
-def layer(folder):
-    return next(i for i, name in enumerate(LAYERS) if folder.is_relative_to(name))
-
-
-def print_wrong_directions(folders):
+def print_wrong_directions(part, folders):
     """A lower layer must not use a higher one, even where that closes no circle."""
+    def layer(folder):
+        return next(i for i, name in enumerate(PARTS[part]) if folder.is_relative_to(f'{part}/{name}'))
+
     wrong = 0
     for user, used in folders.items():
         for other, names in used.items():
@@ -130,17 +134,17 @@ def print_wrong_directions(folders):
     return wrong
 
 
-def main(build):
-    root, objects = find_objects(build)
+def count_faults(build, part):
+    root, objects = find_objects(build, part)
     files = uses_of_files(objects)
-    folders = uses_of_folders(root, files)
+    folders = uses_of_folders(root, part, files)
     edges = sum(map(len, files.values()))
     if edges < len(objects):
-        sys.exit(f'{edges} uses between {len(objects)} objects of core: nm does not read these')
-    faults = print_circles('files', files) + print_circles('folders', folders) + print_wrong_directions(folders)
-    print(f'{len(objects)} files of core, {edges} uses, {faults} faults')
-    return faults > 0
+        sys.exit(f'{edges} uses between {len(objects)} objects of {part}: nm does not read these')
+    faults = print_circles('files', files) + print_circles('folders', folders) + print_wrong_directions(part, folders)
+    print(f'{len(objects)} files of {part}, {edges} uses, {faults} faults')
+    return faults
 
 
 if __name__ == '__main__':
-    sys.exit(main(Path(sys.argv[1])))
+    sys.exit(sum(count_faults(Path(sys.argv[1]), part) for part in PARTS) > 0)

@@ -13,7 +13,7 @@
 
 A list of bugs consists of blocks, and the old text must be unique in its file:
   # name: what it breaks
-  file: plugins/ehl/reynolds.c
+  file: plugins/ehl/equations/reynolds.c
   - the old text, one or several lines
   + the new text, none, one or several lines
 

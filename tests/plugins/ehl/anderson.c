@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Anderson acceleration of a linear relaxation: as many steps as unknowns, and one, end it. */
-#include "../../../plugins/ehl/anderson.h"
+#include "../../../plugins/ehl/solvers/anderson.h"
 
 #include "check.h"
 

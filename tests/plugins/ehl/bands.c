@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The banded matrices solve what they stand for, for a kernel that is even behind their reach: the
    balances by the pressures and by all that they deflect, and the load. */
-#include "../../../plugins/ehl/band.h"
-#include "../../../plugins/ehl/line.h"
-#include "../../../plugins/ehl/reynolds.h"
+#include "../../../plugins/ehl/equations/reynolds.h"
+#include "../../../plugins/ehl/solvers/band.h"
+#include "../../../plugins/ehl/solvers/line.h"
 #include "check.h"
 
 #include <math.h>

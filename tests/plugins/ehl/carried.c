@@ -3,7 +3,7 @@
    cell of that way. */
 #include "check.h"
 
-#include "../../../plugins/ehl/carried.h"
+#include "../../../plugins/ehl/errors/carried.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The heated channel against its closed forms, and the table of it against its solutions. */
-#include "../../../plugins/ehl/channel.h"
+#include "../../../plugins/ehl/estimates/channel.h"
 
-#include "../../../plugins/ehl/inlet-heat.h"
+#include "../../../plugins/ehl/estimates/inlet-heat.h"
 #include "check.h"
 
 #include <math.h>

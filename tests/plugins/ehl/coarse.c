@@ -2,8 +2,8 @@
 /* What the coarse system takes off the balances, against sums over the blocks of its own. */
 #include "check.h"
 
-#include "../../../plugins/ehl/coarse.h"
-#include "../../../plugins/ehl/deflection.h"
+#include "../../../plugins/ehl/equations/deflection.h"
+#include "../../../plugins/ehl/solvers/coarse.h"
 
 #include <math.h>
 #include <stdlib.h>

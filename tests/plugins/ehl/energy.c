@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Temperature and flow across a film of parallel flanks, against closed forms. */
-#include "../../../plugins/ehl/energy.h"
+#include "../../../plugins/ehl/heat/energy.h"
 #include "check.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
  *
  *   test-ehl-formula [print]      print: the scatter as a table for the documentation
  */
-#include "../../../plugins/ehl/formula.h"
+#include "../../../plugins/ehl/estimates/formula.h"
 #include "check.h"
 
 #include "line.h"

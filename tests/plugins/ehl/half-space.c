@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The flank as a moving half-space, against the closed forms of constant and of moving heat. */
-#include "../../../plugins/ehl/half-space.h"
+#include "../../../plugins/ehl/heat/half-space.h"
 #include "check.h"
 
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* thermal: inlet in every model of the film. */
-#include "../../../plugins/ehl/channel.h"
+#include "../../../plugins/ehl/estimates/channel.h"
 #include "check.h"
 
 #include "line.h"

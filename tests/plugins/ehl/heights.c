@@ -3,7 +3,7 @@
  */
 #include "check.h"
 
-#include "../../../plugins/ehl/traces.h"
+#include "../../../plugins/ehl/contact/traces.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The line of the quality record that says what an isothermal film leaves out. */
-#include "../../../plugins/ehl/inlet.h"
+#include "../../../plugins/ehl/estimates/inlet.h"
 #include "check.h"
 
 #include "line.h"

@@ -3,7 +3,7 @@
 #include "check.h"
 #include "stage.h"
 
-#include "../../../plugins/ehl/reynolds.h"
+#include "../../../plugins/ehl/equations/reynolds.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 /* Deflection: the kernel against quadrature, the FFT against the double sum, Hertz's pressure. */
 #include "check.h"
 
-#include "../../../plugins/ehl/deflection.h"
+#include "../../../plugins/ehl/equations/deflection.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 /* What a law answers wrongly is noted as its fault, and no integration over it goes on for ever. */
 #include "check.h"
 
-#include "../../../plugins/ehl/liquid.h"
+#include "../../../plugins/ehl/contact/liquid.h"
 
 #include <math.h>
 #include <string.h>

@@ -3,8 +3,8 @@
    series that are made up. */
 #include "check.h"
 
-#include "../../../plugins/ehl/outputs.h"
-#include "../../../plugins/ehl/stage.h"
+#include "../../../plugins/ehl/stage/outputs.h"
+#include "../../../plugins/ehl/stage/stage.h"
 
 #include <math.h>
 #include <string.h>

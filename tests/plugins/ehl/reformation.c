@@ -9,9 +9,9 @@
 #include "check.h"
 #include "stage.h"
 
-#include "../../../plugins/ehl/cavitation.h"
-#include "../../../plugins/ehl/deflection.h"
-#include "../../../plugins/ehl/solver.h"
+#include "../../../plugins/ehl/equations/cavitation.h"
+#include "../../../plugins/ehl/equations/deflection.h"
+#include "../../../plugins/ehl/equations/solver.h"
 
 #include <math.h>
 #include <stdlib.h>

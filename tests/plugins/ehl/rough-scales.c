@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The scales of a record of two rough flanks: distance of peaks, curvature, inlet of an asperity.
  */
-#include "../../../plugins/ehl/surface.h"
+#include "../../../plugins/ehl/contact/surface.h"
 
 #include "check.h"
 

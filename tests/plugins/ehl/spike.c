@@ -3,8 +3,8 @@
 #include "check.h"
 #include "stage.h"
 
-#include "../../../plugins/ehl/grid.h"
-#include "../../../plugins/ehl/space-error.h"
+#include "../../../plugins/ehl/contact/grid.h"
+#include "../../../plugins/ehl/errors/space-error.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,9 +3,11 @@
 #include "check.h"
 #include "stage.h"
 
-#include "../../../plugins/ehl/balance.h"
-#include "../../../plugins/ehl/deflection.h"
-#include "../../../plugins/ehl/stage.h"
+#include "../../../plugins/ehl/equations/deflection.h"
+#include "../../../plugins/ehl/errors/balance.h"
+#include "../../../plugins/ehl/stage/stage.h"
+#include "../../../plugins/ehl/time/start.h"
+#include "../../../plugins/ehl/time/time-stepper.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -4,7 +4,7 @@
 #include "check.h"
 #include "line.h"
 
-#include "../../../plugins/ehl/time-error.h"
+#include "../../../plugins/ehl/errors/time-error.h"
 
 #include <math.h>
 #include <stdio.h>

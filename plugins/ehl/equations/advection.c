@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What moves on with the oil: pressure, state and mass of a rough film. */
+#include "advection.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Shortest way of the oil in a step, in cells: shorter steps gain nothing that the cells
+   resolve. */
+static const double SHORTEST_ADVECTION = 0.25;
+
+/* Returns the node that the oil at node i comes from, `cells` upstream; oil from outside the domain
+   is that of the first node. */
+static size_t upstream_node(size_t i, size_t cells)
+{
+    return i > cells ? i - cells : 0;
+}
+
+static size_t cells_since(const ehl_march *m, const ehl_state *s)
+{
+    return (size_t)fmax(0, m->moved - s->moved);
+}
+
+size_t ehl_upstream_node(const ehl_march *m, const ehl_state *s, size_t i)
+{
+    return upstream_node(i, cells_since(m, s));
+}
+
+void ehl_advect_values(const ehl_march *m, const ehl_state *s, size_t each, const double *from,
+                       double *to)
+{
+    size_t cells = cells_since(m, s);
+    for (size_t i = 0; i < m->solver->grid->nodes; i++)
+        memcpy(to + i * each, from + upstream_node(i, cells) * each, each * sizeof *to);
+}
+
+/*
+ * The nodes move with the oil, and are moved back by a whole cell when they have moved by one. What
+ * is only transported thus stays unchanged in any number of steps, and the change of mass along the
+ * path of the oil takes the place of the wedge.
+ */
+void ehl_advect_mass(ehl_march *m, const double **one, const double **two)
+{
+    double *moved[2] = {m->change, m->deflection};
+    for (size_t k = 0; k < 2 && k < m->smooth; k++)
+        ehl_advect_values(m, &m->state[k], 1, m->state[k].mass, moved[k]);
+    *one = m->change;
+    *two = m->deflection;
+}
+
+/*
+ * The roughness carries its pressure along at about the mean speed. The trial becomes the last film
+ * on the nodes as they have moved, with pressure and thickness extrapolated from the last step, h00
+ * being such that the mean of the thickness, weighted by the pressure, is what was extrapolated.
+ */
+void ehl_advect_film(ehl_march *m, const ehl_instant *at)
+{
+    ehl_reynolds *r = m->solver->reynolds;
+    const ehl_state *s = &m->state[0];
+    ehl_film *film = &m->trial.film;
+    const ehl_state *older = &m->state[1];
+    size_t n = m->solver->grid->nodes, cells = cells_since(m, s), more = cells;
+    double off = 0, weight = 0, ratio = 0;
+    if (m->smooth > 1 && older->loaded == s->loaded) {
+        more = cells_since(m, older);
+        ratio = fmin(1, (at->time - s->time) / (s->time - older->time));
+    }
+    for (size_t i = n; i-- > 0;) {
+        size_t from = upstream_node(i, cells);
+        int inner = i > 0 && i + 1 < n;
+        film->full[i] = inner && (s->film.full[from] || from == 0);
+        film->asperity[i] = inner && s->film.asperity[from];
+        double p = s->film.p[from], gain = ratio * (p - older->film.p[upstream_node(i, more)]);
+        film->p[i] = film->full[i] ? fmax(0.5 * p, p + gain) : 0;
+        if (film->plastic) {
+            film->p[i] = fmin(film->p[i], r->hardness);
+            film->plastic[i] = film->p[i] >= r->hardness ? s->film.plastic[from] : 0;
+        }
+        film->content[i] = s->mass[from];
+    }
+    film->h00 = s->film.h00;
+    m->solver->deflect(m->solver, film->p, film->v);
+    ehl_reynolds_gap(r, at->radius, film);
+    for (size_t i = 0; i < n; i++) {
+        double gap = s->gap[upstream_node(i, cells)];
+        gap += ratio * (gap - older->gap[upstream_node(i, more)]);
+        off += film->p[i] * (gap - r->h[i]);
+        weight += film->p[i];
+    }
+    if (weight > 0 && at->load > 0)
+        film->h00 += off / weight;
+}
+
+double ehl_largest_advection(const ehl_march *m)
+{
+    double contact = m->solver->reynolds->contact;
+    double inlet = ehl_roughness_inlet(m->rough, contact) / m->solver->grid->dx;
+    return m->state[0].thinnest < EHL_NEAR_CONTACT * contact
+               ? fmin(fmax(inlet / 2, SHORTEST_ADVECTION), 1)
+               : 1;
+}

@@ -1,0 +1,152 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "cavitation.h"
+
+#include "../contact/lanes.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Largest change of the pressure in a Newton step, over the largest pressure: of smooth flanks, and
+   of rough ones. */
+static const double PRESSURE_CHANGE = 0.3, ROUGH_PRESSURE_CHANGE = 0.1;
+
+/* Largest share of its thickness that a film may lose in a Newton step. */
+static const double THINNING = 0.9;
+
+/* An error of the load below this share is removed by a factor on the pressure. */
+static const double SMALL_LOAD_ERROR = 0.05;
+
+/* Least pressure scale over the largest Hertz pressure. */
+static const double LEAST_SCALE = 1e-6;
+
+/* FULL and FILLING are states of a node while the film grows. A node that was filled QUICK_FILLINGS
+   times in one solution is no longer filled together with its neighbour, and after MOST_FILLINGS,
+   or ROUGH_FILLINGS with rough flanks, not at all. */
+enum { FULL = 1, FILLING = 2, QUICK_FILLINGS = 2, MOST_FILLINGS = 8, ROUGH_FILLINGS = 24 };
+
+ff_status ehl_cavitation_create(ehl_cavitation *w, size_t nodes)
+{
+    w->filled = calloc(2 * nodes, 1);
+    w->cut = w->filled ? w->filled + nodes : NULL;
+    return w->filled ? FF_OK : FF_NOMEM;
+}
+
+void ehl_cavitation_destroy(ehl_cavitation *w)
+{
+    free(w->filled);
+    w->filled = NULL;
+}
+
+void ehl_cavitation_begin(ehl_cavitation *w, size_t nodes)
+{
+    memset(w->filled, 0, 2 * nodes);
+    w->stride = 1;
+    w->split = 0;
+}
+
+int ehl_cavitation_grow_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film)
+{
+    size_t end = r->nodes - 1, reach = w->stride - 1;
+    int grown = 0, longer = 0;
+    for (size_t i = 1; i < end; i++) {
+        if ((film->full[i] & FULL) || !(r->residual[i] > 0))
+            continue;
+        size_t from = i > reach ? i - reach : 1, to = i + reach < end ? i + reach : end - 1;
+        for (size_t k = from; k <= to; k++)
+            film->full[k] |= FILLING;
+        grown = 1;
+    }
+    for (size_t i = 1; grown && i < end; i++) {
+        longer |= film->full[i] && i >= r->last;
+        film->full[i] = film->full[i] != 0;
+    }
+    w->stride = grown ? 2 * w->stride : 1;
+    w->moved = grown;
+    return longer;
+}
+
+int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film, int steps)
+{
+    int most = r->rough ? ROUGH_FILLINGS
+                        : MOST_FILLINGS; /* at that limit a rough step fails, and is cut */
+    int filled = 0, beside = 0;          /* beside: the node upstream has just been filled */
+    for (size_t i = 1; i + 1 < r->nodes; i++) {
+        int over =
+            !film->full[i] && !(steps && w->cut[i]) && film->content[i] > r->oil.density * r->h[i];
+        int careful = w->filled[i] >= QUICK_FILLINGS;
+        beside = over && !(careful && beside) && w->filled[i] < most;
+        if (!beside)
+            continue;
+        filled = film->full[i] = 1;
+        w->filled[i]++;
+    }
+    memset(w->cut, 0, r->nodes);
+    w->moved = filled;
+    return filled;
+}
+
+double ehl_cavitation_shrink_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film,
+                                  double *change)
+{
+    size_t nodes = r->nodes;
+    double cut = 0;
+    int full_behind = 0;
+    memset(change, 0, nodes * sizeof *change);
+    w->split = 0;
+    for (size_t i = nodes - 2; i > 0; i--) {
+        full_behind |= film->full[i] && !(film->p[i] < 0);
+        if (film->p[i] < 0) {
+            w->split |= full_behind;
+            change[i] = -film->p[i];
+            cut = fmax(cut, -film->p[i]);
+            film->p[i] = 0;
+            film->full[i] = 0;
+            w->cut[i] = 1;
+            film->asperity[i] = 0;
+            w->moved = 1;
+            w->stride = 1;
+            if (r->conserving)
+                film->content[i] = r->oil.density * r->h[i];
+        }
+    }
+    return cut;
+}
+
+double ehl_pressure_scale(const ehl_grid *g, const ehl_film *film, size_t nodes)
+{
+    return ehl_greatest(nodes, film->p, LEAST_SCALE * g->pressure);
+}
+
+double ehl_step_share(const ehl_grid *g, const ehl_reynolds *r, const ehl_film *film, double dp,
+                      const double *dh)
+{
+    double most = PRESSURE_CHANGE * fmax(g->pressure, ehl_pressure_scale(g, film, r->nodes)),
+           fall = 1;
+    double share = dp > most ? most / dp : 1;
+    if (r->rough) /* a film that falls too far comes into contact, and needs no limit */
+        return dp > ROUGH_PRESSURE_CHANGE * most / PRESSURE_CHANGE
+                   ? ROUGH_PRESSURE_CHANGE * most / (PRESSURE_CHANGE * dp)
+                   : 1;
+    for (size_t i = 1; i < r->last; i++) { /* the film must not vanish */
+        double part = r->h[i] > r->floor && film->full[i] ? -dh[i] / (THINNING * r->h[i]) : 0;
+        fall = part > fall ? part : fall;
+    }
+    return fmin(share, 1 / fall);
+}
+
+int ehl_rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
+{
+    size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
+    double load = ehl_film_load(film, n, s->grid->dx);
+    double factor = step->loaded ? step->load / load : 1;
+    s->rescaling = fabs(factor - 1);
+    if (!(s->rescaling < SMALL_LOAD_ERROR))
+        return 0;
+    film->h00 -= (factor - 1) * film->v[centre < n ? centre : n - 1];
+    for (size_t i = 0; i < n; i++)
+        film->p[i] *= factor;
+    for (size_t i = 0; i < n; i++)
+        film->v[i] *= factor;
+    return 1;
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The interface of a solver of one instant, as the time marching uses it. */
+#ifndef EHL_SOLVER_H
+#define EHL_SOLVER_H
+
+#include "reynolds.h"
+
+#include <flankfilm/film.h>
+
+/* Most Newton steps from an extrapolated film, a carried film, the last film, and a first guess. */
+enum {
+    EHL_LIMIT_GUESSED = 12,
+    EHL_LIMIT_REPEATED = 30,
+    EHL_LIMIT_PLAIN = 25,
+    EHL_LIMIT_START = 60
+};
+
+typedef struct ehl_counters {
+    double newton, krylov, convolutions, factorisations;
+    double
+        undecided; /* films whose boundary lies at a node that can be neither full nor cavitated */
+} ehl_counters;
+
+typedef struct ehl_solver {
+    const ehl_grid *grid;
+    ehl_reynolds *reynolds;
+    const double *kernel;   /* ehl_kernel_fill, one value per node distance */
+    double modulus;         /* E', Pa */
+    double tolerance;       /* relative error of the film that the equations may leave */
+    int no_film;            /* what came from outside was no film: not a number, or p at the ends */
+    int gave_up;            /* outside found no film too often */
+    const ff_film *outside; /* the discretisation of another stage, for ehl_outside; NULL: none */
+    ehl_counters counters;
+    double rescaling; /* of the pressure to its load, at the end of the last solution */
+    void *self;
+    /* Solves from the film given, whose v must be the deflection of its p; at most `limit` Newton
+       steps. FF_OK, or FF_NOCONV with the film in no useful state. */
+    ff_status (*solve)(struct ehl_solver *s, const ehl_step *step, ehl_film *film, int limit);
+    void (*deflect)(struct ehl_solver *s, const double *p, double *v);
+    void (*destroy)(struct ehl_solver *s);
+    ff_status (*maker)(struct ehl_solver *s); /* of this one */
+} ehl_solver;
+
+/* A solver on grid, reynolds, kernel, modulus and tolerance, which are set; FF_NOMEM, or
+   FF_UNSUPPORTED. */
+typedef ff_status ehl_solver_maker(ehl_solver *s);
+
+ehl_solver_maker ehl_newton_krylov;
+ehl_solver_maker ehl_dense_newton;
+ehl_solver_maker ehl_line_relaxation;
+ehl_solver_maker ehl_outside;
+
+#endif

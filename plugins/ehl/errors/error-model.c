@@ -1,0 +1,308 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Estimates the errors of a film by the cells, by the time steps and by the ends of the domain. */
+#include "../contact/lanes.h"
+#include "../estimates/inlet.h"
+#include "results.h"
+
+#include <math.h>
+#include <string.h>
+
+/* The contact of an instant, and the lengths that its film changes over. */
+typedef struct contact {
+    double a, p_hertz;
+    double opening; /* sqrt(2 R h) */
+    double buildup; /* m, pressure build-up length of the inlet, and of the fall at the outlet */
+    double L;       /* of Moes */
+    double sliding; /* m/s */
+} contact;
+
+static contact contact_at(const ehl_reynolds *eq, const ehl_instant *at, double modulus, double h)
+{
+    const ehl_oil *oil = &eq->oil;
+    double radius = at->radius;
+    double U = oil->viscosity * fabs(at->entrainment) / (modulus * radius);
+    double a = ehl_hertz_half_width(at->load, radius, modulus);
+    return (contact){.a = a,
+                     .p_hertz = ehl_hertz_pressure(at->load, radius, modulus),
+                     .sliding = at->sliding,
+                     .opening = sqrt(2 * radius * h),
+                     .buildup = ehl_inlet_buildup(a, radius, h),
+                     .L = oil->alpha * modulus * sqrt(sqrt(2 * U))};
+}
+
+/* Errors as shares: by the cells and by the time steps. */
+typedef struct errors {
+    double space, time;
+} errors;
+
+/*
+ * Error of a film by the cells, relative, with n of them over the build-up length l:
+ *   [base + light + (1 - g) (by_L L + by_square L^2 + wide L (l/a)^2)]/n^2 + (1 - g) spike L^2/n
+ * or [base + light + (1 - g) by_L L]/n with the first-order wedge. g goes from 0 to 1 as the film
+ * becomes that of a rigid cylinder: its wedge is as large as its pressure flow everywhere, for
+ * which it pays `light`, but not with volumes around their nodes, where both errors cancel; and its
+ * oil stays thin. Under larger loads the spike of a thick oil is a corner of the film, which costs
+ * an order, and it stands in the middle where l is as long as a. The factors cover M 0.1 to 200 and
+ * L 0 to 15 on 128 to 2048 cells with n > 3.
+ */
+typedef struct in_space {
+    double base, by_L, by_square, wide, spike, first_base, first_by_L;
+} in_space;
+
+static const in_space of_h_min = {0.16, 0, 0.0045, 0, 3e-4, 0.4, 0.012},
+                      of_h_central = {0.2, 0.05, 0, 0.05, 0, 0.4, 0.02};
+static const double light_first = 0.6, light_asymmetric = 0.65;
+
+static double space_error(const ehl_reynolds *eq, const in_space *c, const contact *at)
+{
+    double n = at->buildup / eq->dx, wide = fmin(1, at->buildup / at->a);
+    double narrow = at->opening / (2 * at->a), fourth = narrow * narrow * narrow * narrow;
+    double g = fourth / (fourth + 1), L = at->L, square = L * L;
+    if (eq->wedge != 2)
+        return fmin(1, (c->first_base + g * light_first + (1 - g) * c->first_by_L * L) / n);
+    double sum = c->base + (eq->asymmetric ? g * light_asymmetric : 0);
+    sum += (1 - g) * (c->by_L * L + c->by_square * square + c->wide * L * wide * wide);
+    return fmin(1, sum / (n * n) + (1 - g) * c->spike * square / n);
+}
+
+/* Returns the largest accumulated truncation of the film near that node. */
+static double accumulated_error_near(const ehl_march *m, size_t node)
+{
+    enum { NEAR = 4 };
+    size_t n = m->solver->grid->nodes, from = node > NEAR ? node - NEAR : 0,
+           end = node + NEAR < n ? node + NEAR + 1 : n;
+    return ehl_greatest_size(end - from, m->accumulated_error + from);
+}
+
+/*
+ * Share of the load that is carried close to the end of the domain, within a quarter of
+ * sqrt(2 R h); 0 where the film ruptures upstream of the end, which then has no effect.
+ */
+static double outlet_load(const ehl_march *m, double length)
+{
+    const ehl_grid *g = m->solver->grid;
+    const ehl_film *film = &m->state[0].film;
+    size_t last = g->nodes - 2, near = (size_t)(length / (4 * g->dx));
+    double sum = 0;
+    for (size_t i = last; film->full[last] && i > 0 && i + near >= last; i--)
+        sum += film->p[i];
+    return sum * g->dx / m->step.load;
+}
+
+/* How well the grid resolves the contact and its inlet. */
+static void record_resolution(ehl_results *r, const ehl_march *m, double h_central,
+                              const contact *c)
+{
+    const ehl_grid *g = m->solver->grid;
+    r->least_resolution = fmin(r->least_resolution, c->buildup / g->dx);
+    r->least_inlet = fmin(r->least_inlet, (g->inlet - c->a) / c->opening);
+    double way = m->at.entrainment * (m->state[0].time - m->state[1].time);
+    double share = m->known > 1 ? fmin(1, way / (2 * fmax(c->a, c->opening))) : 1;
+    r->outlet_load += share * (outlet_load(m, c->opening) - r->outlet_load);
+    r->worst_outlet = fmax(r->worst_outlet, r->outlet_load);
+    double missing =
+        ehl_starvation(&m->solver->reynolds->oil, &m->at, m->history->modulus, h_central, g->inlet);
+    r->starvation += share * (missing - r->starvation);
+    r->worst_starvation = fmax(r->worst_starvation, r->starvation);
+}
+
+/* The oil at the pressure at which the outlet begins: the Hertzian one a build-up length inside x =
+   a. */
+typedef struct outlet_oil {
+    double pressure;
+    double fluidity;    /* eta0/eta */
+    double compression; /* d ln(rho)/d ln(p) */
+} outlet_oil;
+
+static outlet_oil oil_at_outlet(const ehl_reynolds *eq, const contact *c, double h, double p_max)
+{
+    double depth = fmin(1, c->buildup / c->a);
+    double p = fmin(p_max, c->p_hertz * sqrt(depth * (2 - depth))), all[EHL_LIQUID_ARRAYS];
+    const ehl_liquid q = {all, all + 1, all + 2, all + 3, all + 4, all + 5, all + 6};
+    ehl_fluid_evaluate(&eq->laws, 1, &p, &h, c->sliding, &q);
+    return (outlet_oil){p, *q.psi * eq->oil.viscosity, p * *q.rho_p / *q.rho};
+}
+
+/*
+ * Share of a spike that the cells cut off, with x = dx over the build-up length l:
+ *   x/(x + w)/(1 + c/0.07 + 4 v^0.6),   w = v + 0.14 c,   v = 40 eta0/eta,   c = d ln(rho)/d ln(p).
+ * Downstream of the spike the pressure falls over v l, since the pressure flow goes with 1/eta.
+ * Upstream of it the oil is compressed as much as the flanks deflect over c l; without that the
+ * spike of a thick oil would have no limit. The factors are fitted to steady solutions on 128 to
+ * 131072 cells, M 2 to 200, L 2 to 15, of Roelands' and Barus' laws with and without compression;
+ * volumes from node to node cut as much on 0.3 of the cells.
+ */
+static double spike_share_cut_off(const ehl_reynolds *eq, const outlet_oil *oil, double x)
+{
+    double v = 40 * oil->fluidity, w = v + 0.14 * oil->compression;
+    if (eq->asymmetric && eq->wedge == 2)
+        x *= 0.3;
+    return x / (x + w) / (1 + oil->compression / 0.07 + 4 * pow(v, 0.6));
+}
+
+/* Whether p falls within two nodes of a maximum by that share of it. Where a tip is cut off it
+   does; the crest of a film that is squeezed, which may wander to the outlet, does not. */
+static int is_steep(const double *p, size_t i, size_t last, double share)
+{
+    double lowest = fmin(p[i - 1], p[i + 1]);
+    lowest = i > 1 ? fmin(lowest, p[i - 2]) : lowest;
+    lowest = i + 2 <= last ? fmin(lowest, p[i + 2]) : lowest;
+    return p[i] - lowest > share * p[i];
+}
+
+/* Returns the first node of the outlet. */
+static size_t outlet_from(const ehl_reynolds *eq, const contact *c)
+{
+    return (size_t)fmax(1, ceil(ehl_carrying_stretch(eq, c->a, c->buildup).end));
+}
+
+/* Highest pressure of the outlet's spike: of a maximum not further in than 1.6 build-up lengths of
+   which the cells may cut off the share `cut`. Where that length exceeds 0.6 a the maximum is the
+   spike itself, even upstream of x = 0. 0: there is none. */
+static double highest_spike(const ehl_reynolds *eq, const double *p, const contact *c, double cut)
+{
+    double highest = 0;
+    size_t last = eq->nodes - 1;
+    for (size_t i = outlet_from(eq, c); i < last; i++)
+        if (p[i] > highest && p[i] >= p[i - 1] && p[i] > p[i + 1] && is_steep(p, i, last, cut))
+            highest = p[i];
+    return highest;
+}
+
+/* Estimates the error of a pressure without a spike where it differs from Hertz's; it grows with
+   the square of ln(eta/eta0) at the outlet. */
+static double smooth_pressure_error(const ehl_reynolds *eq, const contact *c, double fluidity)
+{
+    double x = eq->dx / c->buildup, part = fmin(1, c->buildup / c->a);
+    double thick = fmin(5, -log(fmax(fluidity, 1e-9)));
+    double error = eq->wedge == 2 ? ((eq->asymmetric ? 0.6 : 0.2) + 0.15 * thick * thick) * x * x
+                                  : (0.35 + 0.05 * thick * thick) * x;
+    return error * part * part;
+}
+
+/*
+ * Error of p_max by the cells: by how much the spike may exceed it. Without a maximum there the
+ * spike has not come out of the 0.9 of the outlet's pressure that the coarsest cells show of it.
+ */
+static ehl_spike spike_at(const ehl_reynolds *eq, const contact *c, const ehl_crest *of)
+{
+    const double caution = 1.2; /* a tip between two nodes */
+    outlet_oil oil = oil_at_outlet(eq, c, of->h_central, of->p_max);
+    double cut = spike_share_cut_off(eq, &oil, eq->dx / c->buildup);
+    double seen = highest_spike(eq, of->p, c, cut);
+    double tip = fmax(seen, 0.9 * oil.pressure) * (1 + caution * cut / (1 - cut));
+    double error = fmax(0, tip / of->p_max - 1) + smooth_pressure_error(eq, c, oil.fluidity);
+    return (ehl_spike){seen, tip, cut, error};
+}
+
+static ehl_space_errors bounds_at(const ehl_reynolds *eq, const contact *c, const ehl_crest *of,
+                                  ehl_spike *spike)
+{
+    *spike = spike_at(eq, c, of);
+    return (ehl_space_errors){
+        {space_error(eq, &of_h_min, c), space_error(eq, &of_h_central, c), spike->error}};
+}
+
+ehl_space_errors ehl_space_bounds(const ehl_reynolds *eq, const ehl_instant *at, double modulus,
+                                  const ehl_crest *of, ehl_spike *spike)
+{
+    contact c = contact_at(eq, at, modulus, of->h_central);
+    return bounds_at(eq, &c, of, spike);
+}
+
+/*
+ * Returns the speed at which the pressure of the outlet moves, which leaves least of its change in
+ * time: p_t + v p_x = 0 by least squares.
+ */
+static double speed_of_outlet(const ehl_march *m, const contact *c)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const double *p = m->state[0].film.p, *before = m->state[1].film.p;
+    double dt = m->state[0].time - m->state[1].time, sum = 0, square = 0;
+    for (size_t i = outlet_from(eq, c); i + 1 < eq->nodes; i++) {
+        double slope = (p[i + 1] - p[i - 1] + before[i + 1] - before[i - 1]) / (4 * eq->dx);
+        sum += (p[i] - before[i]) / dt * slope;
+        square += slope * slope;
+    }
+    return square > 0 ? -sum / square : 0;
+}
+
+/* The change of the mass in a frame that moves by `frame`; the slope of the mass is that of the
+   wedge of volumes around full nodes, so that the frame alone changes no such film on the same
+   cells. */
+FF_SIMD
+static void change_in_frame(size_t n, const double *restrict mass, const double *restrict past,
+                            double rate, double frame, double dx, int wedge,
+                            double *restrict change)
+{
+    const double bend = wedge == 2 ? 0.5 : 0;
+    change[0] = rate * mass[0] + past[0];
+    change[1] = rate * mass[1] + past[1] + frame * (mass[1] - mass[0]) / dx;
+    for (size_t i = 2; i < n; i++) {
+        double slope = mass[i] - mass[i - 1];
+        slope += bend * (slope - (mass[i - 1] - mass[i - 2]));
+        change[i] = rate * mass[i] + past[i] + frame * slope / dx;
+    }
+}
+
+void ehl_space_keep(const ehl_march *m, ehl_instant_film *f)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    f->h_central = ehl_central_film(m->solver->grid, eq);
+    f->p_max = m->state[0].highest;
+    f->at = m->at;
+    f->cells = eq->nodes - 1;
+    contact c = contact_at(eq, &m->at, m->history->modulus, f->h_central);
+    f->frame = m->step.past && m->known > 1 ? speed_of_outlet(m, &c) : 0;
+    if (m->step.past)
+        change_in_frame(eq->nodes, m->state[0].mass, m->step.past, m->step.rate, f->frame, eq->dx,
+                        eq->wedge, f->change);
+    else
+        memset(f->change, 0, eq->nodes * sizeof *f->change);
+}
+
+/* carried: what the cells have made of h_min and h_central on the film's way, relative. */
+static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, double p_max,
+                          const double *carried, const contact *c)
+{
+    const ehl_crest of = {m->state[0].film.p, h_central, p_max};
+    ehl_spike spike;
+    ehl_space_errors e = bounds_at(m->solver->reynolds, c, &of, &spike);
+    r->by_cells = e.of[EHL_LEAST];
+    ehl_worse(&r->worst_by_cells, r->by_cells);
+    r->row_in_space[EHL_LEAST] = (e.of[EHL_LEAST] + carried[EHL_LEAST]) * r->row[EHL_H_MIN];
+    r->row_in_space[EHL_CENTRAL] =
+        (e.of[EHL_CENTRAL] + carried[EHL_CENTRAL]) * r->row[EHL_H_CENTRAL];
+    r->row_in_space[EHL_PEAK] = e.of[EHL_PEAK] * p_max;
+}
+
+static void keep_least(double *least, double value)
+{
+    if (!(value >= *least))
+        *least = isfinite(value) ? value : -1e300;
+}
+
+void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
+                        double p_max)
+{
+    const ehl_grid *g = m->solver->grid;
+    size_t centre = (size_t)(g->inlet / g->dx + 0.5);
+    double time[] = {accumulated_error_near(m, node), accumulated_error_near(m, centre)};
+    if (ehl_march_is_loaded(m)) {
+        const ehl_reynolds *eq = m->solver->reynolds;
+        contact c = contact_at(eq, &m->at, m->history->modulus, h_central);
+        const ehl_stretch stretch = ehl_carrying_stretch(eq, c.a, c.buildup);
+        ehl_carried_add(&r->carried, m, &stretch);
+        const double carried[] = {
+            ehl_carried_of_least(&r->carried, eq->nodes, eq->h, eq->h[node]),
+            fabs(ehl_carried_to(&r->carried, centre)),
+        };
+        record_resolution(r, m, h_central, &c);
+        record_bounds(r, m, h_central, p_max, carried, &c);
+        for (int k = EHL_LEAST; k <= EHL_CENTRAL; k++)
+            ehl_worse(&r->worst_in_time[k], time[k]);
+        keep_least(&r->least_in_time, r->row[EHL_H_MIN] * (1 - time[EHL_LEAST]));
+    }
+    r->row[EHL_H_MIN_ERROR] = time[EHL_LEAST] * r->row[EHL_H_MIN];
+    r->row[EHL_H_CENTRAL_ERROR] = time[EHL_CENTRAL] * r->row[EHL_H_CENTRAL];
+}

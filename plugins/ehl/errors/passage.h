@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Instants of a run, and the passage of the contact before the first of them, on the cells of the
+ * run, on twice and on four times as many: what the films owe to the cells in the inlet, on their
+ * way and at the outlet.
+ */
+#ifndef EHL_PASSAGE_H
+#define EHL_PASSAGE_H
+
+#include "results.h"
+
+typedef struct ehl_passage {
+    const ehl_history *whole;  /* of all engagements */
+    int equal;                 /* the lengths of the steps were given */
+    size_t begin, first, last; /* rows of the series, of one engagement: looked at from first on */
+    double way;                /* m, that the oil moves by in a step at least */
+    /* h_min and h_central of these rows on 1, 2, 4 times the cells, and their errors by the cells,
+       relative, positive where the film is too thick. NaN where the film on the cells of the run
+       is not that of the run within a quarter of the error or of its limit, or, with heat, ten
+       times of these: where it remembers more than a passage. */
+    double (*film)[EHL_PEAK], (*error)[EHL_PEAK];
+} ehl_passage;
+
+/* Whether a row counts for the error of an output. */
+typedef int ehl_row_counts(const ehl_results *r, size_t row, int kind);
+
+/* Sets the rows: looks at those about one that `count`, no further than a passage away from it, and
+   begins a passage before. */
+void ehl_passage_about(ehl_passage *p, const ehl_results *r, const ehl_march *m, size_t row,
+                       ehl_row_counts *counts, int kind);
+
+/* Returns 1 when the end of the contact has moved at more than half the speed of the oil there,
+   since the film of the row has come from a tenth of its half-width upstream. */
+int ehl_outlet_moves(const ehl_passage *p, const ehl_results *r, size_t row);
+
+/* Fills in the errors by twice the cells; kind: what the rows are looked at for. FF_OK, or a
+   failure that leaves none. */
+ff_status ehl_passage_errors(const ehl_results *r, const ehl_march *m, ehl_passage *p,
+                             ehl_row_counts *counts, int kind);
+
+/* After that: by four times the cells. FF_OK, or a failure that leaves those before. */
+ff_status ehl_passage_refine(const ehl_results *r, const ehl_march *m, ehl_passage *p);
+
+/* Marches from a passage before to a row, on so many times the cells of the run, and keeps the film
+   there; f->change has room for its nodes. */
+ff_status ehl_passage_to(const ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
+                         size_t times, ehl_instant_film *f);
+
+void ehl_passage_destroy(ehl_passage *p);
+
+#endif

@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What is kept of a run, and which of its outputs are wanted. */
+#ifndef EHL_RESULTS_H
+#define EHL_RESULTS_H
+
+#include "../contact/history.h"
+#include "../contact/ports.h"
+#include "balance.h"
+#include "carried.h"
+#include "space-error.h"
+
+/* Columns of the errors by the cells: those of EHL_BOUNDS, m and Pa, bounds or, of films, where
+   EHL_MEASURED + EHL_LEAST or EHL_CENTRAL is 1, what they are, negative of a film that is too thin.
+ */
+enum { EHL_MEASURED = EHL_BOUNDS, EHL_SPACE = EHL_BOUNDS + EHL_PEAK };
+
+/* A table of rows of equal width, which grows: their number is known at the end only. */
+typedef struct ehl_rows {
+    double *data;
+    size_t width, count, room;
+} ehl_rows;
+
+/* A row at whose p_max was looked, on more cells. */
+typedef struct ehl_look {
+    size_t row, begin; /* begin: of the passage before it */
+    double tip;        /* Pa, what p_max is without the error of the cells */
+} ehl_look;
+
+enum { EHL_LOOKS = 4 };
+
+typedef struct ehl_results {
+    const ff_host *host;
+    ehl_balance balance;
+    uint64_t wanted;
+    size_t nodes;
+    double boundary_friction;
+    double roughness;                   /* m, combined rms of both flanks; 0: unknown */
+    ehl_rows series, field[EHL_FIELDS]; /* width 0: not wanted */
+    double *row;                        /* row of the series that is being filled in */
+    double *tau, *ln_eta, *memory;
+    ehl_carried carried;
+    double lowest, lowest_at, highest, least_lambda;
+    ehl_lowest engagements;
+    ehl_sampling sampling;
+    double worst_load, worst_mass, worst_complement, lost_force;
+    double least_resolution, least_inlet;
+    double starvation, worst_starvation; /* share of the film: mean over a passage, its largest */
+    double outlet_load, worst_outlet;    /* share of the load: mean over a passage, its largest */
+    double worst_in_time[2];             /* errors of h_min and h_central by the steps, relative */
+    double least_in_time;                /* m, the lowest that h_min may be with it */
+    double worst_peak_in_time,
+        highest_in_time; /* p_max: relative; Pa, the highest that it may be */
+    /* what bounds h_min where it is made, relative: at the last instant, 0: none yet; at all */
+    double by_cells, worst_by_cells;
+    double tolerance; /* the largest of those that the films were solved to */
+    double share;     /* of the bounds of p_max that remains where it was not looked at; 1: all */
+    ehl_look look[EHL_LOOKS]; /* at rows, by their order */
+    size_t looks;
+    int measured[EHL_PEAK];              /* 1: h_min, h_central were measured at some rows */
+    int finest;                          /* the most cells at which, over those of the run */
+    ehl_rows space;                      /* what the cells add to h_min, h_central, p_max */
+    double *row_in_space;                /* its row that is being filled in */
+    double worst_gap_excess, widest_gap; /* while the contact is lost, m */
+    double share_sum, ratio_sum, trapped_sum, worst_supply; /* sums over rough, loaded instants */
+    double yield_sum, deepest_yield, worst_yield; /* the same; deepest_yield: plastic part, m */
+    size_t loaded;
+    double worst_squeezed; /* W/m, in the outer half of the inlet */
+    double tail_share;     /* share of the pressure flow's loss that lies upstream of the domain */
+    size_t starved;        /* instants without such a loss: the domain begins cavitated */
+    double undecided;      /* the solver's counter when the mass was recorded last */
+    ehl_law_answer laws;
+    int rough;
+    int lowest_alone, highest_alone; /* 1: no h_min, or no p_max, of another instant is wanted */
+} ehl_results;
+
+/* Fills in what the film dissipates. */
+void ehl_results_loss(ehl_results *r, const ehl_march *m);
+
+/* Estimates the error of the rolling and squeeze in power_loss by the time steps, W/m: the largest
+   of all instants; negative where none is looked at. */
+double ehl_results_loss_in_time(const ehl_results *r, const ehl_march *m);
+
+/* Estimates the errors of the row that is being filled in; h_min is at `node`. */
+void ehl_results_errors(ehl_results *r, const ehl_march *m, size_t node, double h_central,
+                        double p_max);
+
+/* Keeps the newest film of the march; f->change has room for its nodes. */
+void ehl_space_keep(const ehl_march *m, ehl_instant_film *f);
+
+/* Measures the errors whose bounds are above their limits; those of a film unless it is the only
+   one. `whole` has all engagements; equal: the lengths of the steps were given. */
+ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_history *whole,
+                              int equal);
+
+/* What the cells add to the error of h_min, h_central or p_max of a row, m or Pa. */
+double ehl_space_part(const ehl_results *r, size_t row, int kind);
+
+/* 1: of h_min, or of p_max, its extreme over all instants alone is wanted. */
+int ehl_wants_lowest_alone(uint64_t wanted);
+int ehl_wants_highest_alone(uint64_t wanted);
+
+/* The outputs that an error of h_min, of h_central or of p_max is one of. A friction goes with the
+   film in the middle, and with the pressure as the viscosity does. */
+int ehl_wants_h_min(uint64_t wanted);
+int ehl_wants_h_central(uint64_t wanted);
+int ehl_wants_p_max(uint64_t wanted);
+
+/* The least film, by a parabola, with its node in *at; that at x = 0; of the gap that r has. */
+double ehl_least_film(const ehl_reynolds *r, size_t *at);
+double ehl_central_film(const ehl_grid *g, const ehl_reynolds *r);
+
+/* Returns 1 when an error of a film by the cells is estimated. */
+int ehl_results_estimate_cells(const ehl_results *r);
+/* The lines of those errors. */
+void ehl_results_report_cells(const ehl_results *r, const ehl_march *m);
+
+/* 1: an output is wanted that takes the shear stress, or one that takes the pressure flow. */
+int ehl_loss_of_shear(uint64_t wanted);
+int ehl_loss_of_flow(uint64_t wanted);
+
+#endif

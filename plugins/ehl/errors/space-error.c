@@ -1,0 +1,388 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "passage.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Films of the row, and what the cells add to them, m: a bound, or what was measured, negative
+   where the film is too thin. */
+static double film_of(const ehl_results *r, size_t row, int kind)
+{
+    static const uint32_t of[] = {EHL_H_MIN, EHL_H_CENTRAL, EHL_P_MAX};
+    return r->series.data[row * EHL_SERIES + of[kind]];
+}
+
+static double *part_of(const ehl_results *r, size_t row, int kind)
+{
+    return &r->space.data[row * EHL_SPACE + (size_t)kind];
+}
+
+static int is_measured(const ehl_results *r, size_t row, int kind)
+{
+    return *part_of(r, row, EHL_MEASURED + kind) > 0;
+}
+
+/* Films below 2 % of the largest load have none. */
+static int has_bound(const ehl_results *r, size_t row, int kind)
+{
+    return fabs(*part_of(r, row, kind)) > 0;
+}
+
+/* Returns what p_max of a row is without the error of the cells. Between two looks of one passage
+   by a straight line, no higher than what bounds it, where the load falls in between: on more cells
+   it changes steadily, while the nodes of the run lie anywhere beside the tip; else by the largest
+   share of a bound. */
+static double tip_of(const ehl_results *r, size_t row)
+{
+    const double value = film_of(r, row, EHL_PEAK), bound = *part_of(r, row, EHL_PEAK);
+    const ehl_look *l = r->look;
+    for (size_t k = 0; k < r->looks; k++) {
+        if (l[k].row == row)
+            return l[k].tip;
+        if (k > 0 && l[k - 1].row < row && row < l[k].row && l[k - 1].row >= l[k].begin) {
+            double far = (double)(row - l[k - 1].row) / (double)(l[k].row - l[k - 1].row);
+            double tip = (1 - far) * l[k - 1].tip + far * l[k].tip;
+            return fmax(value, fmin(tip, value + bound));
+        }
+    }
+    return value + r->share * bound;
+}
+
+double ehl_space_part(const ehl_results *r, size_t row, int kind)
+{
+    const double as_good_as_none = 1e9;
+    double part = 0;
+    if (has_bound(r, row, kind))
+        part = kind == EHL_PEAK ? tip_of(r, row) - film_of(r, row, kind)
+                                : fabs(*part_of(r, row, kind));
+    return isfinite(part) ? part : as_good_as_none * film_of(r, row, kind);
+}
+
+static int is_extreme(const ehl_results *r, int kind)
+{
+    return kind == EHL_LEAST ? r->lowest_alone : kind == EHL_PEAK && r->highest_alone;
+}
+
+/* Returns what a row makes of the error of the output by the cells: its own, or by how much it goes
+   beyond the extreme of all, where that alone is wanted. A peak without a bound has none. */
+static double error_of_row(const ehl_results *r, size_t row, int kind)
+{
+    double value = film_of(r, row, kind), part = *part_of(r, row, kind), error = 0;
+    if (kind == EHL_PEAK && !has_bound(r, row, kind))
+        return 0;
+    if (kind == EHL_PEAK)
+        error = tip_of(r, row) / (is_extreme(r, kind) ? r->highest : value) - 1;
+    else if (!is_extreme(r, kind))
+        error = fabs(part) / value;
+    else
+        error = 1 - (value - part) / r->lowest;
+    return isfinite(error) ? error : 1e300;
+}
+
+static size_t worst_row(const ehl_results *r, int kind)
+{
+    size_t worst = 0;
+    double most = -HUGE_VAL;
+    for (size_t i = 0; i < r->series.count; i++) {
+        double error = error_of_row(r, i, kind);
+        if (error > most) {
+            most = error;
+            worst = i;
+        }
+    }
+    return worst;
+}
+
+/* Returns the error of an output by the cells, relative. The lowest film may be as low as the films
+   of all instants may be, or be higher as far as all of them are. */
+static double error_of(const ehl_results *r, int kind)
+{
+    double error = error_of_row(r, worst_row(r, kind), kind), highest = HUGE_VAL;
+    for (size_t i = 0; i < r->series.count && kind == EHL_LEAST && r->lowest_alone; i++) {
+        double part = *part_of(r, i, kind);
+        highest = fmin(highest, film_of(r, i, kind) + (is_measured(r, i, kind) ? -part : part));
+    }
+    return isfinite(highest) ? fmax(error, highest / r->lowest - 1) : error;
+}
+
+static int is_doubtful(const ehl_results *r, size_t row, int kind)
+{
+    return error_of_row(r, row, kind) > EHL_FILM_LIMIT / 2;
+}
+
+/* Where the outlet moves errors are larger than their bounds: a film that is somewhat thicker may
+   be the lowest, too. */
+static int is_low(const ehl_results *r, size_t row, int kind)
+{
+    return is_doubtful(r, row, kind) || film_of(r, row, kind) < 1.1 * r->lowest;
+}
+
+/* Returns the largest share of their bounds that errors have, all at most, and all where no bound
+   is large: those that are as good as none tell nothing of others. */
+static double largest_share(const ehl_results *r, const ehl_passage *p, int kind)
+{
+    double share = 0;
+    for (size_t i = p->first; i <= p->last; i++) {
+        double bound = fabs(*part_of(r, i, kind)) / film_of(r, i, kind),
+               e = fabs(p->error[i - p->first][kind]);
+        if (bound > EHL_FILM_LIMIT / 2)
+            share = fmax(share, e <= bound ? e / bound : 1);
+    }
+    return share > 0 ? share : 1;
+}
+
+/* Puts the errors that are known in place of what bounds them, and leaves that share of the bounds
+   at the rows that were not looked at. A film without load has no bound, and its error does not
+   count unless the lowest film alone is wanted. */
+static void put_errors(ehl_results *r, const ehl_passage *p, int kind)
+{
+    double share = largest_share(r, p, kind);
+    for (size_t i = 0; i < r->series.count; i++) {
+        double *part = part_of(r, i, kind);
+        if (i < p->first || i > p->last) {
+            *part *= is_measured(r, i, kind) ? 1 : share;
+        } else if ((has_bound(r, i, kind) || is_extreme(r, kind)) &&
+                   isfinite(p->error[i - p->first][kind])) {
+            *part = p->error[i - p->first][kind] * film_of(r, i, kind);
+            *part_of(r, i, EHL_MEASURED + kind) = 1;
+            r->measured[kind] = 1;
+        }
+    }
+}
+
+/* Returns the row of the lowest film of all. */
+static size_t lowest_row(const ehl_results *r)
+{
+    size_t row = 0;
+    while (row + 1 < r->series.count && film_of(r, row, EHL_LEAST) > r->lowest)
+        row++;
+    return row;
+}
+
+static int is_looked_at(const ehl_passage *p, size_t row)
+{
+    return row >= p->first && row <= p->last;
+}
+
+/* Returns the row to look at, SIZE_MAX when there is none: the worst one where the error is not
+   known yet, else that of the lowest film of all where its outlet moves, since bounds are those of
+   steady films. */
+static size_t find_row(const ehl_results *r, const ehl_passage *p, int kind, double enough)
+{
+    size_t row = worst_row(r, kind);
+    if (error_of_row(r, row, kind) > enough && !is_looked_at(p, row))
+        return row;
+    row = lowest_row(r);
+    return is_extreme(r, kind) && !is_measured(r, row, kind) && !is_looked_at(p, row) &&
+                   ehl_outlet_moves(p, r, row)
+               ? row
+               : SIZE_MAX;
+}
+
+/* Whether the verdict hangs on how much is left of an error on twice the cells: on half of what is
+   there on the cells of the run, or on nothing. */
+static int order_decides(const ehl_results *r, const ehl_march *m, int kind)
+{
+    double left = ldexp(1, -ehl_carrying_order(m->solver->reynolds));
+    double found = (1 - left) * error_of(r, kind);
+    return found <= EHL_FILM_LIMIT && 2 * found > EHL_FILM_LIMIT;
+}
+
+/* Measures the films about a row. */
+static ff_status measure_passage(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
+                                 int kind)
+{
+    int moves = is_extreme(r, kind) && ehl_outlet_moves(p, r, row);
+    ehl_row_counts *counts = moves ? is_low : is_doubtful;
+    ehl_passage_destroy(p);
+    ehl_passage_about(p, r, m, row, counts, kind);
+    ff_status status = ehl_passage_errors(r, m, p, counts, kind);
+    if (status == FF_OK)
+        put_errors(r, p, kind);
+    return status;
+}
+
+/* Measures the films that the error of an output hangs on, and once more where those were not all.
+   The lowest film of all is first looked at from half of the limit on. */
+static ff_status measure_film(ehl_results *r, const ehl_march *m, ehl_passage *p, int kind)
+{
+    enum { MOST = 2 };
+    double enough = is_extreme(r, kind) ? EHL_FILM_LIMIT / 2 : EHL_FILM_LIMIT;
+    ff_status status = FF_OK;
+    p->first = 1; /* none was looked at */
+    p->last = 0;
+    for (int k = 0; k < MOST && status == FF_OK; k++, enough = EHL_FILM_LIMIT) {
+        size_t row = find_row(r, p, kind, enough);
+        if (row == SIZE_MAX)
+            break;
+        status = measure_passage(r, m, p, row, kind);
+    }
+    if (status == FF_OK && p->film && order_decides(r, m, kind)) {
+        status = ehl_passage_refine(r, m, p);
+        if (status == FF_OK)
+            put_errors(r, p, kind);
+    }
+    ehl_passage_destroy(p);
+    return status == FF_NOMEM || status == FF_STOPPED ? status : FF_OK;
+}
+
+/* Keeps a look by the order of the rows. */
+static void keep_look(ehl_results *r, ehl_look look)
+{
+    size_t k = r->looks++;
+    for (; k > 0 && r->look[k - 1].row > look.row; k--)
+        r->look[k] = r->look[k - 1];
+    r->look[k] = look;
+}
+
+/* Finds the error of p_max of a row. Of a spike that moves twice the cells are marched to it: those
+   of the run have smoothed how it changes. */
+static ff_status find_peak_error(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
+                                 double *error)
+{
+    enum { FINER = 2 };
+    double value = film_of(r, row, EHL_PEAK);
+    double highest = is_extreme(r, EHL_PEAK) ? r->highest : value;
+    double *change = malloc((1 + FINER) * r->nodes * sizeof *change);
+    ehl_instant_film run = {.change = change}, fine = {.change = change ? change + r->nodes : NULL};
+    int finest = 0;
+    ff_status status = change ? ehl_passage_to(r, m, p, row, 1, &run) : FF_NOMEM;
+    if (status == FF_OK && !ehl_is_like(&run, film_of(r, row, EHL_CENTRAL), value))
+        status = FF_NOCONV;
+    if (status == FF_OK)
+        status = ehl_passage_to(r, m, p, row, FINER, &fine);
+    if (status == FF_OK)
+        status = ehl_peak_error(m->solver, &run, &fine, (1 + EHL_PEAK_LIMIT) * highest / value - 1,
+                                error, &finest);
+    if (status == FF_OK && finest > r->finest)
+        r->finest = finest;
+    free(change);
+    return status;
+}
+
+/* Looks at p_max of a row. Where its error is not told there the bound stands, and those of all
+   rows that are not between two looks. */
+static ff_status look_at_peak(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row)
+{
+    double value = film_of(r, row, EHL_PEAK), bound = *part_of(r, row, EHL_PEAK) / value, error = 0;
+    ff_status status = find_peak_error(r, m, p, row, &error);
+    if (status == FF_NOMEM || status == FF_STOPPED)
+        return status;
+    if (status != FF_OK)
+        error = bound;
+    /* a bound that is as good as none tells nothing of those that are large */
+    double share = bound > EHL_PEAK_LIMIT / 2 ? error / bound : 0;
+    r->share = r->looks > 0 ? fmax(r->share, share) : share;
+    keep_look(r, (ehl_look){row, p->begin, (1 + error) * value});
+    return FF_OK;
+}
+
+static size_t highest_row(const ehl_results *r)
+{
+    size_t row = 0;
+    while (row + 1 < r->series.count && film_of(r, row, EHL_PEAK) < r->highest)
+        row++;
+    return row;
+}
+
+/* Returns the row to look at, SIZE_MAX when there is none: the worst and that of the highest p_max
+   from half of the limit on, then what may exceed the limit, until that is known of one. */
+static size_t find_peak(const ehl_results *r)
+{
+    size_t worst = worst_row(r, EHL_PEAK), highest = highest_row(r);
+    double error = error_of_row(r, worst, EHL_PEAK);
+    int seen = 0;
+    for (size_t k = 0; k < r->looks; k++) {
+        seen |= r->look[k].row == highest;
+        if (error_of_row(r, r->look[k].row, EHL_PEAK) > EHL_PEAK_LIMIT)
+            return SIZE_MAX;
+    }
+    if (r->looks == 0)
+        return error > EHL_PEAK_LIMIT / 2 ? worst : SIZE_MAX;
+    if (r->looks == 1 && !seen && *part_of(r, highest, EHL_PEAK) > EHL_PEAK_LIMIT / 2 * r->highest)
+        return highest;
+    return error > EHL_PEAK_LIMIT && r->looks < EHL_LOOKS ? worst : SIZE_MAX;
+}
+
+static ff_status measure_peaks(ehl_results *r, const ehl_march *m, ehl_passage *p)
+{
+    ff_status status = FF_OK;
+    while (status == FF_OK && ehl_wants_p_max(r->wanted)) {
+        size_t row = find_peak(r);
+        if (row == SIZE_MAX)
+            break;
+        status = look_at_peak(r, m, p, row);
+    }
+    return status;
+}
+
+ff_status ehl_results_measure(ehl_results *r, const ehl_march *m, const ehl_history *whole,
+                              int equal)
+{
+    enum { LEAST_COUNT = 100 }; /* a peak takes as long however short the run */
+    ehl_passage p = {.whole = whole, .equal = equal};
+    size_t count = r->series.count;
+    ff_status status = FF_OK;
+    if (r->rough || m->solver->outside)
+        return FF_OK;
+    if (count > 1 && ehl_wants_h_min(r->wanted))
+        status = measure_film(r, m, &p, EHL_LEAST);
+    if (status == FF_OK && count > 1 && ehl_wants_h_central(r->wanted))
+        status = measure_film(r, m, &p, EHL_CENTRAL);
+    return status == FF_OK && count >= LEAST_COUNT ? measure_peaks(r, m, &p) : status;
+}
+
+/* Returns how many cells would meet the limit of an error of a film, by its order. */
+static double enough_cells(const ehl_march *m, double error, double limit)
+{
+    double times = pow(error / limit, 1. / ehl_carrying_order(m->solver->reynolds));
+    return 16 * ceil((double)(m->solver->grid->nodes - 1) * times / 16);
+}
+
+static void report_cells(const ehl_results *r, const ehl_march *m, int kind, const char *name,
+                         double limit)
+{
+    static const char *const all[] = {"h_min", "h_central", "p_max"};
+    static const char *const extreme[] = {"h_min_lowest", "", "p_max_highest"};
+    const char *of = is_extreme(r, kind) ? extreme[kind] : all[kind];
+    double error = error_of(r, kind);
+    char how[128] = "", enough[96] = "", text[400];
+    if (kind == EHL_PEAK && fabs(r->share - 1) > 0)
+        snprintf(how, sizeof how, "; by its film on %d times the cells %.3g of what bounds it",
+                 r->finest, r->share);
+    else if (kind != EHL_PEAK && r->measured[kind])
+        snprintf(how, sizeof how, "; measured by the last passage of the contact on more cells");
+    if (kind == EHL_PEAK)
+        snprintf(enough, sizeof enough,
+                 "; above 0.1 the cells may cut the spike at the outlet off: use more of them");
+    else if (error > limit && error < 0.5)
+        snprintf(enough, sizeof enough, "; cells: %.0f would be about enough",
+                 enough_cells(m, error, limit));
+    snprintf(text, sizeof text,
+             "estimate of the error of %s by the cells, over it; loads above 2 %% of the "
+             "largest%s%s",
+             of, how, enough);
+    r->host->quality(r->host->ctx, name, error, limit, error <= limit ? FF_GOOD : FF_DOUBTFUL,
+                     text);
+}
+
+int ehl_results_estimate_cells(const ehl_results *r)
+{
+    if (r->rough || !(ehl_wants_h_min(r->wanted) || ehl_wants_h_central(r->wanted)))
+        return 0;
+    return !r->lowest_alone || r->series.count == 0 || has_bound(r, lowest_row(r), EHL_LEAST) ||
+           is_measured(r, lowest_row(r), EHL_LEAST);
+}
+
+void ehl_results_report_cells(const ehl_results *r, const ehl_march *m)
+{
+    if (r->rough)
+        return;
+    if (ehl_wants_h_min(r->wanted))
+        report_cells(r, m, EHL_LEAST, "h_min_space_error", EHL_FILM_LIMIT);
+    if (ehl_wants_h_central(r->wanted))
+        report_cells(r, m, EHL_CENTRAL, "h_central_space_error", EHL_FILM_LIMIT);
+    if (ehl_wants_p_max(r->wanted))
+        report_cells(r, m, EHL_PEAK, "p_max_space_error", EHL_PEAK_LIMIT);
+}

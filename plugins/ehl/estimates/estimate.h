@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * What the models share that estimate the film without solving for the pressure: parameters,
+ * times, and results on the Hertzian contact. A model adds the film alone.
+ */
+#ifndef EHL_ESTIMATE_H
+#define EHL_ESTIMATE_H
+
+#include "../contact/grid.h"
+#include "../contact/history.h"
+#include "../contact/ports.h"
+#include "inlet.h"
+
+#include <flankfilm/plugin.h>
+
+/* Rows of the parameters of every such model. */
+#define EHL_ESTIMATE_PARAMS                                                                        \
+    FF_COUNT("cells", ehl_estimate, cells, 0, "512", NULL, 4, 65536, 0, 0,                         \
+             "cells from inlet to outlet of the fields film and pressure; nothing else depends "   \
+             "on them"),                                                                           \
+        FF_QUANTITY_OR("auto", "inlet", "1", ehl_estimate, inlet, FF_MIN_OPEN, "auto", NULL, 0,    \
+                       1e6, 0, 0,                                                                  \
+                       "start of the fields in front of the contact, in largest Hertz "            \
+                       "half-widths; auto: a + 10 sqrt(2 R h) of every load"),                     \
+        FF_QUANTITY_OR("auto", "outlet", "1", ehl_estimate, outlet, FF_MIN_OPEN, "auto", NULL, 0,  \
+                       1e6, 0, 0,                                                                  \
+                       "end of the fields behind the contact, in largest Hertz half-widths; "      \
+                       "auto: a + 2 sqrt(2 R h) of every load"),                                   \
+        FF_COUNT_OR("auto", "steps", ehl_estimate, steps, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,  \
+                    "equal time steps of the results; auto: the times of the contact"),            \
+        FF_QUANTITY_OR("none", "light_load", "N/m", ehl_estimate, light_load, FF_MIN_OPEN, "none", \
+                       NULL, 0, 1e9, 0, 0,                                                         \
+                       "a load per width that stands in for smaller ones; none: the film of 1 % "  \
+                       "of the largest load stands in, and the gap of lost contact is added"),     \
+        EHL_THERMAL_PARAM(ehl_estimate), EHL_HEATING_PARAMS(ehl_estimate)
+
+extern const ff_model ehl_film_formula_model; /* ehl/film-formula */
+
+/* One instant of the results. Loads below 1 % of the largest count as that for the film, which
+   would grow beyond all bounds, and as they are for the pressure. */
+typedef struct ehl_moment {
+    ehl_instant at;  /* load: for the film */
+    double load;     /* as it is */
+    double a, p_max; /* Hertz, of at.load and of the load as it is */
+    double moes_M, moes_L;
+    double engagement; /* its number */
+    int begins;        /* the first of an engagement */
+} ehl_moment;
+
+/* A film at one instant. */
+typedef struct ehl_estimate_film {
+    double h_min, h_central, error;
+} ehl_estimate_film;
+
+typedef struct ehl_estimate ehl_estimate;
+
+/* First member of a model's instance. */
+struct ehl_estimate {
+    const ff_host *host;
+    /* Films of the moments in their order, after one call of `begin`. */
+    ff_status (*begin)(ehl_estimate *e);
+    void (*film)(ehl_estimate *e, size_t k, ehl_estimate_film *film);
+    /* h at n places with |x| <= a of the moment whose film was asked for last. */
+    void (*profile)(const ehl_estimate *e, size_t k, size_t n, const double *x, double *h);
+    void (*report)(const ehl_estimate *e); /* its lines of the quality record */
+    void (*end)(ehl_estimate *e);
+
+    int64_t cells, steps; /* steps -1: the times of the history */
+    double inlet, outlet, light_load;
+    int rough; /* a surface is wired */
+    int32_t thermal;
+    const ff_liquid *liquid; /* NULL: no oil is wired */
+    ehl_inlet_heating heating;
+    ehl_laws laws;
+    ehl_isothermal isothermal;
+
+    /* of one run */
+    ehl_history history;
+    ehl_oil oil;
+    ehl_film_coefficient alpha_star;
+    double alpha;        /* its value, 1/Pa */
+    double conductivity; /* of the oil, W/(m K), with thermal: inlet; else 0 */
+    ehl_grid grid;
+    size_t count;
+    ehl_moment *moment;
+    double roughness; /* of both flanks, 0: unknown */
+    ehl_law_answer answered;
+};
+
+ff_status ehl_estimate_ready(void *self);
+ff_status ehl_estimate_wire(void *self, uint32_t input, const void *service);
+ff_status ehl_estimate_evaluate(void *self, uint64_t wanted, const ff_array *in);
+
+/* Gap of the dry Hertzian contact at |x|/a = s >= 1, over a^2/(2 R) (Johnson 1985, ch. 4.2). */
+double ehl_hertz_gap(double s);
+
+/* Central film of Moes 2000 with any coefficient alpha, incompressible. */
+double ehl_estimate_moes(const ehl_estimate *e, const ehl_instant *at);
+
+#endif

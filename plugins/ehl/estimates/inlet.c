@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "inlet.h"
+
+#include "../contact/grid.h"
+#include "inlet-heat.h"
+
+#include <flankfilm/simd.h>
+
+#include <math.h>
+#include <stdio.h>
+
+/* c and b of inlet.h, fitted to full solutions with M 5 to 200 and L 0 to 10. */
+static const double BOUNDARY_DEPTH = 0.72, BOUNDARY_LN_ETA = 2.75;
+
+/* Pressure counts up to this rise of ln(eta) over ambient pressure. */
+static const double MOST_LN_ETA = 20;
+
+/* Returns the pressure at which ln(eta) has risen by `rise`, at most `highest`, Pa. */
+static double pressure_at(const ehl_laws *laws, const ehl_oil *oil, double rise, double highest)
+{
+    double low = 0, high = highest;
+    for (int k = 0; k < 60; k++) {
+        double p = k == 0 ? high : (low + high) / 2, ln_eta;
+        laws->viscosity->eval(laws->viscosity->self, 1, &p, NULL, &ln_eta, NULL, NULL);
+        if (ln_eta - oil->ln_viscosity <= rise) {
+            low = p;
+            if (k == 0)
+                break;
+        } else {
+            high = p;
+        }
+    }
+    return low;
+}
+
+ff_status ehl_inlet_fill(ehl_inlet *n, const ehl_laws *laws, const ehl_oil *oil, double alpha,
+                         double conductivity, double highest)
+{
+    n->laws = *laws;
+    n->oil = *oil;
+    n->alpha = alpha;
+    n->conductivity = conductivity;
+    n->step = pressure_at(laws, oil, MOST_LN_ETA, highest) / (EHL_INLET_TABLE - 1);
+    for (size_t i = 0; i < EHL_INLET_TABLE; i++)
+        n->p[i] = (double)i * n->step;
+    ff_status a = laws->viscosity->eval(laws->viscosity->self, EHL_INLET_TABLE, n->p, NULL,
+                                        n->ln_eta, NULL, conductivity > 0 ? n->slope : NULL);
+    ff_status b =
+        laws->density->eval(laws->density->self, EHL_INLET_TABLE, n->p, NULL, n->rho, NULL, NULL);
+    n->q[0] = 0;
+    for (size_t i = 1; i < EHL_INLET_TABLE; i++)
+        n->q[i] = n->q[i - 1] + ehl_fluidity_integral(n->step, n->ln_eta[i - 1] - oil->ln_viscosity,
+                                                      n->ln_eta[i] - oil->ln_viscosity);
+    return a != FF_OK ? a : b;
+}
+
+typedef struct place {
+    size_t row;
+    double share;
+} place;
+
+static double interpolate_column(const double *column, place at)
+{
+    return (1 - at.share) * column[at.row] + at.share * column[at.row + 1];
+}
+
+static place at_pressure(const ehl_inlet *n, double p)
+{
+    double rows = fmin(p / n->step, EHL_INLET_TABLE - 1);
+    size_t row = (size_t)fmin(rows, EHL_INLET_TABLE - 2);
+    return (place){row, rows - (double)row};
+}
+
+/* Finds the row with that q. q grows along the inlet, so the search goes on from the last row. */
+static place at_reduced(const ehl_inlet *n, double q, size_t row)
+{
+    while (row < EHL_INLET_TABLE - 2 && n->q[row + 1] <= q)
+        row++;
+    double share = (q - n->q[row]) / (n->q[row + 1] - n->q[row]);
+    return (place){row, fmin(share, 1)};
+}
+
+/* R of the heated channel at that place (inlet-heat.h). */
+static double heated_share(const ehl_inlet *n, place at, double h, double mass, double speed,
+                           double sliding)
+{
+    const ff_rheology *flow = n->laws.rheology;
+    double ln_eta = interpolate_column(n->ln_eta, at), p = interpolate_column(n->p, at), psi, tau;
+    double per = fmax(-interpolate_column(n->slope, at), 0) / n->conductivity;
+    double past = speed * fmax(1 - mass / (interpolate_column(n->rho, at) * h), 0);
+    psi = exp(-ln_eta);
+    tau = sliding / (psi * h);
+    if (flow) {
+        flow->flow(flow->self, 1, &ln_eta, &h, sliding, &psi, NULL, NULL);
+        flow->shear(flow->self, 1, &p, &ln_eta, &h, sliding, &tau);
+    }
+    return ehl_heat_ratio(per * past * past / psi, per * tau * sliding * h);
+}
+
+typedef struct opening {
+    double a, film, bend; /* bend: a^2/(2R) */
+    double scale;         /* of y = sqrt(s^2 - 1), where the gap has grown by the film */
+} opening;
+
+/* Returns q at the inlet boundary x = -a, where the oil arrives in the state `boundary`. */
+static double reduced_pressure_at_inlet(const ehl_inlet *n, const opening *g, place boundary,
+                                        double speed, double sliding)
+{
+    enum { NODES = 24 };
+    const ff_rheology *flow = n->laws.rheology;
+    double mass = interpolate_column(n->rho, boundary) * g->film,
+           push = 12 * n->oil.viscosity * speed;
+    double q = 0, before = 0, ds = 1. / NODES;
+    place at = {0, 0};
+    size_t most = boundary.row;
+    for (int k = NODES - 1; k > 0; k--) { /* y = scale s/(1 - s), from far upstream to x = -a */
+        double s = k * ds, y = g->scale * s / (1 - s), root = sqrt(1 + y * y);
+        double h = g->film + g->bend * (y * root - asinh(y));
+        double dx = g->a * y / root * g->scale / ((1 - s) * (1 - s)) * ds;
+        at = at_reduced(n, q + before, at.row);
+        if (at.row > most || (at.row == most && at.share > boundary.share))
+            at = boundary;
+        double ease = 1;
+        if (flow && sliding != 0) {
+            double ln_eta = interpolate_column(n->ln_eta, at), psi;
+            flow->flow(flow->self, 1, &ln_eta, &h, sliding, &psi, NULL, NULL);
+            ease = exp(-ln_eta) / psi;
+        }
+        double rise =
+            push * fmax(h - mass / interpolate_column(n->rho, at), 0) / (h * h * h) * ease * dx;
+        if (n->conductivity > 0)
+            rise *= heated_share(n, at, h, mass, speed, sliding);
+        q += (before + rise) / 2;
+        before = rise;
+    }
+    return q + before / 2;
+}
+
+static double mismatch(const ehl_inlet *n, const ehl_instant *at, double speed, double modulus,
+                       double film, place *boundary)
+{
+    double a = ehl_hertz_half_width(at->load, at->radius, modulus);
+    double p_hertz = ehl_hertz_pressure(at->load, at->radius, modulus);
+    double rise = film * at->radius / (a * a);
+    double y = BOUNDARY_DEPTH * BOUNDARY_DEPTH * pow(3 / (2 * sqrt(2)) * rise, 2. / 3);
+    opening g = {a, film, a * a / (2 * at->radius), fmax(cbrt(3 * rise), sqrt(2 * rise))};
+    double elastic = p_hertz * sqrt(2 * y / (1 + 2 * y));
+    *boundary = at_pressure(n, elastic / (1 + n->alpha * elastic / BOUNDARY_LN_ETA));
+    return log(reduced_pressure_at_inlet(n, &g, *boundary, speed, at->sliding) /
+               interpolate_column(n->q, *boundary));
+}
+
+double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, double modulus,
+                      double guess, double *off)
+{
+    enum { LIMIT = 40 };
+    const double within = 1e-5; /* relative error of q at x = -a, about that of the film */
+    place boundary;
+    /* q at x = -a falls about as h^-11/8, and the q that it must reach grows as h^1/3 at most:
+       there is one root, which the secant method seeks within the bracket of known films */
+    double low = -HUGE_VAL, high = HUGE_VAL, x = log(guess), slope = -1.7;
+    double now = mismatch(n, at, speed, modulus, exp(x), &boundary);
+    for (int k = 0; k < LIMIT && fabs(now) > within; k++) {
+        double last = now, from = x;
+        low = now > 0 ? x : low;
+        high = now > 0 ? high : x;
+        x -= fmin(fmax(now / slope, -2), 2);
+        if (x <= low || x >= high)
+            x = (low + high) / 2;
+        now = mismatch(n, at, speed, modulus, exp(x), &boundary);
+        slope = fmin(fmax((now - last) / (x - from), -4), -0.2);
+    }
+    *off = now;
+    /* Where a vanishes the film is that of a rigid cylinder, H = 3/M (Martin 1916), joined as by
+       Moes. */
+    double rigid = 6 * n->oil.viscosity * speed * at->radius / at->load;
+    return n->oil.density *
+           pow(pow(interpolate_column(n->rho, boundary) / n->oil.density * exp(x), 7. / 3) +
+                   pow(rigid, 7. / 3),
+               3. / 7);
+}
+
+double ehl_exit_ratio(double alpha, double p_hertz)
+{
+    return 0.725 + 0.07 / (1 + alpha * p_hertz);
+}
+
+static const double usual_slope = 0.03; /* 1/K: gear oils 0.045 at 40 C, 0.02 at 100 C */
+static const double most_lost = 0.1;
+
+/* Gupta, Cheng, Zhu, Forster and Schrand 1992, a fit to thermal solutions. */
+double ehl_gupta_factor(double p_hertz, double modulus, double Q, double S)
+{
+    double q = fmin(Q, 1e30), s = fmin(S, 1e30);
+    double factor = (1 - 13.2 * p_hertz / modulus * pow(q, 0.42)) /
+                    (1 + 0.213 * (1 + 2.23 * pow(s, 0.83)) * pow(q, 0.64));
+    return fmax(factor, 0);
+}
+
+/* -d ln eta/dT at p = 0. */
+static double slope_of(const ehl_inlet_heating *heating, const ehl_laws *laws)
+{
+    double p = 0, ln_eta = 0, ln_eta_T = 0;
+    if (heating->slope > 0)
+        return heating->slope;
+    if (laws->viscosity->eval(laws->viscosity->self, 1, &p, NULL, &ln_eta, NULL, &ln_eta_T) < 0 ||
+        !(ln_eta_T < 0))
+        return usual_slope;
+    return -ln_eta_T;
+}
+
+void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heating, int heated,
+                              const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil)
+{
+    const double slope = slope_of(heating, laws);
+    double lost = 0, p_worst = -1, Q_worst = 0, S_worst = 0;
+    char text[256];
+    for (size_t i = 0; i < h->count; i++) {
+        ehl_instant at = ehl_history_row(h, i);
+        if (ehl_is_lost(h, at.load) || !(at.entrainment > 0))
+            continue;
+        double p_hertz = sqrt(at.load * h->modulus / (2 * M_PI * at.radius));
+        double Q = oil->viscosity * slope * at.entrainment * at.entrainment / heating->conductivity;
+        double S = fabs(at.sliding) / at.entrainment;
+        if (p_hertz <= p_worst && Q <= Q_worst && S <= S_worst)
+            continue; /* the share grows with each of them */
+        double here = 1 - ehl_gupta_factor(p_hertz, h->modulus, Q, S);
+        if (here > lost) {
+            lost = here;
+            p_worst = p_hertz;
+            Q_worst = Q;
+            S_worst = S;
+        }
+    }
+    snprintf(text, sizeof text,
+             "largest share of the film that shear heating in the inlet would take off by Gupta's "
+             "formula, %s (-d ln eta/dT %.3g 1/K, oil %.3g W/(m K))",
+             heated ? "beside what it takes off here" : "which is not in the results", slope,
+             heating->conductivity);
+    host->quality(host->ctx, "inlet_heating", lost, most_lost,
+                  heated || lost <= most_lost ? FF_GOOD : FF_DOUBTFUL, text);
+}
+
+/* Pressure that the oil of an infinite inlet would have at x = -end, Pa, and its integral upstream,
+   N/m. */
+typedef struct lost {
+    double pressure, load;
+} lost;
+
+/*
+ * The pressure is low there, so that the gap is that of the Hertzian contact, held apart by h, and
+ * the oil as at ambient pressure:
+ *   p = 12 eta0 u int (gap - h)/gap^3 dx,   x = -end/t,   0 < t < 1
+ */
+FF_SIMD
+static lost pressure_upstream(const ehl_oil *oil, const ehl_instant *at, double a, double h,
+                              double end)
+{
+    enum { POINTS = 12 };
+    const double push = 12 * oil->viscosity * fabs(at->entrainment),
+                 bend = a * a / (2 * at->radius);
+    double pressure[POINTS], load[POINTS];
+    lost sum = {0, 0};
+    for (int k = 0; k < POINTS; k++) {
+        double t = (k + 0.5) / POINTS, x = end / t, s = x / a, y = sqrt((s - 1) * (s + 1));
+        double opened = bend * (s * y - ff_log(s + y)), gap = h + opened; /* asinh y = ln(s + y) */
+        pressure[k] = push * opened / (gap * gap * gap) * x / t / POINTS;
+        load[k] = (x - end) * pressure[k];
+    }
+    for (int k = 0; k < POINTS; k++) {
+        sum.pressure += pressure[k];
+        sum.load += load[k];
+    }
+    return sum;
+}
+
+/*
+ * A film without load on the oil in front of it follows from what the reduced pressure q =
+ * int eta0/eta dp reaches at the edge of the contact (inlet.h): q falls as about film^-1.7. All of
+ * the lost pressure is missing there where the oil has thickened, since q only adds up; in an oil
+ * that has not, the elastic flanks give way to it over `length`, and it comes through as the root
+ * of that over the distance.
+ */
+static double share_by_pressure(const ehl_oil *oil, double p_hertz, double a, double length,
+                                double distance, double lost_pressure, double *thickened)
+{
+    const double depth = 0.72, most = 2.75; /* of the edge, inlet.c */
+    double y = depth * depth * length / a, alpha = oil->alpha;
+    double p = p_hertz * sqrt(2 * y / (1 + 2 * y));
+    p /= 1 + alpha * p / most;
+    *thickened = -expm1(-alpha * p);
+    double q = alpha * p > 1e-6 ? *thickened / alpha : p;
+    double through = 0.75 * fmin(1, sqrt(length / distance));
+    return (*thickened + (1 - *thickened) * through) * lost_pressure / (1.7 * q);
+}
+
+/*
+ * The contact must carry the load that the oil upstream of the domain does not: the film of a rigid
+ * cylinder goes with 1/w, that of an elastic one with w^-1/5, and with w^-1/10 where the oil
+ * thickens (Moes 2000). The rigid part of the film is 4.9 eta u R/w (Martin 1916), joined as by
+ * Moes.
+ */
+double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus, double h,
+                      double end)
+{
+    double a = ehl_hertz_half_width(at->load, at->radius, modulus), thickened;
+    if (!(end > a) || !(h > 0))
+        return 1;
+    lost l = pressure_upstream(oil, at, a, h, end);
+    double p_hertz = ehl_hertz_pressure(at->load, at->radius, modulus);
+    double length = ehl_hertz_gap_distance(a, at->radius, h);
+    double pressed = share_by_pressure(oil, p_hertz, a, length, end - a, l.pressure, &thickened);
+    double unloaded = (l.load + l.pressure * end) / at->load;
+    double rigid = 4.9 * oil->viscosity * fabs(at->entrainment) * at->radius / (at->load * h);
+    double share = fmin(1, pow(rigid, 7. / 3));
+    double elastic = pressed + (0.2 - 0.1 * thickened) * unloaded;
+    double missing = share * unloaded + (1 - share) * elastic;
+    return missing / (1 + missing); /* of the film without end; missing: of what is there */
+}
+
+/* Returns the largest share of the film that a domain from x = -end on leaves out, mean over a
+   passage of the contact, of the steady films of the loaded instants. */
+static double most_starved(const ehl_history *h, const ehl_oil *oil, double end)
+{
+    double worst = 0, mean = 0;
+    for (size_t i = 0; i < h->count; i++) {
+        ehl_instant at = ehl_history_row(h, i);
+        double film = ehl_moes_film(&at, h->modulus, oil);
+        if (at.load < EHL_LIGHT_LOAD * h->load_max || !(film > 0))
+            continue;
+        double a = ehl_hertz_half_width(at.load, at.radius, h->modulus);
+        double way = i > 0 ? at.entrainment * (h->time[i] - h->time[i - 1]) : HUGE_VAL;
+        double share = fmin(1, way / (2 * fmax(a, sqrt(2 * at.radius * film))));
+        mean += share * (ehl_starvation(oil, &at, h->modulus, film, end) - mean);
+        worst = fmax(worst, mean);
+    }
+    return worst;
+}
+
+double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil)
+{
+    enum { LIMIT = 30 };
+    const double most = EHL_STARVED_LIMIT / 1.5; /* the estimate is right within that factor */
+    double widest = 0, end = 0, missing;
+    for (size_t i = 0; i < h->count; i++) {
+        ehl_instant at = ehl_history_row(h, i);
+        double a = ehl_hertz_half_width(at.load, at.radius, h->modulus),
+               s = sqrt(2 * at.radius * ehl_moes_film(&at, h->modulus, oil));
+        widest = fmax(widest, a);
+        if (at.load >= EHL_LIGHT_LOAD * h->load_max)
+            end = fmax(end, a + 4 * s);
+    }
+    /* it falls with the square of the distance from the contact, or slower near to it */
+    for (int k = 0; k < LIMIT && (missing = most_starved(h, oil, end)) > most; k++)
+        end = widest + (end - widest) * fmin(2, fmax(1.02, sqrt(missing / most)));
+    return end;
+}

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Computes the film that the inlet of a line contact lets in, after Ertel and Grubin: upstream of x
+ * = -a the gap is that of the Hertzian contact, held apart by the film,
+ *
+ *   h = h_e + (a^2/(2R)) [s sqrt(s^2 - 1) - arcosh s],   s = -x/a,
+ *
+ * and the steady Reynolds equation dp/dx = 12 u (rho h - rho_e h_e)/(rho h^3 psi) is integrated up
+ * to x = -a with the laws of the oil. Ertel and Grubin let the pressure there go to infinity. Here
+ * it reaches what the Hertzian contact has at a depth of the order of the length l over which the
+ * gap grows by h_e (Greenwood 1972 joins the two in a like way), but no more than what thickens the
+ * oil so far that the film is set,
+ *
+ *   1/p_e = 1/p_d + alpha-star/b,   p_d = p_H sqrt(2 y/(1 + 2 y)),   y = c^2 l/a,
+ *   l = a (3 h_e R/(2 sqrt(2) a^2))^(2/3).
+ *
+ * The first alone gives H ~ M^-1/5, the film without pressure dependence; the second Ertel and
+ * Grubin's. c and b stand for the deformation of the inlet by its own pressure, which is left out;
+ * they are fitted.
+ */
+#ifndef EHL_INLET_H
+#define EHL_INLET_H
+
+#include "../contact/history.h"
+#include "../contact/liquid.h"
+
+enum { EHL_INLET_TABLE = 257 };
+
+/* Tables of the oil over pressure, so that a film evaluates the laws for its shear alone. */
+typedef struct ehl_inlet {
+    ehl_laws laws;
+    ehl_oil oil;
+    double alpha;        /* 1/Pa, film-forming coefficient */
+    double conductivity; /* of the oil that heats itself, W/(m K); 0: it does not */
+    double step;         /* Pa, between the rows of the tables */
+    double p[EHL_INLET_TABLE];
+    double q[EHL_INLET_TABLE]; /* reduced pressure, int eta0/eta dp, Pa */
+    double rho[EHL_INLET_TABLE], ln_eta[EHL_INLET_TABLE];
+    double slope[EHL_INLET_TABLE]; /* d ln eta/dT, 1/K, where it does */
+} ehl_inlet;
+
+/* Fills the tables for contacts with Hertz pressures up to `highest`; alpha: ehl_alpha_star.
+   FF_DOMAIN: a law was continued. conductivity: see above. */
+ff_status ehl_inlet_fill(ehl_inlet *n, const ehl_laws *laws, const ehl_oil *oil, double alpha,
+                         double conductivity, double highest);
+
+/* Returns rho h that enters at `speed`, kg/m2; load, radius and speed > 0. guess: h_e to start
+   from; *off: the remaining error of ln q at x = -a. */
+double ehl_inlet_mass(const ehl_inlet *n, const ehl_instant *at, double speed, double modulus,
+                      double guess, double *off);
+
+/*
+ * Least film over rho h/rho0 inside the contact: 0.725 with a strong rise of viscosity, 0.795
+ * without. Fitted to full solutions, M 5 to 200 and L 0 to 10, which it meets within 1 %.
+ */
+double ehl_exit_ratio(double alpha, double p_hertz);
+
+/* The film that is lost as shear heats the oil in the inlet; the models are isothermal. */
+typedef struct ehl_inlet_heating {
+    double conductivity; /* of the oil, W/(m K) */
+    double slope;        /* -d ln eta/dT, 1/K; 0: that of the law, or 0.03 where it has none */
+} ehl_inlet_heating;
+
+/* Row of the ladder for a model with a member `thermal` (inlet-heat.h). */
+#define EHL_THERMAL_PARAM(type)                                                                    \
+    FF_ONE_OF("none|inlet", "thermal", type, thermal, 0, "none",                                   \
+              "heat of shear in the film. none: the film has the temperature of the oil. inlet: "  \
+              "thinner oil in the inlet, as if conduction alone took its heat away; needs an oil " \
+              "with its conductivity")
+
+/* Rows of these parameters for a model with a member `heating`. */
+#define EHL_HEATING_PARAMS(type)                                                                   \
+    FF_QUANTITY("oil_conductivity", "W/(m K)", type, heating.conductivity, 0, "0.14 W/(m K)",      \
+                NULL, 1e-3, 1e3, 0, 0,                                                             \
+                "thermal conductivity of the oil, for the line inlet_heating of the quality "      \
+                "alone; oils have 0.1 to 0.17"),                                                   \
+        FF_QUANTITY_OR("auto", "temperature_slope", "1/K", type, heating.slope, FF_MIN_OPEN,       \
+                       "auto", NULL, 0, 10, 0, 0,                                                  \
+                       "-d ln(eta)/dT of the oil, for inlet_heating alone; auto: that of the "     \
+                       "viscosity law, or 0.03 1/K where it knows no temperature")
+
+/* Film with over film without heating: Q = eta0 beta u^2/k, S = |u1 - u2|/u. 0 where the fit has
+   left its range so far that it turns negative. */
+double ehl_gupta_factor(double p_hertz, double modulus, double Q, double S);
+
+/* The quality line: the greatest share of the film that is lost at any loaded instant; `heated`:
+   the film has the heat of its inlet, beside which the line stands. */
+void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heating, int heated,
+                              const ehl_history *h, const ehl_laws *laws, const ehl_oil *oil);
+
+/*
+ * Share of the film that a domain from x = -end on leaves out of that of an inlet without end, by
+ * the Reynolds equation in front of the domain; h is the central film. 1 where the domain begins in
+ * the contact. The load and the radius of `at` are > 0.
+ */
+double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus, double h,
+                      double end);
+
+/* Above this share of the film the line of starvation is doubtful. */
+#define EHL_STARVED_LIMIT 0.01
+
+/* Distance from x = 0 at which a domain must begin so that ehl_starvation stays below that limit at
+   every loaded instant, m. */
+double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil);
+
+#endif

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Nodes across a film, 0 at flank 1 to 1 at flank 2: those of Gauss, Legendre and Lobatto. */
+#ifndef EHL_ACROSS_H
+#define EHL_ACROSS_H
+
+#include "../contact/lanes.h"
+
+#include <stddef.h>
+
+enum { EHL_ACROSS_LEAST = 4, EHL_ACROSS_PRESET = 8, EHL_ACROSS_MOST = 16, EHL_ACROSS_FINE = 17 };
+
+typedef double ehl_across_matrix[EHL_ACROSS_MOST][EHL_ACROSS_MOST];
+
+typedef struct ehl_across {
+    size_t count;
+    double z[EHL_ACROSS_MOST];
+    double weight[EHL_ACROSS_MOST]; /* of an integral, exact up to the degree 2 count - 3 */
+    /* [l][k]: at node k, of the polynomial that is 1 at node l alone */
+    ehl_across_matrix slope;                       /* d/dz */
+    ehl_across_matrix integral;                    /* from 0 to node k */
+    ehl_across_matrix stiffness;                   /* int (dv/dz) (dT/dz) dz */
+    double fine[EHL_ACROSS_FINE][EHL_ACROSS_MOST]; /* values at equal distances */
+    double swing; /* largest size of one of these where those at the nodes are between -1 and 1 */
+} ehl_across;
+
+/* Sets out[k] to the sum of m[l * stride + k] values[l] over l < n, k < n. Rows of a matrix, and
+   what is computed from them, have room up to a multiple of EHL_LANES. */
+FF_SIMD_INLINE void ehl_across_apply(const double *m, size_t stride, size_t n, const double *values,
+                                     double *out)
+{
+    for (size_t k = 0; k < n; k += EHL_LANES) {
+        ehl_lanes sum = {0}, row;
+        for (size_t l = 0; l < n; l++) {
+            memcpy(&row, m + l * stride + k, sizeof row);
+            sum += values[l] * row;
+        }
+        memcpy(out + k, &sum, sizeof sum);
+    }
+}
+
+/* Returns the highest of `most` and EHL_ACROSS_FINE values of the polynomial through those at the
+   nodes. */
+double ehl_across_highest(const ehl_across *a, const double *values, double most);
+
+/* EHL_ACROSS_LEAST to EHL_ACROSS_MOST nodes. */
+void ehl_across_create(ehl_across *a, size_t count);
+
+#endif

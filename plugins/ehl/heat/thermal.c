@@ -1,0 +1,500 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "thermal.h"
+
+#include "../equations/advection.h"
+
+#include <flankfilm/author.h>
+#include <flankfilm/simd.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Factors beyond which none is predicted. */
+static const double LEAST_FACTOR = 1e-3;
+
+/* Solutions for the film of one instant, sweeps after each, and those of them that take the whole
+   change: a sweep that hesitates alternates between two states, and half of it lies between. Along
+   the nodes of rough flanks the oil of one flank flows against that of the other, and in a thin
+   film whole sweeps may go away from its temperatures: after a round that did not end by itself,
+   all sweeps of this instant take half of what they took. Where factors have settled, rounds of
+   temperatures that do not are alike. */
+enum { MOST_ROUNDS = 80, MOST_PASSES = 8, WHOLE_PASSES = 3, MOST_IDLE = 6, FACTORS = 3 };
+static const double SHARE_THAT_HESITATES = 0.5, LEAST_SWEEP = 0.125;
+
+/* Change of the flow of mass by the factors, relative, below which they are those of the film: it
+   changes h by about as much. A steady film begins without heat, a step next to its solution. A
+   tenth of the bound of rough films moves h_min of ten random ones by 1.6e-3 at most, of eight by
+   less than 3e-4, and friction by less than 3.3e-4 of its largest. */
+static const double SETTLED = 1e-4, SETTLED_STEADY = 1e-5, SETTLED_ROUGH = 1e-3;
+/* Of a larger change a share is taken, of this size. */
+static const double LARGE = 0.3;
+/* Rounds of a steady film after which its factors are accelerated, and the share of their change
+   that is mixed with what the rounds before have shown. */
+static const int PLAIN_ROUNDS = 12;
+static const double MIXED = 0.5;
+/* The share becomes less, down to a least one, while changes do not shrink by this. */
+static const double SHRINKING = 0.95, LEAST_SHARE = 0.15;
+/* Change of ln(eta) by a sweep below which the temperatures are those of the film. */
+static const double WARM = 1e-3, WARM_STEADY = 1e-6;
+/* Change of ln(eta) in time up to which laws are followed by their slopes, and ln(eta) by the
+   curvature on the way to the last call: half its square times that curvature is a fifth of SETTLED
+   for laws whose slopes bend as ln(eta)/10, and a twentieth of this is left where the curvature
+   changes by as much of itself. */
+static const double REACH = 0.02;
+/* Change of a column's equations, over their diagonal, up to which the first pass of a step keeps
+   their inverse: it leaves about this share of what it changes, a tenth of WARM. */
+static const double KEPT = 0.1;
+
+/* Fastest and slowest flank of a history along the nodes; FF_UNSUPPORTED where one moves against
+   the oil. */
+static ff_status speeds_of(const ff_host *host, const ehl_history *h, double *least, double *most)
+{
+    *least = HUGE_VAL;
+    *most = 0;
+    for (size_t i = 0; i < h->count; i++) {
+        double u1 = h->speed_1[i], u2 = h->speed_2[i];
+        double slow = fmin(fabs(u1), fabs(u2)), fast = fmax(fabs(u1), fabs(u2));
+        if (u1 * u2 < 0)
+            return ff_failf(host, FF_UNSUPPORTED, "thermal",
+                            "at time %.6g s the flanks move in opposite directions, %.4g and %.4g "
+                            "m/s (slide-roll ratio beyond 2): thermal: full follows flanks that "
+                            "both move as the oil does; use thermal: inlet or none",
+                            h->time[i], u1, u2);
+        *least = fmin(*least, slow);
+        *most = fmax(*most, fast);
+    }
+    return FF_OK;
+}
+
+static ff_status allocate(ehl_thermal *t, ehl_march *m)
+{
+    enum { OWN = 7 + 2 * FACTORS, BLOCKS = EHL_STATES + 4 };
+    size_t n = t->energy.nodes;
+    t->width = n * (t->energy.across.count + t->energy.flank[0].count + t->energy.flank[1].count +
+                    FACTORS);
+    double *next = t->memory = calloc(BLOCKS * t->width + OWN * n, sizeof *next);
+    if (!next)
+        return FF_NOMEM;
+    for (size_t k = 0; k < EHL_STATES; k++, next += t->width)
+        m->state[k].heat = next;
+    m->trial.heat = next;
+    t->past = next + t->width;
+    t->moved[0] = next + 2 * t->width;
+    t->moved[1] = next + 3 * t->width;
+    next += 4 * t->width;
+    double **own[] = {&t->p_t,   &t->through,  &t->ease,    &t->swell,
+                      &t->carry, &t->friction, &t->p_before};
+    for (size_t k = 0; k < sizeof own / sizeof own[0]; k++, next += n)
+        *own[k] = next;
+    t->now = next;
+    t->change = next + FACTORS * n;
+    return ehl_anderson_create(&t->anderson, FACTORS * n) ? FF_OK : FF_NOMEM;
+}
+
+/* Of the temperatures of a state: those of mobility, density and carried mass. */
+static double *factors_of(const ehl_thermal *t, double *heat)
+{
+    return heat + t->width - FACTORS * t->energy.nodes;
+}
+
+ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
+                             const ehl_thermal_data *data)
+{
+    const ehl_history *h = m->history;
+    const ehl_grid *g = m->solver->grid;
+    ehl_reynolds *r = m->solver->reynolds;
+    double least, most, length = g->inlet + g->outlet;
+    *t = (ehl_thermal){.least_peclet = HUGE_VAL};
+    ff_status status = ehl_history_one_way(h, host, "a film with thermal: full");
+    if (status == FF_OK)
+        status = speeds_of(host, h, &least, &most);
+    if (status == FF_OK)
+        status = ehl_energy_create(&t->energy, g->nodes, data->across);
+    if (status != FF_OK)
+        return status;
+    double lasts = h->time[h->count - 1] - h->time[0] + length / most;
+    if (m->rough) /* and their way into the contact: start.c */
+        lasts += length / most;
+    double longest = least * lasts > length ? length / least : lasts;
+    for (size_t k = 0; k < 2; k++)
+        ehl_half_space_create(&t->energy.flank[k], data->flank_contact, g->dx / most,
+                              fmax(longest, length / most));
+    t->diffusivity = data->flank_diffusivity;
+    t->coefficient = data->friction;
+    t->energy.laws = r->laws;
+    t->energy.flow = data->flow;
+    t->energy.conductivity = data->conductivity;
+    t->energy.heat_capacity = data->heat_capacity;
+    t->energy.T_in = data->bulk;
+    status = allocate(t, m);
+    if (status != FF_OK)
+        return status;
+    m->thermal = t;
+    r->ease = t->ease;
+    r->swell = t->swell;
+    r->carry = t->carry;
+    ehl_thermal_restart(m);
+    return FF_OK;
+}
+
+void ehl_thermal_destroy(ehl_thermal *t)
+{
+    ehl_energy_destroy(&t->energy);
+    ehl_anderson_destroy(&t->anderson);
+    free(t->memory);
+    t->memory = NULL;
+}
+
+ehl_temperature ehl_thermal_state(const ehl_thermal *t, double *heat)
+{
+    size_t n = t->energy.nodes;
+    double *modes = heat + n * t->energy.across.count;
+    return (ehl_temperature){heat, {modes, modes + n * t->energy.flank[0].count}};
+}
+
+static void take_factors(ehl_thermal *t, double *heat)
+{
+    const double *next = factors_of(t, heat);
+    double *to[FACTORS] = {t->ease, t->swell, t->carry};
+    for (size_t k = 0; k < FACTORS; k++)
+        memcpy(to[k], next + k * t->energy.nodes, t->energy.nodes * sizeof *to[k]);
+}
+
+void ehl_thermal_restart(ehl_march *m)
+{
+    ehl_thermal *t = m->thermal;
+    double *heat = m->trial.heat;
+    size_t n = t->energy.nodes;
+    memset(heat, 0, t->width * sizeof *heat);
+    for (size_t j = 0; j < n * t->energy.across.count; j++)
+        heat[j] = t->energy.T_in;
+    ehl_energy_restart(&t->energy);
+    double *next = factors_of(t, heat);
+    for (size_t j = 0; j < FACTORS * n; j++)
+        next[j] = 1;
+    take_factors(t, heat);
+}
+
+/* Sets n values to a line in time through the last two, within their bounds. */
+FF_SIMD
+static void go_on(size_t n, const double *restrict one, const double *restrict two, double ahead,
+                  double least, double most, double *restrict now)
+{
+    for (size_t j = 0; j < n; j++) {
+        double line = one[j] + ahead * (one[j] - two[j]);
+        line = line > least ? line : least;
+        now[j] = line < most ? line : most;
+    }
+}
+
+/* Sets `past` to what the difference formula takes of n values. */
+FF_SIMD
+static void look_back(size_t n, const double *restrict one, const double *restrict two,
+                      const double c[3], double *restrict past)
+{
+    const double by_one = c[1], by_two = c[2];
+    for (size_t j = 0; j < n; j++)
+        past[j] = by_one * one[j] + by_two * two[j];
+}
+
+/* Sets moved[k] to state k, moved with the oil. */
+static void move_state(const ehl_march *m, size_t k)
+{
+    const ehl_thermal *t = m->thermal;
+    const ehl_energy *e = &t->energy;
+    const ehl_state *s = &m->state[k];
+    const double *from = s->heat;
+    double *to = t->moved[k];
+    const size_t parts[] = {e->across.count, e->flank[0].count, e->flank[1].count, 1, 1, 1};
+    for (size_t j = 0; j < sizeof parts / sizeof parts[0]; j++) {
+        ehl_advect_values(m, s, parts[j], from, to);
+        from += parts[j] * e->nodes;
+        to += parts[j] * e->nodes;
+    }
+}
+
+/* Sets the temperatures of the trial and its factors to a line in time through the last two, and
+   `past` to what the difference formula takes of them. */
+static void predict(ehl_march *m, double time, double c[3])
+{
+    ehl_thermal *t = m->thermal;
+    double *now = m->trial.heat, *past = t->past;
+    for (size_t k = 0; m->rough && k < 2; k++)
+        move_state(m, k);
+    const double *one = m->rough ? t->moved[0] : m->state[0].heat;
+    const double *two = m->rough ? t->moved[1] : m->state[1].heat;
+    size_t n = t->energy.nodes, temperatures = n * t->energy.across.count;
+    size_t kept = t->width - FACTORS * n;
+    ehl_march_factors(m, time, c);
+    double ahead = 0;
+    if (m->smooth >= 2)
+        ahead = (time - m->state[0].time) / (m->state[0].time - m->state[1].time);
+    look_back(kept, one, two, c, past);
+    if (m->rough) /* a flank that moves back has its modes from the node behind */
+        memcpy(now + temperatures, one + temperatures, (kept - temperatures) * sizeof *now);
+    go_on(temperatures, one, two, ahead, t->energy.lowest, t->energy.highest, now);
+    go_on(FACTORS * n, one + kept, two + kept, ahead, LEAST_FACTOR, 1 / LEAST_FACTOR, now + kept);
+}
+
+/* Sets p_t, along the path where the nodes move; where asperities were or are in contact it is 0:
+   their pressure is none of the oil. */
+static void pressure_in_time(const ehl_march *m, const ehl_film *film, const double c[3])
+{
+    ehl_thermal *t = m->thermal;
+    size_t n = t->energy.nodes;
+    for (size_t i = 0; i < n; i++)
+        t->p_t[i] = c[0] * film->p[i];
+    for (size_t k = 0; k < 2; k++) {
+        const double *before = m->state[k].film.p;
+        if (m->rough) {
+            ehl_advect_values(m, &m->state[k], 1, before, t->p_before);
+            before = t->p_before;
+        }
+        for (size_t i = 0; i < n; i++)
+            t->p_t[i] += c[k + 1] * before[i];
+    }
+    for (size_t i = 0; m->rough && i < n; i++) {
+        int touches = film->asperity[i];
+        for (size_t k = 0; k < 2; k++)
+            if (fabs(c[k + 1]) > 0)
+                touches |= m->state[k].film.asperity[ehl_upstream_node(m, &m->state[k], i)];
+        t->p_t[i] = touches ? 0 : t->p_t[i];
+    }
+}
+
+/* What the energy equation sees of the film; r has been evaluated for it. */
+static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const ehl_film *film,
+                               const double c[3])
+{
+    ehl_thermal *t = m->thermal;
+    const ehl_reynolds *r = m->solver->reynolds;
+    size_t n = r->nodes;
+    double slide = (m->mirrored ? -step->sliding : step->sliding) / 2;
+    double frame = step->follows ? step->entrainment : 0;
+    ehl_energy_film f = {
+        .count = r->last + 1,
+        .dx = r->dx,
+        .frame = frame,
+        .speed = {fmax(step->entrainment + slide, 0) - frame,
+                  fmax(step->entrainment - slide, 0) - frame},
+        .rate = c[0],
+        .p = film->p,
+        .h = r->thick,
+        .through = t->through,
+        .full = film->full,
+        .asperity = m->rough ? film->asperity : NULL,
+        .friction = t->friction,
+    };
+    for (size_t i = 0; m->rough && i < n; i++)
+        t->friction[i] = t->coefficient * film->p[i] * fabs(step->sliding);
+    for (size_t i = 0; i < n; i++) { /* the faces are nodes, or lie between them */
+        double before = r->flux[r->asymmetric || i < 1 ? i : i - 1];
+        t->through[i] = i > 0 && i + 1 < n ? -(before + r->flux[i]) / 2 : 0;
+    }
+    if (!(c[0] > 0))
+        return f;
+    pressure_in_time(m, film, c);
+    f.p_t = t->p_t;
+    ehl_temperature past = ehl_thermal_state(t, t->past);
+    f.past = past.T;
+    f.past_modes[0] = past.modes[0];
+    f.past_modes[1] = past.modes[1];
+    return f;
+}
+
+/*
+ * Computes the factors of the flow across the film. Returns by how much they change the flow
+ * of mass, at most, relative to what the flanks carry along.
+ */
+static double find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl_energy_film *f,
+                           const ehl_film *film, double *next)
+{
+    const ehl_energy *e = &t->energy;
+    size_t n = r->nodes;
+    double most = 0, held = r->rough ? EHL_NEAR_CONTACT * r->contact : 0;
+    for (size_t i = 0; i < f->count; i++) {
+        double mass = r->liquid.rho[i] * r->thick[i], swell = t->swell[i] * e->mass[i] / mass;
+        int within = ehl_is_cavitated(r, film, i) && !(i > 0 && film->full[i - 1]);
+        double carry = within ? 1 : e->carried[i] / e->mass[i];
+        double ratio = r->f[i] > 0 && e->mobility[i] > 0 ? e->mobility[i] / r->f[i] : 1;
+        double u = (f->speed[0] + f->speed[1]) / 2 + f->frame;
+        double driven = fabs(r->f[i] * e->p_x[i]) / (u * mass), part = driven / (1 + driven);
+        double off =
+            fabs(ratio - 1) * part + fabs(swell / t->swell[i] - 1) + fabs(carry - t->carry[i]);
+        double share = t->damping * (off > LARGE ? LARGE / off : 1);
+        if (film->full[i] && r->thick[i] > held && !(off <= most))
+            most = isfinite(off) ? off : HUGE_VAL;
+        swell = t->swell[i] + share * (swell - t->swell[i]);
+        next[i] = t->ease[i] * (1 + share * (ratio - 1)) * t->swell[i] / swell;
+        next[n + i] = swell;
+        next[2 * n + i] = t->carry[i] + share * (carry - t->carry[i]);
+    }
+    for (size_t i = f->count; i < n; i++)
+        for (size_t k = 0; k < FACTORS; k++)
+            next[k * n + i] = k > 0 ? next[k * n + f->count - 1] : 1;
+    return most;
+}
+
+/*
+ * Changes the next factors of a steady film as the rounds before make it seem best. Of sheared oil
+ * of which one layer takes all, the factors held make waves of a few cells in h, and these waves
+ * such factors: rounds by themselves go away from the film, however small a share of the change
+ * they take.
+ */
+static void accelerate(ehl_thermal *t, size_t count, double *next)
+{
+    size_t n = t->energy.nodes;
+    double *now = t->now, *by = t->change, largest = 0;
+    const double *of[FACTORS] = {t->ease, t->swell, t->carry};
+    for (size_t i = 0; i < n; i++) {
+        now[i] = log(of[0][i]);
+        next[i] = log(next[i] / of[0][i]);
+        for (size_t k = 1; k < FACTORS; k++) {
+            now[k * n + i] = of[k][i];
+            next[k * n + i] -= of[k][i];
+        }
+    }
+    ehl_anderson_step(&t->anderson, now, next, by);
+    for (size_t j = 0; j < FACTORS * n; j++)
+        largest = fmax(largest, fabs(by[j]));
+    double share = largest > LARGE ? LARGE / largest : 1;
+    for (size_t j = 0; j < FACTORS * n; j++)
+        next[j] = now[j] + share * by[j];
+    for (size_t i = 0; i < n; i++)
+        next[i] = i < count ? exp(next[i]) : 1;
+}
+
+/* Returns the part of these bounds that a film has whose `tolerance` is below the usual one. */
+static double tightness(const ehl_march *m)
+{
+    const double usual = 1e-5, least = 1e-4;
+    return fmin(fmax(m->solver->tolerance / usual, least), 1);
+}
+
+/* Computes the temperatures of the film and its factors; 1: they were those already. */
+static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, const double c[3],
+                  int most)
+{
+    ehl_thermal *t = m->thermal;
+    ehl_reynolds *r = m->solver->reynolds;
+    const double part = tightness(m);
+    const double in_time = m->rough ? SETTLED_ROUGH : SETTLED;
+    const double settled = part * (c[0] > 0 ? in_time : SETTLED_STEADY);
+    const double warm = part * t->share * (c[0] > 0 ? WARM : WARM_STEADY);
+    ehl_reynolds_evaluate(r, step, film);
+    ehl_energy_film f = film_of(m, step, film, c);
+    ehl_temperature temperature = ehl_thermal_state(t, m->trial.heat);
+    int passes = 0;
+    t->film = f;
+    if (!(c[0] >
+          0)) /* a steady film calls all laws anew, and those on the way to it do not count */
+        t->energy.law_status = FF_OK;
+    do {
+        ehl_energy_flow(&t->energy, &f, temperature.T);
+        t->energy.keep = passes == 0 && c[0] > 0 && !m->rough ? KEPT * sqrt(part) : 0;
+        t->energy.share = passes < WHOLE_PASSES ? t->share : fmin(t->share, SHARE_THAT_HESITATES);
+        ehl_energy_sweep(&t->energy, &f, &temperature);
+    } while (++passes < most && t->energy.change > warm);
+    const int hesitates = c[0] > 0 && passes == MOST_PASSES && t->energy.change > warm;
+    if (hesitates)
+        t->share = fmax(SHARE_THAT_HESITATES * t->share, LEAST_SWEEP);
+    double before = t->off;
+    t->off = find_factors(t, r, &f, film, factors_of(t, m->trial.heat));
+    t->damping = t->off > SHRINKING * before ? fmax(LEAST_SHARE, 0.7 * t->damping)
+                                             : fmin(1, 1.3 * t->damping);
+    if (!(c[0] > 0) && t->round >= PLAIN_ROUNDS) {
+        accelerate(t, f.count, factors_of(t, m->trial.heat));
+        t->damping = MIXED;
+    }
+    t->idle = hesitates && t->off <= settled ? t->idle + 1 : 0;
+    return t->off <= settled && t->energy.change <= warm;
+}
+
+ff_status ehl_thermal_solve(ehl_march *m, const ehl_step *step, ehl_film *film, double time,
+                            int limit)
+{
+    ehl_thermal *t = m->thermal;
+    double c[3] = {0, 0, 0};
+    if (t->without)
+        return m->solver->solve(m->solver, step, film, limit);
+    if (m->known > 0)
+        predict(m, time, c);
+    t->solved++;
+    t->off = HUGE_VAL;
+    t->damping = t->share = 1;
+    t->idle = 0;
+    ehl_anderson_begin(&t->anderson);
+    t->energy.reach = REACH * sqrt(tightness(m));
+    const int on_the_way = m->known == 0 && step->past; /* to a steady film (start.c) */
+    for (t->round = 0; t->round < (on_the_way ? 1 : MOST_ROUNDS); t->round++) {
+        take_factors(t, m->trial.heat);
+        ff_status status = m->solver->solve(m->solver, step, film, limit);
+        if (status != FF_OK)
+            return status;
+        t->rounds++;
+        if (update(m, step, film, c, on_the_way ? 2 : MOST_PASSES))
+            return FF_OK;
+        if (t->idle > MOST_IDLE)
+            return FF_NOCONV;
+    }
+    return on_the_way ? FF_OK : FF_NOCONV;
+}
+
+void ehl_thermal_rest(ehl_march *m, const ehl_step *step, double time)
+{
+    ehl_thermal *t = m->thermal;
+    double c[3];
+    predict(m, time, c);
+    ehl_reynolds_evaluate(m->solver->reynolds, step, &m->trial.film);
+    ehl_energy_film f = film_of(m, step, &m->trial.film, c);
+    ehl_temperature temperature = ehl_thermal_state(t, m->trial.heat);
+    f.count = 1;
+    ehl_energy_sweep(&t->energy, &f, &temperature);
+    memcpy(factors_of(t, m->trial.heat), factors_of(t, m->state[0].heat),
+           FACTORS * t->energy.nodes * sizeof *t->ease);
+}
+
+double ehl_thermal_mean(const ehl_march *m, size_t i)
+{
+    const ehl_across *a = &m->thermal->energy.across;
+    const double *T = m->state[0].heat + i * a->count;
+    double sum = 0;
+    for (size_t k = 0; k < a->count; k++)
+        sum += a->weight[k] * T[k];
+    return sum;
+}
+
+double ehl_thermal_highest(const ehl_march *m)
+{
+    const ehl_thermal *t = m->thermal;
+    const ehl_across *a = &t->energy.across;
+    double most = t->energy.T_in;
+    for (size_t i = 0; i < t->energy.nodes; i++)
+        if (m->state[0].film.full[i])
+            most = ehl_across_highest(a, m->state[0].heat + i * a->count, most);
+    return most;
+}
+
+double ehl_thermal_flash(const ehl_march *m)
+{
+    const ehl_thermal *t = m->thermal;
+    size_t n = t->energy.across.count;
+    double most = 0;
+    for (size_t i = 0; i < t->energy.nodes; i++)
+        if (m->state[0].film.full[i])
+            most = fmax(most, fmax(m->state[0].heat[i * n], m->state[0].heat[i * n + n - 1]) -
+                                  t->energy.T_in);
+    return most;
+}
+
+double ehl_thermal_stress(const ehl_march *m, size_t i)
+{
+    const ehl_energy *e = &m->thermal->energy;
+    size_t n = e->across.count;
+    double sum = 0; /* at mid-film, of a stress that is linear across it */
+    for (size_t k = 0; k < n; k++)
+        sum += e->across.weight[k] * e->tau[i * n + k];
+    return m->mirrored ? sum : -sum;
+}

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * thermal: full. The temperatures across the film (energy.h) and what they make of the flow. While
+ * the film of an instant is solved for, its mobility, density and carried mass are those of the
+ * laws at the oil's temperature times factors that are held; the temperatures of that film give
+ * the next factors, until neither changes.
+ */
+#ifndef EHL_THERMAL_H
+#define EHL_THERMAL_H
+
+#include "../equations/march.h"
+#include "../solvers/anderson.h"
+#include "energy.h"
+
+/* What a run gives of the flanks and the oil. */
+typedef struct ehl_thermal_data {
+    size_t across;                      /* nodes */
+    double conductivity, heat_capacity; /* of the oil */
+    double bulk;                        /* K, of the flanks and of the oil that enters */
+    double flank_contact;               /* B = sqrt(k rho c), J/(m2 K s^0.5) */
+    double flank_diffusivity;           /* k/(rho c), m2/s */
+    double friction;                    /* coefficient of asperities in contact */
+    const ff_rheology_2 *flow;          /* NULL: Newtonian */
+} ehl_thermal_data;
+
+typedef struct ehl_thermal {
+    ehl_energy energy;
+    ehl_energy_film film; /* that the temperatures are of */
+    size_t width;         /* of a state: temperatures, modes and next factors of all nodes */
+    double *memory, *past, *p_t, *through;
+    double *moved[2];             /* the last two states where the nodes move with the oil */
+    double *friction, *p_before;  /* heat of the asperities, W/m2; pressure of a state, moved */
+    double coefficient;           /* of friction, of asperities in contact */
+    double *ease, *swell, *carry; /* reynolds.h: of the film that is solved for */
+    double rounds, solved;        /* counts: solutions for a film, and instants */
+    double off;                   /* of the last round: what the factors were off */
+    double damping;               /* share of their change that is taken */
+    double share;                 /* of the change of temperatures that sweeps take */
+    int idle;                     /* rounds since factors settled, of temperatures that did not */
+    int round;                    /* solutions for the film of this instant */
+    ehl_anderson anderson;        /* of the factors of a steady film */
+    double *now, *change;         /* of them, as they are accelerated */
+    int without;                  /* 1: films are solved for without heat */
+    int cold_fails;               /* 1: the steady film was not found without heat either */
+    double diffusivity;           /* of the flanks, m2/s */
+    double least_peclet;          /* u a rho c/k of the slower flank, loaded instants */
+    double highest;               /* K */
+    double unbalanced, elsewise;  /* shares of the heat, worst of the instants looked at: of the
+                                     equations, and by other sums */
+} ehl_thermal;
+
+/* Temperatures for the march, whose states hold them. FF_UNSUPPORTED where a flank moves against
+   the oil. */
+ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
+                             const ehl_thermal_data *data);
+void ehl_thermal_destroy(ehl_thermal *t);
+
+/* Forgets the temperatures: another engagement starts, or a film is looked for anew. */
+void ehl_thermal_restart(ehl_march *m);
+
+/* Solves for the film of `step` as solver->solve does, with its temperatures. */
+ff_status ehl_thermal_solve(ehl_march *m, const ehl_step *step, ehl_film *film, double time,
+                            int limit);
+
+/* The temperatures of the trial, which is a film without pressure. */
+void ehl_thermal_rest(ehl_march *m, const ehl_step *step, double time);
+
+/* Of the newest film. Mean temperature across the film at node i, highest one, and highest of the
+   flanks over the bulk, K. */
+double ehl_thermal_mean(const ehl_march *m, size_t i);
+double ehl_thermal_highest(const ehl_march *m);
+double ehl_thermal_flash(const ehl_march *m);
+
+/* tau_m at node i, with the sign of u1 - u2, and the heat of the pressure flow of the newest
+   film. */
+double ehl_thermal_stress(const ehl_march *m, size_t i);
+double ehl_thermal_pressure_flow(const ehl_march *m);
+
+/* The parts of a state. */
+ehl_temperature ehl_thermal_state(const ehl_thermal *t, double *heat);
+
+/* Looks at the heat balance of the newest film. */
+void ehl_thermal_hold(ehl_march *m);
+
+/* Its lines of the quality record. */
+void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_march *m);
+
+#endif

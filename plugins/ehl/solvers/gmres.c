@@ -1,0 +1,460 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "gmres.h"
+
+#include "../equations/asperities.h"
+#include "../equations/cavitation.h"
+
+#include <flankfilm/simd.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Factors are made anew when a solution takes this many more vectors than it did right after the
+   last factorisation. */
+enum { KRYLOV_STALE = 3 };
+
+/* The coarse grid has a corner every so many nodes, and so many corners in all. */
+enum { LEAST_STRIDE = 16, LEAST_CORNERS = 16, MOST_CORNERS = 128 };
+
+/* A preconditioner is outdated when its diagonal has changed by this share. */
+static const double STALE_CHANGE = 0.3;
+
+/* Flow that a linear solution may leave unbalanced: as a share of the flow that it had to balance,
+   and of the flow through the contact. Both must be exceeded to count. */
+static const double MOST_IMBALANCE_LEFT = 0.3, IMBALANCE_NOTICED = 0.01;
+
+/* A linear system is solved to this share of its first residual at least; to the second one with
+   rough flanks, since what is left may turn contacts, and under light loads, where a norm of the
+   pressure tells little of the film. */
+static const double LEAST_REDUCTION = 0.2, CAREFUL_REDUCTION = 0.05;
+
+/* With rough flanks a change of the pressure within the tolerance is left once it is this share of
+   it, and solved for down to it otherwise. */
+static const double SHARE_OF_LAST = 0.01;
+
+/* Newton's method neglects so many times the square of a relative change: alpha p_max/2 of a
+   viscosity exp(alpha p), some 10 in a contact of gears. */
+static const double CURVATURE = 10;
+
+/* Share of the tolerance that a step may leave: the oil carries what each leaves through the
+   contact, where it adds up; docs/performance.md has what the presets leave in all. */
+static const double SHARE_OF_STEP = 1. / 20;
+
+/* Flow that a step may leave unbalanced up to any place, in tolerances. Between two places it is
+   twice that at most, below the least limit of the lines of quality, 5 tolerances (quality.c). */
+static const double MOST_UNBALANCED = 2;
+
+void ehl_linear_deflect(ehl_solver *s, const double *p, double *v)
+{
+    ehl_linear *w = s->self;
+    ehl_fft_apply(w->fft, p, v);
+    s->counters.convolutions++;
+}
+
+/* Rows from ... last - 1 of the product. */
+FF_SIMD
+static void multiply_rows(const ehl_reynolds *r, size_t from, const double *restrict dp,
+                          const double *restrict dh, double *restrict out)
+{
+    const double *restrict a0 = r->by_p[0], *restrict a1 = r->by_p[1], *restrict a2 = r->by_p[2];
+    const double *restrict a3 = r->by_p[3], *restrict b0 = r->by_h[0], *restrict b1 = r->by_h[1];
+    const double *restrict b2 = r->by_h[2], *restrict b3 = r->by_h[3];
+    for (size_t i = from, last = r->last; i < last; i++)
+        out[i] = a0[i] * dp[i - 2] + a1[i] * dp[i - 1] + a2[i] * dp[i] + a3[i] * dp[i + 1] +
+                 b0[i] * dh[i - 2] + b1[i] * dh[i - 1] + b2[i] * dh[i] + b3[i] * dh[i + 1];
+}
+
+/* out = Jacobian (dp, dh = dv + dh00), rows 1 ... last - 1 */
+static void apply_jacobian(const ehl_reynolds *r, const double *dp, const double *dh, double *out)
+{
+    const double *a1 = r->by_p[1], *a2 = r->by_p[2], *a3 = r->by_p[3];
+    const double *b1 = r->by_h[1], *b2 = r->by_h[2], *b3 = r->by_h[3];
+    if (r->last > 1)
+        out[1] = a1[1] * dp[0] + a2[1] * dp[1] + a3[1] * dp[2] + b1[1] * dh[0] + b2[1] * dh[1] +
+                 b3[1] * dh[2];
+    multiply_rows(r, 2, dp, dh, out);
+}
+
+FF_SIMD
+static double dot(const double *restrict a, const double *restrict b, size_t n)
+{
+    double s0 = 0, s1 = 0, s2 = 0, s3 = 0;
+    size_t i = 0;
+    for (; i + 4 <= n; i += 4) {
+        s0 += a[i] * b[i];
+        s1 += a[i + 1] * b[i + 1];
+        s2 += a[i + 2] * b[i + 2];
+        s3 += a[i + 3] * b[i + 3];
+    }
+    for (; i < n; i++)
+        s0 += a[i] * b[i];
+    return (s0 + s1) + (s2 + s3);
+}
+
+FF_SIMD
+void ehl_add(double *restrict y, double factor, const double *restrict x, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        y[i] += factor * x[i];
+}
+
+FF_SIMD
+static void scale(double *y, double factor, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        y[i] *= factor;
+}
+
+const double *ehl_pressure_part(const ehl_solver *s, const ehl_film *film, const double *v)
+{
+    ehl_linear *w = s->self;
+    const ehl_reynolds *r = s->reynolds;
+    if (!r->conserving)
+        return v;
+    for (size_t i = 0; i < r->nodes; i++)
+        w->masked[i] = film->full[i] ? v[i] : 0;
+    for (size_t i = 0; film->yielding > 0 && i < r->nodes; i++)
+        w->masked[i] = ehl_yields(r, film, i) ? 0 : w->masked[i];
+    return w->masked;
+}
+
+/* (dp, dh00) = M^-1 (product, sum): the coarse grid takes the long waves, then the band solves for
+   what they leave. */
+static void apply_preconditioner(ehl_solver *s, const ehl_film *film, double sum, double *dp,
+                                 double *dh00)
+{
+    ehl_linear *w = s->self;
+    const ehl_reynolds *r = s->reynolds;
+    double h00_change = 0;
+    int split = w->split && ehl_coarse_solve(w->coarse, r->last, w->product, sum, film, w->p_step,
+                                             w->h_step, &h00_change);
+    if (split) {
+        apply_jacobian(r, w->p_step, w->h_step, w->left);
+        for (size_t i = 1; i < r->last; i++)
+            w->product[i] -= w->left[i];
+    }
+    ehl_band_solve(w->band, w->product, split ? 0 : sum, dp, dh00);
+    for (size_t i = 1; split && i < r->last; i++)
+        dp[i] += w->p_step[i];
+    *dh00 += h00_change;
+}
+
+/*
+ * A vector of the Krylov space: the change of h00 times `weight` in place 0, of p in 1 ... last-1.
+ * next = M^-1 J basis[k]; keeps the deflection of basis[k].
+ */
+static void extend_krylov_space(ehl_solver *s, const ehl_film *film, int loaded, double weight,
+                                size_t k)
+{
+    ehl_linear *w = s->self;
+    const ehl_reynolds *r = s->reynolds;
+    double *v = w->basis[k], *next = w->basis[k + 1], dh00 = v[0] / weight, sum = 0;
+    v[0] = 0; /* the pressure is 0 at both ends */
+    const double *p = ehl_pressure_part(s, film, v);
+    ehl_linear_deflect(s, p, w->deflection[k]);
+    for (size_t i = 0; i <= r->last; i++)
+        w->h_step[i] = w->deflection[k][i] + dh00;
+    apply_jacobian(r, v, w->h_step, w->product);
+    for (size_t i = 1; i < r->last; i++)
+        sum += p[i];
+    v[0] = dh00 * weight;
+    apply_preconditioner(s, film, loaded ? sum : 0, next, &dh00);
+    memset(next + r->last, 0, (r->nodes - r->last) * sizeof *next);
+    next[0] = dh00 * weight;
+}
+
+typedef struct hessenberg {
+    double h[EHL_KRYLOV + 1][EHL_KRYLOV], c[EHL_KRYLOV], s[EHL_KRYLOV], rest[EHL_KRYLOV + 1];
+} hessenberg;
+
+/* Rotates column k to triangular form (Givens) and returns the norm of the remaining residual. */
+static double rotate_column(hessenberg *q, size_t k)
+{
+    for (size_t j = 0; j < k; j++) {
+        double a = q->h[j][k], b = q->h[j + 1][k];
+        q->h[j][k] = q->c[j] * a + q->s[j] * b;
+        q->h[j + 1][k] = -q->s[j] * a + q->c[j] * b;
+    }
+    double length = hypot(q->h[k][k], q->h[k + 1][k]);
+    q->c[k] = q->h[k][k] / length;
+    q->s[k] = q->h[k + 1][k] / length;
+    q->h[k][k] = length;
+    q->rest[k + 1] = -q->s[k] * q->rest[k];
+    q->rest[k] *= q->c[k];
+    return fabs(q->rest[k + 1]);
+}
+
+/* Combines `count` basis vectors to p_step and v_step so that the residual is least; returns
+   dh00. */
+static double combine_basis(ehl_linear *w, hessenberg *q, size_t count, size_t nodes, double weight)
+{
+    memset(w->p_step, 0, nodes * sizeof *w->p_step);
+    memset(w->v_step, 0, nodes * sizeof *w->v_step);
+    for (size_t i = count; i-- > 0;) {
+        for (size_t j = i + 1; j < count; j++)
+            q->rest[i] -= q->h[i][j] * q->rest[j];
+        q->rest[i] /= q->h[i][i];
+        ehl_add(w->p_step, q->rest[i], w->basis[i], nodes);
+        ehl_add(w->v_step, q->rest[i], w->deflection[i], nodes);
+    }
+    double dh00 = w->p_step[0] / weight;
+    w->p_step[0] = 0;
+    return dh00;
+}
+
+static double largest(const double *x, size_t n)
+{
+    double most = 0;
+    for (size_t i = 0; i < n; i++)
+        most = fabs(x[i]) > most ? fabs(x[i]) : most;
+    return most;
+}
+
+static double least_thickness(const ehl_reynolds *r)
+{
+    double least = r->thick[0];
+    for (size_t i = 1; i < r->last; i++)
+        least = fmin(least, r->thick[i]);
+    return least;
+}
+
+/* What is predicted to be left of a relative change: its share of the residual, and the square that
+   Newton's method neglects. */
+static double left_of(const ehl_linear *w, double change)
+{
+    return change * (w->reached + CURVATURE * change);
+}
+
+int ehl_linear_settles(const ehl_solver *s, double pressure, double film, double times)
+{
+    double allowed = SHARE_OF_STEP * s->tolerance;
+    return left_of(s->self, pressure) <= allowed && left_of(s->self, film) <= times * allowed;
+}
+
+int ehl_linear_balances(const ehl_solver *s)
+{
+    const ehl_linear *w = s->self;
+    return w->unbalanced <= MOST_UNBALANCED * s->tolerance;
+}
+
+/*
+ * Returns the share of the residual that may be left of a change of the pressure, relative: that at
+ * which the film is accurate to its tolerance, or what Newton's method neglects anyway (a forcing
+ * term as of Eisenstat & Walker 1996).
+ */
+static double forcing_term(const ehl_solver *s, double change, int careful)
+{
+    if (s->reynolds->rough && change <= s->tolerance)
+        return fmax(CAREFUL_REDUCTION, SHARE_OF_LAST * s->tolerance / change);
+    return fmin(careful ? CAREFUL_REDUCTION : LEAST_REDUCTION,
+                fmax(CURVATURE * change, SHARE_OF_STEP * s->tolerance / change));
+}
+
+/*
+ * Solves J (dp, dh00) = (product, missing) until the preconditioned residual is the share of the
+ * first one that forcing_term allows. The preconditioner stands on the left, so that the norm
+ * measures the error of the pressure: short waves of the pressure change the balances so little
+ * that a norm of the balances would let them grow from step to step.
+ */
+static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double missing,
+                       double *dh00)
+{
+    ehl_linear *w = s->self;
+    const ehl_grid *g = s->grid;
+    hessenberg q;
+    size_t rows = s->reynolds->last, nodes = s->reynolds->nodes, k = 0;
+    double p_max = ehl_pressure_scale(g, film, nodes);
+    /* Pa/m, makes a change of h00 comparable with one of the pressure: the pressure all over the
+       contact that deflects the flanks by it; under light loads, where the film changes the
+       pressure long before the flanks deflect, the pressure over the least film */
+    double weight = g->dx / (g->half_width * (s->kernel[0] - s->kernel[nodes - 1]));
+    double by_film = p_max / least_thickness(s->reynolds);
+    int careful = s->reynolds->rough || by_film < weight;
+    weight = fmin(weight, by_film);
+    apply_preconditioner(s, film, loaded ? missing : 0, w->basis[0], dh00);
+    memset(w->basis[0] + rows, 0, (nodes - rows) * sizeof *w->basis[0]);
+    w->basis[0][0] = *dh00 * weight;
+    double first = sqrt(dot(w->basis[0], w->basis[0], rows)), norm = first;
+    if (!isfinite(first))
+        return FF_NOCONV;
+    double reduction = forcing_term(s, largest(w->basis[0], rows) / p_max, careful);
+    scale(w->basis[0], first > 0 ? 1 / first : 0, rows);
+    q.rest[0] = first;
+    while (k < EHL_KRYLOV && norm > reduction * first) {
+        extend_krylov_space(s, film, loaded, weight, k);
+        double *next = w->basis[k + 1];
+        for (size_t j = 0; j <= k; j++) {
+            q.h[j][k] = dot(next, w->basis[j], rows);
+            ehl_add(next, -q.h[j][k], w->basis[j], rows);
+        }
+        double length = q.h[k + 1][k] = sqrt(dot(next, next, rows));
+        if (length > 0)
+            scale(next, 1 / length, rows);
+        norm = rotate_column(&q, k++);
+        s->counters.krylov++;
+    }
+    *dh00 = combine_basis(w, &q, k, nodes, weight);
+    w->krylov = k;
+    w->reached = first > 0 ? norm / first : 0;
+    return isfinite(norm) ? FF_OK : FF_NOCONV;
+}
+
+/* Writes the diagonal of rows 1 ... last - 1, and returns whether one before row `from` that counts
+   has changed too much. */
+FF_SIMD
+static int64_t compare_diagonal(size_t last, size_t from, double self, const double *restrict by_p,
+                                const double *restrict by_h, const unsigned char *restrict full,
+                                const double *restrict was, double *restrict now)
+{
+    int64_t drifted = 0;
+    for (size_t i = 1; i < last; i++)
+        now[i] = by_p[i] + self * by_h[i];
+    for (size_t i = 1; i < from && i < last; i++) {
+        double counted = full[i], change = fabs(now[i] - was[i]);
+        drifted |= counted * change > STALE_CHANGE * fabs(was[i]);
+    }
+    return drifted;
+}
+
+/*
+ * Leaves in `product` the diagonal of the matrix that the preconditioner approximates. Returns 1
+ * when it has changed too much upstream of node `from` since the last factorisation: the residual
+ * that such factors precondition says little about the remaining error.
+ */
+static int diagonal_has_changed(const ehl_solver *s, const ehl_film *film, size_t from)
+{
+    ehl_linear *w = s->self;
+    const ehl_reynolds *r = s->reynolds;
+    double self = s->kernel[0] - s->kernel[s->grid->nodes - 1];
+    return compare_diagonal(r->last, from, self, r->by_p[2], r->by_h[2], film->full, w->diagonal,
+                            w->product) != 0;
+}
+
+/* Which equation holds at a node: bit 0 full film, bit 1 asperity contact, bit 2 yield. */
+static unsigned char equation_of(const ehl_reynolds *r, const ehl_film *film, size_t i)
+{
+    return (unsigned char)(film->full[i] + 2 * film->asperity[i] + 4 * ehl_yields(r, film, i));
+}
+
+/* Returns the first row whose factors must be made anew; `last` when all still hold. */
+static size_t first_outdated_row(const ehl_solver *s, const ehl_step *step, const ehl_film *film)
+{
+    const ehl_linear *w = s->self;
+    size_t last = s->reynolds->last, i = 1;
+    if (!w->factored || w->factored_loaded != step->loaded ||
+        w->krylov > w->krylov_fresh + KRYLOV_STALE)
+        return 1;
+    while (i < last && i < w->factored_last &&
+           equation_of(s->reynolds, film, i) == w->factored_kind[i])
+        i++;
+    /* the column of a cavitated node stands for a mass, and rows upstream of it reach that
+       column */
+    size_t reached = s->reynolds->conserving && i < last ? EHL_BAND_REACH : 0;
+    return i > reached ? i - reached : 1;
+}
+
+/* Factorises anew from the first node whose equation has changed, or all when the factors are
+   outdated. */
+static void update_preconditioner(ehl_solver *s, const ehl_step *step, const ehl_film *film)
+{
+    ehl_linear *w = s->self;
+    const ehl_reynolds *r = s->reynolds;
+    size_t from = first_outdated_row(s, step, film);
+    if (diagonal_has_changed(s, film, from))
+        from = 1;
+    if (from == r->last && r->last == w->factored_last)
+        return;
+    ehl_band_factor(w->band, r, film, step->loaded, from);
+    if (w->coarse && (from == 1 || !ehl_coarse_fits(w->coarse, r->last)))
+        ehl_coarse_factor(w->coarse, r, film, step->loaded);
+    memcpy(w->diagonal + from, w->product + from, (r->last - from) * sizeof *w->diagonal);
+    for (size_t i = 0; i < r->nodes; i++)
+        w->factored_kind[i] = equation_of(r, film, i);
+    w->factored_last = r->last;
+    w->factored_loaded = step->loaded;
+    w->factored = 1;
+    w->krylov_fresh = from == 1 ? 0 : w->krylov_fresh;
+    s->counters.factorisations++;
+}
+
+/*
+ * Returns 1 when the step leaves the flow unbalanced although the norm of GMRES is small. Where the
+ * blocks of the coarse grid are wider than the contact, M^-1 almost annihilates some waves of the
+ * balances, so that a norm preconditioned from the left does not contain them.
+ */
+static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl_film *film,
+                            double dh00)
+{
+    ehl_linear *w = s->self;
+    const ehl_reynolds *r = s->reynolds;
+    double flow = 0, left = 0, most = 0, most_left = 0, thin = r->thick[0];
+    for (size_t i = 0; i <= r->last; i++)
+        w->h_step[i] = w->v_step[i] + dh00;
+    apply_jacobian(r, w->p_step, w->h_step, w->left);
+    for (size_t i = 1; i < r->last; i++) {
+        flow -= film->full[i] ? r->residual[i] : 0;
+        left -= film->full[i] ? r->residual[i] + w->left[i] : 0;
+        most = fmax(most, fabs(flow));
+        most_left = fmax(most_left, fabs(left));
+        thin = fmin(thin, r->thick[i]);
+    }
+    double passing = r->oil.density * thin * (step->entrainment + step->rate * s->grid->half_width);
+    w->unbalanced = most_left / passing;
+    return most_left > MOST_IMBALANCE_LEFT * most && w->unbalanced > IMBALANCE_NOTICED;
+}
+
+ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *film, double *dh00)
+{
+    ehl_linear *w = s->self;
+    update_preconditioner(s, step, film);
+    const ehl_reynolds *r = s->reynolds;
+    double missing = (step->load - ehl_film_load(film, r->nodes, r->dx)) / r->dx;
+    for (w->split = w->coarse != NULL;;
+         w->split = 0) { /* the band alone is slower, but misses no wave */
+        for (size_t i = 1; i < r->last; i++)
+            w->product[i] = film->full[i] || r->conserving ? -r->residual[i] : 0;
+        ff_status status = gmres(s, film, step->loaded, missing, dh00);
+        if (status != FF_OK)
+            return status;
+        w->unbalanced = 0;
+        if (!w->split || !misses_imbalance(s, step, film, *dh00))
+            break;
+    }
+    if (w->krylov_fresh == 0)
+        w->krylov_fresh = w->krylov;
+    return FF_OK;
+}
+
+ff_status ehl_linear_create(ehl_solver *s, ehl_linear *w)
+{
+    size_t n = s->grid->nodes;
+    w->fft = ehl_fft_create(n, s->kernel);
+    w->band = ehl_band_create(n, s->kernel);
+    /* where cavitated masses are unknowns the band converges faster without the coarse grid */
+    size_t stride = n / MOST_CORNERS < LEAST_STRIDE ? LEAST_STRIDE : n / MOST_CORNERS;
+    int split = n > LEAST_CORNERS * LEAST_STRIDE && !s->reynolds->conserving;
+    w->coarse = split ? ehl_coarse_create(n, stride, s->kernel) : NULL;
+    w->factored_kind = calloc(n, 1);
+    double *next = w->memory = calloc((2 * (size_t)EHL_KRYLOV + 8) * n, sizeof *next);
+    if (!w->fft || !w->band || (split && !w->coarse) || !w->memory || !w->factored_kind)
+        return FF_NOMEM;
+    double **line[] = {&w->product,  &w->p_step, &w->v_step, &w->h_step,
+                       &w->diagonal, &w->masked, &w->left};
+    for (size_t k = 0; k < sizeof line / sizeof line[0]; k++, next += n)
+        *line[k] = next;
+    for (size_t k = 0; k <= EHL_KRYLOV; k++, next += n)
+        w->basis[k] = next;
+    for (size_t k = 0; k < EHL_KRYLOV; k++, next += n)
+        w->deflection[k] = next;
+    return FF_OK;
+}
+
+void ehl_linear_destroy(ehl_linear *w)
+{
+    ehl_fft_destroy(w->fft);
+    ehl_band_destroy(w->band);
+    ehl_coarse_destroy(w->coarse);
+    free(w->memory);
+    free(w->factored_kind);
+}

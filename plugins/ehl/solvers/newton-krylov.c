@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Newton's method for one instant. Cavitation, contact and yield are primal-dual active sets
+ * (Hintermueller, Ito & Kunisch 2002); the linear systems are those of gmres.h.
+ */
+#include "../equations/asperities.h"
+#include "../equations/cavitation.h"
+#include "../equations/solver.h"
+#include "gmres.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct newton {
+    ehl_linear linear;
+    ehl_cavitation cavitation;
+} newton;
+
+static void destroy(ehl_solver *s)
+{
+    newton *w = s->self;
+    if (!w)
+        return;
+    ehl_linear_destroy(&w->linear);
+    ehl_cavitation_destroy(&w->cavitation);
+    free(w);
+    s->self = NULL;
+}
+
+/* Fills h_step, the change of the film, and finds the largest changes: *dp of the pressure (Pa),
+ *and dh of the full film as a share of it. A cavitated node's change of mass counts in *dh. */
+static void measure_step(const ehl_solver *s, const ehl_film *film, double dh00, double *dp,
+                         double *dh)
+{
+    const newton *w = s->self;
+    const ehl_reynolds *r = s->reynolds;
+    *dp = *dh = 0;
+    for (size_t i = 1; i < r->last; i++) {
+        int yields = ehl_yields(r, film, i);
+        double change = w->linear.h_step[i] =
+            w->linear.v_step[i] + dh00 + (yields ? r->give * w->linear.p_step[i] : 0);
+        double a = yields ? 0 : fabs(w->linear.p_step[i]), b = fabs(change) / r->thick[i];
+        if (ehl_is_cavitated(r, film, i)) {
+            b = a * r->unit / (r->oil.density * r->thick[i]);
+            a = 0;
+        }
+        *dp = a > *dp ? a : *dp;
+        *dh = (film->full[i] || r->conserving) && b > *dh ? b : *dh;
+    }
+}
+
+/* Rescales the pressures below the hardness alone, whose deflection then takes a convolution. */
+static int rescale_elastic_part(ehl_solver *s, const ehl_step *step, ehl_film *film)
+{
+    newton *w = s->self;
+    size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
+    double load = ehl_film_load(film, n, s->grid->dx),
+           below = load - ehl_yield_load(s->reynolds, film);
+    s->rescaling = fabs((step->load - load) / below);
+    int held = ehl_yield_balance(s->reynolds, film, step->load, w->linear.left);
+    ehl_linear_deflect(s, w->linear.left, w->linear.v_step);
+    ehl_add(film->v, 1, w->linear.v_step, n);
+    film->h00 -= w->linear.v_step[centre < n ? centre : n - 1];
+    return held;
+}
+
+static int rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
+{
+    return step->loaded && film->yielding > 0 ? rescale_elastic_part(s, step, film)
+                                              : ehl_rescale_to_load(s, step, film);
+}
+
+/* Computes one Newton step: p_step, v_step, h_step, *dh00, and its largest changes *dp and *dh. */
+static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film, double *dh00,
+                             double *dp, double *dh)
+{
+    newton *w = s->self;
+    ehl_reynolds *r = s->reynolds;
+    ehl_reynolds_evaluate(r, step, film);
+    int moved = r->conserving ? ehl_cavitation_fill(&w->cavitation, r, film, step->rate > 0)
+                              : ehl_cavitation_grow_film(&w->cavitation, r, film);
+    if (r->rough)
+        moved |= ehl_contact_choose(r, step, film);
+    if (moved)
+        ehl_reynolds_evaluate(r, step, film);
+    ehl_reynolds_slopes(r, step, film);
+    if (r->rough) {
+        ehl_contact_rows(r, step, film);
+        ehl_yield_columns(r, film);
+    }
+    if (ehl_linear_solve(s, step, film, dh00) != FF_OK)
+        return FF_NOCONV;
+    s->counters.newton +=
+        w->linear.krylov > 0; /* without, so little was left that no step is due */
+    measure_step(s, film, *dh00, dp, dh);
+    return isfinite(*dp) && isfinite(*dh) && isfinite(*dh00) ? FF_OK : FF_NOCONV;
+}
+
+static void take_step(const ehl_solver *s, ehl_film *film, double share, double dh00)
+{
+    const newton *w = s->self;
+    const ehl_reynolds *r = s->reynolds;
+    for (size_t i = 1; r->conserving && i < r->last; i++)
+        if (ehl_is_cavitated(r, film, i))
+            film->content[i] = fmax(0, film->content[i] + share * r->unit * w->linear.p_step[i]);
+    ehl_yield_step(r, film, share, w->linear.p_step);
+    ehl_add(film->p, share, ehl_pressure_part(s, film, w->linear.p_step), r->nodes);
+    ehl_add(film->v, share, w->linear.v_step, r->nodes);
+    film->h00 += share * dh00;
+}
+
+/* A node may alternate between contact and film, caught between its two equations. Damping ends
+   that: a smaller share of the Newton step is taken while the steps do not shrink. */
+typedef struct damping {
+    double share;        /* of a Newton step that is taken */
+    double last, before; /* sizes of the last step and of the one before it, Pa */
+} damping;
+
+static double damped_share(damping *d, int k, double size)
+{
+    const double least_share = 0.25, shrinking = 0.6; /* over two steps */
+    int stuck = k > 2 && size > shrinking * d->before;
+    d->share = stuck ? fmax(least_share, d->share / 2) : fmin(1, 2 * d->share);
+    d->before = d->last;
+    d->last = size;
+    return d->share;
+}
+
+/* A node that the end of the film gains after the last step changes the traction by so much. */
+static const double END_OF_FILM = 2e-5;
+
+/* Whether so little is left after a step that changed the pressure and the film by these shares.
+   What is left is predicted where the film kept its ends. Where they moved or must be found, and on
+   rough flanks, whose contacts may turn in the next step, the step itself must be small. */
+static int is_small(const ehl_solver *s, double dp, double dh)
+{
+    const newton *w = s->self;
+    double times = s->reynolds->rough || !s->reynolds->conserving ? 10 : 1;
+    int whole = s->reynolds->rough || s->tolerance < END_OF_FILM;
+    int small = whole || w->cavitation.moved ? dp <= s->tolerance && dh <= times * s->tolerance
+                                             : ehl_linear_settles(s, dp, dh, times);
+    return small && (whole || ehl_linear_balances(s));
+}
+
+static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int limit)
+{
+    newton *w = s->self;
+    size_t n = s->grid->nodes;
+    int rough = s->reynolds->rough != NULL;
+    damping settled = {.share = 1};
+    ehl_cavitation_begin(&w->cavitation, n);
+    if (ehl_yield_begin(s->reynolds, film))
+        ehl_linear_deflect(s, film->p, film->v);
+    rescale_to_load(s, step, film);
+    for (int k = 0; k < limit; k++) {
+        double dh00, dp, dh;
+        if (newton_step(s, step, film, &dh00, &dp, &dh) != FF_OK)
+            return FF_NOCONV;
+        double share = ehl_step_share(s->grid, s->reynolds, film, dp, w->linear.h_step);
+        if (rough)
+            share = fmin(share, damped_share(&settled, k, dp));
+        take_step(s, film, share, dh00);
+        double cut =
+            ehl_cavitation_shrink_film(&w->cavitation, s->reynolds, film, w->linear.p_step);
+        cut = fmax(cut, ehl_yield_turn(s->reynolds, film, w->linear.p_step));
+        if (cut > 0) {
+            ehl_linear_deflect(s, w->linear.p_step, w->linear.v_step);
+            ehl_add(film->v, 1, w->linear.v_step, n);
+        }
+        int whole =
+            rescale_to_load(s, step, film) && share >= 1 && ehl_linear_converged(&w->linear);
+        double scale = ehl_pressure_scale(s->grid, film, n);
+        if (whole && !(w->cavitation.split && !rough) && cut <= s->tolerance * scale &&
+            is_small(s, dp / scale, dh))
+            return FF_OK;
+    }
+    return FF_NOCONV;
+}
+
+ff_status ehl_newton_krylov(ehl_solver *s)
+{
+    size_t n = s->grid->nodes;
+    newton *w = s->self = calloc(1, sizeof *w);
+    s->solve = solve;
+    s->deflect = ehl_linear_deflect;
+    s->destroy = destroy;
+    if (!w)
+        return FF_NOMEM;
+    if (ehl_linear_create(s, &w->linear) != FF_OK ||
+        ehl_cavitation_create(&w->cavitation, n) != FF_OK) {
+        destroy(s);
+        return FF_NOMEM;
+    }
+    return FF_OK;
+}

@@ -1,0 +1,487 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Checks the outputs of each instant against the same quantities from its fields, and writes the
+   quality record of a run: how far its results can be trusted. */
+#include "../contact/lanes.h"
+#include "../contact/surface.h"
+#include "../errors/balance.h"
+#include "../errors/time-error.h"
+#include "../heat/thermal.h"
+#include "outputs.h"
+#include "stage.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdio.h>
+
+/* Keeps the worst relative error of all outputs so far. */
+static void compare_output(ehl_balance *b, double value, double expected, double scale)
+{
+    ehl_worse(&b->worst.outputs, fabs(value - expected) / (scale + 1e-300));
+}
+
+/* Returns the least value of the parabola through node i and its neighbours. */
+static double vertex(const double *y, size_t i)
+{
+    double left = y[i] - y[i - 1], right = y[i + 1] - y[i], bend = right - left;
+    return bend > 0 ? y[i] - (left + right) * (left + right) / (8 * bend) : y[i];
+}
+
+/* Interpolates y[0] ... y[3] at 0 ... 3 to `place` by Neville's scheme. */
+static double through_four(const double *y, double place)
+{
+    double q[4] = {y[0], y[1], y[2], y[3]};
+    for (int order = 1; order < 4; order++)
+        for (int k = 0; k + order < 4; k++)
+            q[k] += (place - k) / order * (q[k + 1] - q[k]);
+    return q[0];
+}
+
+static void compare_film_outputs(ehl_balance *b, const ehl_march *m, const double *row)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const double *h = eq->h, *p = m->state[0].film.p;
+    double least = ehl_least(b->nodes, h), highest = ehl_greatest(b->nodes, p, 0);
+    size_t low = 0;
+    while (h[low] > least)
+        low++;
+    if (low > 0 && low + 1 < b->nodes && !m->rough && vertex(h, low) > least / 2)
+        least = vertex(h, low);
+    compare_output(b, row[EHL_H_MIN], least, least);
+    compare_output(b, row[EHL_P_MAX], highest, highest + 1);
+    double place = -eq->first / eq->dx, node = fmin(fmax(floor(place), 1), (double)b->nodes - 3);
+    const double *near = h + (size_t)node;
+    double central = m->rough ? near[0] + (place - node) * (near[1] - near[0])
+                              : through_four(near - 1, place - node + 1);
+    compare_output(b, row[EHL_H_CENTRAL], central, fabs(central));
+}
+
+typedef struct force {
+    double fluid, asperities, all;
+    double end; /* of the fluid in one cell, where the film ends */
+} force;
+
+/* The traction that is nearest to the given one, when the film may end up to half a cell before, or
+   one behind, the cell of its last node: where it does is not compared here. */
+static double with_end(double given, double sum, double end)
+{
+    return fmin(fmax(given, sum + fmin(-end / 2, end)), sum + fmax(-end / 2, end));
+}
+
+/* b->left = tau, up to the last node that has pressure */
+static force friction(ehl_balance *b, const ehl_march *m, double boundary)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const ehl_film *film = &m->state[0].film;
+    double slide = m->step.sliding, way = slide > 0 ? 1 : slide < 0 ? -1 : 0;
+    force f = {0, 0, 0, 0};
+    size_t n = b->nodes;
+    while (n > 1 && !(film->p[n - 1] > 0))
+        n--;
+    if (m->rough) /* of smooth flanks the balance of mass has it */
+        eq->laws.viscosity->eval(eq->laws.viscosity->self, n, film->p, NULL, b->ln_eta, NULL, NULL);
+    if (eq->laws.rheology)
+        eq->laws.rheology->shear(eq->laws.rheology->self, n, film->p, b->ln_eta, eq->h, slide,
+                                 b->left);
+    for (size_t i = 0; i < n && (m->thermal || !eq->laws.rheology); i++)
+        b->left[i] =
+            m->thermal ? ehl_thermal_stress(m, i) : slide / eq->h[i] * exp(fmin(b->ln_eta[i], 230));
+    for (size_t i = 0; i < n; i++) {
+        double tau = b->left[i], p = film->p[i];
+        if (film->asperity[i])
+            f.asperities += way * boundary * p;
+        else if (p > 0)
+            f.fluid += tau;
+        if (p > 0 && i + 1 < b->nodes && !(film->p[i + 1] > 0))
+            f.end += eq->rough ? 0 : tau;
+        f.all += fabs(tau) + boundary * p;
+    }
+    return (force){f.fluid * eq->dx, f.asperities * eq->dx, f.all * eq->dx, f.end * eq->dx};
+}
+
+static void compare_loss_outputs(ehl_balance *b, const ehl_march *m, const double *row, force f)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    const double *p = m->state[0].film.p;
+    double D = 0, u = m->step.entrainment;
+    for (size_t i = 0; i + 1 < b->nodes; i++)
+        D += b->face[i] * (p[i + 1] - p[i]) * (1 / b->rho[i] + 1 / b->rho[i + 1]) / 2;
+    if (m->thermal)
+        D = ehl_thermal_pressure_flow(m);
+    double scale = eq->dx / m->step.radius;
+    double tail = p[1] > 0 ? 24 * eq->oil.viscosity * u * m->step.radius / -eq->first : 0;
+    double power = (f.fluid + f.asperities) * m->step.sliding + D + u * tail;
+    compare_output(b, row[EHL_ROLLING_LOSS], u * (tail - scale * b->moment),
+                   u * (tail + scale * b->arm));
+    compare_output(b, row[EHL_POWER_LOSS],
+                   with_end(row[EHL_POWER_LOSS], power, f.end * m->step.sliding),
+                   fabs(power) + u * tail);
+    if (ehl_march_is_loaded(m))
+        ehl_worse(&b->worst.dissipation, b->unbalanced / (fabs(power) + 1e-300));
+}
+
+void ehl_balance_outputs(ehl_balance *b, const ehl_march *m, const double *row, uint64_t wanted,
+                         double boundary)
+{
+    static const uint64_t of_shear =
+        FF_BIT(EHL_TRACTION) | FF_BIT(EHL_FRICTION_COEFFICIENT) | FF_BIT(EHL_POWER_LOSS);
+    compare_film_outputs(b, m, row);
+    if (!(wanted & of_shear))
+        return;
+    force f = friction(b, m, boundary);
+    double traction = f.fluid + f.asperities, scale = f.all;
+    const double given = row[EHL_TRACTION], by_load = row[EHL_FRICTION_COEFFICIENT] * m->step.load;
+    compare_output(b, given, with_end(given, traction, f.end), scale);
+    if (!m->contact_lost && m->at.load > 0)
+        compare_output(b, by_load, with_end(by_load, traction, f.end), scale);
+    if ((wanted & FF_BIT(EHL_POWER_LOSS)) && !m->rough)
+        compare_loss_outputs(b, m, row, f);
+}
+
+static void report_at_most(const ehl_results *r, const char *name, double value, double limit,
+                           int32_t beyond, const char *text)
+{
+    r->host->quality(r->host->ctx, name, value, limit, value <= limit ? FF_GOOD : beyond, text);
+}
+
+/* Reports a value that must not be less than its limit. */
+static void report_at_least(const ehl_results *r, const char *name, double value, double limit,
+                            const char *text)
+{
+    if (isfinite(value))
+        r->host->quality(r->host->ctx, name, value, limit, value >= limit ? FF_GOOD : FF_DOUBTFUL,
+                         text);
+}
+
+/* Reports an equation that a film must satisfy: beyond `broken` it does not. */
+static void report_balance(const ehl_results *r, const char *name, double value, double limit,
+                           double broken, const char *text)
+{
+    report_at_most(r, name, value, limit, value <= broken ? FF_DOUBTFUL : FF_BAD, text);
+}
+
+/* How far a film may miss its equations: beyond `limit` it is doubtful, beyond `broken` bad. */
+typedef struct tolerances {
+    double limit, broken;
+} tolerances;
+
+static tolerances tolerances_of(const ehl_results *r, const ehl_march *m)
+{
+    const double unknown = 0.02; /* no instant has a load by which the cells could be judged */
+    double most = fmax(20 * fmin(r->tolerance, 2e-5), 5 * r->tolerance);
+    double same = fmax(most, 1e-9), cells = r->worst_by_cells;
+    if (!m->solver->outside)
+        return (tolerances){same, fmax(0.01, 10 * same)};
+    double limit = fmax(same, cells > 0 ? cells : unknown);
+    return (tolerances){limit, fmax(0.01, 2 * limit)};
+}
+
+/*
+ * Up to a tolerance of 2e-5 the last Newton step of a film changed its pressure by less than that
+ * of p_max, and its gap by less than ten times that: between two places the equations are open by
+ * twice as much. Beyond it so much is left after all steps of a passage. What is more was not
+ * solved, or not the film's equations. Beyond a hundredth the film is off by it. Of another
+ * discretisation the balances know the equations alone, and not how it cuts them into cells: they
+ * are open by as much as h_min is off by the cells.
+ */
+static void report_conservation(const ehl_results *r, const ehl_march *m)
+{
+    const ehl_imbalance *w = &r->balance.worst;
+    const int wants_loss = (r->wanted & FF_BIT(EHL_POWER_LOSS)) != 0;
+    const tolerances of = tolerances_of(r, m);
+    const double limit = of.limit, broken = of.broken;
+    report_balance(r, "contact_conditions", w->conditions, 1e-9, 1e-6,
+                   "radius, speeds and load of the films, off those of the contact at their times");
+    report_balance(
+        r, "load_balance", fmax(w->load, r->worst_load), 1e-8, 1e-8,
+        "integral of p against the load of the contact, over the largest; loaded instants, "
+        "without those of landing, where load_error shows up to 1 %");
+    report_balance(r, "load_rescaling", w->rescaling, limit, broken,
+                   "factor on the pressure that the load takes at the end of a solution, less 1");
+    report_balance(
+        r, "film_shape", w->gap, limit, broken,
+        m->rough ? "h between places of the contact, off the shape of the flanks, their traces as "
+                   "they have moved, and a deflection by direct sum, over h"
+                 : "h between places of the contact, off the shape of the flanks and a deflection "
+                   "by direct sum, over h");
+    report_balance(
+        r, "mass_balance", fmax(w->mass, r->worst_mass), limit, broken,
+        "inflow - outflow - storage of what lies between the highest pressure and any other, "
+        "over the flow");
+    report_balance(
+        r, "complementarity", fmax(w->cavitated, r->worst_complement), limit, broken,
+        m->solver->reynolds->conserving
+            ? "what a cell with p = 0 holds beyond its gap, over the gap"
+            : "pressure that would carry off the oil which a cell with p = 0 gains, over the "
+              "highest");
+    /* the mobility in the losses is that of the last Newton step: exp(alpha p), alpha p some 20 */
+    report_balance(
+        r, "outputs", w->outputs, 2.5 * limit, broken,
+        "film, pressure, friction and losses as they are given, off the same from the fields");
+    report_balance(r, "rolling_moment", w->moment, limit, broken,
+                   "work of the entrainment, off that by the moment of the pressure");
+    if (m->rough)
+        return;
+    /* its terms are some hundredths of the flow times P that the volumes are balanced to */
+    report_balance(
+        r, "energy_balance", w->energy, 2 * limit, 2 * broken,
+        "work of the entrainment and of the squeeze less what the pressure flow dissipates, "
+        "over them");
+    if (wants_loss)
+        report_at_most(
+            r, "power_loss_space_error", w->dissipation, 0.05, FF_DOUBTFUL,
+            "estimate of the error of power_loss by the cells, over it: its pressure flow off the "
+            "work of the flanks; loads above 2 % of the largest");
+}
+
+static double largest_loss(const ehl_results *r)
+{
+    double most = 0;
+    for (size_t k = 0; k < r->series.count; k++)
+        most = fmax(most, r->series.data[k * EHL_SERIES + EHL_POWER_LOSS]);
+    return fmax(most, 1e-300);
+}
+
+static void report_end_of_inlet(const ehl_results *r)
+{
+    int flooded = r->tail_share > 0; /* at some instant: of a starved inlet nothing is looked at */
+    if (!r->rough && flooded && (r->wanted & FF_BIT(EHL_POWER_LOSS)))
+        report_at_most(
+            r, "power_loss_inlet_error", r->worst_squeezed / largest_loss(r), 0.05, FF_DOUBTFUL,
+            "estimate of the error of power_loss by where the domain begins, over the largest: the "
+            "squeeze of the flanks in the outer half of the inlet, of which as much is left out");
+}
+
+/* The loss that is added upstream of the domain is off by about a sixth of its share. */
+static void report_inlet_tail(const ehl_results *r)
+{
+    if (!ehl_loss_of_flow(r->wanted) || !(r->tail_share > 0 || r->starved > 0))
+        return;
+    report_at_most(
+        r, "inlet_tail", r->tail_share, 0.5, FF_DOUBTFUL,
+        !r->starved ? "the inlet is flooded: share of the pressure flow's loss that is taken in "
+                      "front of the domain, in closed form"
+        : r->tail_share > 0
+            ? "share of the pressure flow's loss that is taken in front of the domain, where the "
+              "inlet is flooded; at some instants it is starved, and nothing is"
+            : "the inlet is starved: no loss is taken in front of the domain");
+}
+
+/* Asymmetric volumes do not always have a film boundary (relaxation.c). */
+static void report_end_of_film(const ehl_results *r, const ehl_march *m)
+{
+    if (m->solver->reynolds->asymmetric)
+        report_at_most(
+            r, "film_end", r->undecided, 0.01 * (double)r->series.count, FF_DOUBTFUL,
+            "films whose end suits neither of two nodes; what the second of them gains is in "
+            "complementarity");
+}
+
+static void report_ends(const ehl_results *r)
+{
+    report_at_least(r, "inlet_length", r->least_inlet, 4,
+                    "least length of the domain in front of the contact over sqrt(2 R h); below 4 "
+                    "the film is starved by about 1 % or more: move the inlet out");
+    if (isfinite(r->least_inlet))
+        report_at_most(
+            r, "starvation", r->worst_starvation, EHL_STARVED_LIMIT, FF_DOUBTFUL,
+            "film that is missing because the domain ends, mean over a passage; its inlet end is "
+            "taken as flooded; move the inlet out");
+    report_at_most(
+        r, "outlet_load", r->worst_outlet, 2.5e-3, FF_DOUBTFUL,
+        "share of the load next to the outlet's end, within a quarter of sqrt(2 R h), where "
+        "the film reaches it, mean over a passage; above 0.0025 its exit is cut off and h_min too "
+        "low: move the outlet out");
+}
+
+/* Where no error of a film by the cells is estimated. */
+static void report_resolution(const ehl_results *r)
+{
+    if (!ehl_results_estimate_cells(r))
+        report_at_least(
+            r, "film_resolution", r->least_resolution, 4,
+            "least cells over the inlet's pressure rise; below 3 to 4 the film depends on the grid "
+            "by more than 2 %: use more cells");
+}
+
+static void report_time_errors(const ehl_results *r, const ehl_march *m)
+{
+    char text[192];
+    if (r->series.count < 2)
+        return;
+    report_at_most(r, "instants", ehl_sampling_missed(&r->sampling), 0.02, FF_DOUBTFUL,
+                   "part of the load that lies off straight lines between the instants of the "
+                   "film, or of the highest Hertz pressure that none of them has; above 0.02 means "
+                   "and extremes miss what passes between them: more steps");
+    if (m->rough) { /* one asperity's film is no smooth function of time */
+        report_at_most(r, "steps_cut", m->steps_cut, (double)r->series.count, FF_DOUBTFUL,
+                       "time steps that were cut, as contacts come and go");
+        return;
+    }
+    if (ehl_wants_h_min(r->wanted))
+        report_at_most(r, "h_min_time_error",
+                       ehl_beyond_instants(r, EHL_H_MIN, -1) +
+                           (r->lowest_alone ? fmax(0, 1 - r->least_in_time / r->lowest)
+                                            : r->worst_in_time[EHL_LEAST]),
+                       0.05, FF_DOUBTFUL,
+                       r->lowest_alone
+                           ? "estimate of the error of h_min_lowest by the time steps, over it; "
+                             "loads above 2 % of the largest"
+                           : "estimate of the error of h_min by the time steps, over h_min; loads "
+                             "above 2 % of the largest");
+    if (ehl_wants_h_central(r->wanted))
+        report_at_most(
+            r, "h_central_time_error", r->worst_in_time[EHL_CENTRAL], 0.05, FF_DOUBTFUL,
+            "estimate of the error of h_central by the time steps, over h_central; loads above 2 "
+            "% of the largest");
+    report_balance(
+        r, "mass_history", r->balance.worst.history, 0.05,
+        m->solver->outside ? fmax(0.1, 4 * r->worst_in_time[EHL_LEAST])
+                           : fmax(0.5, 10 * r->worst_in_time[EHL_LEAST]),
+        "oil that came into the contact and left it, off the change of what is there, over it");
+    if (ehl_wants_p_max(r->wanted))
+        report_at_most(r, "p_max_time_error",
+                       ehl_beyond_instants(r, EHL_P_MAX, 1) +
+                           (r->highest_alone ? fmax(0, r->highest_in_time / r->highest - 1)
+                                             : r->worst_peak_in_time),
+                       0.05, FF_DOUBTFUL,
+                       r->highest_alone
+                           ? "estimate of the error of p_max_highest by the time steps, over it"
+                           : "estimate of the error of p_max by the time steps, over p_max");
+    double loss = r->wanted & FF_BIT(EHL_POWER_LOSS) ? ehl_results_loss_in_time(r, m) : -1;
+    if (loss >= 0)
+        report_at_most(
+            r, "power_loss_time_error", loss / largest_loss(r), 0.05, FF_DOUBTFUL,
+            "estimate of the error of the rolling and squeeze in power_loss by the time steps, "
+            "over the largest power_loss; loads above 2 % of the largest");
+    r->host->quality(r->host->ctx, "steps_cut", m->steps_cut, 0, FF_GOOD,
+                     "time steps that failed and were taken again in shorter ones");
+    snprintf(text, sizeof text,
+             "largest truncation of the film in one step, over it, at %.6g s; %g steps were taken "
+             "again for theirs",
+             m->worst_truncation_at, m->steps_refused);
+    r->host->quality(r->host->ctx, "worst_step", m->worst_truncation, 0, FF_GOOD, text);
+}
+
+static void report_contact_loss(const ehl_results *r, const ehl_march *m)
+{
+    if (m->pressureless_steps > 0)
+        r->host->quality(r->host->ctx, "bare_steps", m->pressureless_steps, 0, FF_DOUBTFUL,
+                         "steps without load that were carried on without pressure, because "
+                         "Newton's method failed there");
+    if (r->lost_force > 0)
+        r->host->quality(r->host->ctx, "unloaded_force", r->lost_force, 1, FF_GOOD,
+                         "largest force of the film without contact, over the largest load");
+    if (r->worst_gap_excess > 0 && r->widest_gap > 0)
+        report_at_most(
+            r, "one_way_gap_error", r->worst_gap_excess / r->widest_gap, 1, FF_DOUBTFUL,
+            "largest distance by which the film keeps the flanks further apart than the dynamics "
+            "says, over the largest gap; above 1 the flight is the film's, not the dynamics'");
+}
+
+/*
+ * The film on an asperity is made over its inlet, which is the shorter the thinner it is. From one
+ * cell over it on, when the film is the contact film, twice the cells change the share of the
+ * asperities by less than 5 % of it: docs/validation/mixed.md.
+ */
+static void asperity_cells(const ehl_results *r, const ehl_march *m, double share)
+{
+    const double enough = 1, little = 0.01;
+    double length = ehl_roughness_inlet(m->rough, m->solver->reynolds->contact);
+    double dx = m->solver->grid->dx, shortest = ehl_roughness_wavelength(m->rough);
+    if (!isfinite(length))
+        return;
+    int resolved = length >= enough * dx || share < little;
+    char text[192];
+    snprintf(text, sizeof text,
+             "%scells over the inlet of an asperity, %.2g um for the rms curvature of the flanks; "
+             "%.3g cells lie between two peaks",
+             resolved ? "" : "share not resolved: ", 1e6 * length, shortest / dx);
+    r->host->quality(r->host->ctx, "asperity_resolution", length / dx, enough,
+                     resolved ? FF_GOOD : FF_DOUBTFUL, text);
+}
+
+static void report_yield(const ehl_results *r, const ehl_march *m, double count)
+{
+    double hardness = m->solver->reynolds->hardness;
+    char text[192];
+    if (!(hardness > 0))
+        return;
+    snprintf(text, sizeof text,
+             "mean share of the load where the metal yields, at %.4g GPa; the plastic part of the "
+             "gap, %.3g um at most, is that of the instant: no dent stays on a flank",
+             1e-9 * hardness, 1e6 * r->deepest_yield);
+    r->host->quality(r->host->ctx, "yield", r->yield_sum / count, 1, FF_GOOD, text);
+    /* rounding errors of the sum that h is, of terms up to some 1e5 times as large */
+    report_at_most(
+        r, "yield_complementarity", r->worst_yield, 1e-9, FF_BAD,
+        "plastic part of the gap where p is below asperity_hardness, over h, or p beyond it");
+}
+
+static void report_asperities(const ehl_results *r, const ehl_march *m)
+{
+    double count = fmax(1, (double)r->loaded);
+    char text[192];
+    snprintf(text, sizeof text,
+             "mean share of the load on asperities; %.3g of the contact's length touches, and oil "
+             "in sealed valleys carries %.3g of the load",
+             r->ratio_sum / count, r->trapped_sum / count);
+    r->host->quality(r->host->ctx, "asperity_load", r->share_sum / count, 1, FF_GOOD, text);
+    asperity_cells(r, m, r->share_sum / count);
+    report_yield(r, m, count);
+    report_at_most(
+        r, "contact_supply", r->worst_supply, 0.01, FF_DOUBTFUL,
+        "oil that asperities in contact press out beyond what is between them, over the flow");
+    report_at_least(
+        r, "cells_per_wavelength", ehl_roughness_wavelength(m->rough) / m->solver->grid->dx, 8,
+        "cells over the mean distance of the peaks; below 8 the finest asperities are coarse");
+}
+
+/* The film at rest is not known, nor what was there before the creep that stands in for it. */
+static void report_start(const ehl_results *r, const ehl_march *m)
+{
+    const ehl_history *h = m->history;
+    char text[192];
+    if (!h->at_rest)
+        return;
+    snprintf(text, sizeof text,
+             "begins at rest: up to %.3g s, when the film that it began with has left the contact, "
+             "least films are those of %g %% of the largest speed, or left over from them",
+             m->renewed > 0 ? m->renewed : h->time[h->count - 1], 100 * EHL_CREEP);
+    r->host->quality(r->host->ctx, "start_at_rest", 1, 0, FF_DOUBTFUL, text);
+}
+
+void ehl_results_quality(const ehl_results *r, const ehl_march *m)
+{
+    const ehl_counters *counters = &m->solver->counters;
+    double count = (double)r->series.count;
+    char text[256];
+    report_conservation(r, m);
+    report_end_of_film(r, m);
+    report_inlet_tail(r);
+    report_end_of_inlet(r);
+    report_ends(r);
+    report_resolution(r);
+    ehl_results_report_cells(r, m);
+    report_time_errors(r, m);
+    report_contact_loss(r, m);
+    if (m->rough)
+        report_asperities(r, m);
+    else if (r->roughness > 0)
+        ehl_lambda_report(r->host, r->least_lambda);
+    if (r->lowest < 0.999e-9)
+        r->host->quality(r->host->ctx, "continuum", r->lowest, 1e-9, FF_DOUBTFUL,
+                         "outside continuum: the film is thinner than 1 nm, a few molecules");
+    ehl_law_report(r->host, r->laws);
+    report_start(r, m);
+    if (m->solver->outside)
+        r->host->quality(r->host->ctx, "discretisation", 1, 0, FF_GOOD,
+                         "each film is that of another stage's discretisation; its errors by the "
+                         "cells are estimated as if it were this model's own");
+    snprintf(text, sizeof text, "%s%s; %.3g Newton steps and %.3g convolutions per instant",
+             count > 1 ? "converged at every instant" : "converged",
+             m->start_unloaded ? "; begins without load, from the film of 1 % of the largest load"
+                               : "",
+             counters->newton / count, counters->convolutions / count);
+    r->host->quality(r->host->ctx, "status", 0, 0, FF_GOOD, text);
+}

@@ -1,0 +1,73 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Heats the film as the parameters of its stage say. */
+#include "../estimates/inlet-heat.h"
+#include "../heat/heat.h"
+#include "../heat/thermal.h"
+#include "stage.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+
+/* K, of the teeth: as their loss heats them, or given, or that of the oil. */
+static double bulk_temperature(const ehl_model *m, const ff_array *in)
+{
+    if (in[EHL_IN_BULK].data)
+        return *in[EHL_IN_BULK].data;
+    return isnan(m->bulk_temperature) ? m->laws.temperature : m->bulk_temperature;
+}
+
+/* thermal: full */
+static ff_status thermal_create(const ehl_model *m, const ff_array *in, ehl_march *march,
+                                double conductivity, ehl_thermal *thermal)
+{
+    double T = m->laws.temperature, heat_capacity = NAN;
+    const double held = m->flank_density * m->flank_heat_capacity;
+    if (m->laws.rheology && !m->shear_rate)
+        return ff_failf(m->host, FF_INVALID, "thermal",
+                        "thermal: full needs the shear rate at a point of the film "
+                        "(flankfilm.rheology/2), which the law of stage rheology does not offer; "
+                        "thermal: inlet works with it");
+    ff_status status =
+        m->liquid->eval(m->liquid->self, FF_LIQUID_HEAT_CAPACITY, 1, &T, &heat_capacity, NULL);
+    if (status < 0 || !(heat_capacity > 0 && isfinite(heat_capacity)))
+        return ff_failf(m->host, FF_INVALID, "thermal",
+                        "the oil does not tell its heat capacity at %g degC: give heat_capacity, "
+                        "or its base, to the stage of the oil",
+                        T - 273.15);
+    const ehl_thermal_data data = {
+        .across = (size_t)m->thermal_nodes,
+        .conductivity = conductivity,
+        .heat_capacity = heat_capacity,
+        .bulk = bulk_temperature(m, in),
+        .flank_contact = sqrt(m->flank_conductivity * held),
+        .flank_diffusivity = m->flank_conductivity / held,
+        .friction = m->boundary_friction,
+        .flow = m->shear_rate,
+    };
+    return ehl_thermal_create(thermal, m->host, march, &data);
+}
+
+ff_status ehl_stage_heat(const ehl_model *m, const ff_array *in, ehl_march *march, ehl_heat *heat,
+                         ehl_thermal *thermal)
+{
+    double conductivity;
+    if (in[EHL_IN_BULK].data && m->thermal != EHL_THERMAL_FULL)
+        return ff_failf(m->host, FF_INVALID, "bulk",
+                        "the teeth are warmer than the oil, which this film does not see: bulk "
+                        "needs thermal: full");
+    if (m->thermal == EHL_THERMAL_NONE)
+        return FF_OK;
+    if (m->outside)
+        return ff_failf(m->host, FF_UNSUPPORTED, "thermal",
+                        "the discretisation of another stage knows no heat: use thermal: none, or "
+                        "leave the wire discretisation out");
+    ff_status status = ehl_heat_conductivity(m->host, m->liquid, &m->laws, &conductivity);
+    if (m->thermal == EHL_THERMAL_FULL)
+        return status == FF_OK ? thermal_create(m, in, march, conductivity, thermal) : status;
+    if (status == FF_OK)
+        status = ehl_heat_create(heat, march->solver->grid->nodes, conductivity);
+    march->heat = heat;
+    march->solver->reynolds->ease = heat->ease;
+    return status;
+}

@@ -1,0 +1,448 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "stage.h"
+
+#include "../contact/surface.h"
+#include "../equations/deflection.h"
+#include "../estimates/inlet-heat.h"
+#include "../heat/heat.h"
+#include "../heat/thermal.h"
+#include "../time/start.h"
+#include "../time/step-control.h"
+#include "outputs.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+ff_status ehl_create(const ff_host *host, const ff_model *model, ehl_solver_maker *maker,
+                     void **self)
+{
+    ehl_model *m = calloc(1, sizeof *m);
+    if (!m)
+        return FF_NOMEM;
+    m->host = host;
+    m->model = model;
+    m->maker = maker;
+    *self = m;
+    return FF_OK;
+}
+
+void ehl_destroy(void *self)
+{
+    free(self);
+}
+
+ff_status ehl_wire(void *self, uint32_t input, const void *service)
+{
+    ehl_model *m = self;
+    if (input == EHL_IN_DISCRETISATION)
+        m->outside = service;
+    else if (input == EHL_IN_LIQUID)
+        m->liquid = service;
+    else if (input == EHL_IN_SHEAR_RATE)
+        m->shear_rate = service;
+    else
+        ehl_wire_law(&m->laws, input, service);
+    m->rough = m->rough || input == EHL_IN_POSITION;
+    return FF_OK;
+}
+
+ff_status ehl_ready(void *self)
+{
+    static const char smooth[] = "the flanks are smooth: no surface is wired",
+                      ignored[] = "roughness is ignored";
+    const ehl_model *m = self;
+    const int flat = !m->rough || m->roughness == EHL_IGNORED;
+    const char *why = m->rough ? ignored : smooth, *cold = "thermal is not full";
+    const int full = m->thermal == EHL_THERMAL_FULL;
+    const ff_serving rows[] = {
+        {m->steps > 0, "time_tolerance", "", NULL, "the time steps are given, and equal"},
+        {!m->rough, "roughness", "", NULL, smooth},
+        {flat, "contact_film", "", NULL, why},
+        {flat, "boundary_friction", "", NULL, why},
+        {flat, "asperity_hardness", "", NULL, why},
+        {flat, "valleys", "", NULL, why},
+        {flat || m->valleys != EHL_VENTILATED, "valley_length", "", NULL,
+         flat ? why : "valleys is sealed"},
+        {!flat && m->cavitation != EHL_CONSERVING, "cavitation", "", NULL,
+         "rough flanks take mass-conserving"},
+        {!flat && m->wedge > 0, "wedge", "", NULL, "rough flanks take the first order"},
+        {m->rough, "gear.roughness", "", "surface", "the surface has a roughness of its own"},
+        {!full, "thermal_nodes", "", NULL, cold},
+        {!full, "flank_conductivity", "", NULL, cold},
+        {!full, "flank_density", "", NULL, cold},
+        {!full, "flank_heat_capacity", "", NULL, cold},
+        {!full, "bulk_temperature", "", NULL, cold},
+    };
+    ff_serve(m->host, rows, sizeof rows / sizeof rows[0]);
+    return FF_OK;
+}
+
+/* The parts of one run, in the order in which they are made. */
+typedef struct run {
+    ehl_history whole, history; /* of all engagements, and of the current one */
+    ehl_roughness rough;
+    ehl_oil oil;
+    ehl_grid grid;
+    ehl_reynolds reynolds;
+    double *kernel;
+    ehl_solver solver;
+    ehl_march march;
+    ehl_heat heat;
+    ehl_thermal thermal;
+    ehl_step_control control;
+    ehl_results results;
+} run;
+
+/* tolerance: auto. The first film, rough flanks, whose error by the cells is not known, and the
+   solvers that finite-volume is compared with. */
+static const double FIRST_TOLERANCE = 1e-5;
+
+/* It is this share of the error by the cells and the steps, from one bound to the other: beyond
+   them Newton's method gains or loses no step. */
+static const double TOLERANCE_SHARE = 1. / 20, LEAST_TOLERANCE = 2e-5, MOST_TOLERANCE = 2e-4;
+
+/* Records the newest film, and lets the tolerance follow its error. */
+static ff_status record(const ehl_model *m, run *r, int last)
+{
+    ff_status status = ehl_results_record(&r->results, &r->march, last);
+    double error = r->results.by_cells;
+    if (m->tolerance > 0 || r->rough.count > 0 || !(error > 0) ||
+        r->solver.maker != ehl_newton_krylov)
+        return status;
+    error = m->steps > 0 ? error : fmin(error, m->time_tolerance);
+    r->solver.tolerance = fmin(fmax(TOLERANCE_SHARE * error, LEAST_TOLERANCE), MOST_TOLERANCE);
+    return status;
+}
+
+static void run_destroy(run *r)
+{
+    ehl_results_destroy(&r->results);
+    ehl_step_control_destroy(&r->control);
+    ehl_march_destroy(&r->march);
+    ehl_heat_destroy(&r->heat);
+    ehl_thermal_destroy(&r->thermal);
+    if (r->solver.destroy)
+        r->solver.destroy(&r->solver);
+    free(r->kernel);
+    ehl_roughness_destroy(&r->rough);
+    ehl_reynolds_destroy(&r->reynolds);
+}
+
+/* Reads the rough flanks when a surface is wired. */
+static ff_status read_surface(const ehl_model *m, const ff_array *in, run *r)
+{
+    const ff_array *row = in + EHL_IN_POSITION;
+    if (!row[0].data || m->roughness == EHL_IGNORED)
+        return FF_OK;
+    if (m->maker != ehl_newton_krylov || m->outside)
+        return ff_failf(m->host, FF_UNSUPPORTED, "surface.position",
+                        "%s knows smooth flanks only; ehl/finite-volume takes rough ones%s",
+                        m->outside ? "the discretisation" : "this model",
+                        m->outside ? " where none is wired" : "");
+    for (uint32_t k = EHL_IN_POSITION; k <= EHL_IN_ORIGIN; k++)
+        if (!in[k].data)
+            return ff_failf(m->host, FF_INVALID, ehl_inputs[k].name,
+                            "rough flanks need this output of the surface");
+    r->rough = (ehl_roughness){
+        .count = in[EHL_IN_POSITION].shape[0],
+        .height = {in[EHL_IN_HEIGHT_1].data, in[EHL_IN_HEIGHT_2].data},
+        .rq = {*in[EHL_IN_RQ_1].data, *in[EHL_IN_RQ_2].data},
+        .period = *in[EHL_IN_PERIOD].data,
+        .origin = *in[EHL_IN_ORIGIN].data,
+        .history = &r->history,
+    };
+    ff_status status = ehl_history_one_way(&r->history, m->host, "a rough film");
+    return status != FF_OK
+               ? status
+               : ehl_roughness_create(&r->rough, in[EHL_IN_POSITION].data, &r->history, m->host);
+}
+
+/* Refuses a hardness below the mean pressure pi/4 p_H (Johnson 1985, ch. 4): metal that yields all
+   over carries its hardness times a length, which would be longer than the elastic contact. */
+static ff_status check_hardness(const ehl_model *m, const run *r)
+{
+    const double mean = 3.14159265358979323846 / 4 * r->grid.pressure;
+    if (!(r->rough.count > 0 && m->asperity_hardness > 0) || m->asperity_hardness > mean)
+        return FF_OK;
+    return ff_failf(m->host, FF_INVALID, "asperity_hardness",
+                    "flanks of %.4g GPa would yield all over the contact, whose mean pressure is "
+                    "%.4g GPa under the largest load: asperity_hardness must be above that, or 0 "
+                    "for flanks that stay elastic",
+                    1e-9 * m->asperity_hardness, 1e-9 * mean);
+}
+
+/* Fits the domain and its nodes to the contact, the oil and the roughness. */
+static ff_status fit_grid(const ehl_model *m, run *r)
+{
+    if (ehl_fluid_oil(&m->laws, &r->oil) < 0)
+        return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
+    double rq = r->rough.count > 0 ? ehl_roughness_rq(&r->rough) : 0;
+    double supplied = ehl_inlet_supplied(&r->history, &r->oil);
+    ehl_grid_fit(&r->grid, (size_t)m->cells, m->inlet, m->outlet, &r->history, &r->oil, rq,
+                 supplied);
+    if (!(r->grid.dx > 0 && isfinite(r->grid.dx)))
+        return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
+                        "the contact and the oil give no finite length of the domain");
+    return check_hardness(m, r);
+}
+
+static ff_status equations_create(const ehl_model *m, run *r)
+{
+    ehl_reynolds *eq = &r->reynolds;
+    size_t nodes = r->grid.nodes;
+    if (ehl_reynolds_create(eq, &r->grid, &m->laws, &r->oil, m->wedge + 1) != FF_OK)
+        return FF_NOMEM;
+    r->kernel = malloc(nodes * sizeof *r->kernel);
+    if (!r->kernel)
+        return FF_NOMEM;
+    ehl_kernel_fill(nodes, r->grid.dx, r->history.modulus, r->grid.half_width, r->kernel);
+    eq->conserving = m->cavitation == EHL_CONSERVING;
+    eq->unit = r->oil.density * (r->kernel[0] - r->kernel[nodes - 1]);
+    if (r->rough.count > 0) {
+        /* mass-conserving cavitation: a bubble in a valley must give way; first-order wedge: the
+           film boundary must make no waves */
+        eq->conserving = 1;
+        eq->wedge = 1;
+        eq->contact = eq->floor = m->contact_film;
+        eq->leak = m->valleys == EHL_VENTILATED ? 12 / (m->valley_length * m->valley_length) : 0;
+        eq->hardness = m->asperity_hardness;
+        eq->give = r->kernel[0] - r->kernel[nodes - 1];
+    }
+    return FF_OK;
+}
+
+static ff_status solver_create(const ehl_model *m, run *r)
+{
+    r->solver = (ehl_solver){
+        .grid = &r->grid,
+        .reynolds = &r->reynolds,
+        .kernel = r->kernel,
+        .modulus = r->history.modulus,
+        .tolerance = m->tolerance > 0 ? m->tolerance : FIRST_TOLERANCE,
+        .outside = m->outside,
+        .maker = m->outside ? ehl_outside : m->maker,
+    };
+    ff_status status = r->solver.maker(&r->solver);
+    if (status == FF_UNSUPPORTED && m->outside)
+        return ff_failf(
+            m->host, status, "discretisation",
+            "the discretisation does not solve for such a film: cavitation %s, %s wedge",
+            r->reynolds.conserving ? "mass-conserving" : "clip",
+            r->reynolds.wedge == 2 ? "second-order" : "first-order");
+    if (status == FF_UNSUPPORTED)
+        return ff_failf(m->host, status, NULL, "LAPACK, which this model needs, cannot be loaded");
+    return status;
+}
+
+static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
+{
+    ff_status status = ehl_read_history(m->host, in, m->light_load, &r->history);
+    if (status == FF_OK)
+        status = read_surface(m, in, r);
+    if (status == FF_OK)
+        status = fit_grid(m, r);
+    if (status == FF_OK)
+        status = equations_create(m, r);
+    if (status == FF_OK)
+        status = solver_create(m, r);
+    if (status != FF_OK)
+        return status;
+    status = ehl_march_create(&r->march, &r->history, &r->solver, m->time_scheme);
+    r->march.rough = r->rough.count > 0 ? &r->rough : NULL;
+    return status;
+}
+
+static ff_status explain(const ehl_model *m, const run *r, ff_status status, double time)
+{
+    ehl_instant at = ehl_history_at(&r->history, time);
+    char roll[64] = "", good[128] = "", advice[160];
+    const double molecule = 0.5e-9; /* Israelachvili 2011 */
+    if (r->solver.gave_up)
+        return ff_failf(m->host, FF_NOCONV, "discretisation",
+                        "at time %.6g s the discretisation had found no film at more than a fifth "
+                        "of the instants that it was asked for, however short the steps: more "
+                        "cells, or another discretisation, may help",
+                        time);
+    if (status != FF_NOCONV)
+        return status;
+    const double hertz = ehl_hertz_pressure(at.load, at.radius, r->history.modulus);
+    ehl_laws_hold_slopes(&m->laws, fmax(1.5 * hertz, 1e8));
+    if (ehl_laws_failed(&m->laws))
+        return FF_BUG;
+    if (r->solver.no_film)
+        return ff_failf(m->host, status, "discretisation",
+                        "at time %.6g s the discretisation gave something that is not a film: not "
+                        "numbers, or a pressure at the ends of the domain",
+                        time);
+    if (r->history.roll)
+        snprintf(roll, sizeof roll, ", roll angle %.6g rad", at.roll);
+    if (r->march.known > 0)
+        snprintf(good, sizeof good, "; the last good film is that of %.6g s",
+                 r->march.state[0].time);
+    int gone = r->march.known > 0 && r->march.state[0].thinnest < molecule;
+    snprintf(
+        advice, sizeof advice,
+        "More cells, more steps or a wider domain may help, if its Hertz pressure of %.3g GPa is "
+        "meant",
+        1e-9 * hertz);
+    if (m->thermal == EHL_THERMAL_FULL && !gone && !r->thermal.cold_fails)
+        snprintf(advice, sizeof advice,
+                 "Heat %s why: with much of it no film is found by thermal: full where thermal: "
+                 "inlet or none finds one; more cells, less speed or less sliding may help",
+                 r->march.known > 0 ? "may be" : "is");
+    return ff_failf(m->host, status, NULL, "at time %.6g s%s (load %.4g N/m): %s%s. %s", time, roll,
+                    at.load, r->march.why, good,
+                    gone ? "It has been squeezed or starved to less than a molecule at one place: "
+                           "smooth flanks have no film from there on, or need more cells to tell"
+                         : advice);
+}
+
+static int stopped(const ehl_model *m, const run *r, size_t k)
+{
+    enum { BETWEEN = 16 };
+    const ehl_history *h = &r->whole;
+    double begin = h->time[0], span = h->time[h->count - 1] - begin;
+    return k % BETWEEN == 0 &&
+           m->host->progress(m->host->ctx, (r->march.state[0].time - begin) / span);
+}
+
+static ff_status march_equal_steps(const ehl_model *m, run *r)
+{
+    const ehl_history *h = &r->history;
+    double begin = h->time[0], end = h->time[h->count - 1];
+    const size_t steps = (size_t)m->steps;
+    ff_status status = FF_OK;
+    for (size_t k = 1; status == FF_OK && k <= steps; k++) {
+        if (stopped(m, r, k))
+            return FF_STOPPED;
+        double time = k == steps ? end : begin + (end - begin) * (double)k / (double)steps;
+        status = ehl_step_control_to(&r->control, &r->march, time);
+        if (status != FF_OK)
+            return explain(m, r, status, time);
+        status = record(m, r, k == steps);
+    }
+    return status;
+}
+
+static ff_status march_own_steps(const ehl_model *m, run *r)
+{
+    ff_status status = FF_OK;
+    for (size_t k = 1; status == FF_OK && !ehl_step_control_done(&r->control); k++) {
+        if (stopped(m, r, k))
+            return FF_STOPPED;
+        status = ehl_step_control_next(&r->control, &r->march);
+        if (status != FF_OK)
+            return explain(m, r, status, r->march.state[0].time);
+        status = record(m, r, ehl_step_control_done(&r->control));
+    }
+    return status;
+}
+
+static ff_status march_engagement(const ehl_model *m, run *r)
+{
+    const ehl_history *h = &r->history;
+    r->solver.tolerance = m->tolerance > 0 ? m->tolerance : FIRST_TOLERANCE;
+    ff_status status = ehl_march_start(&r->march);
+    if (status != FF_OK)
+        return explain(m, r, status, h->time[0]);
+    status = record(m, r, h->count == 1);
+    if (status != FF_OK || h->count == 1)
+        return status;
+    status = ehl_step_control_create(&r->control, &r->march, m->time_tolerance, m->steps > 0);
+    if (status == FF_OK)
+        status = m->steps > 0 ? march_equal_steps(m, r) : march_own_steps(m, r);
+    ehl_step_control_destroy(&r->control);
+    return status;
+}
+
+/* Marches each engagement from its own steady film, on a grid that fits all of them. */
+static ff_status march(const ehl_model *m, const ff_array *in, run *r)
+{
+    ff_status status = FF_OK;
+    r->whole = r->history;
+    for (size_t row = 0; row < r->whole.count && status == FF_OK;) {
+        ehl_march_restart(&r->march);
+        if (r->march.thermal)
+            ehl_thermal_restart(&r->march);
+        row = ehl_history_engagement(&r->whole, row, &r->history);
+        if (r->rough.count > 0 && r->history.count < r->whole.count) {
+            ehl_roughness_destroy(&r->rough);
+            status = read_surface(m, in, r);
+        }
+        if (status == FF_OK)
+            status = march_engagement(m, r);
+    }
+    return status;
+}
+
+static ff_status read_roughness(const ehl_model *m, uint64_t wanted, const ff_array *in, double *rq)
+{
+    ff_status status = ehl_combined_roughness(m->host, &in[EHL_IN_ROUGHNESS], &in[EHL_IN_RQ_1],
+                                              &in[EHL_IN_RQ_2], rq);
+    if (status == FF_OK)
+        status = ehl_lambda_check(m->host, wanted, EHL_LAMBDA_RATIO, "lambda_ratio", *rq);
+    if (status == FF_OK)
+        status =
+            ehl_lambda_check(m->host, wanted, EHL_LAMBDA_RATIO_LOWEST, "lambda_ratio_lowest", *rq);
+    return status;
+}
+
+static int is_of_heat(uint32_t output)
+{
+    return output == EHL_TEMPERATURE || output == EHL_TEMPERATURE_MAX ||
+           output == EHL_FLASH_TEMPERATURE;
+}
+
+static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
+{
+    run r = {0};
+    ff_status status = ehl_laws_at(&m->isothermal, m->host, &in[EHL_IN_OIL], &m->laws);
+    if (status == FF_OK)
+        status = ehl_read_history(m->host, in, m->light_load, &r.history);
+    if (status != FF_OK)
+        return status;
+    if ((wanted & (FF_BIT(EHL_ROLL_ANGLE) | FF_BIT(EHL_H_MIN_LOWEST_AT))) && !in[EHL_IN_ROLL].data)
+        return ff_failf(
+            m->host, FF_UNSUPPORTED,
+            wanted & FF_BIT(EHL_ROLL_ANGLE) ? "roll_angle" : "h_min_lowest_at",
+            "this output needs a contact with a roll angle, such as contact/tooth-pair");
+    for (uint32_t k = 0; k < EHL_OUTPUTS; k++)
+        if ((wanted & FF_BIT(k)) && m->thermal != EHL_THERMAL_FULL && is_of_heat(k))
+            return ff_failf(m->host, FF_UNSUPPORTED, ehl_outputs[k].name,
+                            "this output needs thermal: full");
+    double roughness;
+    status = read_roughness(m, wanted, in, &roughness);
+    if (status != FF_OK)
+        return status;
+    status = run_create(m, in, &r);
+    if (status == FF_OK)
+        status = ehl_stage_heat(m, in, &r.march, &r.heat, &r.thermal);
+    if (status == FF_OK)
+        status = ehl_results_create(&r.results, m->host, wanted, &r.march);
+    r.results.boundary_friction = m->boundary_friction;
+    r.results.roughness = roughness;
+    if (status == FF_OK)
+        status = march(m, in, &r);
+    if (status == FF_OK)
+        status = ehl_results_measure(&r.results, &r.march, &r.whole, m->steps > 0);
+    if (status == FF_OK)
+        status = ehl_results_finish(&r.results, &r.march);
+    if (status == FF_OK)
+        ehl_inlet_heating_report(m->host, &m->heating, m->thermal != EHL_THERMAL_NONE, &r.whole,
+                                 &m->laws, &r.oil);
+    if (status == FF_OK && r.march.heat)
+        ehl_heat_report(&r.heat, m->host);
+    if (status == FF_OK && r.march.thermal)
+        ehl_thermal_report(&r.thermal, m->host, &r.march);
+    run_destroy(&r);
+    return status;
+}
+
+ff_status ehl_evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    ehl_model *m = self;
+    return numerics_answers_end(&m->isothermal.answers, m->host, evaluate(m, wanted, in));
+}

@@ -1,0 +1,165 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finds the steady film that the marching begins with. */
+#include "start.h"
+
+#include "../heat/heat.h"
+#include "../heat/thermal.h"
+#include "../solvers/grid-level.h"
+#include "time-stepper.h"
+#include "trial.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { SETTLING = 400 };
+
+/* Without load at the start the film of this share of the largest load is taken. */
+static const double light = 0.01;
+
+/* Approaches the steady film from the guess by ever longer Euler steps at fixed conditions. */
+static ff_status settle(ehl_march *m, const ehl_step *steady, const ehl_instant *at)
+{
+    ehl_reynolds *r = m->solver->reynolds;
+    size_t n = r->nodes;
+    ehl_film *film = &m->trial.film, *kept = &m->state[0].film;
+    ehl_step step = *steady;
+    double dt = r->dx / at->entrainment, end = 1e4 * (double)n * dt;
+    ehl_first_guess(m->solver, at, m->history->modulus,
+                    ehl_moes_film(at, m->history->modulus, &r->oil), film);
+    ehl_copy_film(kept, film, n);
+    step.past = m->past;
+    for (int k = 0; k < SETTLING && dt < end; k++) {
+        ehl_reynolds_gap(r, at->radius, kept);
+        ehl_reynolds_mass(r, kept);
+        step.rate = 1 / dt;
+        for (size_t i = 0; i < n; i++)
+            m->past[i] = -r->mass[i] / dt;
+        ff_status status = ehl_heat_solve(m, &step, film, at->time, EHL_LIMIT_PLAIN);
+        if (status == FF_OK && ehl_thinnest(m, at->radius, film) > 0) {
+            ehl_copy_film(kept, film, n);
+            dt *= 2;
+        } else {
+            ehl_copy_film(film, kept, n);
+            dt /= 4;
+        }
+    }
+    return dt < end ? FF_NOCONV : FF_OK;
+}
+
+/* Solves by Newton's method from the film in the trial. */
+static ff_status solve_from_trial(ehl_march *m, const ehl_step *step, const ehl_instant *at)
+{
+    ehl_film *film = &m->trial.film;
+    ff_status status = ehl_heat_solve(m, step, film, at->time, EHL_LIMIT_START);
+    if (status == FF_OK && !(ehl_thinnest(m, at->radius, film) > 0))
+        status = FF_NOCONV;
+    return status;
+}
+
+/* Looks for the steady film in the trial: from coarser grids, from a guess, or by settling. */
+static ff_status look_for_steady(ehl_march *m, const ehl_step *step, const ehl_instant *at)
+{
+    ehl_solver *s = m->solver;
+    ehl_film *film = &m->trial.film;
+    double modulus = m->history->modulus, thinnest = ehl_moes_film(at, modulus, &s->reynolds->oil);
+    ff_status status = ehl_nested_film(s, step, at, modulus, thinnest, film);
+    if (status == FF_OK)
+        status = solve_from_trial(m, step, at);
+    if (status == FF_NOCONV) {
+        ehl_first_guess(s, at, modulus, thinnest, film);
+        status = solve_from_trial(m, step, at);
+    }
+    if (status == FF_NOCONV && settle(m, step, at) == FF_OK)
+        status = solve_from_trial(m, step, at);
+    return status;
+}
+
+/* Finds the steady film in the trial. Where there is none with heat from the guess, the film
+   without heat is looked for, which tells whether heat is why, and the one with heat from there:
+   settling with heat takes the temperatures through decades of viscosity, and where it ends is
+   chance. */
+static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_instant *at)
+{
+    ff_status status = look_for_steady(m, step, at), cold;
+    if (status != FF_NOCONV || !m->thermal)
+        return status;
+    ehl_thermal_restart(m);
+    m->thermal->without = 1;
+    cold = look_for_steady(m, step, at);
+    m->thermal->without = 0;
+    m->thermal->cold_fails = cold == FF_NOCONV;
+    return cold == FF_OK ? solve_from_trial(m, step, at) : cold;
+}
+
+/* Fills the gap with oil without pressure, as it is at rest. */
+static void fill_gap(ehl_march *m, const ehl_instant *at)
+{
+    size_t n = m->solver->grid->nodes;
+    ehl_film *film = &m->trial.film;
+    film->h00 = at->gap;
+    for (size_t i = 0; i < n; i++) {
+        film->p[i] = film->v[i] = 0;
+        film->full[i] = i > 0 && i + 1 < n;
+        film->asperity[i] = 0;
+    }
+}
+
+ff_status ehl_march_start_at(ehl_march *m, double time)
+{
+    ehl_instant at = ehl_history_before(m->history, time);
+    ff_status status = FF_OK;
+    m->start_unloaded = ehl_contact_is_lost(m, &at);
+    int still = m->start_unloaded && !(at.entrainment > 0);
+    ehl_march_place(m, &at);
+    if (m->start_unloaded && !still)
+        at.load = light * m->history->load_max;
+    ehl_step step = ehl_instant_step(m, &at);
+    if (still)
+        fill_gap(m, &at);
+    else
+        status = find_steady(m, &step, &at);
+    if (status == FF_NOCONV)
+        snprintf(m->why, sizeof m->why, "the steady film of the first instant was not found");
+    if (status == FF_OK) {
+        m->trial_step = step;
+        m->trial_at = at;
+        ehl_march_update_mass(m);
+        ehl_march_accept(m);
+        m->contact_lost = m->start_unloaded;
+    }
+    return status;
+}
+
+void ehl_march_restart(ehl_march *m)
+{
+    size_t n = m->solver->grid->nodes;
+    m->known = m->smooth = 0;
+    m->good_steps = m->contact_lost = 0;
+    m->moved = m->last_good_step = 0;
+    memset(m->accumulated_error, 0, n * sizeof *m->accumulated_error);
+    memset(m->local, 0, n * sizeof *m->local);
+}
+
+/*
+ * Rough flanks start smooth, at an earlier time, and their roughness enters with the oil: by the
+ * first instant it has reached the far side of the widest contact, and goes on from there.
+ */
+ff_status ehl_march_start(ehl_march *m)
+{
+    double first = m->history->time[0];
+    if (!m->rough)
+        return ehl_march_start_at(m, first);
+    const ehl_grid *g = m->solver->grid;
+    ehl_instant at = ehl_history_before(m->history, first);
+    double a = g->half_width;
+    m->rough->ramp = 0.5 * a;
+    m->rough->front = fmin(1.5 * a, g->outlet);
+    double way = m->rough->ramp + fmin(2 * a, g->inlet) + m->rough->front;
+    ff_status status = ehl_march_start_at(m, first - way / at.entrainment);
+    if (status == FF_OK)
+        status = ehl_march_to(m, first);
+    m->steps_cut = 0;
+    return status;
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Chooses time steps as long as their truncation allows, which end at each breakpoint of the
+   history. */
+#ifndef EHL_STEP_CONTROL_H
+#define EHL_STEP_CONTROL_H
+
+#include "../equations/march.h"
+
+typedef struct ehl_step_control {
+    double tolerance;   /* relative error of the film that may accumulate in one passage of the
+                           contact */
+    double *breakpoint; /* s, times at which a step must end; the last is the end */
+    size_t breakpoints, next;
+    double dt; /* s, length of the next step */
+} ehl_step_control;
+
+/* equal: the lengths of the steps are given, and only kinks of the radius are breakpoints. */
+ff_status ehl_step_control_create(ehl_step_control *p, const ehl_march *m, double tolerance,
+                                  int equal);
+void ehl_step_control_destroy(ehl_step_control *p);
+
+/* Takes one step; FF_OK, or FF_NOCONV with m->why. */
+ff_status ehl_step_control_next(ehl_step_control *p, ehl_march *m);
+
+/* Advances to `time` in one step, or in several that end at the breakpoints on the way. */
+ff_status ehl_step_control_to(ehl_step_control *p, ehl_march *m, double time);
+
+int ehl_step_control_done(const ehl_step_control *p);
+
+#endif

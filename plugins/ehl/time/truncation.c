@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the time steps leave out of a film, and its way through the contact. */
+#include "truncation.h"
+
+#include "../contact/lanes.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Truncation counts where the pressure exceeds this share of the highest. */
+static const double CONTACT_PRESSURE = 0.02;
+
+/* local = scale - (c[0] y0 + c[1] y1 + c[2] y2)/y where p exceeds `least`, and 0 elsewhere. */
+FF_SIMD
+static void fill_local(size_t n, const double *restrict y, const double *restrict y0,
+                       const double *restrict y1, const double *restrict y2,
+                       const double *restrict p, double least, const double *c, double scale,
+                       double *restrict local)
+{
+    const double c0 = c[0], c1 = c[1], c2 = c[2];
+    for (size_t i = 0; i < n; i++) {
+        double off = scale - (c0 * y0[i] + c1 * y1[i] + c2 * y2[i]) / y[i];
+        local[i] = p[i] > least ? off : 0;
+    }
+}
+
+/*
+ * The error of the differentiation formula for a polynomial one order higher, whose leading term is
+ * the difference between the new film and the extrapolation of the old ones,
+ * (y - y_extrapolated)/(rate (t - t_oldest)).
+ */
+void ehl_estimate_truncation(ehl_march *m)
+{
+    size_t n = m->solver->grid->nodes, order = m->scheme == EHL_EULER || m->smooth < 2 ? 2 : 3;
+    double time = m->trial_at.time, c[3];
+    if (m->rough || ehl_run_of_states(m, m->trial_step.loaded, order) < order) {
+        memset(m->local, 0, n * sizeof *m->local);
+        return;
+    }
+    ehl_lagrange_factors(m, time, order, c);
+    double scale = 1 / (m->trial_step.rate * (time - m->state[order - 1].time));
+    for (size_t k = 0; k < 3; k++)
+        c[k] *= scale;
+    fill_local(n, m->trial.mass, m->state[0].mass, m->state[1].mass, m->state[2].mass,
+               m->trial.film.p, CONTACT_PRESSURE * m->trial.highest, c, scale, m->local);
+}
+
+double ehl_march_truncation(const ehl_march *m)
+{
+    return ehl_greatest_size(m->solver->grid->nodes, m->local);
+}
+
+/*
+ * Returns the x from which on errors accumulate: half a pressure build-up length upstream of the
+ * contact, since further upstream the pressure flow determines the film anew. Without load the film
+ * keeps its errors all over the width of the contact.
+ */
+static double start_of_accumulation(const ehl_march *m)
+{
+    double load = m->trial_at.load, radius = m->trial_at.radius, h = m->trial.thinnest;
+    if (!m->trial_step.loaded || !(load > 0 && h > 0))
+        return -m->solver->grid->half_width;
+    double a = ehl_hertz_half_width(load, radius, m->history->modulus);
+    return -a - ehl_inlet_buildup(a, radius, h) / 2;
+}
+
+/* Updates the distance over which the film still stems from a jump of the load within a step, which
+   steps of second order do not resolve. */
+static void detect_load_jump(ehl_march *m, double distance)
+{
+    const double leap = 1.2, passage = 3 * m->solver->grid->half_width;
+    double before = m->at.load, now = m->trial_at.load;
+    int jumped = !(now < leap * before && before < leap * now);
+    m->distance_of_jump = jumped ? passage : fmax(m->distance_of_jump - distance, 0);
+}
+
+/*
+ * Returns the error of a step at a breakpoint of the film. Where the third difference is as large
+ * as the second, a breakpoint leaves half of the second as the error, step after step: y' = 0, then
+ * v, with equal steps gives 0, 2/3, 14/9, 68/27 v dt for 0, 1, 2, 3, so that the errors add up to v
+ * dt/2, whereas those of the third difference take each other off.
+ */
+static double error_at_kink(double local, double third, double second)
+{
+    return fabs(third) > fabs(second) / 2 && fabs(second) > 2 * fabs(local) ? second / 2 : local;
+}
+
+/* to = (1 - part) from + part times that of the node in front, and gain/cells. */
+FF_SIMD
+static void fill_moved(size_t n, const double *restrict from, double part,
+                       const double *restrict gain, double cells, double *restrict to)
+{
+    for (size_t i = 0; i < n; i++)
+        to[i] = (1 - part) * from[i] + part * from[i - 1] + gain[i] / cells;
+}
+
+/* Fills in the sums of `local` up to each node. What the oil meets on its way is the sum at its end
+   less that at its beginning, which is taken off what comes from there. */
+FF_SIMD
+static void sum_on_way(size_t n, const double *restrict local, double cells, double *restrict sum,
+                       double *restrict error)
+{
+    double met = 0;
+    for (size_t i = 0; i < n; i++)
+        sum[i] = met += local[i];
+    for (size_t i = 0; i < n; i++)
+        error[i] -= sum[i] / cells;
+}
+
+/* Moves the accumulated error on with the film by `cells`, and adds the mean of `local` along that
+   path downstream of node `first`; upstream of it nothing accumulates. */
+static void advect_and_add(ehl_march *m, size_t first, double cells)
+{
+    size_t n = m->solver->grid->nodes, whole = (size_t)fmin(cells, (double)n), start = whole + 1;
+    double *sum = m->accumulated_error, *moved = m->deflection, *gain = m->change;
+    first = first < n ? first : n;
+    start = start < first ? first : start < n ? start : n; /* what was in front is not known */
+    if (cells > 1)
+        sum_on_way(n - first, m->local + first, cells, gain + first, sum + first);
+    else
+        gain = m->local;
+    memcpy(moved, m->local, first * sizeof *moved);
+    for (size_t i = first; i < start; i++)
+        moved[i] = gain[i] / fmax(cells, 1);
+    fill_moved(n - start, sum + start - whole, cells - (double)whole, gain + start, fmax(cells, 1),
+               moved + start);
+    m->accumulated_error = moved;
+    m->deflection = sum;
+}
+
+void ehl_advect_error(ehl_march *m, double distance)
+{
+    const ehl_reynolds *r = m->solver->reynolds;
+    const ehl_state *s = m->state;
+    const double *y = m->trial.mass, *y0 = s[0].mass, *y1 = s[1].mass;
+    detect_load_jump(m, distance);
+    int across = m->distance_of_jump > 0 && m->scheme != EHL_EULER && m->smooth > 1 && m->known > 2;
+    double time = m->trial_at.time, edge = start_of_accumulation(m), scale = 0, ahead = 0;
+    if (across) {
+        scale = m->trial_step.rate * (time - s[2].time);
+        ahead = (time - s[0].time) / (s[0].time - s[1].time);
+    }
+    for (size_t i = 0; across && i < r->nodes; i++)
+        if (m->local[i] < 0 || m->local[i] > 0)
+            m->local[i] = error_at_kink(m->local[i], scale * m->local[i],
+                                        (y[i] - y0[i] - ahead * (y0[i] - y1[i])) / y[i]);
+    double first = ceil((edge - r->first) / r->dx);
+    advect_and_add(m, first > 0 ? (size_t)first : 0, distance / r->dx);
+}
