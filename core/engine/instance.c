@@ -122,6 +122,7 @@ static bool load(fe_request *q)
     const ff_loaded *loaded = ff_engine_model(i->engine, q->name, FF_NOWHERE, i->report);
     if (!loaded)
         return false;
+    fe_warn_displaced(loaded, i->report);
     const ff_model *model = loaded->model;
     i->given = fe_arena_alloc(arena, model->param_count * sizeof *i->given);
     i->presets = fe_arena_alloc(arena, model->param_count * sizeof *i->presets);

@@ -77,6 +77,7 @@ static void open(run_call *call)
     if (ff_report_errors(run->report) > 0)
         return;
     run->pipeline = ff_pipeline_build(run->tree, run->engine, false, run->report);
+    ff_engine_warn_displaced(run->engine, run->report);
 }
 
 static void make(void *ctx)

@@ -81,7 +81,8 @@ typedef struct ff_engine_options {
  * options may be NULL. Models are looked for in the given directories, in those of the environment
  * variable FLANKFILM_PLUGIN_PATH, in the user's (~/.local/share/flankfilm/plugins), in the one that
  * was installed with the library and, when that lies in its build tree, in the build's. The first
- * file found is the one used. Without memory *engine is NULL.
+ * file found is the one used; what opens a run or an instance warns of others of its id. Without
+ * memory *engine is NULL.
  */
 ff_status ff_engine_new(const ff_engine_options *options, ff_engine **engine);
 void ff_engine_close(ff_engine *engine); /* NULL is nothing */
@@ -496,6 +497,7 @@ typedef struct ff_loaded {
     ff_unit *param_units;
     ff_dims *input_dims;
     ff_dims *output_dims;
+    char *displaced; /* other files of that id, "a.so, b.so", which are not used; NULL: none */
 } ff_loaded;
 
 /*
@@ -505,6 +507,9 @@ typedef struct ff_loaded {
  */
 const ff_loaded *ff_engine_model(ff_engine *engine, const char *id, ff_place place,
                                  ff_report *report);
+
+/* Warns of each model that was loaded so far while other files have its id, too. */
+void ff_engine_warn_displaced(const ff_engine *engine, ff_report *report);
 
 /* Sorted ids of all models that can be found, without loading one. */
 const char *const *ff_engine_ids(ff_engine *engine, size_t *count);

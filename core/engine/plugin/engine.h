@@ -34,6 +34,9 @@ ff_status fe_engine_lack(ff_engine *engine);
 /* Makes the messages of the report the message of the engine. Inside fe_engine_call. */
 void fe_engine_say(ff_engine *engine, const ff_report *report);
 
+/* Warns if other files have the id of the model, too. */
+void fe_warn_displaced(const ff_loaded *loaded, ff_report *report);
+
 /* The status of a call that left these messages. */
 ff_status fe_status_of(const ff_report *report);
 

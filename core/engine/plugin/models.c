@@ -205,8 +205,22 @@ static void load(void *ctx)
     fe_free(tried);
     if (!path || !load_file(l, path))
         return;
+    l->loaded->displaced = fe_search_path_others(&engine->search, l->id, path);
     engine->models = fe_resize(engine->models, (engine->count + 1) * sizeof *engine->models);
     engine->models[engine->count++] = l->loaded;
+}
+
+void fe_warn_displaced(const ff_loaded *loaded, ff_report *report)
+{
+    if (loaded->displaced)
+        ff_warn(report, FF_NOWHERE, "%s: the plugin %s takes the place of %s, which is not used",
+                loaded->model->id, loaded->path, loaded->displaced);
+}
+
+void ff_engine_warn_displaced(const ff_engine *engine, ff_report *report)
+{
+    for (size_t i = 0; i < engine->count; i++)
+        fe_warn_displaced(engine->models[i], report);
 }
 
 const ff_loaded *ff_engine_model(ff_engine *engine, const char *id, ff_place place,

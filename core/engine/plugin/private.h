@@ -43,6 +43,10 @@ void fe_search_path_new(fe_search_path *search, const char *const *given, size_t
    frees both. */
 char *fe_search_path_find(const fe_search_path *search, const char *id, char **tried);
 
+/* The further files of that id, "a.so, b.so", without those that are the one in use under another
+   name; NULL: there are none. The caller frees it. */
+char *fe_search_path_others(const fe_search_path *search, const char *id, const char *used);
+
 /* Sorted ids of all files, each once; freed by the caller. */
 char **fe_search_path_list(const fe_search_path *search, size_t *count);
 

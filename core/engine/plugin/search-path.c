@@ -80,6 +80,30 @@ char *fe_search_path_find(const fe_search_path *search, const char *id, char **t
     return NULL;
 }
 
+/* Whether both paths lead to one file. */
+static bool is_same_file(const char *a, const char *b)
+{
+    struct stat first, second;
+    return stat(a, &first) == 0 && stat(b, &second) == 0 && first.st_dev == second.st_dev &&
+           first.st_ino == second.st_ino;
+}
+
+char *fe_search_path_others(const fe_search_path *search, const char *id, const char *used)
+{
+    struct stat status;
+    char *list = NULL;
+    for (size_t i = 0; i < search->count; i++) {
+        char *path = fe_print_text("%s/%s.so", search->directories[i], id);
+        if (lstat(path, &status) == 0 && !is_same_file(path, used)) {
+            char *longer = fe_print_text("%s%s%s", list ? list : "", list ? ", " : "", path);
+            fe_free(list);
+            list = longer;
+        }
+        fe_free(path);
+    }
+    return list;
+}
+
 static int compare(const void *a, const void *b)
 {
     return strcmp(*(char *const *)a, *(char *const *)b);

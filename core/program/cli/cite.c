@@ -10,20 +10,15 @@
 /* Adds the models that the cases of a study put into a stage. */
 static void add_varied(catalogue *models, cli_session *session)
 {
-    const study_definition *study = session->study;
-    for (size_t k = 0; study && k < study->varied_count; k++) {
-        const study_varied *varied = &study->varied[k];
-        size_t length = strlen(varied->path), points = study->points[varied->axis];
-        bool use = length > 4 && !strcmp(varied->path + length - 4, ".use");
-        for (size_t i = 0; use && i < points; i++) {
-            const char *id = study_varied_value(varied, i);
-            const ff_loaded *loaded =
-                accuracy_is_open_use(id)
-                    ? NULL
-                    : ff_engine_model(session->engine, id, FF_NOWHERE, session->report);
-            if (loaded)
-                catalogue_add(models, id, loaded, "study", session->report);
-        }
+    study_use at = {0};
+    const char *id;
+    while (session->study && (id = study_next_use(session->study, &at))) {
+        const ff_loaded *loaded =
+            accuracy_is_open_use(id)
+                ? NULL
+                : ff_engine_model(session->engine, id, FF_NOWHERE, session->report);
+        if (loaded)
+            catalogue_add(models, id, loaded, "study", session->report);
     }
 }
 

@@ -95,6 +95,7 @@ static int run_session(cli_session *session, const cli_options *options, const r
         ff_report_errors(session->report) == 0)
         ff_error(session->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "the run was stopped");
     cli_progress_end(&progress);
+    ff_engine_warn_displaced(session->engine, session->report); /* models that were tried */
 
     results_outcome outcome = {.pipeline = errors.answer,
                                .report = session->report,

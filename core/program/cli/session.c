@@ -133,14 +133,26 @@ static void warn_of_follow(const cli_session *session)
                 "changes nothing");
 }
 
+/* Of the models of the stages, and of those that a study puts in their place. */
+static void warn_of_displaced(cli_session *session)
+{
+    study_use at = {0};
+    const char *id;
+    ff_report *captured = ff_report_new(); /* a case that names no model fails by itself */
+    while (session->study && (id = study_next_use(session->study, &at)))
+        ff_engine_model(session->engine, id, FF_NOWHERE, captured);
+    ff_report_free(captured);
+    ff_engine_warn_displaced(session->engine, session->report);
+}
+
 static bool open_file(cli_session *session, const cli_options *options, bool everything)
 {
+    session->engine = cli_engine_new(options);
     session->tree = ff_tree_load(options->operand, session->report);
     if (!ff_tree_root(session->tree))
         return false;
     for (size_t i = 0; i < options->set_count; i++)
         ff_tree_set(session->tree, options->sets[i], NULL, NULL, session->report);
-    session->engine = cli_engine_new(options);
     if (!open_study(session, options))
         return false;
     session->pipeline = accuracy_build(session->tree, session->engine, everything, session->report);
@@ -159,7 +171,9 @@ static bool open_file(cli_session *session, const cli_options *options, bool eve
 bool cli_session_open(cli_session *session, const cli_options *options, bool everything)
 {
     *session = (cli_session){.report = ff_report_new()};
-    if (open_file(session, options, everything))
+    bool good = open_file(session, options, everything);
+    warn_of_displaced(session);
+    if (good)
         return true;
     ff_report *instead = ff_report_new(); /* of a file of format 1 the one error that helps */
     bool old = rewrite_old_format(options->operand, options->sets, options->set_count, instead);

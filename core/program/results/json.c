@@ -148,15 +148,25 @@ json_t *results_json_wires(const ff_pipeline *pipeline, const ff_stage *stage)
     return object;
 }
 
+json_t *results_json_model(const ff_loaded *loaded)
+{
+    const ff_model *model = loaded->model;
+    char *path = realpath(loaded->path, NULL);
+    json_t *entry =
+        json_pack("{s:o, s:o, s:o, s:o, s:o}", "version", results_json_text(model->version), "path",
+                  results_json_text(path ? path : loaded->path), "build",
+                  results_json_key(loaded->build), "reference", results_json_text(model->reference),
+                  "bibtex", results_json_text(model->bibtex));
+    free(path);
+    return entry;
+}
+
 json_t *results_json_origin(const ff_pipeline *pipeline, const ff_stage *stage)
 {
-    const ff_model *model = stage->loaded->model;
-    char build[20];
-    snprintf(build, sizeof build, "%016llx", (unsigned long long)stage->loaded->build);
-    return json_pack("{s:o, s:s, s:o, s:o, s:o, s:o}", "version", results_json_text(model->version),
-                     "build", build, "reference", results_json_text(model->reference), "bibtex",
-                     results_json_text(model->bibtex), "parameters", results_json_params(stage),
-                     "wires", results_json_wires(pipeline, stage));
+    json_t *origin = results_json_model(stage->loaded);
+    json_object_set_new(origin, "parameters", results_json_params(stage));
+    json_object_set_new(origin, "wires", results_json_wires(pipeline, stage));
+    return origin;
 }
 
 json_t *results_json_facts(const char *file)

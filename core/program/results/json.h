@@ -29,7 +29,10 @@ void results_json_print(json_t *object);
 /* These describe parts of a stage. */
 json_t *results_json_params(const ff_stage *stage); /* {name: {value, text, origin}} */
 json_t *results_json_wires(const ff_pipeline *pipeline, const ff_stage *stage);
-/* Returns {version, build, reference, bibtex, parameters, wires} of a stage that is loaded. */
+/* Returns {version, path, build, reference, bibtex}: the file of its plugin, and the hash of that.
+ */
+json_t *results_json_model(const ff_loaded *loaded);
+/* Returns the same of a stage that is loaded, with {parameters, wires}. */
 json_t *results_json_origin(const ff_pipeline *pipeline, const ff_stage *stage);
 
 /* Returns {name: text} of the circumstances: version, file, date, machine. */

@@ -107,24 +107,20 @@ static json_t *describe_stages(const ff_pipeline *pipeline, json_t *docs)
     return list;
 }
 
-/* Returns the literature of models that another case than the first may use. */
+/* Returns the files and the literature of models that another case than the first may use. */
 static json_t *list_other_models(const results_study *of, const study_definition *study)
 {
     json_t *models = json_object();
-    for (size_t k = 0; k < study->varied_count; k++) {
-        const study_varied *varied = &study->varied[k];
-        const char *dot = strrchr(varied->path, '.');
-        for (size_t i = 0; dot && !strcmp(dot, ".use") && i < study->points[varied->axis]; i++) {
-            ff_report *silent = ff_report_new();
-            const ff_loaded *loaded =
-                ff_engine_model(of->engine, study_varied_value(varied, i), FF_NOWHERE, silent);
-            if (loaded)
-                json_object_set_new(models, loaded->model->id,
-                                    json_pack("{s:o, s:o}", "reference",
-                                              results_json_text(loaded->model->reference), "bibtex",
-                                              results_json_text(loaded->model->bibtex)));
-            ff_report_free(silent);
-        }
+    study_use at = {0};
+    const char *id;
+    while ((id = study_next_use(study, &at))) {
+        if (json_object_get(models, id))
+            continue;
+        ff_report *silent = ff_report_new();
+        const ff_loaded *loaded = ff_engine_model(of->engine, id, FF_NOWHERE, silent);
+        if (loaded)
+            json_object_set_new(models, id, results_json_model(loaded));
+        ff_report_free(silent);
     }
     return models;
 }

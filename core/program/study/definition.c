@@ -72,3 +72,14 @@ const char *study_value(const study_definition *study, size_t k, size_t index)
     const study_varied *varied = &study->varied[k];
     return study_varied_value(varied, study_rank(study, varied->axis, index));
 }
+
+const char *study_next_use(const study_definition *study, study_use *at)
+{
+    for (; at->path < study->varied_count; at->path++, at->point = 0) {
+        const study_varied *varied = &study->varied[at->path];
+        const char *dot = strrchr(varied->path, '.');
+        if (dot && !strcmp(dot, ".use") && at->point < study->points[varied->axis])
+            return study_varied_value(varied, at->point++);
+    }
+    return NULL;
+}

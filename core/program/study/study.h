@@ -113,6 +113,12 @@ void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_
 /* Returns the name of the i-th model that a study compares the file's with, and its case; NULL
    after the last one. */
 const char *study_compared(const study_definition *study, size_t i, size_t *index);
+/* Walks through the models that cases put into a stage, the same one perhaps more than once: the
+   next one; NULL after the last. Begins at {0}. */
+typedef struct study_use {
+    size_t path, point;
+} study_use;
+const char *study_next_use(const study_definition *study, study_use *at);
 const char *study_cases(const study_definition *study); /* what its cases are called: "cases" */
 const char *
 study_further(const study_definition *study); /* which cases may follow; "" when none do */

@@ -253,6 +253,15 @@ static void order_of_search(void)
     loaded = ff_engine_model(a.engine, "toy/source", FF_NOWHERE, a.report);
     check_true("the second directory is searched", loaded != NULL);
     try_close(&a);
+    ff_instance *law;
+    const char *const reversed[] = {try_plugins(), home};
+    a = (attempt){.report = ff_report_new(), .engine = try_engine(reversed, 2)};
+    check_true("a file behind the one used changes nothing",
+               ff_instance_new(a.engine, "toy/law", &law) == FF_OK);
+    check_true("but is named", strstr(ff_engine_message(a.engine), " takes the place of ") &&
+                                   strstr(ff_engine_message(a.engine), path));
+    ff_instance_close(law);
+    try_close(&a);
     setenv("FLANKFILM_PLUGIN_PATH", try_plugins(), 1);
     a = (attempt){.report = ff_report_new(), .engine = try_engine(NULL, 0)};
     check_true("FLANKFILM_PLUGIN_PATH is searched",
