@@ -1,35 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* gear/involute-spur: path of contact, radii of curvature and inertia of a spur gear pair. */
 #include "drawing-rounding.h"
-#include "flank-deviations.h"
-#include "materials.h"
 #include "references.h"
-#include "spur-geometry.h"
 #include "spur-rows.h"
-#include "tooth-measures.h"
+#include "spur.h"
 
 #include <flankfilm/author.h>
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-typedef struct spur {
-    const ff_host *host;
-    gear_spur_spec spec;
-    double face_width;
-    int32_t material[2];
-    ff_reals bore, given_inertia, elastic, poisson, density, roughness_rq, roughness_ra;
-    int64_t stations;
-    gear_flank_spec flank_spec;
-    gear_spur_pair pair;
-    gear_material made_of[2]; /* what is given in place of the material's values, too */
-    double bore_radius[2], mass[2], inertia[2];
-    gear_flanks flanks;
-} spur;
-
-/* Of the basic rack of ISO 53 (profile A), in modules. */
-static const double standard_tip_radius = 0.38;
 
 static const ff_param params[] = {
     FF_LIST(
@@ -147,6 +127,9 @@ static const ff_param params[] = {
             "positive: more metal on the working flank; teeth not listed have none"),
     FF_LIST("pitch_error_2", "um", spur, flank_spec.index[1], 0, NULL, NULL, -1e4, 1e4, 0, 0, 1,
             100000, "the same of the teeth of gear 2"),
+    FF_LIST("quality", "1", spur, quality, FF_WHOLE, NULL, NULL, 0, 12, 0, 0, 1, 2,
+            "accuracy class of ISO 1328-1:1995, one value or two: the tolerances that a drawing "
+            "does not write out"),
     FF_PATH("profile_file", spur, flank_spec.file, 0, NULL,
             "measured profiles to be added: text with the header gear, roll_angle [deg], deviation "
             "[um]; roll angle of the own gear, deviation positive: more metal"),
@@ -263,177 +246,13 @@ static ff_status ready(void *self)
         status = gear_spur_pair_make(s->host, &s->spec, &s->pair);
     if (status == FF_OK)
         status = set_discs(s);
+    for (int i = 0; i < 2 && status == FF_OK && s->quality.count > 0; i++)
+        status = gear_tolerances_of(s->host, i + 1, ff_of_both(&s->quality, i), s->spec.module,
+                                    2 * s->pair.reference_radius[i], &s->tolerances[i]);
     gear_flanks_free(&s->flanks);
     if (status == FF_OK)
         status = gear_flanks_make(s->host, &s->flank_spec, &s->spec, &s->pair, &s->flanks);
     return status;
-}
-
-static ff_status write_scalars(const spur *s, uint64_t wanted)
-{
-    const gear_spur_pair *p = &s->pair;
-    const double rb1 = p->base_radius[0], rb2 = p->base_radius[1];
-    const double *J = s->inertia;
-    double compliance = 0; /* sum of (1 - nu^2)/E */
-    for (int i = 0; i < 2; i++)
-        compliance += (1 - s->made_of[i].poisson * s->made_of[i].poisson) / s->made_of[i].modulus;
-    const struct {
-        uint32_t row;
-        double value;
-    } scalars[] = {
-        {OUT_CONTACT_RATIO, p->contact_ratio},
-        {OUT_ROLL_SAP, p->sap / rb1},
-        {OUT_ROLL_LPSTC, p->lpstc / rb1},
-        {OUT_ROLL_PITCH, p->pitch_point / rb1},
-        {OUT_ROLL_HPSTC, p->hpstc / rb1},
-        {OUT_ROLL_TIP, p->tip / rb1},
-        {OUT_BASE_PITCH, p->base_pitch},
-        {OUT_PATH_LENGTH, p->tip - p->sap},
-        {OUT_CENTRE_DISTANCE, p->centre_distance},
-        {OUT_WORKING_PRESSURE_ANGLE, p->working_angle},
-        {OUT_BACKLASH, p->backlash},
-        {OUT_FACE_WIDTH, s->face_width},
-        {OUT_MODULE, s->spec.module},
-        {OUT_PRESSURE_ANGLE, s->spec.pressure_angle},
-        {OUT_EQUIVALENT_MASS, 1 / (rb1 * rb1 / J[0] + rb2 * rb2 / J[1])},
-        {OUT_REDUCED_MODULUS, 2 / compliance},
-        {OUT_PINION, ff_of_both(&s->spec.teeth, 1) < ff_of_both(&s->spec.teeth, 0) ? 2 : 1},
-    };
-    for (size_t i = 0; i < sizeof scalars / sizeof scalars[0]; i++)
-        if (wanted & FF_BIT(scalars[i].row) &&
-            ff_put_scalar(s->host, scalars[i].row, scalars[i].value) != FF_OK)
-            return FF_NOMEM;
-    return FF_OK;
-}
-
-/* Rq; that of Gaussian heights is sqrt(pi/2) Ra. 0: not given. */
-static double roughness_of(const spur *s, int gear)
-{
-    if (s->roughness_ra.count > 0)
-        return ff_of_both(&s->roughness_ra, gear) * sqrt(M_PI / 2);
-    return s->roughness_rq.count > 0 ? ff_of_both(&s->roughness_rq, gear) : 0;
-}
-
-static ff_status put_pair(const spur *s, uint64_t wanted, uint32_t row, const double values[2])
-{
-    double *data = wanted & FF_BIT(row) ? ff_put_series(s->host, row, 2) : NULL;
-    if (data)
-        memcpy(data, values, 2 * sizeof *data);
-    return data || !(wanted & FF_BIT(row)) ? FF_OK : FF_NOMEM;
-}
-
-static ff_status write_pairs(const spur *s, uint64_t wanted)
-{
-    const gear_spur_pair *p = &s->pair;
-    double teeth[2], shift[2], elastic[2], poisson[2], roughness[2], form[2], tool[2], yield[2],
-        active[2];
-    const double lowest[2] = {p->sap, p->line_length - p->tip};
-    gear_measures measures;
-    gear_measure_teeth(&s->spec, p, &measures);
-    for (int i = 0; i < 2; i++) {
-        teeth[i] = ff_of_both(&s->spec.teeth, i);
-        shift[i] = ff_of_both(&s->spec.shift, i);
-        elastic[i] = s->made_of[i].modulus;
-        poisson[i] = s->made_of[i].poisson;
-        yield[i] = s->made_of[i].yield;
-        active[i] = hypot(p->base_radius[i], lowest[i]);
-        roughness[i] = roughness_of(s, i);
-        form[i] = hypot(p->base_radius[i], fmax(p->form[i], 0));
-        tool[i] = s->spec.tool_tip_radius.count > 0 ? ff_of_both(&s->spec.tool_tip_radius, i)
-                                                    : standard_tip_radius;
-    }
-    const struct {
-        uint32_t row;
-        const double *values;
-    } pairs[] = {
-        {OUT_BASE_RADIUS, p->base_radius},
-        {OUT_PITCH_RADIUS, p->pitch_radius},
-        {OUT_TIP_RADIUS, p->tip_radius},
-        {OUT_ROOT_RADIUS, p->root_radius},
-        {OUT_REFERENCE_RADIUS, p->reference_radius},
-        {OUT_BORE_RADIUS, s->bore_radius},
-        {OUT_TEETH, teeth},
-        {OUT_PROFILE_SHIFT, shift},
-        {OUT_TOOTH_THICKNESS, p->thickness},
-        {OUT_THICKNESS_ALLOWANCE, p->allowance},
-        {OUT_ROOT_FORM_RADIUS, form},
-        {OUT_TOOL_TIP_RADIUS, tool},
-        {OUT_MASS, s->mass},
-        {OUT_INERTIA, s->inertia},
-        {OUT_ELASTIC_MODULUS, elastic},
-        {OUT_POISSON_RATIO, poisson},
-        {OUT_ROUGHNESS, roughness},
-        {OUT_SPAN_TEETH, measures.span_teeth},
-        {OUT_SPAN, measures.span},
-        {OUT_PIN_DIAMETER, measures.pin_diameter},
-        {OUT_OVER_PINS, measures.over_pins},
-        {OUT_TIP_THICKNESS, p->tip_thickness},
-        {OUT_ACTIVE_ROOT_RADIUS, active},
-        {OUT_YIELD_STRENGTH, yield},
-    };
-    ff_status status = FF_OK;
-    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0] && status == FF_OK; i++)
-        status = put_pair(s, wanted, pairs[i].row, pairs[i].values);
-    return status;
-}
-
-/* On the path of contact R1 + R2 is the length of the common tangent of the base circles, and the
-   roll angle is R1 over the base radius. */
-static ff_status write_stations(const spur *s, uint64_t wanted)
-{
-    gear_spur_run runs[GEAR_SPUR_RUNS];
-    size_t run_count = gear_spur_runs(&s->pair, (size_t)s->stations, runs), count = 0, at = 0;
-    for (size_t i = 0; i < run_count; i++)
-        count += runs[i].intervals + !runs[i].joined;
-    double *roll = NULL, *radius_1 = NULL, *radius_2 = NULL;
-    if (wanted & FF_BIT(OUT_ROLL_ANGLE) && !(roll = ff_put_series(s->host, OUT_ROLL_ANGLE, count)))
-        return FF_NOMEM;
-    if (wanted & FF_BIT(OUT_RADIUS_1) && !(radius_1 = ff_put_series(s->host, OUT_RADIUS_1, count)))
-        return FF_NOMEM;
-    if (wanted & FF_BIT(OUT_RADIUS_2) && !(radius_2 = ff_put_series(s->host, OUT_RADIUS_2, count)))
-        return FF_NOMEM;
-    for (size_t i = 0; i < run_count; i++) {
-        const gear_spur_run *r = &runs[i];
-        for (size_t k = r->joined ? 1 : 0; k <= r->intervals; k++, at++) {
-            double share = (double)k / (double)r->intervals;
-            double curvature =
-                k == r->intervals ? r->to : fmin(r->from + (r->to - r->from) * share, r->to);
-            if (roll)
-                roll[at] = curvature / s->pair.base_radius[0];
-            if (radius_1)
-                radius_1[at] = curvature;
-            if (radius_2)
-                radius_2[at] = s->pair.line_length - curvature;
-        }
-    }
-    return FF_OK;
-}
-
-static ff_status write_flanks(const spur *s, uint64_t wanted)
-{
-    const size_t shape[2] = {2, s->flanks.points};
-    double *const *from[] = {s->flanks.roll, s->flanks.deviation};
-    for (uint32_t row = 0; row < 2; row++) {
-        if (!(wanted & FF_BIT(OUT_PROFILE_ROLL + row)))
-            continue;
-        double *to = s->host->output(s->host->ctx, OUT_PROFILE_ROLL + row, 2, shape);
-        if (!to)
-            return FF_NOMEM;
-        for (size_t g = 0; g < 2; g++)
-            memcpy(to + g * shape[1], from[row][g], shape[1] * sizeof *to);
-    }
-    for (uint32_t g = 0; g < 2; g++) {
-        if (!(wanted & FF_BIT(OUT_PITCH_DEVIATION_1 + g)))
-            continue;
-        double *to = ff_put_series(s->host, OUT_PITCH_DEVIATION_1 + g,
-                                   (size_t)ff_of_both(&s->spec.teeth, (int)g));
-        if (!to)
-            return FF_NOMEM;
-        const ff_reals *index = &s->flank_spec.index[g];
-        if (index->count > 0)
-            memcpy(to, index->data, index->count * sizeof *to);
-    }
-    return FF_OK;
 }
 
 /* Says what the rounding of the drawing has moved. */
@@ -475,12 +294,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const spur *s = self;
     (void)in;
     report_quality(s);
-    ff_status status = write_scalars(s, wanted);
-    if (status == FF_OK)
-        status = write_pairs(s, wanted);
-    if (status == FF_OK)
-        status = write_stations(s, wanted);
-    return status == FF_OK ? write_flanks(s, wanted) : status;
+    return gear_spur_write(s, wanted);
 }
 
 static void destroy(void *self)

@@ -160,4 +160,28 @@ const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS] = {
      .doc = "the gear with fewer teeth, 1 or 2; of equal ones 1. Standards give it index 1, "
             "whoever drives",
      .dims = ""},
+    {.name = "single_pitch_tolerance",
+     .unit = "m",
+     .doc = "tolerance f_pt of the class in `quality`: single pitch deviation (ISO 1328-1:1995)",
+     .dims = "gear"},
+    {.name = "total_pitch_tolerance",
+     .unit = "m",
+     .doc = "tolerance F_p of the class in `quality`: total cumulative pitch deviation (ISO "
+            "1328-1:1995)",
+     .dims = "gear"},
+    {.name = "profile_form_tolerance",
+     .unit = "m",
+     .doc =
+         "tolerance f_f_alpha of the class in `quality`: profile form deviation (ISO 1328-1:1995)",
+     .dims = "gear"},
+    {.name = "profile_slope_tolerance",
+     .unit = "m",
+     .doc =
+         "tolerance f_H_alpha of the class in `quality`: profile slope deviation (ISO 1328-1:1995)",
+     .dims = "gear"},
+    {.name = "profile_tolerance",
+     .unit = "m",
+     .doc =
+         "tolerance F_alpha of the class in `quality`: total profile deviation (ISO 1328-1:1995)",
+     .dims = "gear"},
 };

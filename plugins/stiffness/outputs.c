@@ -83,6 +83,10 @@ const ff_port stiffness_outputs[STIFFNESS_OUTPUTS] = {
      .unit = "1",
      .doc = "teeth of gear 1 and gear 2 that meet then, counted from 1",
      .dims = "gear"},
+    {.name = "transmission_error_peak_to_peak",
+     .unit = "m",
+     .doc = "largest less least of loaded_transmission_error over the mesh cycle",
+     .dims = ""},
 };
 
 /* A station given twice is the limit from below, then from above; the tip is left from below. */
@@ -283,11 +287,26 @@ static ff_status write_worst(const ff_host *host, uint64_t wanted, const stiffne
     return FF_OK;
 }
 
+/* Largest less least loaded transmission error. */
+static double peak_to_peak(const stiffness_result *r, const stiffness_path *path)
+{
+    double high = -HUGE_VAL, low = HUGE_VAL;
+    for (size_t i = 0; i < r->cycle.count; i++) {
+        double error = at_phase(r, path, STIFFNESS_OUT_LOADED_ERROR, i);
+        high = fmax(high, error);
+        low = fmin(low, error);
+    }
+    return high - low;
+}
+
 static ff_status write_cycle_figures(const ff_host *host, uint64_t wanted,
                                      const stiffness_result *r, const stiffness_path *path)
 {
     if (wants(wanted, STIFFNESS_OUT_LOADED_RATIO) &&
         ff_put_scalar(host, STIFFNESS_OUT_LOADED_RATIO, loaded_ratio(r, path)) != FF_OK)
+        return FF_NOMEM;
+    if (wants(wanted, STIFFNESS_OUT_PEAK_TO_PEAK) &&
+        ff_put_scalar(host, STIFFNESS_OUT_PEAK_TO_PEAK, peak_to_peak(r, path)) != FF_OK)
         return FF_NOMEM;
     if (wants(wanted, STIFFNESS_OUT_MEAN) &&
         ff_put_scalar(host, STIFFNESS_OUT_MEAN, stiffness_cycle_mean(&r->cycle, r->stiffness)) !=

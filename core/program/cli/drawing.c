@@ -45,6 +45,11 @@ static const drawing_row rows[] = {
     {"measure over pins M_d", "over_pins", "mm", false, 4},
     {"base pitch p_b", "base_pitch", "mm", false, 4},
     {"tool tip radius over the module", "tool_tip_radius", "", false, 4},
+    {"single pitch tolerance f_pt", "single_pitch_tolerance", "um", false, 1},
+    {"total pitch tolerance F_p", "total_pitch_tolerance", "um", false, 1},
+    {"profile form tolerance f_f_alpha", "profile_form_tolerance", "um", false, 1},
+    {"profile slope tolerance f_H_alpha", "profile_slope_tolerance", "um", false, 1},
+    {"profile tolerance F_alpha", "profile_tolerance", "um", false, 1},
     {"roughness Rq", "roughness", "um", false, 3},
     {"Young's modulus E", "elastic_modulus", "GPa", false, 1},
     {"Poisson's ratio", "poisson_ratio", "", false, 3},
@@ -74,6 +79,7 @@ static const struct {
              {"length of the root relief", "root_relief_length"},
              {"shape of the root relief", "root_relief_shape"},
              {"profile crown", "crowning"},
+             {"accuracy class of ISO 1328-1", "quality"},
              {"dedendum of the tool over the module", "dedendum"},
              {"protuberance", "protuberance"},
              {"machining allowance", "machining_allowance"}};
@@ -217,7 +223,8 @@ static void print_table(const drawing *d)
     ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : d->options->operand);
     printf("%s\n\n%-*s  %-*s  gear 2\n", title, LABEL + 2, d->stage, VALUE, "gear 1");
     for (size_t i = 0; i < ROWS; i++)
-        print_row(&rows[i], &d->numbers[i]);
+        if (d->numbers[i].count > 0) /* 0: the drawing does not have it */
+            print_row(&rows[i], &d->numbers[i]);
     for (size_t i = 0; i < WORDS; i++)
         if (*d->words[i])
             printf("  %-*s  %s\n", LABEL, words[i].label, d->words[i]);
@@ -239,6 +246,8 @@ static json_t *describe(const drawing *d)
     json_t *object = json_object();
     for (size_t i = 0; i < ROWS; i++) {
         const drawing_numbers *n = &d->numbers[i];
+        if (n->count == 0)
+            continue;
         json_object_set_new(object, rows[i].output,
                             json_pack("{s:o, s:o, s:o}", "value", list_of(n->value, n->count),
                                       "lowest", list_of(n->low, n->count), "highest",

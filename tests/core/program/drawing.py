@@ -119,15 +119,17 @@ with tempfile.TemporaryDirectory() as place:
     assert rows["centre distance a"] == ["119.6640", "(119.6440", "to", "119.6840)", "mm"], rows["centre distance a"]
     assert rows["tip diameter d_a"] == ["70.7280", "180.5280", "mm"], rows["tip diameter d_a"]
     assert rows["material"] == ["18CrNiMo7-6"]
+    assert not any("tolerance" in row for row in rows), "no class, no tolerances"
     code, text, _ = explain(file, "--json")
     check_numbers(json.loads(text)["gears"])
 
     reliefs = {"tip_relief": "[20 um, 8 um]", "tip_relief_diameter": "[69.4 mm, 179.2 mm]", "tip_relief_shape": "parabolic",
-               "root_relief": "6 um", "root_relief_length": "[1.5 mm, 2 mm]"}
+               "root_relief": "6 um", "root_relief_length": "[1.5 mm, 2 mm]", "quality": "6"}
     code, text, _ = explain(file, *[word for name, value in reliefs.items() for word in ("--set", f"gears.{name}={value}")])
     rows = {line[:42].strip(): line[42:].strip() for line in text.splitlines()}
     assert [rows.get(row) for row in ("tip relief", "tip relief from the diameter", "shape of the tip relief", "root relief",
-                                      "length of the root relief")] == list(reliefs.values()), text
+                                      "length of the root relief", "accuracy class of ISO 1328-1")] == list(reliefs.values()), text
+    assert rows["profile slope tolerance f_H_alpha"].split() == ["7.0", "8.0", "um"], text
 
     code, _, said = explain(file, "--set", "gears.thickness_allowance=[-60 um to 0 um, -60 um to 120 um]")
     assert code == 2 and "jam by" in said and "cannot be made" in said, said

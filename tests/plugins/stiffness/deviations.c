@@ -88,10 +88,15 @@ static void test_loaded_error(void)
     const double *e = stage_get(c.mesh, "transmission_error", &n);
     const double *loaded = stage_get(c.mesh, "loaded_transmission_error", NULL);
     const double *k = stage_get(c.mesh, "stiffness", NULL);
-    double worst = 0;
-    for (size_t i = 0; i < n; i++)
+    double worst = 0, high = 0, low = 1;
+    for (size_t i = 0; i < n; i++) {
         worst = fmax(worst, fabs((loaded[i] - e[i]) * k[i] / 3547.26 - 1));
+        high = fmax(high, loaded[i]);
+        low = fmin(low, loaded[i]);
+    }
     check_below("k = F/(e_l - e)", worst, 1e-6);
+    check_near("its swing", stage_scalar(c.mesh, "transmission_error_peak_to_peak"), high - low,
+               1e-12);
     chain_close(&c);
 }
 

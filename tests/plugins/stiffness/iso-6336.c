@@ -31,6 +31,9 @@ static void test_worked_figures(void)
     double step = 0.75 * single, amplitude = 2 / M_PI * step * fabs(sin(M_PI * (ratio - 1)));
     check_near("harmonic of a rectangle", stage_get(c.mesh, "stiffness_harmonics", NULL)[0],
                amplitude, 1e-4);
+    check_near("F over one pair less F over two, peak to peak",
+               stage_scalar(c.mesh, "transmission_error_peak_to_peak"),
+               3547.26 / single * (1 - 1 / 1.75), 2e-5);
     check_true("trusted", stage_verdict(c.mesh) == FF_GOOD);
     chain_close(&c);
 }

@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The text of ISO 1328-1:1995 was not read. Its formulas of class 5 stand in public code (f_pt,
+ * f_f_alpha, f_H_alpha), and all five of them, with ranges, steps and rounding, give every value of
+ * class 6 that the public reports of the NREL 5 MW gearbox print (gfsReboucas/Drivetrain,
+ * stage_01.rtf to stage_03.rtf; test `tolerances`).
+ */
+#include "flank-tolerances.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+
+static const double modules[] = {0.5, 2, 3.5, 6, 10, 16, 25, 40, 70};
+static const double diameters[] = {5,    20,   50,   125,  280,  560,  1000,
+                                   1600, 2500, 4000, 6000, 8000, 10000};
+
+/* The geometric mean of the ends of the range that holds a value; 0: none does. */
+static double range_mean(const double *ends, size_t count, double value)
+{
+    const double slack = 1 + 1e-9;
+    for (size_t i = 1; i < count; i++)
+        if (value >= ends[i - 1] / slack && value <= ends[i] * slack)
+            return sqrt(ends[i - 1] * ends[i]);
+    return 0;
+}
+
+/* A step of a class is a factor of sqrt 2. Values above 10 um are rounded to 1 um, from 5 um on to
+   0.5 um, below to 0.1 um. */
+static double of_class(double class_5, double quality)
+{
+    const double value = class_5 * pow(2, 0.5 * (quality - 5));
+    const double step = value > 10 ? 1 : value >= 5 ? 0.5 : 0.1;
+    return 1e-6 * step * round(value / step);
+}
+
+ff_status gear_tolerances_of(const ff_host *host, int gear, double quality, double module,
+                             double reference_diameter, gear_tolerances *t)
+{
+    const double m = range_mean(modules, sizeof modules / sizeof *modules, 1e3 * module);
+    const double d =
+        range_mean(diameters, sizeof diameters / sizeof *diameters, 1e3 * reference_diameter);
+    if (!(m > 0 && d > 0))
+        return ff_failf(host, FF_INVALID, "quality",
+                        "gear %d has module %g mm and reference diameter %g mm; ISO 1328-1 has "
+                        "classes for 0.5 to 70 mm and 5 to 10000 mm",
+                        gear, 1e3 * module, 1e3 * reference_diameter);
+    t->single_pitch = of_class(0.3 * (m + 0.4 * sqrt(d)) + 4, quality);
+    t->total_pitch = of_class(0.3 * m + 1.25 * sqrt(d) + 7, quality);
+    t->profile_form = of_class(2.5 * sqrt(m) + 0.17 * sqrt(d) + 0.5, quality);
+    t->profile_slope = of_class(2 * sqrt(m) + 0.14 * sqrt(d) + 0.5, quality);
+    t->profile = of_class(3.2 * sqrt(m) + 0.22 * sqrt(d) + 0.7, quality);
+    return FF_OK;
+}

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The gear pair as the model holds it. */
+#ifndef GEAR_SPUR_H
+#define GEAR_SPUR_H
+
+#include "flank-deviations.h"
+#include "flank-tolerances.h"
+#include "materials.h"
+#include "spur-geometry.h"
+
+typedef struct spur {
+    const ff_host *host;
+    gear_spur_spec spec;
+    double face_width;
+    int32_t material[2];
+    ff_reals bore, given_inertia, elastic, poisson, density, roughness_rq, roughness_ra;
+    int64_t stations;
+    gear_flank_spec flank_spec;
+    gear_spur_pair pair;
+    gear_material made_of[2]; /* what is given in place of the material's values, too */
+    double bore_radius[2], mass[2], inertia[2];
+    gear_flanks flanks;
+    ff_reals quality; /* class of ISO 1328-1 */
+    gear_tolerances tolerances[2];
+} spur;
+
+/* Gives the wanted outputs. */
+ff_status gear_spur_write(const spur *s, uint64_t wanted);
+
+#endif
