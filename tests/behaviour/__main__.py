@@ -7,7 +7,10 @@
       records what a build does: OUT/numbers, each output to the bit; OUT/bytes, what each command says and
       writes; OUT/pages, reports and figures
   python3 tests/behaviour diff A B
-      the differences between two such folders, and how many there are; exit code 1 if there is one
+      the differences between two such folders, values (OUT/numbers) and texts counted apart;
+      exit code 1 if a value differs, 2 if texts alone do
+  --values
+      records the values and no text: of each output of each stage its name, its shape and a hash of its doubles
 
 Both builds get the examples of this tree. Bits depend on the CPU and its libraries: nothing recorded is kept.
 """
@@ -62,6 +65,7 @@ def main(argv):
     p.add_argument('what', choices=('compare', 'take', 'diff'))
     p.add_argument('first', metavar='REVISION|BUILD|A')
     p.add_argument('second', nargs='?', metavar='BUILD|OUT|B')
+    p.add_argument('--values', action='store_true', help='values alone, no texts')
     p.add_argument('--scratch', default=Path(tempfile.gettempdir()) / 'flankfilm-behaviour', help='folder of `compare`, kept')
     a = p.parse_args(argv)
     if a.what != 'compare' and not a.second:
@@ -69,12 +73,12 @@ def main(argv):
     if a.what == 'diff':
         return diff(a.first, a.second)
     if a.what == 'take':
-        Take(a.first, a.second, ROOT).all()
+        Take(a.first, a.second, ROOT).all(texts=not a.values)
         return 0
     scratch = Path(a.scratch).resolve()
     scratch.mkdir(parents=True, exist_ok=True)
-    Take(built(a.first, scratch), scratch / 'before', ROOT).all()
-    Take(a.second or ROOT / 'build', scratch / 'after', ROOT).all()
+    Take(built(a.first, scratch), scratch / 'before', ROOT).all(texts=not a.values)
+    Take(a.second or ROOT / 'build', scratch / 'after', ROOT).all(texts=not a.values)
     return diff(scratch / 'before', scratch / 'after')
 
 

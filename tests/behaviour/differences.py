@@ -31,16 +31,27 @@ def show(name, a, b):
         print(f'  and {len(found) - SHOWN} lines more')
 
 
+def is_value(name):
+    return name.startswith('numbers/')
+
+
+def count(what, both, differ, alone):
+    """Prints how many records of a group are the same. Whether there is a difference."""
+    print(f'{what}: {len(both) - len(differ)} same, {len(differ)} differ, {len(alone)} only in one')
+    return bool(differ or alone)
+
+
 def diff(first, second):
     a, b = records(first), records(second)
     both = sorted(set(a) & set(b))
     differ = [name for name in both if a[name].read_bytes() != b[name].read_bytes()]
     for name in differ:
         show(name, a[name], b[name])
-    alone = 0
+    alone = []
     for folder, here, other in ((first, a, b), (second, b, a)):
         for name in sorted(set(here) - set(other)):
             print(f'only in {folder}: {name}')
-            alone += 1
-    print(f'{len(both) - len(differ)} same, {len(differ)} differ, {alone} only in one')
-    return 1 if differ or alone else 0
+            alone.append(name)
+    values = count('values', *([n for n in names if is_value(n)] for names in (both, differ, alone)))
+    texts = count('texts', *([n for n in names if not is_value(n)] for names in (both, differ, alone)))
+    return 1 if values else 2 if texts else 0

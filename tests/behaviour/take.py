@@ -198,8 +198,18 @@ class Take:
         for name, (file, sets) in scenes.SCENES.items():
             self.scene(f'with-{name}', file, sets)
 
-    def all(self):
-        self.bytes()
+    def studies(self):
+        """Runs the studies for their numbers alone."""
+        for file in sorted(self.work.glob('configs/[os]*/*.yaml')):
+            self.run(['run', str(file.relative_to(self.work)), '-j', '1', '-o', f'out-{file.stem}',
+                      *flags(scenes.COARSE.get(file.stem, []))])
+
+    def all(self, texts):
+        """Records the values, and what commands say and write if `texts`."""
+        if texts:
+            self.bytes()
+        else:
+            self.studies()
         self.numbers()
         shutil.rmtree(self.lab)
 

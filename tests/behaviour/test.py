@@ -45,23 +45,25 @@ class Comparing(unittest.TestCase):
         path.write_bytes(path.read_bytes().replace(old, new))
 
     def test_equal_records_are_silent(self):
-        self.assertEqual(self.compared(), (0, '2 same, 0 differ, 0 only in one\n'))
+        self.assertEqual(self.compared(), (0, 'values: 1 same, 0 differ, 0 only in one\ntexts: 1 same, 0 differ, 0 only in one\n'))
 
     def test_a_changed_number_is_shown(self):
         self.change('numbers/film', b'0x1.8p', b'0x1.9p')
         code, said = self.compared()
         self.assertEqual(code, 1)
-        self.assertIn('differs: numbers/film\n  -film.h_min 0x1.8p-22\n  +film.h_min 0x1.9p-22\n1 same, 1 differ', said)
+        self.assertIn('differs: numbers/film\n  -film.h_min 0x1.8p-22\n  +film.h_min 0x1.9p-22\nvalues: 0 same, 1 differ', said)
 
     def test_a_changed_byte_at_a_line_end_is_seen(self):
         self.change('help', b'usage\n', b'usage')
-        self.assertIn('1 same, 1 differ', self.compared()[1])
+        code, said = self.compared()
+        self.assertEqual(code, 2)
+        self.assertIn('values: 1 same, 0 differ, 0 only in one\ntexts: 0 same, 1 differ', said)
 
     def test_a_lost_record_is_named(self):
         (Path(self.place.name) / 'b/help').unlink()
         code, said = self.compared()
-        self.assertEqual(code, 1)
-        self.assertIn('/a: help\n1 same, 0 differ, 1 only in one', said)
+        self.assertEqual(code, 2)
+        self.assertIn('/a: help\nvalues: 1 same, 0 differ, 0 only in one\ntexts: 0 same, 0 differ, 1 only', said)
 
 
 class Taking(unittest.TestCase):
