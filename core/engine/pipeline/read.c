@@ -65,11 +65,8 @@ static void check_format(fe_build *b, const ff_node *root)
                  "the file does not state its format");
     else if (format->kind != FF_SCALAR)
         fe_expected(b, format, "format", FE_FORMAT);
-    else if (strcmp(format->text, FE_FORMAT) != 0)
-        ff_error(b->report, FF_FAULT_INPUT, format->place, NULL,
-                 "format: expected " FE_FORMAT
-                 ", the only one that this version reads, found \"%.40s\"",
-                 format->text);
+    else
+        fe_check_format(b->report, format);
 }
 
 static void read_title(fe_build *b, const ff_node *root)

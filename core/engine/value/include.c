@@ -162,15 +162,16 @@ static bool load_includes(const file *f, ff_node *map, ff_node **base)
     return fe_node_is_empty(named) || load_named(f, named, base);
 }
 
-/* A file that is included may leave out its format; that of the first file counts for all. */
-static void check_format(const file *f, const ff_node *root)
+bool fe_check_format(ff_report *report, const ff_node *format)
 {
-    const ff_node *format = ff_node_get(root, "format");
-    if (f->parent && format && format->kind == FF_SCALAR && strcmp(format->text, FE_FORMAT) != 0)
-        ff_error(f->report, FF_FAULT_INPUT, format->place, NULL,
-                 "format: expected " FE_FORMAT
-                 ", the only one that this version reads, found \"%.40s\"",
-                 format->text);
+    if (!strcmp(format->text, FE_FORMAT))
+        return true;
+    bool first = !strcmp(format->text, "1");
+    return ff_error(
+        report, FF_FAULT_INPUT, format->place,
+        first ? "lubricants.md of the guide has the table of names, under \"From format 1\"" : NULL,
+        "format: expected " FE_FORMAT ", the only one that this version reads, found \"%.40s\"",
+        format->text);
 }
 
 /* Reads a source with what it includes. NULL when any part of it cannot be read. */
@@ -191,7 +192,11 @@ static ff_node *read_source(const file *f, const ff_source *source)
     }
     if (!root)
         return NULL;
-    check_format(f, root);
+    /* names of another format would be errors that help nobody; a file that is included may leave
+     * it out */
+    const ff_node *format = ff_node_get(root, "format");
+    if (format && format->kind == FF_SCALAR && !fe_check_format(f->report, format))
+        return NULL;
     if (!load_includes(f, root, &base))
         return NULL;
     fe_node_set_rank(root, f->tree->ranks++);

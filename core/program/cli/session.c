@@ -8,7 +8,6 @@
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
-#include "../rewrite/rewrite.h"
 #include "../study/hash.h"
 
 #include <ctype.h>
@@ -173,13 +172,7 @@ bool cli_session_open(cli_session *session, const cli_options *options, bool eve
     *session = (cli_session){.report = ff_report_new()};
     bool good = open_file(session, options, everything);
     warn_of_displaced(session);
-    if (good)
-        return true;
-    ff_report *instead = ff_report_new(); /* of a file of format 1 the one error that helps */
-    bool old = rewrite_old_format(options->operand, options->sets, options->set_count, instead);
-    ff_report_free(old ? session->report : instead);
-    session->report = old ? instead : session->report;
-    return false;
+    return good;
 }
 
 void cli_session_close(cli_session *session)

@@ -3,7 +3,6 @@
 #include "command.h"
 
 #include "../results/json.h"
-#include "../rewrite/rewrite.h"
 #include "../verify/verify.h"
 
 #include <stdlib.h>
@@ -56,9 +55,7 @@ int cli_verify_command(const cli_options *options)
                               .set_count = options->set_count,
                               .limit = time_limit()};
     int code;
-    bool old = request.pipeline &&
-               rewrite_old_format(request.pipeline, options->sets, options->set_count, report);
-    if (old || !verify_plugin(&request, print_verdict, &t, report)) {
+    if (!verify_plugin(&request, print_verdict, &t, report)) {
         code = cli_refuse(report, options, "nothing was tested");
     } else {
         code = t.faulty ? FF_FAULT_PLUGIN : EXIT_SUCCESS;
