@@ -39,7 +39,7 @@ table() { # STUDY MEASURE
         NR == 1 {
             head = "| candidate | cost ms | spread % |"
             for (i = 7; i <= NF; i++) {
-                if ($i ~ / error$/) { errors[++outputs] = i; sub(/error$/, measure, $i); head = head " " $i " % | claimed % |" }
+                if ($i ~ / error$/) { errors[++outputs] = i; sub(/error$/, measure, $i); head = head " " $i " % |" }
                 else if (!outputs) { counts[++work] = i; head = head " " $i " |" }
             }
             print head
@@ -54,9 +54,8 @@ table() { # STUDY MEASURE
             for (k = 1; k <= work; k++) row = row " " $(counts[k]) " |"
             for (k = 1; k <= outputs; k++) {
                 i = errors[k]
-                mark = $(i + 4) == 1 && measure == "error" ? "**" : ""
-                claim = percent($(i + 2)) ($(i + 3) == "too small" ? " (!)" : $(i + 3) == "too large" ? " (+)" : "")
-                row = row " " mark percent($(measure == "rms" ? i + 1 : i)) mark " | " claim " |"
+                mark = $(i + 2) == 1 && measure == "error" ? "**" : ""
+                row = row " " mark percent($(measure == "rms" ? i + 1 : i)) mark " |"
             }
             print row
         }' | drop_empty
@@ -131,9 +130,8 @@ machine at the beginning and at the end: $load and $(cut -d' ' -f1 /proc/loadavg
 Cost is the processor time of the stages that the candidates change, the median of the repeats;
 *spread* is from the least to the most. *Error* is the largest relative difference from the reference
 along the mesh cycle, **bold** on the front: nothing cheaper is as good; the front of what crosses
-zero, as friction does at the pitch point, is that of the rms error. *Claimed* is what the model
-says of its own error; (!) marks a claim below a third of the error, (+) one above ten times. How to
-measure a trade-off of your own stands in the [guide](guide.md#speed-against-accuracy).
+zero, as friction does at the pitch point, is that of the rms error. How to measure a trade-off of your
+own stands in the [guide](guide.md#speed-against-accuracy).
 
 ## Film: models, cells and steps
 
@@ -157,7 +155,6 @@ TEXT
 ## Mesh stiffness
 
 \`configs/studies/tradeoff-stiffness.yaml\`: sources of the stiffness, and what they make of the motion.
-The claim of the load distribution is about its elements, not about neighbours that are left out.
 TEXT
     reference stiffness
     table stiffness

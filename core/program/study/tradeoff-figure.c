@@ -119,18 +119,17 @@ static json_t *row_of(const json_t *candidate, const json_t *error)
 {
     const json_t *seconds = json_object_get(candidate, "seconds");
     double median = study_number_of(seconds, "median");
-    const char *reason = study_text_of(candidate, "reason"), *claim = study_text_of(error, "claim");
+    const char *reason = study_text_of(candidate, "reason");
     char label[400];
     snprintf(label, sizeof label, "%.200s%s%.150s", study_text_of(candidate, "label"),
              *reason ? ": " : "", reason);
     return json_pack(
-        "[s, o, o, o, o, o, s]", label, percent_of(error, "largest"), percent_of(error, "rms"),
+        "[s, o, o, o, o]", label, percent_of(error, "largest"), percent_of(error, "rms"),
         median > 0 ? json_real(median) : json_null(),
         median > 0
             ? json_real(100 * (study_number_of(seconds, "max") - study_number_of(seconds, "min")) /
                         median)
-            : json_null(),
-        percent_of(error, "claimed"), !strcmp(claim, "kept") ? "" : claim);
+            : json_null());
 }
 
 static json_t *describe(const json_t *result, const char *name, const json_t *output)
@@ -151,13 +150,11 @@ static json_t *describe(const json_t *result, const char *name, const json_t *ou
     json_array_append_new(curves, front_of(result, output, rows));
     snprintf(label, sizeof label, "%.40s error (%%), known to %.2g %%",
              study_text_of(output, "judge"), 100 * study_number_of(output, "reference_error"));
-    json_t *tables =
-        json_pack("[{s:s, s:[s, s, s, s, s, s], s:o}, {s:s, s:[s, s, s, s, s, s, s], "
-                  "s:o, s:i}]",
-                  "summary", "the front", "head", "", "on the front", "cost (s)", "error (%)",
-                  "against the one above", "", "rows", rows, "summary", "all candidates", "head",
-                  "candidate", "largest error (%)", "rms error (%)", "cost (s)",
-                  "spread of the cost (%)", "claimed error (%)", "claim", "rows", all, "folded", 1);
+    json_t *tables = json_pack(
+        "[{s:s, s:[s, s, s, s, s, s], s:o}, {s:s, s:[s, s, s, s, s], s:o, s:i}]", "summary",
+        "the front", "head", "", "on the front", "cost (s)", "error (%)", "against the one above",
+        "", "rows", rows, "summary", "all candidates", "head", "candidate", "largest error (%)",
+        "rms error (%)", "cost (s)", "spread of the cost (%)", "rows", all, "folded", 1);
     return json_pack("{s:s, s:s+, s:i, s:i, s:{s:s, s:i}, s:{s:s, s:i}, s:[], s:o, s:o}", "sort",
                      "curves", "title", name, ": error against cost", "height", 340, "room", 1, "x",
                      "label", "cost (s on one core)", "log", 1, "y", "label", label, "log", 1,

@@ -53,7 +53,6 @@ static void print_row(study_context *context, const json_t *candidate, const jso
     double spread =
         median > 0 ? (study_number_of(seconds, "max") - study_number_of(seconds, "min")) / median
                    : 0;
-    char claim[64] = "";
     study_line line = {0};
     study_line_add(&line, "%c ", place ? '*' : ' ');
     if (json_is_object(error))
@@ -70,12 +69,7 @@ static void print_row(study_context *context, const json_t *candidate, const jso
                        study_number_of(json_object_get(candidate, "counts"), count));
     else if (count)
         study_line_add(&line, "%8s ", "");
-    if (json_object_get(error, "claimed"))
-        snprintf(claim, sizeof claim, "%.3g%s", 100 * study_number_of(error, "claimed"),
-                 !strcmp(study_text_of(error, "claim"), "kept")        ? ""
-                 : !strcmp(study_text_of(error, "claim"), "too small") ? " (!)"
-                                                                       : " (+)");
-    study_line_add(&line, "%11s  ", claim);
+    study_line_add(&line, " ");
     const char *reason = study_text_of(candidate, "reason");
     study_line_add(&line, "%s%s%s%s", study_text_of(candidate, "label"), *reason ? ": " : "",
                    reason, json_is_true(json_object_get(place, "knee")) ? "  <- knee" : "");
@@ -131,11 +125,9 @@ static void print_head(study_context *context, const char *output, double floor,
     study_line_add(&line, "%s, known to %.2g %%%s", output, 100 * floor,
                    rms ? ", judged by rms" : "");
     study_line_print(context, &line, 0);
-    study_line_add(&line, "  %8s %8s %9s %6s%s %11s", "error", "rms", "cost", "spread", work,
-                   "claimed");
+    study_line_add(&line, "  %8s %8s %9s %6s%s", "error", "rms", "cost", "spread", work);
     study_line_print(context, &line, 0);
-    study_line_add(&line, "  %8s %8s %9s %6s%*s %11s", "%", "%", "s", "%", (int)strlen(work), "",
-                   "%");
+    study_line_add(&line, "  %8s %8s %9s %6s", "%", "%", "s", "%");
     study_line_print(context, &line, 0);
 }
 
@@ -169,10 +161,7 @@ void study_tradeoff_print(study_context *context, const json_t *result)
         print_front(context, candidates, json_object_get(one, "front"));
     }
     study_context_print_line(context, 0, "");
-    study_context_print_line(
-        context, 2,
-        "* on the front; (!) the model claimed less than a third of its error, (+) more than "
-        "ten times");
+    study_context_print_line(context, 0, "* on the front");
     study_context_print_line(context, 0, "");
     json_decref(names);
 }
@@ -186,10 +175,9 @@ static void put_number(FILE *out, const json_t *number)
 
 static void put_error(FILE *out, const json_t *error, bool front)
 {
-    for (const char *const *key = (const char *const[]){"largest", "rms", "claimed", NULL}; *key;
-         key++)
-        put_number(out, json_object_get(error, *key));
-    fprintf(out, ",%s,%d", study_text_of(error, "claim"), front);
+    put_number(out, json_object_get(error, "largest"));
+    put_number(out, json_object_get(error, "rms"));
+    fprintf(out, ",%d", front);
     put_number(out, json_object_get(error, "over_front"));
 }
 
@@ -202,8 +190,7 @@ void study_tradeoff_table(const json_t *result, FILE *out)
     fputs("candidate,status,cost [s],cost_min [s],cost_max [s],repeats", out);
     json_object_foreach(names, name, one) fprintf(out, ",%s", name);
     json_object_foreach(outputs, name, one)
-        fprintf(out, ",%s error,%s rms,%s claimed,%s claim,%s front,%s cost_over_front", name, name,
-                name, name, name, name);
+        fprintf(out, ",%s error,%s rms,%s front,%s cost_over_front", name, name, name, name);
     fputs(",reason\n", out);
     json_array_foreach(candidates, i, candidate)
     {

@@ -216,40 +216,6 @@ static const char **read_texts(const study_tradeoff *t, const ff_node *list, con
     return good ? texts : NULL;
 }
 
-static bool read_claims(study_tradeoff *t, const ff_node *map)
-{
-    static const char *const none[] = {NULL};
-    const study_context *context = t->context;
-    const char *word = study_word(map);
-    const char *const **claims =
-        memory_arena_alloc(&t->context->arena, (context->output_count + 1) * sizeof *claims);
-    t->claims = claims;
-    if (word && !strcmp(word, "none")) {
-        for (size_t k = 0; k < context->output_count; k++)
-            claims[k] = none;
-        return true;
-    }
-    if (map && !study_is_map(map))
-        return refuse(t, map, NULL,
-                      "\"estimates\" is a map from outputs to lists of names, or none");
-    for (size_t i = 0; map && i < map->count; i++) {
-        size_t k = 0, count;
-        while (k < context->output_count && strcmp(context->outputs[k]->text, map->keys[i]) != 0)
-            k++;
-        if (k == context->output_count)
-            return refuse(
-                t, map->items[i], NULL,
-                "\"estimates\" is a map from outputs of this trade-off to lists of names");
-        claims[k] = read_texts(t, map->items[i],
-                               "the estimates of an output are a list of names such as "
-                               "[h_min_space_error, h_min_time_error]",
-                               &count);
-        if (!claims[k])
-            return false;
-    }
-    return true;
-}
-
 static bool read_measure(study_tradeoff *t, const study_key_value *values)
 {
     study_context *context = t->context;
@@ -269,10 +235,9 @@ static bool read_measure(study_tradeoff *t, const study_key_value *values)
                            &t->count_count);
     context->stages = read_texts(t, values[TRADEOFF_STAGES].node, "\"stages\" is a list of stages",
                                  &context->stage_count);
-    if (!t->counts || !context->stages || !read_claims(t, values[TRADEOFF_ESTIMATES].node))
-        return false;
-    study_tradeoff_extras(t);
-    return true;
+    context->extras = t->counts;
+    context->extra_count = t->count_count;
+    return t->counts && context->stages;
 }
 
 /* Reads the keys that have a type. */

@@ -1,16 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Computes the result of a trade-off: the error and the cost of every candidate, the fronts, the
-   claims. */
+/* Computes the result of a trade-off: the error and the cost of every candidate, the
+   fronts. */
 #include "tradeoff.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
-
-/* A claim is wrong when the error is more than 3 times as large, or the claim more than 10 times
-   the error. */
-static const double most_beyond = 3, most_above = 10;
 
 const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t point)
 {
@@ -96,14 +92,6 @@ static json_t *cost_of(const study_tradeoff *t, size_t point, double *median)
                  : json_null();
 }
 
-/* Judges a claim by the measured error, which is known to within `floor`. */
-static const char *judge_claim(double claim, double error, double floor)
-{
-    return error - floor > most_beyond * claim       ? "too small"
-           : claim > most_above * fmax(error, floor) ? "too large"
-                                                     : "kept";
-}
-
 /* Returns how far the last two levels of the reference are apart: smaller errors cannot be told
    apart. */
 static double floor_of(const study_tradeoff *t, size_t levels, size_t output)
@@ -114,20 +102,14 @@ static double floor_of(const study_tradeoff *t, size_t levels, size_t output)
 }
 
 static json_t *error_of(const study_tradeoff *t, size_t point, size_t reference, size_t output,
-                        double floor, double *judged)
+                        double *judged)
 {
     accuracy_difference d;
     *judged = NAN;
     if (!study_tradeoff_compare(t, point, reference, output, &d))
         return json_null();
     *judged = d.judged;
-    json_t *error =
-        json_pack("{s:f, s:f, s:f}", "largest", d.largest, "rms", d.rms, "judged", d.judged);
-    double claim = study_tradeoff_claim(t, study_tradeoff_outcome(t, point), output);
-    if (isfinite(claim))
-        json_object_update_new(error, json_pack("{s:f, s:s}", "claimed", claim, "claim",
-                                                judge_claim(claim, d.judged, floor)));
-    return error;
+    return json_pack("{s:f, s:f, s:f}", "largest", d.largest, "rms", d.rms, "judged", d.judged);
 }
 
 static json_t *describe_reference(const study_tradeoff *t, size_t levels)
@@ -173,6 +155,19 @@ static json_t *describe_front(const study_tradeoff *t, const double *cost, const
     return list;
 }
 
+/* A count of work, which is a result or a line of quality. NaN: the case has none. */
+static double count_of(const study_tradeoff *t, const study_outcome *answer, size_t count)
+{
+    const study_output *result = &answer->outputs[t->context->output_count + count];
+    double sum = 0;
+    for (size_t i = 0; result->values && i < result->count; i++)
+        sum += result->values[i];
+    for (size_t i = 0; !result->values && i < answer->quality_count; i++)
+        if (!strcmp(answer->quality[i].name, t->counts[count]))
+            return answer->quality[i].value;
+    return result->values ? sum : (double)NAN;
+}
+
 static json_t *describe_candidate(const study_tradeoff *t, size_t point, double *cost)
 {
     const study_point *p = &t->points[point];
@@ -186,7 +181,7 @@ static json_t *describe_candidate(const study_tradeoff *t, size_t point, double 
         json_array_append_new(assignments, json_string(p->assignments[k]));
     }
     for (size_t i = 0; i < t->count_count; i++) {
-        double count = study_tradeoff_count(t, answer, i);
+        double count = count_of(t, answer, i);
         if (isfinite(count))
             json_object_set_new(counts, t->counts[i], json_real(count));
     }
@@ -218,7 +213,7 @@ static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t ou
     double *error = memory_arena_alloc(&t->context->arena, t->candidates * sizeof *error);
     for (size_t c = 0; c < t->candidates; c++) {
         json_object_set_new(errors_of(list, c), name,
-                            error_of(t, t->levels + c, levels - 1, output, floor, &error[c]));
+                            error_of(t, t->levels + c, levels - 1, output, &error[c]));
         if (isfinite(error[c])) /* no candidate is known to be better than that */
             error[c] = fmax(error[c], fmax(floor, 1e-15));
     }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * Error against cost: refines a reference until it hardly changes, then runs each candidate several
- * times, alone on a core; finds the Pareto front, and whether the errors that models claim hold.
+ * times, alone on a core; finds the Pareto front.
  */
 #include "tradeoff.h"
 
@@ -44,12 +44,6 @@ const ff_param study_tradeoff_keys[STUDY_TRADEOFF_KEYS] = {
          .low = 1e-9,
          .high = 1,
          .doc = "smallest error sought, above 0; the reference is to change by a tenth"},
-    [TRADEOFF_ESTIMATES] =
-        {.name = "estimates",
-         .unit = "",
-         .type = STUDY_TREE,
-         .doc = "map from outputs to the names that say their errors, or none; else "
-                "those called OUTPUT_error and OUTPUT_..._error"},
     [TRADEOFF_COUNTS] = {.name = "counts",
                          .unit = "",
                          .type = STUDY_TREE,

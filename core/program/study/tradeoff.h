@@ -22,7 +22,6 @@ enum {
     TRADEOFF_CANDIDATES,
     TRADEOFF_REPEATS,
     TRADEOFF_ACCURACY,
-    TRADEOFF_ESTIMATES,
     TRADEOFF_COUNTS,
     TRADEOFF_ALONG,
     TRADEOFF_STAGES,
@@ -39,9 +38,6 @@ typedef struct study_tradeoff {
     size_t repeats;
     double accuracy; /* the smallest relative error sought */
     study_tradeoff_judge judge;
-    const char *const *const *claims; /* for each output the names of results or lines of quality of
-                                         its stage that say its error, ended by NULL; a NULL list
-                                         means those called OUTPUT_error or OUTPUT_..._error */
     const char **counts; /* "film.steps": results or lines of quality that count work */
     size_t count_count;
     const char
@@ -60,13 +56,6 @@ bool study_tradeoff_run(study_tradeoff *t);
 size_t study_tradeoff_case(const study_tradeoff *t, size_t point, size_t repeat);
 /* Returns what the first case of a point gave. */
 const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t point);
-
-/* tradeoff-claim.c: requests the results that claim errors or count work; returns the relative
-   error that a case claims of an output; returns a count of its work. NaN when the case has none.
- */
-void study_tradeoff_extras(const study_tradeoff *t);
-double study_tradeoff_claim(const study_tradeoff *t, const study_outcome *answer, size_t output);
-double study_tradeoff_count(const study_tradeoff *t, const study_outcome *answer, size_t count);
 
 /* tradeoff-result.c: finds how far two points are apart in an output. False when they cannot be
    compared. */

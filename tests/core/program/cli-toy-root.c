@@ -1,26 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Numbers that are off by (1/n)^2 of themselves, for work that grows with n; says how far off. */
+/* Numbers that are off by (1/n)^2 of themselves, for work that grows with n. */
 #include <flankfilm/author.h>
 
 #include <stdlib.h>
 #include <time.h>
 
-enum { N, CLAIM, BLIND };
-enum { VALUE, CURVE, PLACE, VALUE_ERROR, ROUNDS, FIELD };
+enum { N, BLIND };
+enum { VALUE, CURVE, PLACE, ROUNDS, FIELD };
 
 typedef struct root {
     const ff_host *host;
-    double n, claim;
+    double n;
     int64_t blind;
 } root;
 
 static const ff_param params[] = {
     {.name = "n", .unit = "1", .doc = "effort", .type = FF_REAL, .preset = "1"},
-    {.name = "claim",
-     .unit = "1",
-     .doc = "claimed over true error",
-     .type = FF_REAL,
-     .preset = "1"},
     {.name = "blind", .unit = "", .doc = "n that finds nothing", .type = FF_INT, .preset = "0"},
 };
 
@@ -28,7 +23,6 @@ static const ff_port outputs[] = {
     {.name = "value", .unit = "m", .doc = "7 m", .dims = ""},
     {.name = "curve", .unit = "m", .doc = "a straight line", .dims = "t"},
     {.name = "place", .unit = "rad", .doc = "where the curve is known", .dims = "t"},
-    {.name = "value_error", .unit = "m", .doc = "estimate of its error", .dims = ""},
     {.name = "rounds", .unit = "1", .doc = "n", .dims = ""},
     {.name = "field", .unit = "m", .doc = "a field", .dims = "t x"},
 };
@@ -48,8 +42,6 @@ static ff_status set(void *self, uint32_t param, const ff_value *value)
     root *r = self;
     if (param == N)
         r->n = value->real;
-    else if (param == CLAIM)
-        r->claim = value->real;
     else
         r->blind = value->integer;
     return FF_OK;
@@ -89,9 +81,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (r->blind && r->n == (double)r->blind)
         return ff_failf(r->host, FF_NOCONV, "n", "nothing was found");
     ff_put_scalar(r->host, VALUE, 7 * (1 + off));
-    ff_put_scalar(r->host, VALUE_ERROR, r->claim * 7 * off);
     ff_put_scalar(r->host, ROUNDS, r->n);
-    r->host->quality(r->host->ctx, "curve_space_error", r->claim * off, 1e9, FF_GOOD, NULL);
     return wanted & (1 << CURVE | 1 << PLACE) ? draw(r, off) : FF_OK;
 }
 

@@ -147,7 +147,7 @@ study:
     outputs: [root.value]
     accuracy: 1e-2
     reference: {root.n: 100, refine: [root.n], refinements: 5}
-    candidates: [{root.n: [2, 4]}, {root.claim: 2}, {root.blind: 8}]
+    candidates: [{root.n: [2, 4]}, {root.n: 5}, {root.blind: 8}]
     repeats: 1
 """)
         self.assertEqual(figures, 1)

@@ -28,7 +28,7 @@ study:
     reference: {root.n: 100, refine: [root.n], refinements: 5}
     candidates:
       - {root.n: [2, 4, 8, 16, 64]}
-      - {root.n: 8, root.claim: [0.1, 100]}
+      - {root.n: 8, root.blind: [1, 100]}
     repeats: 3
 YAML
 fail() {
@@ -51,22 +51,19 @@ column() {
     head -1 out/tradeoff.csv | tr , '\n' | grep -nxF "$1" | cut -d: -f1
 }
 awk -F, -v v="$(column 'root.value error')" -v c="$(column 'root.curve error')" \
-    -v claim="$(column 'root.value claim')" -v line="$(column 'root.curve claim')" \
     -v count="$(column root.rounds)" -v front="$(column 'root.value front')" \
     -v s="$(column 'slow.total error')" -v cost="$(column 'cost [s]')" '
     function near(a, b) { return a - b < 2e-6 * b && b - a < 2e-6 * b }
     function bad(what) { print what ": " $0; wrong = 1 }
     NR > 1 && !/failed/ {
         # commas of labels: no candidate here has more than one
-        shift = /claim/ ? 1 : 0
+        shift = /blind/ ? 1 : 0
         n = $1; gsub(/[^0-9.]/, "", n)
         error = (1 + 1 / n ^ 2) / (1 + 1 / 200 ^ 2) - 1
         if (!near($(v + shift), error)) bad("error of value, not " error)
         if (!near($(c + shift), error)) bad("error of curve, not " error)
         if ($(s + shift) != 0) bad("error of what no knob touches")
         if ($(count + shift) != n) bad("count")
-        expected = /claim 0.1/ ? "too small" : /claim 100/ ? "too large" : "kept"
-        if ($(claim + shift) != expected || $(line + shift) != expected) bad("claim")
         if ($(cost + shift) < 1e-4 * n) bad("cost")
         if (!shift) { last = n; ends = $(front) }
         rows++
@@ -132,12 +129,13 @@ refused() {
 }
 refused 'has no output "valve"; did you mean "value"' --set 'study.tradeoff.outputs=[root.valve]'
 refused 'root.field is a field' --set 'study.tradeoff.outputs=[root.field]'
-sed 's/root.claim/root.clam/' study.yaml >clam.yaml
-file=clam.yaml
-refused 'clam.yaml:14:9: error: tradeoff: n 8, clam 0.1: root: unknown key "clam"'
+sed 's/root.blind: \[/root.blend: [/' study.yaml >blend.yaml
+file=blend.yaml
+refused 'blend.yaml:14:9: error: tradeoff: n 8, blend 1: root: unknown key "blend"'
 file=study.yaml
 refused 'no "root.m" that could be refined' --set 'study.tradeoff.reference={root.n: 1, refine: [root.m]}'
 refused 'the reference is one answer' --set 'study.tradeoff.reference={root.n: [1, 2]}'
+refused 'unknown key "estimates"' --set 'study.tradeoff.estimates=none'
 refused 'unknown key "candidate"' --set 'study.tradeoff.candidate=[]'
 refused 'tradeoff.repeats: 0 is too small; it must be at least 1' --set study.tradeoff.repeats=0
 refused 'tradeoff.accuracy: -0.01 is too small; it must be above 0' --set 'study.tradeoff.accuracy=-1 %'
@@ -173,7 +171,7 @@ figure = json.load(open("sign/tradeoff.figure.json"))[0]
 rows = figure["tables"][0]["rows"]
 assert len(figure["tables"][1]["rows"]) == 4, figure["tables"][1]  # all candidates
 named = [row[1] for row in rows]  # the front by its names, cheapest first
-assert named and set(named) <= {"n 2", "n 8", "n 8, claim 0.1", "n 8, claim 100"}, rows
+assert named and set(named) <= {"n 2", "n 8", "n 8, blind 1", "n 8, blind 100"}, rows
 assert [row[0] for row in rows] == list(range(1, len(rows) + 1)), rows
 assert [row[2] for row in rows] == sorted(row[2] for row in rows), rows
 dots = [curve for curve in figure["curves"] if curve["style"] == "dots"]
