@@ -94,15 +94,15 @@ pack() {
     echo "$out/${name}_${version}_$architecture.deb"
 }
 
-# what two models alone need may stay away: they say so when they are asked for
-optional=$(find "$lab/flankfilm/usr/$libdir/flankfilm/plugins" -path '*/writer/netcdf.so' -o -path '*/executor/mpi.so')
+# what one model alone needs may stay away: it says so when it is asked for
+optional=$(find "$lab/flankfilm/usr/$libdir/flankfilm/plugins" -path '*/executor/mpi.so')
 models=$(find "$lab/flankfilm/usr/$libdir/flankfilm/plugins" -name '*.so' -type f)
 for file in $optional; do models=$(echo "$models" | grep -vx "$file"); done
 # shellcheck disable=SC2086
 pack flankfilm "$machine" science "film and vibration of spur gear pairs, both ways" \
     "Predicts how the vibration of a spur gear pair changes the oil film between its teeth, and what the film does to the gears: program, models, examples and manual." \
     "Depends: libflankfilm0 (= $version), $(needs "$lab"/flankfilm/usr/bin/flankfilm $models)" \
-    ${optional:+"Recommends: $(needs $optional)"}
+    "Recommends: python3-numpy, python3-netcdf4${optional:+, $(needs $optional)}"
 pack libflankfilm0 "$machine" libs "film and vibration of spur gear pairs: library" \
     "Reads a pipeline of models, wires and runs it. The models are in the package flankfilm." \
     "Depends: $(needs "$lab"/libflankfilm0/usr/"$libdir"/libflankfilm.so.*)" "Recommends: flankfilm (= $version)"

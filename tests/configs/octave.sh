@@ -3,9 +3,8 @@
 # octave.sh FLANKFILM PLUGIN_DIRECTORY SOURCE_ROOT
 set -eu
 flankfilm=$(realpath "$1") source=$3
-for need in "$(command -v octave-cli)" "$2/writer/netcdf.so"; do
-    [ -e "$need" ] || { echo "needs GNU Octave and the writer netcdf" && exit 77; }
-done
+command -v octave-cli >/dev/null || { echo "needs GNU Octave" && exit 77; }
+"$(dirname "$flankfilm")/flankfilm-netcdf" 2>&1 | grep -q usage || { echo "needs flankfilm-netcdf with its packages" && exit 77; }
 FLANKFILM_PLUGIN_PATH=$2
 export FLANKFILM_PLUGIN_PATH
 unset DISPLAY

@@ -109,7 +109,7 @@ static void print_page(const catalogue_entry *entry)
 /* Models that the program itself uses, and no stage can. */
 static bool is_tool(const char *id)
 {
-    static const char *const kinds[] = {"conformance/", "executor/", "writer/"};
+    static const char *const kinds[] = {"conformance/", "executor/"};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (!strncmp(id, kinds[i], strlen(kinds[i])))
             return true;

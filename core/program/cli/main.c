@@ -53,8 +53,8 @@ static const cli_command commands[] = {
      "to DIR/report.html unless -o says otherwise.\n",
      cli_write_report},
     {"export", "DIR", "write the results of a run or a study for other programs",
-     "DIR is what run has written. NAME is the writer, such as netcdf (one file) or csv (a\n"
-     "directory). Without -o the files go into DIR. Nothing half-written is left behind.\n",
+     "DIR is what run has written. NAME is csv (a directory) or netcdf (one file). Without -o the\n"
+     "files go into DIR. Nothing half-written is left behind.\n",
      cli_export},
     {"verify", "FILE.so", "test whether a plugin keeps the rules",
      "Runs named tests, each in a process of its own, and answers in TAP. Random parameters and\n"

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-int report_find_output(const ff_view *view, size_t stage, const char *output)
+int report_find_output(const results_view *view, size_t stage, const char *output)
 {
     for (size_t v = 0; v < view->variable_count; v++)
         if (view->variables[v]->stage == stage && !strcmp(view->variables[v]->output, output))
@@ -15,38 +15,39 @@ int report_find_output(const ff_view *view, size_t stage, const char *output)
 
 static const char bar_ending[] = "_error_bar"; /* as results/view-run.c names them */
 
-int report_find_bar(const ff_view *view, size_t variable)
+int report_find_bar(const results_view *view, size_t variable)
 {
-    const ff_view_variable *of = view->variables[variable];
+    const results_view_variable *of = view->variables[variable];
     char name[REPORT_TEXT_SIZE];
     snprintf(name, sizeof name, "%.150s%s", of->output, bar_ending);
     return report_find_output(view, of->stage, name);
 }
 
-bool report_is_bar(const ff_view_variable *variable)
+bool report_is_bar(const results_view_variable *variable)
 {
     size_t length = strlen(variable->output), tail = sizeof bar_ending - 1;
     return length > tail && !strcmp(variable->output + length - tail, bar_ending);
 }
 
 /* Says whether a variable is a series of `count` points. */
-static bool is_series_of(const ff_view *view, size_t series, size_t index, size_t count)
+static bool is_series_of(const results_view *view, size_t series, size_t index, size_t count)
 {
     size_t shape[4];
-    return view->variables[series]->rank == 1 && ff_view_full_shape(view, series, index, shape) &&
-           shape[0] == count;
+    return view->variables[series]->rank == 1 &&
+           results_view_full_shape(view, series, index, shape) && shape[0] == count;
 }
 
-int report_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t index)
+int report_find_axis(const results_view *view, size_t variable, uint32_t dim, size_t index)
 {
-    const ff_view_variable *of = view->variables[variable];
+    const results_view_variable *of = view->variables[variable];
     size_t shape[4];
     int found = -1;
-    if (dim >= of->rank || !ff_view_full_shape(view, variable, index, shape))
+    if (dim >= of->rank || !results_view_full_shape(view, variable, index, shape))
         return -1;
     for (size_t k = 0; k < view->variable_count; k++) {
-        const ff_view_variable *series = view->variables[k];
-        if (!ff_view_is_coordinate(series, of, dim) || !is_series_of(view, k, index, shape[dim]))
+        const results_view_variable *series = view->variables[k];
+        if (!results_view_is_coordinate(series, of, dim) ||
+            !is_series_of(view, k, index, shape[dim]))
             continue;
         if (!strcmp(series->name, of->against[dim]))
             return (int)k;
@@ -82,7 +83,7 @@ double report_find_scalar(report_page *page, const char *output, size_t index)
 {
     double value = NAN;
     for (size_t v = 0; v < page->view->variable_count && !isfinite(value); v++) {
-        const ff_view_variable *variable = page->view->variables[v];
+        const results_view_variable *variable = page->view->variables[v];
         if (variable->rank != 0 || strcmp(variable->output, output) != 0)
             continue;
         ff_array array = report_load(page, (int)v, index);
@@ -101,7 +102,7 @@ static void find_jumps(report_page *page, size_t index, report_marks *marks)
     double found[2] = {NAN, NAN};
     size_t count = 0;
     for (size_t v = 0; v < page->view->variable_count && count == 0; v++) {
-        const ff_view_variable *of = page->view->variables[v];
+        const results_view_variable *of = page->view->variables[v];
         if (of->rank != 1 || strcmp(of->output, "roll_angle") || strcmp(of->dims[0], "station"))
             continue;
         ff_array roll = report_load(page, (int)v, index);

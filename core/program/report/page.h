@@ -3,12 +3,13 @@
 #ifndef REPORT_PAGE_H
 #define REPORT_PAGE_H
 
-#include <flankfilm/writer.h>
+#include "../results/view.h"
+
 #include <stdbool.h>
 #include <stdio.h>
 
 typedef struct report_page {
-    const ff_view *view;
+    const results_view *view;
     FILE *out;
     bool failed;    /* the results could not be read; the view has reported why */
     size_t figures; /* number of figures so far */
@@ -50,20 +51,21 @@ void report_quantity_text(const char *si_unit, double si, char out[REPORT_TEXT_S
 /* Returns what an output is called in a figure: "least film thickness" for h_min. */
 const char *report_output_words(const char *output, char out[REPORT_TEXT_SIZE]);
 /* Returns the value of an axis as the user wrote it, unless that is long. */
-const char *report_axis_word(const ff_view_axis *axis, size_t point, char out[REPORT_TEXT_SIZE]);
+const char *report_axis_word(const results_view_axis *axis, size_t point,
+                             char out[REPORT_TEXT_SIZE]);
 /* Names a case by what varies, "lower, 100 N m", apart from dimensions a and b (SIZE_MAX and -1 for
    none). */
-void report_name_case(const ff_view *view, size_t index, size_t a, int b,
+void report_name_case(const results_view *view, size_t index, size_t a, int b,
                       char out[REPORT_TEXT_SIZE]);
 void report_label(const char *words, const report_unit *unit, char out[REPORT_TEXT_SIZE]);
 
 /* find.c: finds parts of the results; -1 when they are missing. */
-int report_find_output(const ff_view *view, size_t stage, const char *output);
+int report_find_output(const results_view *view, size_t stage, const char *output);
 /* Finds the series that dimension dim of a variable is plotted against in a case. */
-int report_find_axis(const ff_view *view, size_t variable, uint32_t dim, size_t index);
+int report_find_axis(const results_view *view, size_t variable, uint32_t dim, size_t index);
 /* Finds the error bar of a variable. */
-int report_find_bar(const ff_view *view, size_t variable);
-bool report_is_bar(const ff_view_variable *variable);
+int report_find_bar(const results_view *view, size_t variable);
+bool report_is_bar(const results_view_variable *variable);
 /* Returns the scalar output of that name of any stage, in SI; NaN when there is none. */
 double report_find_scalar(report_page *page, const char *output, size_t index);
 /* Loads unless something has failed; data is NULL when there is nothing. */
@@ -138,11 +140,11 @@ void report_map_write(report_page *page, const report_map *map);
 /* section-quality.c: the worst of the lines of one name over all cases, the first case that has it,
    how many cases have that verdict, and how many have the line. */
 typedef struct report_check {
-    const ff_view_quality *line;
+    const results_view_quality *line;
     size_t index, count, total;
 } report_check;
 /* Returns each line of any case once, in the order of the first case that has it; to be freed. */
-report_check *report_find_checks(const ff_view *view, size_t *count);
+report_check *report_find_checks(const results_view *view, size_t *count);
 
 /* section-sample.c: a scalar over the cases, in SI, and how it is shown. */
 typedef struct report_scalar {
@@ -151,7 +153,7 @@ typedef struct report_scalar {
     report_unit unit;
     char title[REPORT_TEXT_SIZE], label[REPORT_TEXT_SIZE];
 } report_scalar;
-bool report_is_sample(const ff_view *view);
+bool report_is_sample(const results_view *view);
 /* Returns the finite values in order, to be freed; percent is 0 to 100, count above 0. */
 double *report_sort(const double *values, size_t count, size_t *kept);
 double report_percentile(const double *list, size_t count, double percent);

@@ -87,7 +87,7 @@ static void write_page(report_page *page)
     write_foot(page->out, page->thinned);
 }
 
-bool report_write(const ff_view *view, const char *path, ff_report *report)
+bool report_write(const results_view *view, const char *path, ff_report *report)
 {
     report_page page = {.view = view, .out = fopen(path, "we")};
     bool lost = !page.out;

@@ -3,12 +3,13 @@
 #ifndef REPORT_REPORT_H
 #define REPORT_REPORT_H
 
+#include "../results/view.h"
+
 #include <flankfilm/engine.h>
-#include <flankfilm/writer.h>
 #include <stdio.h>
 
 /* Writes the page to a file. False with an error in the report, which is the view's as well. */
-bool report_write(const ff_view *view, const char *path, ff_report *report);
+bool report_write(const results_view *view, const char *path, ff_report *report);
 
 /* Writes a page of nothing but figures, whose descriptions are a list in JSON. */
 void report_write_figures(FILE *out, const char *title, const char *json);

@@ -4,7 +4,7 @@
 
 static void write_facts(report_page *page)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     fputs("<table class=\"facts\"><tbody>\n", page->out);
     for (size_t i = 0; i < view->fact_count; i++) {
         fputs("<tr><th scope=\"row\">", page->out);
@@ -16,7 +16,7 @@ static void write_facts(report_page *page)
     fputs("</tbody></table>\n", page->out);
 }
 
-static void write_stage(report_page *page, const ff_view_stage *stage)
+static void write_stage(report_page *page, const results_view_stage *stage)
 {
     FILE *out = page->out;
     fputs("<tr class=\"stage\"><th scope=\"row\">", out);
@@ -39,7 +39,7 @@ static void write_stage(report_page *page, const ff_view_stage *stage)
 
 void report_write_origin(report_page *page)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     FILE *out = page->out;
     fputs("<section><h2>Origin</h2>\n", out);
     write_facts(page);

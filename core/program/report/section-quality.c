@@ -16,12 +16,12 @@ static void put_number(FILE *out, double value)
     fprintf(out, "<td class=\"number\">%s</td>", text);
 }
 
-static report_check find_worst(const ff_view *view, const ff_view_quality *of)
+static report_check find_worst(const results_view *view, const results_view_quality *of)
 {
     report_check found = {.line = NULL};
     for (size_t c = 0; c < view->case_count; c++)
         for (size_t i = 0; i < view->cases[c]->quality_count; i++) {
-            const ff_view_quality *line = view->cases[c]->quality[i];
+            const results_view_quality *line = view->cases[c]->quality[i];
             if (line->stage != of->stage || strcmp(line->name, of->name) != 0)
                 continue;
             found.total++;
@@ -35,14 +35,14 @@ static report_check find_worst(const ff_view *view, const ff_view_quality *of)
     return found;
 }
 
-report_check *report_find_checks(const ff_view *view, size_t *count)
+report_check *report_find_checks(const results_view *view, size_t *count)
 {
     size_t most = 0;
     report_check *checks = NULL;
     *count = 0;
     for (size_t c = 0; c < view->case_count; c++)
         for (size_t i = 0; i < view->cases[c]->quality_count; i++) {
-            const ff_view_quality *line = view->cases[c]->quality[i];
+            const results_view_quality *line = view->cases[c]->quality[i];
             size_t k = 0;
             while (k < *count && (checks[k].line->stage != line->stage ||
                                   strcmp(checks[k].line->name, line->name) != 0))

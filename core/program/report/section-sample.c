@@ -15,7 +15,7 @@ enum { MOST_INPUTS = 12, MOST_BINS = 30 };
 
 /* Returns a value of an input as a number: of an input with several values, such as the relief of
    two gears, that which it was given in words; NaN when it has none. */
-static double number_of(const ff_view_axis *axis, size_t point)
+static double number_of(const results_view_axis *axis, size_t point)
 {
     double number;
     const char *end;
@@ -24,7 +24,7 @@ static double number_of(const ff_view_axis *axis, size_t point)
     return ff_number_parse(axis->words[point], &number, &end) ? number : (double)NAN;
 }
 
-static bool is_numeric(const ff_view *view, const ff_view_axis *axis)
+static bool is_numeric(const results_view *view, const results_view_axis *axis)
 {
     for (size_t i = 0; i < view->lengths[axis->dimension]; i++)
         if (!isfinite(number_of(axis, i)))
@@ -33,13 +33,13 @@ static bool is_numeric(const ff_view *view, const ff_view_axis *axis)
 }
 
 /* Says whether the points stand in no order along any input. */
-bool report_is_sample(const ff_view *view)
+bool report_is_sample(const results_view *view)
 {
     size_t inputs = 0;
     if (view->dimension_count != 1 || view->lengths[0] < 8)
         return false;
     for (size_t a = 0; a < view->axis_count; a++) {
-        const ff_view_axis *axis = view->axes[a];
+        const results_view_axis *axis = view->axes[a];
         bool rises = true, falls = true;
         if (!is_numeric(view, axis))
             continue;
@@ -143,7 +143,7 @@ static double correlation(const double *x, const double *y, const bool *counts, 
     return xx > 0 && yy > 0 ? xy / sqrt(xx * yy) : 0;
 }
 
-static const char *name_of(const ff_view_axis *axis, char words[REPORT_TEXT_SIZE])
+static const char *name_of(const results_view_axis *axis, char words[REPORT_TEXT_SIZE])
 {
     const char *dot = strrchr(axis->path, '.');
     return report_output_words(dot ? dot + 1 : axis->path, words);
@@ -153,7 +153,7 @@ static const char *name_of(const ff_view_axis *axis, char words[REPORT_TEXT_SIZE
 static void draw_bars(report_page *page, const report_scalar *f)
 {
     enum { MOST_RANKED = 2000 };
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     size_t count = f->count < MOST_RANKED ? f->count : MOST_RANKED, inputs = 0;
     bool *counts = memory_alloc(count * sizeof *counts);
     double *x = memory_alloc(count * sizeof *x), *a = memory_alloc(count * sizeof *a);
@@ -165,11 +165,11 @@ static void draw_bars(report_page *page, const report_scalar *f)
         counts[i] = isfinite(f->values[i]);
     rank(f->values, counts, count, a);
     for (size_t k = 0; k < view->axis_count && inputs < MOST_INPUTS; k++) {
-        const ff_view_axis *axis = view->axes[k];
+        const results_view_axis *axis = view->axes[k];
         if (!is_numeric(view, axis))
             continue;
         for (size_t i = 0; i < count; i++)
-            x[i] = number_of(axis, ff_view_point(view, i, axis->dimension));
+            x[i] = number_of(axis, results_view_point(view, i, axis->dimension));
         rank(x, counts, count, b);
         at[inputs] = (double)inputs;
         share[inputs] = correlation(a, b, counts, count);
@@ -191,14 +191,14 @@ static void draw_bars(report_page *page, const report_scalar *f)
     free(b);
 }
 
-static void draw_dots(report_page *page, const report_scalar *f, const ff_view_axis *axis)
+static void draw_dots(report_page *page, const report_scalar *f, const results_view_axis *axis)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     char words[REPORT_TEXT_SIZE];
     double size = 0, *x = memory_alloc(f->count * sizeof *x);
     report_plot plot = {.count = 0};
     for (size_t c = 0; c < f->count; c++) {
-        x[c] = number_of(axis, ff_view_point(view, c, axis->dimension));
+        x[c] = number_of(axis, results_view_point(view, c, axis->dimension));
         size = fmax(size, fabs(x[c]));
     }
     double number;
@@ -221,7 +221,7 @@ static void draw_dots(report_page *page, const report_scalar *f, const ff_view_a
 
 void report_write_sample(report_page *page, const report_scalar *f)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     size_t drawn = 0;
     draw_histogram(page, f);
     draw_bars(page, f);

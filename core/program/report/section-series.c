@@ -85,8 +85,8 @@ static report_curve *find_same_curve(figure *d, const ff_array *y)
 static void label_curve(const figure *d, report_curve *curve, size_t variable, size_t index,
                         bool several)
 {
-    const ff_view *view = d->page->view;
-    const ff_view_variable *of = view->variables[variable];
+    const results_view *view = d->page->view;
+    const results_view_variable *of = view->variables[variable];
     char words[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
     const char *stage = view->stages[of->stage]->name;
     if (several)
@@ -105,8 +105,8 @@ static void label_curve(const figure *d, report_curve *curve, size_t variable, s
 /* The first curve decides the unit of the x axis; others must have the same. */
 static bool choose_units(figure *d, size_t variable, int axis, const ff_array *x, const ff_array *y)
 {
-    const ff_view_variable *of = d->page->view->variables[variable];
-    const ff_view_variable *along = axis < 0 ? NULL : d->page->view->variables[axis];
+    const results_view_variable *of = d->page->view->variables[variable];
+    const results_view_variable *along = axis < 0 ? NULL : d->page->view->variables[axis];
     const char *x_si = along ? along->unit : "index";
     char words[REPORT_TEXT_SIZE];
     if (d->plot.count > 0)
@@ -204,9 +204,9 @@ static void spread_colours(report_plot *plot)
 
 /* Says whether a variable is the gap of a contact, which is 0 as soon as damping loads the flanks
    again, beside that of a motion. */
-static bool is_other_gap(const ff_view *view, size_t variable)
+static bool is_other_gap(const results_view *view, size_t variable)
 {
-    const ff_view_variable *of = view->variables[variable];
+    const results_view_variable *of = view->variables[variable];
     if (strcmp(of->output, "gap") != 0 || of->rank != 1 || strcmp(of->dims[0], "t") != 0)
         return false;
     for (size_t v = 0; v < view->variable_count; v++)
@@ -230,7 +230,7 @@ static void finish_figure(figure *d)
 
 static void draw_group(figure *d, const group *g)
 {
-    const ff_view *view = d->page->view;
+    const results_view *view = d->page->view;
     size_t used = 0, several = 0;
     char words[REPORT_TEXT_SIZE];
     d->alternating = g->alternating;
@@ -284,7 +284,7 @@ static void write_section(figure *d, const char *title, const group *groups, siz
 /* Draws the series that no section above has drawn. */
 static void write_others(figure *d)
 {
-    const ff_view *view = d->page->view;
+    const results_view *view = d->page->view;
     report_page *page = d->page;
     const size_t before = page->figures;
     report_part part;
@@ -292,7 +292,7 @@ static void write_others(figure *d)
     fputs("<section><details><summary>Other series</summary>\n<div class=\"figures\">\n",
           page->out);
     for (size_t v = 0; v < view->variable_count && page->figures < before + MOST_OTHERS; v++) {
-        const ff_view_variable *of = view->variables[v];
+        const results_view_variable *of = view->variables[v];
         char words[REPORT_TEXT_SIZE];
         size_t used = 0;
         bool axis = !strcmp(of->unit, "rad") || !strcmp(of->unit, "s") ||
@@ -314,18 +314,18 @@ static void write_others(figure *d)
 }
 
 /* Says whether a case has kept a series; a repeat in a trade-off has none. */
-static bool has_series(const ff_view *view, size_t index)
+static bool has_series(const results_view *view, size_t index)
 {
     size_t shape[4];
     for (size_t v = 0; v < view->variable_count; v++)
-        if (view->variables[v]->rank == 1 && ff_view_full_shape(view, v, index, shape))
+        if (view->variables[v]->rank == 1 && results_view_full_shape(view, v, index, shape))
             return true;
     return false;
 }
 
 /* Says whether a case went well, has series, and differs from the first one along the longest
    dimension alone, or along any when `all`. */
-static bool is_choice(const ff_view *view, size_t index, bool all)
+static bool is_choice(const results_view *view, size_t index, bool all)
 {
     size_t longest = 0;
     if (strcmp(view->cases[index]->status, "ok") != 0 || !has_series(view, index))
@@ -333,7 +333,7 @@ static bool is_choice(const ff_view *view, size_t index, bool all)
     for (size_t d = 1; d < view->dimension_count; d++)
         longest = view->lengths[d] > view->lengths[longest] ? d : longest;
     for (size_t d = 0; d < view->dimension_count && !all; d++)
-        if (d != longest && ff_view_point(view, index, d) > 0)
+        if (d != longest && results_view_point(view, index, d) > 0)
             return false;
     return true;
 }
@@ -342,7 +342,7 @@ static bool is_choice(const ff_view *view, size_t index, bool all)
    of it if that has enough. */
 static void choose_cases(figure *d)
 {
-    const ff_view *view = d->page->view;
+    const results_view *view = d->page->view;
     size_t good = 0, seen = 0, line = 0;
     for (size_t c = 0; c < view->case_count; c++) {
         good += is_choice(view, c, true);

@@ -54,7 +54,7 @@ static void load_field(report_page *page, stage_fields *m, size_t f)
 
 static bool load_fields(report_page *page, size_t stage, stage_fields *m)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     int pressure = report_find_output(view, stage, field_outputs[PRESSURE]);
     *m = (stage_fields){.stage = stage};
     for (size_t f = 0; f < FIELDS && (f == 0 || m->field[PRESSURE].data); f++)

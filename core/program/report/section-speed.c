@@ -98,7 +98,7 @@ static void write_atlas(report_page *page, const atlas *a, const char *stage)
 
 void report_write_speed(report_page *page)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     bool open = false;
     for (size_t s = 0; s < view->stage_count && !view->study; s++) {
         atlas a = {load_output(page, s, "atlas_frequency"), load_output(page, s, "atlas_rms"),

@@ -21,7 +21,7 @@ typedef struct case_scalar {
 
 static bool load_scalar(report_page *page, size_t variable, case_scalar *f)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     double size = 0;
     bool any = false;
     *f = (case_scalar){.page = page,
@@ -38,18 +38,18 @@ static bool load_scalar(report_page *page, size_t variable, case_scalar *f)
         f->high = fmax(f->high, f->values[c]);
         size = fmax(size, fabs(f->values[c]));
     }
-    const ff_view_variable *of = view->variables[variable];
+    const results_view_variable *of = view->variables[variable];
     f->unit = report_unit_for(report_si_unit(of->unit, of->output), size);
     return any;
 }
 
 /* Finds the numeric axis with the most points that is not of dimension `other`. */
-static int main_axis(const ff_view *view, int other)
+static int main_axis(const results_view *view, int other)
 {
     int best = -1;
     size_t points = 1;
     for (size_t a = 0; a < view->axis_count; a++) {
-        const ff_view_axis *axis = view->axes[a];
+        const results_view_axis *axis = view->axes[a];
         if (axis->values && (int)axis->dimension != other &&
             view->lengths[axis->dimension] > points) {
             best = (int)a;
@@ -59,7 +59,7 @@ static int main_axis(const ff_view *view, int other)
     return best;
 }
 
-static size_t stride_of(const ff_view *view, size_t dimension)
+static size_t stride_of(const results_view *view, size_t dimension)
 {
     size_t stride = 1;
     for (size_t d = dimension + 1; d < view->dimension_count; d++)
@@ -68,7 +68,7 @@ static size_t stride_of(const ff_view *view, size_t dimension)
 }
 
 /* Returns the first case of combination k of the dimensions other than a and b; b may be -1. */
-static size_t first_case_of(const ff_view *view, size_t k, size_t a, int b)
+static size_t first_case_of(const results_view *view, size_t k, size_t a, int b)
 {
     size_t index = 0;
     for (size_t d = view->dimension_count; d-- > 0;) {
@@ -87,7 +87,7 @@ static const char *last_word(const char *path)
 }
 
 /* Writes the label of an axis and returns its unit. */
-static report_unit show_axis(const ff_view *view, const ff_view_axis *axis,
+static report_unit show_axis(const results_view *view, const results_view_axis *axis,
                              char label[REPORT_TEXT_SIZE])
 {
     double size = 0;
@@ -102,7 +102,7 @@ static report_unit show_axis(const ff_view *view, const ff_view_axis *axis,
 static void write_title(const case_scalar *f, char out[REPORT_TEXT_SIZE])
 {
     char words[REPORT_TEXT_SIZE];
-    const ff_view_variable *of = f->page->view->variables[f->variable];
+    const results_view_variable *of = f->page->view->variables[f->variable];
     snprintf(out, REPORT_TEXT_SIZE, "%.60s: %.120s", f->page->view->stages[of->stage]->name,
              report_output_words(of->output, words));
 }
@@ -144,9 +144,9 @@ static report_curve *find_same(report_plot *plot, const report_unit *unit, const
     return NULL;
 }
 
-static void draw_lines(const case_scalar *f, const ff_view_axis *axis, size_t combinations)
+static void draw_lines(const case_scalar *f, const results_view_axis *axis, size_t combinations)
 {
-    const ff_view *view = f->page->view;
+    const results_view *view = f->page->view;
     size_t points = view->lengths[axis->dimension], stride = stride_of(view, axis->dimension);
     double *y = memory_alloc(points * sizeof *y);
     report_plot plot = {.count = 0};
@@ -185,10 +185,10 @@ static void draw_lines(const case_scalar *f, const ff_view_axis *axis, size_t co
     free(y);
 }
 
-static void draw_map(const case_scalar *f, const ff_view_axis *x, const ff_view_axis *y,
+static void draw_map(const case_scalar *f, const results_view_axis *x, const results_view_axis *y,
                      size_t first)
 {
-    const ff_view *view = f->page->view;
+    const results_view *view = f->page->view;
     char rest[REPORT_TEXT_SIZE], title[REPORT_TEXT_SIZE];
     report_map map = {.columns = view->lengths[x->dimension], .rows = view->lengths[y->dimension]};
     double *xs = memory_alloc(map.columns * sizeof *xs), *ys = memory_alloc(map.rows * sizeof *ys);
@@ -220,9 +220,9 @@ static void draw_map(const case_scalar *f, const ff_view_axis *x, const ff_view_
     free(values);
 }
 
-static void draw_maps(const case_scalar *f, const ff_view_axis *x, const ff_view_axis *y)
+static void draw_maps(const case_scalar *f, const results_view_axis *x, const results_view_axis *y)
 {
-    const ff_view *view = f->page->view;
+    const results_view *view = f->page->view;
     size_t count = view->case_count / view->lengths[x->dimension] / view->lengths[y->dimension];
     for (size_t k = 0; k < count && k < MOST_MAPS; k++)
         draw_map(f, x, y, first_case_of(view, k, x->dimension, (int)y->dimension));
@@ -234,7 +234,7 @@ static void draw_maps(const case_scalar *f, const ff_view_axis *x, const ff_view
 /* Draws points that have no order: those of cases that differ in words. */
 static void draw_dots(const case_scalar *f)
 {
-    const ff_view *view = f->page->view;
+    const results_view *view = f->page->view;
     report_plot plot = {.count = 0};
     double *x = memory_alloc(view->case_count * sizeof *x);
     const report_unit unit = {1, 0, ""};
@@ -253,7 +253,7 @@ static void draw_dots(const case_scalar *f)
 
 static void draw_scalar(const case_scalar *f)
 {
-    const ff_view *view = f->page->view;
+    const results_view *view = f->page->view;
     int x = main_axis(view, -1);
     if (report_is_sample(view)) {
         report_scalar scalar = {.values = f->values, .count = view->case_count, .unit = f->unit};
@@ -266,7 +266,7 @@ static void draw_scalar(const case_scalar *f)
         draw_dots(f);
         return;
     }
-    const ff_view_axis *axis = view->axes[x];
+    const results_view_axis *axis = view->axes[x];
     size_t combinations = view->case_count / view->lengths[axis->dimension];
     int y = main_axis(view, (int)axis->dimension);
     bool map = y >= 0 && view->lengths[view->axes[y]->dimension] >= 4;
@@ -279,12 +279,12 @@ static void draw_scalar(const case_scalar *f)
 
 /* Says whether the cases differ in words alone and the study has figures of its own: the numbers of
    the cases would be a meaningless axis. */
-static bool has_own_figures(const ff_view *view)
+static bool has_own_figures(const results_view *view)
 {
-    return FF_HAS(view, figures_count) && view->figures_count > 0 && main_axis(view, -1) < 0;
+    return view->figures_count > 0 && main_axis(view, -1) < 0;
 }
 
-static bool over_speed(const ff_view *view)
+static bool over_speed(const results_view *view)
 {
     int x = main_axis(view, -1);
     return x >= 0 && (!strcmp(view->axes[x]->unit, "Hz") || !strcmp(view->axes[x]->unit, "rad/s"));
@@ -293,7 +293,7 @@ static bool over_speed(const ff_view *view)
 /* Draws the transmission errors, or all other scalars. */
 static void write_scalars(report_page *page, const char *title, bool errors)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     report_part part;
     report_part_begin(page, &part);
     fprintf(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
@@ -313,10 +313,10 @@ static void write_scalars(report_page *page, const char *title, bool errors)
 
 static void write_failed(report_page *page)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     size_t failed = 0;
     for (size_t c = 0; c < view->case_count; c++) {
-        const ff_view_case *of = view->cases[c];
+        const results_view_case *of = view->cases[c];
         if (!strcmp(of->status, "ok") || !strcmp(of->status, "not run"))
             continue;
         if (failed++ == 0)
@@ -344,14 +344,15 @@ static void write_failed(report_page *page)
 
 static void write_table_row(report_page *page, size_t index)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     char text[REPORT_TEXT_SIZE];
     fprintf(page->out, "<tr><td>%zu</td>", index + 1);
     for (size_t a = 0; a < view->axis_count; a++) {
         fputs("<td>", page->out);
-        report_put_text(page->out, report_axis_word(
-                                       view->axes[a],
-                                       ff_view_point(view, index, view->axes[a]->dimension), text));
+        report_put_text(page->out,
+                        report_axis_word(view->axes[a],
+                                         results_view_point(view, index, view->axes[a]->dimension),
+                                         text));
         fputs("</td>", page->out);
     }
     report_put_cell(page->out, view->cases[index]->status);
@@ -378,7 +379,7 @@ static void write_table_row(report_page *page, size_t index)
 
 static void write_table(report_page *page)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     fprintf(page->out, "<section><details><summary>All cases</summary>\n<div class=\"wide\"><table>"
                        "<thead><tr><th>case</th>");
     for (size_t a = 0; a < view->axis_count; a++) {
@@ -406,8 +407,8 @@ static void write_table(report_page *page)
 /* Writes what a trade-off or a map of stability has described. */
 static void write_figures(report_page *page)
 {
-    const ff_view *view = page->view;
-    size_t count = FF_HAS(view, figures_count) ? view->figures_count : 0;
+    const results_view *view = page->view;
+    size_t count = view->figures_count;
     if (count > 0)
         fputs("<section><h2>What the study shows</h2>\n", page->out);
     for (size_t i = 0; i < count; i++)

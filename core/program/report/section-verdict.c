@@ -81,7 +81,7 @@ static void write_place(report_page *page, int axis, double at)
     char text[REPORT_TEXT_SIZE], words[REPORT_TEXT_SIZE];
     if (axis < 0)
         return;
-    const ff_view_variable *along = page->view->variables[axis];
+    const results_view_variable *along = page->view->variables[axis];
     report_quantity_text(along->unit, at, text);
     bool roll = !strcmp(along->output, "roll_angle");
     report_put_text(page->out, roll ? "roll angle" : report_output_words(along->output, words));
@@ -100,7 +100,7 @@ static void write_place(report_page *page, int axis, double at)
 /* Writes " +- 0.4 nm" where the error of the number was measured. */
 static void write_error(report_page *page, size_t variable, size_t at)
 {
-    const ff_view_variable *of = page->view->variables[variable];
+    const results_view_variable *of = page->view->variables[variable];
     char text[REPORT_TEXT_SIZE];
     ff_array bar = report_load(page, report_find_bar(page->view, variable), 0);
     if (bar.data && at < report_array_size(&bar) && bar.data[at] > 0) {
@@ -116,7 +116,7 @@ static void write_error(report_page *page, size_t variable, size_t at)
 
 static void write_row(report_page *page, const struct row *row, size_t variable)
 {
-    const ff_view_variable *of = page->view->variables[variable];
+    const results_view_variable *of = page->view->variables[variable];
     char text[REPORT_TEXT_SIZE];
     int axis = of->rank == 1 ? report_find_axis(page->view, variable, 0, 0) : -1;
     ff_array y = report_load(page, (int)variable, 0), x = report_load(page, axis, 0);
@@ -145,7 +145,7 @@ static void write_row(report_page *page, const struct row *row, size_t variable)
     report_release(page, &y);
 }
 
-static void count_verdicts(const ff_view *view, size_t counts[3])
+static void count_verdicts(const results_view *view, size_t counts[3])
 {
     for (size_t c = 0; c < view->case_count; c++)
         for (size_t i = 0; i < view->cases[c]->quality_count; i++) {
@@ -182,7 +182,7 @@ static void end_reasons(report_page *page, size_t count)
 }
 
 /* Writes "film: the domain ends ... (starvation 0.0124, held to 0.01)". */
-static void write_reason(report_page *page, const ff_view_quality *line)
+static void write_reason(report_page *page, const results_view_quality *line)
 {
     char value[REPORT_TEXT_SIZE], limit[REPORT_TEXT_SIZE];
     char words[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
@@ -206,7 +206,7 @@ static void write_reason(report_page *page, const ff_view_quality *line)
 /* The verdict of a run, with what the lines say that are not good. */
 static void write_judgement(report_page *page)
 {
-    const ff_view_case *c = page->view->cases[0];
+    const results_view_case *c = page->view->cases[0];
     size_t listed = 0, counts[3] = {0};
     count_verdicts(page->view, counts);
     fputs("<p class=\"judgement\">", page->out);
@@ -235,7 +235,7 @@ static void write_judgement(report_page *page)
 
 static void write_run(report_page *page)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     write_judgement(page);
     fputs("<table class=\"verdict run\"><thead><tr><th>quantity</th><th>stage</th><th>value</th>"
           "<th>where</th></tr></thead><tbody>\n",
@@ -260,7 +260,7 @@ static double *load_values(report_page *page, size_t variable)
     return values;
 }
 
-static void begin_span(report_page *page, const ff_view_variable *of)
+static void begin_span(report_page *page, const results_view_variable *of)
 {
     char words[REPORT_TEXT_SIZE];
     fputs("<tr><th scope=\"row\">", page->out);
@@ -269,7 +269,7 @@ static void begin_span(report_page *page, const ff_view_variable *of)
     report_put_cell(page->out, page->view->stages[of->stage]->name);
 }
 
-static void put_value(report_page *page, const ff_view_variable *of, double value)
+static void put_value(report_page *page, const results_view_variable *of, double value)
 {
     char text[REPORT_TEXT_SIZE];
     report_quantity_text(report_si_unit(of->unit, of->output), value, text);
@@ -279,9 +279,9 @@ static void put_value(report_page *page, const ff_view_variable *of, double valu
 }
 
 /* Writes the least and the largest value of a scalar over the cases, and where they are. */
-static void write_span(report_page *page, const ff_view_variable *of, const double *values)
+static void write_span(report_page *page, const results_view_variable *of, const double *values)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     size_t at[2] = {0};
     char words[REPORT_TEXT_SIZE];
     for (size_t c = 0; c < view->case_count; c++)
@@ -304,7 +304,8 @@ static void write_span(report_page *page, const ff_view_variable *of, const doub
 
 /* Writes how a scalar is distributed over a sample; of the lambda ratio, how often it is below 1,
    where flanks touch. */
-static void write_distribution(report_page *page, const ff_view_variable *of, const double *values)
+static void write_distribution(report_page *page, const results_view_variable *of,
+                               const double *values)
 {
     static const double percents[] = {0, 5, 50, 95, 100};
     size_t kept, below = 0;
@@ -326,7 +327,7 @@ static void write_distribution(report_page *page, const ff_view_variable *of, co
 
 static void write_spans(report_page *page)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     bool sample = report_is_sample(view);
     fprintf(page->out,
             "<div class=\"wide\"><table class=\"verdict span%s\"><thead><tr><th>quantity</th>"
@@ -378,7 +379,7 @@ static void write_reasons(report_page *page)
 /* Says how many cases can be trusted, before the reasons. */
 static void write_counts(report_page *page)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     size_t good = 0, doubtful = 0, bad = 0, failed = 0, idle = 0;
     for (size_t c = 0; c < view->case_count; c++) {
         const char *verdict = view->cases[c]->verdict;
@@ -418,7 +419,7 @@ static void write_study(report_page *page)
 
 void report_write_verdict(report_page *page)
 {
-    const ff_view *view = page->view;
+    const results_view *view = page->view;
     fputs("<section><h2>Verdict</h2>\n", page->out);
     if (!view->study && strcmp(view->cases[0]->status, "ok") != 0) {
         fputs("<p class=\"alarm\">The run ended as <b>", page->out);

@@ -142,7 +142,8 @@ const char *report_output_words(const char *output, char out[REPORT_TEXT_SIZE])
     return out;
 }
 
-const char *report_axis_word(const ff_view_axis *axis, size_t point, char out[REPORT_TEXT_SIZE])
+const char *report_axis_word(const results_view_axis *axis, size_t point,
+                             char out[REPORT_TEXT_SIZE])
 {
     enum { LONG = 14 };
     double number;
@@ -164,7 +165,7 @@ void report_label(const char *words, const report_unit *unit, char out[REPORT_TE
 }
 
 /* Numbers need a name where several are varied; words speak for themselves. */
-static const char *name_of_number(const ff_view_axis *axis, const char *value, bool several,
+static const char *name_of_number(const results_view_axis *axis, const char *value, bool several,
                                   char out[REPORT_TEXT_SIZE])
 {
     double number;
@@ -178,7 +179,7 @@ static const char *name_of_number(const ff_view_axis *axis, const char *value, b
     return out;
 }
 
-void report_name_case(const ff_view *view, size_t index, size_t a, int b,
+void report_name_case(const results_view *view, size_t index, size_t a, int b,
                       char out[REPORT_TEXT_SIZE])
 {
     size_t length = 0;
@@ -188,9 +189,9 @@ void report_name_case(const ff_view *view, size_t index, size_t a, int b,
         varied += view->lengths[view->axes[k]->dimension] > 1;
     out[0] = '\0';
     for (size_t k = 0; k < view->axis_count && length < REPORT_TEXT_SIZE; k++) {
-        const ff_view_axis *axis = view->axes[k];
+        const results_view_axis *axis = view->axes[k];
         size_t d = axis->dimension;
-        const char *value = report_axis_word(axis, ff_view_point(view, index, d), word);
+        const char *value = report_axis_word(axis, results_view_point(view, index, d), word);
         if (d != a && (int)d != b && view->lengths[d] > 1 && *value)
             length += (size_t)snprintf(out + length, REPORT_TEXT_SIZE - length, "%s%s%.80s",
                                        length ? ", " : "",

@@ -9,7 +9,7 @@
 #include <string.h>
 
 typedef struct table {
-    const ff_view *view;
+    const results_view *view;
     results_folder *folder;
     FILE *out;
 } table;
@@ -61,8 +61,8 @@ static void put_axes(const table *t, size_t index)
 {
     fprintf(t->out, "%zu", index + 1);
     for (size_t a = 0; a < t->view->axis_count; a++) {
-        const ff_view_axis *axis = t->view->axes[a];
-        size_t point = ff_view_point(t->view, index, axis->dimension);
+        const results_view_axis *axis = t->view->axes[a];
+        size_t point = results_view_point(t->view, index, axis->dimension);
         fputc(',', t->out);
         if (axis->values)
             put_number(t->out, axis->values[point]);
@@ -73,7 +73,7 @@ static void put_axes(const table *t, size_t index)
 
 static bool put_scalars(const table *t, size_t index)
 {
-    const ff_view *view = t->view;
+    const results_view *view = t->view;
     for (size_t v = 0; v < view->variable_count; v++) {
         ff_array array;
         if (view->variables[v]->rank != 0)
@@ -90,7 +90,7 @@ static bool put_scalars(const table *t, size_t index)
 
 static bool write_scalars(table *t)
 {
-    const ff_view *view = t->view;
+    const results_view *view = t->view;
     bool good = begin_table(t, "scalars");
     if (!good)
         return false;
@@ -118,7 +118,7 @@ static bool write_scalars(table *t)
     return good;
 }
 
-static bool same_dims(const ff_view_variable *a, const ff_view_variable *b)
+static bool same_dims(const results_view_variable *a, const results_view_variable *b)
 {
     bool same = a->stage == b->stage && a->rank == b->rank;
     for (uint32_t i = 0; same && i < a->rank; i++)
@@ -136,16 +136,16 @@ typedef struct columns {
     ff_array *arrays;
 } columns;
 
-static void find_columns(const ff_view *view, size_t lead, columns *found)
+static void find_columns(const results_view *view, size_t lead, columns *found)
 {
-    const ff_view_variable *first = view->variables[lead];
+    const results_view_variable *first = view->variables[lead];
     *found = (columns){.lead = lead,
                        .variables = memory_alloc(view->variable_count * sizeof *found->variables),
                        .dims = memory_alloc(view->variable_count * sizeof *found->dims),
                        .arrays = memory_alloc(view->variable_count * sizeof *found->arrays)};
     for (uint32_t d = 0; d < first->rank; d++)
         for (size_t v = 0; v < view->variable_count; v++)
-            if (ff_view_is_coordinate(view->variables[v], first, d) &&
+            if (results_view_is_coordinate(view->variables[v], first, d) &&
                 !same_dims(view->variables[v], first)) {
                 found->dims[found->count] = d;
                 found->variables[found->count++] = v;
@@ -189,10 +189,10 @@ static void put_points(const table *t, const columns *c, size_t index, const siz
 /* An array whose lengths differ from those of the table is left out. */
 static bool load_column(const table *t, columns *c, size_t k, size_t index, const size_t shape[4])
 {
-    const ff_view *view = t->view;
+    const results_view *view = t->view;
     uint32_t rank = view->variables[c->lead]->rank, from = c->dims[k] < rank ? c->dims[k] : 0;
     size_t own[4];
-    bool fits = ff_view_full_shape(view, c->variables[k], index, own);
+    bool fits = results_view_full_shape(view, c->variables[k], index, own);
     for (uint32_t d = 0; fits && d < view->variables[c->variables[k]]->rank; d++)
         fits = own[d] == shape[from + d];
     return !fits || view->load(view->ctx, c->variables[k], index, &c->arrays[k]) == FF_OK;
@@ -200,12 +200,12 @@ static bool load_column(const table *t, columns *c, size_t k, size_t index, cons
 
 static bool put_case(const table *t, columns *c, size_t index)
 {
-    const ff_view *view = t->view;
+    const results_view *view = t->view;
     size_t shape[4] = {0};
     bool any = false, good = true;
     for (size_t k = 0; k < c->count; k++)
         if (c->dims[k] == view->variables[c->lead]->rank)
-            any = any || ff_view_full_shape(view, c->variables[k], index, shape);
+            any = any || results_view_full_shape(view, c->variables[k], index, shape);
     for (size_t k = 0; any && k < c->count && good; k++)
         good = load_column(t, c, k, index, shape);
     if (any && good)
@@ -218,8 +218,8 @@ static bool put_case(const table *t, columns *c, size_t index)
 /* Writes all variables of a stage along the dimensions of `lead`. */
 static bool write_family(table *t, size_t lead)
 {
-    const ff_view *view = t->view;
-    const ff_view_variable *first = view->variables[lead];
+    const results_view *view = t->view;
+    const results_view_variable *first = view->variables[lead];
     const char *stage = view->stages[first->stage]->name;
     char name[200];
     int length = snprintf(name, sizeof name, "%s", stage);
@@ -245,14 +245,14 @@ static bool write_family(table *t, size_t lead)
 
 static bool write_quality(table *t)
 {
-    const ff_view *view = t->view;
+    const results_view *view = t->view;
     if (!begin_table(t, "quality"))
         return false;
     put_axis_heads(t);
     fputs(",stage,name,value,limit,verdict,text\n", t->out);
     for (size_t c = 0; c < view->case_count; c++)
         for (size_t i = 0; i < view->cases[c]->quality_count; i++) {
-            const ff_view_quality *line = view->cases[c]->quality[i];
+            const results_view_quality *line = view->cases[c]->quality[i];
             put_axes(t, c);
             fprintf(t->out, ",%s,", view->stages[line->stage]->name);
             put_text(t->out, line->name);
@@ -280,7 +280,7 @@ static void put_row(FILE *out, const char *a, const char *b, const char *c, cons
 
 static bool write_origin(table *t)
 {
-    const ff_view *view = t->view;
+    const results_view *view = t->view;
     if (!begin_table(t, "origin"))
         return false;
     put_row(t->out, "what", "name", "value", "origin");
@@ -288,7 +288,7 @@ static bool write_origin(table *t)
     for (size_t i = 0; i < view->fact_count; i++)
         put_row(t->out, "fact", view->facts[i]->name, view->facts[i]->text, "");
     for (size_t i = 0; i < view->stage_count; i++) {
-        const ff_view_stage *stage = view->stages[i];
+        const results_view_stage *stage = view->stages[i];
         char version[200], path[300];
         snprintf(version, sizeof version, "%s, file %s", stage->version, stage->build);
         put_row(t->out, "model", stage->name, stage->model, version);
@@ -302,7 +302,7 @@ static bool write_origin(table *t)
     return true;
 }
 
-bool results_export_csv(const ff_view *view, results_folder *folder)
+bool results_export_csv(const results_view *view, results_folder *folder)
 {
     table t = {.view = view, .folder = folder};
     bool good = write_scalars(&t);

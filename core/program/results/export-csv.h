@@ -8,11 +8,11 @@
 #ifndef RESULTS_EXPORT_CSV_H
 #define RESULTS_EXPORT_CSV_H
 
+#include "view.h"
+
 #include "folder.h"
 
-#include <flankfilm/writer.h>
-
 /* Writes the files into the folder, which the caller commits. False with an error in the report. */
-bool results_export_csv(const ff_view *view, results_folder *folder);
+bool results_export_csv(const results_view *view, results_folder *folder);
 
 #endif

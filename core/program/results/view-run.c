@@ -54,7 +54,7 @@ static int verdict_of(const json_t *text)
 
 /* Adds the quality and the time of the stages that ran; the lines to `judged`, too, as the record
    of a case has them. */
-static void add_stages(results_reader *reader, ff_view_case *c, const json_t *stages,
+static void add_stages(results_reader *reader, results_view_case *c, const json_t *stages,
                        json_t *judged)
 {
     results_rows rows = {.rows = NULL};
@@ -98,16 +98,15 @@ bool results_view_read_run(results_reader *reader)
                         "%s/result.json is of format %lld; this flankfilm reads up to %d",
                         reader->path, (long long)format, RESULTS_FORMAT);
     results_view_add_head(reader, root);
-    ff_view_case *c = results_view_add_row(reader, &reader->cases, sizeof *c);
-    *c = (ff_view_case){
-        .size = sizeof *c,
+    results_view_case *c = results_view_add_row(reader, &reader->cases, sizeof *c);
+    *c = (results_view_case){
         .status = results_view_text(reader, json_object_get(root, "status")),
         .reason = results_view_text(
             reader, json_object_get(json_array_get(json_object_get(root, "errors"), 0), "message")),
         .command = "",
     };
     reader->per_case = memory_alloc(sizeof *reader->per_case);
-    add_outputs(reader, json_object_get(root, "outputs"), FF_VIEW_ASKED);
+    add_outputs(reader, json_object_get(root, "outputs"), RESULTS_VIEW_ASKED);
     add_outputs(reader, json_object_get(root, "computed"), 0);
     results_view_take_outputs(reader, &reader->per_case[0]);
     json_t *record = json_pack("{s:O?, s:{}, s:s}", "status", json_object_get(root, "status"),

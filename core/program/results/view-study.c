@@ -45,13 +45,12 @@ static bool add_axis(results_reader *reader, const json_t *entry)
         if (values)
             values[i] = json_number_value(json_array_get(numbers, i));
     }
-    ff_view_axis *axis = results_view_add_row(reader, &reader->axes, sizeof *axis);
-    *axis = (ff_view_axis){.size = sizeof *axis,
-                           .path = results_view_text(reader, json_object_get(entry, "path")),
-                           .dimension = dimension,
-                           .unit = results_view_text(reader, json_object_get(entry, "unit")),
-                           .values = values,
-                           .words = texts};
+    results_view_axis *axis = results_view_add_row(reader, &reader->axes, sizeof *axis);
+    *axis = (results_view_axis){.path = results_view_text(reader, json_object_get(entry, "path")),
+                                .dimension = dimension,
+                                .unit = results_view_text(reader, json_object_get(entry, "unit")),
+                                .values = values,
+                                .words = texts};
     return true;
 }
 
@@ -60,7 +59,7 @@ static json_t *assignments_of(const results_reader *reader, size_t index)
 {
     json_t *set = json_object();
     for (size_t k = 0; k < reader->axes.count; k++) {
-        const ff_view_axis *axis = reader->axes.rows[k];
+        const results_view_axis *axis = reader->axes.rows[k];
         size_t below = 1;
         for (size_t d = axis->dimension + 1; d < reader->view.dimension_count; d++)
             below *= reader->view.lengths[d];
@@ -127,7 +126,7 @@ static void add_scalars(results_reader *reader, const json_t *docs, json_t *outp
         const json_t *value = json_array_get(pair, 1);
         const results_entry told = {.unit = json_array_get(pair, 0),
                                     .doc = json_object_get(docs, name)};
-        results_output *made = results_view_add_output(reader, name, &told, FF_VIEW_ASKED);
+        results_output *made = results_view_add_output(reader, name, &told, RESULTS_VIEW_ASKED);
         if (made)
             made->value = json_is_number(value) ? json_number_value(value) : (double)NAN;
     }
@@ -145,13 +144,13 @@ static void add_arrays(results_reader *reader, const json_t *docs, json_t *array
                                     .shape = json_array_get(entry, 2),
                                     .against = json_array_get(entry, 4),
                                     .doc = json_object_get(docs, name)};
-        results_output *made = results_view_add_output(reader, name, &told, FF_VIEW_ASKED);
+        results_output *made = results_view_add_output(reader, name, &told, RESULTS_VIEW_ASKED);
         if (made)
             made->offset = (off_t)json_integer_value(json_array_get(entry, 3));
     }
 }
 
-static void add_quality(results_reader *reader, ff_view_case *c, json_t *stages)
+static void add_quality(results_reader *reader, results_view_case *c, json_t *stages)
 {
     results_rows rows = {.rows = NULL};
     const char *stage, *name;
@@ -168,10 +167,9 @@ static void add_case(results_reader *reader, size_t index, const json_t *record,
 {
     const json_t *status = json_object_get(record, "status"),
                  *seconds = json_object_get(record, "seconds");
-    ff_view_case *c = results_view_add_row(reader, &reader->cases, sizeof *c);
+    results_view_case *c = results_view_add_row(reader, &reader->cases, sizeof *c);
     results_case *of = &reader->per_case[index];
-    *c = (ff_view_case){
-        .size = sizeof *c,
+    *c = (results_view_case){
         .status = status ? results_view_shared_text(reader, json_string_value(status)) : "not run",
         .reason = results_view_text(reader, json_object_get(record, "reason")),
         .command = results_view_text(reader, json_object_get(record, "command")),

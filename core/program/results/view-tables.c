@@ -47,7 +47,7 @@ void *results_view_add_row(results_reader *reader, results_rows *rows, size_t si
     return rows->rows[rows->count++] = memory_arena_alloc(&reader->arena, size);
 }
 
-void results_view_judge(results_reader *reader, ff_view_case *c, size_t number,
+void results_view_judge(results_reader *reader, results_view_case *c, size_t number,
                         const json_t *record)
 {
     c->verdict = c->reasons = "";
@@ -79,16 +79,15 @@ const void *results_view_take_rows(results_reader *reader, results_rows *rows)
 static size_t find_stage(results_reader *reader, const char *name, size_t length)
 {
     for (size_t i = 0; i < reader->stages.count; i++) {
-        const ff_view_stage *stage = reader->stages.rows[i];
+        const results_view_stage *stage = reader->stages.rows[i];
         if (strlen(stage->name) == length && !strncmp(stage->name, name, length))
             return i;
     }
-    ff_view_stage *made = results_view_add_row(reader, &reader->stages, sizeof *made);
-    *made = (ff_view_stage){.size = sizeof *made,
-                            .name = memory_arena_text(&reader->arena, name, length),
-                            .model = "",
-                            .version = "",
-                            .build = ""};
+    results_view_stage *made = results_view_add_row(reader, &reader->stages, sizeof *made);
+    *made = (results_view_stage){.name = memory_arena_text(&reader->arena, name, length),
+                                 .model = "",
+                                 .version = "",
+                                 .build = ""};
     return reader->stages.count - 1;
 }
 
@@ -96,31 +95,29 @@ void results_view_add_citation(results_reader *reader, const char *model, const 
 {
     const char *reference = results_view_text(reader, json_object_get(entry, "reference"));
     for (size_t i = 0; i < reader->citations.count; i++) {
-        const ff_view_citation *known = reader->citations.rows[i];
+        const results_view_citation *known = reader->citations.rows[i];
         if (!strcmp(known->model, model))
             return;
     }
     if (!*reference)
         return;
-    ff_view_citation *made = results_view_add_row(reader, &reader->citations, sizeof *made);
-    *made = (ff_view_citation){
-        .size = sizeof *made,
+    results_view_citation *made = results_view_add_row(reader, &reader->citations, sizeof *made);
+    *made = (results_view_citation){
         .model = memory_arena_text(&reader->arena, model, strlen(model)),
         .reference = reference,
         .bibtex = results_view_text(reader, json_object_get(entry, "bibtex")),
     };
 }
 
-static void add_params(results_reader *reader, ff_view_stage *stage, json_t *params)
+static void add_params(results_reader *reader, results_view_stage *stage, json_t *params)
 {
     const char *name;
     json_t *param;
     results_rows rows = {.rows = NULL};
     json_object_foreach(params, name, param)
     {
-        ff_view_param *row = results_view_add_row(reader, &rows, sizeof *row);
-        *row = (ff_view_param){
-            .size = sizeof *row,
+        results_view_param *row = results_view_add_row(reader, &rows, sizeof *row);
+        *row = (results_view_param){
             .name = memory_arena_text(&reader->arena, name, strlen(name)),
             .text = results_view_text(reader, json_object_get(param, "text")),
             .origin = results_view_text(reader, json_object_get(param, "origin")),
@@ -130,7 +127,7 @@ static void add_params(results_reader *reader, ff_view_stage *stage, json_t *par
     stage->params = results_view_take_rows(reader, &rows);
 }
 
-static void add_feeders(results_reader *reader, ff_view_stage *stage, json_t *wires)
+static void add_feeders(results_reader *reader, results_view_stage *stage, json_t *wires)
 {
     const char *name;
     json_t *wire;
@@ -150,7 +147,7 @@ static void add_stage(results_reader *reader, const json_t *entry)
     if (!name)
         return;
     const size_t at = find_stage(reader, name, strlen(name));
-    ff_view_stage *stage = reader->stages.rows[at];
+    results_view_stage *stage = reader->stages.rows[at];
     stage->model = results_view_text(reader, json_object_get(entry, "model"));
     stage->version = results_view_text(reader, json_object_get(entry, "version"));
     stage->build = results_view_text(reader, json_object_get(entry, "build"));
@@ -167,10 +164,9 @@ void results_view_add_head(results_reader *reader, const json_t *root)
     reader->view.title = results_view_text(reader, json_object_get(root, "title"));
     json_object_foreach(json_object_get(root, "facts"), name, text)
     {
-        ff_view_fact *fact = results_view_add_row(reader, &reader->facts, sizeof *fact);
-        *fact = (ff_view_fact){.size = sizeof *fact,
-                               .name = memory_arena_text(&reader->arena, name, strlen(name)),
-                               .text = results_view_text(reader, text)};
+        results_view_fact *fact = results_view_add_row(reader, &reader->facts, sizeof *fact);
+        *fact = (results_view_fact){.name = memory_arena_text(&reader->arena, name, strlen(name)),
+                                    .text = results_view_text(reader, text)};
     }
     json_array_foreach(json_object_get(root, "stages"), i, stage)
     {
@@ -197,7 +193,7 @@ static json_int_t add_variable(results_reader *reader, const char *name, const r
     const char *dot = strchr(name, '.');
     size_t rank = json_array_size(entry->dims);
     json_int_t at = known ? json_integer_value(known) : (json_int_t)reader->variables.count;
-    ff_view_variable *row = known ? reader->variables.rows[at] : NULL;
+    results_view_variable *row = known ? reader->variables.rows[at] : NULL;
     if (!dot || rank > 4)
         return -1;
     if (row && row->rank >= rank)
@@ -205,8 +201,7 @@ static json_int_t add_variable(results_reader *reader, const char *name, const r
     if (!row) {
         json_object_set_new(reader->index, name, json_integer(at));
         row = results_view_add_row(reader, &reader->variables, sizeof *row);
-        *row = (ff_view_variable){
-            .size = sizeof *row,
+        *row = (results_view_variable){
             .name = memory_arena_text(&reader->arena, name, strlen(name)),
             .output = memory_arena_text(&reader->arena, dot + 1, strlen(dot + 1)),
             .stage = find_stage(reader, name, (size_t)(dot - name)),
@@ -257,9 +252,8 @@ void results_view_add_quality(results_reader *reader, results_rows *rows, const 
                               const char *name, const json_t *value, const json_t *limit,
                               int verdict, const json_t *text)
 {
-    ff_view_quality *row = results_view_add_row(reader, rows, sizeof *row);
-    *row = (ff_view_quality){
-        .size = sizeof *row,
+    results_view_quality *row = results_view_add_row(reader, rows, sizeof *row);
+    *row = (results_view_quality){
         .stage = find_stage(reader, stage, strlen(stage)),
         .name = results_view_shared_text(reader, name),
         .text = results_view_shared_text(reader, json_string_value(text)),

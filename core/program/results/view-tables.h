@@ -5,8 +5,7 @@
 
 #include "../arrays/log.h"
 #include "../study/study.h"
-
-#include <flankfilm/writer.h>
+#include "view.h"
 
 typedef struct results_rows {
     void **rows;
@@ -31,7 +30,7 @@ typedef struct results_case {
 } results_case;
 
 typedef struct results_reader {
-    ff_view view;
+    results_view view;
     ff_report *report;
     memory_arena arena;
     const char *path;
@@ -76,7 +75,7 @@ void results_view_add_quality(results_reader *reader, results_rows *rows, const 
                               int verdict, const json_t *text);
 
 /* Judges a case by its record, which is NULL when it has not run. */
-void results_view_judge(results_reader *reader, ff_view_case *c, size_t number,
+void results_view_judge(results_reader *reader, results_view_case *c, size_t number,
                         const json_t *record);
 
 /* view-run.c and view-study.c: fill in the view; false after an error. */

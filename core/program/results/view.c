@@ -11,6 +11,40 @@
 #include <string.h>
 #include <unistd.h>
 
+size_t results_view_point(const results_view *view, size_t index, size_t dimension)
+{
+    size_t d;
+    for (d = view->dimension_count; d-- > dimension + 1;)
+        index /= view->lengths[d];
+    return index % view->lengths[dimension];
+}
+
+bool results_view_full_shape(const results_view *view, size_t variable, size_t index,
+                             size_t shape[4])
+{
+    size_t found[4] = {0};
+    int32_t rank = view->shape(view->ctx, variable, index, found);
+    uint32_t i, absent, full = view->variables[variable]->rank;
+    if (rank < 0 || (uint32_t)rank > full)
+        return false;
+    absent = full - (uint32_t)rank;
+    for (i = 0; i < full; i++)
+        shape[i] = i < absent ? 1 : found[i - absent];
+    return true;
+}
+
+bool results_view_is_coordinate(const results_view_variable *series,
+                                const results_view_variable *other, uint32_t dim)
+{
+    if (series->rank != 1 || series == other)
+        return false;
+    if (!strcmp(series->name, other->against[dim]))
+        return true;
+    return series->stage == other->stage && !strcmp(series->dims[0], other->dims[dim]) &&
+           (!strcmp(series->output, series->dims[0]) || !strcmp(series->unit, "s") ||
+            !strcmp(series->unit, "rad"));
+}
+
 static const results_output *output_of(const results_reader *reader, size_t variable, size_t index)
 {
     if (index >= reader->view.case_count)
@@ -177,9 +211,8 @@ static void read_figure(results_reader *reader, const char *name)
     char *text = memory_alloc(MOST);
     ssize_t length = fd >= 0 ? read(fd, text, MOST) : -1;
     if (length > 0 && length < MOST && !memchr(text, 0, (size_t)length)) {
-        ff_view_figures *made = results_view_add_row(reader, &reader->figures, sizeof *made);
-        *made = (ff_view_figures){
-            .size = sizeof *made,
+        results_view_figures *made = results_view_add_row(reader, &reader->figures, sizeof *made);
+        *made = (results_view_figures){
             .name = memory_arena_text(&reader->arena, name, strlen(name)),
             .json = memory_arena_text(&reader->arena, text, (size_t)length),
         };
@@ -202,8 +235,7 @@ static void read_figures(results_reader *reader)
 
 static void finish_view(results_reader *reader)
 {
-    ff_view *view = &reader->view;
-    view->size = sizeof *view;
+    results_view *view = &reader->view;
     view->ctx = reader;
     view->shape = shape_of;
     view->load = load;
@@ -251,7 +283,7 @@ static bool read_directory(results_reader *reader)
                     path);
 }
 
-const ff_view *results_view_open(const char *directory, ff_report *report)
+const results_view *results_view_open(const char *directory, ff_report *report)
 {
     results_reader *reader = memory_alloc(sizeof *reader);
     reader->report = report;
@@ -268,7 +300,7 @@ const ff_view *results_view_open(const char *directory, ff_report *report)
     return NULL;
 }
 
-void results_view_close(const ff_view *view)
+void results_view_close(const results_view *view)
 {
     if (!view)
         return;

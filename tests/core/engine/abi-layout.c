@@ -6,7 +6,6 @@
  */
 #include <flankfilm/laws.h>
 #include <flankfilm/table.h>
-#include <flankfilm/writer.h>
 
 #include <assert.h>
 
@@ -144,113 +143,6 @@ FIELD(ff_rheology, self, 8, 8);
 FIELD(ff_rheology, flow, 16, 8);
 FIELD(ff_rheology, shear, 24, 8);
 
-GROWING(ff_view_fact, 24);
-FIELD(ff_view_fact, size, 0, 8);
-FIELD(ff_view_fact, name, 8, 8);
-FIELD(ff_view_fact, text, 16, 8);
-
-GROWING(ff_view_citation, 32);
-FIELD(ff_view_citation, size, 0, 8);
-FIELD(ff_view_citation, model, 8, 8);
-FIELD(ff_view_citation, reference, 16, 8);
-FIELD(ff_view_citation, bibtex, 24, 8);
-
-GROWING(ff_view_param, 32);
-FIELD(ff_view_param, size, 0, 8);
-FIELD(ff_view_param, name, 8, 8);
-FIELD(ff_view_param, text, 16, 8);
-FIELD(ff_view_param, origin, 24, 8);
-
-GROWING(ff_view_stage, 72);
-FIELD(ff_view_stage, size, 0, 8);
-FIELD(ff_view_stage, name, 8, 8);
-FIELD(ff_view_stage, model, 16, 8);
-FIELD(ff_view_stage, version, 24, 8);
-FIELD(ff_view_stage, build, 32, 8);
-FIELD(ff_view_stage, params, 40, 8);
-FIELD(ff_view_stage, param_count, 48, 8);
-FIELD(ff_view_stage, feeders, 56, 8);
-FIELD(ff_view_stage, feeder_count, 64, 8);
-
-GROWING(ff_view_axis, 48);
-FIELD(ff_view_axis, size, 0, 8);
-FIELD(ff_view_axis, path, 8, 8);
-FIELD(ff_view_axis, dimension, 16, 8);
-FIELD(ff_view_axis, unit, 24, 8);
-FIELD(ff_view_axis, values, 32, 8);
-FIELD(ff_view_axis, words, 40, 8);
-
-GROWING(ff_view_variable, 80);
-FIELD(ff_view_variable, size, 0, 8);
-FIELD(ff_view_variable, name, 8, 8);
-FIELD(ff_view_variable, output, 16, 8);
-FIELD(ff_view_variable, stage, 24, 8);
-FIELD(ff_view_variable, unit, 32, 8);
-FIELD(ff_view_variable, doc, 40, 8);
-FIELD(ff_view_variable, rank, 48, 4);
-FIELD(ff_view_variable, dims, 56, 8);
-FIELD(ff_view_variable, against, 64, 8);
-FIELD(ff_view_variable, flags, 72, 4);
-
-GROWING(ff_view_quality, 56);
-FIELD(ff_view_quality, size, 0, 8);
-FIELD(ff_view_quality, stage, 8, 8);
-FIELD(ff_view_quality, name, 16, 8);
-FIELD(ff_view_quality, text, 24, 8);
-FIELD(ff_view_quality, value, 32, 8);
-FIELD(ff_view_quality, limit, 40, 8);
-FIELD(ff_view_quality, verdict, 48, 4);
-
-GROWING(ff_view_case, 56);
-FIELD(ff_view_case, size, 0, 8);
-FIELD(ff_view_case, status, 8, 8);
-FIELD(ff_view_case, reason, 16, 8);
-FIELD(ff_view_case, command, 24, 8);
-FIELD(ff_view_case, seconds, 32, 8);
-FIELD(ff_view_case, quality, 40, 8);
-FIELD(ff_view_case, quality_count, 48, 8);
-
-GROWING(ff_view_drawing, 24);
-FIELD(ff_view_drawing, size, 0, 8);
-FIELD(ff_view_drawing, name, 8, 8);
-FIELD(ff_view_drawing, svg, 16, 8);
-
-GROWING(ff_view, 184);
-FIELD(ff_view, size, 0, 8);
-FIELD(ff_view, ctx, 8, 8);
-FIELD(ff_view, title, 16, 8);
-FIELD(ff_view, study, 24, 4);
-FIELD(ff_view, facts, 32, 8);
-FIELD(ff_view, fact_count, 40, 8);
-FIELD(ff_view, citations, 48, 8);
-FIELD(ff_view, citation_count, 56, 8);
-FIELD(ff_view, stages, 64, 8);
-FIELD(ff_view, stage_count, 72, 8);
-FIELD(ff_view, lengths, 80, 8);
-FIELD(ff_view, dimension_count, 88, 8);
-FIELD(ff_view, axes, 96, 8);
-FIELD(ff_view, axis_count, 104, 8);
-FIELD(ff_view, variables, 112, 8);
-FIELD(ff_view, variable_count, 120, 8);
-FIELD(ff_view, cases, 128, 8);
-FIELD(ff_view, case_count, 136, 8);
-FIELD(ff_view, shape, 144, 8);
-FIELD(ff_view, load, 152, 8);
-FIELD(ff_view, release, 160, 8);
-FIELD(ff_view, drawings, 168, 8);
-FIELD(ff_view, drawing_count, 176, 8);
-
-GROWING(ff_target, 24);
-FIELD(ff_target, size, 0, 8);
-FIELD(ff_target, ctx, 8, 8);
-FIELD(ff_target, path, 16, 8);
-
-GROWING(ff_writer, 32);
-FIELD(ff_writer, size, 0, 8);
-FIELD(ff_writer, self, 8, 8);
-FIELD(ff_writer, suffix, 16, 8);
-FIELD(ff_writer, write, 24, 8);
-
 GROWING(ff_table, 32);
 FIELD(ff_table, size, 0, 8);
 FIELD(ff_table, row_count, 8, 8);
@@ -303,7 +195,6 @@ VALUE(FF_BAD, 2);
 VALUE(FF_LOG_INFO, 0);
 VALUE(FF_LOG_WARNING, 1);
 VALUE(FF_SERIAL, 1);
-VALUE(FF_VIEW_ASKED, 1);
 
 int main(void)
 {

@@ -76,11 +76,10 @@ class Errors(lab.Lab):
 
     def test_no_writer(self):
         said = self.call("export", "run", "--to", "cvs", code=2)
-        self.assertIn('there is no writer "cvs"; did you mean "csv"?', said)
-        said = self.call("export", "run", "--to", "clay", code=2)
-        self.assertIn('there is no model "writer/clay"', said)
+        self.assertIn('--to cvs: there is no such form; did you mean "csv"?', said)
         said = self.call("export", "run", "--to", "toy/wave", code=2)
-        self.assertIn('does not offer the service "flankfilm.writer/1"', said)
+        self.assertIn('--to toy/wave: there is no such form', said)
+        self.assertIn('results can be written as csv or netcdf', said)
         self.assertIn("--to", self.call("export", "run", code=2))
 
     def test_foreign_directory(self):

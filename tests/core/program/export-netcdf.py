@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""xarray opens what the writer netcdf makes, and finds names, units and values to the last bit."""
+"""xarray opens what flankfilm-netcdf makes, and finds names, units and values to the last bit."""
 import os
+import shutil
+import subprocess
 import sys
 
-sys.path.append(os.path.join(os.path.dirname(__file__), "../../core/program"))
-import lab  # noqa: E402
+import lab
 
 try:
     import netCDF4  # noqa: F401: what xarray reads with
@@ -12,9 +13,6 @@ try:
     import xarray as xr
 except ImportError as error:
     print("needs the Python module", error.name)
-    sys.exit(77)
-if not os.path.exists(lab.ARGUMENTS[1] + "/writer/netcdf.so"):
-    print("needs the writer netcdf")
     sys.exit(77)
 
 
@@ -129,6 +127,24 @@ class Study(lab.Lab):
 
 
 class Errors(lab.Lab):
+    def test_no_program(self):
+        """A program without its companion says so, and leaves what stood there."""
+        alone = os.path.join(self.directory, "alone")
+        os.makedirs(alone, exist_ok=True)
+        shutil.copy(self.program, alone)
+        environment = {**os.environ, "LD_LIBRARY_PATH": os.path.dirname(self.program)}
+        done = subprocess.run([alone + "/flankfilm", "export", "run", "--to", "netcdf", "-o", "none.nc"],
+                              capture_output=True, text=True, env=environment, check=False)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("the program flankfilm-netcdf is not beside this one", done.stderr)
+        self.assertIn("netCDF4", done.stderr)
+        self.assertFalse([name for name in os.listdir(".") if name.startswith("none.nc")])
+
+    def test_no_results(self):
+        os.makedirs("bare-nc", exist_ok=True)
+        said = self.call("export", "bare-nc", "--to", "netcdf", "-o", "bare.nc", code=1)
+        self.assertIn("bare-nc: no results of flankfilm are here", said)
+
     def test_disk_full(self):
         self.call("export", "run", "--to", "netcdf", "-o", "full.nc")
         with open("full.nc", "rb") as file:

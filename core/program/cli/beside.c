@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "beside.h"
+
+#include "../memory/memory.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { NOT_THERE = 127, MOST_SAID = 2000 };
+
+/* The path of a program in the folder of this one; the caller frees it. */
+static char *path_beside(const char *name)
+{
+    char own[4096];
+    ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
+    own[length > 0 ? length : 0] = '\0';
+    const char *slash = strrchr(own, '/');
+    return memory_print_text("%.*s/%s", slash ? (int)(slash - own) : 0, own, name);
+}
+
+/* The first part of what a descriptor gives until its end, without the last line end. */
+static void read_said(int from, char said[MOST_SAID])
+{
+    size_t used = 0;
+    char rest[512];
+    for (;;) {
+        bool room = used < MOST_SAID - 1;
+        ssize_t got =
+            read(from, room ? said + used : rest, room ? MOST_SAID - 1 - used : sizeof rest);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got <= 0)
+            break;
+        used += room ? (size_t)got : 0;
+    }
+    while (used && said[used - 1] == '\n')
+        used--;
+    said[used] = '\0';
+}
+
+static int wait_for(pid_t child)
+{
+    int status = -1;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR)
+        continue;
+    return status;
+}
+
+bool cli_beside(const char *name, const char *first, const char *second, ff_report *report)
+{
+    char said[MOST_SAID] = "", *path = path_beside(name);
+    int ends[2], status = -1;
+    pid_t child = pipe2(ends, O_CLOEXEC) == 0 ? fork() : -1;
+    if (child == 0) {
+        dup2(ends[1], STDERR_FILENO);
+        execl(path, name, first, second, (char *)NULL);
+        _exit(NOT_THERE);
+    }
+    if (child > 0) {
+        close(ends[1]);
+        read_said(ends[0], said);
+        close(ends[0]);
+        status = wait_for(child);
+    }
+    free(path);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
+        return true;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == NOT_THERE)
+        return ff_error(
+            report, FF_FAULT_INPUT, FF_NOWHERE,
+            "it comes with flankfilm where Python is there, and needs its package netCDF4",
+            "the program %s is not beside this one", name);
+    return ff_error(report, FF_FAULT_RUN, FF_NOWHERE, NULL, "%s: %s", name,
+                    *said ? said : "it ended before its work was done");
+}

@@ -1,0 +1,14 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Programs that stand beside this one. */
+#ifndef CLI_BESIDE_H
+#define CLI_BESIDE_H
+
+#include <flankfilm/engine.h>
+
+#include <stdbool.h>
+
+/* Runs the program of that name with two arguments and waits for its end. False: it is not there,
+   or it failed, and what it said on stderr is the error. */
+bool cli_beside(const char *name, const char *first, const char *second, ff_report *report);
+
+#endif
