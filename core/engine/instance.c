@@ -362,8 +362,11 @@ ff_status ff_instance_serve(ff_instance *instance, const char *wire, const void 
 /* Whether the wire that replaces the parameter is connected. */
 static bool is_replaced(const ff_instance *i, const ff_param *row)
 {
-    return row->instead &&
-           feeds(&i->feeds[ff_model_find_input(i->stage.loaded->model, row->instead)]);
+    const ff_model *model = i->stage.loaded->model;
+    for (size_t k = 0; row->instead && k < model->input_count; k++)
+        if (fe_is_on_wire(ff_model_input(model, k)->name, row->instead) && feeds(&i->feeds[k]))
+            return true;
+    return false;
 }
 
 /* Whether the parameter, or another of its group, is given; *required: whether one must be. */

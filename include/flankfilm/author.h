@@ -195,8 +195,8 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, int i)
     FF_SERVICE_MODEL(name, type, "rheology", FF_RHEOLOGY_ID, "the law",                            \
                      ((ff_rheology){sizeof(ff_rheology), NULL, flow, shear}), __VA_ARGS__)
 
-#define FF_SERVICE_MODEL(name, type, output, id, doc, table, ...)                                  \
-    static ff_status name##_create(const ff_host *host, void **self)                               \
+#define FF_SERVICE_MODEL(law, type, output, interface, text, table, ...)                           \
+    static ff_status law##_create(const ff_host *host, void **self)                                \
     {                                                                                              \
         type *ff_self = calloc(1, sizeof *ff_self);                                                \
         if (!ff_self)                                                                              \
@@ -207,18 +207,19 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, int i)
         *self = ff_self;                                                                           \
         return FF_OK;                                                                              \
     }                                                                                              \
-    static const void *name##_service(void *self, uint32_t row)                                    \
+    static const void *law##_service(void *self, uint32_t row)                                     \
     {                                                                                              \
         return row == 0 ? &((type *)self)->service : NULL;                                         \
     }                                                                                              \
-    static const ff_port name##_output[] = {{output, "", doc, "", id, 0, NULL}};                   \
-    const ff_model name = {FF_HEAD(type, name##_create), .outputs = FF_TABLE(name##_output),       \
-                           .service = name##_service, .destroy = free, __VA_ARGS__}
+    static const ff_port law##_output[] = {                                                        \
+        {.name = output, .unit = "", .doc = text, .dims = "", .service = interface}};              \
+    const ff_model law = {FF_HEAD(type, law##_create), .outputs = FF_TABLE(law##_output),          \
+                          .service = law##_service, .destroy = free, __VA_ARGS__}
 
 /* A rheology that offers flankfilm.rheology/2, too: the instance has a member `service_2` beside
    `service`. */
-#define FF_RHEOLOGY_2_LAW(name, type, flow, shear, rate, ...)                                      \
-    static ff_status name##_create(const ff_host *host, void **self)                               \
+#define FF_RHEOLOGY_2_LAW(law, type, flow, shear, rate, ...)                                       \
+    static ff_status law##_create(const ff_host *host, void **self)                                \
     {                                                                                              \
         type *ff_self = calloc(1, sizeof *ff_self);                                                \
         if (!ff_self)                                                                              \
@@ -229,17 +230,21 @@ FF_UNUSED static double ff_of_both(const ff_reals *list, int i)
         *self = ff_self;                                                                           \
         return FF_OK;                                                                              \
     }                                                                                              \
-    static const void *name##_service(void *self, uint32_t row)                                    \
+    static const void *law##_service(void *self, uint32_t row)                                     \
     {                                                                                              \
         type *ff_self = self;                                                                      \
         return row == 0 ? (const void *)&ff_self->service                                          \
                         : (row == 1 ? &ff_self->service_2 : NULL);                                 \
     }                                                                                              \
-    static const ff_port name##_output[] = {                                                       \
-        {"rheology", "", "the law", "", FF_RHEOLOGY_ID, 0, NULL},                                  \
-        {"rate", "", "shear rate over shear stress", "", FF_RHEOLOGY_2_ID, 0, NULL}};              \
-    const ff_model name = {FF_HEAD(type, name##_create), .outputs = FF_TABLE(name##_output),       \
-                           .service = name##_service, .destroy = free, __VA_ARGS__}
+    static const ff_port law##_output[] = {                                                        \
+        {.name = "rheology", .unit = "", .doc = "the law", .dims = "", .service = FF_RHEOLOGY_ID}, \
+        {.name = "rate",                                                                           \
+         .unit = "",                                                                               \
+         .doc = "shear rate over shear stress",                                                    \
+         .dims = "",                                                                               \
+         .service = FF_RHEOLOGY_2_ID}};                                                            \
+    const ff_model law = {FF_HEAD(type, law##_create), .outputs = FF_TABLE(law##_output),          \
+                          .service = law##_service, .destroy = free, __VA_ARGS__}
 
 /* Defines what the object exports: one descriptor or several. */
 #define FF_EXPORT_MODELS(...)                                                                      \

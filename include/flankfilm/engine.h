@@ -160,6 +160,7 @@ typedef struct ff_quality {
     double value, limit;
     int32_t verdict;  /* FF_GOOD, FF_DOUBTFUL, FF_BAD */
     const char *text; /* or NULL */
+    bool range;       /* doubtful, since the model is used outside of its range: FF_RANGE */
 } ff_quality;
 
 /* The worst verdict of the stages that ran, FF_BAD when the run failed, FF_INVALID before it; and

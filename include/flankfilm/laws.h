@@ -130,4 +130,51 @@ typedef struct ff_rheology_2 {
                       double *drate_dln_eta);
 } ff_rheology_2;
 
+/*
+ * Service "flankfilm.rheology/3": /1 for laws whose stresses depend on pressure and temperature
+ * themselves, such as an Eyring stress 2 Lambda/alpha(p, T). Who solves a film takes it where it is
+ * offered and /1 elsewhere; a law offers it beside /1.
+ */
+#define FF_RHEOLOGY_3_ID "flankfilm.rheology/3"
+
+/* Since 1.3. */
+typedef struct ff_rheology_3 {
+    size_t size;
+    const void *self;
+    /*
+     * n        number of points
+     * p        Pa, n;  T  K, n, or NULL: the reference temperature of the law
+     * ln_eta   ln(eta / 1 Pa s), n;  h  film thickness, m, n, > 0;  u_s  sliding speed u1-u2, m/s
+     * psi      fluidity that the pressure flow sees, 1/(Pa s), n
+     * dpsi_dp  1/(Pa2 s), n, at fixed ln_eta, may be NULL
+     * dpsi_dln_eta  1/(Pa s), n, may be NULL;  dpsi_dh  1/(Pa s m), n, may be NULL
+     */
+    ff_status (*flow)(const void *self, size_t n, const double *p, const double *T,
+                      const double *ln_eta, const double *h, double u_s, double *psi,
+                      double *dpsi_dp, double *dpsi_dln_eta, double *dpsi_dh);
+    /* The mean shear stress of the film, Pa, n, with the sign of u_s; arguments as of flow. */
+    ff_status (*shear)(const void *self, size_t n, const double *p, const double *T,
+                       const double *ln_eta, const double *h, double u_s, double *tau);
+} ff_rheology_3;
+
+/*
+ * Service "flankfilm.asperity/1": the mean pressure that the asperities of two rough flanks carry,
+ * as a function of the distance between the mean planes of their heights.
+ */
+#define FF_ASPERITY_ID "flankfilm.asperity/1"
+
+/* Since 1.3. */
+typedef struct ff_asperity {
+    size_t size;
+    const void *self;
+    double sigma; /* rms of the combined heights of both flanks, m, > 0 */
+    /*
+     * n        number of points
+     * h        distance of the mean planes, m, n, of any sign
+     * p_a      Pa, n, >= 0, falls with h;  dp_a_dh  Pa/m, n, <= 0, may be NULL
+     */
+    ff_status (*pressure)(const void *self, size_t n, const double *h, double *p_a,
+                          double *dp_a_dh);
+} ff_asperity;
+
 #endif

@@ -29,7 +29,7 @@ extern "C" {
 #endif
 
 #define FF_ABI_MAJOR 1
-#define FF_ABI_MINOR 2
+#define FF_ABI_MINOR 3
 
 /* True when struct *s, as its maker compiled it, has `field`. */
 #define FF_HAS(s, field)                                                                           \
@@ -90,9 +90,10 @@ typedef struct ff_param {
     /* Since 1.2; 0 and NULL in shorter rows. */
     size_t place;        /* 1 + offset of the member of the instance that takes the value; 0: none,
                             `set` is called. The macros of author.h check its type */
-    const char *instead; /* optional service input that replaces the parameter: "oil". Where it is
-                            connected, the parameter must not be given and no preset applies; where
-                            it is not, FF_REQUIRED holds */
+    const char *instead; /* optional input that replaces the parameter: a service, "oil"; since 1.3
+                            also a data input, "gear.density", or a wire of data inputs, "gear".
+                            Where it is connected, the parameter must not be given and no preset
+                            applies; where it is not, FF_REQUIRED holds */
 } ff_param;
 
 /*
@@ -116,15 +117,27 @@ typedef struct ff_reals {
 
 /* Flags of a port row. */
 enum {
-    FF_OPTIONAL = 1, /* an input that may stay unconnected */
-    FF_FEEDBACK = 2  /* since 1.2: a data input that may close a loop; never connected by itself */
+    FF_OPTIONAL = 1,  /* an input that may stay unconnected */
+    FF_FEEDBACK = 2,  /* since 1.2: a data input that may close a loop; never connected by itself */
+    FF_DIFFERENCE = 4 /* since 1.3: a data output in K is a difference of temperatures, which may be
+                         negative and is not shifted where it is shown in degC */
+};
+
+/* Since 1.3: the one number that stands for a series or a field where there is no room for it. */
+enum {
+    FF_NO_HEADLINE = 0,
+    FF_LEAST = 1,   /* of a film */
+    FF_LARGEST = 2, /* of a pressure, a temperature */
+    FF_MEAN = 3     /* of a loss, over the row's first dimension */
 };
 
 /*
  * A port. Data ports carry an array of doubles whose dimensions have names: "" is a scalar,
  * "station" a series, "t x" a field; "engagement? station" has a leading dimension that may be
- * absent. Equal names inside one stage mean equal lengths. Service ports carry a table of
- * functions, named by its interface id.
+ * absent. Equal names on one wire, and among the outputs of one stage, mean equal lengths: names of
+ * dimensions belong to a wire, so that "t" of a film and "t" of a contact may differ. Positions "x"
+ * of a field "t x" are an output along "x", or along "t x" where the grid moves. Service ports
+ * carry a table of functions, named by its interface id.
  *
  * An input row is named "wire.output": `wire` is the key by which a YAML file names the feeding
  * stage, `output` the row that this stage must offer; an optional row stays unconnected when the
@@ -146,6 +159,19 @@ typedef struct ff_port {
     const char *service; /* interface id, "flankfilm.viscosity/1"; NULL: a data port */
     uint32_t flags;
     const char *from; /* inputs: "stiffness|dynamics"; NULL: the kind named like the wire */
+
+    /* Since 1.3, of data outputs; 0 and NULL in shorter rows. */
+    double min, max;   /* natural bounds, which no number of this meaning can leave, in the row's
+                          unit; one may be infinite; hold when min < max. A number outside makes
+                          the run fail. A row in K without FF_DIFFERENCE is never below 0 */
+    const char *label; /* what it is, in words: "least film thickness"; NULL: the name */
+    const char *shown; /* unit that people read, "um", of the same dimension; NULL: `unit` */
+    const char
+        *quantity;      /* what it is in any model, "friction coefficient of the mesh": two stages
+                           of a run that give the same quantity are compared; NULL: not compared */
+    const char *origin; /* input row that the number is counted from, where shares of it are
+                           meant: "operating.oil_temperature"; NULL: 0 */
+    int32_t headline;   /* FF_LEAST ...; of a scalar FF_NO_HEADLINE */
 } ff_port;
 
 typedef struct ff_value {
@@ -165,8 +191,17 @@ typedef struct ff_array {
     uint32_t rank;
 } ff_array;
 
-/* How far a quality figure can be trusted. */
-enum { FF_GOOD = 0, FF_DOUBTFUL = 1, FF_BAD = 2 };
+/*
+ * The verdict of a line of quality, of one of two things: whether the numbers hold (balances,
+ * errors, convergence), or whether the model is used in the range that it was made for. FF_RANGE
+ * and FF_DOUBTFUL are warnings; FF_BAD makes the run fail.
+ */
+enum {
+    FF_GOOD = 0,
+    FF_DOUBTFUL = 1, /* the numbers may be off */
+    FF_BAD = 2,      /* the numbers are wrong */
+    FF_RANGE = 3     /* since 1.3: the numbers hold, outside the range of the model */
+};
 
 /* Levels of host->log. */
 enum { FF_LOG_INFO = 0, FF_LOG_WARNING = 1 };

@@ -9,114 +9,160 @@
 
 /* The rows that all models have, in two tables. */
 #define COMMON_ROWS                                                                                \
-    [DYNAMICS_IN_ROLL_ANGLE] = {"gear.roll_angle",                                                 \
-                                "rad",                                                             \
-                                "roll angle of gear 1 along the path of contact",                  \
-                                "station",                                                         \
-                                NULL,                                                              \
-                                0,                                                                 \
-                                NULL},                                                             \
-    [DYNAMICS_IN_ROLL_SAP] =                                                                       \
-        {"gear.roll_sap", "rad", "roll angle at the start of active profile", "", NULL, 0, NULL},  \
-    [DYNAMICS_IN_TEETH] = {"gear.teeth", "1", "numbers of teeth", "gear", NULL, 0, NULL},          \
-    [DYNAMICS_IN_BACKLASH] =                                                                       \
-        {"gear.backlash", "m", "backlash along the line of action, 2 b", "", NULL, 0, NULL},       \
+    [DYNAMICS_IN_ROLL_ANGLE] = {.name = "gear.roll_angle",                                         \
+                                .unit = "rad",                                                     \
+                                .doc = "roll angle of gear 1 along the path of contact",           \
+                                .dims = "station"},                                                \
+    [DYNAMICS_IN_ROLL_SAP] = {.name = "gear.roll_sap",                                             \
+                              .unit = "rad",                                                       \
+                              .doc = "roll angle at the start of active profile",                  \
+                              .dims = ""},                                                         \
+    [DYNAMICS_IN_TEETH] = {.name = "gear.teeth",                                                   \
+                           .unit = "1",                                                            \
+                           .doc = "numbers of teeth",                                              \
+                           .dims = "gear"},                                                        \
+    [DYNAMICS_IN_BACKLASH] = {.name = "gear.backlash",                                             \
+                              .unit = "m",                                                         \
+                              .doc = "backlash along the line of action, 2 b",                     \
+                              .dims = ""},                                                         \
     [DYNAMICS_IN_EQUIVALENT_MASS] =                                                                \
-        {"gear.equivalent_mass",                                                                   \
-         "kg",                                                                                     \
-         "mass that the mesh spring sees, I1 I2/(I1 rb2^2 + I2 rb1^2)",                            \
-         "",                                                                                       \
-         NULL,                                                                                     \
-         FF_OPTIONAL,                                                                              \
-         NULL},                                                                                    \
-    [DYNAMICS_IN_MESH_FREQUENCY] =                                                                 \
-        {"operating.mesh_frequency", "Hz", "mesh cycles per second", "", NULL, 0, NULL},           \
-    [DYNAMICS_IN_LINE_FORCE] =                                                                     \
-        {"operating.line_force", "N", "static force along the line of action", "", NULL, 0, NULL}, \
-    [DYNAMICS_IN_PHASE] = {"stiffness.phase",                                                      \
-                           "1",                                                                    \
-                           "phase of the mesh cycle, 0 to 1; twice at a jump",                     \
-                           "phase",                                                                \
-                           NULL,                                                                   \
-                           0,                                                                      \
-                           NULL},                                                                  \
+        {.name = "gear.equivalent_mass",                                                           \
+         .unit = "kg",                                                                             \
+         .doc = "mass that the mesh spring sees, I1 I2/(I1 rb2^2 + I2 rb1^2)",                     \
+         .dims = "",                                                                               \
+         .flags = FF_OPTIONAL},                                                                    \
+    [DYNAMICS_IN_MESH_FREQUENCY] = {.name = "operating.mesh_frequency",                            \
+                                    .unit = "Hz",                                                  \
+                                    .doc = "mesh cycles per second",                               \
+                                    .dims = ""},                                                   \
+    [DYNAMICS_IN_LINE_FORCE] = {.name = "operating.line_force",                                    \
+                                .unit = "N",                                                       \
+                                .doc = "static force along the line of action",                    \
+                                .dims = ""},                                                       \
+    [DYNAMICS_IN_PHASE] = {.name = "stiffness.phase",                                              \
+                           .unit = "1",                                                            \
+                           .doc = "phase of the mesh cycle, 0 to 1; twice at a jump",              \
+                           .dims = "phase"},                                                       \
     [DYNAMICS_IN_STIFFNESS] =                                                                      \
-        {"stiffness.stiffness",                                                                    \
-         "N/m",                                                                                    \
-         "mesh stiffness, straight between phases where they follow no smooth curve",              \
-         "phase",                                                                                  \
-         NULL,                                                                                     \
-         0,                                                                                        \
-         NULL},                                                                                    \
-    [DYNAMICS_IN_STIFFNESS_MEAN] =                                                                 \
-        {"stiffness.stiffness_mean", "N/m", "mean mesh stiffness", "", NULL, 0, NULL},             \
-    [DYNAMICS_IN_TRANSMISSION_ERROR] = {"stiffness.transmission_error",                            \
-                                        "m",                                                       \
-                                        "unloaded transmission error e; none: 0",                  \
-                                        "phase",                                                   \
-                                        NULL,                                                      \
-                                        FF_OPTIONAL,                                               \
-                                        NULL},                                                     \
-    [DYNAMICS_IN_TOOTH_FORCE] = {"stiffness.tooth_force",                                          \
-                                 "N",                                                              \
-                                 "quasi-static tooth force W_s",                                   \
-                                 "engagement? station",                                            \
-                                 NULL,                                                             \
-                                 0,                                                                \
-                                 NULL},                                                            \
-    [DYNAMICS_IN_LOAD_SHARE] = {"stiffness.load_share",                                            \
-                                "1",                                                               \
-                                "share of one tooth pair, used where the line force is 0",         \
-                                "engagement? station",                                             \
-                                NULL,                                                              \
-                                FF_OPTIONAL,                                                       \
-                                NULL}
+        {.name = "stiffness.stiffness",                                                            \
+         .unit = "N/m",                                                                            \
+         .doc = "mesh stiffness, straight between phases where they follow no smooth curve",       \
+         .dims = "phase"},                                                                         \
+    [DYNAMICS_IN_STIFFNESS_MEAN] = {.name = "stiffness.stiffness_mean",                            \
+                                    .unit = "N/m",                                                 \
+                                    .doc = "mean mesh stiffness",                                  \
+                                    .dims = ""},                                                   \
+    [DYNAMICS_IN_TRANSMISSION_ERROR] = {.name = "stiffness.transmission_error",                    \
+                                        .unit = "m",                                               \
+                                        .doc = "unloaded transmission error e; none: 0",           \
+                                        .dims = "phase",                                           \
+                                        .flags = FF_OPTIONAL},                                     \
+    [DYNAMICS_IN_TOOTH_FORCE] = {.name = "stiffness.tooth_force",                                  \
+                                 .unit = "N",                                                      \
+                                 .doc = "quasi-static tooth force W_s",                            \
+                                 .dims = "engagement? station"},                                   \
+    [DYNAMICS_IN_LOAD_SHARE] = {.name = "stiffness.load_share",                                    \
+                                .unit = "1",                                                       \
+                                .doc = "share of one tooth pair, used where the line force is 0",  \
+                                .dims = "engagement? station",                                     \
+                                .flags = FF_OPTIONAL}
 
 const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT] = {
     COMMON_ROWS,
-    [DYNAMICS_IN_BASE_RADIUS] = {"gear.base_radius", "m", "base circle radii", "gear", NULL, 0,
-                                 NULL},
-    [DYNAMICS_IN_CENTRE_DISTANCE] = {"gear.centre_distance", "m", "mounted centre distance", "",
-                                     NULL, 0, NULL},
-    [DYNAMICS_IN_MASS] = {"gear.mass", "kg", "masses of the gears", "gear", NULL, FF_OPTIONAL,
-                          NULL},
+    [DYNAMICS_IN_BASE_RADIUS] = {.name = "gear.base_radius",
+                                 .unit = "m",
+                                 .doc = "base circle radii",
+                                 .dims = "gear"},
+    [DYNAMICS_IN_CENTRE_DISTANCE] = {.name = "gear.centre_distance",
+                                     .unit = "m",
+                                     .doc = "mounted centre distance",
+                                     .dims = ""},
+    [DYNAMICS_IN_MASS] = {.name = "gear.mass",
+                          .unit = "kg",
+                          .doc = "masses of the gears",
+                          .dims = "gear",
+                          .flags = FF_OPTIONAL},
 };
 
 const ff_port dynamics_oil_input_ports[DYNAMICS_OIL_INPUT_COUNT] = {
     COMMON_ROWS,
-    [DYNAMICS_IN_RADIUS_1] = {"gear.radius_1", "m", "radius of curvature of flank 1", "station",
-                              NULL, FF_OPTIONAL, NULL},
-    [DYNAMICS_IN_RADIUS_2] = {"gear.radius_2", "m", "radius of curvature of flank 2", "station",
-                              NULL, FF_OPTIONAL, NULL},
-    [DYNAMICS_IN_FACE_WIDTH] = {"gear.face_width", "m", "width of the teeth in contact", "", NULL,
-                                FF_OPTIONAL, NULL},
-    [DYNAMICS_IN_INERTIA] = {"gear.inertia", "kg m2", "polar moments of inertia", "gear", NULL,
-                             FF_OPTIONAL, NULL},
-    [DYNAMICS_IN_FILM_ROLL_ANGLE] = {"film.roll_angle", "rad",
-                                     "roll angle of gear 1 at the steps of the film", "t", NULL,
-                                     FF_OPTIONAL | FF_FEEDBACK, "ehl"},
-    [DYNAMICS_IN_FILM_ENGAGEMENT] = {"film.engagement", "1",
-                                     "mesh cycle of the motion in which the pair begins", "t", NULL,
-                                     FF_OPTIONAL | FF_FEEDBACK, "ehl"},
-    [DYNAMICS_IN_FILM_TRACTION] = {"film.traction", "N/m", "friction, sign of u1 - u2", "t", NULL,
-                                   FF_OPTIONAL | FF_FEEDBACK, "ehl"},
-    [DYNAMICS_IN_FILM_ROLLING_LOSS] = {"film.rolling_loss", "W/m",
-                                       "entrainment speed times the integral of h dp/dx", "t", NULL,
-                                       FF_OPTIONAL | FF_FEEDBACK, "ehl"},
-    [DYNAMICS_IN_FILM_POWER_LOSS] = {"film.power_loss", "W/m", "all that the film dissipates", "t",
-                                     NULL, FF_OPTIONAL | FF_FEEDBACK, "ehl"},
-    [DYNAMICS_IN_FILM_H_CENTRAL] = {"film.h_central", "m", "film thickness at x = 0", "t", NULL,
-                                    FF_OPTIONAL | FF_FEEDBACK, "ehl"},
-    [DYNAMICS_IN_FILM_P_MAX] = {"film.p_max", "Pa",
-                                "highest pressure, which says where the film "
-                                "bears load",
-                                "t", NULL, FF_OPTIONAL | FF_FEEDBACK, "ehl"},
-    [DYNAMICS_IN_FILM_SEPARATION] = {"film.separation", "m",
-                                     "thickness of the film as the teeth in series with it see "
-                                     "it; in its place h_central",
-                                     "t", NULL, FF_OPTIONAL | FF_FEEDBACK, "ehl"},
-    [DYNAMICS_IN_ETA0] = {"oil.eta0", "Pa s", "viscosity of the oil between parted flanks", "",
-                          NULL, FF_OPTIONAL, "lubricant"},
+    [DYNAMICS_IN_RADIUS_1] = {.name = "gear.radius_1",
+                              .unit = "m",
+                              .doc = "radius of curvature of flank 1",
+                              .dims = "station",
+                              .flags = FF_OPTIONAL},
+    [DYNAMICS_IN_RADIUS_2] = {.name = "gear.radius_2",
+                              .unit = "m",
+                              .doc = "radius of curvature of flank 2",
+                              .dims = "station",
+                              .flags = FF_OPTIONAL},
+    [DYNAMICS_IN_FACE_WIDTH] = {.name = "gear.face_width",
+                                .unit = "m",
+                                .doc = "width of the teeth in contact",
+                                .dims = "",
+                                .flags = FF_OPTIONAL},
+    [DYNAMICS_IN_INERTIA] = {.name = "gear.inertia",
+                             .unit = "kg m2",
+                             .doc = "polar moments of inertia",
+                             .dims = "gear",
+                             .flags = FF_OPTIONAL},
+    [DYNAMICS_IN_FILM_ROLL_ANGLE] = {.name = "film.roll_angle",
+                                     .unit = "rad",
+                                     .doc = "roll angle of gear 1 at the steps of the film",
+                                     .dims = "t",
+                                     .flags = FF_OPTIONAL | FF_FEEDBACK,
+                                     .from = "ehl"},
+    [DYNAMICS_IN_FILM_ENGAGEMENT] = {.name = "film.engagement",
+                                     .unit = "1",
+                                     .doc = "mesh cycle of the motion in which the pair begins",
+                                     .dims = "t",
+                                     .flags = FF_OPTIONAL | FF_FEEDBACK,
+                                     .from = "ehl"},
+    [DYNAMICS_IN_FILM_TRACTION] = {.name = "film.traction",
+                                   .unit = "N/m",
+                                   .doc = "friction, sign of u1 - u2",
+                                   .dims = "t",
+                                   .flags = FF_OPTIONAL | FF_FEEDBACK,
+                                   .from = "ehl"},
+    [DYNAMICS_IN_FILM_ROLLING_LOSS] = {.name = "film.rolling_loss",
+                                       .unit = "W/m",
+                                       .doc = "entrainment speed times the integral of h dp/dx",
+                                       .dims = "t",
+                                       .flags = FF_OPTIONAL | FF_FEEDBACK,
+                                       .from = "ehl"},
+    [DYNAMICS_IN_FILM_POWER_LOSS] = {.name = "film.power_loss",
+                                     .unit = "W/m",
+                                     .doc = "all that the film dissipates",
+                                     .dims = "t",
+                                     .flags = FF_OPTIONAL | FF_FEEDBACK,
+                                     .from = "ehl"},
+    [DYNAMICS_IN_FILM_H_CENTRAL] = {.name = "film.h_central",
+                                    .unit = "m",
+                                    .doc = "film thickness at x = 0",
+                                    .dims = "t",
+                                    .flags = FF_OPTIONAL | FF_FEEDBACK,
+                                    .from = "ehl"},
+    [DYNAMICS_IN_FILM_P_MAX] = {.name = "film.p_max",
+                                .unit = "Pa",
+                                .doc = "highest pressure, which says where the film "
+                                       "bears load",
+                                .dims = "t",
+                                .flags = FF_OPTIONAL | FF_FEEDBACK,
+                                .from = "ehl"},
+    [DYNAMICS_IN_FILM_SEPARATION] = {.name = "film.separation",
+                                     .unit = "m",
+                                     .doc =
+                                         "thickness of the film as the teeth in series with it see "
+                                         "it; in its place h_central",
+                                     .dims = "t",
+                                     .flags = FF_OPTIONAL | FF_FEEDBACK,
+                                     .from = "ehl"},
+    [DYNAMICS_IN_ETA0] = {.name = "oil.eta0",
+                          .unit = "Pa s",
+                          .doc = "viscosity of the oil between parted flanks",
+                          .dims = "",
+                          .flags = FF_OPTIONAL,
+                          .from = "lubricant"},
 };
 
 static const char *name_of(int input)

@@ -11,21 +11,22 @@
 /* The input rows oil.temperature, oil.eta0 and oil.rho0, in this order, of a stage that calls laws
    and should hold them against the oil. A stage that calls no density leaves out the last. */
 #define NUMERICS_OIL_ROWS                                                                          \
-    {"oil.temperature",                                                                            \
-     "K",                                                                                          \
-     "temperature of the oil, which the laws are called with",                                     \
-     "",                                                                                           \
-     NULL,                                                                                         \
-     FF_OPTIONAL,                                                                                  \
-     "lubricant"},                                                                                 \
+    {.name = "oil.temperature",                                                                    \
+     .unit = "K",                                                                                  \
+     .doc = "temperature of the oil, which the laws are called with",                              \
+     .dims = "",                                                                                   \
+     .flags = FF_OPTIONAL,                                                                         \
+     .from = "lubricant"},                                                                         \
     {                                                                                              \
-        "oil.eta0", "Pa s", "viscosity of the oil, which that of the law is held against", "",     \
-            NULL, FF_OPTIONAL, "lubricant"                                                         \
+        .name = "oil.eta0", .unit = "Pa s",                                                        \
+        .doc = "viscosity of the oil, which that of the law is held against", .dims = "",          \
+        .flags = FF_OPTIONAL, .from = "lubricant"                                                  \
     }
 #define NUMERICS_OIL_DENSITY_ROW                                                                   \
     {                                                                                              \
-        "oil.rho0", "kg/m3", "density of the oil, which that of the law is held against", "",      \
-            NULL, FF_OPTIONAL, "lubricant"                                                         \
+        .name = "oil.rho0", .unit = "kg/m3",                                                       \
+        .doc = "density of the oil, which that of the law is held against", .dims = "",            \
+        .flags = FF_OPTIONAL, .from = "lubricant"                                                  \
     }
 
 /* Offers `law` at T to who passes no temperature, and keeps what it fails to answer. */

@@ -11,11 +11,11 @@
    gear. */
 #define NUMERICS_PINION_ROW(kind)                                                                  \
     {                                                                                              \
-        "gear.pinion", "1",                                                                        \
-            "gear, 1 or 2, that has index 1 in the standard; left out: the gear with fewer "       \
-            "teeth, "                                                                              \
-            "of equal ones gear 1",                                                                \
-            "", NULL, FF_OPTIONAL, kind                                                            \
+        .name = "gear.pinion", .unit = "1",                                                        \
+        .doc = "gear, 1 or 2, that has index 1 in the standard; left out: the gear with fewer "    \
+               "teeth, "                                                                           \
+               "of equal ones gear 1",                                                             \
+        .dims = "", .flags = FF_OPTIONAL, .from = kind                                             \
     }
 
 /* Index of the pinion, 0 or 1. */

@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A law as it was compiled against the headers of interface 1.0: ln eta = ln eta0 + alpha p. */
+/* A law as it was compiled against the headers of an older interface: ln eta = ln eta0 + alpha p.
+ */
 #include <flankfilm/author.h>
 #include <flankfilm/viscosity.h>
 
 #include <math.h>
 #include <stdlib.h>
 
-#if FF_ABI_MINOR != 0
-#error "these are not the headers of 1.0"
+#ifndef FROZEN_MINOR
+#error "FROZEN_MINOR is the minor version of the headers"
+#elif FF_ABI_MINOR != FROZEN_MINOR
+#error "these are the headers of another version"
 #endif
 
 typedef struct law {
@@ -79,9 +82,9 @@ static const ff_model model = {
     .size = sizeof model,
     .abi_major = FF_ABI_MAJOR,
     .abi_minor = FF_ABI_MINOR,
-    .id = "viscosity/of-1-0",
+    .id = "viscosity/" FROZEN_NAME,
     .version = "1.0.0",
-    .summary = "a law of interface 1.0",
+    .summary = "a law of an older interface",
     .reference = "",
     .bibtex = "",
     .licence = "GPL-3.0-or-later",

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A stage as it was compiled against the headers of interface 1.0: the viscosity at the Hertz
+/* A stage as it was compiled against the headers of an older interface: the viscosity at the Hertz
    pressure of a contact; every function of the host is called. */
 #include <flankfilm/author.h>
 #include <flankfilm/viscosity.h>
@@ -7,8 +7,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-#if FF_ABI_MINOR != 0
-#error "these are not the headers of 1.0"
+#ifndef FROZEN_MINOR
+#error "FROZEN_MINOR is the minor version of the headers"
+#elif FF_ABI_MINOR != FROZEN_MINOR
+#error "these are the headers of another version"
 #endif
 
 typedef struct stage {
@@ -94,9 +96,9 @@ static const ff_model model = {
     .size = sizeof model,
     .abi_major = FF_ABI_MAJOR,
     .abi_minor = FF_ABI_MINOR,
-    .id = "lab/of-1-0",
+    .id = "lab/" FROZEN_NAME,
     .version = "1.0.0",
-    .summary = "a stage of interface 1.0",
+    .summary = "a stage of an older interface",
     .reference = "",
     .bibtex = "",
     .licence = "GPL-3.0-or-later",

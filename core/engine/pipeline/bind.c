@@ -193,12 +193,24 @@ static bool same_group(const ff_param *a, const ff_param *b)
     return a->group && b->group && !strcmp(a->group, b->group);
 }
 
+/* Whether the stage at the other end of the wire feeds the input, which replaces the parameter. */
+static bool replaces(const binding *k, const ff_param *row, const ff_wire *wire,
+                     const ff_port *input)
+{
+    return wire->stage >= 0 && fe_is_on_wire(input->name, wire->name) &&
+           fe_is_on_wire(input->name, row->instead) &&
+           (input->service ||
+            fe_find_offer(k->b->pipeline->stages[wire->stage].loaded, input) >= 0);
+}
+
 /* The connected wire that replaces the parameter; NULL: none. */
 static const ff_wire *find_replacing(const binding *k, const ff_param *row)
 {
-    for (size_t i = 0; row->instead && i < k->stage->wire_count; i++)
-        if (!strcmp(k->stage->wires[i].name, row->instead) && k->stage->wires[i].stage >= 0)
-            return &k->stage->wires[i];
+    const ff_model *model = k->loaded->model;
+    for (size_t w = 0; row->instead && w < k->stage->wire_count; w++)
+        for (size_t i = 0; i < model->input_count; i++)
+            if (replaces(k, row, &k->stage->wires[w], ff_model_input(model, i)))
+                return &k->stage->wires[w];
     return NULL;
 }
 

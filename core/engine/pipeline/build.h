@@ -7,6 +7,7 @@
 #include "../plugin/environment.h"
 #include "../plugin/folder.h"
 #include "../plugin/guard.h"
+#include "../plugin/rows.h"
 #include "../plugin/serial.h"
 #include "../value/memory.h"
 #include "../value/report.h"
@@ -96,8 +97,7 @@ bool fe_is_taken_away(const ff_node *node);
 fe_setting fe_find_setting(const ff_stage *stage, const char *model, const char *path);
 
 /* ports.c */
-bool fe_is_on_wire(const char *input, const char *wire); /* "gear.teeth" is on "gear" */
-const char *fe_output_name(const ff_port *input);        /* what it takes: "teeth" */
+const char *fe_output_name(const ff_port *input); /* what it takes: "teeth" */
 const ff_wire *fe_input_wire(const ff_stage *stage, size_t input);
 bool fe_is_fed_back(const ff_stage *stage, size_t input); /* by a wire that closes a loop */
 /* The output or service of `from` that an input row takes, or -1. */

@@ -341,7 +341,8 @@ void ff_add_quality(ff_stage *stage, const char *name, double value, double limi
                        .name = copy_text(name),
                        .value = value,
                        .limit = limit,
-                       .verdict = verdict,
+                       .verdict = verdict == FF_RANGE ? FF_DOUBTFUL : verdict,
+                       .range = verdict == FF_RANGE,
                        .text = text && text[0] ? copy_text(text) : NULL};
     stage->quality[stage->quality_count++] = line;
 }
@@ -373,7 +374,7 @@ static void host_quality(void *ctx, const char *name, double value, double limit
 {
     fe_instance *instance = ctx;
     ff_stage *stage = instance->stage;
-    if (!name || !name[0] || verdict < FF_GOOD || verdict > FF_BAD) {
+    if (!name || !name[0] || verdict < FF_GOOD || verdict > FF_RANGE) {
         breach(instance, "gave a quality line without a name or with the unknown verdict %d",
                verdict);
     } else if (stage->quality_count == MOST_QUALITY) {

@@ -4,12 +4,6 @@
 
 #include <string.h>
 
-bool fe_is_on_wire(const char *input, const char *wire)
-{
-    size_t length = strlen(wire);
-    return !strncmp(input, wire, length) && (!input[length] || input[length] == '.');
-}
-
 const char *fe_output_name(const ff_port *input)
 {
     return strchr(input->name, '.') + 1;

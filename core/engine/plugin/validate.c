@@ -4,6 +4,7 @@
 #include "clean.h"
 #include "param.h"
 #include "private.h"
+#include "rows.h"
 
 #include <math.h>
 #include <stdalign.h>
@@ -14,6 +15,7 @@
 
 /* Bytes of a row of version 1.0, which newer rows continue. */
 static const size_t param_row_1_0 = offsetof(ff_param, place);
+static const size_t port_row_1_0 = offsetof(ff_port, min);
 
 enum {
     MOST_PARAMS = 1000,
@@ -146,9 +148,9 @@ static bool check_tables(const checking *c)
     const ff_model *m = c->model;
     return check_table(c, "parameters", m->params, m->param_count, m->param_stride, param_row_1_0,
                        MOST_PARAMS) &&
-           check_table(c, "inputs", m->inputs, m->input_count, m->input_stride, sizeof(ff_port),
+           check_table(c, "inputs", m->inputs, m->input_count, m->input_stride, port_row_1_0,
                        MOST_INPUTS) &&
-           check_table(c, "outputs", m->outputs, m->output_count, m->output_stride, sizeof(ff_port),
+           check_table(c, "outputs", m->outputs, m->output_count, m->output_stride, port_row_1_0,
                        MOST_OUTPUTS) &&
            (ff_model_columns(m) == 0 || check_table(c, "columns", m->columns, m->column_count,
                                                     m->column_stride, param_row_1_0, MOST_COLUMNS));
@@ -340,7 +342,7 @@ static bool check_port(const checking *c, const ff_port *row, ff_dims *dims)
     ff_unit unit;
     bool plain = (!row->unit || !row->unit[0]) && (!row->dims || !row->dims[0]);
     const claim claims[] = {
-        {row->flags < 2 * FF_FEEDBACK, "has unknown flags"},
+        {row->flags < 2 * FF_DIFFERENCE, "has unknown flags"},
         {is_line(row->doc), "has no line of explanation"},
         {!row->service || is_line(row->service), "has a bad interface"},
         {!row->service || plain, "has a unit or dimensions beside the interface"},
@@ -405,17 +407,50 @@ static bool check_input(checking *c, size_t index, ff_dims *dims)
     return check_feedback(c, row) && check_port(c, row, dims);
 }
 
-/* What replaces a parameter is a service that may stay unconnected. */
+/* What replaces a parameter may stay unconnected: a service, since 1.3 a data input or a wire. */
 static bool check_instead(const checking *c, size_t index)
 {
     const ff_param *row = ff_model_param(c->model, index);
-    int input = row->instead ? ff_model_find_input(c->model, row->instead) : -1;
-    const ff_port *port = input >= 0 ? ff_model_input(c->model, (size_t)input) : NULL;
-    return !row->instead || (port && port->service && port->flags & FF_OPTIONAL) ||
-           fault(c,
-                 "lets \"%.60s\" replace the parameter \"%s\", which is not an optional service "
-                 "input",
-                 row->instead, row->name);
+    bool any = false, optional = true, data = false;
+    for (size_t i = 0; i < c->model->input_count; i++) {
+        const ff_port *port = ff_model_input(c->model, i);
+        if (!row->instead || !fe_is_on_wire(port->name, row->instead))
+            continue;
+        any = true;
+        optional = optional && port->flags & FF_OPTIONAL;
+        data = data || !port->service;
+    }
+    const bool old = data && c->model->abi_minor < 3;
+    return !row->instead || (any && optional && !old) ||
+           fault(c, "lets \"%.60s\" replace the parameter \"%s\", which %s", row->instead,
+                 row->name,
+                 old ? "needs version 1.3 of the interface where it is a data input"
+                     : "is not an optional input");
+}
+
+/* The members of an output row that came with 1.3. */
+static bool check_meaning(const checking *c, const ff_port *row)
+{
+    ff_unit unit, shown;
+    char clause[256];
+    const bool kelvin = row->unit && !strcmp(row->unit, "K");
+    const claim claims[] = {
+        {row->min < row->max || (row->min == 0 && row->max == 0), "has impossible bounds"},
+        {!(row->flags & FF_DIFFERENCE) || kelvin, "has a difference that is not in K"},
+        {!row->label || is_line(row->label), "has a label that is not one line"},
+        {!row->quantity || is_line(row->quantity), "has a quantity that is not one line"},
+        {row->headline >= FF_NO_HEADLINE && row->headline <= FF_MEAN, "has an unknown headline"},
+        {!row->origin || ff_model_find_input(c->model, row->origin) >= 0,
+         "is counted from an input that the model does not have"},
+    };
+    if (row->service)
+        return true;
+    if (row->shown && (!ff_unit_parse(row->shown, &shown, clause, sizeof clause) ||
+                       !ff_unit_parse(row->unit, &unit, clause, sizeof clause) ||
+                       !ff_unit_same_dimension(&shown, &unit)))
+        return fault(c, "shows the output \"%s\" in \"%.40s\", which is no unit of its dimension",
+                     c->name, row->shown);
+    return check_claims(c, claims, sizeof claims / sizeof *claims);
 }
 
 static bool check_output(checking *c, size_t index, ff_dims *dims)
@@ -423,7 +458,7 @@ static bool check_output(checking *c, size_t index, ff_dims *dims)
     const ff_port *row = ff_model_output(c->model, index);
     c->what = "output";
     c->name = row->name ? row->name : "";
-    if (row->flags & FF_FEEDBACK)
+    if (row->flags & FF_FEEDBACK || (row->flags & FF_DIFFERENCE && c->model->abi_minor < 3))
         return fault(c, "has unknown flags for the output \"%.60s\"", c->name);
     if (count_names(c->name) != 1)
         return fault(c, "gives its output %zu the name \"%.60s\", which is not possible", index + 1,
@@ -431,7 +466,7 @@ static bool check_output(checking *c, size_t index, ff_dims *dims)
     for (size_t i = 0; i < index; i++)
         if (!strcmp(c->name, ff_model_output(c->model, i)->name))
             return fault(c, "has the output \"%s\" twice", c->name);
-    return check_port(c, row, dims);
+    return check_port(c, row, dims) && check_meaning(c, row);
 }
 
 static bool check_column(checking *c, size_t index)
@@ -447,37 +482,12 @@ static bool check_column(checking *c, size_t index)
            check_unit(c, row->unit, &unit);
 }
 
-/* Copies rows that are shorter than this version's; what they lack is 0. */
-static const ff_param *lengthen_rows(const void *rows, size_t count, size_t *stride)
-{
-    if (*stride >= sizeof(ff_param) || count == 0)
-        return rows;
-    ff_param *longer = fe_alloc(count * sizeof *longer);
-    for (size_t i = 0; i < count; i++)
-        memcpy(&longer[i], (const char *)rows + i * *stride, *stride);
-    *stride = sizeof *longer;
-    return longer;
-}
-
-/* The descriptor with all members of this version. */
-static const ff_model *complete(const ff_model *model)
-{
-    ff_model *whole = fe_alloc(sizeof *whole);
-    memcpy(whole, model, model->size < sizeof *whole ? model->size : sizeof *whole);
-    whole->size = sizeof *whole;
-    if (!FF_HAS(model, column_stride))
-        whole->column_count = 0;
-    whole->params = lengthen_rows(whole->params, whole->param_count, &whole->param_stride);
-    whole->columns = lengthen_rows(whole->columns, whole->column_count, &whole->column_stride);
-    return whole;
-}
-
 bool fe_model_check(ff_loaded *loaded, const char *id, char *why, size_t why_size)
 {
     checking c = {.model = loaded->model, .why = why, .why_size = why_size};
     if (!check_version(&c) || !check_tables(&c))
         return false;
-    const ff_model *model = c.model = loaded->model = complete(loaded->model);
+    const ff_model *model = c.model = loaded->model = fe_model_complete(loaded->model);
     if (!check_model(&c, id))
         return false;
     loaded->param_units = fe_alloc(model->param_count * sizeof(ff_unit));

@@ -47,6 +47,13 @@ FIELD(ff_port, dims, 24, 8);
 FIELD(ff_port, service, 32, 8);
 FIELD(ff_port, flags, 40, 4);
 FIELD(ff_port, from, 48, 8);
+FIELD(ff_port, min, 56, 8); /* since 1.3 */
+FIELD(ff_port, max, 64, 8);
+FIELD(ff_port, label, 72, 8);
+FIELD(ff_port, shown, 80, 8);
+FIELD(ff_port, quantity, 88, 8);
+FIELD(ff_port, origin, 96, 8);
+FIELD(ff_port, headline, 104, 4);
 
 GROWING(ff_value, 64);
 FIELD(ff_value, size, 0, 8);
@@ -127,6 +134,18 @@ FIELD(ff_rheology_2, size, 0, 8);
 FIELD(ff_rheology_2, self, 8, 8);
 FIELD(ff_rheology_2, rate, 16, 8);
 
+GROWING(ff_rheology_3, 32); /* since 1.3 */
+FIELD(ff_rheology_3, size, 0, 8);
+FIELD(ff_rheology_3, self, 8, 8);
+FIELD(ff_rheology_3, flow, 16, 8);
+FIELD(ff_rheology_3, shear, 24, 8);
+
+GROWING(ff_asperity, 32); /* since 1.3 */
+FIELD(ff_asperity, size, 0, 8);
+FIELD(ff_asperity, self, 8, 8);
+FIELD(ff_asperity, sigma, 16, 8);
+FIELD(ff_asperity, pressure, 24, 8);
+
 GROWING(ff_viscosity, 24);
 FIELD(ff_viscosity, size, 0, 8);
 FIELD(ff_viscosity, self, 8, 8);
@@ -184,6 +203,11 @@ VALUE(FF_TUNABLE, 16);
 VALUE(FF_INCREASING, 32);
 VALUE(FF_OPTIONAL, 1);
 VALUE(FF_FEEDBACK, 2);
+VALUE(FF_DIFFERENCE, 4);
+VALUE(FF_NO_HEADLINE, 0);
+VALUE(FF_LEAST, 1);
+VALUE(FF_LARGEST, 2);
+VALUE(FF_MEAN, 3);
 VALUE(FF_LIQUID_LN_ETA0, 0);
 VALUE(FF_LIQUID_RHO0, 1);
 VALUE(FF_LIQUID_CONDUCTIVITY, 2);
@@ -192,6 +216,7 @@ VALUE(FF_LIQUID_PRESSURE_COEFFICIENT, 4);
 VALUE(FF_GOOD, 0);
 VALUE(FF_DOUBTFUL, 1);
 VALUE(FF_BAD, 2);
+VALUE(FF_RANGE, 3);
 VALUE(FF_LOG_INFO, 0);
 VALUE(FF_LOG_WARNING, 1);
 VALUE(FF_SERIAL, 1);

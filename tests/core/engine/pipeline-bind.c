@@ -163,6 +163,16 @@ static void replaced_by_a_wire(void)
     check_error("neither", &a, 3, 3, "\"gain\" or the wire \"law\" is missing: what the law says");
     check_error("neither: what to write", &a, 3, 3, "gain: a number, or law: STAGE");
     try_close(&a);
+    static const char level[] = "  s: {use: toy/source, level: 2 mm}\n";
+    a = replaced("gain: 3, far: 1 m, source: s", level);
+    check_good("a data input in place of a preset", &a);
+    check_near("feeds the stage", try_scalar(&a, "r", "gain"), 3.002, 1e-12);
+    check_true("the preset is gone", !try_param(&a, "r", "offset")->present);
+    try_close(&a);
+    a = replaced("gain: 3, far: 1 m, source: s, offset: 1 mm", level);
+    check_error("a data input beside the parameter", &a, 4, 64,
+                "gives this by the wire \"source\" (case.yaml:4:53)");
+    try_close(&a);
     a = replaced("gain: 3", "");
     check_error("neither of a group", &a, 3, 3,
                 "one of \"near\", \"far\" must be given, or the wire");

@@ -332,7 +332,11 @@ static const void *service(void *self, uint32_t output)
 }
 
 static const ff_port outputs[] = {
-    {"discretisation", "", "the film of one instant", "", FF_FILM_ID, 0, NULL},
+    {.name = "discretisation",
+     .unit = "",
+     .doc = "the film of one instant",
+     .dims = "",
+     .service = FF_FILM_ID},
 };
 
 static const ff_model model = {

@@ -258,7 +258,9 @@ static void spoil_params(void)
     if (is("no-choices"))
         params[1].choices = NULL;
     if (is("instead"))
-        params[0].instead = "source";
+        params[0].instead = "nothing";
+    if (is("instead-old"))
+        params[0].instead = "source", model.abi_minor = 2;
     if (is("instead-needed"))
         params[0].instead = "law", inputs[2].flags = 0;
     if (is("map"))
@@ -305,6 +307,16 @@ static void spoil_ports(void)
         model.abi_minor = 1;
     if (is("feedback-output"))
         outputs[0].flags = FF_FEEDBACK;
+    if (is("bounds"))
+        outputs[0].min = 1, outputs[0].max = 0;
+    if (is("difference"))
+        outputs[0].flags = FF_DIFFERENCE;
+    if (is("headline"))
+        outputs[0].headline = FF_MEAN + 1;
+    if (is("origin"))
+        outputs[0].origin = "source.nothing";
+    if (is("shown"))
+        outputs[0].shown = "kg";
     if (is("feedback-service"))
         inputs[2].flags = FF_OPTIONAL | FF_FEEDBACK;
     if (is("input-from"))

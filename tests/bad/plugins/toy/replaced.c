@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Parameters that a law replaces: one required, one with a preset, one of a required group. */
+/* Parameters that a law replaces, one required, one with a preset, one of a required group; and one
+   that a data input replaces. */
 #include <flankfilm/author.h>
 
 #include "toy.h"
@@ -9,7 +10,7 @@
 typedef struct replaced {
     const ff_host *host;
     const toy_law *law;
-    double gain, scale, near, far;
+    double gain, scale, near, far, offset;
 } replaced;
 
 static const ff_param params[] = {
@@ -42,6 +43,13 @@ static const ff_param params[] = {
      .group = "length",
      .place = FF_PLACE(replaced, far, double),
      .instead = "law"},
+    {.name = "offset",
+     .unit = "m",
+     .doc = "added to the gain",
+     .type = FF_REAL,
+     .preset = "0 m",
+     .place = FF_PLACE(replaced, offset, double),
+     .instead = "source.level"},
 };
 
 static const ff_port inputs[] = {
@@ -51,6 +59,7 @@ static const ff_port inputs[] = {
      .service = TOY_LAW_ID,
      .flags = FF_OPTIONAL,
      .from = "toy"},
+    {.name = "source.level", .unit = "m", .doc = "the offset", .dims = "", .flags = FF_OPTIONAL},
 };
 
 static const ff_port outputs[] = {
@@ -68,9 +77,11 @@ static ff_status wire(void *self, uint32_t input, const void *service)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const replaced *r = self;
-    (void)wanted, (void)in;
+    (void)wanted;
+    double offset = in[1].data ? in[1].data[0] : r->offset;
     double absent = !!isnan(r->gain) + !!isnan(r->scale) + !!isnan(r->near) + !!isnan(r->far);
-    ff_status status = ff_put_scalar(r->host, 0, r->law ? r->law->eval(r->law->self, 1) : r->gain);
+    ff_status status =
+        ff_put_scalar(r->host, 0, (r->law ? r->law->eval(r->law->self, 1) : r->gain) + offset);
     return status == FF_OK ? ff_put_scalar(r->host, 1, absent) : status;
 }
 

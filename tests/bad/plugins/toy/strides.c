@@ -25,7 +25,7 @@ static const long_row long_rows[ROWS] = {
      {"x", "x", "x"}},
 };
 
-static const ff_port outputs[] = {{"sum", "m", "of both", "", NULL, 0, NULL}};
+static const ff_port outputs[] = {{.name = "sum", .unit = "m", .doc = "of both", .dims = ""}};
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {

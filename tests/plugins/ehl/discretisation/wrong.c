@@ -136,11 +136,20 @@ static const ff_param params[] = {
 };
 
 static const ff_port inputs[] = {
-    {"of", "", "what is spoiled", "", FF_FILM_ID, 0, "discretisation"},
+    {.name = "of",
+     .unit = "",
+     .doc = "what is spoiled",
+     .dims = "",
+     .service = FF_FILM_ID,
+     .from = "discretisation"},
 };
 
 static const ff_port outputs[] = {
-    {"discretisation", "", "the spoiled film", "", FF_FILM_ID, 0, NULL},
+    {.name = "discretisation",
+     .unit = "",
+     .doc = "the spoiled film",
+     .dims = "",
+     .service = FF_FILM_ID},
 };
 
 static const ff_model model = {

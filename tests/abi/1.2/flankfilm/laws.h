@@ -1,0 +1,133 @@
+/* SPDX-License-Identifier: MIT */
+/*
+ * The services of a liquid: what it is as a function of temperature, and the laws of its viscosity,
+ * density and flow. They are batched and pure: any thread; arrays never overlap. All results are
+ * finite for every finite argument, unless a line says otherwise. They return FF_OK, or FF_DOMAIN
+ * when a point lies outside the law's range and was continued.
+ */
+#ifndef FLANKFILM_LAWS_H
+#define FLANKFILM_LAWS_H
+
+#include "plugin.h"
+
+/*
+ * Service "flankfilm.liquid/1": what a liquid is at ambient pressure, as functions of temperature.
+ * It knows no law.
+ */
+#define FF_LIQUID_ID "flankfilm.liquid/1"
+
+/* Properties of a liquid; further ones may follow. */
+enum {
+    FF_LIQUID_LN_ETA0 = 0,              /* ln(viscosity / 1 Pa s) */
+    FF_LIQUID_RHO0 = 1,                 /* density, kg/m3 */
+    FF_LIQUID_CONDUCTIVITY = 2,         /* W/(m K) */
+    FF_LIQUID_HEAT_CAPACITY = 3,        /* J/(kg K) */
+    FF_LIQUID_PRESSURE_COEFFICIENT = 4, /* dln(eta)/dp at ambient pressure, 1/Pa */
+    FF_LIQUID_REFERENCE_TEMPERATURE =
+        5 /* K, the same at every T: one that the liquid is known at */
+};
+
+typedef struct ff_liquid {
+    size_t size;
+    const void *self;
+    /*
+     * property  FF_LIQUID_...; FF_UNSUPPORTED for one that this version of the liquid does not know
+     * n         number of points
+     * T         temperature, K, n
+     * value     n; NaN: the data of this liquid do not tell
+     * slope     of the value over T, n, may be NULL
+     */
+    ff_status (*eval)(const void *self, int32_t property, size_t n, const double *T, double *value,
+                      double *slope);
+} ff_liquid;
+
+/*
+ * Service "flankfilm.viscosity/1": dynamic viscosity of a liquid.
+ *
+ * The law answers with ln(eta / 1 Pa s), which neither overflows nor underflows where eta does.
+ */
+#define FF_VISCOSITY_ID "flankfilm.viscosity/1"
+
+typedef struct ff_viscosity {
+    size_t size;
+    const void *self;
+    /*
+     * n        number of points
+     * p        gauge pressure, Pa, n; below 0 the law continues its tangent at 0
+     * T        temperature, K, n; NULL: the reference temperature that the law was given for
+     * ln_eta   n;  dln_dp  1/Pa, n, may be NULL;  dln_dT  1/K, n, may be NULL
+     */
+    ff_status (*eval)(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
+                      double *dln_dp, double *dln_dT);
+} ff_viscosity;
+
+/* Service "flankfilm.density/1": mass density of a liquid. */
+#define FF_DENSITY_ID "flankfilm.density/1"
+
+typedef struct ff_density {
+    size_t size;
+    const void *self;
+    /*
+     * n        number of points
+     * p        gauge pressure, Pa, n; below 0 the law continues its tangent at 0
+     * T        temperature, K, n; NULL: the reference temperature that the law was given for
+     * rho      kg/m3, n, > 0;  drho_dp  kg/(m3 Pa), n, may be NULL
+     * drho_dT  kg/(m3 K), n, may be NULL
+     */
+    ff_status (*eval)(const void *self, size_t n, const double *p, const double *T, double *rho,
+                      double *drho_dp, double *drho_dT);
+} ff_density;
+
+/*
+ * Service "flankfilm.rheology/1": how shear changes the flow in a thin film.
+ *
+ * `flow` gives the fluidity psi (1/(Pa s)) that the pressure flow sees: the flow factor of the
+ * Reynolds equation is f = rho h^3 psi / 12. A Newtonian liquid has psi = 1/eta; Ree-Eyring has
+ * psi = sqrt(1/eta^2 + (u_s/(tau0 h))^2), which equals cosh(asinh(eta u_s/(tau0 h)))/eta and
+ * cannot overflow. `shear` gives the mean shear stress of the film, with the sign of u_s.
+ */
+#define FF_RHEOLOGY_ID "flankfilm.rheology/1"
+
+typedef struct ff_rheology {
+    size_t size;
+    const void *self;
+    /*
+     * n        number of points
+     * ln_eta   ln(eta / 1 Pa s), n;  h  film thickness, m, n, > 0;  u_s  sliding speed u1-u2, m/s
+     * psi      1/(Pa s), n;  dpsi_dln_eta  n, may be NULL;  dpsi_dh  1/(Pa s m), n, may be NULL
+     */
+    ff_status (*flow)(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
+                      double *psi, double *dpsi_dln_eta, double *dpsi_dh);
+    /*
+     * p        Pa, n (for laws with a limiting stress); ln_eta, h, u_s as above
+     * tau      Pa, n
+     */
+    ff_status (*shear)(const void *self, size_t n, const double *p, const double *ln_eta,
+                       const double *h, double u_s, double *tau);
+} ff_rheology;
+
+/*
+ * Service "flankfilm.rheology/2": the shear rate that a shear stress drives, at a point of the
+ * film. Who resolves the flow across the film integrates it; a law offers it beside /1.
+ */
+#define FF_RHEOLOGY_2_ID "flankfilm.rheology/2"
+
+typedef struct ff_rheology_2 {
+    size_t size;
+    const void *self;
+    /*
+     * n               number of points
+     * p               Pa, n;  T  K, n, or NULL: the reference temperature of the law
+     * ln_eta          ln(eta / 1 Pa s) of the liquid at rest, n
+     * tau             shear stress, Pa, n, of any sign
+     * rate            1/s, n, with the sign of tau, increasing with it
+     * drate_dtau      1/(Pa s), n, may be NULL;  drate_dln_eta  1/s, n, may be NULL
+     *
+     * Where the rate would overflow it continues as its tangent, with FF_DOMAIN.
+     */
+    ff_status (*rate)(const void *self, size_t n, const double *p, const double *T,
+                      const double *ln_eta, const double *tau, double *rate, double *drate_dtau,
+                      double *drate_dln_eta);
+} ff_rheology_2;
+
+#endif
