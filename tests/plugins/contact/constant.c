@@ -88,6 +88,17 @@ static void check_two_ways(void)
     stage_close(other);
 }
 
+/* Both moduli alone: Poisson's ratio of steel, 0.3, typed a second time. */
+static void check_preset_ratio(void)
+{
+    stage *s = open_contact(12e-3, 4, 1e5);
+    stage_set_reals(s, "elastic_modulus", 2, (double[]){206e9, 70e9});
+    if (check_true("moduli alone", stage_run_wanted(s, "reduced_modulus") == FF_OK))
+        check_near("with 0.3", stage_scalar(s, "reduced_modulus"), 2 / (0.91 / 206e9 + 0.91 / 70e9),
+                   1e-14);
+    stage_close(s);
+}
+
 static void check_duration(void)
 {
     stage *contact = open_contact(12e-3, 4, 1e5);
@@ -171,6 +182,7 @@ int main(void)
     check_gear_contacts();
     check_film_coefficient();
     check_two_ways();
+    check_preset_ratio();
     check_duration();
     check_refusals();
     return check_done();

@@ -81,6 +81,31 @@ static void check_two(void)
     pair_close(&one);
 }
 
+/* Without load each engagement has the gap of its own row. */
+static void check_gaps(void)
+{
+    static const double factor[] = {1, 0, 0};
+    static double gap[3 * MOST];
+    pair p;
+    stage *s = open_train(&p, 3, factor);
+    size_t n, count;
+    pair_stations(&p, &n);
+    for (size_t k = 0; k < 3 * n; k++)
+        gap[k] = 1e-6 * (double)(k / n) * (1 + (double)(k % n) / (double)n);
+    stage_give(s, "load.gap", 2, (size_t[]){3, n}, gap);
+    if (check_true("gaps of three engagements", stage_run_wanted(s, "gap engagement") == FF_OK)) {
+        const double *apart = stage_get(s, "gap", &count),
+                     *number = stage_get(s, "engagement", NULL);
+        double off = 0;
+        for (size_t i = 0; i < count; i++)
+            if (i == 0 || number[i] > number[i - 1])
+                off = fmax(off, fabs(apart[i] - 1e-6 * number[i]));
+        check_below("each begins with its own", off, 1e-15);
+        check_near("the last ends with its own", apart[count - 1], gap[3 * n - 1], 1e-12);
+    }
+    pair_close(&p);
+}
+
 /* A long motion: so many as are allowed, rising, none twice, of all of its parts. */
 static void check_sample(void)
 {
@@ -132,6 +157,7 @@ static void check_cap(void)
 int main(void)
 {
     check_two();
+    check_gaps();
     check_sample();
     check_cap();
     return check_done();

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /* An oil whose viscosity falls with exp(-beta (T - T0)), and Eyring's flow. */
-static double beta, T0 = 350, eta0 = 0.05, tau0 = 5e6;
+static double beta, T0 = 350, eta0 = 0.05, tau0 = 5e6, expansion;
 
 static ff_status viscosity(const void *self, size_t n, const double *p, const double *T,
                            double *ln_eta, double *by_p, double *by_T)
@@ -26,7 +26,7 @@ static ff_status density(const void *self, size_t n, const double *p, const doub
     (void)self, (void)p, (void)by_p, (void)T;
     for (size_t i = 0; i < n; i++) {
         rho[i] = 860;
-        by_T[i] = 0;
+        by_T[i] = -860 * expansion;
     }
     return FF_OK;
 }
@@ -117,6 +117,26 @@ static void test_couette(void)
     turns_to_settle(&b);
     check_near("half of the heat goes into each flank", b.e.flux[0][1], source * h / 2, 1e-6);
     check_near("the other half", b.e.flux[1][1], source * h / 2, 1e-6);
+    ehl_energy_destroy(&b.e);
+}
+
+/* A pressure that grows where it is heats the oil by expansion T dp/dt in each volume: (4.1). */
+static void test_compression_in_time(void)
+{
+    static bench b;
+    const double h = 1e-6, p_t[NODES] = {2e13, 2e13, 2e13};
+    beta = 0, expansion = 6e-4;
+    open_bench(&b, NODES, 8, 1e15, 10, 10, h);
+    b.film.p_t = p_t;
+    turns_to_settle(&b);
+    double worst = 0, source = expansion * T0 * p_t[1];
+    for (size_t k = 0; k < 8; k++) {
+        double z = b.e.across.z[k] * h, exact = source * z * (h - z) / (2 * b.e.conductivity);
+        worst = fmax(worst, fabs(b.T[8 + k] - T0 - exact) / (source * h * h));
+    }
+    /* expansion T dp/dt, not T0, which is 1 % more where it is warmest */
+    check_below("parabola of the heat of compression", worst * 8 * b.e.conductivity, 0.012);
+    expansion = 0;
     ehl_energy_destroy(&b.e);
 }
 
@@ -346,6 +366,7 @@ static void test_balance(void)
 int main(void)
 {
     test_couette();
+    test_compression_in_time();
     test_nahme();
     test_eyring();
     test_tangent();

@@ -101,6 +101,10 @@ static void check_backlash_of_distance(void)
     stage_set_text(gear, "backlash", "0.3 mm");
     if (check_true("a pair with a stated backlash runs", stage_run(gear) == FF_OK))
         check_near("stated backlash is the whole", stage_scalar(gear, "backlash"), 0.3e-3, 1e-14);
+    stage_set_text(gear, "backlash_measure", "circular");
+    if (check_true("a pair with a circular backlash runs", stage_run(gear) == FF_OK))
+        check_near("an arc of the working pitch circle", stage_scalar(gear, "backlash"),
+                   0.3e-3 * cos(aw), 1e-12);
     stage_close(gear);
 }
 

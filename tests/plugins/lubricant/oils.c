@@ -202,6 +202,36 @@ static void pressure_coefficients_are_those_measured(void)
     }
 }
 
+/* The presets of each base, typed a second time from their sources: alpha = s nu^t in 1/GPa (Gold
+   and others 2001), heat of PAO-B (Larsson and others 2000) and of MIL-L-23699 (Gupta 1984). */
+static void bases_are_those_of_their_sources(void)
+{
+    static const struct {
+        const char *name;
+        double density, s, t, conductivity, heat; /* at 15 degC and at 40 degC; 0: by the density */
+    } bases[] = {{"mineral", 890, 9.904, 0.1390, 0, 0},
+                 {"PAO", 850, 7.382, 0.1335, 0.154, 2080 + 1.352 * (313.15 - 295.15)},
+                 {"ester", 975, 6.605, 0.1360, 0.14868 - 2.2275e-4 * (313.15 - 366.67), 2000},
+                 {"PAG", 1050, 5.489, 0.1485, 0, 0}};
+    for (size_t i = 0; i < sizeof bases / sizeof bases[0]; i++) {
+        stage *oil = open_grade("ISO VG 150", bases[i].name);
+        printf("%s\n", bases[i].name);
+        check_near("density", property(oil, FF_LIQUID_RHO0, 288.15), bases[i].density, 1e-12);
+        /* mean slope of Roelands' law over the first 0.2 GPa */
+        double L = property(oil, FF_LIQUID_LN_ETA0, 313.15) + 9.67;
+        double z = property(oil, FF_LIQUID_PRESSURE_COEFFICIENT, 313.15) * 196e6 / L;
+        check_near("mean alpha", 1e9 * L * (pow(1 + 0.2 / 0.196, z) - 1) / 0.2e9,
+                   bases[i].s * pow(150, bases[i].t), 1e-10);
+        if (bases[i].heat > 0) {
+            check_near("conductivity", property(oil, FF_LIQUID_CONDUCTIVITY, 313.15),
+                       bases[i].conductivity, 1e-12);
+            check_near("heat capacity", property(oil, FF_LIQUID_HEAT_CAPACITY, 313.15),
+                       bases[i].heat, 1e-12);
+        }
+        stage_close(oil);
+    }
+}
+
 /* A measured alpha at one temperature shifts the correlation of the base. */
 static void alpha_follows_its_base(void)
 {
@@ -238,6 +268,7 @@ int main(void)
     thin_oils_are_what_was_given();
     one_point_serves_its_temperature();
     pressure_coefficients_are_those_measured();
+    bases_are_those_of_their_sources();
     alpha_follows_its_base();
     mineral_oil_conducts_as_cragoe_says();
     close(file);

@@ -229,6 +229,61 @@ static void test_analytical_compliance(void)
     chain_close(&c);
 }
 
+/* Distance of a flank from the axis of its tooth along the normal, where the roll angle is that. */
+static double depth_of(const chain *c, int gear, double roll)
+{
+    const double base = stage_get(c->gear, "base_radius", NULL)[gear],
+                 reference = stage_get(c->gear, "reference_radius", NULL)[gear];
+    const double arc = stage_get(c->gear, "tooth_thickness", NULL)[gear] +
+                       stage_get(c->gear, "thickness_allowance", NULL)[gear];
+    const double angle = atan(roll), at = acos(base / reference);
+    const double half = arc / (2 * reference) + (tan(at) - at) - (roll - angle);
+    return hypot(base, base * roll) * sin(half) / cos(angle - half);
+}
+
+/* Weber's approach by hand, h (2 ln 2d - ln(4 R w (h1 + h2)) - nu/(1 - nu)) with h = (1 - nu^2)/(pi
+   E b) of each flank: what a pair alone gives more than with the constant contact of the beams, 4
+   (1 - nu^2)/(pi E b) of both. Gears of unlike metals. */
+static void test_approach(void)
+{
+    const double nu[2] = {0.24, 0.36}, E[2] = {206e9, 118e9}, width = 0.02, load = 3500;
+    double softness[2], by_hand = 0, contact = 0, h[2];
+    for (int k = 0; k < 2; k++) {
+        chain c = chain_open(k ? "stiffness/potential-energy" : model, "250 N m");
+        stage_set_text(c.gear, "teeth", "[25, 40]");
+        stage_set_text(c.gear, "profile_shift", "[0.3, -0.1]");
+        stage_set_reals(c.gear, "elastic_modulus", 2, E);
+        stage_set_reals(c.gear, "poisson_ratio", 2, nu);
+        stage_set(c.duty, "torque", load * 25 * 1.5e-3 * cos(M_PI / 9));
+        stage_set_text(c.mesh, "plane", "strain");
+        if (k == 0)
+            stage_set_text(c.mesh, "compliance", "analytical");
+        chain_run(&c);
+        size_t n, middle = 0;
+        const double *phase = stage_get(c.mesh, "phase", &n);
+        const double ratio = stage_scalar(c.gear, "contact_ratio");
+        while (middle + 1 < n && phase[middle + 1] < ratio / 2)
+            middle++;
+        softness[k] = 1 / stage_get(c.mesh, "stiffness", NULL)[middle];
+        const double *base = stage_get(c.gear, "base_radius", NULL);
+        const double roll = stage_scalar(c.gear, "roll_sap") + phase[middle] * 2 * M_PI / 25;
+        const double line = stage_scalar(c.gear, "centre_distance") *
+                            sin(stage_scalar(c.gear, "working_pressure_angle"));
+        const double r1 = base[0] * roll, r2 = line - r1;
+        by_hand = contact = 0;
+        for (int g = 0; g < 2; g++) {
+            h[g] = (1 - nu[g] * nu[g]) / (M_PI * E[g] * width);
+            contact += 2 * h[g];
+        }
+        for (int g = 0; g < 2; g++)
+            by_hand +=
+                h[g] * (2 * log(2 * depth_of(&c, g, g ? r2 / base[1] : roll)) -
+                        log(4 * r1 * r2 / line * load * (h[0] + h[1])) - nu[g] / (1 - nu[g]));
+        chain_close(&c);
+    }
+    check_near("approach of unlike flanks", softness[0] - softness[1] + contact, by_hand, 1e-9);
+}
+
 static double seconds(void)
 {
     struct timespec t;
@@ -344,6 +399,7 @@ int main(void)
     test_high_contact_ratio();
     test_corner_contact_vanishes_with_the_load();
     test_analytical_compliance();
+    test_approach();
     test_cost();
     test_refusals();
     test_no_load();
