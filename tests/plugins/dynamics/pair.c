@@ -77,7 +77,7 @@ double pair_mean(const pair *p)
 
 stage *pair_open(const char *id, const pair *p)
 {
-    static const double teeth[2] = {50, 50};
+    static const double teeth[2] = {50, 73};
     stage *s = stage_open(id);
     int integrates = strcmp(id, "dynamics/quasi-static") != 0;
     stage_give_scalar(s, "gear.backlash", p->backlash);

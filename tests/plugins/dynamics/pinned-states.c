@@ -76,7 +76,7 @@ static void check_run(const state *pin, stage *s)
 /* The trapezoid as a user would give it, as lists of stiffness/table. */
 static stage *open_table(const pair *p)
 {
-    static const double teeth[2] = {50, 50};
+    static const double teeth[2] = {50, 73};
     stage *s = stage_open("stiffness/table");
     stage_give_series(s, "gear.roll_angle", PAIR_STATIONS, p->roll);
     stage_give_scalar(s, "gear.roll_sap", p->roll[0]);

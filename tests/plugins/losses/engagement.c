@@ -5,6 +5,7 @@
 
 static const double pitch = 2 * M_PI / TEETH;
 static const double pitch_point = 0.364; /* roll angle, tan 20 deg */
+static const double ratio = (double)TEETH_2 / TEETH;
 
 void engagement_fill(engagement *e, double contact_ratio)
 {
@@ -18,10 +19,10 @@ void engagement_fill(engagement *e, double contact_ratio)
                       .torque = 250};
     for (int i = 0; i < INSTANTS; i++) {
         double at = (i / (INSTANTS - 1.0) - 0.5) * contact_ratio * pitch; /* from the pitch point */
-        double sliding = 2 * e->omega * e->base_radius * at;
+        double sliding = (1 + 1 / ratio) * e->omega * e->base_radius * at;
         e->roll[i] = pitch_point + at;
         e->radius_1[i] = e->base_radius * (pitch_point + at);
-        e->radius_2[i] = e->base_radius * (pitch_point - at);
+        e->radius_2[i] = e->base_radius * (ratio * pitch_point - at);
         e->coefficient[i] = sliding < 0 ? -e->friction : e->friction;
         e->traction[i] = e->coefficient[i] * e->load;
         e->power[i] = e->traction[i] * sliding;
@@ -30,7 +31,7 @@ void engagement_fill(engagement *e, double contact_ratio)
 
 stage *engagement_open(const engagement *e)
 {
-    static const double teeth[] = {TEETH, TEETH};
+    static const double teeth[] = {TEETH, TEETH_2};
     stage *s = stage_open("losses/tooth-mesh");
     stage_give_series(s, "ehl.roll_angle", INSTANTS, e->roll);
     stage_give_series(s, "ehl.power_loss", INSTANTS, e->power);
@@ -55,7 +56,7 @@ stage *engagement_open(const engagement *e)
 
 double engagement_sliding(const engagement *e)
 {
-    return e->omega * e->base_radius * e->contact_ratio * pitch;
+    return (1 + 1 / ratio) / 2 * e->omega * e->base_radius * e->contact_ratio * pitch;
 }
 
 double engagement_loss(const engagement *e, double pitches)

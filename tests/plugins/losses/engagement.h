@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A pair of equal gears under constant load and friction, for which all is known in closed form. */
+/* A pair of 50 and 80 teeth under constant load and friction, for which all is known in closed
+ * form. */
 #ifndef TEST_ENGAGEMENT_H
 #define TEST_ENGAGEMENT_H
 
@@ -7,7 +8,7 @@
 
 #include <stddef.h>
 
-enum { INSTANTS = 2001, TEETH = 50 };
+enum { INSTANTS = 2001, TEETH = 50, TEETH_2 = 80 };
 
 typedef struct engagement {
     double contact_ratio, base_radius, omega, load, friction, face_width, modulus, torque;

@@ -37,7 +37,8 @@ static double expected(const engagement *m, int i, steel one, steel two)
     double R = 1 / (1 / m->radius_1[i] + 1 / m->radius_2[i]);
     double a = sqrt(8 * m->load * R / (M_PI * m->modulus));
     double t1 = band_temperature(m->power[i], a, m->omega * m->radius_1[i], one);
-    double t2 = band_temperature(m->power[i], a, m->omega * m->radius_2[i], two);
+    double omega_2 = m->omega * TEETH / TEETH_2;
+    double t2 = band_temperature(m->power[i], a, omega_2 * m->radius_2[i], two);
     return t1 * t2 / (t1 + t2);
 }
 

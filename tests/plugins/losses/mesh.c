@@ -107,7 +107,7 @@ static void test_loss_factor(void)
     e.torque = e.load * e.face_width * e.base_radius;
     stage *s = engagement_open(&e);
     run(s);
-    double factor = M_PI * 2 / TEETH * (1 - eps + eps * eps / 2);
+    double factor = M_PI * (1. / TEETH + 1. / TEETH_2) * (1 - eps + eps * eps / 2);
     check_near("loss factor", 1 - stage_scalar(s, "efficiency"), e.friction * factor, 1e-3);
     stage_close(s);
 }
