@@ -103,4 +103,12 @@ double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus,
    every loaded instant, m. */
 double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil);
 
+/*
+ * The length of an inlet at which the film lost to its end is as much as its error by the cells, of
+ * which there are so many from there to `outlet` (m) behind x = 0; no more than `longest`, m. A
+ * shorter inlet loses more to its end, a longer one to its coarser cells.
+ */
+double ehl_inlet_balanced(const ehl_history *h, const ehl_oil *oil, size_t cells, double outlet,
+                          double longest);
+
 #endif

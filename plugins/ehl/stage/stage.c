@@ -183,6 +183,12 @@ static ff_status fit_grid(const ehl_model *m, run *r)
     double supplied = ehl_inlet_supplied(&r->history, &r->oil);
     ehl_grid_fit(&r->grid, (size_t)m->cells, m->inlet, m->outlet, &r->history, &r->oil, rq,
                  supplied);
+    if (!(m->inlet > 0 || rq > 0 || r->history.turns))
+        ehl_grid_fit(&r->grid, (size_t)m->cells,
+                     ehl_inlet_balanced(&r->history, &r->oil, (size_t)m->cells, r->grid.outlet,
+                                        r->grid.inlet) /
+                         r->grid.half_width,
+                     m->outlet, &r->history, &r->oil, rq, supplied);
     if (!(r->grid.dx > 0 && isfinite(r->grid.dx)))
         return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
                         "the contact and the oil give no finite length of the domain");
