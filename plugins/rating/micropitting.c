@@ -21,7 +21,7 @@ typedef struct micropitting {
     int64_t points;
     int32_t base, supply, relieved;
     double conductivity, density, specific_heat;
-    double test_lambda, test_own_lambda, yield;
+    double test_lambda, test_own_lambda, material_factor, yield;
 } micropitting;
 
 static const ff_param params[] = {
@@ -46,11 +46,15 @@ static const ff_param params[] = {
     FF_QUANTITY("specific_heat", "J/(kg K)", micropitting, specific_heat, 0, "440 J/(kg K)", NULL,
                 1, 1e5, 0, 0, "of both gears"),
     FF_QUANTITY("test_lambda", "1", micropitting, test_lambda, 0, NULL, NULL, 1e-4, 100, 0, 0,
-                "lambda_gf_min of the test gear FZG C-GF/8.3/90 at the stage at which the oil "
-                "fails, by the same formulas "
-                "(configs/fzg-cgf-micropitting.yaml): permissible_lambda"),
+                "lambda_GFT: lambda_gf_min of the test gear FZG C-GF/8.3/90 at the stage at which "
+                "the oil fails, by the same formulas "
+                "(configs/fzg-cgf-micropitting.yaml)"),
     FF_QUANTITY("test_own_lambda", "1", micropitting, test_own_lambda, 0, NULL, NULL, 1e-4, 100, 0,
                 0, "own_lambda_gf_min of the same run, by the film of this program"),
+    FF_QUANTITY("material_factor", "1", micropitting, material_factor, 0, "1", NULL, 0.1, 3, 0.5,
+                1.5,
+                "W_W: 1 of case-hardened steel, of two steels the mean of theirs; a printed report "
+                "has 0.75 of case-hardened on through-hardened"),
     FF_QUANTITY("yield_strength", "MPa", micropitting, yield, 0, NULL, NULL, 1, 1e4, 0, 0,
                 "of the flanks' steel in tension, in place of that of the gear's material; with it "
                 "the largest shear of the contact, 0.300 "
@@ -69,6 +73,8 @@ enum {
     OUT_LAMBDA_MIN_AT,
     OUT_BULK,
     OUT_FRICTION,
+    OUT_LAMBDA_GFT,
+    OUT_LAMBDA_GFP,
     OUT_PERMISSIBLE,
     OUT_SAFETY,
     OUT_OWN_LAMBDA_MIN,
@@ -110,15 +116,23 @@ static const ff_port outputs[OUTPUTS] = {
                       .unit = "1",
                       .doc = "draft: mean coefficient of friction (15144-1, formula 86)",
                       .dims = ""},
+    [OUT_LAMBDA_GFT] = {.name = "lambda_gft",
+                        .unit = "1",
+                        .doc =
+                            "draft: limiting film over roughness of the test, which is test_lambda",
+                        .dims = ""},
+    [OUT_LAMBDA_GFP] = {.name = "lambda_gfp",
+                        .unit = "1",
+                        .doc = "draft: permissible film over roughness, 1.4 W_W lambda_gft",
+                        .dims = ""},
     [OUT_PERMISSIBLE] = {.name = "permissible_lambda",
                          .unit = "1",
-                         .doc = "draft: lambda_gf_min of the test gear at the stage of failure",
+                         .doc = "draft: lambda_gfp",
                          .dims = ""},
     [OUT_SAFETY] = {.name = "safety",
                     .unit = "1",
-                    .doc =
-                        "draft: lambda_gf_min over permissible_lambda, both by the closed formulas "
-                        "(15144-1, formula 1)",
+                    .doc = "draft: lambda_gf_min over lambda_gfp, both by the closed formulas "
+                           "(15144-1, formula 1)",
                     .dims = ""},
     [OUT_OWN_LAMBDA_MIN] = {.name = "own_lambda_gf_min",
                             .unit = "1",
@@ -127,7 +141,8 @@ static const ff_port outputs[OUTPUTS] = {
     [OUT_OWN_SAFETY] =
         {.name = "own_safety",
          .unit = "1",
-         .doc = "own_lambda_gf_min over that of the test gear, both by the film of this program",
+         .doc = "own_lambda_gf_min over 1.4 W_W times that of the test gear, both by the film of "
+                "this program",
          .dims = ""},
     [OUT_SHEAR_MAX] =
         {.name = "shear_max",
@@ -270,6 +285,13 @@ static ff_status write_series(const micropitting *s, const rating_pair *p, const
     return FF_OK;
 }
 
+/* lambda_GFP = 1.4 W_W lambda_GFT (15144-1, clause 5.4). The print has 1.4 x 1.00 x 0.102 = 0.143
+   and 1.4 x 0.75 x 0.102 = 0.107. */
+static double permissible(const micropitting *s, double of_test)
+{
+    return 1.4 * s->material_factor * of_test;
+}
+
 /* A permissible value stands beside the number of the method that calibrated it alone. */
 static ff_status write_ratio(const micropitting *s, uint64_t wanted, uint32_t row, double lambda,
                              double of_test, const char *param)
@@ -280,7 +302,7 @@ static ff_status write_ratio(const micropitting *s, uint64_t wanted, uint32_t ro
         return ff_failf(s->host, FF_UNSUPPORTED, outputs[row].name,
                         "this output needs %s, which configs/fzg-cgf-micropitting.yaml gives",
                         param);
-    return ff_put_scalar(s->host, row, lambda / of_test);
+    return ff_put_scalar(s->host, row, lambda / permissible(s, of_test));
 }
 
 static ff_status write_own(const micropitting *s, const rating_pair *p, const ff_array *film,
@@ -316,13 +338,18 @@ static ff_status write_scalars(const micropitting *s, const rating *r, uint64_t 
         if (wanted & FF_BIT(scalars[i].row) &&
             ff_put_scalar(s->host, scalars[i].row, scalars[i].value) != FF_OK)
             return FF_NOMEM;
-    if (wanted & FF_BIT(OUT_PERMISSIBLE) && isnan(s->test_lambda))
-        return ff_failf(
-            s->host, FF_UNSUPPORTED, outputs[OUT_PERMISSIBLE].name,
-            "this output needs test_lambda, which configs/fzg-cgf-micropitting.yaml gives");
-    if (wanted & FF_BIT(OUT_PERMISSIBLE) &&
-        ff_put_scalar(s->host, OUT_PERMISSIBLE, s->test_lambda) != FF_OK)
-        return FF_NOMEM;
+    const double limits[] = {s->test_lambda, permissible(s, s->test_lambda),
+                             permissible(s, s->test_lambda)};
+    for (uint32_t row = OUT_LAMBDA_GFT; row <= OUT_PERMISSIBLE; row++) {
+        if (!(wanted & FF_BIT(row)))
+            continue;
+        if (isnan(s->test_lambda))
+            return ff_failf(
+                s->host, FF_UNSUPPORTED, outputs[row].name,
+                "this output needs test_lambda, which configs/fzg-cgf-micropitting.yaml gives");
+        if (ff_put_scalar(s->host, row, limits[row - OUT_LAMBDA_GFT]) != FF_OK)
+            return FF_NOMEM;
+    }
     return write_ratio(s, wanted, OUT_SAFETY, r->least, s->test_lambda, "test_lambda");
 }
 
