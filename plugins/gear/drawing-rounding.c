@@ -8,6 +8,9 @@
 /* A unit of the last digit: lengths that are measured, m; profile shift coefficients. */
 static const double length = 1e-6, shift = 1e-4;
 
+/* Of the arithmetic, m; an overlap below it is none. */
+static const double rounding_error = 1e-12;
+
 const double gear_rounding_roll = 0.01 * M_PI / 180;
 const double gear_rounding_diameter = 1e-5;
 
@@ -37,7 +40,7 @@ void gear_rounding_say(const gear_spur_pair *p, double moved_start, char *text, 
     int used = 0;
     if (size > 0)
         *text = '\0';
-    if (p->moved_backlash > 0)
+    if (p->moved_backlash > rounding_error)
         used = snprintf(text, size,
                         "the teeth overlap by %.3g um along the line of action, less than the "
                         "%.3g um of the digits of the drawing; the backlash is moved to %.6g um",

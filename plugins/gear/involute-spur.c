@@ -72,17 +72,28 @@ static const ff_param params[] = {
     FF_LIST("inertia", "kg m2", spur, given_inertia, 0, NULL, NULL, 1e-20, 1e20, 0, 0, 1, 2,
             "polar moments of inertia; left out: discs of working pitch diameter and face width, "
             "less the bore"),
-    FF_ONE_OF(GEAR_MATERIALS, "material", spur, material[0], 0, "steel",
-              "material of the gears: modulus, Poisson's ratio and density, and the yield strength "
-              "of quenched and tempered steel and of castings"),
-    FF_ONE_OF(GEAR_MATERIALS, "material_2", spur, material[1], 0, NULL,
+    FF_ONE_OF(GEAR_MATERIALS, "material", spur, material.name[0], 0, "steel",
+              "material of the gears: modulus, Poisson's ratio, density, heat, hardness and yield "
+              "strength, as far as they are known"),
+    FF_ONE_OF(GEAR_MATERIALS, "material_2", spur, material.name[1], 0, NULL,
               "material of gear 2; left out: that of gear 1"),
-    FF_LIST("elastic_modulus", "GPa", spur, elastic, 0, NULL, NULL, 1e-3, 1e4, 0, 0, 1, 2,
+    FF_LIST("elastic_modulus", "GPa", spur, material.modulus, 0, NULL, NULL, 1e-3, 1e4, 0, 0, 1, 2,
             "Young's moduli E1 and E2; left out: those of the material"),
-    FF_LIST("poisson_ratio", "1", spur, poisson, 0, NULL, NULL, 0, 0.5, 0, 0, 1, 2,
+    FF_LIST("poisson_ratio", "1", spur, material.poisson, 0, NULL, NULL, 0, 0.5, 0, 0, 1, 2,
             "Poisson's ratios of the gears; left out: those of the material"),
-    FF_LIST("density", "kg/m3", spur, density, 0, NULL, NULL, 1, 1e5, 0, 0, 1, 2,
-            "densities of the gears, for mass and inertia; left out: those of the material"),
+    FF_LIST("density", "kg/m3", spur, material.density, 0, NULL, NULL, 1, 1e5, 0, 0, 1, 2,
+            "densities of the gears, for mass, inertia and heat; left out: those of the material"),
+    FF_LIST("thermal_conductivity", "W/(m K)", spur, material.conductivity, 0, NULL, NULL, 1e-3,
+            1e4, 0, 0, 1, 2,
+            "thermal conductivities of the gears; left out: those of the material, unless "
+            "elastic_modulus or density say that it is another one"),
+    FF_LIST("specific_heat", "J/(kg K)", spur, material.specific_heat, 0, NULL, NULL, 1, 1e5, 0, 0,
+            1, 2, "specific heats of the gears; left out: likewise"),
+    FF_LIST("hardness", "GPa", spur, material.hardness, FF_MIN_OPEN, NULL, NULL, 0, 1e3, 0, 0, 1, 2,
+            "hardness of the flanks, the pressure at which their metal yields, 7 GPa is 700 HV; "
+            "left out: likewise"),
+    FF_LIST("yield_strength", "MPa", spur, material.yield, FF_MIN_OPEN, NULL, NULL, 0, 1e4, 0, 0, 1,
+            2, "yield strengths of the flanks in tension; left out: likewise"),
     FF_COUNT("stations", spur, stations, FF_TUNABLE, "800", NULL, 8, 100000, 0, 0,
              "about how many intervals the path of contact is cut into"),
     FF_LIST("tip_relief", "um", spur, flank_spec.tip.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
@@ -166,7 +177,10 @@ static ff_status set_discs(spur *s)
 /* What serves a few outputs alone: a stage that takes others leaves it unread. */
 static void tell_servings(const spur *s)
 {
-    static const char form[] = "profile_roll|profile_deviation";
+    static const char form[] = "profile_roll|profile_deviation",
+                      tolerances[] = "single_pitch_tolerance|total_pitch_tolerance|"
+                                     "profile_form_tolerance|profile_slope_tolerance|"
+                                     "profile_tolerance";
     const int tip = ff_of_both(&s->flank_spec.tip.amount, 0) > 0 ||
                     ff_of_both(&s->flank_spec.tip.amount, 1) > 0;
     const int root = ff_of_both(&s->flank_spec.root.amount, 0) > 0 ||
@@ -201,6 +215,11 @@ static void tell_servings(const spur *s)
         {1, "profile_file", form, NULL, NULL},
         {1, "pitch_error", "pitch_deviation_1", NULL, NULL},
         {1, "pitch_error_2", "pitch_deviation_2", NULL, NULL},
+        {1, "thermal_conductivity", "thermal_conductivity", NULL, NULL},
+        {1, "specific_heat", "specific_heat", NULL, NULL},
+        {1, "hardness", "hardness", NULL, NULL},
+        {1, "yield_strength", "yield_strength", NULL, NULL},
+        {1, "quality", tolerances, NULL, NULL},
         {1, "roughness_rq", "roughness", NULL, NULL},
         {1, "roughness_ra", "roughness", NULL, NULL},
     };
@@ -224,23 +243,12 @@ static ff_status check_tools(const spur *s)
     return FF_OK;
 }
 
-/* What the file says of a gear overrules its material. */
-static void set_materials(spur *s)
-{
-    for (int i = 0; i < 2; i++) {
-        gear_material *m = &s->made_of[i];
-        *m = gear_material_of(s->material[i == 1 && s->material[1] >= 0 ? 1 : 0]);
-        m->modulus = s->elastic.count > 0 ? ff_of_both(&s->elastic, i) : m->modulus;
-        m->poisson = s->poisson.count > 0 ? ff_of_both(&s->poisson, i) : m->poisson;
-        m->density = s->density.count > 0 ? ff_of_both(&s->density, i) : m->density;
-    }
-}
-
 static ff_status ready(void *self)
 {
     spur *s = self;
     tell_servings(s);
-    set_materials(s);
+    for (int i = 0; i < 2; i++)
+        s->made_of[i] = gear_material_make(&s->material, i);
     ff_status status = check_tools(s);
     if (status == FF_OK)
         status = gear_spur_pair_make(s->host, &s->spec, &s->pair);

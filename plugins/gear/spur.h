@@ -12,8 +12,8 @@ typedef struct spur {
     const ff_host *host;
     gear_spur_spec spec;
     double face_width;
-    int32_t material[2];
-    ff_reals bore, given_inertia, elastic, poisson, density, roughness_rq, roughness_ra;
+    gear_material_spec material;
+    ff_reals bore, given_inertia, roughness_rq, roughness_ra;
     int64_t stations;
     gear_flank_spec flank_spec;
     gear_spur_pair pair;

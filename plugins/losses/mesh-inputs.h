@@ -7,6 +7,8 @@
 #include "mesh-sum.h"
 #include "rows.h"
 
+#include <stdbool.h>
+
 /* The inputs after their checks, in SI units, and series of n that follow from them. */
 typedef struct losses_mesh {
     size_t n, stations;
@@ -16,6 +18,8 @@ typedef struct losses_mesh {
     const double *station, *radius[2];
     double face_width, modulus, contact_ratio, torque, oil_temperature;
     double omega[2], pitch;
+    bool heats;                  /* the gears tell how they conduct heat */
+    numerics_heat heat[2];       /* of the gears */
     double *loss, *load, *flash; /* W, N/m, K */
     double *half_width;
     size_t hottest;

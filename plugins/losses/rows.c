@@ -104,6 +104,7 @@ const ff_port losses_inputs[LOSSES_INPUTS] = {
                             .doc = "temperature of the oil",
                             .dims = "",
                             .from = "operating"},
+    [IN_HEAT] = NUMERICS_HEAT_ROWS("gear"),
 };
 
 const ff_port losses_outputs[LOSSES_OUTPUTS] = {

@@ -3,6 +3,8 @@
 #ifndef LOSSES_ROWS_H
 #define LOSSES_ROWS_H
 
+#include "../numerics/gear-heat.h"
+
 #include <flankfilm/plugin.h>
 
 enum {
@@ -25,7 +27,8 @@ enum {
     IN_TORQUE,
     IN_SPEED,
     IN_OIL_TEMPERATURE,
-    LOSSES_INPUTS
+    IN_HEAT, /* of the gears: three rows */
+    LOSSES_INPUTS = IN_HEAT + NUMERICS_HEAT_INPUTS
 };
 
 enum { PARTS = IN_ASPERITY_LOSS - IN_SLIDING_LOSS + 1 };

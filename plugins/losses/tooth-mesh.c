@@ -25,12 +25,13 @@ typedef struct tooth_mesh {
 } tooth_mesh;
 
 static const ff_param params[] = {
-    FF_LIST("thermal_conductivity", "W/(m K)", tooth_mesh, conductivity, 0, "47 W/(m K)", NULL,
-            1e-3, 1e4, 0, 0, 1, 2, "of gear 1 and gear 2, or of both; steel 47"),
-    FF_LIST("density", "kg/m3", tooth_mesh, density, 0, "7850 kg/m3", NULL, 1, 1e5, 0, 0, 1, 2,
-            "of gear 1 and gear 2, or of both; steel 7850"),
-    FF_LIST("specific_heat", "J/(kg K)", tooth_mesh, specific_heat, 0, "455 J/(kg K)", NULL, 1, 1e5,
-            0, 0, 1, 2, "of gear 1 and gear 2, or of both; steel 450 to 460"),
+    NUMERICS_LIST_UNLESS("gear.thermal_conductivity", "thermal_conductivity", "W/(m K)", tooth_mesh,
+                         conductivity, NUMERICS_STEEL_CONDUCTIVITY, 1e-3, 1e4,
+                         "of gear 1 and gear 2, or of both, where the gears do not tell; steel 50"),
+    NUMERICS_LIST_UNLESS("gear.density", "density", "kg/m3", tooth_mesh, density,
+                         NUMERICS_STEEL_DENSITY, 1, 1e5, "likewise; steel 7850"),
+    NUMERICS_LIST_UNLESS("gear.specific_heat", "specific_heat", "J/(kg K)", tooth_mesh,
+                         specific_heat, NUMERICS_STEEL_HEAT, 1, 1e5, "likewise; steel 484"),
     FF_QUANTITY_OR("auto", "bulk_temperature", "degC", tooth_mesh, bulk_temperature, 0, "auto",
                    NULL, -150, 1000, 0, 0,
                    "temperature of the teeth before they meet; auto: that of the oil, which is the "
@@ -56,12 +57,11 @@ static void motion_at(const losses_mesh *m, double roll, double radius[2], doubl
 /* Blok 1937: 1.11 (friction power per width)/((B1 sqrt u1 + B2 sqrt u2) sqrt(2 a)),
    B = sqrt(k rho c), for a band of half width a over which both flanks move fast. Powers in W/m,
    result in K. */
-static double flash_at(const tooth_mesh *s, double power, const double speed[2], double half_width)
+static double flash_at(const losses_mesh *m, double power, const double speed[2], double half_width)
 {
     double conducted = 0; /* B1 sqrt u1 + B2 sqrt u2 */
     for (int g = 0; g < 2; g++)
-        conducted += sqrt(ff_of_both(&s->conductivity, g) * ff_of_both(&s->density, g) *
-                          ff_of_both(&s->specific_heat, g) * speed[g]);
+        conducted += numerics_heat_contact(&m->heat[g]) * sqrt(speed[g]);
     return blok * power / (conducted * sqrt(2 * half_width));
 }
 
@@ -92,8 +92,8 @@ static ff_status set_series(const tooth_mesh *s, losses_mesh *m)
     }
     for (size_t i = 0; i < m->n; i++) {
         motion_at(m, m->roll[i], radius, speed);
-        bool bears = m->half_width[i] > least_half_width * widest;
-        m->flash[i] = bears ? flash_at(s, friction_power(m, i), speed, m->half_width[i]) : 0;
+        bool bears = m->heats && m->half_width[i] > least_half_width * widest;
+        m->flash[i] = bears ? flash_at(m, friction_power(m, i), speed, m->half_width[i]) : 0;
         if (m->flash[i] > m->flash[m->hottest])
             m->hottest = i;
     }
@@ -291,9 +291,8 @@ static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of,
         "maximum");
     motion_at(m, m->roll[m->hottest], radius, speed);
     for (int g = 0; g < 2; g++)
-        peclet = fmin(peclet, speed[g] * m->half_width[m->hottest] * ff_of_both(&s->density, g) *
-                                  ff_of_both(&s->specific_heat, g) /
-                                  (2 * ff_of_both(&s->conductivity, g)));
+        peclet = fmin(peclet, speed[g] * m->half_width[m->hottest] * m->heat[g].density *
+                                  m->heat[g].specific_heat / (2 * m->heat[g].conductivity));
     if (m->flash[m->hottest] > 0)
         host->quality(host->ctx, "peclet", peclet, least_peclet,
                       peclet >= least_peclet ? FF_GOOD : FF_DOUBTFUL,
@@ -369,6 +368,25 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
     return status;
 }
 
+/* Reads what the gears conduct heat by; one that does not tell is refused where a temperature of
+   the flanks is wanted. */
+static ff_status read_heat(const tooth_mesh *s, uint64_t wanted, const ff_array *in, losses_mesh *m)
+{
+    const uint64_t hot = FF_BIT(OUT_FLASH) | FF_BIT(OUT_CONTACT_TEMPERATURE) |
+                         FF_BIT(OUT_FLASH_MAX) | FF_BIT(OUT_FLASH_MAX_AT) |
+                         FF_BIT(OUT_CONTACT_TEMPERATURE_MAX);
+    ff_status status = FF_OK;
+    m->heats = true;
+    for (int g = 0; g < 2 && status == FF_OK; g++) {
+        const double said[] = {ff_of_both(&s->conductivity, g), ff_of_both(&s->density, g),
+                               ff_of_both(&s->specific_heat, g)};
+        m->heats = m->heats && numerics_heat_known(&in[IN_HEAT], said, g);
+        if (m->heats || wanted & hot)
+            status = numerics_heat_of(s->host, &in[IN_HEAT], said, g, &m->heat[g]);
+    }
+    return status;
+}
+
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const tooth_mesh *s = self;
@@ -378,6 +396,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
                         "bulk_temperature is given, and thermal_conductance tells another one: "
                         "leave one of them out");
     ff_status status = losses_read(s->host, in, &m);
+    if (status == FF_OK)
+        status = read_heat(s, wanted, in, &m);
     if (status == FF_OK && !(m.loss = calloc(4 * m.n, sizeof *m.loss)))
         status = FF_NOMEM;
     if (status != FF_OK)

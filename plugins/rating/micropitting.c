@@ -20,7 +20,7 @@ typedef struct micropitting {
     rating_load load;
     int64_t points;
     int32_t base, supply, relieved;
-    double conductivity, density, specific_heat;
+    rating_heat heat;
     double test_lambda, test_own_lambda, material_factor, yield;
 } micropitting;
 
@@ -39,12 +39,7 @@ static const ff_param params[] = {
              "flank tolerance class of ISO 1328-1, which shares the load"),
     FF_SWITCH("adequate_tip_relief", micropitting, relieved, "false",
               "whether the tips are relieved as the load asks for: cooler teeth"),
-    FF_QUANTITY("thermal_conductivity", "W/(m K)", micropitting, conductivity, 0, "45 W/(m K)",
-                NULL, 1e-3, 1e4, 0, 0, "of both gears"),
-    FF_QUANTITY("density", "kg/m3", micropitting, density, 0, "7800 kg/m3", NULL, 1, 1e5, 0, 0,
-                "of both gears"),
-    FF_QUANTITY("specific_heat", "J/(kg K)", micropitting, specific_heat, 0, "440 J/(kg K)", NULL,
-                1, 1e5, 0, 0, "of both gears"),
+    RATING_HEAT_ROWS(micropitting),
     FF_QUANTITY("test_lambda", "1", micropitting, test_lambda, 0, NULL, NULL, 1e-4, 100, 0, 0,
                 "lambda_GFT: lambda_gf_min of the test gear FZG C-GF/8.3/90 at the stage at which "
                 "the oil fails, by the same formulas "
@@ -55,11 +50,12 @@ static const ff_param params[] = {
                 1.5,
                 "W_W: 1 of case-hardened steel, of two steels the mean of theirs; a printed report "
                 "has 0.75 of case-hardened on through-hardened"),
-    FF_QUANTITY("yield_strength", "MPa", micropitting, yield, 0, NULL, NULL, 1, 1e4, 0, 0,
-                "of the flanks' steel in tension, in place of that of the gear's material; with it "
-                "the largest shear of the contact, 0.300 "
-                "p_H, is held against the yield "
-                "in shear, half of it"),
+    FF_QUANTITY_UNLESS("gear.yield_strength", "yield_strength", "MPa", micropitting, yield, 0, NULL,
+                       NULL, 1, 1e4, 0, 0,
+                       "of the flanks' steel in tension, where the gears do not tell; with it "
+                       "the largest shear of the contact, 0.300 "
+                       "p_H, is held against the yield "
+                       "in shear, half of it"),
     FF_COUNT("points", micropitting, points, FF_TUNABLE, "200", NULL, 4, 100000, 0, 0,
              "equal parts of the path of contact"),
 };
@@ -227,9 +223,9 @@ static ff_status rate_at(const micropitting *s, const rating_pair *p, rating *r,
     const double u1 = rating_speed(p, 0, place), u2 = rating_speed(p, 1, place);
     const double load = rating_line_load(p, &s->load) * rating_load_share(p, &s->load, place);
     const double pressure = sqrt(load * E / (2 * M_PI * radius)); /* formulas 24 and 25 */
-    const double B = sqrt(s->conductivity * s->density * s->specific_heat);
     const double flash = sqrt(M_PI) / 2 * r->friction * pressure * fabs(u1 - u2) /
-                         (B * (sqrt(u1) + sqrt(u2))) * sqrt(8 * radius * pressure / E);
+                         (p->contact[0] * sqrt(u1) + p->contact[1] * sqrt(u2)) *
+                         sqrt(8 * radius * pressure / E);
     double viscosity, density;
     at->contact = r->bulk + flash;
     const ff_status status = rating_oil_at(s->host, p, at->contact, &viscosity, &density);
@@ -378,7 +374,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const micropitting *s = self;
     rating_pair p;
     rating r = {0};
-    ff_status status = rating_pair_read(s->host, in + 1, s->oil, &p);
+    ff_status status = rating_pair_read(s->host, "ISO/TR 15144-1", in + 1, &s->heat, s->oil, &p);
     point *points = status == FF_OK ? malloc(((size_t)s->points + 1) * sizeof *points) : NULL;
     if (status == FF_OK && !points)
         status = FF_NOMEM;

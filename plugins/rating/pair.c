@@ -69,6 +69,13 @@ const ff_port rating_inputs[1 + RATING_INPUTS + 1] = {
      .dims = "gear",
      .flags = FF_OPTIONAL,
      .from = "gear"},
+    {.name = "gear.elastic_modulus",
+     .unit = "Pa",
+     .doc = "Young's moduli, by which a steel is known",
+     .dims = "gear",
+     .flags = FF_OPTIONAL,
+     .from = "gear"},
+    NUMERICS_HEAT_ROWS("gear"),
     {.name = "operating.line_force",
      .unit = "N",
      .doc = "normal force along the line of action",
@@ -132,8 +139,32 @@ static void read_relief(const ff_array *in, double relief[2])
         relief[i] = fmax(0, -in->data[(i + 1) * in->shape[1] - 1]);
 }
 
-ff_status rating_pair_read(const ff_host *host, const ff_array *in, const ff_liquid *oil,
-                           rating_pair *p)
+/* Young's moduli of steels, Pa. */
+static const double least_steel = 185e9, most_steel = 225e9;
+
+/* Refuses gears that are not of steel, and reads what they conduct heat by. */
+static ff_status read_materials(const ff_host *host, const char *standard, const ff_array *in,
+                                const rating_heat *heat, rating_pair *p)
+{
+    const double said[] = {heat->conductivity, heat->density, heat->specific_heat};
+    ff_status status = FF_OK;
+    double modulus[2] = {least_steel, least_steel};
+    if (in[RATING_IN_MODULI].data)
+        status = read_two(host, &in[RATING_IN_MODULI], "gear.elastic_modulus", modulus);
+    for (int i = 0; i < 2 && status == FF_OK; i++) {
+        numerics_heat of_gear = {0};
+        if (!(modulus[i] >= least_steel && modulus[i] <= most_steel))
+            return ff_failf(host, FF_INVALID, "gear.elastic_modulus",
+                            "%s covers gears of steel, %g to %g GPa; gear %d has %g GPa", standard,
+                            1e-9 * least_steel, 1e-9 * most_steel, i + 1, 1e-9 * modulus[i]);
+        status = numerics_heat_of(host, &in[RATING_IN_HEAT], said, i, &of_gear);
+        p->contact[i] = numerics_heat_contact(&of_gear);
+    }
+    return status;
+}
+
+ff_status rating_pair_read(const ff_host *host, const char *standard, const ff_array *in,
+                           const rating_heat *heat, const ff_liquid *oil, rating_pair *p)
 {
     double roughness[2];
     double yield[2] = {0};
@@ -167,6 +198,8 @@ ff_status rating_pair_read(const ff_host *host, const ff_array *in, const ff_liq
         status = numerics_pinion(host, &in[RATING_IN_PINION], p->teeth, &p->pinion);
     if (status == FF_OK && in[RATING_IN_YIELD].data)
         status = read_two(host, &in[RATING_IN_YIELD], "gear.yield_strength", yield);
+    if (status == FF_OK)
+        status = read_materials(host, standard, in, heat, p);
     if (status != FF_OK)
         return status;
     for (int i = 0; i < 2; i++)

@@ -10,6 +10,8 @@
 #ifndef RATING_PAIR_H
 #define RATING_PAIR_H
 
+#include "../numerics/gear-heat.h"
+
 #include <flankfilm/laws.h>
 
 /* The inputs that all ratings have, in the order of their rows. */
@@ -27,6 +29,9 @@ enum {
     RATING_IN_ROUGHNESS,
     RATING_IN_PROFILE,
     RATING_IN_YIELD,
+    RATING_IN_MODULI,
+    RATING_IN_HEAT, /* three rows */
+    RATING_IN_HEAT_LAST = RATING_IN_HEAT + NUMERICS_HEAT_INPUTS - 1,
     RATING_IN_FORCE,
     RATING_IN_SPEED,
     RATING_IN_OIL_TEMPERATURE,
@@ -47,6 +52,7 @@ typedef struct rating_pair {
     double roughness;     /* Ra, mean of both flanks */
     double tip_relief[2]; /* 0: none, or not known */
     double yield;         /* of the weaker flank; NaN: not known */
+    double contact[2];    /* B = sqrt(k rho c) of the gears, J/(m2 K s^0.5) */
     double force;         /* along the line of action */
     double omega, oil_temperature, dynamic_factor;
     double line, base_pitch; /* length of the common tangent of the base circles */
@@ -55,14 +61,30 @@ typedef struct rating_pair {
     const ff_liquid *oil;
 } rating_pair;
 
+/* The heat of the gears where they do not tell it. */
+typedef struct rating_heat {
+    double conductivity, density, specific_heat;
+} rating_heat;
+
+#define RATING_HEAT_ROWS(type)                                                                     \
+    FF_QUANTITY_UNLESS("gear.thermal_conductivity", "thermal_conductivity", "W/(m K)", type,       \
+                       heat.conductivity, 0, NUMERICS_STEEL_CONDUCTIVITY, NULL, 1e-3, 1e4, 0, 0,   \
+                       "of both gears, where they do not tell"),                                   \
+        FF_QUANTITY_UNLESS("gear.density", "density", "kg/m3", type, heat.density, 0,              \
+                           NUMERICS_STEEL_DENSITY, NULL, 1, 1e5, 0, 0, "likewise"),                \
+        FF_QUANTITY_UNLESS("gear.specific_heat", "specific_heat", "J/(kg K)", type,                \
+                           heat.specific_heat, 0, NUMERICS_STEEL_HEAT, NULL, 1, 1e5, 0, 0,         \
+                           "likewise")
+
 /* Factors of the load that the user gives. */
 typedef struct rating_load {
     double application, face, transverse; /* K_A, K_Hbeta, K_Halpha */
     int64_t grade;                        /* flank tolerance class of ISO 1328-1 */
 } rating_load;
 
-ff_status rating_pair_read(const ff_host *host, const ff_array *in, const ff_liquid *oil,
-                           rating_pair *p);
+/* Reads the inputs; gears that are not of steel, which `standard` does not cover, are refused. */
+ff_status rating_pair_read(const ff_host *host, const char *standard, const ff_array *in,
+                           const rating_heat *heat, const ff_liquid *oil, rating_pair *p);
 
 /* Relative radius of curvature at a place on the path. */
 double rating_radius(const rating_pair *p, double place);

@@ -24,7 +24,7 @@ typedef struct scuffing {
     int64_t stage, points;
     int32_t lubricant, supply;
     double structural, mesh_stiffness, tooth_stiffness;
-    double conductivity, density, specific_heat;
+    rating_heat heat;
     double test_temperature; /* K */
 } scuffing;
 
@@ -48,12 +48,7 @@ static const ff_param params[] = {
                 "K_Halpha = K_Balpha"),
     FF_COUNT("quality_grade", scuffing, load.grade, 0, "6", NULL, 1, 12, 0, 0,
              "flank tolerance class of ISO 1328-1, which shares the load"),
-    FF_QUANTITY("thermal_conductivity", "W/(m K)", scuffing, conductivity, 0, "50 W/(m K)", NULL,
-                1e-3, 1e4, 0, 0, "of both gears; 50 of case-hardened steel (13989-2, clause 5.3)"),
-    FF_QUANTITY("density", "kg/m3", scuffing, density, 0, "7850 kg/m3", NULL, 1, 1e5, 0, 0,
-                "of both gears"),
-    FF_QUANTITY("specific_heat", "J/(kg K)", scuffing, specific_heat, 0, "484 J/(kg K)", NULL, 1,
-                1e5, 0, 0, "of both gears; with the density 3.8 MJ/(m3 K) (13989-2, clause 5.3)"),
+    RATING_HEAT_ROWS(scuffing),
     FF_QUANTITY("mesh_stiffness", "N/(mm um)", scuffing, mesh_stiffness, 0, "20 N/(mm um)", NULL,
                 0.1, 1000, 5, 40,
                 "c_gamma per face width: with the load it gives the best tip relief C_eff"),
@@ -186,11 +181,13 @@ static double approach_factor(const rating_pair *p, double place, double best_re
 }
 
 /* X_M = 1000 E_r^0.25/B_M with B_M = sqrt(k rho c) in N/(mm^0.5 m^0.5 s^0.5 K), 10^-1.5 of the SI
-   unit; 50 of steel (13989-1, formulas A.9 to A.14). */
-static double thermoelastic_factor(const scuffing *s, const rating_pair *p)
+   unit; 50 of steel (13989-1, formulas A.9 to A.14). Gears of different steels share the heat as
+   Blok has it, by B_M sqrt(v). */
+static double thermoelastic_factor(const rating_pair *p, double place)
 {
-    double contact = sqrt(s->conductivity * s->density * s->specific_heat) * pow(10, -1.5);
-    return 1000 * pow(1e-6 * p->modulus, 0.25) / contact;
+    const double v1 = sqrt(rating_speed(p, 0, place)), v2 = sqrt(rating_speed(p, 1, place));
+    const double contact = (p->contact[0] * v1 + p->contact[1] * v2) / (v1 + v2);
+    return 1000 * pow(1e-6 * p->modulus, 0.25) / (contact * pow(10, -1.5));
 }
 
 /* Flash temperature, formula 5: 2.52 mu (X_M/50) X_J (X_Gamma w)^0.75 (n1/60)^0.5 |rho1^0.5 -
@@ -202,7 +199,7 @@ static double flash_at(const scuffing *s, const rating_pair *p, double friction,
         s->load.application * p->force / (p->width * s->mesh_stiffness); /* C_eff, formula B.1 */
     double share = rating_load_share(p, &s->load, place) * load;
     double sliding = fabs(sqrt(1e3 * place) - sqrt(1e3 * (p->line - place) / p->ratio));
-    return 2.52 * friction * thermoelastic_factor(s, p) / 50 * approach_factor(p, place, best) *
+    return 2.52 * friction * thermoelastic_factor(p, place) / 50 * approach_factor(p, place, best) *
            pow(share, 0.75) * sqrt(p->omega / (2 * M_PI)) * sliding /
            pow(1e3 * rating_radius(p, place), 0.25);
 }
@@ -312,8 +309,9 @@ static ff_status rate_by_integral(const scuffing *s, const rating_pair *p, ratin
     const double geometry =
         0.51 * sqrt(u + 1) * (sqrt(rho1) - sqrt(rho2 / u)) / pow(rho1 * rho2, 0.25); /* X_BE */
     const double e[2] = {rating_addendum_ratio(p, 0), rating_addendum_ratio(p, 1)};
-    const double tip = friction * thermoelastic_factor(s, p) * geometry * angle * pow(load, 0.75) *
-                       sqrt(p->pitch_speed) / pow(1e3 * p->centre_distance, 0.25) /
+    const double tip = friction * thermoelastic_factor(p, one == 0 ? p->end : p->sap) * geometry *
+                       angle * pow(load, 0.75) * sqrt(p->pitch_speed) /
+                       pow(1e3 * p->centre_distance, 0.25) /
                        (ingoing_factor(e[0], e[1]) * tip_relief_factor(s, p, e[0], e[1]));
     const double mean = tip * contact_ratio_factor(e[one], e[two]),
                  oil = p->oil_temperature - celsius;
@@ -438,7 +436,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const scuffing *s = self;
     rating_pair p;
     rating r = {0};
-    ff_status status = rating_pair_read(s->host, in, s->oil, &p);
+    ff_status status = rating_pair_read(s->host, "ISO/TR 13989", in, &s->heat, s->oil, &p);
     double *flash = status == FF_OK ? malloc(((size_t)s->points + 1) * sizeof *flash) : NULL;
     if (status == FF_OK && !flash)
         status = FF_NOMEM;

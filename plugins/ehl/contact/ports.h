@@ -3,6 +3,7 @@
 #ifndef EHL_PORTS_H
 #define EHL_PORTS_H
 
+#include "../../numerics/gear-heat.h"
 #include "history.h"
 #include "liquid.h"
 
@@ -34,6 +35,8 @@ enum {
     EHL_IN_PERIOD,
     EHL_IN_ORIGIN,
     EHL_IN_ROUGHNESS,
+    EHL_IN_HEAT, /* of the gears: three rows */
+    EHL_IN_HARDNESS = EHL_IN_HEAT + NUMERICS_HEAT_INPUTS,
     EHL_IN_SHEAR_RATE,
     EHL_IN_BULK,
     EHL_IN_DISCRETISATION, /* of ehl/finite-volume alone */

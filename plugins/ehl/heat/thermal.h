@@ -17,8 +17,8 @@ typedef struct ehl_thermal_data {
     size_t across;                      /* nodes */
     double conductivity, heat_capacity; /* of the oil */
     double bulk;                        /* K, of the flanks and of the oil that enters */
-    double flank_contact;               /* B = sqrt(k rho c), J/(m2 K s^0.5) */
-    double flank_diffusivity;           /* k/(rho c), m2/s */
+    double flank_contact[2];            /* B = sqrt(k rho c), J/(m2 K s^0.5) */
+    double flank_diffusivity[2];        /* k/(rho c), m2/s */
     double friction;                    /* coefficient of asperities in contact */
     const ff_rheology_2 *flow;          /* NULL: Newtonian */
 } ehl_thermal_data;

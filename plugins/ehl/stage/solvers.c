@@ -58,12 +58,14 @@ static const ff_param params[] = {
              EHL_ACROSS_MOST, 0, 0,
              "thermal: full: nodes across the film, those of Gauss, Legendre and Lobatto; the "
              "error falls exponentially with them"),
-    FF_QUANTITY("flank_conductivity", "W/(m K)", ehl_model, flank_conductivity, 0, "47 W/(m K)",
-                NULL, 1e-3, 1e4, 0, 0, "thermal: full: of both flanks; steel 47"),
-    FF_QUANTITY("flank_density", "kg/m3", ehl_model, flank_density, 0, "7850 kg/m3", NULL, 1, 1e5,
-                0, 0, "thermal: full: of both flanks; steel 7850"),
-    FF_QUANTITY("flank_heat_capacity", "J/(kg K)", ehl_model, flank_heat_capacity, 0,
-                "455 J/(kg K)", NULL, 1, 1e5, 0, 0, "thermal: full: of both flanks; steel 455"),
+    FF_QUANTITY_UNLESS("gear.thermal_conductivity", "flank_conductivity", "W/(m K)", ehl_model,
+                       flank_conductivity, 0, NUMERICS_STEEL_CONDUCTIVITY, NULL, 1e-3, 1e4, 0, 0,
+                       "thermal: full: of both flanks, where no gear tells; steel 50"),
+    FF_QUANTITY_UNLESS("gear.density", "flank_density", "kg/m3", ehl_model, flank_density, 0,
+                       NUMERICS_STEEL_DENSITY, NULL, 1, 1e5, 0, 0, "likewise; steel 7850"),
+    FF_QUANTITY_UNLESS("gear.specific_heat", "flank_heat_capacity", "J/(kg K)", ehl_model,
+                       flank_heat_capacity, 0, NUMERICS_STEEL_HEAT, NULL, 1, 1e5, 0, 0,
+                       "likewise; steel 484"),
     FF_QUANTITY_OR("auto", "bulk_temperature", "degC", ehl_model, bulk_temperature, 0, "auto", NULL,
                    -150, 1000, 0, 0,
                    "thermal: full: temperature of the flanks before they meet, and of the oil that "
@@ -74,10 +76,12 @@ static const ff_param params[] = {
                 "molecular layers of an oil, 0.5 nm each (Israelachvili 2011)"),
     FF_QUANTITY("boundary_friction", "1", ehl_model, boundary_friction, 0, "0.10", NULL, 0, 2, 0.05,
                 0.2, "friction coefficient of the asperities in contact"),
-    FF_QUANTITY(
-        "asperity_hardness", "GPa", ehl_model, asperity_hardness, 0, "7 GPa", NULL, 0, 1e3, 0, 0,
-        "rough flanks: highest pressure, of asperities and of the film, at which the metal yields: "
-        "hardness of the softer flank, 7 GPa case-hardened (700 HV); 0: elastic at every pressure"),
+    FF_QUANTITY_UNLESS(
+        "gear.hardness", "asperity_hardness", "GPa", ehl_model, asperity_hardness, 0, "7 GPa", NULL,
+        0, 1e3, 0, 0,
+        "rough flanks: highest pressure, of asperities and of the film, at which the metal yields, "
+        "where no gear tells its hardness, of which the softer flank's counts: 7 GPa "
+        "case-hardened (700 HV); 0: elastic at every pressure"),
     FF_ONE_OF("sealed|ventilated", "valleys", ehl_model, valleys, 0, "sealed",
               "rough flanks: sealed: oil between asperities in contact has no way out but through "
               "their gaps, as between ridges along the tooth; ventilated: it leaks sideways, over "
@@ -91,7 +95,7 @@ static const ff_param params[] = {
 };
 
 #define SOLVER_MODEL                                                                               \
-    .size = sizeof(ff_model), .abi_major = FF_ABI_MAJOR, .abi_minor = 2,                           \
+    .size = sizeof(ff_model), .abi_major = FF_ABI_MAJOR, .abi_minor = 3,                           \
     .self_size = sizeof(ehl_model), .version = "1.0.0", .licence = "GPL-3.0-or-later",             \
     .params = FF_TABLE(params), .inputs = ehl_inputs, .input_stride = sizeof ehl_inputs[0],        \
     .outputs = FF_TABLE(ehl_outputs), .wire = ehl_wire, .ready = ehl_ready,                        \

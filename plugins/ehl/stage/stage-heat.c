@@ -22,7 +22,8 @@ static ff_status thermal_create(const ehl_model *m, const ff_array *in, ehl_marc
                                 double conductivity, ehl_thermal *thermal)
 {
     double T = m->laws.temperature, heat_capacity = NAN;
-    const double held = m->flank_density * m->flank_heat_capacity;
+    const double said[] = {m->flank_conductivity, m->flank_density, m->flank_heat_capacity};
+    numerics_heat flank[2];
     if (m->laws.rheology && !m->shear_rate)
         return ff_failf(m->host, FF_INVALID, "thermal",
                         "thermal: full needs the shear rate at a point of the film "
@@ -35,13 +36,17 @@ static ff_status thermal_create(const ehl_model *m, const ff_array *in, ehl_marc
                         "the oil does not tell its heat capacity at %g degC: give heat_capacity, "
                         "or its base, to the stage of the oil",
                         T - 273.15);
+    for (int g = 0; g < 2; g++)
+        if (numerics_heat_of(m->host, &in[EHL_IN_HEAT], said, g, &flank[g]) != FF_OK)
+            return FF_INVALID;
     const ehl_thermal_data data = {
         .across = (size_t)m->thermal_nodes,
         .conductivity = conductivity,
         .heat_capacity = heat_capacity,
         .bulk = bulk_temperature(m, in),
-        .flank_contact = sqrt(m->flank_conductivity * held),
-        .flank_diffusivity = m->flank_conductivity / held,
+        .flank_contact = {numerics_heat_contact(&flank[0]), numerics_heat_contact(&flank[1])},
+        .flank_diffusivity = {numerics_heat_diffusivity(&flank[0]),
+                              numerics_heat_diffusivity(&flank[1])},
         .friction = m->boundary_friction,
         .flow = m->shear_rate,
     };

@@ -71,6 +71,10 @@ ff_status ehl_ready(void *self)
         {!flat && m->wedge > 0, "wedge", "", NULL, "rough flanks take the first order"},
         {m->rough, "gear.roughness", "", "surface", "the surface has a roughness of its own"},
         {!full, "thermal_nodes", "", NULL, cold},
+        {flat, "gear.hardness", "", NULL, why},
+        {!full, "gear.thermal_conductivity", "", NULL, cold},
+        {!full, "gear.density", "", NULL, cold},
+        {!full, "gear.specific_heat", "", NULL, cold},
         {!full, "flank_conductivity", "", NULL, cold},
         {!full, "flank_density", "", NULL, cold},
         {!full, "flank_heat_capacity", "", NULL, cold},
@@ -84,6 +88,8 @@ ff_status ehl_ready(void *self)
 typedef struct run {
     ehl_history whole, history; /* of all engagements, and of the current one */
     ehl_roughness rough;
+    double hardness; /* of rough flanks, Pa; 0: they stay elastic */
+    int gears_tell;  /* it is that of the softer gear */
     ehl_oil oil;
     ehl_grid grid;
     ehl_reynolds reynolds;
@@ -160,18 +166,38 @@ static ff_status read_surface(const ehl_model *m, const ff_array *in, run *r)
                : ehl_roughness_create(&r->rough, in[EHL_IN_POSITION].data, &r->history, m->host);
 }
 
+/* The hardness of rough flanks, that of the softer gear or the parameter where no gear tells. */
+static ff_status read_hardness(const ehl_model *m, const ff_array *in, run *r)
+{
+    const ff_array *row = &in[EHL_IN_HARDNESS];
+    r->hardness = m->asperity_hardness;
+    if (!row->data || r->rough.count == 0)
+        return FF_OK;
+    r->gears_tell = 1;
+    r->hardness = HUGE_VAL;
+    for (size_t i = 0; i < row->shape[0]; i++) {
+        if (!(row->data[i] > 0))
+            return ff_failf(m->host, FF_INVALID, "gear.hardness",
+                            "the hardness of gear %zu is not known, and rough flanks need it; give "
+                            "the gear its hardness, or the name of its material",
+                            i + 1);
+        r->hardness = fmin(r->hardness, row->data[i]);
+    }
+    return FF_OK;
+}
+
 /* Refuses a hardness below the mean pressure pi/4 p_H (Johnson 1985, ch. 4): metal that yields all
    over carries its hardness times a length, which would be longer than the elastic contact. */
 static ff_status check_hardness(const ehl_model *m, const run *r)
 {
     const double mean = 3.14159265358979323846 / 4 * r->grid.pressure;
-    if (!(r->rough.count > 0 && m->asperity_hardness > 0) || m->asperity_hardness > mean)
+    if (!(r->rough.count > 0 && r->hardness > 0) || r->hardness > mean)
         return FF_OK;
-    return ff_failf(m->host, FF_INVALID, "asperity_hardness",
+    return ff_failf(m->host, FF_INVALID, r->gears_tell ? "gear.hardness" : "asperity_hardness",
                     "flanks of %.4g GPa would yield all over the contact, whose mean pressure is "
-                    "%.4g GPa under the largest load: asperity_hardness must be above that, or 0 "
-                    "for flanks that stay elastic",
-                    1e-9 * m->asperity_hardness, 1e-9 * mean);
+                    "%.4g GPa under the largest load: asperity_hardness, or that of the "
+                    "gears, must be above that, or 0 for flanks that stay elastic",
+                    1e-9 * r->hardness, 1e-9 * mean);
 }
 
 /* Fits the domain and its nodes to the contact, the oil and the roughness. */
@@ -214,7 +240,7 @@ static ff_status equations_create(const ehl_model *m, run *r)
         eq->wedge = 1;
         eq->contact = eq->floor = m->contact_film;
         eq->leak = m->valleys == EHL_VENTILATED ? 12 / (m->valley_length * m->valley_length) : 0;
-        eq->hardness = m->asperity_hardness;
+        eq->hardness = r->hardness;
         eq->give = r->kernel[0] - r->kernel[nodes - 1];
     }
     return FF_OK;
@@ -248,6 +274,8 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
     ff_status status = ehl_read_history(m->host, in, m->light_load, &r->history);
     if (status == FF_OK)
         status = read_surface(m, in, r);
+    if (status == FF_OK)
+        status = read_hardness(m, in, r);
     if (status == FF_OK)
         status = fit_grid(m, r);
     if (status == FF_OK)

@@ -63,9 +63,9 @@ static void test_moving_nodes(double slip)
 }
 
 /* Highest temperature of flanks under q (1 - x^2/a^2)^(1/2) that enters both of them at one
-   temperature: q sqrt(a/pi)/(B (sqrt(u1) + sqrt(u2))) times the largest of
+   temperature: q sqrt(a/pi)/(B1 sqrt(u1) + B2 sqrt(u2)) times the largest of
    int (1 - y^2)^(1/2) (x - y)^(-1/2) dy over -1 < y < x. */
-static double hertzian_flash(double q, double a, double B, double u1, double u2)
+static double hertzian_flash(double q, double a, const double B[2], double u1, double u2)
 {
     enum { PLACES = 200, CUTS = 400 };
     double most = 0;
@@ -77,14 +77,16 @@ static double hertzian_flash(double q, double a, double B, double u1, double u2)
         }
         most = fmax(most, sum);
     }
-    return q * sqrt(a / pi) * most / (B * (sqrt(u1) + sqrt(u2)));
+    return q * sqrt(a / pi) * most / (B[0] * sqrt(u1) + B[1] * sqrt(u2));
 }
 
 /* Slow flanks, and a contact film that is thicker than any film of oil: the asperities carry
- * Hertz's pressure. */
-static void test_asperities(double slip)
+ * Hertz's pressure. The flanks are those of the gears, of which the second conducts less, or the
+ * steel of no gear. */
+static void test_asperities(double slip, bool gears)
 {
-    const double B = sqrt(47. * 7850 * 455), mu = 0.1;
+    const double mu = 0.1, steel = sqrt(50. * 7850 * 484), bronze = sqrt(12. * 8800 * 380);
+    const double B[2] = {steel, gears ? bronze : steel};
     static flank f;
     line c;
     open_hot(&c, 256, slip);
@@ -94,6 +96,12 @@ static void test_asperities(double slip)
     stage_set_text(c.film, "valleys", "ventilated");
     stage_set(c.film, "valley_length", 20e-6);
     stage_set(c.film, "contact_film", 50e-9);
+    if (gears) {
+        stage_give_series(c.film, "gear.thermal_conductivity", 2, (double[]){50, 12});
+        stage_give_series(c.film, "gear.density", 2, (double[]){7850, 8800});
+        stage_give_series(c.film, "gear.specific_heat", 2, (double[]){484, 380});
+        stage_give_series(c.film, "gear.hardness", 2, (double[]){1e12, 1e12});
+    }
     c.u1[0] *= 1e-3;
     c.u2[0] *= 1e-3;
     if (!check_true("runs", line_run(&c, outputs) == FF_OK)) {
@@ -177,7 +185,8 @@ static void test_start(void)
 int main(void)
 {
     test_moving_nodes(-1);
-    test_asperities(-1.2);
+    test_asperities(-1.2, false);
+    test_asperities(-1.2, true);
     test_mixed();
     /* It takes 833 and 1687 Newton steps; where temperatures that come to no rest take whole sweeps
        2960, and there is no second film. Rounding decides which of them come to rest: the bounds

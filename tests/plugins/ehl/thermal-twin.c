@@ -181,7 +181,7 @@ int main(void)
     t.h = stage_get(c.film, "film", NULL);
     t.x = stage_get(c.film, "x", NULL);
     t.dx = t.x[1] - t.x[0];
-    t.B = sqrt(47. * 7850 * 455);
+    t.B = sqrt(50. * 7850 * 484);
     t.viscosity = stage_service(c.oil, FF_VISCOSITY_ID);
     t.density = stage_service(c.rho, FF_DENSITY_ID);
     const double *T = stage_get(c.film, "temperature", NULL);

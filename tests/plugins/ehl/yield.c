@@ -258,6 +258,15 @@ static void test_refusal(void)
     check_true("a hardness that cannot carry the load is refused",
                line_run(&c, "h_min") == FF_INVALID &&
                    !strcmp(stage_why_item(c.film), "asperity_hardness"));
+    const double low = 0.99 * pi / 4 * hertz_pressure(&c);
+    stage_set_text(c.film, "asperity_hardness", NULL);
+    stage_give_series(c.film, "gear.hardness", 2, (double[]){1e12, low});
+    check_true("that of the softer gear, too",
+               line_run(&c, "h_min") == FF_INVALID &&
+                   !strcmp(stage_why_item(c.film), "gear.hardness"));
+    stage_give_series(c.film, "gear.hardness", 2, (double[]){1e12, 0});
+    check_true("and one that is not known", line_run(&c, "h_min") == FF_INVALID &&
+                                                !strcmp(stage_why_item(c.film), "gear.hardness"));
     line_close(&c);
 }
 

@@ -28,6 +28,9 @@ static void check_steel(void)
     check_near("modulus", of(gear, "elastic_modulus", 1), 206e9, 0);
     check_near("mass", of(gear, "mass", 0), 7850 * M_PI * 0.04 * 0.04 * 0.04, 1e-12);
     check_near("no yield strength is known", of(gear, "yield_strength", 0), 0, 0);
+    check_near("conductivity", of(gear, "thermal_conductivity", 0), 50, 0);
+    check_near("specific heat", of(gear, "specific_heat", 1), 484, 0);
+    check_near("hardness, 700 HV", of(gear, "hardness", 1), 7e9, 0);
     stage_close(gear);
 }
 
@@ -59,6 +62,72 @@ static void check_numbers(void)
     stage_close(gear);
 }
 
+/* All names, typed a second time from their sources: GPa, 1, kg/m3, W/(m K), J/(kg K), GPa, MPa. */
+static void check_table(void)
+{
+    static const struct {
+        const char *name;
+        double E, nu, rho, k, c, hardness, yield;
+    } table[] = {{"18CrNiMo7-6", 210, 0.3, 7800, 50, 484, 7, 0},
+                 {"20MnCr5", 210, 0.3, 7800, 50, 484, 7, 0},
+                 {"42CrMo4", 210, 0.3, 7800, 42.6, 484, 2.95, 650},
+                 {"31CrMoV9", 210, 0.3, 7800, 50, 484, 7.85, 0},
+                 {"EN-GJS-500-7", 170, 0.3, 7200, 35.2, 515, 1.96, 320},
+                 {"EN-GJS-700-2", 180, 0.3, 7200, 31.1, 515, 2.6, 420},
+                 {"EN-GJL-250", 115, 0.3, 7200, 46, 490, 1.77, 165},
+                 {"CuSn12Ni2", 110, 0.34, 8700, 70, 370, 0.98, 200},
+                 {"POM", 3.2, 0.35, 1415, 0.30, 1465, 0, 59.8},
+                 {"PA66", 1.85, 0.3, 1140, 0.26, 1670, 0, 0},
+                 {"PEEK", 3.88, 0.4, 1340, 0.299, 1410, 0, 97.1}};
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
+        stage *gear = open_pair();
+        stage_set_text(gear, "material_2", table[i].name);
+        if (check_true(table[i].name, stage_run(gear) == FF_OK)) {
+            check_near("E", of(gear, "elastic_modulus", 1), 1e9 * table[i].E, 1e-15);
+            check_near("nu", of(gear, "poisson_ratio", 1), table[i].nu, 1e-15);
+            check_near("rho", of(gear, "density", 1), table[i].rho, 1e-15);
+            check_near("k", of(gear, "thermal_conductivity", 1), table[i].k, 1e-15);
+            check_near("c", of(gear, "specific_heat", 1), table[i].c, 1e-15);
+            check_near("H", of(gear, "hardness", 1), 1e9 * table[i].hardness, 1e-15);
+            check_near("yield", of(gear, "yield_strength", 1), 1e6 * table[i].yield, 1e-15);
+            check_near("gear 1 keeps its own", of(gear, "thermal_conductivity", 0), 50, 0);
+        }
+        stage_close(gear);
+    }
+}
+
+/* A modulus that is not that of steel is of a material whose heat is not known. */
+static void check_contradiction(void)
+{
+    stage *gear = open_pair();
+    stage_set_text(gear, "elastic_modulus", "[206 GPa, 2.8 GPa]");
+    stage_set_text(gear, "density", "[7850 kg/m3, 1410 kg/m3]");
+    check_true("another material", stage_run(gear) == FF_OK);
+    check_near("steel stays steel", of(gear, "thermal_conductivity", 0), 50, 0);
+    check_near("no conductivity of steel", of(gear, "thermal_conductivity", 1), 0, 0);
+    check_near("no heat of steel", of(gear, "specific_heat", 1), 0, 0);
+    check_near("no hardness of steel", of(gear, "hardness", 1), 0, 0);
+    stage_set_text(gear, "thermal_conductivity", "[51 W/(m K), 0.31 W/(m K)]");
+    stage_set_text(gear, "hardness", "[6 GPa, 0.15 GPa]");
+    check_true("with what is known of it", stage_run(gear) == FF_OK);
+    check_near("typed of steel", of(gear, "thermal_conductivity", 0), 51, 0);
+    check_near("typed of the other", of(gear, "thermal_conductivity", 1), 0.31, 0);
+    check_near("its hardness", of(gear, "hardness", 1), 0.15e9, 1e-15);
+    stage_close(gear);
+    gear = open_pair();
+    stage_set_text(gear, "material", "POM");
+    stage_set_text(gear, "elastic_modulus", "2.8 GPa");
+    check_true("a grade of a polymer", stage_run(gear) == FF_OK);
+    check_near("is that polymer", of(gear, "thermal_conductivity", 1), 0.30, 0);
+    stage_close(gear);
+    gear = open_pair();
+    stage_set_text(gear, "material", "42CrMo4");
+    stage_set_text(gear, "density", "7000 kg/m3");
+    check_true("another density", stage_run(gear) == FF_OK);
+    check_near("another steel", of(gear, "yield_strength", 0), 0, 0);
+    stage_close(gear);
+}
+
 static void check_misspelt(void)
 {
     stage *gear = open_pair();
@@ -73,6 +142,8 @@ int main(void)
     check_steel();
     check_two();
     check_numbers();
+    check_table();
+    check_contradiction();
     check_misspelt();
     return check_done();
 }

@@ -4,6 +4,7 @@
 #include "engagement.h"
 
 #include <math.h>
+#include <string.h>
 
 static engagement e;
 
@@ -59,6 +60,27 @@ static void test_flash(steel one, steel two)
     stage_close(s);
 }
 
+/* The gears say what they are made of, each its own; steel never stands in for one that does not.
+ */
+static void test_gears_tell(steel one, steel two)
+{
+    engagement_fill(&e, 1.6);
+    stage *s = engagement_open(&e);
+    stage_give_series(s, "gear.thermal_conductivity", 2, (double[]){one.k, two.k});
+    stage_give_series(s, "gear.density", 2, (double[]){one.rho, two.rho});
+    stage_give_series(s, "gear.specific_heat", 2, (double[]){one.c, two.c});
+    check_true("runs", stage_run(s) == FF_OK);
+    check_near("flash temperature", stage_get(s, "flash_temperature", NULL)[500],
+               expected(&e, 500, one, two), 2e-3);
+    const double loss = stage_scalar(s, "power_loss_mean");
+    stage_give_series(s, "gear.thermal_conductivity", 2, (double[]){one.k, 0});
+    check_true("a gear that does not tell", stage_run_wanted(s, "flash_temperature_max") != FF_OK &&
+                                                strstr(stage_why(s), "of gear 2 is not given"));
+    check_true("has a loss all the same", stage_run_wanted(s, "power_loss_mean") == FF_OK);
+    check_near("the same", stage_scalar(s, "power_loss_mean"), loss, 0);
+    stage_close(s);
+}
+
 static void test_highest_contact_temperature(void)
 {
     engagement_fill(&e, 1.6);
@@ -110,6 +132,7 @@ int main(void)
 {
     test_flash(ordinary, ordinary);
     test_flash(ordinary, (steel){0.3, 1400, 1500}); /* on a polymer */
+    test_gears_tell((steel){0.3, 1415, 1465}, ordinary);
     test_highest_contact_temperature();
     test_slow_sources_are_doubted();
     test_no_heat_without_load();

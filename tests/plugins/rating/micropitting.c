@@ -10,9 +10,51 @@
 
 static const double degree = M_PI / 180;
 
+/* The steel of ISO/TR 15144-1. */
+static void set_steel(stage *s)
+{
+    stage_set_text(s, "thermal_conductivity", "45 W/(m K)");
+    stage_set_text(s, "density", "7800 kg/m3");
+    stage_set_text(s, "specific_heat", "440 J/(kg K)");
+}
+
+/* Gears that conduct heat by themselves, each its own, and gears that are not of steel. */
+static void check_materials(void)
+{
+    static const double k[] = {45, 20}, rho[] = {7800, 7700}, c[] = {440, 500};
+    static const double steel[] = {206e9, 206e9}, iron[] = {206e9, 170e9};
+    stage *oil, *s = pair_open("rating/micropitting", &pair_c, &oil);
+    stage_give_series(s, "gear.thermal_conductivity", 2, k);
+    stage_give_series(s, "gear.density", 2, rho);
+    stage_give_series(s, "gear.specific_heat", 2, c);
+    stage_give_series(s, "gear.elastic_modulus", 2, steel);
+    if (check_true("two steels", stage_run(s) == FF_OK)) {
+        stage *other, *one = pair_open("rating/micropitting", &pair_c, &other);
+        set_steel(one);
+        check_true("one steel", stage_run(one) == FF_OK);
+        /* Blok's heat flows by B1 sqrt(v1) + B2 sqrt(v2), and v1/v2 at A is z2 R1/(z1 R2) */
+        const double bulk = stage_scalar(one, "bulk_temperature"), a = 20 * degree;
+        const double L = 91.5 * sin(acos(180 * cos(a) / 183)), db = 108 * cos(a),
+                     r2 = sqrt(118.36 * 118.36 - db * db) / 2, v = 1.5 * (L - r2) / r2;
+        const double B1 = sqrt(45 * 7800 * 440.0), B2 = sqrt(20 * 7700 * 500.0);
+        const double rise = stage_get(one, "contact_temperature", NULL)[0] - bulk;
+        check_near("share the heat by their B", stage_get(s, "contact_temperature", NULL)[0] - bulk,
+                   rise * B1 * (sqrt(v) + 1) / (B1 * sqrt(v) + B2), 1e-9);
+        stage_close(one);
+        stage_close(other);
+    }
+    stage_give_series(s, "gear.elastic_modulus", 2, iron);
+    check_true("cast iron is refused", stage_run(s) == FF_INVALID &&
+                                           strstr(stage_why(s), "covers gears of steel") &&
+                                           strstr(stage_why(s), "gear 2 has 170 GPa"));
+    stage_close(s);
+    stage_close(oil);
+}
+
 static void check_by_hand(const pair *p)
 {
     stage *oil, *s = pair_open("rating/micropitting", p, &oil);
+    set_steel(s);
     if (!check_true("a pair is rated", stage_run(s) == FF_OK))
         return;
     const double *z = p->teeth, a = 20 * degree, E = 206000 / 0.91;
@@ -57,6 +99,7 @@ static void check_by_hand(const pair *p)
 static stage *open_reference(const pair *p, stage **oil)
 {
     stage *s = pair_open("rating/micropitting", p, oil);
+    set_steel(s);
     stage_set_text(s, "supply", "spray");
     stage_set(s, "application_factor", 236.3 / (265.1e3 / 33.829 / 14 / 3));
     return s;
@@ -151,6 +194,7 @@ int main(void)
     slow.torque = 300, slow.rpm = 1500, slow.oil = 80;
     check_by_hand(&pair_c);
     check_by_hand(&slow);
+    check_materials();
     check_annex();
     check_printed_test();
     check_own();

@@ -35,11 +35,21 @@ static double by_factors(const pair *p, double mu, double place, double angle, d
     return mu * 50.04 * X_G * pow(w, 0.75) * sqrt(speed) / pow(91.5, 0.25);
 }
 
+/* A rating with the steel of ISO/TR 13989-2, clause 5.3. */
+static stage *open_scuffing(const pair *p, stage **oil)
+{
+    stage *s = pair_open("rating/scuffing", p, oil);
+    stage_set_text(s, "thermal_conductivity", "50 W/(m K)");
+    stage_set_text(s, "density", "7850 kg/m3");
+    stage_set_text(s, "specific_heat", "484 J/(kg K)");
+    return s;
+}
+
 /* The constants of formula 5 are printed to three digits, and its load is that of the pitch circle,
    6 % less than the normal one: 2.3 % less than Blok's. */
 static void check_flash(const pair *p)
 {
-    stage *oil, *s = pair_open("rating/scuffing", p, &oil);
+    stage *oil, *s = open_scuffing(p, &oil);
     stage_set(s, "load_stage", 12);
     stage_set(s, "points", 2000);
     if (check_true("a pair is rated", stage_run(s) == FF_OK)) {
@@ -73,7 +83,7 @@ static void check_approach(const pair *p)
     double at[2], roll = NAN;
     relieved.relief[1] = 1e3;
     for (int k = 0; k < 2; k++) {
-        stage *oil, *s = pair_open("rating/scuffing", k == 0 ? p : &relieved, &oil);
+        stage *oil, *s = open_scuffing(k == 0 ? p : &relieved, &oil);
         stage_set(s, "load_stage", 12);
         check_true("a relieved pair is rated", stage_run(s) == FF_OK);
         at[k] = stage_get(s, "flash_temperature", NULL)[0];
@@ -103,7 +113,7 @@ static double overlap(double e1, double e2)
    pinion, whoever drives; X_Q and X_Ca ask who does. */
 static void check_integral(const pair *p, double stage_of_failure)
 {
-    stage *oil, *s = pair_open("rating/scuffing", p, &oil);
+    stage *oil, *s = open_scuffing(p, &oil);
     stage_set(s, "load_stage", stage_of_failure);
     if (check_true("a pair is rated by integral temperature", stage_run(s) == FF_OK)) {
         const int one = p->teeth[1] < p->teeth[0], two = 1 - one, driving = 0, driven = 1;
@@ -148,7 +158,7 @@ static void check_test_gear(void)
 {
     double safety[2][2];
     for (int k = 0; k < 2; k++) {
-        stage *oil, *s = pair_open("rating/scuffing", &pair_a, &oil);
+        stage *oil, *s = open_scuffing(&pair_a, &oil);
         stage_set(s, "load_stage", k == 0 ? 12 : 11);
         check_true("the test gear is rated", stage_run(s) == FF_OK);
         memcpy(safety[k], stage_get(s, "safety", NULL), sizeof safety[k]);
@@ -166,7 +176,7 @@ static void check_test_gear(void)
 static void check_refusals(void)
 {
     static const double smooth[] = {0, 0};
-    stage *oil, *s = pair_open("rating/scuffing", &pair_c, &oil);
+    stage *oil, *s = open_scuffing(&pair_c, &oil);
     stage_set(s, "load_stage", 12);
     check_true("own temperature without losses",
                stage_run_wanted(s, "own_contact_temperature_max") != FF_OK &&

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How the flanks of a gear pair conduct heat: as the gears say, or parameters where no gear does.
+ */
+#ifndef NUMERICS_GEAR_HEAT_H
+#define NUMERICS_GEAR_HEAT_H
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+
+/* The steel that is meant where nothing else is said, as users write it. */
+#define NUMERICS_STEEL_CONDUCTIVITY "50 W/(m K)"
+#define NUMERICS_STEEL_DENSITY      "7850 kg/m3"
+#define NUMERICS_STEEL_HEAT         "484 J/(kg K)"
+
+/* A list for both gears that an input replaces where a gear offers it. */
+#define NUMERICS_LIST_UNLESS(wire, name, unit, type, member, preset, min, max, doc)                \
+    FF_ROW_UNLESS(wire, name, unit, doc, FF_REALS, 0, preset, NULL, NULL, min, max, 0, 0, 1, 2,    \
+                  FF_PLACE(type, member, ff_reals))
+
+/* Three input rows, one after the other. */
+#define NUMERICS_HEAT_ROWS(kind)                                                                   \
+    {.name = "gear.thermal_conductivity",                                                          \
+     .unit = "W/(m K)",                                                                            \
+     .doc = "thermal conductivities of the gears, 0: not known",                                   \
+     .dims = "gear",                                                                               \
+     .flags = FF_OPTIONAL,                                                                         \
+     .from = kind},                                                                                \
+        {.name = "gear.density",                                                                   \
+         .unit = "kg/m3",                                                                          \
+         .doc = "densities of the gears",                                                          \
+         .dims = "gear",                                                                           \
+         .flags = FF_OPTIONAL,                                                                     \
+         .from = kind},                                                                            \
+    {                                                                                              \
+        .name = "gear.specific_heat", .unit = "J/(kg K)",                                          \
+        .doc = "specific heats of the gears, 0: not known", .dims = "gear", .flags = FF_OPTIONAL,  \
+        .from = kind                                                                               \
+    }
+enum { NUMERICS_HEAT_INPUTS = 3 };
+
+typedef struct numerics_heat {
+    double conductivity, density, specific_heat; /* SI */
+} numerics_heat;
+
+/* The heat contact coefficient B = sqrt(k rho c), J/(m2 K s^0.5). */
+static inline double numerics_heat_contact(const numerics_heat *h)
+{
+    return sqrt(h->conductivity * h->density * h->specific_heat);
+}
+
+/* k/(rho c), m2/s. */
+static inline double numerics_heat_diffusivity(const numerics_heat *h)
+{
+    return h->conductivity / (h->density * h->specific_heat);
+}
+
+/* The number in row k of gear g; NaN where a row is too short. */
+static inline double numerics_heat_value(const ff_array *in,
+                                         const double said[NUMERICS_HEAT_INPUTS], int k, int g)
+{
+    const ff_array *row = &in[k];
+    if (!row->data)
+        return said[k];
+    return row->rank == 1 && row->shape[0] > (size_t)g ? row->data[g] : NAN;
+}
+
+/* What gear `g`, 0 or 1, conducts heat by: `in` are the three rows, `said` what the parameters say
+   in their place. A gear that does not tell is refused. */
+static inline ff_status numerics_heat_of(const ff_host *host, const ff_array *in,
+                                         const double said[NUMERICS_HEAT_INPUTS], int g,
+                                         numerics_heat *h)
+{
+    static const char *const item[] = {"gear.thermal_conductivity", "gear.density",
+                                       "gear.specific_heat"};
+    static const char *const name[] = {"thermal_conductivity", "density", "specific_heat"};
+    double value[NUMERICS_HEAT_INPUTS];
+    for (int k = 0; k < NUMERICS_HEAT_INPUTS; k++) {
+        value[k] = numerics_heat_value(in, said, k, g);
+        if (!(value[k] > 0 && isfinite(value[k])))
+            return ff_failf(
+                host, FF_INVALID, item[k],
+                "%s of gear %d is not given, and its modulus or density is not that of its "
+                "material, steel unless another is named; give the gear its "
+                "thermal_conductivity and specific_heat, or the name of its material",
+                name[k], g + 1);
+    }
+    *h = (numerics_heat){value[0], value[1], value[2]};
+    return FF_OK;
+}
+
+/* Whether gear `g` tells. */
+static inline int numerics_heat_known(const ff_array *in, const double said[NUMERICS_HEAT_INPUTS],
+                                      int g)
+{
+    int known = 1;
+    for (int k = 0; k < NUMERICS_HEAT_INPUTS; k++)
+        known &= numerics_heat_value(in, said, k, g) > 0;
+    return known;
+}
+
+#endif
