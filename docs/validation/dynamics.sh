@@ -13,7 +13,7 @@ trap 'rm -rf "$work"' EXIT
 # source | title | what is set
 cat > "$work/variants" <<'LIST'
 energy|potential energy|mesh.use=stiffness/potential-energy
-load|load distribution with corner contact|mesh.use=stiffness/load-distribution mesh.corner_contact=true
+load|load distribution with corner contact|mesh.use=stiffness/load-distribution mesh.definition=secant mesh.corner_contact=true
 LIST
 
 # rms over frequency in the words of plot.awk: colour by period, dashes where unstable

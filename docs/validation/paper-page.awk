@@ -205,8 +205,13 @@ function figure3(  k0, n, low, i, h, fmass, a, b, least) {
     row("the upper motion loses contact (III) and softens", F("%.3g of the time apart; rms %.1f um; from %.0f Hz to lower speeds", s["IIIm.contact_loss"], 1e6 * s["IIIm.dte_rms"], begins), \
         "> 0; ends below f_n", s["IIIm.contact_loss"] > 0 && ends < 3242)
     row("agrees well with the measured response of the same pair (their refs. 7 to 9)", "-", "the measured curves were at hand as numbers", -1)
+    h["begins"] = begins
     least = face * over("Is", "load_per_width", lpstc - 1) / (0.13 * over("Ifs", "h_central", lpstc - 1))
     row("the lubricant is several orders stiffer than the mesh, by the Hamrock-Dowson formula", F("W/(0.13 h_central), as h falls with the load to the power -0.13 (Dowson & Higginson), is %.0f times the mean of k", least / k0), "over 100 times", least > 100 * k0)
+    softening("aslope", 1)
+    say("All this is with the chord F/(e_l - e) for k, as the paper has it (`definition: secant`). A small vibration sees the slope dF/d(e_l), the preset of the model, " \
+        F("whose mean is %.1f %% higher. f_n is given, so that the mass takes that up; with the slope the rms of s at I, II and III is %.3f, %.3f and %.2f um for %.3f, %.3f and %.2f with the chord, and the upper motion starts at %.0f Hz for %.0f.", \
+          100 * (s["kslope.stiffness_mean"] / k0 - 1), 1e6 * s["Islope.dte_rms"], 1e6 * s["IIslope.dte_rms"], 1e6 * s["IIIslope.dte_rms"], 1e6 * s["Im.dte_rms"], 1e6 * s["IIm.dte_rms"], 1e6 * s["IIIm.dte_rms"], begins, h["begins"]))
     say("The linear amplitudes are as large as the harmonics of k and cannot be confirmed before the paper's are known; " \
         "the upper branch hardly knows k. Beyond the figure there are resonances at f_n/4 and below, as harmonics 5 to 7 " \
         "of a k(t) with jumps make them, and from about 2100 to 2200 Hz the lower motion is unstable. All branches: [dynamics](dynamics.md); k by other models: [stiffness](stiffness.md).")

@@ -12,6 +12,7 @@ BEGIN {
         load(in_ "/" P, "motion", P "m")
         load(in_ "/" P, "motion-harmonic", P "h")
         scalars(in_ "/" P, "motion", P "m")
+        scalars(in_ "/" P "-slope", "motion", P "slope")
         load(in_ "/" P, "gears", P "w")
         load(in_ "/" P, "motion-station", P "w")
         for (i = 1; i <= count[P "w"]; i++) v[P "w.dynamic", i] = v[P "w.tooth_force", i]
@@ -25,6 +26,8 @@ BEGIN {
     load(in_ "/fine", "film", "fine")
     load(in_ "/coarse", "film_static", "coarse")
     load(in_ "/atlas", "motion-point", "a")
+    load(in_ "/atlas-slope", "motion-point", "aslope")
+    scalars(in_ "/I-slope", "mesh", "kslope")
     size_count = split(parts_of_k, size, " ")
     for (i = 1; i <= size_count; i++) load(in_ "/k-" size[i], "motion-point", "a" size[i])
     load(in_ "/flanks", "flanks", "r")

@@ -53,13 +53,15 @@ rough="film.h_min, film.p_max, film.contact_ratio, film.asperity_load_share, fil
     sed -n '/^p \[/,$p' > "$work/laws.csv"
 for point in I II III; do
     at $point $point "$here/paper.yaml"
+    at $point $point-slope "$here/paper.yaml" --set mesh.definition=tangent --set 'outputs=[mesh.stiffness_mean, motion.dte_rms]'
     at $point $point-fields "$here/paper.yaml" --set "outputs=[$fields, $static]"
 done
 at I fine "$here/paper.yaml" --set film.cells=1024 --set film.steps=2000 --set 'outputs=[film.h_min, film.roll_angle]'
 at I coarse "$here/paper.yaml" --set film_static.steps=125 --set 'outputs=[film_static.h_min, film_static.roll_angle]'
 at I step "$here/paper.yaml" --set static.load_ramp='0 deg' --set tooth.load_ramp='0 deg' \
     --set "outputs=[film.pressure, film.x, film.roll_angle, film_static.pressure, film_static.x, film_static.roll_angle]"
-run atlas "$here/dynamics.yaml" --set mesh.use=stiffness/load-distribution --set motion.max_period=1
+run atlas "$here/dynamics.yaml" --set mesh.use=stiffness/load-distribution --set mesh.definition=secant --set motion.max_period=1
+run atlas-slope "$here/dynamics.yaml" --set mesh.use=stiffness/load-distribution --set mesh.definition=tangent --set motion.max_period=1
 # harmonics 1 to 3 of this k(t), whole and in parts of their size
 parts="1 0.5 0.35 0.25 0.15"
 for part in $parts; do

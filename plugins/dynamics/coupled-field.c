@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "coupled-field.h"
 
+#include "spring.h"
+
 #include <gsl/gsl_errno.h>
 
 #include <math.h>
@@ -22,14 +24,29 @@ int dynamics_field_damps(const dynamics_field *field, int flank)
            !r->touches[DYNAMICS_DRIVING] && !r->touches[DYNAMICS_BACK];
 }
 
-/* The stiffness of the mesh at a place, which the displacement may not take below 0. */
-static double stiffness_at(const dynamics_field *field, double phase, const dynamics_place *place)
+/* The mesh spring of a flank at a place. The displacement of the centres changes the stiffness,
+   which it may not take below 0, and with it the force that the mounted pair would have, in one
+   proportion.
+ */
+typedef struct mesh_spring {
+    double slope, offset; /* of the force over the overlap */
+    double by_stiffness;  /* derivative of the force by the stiffness */
+} mesh_spring;
+
+static mesh_spring spring_at(const dynamics_field *field, double phase, const dynamics_place *place,
+                             int flank, double overlap)
 {
     const dynamics_piece *piece = field->now->piece;
-    double mounted = dynamics_piece_value(piece->k, piece->degree, phase - piece->start);
-    return fmax(mounted + dynamics_coupled_stiffness_change(
+    double since = phase - piece->start, k = dynamics_piece_value(piece->k, piece->degree, since);
+    double now = fmax(k + dynamics_coupled_stiffness_change(
                               field->pair, place, phase, field->regime.pairs, field->now->mounted),
-                0);
+                      0);
+    if (!piece->bends || !(k > 0))
+        return (mesh_spring){now, 0, overlap};
+    int band = field->regime.band[flank];
+    double slope = dynamics_piece_value(dynamics_spring_slope(piece, band), piece->degree, since);
+    double offset = band ? dynamics_piece_value(piece->offset, piece->degree, since) : 0;
+    return (mesh_spring){now / k * slope, now / k * offset, (slope * overlap - offset) / k};
 }
 
 static void add_force(dynamics_push *p, const dynamics_overlap *overlap, double normal)
@@ -44,14 +61,15 @@ dynamics_push dynamics_field_push(const dynamics_field *field, double t, const d
     const dynamics_coupled *pair = field->pair;
     const dynamics_piece *piece = field->now->piece;
     double phase = dynamics_field_phase(field, t), since = phase - piece->start;
-    double c = 2 * pair->excitation->zeta, k = stiffness_at(field, phase, place);
+    double c = 2 * pair->excitation->zeta;
     double e = dynamics_piece_value(piece->e, piece->degree, since);
     double e_rate = dynamics_piece_slope(piece->e, piece->degree, since) / field->T;
     dynamics_push p = {0};
     for (int i = 0; i < DYNAMICS_FLANKS; i++) {
         p.overlap[i] =
             dynamics_coupled_overlap(pair, place, side_of[i], y, y + DYNAMICS_RATES, e, e_rate);
-        p.normal[i] = k * p.overlap[i].value + c * p.overlap[i].rate;
+        mesh_spring spring = spring_at(field, phase, place, i, p.overlap[i].value);
+        p.normal[i] = spring.slope * p.overlap[i].value + c * p.overlap[i].rate - spring.offset;
         if (dynamics_field_damps(field, i))
             add_force(&p, &p.overlap[i], p.normal[i]);
     }
@@ -101,21 +119,22 @@ static normal_force normal_at(const dynamics_field *field, double t, const doubl
     double phase = dynamics_field_phase(field, t), since = phase - piece->start;
     double e = dynamics_piece_value(piece->e, piece->degree, since);
     double e_rate = dynamics_piece_slope(piece->e, piece->degree, since) / field->T;
-    double c = 2 * pair->excitation->zeta, k = 0, by_shift = 0;
+    double c = 2 * pair->excitation->zeta, by_shift = 0;
     int side = side_of[flank];
-    if (side)
-        k = stiffness_at(field, phase, place);
-    if (k > 0)
-        by_shift = dynamics_coupled_stiffness_slope(pair, place, phase, field->regime.pairs);
     normal_force n = {.overlap = dynamics_coupled_overlap(pair, place, side, y, v, e, e_rate),
                       .bend = dynamics_coupled_bend(place, side)};
-    n.value = k * n.overlap.value + c * n.overlap.rate;
+    mesh_spring spring = {0};
+    if (side)
+        spring = spring_at(field, phase, place, flank, n.overlap.value);
+    if (spring.slope > 0)
+        by_shift = dynamics_coupled_stiffness_slope(pair, place, phase, field->regime.pairs);
+    n.value = spring.slope * n.overlap.value + c * n.overlap.rate - spring.offset;
     double turning[DYNAMICS_COORDINATES], shift[DYNAMICS_COORDINATES];
     dynamics_bend_apply(&n.bend, v, turning);
     dynamics_coupled_shift_slope(pair, place, shift, NULL);
     for (int i = 0; i < DYNAMICS_COORDINATES; i++) {
-        n.by_state[i] =
-            k * n.overlap.gradient[i] + by_shift * n.overlap.value * shift[i] + c * turning[i];
+        n.by_state[i] = spring.slope * n.overlap.gradient[i] +
+                        by_shift * spring.by_stiffness * shift[i] + c * turning[i];
         n.by_state[DYNAMICS_RATES + i] = c * n.overlap.gradient[i];
     }
     return n;
@@ -158,6 +177,25 @@ void dynamics_field_jacobian(const dynamics_field *field, double t, const double
     }
 }
 
+void dynamics_field_find_bands(dynamics_field *field, double t, const double *overlap)
+{
+    const dynamics_piece *piece = field->now->piece;
+    double since = dynamics_field_phase(field, t) - piece->start;
+    for (int i = 0; i < DYNAMICS_FLANKS; i++)
+        field->regime.band[i] = overlap[i] > 0 ? dynamics_spring_band(piece, since, overlap[i]) : 0;
+}
+
+/* The gate at the knee of the spring of a flank. */
+static double knee_gate(const dynamics_field *field, double t, int flank, double overlap)
+{
+    const dynamics_piece *piece = field->now->piece;
+    if (!piece->bends || !field->regime.touches[flank])
+        return 1;
+    double since = dynamics_field_phase(field, t) - piece->start;
+    double excess = dynamics_spring_excess(piece, since, overlap);
+    return field->regime.band[flank] ? excess : -excess;
+}
+
 void dynamics_field_gates(const dynamics_field *field, double t, const double *y,
                           double gate[DYNAMICS_GATES])
 {
@@ -173,6 +211,7 @@ void dynamics_field_gates(const dynamics_field *field, double t, const double *y
         gate[DYNAMICS_PRESS + i] = !clipped ? 1 : r->pressed[i] ? p.normal[i] : -p.normal[i];
         if (clipped && r->pressed[i])
             gate[DYNAMICS_TOUCH + i] = 1; /* the damper lets go before the flanks part */
+        gate[DYNAMICS_KNEE + i] = knee_gate(field, t, i, p.overlap[i].value);
     }
     gate[DYNAMICS_COMES] = place.entry - (age + r->pairs.youngest - 1);
     gate[DYNAMICS_GOES] = place.exit - (age + r->pairs.oldest);
@@ -206,10 +245,13 @@ void dynamics_field_pass_gate(dynamics_field *field, int gate)
         r->pairs.youngest--;
     } else if (gate == DYNAMICS_GOES) {
         r->pairs.oldest--;
+    } else if (gate >= DYNAMICS_KNEE) {
+        r->band[gate - DYNAMICS_KNEE] = !r->band[gate - DYNAMICS_KNEE];
     } else if (gate >= DYNAMICS_PRESS) {
         r->pressed[gate - DYNAMICS_PRESS] = !r->pressed[gate - DYNAMICS_PRESS];
     } else {
         r->touches[gate] = !r->touches[gate];
         r->pressed[gate] = r->touches[gate];
+        r->band[gate] = 0;
     }
 }

@@ -27,6 +27,7 @@ enum { DYNAMICS_DRIVING, DYNAMICS_BACK, DYNAMICS_FLANKS };
    behind the teeth, since a clipped damper would have to pull it. */
 typedef struct dynamics_regime {
     int touches[DYNAMICS_FLANKS], pressed[DYNAMICS_FLANKS];
+    int band[DYNAMICS_FLANKS]; /* of the spring (spring.h) */
     dynamics_pairs pairs;
 } dynamics_regime;
 
@@ -64,10 +65,14 @@ int dynamics_field_damps(const dynamics_field *field, int flank);
 enum {
     DYNAMICS_TOUCH,
     DYNAMICS_PRESS = DYNAMICS_FLANKS,
-    DYNAMICS_COMES = 2 * DYNAMICS_FLANKS,
+    DYNAMICS_KNEE = 2 * DYNAMICS_FLANKS,
+    DYNAMICS_COMES = 3 * DYNAMICS_FLANKS,
     DYNAMICS_GOES,
     DYNAMICS_GATES
 };
+
+/* Sets the bands of the springs that belong to the overlaps of the flanks. */
+void dynamics_field_find_bands(dynamics_field *field, double t, const double *overlap);
 
 void dynamics_field_gates(const dynamics_field *field, double t, const double *y,
                           double gate[DYNAMICS_GATES]);

@@ -166,7 +166,6 @@ dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dy
 void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
 {
     const dynamics_excitation *excitation = pair->excitation;
-    double k = dynamics_rest_stiffness(excitation);
     dynamics_place place;
     memset(state, 0, 2 * DYNAMICS_COORDINATES * sizeof *state);
     for (int i = 0; i < 20; i++) {
@@ -179,8 +178,8 @@ void dynamics_coupled_rest(const dynamics_coupled *pair, double *state)
         }
     }
     dynamics_coupled_locate(pair, state, &place);
-    state[DYNAMICS_Q] = excitation->load / k + place.half_gap + excitation->pieces[0].e[0] +
-                        pair->base * place.turn;
+    state[DYNAMICS_Q] = dynamics_rest_bend(excitation) + place.half_gap +
+                        excitation->pieces[0].e[0] + pair->base * place.turn;
 }
 
 /* The mesh stiffness before (`left`) or behind a place of contact. */

@@ -123,8 +123,26 @@ void dynamics_coupled_run_free(dynamics_coupled_run *run)
 static void set_contact(dynamics_coupled_run *run, const dynamics_place *place)
 {
     dynamics_push p = dynamics_field_push(&run->field, run->t, run->y, place);
+    double overlap[DYNAMICS_FLANKS];
+    for (int i = 0; i < DYNAMICS_FLANKS; i++) {
+        overlap[i] = p.overlap[i].value;
+        run->field.regime.touches[i] = run->field.regime.pressed[i] = overlap[i] > 0;
+    }
+    dynamics_field_find_bands(&run->field, run->t, overlap);
+}
+
+/* Sets the bands of the springs anew where one piece of the mesh cycle follows another. */
+static void set_bands(dynamics_coupled_run *run)
+{
+    dynamics_place place;
+    double overlap[DYNAMICS_FLANKS];
+    if (!run->field.now->piece->bends)
+        return;
+    dynamics_coupled_locate(run->field.pair, run->y, &place);
+    dynamics_push p = dynamics_field_push(&run->field, run->t, run->y, &place);
     for (int i = 0; i < DYNAMICS_FLANKS; i++)
-        run->field.regime.touches[i] = run->field.regime.pressed[i] = p.overlap[i].value > 0;
+        overlap[i] = run->field.regime.touches[i] ? p.overlap[i].value : 0;
+    dynamics_field_find_bands(&run->field, run->t, overlap);
 }
 
 void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *state)
@@ -318,8 +336,10 @@ static void enter_stretch(dynamics_coupled_run *run, const dynamics_stretch *nex
     dynamics_place place;
     run->field.now = next;
     run->t = 0;
-    if (!next->jump)
+    if (!next->jump) {
+        set_bands(run);
         return;
+    }
     double leap = next->piece->e[0] - old, before_leap, after_leap;
     dynamics_coupled_energy(run, &before_leap);
     dynamics_coupled_locate(pair, run->y, &place);

@@ -2,6 +2,7 @@
 #include "excitation.h"
 
 #include "smooth-piece.h"
+#include "spring.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,31 +15,50 @@ static double end_value(const dynamics_piece *p, const double *c)
     return dynamics_piece_value(c, p->degree, p->length);
 }
 
-/* Whether b carries on the straight lines of a. */
-static int continues(const dynamics_piece *a, const dynamics_piece *b)
+static int meets(const dynamics_piece *a, const double *end, const double *start)
 {
-    double length = a->length + b->length;
-    return a->degree == 1 && b->degree == 1 && fabs(end_value(a, a->k) - b->k[0]) <= round_off &&
-           fabs(end_value(a, a->e) - b->e[0]) <= round_off &&
-           fabs(a->k[1] - b->k[1]) * length <= round_off &&
-           fabs(a->e[1] - b->e[1]) * length <= round_off;
+    return fabs(end_value(a, end) - start[0]) <= round_off;
+}
+
+static int has_slope_of(const double *a, const double *b, double length)
+{
+    return fabs(a[1] - b[1]) * length <= round_off;
 }
 
 static int jumps(const dynamics_piece *a, const dynamics_piece *b)
 {
-    return fabs(end_value(a, a->k) - b->k[0]) > round_off ||
-           fabs(end_value(a, a->e) - b->e[0]) > round_off;
+    return !meets(a, a->k, b->k) || !meets(a, a->e, b->e) || !meets(a, a->chord, b->chord) ||
+           !meets(a, a->offset, b->offset);
+}
+
+/* Whether b carries on the straight lines of a. */
+static int continues(const dynamics_piece *a, const dynamics_piece *b)
+{
+    double length = a->length + b->length;
+    return a->degree == 1 && b->degree == 1 && !jumps(a, b) && has_slope_of(a->k, b->k, length) &&
+           has_slope_of(a->e, b->e, length) && has_slope_of(a->chord, b->chord, length) &&
+           has_slope_of(a->offset, b->offset, length);
+}
+
+static void set_line(double *c, const double *value, size_t i, double unit, double length)
+{
+    c[0] = value[i] / unit;
+    c[1] = (value[i + 1] - value[i]) / unit / length;
 }
 
 static dynamics_piece piece_between(const dynamics_excitation *excitation,
-                                    const dynamics_mesh_curves *x, size_t i)
+                                    const dynamics_mesh_curves *x,
+                                    const dynamics_spring_nodes *spring, size_t i)
 {
     dynamics_piece p = {.start = x->phase[i], .length = x->phase[i + 1] - x->phase[i], .degree = 1};
-    p.k[0] = x->stiffness[i] / excitation->stiffness;
-    p.k[1] = (x->stiffness[i + 1] - x->stiffness[i]) / excitation->stiffness / p.length;
-    if (x->error) {
-        p.e[0] = x->error[i] / excitation->length;
-        p.e[1] = (x->error[i + 1] - x->error[i]) / excitation->length / p.length;
+    double unit = excitation->stiffness;
+    set_line(p.k, x->stiffness, i, unit, p.length);
+    if (x->error)
+        set_line(p.e, x->error, i, excitation->length, p.length);
+    if (spring) {
+        p.bends = 1;
+        set_line(p.chord, spring->chord, i, unit, p.length);
+        set_line(p.offset, spring->offset, i, unit * excitation->length, p.length);
     }
     return p;
 }
@@ -51,13 +71,14 @@ static int is_jump(const dynamics_mesh_curves *x, size_t i)
 
 /* Adds the lines from node `first` to `last`, between which nothing jumps. */
 static void add_stretch(dynamics_excitation *excitation, const dynamics_mesh_curves *x,
-                        size_t first, size_t last)
+                        const dynamics_spring_nodes *spring, size_t first, size_t last)
 {
     for (size_t i = first; i < last;) {
         dynamics_piece next;
-        size_t to = dynamics_smooth_piece(excitation, x, i, last, &next, &excitation->represented);
+        size_t to =
+            dynamics_smooth_piece(excitation, x, spring, i, last, &next, &excitation->represented);
         if (!to) {
-            next = piece_between(excitation, x, i);
+            next = piece_between(excitation, x, spring, i);
             to = i + 1;
         }
         dynamics_piece *before =
@@ -78,8 +99,15 @@ void dynamics_excitation_mark_jumps(dynamics_excitation *excitation)
             jumps(&excitation->pieces[i ? i - 1 : excitation->count - 1], &excitation->pieces[i]);
 }
 
-int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_mesh_curves *x)
+int dynamics_excitation_build_bent(dynamics_excitation *excitation,
+                                   const dynamics_mesh_curves *curves,
+                                   const dynamics_spring_nodes *spring)
 {
+    dynamics_mesh_curves with_slope = *curves, *x = &with_slope;
+    if (spring)
+        x->stiffness = spring->stiffness;
+    if (spring && !spring->chord)
+        spring = NULL;
     excitation->count = 0;
     excitation->k_max = 0;
     excitation->represented = (dynamics_representation){0};
@@ -93,13 +121,18 @@ int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_me
         if (is_jump(x, i)) {
             first = i + 1;
         } else if (ends) {
-            add_stretch(excitation, x, first, i + 1);
+            add_stretch(excitation, x, spring, first, i + 1);
             first = i + 1;
         }
     }
     dynamics_excitation_mark_jumps(excitation);
     excitation->represented.pieces = excitation->count;
     return 1;
+}
+
+int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_mesh_curves *curves)
+{
+    return dynamics_excitation_build_bent(excitation, curves, NULL);
 }
 
 void dynamics_excitation_free(dynamics_excitation *excitation)
@@ -123,27 +156,29 @@ const dynamics_piece *dynamics_excitation_piece(const dynamics_excitation *excit
     return &excitation->pieces[low];
 }
 
-double dynamics_mesh_force(const dynamics_excitation *excitation, double k, double delta,
-                           double rate)
+double dynamics_mesh_force(const dynamics_excitation *excitation, const dynamics_piece *piece,
+                           double since, double delta, double rate)
 {
     double damper = 2 * excitation->zeta * rate, b = excitation->half_gap;
     if (b == 0)
-        return k * delta + damper; /* the flanks never part */
+        return dynamics_spring_force(piece, since, delta) + damper; /* the flanks never part */
     int side = (delta > b) - (delta < -b);
     if (side == 0)
         return excitation->damping == DYNAMICS_DAMPING_ALWAYS ? damper : 0;
-    double force = k * (delta - side * b) + damper;
+    double force = dynamics_spring_force(piece, since, delta - side * b) + damper;
     return excitation->damping == DYNAMICS_DAMPING_CLIPPED && side * force < 0 ? 0 : force;
 }
 
-double dynamics_rest_stiffness(const dynamics_excitation *excitation)
+double dynamics_rest_bend(const dynamics_excitation *excitation)
 {
-    return excitation->pieces[0].k[0] > 0 ? excitation->pieces[0].k[0] : 1;
+    const dynamics_piece *first = excitation->pieces;
+    double k = first->k[0] > 0 ? first->k[0] : 1;
+    return (excitation->load + first->offset[0]) / k;
 }
 
 double dynamics_rest_deflection(const dynamics_excitation *excitation)
 {
-    return excitation->half_gap + excitation->load / dynamics_rest_stiffness(excitation);
+    return excitation->half_gap + dynamics_rest_bend(excitation);
 }
 
 double dynamics_amplitude_cap(const dynamics_excitation *excitation)

@@ -6,9 +6,10 @@
  *   s'' + 2 zeta (s' - e') + k g(s - e) = load - drag
  *
  * in the unit of length `length`, the mean mesh stiffness and the unit of time 1/omega, omega^2 =
- * mean stiffness / equivalent mass. g is the dead zone of half width `half_gap`. k and e are
- * polynomials between the nodes of a mesh cycle and may jump there; so is drag, which is 0 without
- * a film that gives its friction back.
+ * mean stiffness / equivalent mass. g is the dead zone of half width `half_gap`. Where k is the
+ * slope of the mesh at the mean load, the force behind the dead zone bends, as spring.h has it. k
+ * and e are polynomials between the nodes of a mesh cycle and may jump there; so is drag, which is
+ * 0 without a film that gives its friction back.
  */
 #ifndef DYNAMICS_EXCITATION_H
 #define DYNAMICS_EXCITATION_H
@@ -29,6 +30,8 @@ typedef struct dynamics_piece {
     double start, length; /* mesh cycles */
     int degree;           /* 1: straight lines */
     double k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1];
+    int bends; /* whether the force is k g - offset above a knee and chord g below it (spring.h) */
+    double chord[DYNAMICS_DEGREE + 1], offset[DYNAMICS_DEGREE + 1];
     double drag[DYNAMICS_DEGREE + 1]; /* of friction and rolling */
     double
         film[DYNAMICS_DEGREE + 1]; /* growth of the pairs' films, each by its share of the load */
@@ -47,6 +50,7 @@ typedef struct dynamics_excitation {
     double k_max; /* the largest k */
     double zeta, load, half_gap;
     int damping;
+    int on_chord; /* whether k is to be the chord where the stiffness is the slope (spring.h) */
     int fed_back; /* whether a film gave drag and thickness; all pieces then have the full degree */
     double length, stiffness, omega; /* units: m, N/m, rad/s */
     dynamics_representation represented;
@@ -85,6 +89,17 @@ static inline void dynamics_piece_shift(const double *c, int degree, double sinc
         to[i] *= power;
 }
 
+/* Sets the curves of the mesh in a piece that begins `since` behind the start of `from`. */
+static inline void dynamics_piece_start_later(const dynamics_piece *from, double since,
+                                              dynamics_piece *to)
+{
+    dynamics_piece_shift(from->k, from->degree, since, 1, to->k);
+    dynamics_piece_shift(from->e, from->degree, since, 1, to->e);
+    dynamics_piece_shift(from->chord, from->degree, since, 1, to->chord);
+    dynamics_piece_shift(from->offset, from->degree, since, 1, to->offset);
+    to->bends = from->bends;
+}
+
 static inline double dynamics_piece_bend(const double *c, int degree, double since)
 {
     double value = 0;
@@ -103,6 +118,11 @@ typedef struct dynamics_mesh_curves {
 /* Builds the pieces from checked curves; the scalars are set. Where the lines of a table follow a
    smooth curve, the curve is taken. 0: out of memory. */
 int dynamics_excitation_build(dynamics_excitation *excitation, const dynamics_mesh_curves *curves);
+/* The same with a spring that bends, of nodes at the phases of the curves. */
+struct dynamics_spring_nodes;
+int dynamics_excitation_build_bent(dynamics_excitation *excitation,
+                                   const dynamics_mesh_curves *curves,
+                                   const struct dynamics_spring_nodes *spring);
 /* Marks the pieces at whose starts k or e jumps. */
 void dynamics_excitation_mark_jumps(dynamics_excitation *excitation);
 void dynamics_excitation_free(dynamics_excitation *excitation);
@@ -111,18 +131,20 @@ void dynamics_excitation_free(dynamics_excitation *excitation);
 const dynamics_piece *dynamics_excitation_piece(const dynamics_excitation *excitation, double phase,
                                                 int left);
 
-/* Deflection s - e under the load alone, on the driving flank, at the stiffness of phase 0. */
+/* Deflection s - e under the load alone, on the driving flank, at the spring of phase 0; and that
+   of the spring alone, without the half gap. */
 double dynamics_rest_deflection(const dynamics_excitation *excitation);
-double dynamics_rest_stiffness(const dynamics_excitation *excitation);
+double dynamics_rest_bend(const dynamics_excitation *excitation);
 
 /* The amplitude from which a motion counts as unbounded: 1000 times half backlash and
    static deflection; and whether s - e or its rate has reached it. */
 double dynamics_amplitude_cap(const dynamics_excitation *excitation);
 int dynamics_is_unbounded(const dynamics_excitation *excitation, double delta, double rate);
 
-/* The mesh force of Li & Kahraman 2011, eq. 4: k g(delta) + 2 zeta delta', while the damper acts;
-   delta = s - e. */
-double dynamics_mesh_force(const dynamics_excitation *excitation, double k, double delta,
-                           double rate);
+/* The mesh force of Li & Kahraman 2011, eq. 4: that of the spring behind the dead zone and
+   2 zeta delta', while the damper acts; delta = s - e. `since`: phase since the start of the piece.
+ */
+double dynamics_mesh_force(const dynamics_excitation *excitation, const dynamics_piece *piece,
+                           double since, double delta, double rate);
 
 #endif

@@ -44,8 +44,7 @@ static int cut_at(dynamics_excitation *x, double phase)
     more[i + 1].start = phase;
     more[i + 1].length -= since;
     more[i + 1].jump = 0;
-    dynamics_piece_shift(more[i].k, more[i].degree, since, 1, more[i + 1].k);
-    dynamics_piece_shift(more[i].e, more[i].degree, since, 1, more[i + 1].e);
+    dynamics_piece_start_later(&more[i], since, &more[i + 1]);
     return 1;
 }
 
@@ -166,8 +165,7 @@ static void add_piece(builder *b, const dynamics_piece *old, const samples *s, s
     p->start = s->phase[first];
     p->length = s->phase[last] - s->phase[first];
     p->degree = DYNAMICS_DEGREE;
-    dynamics_piece_shift(old->k, old->degree, p->start - old->start, 1, p->k);
-    dynamics_piece_shift(old->e, old->degree, p->start - old->start, 1, p->e);
+    dynamics_piece_start_later(old, p->start - old->start, p);
     for (int k = 0; k < 3; k++)
         b->off[k] = fmax(b->off[k], dynamics_smooth_series(s->phase + first, series[k] + first,
                                                            last - first + 1, b->unit[k], fit[k]));

@@ -4,6 +4,7 @@
 #define DYNAMICS_FLOW_RUN_H
 
 #include "flow.h"
+#include "spring.h"
 
 typedef struct dynamics_run {
     const dynamics_flow *flow;
@@ -11,6 +12,7 @@ typedef struct dynamics_run {
     const dynamics_piece *piece;
     double T, at, end; /* duration of the cycle, phase in it, phase at which a step would end */
     int side, pressed; /* as in oscillator.c; with oil, the flank that is held */
+    int band;          /* of the spring (spring.h) */
     int open[2];       /* with oil: whether the film of a flank carries */
     double stride;     /* the time that the next step in oil may take */
     int idle;
@@ -19,10 +21,12 @@ typedef struct dynamics_run {
     const dynamics_observer *observer;
 } dynamics_run;
 
-/* A condition that holds as long as p >= 0; then the contact changes to (side, pressed). */
+/* A condition that holds as long as p >= 0; then the contact changes to (side, pressed), or the
+   spring alone to another band. */
+enum { DYNAMICS_RUN_GATES = 4 };
 typedef struct dynamics_gate {
     double p[DYNAMICS_ORDER_MAX + 1];
-    int side, pressed;
+    int side, pressed, knee, band;
 } dynamics_gate;
 
 /* Changes of contact in a row that each advance by less than dynamics_slip, rad, before the contact

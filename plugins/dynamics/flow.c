@@ -104,6 +104,13 @@ double dynamics_run_stiffness(const dynamics_run *r)
     return dynamics_piece_value(r->piece->k, r->piece->degree, r->at - r->piece->start);
 }
 
+/* Sets the band of the spring that belongs to the state. */
+static void find_band(dynamics_run *r)
+{
+    double bend = r->y->delta - r->side * r->excitation->half_gap;
+    r->band = r->side ? dynamics_spring_band(r->piece, r->at - r->piece->start, bend) : 0;
+}
+
 /* Sets the contact that belongs to the state. At the edge of the gap the direction of motion
    decides, and at rest there the load, which presses the driving flanks. */
 static void find_contact(dynamics_run *r)
@@ -135,6 +142,7 @@ static void enter_piece(dynamics_run *r, const dynamics_piece *before, const dyn
         dynamics_run_follow_flanks(r);
     if (leap != 0)
         find_contact(r);
+    find_band(r);
 }
 
 /* The gate of a clipped contact: its force as a polynomial, which parts the flanks when it would
@@ -142,18 +150,62 @@ static void enter_piece(dynamics_run *r, const dynamics_piece *before, const dyn
 static void contact_force_gate(const dynamics_run *r, const dynamics_taylor_series *s, double sign,
                                dynamics_gate *g)
 {
-    double k[DYNAMICS_DEGREE + 1] = {0};
+    double k[DYNAMICS_DEGREE + 1] = {0}, offset[DYNAMICS_DEGREE + 1] = {0};
     double c = r->excitation->film ? 0 : 2 * r->excitation->zeta; /* films bear the teeth's force */
     int degree = r->piece->degree;
-    dynamics_piece_shift(r->piece->k, degree, r->at - r->piece->start, s->h / r->T, k);
+    double since = r->at - r->piece->start, unit = s->h / r->T;
+    dynamics_piece_shift(dynamics_spring_slope(r->piece, r->band), degree, since, unit, k);
+    if (r->band)
+        dynamics_piece_shift(r->piece->offset, degree, since, unit, offset);
     for (int n = 0; n <= s->order; n++) {
         double value = 0;
         for (int i = 0; i <= degree && i <= n; i++)
             value += k[i] * s->c[n - i][DYNAMICS_Z];
         if (n < s->order)
             value += c * (n + 1) * s->c[n + 1][DYNAMICS_Z] / s->h;
+        if (n <= degree && r->band)
+            value -= r->band * offset[n];
         g->p[n] = sign * r->side * value;
     }
+}
+
+/* The gate at the knee of the spring on one flank: how far the deflection exceeds it, times the
+   change of the slope there, as a polynomial; or how far it falls short (`sign` -1). */
+static void knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, int flank,
+                      double sign, dynamics_gate *g)
+{
+    double steeper[DYNAMICS_DEGREE + 1], chord[DYNAMICS_DEGREE + 1], offset[DYNAMICS_DEGREE + 1];
+    int degree = r->piece->degree;
+    double since = r->at - r->piece->start, unit = s->h / r->T;
+    dynamics_piece_shift(r->piece->k, degree, since, unit, steeper);
+    dynamics_piece_shift(r->piece->chord, degree, since, unit, chord);
+    dynamics_piece_shift(r->piece->offset, degree, since, unit, offset);
+    for (int i = 0; i <= degree; i++)
+        steeper[i] -= chord[i];
+    for (int n = 0; n <= s->order; n++) {
+        double value = 0;
+        for (int i = 0; i <= degree && i <= n; i++)
+            value += steeper[i] * s->c[n - i][DYNAMICS_Z];
+        g->p[n] = sign * (flank * value - (n <= degree ? offset[n] : 0));
+    }
+    g->knee = 1;
+    g->side = r->side;
+    g->pressed = r->pressed;
+    g->band = sign > 0 ? 0 : flank;
+}
+
+/* Adds the gates at the knees that the present contact can reach; returns the number of all. */
+static int add_knees(const dynamics_run *r, const dynamics_taylor_series *s, int count,
+                     dynamics_gate *g)
+{
+    if (!r->piece->bends || !r->side)
+        return count;
+    if (r->band)
+        knee_gate(r, s, r->band, 1, &g[count++]);
+    for (int flank = -1; flank <= 1 && !r->band; flank += 2)
+        if (flank == r->side || r->excitation->half_gap == 0)
+            knee_gate(r, s, flank, -1, &g[count++]);
+    return count;
 }
 
 /* The gate at an edge of the gap: sign z + offset. */
@@ -166,9 +218,12 @@ static void gap_edge_gate(const dynamics_taylor_series *s, double sign, double o
 }
 
 /* Finds the gates of the present contact and returns their number. */
-static int find_gates(const dynamics_run *r, const dynamics_taylor_series *s, dynamics_gate g[2])
+static int find_gates(const dynamics_run *r, const dynamics_taylor_series *s,
+                      dynamics_gate g[DYNAMICS_RUN_GATES])
 {
     double b = r->excitation->half_gap;
+    for (int i = 0; i < DYNAMICS_RUN_GATES; i++)
+        g[i].knee = g[i].band = 0;
     if (r->excitation->film && r->excitation->film->rolling) {
         double load[2];
         dynamics_run_holding_load(r, r->end, load);
@@ -215,12 +270,13 @@ static int cannot_reach_edge(const dynamics_run *r, const dynamics_taylor_series
 }
 
 /* The first change of contact within the step: its x and gate; -1: there is none. */
-static double find_event(const dynamics_run *r, const dynamics_taylor_series *s, dynamics_gate g[2],
-                         const dynamics_gate **which)
+static double find_event(const dynamics_run *r, const dynamics_taylor_series *s,
+                         dynamics_gate g[DYNAMICS_RUN_GATES], const dynamics_gate **which)
 {
     double tiny = 8 * DBL_EPSILON * (1 + r->excitation->half_gap), first = -1;
     int count =
         r->excitation->half_gap == 0 || cannot_reach_edge(r, s, tiny) ? 0 : find_gates(r, s, g);
+    count = add_knees(r, s, count, g);
     for (int i = 0; i < count; i++) {
         double x = dynamics_taylor_first_exit(g[i].p, s->order, tiny);
         if (x < 0 || (first >= 0 && x >= first))
@@ -262,6 +318,11 @@ static void move_state(dynamics_run *r, const dynamics_taylor_series *s, double 
    Dynamics and Bifurcations of Non-Smooth Mechanical Systems). */
 static void change_contact(dynamics_run *r, const dynamics_gate *g)
 {
+    if (g->knee) {
+        r->band = g->band;
+        return;
+    }
+    r->band = 0;
     if (r->excitation->film) {
         dynamics_run_release_flank(r);
         return;
@@ -271,12 +332,24 @@ static void change_contact(dynamics_run *r, const dynamics_gate *g)
         r->y->delta = (g->side ? g->side : r->side) * r->excitation->half_gap;
     r->side = g->side;
     r->pressed = g->pressed;
-    if (same_side)
+    if (same_side) {
+        find_band(r);
         return;
+    }
     double jump = 2 * r->excitation->zeta * (damper_acts(r) - damped);
     r->y->m[2] -= jump * r->y->m[0];
     r->y->m[3] -= jump * r->y->m[1];
     r->y->change[1] -= jump * r->y->change[0];
+}
+
+/* Above its knee the spring lacks the offset, as if a drag of its size pulled the gears. */
+static void add_offset(const dynamics_run *r, double since, dynamics_piece_equation *q)
+{
+    double offset[DYNAMICS_DEGREE + 1];
+    dynamics_piece_shift(r->piece->offset, q->degree, since, 1 / r->T, offset);
+    for (int i = 0; i <= q->degree; i++)
+        q->drag[i] -= r->band * offset[i];
+    q->drags = 1;
 }
 
 /* Plans the next step: its equation and its end, at most at the node that ends the smooth stretch.
@@ -293,11 +366,14 @@ static double plan_step(const dynamics_run *r, dynamics_piece_equation *q)
     q->drags = r->excitation->fed_back;
     q->degree = r->pressed || q->drags || !is_straight(r->piece) ? r->piece->degree : 1;
     if (r->pressed)
-        dynamics_piece_shift(r->piece->k, q->degree, since, 1 / r->T, q->k);
+        dynamics_piece_shift(dynamics_spring_slope(r->piece, r->band), q->degree, since, 1 / r->T,
+                             q->k);
     if (q->degree > 1 && !is_straight(r->piece))
         dynamics_piece_shift(r->piece->e, q->degree, since, 1 / r->T, q->e);
     if (q->drags)
         dynamics_piece_shift(r->piece->drag, q->degree, since, 1 / r->T, q->drag);
+    if (r->pressed && r->band)
+        add_offset(r, since, q);
     double left = end - r->at, size = dynamics_taylor_step_size(q, left * r->T);
     if (r->idle > DYNAMICS_MAX_IDLE && left * r->T > dynamics_slip)
         return r->at + dynamics_slip / r->T;
@@ -319,6 +395,7 @@ static void notify_observer(const dynamics_run *r, const dynamics_taylor_series 
         .T = r->T,
         .side = r->side,
         .pressed = r->pressed,
+        .band = r->band,
         .damper = damper,
     };
     r->observer->observe(r->observer->ctx, &stride);
@@ -346,7 +423,7 @@ static void take_step(dynamics_run *r)
 {
     dynamics_piece_equation q;
     dynamics_taylor_series s;
-    dynamics_gate g[2];
+    dynamics_gate g[DYNAMICS_RUN_GATES];
     const dynamics_gate *which = NULL;
     double end = plan_step(r, &q);
     r->end = end = expand(r, &q, end, &s);

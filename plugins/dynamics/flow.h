@@ -46,6 +46,7 @@ typedef struct dynamics_step {
     double at, end; /* phases in the cycle */
     double x, T;
     int side, pressed; /* as in oscillator.c */
+    int band;          /* of the spring (spring.h) */
     double damper;
     const dynamics_landing *landing; /* while no flank is held in oil; NULL: a step of the series */
 } dynamics_step;

@@ -6,7 +6,7 @@
 #include <math.h>
 
 /* Moves y0 to the fixed point of the affine map y -> y0' + M (y - y0) of one mesh cycle, by
-   (1 - M) (y - y0) = y0' - y0. 0: it is not stable. */
+   (1 - M) (y - y0) = y0' - y0. 0: it is not stable, or there is none. */
 static int fixed_point(const double *after, double *delta, double *rate)
 {
     double a = 1 - after[DYNAMICS_M11], b = -after[DYNAMICS_M12], c = -after[DYNAMICS_M21],
@@ -14,13 +14,11 @@ static int fixed_point(const double *after, double *delta, double *rate)
     double trace = after[DYNAMICS_M11] + after[DYNAMICS_M22];
     double det =
         after[DYNAMICS_M11] * after[DYNAMICS_M22] - after[DYNAMICS_M12] * after[DYNAMICS_M21];
-    if (!(fabs(trace) < 1 + det && det < 1))
-        return 0;
     double r1 = after[DYNAMICS_DELTA] - *delta, r2 = after[DYNAMICS_RATE] - *rate,
            scale = a * d - b * c;
     *delta += (d * r1 - b * r2) / scale;
     *rate += (a * r2 - c * r1) / scale;
-    return isfinite(*delta) && isfinite(*rate);
+    return fabs(trace) < 1 + det && det < 1 && isfinite(*delta) && isfinite(*rate);
 }
 
 /* Whether the flanks of the pair with its gap touch all along the cycle that starts there. */
@@ -42,6 +40,29 @@ static ff_status stays_in_contact(const dynamics_excitation *excitation, double 
     return touches ? FF_OK : FF_NOCONV;
 }
 
+/* Newton's method on the return map of the pair without a gap. Without a bend of the spring that
+   map is affine, so that one step finds its fixed point; else a step also finds it as soon as the
+   motion passes the same bands. 0: there is none, or it is not stable. */
+static int find_fixed_point(dynamics_oscillator *o, const dynamics_excitation *closed, double T,
+                            double tolerance, double *delta, double *rate)
+{
+    enum { MAX_STEPS = 30 };
+    int bends = closed->pieces->bends;
+    for (int i = 0; i < (bends ? MAX_STEPS : 1); i++) {
+        double from[2] = {*delta, *rate};
+        dynamics_oscillator_start(o, T, *delta, *rate);
+        if (!dynamics_oscillator_cycle(o, T, NULL))
+            return 0;
+        int found = fixed_point(dynamics_oscillator_state(o), delta, rate);
+        double moved = hypot(*delta - from[0], *rate - from[1]);
+        if (!bends || !isfinite(moved))
+            return found;
+        if (moved <= 10 * tolerance * hypot(*delta, *rate))
+            return found;
+    }
+    return 0;
+}
+
 ff_status dynamics_full_contact(const dynamics_excitation *excitation, double T, double tolerance,
                                 double *delta, double *rate)
 {
@@ -53,9 +74,7 @@ ff_status dynamics_full_contact(const dynamics_excitation *excitation, double T,
         return FF_NOMEM;
     *delta = dynamics_rest_deflection(&closed);
     *rate = 0;
-    dynamics_oscillator_start(o, T, *delta, *rate);
-    int found = dynamics_oscillator_cycle(o, T, NULL) &&
-                fixed_point(dynamics_oscillator_state(o), delta, rate);
+    int found = find_fixed_point(o, &closed, T, tolerance, delta, rate);
     *delta += excitation->half_gap;
     dynamics_oscillator_free(o);
     return found ? stays_in_contact(excitation, T, tolerance, *delta, *rate) : FF_NOCONV;

@@ -2,6 +2,7 @@
 #include "harmonics-motion.h"
 
 #include "harmonics.h"
+#include "spring.h"
 
 #include <math.h>
 #include <string.h>
@@ -29,10 +30,24 @@ static double delta_at(const walk *w, double phase)
     return s - dynamics_piece_value(w->piece->e, w->piece->degree, phase - w->piece->start);
 }
 
-static int side_of(const dynamics_excitation *excitation, double delta)
+/* A state of contact: the flank that touches, as in oscillator.c, and the band of the spring. */
+typedef struct contact {
+    int side, band;
+} contact;
+
+static contact contact_at(const walk *w, double phase)
 {
-    double b = excitation->half_gap;
-    return b == 0 ? 1 : (delta > b) - (delta < -b);
+    const dynamics_excitation *excitation = w->motion->excitation;
+    double b = excitation->half_gap, delta = delta_at(w, phase);
+    contact c = {.side = b == 0 ? 1 : (delta > b) - (delta < -b)};
+    if (c.side)
+        c.band = dynamics_spring_band(w->piece, phase - w->piece->start, delta - c.side * b);
+    return c;
+}
+
+static int same_contact(contact a, contact z)
+{
+    return a.side == z.side && a.band == z.band;
 }
 
 /* Solves u'' + 2 zeta u' + (k_0 + k_1 t + ...) u = 0 over a step of h by its Taylor series. */
@@ -52,29 +67,30 @@ static void disturb(double zeta, const double *k, double h, double *u, double *u
 }
 
 /* Carries the disturbances and the clocks over a stretch of the cycle in one state of contact. */
-static void pass_stretch(const walk *w, double from, double to, int side)
+static void pass_stretch(const walk *w, double from, double to, contact c)
 {
     dynamics_motion *motion = w->motion;
     double *m = motion->monodromy, T = motion->T, h = (to - from) * T;
     double k[DYNAMICS_DEGREE + 1] = {0};
-    if (side)
-        dynamics_piece_shift(w->piece->k, w->piece->degree, from - w->piece->start, 1 / T, k);
+    if (c.side)
+        dynamics_piece_shift(dynamics_spring_slope(w->piece, c.band), w->piece->degree,
+                             from - w->piece->start, 1 / T, k);
     disturb(motion->excitation->zeta, k, h, &m[0], &m[2]);
     disturb(motion->excitation->zeta, k, h, &m[1], &m[3]);
-    motion->clocks.parted += side ? 0 : h;
-    motion->clocks.back += side < 0 ? h : 0;
+    motion->clocks.parted += c.side ? 0 : h;
+    motion->clocks.back += c.side < 0 ? h : 0;
     motion->clocks.damped += h;
 }
 
 /* Passes a stretch in parts with one state of contact each, which are found by halving. */
-static void pass_contact_changes(const walk *w, double from, double to, int first, int last)
+static void pass_contact_changes(const walk *w, double from, double to, contact first, contact last)
 {
-    if (first == last || to - from < instant) {
+    if (same_contact(first, last) || to - from < instant) {
         pass_stretch(w, from, to, first);
         return;
     }
     double middle = 0.5 * (from + to);
-    int between = side_of(w->motion->excitation, delta_at(w, middle));
+    contact between = contact_at(w, middle);
     pass_contact_changes(w, from, middle, first, between);
     pass_contact_changes(w, middle, to, between, last);
 }
@@ -90,12 +106,12 @@ static void take_monodromy(walk *w, size_t parts)
         w->piece = &excitation->pieces[i];
         size_t count = (size_t)ceil(w->piece->length * (double)parts);
         double h = w->piece->length / (double)count;
-        int side = side_of(excitation, delta_at(w, w->piece->start));
+        contact now = contact_at(w, w->piece->start);
         for (size_t k = 0; k < count; k++) {
             double from = w->piece->start + h * (double)k;
-            int next = side_of(excitation, delta_at(w, from + h));
-            pass_contact_changes(w, from, from + h, side, next);
-            side = next;
+            contact next = contact_at(w, from + h);
+            pass_contact_changes(w, from, from + h, now, next);
+            now = next;
         }
     }
     dynamics_motion_check_determinant(motion);
@@ -113,7 +129,7 @@ static void add_sample(const walk *w, double phase)
         .s = s,
         .s_rate = slope * turn,
         .force = dynamics_mesh_force(
-            motion->excitation, dynamics_piece_value(piece->k, piece->degree, since),
+            motion->excitation, piece, since,
             s - dynamics_piece_value(piece->e, piece->degree, since),
             slope * turn - dynamics_piece_slope(piece->e, piece->degree, since) / motion->T),
     };

@@ -11,9 +11,9 @@
 #include <fftw3.h>
 #include <lapacke.h>
 
-/* The motion passes an edge of the gap between the neighbouring samples i and j. The trapezium rule
-   misses `area` at the kink of the force; the two samples share it. after_i and after_j are its
-   derivatives by s at i and at j. */
+/* The motion passes an edge of the gap, or a knee of the spring, between the neighbouring samples i
+   and j. The trapezium rule misses `area` at the kink of the force; the two samples share it.
+   after_i and after_j are its derivatives by s at i and at j. */
 typedef struct edge {
     size_t i, j;
     double area, after_i, after_j;
@@ -22,10 +22,12 @@ typedef struct edge {
 struct dynamics_harmonics {
     const dynamics_excitation *excitation;
     size_t harmonics, samples;
-    double *k, *e;    /* at the samples, from their exact harmonics below samples/2 */
-    double *e_series; /* the series of e */
-    double *time;     /* room for samples */
-    edge *edges;      /* of the gap that the motion passes */
+    int bends;              /* whether the spring does (spring.h) */
+    double *k, *e;          /* at the samples, from their exact harmonics below samples/2 */
+    double *chord, *offset; /* the same of a spring that bends */
+    double *e_series;       /* the series of e */
+    double *time;           /* room for samples */
+    edge *edges;            /* that the motion passes */
     fftw_complex *spectrum;
     fftw_plan to_time, to_spectrum;
     double *cosine, *sine;          /* of the stiffness along the motion, up to 2 H */
@@ -66,30 +68,42 @@ static void add_jump(double complex *c, size_t count, double theta,
     }
 }
 
-static const double *coefficients_of(const dynamics_piece *p, int error)
+/* The curves of a piece. */
+enum { CURVE_K, CURVE_E, CURVE_CHORD, CURVE_OFFSET };
+
+static const double *coefficients_of(const dynamics_piece *p, int curve)
 {
-    return error ? p->e : p->k;
+    switch (curve) {
+    case CURVE_K:
+        return p->k;
+    case CURVE_E:
+        return p->e;
+    case CURVE_CHORD:
+        return p->chord;
+    default:
+        return p->offset;
+    }
 }
 
-/* The integral of k or e over a piece. */
-static double integral_of(const dynamics_piece *p, int error)
+/* The integral of a curve over a piece. */
+static double integral_of(const dynamics_piece *p, int curve)
 {
-    const double *c = coefficients_of(p, error);
+    const double *c = coefficients_of(p, curve);
     double sum = 0;
     for (int i = p->degree; i >= 0; i--)
         sum = (c[i] / (i + 1) + sum) * p->length;
     return sum;
 }
 
-/* The harmonics 0 to count - 1 of e (`error`) or k. */
-static void exact_harmonics(const dynamics_excitation *excitation, int error, double complex *c,
+/* The harmonics 0 to count - 1 of a curve. */
+static void exact_harmonics(const dynamics_excitation *excitation, int curve, double complex *c,
                             size_t count)
 {
     memset(c, 0, count * sizeof *c);
     for (size_t i = 0; i < excitation->count; i++) {
         const dynamics_piece *p = &excitation->pieces[i],
                              *before = &excitation->pieces[i ? i - 1 : excitation->count - 1];
-        const double *a = coefficients_of(before, error), *z = coefficients_of(p, error);
+        const double *a = coefficients_of(before, curve), *z = coefficients_of(p, curve);
         double end[DYNAMICS_DEGREE + 1] = {0}, jump[DYNAMICS_DEGREE + 1], derivative = 1;
         int degree = before->degree > p->degree ? before->degree : p->degree, jumps = 0;
         dynamics_piece_shift(a, before->degree, before->length, 1, end);
@@ -98,20 +112,30 @@ static void exact_harmonics(const dynamics_excitation *excitation, int error, do
             jumps |= jump[j] != 0;
             derivative *= (j + 1) / (2 * M_PI);
         }
-        c[0] += integral_of(p, error);
+        c[0] += integral_of(p, curve);
         if (jumps)
             add_jump(c, count, 2 * M_PI * p->start, jump, degree);
     }
 }
 
-static void sample_excitation(dynamics_harmonics *b)
+static void sample_curve(dynamics_harmonics *b, int curve, double *samples)
 {
     size_t half = b->samples / 2;
     b->spectrum[half] = 0;
-    exact_harmonics(b->excitation, 0, b->spectrum, half);
-    fftw_execute_dft_c2r(b->to_time, b->spectrum, b->k);
+    exact_harmonics(b->excitation, curve, b->spectrum, half);
+    fftw_execute_dft_c2r(b->to_time, b->spectrum, samples);
+}
+
+static void sample_excitation(dynamics_harmonics *b)
+{
+    size_t half = b->samples / 2;
+    sample_curve(b, CURVE_K, b->k);
+    if (b->bends) {
+        sample_curve(b, CURVE_CHORD, b->chord);
+        sample_curve(b, CURVE_OFFSET, b->offset);
+    }
     b->spectrum[half] = 0;
-    exact_harmonics(b->excitation, 1, b->spectrum, half);
+    exact_harmonics(b->excitation, CURVE_E, b->spectrum, half);
     b->e_series[0] = creal(b->spectrum[0]);
     for (size_t n = 1; n <= b->harmonics; n++) {
         b->e_series[2 * n - 1] = 2 * creal(b->spectrum[n]);
@@ -130,10 +154,13 @@ dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation
     b->excitation = excitation;
     b->harmonics = harmonics;
     b->samples = samples;
+    b->bends = excitation->pieces->bends;
     b->k = numerics_fftw_array(samples, sizeof(double));
+    b->chord = numerics_fftw_array(samples, sizeof(double));
+    b->offset = numerics_fftw_array(samples, sizeof(double));
     b->e = numerics_fftw_array(samples, sizeof(double));
     b->time = numerics_fftw_array(samples, sizeof(double));
-    b->edges = malloc(2 * samples * sizeof *b->edges);
+    b->edges = malloc(4 * samples * sizeof *b->edges);
     b->spectrum = numerics_fftw_array(samples / 2 + 1, sizeof *b->spectrum);
     b->e_series = malloc(size * sizeof(double));
     b->cosine = malloc((2 * harmonics + 1) * sizeof(double));
@@ -143,9 +170,9 @@ dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation
     b->try = malloc(size * sizeof(double));
     b->jacobian = malloc(size * size * sizeof(double));
     b->pivot = malloc(size * sizeof *b->pivot);
-    if (b->k && b->e && b->time && b->edges && b->spectrum && b->e_series && b->cosine && b->sine &&
-        b->residual && b->trial && b->try && b->jacobian && b->pivot &&
-        numerics_has_room(numerics_fftw_room(samples))) {
+    if (b->k && b->e && b->chord && b->offset && b->time && b->edges && b->spectrum &&
+        b->e_series && b->cosine && b->sine && b->residual && b->trial && b->try && b->jacobian &&
+        b->pivot && numerics_has_room(numerics_fftw_room(samples))) {
         fftw_make_planner_thread_safe(); /* it is one per process, and other plugins plan, too */
         b->to_time = fftw_plan_dft_c2r_1d((int)samples, b->spectrum, b->time, FFTW_ESTIMATE);
         b->to_spectrum = fftw_plan_dft_r2c_1d((int)samples, b->time, b->spectrum, FFTW_ESTIMATE);
@@ -165,6 +192,8 @@ void dynamics_harmonics_free(dynamics_harmonics *b)
     fftw_destroy_plan(b->to_time);
     fftw_destroy_plan(b->to_spectrum);
     free(b->k);
+    free(b->chord);
+    free(b->offset);
     free(b->e);
     free(b->time);
     free(b->edges);
@@ -219,6 +248,39 @@ static double bend(const dynamics_excitation *excitation, double delta)
     return delta > h ? delta - h : delta < -h ? delta + h : 0;
 }
 
+/* The force of a flank above that of the chord, if it is positive (spring.h). */
+static double excess(const dynamics_harmonics *b, size_t i, double bend)
+{
+    return (b->k[i] - b->chord[i]) * bend - b->offset[i];
+}
+
+/* The slope of the force at sample i. */
+static double slope_at(const dynamics_harmonics *b, size_t i, double bend)
+{
+    return b->bends && !(excess(b, i, fabs(bend)) > 0) ? b->chord[i] : b->k[i];
+}
+
+static double spring_force(const dynamics_harmonics *b, size_t i, double bend)
+{
+    double more = b->bends ? excess(b, i, fabs(bend)) : 0;
+    if (!b->bends)
+        return b->k[i] * bend;
+    return b->chord[i] * bend + (more > 0 ? (bend < 0 ? -more : more) : 0);
+}
+
+/* Between the samples i and j a force of that slope begins or ends, which is proportional to a
+   distance that changes from `from` to `to`. By the Euler-Maclaurin rule a kink at the share t of a
+   step makes the trapezium err by (t (1 - t)/2 - 1/12) times the change of the slope of the force.
+ */
+static edge edge_between(size_t i, size_t j, double from, double to, double slope)
+{
+    double a = fabs(from), z = fabs(to), sum = a + z;
+    edge e = {.i = i, .j = j, .area = -slope * (0.5 * a * z / sum - sum / 12)};
+    e.after_i = -slope * (0.5 * z * z / (sum * sum) - 1.0 / 12) * (from > 0 ? 1 : -1);
+    e.after_j = -slope * (0.5 * a * a / (sum * sum) - 1.0 / 12) * (to > 0 ? 1 : -1);
+    return e;
+}
+
 /* Whether the motion, sampled in b->time, passes the edge of the gap on that side behind sample i.
  */
 static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
@@ -228,22 +290,36 @@ static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
     double to = b->time[j] - side * b->excitation->half_gap;
     if ((from > 0) == (to > 0) || b->excitation->half_gap == 0)
         return 0;
-    /* by the Euler-Maclaurin rule a kink at the share t of a step makes the trapezium err by
-       (t (1 - t)/2 - 1/12) times the change of the slope of the force */
-    double a = fabs(from), z = fabs(to), sum = a + z, k = 0.5 * (b->k[i] + b->k[j]) * side;
-    *e = (edge){.i = i, .j = j, .area = -k * (0.5 * a * z / sum - sum / 12)};
-    e->after_i = -k * (0.5 * z * z / (sum * sum) - 1.0 / 12) * (from > 0 ? 1 : -1);
-    e->after_j = -k * (0.5 * a * a / (sum * sum) - 1.0 / 12) * (to > 0 ? 1 : -1);
+    const double *k = b->bends ? b->chord : b->k;
+    *e = edge_between(i, j, from, to, 0.5 * (k[i] + k[j]) * side);
     return 1;
 }
 
-/* Collects the edges on both sides and returns their number. */
+/* The same for the knee of the spring, where the excess of its force is the distance. */
+static int find_knee(const dynamics_harmonics *b, size_t i, int side, edge *e)
+{
+    size_t j = (i + 1) % b->samples;
+    if (!b->bends)
+        return 0;
+    double from = excess(b, i, side * b->time[i] - b->excitation->half_gap);
+    double to = excess(b, j, side * b->time[j] - b->excitation->half_gap);
+    if ((from > 0) == (to > 0))
+        return 0;
+    *e = edge_between(i, j, from, to, side);
+    e->after_i *= side * (b->k[i] - b->chord[i]);
+    e->after_j *= side * (b->k[j] - b->chord[j]);
+    return 1;
+}
+
+/* Collects the edges and knees on both sides and returns their number. */
 static size_t find_edges(dynamics_harmonics *b)
 {
     size_t count = 0;
     for (size_t i = 0; i < b->samples; i++)
-        for (int side = -1; side <= 1; side += 2)
+        for (int side = -1; side <= 1; side += 2) {
             count += find_edge(b, i, side, &b->edges[count]) ? 1 : 0;
+            count += find_knee(b, i, side, &b->edges[count]) ? 1 : 0;
+        }
     return count;
 }
 
@@ -253,7 +329,7 @@ static void force_spectrum(dynamics_harmonics *b, const double *x)
     sample_motion(b, x);
     size_t count = find_edges(b);
     for (size_t i = 0; i < b->samples; i++)
-        b->time[i] = b->k[i] * bend(b->excitation, b->time[i]);
+        b->time[i] = spring_force(b, i, bend(b->excitation, b->time[i]));
     for (size_t n = 0; n < count; n++) {
         b->time[b->edges[n].i] += 0.5 * b->edges[n].area;
         b->time[b->edges[n].j] += 0.5 * b->edges[n].area;
@@ -261,7 +337,7 @@ static void force_spectrum(dynamics_harmonics *b, const double *x)
     transform_samples(b);
 }
 
-/* Takes the harmonics of the derivative of the force by s, which is k in contact and 0 in the gap;
+/* Takes the harmonics of the derivative of the force by s, the slope in contact and 0 in the gap;
    returns the number of edges. */
 static size_t stiffness_spectrum(dynamics_harmonics *b, const double *x)
 {
@@ -269,7 +345,8 @@ static size_t stiffness_spectrum(dynamics_harmonics *b, const double *x)
     sample_motion(b, x);
     size_t count = find_edges(b);
     for (size_t i = 0; i < b->samples; i++)
-        b->time[i] = h == 0 || fabs(b->time[i]) > h ? b->k[i] : 0;
+        b->time[i] =
+            h == 0 || fabs(b->time[i]) > h ? slope_at(b, i, bend(b->excitation, b->time[i])) : 0;
     transform_samples(b);
     for (size_t n = 0; n <= 2 * b->harmonics; n++) {
         b->cosine[n] = creal(b->spectrum[n]);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "inputs.h"
 
+#include "spring.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -57,6 +59,13 @@
                                         .doc = "unloaded transmission error e; none: 0",           \
                                         .dims = "phase",                                           \
                                         .flags = FF_OPTIONAL},                                     \
+    [DYNAMICS_IN_LOADED_ERROR] =                                                                   \
+        {.name = "stiffness.loaded_transmission_error",                                            \
+         .unit = "m",                                                                              \
+         .doc = "transmission error e_l under the line force, to which a slow motion tends also "  \
+                "where the stiffness is the slope of the mesh; none: e + F/k",                     \
+         .dims = "phase",                                                                          \
+         .flags = FF_OPTIONAL},                                                                    \
     [DYNAMICS_IN_TOOTH_FORCE] = {.name = "stiffness.tooth_force",                                  \
                                  .unit = "N",                                                      \
                                  .doc = "quasi-static tooth force W_s",                            \
@@ -209,6 +218,8 @@ static ff_status check_shapes(const ff_host *host, const ff_array *in)
     if (status == FF_OK)
         status = check_series(host, in, DYNAMICS_IN_TRANSMISSION_ERROR, phases);
     if (status == FF_OK)
+        status = check_series(host, in, DYNAMICS_IN_LOADED_ERROR, phases);
+    if (status == FF_OK)
         status = check_series(host, in, DYNAMICS_IN_TOOTH_FORCE, stations);
     if (status == FF_OK)
         status = check_series(host, in, DYNAMICS_IN_LOAD_SHARE, stations);
@@ -359,6 +370,67 @@ static void report_representation(const ff_host *host, const dynamics_excitation
     host->quality(host->ctx, "stiffness_representation", r->between, limit, FF_GOOD, text);
 }
 
+/* Says what the spring is where the stiffness and the loaded transmission error differ. */
+static void report_spring(const ff_host *host, const dynamics_spring_nodes *s)
+{
+    char text[300];
+    static const double much = 0.05; /* between slope and chord */
+    double off = fmax(s->soft, s->unknown);
+    if (!s->stiffness)
+        return;
+    if (!s->chord) {
+        snprintf(
+            text, sizeof text,
+            "with squeeze: series the motion vibrates on the chord F/(e_l - e), above which the "
+            "slope of the mesh at the mean load lies by %.3g %% on the mean",
+            100 * s->steeper);
+        host->quality(host->ctx, "mesh_slope", s->steeper, much,
+                      s->steeper <= much ? FF_GOOD : FF_DOUBTFUL, text);
+        return;
+    }
+    if (s->unknown > 0)
+        snprintf(
+            text, sizeof text,
+            "at %.3g %% of the phases the loaded transmission error does not exceed the unloaded "
+            "one: the stiffness is taken as the chord there",
+            100 * s->unknown);
+    else if (s->soft > 0)
+        snprintf(
+            text, sizeof text,
+            "at %.3g %% of the phases the stiffness is below the chord F/(e_l - e), as that of "
+            "no mesh that stiffens under load: the chord is taken there",
+            100 * s->soft);
+    else
+        snprintf(
+            text, sizeof text,
+            "the motion vibrates on the slope of the mesh at the mean load, on the mean %.3g %% "
+            "above the chord F/(e_l - e); below half the mean force it follows a chord to e",
+            100 * s->steeper);
+    host->quality(host->ctx, "mesh_slope", off, 0, off > 0 ? FF_DOUBTFUL : FF_GOOD, text);
+}
+
+static ff_status build_excitation(const ff_host *host, const ff_array *in, double force,
+                                  dynamics_excitation *excitation)
+{
+    dynamics_mesh_curves curves = {
+        .count = in[DYNAMICS_IN_PHASE].shape[0],
+        .phase = in[DYNAMICS_IN_PHASE].data,
+        .stiffness = in[DYNAMICS_IN_STIFFNESS].data,
+        .error = in[DYNAMICS_IN_TRANSMISSION_ERROR].data,
+    };
+    dynamics_spring_nodes spring;
+    if (!dynamics_spring_nodes_make(&curves, in[DYNAMICS_IN_LOADED_ERROR].data, force,
+                                    excitation->on_chord, &spring))
+        return FF_NOMEM;
+    int built =
+        dynamics_excitation_build_bent(excitation, &curves, spring.stiffness ? &spring : NULL);
+    report_spring(host, &spring);
+    dynamics_spring_nodes_free(&spring);
+    if (built)
+        report_representation(host, excitation);
+    return built ? FF_OK : FF_NOMEM;
+}
+
 ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
                                const dynamics_inertia *inertia, dynamics_inputs *inputs,
                                dynamics_excitation *excitation)
@@ -391,14 +463,5 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
     excitation->length = length_unit(in, stiffness);
     excitation->half_gap = in[DYNAMICS_IN_BACKLASH].data[0] / 2 / excitation->length;
     excitation->load = inputs->line_force / stiffness / excitation->length;
-    dynamics_mesh_curves curves = {
-        .count = in[DYNAMICS_IN_PHASE].shape[0],
-        .phase = in[DYNAMICS_IN_PHASE].data,
-        .stiffness = in[DYNAMICS_IN_STIFFNESS].data,
-        .error = in[DYNAMICS_IN_TRANSMISSION_ERROR].data,
-    };
-    if (!dynamics_excitation_build(excitation, &curves))
-        return FF_NOMEM;
-    report_representation(host, excitation);
-    return FF_OK;
+    return build_excitation(host, in, inputs->line_force, excitation);
 }

@@ -19,6 +19,7 @@ enum {
     DYNAMICS_IN_STIFFNESS,
     DYNAMICS_IN_STIFFNESS_MEAN,
     DYNAMICS_IN_TRANSMISSION_ERROR,
+    DYNAMICS_IN_LOADED_ERROR,
     DYNAMICS_IN_TOOTH_FORCE,
     DYNAMICS_IN_LOAD_SHARE,
     DYNAMICS_INPUT_COUNT,
@@ -69,9 +70,11 @@ typedef struct dynamics_inertia {
 #define DYNAMICS_INERTIA_ROWS(type)                                                                \
     FF_QUANTITY("equivalent_mass", "kg", type, inertia.equivalent_mass, FF_MIN_OPEN, NULL,         \
                 "inertia", 0, 1e9, 0, 0, "mass that the mesh spring sees; default: the gear's"),   \
-        FF_QUANTITY("natural_frequency", "Hz", type, inertia.natural_frequency, FF_MIN_OPEN, NULL, \
-                    "inertia", 0, 1e9, 0, 0,                                                       \
-                    "linear natural frequency at the mean stiffness, in place of the mass")
+        FF_QUANTITY(                                                                               \
+            "natural_frequency", "Hz", type, inertia.natural_frequency, FF_MIN_OPEN, NULL,         \
+            "inertia", 0, 1e9, 0, 0,                                                               \
+            "linear natural frequency at the mean of the stiffness that is wired (tangent or "     \
+            "secant), in place of the mass")
 
 typedef struct dynamics_inputs {
     double line_force, mesh_frequency, natural_frequency; /* N, Hz, Hz */

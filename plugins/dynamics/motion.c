@@ -72,7 +72,10 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
                                    .dims = ""},
     [DYNAMICS_OUT_NATURAL_FREQUENCY] = {.name = "natural_frequency",
                                         .unit = "Hz",
-                                        .doc = "linear, at the mean stiffness",
+                                        .doc = "of small vibration, at the mean of the stiffness "
+                                               "that is wired: the slope dF/d(e_l) with "
+                                               "definition: tangent, the chord F/(e_l - e) with "
+                                               "secant",
                                         .dims = ""},
     [DYNAMICS_OUT_PERIOD] =
         {.name = "period",
@@ -316,9 +319,9 @@ static void force_and_gap_at(const void *self, double phase, int left, double *f
     const dynamics_piece *piece = dynamics_excitation_piece(excitation, phase, left);
     double since = phase - piece->start;
     double delta = value - dynamics_piece_value(piece->e, piece->degree, since);
-    *force = dynamics_mesh_force(
-        excitation, dynamics_piece_value(piece->k, piece->degree, since), delta,
-        rate - dynamics_piece_slope(piece->e, piece->degree, since) / motion->T);
+    *force = dynamics_mesh_force(excitation, piece, since, delta,
+                                 rate - dynamics_piece_slope(piece->e, piece->degree, since) /
+                                            motion->T);
     *gap = excitation->half_gap > 0 ? fmax(excitation->half_gap - delta, 0) : 0;
 }
 

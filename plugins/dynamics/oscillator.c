@@ -3,6 +3,7 @@
 
 #include "../numerics/integrator.h"
 #include "bracket.h"
+#include "spring.h"
 
 #include <float.h>
 #include <math.h>
@@ -30,6 +31,7 @@ struct dynamics_oscillator {
     double y[DYNAMICS_STATE_SIZE];
     int side;    /* 1: driving flanks touch, -1: back flanks, 0: neither */
     int pressed; /* 0 with side != 0: the damper is clipped and the flank lags behind the teeth */
+    int band;    /* of the spring (spring.h) */
     const dynamics_piece *piece;
     double T;       /* duration of the mesh cycle */
     double t;       /* time since the start of the piece */
@@ -41,20 +43,47 @@ struct dynamics_oscillator {
     size_t steps;
 };
 
-/* A condition that holds as long as value >= 0; then the regime changes to (side, pressed). */
+/* A condition that holds as long as value >= 0; then the regime changes to (side, pressed), or the
+   spring alone to another band. */
 typedef struct gate {
     double value, rate;
-    int side, pressed;
+    int side, pressed, knee, band;
 } gate;
 
+enum { MOST_GATES = 4 };
+
+/* The slope of the spring's force in the present band. */
 static double stiffness_at(const dynamics_oscillator *o, double t)
 {
-    return dynamics_piece_value(o->piece->k, o->piece->degree, t / o->T);
+    return dynamics_piece_value(dynamics_spring_slope(o->piece, o->band), o->piece->degree,
+                                t / o->T);
 }
 
 static double stiffness_rate_at(const dynamics_oscillator *o, double t)
 {
-    return dynamics_piece_slope(o->piece->k, o->piece->degree, t / o->T) / o->T;
+    return dynamics_piece_slope(dynamics_spring_slope(o->piece, o->band), o->piece->degree,
+                                t / o->T) /
+           o->T;
+}
+
+/* What the force of the spring is less than slope times deflection. */
+static double offset_at(const dynamics_oscillator *o, double t)
+{
+    return o->band ? o->band * dynamics_piece_value(o->piece->offset, o->piece->degree, t / o->T)
+                   : 0;
+}
+
+static double offset_rate_at(const dynamics_oscillator *o, double t)
+{
+    return o->band
+               ? o->band * dynamics_piece_slope(o->piece->offset, o->piece->degree, t / o->T) / o->T
+               : 0;
+}
+
+static void find_band(dynamics_oscillator *o)
+{
+    double bend = o->y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap;
+    o->band = o->side ? dynamics_spring_band(o->piece, o->t / o->T, bend) : 0;
 }
 
 static double error_at(const dynamics_oscillator *o, double t)
@@ -87,6 +116,11 @@ static int damper_acts(const dynamics_oscillator *o)
            o->pressed;
 }
 
+static double energy_rate_at(const dynamics_oscillator *o, double t, double bend)
+{
+    return dynamics_spring_at(o->piece, t / o->T, o->T, bend, o->band).energy_rate;
+}
+
 /* The equation of excitation.h in delta = s - e; its variation; and the powers of
    damper and excitation, the latter less what the drag takes. */
 static int derivative(double t, const double y[], double dydt[], void *self)
@@ -95,7 +129,7 @@ static int derivative(double t, const double y[], double dydt[], void *self)
     double k = o->pressed ? stiffness_at(o, t) : 0;
     double c = damper_acts(o) ? 2 * o->excitation->zeta : 0;
     double bend = y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap;
-    double force = c * y[DYNAMICS_RATE] + k * bend;
+    double force = c * y[DYNAMICS_RATE] + k * bend - (o->pressed ? offset_at(o, t) : 0);
     dydt[DYNAMICS_DELTA] = y[DYNAMICS_RATE];
     dydt[DYNAMICS_RATE] = drive_at(o, t) - force;
     if (o->system.dimension == DYNAMICS_MOTION)
@@ -105,7 +139,7 @@ static int derivative(double t, const double y[], double dydt[], void *self)
     dydt[DYNAMICS_M21] = -c * y[DYNAMICS_M21] - k * y[DYNAMICS_M11];
     dydt[DYNAMICS_M22] = -c * y[DYNAMICS_M22] - k * y[DYNAMICS_M12];
     dydt[DYNAMICS_LOSS] = c * y[DYNAMICS_RATE] * y[DYNAMICS_RATE];
-    dydt[DYNAMICS_WORK] = (o->pressed ? 0.5 * stiffness_rate_at(o, t) * bend * bend : 0) -
+    dydt[DYNAMICS_WORK] = (o->pressed ? energy_rate_at(o, t, bend) : 0) -
                           force * error_rate_at(o, t) -
                           drag_at(o, t) * (y[DYNAMICS_RATE] + error_rate_at(o, t));
     return GSL_SUCCESS;
@@ -158,6 +192,7 @@ void dynamics_oscillator_start(dynamics_oscillator *o, double T, double delta, d
                   ? 1
                   : -(delta <= -excitation->half_gap);
     o->pressed = o->side != 0;
+    find_band(o);
     o->clocks = (dynamics_clocks){0};
     o->steps = 0;
 }
@@ -182,8 +217,9 @@ double dynamics_oscillator_energy(const dynamics_oscillator *o)
     double s = o->y[DYNAMICS_DELTA] + error_at(o, o->t);
     double s_rate = o->y[DYNAMICS_RATE] + error_rate_at(o, o->t);
     double bend = o->pressed ? o->y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap : 0;
-    return 0.5 * s_rate * s_rate + 0.5 * stiffness_at(o, o->t) * bend * bend -
-           o->excitation->load * s;
+    double stored =
+        dynamics_spring_at(o->piece, o->t / o->T, o->T, bend, bend != 0 ? o->band : 0).energy;
+    return 0.5 * s_rate * s_rate + stored - o->excitation->load * s;
 }
 
 /* s and s' are continuous at a node, so that delta = s - e jumps against e. Where e jumps the
@@ -197,36 +233,76 @@ static void pass_node(dynamics_oscillator *o, const dynamics_piece *piece, doubl
     o->y[DYNAMICS_DELTA] -= leap;
     o->y[DYNAMICS_RATE] +=
         e_rate - error_rate_at(o, 0) + (damper_acts(o) ? 2 * o->excitation->zeta * leap : 0);
+    find_band(o);
     o->y[DYNAMICS_WORK] += dynamics_oscillator_energy(o) - before;
 }
 
-/* Finds the gates of the present regime and returns their number. */
-static int find_gates(const dynamics_oscillator *o, double t, const double *y, gate g[2])
+/* Finds the gates at which flanks meet or part and returns their number. */
+static int find_contact_gates(const dynamics_oscillator *o, double t, const double *y,
+                              gate g[MOST_GATES])
 {
     double b = o->excitation->half_gap, sign = o->side;
     if (b == 0)
         return 0;
     if (o->side == 0) {
-        g[0] = (gate){b - y[DYNAMICS_DELTA], -y[DYNAMICS_RATE], 1, 1};
-        g[1] = (gate){b + y[DYNAMICS_DELTA], y[DYNAMICS_RATE], -1, 1};
+        g[0] = (gate){.value = b - y[DYNAMICS_DELTA], .rate = -y[DYNAMICS_RATE], .side = 1};
+        g[1] = (gate){.value = b + y[DYNAMICS_DELTA], .rate = y[DYNAMICS_RATE], .side = -1};
+        g[0].pressed = g[1].pressed = 1;
         return 2;
     }
-    gate touch = {sign * y[DYNAMICS_DELTA] - b, sign * y[DYNAMICS_RATE], 0, 0};
+    gate touch = {.value = sign * y[DYNAMICS_DELTA] - b, .rate = sign * y[DYNAMICS_RATE]};
     if (o->excitation->damping != DYNAMICS_DAMPING_CLIPPED) {
         g[0] = touch;
         return 1;
     }
     double k = stiffness_at(o, t), c = 2 * o->excitation->zeta;
-    double push = k * touch.value + c * touch.rate;
+    double push = k * touch.value + c * touch.rate - sign * offset_at(o, t);
     double bend_rate = sign * (drive_at(o, t) - (o->pressed ? sign * push : 0));
-    double push_rate = stiffness_rate_at(o, t) * touch.value + k * touch.rate + c * bend_rate;
+    double push_rate = stiffness_rate_at(o, t) * touch.value + k * touch.rate + c * bend_rate -
+                       sign * offset_rate_at(o, t);
     if (o->pressed) {
-        g[0] = (gate){push, push_rate, o->side, 0};
+        g[0] = (gate){.value = push, .rate = push_rate, .side = o->side};
         return 1;
     }
     g[0] = touch;
-    g[1] = (gate){-push, -push_rate, o->side, 1};
+    g[1] = (gate){.value = -push, .rate = -push_rate, .side = o->side, .pressed = 1};
     return 2;
+}
+
+/* The gate at the knee of the spring on one flank: how far it is exceeded, or falls short of
+   (`sign` -1). */
+static gate knee_gate(const dynamics_oscillator *o, double t, const double *y, int flank,
+                      double sign)
+{
+    const dynamics_piece *p = o->piece;
+    double since = t / o->T, bend = flank * (y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap);
+    double steeper = dynamics_piece_value(p->k, p->degree, since) -
+                     dynamics_piece_value(p->chord, p->degree, since);
+    double steeper_rate = (dynamics_piece_slope(p->k, p->degree, since) -
+                           dynamics_piece_slope(p->chord, p->degree, since)) /
+                          o->T;
+    double rate = steeper_rate * bend + steeper * flank * y[DYNAMICS_RATE] -
+                  dynamics_piece_slope(p->offset, p->degree, since) / o->T;
+    return (gate){.value = sign * dynamics_spring_excess(p, since, bend),
+                  .rate = sign * rate,
+                  .side = o->side,
+                  .pressed = o->pressed,
+                  .knee = 1,
+                  .band = sign > 0 ? 0 : flank};
+}
+
+/* Finds the gates of the present regime and returns their number. */
+static int find_gates(const dynamics_oscillator *o, double t, const double *y, gate g[MOST_GATES])
+{
+    int count = find_contact_gates(o, t, y, g);
+    if (!o->piece->bends || !o->side)
+        return count;
+    if (o->band)
+        g[count++] = knee_gate(o, t, y, o->band, 1);
+    for (int flank = -1; flank <= 1 && !o->band; flank += 2)
+        if (flank == o->side || o->excitation->half_gap == 0)
+            g[count++] = knee_gate(o, t, y, flank, -1);
+    return count;
 }
 
 /* Tries a step from the present state. `error` gets GSL's estimate for the motion alone: the
@@ -244,7 +320,7 @@ static void attempt(dynamics_oscillator *o, double h, double *y, double *error)
 static double gate_after_step(dynamics_oscillator *o, int i, int rate, double h)
 {
     double y[DYNAMICS_STATE_SIZE], error[DYNAMICS_STATE_SIZE];
-    gate g[2];
+    gate g[MOST_GATES];
     attempt(o, h, y, error);
     find_gates(o, o->t + h, y, g);
     return rate ? g[i].rate : g[i].value;
@@ -312,6 +388,7 @@ static void cross_edge(dynamics_oscillator *o, const gate *g)
     o->y[DYNAMICS_DELTA] = (o->side ? o->side : g->side) * o->excitation->half_gap;
     derivative(o->t, o->y, before, o);
     o->side = g->side;
+    o->band = 0;
     o->pressed = g->pressed;
     derivative(o->t, o->y, after, o);
     double salt = rate != 0 ? (after[DYNAMICS_RATE] - before[DYNAMICS_RATE]) / rate : 0;
@@ -325,12 +402,18 @@ static void change_regime(dynamics_oscillator *o, const gate *g)
 {
     double b = o->excitation->half_gap, energy = dynamics_oscillator_energy(o);
     int same_side = g->side == o->side;
+    if (g->knee) {
+        o->band = g->band;
+        o->y[DYNAMICS_WORK] += dynamics_oscillator_energy(o) - energy;
+        return;
+    }
     if (!same_side && fabs(fabs(o->y[DYNAMICS_DELTA]) - b) < 1e-9 * (1 + b)) {
         cross_edge(o, g);
         return;
     }
     o->side = g->side;
     o->pressed = g->pressed;
+    find_band(o);
     double change = dynamics_oscillator_energy(o) - energy;
     if (same_side)
         o->y[DYNAMICS_LOSS] -= change;
@@ -350,7 +433,7 @@ static void accept_step(dynamics_oscillator *o, double h, const double *y)
 /* Finds the first event in the step of h to y, its instant and its gate; 0: there is none. */
 static int find_event(dynamics_oscillator *o, double h, const double *y, double *at, gate *which)
 {
-    gate a[2], z[2];
+    gate a[MOST_GATES], z[MOST_GATES];
     int count = find_gates(o, o->t, o->y, a), found = 0;
     find_gates(o, o->t + h, y, z);
     for (int i = 0; i < count; i++) {
@@ -412,7 +495,7 @@ static void add_sample(const dynamics_oscillator *o, double phase, dynamics_reco
         .phase = (double)record->cycles + phase,
         .s = delta + error_at(o, o->t),
         .s_rate = rate + error_rate_at(o, o->t),
-        .force = dynamics_mesh_force(o->excitation, stiffness_at(o, o->t), delta, rate),
+        .force = dynamics_mesh_force(o->excitation, o->piece, o->t / o->T, delta, rate),
     };
 }
 

@@ -322,7 +322,11 @@ static ff_status evaluate_job(job *j)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
-    job j = {.m = m, .wanted = wanted, .excitation = {.zeta = m->zeta, .damping = m->damping}};
+    job j = {.m = m,
+             .wanted = wanted,
+             .excitation = {.zeta = m->zeta,
+                            .damping = m->damping,
+                            .on_chord = m->oil.squeeze == DYNAMICS_SQUEEZE_SERIES}};
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
     j.inputs.wanted = wanted;
     dynamics_film *film = NULL;

@@ -130,41 +130,48 @@ static void powers_of(const fit *f, double c[DYNAMICS_DEGREE + 1])
         c[k] /= scale;
 }
 
-/* Fits k and e between two nodes; 0: they are not smooth there. */
-static int fit_piece(const dynamics_excitation *excitation, const dynamics_mesh_curves *x,
-                     size_t first, size_t last, dynamics_piece *piece, double distance[2])
+/* Fits one series between two nodes; 0: it is not smooth there. */
+static int fit_series(const dynamics_mesh_curves *x, const double *value, double unit,
+                      const size_t ends[2], double distance[2], double *coefficients)
 {
-    fit k = {x->phase, x->stiffness, first, last, excitation->stiffness, {0}};
-    fit e = {x->phase, x->error, first, last, excitation->length, {0}};
-    double at_nodes, from_lines;
-    *piece = (dynamics_piece){.start = x->phase[first],
-                              .length = x->phase[last] - x->phase[first],
-                              .degree = DYNAMICS_DEGREE};
-    if (!fit_nodes(&k))
+    fit f = {x->phase, value, ends[0], ends[1], unit, {0}};
+    if (!fit_nodes(&f))
         return 0;
-    distances(&k, &distance[0], &distance[1]);
+    distances(&f, &distance[0], &distance[1]);
     if (distance[0] > meets || distance[1] > between)
         return 0;
-    powers_of(&k, piece->k);
-    if (!x->error)
-        return 1;
-    if (!fit_nodes(&e))
-        return 0;
-    distances(&e, &at_nodes, &from_lines);
-    powers_of(&e, piece->e);
-    return at_nodes <= meets && from_lines <= between;
+    powers_of(&f, coefficients);
+    return 1;
+}
+
+/* Fits the curves between two nodes; 0: they are not smooth there. */
+static int fit_piece(const dynamics_excitation *excitation, const dynamics_mesh_curves *x,
+                     const dynamics_spring_nodes *spring, size_t first, size_t last,
+                     dynamics_piece *piece, double distance[2])
+{
+    const size_t ends[2] = {first, last};
+    double of_others[2], unit = excitation->stiffness, length = excitation->length;
+    *piece = (dynamics_piece){.start = x->phase[first],
+                              .length = x->phase[last] - x->phase[first],
+                              .degree = DYNAMICS_DEGREE,
+                              .bends = spring != NULL};
+    return fit_series(x, x->stiffness, unit, ends, distance, piece->k) &&
+           (!x->error || fit_series(x, x->error, length, ends, of_others, piece->e)) &&
+           (!spring ||
+            (fit_series(x, spring->chord, unit, ends, of_others, piece->chord) &&
+             fit_series(x, spring->offset, unit * length, ends, of_others, piece->offset)));
 }
 
 size_t dynamics_smooth_piece(const dynamics_excitation *excitation, const dynamics_mesh_curves *x,
-                             size_t first, size_t last, dynamics_piece *piece,
-                             dynamics_representation *represented)
+                             const dynamics_spring_nodes *spring, size_t first, size_t last,
+                             dynamics_piece *piece, dynamics_representation *represented)
 {
     size_t most = last - first, good = 0, bad = most + 1;
     double distance[2], best[2] = {0};
     dynamics_piece trial;
     /* doubles the number of lines while they are smooth, then halves the range that is left */
     for (size_t lines = LEAST_LINES; lines <= most && bad - good > 1;) {
-        if (fit_piece(excitation, x, first, first + lines, &trial, distance)) {
+        if (fit_piece(excitation, x, spring, first, first + lines, &trial, distance)) {
             good = lines;
             *piece = trial;
             memcpy(best, distance, sizeof best);
@@ -180,7 +187,7 @@ size_t dynamics_smooth_piece(const dynamics_excitation *excitation, const dynami
     /* the rest is left enough lines for a piece of its own */
     if (good < most && most - good < LEAST_LINES && most >= 2 * LEAST_LINES) {
         size_t lines = most - LEAST_LINES;
-        if (fit_piece(excitation, x, first, first + lines, &trial, distance)) {
+        if (fit_piece(excitation, x, spring, first, first + lines, &trial, distance)) {
             good = lines;
             *piece = trial;
             memcpy(best, distance, sizeof best);

@@ -3,13 +3,14 @@
 #ifndef DYNAMICS_SMOOTH_PIECE_H
 #define DYNAMICS_SMOOTH_PIECE_H
 
-#include "excitation.h"
+#include "spring.h"
 
-/* Fits the longest piece that begins at node `first` and ends at `last` or before, and adds its
-   errors to `represented`. Returns the node at which it ends; 0: the lines there follow no smooth
-   curve, or are too few to tell. */
+/* `spring` NULL: one that does not bend. Fits the longest piece that begins at node `first` and
+   ends at `last` or before, and adds its errors to `represented`. Returns the node at which it
+   ends; 0: the lines there follow no smooth curve, or are too few to tell. */
 size_t dynamics_smooth_piece(const dynamics_excitation *excitation,
-                             const dynamics_mesh_curves *curves, size_t first, size_t last,
+                             const dynamics_mesh_curves *curves,
+                             const dynamics_spring_nodes *spring, size_t first, size_t last,
                              dynamics_piece *piece, dynamics_representation *represented);
 
 /* The polynomial that meets both ends of a series and its nodes by least squares, over `unit`: its

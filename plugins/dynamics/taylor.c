@@ -122,7 +122,7 @@ FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int
 FF_SIMD_INLINE void recur(const dynamics_piece_equation *q, double T, int columns,
                           dynamics_taylor_series *s)
 {
-    if (q->degree > 1)
+    if (q->degree > 1 || q->drags)
         recur_curved(q, T, columns, s);
     else
         recur_straight(q, T, columns, s);

@@ -25,7 +25,7 @@ enum {
 
 typedef struct dynamics_piece_equation {
     double load, damper;
-    int degree; /* of k, e and drag; 1: straight lines without a drag */
+    int degree; /* of k, e and drag */
     int drags;  /* whether there is a drag */
     double k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1], drag[DYNAMICS_DEGREE + 1];
 } dynamics_piece_equation;

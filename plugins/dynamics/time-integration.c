@@ -267,7 +267,10 @@ static ff_status evaluate_job(job *j, uint64_t wanted)
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
-    job j = {.m = m, .excitation = {.zeta = m->zeta, .damping = m->damping}};
+    job j = {.m = m,
+             .excitation = {.zeta = m->zeta,
+                            .damping = m->damping,
+                            .on_chord = m->oil.squeeze == DYNAMICS_SQUEEZE_SERIES}};
     dynamics_film_powers powers;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
     j.inputs.wanted = wanted;

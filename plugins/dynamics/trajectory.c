@@ -2,6 +2,7 @@
 #include "trajectory.h"
 
 #include "orbit-film.h"
+#include "spring.h"
 
 #include <math.h>
 #include <string.h>
@@ -18,18 +19,18 @@ static const double weight[NODES / 2] = {0.3626837833783620, 0.3137066458778873,
 /* The motion at x h into a step. */
 typedef struct moment {
     double delta, rate, e, e_rate;
-    double k, k_rate, bend; /* 0 where no flank is pressed */
+    dynamics_spring spring; /* 0 where no flank is pressed */
     double drag, film_rate;
 } moment;
 
-/* Without a flank that is held the teeth bend under the films: k and bend are of both together, so
-   that the energy of the springs is right. Only the ends of such a step are asked for. */
+/* Without a flank that is held the teeth bend under the films, which two springs do at a time. Only
+   the energy at the ends of such a step is asked for. */
 static void bend_in_oil(const dynamics_step *f, double x, double phase, moment *m)
 {
     const dynamics_landing *step = f->landing;
     int i = x > 0.5 ? DYNAMICS_STAGES : 0;
-    m->k = dynamics_piece_value(f->piece->k, f->piece->degree, phase);
-    m->bend = hypot(step->bend[0][i], step->bend[1][i]);
+    double bend = hypot(step->bend[0][i], step->bend[1][i]);
+    m->spring = dynamics_spring_at(f->piece, phase, f->T, bend, 0);
 }
 
 /* Since the start of the piece. */
@@ -48,11 +49,8 @@ static moment moment_at(const dynamics_step *f, double x)
         .e = dynamics_piece_value(f->piece->e, f->piece->degree, phase),
         .e_rate = dynamics_piece_slope(f->piece->e, f->piece->degree, phase) / f->T,
     };
-    if (f->pressed) {
-        m.k = dynamics_piece_value(f->piece->k, f->piece->degree, phase);
-        m.k_rate = dynamics_piece_slope(f->piece->k, f->piece->degree, phase) / f->T;
-        m.bend = z[0];
-    }
+    if (f->pressed)
+        m.spring = dynamics_spring_at(f->piece, phase, f->T, z[0], f->band);
     if (f->landing)
         bend_in_oil(f, x, phase, &m);
     if (f->excitation->fed_back) {
@@ -65,8 +63,7 @@ static moment moment_at(const dynamics_step *f, double x)
 static double energy_of(const dynamics_excitation *excitation, const moment *m)
 {
     double s_rate = m->rate + m->e_rate;
-    return 0.5 * s_rate * s_rate + 0.5 * m->k * m->bend * m->bend -
-           excitation->load * (m->delta + m->e);
+    return 0.5 * s_rate * s_rate + m->spring.energy - excitation->load * (m->delta + m->e);
 }
 
 void dynamics_trajectory_observe_moments(void *self, const dynamics_step *f)
@@ -97,10 +94,11 @@ static void join_strides(dynamics_trajectory *t, const dynamics_step *f)
         t->loss -= change;
     else if (f->excitation->film && f->side != t->side) /* a film behind the flank begins or ends */
         t->loss -= change;
-    else if (f->at == f->piece->start)
+    else if (f->at == f->piece->start || f->band != t->band)
         t->work += change;
     t->begun = 1;
     t->side = f->side;
+    t->band = f->band;
     t->pressed = f->pressed;
 }
 
@@ -110,9 +108,9 @@ static void add_powers(dynamics_trajectory *t, const dynamics_step *f)
     for (int i = 0; i < NODES && !f->landing; i++) {
         double w = h * weight[i / 2];
         moment m = moment_at(f, half * (1 + (i % 2 ? node[i / 2] : -node[i / 2])));
-        double force = f->damper * m.rate + m.k * m.bend;
+        double force = f->damper * m.rate + m.spring.force;
         t->loss += w * f->damper * m.rate * m.rate;
-        t->work += w * (0.5 * m.k_rate * m.bend * m.bend - force * m.e_rate);
+        t->work += w * (m.spring.energy_rate - force * m.e_rate);
         t->drag += w * m.drag * (m.rate + m.e_rate);
         t->thickness += w * force * m.film_rate;
     }
@@ -155,13 +153,13 @@ static void add_sample(dynamics_trajectory *t, const dynamics_step *f, double x,
     if (record->count == record->capacity)
         return;
     moment m = moment_at(f, x);
-    double k = dynamics_piece_value(f->piece->k, f->piece->degree, phase - f->piece->start);
     record->samples[record->count++] = (dynamics_sample){
         .phase = (double)record->cycles + phase,
         .s = m.delta + m.e,
         .s_rate = m.rate + m.e_rate,
         .force = f->landing ? value_in_oil(t->radau, f->landing->force, x)
-                            : dynamics_mesh_force(f->excitation, k, m.delta, m.rate),
+                            : dynamics_mesh_force(f->excitation, f->piece, phase - f->piece->start,
+                                                  m.delta, m.rate),
         .film = film_ahead(t->radau, f, x, m.delta),
     };
 }

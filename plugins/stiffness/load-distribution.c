@@ -35,9 +35,10 @@ typedef struct distribution {
 
 static const ff_param params[] = {
     STIFFNESS_POINTS_ROW(distribution),
-    FF_ONE_OF(
-        "secant|tangent", "definition", distribution, definition, 0, "secant",
-        "secant F/(e_l - e), or tangent dF/d(e_l), which a small vibration about the load sees"),
+    FF_ONE_OF("secant|tangent", "definition", distribution, definition, 0, "tangent",
+              "tangent dF/d(e_l), which a small vibration about the load sees, or secant F/(e_l - "
+              "e), the "
+              "chord that Li & Kahraman 2011 take"),
     FF_ONE_OF("finite-element|analytical", "compliance", distribution, teeth.compliance, 0,
               "finite-element",
               "finite-element: plane elements of the whole ring of teeth; analytical: beam with "

@@ -9,9 +9,9 @@
 const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS] = {
     FF_ROW("phase", "1", "mesh cycles, from 0 to 1", FF_REALS, FF_REQUIRED, NULL, NULL, NULL, 0, 0,
            0, 0, 0, 100000, 0),
-    FF_COLUMN("stiffness", "N/m", 0, "stiffness", 0, 0, "mesh stiffness"),
+    FF_COLUMN("stiffness", "N/m", 0, NULL, 0, 0, "mesh stiffness"),
     FF_COLUMN("transmission_error", "um", 0, NULL, 0, 0, "without load"),
-    FF_COLUMN("loaded_transmission_error", "um", 0, "stiffness", 0, 0,
+    FF_COLUMN("loaded_transmission_error", "um", 0, NULL, 0, 0,
               "under the load of the operating point"),
     FF_COLUMN("load_share", "1", 0, NULL, 0, 0, "of the entering pair"),
 };
@@ -49,6 +49,10 @@ static ff_status use_columns(stiffness_table *t)
         return ff_table_failf(t->host, t->file, FF_TABLE_ALL, FF_TABLE_ALL,
                               "the header must name stiffness, or transmission_error and "
                               "loaded_transmission_error");
+    if (t->k && t->loaded && t->definition == SECANT)
+        return ff_table_failf(t->host, t->file, FF_TABLE_ALL, COLUMN_LOADED,
+                              "the secant stiffness follows from this column: give one of both, or "
+                              "definition: tangent for a stiffness that is the slope dF/d(e_l)");
     if (!t->k && t->definition == TANGENT)
         return ff_failf(t->host, FF_UNSUPPORTED, "definition",
                         "transmission errors at one load give the secant stiffness alone");
@@ -83,6 +87,10 @@ static const double *differs_from_start(const stiffness_table *t, const double *
     return fabs(*end - value[k->after[0]]) > noise * (high - low) ? end : NULL;
 }
 
+static const char loaded_jumps[] =
+    "the loaded transmission error is not periodic: at phase 1 it must have the value of phase 0, "
+    "unless ends: jump says that it jumps there";
+
 /* The transmission error without load is always periodic; the stiffness may jump at the end of a
    mesh cycle where the table says so. */
 static ff_status check_periodic(const stiffness_table *t)
@@ -95,13 +103,17 @@ static ff_status check_periodic(const stiffness_table *t)
                        "have the value of phase 0",
                        *end);
     end = t->ends == PERIODIC ? differs_from_start(t, stiffness) : NULL;
+    if (!end && t->k && t->loaded && t->ends == PERIODIC) {
+        end = differs_from_start(t, t->loaded);
+        if (end)
+            return fail_at(t, "file", COLUMN_LOADED, t->distinct.before[0], loaded_jumps, *end);
+    }
     if (!end)
         return FF_OK;
     return fail_at(t, "stiffness", t->k ? COLUMN_STIFFNESS : COLUMN_LOADED, t->distinct.before[0],
                    t->k ? "the stiffness is not periodic: at phase 1 it must have the value of "
                           "phase 0, unless ends: jump says that it jumps there"
-                        : "the loaded transmission error is not periodic: at phase 1 it must have "
-                          "the value of phase 0, unless ends: jump says that it jumps there",
+                        : loaded_jumps,
                    *end);
 }
 
@@ -111,7 +123,7 @@ static ff_status check_values(const stiffness_table *t)
         if (t->k && !(t->k[i] > 0 && isfinite(t->k[i])))
             return fail_at(t, "stiffness", COLUMN_STIFFNESS, i, "a stiffness must be positive",
                            t->k[i]);
-        if (t->loaded && !(t->loaded[i] > t->error[i]))
+        if (t->loaded && !(t->loaded[i] > (t->error ? t->error[i] : 0)))
             return fail_at(t, "file", COLUMN_LOADED, i,
                            "the loaded transmission error must exceed the unloaded one, in m",
                            t->loaded[i]);

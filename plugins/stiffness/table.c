@@ -24,14 +24,14 @@ typedef struct curve {
 typedef struct table_curves {
     const stiffness_table *table;
     double contact_ratio;
-    curve k, error, share;
+    curve k, error, loaded, share;
 } table_curves;
 
 static const ff_param params[] = {
     FF_PATH("file", stiffness_table, path, FF_REQUIRED, "source",
             "table with the columns phase, stiffness [N/m], or phase, transmission_error [um], "
             "loaded_transmission_error [um], where k = F/(e_l - e); transmission_error may stand "
-            "beside stiffness; load_share as said there"),
+            "beside stiffness, and with definition: tangent both; load_share as said there"),
     FF_LIST("phase", "1", stiffness_table, phase, FF_REQUIRED | FF_INCREASING, NULL, "source", 0, 1,
             0, 0, 1, 100000,
             "phases of the mesh cycle, 0 = the entering pair at SAP; one given twice holds the "
@@ -50,8 +50,9 @@ static const ff_param params[] = {
              "equal steps of the mesh cycle that the outputs are given at, beside the table's own "
              "phases"),
     FF_ONE_OF("secant|tangent", "definition", stiffness_table, definition, 0, "secant",
-              "what the given stiffness is: secant F/(e_l - e), or tangent dF/d(e_l), which then "
-              "stands for the secant in the loaded transmission error"),
+              "what the given stiffness is: secant F/(e_l - e), or tangent dF/d(e_l), beside which "
+              "the file may give loaded_transmission_error; without it the tangent stands for the "
+              "secant there"),
     FF_QUANTITY(
         "tolerance", "1", stiffness_table, tolerance, FF_MIN_OPEN | FF_TUNABLE, "0.01", NULL, 0, 1,
         0, 0, "largest distance of the fitted cubics from a sample, over the range of the samples"),
@@ -154,7 +155,8 @@ static size_t list_cycle_breakpoints(const stiffness_table *t, double contact_ra
             breaks[n++] = (stiffness_breakpoint){leaves, true};
         placed = placed || near || leaves < phase;
         bool jump = stiffness_jumps_at(&t->distinct, k, i) ||
-                    (t->error && stiffness_jumps_at(&t->distinct, t->error, i));
+                    (t->error && stiffness_jumps_at(&t->distinct, t->error, i)) ||
+                    (t->k && t->loaded && stiffness_jumps_at(&t->distinct, t->loaded, i));
         breaks[n++] = (stiffness_breakpoint){phase, jump || near};
     }
     if (!placed)
@@ -171,6 +173,7 @@ static size_t list_output_breakpoints(const stiffness_table *t, const double *k,
     size_t n = 0;
     for (size_t i = 0; i < t->distinct.count; i++)
         if (is_break(&t->distinct, k, i) || (t->error && is_break(&t->distinct, t->error, i)) ||
+            (t->k && t->loaded && is_break(&t->distinct, t->loaded, i)) ||
             (t->interpolation == FITTED && t->corner_at[i]))
             phase[n++] = t->distinct.phase[i];
     return n;
@@ -192,7 +195,7 @@ static ff_status sample_stiffness(const stiffness_table *t, const stiffness_path
 
 /* Work space of one evaluation. */
 typedef struct table_work {
-    double *sample, *stiffness, *error, *breakpoint;
+    double *sample, *stiffness, *error, *loaded, *breakpoint;
     stiffness_breakpoint *breaks;
     stiffness_cycle cycle;
     table_curves curves;
@@ -212,11 +215,13 @@ static void work_free(table_work *w)
     free(w->sample);
     free(w->stiffness);
     free(w->error);
+    free(w->loaded);
     free(w->breakpoint);
     free(w->breaks);
     stiffness_cycle_free(&w->cycle);
     curve_free(&w->curves.k);
     curve_free(&w->curves.error);
+    curve_free(&w->curves.loaded);
     curve_free(&w->curves.share);
 }
 
@@ -224,19 +229,23 @@ static void work_free(table_work *w)
 static ff_status sample_cycle(const stiffness_table *t, table_work *w)
 {
     table_curves *s = &w->curves;
+    const double *loaded = t->k ? t->loaded : NULL; /* without k it gave the stiffness */
     size_t breaks = list_cycle_breakpoints(t, s->contact_ratio, w->sample, w->breaks);
     if (!curve_make(t, w->sample, &s->k) || !curve_make(t, t->error, &s->error) ||
-        !curve_make(t, t->share, &s->share) ||
+        !curve_make(t, loaded, &s->loaded) || !curve_make(t, t->share, &s->share) ||
         !stiffness_cycle_make(&w->cycle, (size_t)t->points, breaks, w->breaks))
         return FF_NOMEM;
     w->stiffness = malloc(w->cycle.count * sizeof *w->stiffness);
     w->error = malloc(w->cycle.count * sizeof *w->error);
-    if (!w->stiffness || !w->error)
+    w->loaded = loaded ? malloc(w->cycle.count * sizeof *w->loaded) : NULL;
+    if (!w->stiffness || !w->error || (loaded && !w->loaded))
         return FF_NOMEM;
     for (size_t i = 0; i < w->cycle.count; i++) {
         int side = stiffness_cycle_side(&w->cycle, i);
         w->stiffness[i] = curve_at(t, &s->k, w->cycle.phase[i], side);
         w->error[i] = t->error ? curve_at(t, &s->error, w->cycle.phase[i], side) : 0;
+        if (loaded)
+            w->loaded[i] = curve_at(t, &s->loaded, w->cycle.phase[i], side);
         if (!(w->stiffness[i] > 0))
             return ff_failf(t->host, FF_INVALID, "tolerance",
                             "the fitted cubics fall to %g N/m at phase %g; a finer tolerance or "
@@ -291,6 +300,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         .cycle = w.cycle,
         .stiffness = w.stiffness,
         .error = w.error,
+        .loaded = w.loaded,
         .breakpoints = list_output_breakpoints(t, w.sample, w.breakpoint),
         .breakpoint = w.breakpoint,
         .stiffness_at = stiffness_at,

@@ -72,7 +72,8 @@ static void test_contact_in_plane_strain(void)
             middle++;
         double more = stage_quality(c.mesh, "contact_in_plane_strain");
         check_true("some per cent", more > 0.01 && more < 0.06);
-        add[i] = more / stage_get(c.mesh, "stiffness", NULL)[middle];
+        add[i] = more * stage_get(c.mesh, "loaded_transmission_error", NULL)[middle] /
+                 (force * (i ? 500 : 50) / 250);
         chain_close(&c);
     }
     double softening = 2 * 0.09 / (M_PI * 206e9 * 0.02) * log(10);
@@ -106,7 +107,7 @@ static void test_torque_stiffens_by_hertz_alone(void)
 static void test_definitions(void)
 {
     chain at = chain_with(model, "250 N m", "mesh.definition", "tangent"),
-          more = chain_with(model, "250.01 N m", NULL, NULL),
+          more = chain_with(model, "250.01 N m", "mesh.definition", "secant"),
           less = chain_with(model, "249.99 N m", NULL, NULL);
     size_t n;
     const double *k = stage_get(at.mesh, "stiffness", &n);
@@ -139,6 +140,7 @@ static void test_swapped_driver(void)
         stage_set_text(sides[i].c->gear, "bore_diameter", sides[i].bore);
         stage_set_text(sides[i].c->gear, "tip_relief", i ? "[4 um, 8 um]" : "[8 um, 4 um]");
         stage_set_text(sides[i].c->mesh, "corner_contact", "true");
+        stage_set_text(sides[i].c->mesh, "definition", "secant"); /* whose mean converges faster */
     }
     check_near("mean", chain_mean(&a), chain_mean(&b), 1e-5);
     size_t n;

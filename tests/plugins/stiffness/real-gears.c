@@ -119,6 +119,7 @@ static void test_straight_lines(void)
             stage_set_text(c.gear, "tip_relief", "25 um");
             stage_set_text(c.mesh, "compliance", "analytical");
             stage_set_text(c.mesh, "points", points[k]);
+            stage_set_text(c.mesh, "definition", "secant");
             check_true(torques[i], stage_run(c.mesh) == FF_OK);
             const double *now = stage_get(c.mesh, "stiffness_harmonics", NULL);
             double off = 0, stated = stage_quality(c.mesh, "interpolation_error");

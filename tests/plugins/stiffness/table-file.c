@@ -72,6 +72,21 @@ static void test_transmission_errors(void)
     stage_close(s);
 }
 
+/* The slope beside both errors: each is given as it stands. */
+static void test_slope_and_errors(void)
+{
+    stage *s = open_file("phase,stiffness [N/um],transmission_error [um],"
+                         "loaded_transmission_error [um]\n0,300,2,12\n0.5,280,2.5,15\n");
+    stage_set_text(s, "definition", "tangent");
+    stage_set(s, "points", 4);
+    check_true("runs", stage_run(s) == FF_OK);
+    check_near("k", stage_get(s, "stiffness", NULL)[2], 2.8e8, 1e-13);
+    check_near("e", stage_get(s, "transmission_error", NULL)[2], 2.5e-6, 1e-13);
+    check_near("e_l", stage_get(s, "loaded_transmission_error", NULL)[2], 15e-6, 1e-13);
+    check_near("between", stage_get(s, "loaded_transmission_error", NULL)[1], 13.5e-6, 1e-13);
+    stage_close(s);
+}
+
 /* Stiffness with an unloaded error of its own: e_l = e + F/k. */
 static void test_error_beside_stiffness(void)
 {
@@ -144,7 +159,7 @@ static void test_refusals(void)
     expect_refusal("stiffness [N/m]\n1e8\n", ":1:1: the column \"phase\" is missing");
     expect_refusal("phase,transmission_error [m]\n0,1\n", "must name stiffness");
     expect_refusal("phase,stiffness [N/m],loaded_transmission_error [m]\n0,1,1\n",
-                   ":1:23: the columns \"stiffness\" and \"loaded_transmission_error\" exclude");
+                   ":1:23: the secant stiffness follows from this column");
     expect_refusal("phase,stiffness [N/m]\n0,1e8\n0.5\n", ":3:1: 1 field in this line, but 2");
     expect_refusal("phase,stiffness [N/m]\n0,1e8\n0.5,two\n", ":3:5: \"two\" is not a number");
     expect_refusal("phase,stiffness [N/m]\n0,\n", ":2:3: stiffness has no number here");
@@ -235,6 +250,7 @@ int main(void)
     unity = spur_pair_make(50, 50, 3e-3, 1, 0, 0);
     test_stiffness_column();
     test_transmission_errors();
+    test_slope_and_errors();
     test_error_beside_stiffness();
     test_load_share();
     test_refusals();

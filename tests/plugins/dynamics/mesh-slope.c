@@ -1,0 +1,208 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The spring that bends: flight begins and ends at the unloaded e, and a slow motion is the loaded
+   transmission error whether the stiffness is the chord or the slope. */
+#include "check.h"
+#include "pair.h"
+
+#include "../../../plugins/dynamics/orbit.h"
+#include "../../../plugins/dynamics/oscillator.h"
+#include "../../../plugins/dynamics/spring.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { LINES = 200 };
+
+/* A mesh whose slope and loaded error e_l are constant: with F = 1 the offset is k e_l - 1. */
+typedef struct constant_mesh {
+    dynamics_excitation mesh;
+    dynamics_flow flow;
+    double k, chord, offset, load;
+} constant_mesh;
+
+static void open_mesh(constant_mesh *c, double k, double loaded, double half_gap)
+{
+    static const double phase[] = {0, 0.37, 1}, zero[] = {0, 0, 0};
+    const double slope[] = {k, k, k}, error[] = {loaded, loaded, loaded};
+    dynamics_mesh_curves x = {3, phase, slope, zero};
+    dynamics_spring_nodes nodes;
+    *c = (constant_mesh){.mesh = {.load = 1, .half_gap = half_gap, .damping = 0}, .k = k};
+    c->mesh.length = c->mesh.stiffness = c->mesh.omega = 1;
+    c->load = 1;
+    c->offset = k * loaded - 1;
+    c->chord = k * 0.5 / (0.5 + c->offset);
+    check_true("nodes", dynamics_spring_nodes_make(&x, error, 1, 0, &nodes));
+    check_true("builds", dynamics_excitation_build_bent(&c->mesh, &x, &nodes) &&
+                             dynamics_flow_init(&c->flow, &c->mesh));
+    dynamics_spring_nodes_free(&nodes);
+}
+
+static void close_mesh(constant_mesh *c)
+{
+    dynamics_flow_free(&c->flow);
+    dynamics_excitation_free(&c->mesh);
+}
+
+/* The time from touching with the speed v to the knee, and the speed there: z'' = F - chord z. */
+static double time_to_knee(const constant_mesh *c, double v, double *at_knee)
+{
+    double w = sqrt(c->chord), rest = c->load / c->chord;
+    double knee = c->offset / (c->k - c->chord), size = hypot(rest, v / w),
+           turn = atan2(v / w, -rest);
+    /* z = rest + size cos(turn - w t) */
+    double t = (turn - acos((knee - rest) / size)) / w;
+    *at_knee = size * w * sin(turn - w * t);
+    return t;
+}
+
+/* The time from touching with the speed v to parting again, through both bands. */
+static double time_in_contact(const constant_mesh *c, double v)
+{
+    double u, down = time_to_knee(c, v, &u), w = sqrt(c->k);
+    double rest = (c->load + c->offset) / c->k, knee = c->offset / (c->k - c->chord);
+    return 2 * down + 2 * atan2(u / w, -(rest - knee)) / w;
+}
+
+/* Without damping a flank that parts with the speed v lands with it after 2 v/F, and parts again
+   when its way through the bands is over. */
+static void test_flight(void)
+{
+    const double speeds[] = {1.2, 2.5, 0.9};
+    for (int i = 0; i < 3; i++) {
+        constant_mesh c;
+        double v = speeds[i];
+        open_mesh(&c, 1.3, 1.2, 3);
+        double T = 2 * v / c.load + time_in_contact(&c, v);
+        dynamics_state y = dynamics_state_at(3, -v);
+        check_true("passes", dynamics_flow_motion(&c.flow, T, &y, NULL));
+        check_near("parts again at the unloaded e", y.delta, 3, 1e-11);
+        check_near("with the speed of the start", y.rate, -v, 1e-11);
+        dynamics_oscillator *o = dynamics_oscillator_new(&c.mesh, 1e-12, 1, DYNAMICS_MOTION);
+        dynamics_oscillator_start(o, T, 3, -v);
+        check_true("passes", dynamics_oscillator_cycle(o, T, NULL));
+        check_near("in steps, too", dynamics_oscillator_state(o)[DYNAMICS_DELTA], 3, 1e-9);
+        check_near("in steps, too", dynamics_oscillator_state(o)[DYNAMICS_RATE], -v, 1e-9);
+        dynamics_oscillator_free(o);
+        close_mesh(&c);
+    }
+}
+
+/* At rest under F the deflection is e_l, and the force never falls where the deflection rises. */
+static void test_law(void)
+{
+    constant_mesh c;
+    open_mesh(&c, 1.4, 1.1, 3);
+    const dynamics_piece *p = c.mesh.pieces;
+    check_near("at rest", dynamics_rest_bend(&c.mesh), 1.1, 1e-15);
+    check_near("F there", dynamics_spring_force(p, 0, 1.1), 1, 1e-15);
+    check_near("half of it at the knee", dynamics_spring_force(p, 0, c.offset / (c.k - c.chord)),
+               0.5, 1e-14);
+    check_near("none at e", dynamics_spring_force(p, 0, 0), 0, 1e-15);
+    check_near("as much on the other flank", dynamics_spring_force(p, 0, -1.1), -1, 1e-15);
+    double before = 0;
+    for (int i = 1; i <= 200; i++) {
+        double force = dynamics_spring_force(p, 0, 0.01 * i);
+        check_true("rises", force > before);
+        before = force;
+    }
+    close_mesh(&c);
+}
+
+/* The monodromy through both bands and flight, against differences. */
+static void test_variation(void)
+{
+    constant_mesh c;
+    const double T = 9.3, h = 1e-6, at[2] = {3.4, 2.2};
+    open_mesh(&c, 1.3, 1.2, 3);
+    c.mesh.zeta = 0.03;
+    dynamics_state y = dynamics_state_at(at[0], at[1]);
+    check_true("passes", dynamics_flow_variation(&c.flow, T, &y));
+    for (int j = 0; j < 2; j++) {
+        dynamics_state up = dynamics_state_at(at[0] + (j ? 0 : h), at[1] + (j ? h : 0));
+        dynamics_state down = dynamics_state_at(at[0] - (j ? 0 : h), at[1] - (j ? h : 0));
+        check_true("passes", dynamics_flow_motion(&c.flow, T, &up, NULL) &&
+                                 dynamics_flow_motion(&c.flow, T, &down, NULL));
+        check_near("delta", y.m[j], (up.delta - down.delta) / (2 * h), 1e-6);
+        check_near("rate", y.m[2 + j], (up.rate - down.rate) / (2 * h), 1e-6);
+    }
+    dynamics_state longer = dynamics_state_at(at[0], at[1]), shorter = longer;
+    check_true("passes", dynamics_flow_motion(&c.flow, T + h, &longer, NULL) &&
+                             dynamics_flow_motion(&c.flow, T - h, &shorter, NULL));
+    check_near("by T", y.change[0], (longer.delta - shorter.delta) / (2 * h), 1e-6);
+    close_mesh(&c);
+}
+
+/* One harmonic of the slope and of the loaded error, of other sizes: at 1 % of the natural
+   frequency the motion is the loaded error at every point. */
+static void test_slow_motion(void)
+{
+    static const char *const models[] = {"dynamics/shooting", "dynamics/time-integration",
+                                         "dynamics/harmonic-balance"};
+    static double loaded[PAIR_MAX_PHASES];
+    for (int tangent = 0; tangent < 2; tangent++) {
+        pair p = pair_cosine(0.01 * pair_natural_frequency, 0.1, 2e-6, LINES);
+        double mean = p.line_force / p.stiffness_mean, range = 0, low = INFINITY, high = 0;
+        for (size_t i = 0; i < p.phases; i++) {
+            double c = cos(2 * M_PI * p.phase[i]), chord = 0.85 + 0.08 * c;
+            loaded[i] = p.error[i] + (tangent ? mean / chord : p.line_force / p.stiffness[i]);
+            low = fmin(low, loaded[i]), high = fmax(high, loaded[i]);
+        }
+        range = high - low;
+        for (size_t m = 0; m < sizeof models / sizeof *models; m++) {
+            stage *s = pair_open(models[m], &p);
+            size_t count;
+            double worst = 0;
+            stage_give_series(s, "stiffness.loaded_transmission_error", p.phases, loaded);
+            check_true(models[m], stage_run(s) == FF_OK);
+            const double *phase = stage_get(s, "phase", &count), *dte = stage_get(s, "dte", NULL);
+            for (size_t i = 0; i < count; i++) {
+                double at = phase[i] * LINES, x = at - floor(at);
+                size_t node = (size_t)floor(at) % LINES;
+                double expected = loaded[node] + x * (loaded[node + 1] - loaded[node]);
+                worst = fmax(worst, fabs(dte[i] - p.backlash / 2 - expected));
+            }
+            check_true(tangent ? "slow motion, slope" : "slow motion, chord", worst < 1e-3 * range);
+            stage_close(s);
+        }
+    }
+}
+
+/* A loaded error that belongs to the chord changes nothing, to the last bit; one without which the
+   stiffness would soften is told, and so is one below e. */
+static void test_sources(void)
+{
+    static double loaded[PAIR_MAX_PHASES];
+    double rms[2];
+    for (int given = 0; given < 2; given++) {
+        pair p = pair_trapezoid(2375);
+        for (size_t i = 0; i < p.phases; i++)
+            loaded[i] = p.line_force / p.stiffness[i];
+        stage *s = pair_open("dynamics/shooting", &p);
+        if (given)
+            stage_give_series(s, "stiffness.loaded_transmission_error", p.phases, loaded);
+        check_true("runs", stage_run_wanted(s, "dte_rms") == FF_OK);
+        rms[given] = stage_scalar(s, "dte_rms");
+        stage_close(s);
+    }
+    check_true("the chord to the last bit", rms[0] == rms[1]);
+    for (int below = 0; below < 2; below++) {
+        pair p = pair_trapezoid(2375);
+        for (size_t i = 0; i < p.phases; i++)
+            loaded[i] = (below ? -1 : 0.8) * p.line_force / p.stiffness[i];
+        stage *s = pair_open("dynamics/shooting", &p);
+        stage_give_series(s, "stiffness.loaded_transmission_error", p.phases, loaded);
+        check_true("runs", stage_run_wanted(s, "dte_rms") == FF_OK);
+        check_true("is told", stage_verdict(s) == FF_DOUBTFUL);
+        stage_close(s);
+    }
+}
+
+int main(void)
+{
+    test_law();
+    test_flight();
+    test_variation();
+    test_slow_motion();
+    test_sources();
+    return check_done();
+}
