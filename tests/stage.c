@@ -185,12 +185,25 @@ const char *stage_why_item(const stage *s)
     return ff_instance_item(s);
 }
 
-static const ff_quality *quality(const stage *s, const char *name)
+static const ff_quality *find_quality(const stage *s, const char *name)
 {
     const ff_quality *line;
     for (size_t i = 0; ff_instance_quality(s, i, &line) == FF_OK; i++)
         if (!strcmp(line->name, name))
             return line;
+    return NULL;
+}
+
+int stage_has_quality(const stage *s, const char *name)
+{
+    return find_quality(s, name) != NULL;
+}
+
+static const ff_quality *quality(const stage *s, const char *name)
+{
+    const ff_quality *line = find_quality(s, name);
+    if (line)
+        return line;
     fprintf(stderr, "%s: no quality line %s\n", ff_instance_stage(s)->use, name);
     exit(2);
 }

@@ -50,6 +50,7 @@ const void *stage_service(stage *s, const char *id);
 
 const char *stage_why(const stage *s);      /* the reason of the last status; "" without */
 const char *stage_why_item(const stage *s); /* its parameter or port, "" without */
+int stage_has_quality(const stage *s, const char *name); /* 1: there is such a line */
 double stage_quality(const stage *s, const char *name);
 double stage_quality_limit(const stage *s, const char *name);
 int stage_verdict(const stage *s); /* the worst verdict of the last run */

@@ -17,23 +17,6 @@ static const double least_damping = 2e-3;
 /* Mesh cycles: between tries of Newton's method at first, remembered, and to measure growth. */
 enum { BATCH = 16, HISTORY = DYNAMICS_PERIOD_MAX + 1, GROWTH_CYCLES = 400 };
 
-/* Reduces the period to a divisor of it after which the motion already repeats itself. */
-static void reduce_period(const dynamics_flow *flow, dynamics_orbit *o)
-{
-    for (int q = 1; q < o->period; q++) {
-        if (o->period % q != 0)
-            continue;
-        dynamics_orbit shorter = *o;
-        shorter.period = q;
-        if (dynamics_orbit_map(flow, &shorter) &&
-            dynamics_orbit_residual(flow->excitation, &shorter) < 1e-6 &&
-            dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &shorter)) {
-            *o = shorter;
-            return;
-        }
-    }
-}
-
 /* Finds a periodic motion near the last states; history[i] is the state i cycles ago. */
 static int find_orbit(const dynamics_flow *flow, const dynamics_search *search,
                       double history[HISTORY][2], dynamics_attractor *a)
@@ -50,7 +33,7 @@ static int find_orbit(const dynamics_flow *flow, const dynamics_search *search,
             !dynamics_orbit_is_stable(&o) ||
             !dynamics_orbit_distance(flow, &o, history[0], &distance) || distance > close_enough)
             continue;
-        reduce_period(flow, &o);
+        dynamics_orbit_reduce(flow, &o);
         a->orbit = o;
         a->period = o.period;
         memcpy(a->x, o.x, sizeof a->x);
@@ -173,54 +156,6 @@ static int lower_damping(dynamics_flow *flow, dynamics_excitation *excitation, d
     return 1;
 }
 
-/* How a sweep begins. */
-typedef struct sweep_start {
-    double from;       /* mesh over natural frequency */
-    size_t start;      /* cycles before the frequency changes */
-    int seeks_contact; /* whether the motion without separation will do where it is stable */
-} sweep_start;
-
-/* Finds, by a sweep from a->x, the motion at the speed of the search. */
-static ff_status sweep_and_attract(const dynamics_flow *flow, const sweep_start *way,
-                                   const dynamics_search *search, const ff_host *host,
-                                   dynamics_attractor *a)
-{
-    dynamics_excitation excitation = *flow->excitation;
-    dynamics_flow damped = {
-        .excitation = &excitation, .free_until = flow->free_until, .radau = flow->radau};
-    double zeta = excitation.zeta;
-    excitation.zeta = fmax(zeta, least_damping);
-    if (host->progress(host->ctx, 0))
-        return FF_STOPPED;
-    ff_status status =
-        way->seeks_contact ? find_full_contact(&damped, search->lambda, a) : FF_NOCONV;
-    if (status == FF_NOCONV) {
-        status = sweep(&damped, way->from, exp(search->lambda), way->start, host, a->x);
-        if (status == FF_OK && !dynamics_attract(&damped, search, a))
-            status = FF_NOCONV;
-    }
-    if (status != FF_OK || excitation.zeta == zeta || a->period < 1)
-        return status;
-    if (!lower_damping(&damped, &excitation, zeta, &a->orbit))
-        a->period = DYNAMICS_APERIODIC;
-    memcpy(a->x, a->orbit.x, sizeof a->x);
-    return FF_OK;
-}
-
-ff_status dynamics_attract_branch(const dynamics_flow *flow, dynamics_branch branch,
-                                  const dynamics_search *search, const ff_host *host,
-                                  dynamics_attractor *a)
-{
-    double from = dynamics_sweep_from(branch, exp(search->lambda));
-    sweep_start way = {.from = from, .seeks_contact = branch == DYNAMICS_BRANCH_LOWER};
-    dynamics_excitation excitation = *flow->excitation;
-    excitation.zeta = fmax(excitation.zeta, least_damping);
-    way.start = dynamics_sweep_start_cycles(&excitation, 2 * M_PI / from);
-    a->x[0] = dynamics_rest_deflection(&excitation);
-    a->x[1] = 0;
-    return sweep_and_attract(flow, &way, search, host, a);
-}
-
 /* How far one orbit lies from another, relative to its size. */
 static double distance_of(const dynamics_excitation *excitation, const dynamics_orbit *a,
                           const dynamics_orbit *b)
@@ -249,26 +184,121 @@ static int follow_speed(const dynamics_flow *flow, double lambda, dynamics_orbit
     return 1;
 }
 
+static void take_orbit(const dynamics_flow *flow, dynamics_orbit *orbit, dynamics_attractor *a)
+{
+    dynamics_orbit_reduce(flow, orbit);
+    a->orbit = *orbit;
+    a->period = orbit->period;
+    memcpy(a->x, orbit->x, sizeof a->x);
+}
+
+/* Changes the speed slowly from that of `from` to that of the search. A periodic motion is followed
+   to the end of its branch; from there the speed is swept a little, until the motion has settled
+   anew. */
+static ff_status change_speed(const dynamics_flow *flow, double from, const dynamics_search *search,
+                              const ff_host *host, dynamics_attractor *a)
+{
+    static const double stretch = 0.03; /* of a sweep, in lambda */
+    dynamics_search here = *search;
+    here.growth = 0;
+    for (double lambda = from;;) {
+        if (host->progress(host->ctx, 0.3))
+            return FF_STOPPED;
+        if (a->period > 0) {
+            dynamics_orbit orbit = a->orbit;
+            int arrives = follow_speed(flow, search->lambda, &orbit);
+            if (arrives) {
+                take_orbit(flow, &orbit, a);
+                return FF_OK;
+            }
+            a->ends++;
+            a->ended = lambda = orbit.lambda;
+            memcpy(a->x, orbit.x, sizeof a->x);
+        }
+        double left = search->lambda - lambda;
+        double next = fabs(left) > stretch ? lambda + copysign(stretch, left) : search->lambda;
+        ff_status status = sweep(flow, exp(lambda), exp(next), 0, host, a->x);
+        if (status != FF_OK)
+            return status;
+        lambda = here.lambda = next;
+        if (lambda == search->lambda)
+            return dynamics_attract(flow, search, a) ? FF_OK : FF_NOCONV;
+        if (!dynamics_attract(flow, &here, a))
+            return FF_NOCONV;
+        if (a->period == DYNAMICS_UNBOUNDED) {
+            a->x[0] = dynamics_rest_deflection(flow->excitation);
+            a->x[1] = 0;
+        }
+    }
+}
+
+/* How the speed changes: from where, and what is known there. */
+typedef struct way {
+    double from;       /* lambda */
+    int seeks_contact; /* whether the motion without separation will do where it is stable */
+    int settles;       /* whether the motion may settle at `from` first */
+} way;
+
+/* Finds, from a->x, the motion at the speed of the search. */
+static ff_status lead(const dynamics_flow *flow, const way *w, const dynamics_search *search,
+                      const ff_host *host, dynamics_attractor *a)
+{
+    dynamics_excitation excitation = *flow->excitation;
+    dynamics_flow damped = {
+        .excitation = &excitation, .free_until = flow->free_until, .radau = flow->radau};
+    double zeta = excitation.zeta;
+    excitation.zeta = fmax(zeta, least_damping);
+    if (host->progress(host->ctx, 0))
+        return FF_STOPPED;
+    ff_status status = w->seeks_contact ? find_full_contact(&damped, search->lambda, a) : FF_NOCONV;
+    if (status == FF_NOCONV) {
+        dynamics_search start = *search;
+        start.lambda = w->from;
+        start.growth = 0;
+        a->period = DYNAMICS_APERIODIC;
+        status = !w->settles || dynamics_attract(&damped, &start, a) ? FF_OK : FF_NOCONV;
+        if (status == FF_OK)
+            status = change_speed(&damped, w->from, search, host, a);
+    }
+    if (status != FF_OK || excitation.zeta == zeta || a->period < 1)
+        return status;
+    if (!lower_damping(&damped, &excitation, zeta, &a->orbit))
+        a->period = DYNAMICS_APERIODIC;
+    memcpy(a->x, a->orbit.x, sizeof a->x);
+    return FF_OK;
+}
+
+ff_status dynamics_attract_branch(const dynamics_flow *flow, dynamics_branch branch,
+                                  const dynamics_search *search, const ff_host *host,
+                                  dynamics_attractor *a)
+{
+    way w = {.from = log(dynamics_sweep_from(branch, exp(search->lambda))),
+             .seeks_contact = branch == DYNAMICS_BRANCH_LOWER,
+             .settles = 1};
+    a->x[0] = dynamics_rest_deflection(flow->excitation);
+    a->x[1] = 0;
+    return lead(flow, &w, search, host, a);
+}
+
 ff_status dynamics_attract_from(const dynamics_flow *flow, const dynamics_orbit *from,
                                 const dynamics_search *search, const ff_host *host,
                                 dynamics_attractor *a)
 {
     dynamics_orbit orbit = *from;
+    way w = {.from = from->lambda};
     if (host->progress(host->ctx, 0))
         return FF_STOPPED;
     if (from->period > 0 && dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &orbit) &&
         dynamics_orbit_is_stable(&orbit) && distance_of(flow->excitation, from, &orbit) < 0.5) {
         if (follow_speed(flow, search->lambda, &orbit)) {
-            reduce_period(flow, &orbit);
-            a->orbit = orbit;
-            a->period = orbit.period;
-            memcpy(a->x, orbit.x, sizeof a->x);
+            take_orbit(flow, &orbit, a);
             return FF_OK;
         }
+        a->ends = 1;
+        a->ended = w.from = orbit.lambda;
     } else {
         orbit = *from;
     }
-    sweep_start way = {.from = exp(orbit.lambda)};
     memcpy(a->x, orbit.x, sizeof a->x);
-    return sweep_and_attract(flow, &way, search, host, a);
+    return lead(flow, &w, search, host, a);
 }

@@ -15,6 +15,8 @@ typedef struct dynamics_attractor {
     double x[2];          /* last state */
     double growth;        /* of an aperiodic motion: the Lyapunov exponent per mesh cycle */
     size_t cycles;        /* that were followed */
+    int ends;             /* how many branches ended while the speed changed */
+    double ended;         /* lambda at which the last of them did */
 } dynamics_attractor;
 
 typedef struct dynamics_search {
@@ -29,7 +31,9 @@ typedef struct dynamics_search {
 int dynamics_attract(const dynamics_flow *flow, const dynamics_search *search,
                      dynamics_attractor *a);
 
-/* Finds the motion of the lower or upper branch as dynamics_settle defines them. With little or no
+/* Finds the motion of the lower or upper branch: the stable motion without separation, or else what
+   the speed leads to when it rises from below; what it leads to when it falls from above. Branches
+   are followed to their ends by Newton's method; there the motion settles anew. With little or no
    damping no motion settles: then that of a higher damping is followed down to the given one, and
    when this fails the period is DYNAMICS_APERIODIC. FF_OK, FF_STOPPED or FF_NOCONV. */
 ff_status dynamics_attract_branch(const dynamics_flow *flow, dynamics_branch branch,

@@ -409,6 +409,16 @@ static void report_spring(const ff_host *host, const dynamics_spring_nodes *s)
     host->quality(host->ctx, "mesh_slope", off, 0, off > 0 ? FF_DOUBTFUL : FF_GOOD, text);
 }
 
+/* Without a damper, and without oil in its place, nothing that disturbs a motion dies out. */
+static void report_damping(const ff_host *host, const dynamics_excitation *excitation)
+{
+    if (excitation->zeta == 0 && !excitation->on_chord)
+        host->quality(
+            host->ctx, "damping", 0, 0, FF_DOUBTFUL,
+            "damping_ratio is 0: no disturbance decays, so that the motion is one of many, "
+            "none of which a machine would settle to");
+}
+
 static ff_status build_excitation(const ff_host *host, const ff_array *in, double force,
                                   dynamics_excitation *excitation)
 {
@@ -425,6 +435,7 @@ static ff_status build_excitation(const ff_host *host, const ff_array *in, doubl
     int built =
         dynamics_excitation_build_bent(excitation, &curves, spring.stiffness ? &spring : NULL);
     report_spring(host, &spring);
+    report_damping(host, excitation);
     dynamics_spring_nodes_free(&spring);
     if (built)
         report_representation(host, excitation);

@@ -103,7 +103,7 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
          .unit = "1",
          .doc = "different motions of at most 6 mesh cycles at this speed in which "
                 "disturbances die out, of those that both branches and 16 starts "
-                "lead to",
+                "lead to and those of the atlas where it is asked for",
          .dims = ""},
     [DYNAMICS_OUT_ATLAS_FREQUENCY] =
         {.name = "atlas_frequency",

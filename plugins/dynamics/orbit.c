@@ -158,3 +158,19 @@ int dynamics_orbit_rms(const dynamics_flow *flow, const dynamics_orbit *orbit, d
     *rms = sqrt(fmax(trace.square / time - mean * mean, 0));
     return 1;
 }
+
+void dynamics_orbit_reduce(const dynamics_flow *flow, dynamics_orbit *o)
+{
+    for (int q = 1; q < o->period; q++) {
+        if (o->period % q != 0)
+            continue;
+        dynamics_orbit shorter = *o;
+        shorter.period = q;
+        if (dynamics_orbit_map(flow, &shorter) &&
+            dynamics_orbit_residual(flow->excitation, &shorter) < 1e-6 &&
+            dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &shorter)) {
+            *o = shorter;
+            return;
+        }
+    }
+}

@@ -73,6 +73,9 @@ double dynamics_largest_multiplier(const dynamics_orbit *orbit);
 extern const double dynamics_stable_multiplier;
 int dynamics_orbit_is_stable(const dynamics_orbit *orbit);
 
+/* Reduces the period to a divisor of it after which the motion already repeats itself. */
+void dynamics_orbit_reduce(const dynamics_flow *flow, dynamics_orbit *orbit);
+
 /* The distance to the nearest of the states that `other` passes at phase 0, in the state's unit; 0:
    too many steps. */
 int dynamics_orbit_distance(const dynamics_flow *flow, const dynamics_orbit *orbit,

@@ -29,6 +29,7 @@ typedef struct model {
     dynamics_film_wire wire;
     int64_t max_period, speeds, starts, cycles_settle, cycles_measured, steps_per_cycle;
     int by_name; /* 0: `branch_word` is lower or upper; 1: the branch of the atlas called `name` */
+    int largest; /* whether it is largest */
     dynamics_branch branch;
     dynamics_branch_name name;
     dynamics_warm_start from, to; /* what the neighbouring case left, and what it is left */
@@ -41,8 +42,10 @@ static const ff_param params[] = {
         "branch", model, branch_word, 0, "lower", NULL,
         "which of several motions: lower is the one without separation where it is stable, or else "
         "what comes up slowly from 0.7 times the mesh frequency; upper comes down from 1.4 times "
-        "the natural frequency; or the name of a branch of the atlas, as p2-1; where a study "
-        "follows the speed, lower and upper are for the first case of a chain"),
+        "the natural frequency, and where its branch ends it settles to another one; largest has "
+        "the largest rms of all that stable_motions counts; or the name of a branch of the atlas, "
+        "as p2-1; where a study follows the speed, lower and upper are for the first case of a "
+        "chain"),
     DYNAMICS_INERTIA_ROWS(model),
     DYNAMICS_OIL_ROWS(model),
     DYNAMICS_FILM_WIRE_ROWS(model),
@@ -78,18 +81,21 @@ static ff_status set_branch(model *m)
 {
     const char *text = m->branch_word;
     m->by_name = 0;
+    m->largest = !strcmp(text, "largest");
     m->branch = DYNAMICS_BRANCH_LOWER;
     if (!strcmp(text, "lower"))
         return FF_OK;
     m->branch = DYNAMICS_BRANCH_UPPER;
-    if (!strcmp(text, "upper"))
+    if (m->largest || !strcmp(text, "upper"))
         return FF_OK;
     m->by_name = dynamics_branch_parse(text, &m->name);
-    return m->by_name ? FF_OK
-                      : ff_failf(m->host, FF_INVALID, "branch",
-                                 "must be lower, upper or the name of a branch of the atlas, p1-1 "
-                                 "to p%d-9999, not \"%.40s\"",
-                                 DYNAMICS_PERIOD_MAX, text);
+    return m->by_name
+               ? FF_OK
+               : ff_failf(
+                     m->host, FF_INVALID, "branch",
+                     "must be lower, upper, largest or the name of a branch of the atlas, p1-1 "
+                     "to p%d-9999, not \"%.40s\"",
+                     DYNAMICS_PERIOD_MAX, text);
 }
 
 static ff_status ready(void *self)
@@ -166,6 +172,22 @@ static ff_status find_named(const job *j, dynamics_attractor *a)
                     m->name.period, m->name.number, where, j->inputs.mesh_frequency, names);
 }
 
+/* The stable motion with the largest rms; where none is known, that of the upper branch is left. */
+static ff_status find_largest(const job *j, dynamics_attractor *a)
+{
+    dynamics_known_motions *known = malloc(sizeof *known);
+    if (!known)
+        return FF_NOMEM;
+    ff_status status = dynamics_known_motions_find(
+        &j->flow, j->lambda, j->atlas.curves ? &j->atlas : NULL, j->m->host, known);
+    if (status == FF_OK && dynamics_known_motions_largest(&j->flow, known, &a->orbit)) {
+        a->period = a->orbit.period;
+        memcpy(a->x, a->orbit.x, sizeof a->x);
+    }
+    free(known);
+    return status;
+}
+
 static ff_status find_motion(const job *j, dynamics_attractor *a)
 {
     const model *m = j->m;
@@ -183,6 +205,11 @@ static ff_status find_motion(const job *j, dynamics_attractor *a)
         dynamics_warm_start_state(&m->from, &j->excitation, from.x);
         if (dynamics_cycle_duration(from.lambda) <= dynamics_longest_cycle)
             return dynamics_attract_from(&j->flow, &from, &search, m->host, a);
+    }
+    if (m->largest) {
+        ff_status status = find_largest(j, a);
+        if (status != FF_OK || a->period > 0)
+            return status;
     }
     return dynamics_attract_branch(&j->flow, m->branch, &search, m->host, a);
 }
@@ -281,6 +308,23 @@ static void report_frozen_films(const job *j)
         "film that is wired back is frozen: it excites and does not damp there");
 }
 
+/* Says where the branch that the speed was led along ended, if it did. */
+static void report_end(const job *j, const dynamics_attractor *a)
+{
+    const model *m = j->m;
+    double natural = j->inputs.natural_frequency, end = natural * exp(a->ended);
+    char text[200];
+    if (m->by_name || a->ends == 0)
+        return;
+    snprintf(
+        text, sizeof text,
+        "the branch that \"%s\" followed ends at %.8g Hz; the motion is the one that it settled "
+        "to from there",
+        m->largest ? "upper" : m->branch_word, end);
+    m->host->quality(m->host->ctx, "branch_end", fabs(end / j->inputs.mesh_frequency - 1), 0,
+                     FF_GOOD, text);
+}
+
 static ff_status evaluate_job(job *j)
 {
     const model *m = j->m;
@@ -298,6 +342,8 @@ static ff_status evaluate_job(job *j)
     if (status == FF_OK && needs_motion)
         status = find_motion(j, &a);
     if (status == FF_OK && needs_motion)
+        report_end(j, &a);
+    if (status == FF_OK && needs_motion)
         status = output_motion(j, &a);
     if (status == FF_OK && needs_motion && a.period != DYNAMICS_UNBOUNDED)
         j->to = dynamics_warm_start_motion(&j->excitation, j->inputs.mesh_frequency, a.period,
@@ -305,7 +351,8 @@ static ff_status evaluate_job(job *j)
     if (status == FF_NOCONV)
         return fail_too_slow(j);
     if (status == FF_OK && j->wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
-        status = dynamics_stable_motions_put(&j->excitation, exp(j->lambda), m->host);
+        status = dynamics_stable_motions_put(&j->excitation, exp(j->lambda),
+                                             j->atlas.curves ? &j->atlas : NULL, m->host);
     if (status == FF_OK && j->wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS) && a.period > 0)
         status = find_jump(j, &a);
     if (status == FF_OK && j->atlas.curves)

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "stable-motions.h"
 
-#include "atlas.h"
 #include "attractor.h"
 #include "motion.h"
 
 #include <flankfilm/author.h>
 
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
-enum { STARTS = 16, MOST_FOUND = STARTS + 2, LEAST_CYCLES = 32 };
+enum { STARTS = 16, LEAST_CYCLES = 32 };
 
 /* The duration of a mesh cycle, in radians of the natural frequency, in which every vibration dies
    out before the next one begins: further starts would find nothing new. */
@@ -18,26 +19,44 @@ static const double slow_cycle = 2000;
    longer. */
 static const double longest_settling = 3000;
 
-typedef struct found {
-    dynamics_orbit orbits[MOST_FOUND];
-    size_t count;
-} found;
-
-static void add_if_new(const dynamics_flow *flow, const dynamics_attractor *a, found *f)
+void dynamics_known_motions_add(const dynamics_flow *flow, const dynamics_orbit *orbit,
+                                dynamics_known_motions *known)
 {
     static const double same = 1e-6; /* in units of dynamics_state_unit */
+    dynamics_orbit o = *orbit;
     double distance;
-    if (a->period < 1 || !(dynamics_largest_multiplier(&a->orbit) < 1 - 1e-9))
+    if (known->count == DYNAMICS_MOST_KNOWN || !(dynamics_largest_multiplier(&o) < 1 - 1e-9))
         return;
-    for (size_t i = 0; i < f->count; i++)
-        if (f->orbits[i].period == a->orbit.period &&
-            dynamics_orbit_distance(flow, &f->orbits[i], a->orbit.x, &distance) && distance < same)
+    dynamics_orbit_reduce(flow, &o);
+    for (size_t i = 0; i < known->count; i++)
+        if (known->orbits[i].period == o.period &&
+            dynamics_orbit_distance(flow, &known->orbits[i], o.x, &distance) && distance < same)
             return;
-    f->orbits[f->count++] = a->orbit;
+    known->orbits[known->count++] = o;
+}
+
+static void add_if_new(const dynamics_flow *flow, const dynamics_attractor *a,
+                       dynamics_known_motions *known)
+{
+    if (a->period > 0)
+        dynamics_known_motions_add(flow, &a->orbit, known);
+}
+
+/* The stable motions of the atlas at a speed. */
+static void add_atlas(const dynamics_flow *flow, const dynamics_atlas *atlas, double lambda,
+                      dynamics_known_motions *known)
+{
+    for (size_t i = 0; i < atlas->branch_count; i++) {
+        dynamics_orbit orbit;
+        if (atlas->branches[i].stable &&
+            dynamics_atlas_orbit(flow, atlas, &atlas->branches[i], lambda, &orbit))
+            dynamics_known_motions_add(flow, &orbit, known);
+    }
 }
 
 /* Looks at both branches, and at where evenly spread starts lead. */
-static ff_status search(const dynamics_flow *flow, double lambda, const ff_host *host, found *f)
+static ff_status search(const dynamics_flow *flow, double lambda, const ff_host *host,
+                        dynamics_known_motions *f)
 {
     double T = dynamics_cycle_duration(lambda);
     if (T > dynamics_longest_cycle)
@@ -69,7 +88,7 @@ static ff_status search(const dynamics_flow *flow, double lambda, const ff_host 
     return FF_OK;
 }
 
-static void report(const dynamics_flow *flow, const found *f, const ff_host *host)
+static void report(const dynamics_flow *flow, const dynamics_known_motions *f, const ff_host *host)
 {
     char text[400] = "no periodic motion was found in which disturbances die out";
     size_t used = 0;
@@ -87,18 +106,42 @@ static void report(const dynamics_flow *flow, const found *f, const ff_host *hos
     host->quality(host->ctx, "stable_motions", (double)f->count, 1, FF_GOOD, text);
 }
 
-ff_status dynamics_stable_motions_put(const dynamics_excitation *excitation, double frequency,
-                                      const ff_host *host)
+ff_status dynamics_known_motions_find(const dynamics_flow *flow, double lambda,
+                                      const dynamics_atlas *atlas, const ff_host *host,
+                                      dynamics_known_motions *known)
 {
-    found f = {.count = 0};
+    known->count = 0;
+    ff_status status = search(flow, lambda, host, known);
+    if (status == FF_OK && atlas)
+        add_atlas(flow, atlas, lambda, known);
+    return status;
+}
+
+int dynamics_known_motions_largest(const dynamics_flow *flow, const dynamics_known_motions *known,
+                                   dynamics_orbit *orbit)
+{
+    double most = -1, rms;
+    for (size_t i = 0; i < known->count; i++)
+        if (dynamics_orbit_rms(flow, &known->orbits[i], &rms) && rms > most) {
+            most = rms;
+            *orbit = known->orbits[i];
+        }
+    return most >= 0;
+}
+
+ff_status dynamics_stable_motions_put(const dynamics_excitation *excitation, double frequency,
+                                      const dynamics_atlas *atlas, const ff_host *host)
+{
     dynamics_flow flow = {0};
-    ff_status status = dynamics_flow_init(&flow, excitation) ? FF_OK : FF_NOMEM;
+    dynamics_known_motions *known = malloc(sizeof *known);
+    ff_status status = known && dynamics_flow_init(&flow, excitation) ? FF_OK : FF_NOMEM;
     if (status == FF_OK)
-        status = search(&flow, log(frequency), host, &f);
+        status = dynamics_known_motions_find(&flow, log(frequency), atlas, host, known);
     if (status == FF_OK) {
-        report(&flow, &f, host);
-        status = ff_put_scalar(host, DYNAMICS_OUT_STABLE_MOTIONS, (double)f.count);
+        report(&flow, known, host);
+        status = ff_put_scalar(host, DYNAMICS_OUT_STABLE_MOTIONS, (double)known->count);
     }
     dynamics_flow_free(&flow);
+    free(known);
     return status;
 }
