@@ -21,6 +21,11 @@ size_t dynamics_motion_view_count(const dynamics_motion_view *view)
     return n + 1;
 }
 
+double dynamics_motion_view_phase(const dynamics_motion_view *view, size_t sample)
+{
+    return sample_at(view, sample)->phase;
+}
+
 /* Integrals by the Euler-Maclaurin rule: the trapezium with the slopes at its ends. The error of
    the second integral is judged by Simpson's rule on Hermite's cubics, which is of the same order.
  */

@@ -28,6 +28,7 @@ typedef struct dynamics_statistics {
 } dynamics_statistics;
 
 size_t dynamics_motion_view_count(const dynamics_motion_view *view); /* samples that are shown */
+double dynamics_motion_view_phase(const dynamics_motion_view *view, size_t sample);
 dynamics_statistics dynamics_motion_view_statistics(const dynamics_motion_view *view);
 /* The first sample of the interval that holds the phase; at a jump `left` asks for the interval
    before it. */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "motion.h"
 
-#include "motion-view.h"
+#include "landings.h"
 #include "multipliers.h"
 
 #include <flankfilm/author.h>
@@ -98,6 +98,17 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
                                     .doc =
                                         "amplitudes of s at 1, 2, 3 ... times the mesh frequency",
                                     .dims = "harmonic"},
+    [DYNAMICS_OUT_LANDING_TIME] =
+        {.name = "landing_time",
+         .unit = "s",
+         .doc =
+             "when the driving flanks meet after they have parted, since the start of the motion "
+             "shown; empty: they do not part",
+         .dims = "landing"},
+    [DYNAMICS_OUT_LANDING_SPEED] = {.name = "landing_speed",
+                                    .unit = "m/s",
+                                    .doc = "how fast they approach each other there",
+                                    .dims = "landing"},
     [DYNAMICS_OUT_STABLE_MOTIONS] =
         {.name = "stable_motions",
          .unit = "1",
@@ -400,6 +411,9 @@ ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inpu
         status = put_multipliers(motion, host);
     if (status == FF_OK)
         status = put_harmonics(motion, host);
+    if (status == FF_OK)
+        status = dynamics_landings_put(&view, motion->excitation, DYNAMICS_OUT_LANDING_TIME,
+                                       DYNAMICS_OUT_LANDING_SPEED, host);
     if (status == FF_OK)
         status = dynamics_motion_view_put(&view, &st, motion->excitation, inputs, host);
     host->quality(host->ctx, "rms_sampling_error", st.rms_error, 1e-3,

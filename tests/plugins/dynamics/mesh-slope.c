@@ -197,6 +197,41 @@ static void test_sources(void)
     }
 }
 
+/* The landings of a motion against where its dte comes back to the edge of the gap, and its
+   velocity there; two models agree, and a motion in full contact has none. */
+static void test_landings(void)
+{
+    static const char *const models[] = {"dynamics/shooting", "dynamics/time-integration"};
+    pair p = pair_trapezoid(2375);
+    double first[2] = {0};
+    for (int m = 0; m < 2; m++) {
+        size_t count, landings, last = 0;
+        stage *s = pair_open(models[m], &p);
+        stage_set_text(s, "branch", "upper");
+        check_true(models[m], stage_run(s) == FF_OK);
+        const double *phase = stage_get(s, "phase", &count), *dte = stage_get(s, "dte", NULL);
+        const double *rate = stage_get(s, "dte_velocity", NULL);
+        const double *time = stage_get(s, "landing_time", &landings);
+        const double *speed = stage_get(s, "landing_speed", NULL);
+        for (size_t i = 1; i < count; i++)
+            last = dte[i - 1] < p.backlash / 2 && dte[i] >= p.backlash / 2 ? i : last;
+        check_true("one landing", landings == 1 && last > 0);
+        double step = (phase[last] - phase[last - 1]) / p.mesh_frequency;
+        double back = (dte[last] - p.backlash / 2) / rate[last]; /* little curved from there */
+        check_near("time", time[0], phase[last] / p.mesh_frequency - back, 1e-4);
+        double x = 1 - back / step;
+        check_near("speed", speed[0], rate[last - 1] * (1 - x) + rate[last] * x, 1e-3);
+        if (m)
+            check_near("as the other model has it", speed[0], first[1], 1e-6);
+        first[0] = time[0], first[1] = speed[0];
+        stage_close(s);
+        s = pair_open(models[m], &p);
+        check_true("runs", stage_run(s) == FF_OK);
+        check_true("none in full contact", stage_count(s, "landing_time") == 0);
+        stage_close(s);
+    }
+}
+
 int main(void)
 {
     test_law();
@@ -204,5 +239,6 @@ int main(void)
     test_variation();
     test_slow_motion();
     test_sources();
+    test_landings();
     return check_done();
 }
