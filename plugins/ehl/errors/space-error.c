@@ -33,7 +33,7 @@ static int has_bound(const ehl_results *r, size_t row, int kind)
    by a straight line, no higher than what bounds it, where the load falls in between: on more cells
    it changes steadily, while the nodes of the run lie anywhere beside the tip; else by the largest
    share of a bound. */
-static double tip_of(const ehl_results *r, size_t row)
+static double tip_by_looks(const ehl_results *r, size_t row)
 {
     const double value = film_of(r, row, EHL_PEAK), bound = *part_of(r, row, EHL_PEAK);
     const ehl_look *l = r->look;
@@ -47,6 +47,12 @@ static double tip_of(const ehl_results *r, size_t row)
         }
     }
     return value + r->share * bound;
+}
+
+/* The same, and no lower than a narrow peak may be. */
+static double tip_of(const ehl_results *r, size_t row)
+{
+    return fmax(tip_by_looks(r, row), film_of(r, row, EHL_PEAK) + *part_of(r, row, EHL_NARROW));
 }
 
 double ehl_space_part(const ehl_results *r, size_t row, int kind)
@@ -298,6 +304,8 @@ static size_t find_peak(const ehl_results *r)
         if (error_of_row(r, r->look[k].row, EHL_PEAK) > EHL_PEAK_LIMIT)
             return SIZE_MAX;
     }
+    if (*part_of(r, worst, EHL_NARROW) >= *part_of(r, worst, EHL_PEAK) && error > 0)
+        return SIZE_MAX; /* no look makes that less */
     if (r->looks == 0)
         return error > EHL_PEAK_LIMIT / 2 ? worst : SIZE_MAX;
     if (r->looks == 1 && !seen && *part_of(r, highest, EHL_PEAK) > EHL_PEAK_LIMIT / 2 * r->highest)
@@ -353,7 +361,10 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
                  r->finest, r->share);
     else if (kind != EHL_PEAK && r->measured[kind])
         snprintf(how, sizeof how, "; measured by the last passage of the contact on more cells");
-    if (kind == EHL_PEAK)
+    if (kind == EHL_PEAK && *part_of(r, worst_row(r, kind), EHL_NARROW) > 0)
+        snprintf(enough, sizeof enough,
+                 "; a peak as narrow as a few cells: p_max is at least what they show");
+    else if (kind == EHL_PEAK)
         snprintf(enough, sizeof enough,
                  "; above 0.1 the cells may cut the spike at the outlet off: use more of them");
     else if (error > limit && error < 0.5)
