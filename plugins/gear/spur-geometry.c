@@ -4,6 +4,8 @@
 #include "drawing-rounding.h"
 #include "tooth-measures.h"
 
+#include "../numerics/involute.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -21,32 +23,12 @@ static const double same_place = 1e-9;
 /* Contact ratios from here on are refused. */
 enum { MOST_PAIRS = 4 };
 
-double gear_involute(double angle)
-{
-    return tan(angle) - angle;
-}
-
-/* The angle a between 0 and pi/2 with tan a - a = value, for value > 0. With t = tan a the function
-   g(t) = t - atan t - value rises and is convex, and g > 0 at the start: Newton's method falls to
-   the root from above. */
-double gear_involute_inverse(double value)
-{
-    double t = value + M_PI_2;
-    for (int i = 0; i < 200; i++) {
-        double step = (t - atan(t) - value) * (1 + t * t) / (t * t);
-        if (!(step > 0))
-            break;
-        t -= step;
-    }
-    return atan(t);
-}
-
 /* Involute function of the working pressure angle at which teeth of these shifts mesh without
    backlash (DIN 3960), inv a_w = inv a + 2 (x1 + x2) tan a/(z1 + z2); where it is not positive
    there is none. */
 static double tight_involute(const gear_spur_spec *g)
 {
-    return gear_involute(g->pressure_angle) +
+    return numerics_involute(g->pressure_angle) +
            2 * (ff_of_both(&g->shift, 0) + ff_of_both(&g->shift, 1)) * tan(g->pressure_angle) /
                (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1));
 }
@@ -68,12 +50,12 @@ static ff_status mount(const ff_host *host, const gear_spur_spec *g, gear_spur_p
                             "the profile shifts %g and %g sum to too little for these teeth to "
                             "mesh; the sum must exceed %.3f, or give centre_distance",
                             ff_of_both(&g->shift, 0), ff_of_both(&g->shift, 1),
-                            -gear_involute(g->pressure_angle) *
+                            -numerics_involute(g->pressure_angle) *
                                 (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1)) /
                                 (2 * tan(g->pressure_angle)));
         p->working_angle = ff_of_both(&g->shift, 0) + ff_of_both(&g->shift, 1) == 0
                                ? g->pressure_angle
-                               : gear_involute_inverse(tight);
+                               : numerics_involute_inverse(tight);
         p->centre_distance = base_sum / cos(p->working_angle);
     }
     p->line_length = p->centre_distance * sin(p->working_angle);
@@ -90,7 +72,7 @@ static double full_backlash(const gear_spur_spec *g, const gear_spur_pair *p)
         return 0;
     return g->module * cos(g->pressure_angle) *
            (ff_of_both(&g->teeth, 0) + ff_of_both(&g->teeth, 1)) *
-           (gear_involute(p->working_angle) - tight_involute(g));
+           (numerics_involute(p->working_angle) - tight_involute(g));
 }
 
 /* What a stated backlash is multiplied by to be measured along the line of action. */
@@ -126,7 +108,7 @@ static ff_status refuse_jam(const ff_host *host, const gear_spur_spec *g, const 
                     "span, over_pins or backlash",
                     1e3 * p->centre_distance,
                     1e3 * (p->base_radius[0] + p->base_radius[1]) /
-                        cos(gear_involute_inverse(tight_involute(g))));
+                        cos(numerics_involute_inverse(tight_involute(g))));
 }
 
 /* Allowances and backlash: allowances A1 and A2 of the arcs add -(A1 + A2) cos(a) to the backlash
@@ -261,7 +243,7 @@ static double tip_inside(const gear_spur_spec *g, const gear_spur_pair *p, int i
     const double rolled = beside + tip.centre * tan(g->pressure_angle) + tip.behind;
     *radius = fmax(hypot(x, y), p->base_radius[i]);
     const double flank =
-        gear_involute(acos(p->base_radius[i] / *radius)) - gear_involute(g->pressure_angle);
+        numerics_involute(acos(p->base_radius[i] / *radius)) - numerics_involute(g->pressure_angle);
     return atan2(x, y) - rolled / r - flank;
 }
 
@@ -331,8 +313,8 @@ static double thickness_at(const gear_spur_spec *g, const gear_spur_pair *p, int
 {
     double angle = acos(fmin(1, p->base_radius[i] / radius));
     return 2 * radius *
-           (arc / (2 * p->reference_radius[i]) + gear_involute(g->pressure_angle) -
-            gear_involute(angle));
+           (arc / (2 * p->reference_radius[i]) + numerics_involute(g->pressure_angle) -
+            numerics_involute(angle));
 }
 
 static ff_status set_thickness(const ff_host *host, const gear_spur_spec *g, gear_spur_pair *p)

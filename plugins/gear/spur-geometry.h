@@ -55,9 +55,6 @@ typedef struct gear_spur_pair {
     double moved_backlash, rounding_of_backlash, moved_root[2];
 } gear_spur_pair;
 
-double gear_involute(double angle);         /* inv a = tan a - a */
-double gear_involute_inverse(double value); /* of a value above 0: between 0 and pi/2 */
-
 /* Computes the pair, or refuses it at the parameter that is at fault. */
 ff_status gear_spur_pair_make(const ff_host *host, const gear_spur_spec *spec,
                               gear_spur_pair *pair);

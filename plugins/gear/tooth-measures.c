@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tooth-measures.h"
 
+#include "../numerics/involute.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -16,7 +18,8 @@ static tooth tooth_of(const gear_spur_spec *g, const gear_spur_pair *p, int i, d
     return (tooth){.teeth = ff_of_both(&g->teeth, i),
                    .base = p->base_radius[i],
                    .pitch = p->base_pitch,
-                   .half = arc / (2 * p->reference_radius[i]) + gear_involute(g->pressure_angle)};
+                   .half =
+                       arc / (2 * p->reference_radius[i]) + numerics_involute(g->pressure_angle)};
 }
 
 /* W = (k - 1) p_b + s_b, with the arc of the base circle s_b = 2 r_b (s/(2 r) + inv a) (DIN 3960).
@@ -50,7 +53,7 @@ static double pin_radius(const tooth *t, double pin, double axis)
 static double pin_axis(const tooth *t, double pin)
 {
     double value = t->half + pin / (2 * t->base) - M_PI / t->teeth;
-    return value > 0 ? t->base / cos(gear_involute_inverse(value)) : 0;
+    return value > 0 ? t->base / cos(numerics_involute_inverse(value)) : 0;
 }
 
 double gear_measured_allowance(const gear_spur_spec *g, const gear_spur_pair *p, int i)
@@ -63,7 +66,7 @@ double gear_measured_allowance(const gear_spur_spec *g, const gear_spur_pair *p,
     } else if (g->over_pins.count > 0) {
         double pin = ff_of_both(&g->pin_diameter, i);
         double axis = (ff_of_both(&g->over_pins, i) - pin) / 2 / off_diameter(&full);
-        half = gear_involute(acos(fmin(1, full.base / axis))) - pin / (2 * full.base) +
+        half = numerics_involute(acos(fmin(1, full.base / axis))) - pin / (2 * full.base) +
                M_PI / full.teeth;
     } else {
         return ff_of_both(&g->allowance, i);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "contact-point.h"
 
-#include "involute.h"
+#include "../numerics/involute.h"
 
 #include <math.h>
 
@@ -29,7 +29,7 @@ static bool meet_corner(const stiffness_gears *g, int tip, double age, double ro
     const stiffness_gear *corner = &g->gear[tip], *flank = &g->gear[1 - tip];
     double radius = corner->base_radius * sqrt(1 + corner->roll_tip * corner->roll_tip);
     /* polar angle of the corner, from the point where the line of action touches its base circle */
-    double turn = stiffness_gears_roll(g, tip, age) - stiffness_involute(corner->roll_tip);
+    double turn = stiffness_gears_roll(g, tip, age) - numerics_involute_at_roll(corner->roll_tip);
     double x = g->tangent_length - radius * sin(turn);
     double y = corner->base_radius - radius * cos(turn) + flank->base_radius;
     double ratio = hypot(x, y) / flank->base_radius;
@@ -38,7 +38,7 @@ static bool meet_corner(const stiffness_gears *g, int tip, double age, double ro
     roll[tip] = corner->roll_tip;
     roll[1 - tip] = sqrt(ratio * ratio - 1);
     /* the flank turns on until it passes the corner */
-    *gap = flank->base_radius * (atan2(x, y) + stiffness_involute(roll[1 - tip]) -
+    *gap = flank->base_radius * (atan2(x, y) + numerics_involute_at_roll(roll[1 - tip]) -
                                  stiffness_gears_roll(g, 1 - tip, age));
     return true;
 }

@@ -7,8 +7,8 @@
 #ifndef STIFFNESS_ELASTIC_PAIR_H
 #define STIFFNESS_ELASTIC_PAIR_H
 
+#include "elements/ring.h"
 #include "equilibrium.h"
-#include "ring.h"
 #include "tooth-beam.h"
 
 /* What the compliance of a gear follows from; compared byte for byte. */

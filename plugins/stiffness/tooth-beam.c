@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "tooth-beam.h"
 
-#include "involute.h"
+#include "../numerics/involute.h"
 
 #include <math.h>
 
@@ -69,7 +69,7 @@ void stiffness_tooth_make(stiffness_tooth *tooth, const stiffness_tooth_data *d)
     double ratio = fmax(d->root_radius / d->base_radius, 1);
     double root_roll = sqrt(ratio * ratio - 1);
     double half_angle = d->thickness / (2 * d->reference_radius) + roll - atan(roll);
-    double root_half_angle = half_angle - stiffness_involute(root_roll);
+    double root_half_angle = half_angle - numerics_involute_at_roll(root_roll);
     double plane = d->plane_strain ? 1 - d->poisson_ratio * d->poisson_ratio : 1;
     *tooth = (stiffness_tooth){
         .base_radius = d->base_radius,

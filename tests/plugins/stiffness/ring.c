@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Outline, elements and compliance of a gear. */
-#include "../../../plugins/stiffness/ring.h"
-#include "../../../plugins/stiffness/condense.h"
+#include "../../../plugins/stiffness/elements/ring.h"
+#include "../../../plugins/stiffness/elements/condense.h"
 
 #include "check.h"
 

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "contour.h"
 
-#include "involute.h"
+#include "../../numerics/involute.h"
 
 #include <math.h>
 #include <stddef.h>
 
 static double half_angle_at(const stiffness_contour *o, double roll)
 {
-    return o->half_angle - stiffness_involute(roll);
+    return o->half_angle - numerics_involute_at_roll(roll);
 }
 
 /* The point of the fillet that the rounded tip of the rack cuts when its centre is `travel` beside
@@ -96,7 +96,7 @@ const char *stiffness_contour_make(stiffness_contour *o, const stiffness_contour
                              .tip_radius = d->base_radius * sqrt(1 + d->tip_roll * d->tip_roll),
                              .half_sector = M_PI / d->teeth,
                              .half_angle = d->thickness / (2 * d->reference_radius) +
-                                           stiffness_involute(roll),
+                                           numerics_involute_at_roll(roll),
                              .tip_roll = d->tip_roll};
     const char *why = make_rack(o, d);
     if (why)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "condense.h"
 
-#include "../numerics/room.h"
+#include "../../numerics/room.h"
 
 #include <f77blas.h>
 #include <stdlib.h>
