@@ -19,6 +19,7 @@
 typedef struct form {
     const char *name;
     const char *suffix; /* of one file: ".html"; "": it fills a directory */
+    const char *begins; /* the first bytes of the file */
     /* From the view of the results; NULL: a program beside this one reads the directory itself. */
     bool (*write)(const results_view *view, const results_target *target);
 } form;
@@ -34,7 +35,10 @@ static bool write_page(const results_view *view, const results_target *target)
 }
 
 static const form forms[] = {
-    {"csv", "", write_csv}, {"netcdf", ".nc", NULL}, {"html", ".html", write_page}};
+    {"csv", "", "", write_csv},
+    {"netcdf", ".nc", "\x89HDF\r\n\x1a\n", NULL},
+    {"html", ".html", REPORT_BEGINS, write_page},
+};
 enum { FORMS = sizeof forms / sizeof *forms };
 
 /* NULL after an error. */
@@ -82,6 +86,7 @@ static bool write_to(const form *to, const results_view *view, const cli_options
 {
     target->path = options->directory ? memory_print_text("%s", options->directory)
                                       : default_path(options->operand, stem, to);
+    target->begins = to->begins;
     bool good = (*to->suffix || holds_no_run(target->path, target->report)) &&
                 results_target_open(target, !*to->suffix) &&
                 (to->write ? to->write(view, target)

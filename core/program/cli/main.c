@@ -199,6 +199,33 @@ typedef struct command_line {
     int code; /* exit code */
 } command_line;
 
+/* Whether a word of the command line has a character that moves the cursor or the like; YAML looks
+   at values itself. */
+static bool has_control(const char *word)
+{
+    for (const unsigned char *at = (const unsigned char *)word; *at; at++)
+        if ((*at < 0x20 && *at != '\n' && *at != '\t') || *at == 0x7F ||
+            (*at == 0xC2 && at[1] >= 0x80 && at[1] < 0xA0))
+            return true;
+    return false;
+}
+
+static bool refuse_control(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++) {
+        if (!has_control(argv[i]))
+            continue;
+        fputs("flankfilm: a word has a control character in it, such as begins an escape sequence: "
+              "\"",
+              stderr);
+        for (const char *at = argv[i]; *at; at++)
+            fputc((unsigned char)*at < 0x20 || *at == 0x7F ? '?' : *at, stderr);
+        fputs("\"\n", stderr);
+        return true;
+    }
+    return false;
+}
+
 static void dispatch_it(void *ctx)
 {
     command_line *line = ctx;
@@ -212,6 +239,8 @@ int main(int argc, char **argv)
 {
     command_line line = {argc, argv, FF_FAULT_RUN};
     hold_standard_streams();
+    if (refuse_control(argc, argv))
+        return FF_FAULT_INPUT;
     signal(SIGPIPE, SIG_IGN); /* a closed pipe shows as a write error */
     signal(SIGXFSZ, SIG_IGN); /* so does a limit on the size of files */
     if (ff_protected(dispatch_it, &line) == FF_NOMEM)

@@ -5,8 +5,9 @@
 
 #include "../catalogue/catalogue.h"
 #include "../results/json.h"
+#include "../results/target.h"
 
-#include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Lists all models, or those of one kind. The report gets the errors of models that cannot be
@@ -65,27 +66,26 @@ int cli_models(const cli_options *options)
 
 int cli_schema(const cli_options *options)
 {
-    ff_report *report = ff_report_new();
     ff_engine *engine = cli_engine_new(options);
     catalogue models = {.count = 0};
-    const char *path = options->operand;
-    list(&models, engine, NULL, report);
-    FILE *out = path ? fopen(path, "w") : stdout;
-    if (out)
-        catalogue_print_schema(&models, CLI_VERSION, out);
-    if (!path)
+    results_target target = {.report = ff_report_new(), .begins = "{\n \"type\": \"object\""};
+    list(&models, engine, NULL, target.report);
+    if (options->operand) {
+        target.path = memory_print_text("%s", options->operand);
+        FILE *out = results_target_open(&target, false) ? fopen(target.part, "we") : NULL;
+        if (out)
+            catalogue_print_schema(&models, CLI_VERSION, out);
+        results_target_end(&target, out);
+    } else {
+        catalogue_print_schema(&models, CLI_VERSION, stdout);
         putchar('\n');
-    bool good = out && !ferror(out);
-    if (out && path)
-        good = fclose(out) == 0 && good;
-    if (!good && path)
-        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s cannot be written: %s", path,
-                 strerror(errno));
-    if (ff_report_errors(report))
-        terminal_print_messages(report, stderr, terminal_colour(stderr));
-    int code = ff_report_fault(report);
+    }
+    if (ff_report_errors(target.report))
+        terminal_print_messages(target.report, stderr, terminal_colour(stderr));
+    int code = ff_report_fault(target.report);
+    results_target_close(&target);
     catalogue_free(&models);
     ff_engine_close(engine);
-    ff_report_free(report);
+    ff_report_free(target.report);
     return code;
 }

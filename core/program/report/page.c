@@ -3,6 +3,7 @@
 
 #include "../memory/memory.h"
 
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -30,6 +31,18 @@ void report_put_text(FILE *out, const char *text)
         }
 }
 
+void report_print(FILE *out, const char *html, ...)
+{
+    va_list texts;
+    va_start(texts, html);
+    for (const char *hole; (hole = strstr(html, "%s")); html = hole + 2) {
+        fwrite(html, 1, (size_t)(hole - html), out);
+        report_put_text(out, va_arg(texts, const char *));
+    }
+    va_end(texts);
+    fputs(html, out);
+}
+
 void report_put_cell(FILE *out, const char *text)
 {
     fputs("<td>", out);
@@ -41,7 +54,7 @@ void report_put_badge(FILE *out, const char *verdict)
 {
     const char *colour = strcmp(verdict, "failed") != 0 ? verdict : "bad";
     if (*verdict)
-        fprintf(out, "<span class=\"badge %s\">%s</span>", colour, verdict);
+        report_print(out, "<span class=\"badge %s\">%s</span>", colour, verdict);
 }
 
 void report_part_begin(report_page *page, report_part *part)

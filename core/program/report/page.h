@@ -18,6 +18,8 @@ typedef struct report_page {
 
 /* page.c: writes text with the special characters of HTML escaped. */
 void report_put_text(FILE *out, const char *text);
+/* Writes markup of the page's own, with a text in the place of each %s, which is escaped. */
+void report_print(FILE *out, const char *html, ...);
 void report_put_cell(FILE *out, const char *text); /* the same in a cell of a table */
 
 /* Writes a verdict in its colour; "" writes nothing. */

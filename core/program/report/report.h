@@ -8,6 +8,8 @@
 #include <flankfilm/engine.h>
 #include <stdio.h>
 
+#define REPORT_BEGINS "<!DOCTYPE html>" /* the first bytes of a page */
+
 /* Writes the page to a file. False with an error in the report, which is the view's as well. */
 bool report_write(const results_view *view, const char *path, ff_report *report);
 

@@ -13,7 +13,7 @@ static void put_number(FILE *out, double value)
 {
     char text[REPORT_TEXT_SIZE];
     report_number_text(value, text);
-    fprintf(out, "<td class=\"number\">%s</td>", text);
+    report_print(out, "<td class=\"number\">%s</td>", text);
 }
 
 static report_check find_worst(const results_view *view, const results_view_quality *of)

@@ -270,7 +270,7 @@ static void write_section(figure *d, const char *title, const group *groups, siz
     report_page *page = d->page;
     report_part part;
     report_part_begin(page, &part);
-    fprintf(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
+    report_print(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
     if (page->view->study)
         fprintf(page->out,
                 "<p class=\"note\">Up to %zu of %zu cases that went well and have series.</p>\n",

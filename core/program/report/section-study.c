@@ -296,7 +296,7 @@ static void write_scalars(report_page *page, const char *title, bool errors)
     const results_view *view = page->view;
     report_part part;
     report_part_begin(page, &part);
-    fprintf(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
+    report_print(page->out, "<section><h2>%s</h2>\n<div class=\"figures\">\n", title);
     for (size_t v = 0; v < view->variable_count; v++) {
         case_scalar f;
         if (view->variables[v]->rank != 0 ||

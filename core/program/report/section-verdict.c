@@ -85,7 +85,7 @@ static void write_place(report_page *page, int axis, double at)
     report_quantity_text(along->unit, at, text);
     bool roll = !strcmp(along->output, "roll_angle");
     report_put_text(page->out, roll ? "roll angle" : report_output_words(along->output, words));
-    fprintf(page->out, " %s", text);
+    report_print(page->out, " %s", text);
     if (!roll)
         return;
     report_marks marks = report_find_marks(page, 0);
@@ -130,7 +130,7 @@ static void write_row(report_page *page, const struct row *row, size_t variable)
             snprintf(text, sizeof text, "%.4g %%", 100 * value);
         else
             report_quantity_text(report_si_unit(of->unit, of->output), value, text);
-        fprintf(page->out, "<tr><th scope=\"row\">%s</th><td>", row->words);
+        report_print(page->out, "<tr><th scope=\"row\">%s</th><td>", row->words);
         report_put_text(page->out, page->view->stages[of->stage]->name);
         fputs("</td><td class=\"number\">", page->out);
         report_put_text(page->out, text);
@@ -200,7 +200,7 @@ static void write_reason(report_page *page, const results_view_quality *line)
     report_number_text(line->limit, limit);
     fputs(" <small>(", page->out);
     report_put_text(page->out, line->name);
-    fprintf(page->out, " = %s, held to %s)</small>", value, limit);
+    report_print(page->out, " = %s, held to %s)</small>", value, limit);
 }
 
 /* The verdict of a run, with what the lines say that are not good. */

@@ -5,7 +5,9 @@
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../study/hash.h"
+#include "../study/study.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -133,7 +135,8 @@ static bool check(const char *directory, const char *name, const results_input *
                   char **replaced, ff_report *report)
 {
     char key[20], *path = memory_print_text("%s/%s", directory, name);
-    json_t *root = json_load_file(path, 0, NULL);
+    json_error_t error;
+    json_t *root = study_read_json(AT_FDCWD, path, &error);
     free(path);
     *replaced = NULL;
     if (!json_is_object(root)) {

@@ -139,7 +139,7 @@ static bool read_kind(const char *line, char kind[LONGEST_NAME])
 /* Reads the names of the earlier files; false when the directory has no manifest of ours. */
 static bool read_manifest(results_folder *folder, char kind[LONGEST_NAME])
 {
-    int fd = folder->fd < 0 ? -1 : openat(folder->fd, manifest, O_RDONLY | O_CLOEXEC);
+    int fd = folder->fd < 0 ? -1 : openat(folder->fd, manifest, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
     if (!stream)
         return false;

@@ -4,6 +4,7 @@
 
 #include "../memory/memory.h"
 
+#include <fcntl.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -72,7 +73,8 @@ char *results_made_remove(const char *directory)
 {
     char *list = memory_print_text("%s/%s", directory, list_name);
     char *names = memory_print_text("%s", ""), *line = NULL;
-    FILE *stream = fopen(list, "re");
+    int fd = open(list, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* no pipe */
+    FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
     size_t size = 0;
     while (stream && getline(&line, &size, stream) > 0) {
         line[strcspn(line, "\n")] = '\0';

@@ -5,13 +5,53 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
+
+/* Whether the text is in the file, which is read in parts that overlap. */
+static bool has_text(FILE *stream, const char *text)
+{
+    char part[1 << 16];
+    size_t kept = 0, got, length = strlen(text);
+    while ((got = fread(part + kept, 1, sizeof part - kept, stream)) > 0) {
+        size_t used = kept + got;
+        if (memmem(part, used, text, length))
+            return true;
+        kept = used < length ? used : length - 1;
+        memmove(part, part + used - kept, kept);
+    }
+    return false;
+}
+
+/* Whether the program itself writes such files, or there is none. */
+static bool may_replace(const results_target *target)
+{
+    char start[32] = "";
+    struct stat about;
+    size_t length = strlen(target->begins);
+    if (stat(target->path, &about) != 0)
+        return true;
+    FILE *stream = S_ISREG(about.st_mode) ? fopen(target->path, "re") : NULL;
+    bool ours = stream && (about.st_size == 0 || (fread(start, 1, length, stream) == length &&
+                                                  !memcmp(start, target->begins, length) &&
+                                                  has_text(stream, "flankfilm")));
+    if (stream)
+        fclose(stream);
+    return ours || ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, "name another file",
+                            S_ISREG(about.st_mode)
+                                ? "\"%s\" holds something else than what would be written there"
+                                : "\"%s\" is not a regular file",
+                            target->path);
+}
 
 /* The temporary file stands beside the file, since both must be of the same file system. */
 static bool open_file(results_target *target)
 {
+    if (!may_replace(target))
+        return false;
     const char *slash = strrchr(target->path, '/');
     char *parent =
         slash ? memory_print_text("%.*s", (int)(slash - target->path + 1), target->path) : NULL;
@@ -43,6 +83,17 @@ bool results_target_commit(results_target *target)
     return (results_file_sync(target->part) && rename(target->part, target->path) == 0) ||
            ff_error(target->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "\"%s\" cannot be written: %s",
                     target->path, strerror(errno));
+}
+
+bool results_target_end(results_target *target, FILE *out)
+{
+    errno = 0;
+    bool good = out && ferror(out) == 0;
+    good = out && fclose(out) == 0 && good;
+    if (!good && ff_report_errors(target->report) == 0)
+        ff_error(target->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "\"%s\" could not be written: %s",
+                 target->path, strerror(errno ? errno : EIO));
+    return good && results_target_commit(target);
 }
 
 void results_target_close(results_target *target)

@@ -10,12 +10,18 @@ typedef struct results_target {
     char *part;             /* of a file: the temporary file that it is written to */
     results_folder *folder; /* of a directory */
     ff_report *report;
+    /* A file that is there already is replaced only if it begins with `begins` and has `flankfilm`
+       in it, as those that the program writes. */
+    const char *begins;
 } results_target;
 
 /* Opens `path`, which is set like `report`, as a directory or a file. These return false after an
    error. */
 bool results_target_open(results_target *target, bool directory);
 bool results_target_commit(results_target *target);
+/* Closes what was written to the temporary file, which was opened where that is not NULL, and
+   commits it. */
+bool results_target_end(results_target *target, FILE *out);
 /* Removes what was not committed. */
 void results_target_close(results_target *target);
 

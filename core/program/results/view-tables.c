@@ -28,13 +28,9 @@ const char *results_view_shared_text(results_reader *reader, const char *text)
 
 json_t *results_view_read_json(const results_reader *reader, const char *name)
 {
-    int fd = openat(reader->directory, name, O_RDONLY | O_CLOEXEC);
-    FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
-    if (!stream)
-        return NULL;
-    json_t *root = json_loadf(stream, 0, NULL);
-    fclose(stream);
+    json_error_t error;
     errno = 0;
+    json_t *root = study_read_json(reader->directory, name, &error);
     if (json_is_object(root))
         return root;
     json_decref(root);

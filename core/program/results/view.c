@@ -207,7 +207,7 @@ static int is_figures(const struct dirent *entry)
 static void read_figure(results_reader *reader, const char *name)
 {
     enum { MOST = 1 << 21 };
-    int fd = openat(reader->directory, name, O_RDONLY | O_CLOEXEC);
+    int fd = openat(reader->directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     char *text = memory_alloc(MOST);
     ssize_t length = fd >= 0 ? read(fd, text, MOST) : -1;
     if (length > 0 && length < MOST && !memchr(text, 0, (size_t)length)) {

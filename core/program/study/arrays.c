@@ -29,7 +29,7 @@ static off_t find_end(int directory, const study_run *run, const char *name)
     size_t size = 0, length = strlen(name);
     off_t end = 0;
     study_journal_name(run, journal);
-    int fd = openat(directory, journal, O_RDONLY | O_CLOEXEC);
+    int fd = openat(directory, journal, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     FILE *stream = fd < 0 ? NULL : fdopen(fd, "r");
     while (stream && getline(&line, &size, stream) > 0) {
         const char *at = strstr(line, log_head);

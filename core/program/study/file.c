@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 const char study_description[] = "study.json";
@@ -65,10 +66,28 @@ bool study_describe(const study_run *run, const study_tally *tally, ff_report *r
     return study_file_end(&file, NULL, report);
 }
 
+json_t *study_read_json(int directory, const char *name, json_error_t *error)
+{
+    struct stat about;
+    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe would not end */
+    bool regular = fd >= 0 && fstat(fd, &about) == 0 && S_ISREG(about.st_mode);
+    FILE *stream = regular ? fdopen(fd, "r") : NULL;
+    json_t *root = stream ? json_loadf(stream, 0, error) : NULL;
+    if (!stream)
+        snprintf(error->text, sizeof error->text, "%s",
+                 fd < 0 || regular ? strerror(errno) : "it is not a regular file");
+    if (stream)
+        fclose(stream);
+    else if (fd >= 0)
+        close(fd);
+    return root;
+}
+
 bool study_check_format(const char *directory, ff_report *report)
 {
     char *path = memory_print_text("%s/%s", directory, study_description);
-    json_t *study = json_load_file(path, 0, NULL);
+    json_error_t error;
+    json_t *study = study_read_json(AT_FDCWD, path, &error);
     const json_t *told = json_object_get(study, "format");
     json_int_t format = told ? json_integer_value(told) : 1;
     bool good =

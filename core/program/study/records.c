@@ -202,7 +202,7 @@ static void add_line(study_records *r, int directory, const char *line, size_t l
 
 static void read_journal(study_records *r, int directory, const char *name)
 {
-    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC);
+    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     int copy = fd < 0 || r->file_count == MOST_FILES ? -1 : fcntl(fd, F_DUPFD_CLOEXEC, 0);
     FILE *stream = copy < 0 ? NULL : fdopen(copy, "r");
     char *line = NULL;

@@ -8,6 +8,7 @@
 
 #include <flankfilm/engine.h>
 
+#include <jansson.h>
 #include <signal.h>
 
 #include "../memory/memory.h"
@@ -265,6 +266,8 @@ void study_preview(const study_run *run, study_plan *plan);
 extern const char study_marker[];      /* its presence makes a directory that of a study */
 extern const char study_description[]; /* written by study_run.describe */
 
+/* Reads a regular file as JSON. NULL: it is none, and `error` has the text. */
+json_t *study_read_json(int directory, const char *name, json_error_t *error);
 /* Refuses a directory whose files are of another format; one without a study is good. */
 bool study_check_format(const char *directory, ff_report *report);
 
