@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A model that is healthy but for the one fault that FAULT names. */
-#include <flankfilm/author.h>
+/* A model that is healthy but for the one fault that `faulty_fault` names. It is compiled once;
+   each fault is an object of a few lines, fault.c, that says its name and has the entry. */
+#include "faulty.h"
 
 #include <fenv.h>
 #include <locale.h>
@@ -11,7 +12,7 @@
 
 static int is(const char *fault)
 {
-    return !strcmp(FAULT, fault);
+    return !strcmp(faulty_fault, fault);
 }
 
 static void *nowhere(void)
@@ -26,16 +27,11 @@ static int overflow(volatile int depth)
     return depth < 0 ? room[0] : overflow(depth + 1) + room[depth % 4096];
 }
 
-#ifdef CRASH_AT_LOAD
 __attribute__((constructor)) static void at_load(void)
 {
-    *(volatile int *)nowhere() = 1;
+    if (is("crash-load"))
+        *(volatile int *)nowhere() = 1;
 }
-#endif
-
-#ifdef MISSING_FUNCTION
-int a_function_that_nobody_has(void);
-#endif
 
 static void *crash(void *unused)
 {
@@ -176,11 +172,13 @@ static void destroy(void *self)
     misbehave("destroy");
 }
 
+static char id[80] = "faulty/";
+
 static ff_model model = {
     .size = sizeof model,
     .abi_major = FF_ABI_MAJOR,
     .abi_minor = FF_ABI_MINOR,
-    .id = "faulty/" FAULT,
+    .id = id,
     .version = "1.0.0",
     .summary = "A model with a fault",
     .reference = "",
@@ -271,7 +269,7 @@ static void spoil_params(void)
 
 static void spoil_places(void)
 {
-    if (strncmp(FAULT, "place-", 6) != 0)
+    if (strncmp(faulty_fault, "place-", 6) != 0)
         return;
     model.self_size = is("place-size") ? 0 : 16;
     params[0].place = is("place-behind") ? 10 : is("place-crooked") ? 5 : 1;
@@ -297,7 +295,7 @@ static void spoil_ports(void)
         outputs[1].dims = "t x?";
     if (is("input-name"))
         inputs[0].name = "level";
-    if (!strncmp(FAULT, "feedback-", 9) && !is("feedback-output") && !is("feedback-service"))
+    if (!strncmp(faulty_fault, "feedback-", 9) && !is("feedback-output") && !is("feedback-service"))
         inputs[0].flags = inputs[1].flags = FF_OPTIONAL | FF_FEEDBACK;
     if (is("feedback-one"))
         inputs[1].flags = FF_OPTIONAL;
@@ -323,19 +321,15 @@ static void spoil_ports(void)
         inputs[1].from = "toy";
 }
 
-FF_EXPORT const ff_model *ENTRY(void);
-
-const ff_model *ENTRY(void)
+const ff_model *faulty_model(void)
 {
-#ifdef MISSING_FUNCTION
-    model.size = (size_t)a_function_that_nobody_has();
-#endif
     if (is("null"))
         return NULL;
     if (is("crash-entry"))
         *(volatile int *)nowhere() = 1;
     if (is("exit-entry"))
         exit(0);
+    strncpy(id + 7, faulty_fault, sizeof id - 8);
     spoil_model();
     spoil_params();
     spoil_places();
@@ -343,8 +337,7 @@ const ff_model *ENTRY(void)
     return &model;
 }
 
-#ifdef LIST
-FF_EXPORT const ff_model *const *flankfilm_models_v1(void)
+const ff_model *const *faulty_models(void)
 {
     static const ff_model *list[3];
     static ff_model other;
@@ -355,4 +348,3 @@ FF_EXPORT const ff_model *const *flankfilm_models_v1(void)
     list[1] = &other;
     return is("list-null") ? NULL : list;
 }
-#endif
