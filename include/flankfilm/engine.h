@@ -111,7 +111,7 @@ void ff_run_close(ff_run *run); /* NULL is nothing */
 typedef struct ff_observer {
     size_t size;
     void *ctx; /* first argument of every function below */
-    /* Share of the stage's work that is done, 0 to 1; a non-zero answer stops the run. */
+    /* Share of the work that is done, 0 to 1; 1 stops the run, 2 this stage and those behind it. */
     int32_t (*progress)(void *ctx, const ff_stage *stage, double fraction);
     /* level: FF_LOG_INFO, FF_LOG_WARNING. */
     void (*log)(void *ctx, const ff_stage *stage, int32_t level, const char *text);

@@ -8,6 +8,7 @@
 #include "references.h"
 
 #include <flankfilm/author.h>
+#include <flankfilm/needs.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -232,6 +233,9 @@ static ff_status put_scalars(const ff_host *host, const statistics *st, double p
     return status;
 }
 
+static const char no_inertia[] = "needs an inertia: give equivalent_mass or natural_frequency, or "
+                                 "wire a gear that offers equivalent_mass";
+
 /* Without a mass there is no natural frequency; that is an error only if it is asked for. */
 static ff_status put_natural_frequency(const model *m, uint64_t wanted, const ff_array *in)
 {
@@ -243,9 +247,7 @@ static ff_status put_natural_frequency(const model *m, uint64_t wanted, const ff
     if (frequency > 0)
         return ff_put_scalar(m->host, O_NATURAL_FREQUENCY, frequency);
     if (wanted & FF_BIT(O_NATURAL_FREQUENCY))
-        return ff_failf(m->host, FF_UNSUPPORTED, "natural_frequency",
-                        "needs an inertia: give equivalent_mass or natural_frequency, or wire a "
-                        "gear that offers equivalent_mass");
+        return m->host->fail(m->host->ctx, FF_UNSUPPORTED, "natural_frequency", no_inertia);
     return FF_OK;
 }
 
@@ -282,7 +284,10 @@ static ff_status ready(void *self)
         {1, "natural_frequency", "natural_frequency", NULL, NULL},
         {1, "gear.equivalent_mass", "natural_frequency", NULL, NULL},
     };
+    static const ff_need needs[] = {{1, "equivalent_mass|natural_frequency|gear.equivalent_mass",
+                                     "natural_frequency", no_inertia}};
     ff_serve(m->host, rows, sizeof rows / sizeof rows[0]);
+    ff_tell_needs(m->host, needs, 1);
     dynamics_tell_servings(m->host, &m->inertia, NAN);
     return FF_OK;
 }

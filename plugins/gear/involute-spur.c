@@ -19,7 +19,7 @@ static const ff_param params[] = {
     FF_QUANTITY("module", "mm", spur, spec.module, FF_REQUIRED, NULL, NULL, 1e-3, 1e3, 0, 0,
                 "module: reference diameter over number of teeth"),
     FF_QUANTITY("pressure_angle", "deg", spur, spec.pressure_angle, 0, "20 deg", NULL, 5, 45, 0, 0,
-                "pressure angle of the basic rack"),
+                "pressure angle of the basic rack; spur teeth have no helix angle"),
     FF_QUANTITY("face_width", "mm", spur, face_width, FF_REQUIRED, NULL, NULL, 1e-3, 1e5, 0, 0,
                 "width of the teeth in contact"),
     FF_LIST("profile_shift", "1", spur, spec.shift, 0, "0", NULL, -10, 10, 0, 0, 1, 2,

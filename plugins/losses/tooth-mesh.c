@@ -6,6 +6,7 @@
 #include "references.h"
 
 #include <flankfilm/author.h>
+#include <flankfilm/needs.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -387,14 +388,32 @@ static ff_status read_heat(const tooth_mesh *s, uint64_t wanted, const ff_array 
     return status;
 }
 
-static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+static ff_status ready(void *self)
 {
     const tooth_mesh *s = self;
-    losses_mesh m;
+    static const ff_need needs[] = {
+        {1, "ehl.engagement", "engagement", "this output needs a film model that gives engagement"},
+        {1, "ehl.sliding_loss", "sliding_loss_mean",
+         "this output needs a film model that gives sliding_loss"},
+        {1, "ehl.rolling_loss", "rolling_loss_mean",
+         "this output needs a film model that gives rolling_loss"},
+        {1, "ehl.squeeze_loss", "squeeze_loss_mean",
+         "this output needs a film model that gives squeeze_loss"},
+        {1, "ehl.asperity_loss", "asperity_loss_mean",
+         "this output needs a film model that gives asperity_loss"},
+    };
+    ff_tell_needs(s->host, needs, sizeof needs / sizeof needs[0]);
     if (s->bulk_temperature > 0 && s->thermal_conductance > 0)
         return ff_failf(s->host, FF_INVALID, "thermal_conductance",
                         "bulk_temperature is given, and thermal_conductance tells another one: "
                         "leave one of them out");
+    return FF_OK;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const tooth_mesh *s = self;
+    losses_mesh m;
     ff_status status = losses_read(s->host, in, &m);
     if (status == FF_OK)
         status = read_heat(s, wanted, in, &m);
@@ -422,5 +441,6 @@ FF_MODEL(losses_tooth_mesh, tooth_mesh, .id = "losses/tooth-mesh", .version = "1
                       "temperature at sliding contacts, Proc. R. Soc. NSW 76, 203",
          .bibtex = BIB_blok1937 "\n" BIB_jaeger1942, .licence = "GPL-3.0-or-later",
          .params = FF_TABLE(params), .inputs = FF_TABLE(losses_inputs),
-         .outputs = FF_TABLE(losses_outputs), .evaluate = evaluate, .destroy = free);
+         .outputs = FF_TABLE(losses_outputs), .ready = ready, .evaluate = evaluate,
+         .destroy = free);
 FF_EXPORT_MODELS(&losses_tooth_mesh);

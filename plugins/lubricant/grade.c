@@ -7,7 +7,7 @@
 
 static const ff_param params[] = {
     FF_PHRASE_LIKE(LUBRICANT_GRADE_NAMES, "grade", lubricant_oil, grade, FF_REQUIRED, NULL, NULL,
-                   "ISO 3448 grade, as ISO VG 220"),
+                   "ISO 3448 grade, its viscosity at 40 degC in cSt: ISO VG 220"),
     FF_ONE_OF(LUBRICANT_BASES, "base", lubricant_oil, base, 0, "mineral",
               "base oil: viscosity index (95, 150, 150, 200), density at 15 degC (890, 850, 975, "
               "1050 kg/m3), pressure coefficient and thermal data of a typical oil"),

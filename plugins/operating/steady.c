@@ -3,6 +3,7 @@
 #include "references.h"
 
 #include <flankfilm/author.h>
+#include <flankfilm/needs.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +16,7 @@ typedef struct steady {
 
 static const ff_param params[] = {
     FF_QUANTITY("torque", "N m", steady, torque, FF_REQUIRED, NULL, NULL, 1e-9, 1e12, 0, 1e7,
-                "torque on gear 1, constant"),
+                "torque on gear 1, constant; of a power: that over the speed"),
     FF_QUANTITY("speed", "rpm", steady, speed, FF_REQUIRED, NULL, "speed", 1e-3, 1e7, 0, 0,
                 "speed of gear 1"),
     FF_QUANTITY("mesh_frequency", "Hz", steady, mesh_frequency, FF_REQUIRED, NULL, "speed", 1e-4,
@@ -54,6 +55,10 @@ static const ff_port outputs[] = {
     {.name = "oil_temperature", .unit = "K", .doc = "temperature of the oil", .dims = ""},
 };
 
+static const char no_gear[] = "this output needs a gear: wire `gear` to a stage that offers one";
+static const char no_temperature[] =
+    "oil_temperature is missing: give the temperature of the oil that enters the mesh";
+
 static ff_status ready(void *self)
 {
     const steady *s = self;
@@ -63,7 +68,14 @@ static ff_status ready(void *self)
         {1, "mesh_frequency", "speed|mesh_frequency", NULL, NULL},
         {1, "oil_temperature", "oil_temperature", NULL, NULL},
     };
+    const ff_need needs[] = {
+        {s->speed > 0, "gear.teeth", "mesh_frequency", no_gear},
+        {!(s->speed > 0), "gear.teeth", "speed", no_gear},
+        {1, "gear.base_radius", "line_force", no_gear},
+        {1, "oil_temperature", "oil_temperature", no_temperature},
+    };
     ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
+    ff_tell_needs(s->host, needs, sizeof needs / sizeof needs[0]);
     if ((s->speed > 0) == (s->mesh_frequency > 0))
         return ff_failf(s->host, FF_INVALID, s->speed > 0 ? "mesh_frequency" : "speed",
                         "give one of speed and mesh_frequency, above 0");
@@ -111,9 +123,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         value[OUT_LINE_FORCE] = s->torque / gear;
     }
     if (wanted & FF_BIT(OUT_OIL_TEMPERATURE) && isnan(s->oil_temperature))
-        return ff_failf(s->host, FF_UNSUPPORTED, "oil_temperature",
-                        "oil_temperature is missing, and a stage reads it: give the temperature of "
-                        "the oil that enters the mesh");
+        return s->host->fail(s->host->ctx, FF_UNSUPPORTED, "oil_temperature", no_temperature);
     for (uint32_t i = 0; i <= OUT_OIL_TEMPERATURE && status == FF_OK; i++)
         if (wanted & FF_BIT(i))
             status = ff_put_scalar(s->host, i, value[i]);

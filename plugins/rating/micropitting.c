@@ -6,6 +6,7 @@
 #include "references.h"
 
 #include <flankfilm/author.h>
+#include <flankfilm/needs.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -288,16 +289,32 @@ static double permissible(const micropitting *s, double of_test)
     return 1.4 * s->material_factor * of_test;
 }
 
+static const char no_film[] = "this output needs a film, a stage of the kind ehl";
+static const char no_test[] =
+    "this output needs test_lambda, which configs/fzg-cgf-micropitting.yaml gives";
+static const char no_own_test[] =
+    "this output needs test_own_lambda, which configs/fzg-cgf-micropitting.yaml gives";
+
+static ff_status ready(void *self)
+{
+    const micropitting *s = self;
+    static const ff_need needs[] = {
+        {1, "ehl.h_min", "own_lambda_gf_min|own_safety", no_film},
+        {1, "test_own_lambda", "own_safety", no_own_test},
+        {1, "test_lambda", "lambda_gft|lambda_gfp|permissible_lambda|safety", no_test},
+    };
+    ff_tell_needs(s->host, needs, sizeof needs / sizeof needs[0]);
+    return FF_OK;
+}
+
 /* A permissible value stands beside the number of the method that calibrated it alone. */
 static ff_status write_ratio(const micropitting *s, uint64_t wanted, uint32_t row, double lambda,
-                             double of_test, const char *param)
+                             double of_test, const char *text)
 {
     if (!(wanted & FF_BIT(row)))
         return FF_OK;
     if (isnan(of_test))
-        return ff_failf(s->host, FF_UNSUPPORTED, outputs[row].name,
-                        "this output needs %s, which configs/fzg-cgf-micropitting.yaml gives",
-                        param);
+        return s->host->fail(s->host->ctx, FF_UNSUPPORTED, outputs[row].name, text);
     return ff_put_scalar(s->host, row, lambda / permissible(s, of_test));
 }
 
@@ -308,8 +325,7 @@ static ff_status write_own(const micropitting *s, const rating_pair *p, const ff
     if (!(wanted & FF_BIT(row)))
         return FF_OK;
     if (!film->data)
-        return ff_failf(s->host, FF_UNSUPPORTED, outputs[row].name,
-                        "this output needs a film, a stage of the kind ehl");
+        return s->host->fail(s->host->ctx, FF_UNSUPPORTED, outputs[row].name, no_film);
     double least = HUGE_VAL;
     for (size_t i = 0; i < film->shape[0]; i++)
         least = fmin(least, film->data[i]);
@@ -317,7 +333,7 @@ static ff_status write_own(const micropitting *s, const rating_pair *p, const ff
     if (wanted & FF_BIT(OUT_OWN_LAMBDA_MIN) &&
         ff_put_scalar(s->host, OUT_OWN_LAMBDA_MIN, least) != FF_OK)
         return FF_NOMEM;
-    return write_ratio(s, wanted, OUT_OWN_SAFETY, least, s->test_own_lambda, "test_own_lambda");
+    return write_ratio(s, wanted, OUT_OWN_SAFETY, least, s->test_own_lambda, no_own_test);
 }
 
 static ff_status write_scalars(const micropitting *s, const rating *r, uint64_t wanted)
@@ -340,13 +356,11 @@ static ff_status write_scalars(const micropitting *s, const rating *r, uint64_t 
         if (!(wanted & FF_BIT(row)))
             continue;
         if (isnan(s->test_lambda))
-            return ff_failf(
-                s->host, FF_UNSUPPORTED, outputs[row].name,
-                "this output needs test_lambda, which configs/fzg-cgf-micropitting.yaml gives");
+            return s->host->fail(s->host->ctx, FF_UNSUPPORTED, outputs[row].name, no_test);
         if (ff_put_scalar(s->host, row, limits[row - OUT_LAMBDA_GFT]) != FF_OK)
             return FF_NOMEM;
     }
-    return write_ratio(s, wanted, OUT_SAFETY, r->least, s->test_lambda, "test_lambda");
+    return write_ratio(s, wanted, OUT_SAFETY, r->least, s->test_lambda, no_test);
 }
 
 static void report(const micropitting *s, const rating_pair *p, const rating *r)
@@ -407,4 +421,4 @@ FF_MODEL(rating_micropitting, micropitting, .id = "rating/micropitting", .versio
          .bibtex = BIB_iso15144, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
          .inputs = rating_inputs, .input_count = RATING_INPUTS + 1,
          .input_stride = sizeof rating_inputs[0], .outputs = FF_TABLE(outputs), .wire = wire,
-         .evaluate = evaluate, .destroy = free);
+         .ready = ready, .evaluate = evaluate, .destroy = free);

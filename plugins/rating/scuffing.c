@@ -6,6 +6,7 @@
 #include "references.h"
 
 #include <flankfilm/author.h>
+#include <flankfilm/needs.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -374,6 +375,22 @@ static ff_status write_methods(const scuffing *s, const rating *r, uint64_t want
     return FF_OK;
 }
 
+static const char no_losses[] =
+    "this output needs a stage of the kind losses, whose contact temperature it is";
+static const char no_test[] =
+    "this output needs test_contact_temperature, which configs/fzg-a-scuffing.yaml gives";
+
+static ff_status ready(void *self)
+{
+    const scuffing *s = self;
+    static const ff_need needs[] = {
+        {1, "losses.contact_temperature_max", "own_contact_temperature_max|own_safety", no_losses},
+        {1, "test_contact_temperature", "own_safety", no_test},
+    };
+    ff_tell_needs(s->host, needs, sizeof needs / sizeof needs[0]);
+    return FF_OK;
+}
+
 /* What the film's own friction makes of it, held against the test gear by the same chain. */
 static ff_status write_own(const scuffing *s, const rating_pair *p, const ff_array *in,
                            uint64_t wanted)
@@ -383,9 +400,7 @@ static ff_status write_own(const scuffing *s, const rating_pair *p, const ff_arr
     if (!(wanted & FF_BIT(row)))
         return FF_OK;
     if (!in[RATING_INPUTS].data)
-        return ff_failf(
-            s->host, FF_UNSUPPORTED, outputs[row].name,
-            "this output needs a stage of the kind losses, whose contact temperature it is");
+        return s->host->fail(s->host->ctx, FF_UNSUPPORTED, outputs[row].name, no_losses);
     const double own = in[RATING_INPUTS].data[0];
     if (wanted & FF_BIT(OUT_OWN_CONTACT_MAX) &&
         ff_put_scalar(s->host, OUT_OWN_CONTACT_MAX, own) != FF_OK)
@@ -393,9 +408,7 @@ static ff_status write_own(const scuffing *s, const rating_pair *p, const ff_arr
     if (!(wanted & FF_BIT(OUT_OWN_SAFETY)))
         return FF_OK;
     if (isnan(s->test_temperature))
-        return ff_failf(
-            s->host, FF_UNSUPPORTED, outputs[OUT_OWN_SAFETY].name,
-            "this output needs test_contact_temperature, which configs/fzg-a-scuffing.yaml gives");
+        return s->host->fail(s->host->ctx, FF_UNSUPPORTED, outputs[OUT_OWN_SAFETY].name, no_test);
     if (!(own > p->oil_temperature))
         return ff_failf(s->host, FF_INVALID, "losses.contact_temperature_max",
                         "the flanks are no warmer than the oil");
@@ -467,4 +480,4 @@ FF_MODEL(rating_scuffing, scuffing, .id = "rating/scuffing", .version = "0.1.0",
          .bibtex = BIB_iso13989, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
          .inputs = &rating_inputs[1], .input_count = RATING_INPUTS + 1,
          .input_stride = sizeof rating_inputs[0], .outputs = FF_TABLE(outputs), .wire = wire,
-         .evaluate = evaluate, .destroy = free);
+         .ready = ready, .evaluate = evaluate, .destroy = free);

@@ -159,6 +159,8 @@ ff_status stiffness_elastic_pair_make(stiffness_elasticity *m, const stiffness_g
 {
     *p = (stiffness_elastic_pair){.model = m, .gears = gears};
     for (int g = 0; g < 2; g++) {
+        if (m->host->progress(m->host->ctx, 0.4 * g) != 0)
+            return FF_STOPPED;
         const stiffness_gear *gear = &gears->gear[g];
         stiffness_body_data wanted = data_of(m, gears, g);
         bool twin = g == 1 && m->body[0].made && !memcmp(&m->body[0].data, &wanted, sizeof wanted);
@@ -169,8 +171,6 @@ ff_status stiffness_elastic_pair_make(stiffness_elasticity *m, const stiffness_g
         stiffness_tooth_of_gear(&p->tooth[g], gears, g, m->plane == STIFFNESS_STRAIN);
         p->half_space[g] = (1 - gear->poisson_ratio * gear->poisson_ratio) /
                            (M_PI * gear->elastic_modulus * gears->width);
-        if (m->host->progress(m->host->ctx, 0.4 * (g + 1)) != 0)
-            return FF_STOPPED;
     }
     return FF_OK;
 }

@@ -32,8 +32,8 @@ PARTS = {
 
 def find_objects(build, part):
     """{file of the part: its object}"""
-    source = json.loads((build / 'meson-info/intro-buildsystem_files.json').read_text())
-    root = Path(min(source, key=len)).parent.resolve()
+    about = json.loads((build / 'meson-info/meson-info.json').read_text())
+    root = Path(about['directories']['source']).resolve()
     objects = {}
     for entry in json.loads((build / 'compile_commands.json').read_text()):
         file = (Path(entry['directory']) / entry['file']).resolve()

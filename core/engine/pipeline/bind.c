@@ -86,6 +86,8 @@ static void refuse_key(binding *k, const char *path, ff_place place)
         advice = nearest_key(k, path);
     if (!hint && !*advice && strchr(path, ' '))
         hint = "a key ends with a colon and a blank, as in \"key: value\"";
+    else if (!hint && !*advice)
+        hint = fe_hint_of_key(k->b, k->stage, k->loaded->model, path);
     ff_error(k->b->report, FF_FAULT_INPUT, place, hint, "%s: unknown key \"%.80s\"%s%s%s",
              k->stage->name, path, *advice ? "" : " for ", *advice ? "" : k->id, advice);
 }

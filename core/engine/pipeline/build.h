@@ -18,6 +18,11 @@ typedef struct fe_serving {
     char *item, *outputs, *by, *text; /* `by` and `text` are "" where there is none */
 } fe_serving;
 
+/* What it says by host->needs. */
+typedef struct fe_need {
+    char *items, *outputs, *text;
+} fe_need;
+
 /* The object of the model of a stage, and what building has found out about it. */
 typedef struct fe_instance {
     ff_host host; /* given to the model; outlives `self` */
@@ -42,8 +47,11 @@ typedef struct fe_instance {
     fe_tables tables; /* what it has read; their errors are reported before `text` */
     fe_serving *servings;
     size_t serving_count;
+    fe_need *needs;
+    size_t need_count;
     bool *read; /* by output row: what is requested depends on it; NULL before unread.c */
     bool evaluating;
+    bool left;        /* the observer leaves this stage, and goes on with those that can run */
     ff_status status; /* of the last call; FF_DOMAIN is kept until one fails */
     char item[96];    /* of the last host->fail */
     char text[512];   /* the same */
@@ -152,7 +160,7 @@ typedef struct fe_loop_stage {
 /* host.c: the functions that a model may call. */
 void fe_host_init(fe_instance *instance);
 void fe_forget_results(ff_stage *stage);
-void fe_forget_servings(fe_instance *instance);
+void fe_forget_servings(fe_instance *instance); /* and needs */
 /* The parameter that names the table of a column, of "file.time"; -1: there is none. */
 int fe_find_table(const ff_model *model, const char *item);
 
@@ -170,6 +178,11 @@ const char *fe_wire_misfit(fe_build *b, const ff_stage *stage, const char *wire,
                            const ff_loaded *from);
 /* Loads the stage and links it, and the stages behind it. */
 void fe_link_from(fe_build *b, ff_stage *stage);
+
+/* hint.c: what may be meant by a key that the model does not have, in words; NULL: nothing is near.
+ */
+const char *fe_hint_of_key(fe_build *b, const ff_stage *stage, const ff_model *model,
+                           const char *key);
 
 /* bind.c: reads the parameters of a linked stage. */
 void fe_bind_stage(fe_build *b, ff_stage *stage);
@@ -245,6 +258,10 @@ void fe_read_feedback(fe_build *b, const ff_node *feedback);
    side. */
 void fe_find_loops(fe_build *b);
 ff_loop *fe_loop_of(const ff_pipeline *pipeline, const ff_stage *stage); /* NULL: in none */
+
+/* needs.c: leaves out what lacks what it needs, as the models say, and refuses it where somebody
+   needs it. */
+void fe_check_needs(fe_build *b);
 
 /* unread.c: warns of what the file says in vain, and refuses what it says in two places. */
 void fe_check_unread(fe_build *b, const ff_node *outputs);

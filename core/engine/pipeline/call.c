@@ -201,6 +201,8 @@ static bool judge(const fe_call *call, ff_status status, ff_report *report)
         return fe_plugin_fault(stage, report, instance->fault);
     if (status == FF_OK)
         return true;
+    if (status == FF_STOPPED && instance->left)
+        return false;
     if (status == FF_NOMEM)
         fe_report_note_no_memory(report);
     if (instance->tables.errors)

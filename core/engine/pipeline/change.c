@@ -98,6 +98,7 @@ bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const 
         if (objects) {
             fe_folder_keep(&pipeline->memory->folder);
             open_objects(&b);
+            fe_check_needs(&b);
             fe_check_unread(&b, ff_node_get(root, "outputs"));
             moved = fe_folder_restore(&pipeline->memory->folder);
         }

@@ -69,7 +69,8 @@ static bool call_model(const ff_pipeline *pipeline, ff_stage *stage, const ff_ar
     fe_instance *instance = stage->instance;
     bool good, again;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++)
-        stage->results[i].refused = false;
+        if (stage->results[i].wanted) /* else it was left out before the run */
+            stage->results[i].refused = false;
     do {
         fe_forget_results(stage);
         stage->status = FF_OK;

@@ -2,6 +2,8 @@
 /* The functions of the host that a model may call. */
 #include "build.h"
 
+#include <flankfilm/needs.h>
+
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -9,7 +11,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { MOST_QUALITY = 1000 };
+enum { MOST_QUALITY = 1000, MOST_NEEDS = 1000, FE_LEAVE = 2 /* an observer's answer */ };
 
 /* Keeps the first breach of the interface for the message. */
 __attribute__((format(printf, 2, 3))) static void breach(fe_instance *instance, const char *format,
@@ -74,7 +76,9 @@ static int32_t host_progress(void *ctx, double fraction)
     fe_instance *instance = ctx;
     watch_call call = {.instance = instance,
                        .fraction = fraction > 0 ? fmin(fraction, 1) : 0}; /* NaN: 0 */
-    return protect(instance, tell_progress, &call) == FF_NOMEM || call.stop;
+    bool lacks = protect(instance, tell_progress, &call) == FF_NOMEM;
+    instance->left = instance->left || call.stop == FE_LEAVE;
+    return lacks || call.stop;
 }
 
 /* Runs a function that allocates, or of the program: a fault in it is not the plugin's. It may not
@@ -139,13 +143,6 @@ static ff_status table_fail(void *ctx, const ff_table *table, size_t row, size_t
     if (status == FF_OK && call.status == FF_BUG)
         breach(instance, "named a table that it has not read");
     return status == FF_OK ? call.status : status;
-}
-
-static const void *host_extension(void *ctx, const char *id)
-{
-    static const ff_table_reader tables = {sizeof tables, table_read, table_fail};
-    (void)ctx;
-    return id && !strcmp(id, FF_TABLE_ID) ? &tables : NULL;
 }
 
 static int32_t host_wanted(void *ctx, uint32_t output)
@@ -251,8 +248,77 @@ static void host_serves(void *ctx, const char *item, const char *outputs, const 
         protect(instance, keep_serving, &call);
 }
 
+typedef struct needs_call {
+    fe_instance *instance;
+    const char *items, *outputs, *text;
+} needs_call;
+
+static void keep_need(void *ctx)
+{
+    const needs_call *call = ctx;
+    fe_instance *instance = call->instance;
+    size_t count = instance->need_count;
+    instance->needs = fe_resize(instance->needs, (count + 1) * sizeof *instance->needs);
+    instance->needs[count] = (fe_need){.items = copy_text(call->items),
+                                       .outputs = copy_text(call->outputs),
+                                       .text = copy_text(call->text)};
+    instance->need_count++;
+}
+
+/* A word of the list that is no parameter, input or wire; NULL: there is none. */
+static const char *unknown_item(const ff_model *model, const char *list, char *word, size_t size)
+{
+    for (const char *at = list; *at; at += *at == '|') {
+        size_t length = strcspn(at, "|");
+        snprintf(word, size, "%.*s", (int)length, at);
+        if (!has_item(model, word))
+            return word;
+        at += length;
+    }
+    return NULL;
+}
+
+static void host_needs(void *ctx, const char *items, const char *outputs, const char *text)
+{
+    fe_instance *instance = ctx;
+    const ff_model *model = instance->stage->loaded->model;
+    needs_call call = {instance, items ? items : "", outputs ? outputs : "", text ? text : ""};
+    char word[96];
+    const char *item = unknown_item(model, call.items, word, sizeof word);
+    if (item) {
+        breach(instance, "said that it needs \"%.60s\", which it does not have", item);
+        return;
+    }
+    const char *output = unknown_output(model, call.outputs, word, sizeof word);
+    if (output)
+        breach(instance, "said what the output \"%.60s\" needs, which it does not have", output);
+    else if (instance->need_count == MOST_NEEDS)
+        breach(instance, "said more than %d times what outputs need", MOST_NEEDS);
+    else
+        protect(instance, keep_need, &call);
+}
+
+static const void *host_extension(void *ctx, const char *id)
+{
+    static const ff_table_reader tables = {sizeof tables, table_read, table_fail};
+    static const ff_needs needs = {sizeof needs, host_needs};
+    (void)ctx;
+    return !id                        ? NULL
+           : !strcmp(id, FF_TABLE_ID) ? (const void *)&tables
+           : !strcmp(id, FF_NEEDS_ID) ? &needs
+                                      : NULL;
+}
+
 void fe_forget_servings(fe_instance *instance)
 {
+    for (size_t i = 0; i < instance->need_count; i++) {
+        fe_free(instance->needs[i].items);
+        fe_free(instance->needs[i].outputs);
+        fe_free(instance->needs[i].text);
+    }
+    fe_free(instance->needs);
+    instance->needs = NULL;
+    instance->need_count = 0;
     for (size_t i = 0; i < instance->serving_count; i++)
         free_serving(&instance->servings[i]);
     fe_free(instance->servings);

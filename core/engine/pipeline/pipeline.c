@@ -50,6 +50,7 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool ever
         if (stage->instance->created)
             fe_check_folder(pipeline, stage, "create, set, wire or ready", report);
     }
+    fe_check_needs(&b);
     warn_of_feedback(&b, ff_node_get(root, "feedback"));
     fe_check_unread(&b, ff_node_get(root, "outputs"));
     return pipeline;

@@ -328,18 +328,22 @@ bool fe_run_loop(ff_pipeline *pipeline, const ff_loop *loop, const ff_observer *
                  ff_report *report)
 {
     iteration it = {.pipeline = pipeline, .count = loop->count, .report = report};
-    bool good = true, stopped = false;
+    bool good = true, stopped = false, left = false;
     it.members = fe_alloc(loop->count * sizeof *it.members);
     for (size_t i = 0; i < loop->count; i++)
         enter(&it.members[i], &pipeline->stages[pipeline->order[loop->first + i]], watch);
     good = feeders_ran(&it) && obtain(&it, watch);
     for (size_t i = 0; i < loop->count; i++) {
         stopped = stopped || it.members[i].stage->status == FF_STOPPED;
+        left = left || it.members[i].stage->instance->left;
         good = fe_check_quality(it.members[i].stage, report) && good;
         leave(&it.members[i]);
     }
-    for (size_t i = 0; i < loop->count && stopped; i++)
-        pipeline->stages[pipeline->order[loop->first + i]].status = FF_STOPPED;
+    for (size_t i = 0; i < loop->count && stopped; i++) {
+        ff_stage *stage = &pipeline->stages[pipeline->order[loop->first + i]];
+        stage->status = FF_STOPPED;
+        stage->instance->left = left;
+    }
     fe_free(it.residuals);
     fe_free(it.members);
     return good;

@@ -51,6 +51,7 @@ static void begin_run(ff_pipeline *pipeline)
     for (size_t i = 0; i < pipeline->count; i++) {
         pipeline->stages[i].ran = pipeline->stages[i].reused = false;
         pipeline->stages[i].status = FF_OK;
+        pipeline->stages[i].instance->left = false;
         pipeline->stages[i].seconds = pipeline->stages[i].work = 0;
     }
 }
@@ -71,7 +72,7 @@ bool ff_pipeline_run(ff_pipeline *pipeline, const ff_observer *watch, ff_report 
             good = run_stage(pipeline, stage, report) && good;
             stage->instance->watch = NULL;
         }
-        if (stage->status == FF_STOPPED)
+        if (stage->status == FF_STOPPED && !stage->instance->left)
             return false;
     }
     return good;

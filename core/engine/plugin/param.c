@@ -148,6 +148,16 @@ static bool read_toleranced(const reading *r, const ff_node *node, const ff_tole
     return true;
 }
 
+/* Whether it is numbers with blanks between them, as a list without commas is. */
+static bool is_list_without_commas(const char *text)
+{
+    double number;
+    size_t count = 0;
+    for (; ff_number_parse(text, &number, &text); text += strspn(text, " "))
+        count++;
+    return count > 1 && !*text;
+}
+
 static bool read_real(const reading *r, const ff_node *node, double *si)
 {
     char why[512];
@@ -159,7 +169,11 @@ static bool read_real(const reading *r, const ff_node *node, double *si)
         return toleranced > 0 ? read_toleranced(r, node, &tolerance, si)
                               : refuse(r, node, NULL, "%s", why);
     if (!ff_quantity_parse(node->text, r->unit, r->row->unit, si, why, sizeof why))
-        return refuse(r, node, NULL, "%s", why);
+        return refuse(r, node,
+                      is_list_without_commas(node->text)
+                          ? "numbers of a list stand between commas: [1, 2]"
+                          : NULL,
+                      "%s", why);
     return check_range(r, node, si);
 }
 

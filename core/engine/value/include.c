@@ -64,14 +64,14 @@ char *ff_path_beside(const char *directory, const char *path)
     return fe_print_text("%s%s%s", alone ? "" : directory, alone ? "" : "/", path);
 }
 
-/* The path of an example that came with the engine, in the installed tree or beside the build; the
+/* The path of an example that came with the engine, in the installed tree or of the build; the
    caller frees it. NULL: the file is not among them. */
 static char *shipped(const char *path)
 {
     if (*path == '/')
         return NULL;
     char *installed = fe_print_text("share/flankfilm/configs/%s", path);
-    char *built = fe_print_text("../configs/%s", path);
+    char *built = fe_print_text("configs/%s", path); /* a link there to the source tree */
     char *found = fe_installed_file(installed);
     if (!found)
         found = fe_built_file(built);

@@ -238,7 +238,7 @@ static json_t *describe_compared(const cli_session *session, const cli_options *
     size_t index;
     for (size_t i = 0; (name = study_compared(session->study, i, &index)); i++) {
         ff_report *tried = ff_report_new();
-        ff_tree *tree = cli_session_try(session, options, index, tried);
+        ff_tree *tree = cli_session_try(session, options, index, false, tried);
         char *fault = ff_report_errors(tried) ? study_first_error(tried) : NULL;
         json_array_append_new(list, json_pack("{s:s, s:o, s:o}", "model", name, "settings",
                                               settings_of(session->study, index), "fault",
@@ -317,6 +317,8 @@ static int confirm(cli_session *session, const cli_options *options)
         json_object_set_new(answer, "stages", json_integer((json_int_t)stages));
         json_object_set_new(answer, "cases", json_integer((json_int_t)cases));
         json_object_set_new(answer, "study", json_boolean(session->study));
+        if (session->tried)
+            json_object_set_new(answer, "tried", json_integer((json_int_t)session->tried));
         results_json_print(answer);
         return code;
     }
@@ -326,12 +328,18 @@ static int confirm(cli_session *session, const cli_options *options)
         return code;
     }
     printf("%s: ok (%zu stage%s", options->operand, stages, stages == 1 ? "" : "s");
-    const char *tried = session->study && session->study->driver    ? "; first of %zu cases)\n"
-                        : session->study && session->study->streams ? ")\n"
-                        : cases > CLI_MOST_ROWS && session->study->rows
-                            ? "; %zu cases, the first 1000 of them and the last)\n"
-                            : "; %zu cases, each value once)\n";
-    printf(session->study ? tried : ")\n", cases);
+    if (!session->study || session->study->streams)
+        printf(")\n");
+    else if (session->study->driver)
+        printf("; %zu of %zu cases%s%s)\n", session->tried, cases,
+               *study_further(session->study) ? ", " : "", study_further(session->study));
+    else if (session->tried == cases)
+        printf("; %zu cases, each of them)\n", cases);
+    else
+        printf(cases > CLI_MOST_ROWS && session->study->rows
+                   ? "; %zu cases, the first 1000 of them and the last)\n"
+                   : "; %zu cases, each value once)\n",
+               cases);
     return code;
 }
 

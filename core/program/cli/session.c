@@ -8,6 +8,7 @@
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
+#include "../study/case.h"
 #include "../study/hash.h"
 
 #include <ctype.h>
@@ -55,12 +56,36 @@ static void copy_messages(cli_session *session, const ff_report *captured, ff_se
     }
 }
 
+static int32_t leave(void *ctx, const ff_stage *stage, double fraction)
+{
+    (void)ctx, (void)stage, (void)fraction;
+    return 2;
+}
+
+/* Runs the stages that say nothing of their progress, since they are quick, and all others up to
+   their first word on it, and reports what is wrong with their input. */
+static void run_quick(ff_pipeline *pipeline, ff_report *report)
+{
+    const ff_observer watch = {.size = sizeof watch, .progress = leave};
+    ff_report *own = ff_report_new();
+    ff_pipeline_run(pipeline, &watch, own);
+    for (size_t i = 0; i < ff_report_count(own); i++) {
+        const ff_message *m = ff_report_at(own, i);
+        if (m->severity == FF_ERROR)
+            ff_error(report, m->fault, m->place, m->hint, "%s", m->text);
+    }
+    ff_report_free(own);
+}
+
 ff_tree *cli_session_try(const cli_session *session, const cli_options *options, size_t index,
-                         ff_report *report)
+                         bool runs, ff_report *report)
 {
     ff_tree *tree = ff_tree_load(options->operand, report);
     study_overlay(session->study, index, options->sets, options->set_count, tree, report);
-    ff_pipeline_free(accuracy_build(tree, session->engine, true, report));
+    ff_pipeline *pipeline = accuracy_build(tree, session->engine, true, report);
+    if (runs && pipeline && ff_report_errors(report) == 0)
+        run_quick(pipeline, report);
+    ff_pipeline_free(pipeline);
     return tree;
 }
 
@@ -69,34 +94,95 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
                      ff_severity severity)
 {
     ff_report *captured = ff_report_new();
-    ff_tree *tree = cli_session_try(session, options, index, captured);
+    ff_tree *tree = cli_session_try(session, options, index, severity == FF_ERROR, captured);
     copy_messages(session, captured, severity);
     ff_tree_free(tree);
     ff_report_free(captured);
 }
 
-/* Tries each value of each axis once, or the end of a range, with the other axes at their first. A
-   case that cannot be is an error of a check alone; a model that cannot take all that the file says
-   is named by a run, too. */
-static void try_values(cli_session *session, const cli_options *options, bool everything)
+/* By how much the number of a case grows with a point of an axis. */
+static size_t stride_of(const study_definition *study, size_t axis)
+{
+    size_t stride = 1;
+    for (size_t a = axis + 1; a < study->axis_count; a++)
+        stride *= study->points[a];
+    return stride;
+}
+
+/* Names a model that cannot take all that the file says, of each that the study swaps in. */
+static void try_swaps(cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
     for (size_t k = 0; k < study->varied_count; k++) {
         const study_varied *varied = &study->varied[k];
-        size_t last = study->points[varied->axis] - 1, stride = 1;
-        for (size_t a = varied->axis + 1; a < study->axis_count; a++)
-            stride *= study->points[a];
         const char *dot = strrchr(varied->path, '.');
-        bool swaps = dot && !strcmp(dot, ".use"), listed = varied->values || varied->names;
-        bool whole = everything && (!varied->places || k == 0); /* a row is tried once */
-        for (size_t i = listed || varied->places ? 1 : last; i > 0 && i <= last; i++) {
+        size_t stride = stride_of(study, varied->axis);
+        for (size_t i = 1; dot && !strcmp(dot, ".use") && i < study->points[varied->axis]; i++) {
+            if (varied->places && i == CLI_MOST_ROWS)
+                i = study->points[varied->axis] - 1;
+            try_case(session, options, i * stride, FF_WARNING);
+        }
+    }
+}
+
+/* Of more cases than are looked at: each value of each axis once, or the end of a range, with the
+   other axes at their first. */
+static void try_values(cli_session *session, const cli_options *options)
+{
+    const study_definition *study = session->study;
+    for (size_t k = 0; k < study->varied_count; k++) {
+        const study_varied *varied = &study->varied[k];
+        size_t last = study->points[varied->axis] - 1;
+        size_t stride = stride_of(study, varied->axis);
+        bool listed = varied->values || varied->names;
+        bool whole = !varied->places || k == 0; /* a row is tried once */
+        for (size_t i = listed || varied->places ? 1 : last; whole && i > 0 && i <= last; i++) {
             if (varied->places && i == CLI_MOST_ROWS)
                 i = last;
-            if (whole && ff_report_errors(session->report) < MOST_ERRORS)
+            if (ff_report_errors(session->report) < MOST_ERRORS)
                 try_case(session, options, i * stride, FF_ERROR);
-            if (swaps)
-                try_case(session, options, i * stride, FF_WARNING);
         }
+    }
+}
+
+/* Of a study that makes its cases itself some may be such as cannot be: a warning counts them. */
+static void try_spread(cli_session *session, const cli_options *options)
+{
+    const study_definition *study = session->study;
+    size_t bad = 0, first = 0;
+    char *why = NULL;
+    session->tried = study->count < CLI_MOST_SPREAD ? study->count : CLI_MOST_SPREAD;
+    for (size_t i = 0; i < session->tried; i++) {
+        size_t index = session->tried > 1 ? i * (study->count - 1) / (session->tried - 1) : 0;
+        ff_report *captured = ff_report_new();
+        ff_tree *tree = cli_session_try(session, options, index, true, captured);
+        if (ff_report_errors(captured) && bad++ == 0) {
+            first = index;
+            why = study_first_error(captured);
+        }
+        ff_tree_free(tree);
+        ff_report_free(captured);
+    }
+    if (bad)
+        ff_warn(session->report, FF_NOWHERE,
+                "study: %zu of %zu %s that were looked at cannot run, the first of them number "
+                "%zu: %s",
+                bad, session->tried, study_cases(study), first + 1, why);
+    free(why);
+}
+
+/* A case that cannot be is an error of a check alone. */
+static void try_cases(cli_session *session, const cli_options *options)
+{
+    const study_definition *study = session->study;
+    if (study->driver) {
+        try_spread(session, options);
+    } else if (study->count > CLI_MOST_CASES || study->streams) {
+        try_values(session, options);
+    } else {
+        session->tried = study->count;
+        for (size_t i = 1; i < study->count && ff_report_errors(session->report) < MOST_ERRORS; i++)
+            try_case(session, options, i, FF_ERROR);
     }
 }
 
@@ -161,9 +247,14 @@ static bool open_file(cli_session *session, const cli_options *options, bool eve
     if (session->study && session->pipeline)
         study_check(session->study, session->pipeline, session->report);
     if (session->study && !session->study->driver && ff_report_errors(session->report) == 0)
-        try_values(session, options, everything);
+        try_swaps(session, options);
     if (everything && session->pipeline && ff_report_errors(session->report) == 0)
         check_oil(session, options);
+    if (everything && session->pipeline && ff_report_errors(session->report) == 0 &&
+        !(session->study && session->study->streams))
+        run_quick(session->pipeline, session->report);
+    if (everything && session->study && ff_report_errors(session->report) == 0)
+        try_cases(session, options);
     return session->pipeline && ff_report_errors(session->report) == 0;
 }
 

@@ -8,6 +8,9 @@
 
 /* So many rows of a table of cases are tried by a check, and the last one. */
 enum { CLI_MOST_ROWS = 1000 };
+/* A check looks at each case of a study of so many, and at so many of a study that makes its cases
+   itself, from the first to the last. */
+enum { CLI_MOST_CASES = 256, CLI_MOST_SPREAD = 32 };
 
 typedef struct cli_session {
     ff_report *report;
@@ -15,6 +18,7 @@ typedef struct cli_session {
     ff_engine *engine;
     ff_pipeline *pipeline;   /* may be NULL after errors; of a study: its first case */
     study_definition *study; /* NULL: a single case */
+    size_t tried;            /* cases that a check has looked at as a whole; 0: not whole ones */
 } cli_session;
 
 /* With the directories of the options. */
@@ -23,10 +27,10 @@ ff_engine *cli_engine_new(const cli_options *options);
 /* Loads the file, applies --set and builds the pipeline. False with errors in the report. */
 bool cli_session_open(cli_session *session, const cli_options *options, bool everything);
 void cli_session_close(cli_session *session);
-/* Builds a case of the study, which leaves its errors in the report. Their places are in the tree
-   that is returned and is the caller's. */
+/* Builds a case of the study, which leaves its errors in the report, and `runs` the stages of it
+   that are quick. Their places are in the tree that is returned and is the caller's. */
 ff_tree *cli_session_try(const cli_session *session, const cli_options *options, size_t index,
-                         ff_report *report);
+                         bool runs, ff_report *report);
 
 /* Where the results of a run are: -o, or results/<name of the file without its ending>, with what
    --set says behind it, so that a variant stands beside what it varies. Freed by the caller. */

@@ -47,8 +47,8 @@ static void bound(estimate *e, double *values)
     e->error = (double)NAN;
 }
 
-void estimate_sobol(const double *a, const double *b, const double *c, size_t count, size_t groups,
-                    uint64_t seed, estimate *first, estimate *total)
+size_t estimate_sobol(const double *a, const double *b, const double *c, size_t count,
+                      size_t groups, uint64_t seed, estimate *first, estimate *total)
 {
     size_t *rows = memory_alloc((count + 1) * sizeof *rows), n = 0;
     size_t *drawn = memory_alloc((count + 1) * sizeof *drawn);
@@ -80,4 +80,33 @@ void estimate_sobol(const double *a, const double *b, const double *c, size_t co
     free(drawn);
     free(s);
     free(t);
+    return n;
+}
+
+static double between(double value, double low, double high)
+{
+    return isfinite(value) ? fmin(fmax(value, low), high) : value;
+}
+
+static void clip(estimate *e, double most)
+{
+    e->value = between(e->value, 0, most);
+    e->low = between(e->low, 0, 1);
+    e->high = between(e->high, 0, 1);
+}
+
+void estimate_tell_shares(estimate *first, estimate *total, size_t groups, size_t count)
+{
+    const estimate untold = {(double)NAN, (double)NAN, (double)NAN, (double)NAN};
+    double least = 1.96 / sqrt((double)count), sum = 0;
+    for (size_t g = 0; g < groups; g++) {
+        clip(&total[g], 1);
+        clip(&first[g], total[g].value);
+        if (!(first[g].value >= least) && total[g].value > 0)
+            first[g] = untold;
+        sum += isfinite(first[g].value) ? first[g].value : 0;
+    }
+    for (size_t g = 0; g < groups && sum > 1 + least; g++)
+        if (first[g].value > 0)
+            first[g] = untold;
 }

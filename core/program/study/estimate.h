@@ -91,8 +91,13 @@ estimate estimate_percentile(const estimate_samples *s, double share);
 /* First and total Sobol index of each of the groups of inputs, which are independent of each other.
    `a` and `b` have values for independent inputs; c[g * count + i] is for the inputs of a[i], those
    of group g being those of b[i]. `seed` is for the resampling that the intervals come from. Rows
-   with a NaN are left out. */
-void estimate_sobol(const double *a, const double *b, const double *c, size_t count, size_t groups,
-                    uint64_t seed, estimate *first, estimate *total);
+   with a NaN are left out. Returns how many rows are left. */
+size_t estimate_sobol(const double *a, const double *b, const double *c, size_t count,
+                      size_t groups, uint64_t seed, estimate *first, estimate *total);
+/* Clips indices that come from so many rows to what they can be: a total to 0 and 1, a first one to
+   0 and its total. A first one below 1.96 / sqrt(count), which the correlation of independent rows
+   exceeds one time in 20 (its variance is 1 / count), is not told and gets NaN, as do all of them
+   where their sum exceeds 1 by as much. One whose total is 0 is 0. */
+void estimate_tell_shares(estimate *first, estimate *total, size_t groups, size_t count);
 
 #endif

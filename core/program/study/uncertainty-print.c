@@ -76,7 +76,12 @@ static void print_output(study_context *context, const char *name, const json_t 
     {
         char what[100];
         snprintf(what, sizeof what, "share of %.60s", input);
-        print_estimate(context, what, json_object_get(one, "first"), 100, 0, "%");
+        if (json_object_get(one, "untold")) {
+            study_line_add(&line, "  %-28.60s %s", what, study_text_of(one, "untold"));
+            study_line_print(context, &line, 0);
+        } else {
+            print_estimate(context, what, json_object_get(one, "first"), 100, 0, "%");
+        }
         print_estimate(context, "  with others", json_object_get(one, "total"), 100, 0, "%");
     }
     if (json_integer_value(json_object_get(of, "failed"))) {

@@ -85,11 +85,15 @@ static json_t *shares_of(const study_uncertainty *u, size_t output)
     json_t *shares = json_object();
     for (size_t i = 0; i < (groups + 2) * n; i++)
         values[i] = study_uncertainty_value(u, u->first_sensitivity + i, output);
-    estimate_sobol(values, values + n, values + 2 * n, n, groups, u->seed, first, total);
-    for (size_t g = 0; g < groups; g++)
-        json_object_set_new(
-            shares, name_of_group(u, g),
-            json_pack("{s:o, s:o}", "first", describe(first[g]), "total", describe(total[g])));
+    n = estimate_sobol(values, values + n, values + 2 * n, n, groups, u->seed, first, total);
+    estimate_tell_shares(first, total, groups, n);
+    for (size_t g = 0; g < groups; g++) {
+        json_t *share =
+            json_pack("{s:o, s:o}", "first", describe(first[g]), "total", describe(total[g]));
+        if (!isfinite(first[g].value))
+            json_object_set_new(share, "untold", json_sprintf("%zu samples do not tell", n));
+        json_object_set_new(shares, name_of_group(u, g), share);
+    }
     free(values);
     return shares;
 }

@@ -247,6 +247,50 @@ static void repeat_sobol(const problem *p, int repeats, gsl_rng *rng)
     judge(p->name, "sobol", &total, false);
 }
 
+/* 25 inputs that add up, by 16 rows: what chance makes of them is no share, and an inert one of the
+   two that matter of a few rows has none. */
+static void test_shares(void)
+{
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    enum { ROWS = 16, INPUTS = 25 };
+    double a[ROWS], b[ROWS], c[INPUTS * ROWS], x[ROWS][INPUTS], y[ROWS][INPUTS];
+    estimate first[INPUTS], total[INPUTS];
+    double sum = 0, raw = 0;
+    for (size_t i = 0; i < ROWS; i++) {
+        a[i] = b[i] = 0;
+        for (size_t g = 0; g < INPUTS; g++) {
+            a[i] += x[i][g] = gsl_ran_gaussian(rng, 1);
+            b[i] += y[i][g] = gsl_ran_gaussian(rng, 1);
+        }
+        for (size_t g = 0; g < INPUTS; g++)
+            c[g * ROWS + i] = a[i] - x[i][g] + y[i][g];
+    }
+    gsl_rng_free(rng);
+    size_t rows = estimate_sobol(a, b, c, ROWS, INPUTS, 1, first, total);
+    check(rows == ROWS, "rows that count", (double)rows, ROWS, ROWS);
+    for (size_t g = 0; g < INPUTS; g++)
+        raw += fabs(first[g].value - total[g].value) / INPUTS;
+    check(raw > 0.02, "chance moves first indices", raw, 0.02, 1);
+    estimate_tell_shares(first, total, INPUTS, rows);
+    for (size_t g = 0; g < INPUTS; g++) {
+        sum += isfinite(first[g].value) ? first[g].value : 0;
+        check(!(first[g].value > total[g].value), "first index within its total", first[g].value, 0,
+              total[g].value);
+        check(total[g].value >= 0 && total[g].high <= 1, "total index", total[g].value, 0, 1);
+    }
+    check(sum <= 1.5, "sum of what is told", sum, 0, 1.5);
+    for (size_t i = 0; i < ROWS; i++) {
+        a[i] = x[i][0];
+        b[i] = y[i][0];
+        c[i] = y[i][0];
+        c[ROWS + i] = x[i][0];
+    }
+    rows = estimate_sobol(a, b, c, ROWS, 2, 1, first, total);
+    estimate_tell_shares(first, total, 2, rows);
+    check(first[0].value > 0.49, "the one that matters is told", first[0].value, 0.49, 1);
+    check(first[1].value == 0 && total[1].value == 0, "an inert one has 0", first[1].value, 0, 0);
+}
+
 /* Where all but one of the further samples failed, that one counts. */
 static void test_one_left(void)
 {
@@ -271,6 +315,7 @@ static void test_two(void)
 int main(int argc, char **argv)
 {
     int repeats = argc > 1 ? atoi(argv[1]) : 200;
+    test_shares();
     test_one_left();
     test_two();
     problem problems[] = {
