@@ -91,8 +91,8 @@ static double between(double value, double low, double high)
 static void clip(estimate *e, double most)
 {
     e->value = between(e->value, 0, most);
-    e->low = between(e->low, 0, 1);
-    e->high = between(e->high, 0, 1);
+    e->low = fmin(between(e->low, 0, 1), e->value);
+    e->high = fmax(between(e->high, 0, 1), e->value);
 }
 
 void estimate_tell_shares(estimate *first, estimate *total, size_t groups, size_t count)
