@@ -22,7 +22,8 @@ static void set_steel(stage *s)
 static void check_materials(void)
 {
     static const double k[] = {45, 20}, rho[] = {7800, 7700}, c[] = {440, 500};
-    static const double steel[] = {206e9, 206e9}, iron[] = {206e9, 170e9};
+    static const double steel[] = {206e9, 206e9}, iron[] = {206e9, 170e9},
+                        carbide[] = {600e9, 206e9};
     stage *oil, *s = pair_open("rating/micropitting", &pair_c, &oil);
     stage_give_series(s, "gear.thermal_conductivity", 2, k);
     stage_give_series(s, "gear.density", 2, rho);
@@ -47,6 +48,9 @@ static void check_materials(void)
     check_true("cast iron is refused", stage_run(s) == FF_INVALID &&
                                            strstr(stage_why(s), "covers gears of steel") &&
                                            strstr(stage_why(s), "gear 2 has 170 GPa"));
+    stage_give_series(s, "gear.elastic_modulus", 2, carbide);
+    check_true("carbide, too",
+               stage_run(s) == FF_INVALID && strstr(stage_why(s), "gear 1 has 600 GPa"));
     stage_close(s);
     stage_close(oil);
 }
