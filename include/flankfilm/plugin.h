@@ -217,8 +217,10 @@ typedef struct ff_host {
     ff_status (*fail)(void *ctx, ff_status status, const char *item, const char *text);
     void (*log)(void *ctx, int32_t level, const char *text);
 
-    /* Memory for output row `index`, owned by the core, zeroed, valid until evaluate is called
-       again; NULL when there is none: then return FF_NOMEM. Call during evaluate, once each. */
+    /* Memory for output row `index`, owned by the core, valid until evaluate is called again; NULL
+       when there is none: then return FF_NOMEM. Call during evaluate, once each. It is zeroed
+       where the output is wanted; where it is not, it is NaN for a model that needs 1.3, and an
+       output that then has a NaN is absent. */
     double *(*output)(void *ctx, uint32_t index, uint32_t rank, const size_t *shape);
 
     /* One line of the stage's quality record: its value, the limit it is held to, FF_GOOD ...,

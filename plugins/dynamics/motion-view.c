@@ -217,11 +217,13 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
     double time = (double)view->cycles * view->T, quasi_static = largest_static(inputs);
     dynamics_between between = {0, 0};
     ff_status status = put_engagements(view, excitation, inputs, host);
-    if (inputs->wanted & of_stations) {
+    const int looked = (inputs->wanted & of_stations) != 0;
+    if (looked) {
         between = look_between(view, inputs, 1);
         report_sampling(view, &between, inputs, host);
     }
-    double tooth = between.largest * excitation->stiffness * excitation->length;
+    /* NaN: not looked for, which leaves the factor out */
+    double tooth = looked ? between.largest * excitation->stiffness * excitation->length : NAN;
     const struct {
         uint32_t output;
         double value;

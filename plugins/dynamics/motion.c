@@ -36,12 +36,14 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
     [DYNAMICS_OUT_DTE_RMS] = {.name = "dte_rms",
                               .unit = "m",
                               .doc = "root mean square of the alternating part of s",
-                              .dims = ""},
+                              .dims = "",
+                              .max = INFINITY},
     [DYNAMICS_OUT_DTE_MEAN] = {.name = "dte_mean", .unit = "m", .doc = "mean of s", .dims = ""},
     [DYNAMICS_OUT_DTE_PEAK_TO_PEAK] = {.name = "dte_peak_to_peak",
                                        .unit = "m",
                                        .doc = "highest less lowest s",
-                                       .dims = ""},
+                                       .dims = "",
+                                       .max = INFINITY},
     [DYNAMICS_OUT_TOOTH_FORCE] =
         {.name = "tooth_force",
          .unit = "N",
@@ -65,18 +67,21 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
     [DYNAMICS_OUT_CONTACT_LOSS] = {.name = "contact_loss",
                                    .unit = "1",
                                    .doc = "share of the time in which no flanks touch",
-                                   .dims = ""},
+                                   .dims = "",
+                                   .max = 1},
     [DYNAMICS_OUT_BACK_CONTACT] = {.name = "back_contact",
                                    .unit = "1",
                                    .doc = "share of the time with contact on the back flank",
-                                   .dims = ""},
+                                   .dims = "",
+                                   .max = 1},
     [DYNAMICS_OUT_NATURAL_FREQUENCY] = {.name = "natural_frequency",
                                         .unit = "Hz",
                                         .doc = "of small vibration, at the mean of the stiffness "
                                                "that is wired: the slope dF/d(e_l) with "
                                                "definition: tangent, the chord F/(e_l - e) with "
                                                "secant",
-                                        .dims = ""},
+                                        .dims = "",
+                                        .max = INFINITY},
     [DYNAMICS_OUT_PERIOD] =
         {.name = "period",
          .unit = "1",
@@ -115,7 +120,8 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
          .doc = "different motions of at most 6 mesh cycles at this speed in which "
                 "disturbances die out, of those that both branches and 16 starts "
                 "lead to and those of the atlas where it is asked for",
-         .dims = ""},
+         .dims = "",
+         .max = INFINITY},
     [DYNAMICS_OUT_ATLAS_FREQUENCY] =
         {.name = "atlas_frequency",
          .unit = "Hz",

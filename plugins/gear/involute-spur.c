@@ -144,11 +144,11 @@ static const ff_param params[] = {
     FF_PATH("profile_file", spur, flank_spec.file, 0, NULL,
             "measured profiles to be added: text with the header gear, roll_angle [deg], deviation "
             "[um]; roll angle of the own gear, deviation positive: more metal"),
-    FF_LIST("roughness_rq", "um", spur, roughness_rq, FF_MIN_OPEN, NULL, "roughness", 0, 1e3, 0.01,
+    FF_LIST("roughness_rq", "um", spur, roughness_rq, FF_MIN_OPEN, NULL, "roughness", 0, 100, 0.01,
             10, 1, 2,
             "root mean square roughness Rq of the flanks, one value or two, for the lambda ratio "
             "of smooth films; a film between rough flanks takes a stage of the kind surface"),
-    FF_LIST("roughness_ra", "um", spur, roughness_ra, FF_MIN_OPEN, NULL, "roughness", 0, 1e3, 0.01,
+    FF_LIST("roughness_ra", "um", spur, roughness_ra, FF_MIN_OPEN, NULL, "roughness", 0, 100, 0.01,
             10, 1, 2,
             "mean roughness Ra instead, as on drawings: Rq = sqrt(pi/2) Ra of Gaussian heights"),
 };
@@ -286,13 +286,13 @@ static void report_quality(const spur *s)
     host->quality(host->ctx, "pitch_error", p->pitch_error, 1e-9,
                   p->pitch_error <= 1e-9 ? FF_GOOD : FF_BAD,
                   "tooth thicknesses and backlash fill the working pitch");
-    host->quality(host->ctx, "tip_thickness", tip, 0.2, tip >= 0.2 ? FF_GOOD : FF_DOUBTFUL,
+    host->quality(host->ctx, "tip_thickness", tip, 0.2, tip >= 0.2 ? FF_GOOD : FF_RANGE,
                   "least tooth thickness at a tip, in modules; below 0.2 a tip is weak");
     host->quality(host->ctx, "tip_clearance", p->clearance / m, 0.1,
-                  p->clearance >= 0.1 * m ? FF_GOOD : FF_DOUBTFUL,
+                  p->clearance >= 0.1 * m ? FF_GOOD : FF_RANGE,
                   "least gap between tip and mating root, in modules");
     host->quality(host->ctx, "involute_margin", p->form_margin / m, 0,
-                  p->form_margin >= -1e-9 * m ? FF_GOOD : FF_DOUBTFUL,
+                  p->form_margin >= -1e-9 * m ? FF_GOOD : FF_RANGE,
                   "from the end of the involute to the contact nearest it, in modules; below 0 a "
                   "tip may meet a fillet");
 }

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "rows.h"
 
+#include <math.h>
+
 #include <stddef.h>
 
 const ff_port losses_inputs[LOSSES_INPUTS] = {
@@ -141,7 +143,8 @@ const ff_port losses_outputs[LOSSES_OUTPUTS] = {
     [OUT_ENGAGEMENTS_JUDGED] = {.name = "engagements_judged",
                                 .unit = "1",
                                 .doc = "engagements that the means are over",
-                                .dims = ""},
+                                .dims = "",
+                                .max = INFINITY},
     [OUT_ENGAGEMENT_LOSS] = {.name = "engagement_power_loss",
                              .unit = "W",
                              .doc = "mean loss of the mesh if all engagements were like this one",
@@ -149,7 +152,8 @@ const ff_port losses_outputs[LOSSES_OUTPUTS] = {
     [OUT_POWER_LOSS_SPREAD] = {.name = "power_loss_spread",
                                .unit = "W",
                                .doc = "standard deviation of that; 0 with one engagement",
-                               .dims = ""},
+                               .dims = "",
+                               .max = INFINITY},
     [OUT_POWER_INPUT] = {.name = "power_input",
                          .unit = "W",
                          .doc = "torque times speed of gear 1",
@@ -159,7 +163,8 @@ const ff_port losses_outputs[LOSSES_OUTPUTS] = {
          .unit = "1",
          .doc = "share of the power that the mesh leaves; without churning and bearings; "
                 "of sliding alone where the film gives nothing else",
-         .dims = ""},
+         .dims = "",
+         .max = 1},
     [OUT_FRICTION_MEAN] =
         {.name = "friction_coefficient_mean",
          .unit = "1",
@@ -181,15 +186,20 @@ const ff_port losses_outputs[LOSSES_OUTPUTS] = {
                    .unit = "K",
                    .doc =
                        "greatest rise of the flanks above their bulk temperature, Blok's formula",
-                   .dims = "t"},
+                   .dims = "t",
+                   .flags = FF_DIFFERENCE,
+                   .max = INFINITY},
     [OUT_CONTACT_TEMPERATURE] = {.name = "contact_temperature",
                                  .unit = "K",
                                  .doc = "bulk and flash temperature",
-                                 .dims = "t"},
+                                 .dims = "t",
+                                 .origin = "operating.oil_temperature"},
     [OUT_FLASH_MAX] = {.name = "flash_temperature_max",
                        .unit = "K",
                        .doc = "highest flash temperature",
-                       .dims = ""},
+                       .dims = "",
+                       .flags = FF_DIFFERENCE,
+                       .max = INFINITY},
     [OUT_FLASH_MAX_AT] = {.name = "flash_temperature_max_at",
                           .unit = "rad",
                           .doc = "roll angle of it",
@@ -197,9 +207,11 @@ const ff_port losses_outputs[LOSSES_OUTPUTS] = {
     [OUT_BULK_TEMPERATURE] = {.name = "bulk_temperature",
                               .unit = "K",
                               .doc = "temperature of the teeth before they meet",
-                              .dims = ""},
+                              .dims = "",
+                              .origin = "operating.oil_temperature"},
     [OUT_CONTACT_TEMPERATURE_MAX] = {.name = "contact_temperature_max",
                                      .unit = "K",
                                      .doc = "bulk and highest flash temperature",
-                                     .dims = ""},
+                                     .dims = "",
+                                     .origin = "operating.oil_temperature"},
 };

@@ -296,12 +296,14 @@ static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of,
                                   m->heat[g].specific_heat / (2 * m->heat[g].conductivity));
     if (m->flash[m->hottest] > 0)
         host->quality(host->ctx, "peclet", peclet, least_peclet,
-                      peclet >= least_peclet ? FF_GOOD : FF_DOUBTFUL,
+                      peclet >= least_peclet ? FF_GOOD : FF_RANGE,
                       "u a rho c/(2 k) of the slower flank where it is hottest; below 5 Blok's "
                       "formula says too much");
     host->quality(host->ctx, "loss_share", 1 - efficiency, most_loss,
-                  fabs(1 - efficiency) <= most_loss ? FF_GOOD : FF_DOUBTFUL,
-                  "loss over the power of gear 1");
+                  efficiency < 0                      ? FF_BAD
+                  : fabs(1 - efficiency) <= most_loss ? FF_GOOD
+                                                      : FF_RANGE,
+                  "loss over the power that comes in");
     report_parts(s, m);
     report_engagements(s, m, of);
 }

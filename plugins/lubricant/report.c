@@ -25,10 +25,26 @@ const ff_port lubricant_outputs[8] = {
      .dims = "",
      .service = FF_LIQUID_ID},
     {.name = "temperature", .unit = "K", .doc = "of the oil in the inlet", .dims = ""},
-    {.name = "eta0", .unit = "Pa s", .doc = "viscosity at ambient pressure", .dims = ""},
-    {.name = "rho0", .unit = "kg/m3", .doc = "density at ambient pressure", .dims = ""},
-    {.name = "conductivity", .unit = "W/(m K)", .doc = "thermal conductivity", .dims = ""},
-    {.name = "heat_capacity", .unit = "J/(kg K)", .doc = "specific heat", .dims = ""},
+    {.name = "eta0",
+     .unit = "Pa s",
+     .doc = "viscosity at ambient pressure",
+     .dims = "",
+     .max = INFINITY},
+    {.name = "rho0",
+     .unit = "kg/m3",
+     .doc = "density at ambient pressure",
+     .dims = "",
+     .max = INFINITY},
+    {.name = "conductivity",
+     .unit = "W/(m K)",
+     .doc = "thermal conductivity",
+     .dims = "",
+     .max = INFINITY},
+    {.name = "heat_capacity",
+     .unit = "J/(kg K)",
+     .doc = "specific heat",
+     .dims = "",
+     .max = INFINITY},
     {.name = "alpha",
      .unit = "1/Pa",
      .doc = "pressure coefficient dln(eta)/dp at ambient pressure",
@@ -88,12 +104,12 @@ static void judge(const lubricant_oil *oil, double T)
              "K beyond what the data of the oil reach, %.0f to %.0f degC; its viscosity there is "
              "an extrapolation",
              oil->low - ZERO, oil->high - ZERO);
-    oil->host->quality(oil->host->ctx, "extrapolation", beyond, 0,
-                       beyond > 0 ? FF_DOUBTFUL : FF_GOOD, beyond > 0 ? text : NULL);
+    oil->host->quality(oil->host->ctx, "extrapolation", beyond, 0, beyond > 0 ? FF_RANGE : FF_GOOD,
+                       beyond > 0 ? text : NULL);
     double index = oil->viscosity_index;
     if (index < LUBRICANT_LEAST_INDEX || index > LUBRICANT_MOST_INDEX)
         oil->host->quality(oil->host->ctx, "viscosity_index", index,
-                           index < 0 ? LUBRICANT_LEAST_INDEX : LUBRICANT_MOST_INDEX, FF_DOUBTFUL,
+                           index < 0 ? LUBRICANT_LEAST_INDEX : LUBRICANT_MOST_INDEX, FF_RANGE,
                            "by ASTM D2270, of the viscosities at 40 and 100 degC; no oil has that: "
                            "is one of them of another oil, or in another unit?");
 }

@@ -88,7 +88,8 @@ static const ff_port outputs[OUTPUTS] = {
     [OUT_LAMBDA] = {.name = "lambda_gf",
                     .unit = "1",
                     .doc = "draft: film over mean roughness Ra (15144-1, formula 2)",
-                    .dims = "station"},
+                    .dims = "station",
+                    .max = INFINITY},
     [OUT_FILM] = {.name = "film_thickness",
                   .unit = "m",
                   .doc = "draft: film by the closed formula (15144-1, formula 4)",
@@ -96,11 +97,13 @@ static const ff_port outputs[OUTPUTS] = {
     [OUT_CONTACT] = {.name = "contact_temperature",
                      .unit = "K",
                      .doc = "draft: bulk and flash temperature (15144-1, formula 79)",
-                     .dims = "station"},
+                     .dims = "station",
+                     .origin = "operating.oil_temperature"},
     [OUT_LAMBDA_MIN] = {.name = "lambda_gf_min",
                         .unit = "1",
                         .doc = "draft: least of lambda_gf",
-                        .dims = ""},
+                        .dims = "",
+                        .max = INFINITY},
     [OUT_LAMBDA_MIN_AT] = {.name = "lambda_gf_min_at",
                            .unit = "rad",
                            .doc = "roll angle of it",
@@ -108,7 +111,8 @@ static const ff_port outputs[OUTPUTS] = {
     [OUT_BULK] = {.name = "bulk_temperature",
                   .unit = "K",
                   .doc = "draft: temperature of the teeth (15144-1, formula 84)",
-                  .dims = ""},
+                  .dims = "",
+                  .origin = "operating.oil_temperature"},
     [OUT_FRICTION] = {.name = "friction_coefficient",
                       .unit = "1",
                       .doc = "draft: mean coefficient of friction (15144-1, formula 86)",
@@ -117,30 +121,36 @@ static const ff_port outputs[OUTPUTS] = {
                         .unit = "1",
                         .doc =
                             "draft: limiting film over roughness of the test, which is test_lambda",
-                        .dims = ""},
+                        .dims = "",
+                        .max = INFINITY},
     [OUT_LAMBDA_GFP] = {.name = "lambda_gfp",
                         .unit = "1",
                         .doc = "draft: permissible film over roughness, 1.4 W_W lambda_gft",
-                        .dims = ""},
+                        .dims = "",
+                        .max = INFINITY},
     [OUT_PERMISSIBLE] = {.name = "permissible_lambda",
                          .unit = "1",
                          .doc = "draft: lambda_gfp",
-                         .dims = ""},
+                         .dims = "",
+                         .max = INFINITY},
     [OUT_SAFETY] = {.name = "safety",
                     .unit = "1",
                     .doc = "draft: lambda_gf_min over lambda_gfp, both by the closed formulas "
                            "(15144-1, formula 1)",
-                    .dims = ""},
+                    .dims = "",
+                    .max = INFINITY},
     [OUT_OWN_LAMBDA_MIN] = {.name = "own_lambda_gf_min",
                             .unit = "1",
                             .doc = "least film of this program over mean roughness Ra",
-                            .dims = ""},
+                            .dims = "",
+                            .max = INFINITY},
     [OUT_OWN_SAFETY] =
         {.name = "own_safety",
          .unit = "1",
          .doc = "own_lambda_gf_min over 1.4 W_W times that of the test gear, both by the film of "
                 "this program",
-         .dims = ""},
+         .dims = "",
+         .max = INFINITY},
     [OUT_SHEAR_MAX] =
         {.name = "shear_max",
          .unit = "Pa",
@@ -369,16 +379,16 @@ static void report(const micropitting *s, const rating_pair *p, const rating *r)
     const double ratio = (p->end - p->sap) / p->base_pitch;
     rating_report_draft(host, "ISO/TR 15144-1");
     host->quality(host->ctx, "contact_ratio", ratio, highest_ratio,
-                  ratio <= highest_ratio ? FF_GOOD : FF_DOUBTFUL,
+                  ratio <= highest_ratio ? FF_GOOD : FF_RANGE,
                   "from 2 on the closed formulas do not hold (clause 8.2)");
     host->quality(host->ctx, "pitch_speed", p->pitch_speed, 2,
-                  p->pitch_speed >= 2 && p->pitch_speed <= 60 ? FF_GOOD : FF_DOUBTFUL,
+                  p->pitch_speed >= 2 && p->pitch_speed <= 60 ? FF_GOOD : FF_RANGE,
                   "m/s at the pitch circle; the method was developed for 8 to 60 and agrees with "
                   "others above 2");
     const double yield = isnan(s->yield) ? p->yield : s->yield;
     if (!isnan(yield))
         host->quality(host->ctx, "shear_over_yield", 2 * r->shear / yield, 1,
-                      2 * r->shear <= yield ? FF_GOOD : FF_DOUBTFUL,
+                      2 * r->shear <= yield ? FF_GOOD : FF_RANGE,
                       "largest shear stress of the contact over the yield in shear; above 1 the "
                       "steel yields");
 }

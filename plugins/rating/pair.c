@@ -280,5 +280,5 @@ void rating_report_draft(const ff_host *host, const char *standard)
              "draft: formulas of %s as a public implementation quotes them; the standard was not "
              "read, and no printed example was held against them",
              standard);
-    host->quality(host->ctx, "draft", 1, 0, FF_DOUBTFUL, text);
+    host->quality(host->ctx, "draft", 1, 0, FF_RANGE, text);
 }

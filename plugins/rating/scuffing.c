@@ -93,11 +93,14 @@ static const ff_port outputs[OUTPUTS] = {
         {.name = "flash_temperature",
          .unit = "K",
          .doc = "draft: rise of the flanks above their bulk temperature (13989-1, formula 5)",
-         .dims = "station"},
+         .dims = "station",
+         .flags = FF_DIFFERENCE,
+         .max = INFINITY},
     [OUT_CONTACT] = {.name = "contact_temperature",
                      .unit = "K",
                      .doc = "draft: bulk and flash temperature (13989-1, formula 1)",
-                     .dims = "station"},
+                     .dims = "station",
+                     .origin = "operating.oil_temperature"},
     [OUT_FRICTION] = {.name = "friction_coefficient",
                       .unit = "1",
                       .doc = "draft: mean coefficient of friction (13989-1, formula 25)",
@@ -105,7 +108,9 @@ static const ff_port outputs[OUTPUTS] = {
     [OUT_FLASH_MAX] = {.name = "flash_temperature_max",
                        .unit = "K",
                        .doc = "draft: highest flash temperature",
-                       .dims = ""},
+                       .dims = "",
+                       .flags = FF_DIFFERENCE,
+                       .max = INFINITY},
     [OUT_FLASH_MAX_AT] = {.name = "flash_temperature_max_at",
                           .unit = "rad",
                           .doc = "roll angle of it",
@@ -113,42 +118,50 @@ static const ff_port outputs[OUTPUTS] = {
     [OUT_BULK] = {.name = "bulk_temperature",
                   .unit = "K",
                   .doc = "draft: temperature of the teeth (13989-1, formula 22)",
-                  .dims = ""},
+                  .dims = "",
+                  .origin = "operating.oil_temperature"},
     [OUT_CONTACT_MAX] = {.name = "contact_temperature_max",
                          .unit = "K",
                          .doc = "draft: highest contact temperature",
-                         .dims = ""},
+                         .dims = "",
+                         .origin = "operating.oil_temperature"},
     [OUT_INTEGRAL] = {.name = "integral_temperature",
                       .unit = "K",
                       .doc = "draft: integral temperature (13989-2, formula 17)",
-                      .dims = ""},
+                      .dims = "",
+                      .origin = "operating.oil_temperature"},
     [OUT_PERMISSIBLE] = {.name = "permissible_temperature",
                          .unit = "K",
                          .doc = "draft: scuffing temperature of the oil's load stage, by flash "
                                 "temperature (13989-1, formula 99) and "
                                 "by integral temperature (13989-2, formula 94)",
-                         .dims = "method"},
+                         .dims = "method",
+                         .origin = "operating.oil_temperature"},
     [OUT_SAFETY] =
         {.name = "safety",
          .unit = "1",
          .doc = "draft: by flash temperature, permissible over highest contact temperature, "
                 "both above the oil's (13989-1, "
                 "formula 100), and by integral temperature, in degC (13989-2, formula 14)",
-         .dims = "method"},
+         .dims = "method",
+         .max = INFINITY},
     [OUT_MARGIN] = {.name = "margin",
                     .unit = "K",
                     .doc =
                         "draft: permissible less highest contact temperature, by flash temperature",
-                    .dims = ""},
+                    .dims = "",
+                    .flags = FF_DIFFERENCE},
     [OUT_OWN_CONTACT_MAX] = {.name = "own_contact_temperature_max",
                              .unit = "K",
                              .doc = "highest contact temperature of the film's own friction",
-                             .dims = ""},
+                             .dims = "",
+                             .origin = "operating.oil_temperature"},
     [OUT_OWN_SAFETY] = {.name = "own_safety",
                         .unit = "1",
                         .doc = "draft: test_contact_temperature over own_contact_temperature_max, "
                                "both above the oil's",
-                        .dims = ""},
+                        .dims = "",
+                        .max = INFINITY},
 };
 
 /* Results; temperatures in degC. */
@@ -333,14 +346,14 @@ static void report(const scuffing *s, const rating_pair *p, const rating *r)
     const double ratio = (p->end - p->sap) / p->base_pitch;
     rating_report_draft(host, "ISO/TR 13989-1 and -2");
     host->quality(host->ctx, "margin", r->margin, demanded,
-                  r->margin >= demanded ? FF_GOOD : FF_DOUBTFUL,
+                  r->margin >= demanded ? FF_GOOD : FF_RANGE,
                   "K from the highest contact temperature to the scuffing temperature; 50 is what "
                   "13989-1 names");
     host->quality(host->ctx, "contact_ratio", ratio, highest_ratio,
-                  ratio <= highest_ratio ? FF_GOOD : FF_DOUBTFUL,
+                  ratio <= highest_ratio ? FF_GOOD : FF_RANGE,
                   "the equations are for contact ratios up to 2.5");
     host->quality(host->ctx, "pitch_speed", p->pitch_speed, 1,
-                  p->pitch_speed >= 1 && p->pitch_speed <= highest_speed ? FF_GOOD : FF_DOUBTFUL,
+                  p->pitch_speed >= 1 && p->pitch_speed <= highest_speed ? FF_GOOD : FF_RANGE,
                   "m/s at the pitch circle; the friction is for 1 to 50");
 }
 

@@ -125,7 +125,7 @@ static ff_status set_single(const iso_model *m, const stiffness_gears *g, int pi
               ((e1 + e2) * steel) * fmin(load / full_load, 1) * g->width;
     int held =
         x[0] >= x[1] - 1e-9 && x[0] + x[1] >= -0.5 && x[0] + x[1] <= 2 && rack > 0.7 && rack < 1.2;
-    m->host->quality(m->host->ctx, "rack_factor", rack, 1, held ? FF_GOOD : FF_DOUBTFUL,
+    m->host->quality(m->host->ctx, "rack_factor", rack, 1, held ? FF_GOOD : FF_RANGE,
                      held
                          ? "C_B; profile shifts lie in the range of the standard"
                          : "C_B; profile shifts x1 >= x2, -0.5 <= x1 + x2 <= 2 or the dedendum lie "
@@ -182,7 +182,7 @@ static void report_range(const iso_model *m, const stiffness_path *e)
 {
     int held = e->contact_ratio >= 1.2;
     m->host->quality(m->host->ctx, "contact_ratio", e->contact_ratio, 1.2,
-                     held ? FF_GOOD : FF_DOUBTFUL,
+                     held ? FF_GOOD : FF_RANGE,
                      "ISO 6336-1 gives the mesh stiffness for contact ratios of 1.2 and more");
 }
 

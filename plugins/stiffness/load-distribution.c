@@ -183,7 +183,7 @@ static void report_half_plane(const distribution *m, const stiffness_elastic_pai
     }
     double share = fabs(thin) / at_mid_path(p, e).deflection;
     m->host->quality(
-        m->host->ctx, "half_plane", share, limit, share <= limit ? FF_GOOD : FF_DOUBTFUL,
+        m->host->ctx, "half_plane", share, limit, share <= limit ? FF_GOOD : FF_RANGE,
         "share of a pair's deflection that is added since a tooth is not a half plane");
 }
 

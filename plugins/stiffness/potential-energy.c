@@ -153,7 +153,7 @@ static void report_foundation(const energy_model *s, const beam_pair *p)
         worst = fmax(worst, fmax(fmax(h / 7, 1.4 / h), fmax(theta / 0.12, 0.01 / theta)));
     }
     int held = worst <= 1;
-    s->host->quality(s->host->ctx, "foundation_range", worst, 1, held ? FF_GOOD : FF_DOUBTFUL,
+    s->host->quality(s->host->ctx, "foundation_range", worst, 1, held ? FF_GOOD : FF_RANGE,
                      held ? "the gear bodies lie in the range that Sainsot et al. fitted"
                           : "a gear body lies outside the range that Sainsot et al. fitted: root "
                             "over rim radius 1.4 to 7, half angle of the root 0.01 to 0.12 rad");

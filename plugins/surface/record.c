@@ -14,8 +14,16 @@ const ff_port surface_outputs[SURFACE_OUTPUTS] = {
      .dims = "arc"},
     {.name = "height_1", .unit = "m", .doc = "flank 1, positive out of the metal", .dims = "arc"},
     {.name = "height_2", .unit = "m", .doc = "flank 2, positive out of the metal", .dims = "arc"},
-    {.name = "rq_1", .unit = "m", .doc = "root mean square roughness of flank 1", .dims = ""},
-    {.name = "rq_2", .unit = "m", .doc = "root mean square roughness of flank 2", .dims = ""},
+    {.name = "rq_1",
+     .unit = "m",
+     .doc = "root mean square roughness of flank 1",
+     .dims = "",
+     .max = 100e-6},
+    {.name = "rq_2",
+     .unit = "m",
+     .doc = "root mean square roughness of flank 2",
+     .dims = "",
+     .max = 100e-6},
     {.name = "period",
      .unit = "m",
      .doc = "length after which the record repeats; 0: the flanks are flat outside the record",
@@ -81,16 +89,34 @@ static ff_status write_positions(const ff_host *host, const surface_record *reco
     return position ? FF_OK : FF_NOMEM;
 }
 
+/* Gives the roughness of both flanks, asked for or not, so that its bounds hold for every record.
+ */
+static ff_status give_roughness(const ff_host *host, const surface_record *record)
+{
+    static const double finished = 10e-6; /* roughest flank that is cut or ground */
+    ff_status status = FF_OK;
+    for (uint32_t g = 0; g < 2 && status == FF_OK; g++) {
+        const double rq = record->rq[g];
+        host->quality(host->ctx, g ? "roughness_2" : "roughness_1", rq, finished,
+                      rq <= finished ? FF_GOOD : FF_RANGE,
+                      "m, root mean square: flanks of gears are smoother; look at the unit of the "
+                      "heights and at marks for missing points");
+        status = ff_put_scalar(host, SURFACE_RQ_1 + g, rq);
+    }
+    return status;
+}
+
 ff_status surface_record_publish(const ff_host *host, uint64_t wanted, const surface_record *record)
 {
-    const double scalars[] = {record->rq[0], record->rq[1],
-                              record->repeats ? record->spacing * (double)record->n : 0,
+    const double scalars[] = {record->repeats ? record->spacing * (double)record->n : 0,
                               record->origin};
-    ff_status status = wanted & FF_BIT(SURFACE_POSITION) ? write_positions(host, record) : FF_OK;
+    ff_status status = give_roughness(host, record);
+    if (wanted & FF_BIT(SURFACE_POSITION) && status == FF_OK)
+        status = write_positions(host, record);
     for (uint32_t g = 0; g < 2 && status == FF_OK; g++)
         status = write_series(host, wanted, SURFACE_HEIGHT_1 + g, record->n, record->height[g]);
-    for (uint32_t i = 0; i < 4 && status == FF_OK; i++)
-        if (wanted & FF_BIT(SURFACE_RQ_1 + i))
-            status = ff_put_scalar(host, SURFACE_RQ_1 + i, scalars[i]);
+    for (uint32_t i = 0; i < 2 && status == FF_OK; i++)
+        if (wanted & FF_BIT(SURFACE_PERIOD + i))
+            status = ff_put_scalar(host, SURFACE_PERIOD + i, scalars[i]);
     return status;
 }

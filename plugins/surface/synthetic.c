@@ -27,7 +27,7 @@ typedef struct synthetic {
 
 static const ff_param params[] = {
     FF_LIST(
-        "rq", "um", synthetic, rq, FF_REQUIRED, NULL, NULL, 0, 1e3, 0, 10, 1, 2,
+        "rq", "um", synthetic, rq, FF_REQUIRED, NULL, NULL, 0, 100, 0, 10, 1, 2,
         "root mean square roughness of flank 1 and of flank 2, met exactly; one number: of both"),
     FF_LIST("seed", "1", synthetic, seed, FF_WHOLE, "1", NULL, 0, 9007199254740992, 0, 0, 1, 2,
             "number that the phases of flank 1 and of flank 2 are drawn from; the flanks differ "

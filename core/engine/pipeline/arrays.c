@@ -137,6 +137,20 @@ bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_arr
     return good;
 }
 
+void fe_drop_untouched(ff_stage *stage)
+{
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        ff_result *result = &stage->results[i];
+        bool touched = true;
+        for (size_t k = 0; !result->wanted && result->data && k < result->count; k++)
+            touched = touched && !isnan(result->data[k]);
+        if (touched)
+            continue;
+        ff_guarded_free(result->data, result->count);
+        result->data = NULL;
+    }
+}
+
 /* Whether an output cannot be used; `why` completes 'the plugin ...'. */
 static bool is_faulty(const ff_stage *stage, size_t output, fe_lengths *all, char *why, size_t size)
 {

@@ -229,8 +229,14 @@ bool fe_check_inputs(const ff_stage *stage, const ff_array *in, const uint64_t *
    which is known already, or with an error. */
 bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
                       ff_report *report);
+/* Takes away what the model gave memory to and left alone, unasked. */
+void fe_drop_untouched(ff_stage *stage);
 /* False, with an error, when the stage's results cannot be used. */
 bool fe_check_results(const ff_stage *stage, ff_report *report);
+
+/* natural-bounds.c: adds a line of quality, FF_BAD, for each result outside of the natural bounds
+   of its row. */
+void fe_judge_bounds(ff_stage *stage);
 
 /* evaluate.c: one evaluation of a stage, without the outputs that it refuses where nothing requires
    them. False after an error. */

@@ -99,5 +99,9 @@ bool fe_evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *i
     bool good = call_model(pipeline, stage, in, report);
     good = fe_check_inputs(stage, in, sums, report) && good;
     fe_free(sums);
-    return good && fe_check_results(stage, report);
+    fe_drop_untouched(stage);
+    good = good && fe_check_results(stage, report);
+    if (good)
+        fe_judge_bounds(stage);
+    return good;
 }

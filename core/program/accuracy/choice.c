@@ -44,7 +44,7 @@ static double distance(trial *t, const accuracy_error *e, const ff_pipeline *nex
     const double *after = accuracy_numbers_like(t->now, stage, before, next, &t->choice->arena);
     const ff_result *along = accuracy_axis_of(t->now, stage, before);
     const accuracy_series series = {before->rank, before->count, along ? along->data : NULL,
-                                    before->data};
+                                    before->data, e->zero};
     double largest;
     if (output < 0 || !after)
         return NAN;

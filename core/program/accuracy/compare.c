@@ -8,11 +8,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-double accuracy_largest_magnitude(const double *values, size_t count)
+double accuracy_largest_magnitude(const double *values, size_t count, double zero)
 {
     double most = 0;
     for (size_t i = 0; i < count; i++)
-        most = fmax(most, fabs(values[i]));
+        most = fmax(most, fabs(values[i] - zero));
     return most;
 }
 
@@ -26,11 +26,12 @@ double accuracy_error_scale(double value, double most, size_t rank)
 double accuracy_relative(const double *off, const accuracy_series *answer, double *largest)
 {
     double *shares = memory_alloc(answer->count * sizeof *shares);
-    double most = accuracy_largest_magnitude(answer->value, answer->count);
+    double most = accuracy_largest_magnitude(answer->value, answer->count, answer->zero);
     *largest = 0;
     for (size_t i = 0; i < answer->count; i++) {
         if (off[i] > 0)
-            shares[i] = off[i] / accuracy_error_scale(answer->value[i], most, answer->rank);
+            shares[i] =
+                off[i] / accuracy_error_scale(answer->value[i] - answer->zero, most, answer->rank);
         *largest = fmax(*largest, shares[i]);
     }
     double typical = accuracy_typical(shares, answer->at, answer->count);
@@ -86,7 +87,7 @@ static double value_at(const accuracy_series *s, const accuracy_series *points, 
 bool accuracy_compare(const accuracy_series *answer, const accuracy_series *reference,
                       accuracy_difference *d)
 {
-    double most = accuracy_largest_magnitude(reference->value, reference->count);
+    double most = accuracy_largest_magnitude(reference->value, reference->count, 0);
     double squares = 0, length = 0;
     *d = (accuracy_difference){.largest = 0};
     if (!same_form(answer, reference))

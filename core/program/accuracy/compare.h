@@ -11,6 +11,7 @@ typedef struct accuracy_series {
     size_t rank, count;
     const double *at; /* what it is plotted against, which never falls; NULL means the index */
     const double *value;
+    double zero; /* what shares of a value are counted from */
 } accuracy_series;
 
 typedef struct accuracy_difference {
@@ -18,7 +19,7 @@ typedef struct accuracy_difference {
     double judged;       /* the one of them by which the study judges */
 } accuracy_difference;
 
-double accuracy_largest_magnitude(const double *values, size_t count);
+double accuracy_largest_magnitude(const double *values, size_t count, double zero);
 /* Returns what an error at a value is relative to, in a series whose largest magnitude is `most`.
  */
 double accuracy_error_scale(double value, double most, size_t rank);

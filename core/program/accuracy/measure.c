@@ -40,6 +40,15 @@ static bool is_headline(const ff_stage *stage, const ff_result *result)
     return finite && !is_axis(result);
 }
 
+/* What shares of an output are counted from: a temperature from that of the oil, by its row. */
+static double zero_of(const ff_pipeline *answer, const ff_stage *stage, const ff_result *result)
+{
+    const char *origin = result->row->origin;
+    int input = origin ? ff_model_find_input(stage->loaded->model, origin) : -1;
+    const ff_result *from = input < 0 ? NULL : ff_feeding_result(answer, stage, (size_t)input);
+    return from && from->data && from->rank == 0 ? from->data[0] : 0;
+}
+
 /* Lists what is to be measured, and says it as the outputs of the twins. */
 static void list_outputs(accuracy_twins *t)
 {
@@ -61,6 +70,7 @@ static void list_outputs(accuracy_twins *t)
             *e = (accuracy_error){.stage = stage,
                                   .result = &stage->results[i],
                                   .goal = accuracy_goal(t->scene.tree, stage, &stage->results[i]),
+                                  .zero = zero_of(answer, stage, &stage->results[i]),
                                   .relative = NAN,
                                   .largest = NAN,
                                   .order = NAN};
@@ -77,7 +87,8 @@ static void list_outputs(accuracy_twins *t)
 /* Fills the error of an output over its value: typical of a series, and the largest. */
 static void find_relative(const double *at, accuracy_error *e)
 {
-    const accuracy_series answer = {e->result->rank, e->result->count, at, e->result->data};
+    const accuracy_series answer = {e->result->rank, e->result->count, at, e->result->data,
+                                    e->zero};
     e->relative = accuracy_relative(e->bar, &answer, &e->largest);
 }
 
@@ -115,14 +126,15 @@ static void add_changes(const accuracy_twins *t, accuracy_error *e)
 {
     const accuracy_choice *choice = t->record->choice;
     const ff_result *result = e->result;
-    double most = accuracy_largest_magnitude(result->data, result->count);
+    double most = accuracy_largest_magnitude(result->data, result->count, e->zero);
     for (size_t i = 0; choice && i < choice->change_count; i++) {
         const accuracy_change *c = &choice->changes[i];
         if (c->of != (size_t)(e->stage - t->answer->stages) ||
             strcmp(c->output, result->row->name) != 0)
             continue;
         for (size_t k = 0; k < result->count; k++) /* NaN: it could not be compared */
-            e->bar[k] += c->error * accuracy_error_scale(result->data[k], most, result->rank);
+            e->bar[k] +=
+                c->error * accuracy_error_scale(result->data[k] - e->zero, most, result->rank);
         e->relative += c->error;
         e->largest += c->error;
         e->parts[e->part_count++] = (accuracy_part){
@@ -135,9 +147,9 @@ static accuracy_ladder ladder_of(const accuracy_twins *t, const accuracy_error *
 {
     const ff_result *result = e->result, *along = accuracy_axis_of(t->answer, e->stage, result);
     double *scale = take(t, result->count, sizeof *scale);
-    double most = accuracy_largest_magnitude(result->data, result->count);
+    double most = accuracy_largest_magnitude(result->data, result->count, e->zero);
     for (size_t i = 0; i < result->count; i++)
-        scale[i] = accuracy_error_scale(result->data[i], most, result->rank);
+        scale[i] = accuracy_error_scale(result->data[i] - e->zero, most, result->rank);
     return (accuracy_ladder){.count = result->count,
                              .at = along ? along->data : NULL,
                              .scale = scale,
@@ -155,7 +167,8 @@ static accuracy_ladder ladder_of(const accuracy_twins *t, const accuracy_error *
 static double estimate_in(const accuracy_twins *t, const double *at, const ff_result *estimate,
                           const accuracy_error *e, const accuracy_twin *twin)
 {
-    const accuracy_series answer = {e->result->rank, e->result->count, at, e->result->data};
+    const accuracy_series answer = {e->result->rank, e->result->count, at, e->result->data,
+                                    e->zero};
     const double *numbers = twin ? accuracy_numbers_like(t->answer, e->stage, estimate,
                                                          twin->pipeline, &t->record->arena)
                                  : NULL;

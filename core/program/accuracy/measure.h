@@ -33,6 +33,7 @@ typedef struct accuracy_error {
     const ff_stage *stage;
     const ff_result *result;
     double goal;          /* what the file asks for, relative; NaN: nothing */
+    double zero;          /* SI: what shares of a number are counted from */
     double *bar;          /* of each number, SI, at least 0; NULL: not known */
     double relative;      /* over the number; of a series at 95 of 100 points; NaN: not known */
     double largest;       /* along a series, over the number there */

@@ -2,6 +2,7 @@
 /* Units and words that engineers use. */
 #include <flankfilm/engine.h>
 
+#include "../results/number.h"
 #include "page.h"
 
 #include <math.h>
@@ -43,9 +44,7 @@ static const struct {
 
 const char *report_si_unit(const char *si_unit, const char *output)
 {
-    return !strcmp(si_unit, "K") && strstr(output, "temperature") && !strstr(output, "flash")
-               ? temperature
-               : si_unit;
+    return results_is_temperature(output, si_unit) ? temperature : si_unit;
 }
 
 report_unit report_unit_for(const char *si_unit, double magnitude)

@@ -45,10 +45,17 @@ results_readable results_readable_unit(const char *si_unit, double magnitude)
     return readable;
 }
 
+bool results_is_temperature(const char *name, const char *si_unit)
+{
+    static const char *const differences[] = {"flash", "error", "spread", "margin", "deviation"};
+    bool difference = false;
+    for (size_t i = 0; i < sizeof differences / sizeof *differences; i++)
+        difference = difference || strstr(name, differences[i]);
+    return !strcmp(si_unit, "K") && strstr(name, "temperature") && !difference;
+}
+
 results_readable results_readable_output(const char *name, const char *si_unit, double magnitude)
 {
-    bool temperature = !strcmp(si_unit, "K") && strstr(name, "temperature") &&
-                       !strstr(name, "flash") && !strstr(name, "error");
-    return temperature ? (results_readable){1, -273.15, "degC"}
-                       : results_readable_unit(si_unit, magnitude);
+    return results_is_temperature(name, si_unit) ? (results_readable){1, -273.15, "degC"}
+                                                 : results_readable_unit(si_unit, magnitude);
 }

@@ -3,6 +3,8 @@
 #ifndef RESULTS_NUMBER_H
 #define RESULTS_NUMBER_H
 
+#include <stdbool.h>
+
 enum { RESULTS_NUMBER_SIZE = 32 };
 
 /* Writes the shortest decimal number that reads back as the same value; "nan" for one that is not
@@ -16,7 +18,9 @@ typedef struct results_readable {
 } results_readable;
 
 results_readable results_readable_unit(const char *si_unit, double magnitude);
-/* The unit of an output of that name: temperatures, but not rises of them, are in degC. */
+/* Whether an output is a temperature, and no difference of two: an error, a rise, a spread. */
+bool results_is_temperature(const char *name, const char *si_unit);
+/* The unit of an output of that name: temperatures are in degC. */
 results_readable results_readable_output(const char *name, const char *si_unit, double magnitude);
 
 #endif

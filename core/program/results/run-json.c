@@ -182,11 +182,13 @@ static json_t *describe_quality(const ff_stage *stage)
     json_t *object = json_object();
     for (size_t i = 0; i < stage->quality_count; i++) {
         const ff_quality *line = &stage->quality[i];
-        json_object_set_new(object, line->name,
-                            json_pack("{s:o, s:o, s:s, s:o}", "value", study_json_real(line->value),
-                                      "limit", study_json_real(line->limit), "verdict",
-                                      ff_verdict_name(line->verdict), "text",
-                                      results_json_text(line->text)));
+        json_t *said =
+            json_pack("{s:o, s:o, s:s, s:o}", "value", study_json_real(line->value), "limit",
+                      study_json_real(line->limit), "verdict", ff_verdict_name(line->verdict),
+                      "text", results_json_text(line->text));
+        if (line->verdict != FF_GOOD)
+            json_object_set_new(said, "of", json_string(line->range ? "range" : "numbers"));
+        json_object_set_new(object, line->name, said);
     }
     return object;
 }

@@ -74,7 +74,8 @@ static void write_results(const ff_stage *stage, FILE *out)
         const ff_quality *line = &stage->quality[i];
         fwrite(&line->value, sizeof line->value, 1, out);
         fwrite(&line->limit, sizeof line->limit, 1, out);
-        fwrite(&line->verdict, sizeof line->verdict, 1, out);
+        const int32_t verdict = line->range ? FF_RANGE : line->verdict;
+        fwrite(&verdict, sizeof verdict, 1, out);
         write_text(out, line->name);
         write_text(out, line->text);
     }

@@ -15,7 +15,7 @@ const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t poin
 
 static accuracy_series series_of(const study_output *output)
 {
-    return (accuracy_series){output->rank, output->count, output->at, output->values};
+    return (accuracy_series){output->rank, output->count, output->at, output->values, 0};
 }
 
 /* Whether an output is judged by its rms: where the reference passes through 0, the largest error

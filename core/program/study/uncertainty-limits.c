@@ -53,9 +53,13 @@ static const char *largest_share(const json_t *of, double *share)
     return found;
 }
 
-static void add_part(study_line *line, double part, const char *what, const char *missing)
+/* `kelvin`: the value of a temperature, which no share is said of; NaN: no temperature. */
+static void add_part(study_line *line, double part, double kelvin, const char *what,
+                     const char *missing)
 {
-    if (isfinite(part))
+    if (isfinite(part) && isfinite(kelvin))
+        study_line_add(line, "±%.2g K %s", part * fabs(kelvin), what);
+    else if (isfinite(part))
         study_line_add(line, "±%.2g %% %s", 100 * part, what);
     else
         study_line_add(line, "%s", missing);
@@ -127,14 +131,16 @@ json_t *study_uncertainty_limits(const study_uncertainty *u, size_t output, cons
     double by_model = add_models(u, output, nominal, limits, &model);
     char number[UNCERTAINTY_TEXT];
     study_line line = {0};
+    const bool point = !strcmp(study_uncertainty_unit(u->context, name, of).unit, "degC");
+    const double kelvin = point ? nominal : (double)NAN;
     study_uncertainty_number(u->context, name, of, nominal, number);
     study_line_add(&line, "%s %s: ", name, isfinite(nominal) ? number : "not known at the medians");
-    add_part(&line, numerical, "numerical, ", "numerical error not known, ");
-    add_part(&line, by_model, "model", "no other model compared");
+    add_part(&line, numerical, kelvin, "numerical, ", "numerical error not known, ");
+    add_part(&line, by_model, kelvin, "model", "no other model compared");
     if (isfinite(by_model))
         study_line_add(&line, " (%s)", model);
     study_line_add(&line, ", ");
-    add_part(&line, input.value, "input", "spread of the inputs not known");
+    add_part(&line, input.value, kelvin, "input", "spread of the inputs not known");
     if (isfinite(input.value) && (source = largest_share(of, &share)))
         study_line_add(&line, " (%s %.0f %% of it)", source, 100 * fmin(1, fmax(0, share)));
     study_line_add(&line, ": %s", advice(numerical, by_model, &input));

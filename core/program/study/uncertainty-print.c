@@ -5,7 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-static study_readable unit_for(const study_context *context, const char *name, const json_t *of)
+study_readable study_uncertainty_unit(const study_context *context, const char *name,
+                                      const json_t *of)
 {
     const char *dot = strrchr(name, '.');
     double mean = study_number_of(json_object_get(of, "mean"), "value");
@@ -16,7 +17,7 @@ static study_readable unit_for(const study_context *context, const char *name, c
 void study_uncertainty_number(const study_context *context, const char *name, const json_t *output,
                               double si, char text[UNCERTAINTY_TEXT])
 {
-    study_readable unit = unit_for(context, name, output);
+    study_readable unit = study_uncertainty_unit(context, name, output);
     snprintf(text, UNCERTAINTY_TEXT, "%.4g%s%s", si * unit.factor + unit.offset,
              *unit.unit ? " " : "", unit.unit);
 }
@@ -46,7 +47,7 @@ static void print_estimate(study_context *context, const char *what, const json_
 
 static void print_output(study_context *context, const char *name, const json_t *of)
 {
-    study_readable unit = unit_for(context, name, of);
+    study_readable unit = study_uncertainty_unit(context, name, of);
     study_line line = {0};
     json_t *one;
     const char *input;

@@ -108,6 +108,10 @@ size_t study_uncertainty_of_word(const study_uncertainty *u, const estimate_samp
    `of` is its result, which has the shares of the inputs where they are known. */
 json_t *study_uncertainty_limits(const study_uncertainty *u, size_t output, const json_t *of);
 
+/* The unit in which an output of that name is shown, by the size of its mean. */
+study_readable study_uncertainty_unit(const study_context *context, const char *name,
+                                      const json_t *of);
+
 /* uncertainty-print.c, uncertainty-figure.c */
 void study_uncertainty_print(study_context *context, const json_t *result);
 /* "126.1 nm" */

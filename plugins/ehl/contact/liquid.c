@@ -21,7 +21,7 @@ void ehl_law_note(ehl_law_answer *worst, ff_status status)
 void ehl_law_report(const ff_host *host, ehl_law_answer worst)
 {
     if (worst == EHL_LAW_CONTINUED)
-        host->quality(host->ctx, "law_range", 1, 0, FF_DOUBTFUL,
+        host->quality(host->ctx, "law_range", 1, 0, FF_RANGE,
                       "an oil law was continued outside its range");
 }
 

@@ -213,7 +213,7 @@ ff_status ehl_lambda_check(const ff_host *host, uint64_t wanted, uint32_t output
 void ehl_lambda_report(const ff_host *host, double lowest)
 {
     host->quality(host->ctx, "lambda", lowest, EHL_MIXED_BELOW,
-                  lowest < EHL_MIXED_BELOW ? FF_DOUBTFUL : FF_GOOD,
+                  lowest < EHL_MIXED_BELOW ? FF_RANGE : FF_GOOD,
                   "lowest film over the roughness of the flanks, which this smooth film does not "
                   "feel; below 3 asperities touch: add a stage of the kind surface");
 }

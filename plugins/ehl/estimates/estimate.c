@@ -335,13 +335,13 @@ static void report(const ehl_estimate *e, double lowest, double least_lambda)
     ehl_inlet_heating_report(host, &e->heating, e->conductivity > 0, &e->history, &e->laws,
                              &e->oil);
     if (light_count > 0)
-        host->quality(host->ctx, "light_instants", light_count, 0, FF_DOUBTFUL,
+        host->quality(host->ctx, "light_instants", light_count, 0, FF_RANGE,
                       "instants with less than 1 % of the largest load, or none: the film of 1 % "
                       "stands in, and the gap of lost contact is added");
     if (e->roughness > 0)
         ehl_lambda_report(host, least_lambda);
     if (lowest < 1e-9)
-        host->quality(host->ctx, "continuum", lowest, 1e-9, FF_DOUBTFUL,
+        host->quality(host->ctx, "continuum", lowest, 1e-9, FF_RANGE,
                       "outside continuum: the film is thinner than 1 nm, a few molecules");
     ehl_law_report(host, e->answered);
 }

@@ -193,7 +193,7 @@ static void report(const ehl_estimate *e)
     for (size_t k = 0; k < e->count; k++)
         outside += !inside(f, &e->moment[k]);
     outside /= (double)e->count;
-    host->quality(host->ctx, "outside_range", outside, 0, outside > 0 ? FF_DOUBTFUL : FF_GOOD,
+    host->quality(host->ctx, "outside_range", outside, 0, outside > 0 ? FF_RANGE : FF_GOOD,
                   f->formula == EHL_MOES
                       ? "share of instants outside M 2 to 500, L 0 to 15"
                       : "share of instants outside M 5 to 200, L 5 to 15, where the formula holds");
@@ -206,7 +206,7 @@ static void report(const ehl_estimate *e)
                         "does not rise and M is below 10"
                       : "the same for h_central");
     double change = unsteadiness(e);
-    host->quality(host->ctx, "unsteadiness", change, 0.2, change > 0.2 ? FF_DOUBTFUL : FF_GOOD,
+    host->quality(host->ctx, "unsteadiness", change, 0.2, change > 0.2 ? FF_RANGE : FF_GOOD,
                   "largest change of ln(load) in one passage 2 a/u; above 0.2 the film lags behind "
                   "the formula: use ehl/inlet-analysis or ehl/finite-volume");
     host->quality(host->ctx, "status", 0, 0, FF_GOOD,

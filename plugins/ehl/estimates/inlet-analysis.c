@@ -311,14 +311,14 @@ static void report(const ehl_estimate *e)
             longest = fmax(longest, (m->at.time - m[-1].at.time) * m->at.entrainment / (2 * m->a));
     }
     outside /= (double)e->count;
-    host->quality(host->ctx, "outside_range", outside, 0, outside > 0 ? FF_DOUBTFUL : FF_GOOD,
+    host->quality(host->ctx, "outside_range", outside, 0, outside > 0 ? FF_RANGE : FF_GOOD,
                   "share of instants outside M 2 to 200, L 0 to 15, where h_central is within 10 % "
                   "of full solutions");
     host->quality(host->ctx, "inlet_residual", c->worst_off, 1e-4,
                   c->worst_off > 1e-4 ? FF_DOUBTFUL : FF_GOOD,
                   "reduced pressure at the edge against what it must be, relative");
     host->quality(
-        host->ctx, "edge_speed", hastiest, 0.4, hastiest > 0.4 ? FF_DOUBTFUL : FF_GOOD,
+        host->ctx, "edge_speed", hastiest, 0.4, hastiest > 0.4 ? FF_RANGE : FF_GOOD,
         "largest speed of the inlet's edge, 0.85 da/dt, over u; beyond 0.4 the film is off "
         "by more than 10 % for a passage, at 0.7 by 20 %");
     if (e->count > 1)

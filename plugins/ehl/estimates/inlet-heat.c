@@ -59,7 +59,7 @@ static void hold_temperature(const ff_host *host, const ehl_laws *laws)
     double ln_eta[2];
     if (laws->viscosity->eval(laws->viscosity->self, 2, p, T, ln_eta, NULL, NULL) >= 0 &&
         !(fabs(ln_eta[1] - ln_eta[0]) > 0))
-        host->quality(host->ctx, "isothermal_law", 1, 0, FF_DOUBTFUL,
+        host->quality(host->ctx, "isothermal_law", 1, 0, FF_RANGE,
                       "the viscosity law answers the same at every temperature: heat changes "
                       "nothing");
 }

@@ -164,6 +164,6 @@ void ehl_heat_report(const ehl_heat *heat, const ff_host *host)
              heat->rounds / fmax(heat->solved, 1));
     host->quality(host->ctx, "inlet_heat", heat->least, 0, FF_GOOD, text);
     if (heat->most > end)
-        host->quality(host->ctx, "inlet_heat_range", heat->most, end, FF_DOUBTFUL,
+        host->quality(host->ctx, "inlet_heat_range", heat->most, end, FF_RANGE,
                       "largest of F and S, beyond the table of the heated channel");
 }

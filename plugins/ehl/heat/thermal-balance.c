@@ -127,7 +127,7 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
                       "leaves the film, the shear by the forces");
     host->quality(
         host->ctx, "flank_peclet", t->least_peclet, slow,
-        t->least_peclet >= slow ? FF_GOOD : FF_DOUBTFUL,
+        t->least_peclet >= slow ? FF_GOOD : FF_RANGE,
         "u a rho c/k of the slower flank: below it heat spreads along the flank, which is "
         "left out");
 }

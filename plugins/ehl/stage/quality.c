@@ -448,7 +448,7 @@ static void report_start(const ehl_results *r, const ehl_march *m)
              "begins at rest: up to %.3g s, when the film that it began with has left the contact, "
              "least films are those of %g %% of the largest speed, or left over from them",
              m->renewed > 0 ? m->renewed : h->time[h->count - 1], 100 * EHL_CREEP);
-    r->host->quality(r->host->ctx, "start_at_rest", 1, 0, FF_DOUBTFUL, text);
+    r->host->quality(r->host->ctx, "start_at_rest", 1, 0, FF_RANGE, text);
 }
 
 void ehl_results_quality(const ehl_results *r, const ehl_march *m)
@@ -470,7 +470,7 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     else if (r->roughness > 0)
         ehl_lambda_report(r->host, r->least_lambda);
     if (r->lowest < 0.999e-9)
-        r->host->quality(r->host->ctx, "continuum", r->lowest, 1e-9, FF_DOUBTFUL,
+        r->host->quality(r->host->ctx, "continuum", r->lowest, 1e-9, FF_RANGE,
                          "outside continuum: the film is thinner than 1 nm, a few molecules");
     ehl_law_report(r->host, r->laws);
     report_start(r, m);

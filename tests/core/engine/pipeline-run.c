@@ -47,6 +47,47 @@ static void results(void)
     try_close(&a);
 }
 
+static attempt bounded(const char *params, const char *outputs)
+{
+    char text[256];
+    snprintf(text, sizeof text, "pipeline:\n  b: {use: toy/bounded%s}\noutputs: [%s]\n", params,
+             outputs);
+    return try_run(text);
+}
+
+static void natural_bounds(void)
+{
+    static const struct {
+        const char *params, *outputs, *said;
+    } cases[] = {
+        {", share: -0.1", "b.share", "share is -0.1, held to 0: it can only be from 0 to 1"},
+        {", share: 1.5", "b.share", "share is 1.5, held to 1: it can only be from 0 to 1"},
+        {", temperature: -1 K", "b.temperature", "held to 0: it lies below 0 K"},
+        {", film: [1 m, 2 m, -3 m]", "b.film",
+         "film is -3, held to 0: it cannot be below 0, at index 2"},
+        {", share: 2", "b.film", "share is 2"}, /* not asked for, and shown all the same */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        attempt a = bounded(cases[i].params, cases[i].outputs);
+        check_error(cases[i].params, &a, 3, 3, cases[i].said);
+        check_true("the number stays", try_stage(&a, "b")->ran);
+        try_close(&a);
+    }
+    attempt a = bounded(", share: 1.0000000000001, rise: -300 K", "b.*");
+    check_good("rounding at a bound, and a difference below 0 K", &a);
+    check_near("what is asked for", try_scalar(&a, "b", "idle"), 7, 0);
+    try_close(&a);
+    a = bounded("", "b.share");
+    check_true("what was not computed is absent", !try_result(&a, "b", "idle")->data);
+    check_true("what was computed is there", try_scalar(&a, "b", "rise") == 1);
+    try_close(&a);
+    a = bounded(", strange: true", "b.share");
+    check_good("outside of the range of the model", &a);
+    const ff_quality *line = try_stage(&a, "b")->quality;
+    check_true("is a doubt of its own", line->verdict == FF_DOUBTFUL && line->range);
+    try_close(&a);
+}
+
 /* A pipeline that goes on with other values answers as one that is built with them; objects stay
    whose values do; what is no plain value of a parameter needs another pipeline. */
 static void changes(void)
@@ -253,6 +294,7 @@ static void watched(void)
 int main(void)
 {
     results();
+    natural_bounds();
     changes();
     no_state_is_kept();
     many_outputs();

@@ -10,7 +10,7 @@
 static void test_scalars(void)
 {
     double a = 1.02, b = -1, zero = 0;
-    accuracy_series answer = {0, 1, NULL, &a}, reference = {0, 1, NULL, &b};
+    accuracy_series answer = {0, 1, NULL, &a, 0}, reference = {0, 1, NULL, &b, 0};
     accuracy_difference d;
     check_true("of the other sign", accuracy_compare(&answer, &reference, &d));
     check_near("twice", d.largest, 2.02, 1e-15);
@@ -28,7 +28,7 @@ static void test_grids(void)
 {
     double at[] = {0, 1}, line[] = {10, 20}, fine[] = {-1, 0, 0.25, 0.5, 1},
            same[] = {10, 10, 12.5, 15, 20};
-    accuracy_series answer = {1, 2, at, line}, reference = {1, 5, fine, same};
+    accuracy_series answer = {1, 2, at, line, 0}, reference = {1, 5, fine, same, 0};
     accuracy_difference d;
     check_true("compared", accuracy_compare(&answer, &reference, &d));
     check_near("no difference", d.largest, 0, 1e-15);
@@ -43,7 +43,7 @@ static void test_grids(void)
 static void test_zero_crossing(void)
 {
     double at[] = {0, 1, 2}, wave[] = {1, 0, -1}, off[] = {1, 0.01, -1};
-    accuracy_series answer = {1, 3, at, off}, reference = {1, 3, at, wave};
+    accuracy_series answer = {1, 3, at, off, 0}, reference = {1, 3, at, wave, 0};
     accuracy_difference d;
     check_true("compared", accuracy_compare(&answer, &reference, &d));
     check_near("a tenth", d.largest, 0.1, 1e-14);
@@ -54,7 +54,7 @@ static void test_jump(void)
 {
     double at[] = {0, 1, 1, 2}, step[] = {5, 5, 8, 8}, mid[] = {0, 0.5, 1, 1, 1.5, 2},
            fine[] = {5, 5, 5, 8, 8, 8};
-    accuracy_series answer = {1, 4, at, step}, reference = {1, 6, mid, fine};
+    accuracy_series answer = {1, 4, at, step, 0}, reference = {1, 6, mid, fine, 0};
     accuracy_difference d;
     check_true("compared", accuracy_compare(&answer, &reference, &d));
     check_near("no difference", d.largest, 0, 1e-15);
@@ -66,9 +66,9 @@ static void test_jump(void)
 static void test_mismatch(void)
 {
     double values[] = {1, 2, 3}, bad[] = {1, NAN, 3};
-    accuracy_series three = {1, 3, NULL, values}, two = {1, 2, NULL, values},
-                    scalar = {0, 1, NULL, values};
-    accuracy_series broken = {1, 3, NULL, bad};
+    accuracy_series three = {1, 3, NULL, values, 0}, two = {1, 2, NULL, values, 0},
+                    scalar = {0, 1, NULL, values, 0};
+    accuracy_series broken = {1, 3, NULL, bad, 0};
     accuracy_difference d;
     check_true("by index", accuracy_compare(&three, &three, &d) && d.largest == 0);
     check_true("other lengths", !accuracy_compare(&two, &three, &d));
