@@ -57,10 +57,11 @@ def other_number(value, dice):
     if not found:
         return dice.choice(["auto", "none", "true", "0", "-1", "nonsense"])
     number, unit = float(found.group(1)), found.group(2)
-    moved = dice.choice([-number, 0, number * 1e3, number * 1e-3, number * 2, number / 2, number + 1, number * 1e9, 3, 1])
+    moved = dice.choice([-number, 0, number * 1e3, number * 1e-3, number * 2, number / 2, number * 1.2, number * 0.8,
+                         number * 5, number * 0.2, number + 1, number * 1e9, 3, 1])
     if re.fullmatch(r"\s*[-+]?[0-9]+\s*", found.group(1)):
         moved = int(moved) if abs(moved) < 1e15 else moved
-    return "%r%s" % (moved, dice.choice([unit, unit, unit, unit, "", " mm"]))
+    return "%r%s" % (moved, dice.choice([unit] * 8 + ["", " mm"]))
 
 
 def change(tree, others, models, dice):
@@ -82,7 +83,8 @@ def change(tree, others, models, dice):
         return "outputs %s" % tree["outputs"]
     if kind == "taken":
         alike = [t["pipeline"][n] for t in others for n in t["pipeline"] if t["pipeline"][n].get("use") == stage.get("use")]
-        key, value = dice.choice([item for other in alike for item in other.items()])
+        items = [item for other in alike for item in other.items()] or list(stage.items())
+        key, value = dice.choice(items)
         stage[key] = value
         return "%s.%s is that of another file, %s" % (name, key, value)
     keys = [k for k in stage if k != "use"] or list(stage)
@@ -135,7 +137,7 @@ def main():
     for i in range(options.count):
         name = dice.choice(FILES)
         tree = yaml.safe_load(yaml.safe_dump(trees[name]))
-        said = [change(tree, list(trees.values()), models, dice) for _ in range(dice.choice([1, 2, 3]))]
+        said = [change(tree, list(trees.values()), models, dice) for _ in range(dice.choice([1, 1, 2]))]
         path = os.path.join(scratch, "case-%d.yaml" % i)
         with open(path, "w") as out:
             yaml.safe_dump(tree, out, sort_keys=False, width=1000)

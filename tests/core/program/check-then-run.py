@@ -69,6 +69,17 @@ warm = GEARS.replace("1800 rpm", "1800 rpm, oil_temperature: 60 degC")
 refused("own.yaml", warm.replace("rating/micropitting", "rating/micropitting, ehl: none") + "outputs: [pits.own_lambda_gf_min]\n",
         "pits.own_lambda_gf_min (rating/micropitting): this output needs a film", "requested by name")
 refused("test.yaml", warm + "outputs: [pits.safety]\n", "this output needs test_lambda")
+# what a model refuses when it runs, before its first word on its progress
+HEAT = """format: 2
+pipeline:
+  discs: {use: contact/constant, radius: 12.8 mm, entrainment_speed: 4 m/s, slide_roll_ratio: 0.1, load_per_width: 177 N/mm}
+  viscosity: {use: viscosity/barus, eta0: 40 mPa s, alpha: 18 1/GPa}
+  density: {use: density/dowson-higginson, rho0: 870 kg/m3}
+  flow: {use: rheology/newtonian}
+  film: {use: ehl/finite-volume, cells: 128}
+outputs: [film.temperature_max]
+"""
+refused("cold.yaml", HEAT, "film.temperature_max (ehl/finite-volume): this output needs thermal: full")
 # where nobody needs it, it is left out, and what it feeds does without
 passes("star.yaml", GEARS + "outputs: [duty.*, oil.eta0]\n", "ok")
 passes("optional.yaml", GEARS + "outputs: [film.h_min]\n", "ok")

@@ -291,6 +291,34 @@ static void test_shares(void)
     check(first[1].value == 0 && total[1].value == 0, "an inert one has 0", first[1].value, 0, 0);
 }
 
+/* 16 rows tell no share below 1.96 / sqrt(16) = 0.49, one above its total is clipped to it, and
+   shares whose sum is above 1 by more than 0.49 are not told. */
+static void test_withheld(void)
+{
+    enum { GROUPS = 4, ROWS = 16 };
+    static const struct {
+        double first[GROUPS], total[GROUPS], told[GROUPS]; /* NaN: not told */
+    } cases[] = {
+        {{0.9, 0.48, 0.7, -0.3}, {0.6, 0.9, 0.45, 0}, {0.6, (double)NAN, (double)NAN, 0}},
+        {{0.8, 0.65, 0, 0}, {0.9, 0.9, 0, 0}, {0.8, 0.65, 0, 0}},
+        {{0.8, 0.75, 0, 0}, {0.9, 0.9, 0, 0}, {(double)NAN, (double)NAN, 0, 0}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        estimate first[GROUPS], total[GROUPS];
+        for (size_t g = 0; g < GROUPS; g++) {
+            double f = cases[i].first[g], t = cases[i].total[g];
+            first[g] = (estimate){.value = f, .low = f - 0.1, .high = f + 0.1};
+            total[g] = (estimate){.value = t, .low = t, .high = t};
+        }
+        estimate_tell_shares(first, total, GROUPS, ROWS);
+        for (size_t g = 0; g < GROUPS; g++) {
+            double value = first[g].value, told = cases[i].told[g];
+            check(isnan(told) ? isnan(value) : value == told, "what is told of a share", value,
+                  told, told);
+        }
+    }
+}
+
 /* Where all but one of the further samples failed, that one counts. */
 static void test_one_left(void)
 {
@@ -316,6 +344,7 @@ int main(int argc, char **argv)
 {
     int repeats = argc > 1 ? atoi(argv[1]) : 200;
     test_shares();
+    test_withheld();
     test_one_left();
     test_two();
     problem problems[] = {
