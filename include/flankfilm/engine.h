@@ -304,8 +304,9 @@ typedef struct ff_message {
     ff_severity severity;
     int fault; /* of an error: FF_FAULT_INPUT, ... */
     ff_place place;
-    char *text; /* one sentence */
-    char *hint; /* what to do about it, or NULL; of several lines when it begins with a line end */
+    char *text;  /* one sentence */
+    char *hint;  /* what to do about it, or NULL; of several lines when it begins with a line end */
+    bool beyond; /* an error says that a number is beyond the limits of its row */
 } ff_message;
 
 /* A growing list of messages. Equal messages at the same place are kept once; beyond 1000, errors

@@ -4,6 +4,7 @@
 #include "../value/limits.h"
 #include "../value/memory.h"
 #include "../value/near-file.h"
+#include "../value/report.h"
 #include "../value/tree.h"
 #include "../value/unit.h"
 
@@ -112,12 +113,13 @@ static void print(const reading *r, double si, char out[80])
 static bool check_range(const reading *r, const ff_node *node, double *si)
 {
     const ff_param *row = r->row;
-    char value[80], limit[80], wanted[100];
+    char value[80], limit[80], wanted[100], text[1024];
     int side = fe_limits_check(row, r->unit, si, wanted);
     if (side != 0) {
         print(r, *si, value);
-        return refuse(r, node, NULL, "%s is too %s; it must be %s", value,
-                      side < 0 ? "small" : "large", wanted);
+        snprintf(text, sizeof text, "%s: %s is too %s; it must be %s", r->name, value,
+                 side < 0 ? "small" : "large", wanted);
+        return fe_report_beyond(r->report, node->place, text);
     }
     if (row->low < row->high) {
         bool under = fe_unit_compare(r->unit, *si, row->low) < 0;

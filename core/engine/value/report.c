@@ -124,6 +124,18 @@ bool ff_error(ff_report *report, int fault, ff_place place, const char *hint, co
     return false;
 }
 
+bool fe_report_beyond(ff_report *report, ff_place place, const char *text)
+{
+    fe_heap *before = fe_heap_use(report->heap);
+    add(report, (ff_message){.severity = FF_ERROR,
+                             .fault = FF_FAULT_INPUT,
+                             .place = place,
+                             .text = fe_copy_text(text, strlen(text)),
+                             .beyond = true});
+    fe_heap_use(before);
+    return false;
+}
+
 void ff_warn(ff_report *report, ff_place place, const char *format, ...)
 {
     va_list args;
@@ -140,7 +152,9 @@ void ff_report_append(ff_report *report, const ff_report *other)
     report->lacked_memory = report->lacked_memory || other->lacked_memory;
     for (size_t i = 0; i < other->count; i++) {
         const ff_message *m = &other->messages[i];
-        if (m->severity == FF_ERROR)
+        if (m->beyond)
+            fe_report_beyond(report, m->place, m->text);
+        else if (m->severity == FF_ERROR)
             ff_error(report, m->fault, m->place, m->hint, "%s", m->text);
         else
             ff_warn(report, m->place, "%s", m->text);

@@ -17,6 +17,22 @@
 
 enum { MOST_ERRORS = 20 };
 
+/* Returns the first case of a study that can be built: idle rows of a spectrum may stand before. */
+static size_t first_case(const cli_session *session, const cli_options *options)
+{
+    const study_definition *study = session->study;
+    size_t index = 0, most = study->count < CLI_MOST_ROWS ? study->count : CLI_MOST_ROWS;
+    for (bool refused = study->spectrum; refused && index < most;) {
+        ff_report *captured = ff_report_new();
+        ff_tree *tree = cli_session_try(session, options, index, false, captured);
+        refused = study_case_is_refused(study, captured);
+        index += refused;
+        ff_tree_free(tree);
+        ff_report_free(captured);
+    }
+    return index < most ? index : 0;
+}
+
 /* Applies the first case of a study to the tree: it shows what holds for all cases. */
 static bool open_study(cli_session *session, const cli_options *options)
 {
@@ -33,8 +49,8 @@ static bool open_study(cli_session *session, const cli_options *options)
     if (!session->study->overlay_first) /* the first case may be the one that fails */
         ff_tree_put(session->tree, "outputs", session->study->request);
     else
-        study_overlay(session->study, 0, options->sets, options->set_count, session->tree,
-                      session->report);
+        study_overlay(session->study, session->first = first_case(session, options), options->sets,
+                      options->set_count, session->tree, session->report);
     return true;
 }
 
@@ -95,7 +111,8 @@ static void try_case(cli_session *session, const cli_options *options, size_t in
 {
     ff_report *captured = ff_report_new();
     ff_tree *tree = cli_session_try(session, options, index, severity == FF_ERROR, captured);
-    copy_messages(session, captured, severity);
+    if (!study_case_is_refused(session->study, captured)) /* the sums tell how much time it is */
+        copy_messages(session, captured, severity);
     ff_tree_free(tree);
     ff_report_free(captured);
 }
@@ -181,7 +198,8 @@ static void try_cases(cli_session *session, const cli_options *options)
         try_values(session, options);
     } else {
         session->tried = study->count;
-        for (size_t i = 1; i < study->count && ff_report_errors(session->report) < MOST_ERRORS; i++)
+        for (size_t i = session->first + 1;
+             i < study->count && ff_report_errors(session->report) < MOST_ERRORS; i++)
             try_case(session, options, i, FF_ERROR);
     }
 }
@@ -192,7 +210,8 @@ static void check_oil(cli_session *session, const cli_options *options)
     ff_report *captured = ff_report_new();
     ff_tree *tree = ff_tree_load(options->operand, captured);
     if (session->study && session->study->overlay_first)
-        study_overlay(session->study, 0, options->sets, options->set_count, tree, captured);
+        study_overlay(session->study, session->first, options->sets, options->set_count, tree,
+                      captured);
     for (size_t i = 0; !session->study && i < options->set_count; i++)
         ff_tree_set(tree, options->sets[i], NULL, NULL, captured);
     if (!session->study || session->study->overlay_first) {

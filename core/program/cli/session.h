@@ -16,8 +16,9 @@ typedef struct cli_session {
     ff_report *report;
     ff_tree *tree;
     ff_engine *engine;
-    ff_pipeline *pipeline;   /* may be NULL after errors; of a study: its first case */
+    ff_pipeline *pipeline;   /* may be NULL after errors; of a study: a case that it can run */
     study_definition *study; /* NULL: a single case */
+    size_t first;            /* that case */
     size_t tried;            /* cases that a check has looked at as a whole; 0: not whole ones */
 } cli_session;
 

@@ -142,6 +142,33 @@ static void print_stages(const json_t *sums)
     }
 }
 
+/* Says of how much time there are no numbers, and why. */
+static void print_left_out(const json_t *sums)
+{
+    const json_t *refused = json_object_get(sums, "refused");
+    double stated = number_of(sums, "stated"), share = number_of(refused, "share");
+    double failed = number_of(sums, "missing") - share;
+    json_int_t empty = json_integer_value(json_object_get(sums, "empty"));
+    if (fabs(stated - 1) > 1e-9)
+        printf("  the shares of the time sum to %.6g %%: each is taken as its part of that sum\n",
+               100 * stated);
+    if (empty > 0)
+        printf("  %lld of %lld classes take no time: they are left out, and no row counts them\n",
+               (long long)empty,
+               (long long)(empty + json_integer_value(json_object_get(sums, "rows"))));
+    if (share > 0)
+        printf("  for %.3g %% of the time, in %lld of %lld rows, nothing can be computed, and the "
+               "sums "
+               "do not count it; row %lld: %s\n",
+               100 * share, (long long)json_integer_value(json_object_get(refused, "rows")),
+               (long long)json_integer_value(json_object_get(sums, "rows")),
+               (long long)json_integer_value(json_object_get(refused, "row")),
+               json_string_value(json_object_get(refused, "reason")));
+    if (failed > 1e-12)
+        printf("  rows of %.3g %% of the time gave no numbers: nothing above counts them\n",
+               100 * failed);
+}
+
 void cli_spectrum_print(const json_t *sums)
 {
     char time[TEXT];
@@ -152,10 +179,7 @@ void cli_spectrum_print(const json_t *sums)
     print_energies(sums);
     print_below(sums);
     print_stages(sums);
-    double missing = number_of(sums, "missing");
-    if (missing > 0)
-        printf("  rows of %.3g %% of the time gave no numbers: nothing above counts them\n",
-               100 * missing);
+    print_left_out(sums);
     putchar('\n');
 }
 

@@ -200,7 +200,7 @@ static void tell_verdicts(const study_definition *study, const study_counters *c
         printf(", %zu of them before", counters->before);
     if (*verdicts)
         printf(": %s", verdicts);
-    if (counters->failed)
+    if (counters->failed + counters->tally.counts[STUDY_CASE_REFUSED])
         fputs("; \"reason\" in the table says why", stdout);
     putchar('\n');
     free(verdicts);

@@ -376,7 +376,8 @@ static void write_reasons(report_page *page)
     free(checks);
 }
 
-/* Says how many cases can be trusted, before the reasons. */
+/* Says how many cases can be trusted, before the reasons. Refused rows of a spectrum have not run.
+ */
 static void write_counts(report_page *page)
 {
     const results_view *view = page->view;
@@ -387,7 +388,7 @@ static void write_counts(report_page *page)
         doubtful += !strcmp(verdict, "doubtful");
         bad += !strcmp(verdict, "bad");
         failed += !strcmp(verdict, "failed");
-        idle += !*verdict;
+        idle += !*verdict || !strcmp(verdict, "refused");
     }
     fputs("<p class=\"judgement\">", page->out);
     report_put_badge(page->out, failed        ? "failed"

@@ -18,7 +18,8 @@
 /* A case that cannot be built has no resolved parameters, so its key comes from its assignments. */
 static uint64_t hash_assignments(const study_definition *study, size_t index)
 {
-    uint64_t hash = study_hash_text(STUDY_HASH_START, "not built");
+    uint64_t hash = study_hash_text(STUDY_HASH_START,
+                                    study->spectrum ? "not built, of a spectrum" : "not built");
     for (size_t k = 0; k < study->varied_count; k++)
         hash = study_hash_text(hash, study_assignment(study, k, index));
     return study->streams ? study_hash_text(hash, study_rows_text(study->rows, index)) : hash;
@@ -263,9 +264,21 @@ char *study_first_error(const ff_report *report)
     return memory_copy_text(text, strlen(text));
 }
 
-static const char *status_of(const ff_report *report)
+bool study_case_is_refused(const study_definition *study, const ff_report *report)
+{
+    bool refused = study->spectrum && ff_report_errors(report) > 0;
+    for (size_t i = 0; refused && i < ff_report_count(report); i++) {
+        const ff_message *m = ff_report_at(report, i);
+        refused = m->severity != FF_ERROR || m->beyond;
+    }
+    return refused;
+}
+
+static const char *status_of(const study_definition *study, const ff_report *report)
 {
     int code = ff_report_fault(report);
+    if (study_case_is_refused(study, report))
+        return study_refused;
     return code == EXIT_SUCCESS     ? "ok"
            : code == FF_FAULT_RUN   ? "failed"
            : code == FF_FAULT_INPUT ? "invalid"
@@ -396,7 +409,8 @@ static json_t *record_run(study_case *c, const study_run *run, size_t index, jso
 {
     bool good = ff_report_errors(c->report) == 0;
     char *reason = good ? NULL : study_first_error(c->report);
-    json_t *record = study_case_record(run, index, c->key, status_of(c->report), reason);
+    json_t *record =
+        study_case_record(run, index, c->key, status_of(run->study, c->report), reason);
     free(reason);
     add_quality(record, c->pipeline);
     add_warnings(record, c->report, warnings);

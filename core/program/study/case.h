@@ -104,6 +104,9 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
 void study_case_close(study_case *c);
 json_t *study_case_set(const study_definition *study, size_t index); /* {path: value} */
 bool study_case_is_good(const study_case *c);                        /* whether it can be run */
+/* Whether a row of a spectrum cannot be computed, since its numbers are beyond limits, and nothing
+   else is wrong with it. */
+bool study_case_is_refused(const study_definition *study, const ff_report *report);
 /* Returns a record without outputs and judgement; reason may be NULL. */
 json_t *study_case_record(const study_run *run, size_t index, const char *key, const char *status,
                           const char *reason);

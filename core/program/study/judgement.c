@@ -19,9 +19,13 @@ typedef struct doubts {
     size_t count;
 } doubts;
 
+const char study_refused[] = "refused";
+
 const char *study_verdict_name(int verdict)
 {
-    return verdict == STUDY_CASE_FAILED ? "failed" : ff_verdict_name(verdict);
+    return verdict == STUDY_CASE_FAILED    ? "failed"
+           : verdict == STUDY_CASE_REFUSED ? study_refused
+                                           : ff_verdict_name(verdict);
 }
 
 /* A name of a line in words: "inlet heating" of inlet_heating. */
@@ -141,9 +145,12 @@ void study_judge_record(json_t *record)
     size_t i;
     json_array_foreach(json_object_get(record, "warnings"), i, warning)
         add_warning(&all, json_is_string(warning) ? json_string_value(warning) : "a warning");
-    bool plain = !status || !strcmp(status, "failed"); /* that alone says nothing of the cause */
+    bool plain = !status || !strcmp(status, "failed") ||
+                 !strcmp(status, study_refused); /* that alone says nothing of the cause */
     study_judgement judgement =
         judge(&all, !status || strcmp(status, "ok") != 0, plain ? NULL : status);
+    if (status && !strcmp(status, study_refused))
+        judgement.verdict = STUDY_CASE_REFUSED;
     study_judgement_add(&judgement, record);
     study_judgement_free(&judgement);
 }

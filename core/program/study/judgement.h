@@ -10,8 +10,9 @@
 
 #include <jansson.h>
 
-/* FF_GOOD, FF_DOUBTFUL and FF_BAD, and a case without numbers that no line calls bad. */
-enum { STUDY_CASE_FAILED = FF_BAD + 1, STUDY_VERDICTS };
+/* FF_GOOD, FF_DOUBTFUL and FF_BAD; a row of a spectrum whose input is beyond the limits of what can
+   be computed; and a case without numbers that no line calls bad. */
+enum { STUDY_CASE_REFUSED = FF_BAD + 1, STUDY_CASE_FAILED, STUDY_VERDICTS };
 
 typedef struct study_judgement {
     int verdict;
@@ -19,7 +20,8 @@ typedef struct study_judgement {
     size_t count;
 } study_judgement;
 
-const char *study_verdict_name(int verdict); /* "good", "doubtful", "bad", "failed" */
+extern const char study_refused[]; /* "refused": the status of such a row, and its verdict */
+const char *study_verdict_name(int verdict); /* "good", "doubtful", "bad", "refused", "failed" */
 
 /* Judges the record of a case by its status, lines and warnings, and adds the judgement to it. */
 void study_judge_record(json_t *record);
@@ -49,7 +51,8 @@ void study_tally_free(study_tally *tally);
 /* Returns "12 good, 104 doubtful (inlet heating 88, lambda 61)", to be freed; the most frequent
    reasons come first. */
 char *study_tally_text(const study_tally *tally);
-/* Adds "verdict", the worst one, "counts" {good, doubtful, bad, failed}, "reasons" [{reason,
+/* Adds "verdict", the worst one, "counts" {good, doubtful, bad, refused,
+   failed}, "reasons" [{reason,
    verdict, cases}], the most frequent first, and "judged", a list of the cases in their order; that
    is null when there are more than STUDY_MOST_JUDGED. */
 void study_tally_describe(const study_tally *tally, json_t *object);

@@ -48,10 +48,10 @@ static char *assignment_of(const char *path, const ff_node *value)
     return text;
 }
 
-static bool read_row(study_definition *study, const ff_node *cases, size_t row, bool timed,
-                     ff_report *report)
+static bool check_row(study_definition *study, const ff_node *map, bool timed, bool *empty,
+                      ff_report *report)
 {
-    const ff_node *map = cases->items[row], *time = ff_node_get(map, study_time_name);
+    const ff_node *time = ff_node_get(map, study_time_name);
     if (map->kind != FF_MAP || map->count == (time != NULL))
         return ff_error(report, FF_FAULT_INPUT, map->place,
                         "write - {duty.torque: 250 N m, duty.speed: 1500 rpm}",
@@ -59,9 +59,13 @@ static bool read_row(study_definition *study, const ff_node *cases, size_t row, 
     if (timed != (time != NULL))
         return ff_error(report, FF_FAULT_INPUT, map->place, NULL,
                         "study: cases: either all rows have a time or none");
-    if (time &&
-        !study_spectrum_add(study, time->kind == FF_SCALAR ? time->text : "", time->place, report))
-        return false;
+    return !time || study_spectrum_add(study, time->kind == FF_SCALAR ? time->text : "",
+                                       time->place, empty, report);
+}
+
+static void read_row(study_definition *study, const ff_node *cases, size_t row)
+{
+    const ff_node *map = cases->items[row], *time = ff_node_get(map, study_time_name);
     for (size_t i = 0; i < map->count; i++) {
         if (map->items[i] == time || !strncmp(map->keys[i], "x-", 2))
             continue;
@@ -71,7 +75,6 @@ static bool read_row(study_definition *study, const ff_node *cases, size_t row, 
         v->values->items[row] = map->items[i];
         free(text);
     }
-    return true;
 }
 
 bool study_listed_read(study_definition *study, const ff_node *cases, ff_report *report)
@@ -82,12 +85,22 @@ bool study_listed_read(study_definition *study, const ff_node *cases, ff_report 
         paths += cases->items[i]->kind == FF_MAP ? cases->items[i]->count : 0;
     study->varied = memory_arena_alloc(&study->arena, (paths + 1) * sizeof *study->varied);
     study->points = memory_arena_alloc(&study->arena, sizeof *study->points);
-    study->points[0] = study->count = cases->count;
     study->axis_count = study->followed = study->direction = 1;
     study->overlay_first = true;
-    for (size_t i = 0; i < cases->count; i++)
-        read_row(study, cases, i, timed, report);
-    if (ff_report_errors(report) == errors && study->varied_count == 0)
+    ff_node rows = *cases; /* that last for a time */
+    rows.items = memory_arena_alloc(&study->arena, cases->count * sizeof *rows.items);
+    rows.count = 0;
+    for (size_t i = 0; i < cases->count; i++) {
+        bool empty = false;
+        if (check_row(study, cases->items[i], timed, &empty, report) && !empty)
+            rows.items[rows.count++] = cases->items[i];
+    }
+    study->points[0] = study->count = rows.count;
+    for (size_t i = 0; i < rows.count; i++)
+        read_row(study, &rows, i);
+    if (ff_report_errors(report) == errors && rows.count == 0)
+        ff_error(report, FF_FAULT_INPUT, cases->place, NULL, "study: cases: no row lasts any time");
+    else if (ff_report_errors(report) == errors && study->varied_count == 0)
         ff_error(report, FF_FAULT_INPUT, cases->place, NULL,
                  "study: cases: no row names a path of the pipeline");
     return ff_report_errors(report) == errors;

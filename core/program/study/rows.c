@@ -170,8 +170,9 @@ static char *assignment_of(const study_rows *rows, const column *c, const study_
     return text;
 }
 
-/* Takes how long the row lasts. */
-static bool take_time(const study_rows *rows, const study_csv_line *l, ff_report *report)
+/* Takes how long the row lasts; *empty: it takes no time, so that it is no case. */
+static bool take_time(const study_rows *rows, const study_csv_line *l, bool *empty,
+                      ff_report *report)
 {
     const char *end;
     double number;
@@ -182,7 +183,7 @@ static bool take_time(const study_rows *rows, const study_csv_line *l, ff_report
             continue;
         bool bare = *c->unit && ff_number_parse(f->text, &number, &end) && !*end;
         char *text = memory_print_text("%s%s%s", f->text, bare ? " " : "", bare ? c->unit : "");
-        bool good = study_spectrum_add(rows->study, text, place_of(rows, f), report);
+        bool good = study_spectrum_add(rows->study, text, place_of(rows, f), empty, report);
         free(text);
         return good;
     }
@@ -312,11 +313,13 @@ static bool add_row(study_rows *rows, const char *text, ff_report *report)
     if (study->count == MOST_ROWS)
         return refuse(rows, NULL, report, NULL, "at most 1000000 cases are possible");
     study_csv_line l = study_csv_split(text, rows->separator);
+    bool empty = false;
     if (refuse_row(rows, &l, report))
-        take_time(rows, &l, report);
-    take_row(rows, study->count, &l);
+        take_time(rows, &l, &empty, report);
+    if (!empty)
+        take_row(rows, study->count++, &l);
     study_csv_free(&l);
-    study->points[0] = ++study->count;
+    study->points[0] = study->count;
     return true;
 }
 
@@ -363,7 +366,9 @@ static bool read_table(study_definition *study, const ff_node *node, ff_report *
         if (good && study->count == 0)
             good = ff_error(report, FF_FAULT_INPUT, node->place,
                             "the first line names paths, each further line is a case",
-                            "study: cases: %.300s has no case", path);
+                            study->spectrum ? "study: cases: no row of %.300s lasts any time"
+                                            : "study: cases: %.300s has no case",
+                            path);
     }
     ff_free(path);
     study->overlay_first = good;

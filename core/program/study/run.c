@@ -153,7 +153,6 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
     snprintf(r->keys[index], STUDY_KEY_SIZE, "%s", key);
     r->counters->before += known;
     r->counters->done++;
-    r->counters->failed += !good;
     bool told = r->run->answer != NULL;
     json_t *record = !known ? study_records_take(r->done, text, strlen(text))
                      : told ? study_records_get(r->done, key)
@@ -163,13 +162,15 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
         judgement = study_records_judge(r->done, key);
     else
         study_judgement_read(&judgement, record);
+    bool excused = judgement.verdict == STUDY_CASE_REFUSED;
+    r->counters->failed += !good && !excused;
     if (told)
         r->run->answer(r->run->ctx, index, record, known);
     study_savings_add(&r->counters->savings, known ? NULL : record);
     study_tally_add(&r->counters->tally, index + 1, key, &judgement);
     study_judgement_free(&judgement);
     json_decref(record);
-    return known || good || !r->run->fail_fast;
+    return known || good || excused || !r->run->fail_fast;
 }
 
 /* What wait_for_answer and note_answer are about. */

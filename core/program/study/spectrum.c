@@ -14,9 +14,24 @@ const char study_time_name[] = "time";
 
 enum { MOST_VALUES = 1000 }; /* rows whose numbers stand beside the sums */
 
-static const double rounding = 1e-3; /* of shares that a spreadsheet has rounded */
+/* Shares whose sum is further off than that lack a class, however few digits they have. */
+static const double most_rounding = 1e-2;
 
-static const char expected[] = "expected a share such as 12 %, or a time such as 300 h, above 0";
+static const char expected[] = "expected a share such as 12 %, or a time such as 300 h, 0 or above";
+
+/* Returns half a unit of the last digit of a share. */
+static double rounding_of(const char *text, double share)
+{
+    const char *end, *point = strpbrk(text, ".eE");
+    double number = 0, exponent = 0;
+    if (!ff_number_parse(text, &number, &end) || !(number > 0))
+        return 0;
+    double digits = point && *point == '.' ? (double)strspn(point + 1, "0123456789") : 0;
+    const char *power = strpbrk(text, "eE");
+    if (power && power < end)
+        exponent = strtod(power + 1, NULL);
+    return 0.5 * pow(10, exponent - digits) * share / number;
+}
 
 /* Reads a text in a unit; false when it is none of that dimension. */
 static bool read_in(const char *text, const char *unit, double *value, char *why, size_t size)
@@ -26,23 +41,28 @@ static bool read_in(const char *text, const char *unit, double *value, char *why
            ff_quantity_parse(text, &row, unit, value, why, size);
 }
 
-bool study_spectrum_add(study_definition *study, const char *text, ff_place place,
+bool study_spectrum_add(study_definition *study, const char *text, ff_place place, bool *empty,
                         ff_report *report)
 {
     char why[300];
     double value = 0;
     study_spectrum *s = study->spectrum;
     bool share = read_in(text, "1", &value, why, sizeof why);
-    if (!(share || read_in(text, "s", &value, why, sizeof why)) || !(value > 0))
+    if (!(share || read_in(text, "s", &value, why, sizeof why)) || !(value >= 0))
         return ff_error(report, FF_FAULT_INPUT, place, NULL, "time: %s", expected);
     if (!s)
         s = study->spectrum = memory_arena_alloc(&study->arena, sizeof *s);
-    if (s->count == 0)
+    if (s->count + s->empty == 0)
         s->shares = share;
     if (s->shares != share)
         return ff_error(report, FF_FAULT_INPUT, place, NULL,
                         "time: a share stands beside times: either all rows have shares or all "
                         "have times");
+    *empty = !(value > 0);
+    s->empty += *empty;
+    if (*empty)
+        return true;
+    s->rounding += share ? rounding_of(text, value) : 0;
     if (s->count == s->room) {
         s->room = s->room ? 2 * s->room : 16;
         s->times = memory_resize(s->times, s->room * sizeof *s->times);
@@ -73,7 +93,7 @@ static bool read_below(study_definition *study, const ff_node *below, ff_report 
 bool study_spectrum_finish(study_definition *study, const ff_node *cases, const ff_node *below,
                            ff_report *report)
 {
-    const study_spectrum *s = study->spectrum;
+    study_spectrum *s = study->spectrum;
     double sum = 0;
     if (!s)
         return !below || ff_error(report, FF_FAULT_INPUT, below->place,
@@ -81,10 +101,13 @@ bool study_spectrum_finish(study_definition *study, const ff_node *cases, const 
                                   "study: below: the cases have no time");
     for (size_t i = 0; i < s->count; i++)
         sum += s->times[i];
-    if (s->shares && !(fabs(sum - 1) <= rounding))
+    if (s->shares && !(fabs(sum - 1) <= fmin(s->rounding, most_rounding) + 1e-9))
         return ff_error(report, FF_FAULT_INPUT, cases->place, "times such as 300 h need no sum",
                         "study: cases: the shares of the time sum to %.6g %%, not to 100 %%",
                         100 * sum);
+    s->stated = sum;
+    for (size_t i = 0; s->shares && i < s->count; i++)
+        s->times[i] /= sum;
     return !below || read_below(study, below, report);
 }
 
@@ -149,7 +172,9 @@ typedef struct reading {
     size_t count;
     json_t *stages;
     json_t *values; /* {output: [value of each row]}; NULL: they are too many */
-    double missing;
+    double missing, refused;
+    size_t refused_rows, first_refused;
+    char *reason; /* of the first one */
     double *limits, *shares;
     size_t *rows;
 } reading;
@@ -277,10 +302,28 @@ static json_t *describe(const reading *r, const ff_pipeline *pipeline)
                              study_json_real(r->limits[i]), "unit",
                              find_unit(pipeline, s->below[i].output), "share",
                              study_json_real(r->shares[i] / time), "rows", (json_int_t)r->rows[i]));
-    return json_pack("{s:I, s:o, s:s, s:o, s:o, s:o, s:O}", "rows", (json_int_t)s->count, "time",
-                     study_json_real(time), "unit", s->shares ? "1" : "s", "missing",
-                     study_json_real(r->missing / time), "outputs", describe_outputs(r), "below",
-                     below, "stages", r->stages);
+    json_t *refused = json_pack("{s:I, s:o, s:I, s:s?}", "rows", (json_int_t)r->refused_rows,
+                                "share", study_json_real(r->refused / time), "row",
+                                (json_int_t)r->first_refused, "reason", r->reason);
+    return json_pack(
+        "{s:I, s:o, s:s, s:o, s:I, s:o, s:o, s:o, s:o, s:O}", "rows", (json_int_t)s->count, "time",
+        study_json_real(time), "unit", s->shares ? "1" : "s", "stated",
+        study_json_real(s->shares ? s->stated : (double)NAN), "empty", (json_int_t)s->empty,
+        "refused", refused, "missing", study_json_real(r->missing / time), "outputs",
+        describe_outputs(r), "below", below, "stages", r->stages);
+}
+
+static void note_refused(reading *r, const json_t *record, size_t row)
+{
+    const char *status = json_string_value(json_object_get(record, "status"));
+    const char *reason = json_string_value(json_object_get(record, "reason"));
+    if (!status || strcmp(status, study_refused) != 0)
+        return;
+    r->refused += r->study->spectrum->times[row];
+    if (r->refused_rows++ > 0 || !reason)
+        return;
+    r->first_refused = row + 1;
+    r->reason = memory_copy_text(reason, strlen(reason));
 }
 
 static bool read_rows(reading *r, const study_run *run, char (*keys)[STUDY_KEY_SIZE],
@@ -300,6 +343,7 @@ static bool read_rows(reading *r, const study_run *run, char (*keys)[STUDY_KEY_S
             count_stages(r, record, "reused", "reused");
             good = add_arrays(r, &logs, record, i, run->directory, report);
         }
+        note_refused(r, record, i);
         r->missing += ok ? 0 : run->study->spectrum->times[i];
         json_decref(record);
     }
@@ -328,6 +372,7 @@ json_t *study_spectrum_sums(const study_run *run, char (*keys)[STUDY_KEY_SIZE], 
     json_decref(r.names);
     json_decref(r.stages);
     json_decref(r.values);
+    free(r.reason);
     free(r.sums);
     free(r.limits);
     free(r.shares);

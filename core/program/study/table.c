@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Writes table.csv: a row for each case with what was varied and the scalars that it gave. */
 #include "journal.h"
+#include "spectrum.h"
 
 #include <fcntl.h>
 #include <stdlib.h>
@@ -60,6 +61,8 @@ static void put_head(FILE *out, const study_definition *study, const char *const
         if (units[k] && *units[k])
             fprintf(out, " [%s]", units[k]);
     }
+    if (study->spectrum)
+        fprintf(out, ",%s [%s]", study_time_name, study->spectrum->shares ? "1" : "s");
     json_object_foreach(columns, name, unit)
         fprintf(out, ",%s [%s]", name, json_string_value(unit));
     fputs(",verdict,reasons,reason\n", out);
@@ -90,6 +93,8 @@ static void put_row(FILE *out, const study_definition *study, const char *const 
         fputc(',', out);
         put_cell(out, value, length);
     }
+    if (study->spectrum)
+        fprintf(out, ",%.12g", study->spectrum->times[index]);
     json_object_foreach(columns, name, unit)
     {
         const json_t *pair = json_object_get(json_object_get(record, "outputs"), name);

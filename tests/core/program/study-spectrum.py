@@ -81,6 +81,55 @@ class Spectrum(lab.Lab):
         self.assertAlmostEqual(sums["missing"], 0.05)
         self.assertIn("rows of 5 % of the time gave no numbers", said)
 
+    def test_a_class_of_no_time_is_no_row(self):
+        """In a table and in a list, as a time and as a share."""
+        self.write("rows.csv", TABLE)
+        self.write("empty.csv", TABLE.replace("\n1;", "\n0;7;9\n1;") + "0;8;9\n")
+        self.listed("full", " rows.csv")
+        empty = LIST.replace("    - {time: 1 h", "    - {time: 0 h, wave.count: 9}\n    - {time: 1 h")
+        for name, cases, count in (("table", " empty.csv", 2), ("list", "\n" + empty, 1)):
+            said = self.listed(name, cases)
+            self.assertIn(f"{count} of {3 + count} classes take no time", said)
+            sums = self.read(f"{name}/spectrum.json")
+            self.assertEqual((sums["rows"], sums["empty"], sums["time"]), (3, count, 72000))
+            self.assertEqual(sums["outputs"], self.read("full/spectrum.json")["outputs"])
+
+    def test_a_row_beyond_the_limits_is_told_and_not_failed(self):
+        """The first one, too; what cannot be read, or fails, still fails."""
+        idle = "\n    - {time: 80 h, wave.count: 0}\n" + LIST
+        for again in range(2):
+            said = self.listed("idle", idle)
+        self.assertIn("for 80 % of the time, in 1 of 4 rows, nothing can be computed", said)
+        self.assertIn("row 1: wave.count: 0 is too small", said)
+        sums = self.read("idle/spectrum.json")
+        self.assertEqual((sums["refused"]["rows"], sums["refused"]["row"]), (1, 1))
+        self.assertAlmostEqual(sums["refused"]["share"], 0.8)
+        totals = [float(row["wave.total [m]"]) for row in self.table("idle")[1:]]
+        self.assertAlmostEqual(sums["outputs"]["wave.total"]["mean"],
+                               sum(t * total for (_, _, t), total in zip(ROWS, totals)) / 20)
+        row = self.table("idle")[0]
+        self.assertEqual((row["status"], row["verdict"], float(row["time [s]"])), ("refused", "refused", 288000))
+        self.assertIn("too small", row["reason"])
+        self.call("check", "idle.yaml")
+        self.listed("many", idle.replace("wave.count: 5", "wave.count: many"), code=4)
+        self.assertEqual(self.read("many/spectrum.json")["refused"]["rows"], 1)
+        self.listed("swept", idle.replace("time: ", "x-time: "), code=2)
+
+    def test_shares_are_held_to_their_digits(self):
+        rows = "\n    - {time: A, wave.count: 4}\n    - {time: B, wave.count: 5}\n    - {time: C, wave.count: 6}"
+        def of(a, b, c):
+            return rows.replace("A", a).replace("B", b).replace("C", c)
+        said = self.listed("rounded", of("33.3 %", "33.3 %", "0.333"))
+        self.assertIn("the shares of the time sum to 99.9 %", said)
+        sums = self.read("rounded/spectrum.json")
+        self.assertAlmostEqual(sums["time"], 1)
+        self.assertAlmostEqual(sums["stated"], 0.999)
+        self.assertAlmostEqual(sums["outputs"]["wave.total"]["mean"], sum(sums["outputs"]["wave.total"]["values"]) / 3)
+        self.listed("above", of("33.4 %", "33.4 %", "33.3 %"))
+        self.assertNotIn("sum to", self.listed("exact", of("50 %", "2.5e1 %", "25 %")))
+        self.refused(of("33.30 %", "33.30 %", "33.30 %"), "the shares of the time sum to 99.9 %")
+        self.refused(of("33 %", "33 %", "32 %"), "the shares of the time sum to 98 %")
+
     def test_json_and_a_second_run_say_the_same(self):
         self.listed("again", "\n" + LIST)
         said = json.loads(self.call("run", "again.yaml", "-o", "again", "--json"))
@@ -102,8 +151,11 @@ class Spectrum(lab.Lab):
         self.refused(" rows.csv", "the shares of the time sum to 20 %, not to 100 %")
         self.write("rows.csv", TABLE.replace("\n5;", "\n5 m;"))
         self.refused(" rows.csv", "rows.csv:2:1: error: time: expected a share such as 12 %, or a time such as 300 h")
-        self.write("rows.csv", TABLE.replace("\n5;", "\n0;"))
+        self.write("rows.csv", TABLE.replace("\n5;", "\n-5;"))
         self.refused(" rows.csv", "rows.csv:2:1: error: time: expected")
+        self.write("rows.csv", "time [h]; wave.count\n0;4\n0;5\n")
+        self.refused(" rows.csv", "rows.csv lasts any time")
+        self.refused("\n    - {time: 0 h, wave.count: 4}", "no row lasts any time")
         self.write("rows.csv", TABLE.replace("\n1;", "\n1 %;"))
         self.refused(" rows.csv", "rows.csv:3:1: error: time: a share stands beside times")
         self.write("rows.csv", TABLE.replace("time [h]", "time [h]; time [s]").replace(";", ";1;", 0))

@@ -21,7 +21,7 @@ study:
     verge.speed: [1 m/s, 1.5 m/s, 2.5 m/s, 2.2 m/s, 0.1 m/s, 1 m/s, 4 m/s]
     wave.end: [good, good, good, doubtful, good, bad, good]
 """
-COUNTS = {"good": 2, "doubtful": 3, "bad": 1, "failed": 1}
+COUNTS = {"good": 2, "doubtful": 3, "bad": 1, "refused": 0, "failed": 1}
 VERDICTS = ["good", "good", "doubtful", "doubtful", "doubtful", "bad", "failed"]
 REASONS = [[], [], ["residual"], ["residual"], ["law"], ["residual"], []]
 WORDS = "2 good, 3 doubtful (residual 2, law 1), 1 bad (residual 1), 1 failed"
