@@ -122,15 +122,22 @@ static json_t *shares_figure(const char *name, const json_t *of, const char *by)
     points first = {json_array(), json_array(), json_array(), json_array()};
     points total = {json_array(), json_array(), json_array(), NULL};
     json_t *one;
-    const char *input;
+    const char *input, *why = NULL;
+    size_t untold = 0;
     json_object_foreach(json_object_get(of, "shares"), input, one)
     {
+        const char *said = json_string_value(json_object_get(one, "untold"));
+        why = said ? said : why;
+        untold += said != NULL;
         add_point(&first, -0.08, json_object_get(one, "first"));
         add_point(&total, 0.08, json_object_get(one, "total"));
         json_array_append_new(first.names, json_string(input));
     }
-    char title[200];
-    snprintf(title, sizeof title, "%.80s: share of its variance, by %.80s", name, by);
+    char title[300];
+    int end = snprintf(title, sizeof title, "%.80s: share of its variance, by %.80s", name, by);
+    if (why)
+        snprintf(title + end, sizeof title - (size_t)end, "; %.40s %zu of %zu alone", why, untold,
+                 json_array_size(first.names));
     json_t *figure =
         json_pack("{s:s, s:s, s:i, s:{s:s, s:f, s:f}, s:{s:s}, s:[], s:O, s:[o, o]}", "sort",
                   "curves", "title", title, "height", 260, "x", "label", "", "low", -0.5, "high",

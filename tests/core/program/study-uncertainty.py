@@ -196,6 +196,15 @@ study:
         self.study("again", text, words=("-j", "2"))
         self.assertEqual(self.file("ladder"), self.file("again"))
 
+    def test_what_few_samples_do_not_tell_is_said(self):
+        """3 rows tell no share, which is said in the print and in the title of the figure that is on the page."""
+        said = self.study("few", TWO + "    samples: 8\n    sensitivity: 3\n", words=("-j", "1"))
+        share = self.read("few/uncertainty.json")["outputs"]["wave.total"]["shares"]["wave.amplitude"]
+        self.assertEqual((share["first"]["value"], share["untold"]), (None, "3 samples do not tell"))
+        self.assertIn("3 samples do not tell", said)
+        titles = [figure["title"] for figure in self.read("few/uncertainty.figure.json")]
+        self.assertTrue(any(title.endswith("; 3 samples do not tell 1 of 2 alone") for title in titles), titles)
+
     def test_each_word_of_an_input_has_its_own_mean(self):
         words = """    inputs: {wave.end: {samples: [good, good, doubtful]}, wave.amplitude: {normal: [2 mm, 5 %]}}
     samples: 40
