@@ -33,6 +33,7 @@ static bool request(ff_instance *i, const char *words)
     char name[96];
     for (size_t k = 0; k < model->output_count; k++) {
         i->stage.results[k].wanted = !words && !i->stage.results[k].row->service;
+        i->stage.results[k].refused = false;
         i->stage.results[k].required = false;
     }
     while (words && *(words += strspn(words, " "))) {
@@ -68,6 +69,7 @@ static bool run_feeding(ff_instance *i, ff_instance *from)
     const ff_model *model = i->stage.loaded->model;
     for (size_t k = 0; k < from->stage.loaded->model->output_count; k++) {
         from->stage.results[k].wanted = from->stage.results[k].data;
+        from->stage.results[k].refused = false;
         from->stage.results[k].required = false;
     }
     for (size_t k = 0; k < model->input_count; k++) {

@@ -300,9 +300,7 @@ static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of,
                       "u a rho c/(2 k) of the slower flank where it is hottest; below 5 Blok's "
                       "formula says too much");
     host->quality(host->ctx, "loss_share", 1 - efficiency, most_loss,
-                  efficiency < 0                      ? FF_BAD
-                  : fabs(1 - efficiency) <= most_loss ? FF_GOOD
-                                                      : FF_RANGE,
+                  fabs(1 - efficiency) <= most_loss ? FF_GOOD : FF_RANGE,
                   "loss over the power that comes in");
     report_parts(s, m);
     report_engagements(s, m, of);

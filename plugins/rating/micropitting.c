@@ -377,7 +377,7 @@ static void report(const micropitting *s, const rating_pair *p, const rating *r)
 {
     const ff_host *host = s->host;
     const double ratio = (p->end - p->sap) / p->base_pitch;
-    rating_report_draft(host, "ISO/TR 15144-1");
+    rating_report_draft(host, "ISO/TR 15144-1", "three printed reports were held against them");
     host->quality(host->ctx, "contact_ratio", ratio, highest_ratio,
                   ratio <= highest_ratio ? FF_GOOD : FF_RANGE,
                   "from 2 on the closed formulas do not hold (clause 8.2)");

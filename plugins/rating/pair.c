@@ -273,12 +273,12 @@ ff_status rating_oil_at(const ff_host *host, const rating_pair *p, double T, dou
     return FF_OK;
 }
 
-void rating_report_draft(const ff_host *host, const char *standard)
+void rating_report_draft(const ff_host *host, const char *standard, const char *held)
 {
     char text[240];
     snprintf(text, sizeof text,
              "draft: formulas of %s as a public implementation quotes them; the standard was not "
-             "read, and no printed example was held against them",
-             standard);
+             "read, and %s",
+             standard, held);
     host->quality(host->ctx, "draft", 1, 0, FF_RANGE, text);
 }

@@ -103,6 +103,6 @@ ff_status rating_oil_at(const ff_host *host, const rating_pair *p, double T, dou
                         double *density);
 
 /* Says that the formulas were not read in the standard. */
-void rating_report_draft(const ff_host *host, const char *standard);
+void rating_report_draft(const ff_host *host, const char *standard, const char *held);
 
 #endif

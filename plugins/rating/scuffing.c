@@ -143,8 +143,7 @@ static const ff_port outputs[OUTPUTS] = {
          .doc = "draft: by flash temperature, permissible over highest contact temperature, "
                 "both above the oil's (13989-1, "
                 "formula 100), and by integral temperature, in degC (13989-2, formula 14)",
-         .dims = "method",
-         .max = INFINITY},
+         .dims = "method"},
     [OUT_MARGIN] = {.name = "margin",
                     .unit = "K",
                     .doc =
@@ -160,8 +159,7 @@ static const ff_port outputs[OUTPUTS] = {
                         .unit = "1",
                         .doc = "draft: test_contact_temperature over own_contact_temperature_max, "
                                "both above the oil's",
-                        .dims = "",
-                        .max = INFINITY},
+                        .dims = ""},
 };
 
 /* Results; temperatures in degC. */
@@ -344,7 +342,7 @@ static void report(const scuffing *s, const rating_pair *p, const rating *r)
 {
     const ff_host *host = s->host;
     const double ratio = (p->end - p->sap) / p->base_pitch;
-    rating_report_draft(host, "ISO/TR 13989-1 and -2");
+    rating_report_draft(host, "ISO/TR 13989-1 and -2", "no printed example was held against them");
     host->quality(host->ctx, "margin", r->margin, demanded,
                   r->margin >= demanded ? FF_GOOD : FF_RANGE,
                   "K from the highest contact temperature to the scuffing temperature; 50 is what "

@@ -139,12 +139,13 @@ bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_arr
 
 void fe_drop_untouched(ff_stage *stage)
 {
-    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+    const ff_model *model = stage->loaded->model;
+    for (size_t i = 0; i < model->output_count && model->abi_minor >= 3; i++) {
         ff_result *result = &stage->results[i];
-        bool touched = true;
+        bool untouched = false;
         for (size_t k = 0; !result->wanted && result->data && k < result->count; k++)
-            touched = touched && !isnan(result->data[k]);
-        if (touched)
+            untouched = untouched || isnan(result->data[k]);
+        if (!untouched)
             continue;
         ff_guarded_free(result->data, result->count);
         result->data = NULL;

@@ -229,7 +229,7 @@ bool fe_check_inputs(const ff_stage *stage, const ff_array *in, const uint64_t *
    which is known already, or with an error. */
 bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_array *in,
                       ff_report *report);
-/* Takes away what the model gave memory to and left alone, unasked. */
+/* Drops outputs that are not wanted and still hold the NaN that their memory was filled with. */
 void fe_drop_untouched(ff_stage *stage);
 /* False, with an error, when the stage's results cannot be used. */
 bool fe_check_results(const ff_stage *stage, ff_report *report);

@@ -6,52 +6,66 @@
 #include <stdio.h>
 #include <string.h>
 
-/* How far the number lies outside of the natural bounds of its row; 0: within. Rounding at a bound
-   is no violation. */
-static double beyond(const ff_port *row, double value)
+typedef struct bounds {
+    double least, most;
+} bounds;
+
+/* A model before 1.3 cannot say that a number in K is a difference. */
+static bounds bounds_of(const ff_model *model, const ff_port *row)
 {
     const bool point = !(row->flags & FF_DIFFERENCE) && !strcmp(row->unit, "K");
-    const bool bounded = row->min < row->max;
-    const double rounding = 1e-12;
-    double least = bounded ? row->min : -INFINITY, most = bounded ? row->max : INFINITY;
-    double scale = fmax(isfinite(least) ? fabs(least) : 0, isfinite(most) ? fabs(most) : 0);
-    if (point)
-        least = fmax(least, 0);
-    double outside = fmax(least - value, value - most);
-    return outside > rounding * scale ? outside : 0;
+    bounds b = {-INFINITY, INFINITY};
+    if (row->min < row->max)
+        b = (bounds){row->min, row->max};
+    if (point && model->abi_minor >= 3)
+        b.least = fmax(b.least, 0);
+    return b;
 }
 
-static void print_bounds(const ff_port *row, char *text, size_t size)
+static double outside(const bounds *b, double value)
 {
-    if (!(row->min < row->max))
-        snprintf(text, size, "it lies below 0 K");
-    else if (isinf(row->max))
-        snprintf(text, size, "it cannot be below %g", row->min);
-    else if (isinf(row->min))
-        snprintf(text, size, "it cannot be above %g", row->max);
+    return fmax(fmax(b->least - value, value - b->most), 0);
+}
+
+/* The number that lies farthest outside; NULL: all are within. Rounding, of the bounds or of the
+   largest number, is no violation. */
+static const double *find_worst(const bounds *b, const ff_result *result)
+{
+    const double rounding = 1e-12;
+    double scale =
+        fmax(isfinite(b->least) ? fabs(b->least) : 0, isfinite(b->most) ? fabs(b->most) : 0);
+    const double *worst = result->data;
+    for (size_t k = 0; k < result->count; k++) {
+        scale = fmax(scale, fabs(result->data[k]));
+        if (outside(b, result->data[k]) > outside(b, *worst))
+            worst = &result->data[k];
+    }
+    return outside(b, *worst) > rounding * scale ? worst : NULL;
+}
+
+static void print_bounds(const bounds *b, char *text, size_t size)
+{
+    if (isinf(b->most))
+        snprintf(text, size, "it cannot be below %g", b->least);
+    else if (isinf(b->least))
+        snprintf(text, size, "it cannot be above %g", b->most);
     else
-        snprintf(text, size, "it can only be from %g to %g", row->min, row->max);
+        snprintf(text, size, "it can only be from %g to %g", b->least, b->most);
 }
 
 void fe_judge_bounds(ff_stage *stage)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const ff_result *result = &stage->results[i];
-        const ff_port *row = result->row;
-        size_t worst = 0;
-        double most = 0;
-        for (size_t k = 0; result->data && k < result->count; k++) {
-            double outside = beyond(row, result->data[k]);
-            worst = outside > most ? k : worst;
-            most = fmax(most, outside);
-        }
-        if (!(most > 0))
+        const bounds b = bounds_of(stage->loaded->model, result->row);
+        const double *worst = result->data && result->count ? find_worst(&b, result) : NULL;
+        if (!worst)
             continue;
-        char bounds[80], text[160];
-        print_bounds(row, bounds, sizeof bounds);
-        snprintf(text, sizeof text, result->rank ? "%s, at index %zu" : "%s", bounds, worst);
-        double value = result->data[worst];
-        ff_add_quality(stage, row->name, value, value > row->min ? row->max : fmax(row->min, 0),
+        char allowed[80], text[160];
+        print_bounds(&b, allowed, sizeof allowed);
+        snprintf(text, sizeof text, result->rank ? "%s, at index %zu" : "%s", allowed,
+                 (size_t)(worst - result->data));
+        ff_add_quality(stage, result->row->name, *worst, *worst < b.least ? b.least : b.most,
                        FF_BAD, text);
     }
 }

@@ -215,12 +215,12 @@ static bool refuse_control(int argc, char **argv)
     for (int i = 1; i < argc; i++) {
         if (!has_control(argv[i]))
             continue;
-        fputs("flankfilm: a word has a control character in it, such as begins an escape sequence: "
-              "\"",
-              stderr);
-        for (const char *at = argv[i]; *at; at++)
-            fputc((unsigned char)*at < 0x20 || *at == 0x7F ? '?' : *at, stderr);
-        fputs("\"\n", stderr);
+        char shown[256];
+        ff_clean_text(shown, sizeof shown, argv[i]);
+        fprintf(stderr,
+                "flankfilm: a word has a control character in it, such as begins an escape "
+                "sequence: \"%s\"\n",
+                shown);
         return true;
     }
     return false;

@@ -90,6 +90,8 @@ static double between(double value, double low, double high)
 
 static void clip(estimate *e, double most)
 {
+    if (isnan(e->value))
+        return;
     e->value = between(e->value, 0, most);
     e->low = fmin(between(e->low, 0, 1), e->value);
     e->high = fmax(between(e->high, 0, 1), e->value);

@@ -27,10 +27,10 @@ double ehl_thermal_pressure_flow(const ehl_march *m)
 
 /* Returns the heat that a flank has taken up to node `end` of a steady film, from its temperature
    alone: B sqrt(u/pi) int (T - T_bulk)/sqrt(x_end - x) dx, T linear between the nodes. */
-static double taken_by_flank(const ehl_thermal *t, const double *T, size_t stride, double dx,
-                             double u, size_t end)
+static double taken_by_flank(const ehl_thermal *t, size_t flank, const double *T, size_t stride,
+                             double dx, double u, size_t end)
 {
-    double sum = 0, B = 1 / (t->energy.flank[0].scale * sqrt(pi));
+    double sum = 0, B = 1 / (t->energy.flank[flank].scale * sqrt(pi));
     for (size_t i = 0; i < end; i++) {
         /* over a cell from `far` to `near` cells in front of the end */
         double near = (double)(end - i - 1), far = near + 1, whole = 2 * (sqrt(far) - sqrt(near));
@@ -73,7 +73,7 @@ static double steady_balance(const ehl_march *m, const ehl_energy_film *f,
         if (film->full[i])
             made += f->dx * ehl_thermal_stress(m, i) * m->step.sliding;
     for (size_t g = 0; g < 2; g++)
-        gone += taken_by_flank(t, T + (g > 0 ? n - 1 : 0), n, f->dx, f->speed[g], end);
+        gone += taken_by_flank(t, g, T + (g > 0 ? n - 1 : 0), n, f->dx, f->speed[g], end);
     gone += carried_past(e, T, end) - carried_past(e, T, first);
     return fabs(made - gone) / (sum->shear + fabs(sum->compression));
 }

@@ -241,7 +241,9 @@ static double field_value(const ehl_reynolds *eq, const ehl_film *film, uint32_t
     case EHL_ROUGHNESS:
         return eq->rough ? eq->rough[i] : 0;
     default: /* share of the gap that is filled */
-        return ehl_is_cavitated(eq, film, i) ? film->content[i] / (eq->oil.density * eq->h[i]) : 1;
+        return ehl_is_cavitated(eq, film, i)
+                   ? fmin(film->content[i] / (eq->oil.density * eq->h[i]), 1)
+                   : 1;
     }
 }
 

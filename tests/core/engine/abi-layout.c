@@ -5,6 +5,7 @@
  * `size` and of rows that have a stride, and get their line here; ff_array can never change.
  */
 #include <flankfilm/laws.h>
+#include <flankfilm/needs.h>
 #include <flankfilm/table.h>
 
 #include <assert.h>
@@ -133,6 +134,10 @@ GROWING(ff_rheology_2, 24); /* since 1.2 */
 FIELD(ff_rheology_2, size, 0, 8);
 FIELD(ff_rheology_2, self, 8, 8);
 FIELD(ff_rheology_2, rate, 16, 8);
+
+GROWING(ff_needs, 16); /* since 1.3 */
+FIELD(ff_needs, size, 0, 8);
+FIELD(ff_needs, tell, 8, 8);
 
 GROWING(ff_rheology_3, 32); /* since 1.3 */
 FIELD(ff_rheology_3, size, 0, 8);

@@ -62,7 +62,7 @@ static void natural_bounds(void)
     } cases[] = {
         {", share: -0.1", "b.share", "share is -0.1, held to 0: it can only be from 0 to 1"},
         {", share: 1.5", "b.share", "share is 1.5, held to 1: it can only be from 0 to 1"},
-        {", temperature: -1 K", "b.temperature", "held to 0: it lies below 0 K"},
+        {", temperature: -1 K", "b.temperature", "held to 0: it cannot be below 0"},
         {", film: [1 m, 2 m, -3 m]", "b.film",
          "film is -3, held to 0: it cannot be below 0, at index 2"},
         {", share: 2", "b.film", "share is 2"}, /* not asked for, and shown all the same */

@@ -156,7 +156,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         return FF_NOMEM;
     *level = 1e-3;
     for (int i = 0; i < 3; i++)
-        series[i] = second[i] = 1e-3;
+        series[i] = 1e-3;
+    for (size_t i = 0; i < count; i++)
+        second[i] = 1e-3;
     if (is("past"))
         series[3] = 1;
     if (is("nan"))
