@@ -15,7 +15,7 @@ function table() { text = text "| the paper says | here | agrees when | |\n|---|
 # a blank line stands before a paragraph, unless a heading has put one there
 function words_follow() { return substr(text, length(text) - 1) != "\n\n" }
 function say(words) { text = text (words_follow() ? "\n" : "") words "\n" }
-function F(format, a, b, c, d, e, g) { return sprintf(format, a, b, c, d, e, g) }
+function F(format, a, b, c, d, e, f, g, h, i) { return sprintf(format, a, b, c, d, e, f, g, h, i) }
 
 # turning points of a column between two roll angles whose height over the last one exceeds DEAD
 function maxima(key, column, from, to, dead,  i, x, y, low, high, up, n) {

@@ -5,9 +5,10 @@
 
 #include <string.h>
 
+/* Neither of the two ranges of control characters. */
 static bool is_clean(uint32_t c)
 {
-    return c >= 0x20 && c != 0x7f && c != FE_NO_CHAR;
+    return c >= 0x20 && (c < 0x7f || c > 0x9f) && c != FE_NO_CHAR;
 }
 
 void ff_clean_text(char *out, size_t size, const char *text)
