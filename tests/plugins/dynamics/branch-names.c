@@ -58,7 +58,7 @@ static int stable_side(const atlas *a, double fold, double *number)
         int ends = fabs(a->frequency[i] / fold - 1) < 1e-9;
         for (int way = -1; ends && way <= 1; way += 2) {
             size_t next = i + (size_t)way;
-            if (next >= a->points || a->branch[next] != a->branch[i] || !a->stable[next] ||
+            if (next >= a->points || a->branch[next] != a->branch[i] || !(a->stable[next] > 0) ||
                 a->frequency[next] == a->frequency[i])
                 continue;
             *number = a->branch[next];
@@ -126,7 +126,7 @@ static int count_stable(const atlas *a, double speed)
     int count = 0;
     for (size_t i = 1; i < a->points; i++) {
         double from = a->frequency[i - 1], to = a->frequency[i];
-        count += a->branch[i] == a->branch[i - 1] && a->stable[i] && a->stable[i - 1] &&
+        count += a->branch[i] == a->branch[i - 1] && a->stable[i] > 0 && a->stable[i - 1] > 0 &&
                  ((from <= speed) != (to <= speed));
     }
     return count;
