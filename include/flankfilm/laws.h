@@ -24,8 +24,12 @@ enum {
     FF_LIQUID_HEAT_CAPACITY = 3,        /* J/(kg K) */
     FF_LIQUID_PRESSURE_COEFFICIENT = 4, /* dln(eta)/dp at ambient pressure, 1/Pa */
     FF_LIQUID_REFERENCE_TEMPERATURE =
-        5 /* K, the same at every T: one that the liquid is known at */
+        5,             /* K, the same at every T: one that the liquid is known at */
+    FF_LIQUID_BASE = 6 /* since 1.3: FF_BASE_..., the same at every T */
 };
+
+/* Base oils, whose correlations and laws differ; further ones may follow. */
+enum { FF_BASE_MINERAL = 0, FF_BASE_PAO = 1, FF_BASE_ESTER = 2, FF_BASE_PAG = 3 };
 
 typedef struct ff_liquid {
     size_t size;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "mesh-inputs.h"
 
+#include "../numerics/interval.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -112,7 +114,54 @@ static ff_status find_engagements(const ff_host *host, losses_mesh *m)
     return FF_OK;
 }
 
-ff_status losses_read(const ff_host *host, const ff_array *in, losses_mesh *m)
+void losses_motion_at(const losses_mesh *m, double roll, double radius[2], double speed[2])
+{
+    size_t k = numerics_interval(m->stations, m->station, roll);
+    for (int g = 0; g < 2; g++) {
+        radius[g] = losses_interpolate(m->station, m->radius[g], k, roll);
+        speed[g] = m->omega[g] * radius[g];
+    }
+}
+
+/* Of the surface where there is one, else of the gears; Ra is Rq sqrt(2/pi) of Gaussian heights. */
+static ff_status read_roughness(const ff_host *host, const ff_array *in, losses_mesh *m)
+{
+    const double *gear = NULL, *surface[2] = {NULL, NULL}, most = 1;
+    ff_status status = FF_OK;
+    for (uint32_t i = 0; i < 2 && status == FF_OK; i++)
+        if (in[IN_RQ_1 + i].data)
+            status = read_row(host, in, IN_RQ_1 + i, 1, 0, most, &surface[i]);
+    if (status == FF_OK && in[IN_ROUGHNESS].data)
+        status = read_row(host, in, IN_ROUGHNESS, 2, 0, most, &gear);
+    if (surface[0] || surface[1])
+        m->roughness = (surface[0] ? *surface[0] : 0) + (surface[1] ? *surface[1] : 0);
+    else if (gear)
+        m->roughness = gear[0] + gear[1];
+    m->roughness *= sqrt(2 / M_PI) / 2;
+    return status;
+}
+
+static ff_status read_oil(const ff_host *host, const ff_liquid *oil, losses_mesh *m)
+{
+    const struct {
+        int32_t property;
+        double *to;
+    } rows[] = {{FF_LIQUID_LN_ETA0, &m->viscosity}, {FF_LIQUID_BASE, &m->oil_base}};
+    m->viscosity = m->oil_base = NAN;
+    for (size_t i = 0; i < 2 && oil; i++) {
+        double value = NAN;
+        ff_status status =
+            oil->eval(oil->self, rows[i].property, 1, &m->oil_temperature, &value, NULL);
+        if (status < 0 && status != FF_UNSUPPORTED)
+            return ff_failf(host, status, "oil", "the oil does not answer at %g degC",
+                            m->oil_temperature - 273.15);
+        *rows[i].to = status < 0 ? NAN : value;
+    }
+    m->viscosity = exp(m->viscosity);
+    return FF_OK;
+}
+
+ff_status losses_read(const ff_host *host, const ff_array *in, const ff_liquid *oil, losses_mesh *m)
 {
     const double most = 1e18;
     *m = (losses_mesh){0};
@@ -137,6 +186,10 @@ ff_status losses_read(const ff_host *host, const ff_array *in, losses_mesh *m)
         status = read_optional(host, in, IN_SLIDING_LOSS + k, m->n, &m->part[k]);
     if (status == FF_OK)
         status = read_optional(host, in, IN_ENGAGEMENT, m->n, &m->engagement);
+    if (status == FF_OK)
+        status = read_roughness(host, in, m);
+    if (status == FF_OK)
+        status = read_oil(host, oil, m);
     if (status == FF_OK)
         status = find_engagements(host, m);
     return status == FF_OK ? check_rising(host, IN_STATION, m->stations, m->station) : status;

@@ -7,6 +7,8 @@
 #include "mesh-sum.h"
 #include "rows.h"
 
+#include <flankfilm/laws.h>
+
 #include <stdbool.h>
 
 /* The inputs after their checks, in SI units, and series of n that follow from them. */
@@ -18,15 +20,21 @@ typedef struct losses_mesh {
     const double *station, *radius[2];
     double face_width, modulus, contact_ratio, torque, oil_temperature;
     double omega[2], pitch;
-    bool heats;                  /* the gears tell how they conduct heat */
-    numerics_heat heat[2];       /* of the gears */
+    double roughness;           /* Ra, mean of both flanks, m; 0: not known */
+    double viscosity, oil_base; /* of the oil at its temperature, Pa s, FF_BASE_...; NaN: unknown */
+    bool heats;                 /* the gears tell how they conduct heat */
+    numerics_heat heat[2];      /* of the gears */
     double *loss, *load, *flash; /* W, N/m, K */
     double *half_width;
     size_t hottest;
 } losses_mesh;
 
-/* Reads and checks; m->first is freed by the caller, also after a failure. */
-ff_status losses_read(const ff_host *host, const ff_array *in, losses_mesh *m);
+/* Reads and checks; m->first is freed by the caller, also after a failure. `oil`: may be NULL. */
+ff_status losses_read(const ff_host *host, const ff_array *in, const ff_liquid *oil,
+                      losses_mesh *m);
+
+/* Radii (m) and surface speeds (m/s) at a roll angle; the radii of involutes are linear in it. */
+void losses_motion_at(const losses_mesh *m, double roll, double radius[2], double speed[2]);
 
 /* The steps of engagement k with their loss. */
 losses_engagement losses_engagement_at(const losses_mesh *m, size_t k);

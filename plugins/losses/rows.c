@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "rows.h"
 
-#include <math.h>
+#include <flankfilm/laws.h>
 
+#include <math.h>
 #include <stddef.h>
 
 const ff_port losses_inputs[LOSSES_INPUTS] = {
@@ -106,6 +107,29 @@ const ff_port losses_inputs[LOSSES_INPUTS] = {
                             .doc = "temperature of the oil",
                             .dims = "",
                             .from = "operating"},
+    [IN_ROUGHNESS] = {.name = "gear.roughness",
+                      .unit = "m",
+                      .doc = "root mean square roughness of both flanks, 0: not given",
+                      .dims = "gear",
+                      .flags = FF_OPTIONAL,
+                      .from = "gear"},
+    [IN_RQ_1] = {.name = "surface.rq_1",
+                 .unit = "m",
+                 .doc = "root mean square roughness of flank 1, in place of that of the gear",
+                 .dims = "",
+                 .flags = FF_OPTIONAL},
+    [IN_RQ_2] = {.name = "surface.rq_2",
+                 .unit = "m",
+                 .doc = "of flank 2",
+                 .dims = "",
+                 .flags = FF_OPTIONAL},
+    [IN_OIL] = {.name = "oil",
+                .unit = "",
+                .doc = "the oil over temperature, for the formula of friction",
+                .dims = "",
+                .service = FF_LIQUID_ID,
+                .flags = FF_OPTIONAL,
+                .from = "lubricant"},
     [IN_HEAT] = NUMERICS_HEAT_ROWS("gear"),
 };
 
@@ -168,8 +192,23 @@ const ff_port losses_outputs[LOSSES_OUTPUTS] = {
     [OUT_FRICTION_MEAN] =
         {.name = "friction_coefficient_mean",
          .unit = "1",
-         .doc = "friction force over load, both summed from SAP to tip over the engagements",
+         .doc = "loss by sliding over that at a friction coefficient of 1: weighted with load and "
+                "sliding speed, over the engagements",
          .dims = ""},
+    [OUT_FRICTION_FORMULA] =
+        {.name = "friction_coefficient_formula",
+         .unit = "1",
+         .doc = "the same by a formula that is fitted to measured losses of gears",
+         .dims = ""},
+    [OUT_FRICTION_AGREEMENT] = {.name = "friction_agreement",
+                                .unit = "1",
+                                .doc = "friction_coefficient_mean over that of the formula",
+                                .dims = ""},
+    [OUT_LOSS_FACTOR] = {.name = "loss_factor",
+                         .unit = "1",
+                         .doc = "H_v: loss over power at a friction coefficient of 1, with half "
+                                "the load on each of two pairs",
+                         .dims = ""},
     [OUT_ROLL_ANGLE] = {.name = "roll_angle",
                         .unit = "rad",
                         .doc = "roll angle of gear 1",

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* losses/tooth-mesh: power loss of all tooth pairs in mesh, and flash temperature of their flanks.
  */
-#include "../numerics/interval.h"
-#include "mesh-inputs.h"
+#include "friction.h"
 #include "references.h"
 
 #include <flankfilm/author.h>
@@ -22,7 +21,10 @@ typedef struct tooth_mesh {
     ff_reals conductivity, density, specific_heat; /* of both gears */
     double bulk_temperature;                       /* K; NaN: auto */
     double thermal_conductance;                    /* W/K; NaN: endless */
+    double oil_factor;                             /* NaN: auto */
+    int32_t formula;
     int64_t points;
+    const ff_liquid *oil; /* NULL: none */
 } tooth_mesh;
 
 static const ff_param params[] = {
@@ -41,19 +43,15 @@ static const ff_param params[] = {
                 NULL, 0, 1e9, 0, 0,
                 "from the teeth to the oil: bulk_temperature is that of the oil and the mean loss "
                 "over this"),
+    FF_ONE_OF(LOSSES_FORMULAS, "formula", tooth_mesh, formula, 0, "schlenk",
+              "of friction_coefficient_formula: ISO/TR 14179-2, or ISO/TR 15144-1"),
+    FF_QUANTITY_OR("auto", "lubricant_factor", "1", tooth_mesh, oil_factor, FF_MIN_OPEN, "auto",
+                   NULL, 0, 10, 0.5, 1.5,
+                   "X_L of the formula; auto: by the base of the oil, 1 mineral, 0.8 PAO and "
+                   "ester, 0.7 PAG"),
     FF_COUNT("points", tooth_mesh, points, FF_TUNABLE, "200", NULL, 2, 1e6, 0, 0,
              "equal parts of the mesh cycle in mesh_power_loss"),
 };
-
-/* Radii and surface speeds at a roll angle; the radii of involutes are linear in it. */
-static void motion_at(const losses_mesh *m, double roll, double radius[2], double speed[2])
-{
-    size_t k = numerics_interval(m->stations, m->station, roll);
-    for (int g = 0; g < 2; g++) {
-        radius[g] = losses_interpolate(m->station, m->radius[g], k, roll);
-        speed[g] = m->omega[g] * radius[g];
-    }
-}
 
 /* Blok 1937: 1.11 (friction power per width)/((B1 sqrt u1 + B2 sqrt u2) sqrt(2 a)),
    B = sqrt(k rho c), for a band of half width a over which both flanks move fast. Powers in W/m,
@@ -79,7 +77,7 @@ static ff_status set_series(const tooth_mesh *s, losses_mesh *m)
 {
     double radius[2], speed[2], widest = 0;
     for (size_t i = 0; i < m->n; i++) {
-        motion_at(m, m->roll[i], radius, speed);
+        losses_motion_at(m, m->roll[i], radius, speed);
         double R = radius[0] * radius[1] / (radius[0] + radius[1]);
         m->loss[i] = m->power[i] * m->face_width;
         /* in pure rolling the load is not known, but there is no heat either */
@@ -92,27 +90,13 @@ static ff_status set_series(const tooth_mesh *s, losses_mesh *m)
                             m->roll[i]);
     }
     for (size_t i = 0; i < m->n; i++) {
-        motion_at(m, m->roll[i], radius, speed);
+        losses_motion_at(m, m->roll[i], radius, speed);
         bool bears = m->heats && m->half_width[i] > least_half_width * widest;
         m->flash[i] = bears ? flash_at(m, friction_power(m, i), speed, m->half_width[i]) : 0;
         if (m->flash[i] > m->flash[m->hottest])
             m->hottest = i;
     }
     return FF_OK;
-}
-
-/* Force over load, both summed over the roll angle where the load is known. */
-static double mean_friction(const losses_mesh *m)
-{
-    double force = 0, load = 0;
-    for (size_t i = 0; i + 1 < m->n; i++) {
-        bool apart = m->engagement && m->engagement[i] != m->engagement[i + 1];
-        bool known = m->load[i] > 0 && m->load[i + 1] > 0 && !apart;
-        double width = known ? m->roll[i + 1] - m->roll[i] : 0;
-        force += width * (fabs(m->traction[i]) + fabs(m->traction[i + 1])) / 2;
-        load += width * (m->load[i] + m->load[i + 1]) / 2;
-    }
-    return load > 0 ? force / load : 0;
 }
 
 /* Loss of all pairs at a phase, mean over the engagements. */
@@ -281,7 +265,7 @@ static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of,
     host->quality(host->ctx, "engagement", share, 1e-3, share <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
                   "departure of the steps' roll angles from the contact ratio of the gear");
     for (size_t i = 0; i < m->n; i++) {
-        motion_at(m, m->roll[i], radius, speed);
+        losses_motion_at(m, m->roll[i], radius, speed);
         most = fmax(most, fabs(friction_power(m, i)));
         error = fmax(error, fabs(friction_power(m, i) - m->traction[i] * (speed[0] - speed[1])));
     }
@@ -290,7 +274,7 @@ static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of,
         host->ctx, "friction_power_error", error, 1e-3, error <= 1e-3 ? FF_GOOD : FF_DOUBTFUL,
         "power of friction against traction times the sliding speed of the gear, over its "
         "maximum");
-    motion_at(m, m->roll[m->hottest], radius, speed);
+    losses_motion_at(m, m->roll[m->hottest], radius, speed);
     for (int g = 0; g < 2; g++)
         peclet = fmin(peclet, speed[g] * m->half_width[m->hottest] * m->heat[g].density *
                                   m->heat[g].specific_heat / (2 * m->heat[g].conductivity));
@@ -336,6 +320,15 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
     const double warmer = s->thermal_conductance > 0 ? mean / s->thermal_conductance : 0;
     const double bulk = s->bulk_temperature > 0 ? s->bulk_temperature : m->oil_temperature + warmer;
     const double hottest = m->flash[m->hottest];
+    const losses_formula f = losses_formula_of(m, s->formula, s->oil_factor);
+    for (uint32_t row = OUT_FRICTION_FORMULA; row <= OUT_FRICTION_AGREEMENT; row++)
+        if (wanted & FF_BIT(row) && !(f.coefficient > 0))
+            return ff_failf(s->host, FF_UNSUPPORTED, losses_outputs[row].name,
+                            "this output needs %s",
+                            m->roughness > 0 ? "an oil: a stage of the kind lubricant"
+                                             : "the roughness of the flanks: give roughness_ra to "
+                                               "the gear stage, or wire a surface that is not "
+                                               "flat");
     const struct {
         uint32_t row;
         double value;
@@ -343,7 +336,10 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
         {OUT_POWER_LOSS_MEAN, mean},
         {OUT_POWER_INPUT, input},
         {OUT_EFFICIENCY, 1 - mean / input},
-        {OUT_FRICTION_MEAN, mean_friction(m)},
+        {OUT_FRICTION_MEAN, f.film},
+        {OUT_FRICTION_FORMULA, f.coefficient > 0 ? f.coefficient : 0},
+        {OUT_FRICTION_AGREEMENT, f.coefficient > 0 ? f.film / f.coefficient : 0},
+        {OUT_LOSS_FACTOR, f.loss_factor},
         {OUT_FLASH_MAX, hottest},
         {OUT_FLASH_MAX_AT, m->roll[m->hottest]},
         {OUT_BULK_TEMPERATURE, bulk},
@@ -366,6 +362,10 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
     }
     if (status == FF_OK)
         report(s, m, &of, 1 - mean / input);
+    if (status == FF_OK)
+        losses_report_friction(
+            s->host, m, &f,
+            (wanted & (FF_BIT(OUT_FRICTION_FORMULA) | FF_BIT(OUT_FRICTION_AGREEMENT))) != 0);
     return status;
 }
 
@@ -401,6 +401,12 @@ static ff_status ready(void *self)
          "this output needs a film model that gives squeeze_loss"},
         {1, "ehl.asperity_loss", "asperity_loss_mean",
          "this output needs a film model that gives asperity_loss"},
+        {1, "oil", "friction_coefficient_formula|friction_agreement",
+         "this output needs an oil: a stage of the kind lubricant"},
+        {1, "gear.roughness|surface.rq_1|surface.rq_2",
+         "friction_coefficient_formula|friction_agreement",
+         "this output needs the roughness of the flanks: give roughness_ra to the gear stage, or "
+         "wire a surface"},
     };
     ff_tell_needs(s->host, needs, sizeof needs / sizeof needs[0]);
     if (s->bulk_temperature > 0 && s->thermal_conductance > 0)
@@ -410,11 +416,19 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
+static ff_status wire(void *self, uint32_t input, const void *service)
+{
+    tooth_mesh *s = self;
+    if (input == IN_OIL)
+        s->oil = service;
+    return FF_OK;
+}
+
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const tooth_mesh *s = self;
     losses_mesh m;
-    ff_status status = losses_read(s->host, in, &m);
+    ff_status status = losses_read(s->host, in, s->oil, &m);
     if (status == FF_OK)
         status = read_heat(s, wanted, in, &m);
     if (status == FF_OK && !(m.loss = calloc(4 * m.n, sizeof *m.loss)))
@@ -441,6 +455,6 @@ FF_MODEL(losses_tooth_mesh, tooth_mesh, .id = "losses/tooth-mesh", .version = "1
                       "temperature at sliding contacts, Proc. R. Soc. NSW 76, 203",
          .bibtex = BIB_blok1937 "\n" BIB_jaeger1942, .licence = "GPL-3.0-or-later",
          .params = FF_TABLE(params), .inputs = FF_TABLE(losses_inputs),
-         .outputs = FF_TABLE(losses_outputs), .ready = ready, .evaluate = evaluate,
+         .outputs = FF_TABLE(losses_outputs), .wire = wire, .ready = ready, .evaluate = evaluate,
          .destroy = free);
 FF_EXPORT_MODELS(&losses_tooth_mesh);

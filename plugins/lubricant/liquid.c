@@ -182,12 +182,19 @@ static double reference_temperature(const lubricant_oil *oil, double T, double *
     return constant(isnan(oil->temperature) ? nearest : oil->temperature, slope);
 }
 
+static double base_oil(const lubricant_oil *oil, double T, double *slope)
+{
+    (void)T;
+    return oil->base < 0 ? unknown(slope) : constant(oil->base, slope);
+}
+
 /* Properties that are asked for one by one. */
 static property *const properties[LUBRICANT_PROPERTIES] = {
     [FF_LIQUID_CONDUCTIVITY] = conductivity,
     [FF_LIQUID_HEAT_CAPACITY] = heat_capacity,
     [FF_LIQUID_PRESSURE_COEFFICIENT] = pressure_coefficient,
     [FF_LIQUID_REFERENCE_TEMPERATURE] = reference_temperature,
+    [FF_LIQUID_BASE] = base_oil,
 };
 
 /*

@@ -3,6 +3,8 @@
 #ifndef LUBRICANT_STANDARDS_H
 #define LUBRICANT_STANDARDS_H
 
+#include <flankfilm/laws.h>
+
 #include <stddef.h>
 #include <stdint.h>
 
@@ -15,7 +17,13 @@ int64_t lubricant_grade_find(const char *text);
 #define LUBRICANT_GRADES "ISO VG 10, 15, 22, 32, 46, 68, 100, 150, 220, 320, 460, 680, 1000 or 1500"
 
 /* Base oils; LUBRICANT_BASES has their names in this order. */
-enum { LUBRICANT_MINERAL, LUBRICANT_PAO, LUBRICANT_ESTER, LUBRICANT_PAG, LUBRICANT_BASE_COUNT };
+enum {
+    LUBRICANT_MINERAL = FF_BASE_MINERAL,
+    LUBRICANT_PAO = FF_BASE_PAO,
+    LUBRICANT_ESTER = FF_BASE_ESTER,
+    LUBRICANT_PAG = FF_BASE_PAG,
+    LUBRICANT_BASE_COUNT
+};
 #define LUBRICANT_BASES "mineral|PAO|ester|PAG"
 
 /* Kinematic viscosity, m2/s, of the grade of that rank at 40 and 100 degC. */

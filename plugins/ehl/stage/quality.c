@@ -418,6 +418,21 @@ static void report_yield(const ehl_results *r, const ehl_march *m, double count)
         "plastic part of the gap where p is below asperity_hardness, over h, or p beyond it");
 }
 
+/* Flanks that are rough along the motion alone let oil into valleys that are closed in truth, and
+   ride over waves that are longer than the contact. */
+static void report_rough_lambda(const ehl_results *r)
+{
+    const double least = 1;
+    if (!(r->roughness > 0))
+        return;
+    r->host->quality(
+        r->host->ctx, "lambda", r->least_lambda, least,
+        r->least_lambda < least ? FF_RANGE : FF_GOOD,
+        "lowest mean film over the roughness of the record; below 1 asperities carry a "
+        "share of the load that flanks rough along the motion alone do not tell, so "
+        "that friction and loss may be larger");
+}
+
 static void report_asperities(const ehl_results *r, const ehl_march *m)
 {
     double count = fmax(1, (double)r->loaded);
@@ -465,10 +480,12 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     ehl_results_report_cells(r, m);
     report_time_errors(r, m);
     report_contact_loss(r, m);
-    if (m->rough)
+    if (m->rough) {
         report_asperities(r, m);
-    else if (r->roughness > 0)
+        report_rough_lambda(r);
+    } else if (r->roughness > 0) {
         ehl_lambda_report(r->host, r->least_lambda);
+    }
     if (r->lowest < 0.999e-9)
         r->host->quality(r->host->ctx, "continuum", r->lowest, 1e-9, FF_RANGE,
                          "outside continuum: the film is thinner than 1 nm, a few molecules");

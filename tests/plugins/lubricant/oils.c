@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { PROPERTIES = FF_LIQUID_REFERENCE_TEMPERATURE + 1, POINTS = 200 };
+enum { PROPERTIES = FF_LIQUID_BASE + 1, POINTS = 200 };
 
 static const ff_liquid *liquid(stage *oil)
 {
@@ -97,7 +97,8 @@ static void stays_finite_at_extremes(const char *name, stage *oil)
         for (int i = 0; i < 10; i++)
             check_true(name, (isfinite(value[i]) && isfinite(slope[i])) ||
                                  (isnan(value[i]) && isnan(slope[i])));
-        check_true(name, what == FF_LIQUID_LN_ETA0 || !(value[0] <= 0 || value[9] <= 0));
+        check_true(name, what == FF_LIQUID_LN_ETA0 || what == FF_LIQUID_BASE ||
+                             !(value[0] <= 0 || value[9] <= 0));
     }
     check_true("an unknown property",
                l->eval(l->self, PROPERTIES, 1, T, value, NULL) == FF_UNSUPPORTED);

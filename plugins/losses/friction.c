@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "friction.h"
+
+#include <flankfilm/laws.h>
+
+#include <math.h>
+#include <stdio.h>
+
+/* The measurements that the formulas are fitted to. */
+static const double slowest = 2, fastest = 20;             /* pitch line, m/s */
+static const double smoothest = 0.1e-6, roughest = 0.8e-6; /* Ra, m */
+
+/* Film over formula beyond which one of both is doubtful. */
+static const double least_agreement = 0.67, most_agreement = 1.5;
+
+static const double high_friction = 0.12; /* no lubricated gear was measured with more */
+static const double most_friction = 0.2;  /* dry steel begins here */
+static const double loaded = 0.01;        /* of the largest load; friction over less says nothing */
+
+double losses_friction_mean(const losses_mesh *m)
+{
+    double loss = 0, unit = 0, radius[2], speed[2], before = 0;
+    for (size_t i = 0; i < m->n; i++) {
+        losses_motion_at(m, m->roll[i], radius, speed);
+        const double sliding = fabs(speed[0] - speed[1]);
+        bool apart = i > 0 && m->engagement && m->engagement[i] != m->engagement[i - 1];
+        bool known = i > 0 && m->load[i] > 0 && m->load[i - 1] > 0 && !apart;
+        double width = known ? m->roll[i] - m->roll[i - 1] : 0;
+        if (width > 0) {
+            loss += width * (fabs(m->traction[i]) * sliding + fabs(m->traction[i - 1]) * before);
+            unit += width * (m->load[i] * sliding + m->load[i - 1] * before);
+        }
+        before = sliding;
+    }
+    return unit > 0 ? loss / unit : 0;
+}
+
+/* Ohlendorf 1958, of spur gears: H_v = pi (u + 1)/(z_1 u) (1 - eps + eps_1^2 + eps_2^2), with half
+   the load on each of two pairs; eps_1 and eps_2 are the parts of the contact ratio on both sides
+   of the pitch point. */
+static double loss_factor(const losses_mesh *m, double pitch_roll)
+{
+    const double ratio = m->omega[0] / m->omega[1]; /* z_2/z_1 */
+    const double approach = (pitch_roll - m->station[0]) / m->pitch;
+    const double recess = (m->station[m->stations - 1] - pitch_roll) / m->pitch;
+    /* pi/z_1 is half the pitch */
+    return m->pitch / 2 * (1 + 1 / ratio) *
+           (1 - approach - recess + approach * approach + recess * recess);
+}
+
+static double factor_of_base(double base, bool *guessed)
+{
+    static const double factor[] = {
+        [FF_BASE_MINERAL] = 1, [FF_BASE_PAO] = 0.8, [FF_BASE_ESTER] = 0.8, [FF_BASE_PAG] = 0.7};
+    *guessed = !(base >= 0 && base < sizeof factor / sizeof factor[0]);
+    return *guessed ? 1 : factor[(int)base];
+}
+
+/*
+ * The load F_bt/b is torque over base radius and width, N/mm; the sum of speeds v_SC and the radius
+ * of curvature rho_C (mm) are those at the pitch point; eta is that at the temperature of the oil,
+ * mPa s; Ra is the mean of both flanks, um.
+ *
+ * ISO/TR 14179-2 (Schlenk): mu = 0.048 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 Ra^0.25 X_L
+ * ISO/TR 15144-1: mu = 0.045 (F_bt/b/(v_SC rho_C))^0.2 eta^-0.05 X_R X_L,
+ * X_R = 2.2 (Ra/rho_C)^0.25
+ */
+losses_formula losses_formula_of(const losses_mesh *m, int32_t formula, double oil_factor)
+{
+    const size_t last = m->stations - 1;
+    const double line = m->radius[0][0] + m->radius[1][0];
+    const double share = m->omega[1] / (m->omega[0] + m->omega[1]); /* of the line, by radius 1 */
+    const double base_radius =
+        (m->radius[0][last] - m->radius[0][0]) / (m->station[last] - m->station[0]);
+    const double pitch_roll = m->station[0] + (share * line - m->radius[0][0]) / base_radius;
+    const double speed = 2 * m->omega[0] * share * line;           /* v_SC */
+    const double radius = share * (1 - share) * line;              /* rho_C */
+    const double load = m->torque / (base_radius * m->face_width); /* F_bt/b, N/m */
+    losses_formula f = {.film = losses_friction_mean(m),
+                        .loss_factor = loss_factor(m, pitch_roll),
+                        .pitch_speed = m->omega[0] * hypot(base_radius, share * line),
+                        .roughness = m->roughness,
+                        .oil_factor = oil_factor};
+    if (isnan(oil_factor))
+        f.oil_factor = factor_of_base(m->oil_base, &f.oil_is_guessed);
+    const double rough = 1e6 * m->roughness;
+    const double by_roughness = formula == LOSSES_ISO_15144
+                                    ? 0.045 * 2.2 * pow(rough / (1e3 * radius), 0.25)
+                                    : 0.048 * pow(rough, 0.25);
+    f.coefficient = rough > 0 ? pow(1e-3 * load / (speed * 1e3 * radius), 0.2) *
+                                    pow(1e3 * m->viscosity, -0.05) * by_roughness * f.oil_factor
+                              : NAN;
+    return f;
+}
+
+/* The largest coefficient under a load that counts. */
+static double highest_friction(const losses_mesh *m, size_t *at)
+{
+    double most = 0, highest = 0;
+    for (size_t i = 0; i < m->n; i++)
+        most = fmax(most, m->load[i]);
+    for (size_t i = 0; i < m->n; i++)
+        if (m->load[i] > loaded * most && fabs(m->friction[i]) > highest) {
+            highest = fabs(m->friction[i]);
+            *at = i;
+        }
+    return highest;
+}
+
+static void report_bound(const ff_host *host, const losses_mesh *m)
+{
+    char text[200];
+    size_t at = 0;
+    const double highest = highest_friction(m, &at);
+    snprintf(text, sizeof text,
+             "highest friction coefficient under more than 1 %% of the largest load, at roll angle "
+             "%.3g rad; lubricated gears have less than 0.12, and above 0.2 the law of flow does "
+             "not hold",
+             m->roll[at]);
+    host->quality(host->ctx, "friction_bound", highest, high_friction,
+                  highest > most_friction   ? FF_BAD
+                  : highest > high_friction ? FF_RANGE
+                                            : FF_GOOD,
+                  text);
+}
+
+void losses_report_friction(const ff_host *host, const losses_mesh *m, const losses_formula *f,
+                            bool wanted)
+{
+    char text[320];
+    report_bound(host, m);
+    if (!(f->coefficient > 0))
+        return;
+    const bool within = f->pitch_speed >= slowest && f->pitch_speed <= fastest &&
+                        f->roughness >= smoothest && f->roughness <= roughest;
+    snprintf(text, sizeof text,
+             "m/s at the pitch line and Ra %.3g um; the formula is fitted to losses measured at 2 "
+             "to 20 m/s with Ra 0.1 to 0.8 um%s",
+             1e6 * f->roughness,
+             f->pitch_speed < slowest
+                 ? ", and at lower speeds lies above the boundary friction that was measured"
+                 : "");
+    host->quality(host->ctx, "friction_formula_range", f->pitch_speed,
+                  f->pitch_speed < slowest ? slowest : fastest,
+                  within || !wanted ? FF_GOOD : FF_RANGE, text);
+    const double ratio = f->film / f->coefficient;
+    const bool agrees = ratio >= least_agreement && ratio <= most_agreement;
+    snprintf(text, sizeof text,
+             "friction coefficient by the film over that by the formula, %.3g and %.3g%s%s",
+             f->film, f->coefficient,
+             f->oil_is_guessed ? " for a mineral oil, since nothing tells the base" : "",
+             !within  ? "; outside the range of the formula, which judges nothing here"
+             : agrees ? "; the formula is fitted to measured losses of gears"
+                      : "; the formula is fitted to measured losses of gears: see the laws of the "
+                        "oil at high pressure, and the roughness");
+    host->quality(host->ctx, "friction_agreement", ratio,
+                  ratio < 1 ? least_agreement : most_agreement,
+                  agrees || !within ? FF_GOOD : FF_RANGE, text);
+}

@@ -1,0 +1,32 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The friction of the film beside formulas fitted to measured losses of gears. */
+#ifndef LOSSES_FRICTION_H
+#define LOSSES_FRICTION_H
+
+#include "mesh-inputs.h"
+
+/* In the order of LOSSES_FORMULAS. */
+enum { LOSSES_SCHLENK, LOSSES_ISO_15144 };
+#define LOSSES_FORMULAS "schlenk|iso-15144"
+
+typedef struct losses_formula {
+    double film;         /* mean coefficient of the film, weighted by loss */
+    double coefficient;  /* by the formula; NaN: the oil or the roughness is not known */
+    double loss_factor;  /* H_v: loss over power at a coefficient of 1 */
+    double pitch_speed;  /* m/s */
+    double roughness;    /* Ra, mean of both flanks, m; 0: not known */
+    double oil_factor;   /* X_L */
+    bool oil_is_guessed; /* X_L is that of a mineral oil because nothing tells the base */
+} losses_formula;
+
+/* int |tau| |u_s| over int w |u_s|: loss over the loss at a coefficient of 1. */
+double losses_friction_mean(const losses_mesh *m);
+
+/* `oil_factor` NaN: by the base of the oil. */
+losses_formula losses_formula_of(const losses_mesh *m, int32_t formula, double oil_factor);
+
+/* The verdicts on friction; `wanted`: the formula itself was asked for. */
+void losses_report_friction(const ff_host *host, const losses_mesh *m, const losses_formula *f,
+                            bool wanted);
+
+#endif

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The formulas fitted to measured losses, by hand, and the verdicts on the friction of a film. */
+#include <check.h>
+#include <stage.h>
+
+#include <flankfilm/plugin.h>
+
+#include <math.h>
+#include <string.h>
+
+enum { STEPS = 2001 };
+
+/* FZG C14 with the tips of its drawing before they are shortened, 200 N m, a mineral oil of 13.28
+   mPa s, and a film whose coefficient is `friction` and `slope` times the distance from the pitch
+   point. */
+typedef struct mesh {
+    stage *gear, *duty, *oil, *losses;
+    double roll[STEPS], loss[STEPS], traction[STEPS], coefficient[STEPS], none[STEPS], approach,
+        recess;
+} mesh;
+
+static mesh m;
+
+static void fill(double friction, double slope)
+{
+    size_t n;
+    const double *station = stage_get(m.gear, "roll_angle", &n);
+    const double *radius[2] = {stage_get(m.gear, "radius_1", NULL),
+                               stage_get(m.gear, "radius_2", NULL)};
+    const double omega = stage_scalar(m.duty, "speed"), load = 3e5;
+    const double first = station[0], last = station[n - 1];
+    const double base = (radius[0][n - 1] - radius[0][0]) / (last - first);
+    const double line = radius[0][0] + radius[1][0], pitch = 16. / 40 * line / base;
+    m.approach = pitch - first;
+    m.recess = last - pitch;
+    for (size_t i = 0; i < STEPS; i++) {
+        m.roll[i] = first + (last - first) * (double)i / (STEPS - 1);
+        double off = m.roll[i] - pitch, sliding = omega * base * off * (1 + 16. / 24);
+        m.coefficient[i] = copysign(friction + slope * fabs(off), off);
+        m.traction[i] = m.coefficient[i] * load;
+        m.loss[i] = m.traction[i] * sliding;
+    }
+    stage_give_series(m.losses, "ehl.roll_angle", STEPS, m.roll);
+    stage_give_series(m.losses, "ehl.power_loss", STEPS, m.loss);
+    stage_give_series(m.losses, "ehl.sliding_loss", STEPS, m.loss);
+    stage_give_series(m.losses, "ehl.rolling_loss", STEPS, m.none);
+    stage_give_series(m.losses, "ehl.squeeze_loss", STEPS, m.none);
+    stage_give_series(m.losses, "ehl.asperity_loss", STEPS, m.none);
+    stage_give_series(m.losses, "ehl.traction", STEPS, m.traction);
+    stage_give_series(m.losses, "ehl.friction_coefficient", STEPS, m.coefficient);
+}
+
+static void open_mesh(const char *speed, const char *roughness, const char *formula)
+{
+    m.gear = stage_open("gear/involute-spur");
+    m.duty = stage_open("operating/steady");
+    m.oil = stage_open("lubricant/measured");
+    m.losses = stage_open("losses/tooth-mesh");
+    stage_set_text(m.gear, "teeth", "[16, 24]");
+    stage_set_text(m.gear, "module", "4.5 mm");
+    stage_set_text(m.gear, "face_width", "14 mm");
+    stage_set_text(m.gear, "profile_shift", "[0.1817, 0.1715]");
+    stage_set_text(m.gear, "centre_distance", "91.5 mm");
+    stage_set_text(m.gear, "tip_diameter", "[82.64 mm, 118.54 mm]");
+    if (roughness)
+        stage_set_text(m.gear, "roughness_ra", roughness);
+    stage_set_text(m.duty, "torque", "200 N m");
+    stage_set_text(m.duty, "speed", speed);
+    stage_set_text(m.duty, "oil_temperature", "90 degC");
+    stage_set_text(m.oil, "eta0", "13.28 mPa s");
+    stage_set_text(m.oil, "at", "90 degC");
+    stage_set_text(m.oil, "density_15", "890 kg/m3");
+    if (formula)
+        stage_set_text(m.losses, "formula", formula);
+    stage_set_text(m.gear, "backlash", "0.15 mm");
+    stage_link(m.duty, "gear", m.gear);
+    stage_link(m.losses, "gear", m.gear);
+    stage_link(m.losses, "operating", m.duty);
+    stage_link(m.losses, "oil", m.oil);
+    stage_link(m.oil, "operating", m.duty);
+    check_true("gears", stage_run(m.gear) == FF_OK && stage_run(m.duty) == FF_OK);
+}
+
+static void close_mesh(void)
+{
+    stage *all[] = {m.losses, m.oil, m.duty, m.gear};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
+        stage_close(all[i]);
+}
+
+/* The example that GEARpie prints: H_v 0.1986 and, with X_L 0.846, 0.0449. */
+static void test_printed_example(void)
+{
+    open_mesh("1500 rpm", "[0.3 um, 0.41 um]", NULL); /* a mean of 0.355 um */
+    stage_set(m.losses, "lubricant_factor", 0.846);
+    fill(0.04, 0);
+    check_true("runs", stage_run(m.losses) == FF_OK);
+    const double formula = stage_scalar(m.losses, "friction_coefficient_formula");
+    check_near("coefficient", formula, 0.0449, 0.5e-4 / 0.0449);
+    check_near("loss factor", stage_scalar(m.losses, "loss_factor"), 0.1986, 0.5e-4 / 0.1986);
+    check_near("agreement", stage_scalar(m.losses, "friction_agreement"), 0.04 / formula, 1e-9);
+    check_near("line", stage_quality(m.losses, "friction_agreement"), 0.04 / formula, 1e-9);
+    close_mesh();
+}
+
+/* 0.045/0.048 and 2.2 rho^-0.25 apart. */
+static void test_second_formula(void)
+{
+    double by[2];
+    for (int i = 0; i < 2; i++) {
+        open_mesh("1500 rpm", "0.3 um", i ? "iso-15144" : "schlenk");
+        fill(0.04, 0);
+        stage_run(m.losses);
+        by[i] = stage_scalar(m.losses, "friction_coefficient_formula");
+        close_mesh();
+    }
+    const double line = 91.5 * sin(acos(90 * cos(M_PI / 9) / 91.5)), rho = 0.4 * 0.6 * line;
+    check_near("ratio", by[1] / by[0], 0.045 / 0.048 * 2.2 * pow(rho, -0.25), 1e-6);
+}
+
+/* By hand: int (f + s |x|) |x| over int |x|, from -A to B. */
+static void test_weight_of_the_mean(void)
+{
+    const double f = 0.03, s = 0.1;
+    open_mesh("1500 rpm", "0.3 um", NULL);
+    fill(f, s);
+    stage_run(m.losses);
+    const double A = m.approach, B = m.recess;
+    const double mean = f + s * 2 / 3 * (A * A * A + B * B * B) / (A * A + B * B);
+    check_near("mean", stage_scalar(m.losses, "friction_coefficient_mean"), mean, 2e-6);
+    close_mesh();
+}
+
+static int verdict_at(double friction, const char *line)
+{
+    open_mesh("4500 rpm", "0.3 um", NULL);
+    fill(friction, 0);
+    stage_run(m.losses);
+    int verdict = stage_verdict(m.losses);
+    check_true(line, stage_has_quality(m.losses, line));
+    close_mesh();
+    return verdict;
+}
+
+static void test_verdicts(void)
+{
+    check_true("as measured", verdict_at(0.05, "friction_agreement") == FF_GOOD);
+    check_true("too slippery", verdict_at(0.025, "friction_agreement") == FF_DOUBTFUL);
+    check_true("too rough", verdict_at(0.065, "friction_agreement") == FF_DOUBTFUL);
+    check_true("unheard of", verdict_at(0.25, "friction_bound") == FF_BAD);
+}
+
+static void test_what_is_not_known(void)
+{
+    open_mesh("1500 rpm", NULL, NULL);
+    fill(0.02, 0);
+    check_true("runs", stage_run(m.losses) == FF_OK);
+    check_true("no line", !stage_has_quality(m.losses, "friction_agreement"));
+    check_true("refused",
+               stage_run_wanted(m.losses, "friction_coefficient_formula") == FF_UNSUPPORTED);
+    check_true("says what is missing", strstr(stage_why(m.losses), "roughness_ra") != NULL);
+    close_mesh();
+}
+
+int main(void)
+{
+    test_printed_example();
+    test_second_formula();
+    test_weight_of_the_mean();
+    test_verdicts();
+    test_what_is_not_known();
+    return check_done();
+}
