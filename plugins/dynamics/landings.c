@@ -12,38 +12,64 @@ static double gap_at(const dynamics_motion_view *view, double phase, int left)
     return gap;
 }
 
-/* Between two samples of which the first has a gap and the second has none: the phase at which it
-   closes, by halving, and the speed there, by the parabola through 0 and two earlier values. */
-static void find_landing(const dynamics_motion_view *view, double from, double to, double *phase,
-                         double *speed)
+/* Two neighbouring samples; at a jump of the excitation the gap has another value outside. */
+typedef struct interval {
+    const dynamics_motion_view *view;
+    double from, to;
+} interval;
+
+static double gap_inside(const interval *x, double phase)
 {
-    enum { HALVINGS = 60 };
-    static const double share = 1e-3; /* of the interval, over which the speed is measured */
-    double low = from, high = to, h = share * (to - from);
-    for (int i = 0; i < HALVINGS && high > low; i++) {
-        double middle = low + 0.5 * (high - low);
-        *(gap_at(view, middle, 1) > 0 ? &low : &high) = middle;
-    }
-    *phase = high;
-    if (high - 2 * h < from) /* an interval that it crosses at once */
-        h = fmax(0.5 * (high - from), 1e-9 * (to - from));
-    *speed = (4 * gap_at(view, high - h, 1) - gap_at(view, high - 2 * h, 1)) / (2 * h * view->T);
+    return gap_at(x->view, phase, phase > 0.5 * (x->from + x->to));
 }
 
-/* The landings of the motion that is shown; `phase` and `speed` may be NULL. */
+/* The phase at which the gap closes in the interval, by halving. */
+static double closing_phase(const interval *x)
+{
+    enum { HALVINGS = 60 };
+    double low = x->from, high = x->to;
+    for (int i = 0; i < HALVINGS && high > low; i++) {
+        double middle = low + 0.5 * (high - low);
+        *(gap_inside(x, middle) > 0 ? &low : &high) = middle;
+    }
+    return high;
+}
+
+/* The speed with which the gap falls at a phase, by the parabola through its values there and at
+   two earlier places. */
+static double closing_speed(const interval *x, double phase)
+{
+    static const double share = 1e-3; /* of the interval */
+    double h = fmin(share * (x->to - x->from), 0.5 * (phase - x->from));
+    h = fmax(h, 1e-9 * (x->to - x->from));
+    double earlier = 4 * gap_inside(x, phase - h) - gap_inside(x, phase - 2 * h);
+    return (earlier - 3 * gap_inside(x, phase)) / (2 * h * x->view->T);
+}
+
+static void add_landing(const interval *x, double at, size_t *found, double *phase, double *speed)
+{
+    if (phase) {
+        phase[*found] = at;
+        speed[*found] = closing_speed(x, at);
+    }
+    ++*found;
+}
+
+/* The landings of the motion that is shown; `phase` and `speed` may be NULL. Where the excitation
+   jumps, the jump itself may close the gap: then the flanks meet with the speed before it. */
 static size_t list_landings(const dynamics_motion_view *view, double *phase, double *speed)
 {
     size_t count = dynamics_motion_view_count(view), found = 0;
-    double before = gap_at(view, dynamics_motion_view_phase(view, 0), 0);
     for (size_t i = 1; i < count; i++) {
-        double from = dynamics_motion_view_phase(view, i - 1);
-        double to = dynamics_motion_view_phase(view, i), now = gap_at(view, to, to > from);
-        if (before > 0 && now <= 0 && to > from) {
-            if (phase)
-                find_landing(view, from, to, &phase[found], &speed[found]);
-            found++;
-        }
-        before = now;
+        interval x = {view, dynamics_motion_view_phase(view, i - 1),
+                      dynamics_motion_view_phase(view, i)};
+        if (!(x.to > x.from))
+            continue;
+        double end = gap_at(view, x.to, 1);
+        if (end <= 0 && gap_at(view, x.from, 0) > 0)
+            add_landing(&x, phase ? closing_phase(&x) : 0, &found, phase, speed);
+        else if (end > 0 && gap_at(view, x.to, 0) <= 0)
+            add_landing(&x, x.to, &found, phase, speed);
     }
     return found;
 }

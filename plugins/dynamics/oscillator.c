@@ -400,13 +400,12 @@ static void cross_edge(dynamics_oscillator *o, const gate *g)
    e across the edge of the gap brings energy in or takes it out. */
 static void change_regime(dynamics_oscillator *o, const gate *g)
 {
-    double b = o->excitation->half_gap, energy = dynamics_oscillator_energy(o);
-    int same_side = g->side == o->side;
     if (g->knee) {
         o->band = g->band;
-        o->y[DYNAMICS_WORK] += dynamics_oscillator_energy(o) - energy;
         return;
     }
+    double b = o->excitation->half_gap, energy = dynamics_oscillator_energy(o);
+    int same_side = g->side == o->side;
     if (!same_side && fabs(fabs(o->y[DYNAMICS_DELTA]) - b) < 1e-9 * (1 + b)) {
         cross_edge(o, g);
         return;
@@ -424,6 +423,9 @@ static void change_regime(dynamics_oscillator *o, const gate *g)
 static void accept_step(dynamics_oscillator *o, double h, const double *y)
 {
     memcpy(o->y, y, sizeof o->y);
+    if (o->pressed && o->band)
+        o->y[DYNAMICS_WORK] += dynamics_spring_knee_energy(o->piece, (o->t + h) / o->T, o->band) -
+                               dynamics_spring_knee_energy(o->piece, o->t / o->T, o->band);
     o->t += h;
     o->clocks.parted += o->pressed ? 0 : h;
     o->clocks.back += o->pressed && o->side < 0 ? h : 0;

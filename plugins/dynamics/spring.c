@@ -11,6 +11,16 @@ static const double knee = 0.5;
 /* An offset below this part of the mean force is round-off: k is the chord. */
 static const double round_off = 1e-6;
 
+double dynamics_spring_knee_energy(const dynamics_piece *p, double since, int band)
+{
+    if (!p->bends || band == 0)
+        return 0;
+    double offset = dynamics_piece_value(p->offset, p->degree, since);
+    double steeper = dynamics_piece_value(p->k, p->degree, since) -
+                     dynamics_piece_value(p->chord, p->degree, since);
+    return steeper > 0 ? 0.5 * offset * offset / steeper : 0;
+}
+
 dynamics_spring dynamics_spring_at(const dynamics_piece *p, double since, double T, double bend,
                                    int band)
 {
@@ -23,7 +33,7 @@ dynamics_spring dynamics_spring_at(const dynamics_piece *p, double since, double
     double offset = band * dynamics_piece_value(p->offset, p->degree, since);
     double offset_rate = band * dynamics_piece_slope(p->offset, p->degree, since) / T;
     s.force -= offset;
-    s.energy -= offset * bend;
+    s.energy += dynamics_spring_knee_energy(p, since, band) - offset * bend;
     s.energy_rate -= offset_rate * bend;
     return s;
 }

@@ -37,15 +37,18 @@ static inline const double *dynamics_spring_slope(const dynamics_piece *p, int b
     return p->bends && band == 0 ? p->chord : p->k;
 }
 
-/* The force on the flank, its energy, and the rate of that at a fixed deflection in mesh cycles of
-   duration T. The energy of the bands differs by a constant that changes with the phase: what it
-   jumps by at a knee, the excitation brings in. */
+/* The force on the flank; its energy, which is the integral of the force over the deflection; and
+   the rate of the energy at a fixed deflection in mesh cycles of duration T, less that of
+   dynamics_spring_knee_energy. */
 typedef struct dynamics_spring {
     double force, energy, energy_rate;
 } dynamics_spring;
 
 dynamics_spring dynamics_spring_at(const dynamics_piece *piece, double since, double T, double bend,
                                    int band);
+/* What the energy beyond the knee is above k g^2/2 - offset g: offset^2/(2 (k - chord)). It changes
+   with the phase alone. */
+double dynamics_spring_knee_energy(const dynamics_piece *piece, double since, int band);
 double dynamics_spring_force(const dynamics_piece *piece, double since, double bend);
 
 /* What the curves of a stiffness make of the spring at their nodes, in SI: k, the chord to the knee

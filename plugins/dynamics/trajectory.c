@@ -94,11 +94,10 @@ static void join_strides(dynamics_trajectory *t, const dynamics_step *f)
         t->loss -= change;
     else if (f->excitation->film && f->side != t->side) /* a film behind the flank begins or ends */
         t->loss -= change;
-    else if (f->at == f->piece->start || f->band != t->band)
+    else if (f->at == f->piece->start)
         t->work += change;
     t->begun = 1;
     t->side = f->side;
-    t->band = f->band;
     t->pressed = f->pressed;
 }
 
@@ -114,6 +113,9 @@ static void add_powers(dynamics_trajectory *t, const dynamics_step *f)
         t->drag += w * m.drag * (m.rate + m.e_rate);
         t->thickness += w * force * m.film_rate;
     }
+    if (f->pressed)
+        t->work += dynamics_spring_knee_energy(f->piece, phase_at(f, f->x), f->band) -
+                   dynamics_spring_knee_energy(f->piece, phase_at(f, 0), f->band);
     if (f->landing) {
         dynamics_landing_energy sum = dynamics_landing_energies(t->radau, f->landing);
         t->loss += sum.damper + sum.films;

@@ -18,8 +18,8 @@ typedef struct dynamics_trajectory {
     dynamics_clocks clocks;
     const dynamics_radau *radau; /* of the flow */
     dynamics_record *record;
-    size_t next;                    /* number of the next sample of the cycle */
-    int begun, side, pressed, band; /* of the last step */
+    size_t next;              /* number of the next sample of the cycle */
+    int begun, side, pressed; /* of the last step */
 } dynamics_trajectory;
 
 /* An observer of a flow that sums up the moments of s alone. */

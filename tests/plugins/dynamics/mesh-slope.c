@@ -7,6 +7,7 @@
 #include "../../../plugins/dynamics/orbit.h"
 #include "../../../plugins/dynamics/oscillator.h"
 #include "../../../plugins/dynamics/spring.h"
+#include "../../../plugins/dynamics/trajectory.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -132,6 +133,86 @@ static void test_variation(void)
     close_mesh(&c);
 }
 
+/* The energy of the spring at a deflection, by midpoints of its force. */
+static double energy_of_force(const dynamics_piece *p, double since, double bend)
+{
+    enum { PARTS = 20000 };
+    double sum = 0, part = bend / PARTS;
+    for (int i = 0; i < PARTS; i++)
+        sum += part * dynamics_spring_force(p, since, (i + 0.5) * part);
+    return sum;
+}
+
+/* What flanks that never pull lose, from a fine record alone: the integral of c rate^2 while they
+   press, and what the spring has stored where they let go, less that where they press again.
+   `high` counts how often they let go beyond the knee. */
+static double account(const dynamics_motion *motion, int *high)
+{
+    const dynamics_excitation *mesh = motion->excitation;
+    const dynamics_record *record = &motion->record;
+    double loss = 0;
+    for (size_t i = 1; i < record->count; i++) {
+        const dynamics_sample *x = &record->samples[i - 1], *y = x + 1;
+        double middle = 0.5 * (x->phase + y->phase), phase = middle - floor(middle);
+        if (middle > (double)motion->cycles)
+            break;
+        const dynamics_piece *p = dynamics_excitation_piece(mesh, phase, 0);
+        double since = phase - p->start, e = dynamics_piece_value(p->e, p->degree, since);
+        double e_rate = dynamics_piece_slope(p->e, p->degree, since) / motion->T;
+        double bend = 0.5 * (x->s + y->s) - e - mesh->half_gap;
+        double rate = 0.5 * (x->s_rate + y->s_rate) - e_rate;
+        int pressed = x->force > 0, stays = y->force > 0;
+        if (pressed != stays && bend > 0) {
+            loss += (pressed ? 1 : -1) * energy_of_force(p, since, bend);
+            *high += pressed && dynamics_spring_band(p, since, bend);
+        }
+        loss += 0.5 * (pressed + stays) * (y->phase - x->phase) * motion->T * 2 * mesh->zeta *
+                rate * rate;
+    }
+    return loss;
+}
+
+/* With a strong damper and a fast e the flanks let go while the spring is beyond its knee. */
+static void test_energy(void)
+{
+    static const double phase[] = {0, 0.2, 0.45, 0.7, 1}, slope[] = {1, 1.2, 0.8, 1.1, 1};
+    static const double e[] = {0, 1.3, -0.9, 0.4, 0}, bent[] = {1.3, 1.1, 1.6, 1.2, 1.3};
+    double loaded[5];
+    for (int i = 0; i < 5; i++)
+        loaded[i] = e[i] + bent[i] / slope[i];
+    dynamics_mesh_curves x = {5, phase, slope, e};
+    dynamics_spring_nodes nodes;
+    dynamics_excitation mesh = {.load = 1, .half_gap = 5, .zeta = 0.4};
+    dynamics_flow flow;
+    mesh.length = mesh.stiffness = mesh.omega = 1;
+    mesh.damping = DYNAMICS_DAMPING_CLIPPED;
+    check_true("builds", dynamics_spring_nodes_make(&x, loaded, 1, 0, &nodes) &&
+                             dynamics_excitation_build_bent(&mesh, &x, &nodes) &&
+                             dynamics_flow_init(&flow, &mesh));
+    const double roll[] = {0}, start[2] = {6.2, 3};
+    dynamics_inputs inputs = {.roll_angle = roll, .stations = 1, .pitch = 1};
+    dynamics_motion motion = {.excitation = &mesh, .cycles = 4, .T = 5};
+    int high = 0;
+    check_true("passes",
+               dynamics_trajectory_record(&flow, &inputs, 40000, start, &motion) == FF_OK);
+    double expected = account(&motion, &high);
+    check_true("lets go beyond the knee", high >= 4);
+    check_near("what is lost", motion.loss, expected, 3e-4);
+    check_true("the balance", motion.energy_error < 1e-11);
+    double loss = motion.loss;
+    dynamics_record_free(&motion.record);
+    dynamics_oscillator *o =
+        dynamics_oscillator_new(&mesh, 1e-12, 1, DYNAMICS_MOTION_AND_VARIATION);
+    dynamics_oscillator_start(o, motion.T, start[0], start[1]);
+    for (size_t i = 0; i < motion.cycles; i++)
+        check_true("passes", dynamics_oscillator_cycle(o, motion.T, NULL));
+    check_near("in steps, too", dynamics_oscillator_state(o)[DYNAMICS_LOSS], loss, 1e-8);
+    dynamics_oscillator_free(o);
+    dynamics_flow_free(&flow);
+    dynamics_spring_nodes_free(&nodes);
+    dynamics_excitation_free(&mesh);
+}
+
 /* One harmonic of the slope and of the loaded error, of other sizes: at 1 % of the natural
    frequency the motion is the loaded error at every point. */
 static void test_slow_motion(void)
@@ -232,13 +313,43 @@ static void test_landings(void)
     }
 }
 
+/* Where e falls at a jump the flanks of a motion in flight meet at once, with the speed that they
+   have there. */
+static void test_landing_at_jump(void)
+{
+    pair p = pair_trapezoid(2375);
+    size_t count, landings, jump = 0;
+    p.phases = 4;
+    for (size_t i = 0; i < p.phases; i++) {
+        p.phase[i] = (double)(i == 1 || i == 2) * 0.5 + (double)(i == 3);
+        p.stiffness[i] = p.stiffness_mean;
+        p.error[i] = i < 2 ? 0.3 * p.backlash : 0;
+    }
+    stage *s = pair_open("dynamics/shooting", &p);
+    stage_set_text(s, "branch", "upper");
+    check_true("runs", stage_run(s) == FF_OK);
+    const double *phase = stage_get(s, "phase", &count), *dte = stage_get(s, "dte", NULL);
+    const double *rate = stage_get(s, "dte_velocity", NULL);
+    const double *time = stage_get(s, "landing_time", &landings);
+    while (jump < count && phase[jump] < 0.5)
+        jump++;
+    check_true("one landing", landings == 1 && jump < count);
+    check_true("apart before the jump, in contact behind it",
+               dte[jump] < 0.8 * p.backlash && dte[jump] > 0.5 * p.backlash);
+    check_near("time", time[0] * p.mesh_frequency, 0.5, 1e-12);
+    check_near("speed", stage_get(s, "landing_speed", NULL)[0], rate[jump], 1e-5);
+    stage_close(s);
+}
+
 int main(void)
 {
     test_law();
     test_flight();
     test_variation();
+    test_energy();
     test_slow_motion();
     test_sources();
     test_landings();
+    test_landing_at_jump();
     return check_done();
 }
