@@ -321,7 +321,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         status = output_motion(m, &excitation, &inputs);
     if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
         status = dynamics_stable_motions_put(
-            &excitation, inputs.mesh_frequency / inputs.natural_frequency, NULL, m->host);
+            &excitation, inputs.mesh_frequency / inputs.natural_frequency, m->host);
     if (status == FF_OK && wanted >> DYNAMICS_SPEED_OUTPUT_COUNT)
         status = output_atlas(m, &excitation, &inputs);
     m->from.harmonics = 0;

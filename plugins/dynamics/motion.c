@@ -119,7 +119,7 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
          .unit = "1",
          .doc = "different motions of at most 6 mesh cycles at this speed in which "
                 "disturbances die out, of those that both branches and 16 starts "
-                "lead to and those of the atlas where it is asked for",
+                "lead to; with known_motions: atlas those of the atlas, too",
          .dims = "",
          .max = INFINITY},
     [DYNAMICS_OUT_ATLAS_FREQUENCY] =

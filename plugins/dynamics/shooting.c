@@ -22,7 +22,7 @@
 typedef struct model {
     const ff_host *host;
     double zeta, atlas_from, atlas_to, arc_step;
-    int32_t damping;
+    int32_t damping, knows; /* KNOWS_... */
     const char *branch_word;
     dynamics_inertia inertia;
     dynamics_oil oil;
@@ -35,6 +35,9 @@ typedef struct model {
     dynamics_warm_start from, to; /* what the neighbouring case left, and what it is left */
 } model;
 
+/* Where the motions that stable_motions and the branch `largest` know come from. */
+enum { KNOWS_STARTS, KNOWS_ATLAS };
+
 static const ff_param params[] = {
     DYNAMICS_DAMPING_RATIO_ROW(model, 1e-4),
     DYNAMICS_DAMPING_ROW(model),
@@ -43,9 +46,14 @@ static const ff_param params[] = {
         "which of several motions: lower is the one without separation where it is stable, or else "
         "what comes up slowly from 0.7 times the mesh frequency; upper comes down from 1.4 times "
         "the natural frequency, and where its branch ends it settles to another one; largest has "
-        "the largest rms of all that stable_motions counts; or the name of a branch of the atlas, "
+        "the largest rms of all that stable_motions counts, also within a chain; or the name of a "
+        "branch of the atlas, "
         "as p2-1; where a study follows the speed, lower and upper are for the first case of a "
         "chain"),
+    FF_ONE_OF("starts|atlas", "known_motions", model, knows, 0, "starts",
+              "which stable motions stable_motions counts and branch: largest chooses from: those "
+              "that lower, upper and 16 starts lead to; or those of the atlas, too, which is then "
+              "built and takes some 50 times as long"),
     DYNAMICS_INERTIA_ROWS(model),
     DYNAMICS_OIL_ROWS(model),
     DYNAMICS_FILM_WIRE_ROWS(model),
@@ -107,13 +115,15 @@ static ff_status ready(void *self)
     ff_status status = set_branch(m);
     if (status == FF_OK)
         status = dynamics_oil_check(m->host, &m->oil, m->damping);
+    int only_shown = !m->by_name && !(m->largest && m->knows == KNOWS_ATLAS);
     const ff_serving rows[] = {
-        {!m->by_name, "search_speeds", DYNAMICS_ATLAS_OUTPUTS, NULL, NULL},
-        {!m->by_name, "search_starts", DYNAMICS_ATLAS_OUTPUTS, NULL, NULL},
+        {only_shown, "search_speeds", DYNAMICS_ATLAS_OUTPUTS, NULL, NULL},
+        {only_shown, "search_starts", DYNAMICS_ATLAS_OUTPUTS, NULL, NULL},
+        {!m->largest, "known_motions", "stable_motions", NULL, NULL},
     };
     dynamics_tell_servings(m->host, &m->inertia, m->zeta);
     ff_serve(m->host, rows, sizeof rows / sizeof rows[0]);
-    if (!m->by_name)
+    if (only_shown)
         dynamics_tell_atlas(m->host, DYNAMICS_ATLAS_OUTPUTS);
     return status;
 }
@@ -127,6 +137,9 @@ typedef struct job {
     dynamics_flow flow;
     dynamics_atlas atlas;
     double lambda;
+    int in_loop;  /* whether a film is wired back, in a round after the first */
+    int searched; /* whether `known` is what is known at lambda */
+    dynamics_known_motions known;
     dynamics_film_powers powers; /* of the film that is wired back */
     dynamics_warm_start to;      /* what the neighbouring case is left */
 } job;
@@ -172,23 +185,28 @@ static ff_status find_named(const job *j, dynamics_attractor *a)
                     m->name.period, m->name.number, where, j->inputs.mesh_frequency, names);
 }
 
-/* The stable motion with the largest rms; where none is known, that of the upper branch is left. */
-static ff_status find_largest(const job *j, dynamics_attractor *a)
+/* Searches once, whichever outputs are asked for. */
+static ff_status find_known(job *j)
 {
-    dynamics_known_motions *known = malloc(sizeof *known);
-    if (!known)
-        return FF_NOMEM;
-    ff_status status = dynamics_known_motions_find(
-        &j->flow, j->lambda, j->atlas.curves ? &j->atlas : NULL, j->m->host, known);
-    if (status == FF_OK && dynamics_known_motions_largest(&j->flow, known, &a->orbit)) {
+    const dynamics_atlas *atlas = j->m->knows == KNOWS_ATLAS ? &j->atlas : NULL;
+    if (j->searched)
+        return FF_OK;
+    j->searched = 1;
+    return dynamics_known_motions_find(&j->flow, j->lambda, atlas, j->m->host, &j->known);
+}
+
+/* The stable motion with the largest rms; where none is known, that of the upper branch is left. */
+static ff_status find_largest(job *j, dynamics_attractor *a)
+{
+    ff_status status = find_known(j);
+    if (status == FF_OK && dynamics_known_motions_largest(&j->flow, &j->known, &a->orbit)) {
         a->period = a->orbit.period;
         memcpy(a->x, a->orbit.x, sizeof a->x);
     }
-    free(known);
     return status;
 }
 
-static ff_status find_motion(const job *j, dynamics_attractor *a)
+static ff_status find_motion(job *j, dynamics_attractor *a)
 {
     const model *m = j->m;
     if (m->by_name)
@@ -198,7 +216,7 @@ static ff_status find_motion(const job *j, dynamics_attractor *a)
                               dynamics_count_or_auto(m->cycles_settle), 1};
     if (!search.cycles)
         search.cycles = dynamics_settle_limit(&j->excitation, T, settle_tolerance);
-    if (m->from.mesh_frequency > 0) {
+    if (m->from.mesh_frequency > 0 && (!m->largest || j->in_loop)) {
         dynamics_orbit from = {.period = m->from.period <= DYNAMICS_PERIOD_MAX ? (int)m->from.period
                                                                                : DYNAMICS_APERIODIC,
                                .lambda = log(m->from.mesh_frequency / j->inputs.natural_frequency)};
@@ -248,7 +266,11 @@ static ff_status find_at(const void *ctx, double lambda, dynamics_attractor *a)
 {
     job j = *(const job *)ctx;
     j.lambda = lambda;
-    return find_motion(&j, a);
+    j.searched = 0;
+    j.known = (dynamics_known_motions){NULL};
+    ff_status status = find_motion(&j, a);
+    dynamics_known_motions_free(&j.known);
+    return status;
 }
 
 /* How near, over the speed, a fold makes a motion doubtful: a machine's speed is known no better.
@@ -325,19 +347,43 @@ static void report_end(const job *j, const dynamics_attractor *a)
                      FF_GOOD, text);
 }
 
+/* Gives the number of stable motions, and says if the atlas has more than are counted. */
+static ff_status put_known(job *j)
+{
+    const ff_host *host = j->m->host;
+    char text[160];
+    ff_status status = find_known(j);
+    if (status == FF_OK)
+        status = dynamics_known_motions_put(&j->flow, &j->known, host);
+    if (status != FF_OK || !j->atlas.curves || j->m->knows == KNOWS_ATLAS)
+        return status;
+    if (!dynamics_known_motions_add_atlas(&j->flow, &j->atlas, j->lambda, &j->known))
+        return FF_NOMEM;
+    snprintf(text, sizeof text,
+             "the atlas has %zu more stable motions at this speed than stable_motions counts; "
+             "known_motions: atlas counts them",
+             j->known.of_atlas);
+    if (j->known.of_atlas)
+        host->quality(host->ctx, "uncounted_motions", (double)j->known.of_atlas, 0, FF_DOUBTFUL,
+                      text);
+    return FF_OK;
+}
+
 static ff_status evaluate_job(job *j)
 {
     const model *m = j->m;
     dynamics_attractor a = {.period = DYNAMICS_APERIODIC};
     int needs_motion = (j->wanted & (motion_bits | power_bits)) != 0;
     int needs_atlas = ((j->wanted & ~power_bits) >> DYNAMICS_SPEED_OUTPUT_COUNT) != 0;
+    int needs_known = (j->wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS)) != 0;
+    int knows_atlas = m->knows == KNOWS_ATLAS && (needs_known || (needs_motion && m->largest));
     ff_status status = FF_OK;
     j->lambda = log(j->inputs.mesh_frequency / j->inputs.natural_frequency);
     if (needs_motion && dynamics_cycle_duration(j->lambda) > dynamics_longest_cycle)
         return fail_too_slow(j);
     if (!dynamics_flow_init(&j->flow, &j->excitation))
         return FF_NOMEM;
-    if (needs_atlas || (needs_motion && m->by_name))
+    if (needs_atlas || knows_atlas || (needs_motion && m->by_name))
         status = build_atlas(j);
     if (status == FF_OK && needs_motion)
         status = find_motion(j, &a);
@@ -350,10 +396,9 @@ static ff_status evaluate_job(job *j)
                                            a.x[0], a.x[1]);
     if (status == FF_NOCONV)
         return fail_too_slow(j);
-    if (status == FF_OK && j->wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
-        status = dynamics_stable_motions_put(&j->excitation, exp(j->lambda),
-                                             j->atlas.curves ? &j->atlas : NULL, m->host);
-    if (status == FF_OK && j->wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS) && a.period > 0)
+    if (status == FF_OK && needs_known)
+        status = put_known(j);
+    if (status == FF_OK && needs_known && a.period > 0)
         status = find_jump(j, &a);
     if (status == FF_OK && j->atlas.curves)
         dynamics_atlas_report(&j->flow, &j->atlas, j->lambda, a.period > 0 ? &a.orbit : NULL,
@@ -382,12 +427,14 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status =
             dynamics_film_wire_read(m->host, in, &m->wire, &j.inputs, &j.excitation, &j.powers);
-    if (dynamics_film_is_wired(in)) /* a later round goes on from the one before */
+    j.in_loop = dynamics_film_is_wired(in);
+    if (j.in_loop) /* a later round goes on from the one before */
         m->from = m->to;
     if (status == FF_OK)
         status = evaluate_job(&j);
     m->from.mesh_frequency = 0;
     m->to = j.to;
+    dynamics_known_motions_free(&j.known);
     dynamics_atlas_free(&j.atlas);
     dynamics_flow_free(&j.flow);
     free(film);

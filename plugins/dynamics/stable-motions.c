@@ -19,39 +19,65 @@ static const double slow_cycle = 2000;
    longer. */
 static const double longest_settling = 3000;
 
-void dynamics_known_motions_add(const dynamics_flow *flow, const dynamics_orbit *orbit,
-                                dynamics_known_motions *known)
+static int is_known(const dynamics_flow *flow, const dynamics_orbit *orbit,
+                    const dynamics_known_motions *known)
 {
     static const double same = 1e-6; /* in units of dynamics_state_unit */
-    dynamics_orbit o = *orbit;
     double distance;
-    if (known->count == DYNAMICS_MOST_KNOWN || !(dynamics_largest_multiplier(&o) < 1 - 1e-9))
-        return;
-    dynamics_orbit_reduce(flow, &o);
     for (size_t i = 0; i < known->count; i++)
-        if (known->orbits[i].period == o.period &&
-            dynamics_orbit_distance(flow, &known->orbits[i], o.x, &distance) && distance < same)
-            return;
+        if (known->orbits[i].period == orbit->period &&
+            dynamics_orbit_distance(flow, &known->orbits[i], orbit->x, &distance) &&
+            distance < same)
+            return 1;
+    return 0;
+}
+
+int dynamics_known_motions_add(const dynamics_flow *flow, const dynamics_orbit *orbit,
+                               dynamics_known_motions *known)
+{
+    dynamics_orbit o = *orbit;
+    if (!(dynamics_largest_multiplier(&o) < 1 - 1e-9))
+        return 1;
+    dynamics_orbit_reduce(flow, &o);
+    if (is_known(flow, &o, known))
+        return 1;
+    if (known->count == known->capacity) {
+        size_t capacity = known->capacity ? 2 * known->capacity : 16;
+        dynamics_orbit *more = realloc(known->orbits, capacity * sizeof *more);
+        if (!more)
+            return 0;
+        known->orbits = more;
+        known->capacity = capacity;
+    }
     known->orbits[known->count++] = o;
+    return 1;
 }
 
-static void add_if_new(const dynamics_flow *flow, const dynamics_attractor *a,
-                       dynamics_known_motions *known)
+void dynamics_known_motions_free(dynamics_known_motions *known)
 {
-    if (a->period > 0)
-        dynamics_known_motions_add(flow, &a->orbit, known);
+    free(known->orbits);
+    *known = (dynamics_known_motions){NULL};
 }
 
-/* The stable motions of the atlas at a speed. */
-static void add_atlas(const dynamics_flow *flow, const dynamics_atlas *atlas, double lambda,
-                      dynamics_known_motions *known)
+static int add_if_periodic(const dynamics_flow *flow, const dynamics_attractor *a,
+                           dynamics_known_motions *known)
 {
+    return a->period <= 0 || dynamics_known_motions_add(flow, &a->orbit, known);
+}
+
+int dynamics_known_motions_add_atlas(const dynamics_flow *flow, const dynamics_atlas *atlas,
+                                     double lambda, dynamics_known_motions *known)
+{
+    size_t before = known->count;
     for (size_t i = 0; i < atlas->branch_count; i++) {
         dynamics_orbit orbit;
         if (atlas->branches[i].stable &&
-            dynamics_atlas_orbit(flow, atlas, &atlas->branches[i], lambda, &orbit))
-            dynamics_known_motions_add(flow, &orbit, known);
+            dynamics_atlas_orbit(flow, atlas, &atlas->branches[i], lambda, &orbit) &&
+            !dynamics_known_motions_add(flow, &orbit, known))
+            return 0;
     }
+    known->of_atlas = known->count - before;
+    return 1;
 }
 
 /* Looks at both branches, and at where evenly spread starts lead. */
@@ -68,9 +94,9 @@ static ff_status search(const dynamics_flow *flow, double lambda, const ff_host 
     for (int branch = DYNAMICS_BRANCH_LOWER; branch <= DYNAMICS_BRANCH_UPPER; branch++) {
         dynamics_attractor a = {.period = DYNAMICS_APERIODIC};
         ff_status status = dynamics_attract_branch(flow, (dynamics_branch)branch, &one, host, &a);
-        if (status == FF_OK)
-            add_if_new(flow, &a, f);
-        else if (status != FF_NOCONV)
+        if (status == FF_OK && !add_if_periodic(flow, &a, f))
+            return FF_NOMEM;
+        if (status != FF_OK && status != FF_NOCONV)
             return status;
     }
     one.cycles = dynamics_settle_limit(flow->excitation, T, 1e-2);
@@ -82,8 +108,8 @@ static ff_status search(const dynamics_flow *flow, double lambda, const ff_host 
         if (host->progress(host->ctx, (double)i / STARTS))
             return FF_STOPPED;
         dynamics_search_start(flow->excitation, i, a.x);
-        if (dynamics_attract(flow, &one, &a))
-            add_if_new(flow, &a, f);
+        if (dynamics_attract(flow, &one, &a) && !add_if_periodic(flow, &a, f))
+            return FF_NOMEM;
     }
     return FF_OK;
 }
@@ -110,10 +136,9 @@ ff_status dynamics_known_motions_find(const dynamics_flow *flow, double lambda,
                                       const dynamics_atlas *atlas, const ff_host *host,
                                       dynamics_known_motions *known)
 {
-    known->count = 0;
     ff_status status = search(flow, lambda, host, known);
-    if (status == FF_OK && atlas)
-        add_atlas(flow, atlas, lambda, known);
+    if (status == FF_OK && atlas && !dynamics_known_motions_add_atlas(flow, atlas, lambda, known))
+        status = FF_NOMEM;
     return status;
 }
 
@@ -129,19 +154,24 @@ int dynamics_known_motions_largest(const dynamics_flow *flow, const dynamics_kno
     return most >= 0;
 }
 
+ff_status dynamics_known_motions_put(const dynamics_flow *flow, const dynamics_known_motions *known,
+                                     const ff_host *host)
+{
+    report(flow, known, host);
+    return ff_put_scalar(host, DYNAMICS_OUT_STABLE_MOTIONS, (double)known->count);
+}
+
 ff_status dynamics_stable_motions_put(const dynamics_excitation *excitation, double frequency,
-                                      const dynamics_atlas *atlas, const ff_host *host)
+                                      const ff_host *host)
 {
     dynamics_flow flow = {0};
-    dynamics_known_motions *known = malloc(sizeof *known);
-    ff_status status = known && dynamics_flow_init(&flow, excitation) ? FF_OK : FF_NOMEM;
+    dynamics_known_motions known = {NULL};
+    ff_status status = dynamics_flow_init(&flow, excitation) ? FF_OK : FF_NOMEM;
     if (status == FF_OK)
-        status = dynamics_known_motions_find(&flow, log(frequency), atlas, host, known);
-    if (status == FF_OK) {
-        report(&flow, known, host);
-        status = ff_put_scalar(host, DYNAMICS_OUT_STABLE_MOTIONS, (double)known->count);
-    }
+        status = dynamics_known_motions_find(&flow, log(frequency), NULL, host, &known);
+    if (status == FF_OK)
+        status = dynamics_known_motions_put(&flow, &known, host);
+    dynamics_known_motions_free(&known);
     dynamics_flow_free(&flow);
-    free(known);
     return status;
 }

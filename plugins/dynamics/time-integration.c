@@ -260,7 +260,7 @@ static ff_status evaluate_job(job *j, uint64_t wanted)
                                            settled.delta, settled.rate);
     if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
         status = dynamics_stable_motions_put(
-            &j->excitation, inputs->mesh_frequency / inputs->natural_frequency, NULL, m->host);
+            &j->excitation, inputs->mesh_frequency / inputs->natural_frequency, m->host);
     return status == FF_NOCONV ? fail_too_many_steps(m->host, inputs) : status;
 }
 

@@ -27,6 +27,7 @@ static stage *open_model(const pair *p)
     stage_set(s, "max_period", 2);
     stage_set(s, "search_starts", 4);
     stage_set_text(s, "steps_per_cycle", "64");
+    stage_set_text(s, "known_motions", "atlas");
     return s;
 }
 
@@ -148,25 +149,34 @@ static void check_counts(const pair *base, const atlas *a)
     }
 }
 
-/* Of what is stable the largest has the largest rms. */
-static void check_largest(const pair *base)
+/* Of what is stable the largest has the largest rms; it and stable_motions are the same whether or
+   not an atlas is asked for, which tells if it has more stable motions than are counted. */
+static void check_largest(const pair *base, int *told)
 {
-    double rms[3];
-    static const char *const names[] = {"lower", "upper", "largest"};
-    for (int i = 0; i < 3; i++) {
+    double rms[4], known[2];
+    static const char *const names[] = {"lower", "upper", "largest", "largest"};
+    for (int i = 0; i < 4; i++) {
         stage *s = open_model(base);
+        if (i >= 2)
+            stage_set_text(s, "known_motions", "starts");
         stage_set_text(s, "branch", names[i]);
-        check_true("runs", stage_run_wanted(s, "dte_rms") == FF_OK);
+        check_true("runs", stage_run_wanted(s, i == 3   ? "dte_rms stable_motions atlas_rms"
+                                               : i == 2 ? "dte_rms stable_motions"
+                                                        : "dte_rms") == FF_OK);
         rms[i] = stage_scalar(s, "dte_rms");
+        if (i >= 2)
+            known[i - 2] = stage_scalar(s, "stable_motions");
+        *told += i == 3 && stage_has_quality(s, "uncounted_motions");
         stage_close(s);
     }
     check_true("largest", rms[2] >= rms[0] * (1 - 1e-9) && rms[2] >= rms[1] * (1 - 1e-9));
+    check_true("the same beside an atlas", rms[3] == rms[2] && known[1] == known[0]);
 }
 
 int main(void)
 {
     static atlas a;
-    int checked = 0;
+    int checked = 0, told = 0;
     for (int i = 0; i < 3; i++) {
         pair p = i == 0   ? pair_trapezoid(2375)
                  : i == 1 ? pair_cosine(2375, 0.15, 0, 200)
@@ -174,10 +184,12 @@ int main(void)
         read_atlas(&p, &a);
         check_folds(&p, &a, &checked);
         check_counts(&p, &a);
-        check_largest(&p);
+        p.mesh_frequency = 2050;
+        check_largest(&p, &told);
         if (i == 0)
             check_upper(&p, &a, 1150);
     }
+    check_true("more in an atlas than is counted is told", told > 0);
     check_true("folds were looked at", checked > 8);
     return check_done();
 }
