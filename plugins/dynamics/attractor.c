@@ -192,19 +192,31 @@ static void take_orbit(const dynamics_flow *flow, dynamics_orbit *orbit, dynamic
     memcpy(a->x, orbit->x, sizeof a->x);
 }
 
+/* How long a motion may take to come near a periodic one while the speed still changes: Newton's
+   method needs no more, and a motion that never repeats itself would take the whole of the search
+   at each speed on the way. */
+static size_t cycles_on_the_way(const dynamics_flow *flow, const dynamics_search *search,
+                                double lambda)
+{
+    size_t enough = dynamics_sweep_start_cycles(flow->excitation, dynamics_cycle_duration(lambda));
+    return enough < search->cycles ? enough : search->cycles;
+}
+
 /* Changes the speed slowly from that of `from` to that of the search. A periodic motion is followed
    to the end of its branch; from there the speed is swept a little, until the motion has settled
-   anew. */
+   anew. With oil between the flanks the speed is swept all the way, since Newton's method on such a
+   motion takes longer than hundreds of its cycles. */
 static ff_status change_speed(const dynamics_flow *flow, double from, const dynamics_search *search,
                               const ff_host *host, dynamics_attractor *a)
 {
-    static const double stretch = 0.03; /* of a sweep, in lambda */
+    int follows = !flow->excitation->film;
+    double stretch = follows ? 0.03 : INFINITY; /* of a sweep, in lambda */
     dynamics_search here = *search;
     here.growth = 0;
     for (double lambda = from;;) {
         if (host->progress(host->ctx, 0.3))
             return FF_STOPPED;
-        if (a->period > 0) {
+        if (follows && a->period > 0) {
             dynamics_orbit orbit = a->orbit;
             int arrives = follow_speed(flow, search->lambda, &orbit);
             if (arrives) {
@@ -223,6 +235,7 @@ static ff_status change_speed(const dynamics_flow *flow, double from, const dyna
         lambda = here.lambda = next;
         if (lambda == search->lambda)
             return dynamics_attract(flow, search, a) ? FF_OK : FF_NOCONV;
+        here.cycles = cycles_on_the_way(flow, search, lambda);
         if (!dynamics_attract(flow, &here, a))
             return FF_NOCONV;
         if (a->period == DYNAMICS_UNBOUNDED) {
@@ -255,6 +268,7 @@ static ff_status lead(const dynamics_flow *flow, const way *w, const dynamics_se
         dynamics_search start = *search;
         start.lambda = w->from;
         start.growth = 0;
+        start.cycles = cycles_on_the_way(&damped, search, w->from);
         a->period = DYNAMICS_APERIODIC;
         status = !w->settles || dynamics_attract(&damped, &start, a) ? FF_OK : FF_NOCONV;
         if (status == FF_OK)
