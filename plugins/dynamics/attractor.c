@@ -164,8 +164,10 @@ static double distance_of(const dynamics_excitation *excitation, const dynamics_
 }
 
 /* Follows a stable motion to another speed by Newton's method. 0: it ends on the way or loses its
-   stability, and `orbit` is the last stable motion. */
-static int follow_speed(const dynamics_flow *flow, double lambda, dynamics_orbit *orbit)
+   stability, and `orbit` is the last stable motion, or one that is nearer to it than `share` of the
+   way that is left. */
+static int follow_speed(const dynamics_flow *flow, double lambda, double share,
+                        dynamics_orbit *orbit)
 {
     static const double longest = 0.02, shortest = 1e-6, near = 0.1;
     double step = longest;
@@ -177,7 +179,7 @@ static int follow_speed(const dynamics_flow *flow, double lambda, dynamics_orbit
             dynamics_orbit_is_stable(&next) && distance_of(flow->excitation, orbit, &next) < near) {
             *orbit = next;
             step = fmin(1.5 * step, longest);
-        } else if ((step *= 0.5) < shortest) {
+        } else if ((step *= 0.5) < fmax(shortest, share * fabs(left))) {
             return 0;
         }
     }
@@ -211,6 +213,9 @@ static ff_status change_speed(const dynamics_flow *flow, double from, const dyna
 {
     int follows = !flow->excitation->film;
     double stretch = follows ? 0.03 : INFINITY; /* of a sweep, in lambda */
+    /* On the way to a slow speed there are dozens of ends. The first is found as it is; later ones,
+       which the sweep passes where they are, nearly. */
+    static const double nearly = 0.01;
     dynamics_search here = *search;
     here.growth = 0;
     for (double lambda = from;;) {
@@ -218,13 +223,14 @@ static ff_status change_speed(const dynamics_flow *flow, double from, const dyna
             return FF_STOPPED;
         if (follows && a->period > 0) {
             dynamics_orbit orbit = a->orbit;
-            int arrives = follow_speed(flow, search->lambda, &orbit);
+            int arrives = follow_speed(flow, search->lambda, a->ends ? nearly : 0, &orbit);
             if (arrives) {
                 take_orbit(flow, &orbit, a);
                 return FF_OK;
             }
-            a->ends++;
-            a->ended = lambda = orbit.lambda;
+            lambda = orbit.lambda;
+            if (!a->ends++)
+                a->ended = lambda;
             memcpy(a->x, orbit.x, sizeof a->x);
         }
         double left = search->lambda - lambda;
@@ -304,7 +310,7 @@ ff_status dynamics_attract_from(const dynamics_flow *flow, const dynamics_orbit 
         return FF_STOPPED;
     if (from->period > 0 && dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &orbit) &&
         dynamics_orbit_is_stable(&orbit) && distance_of(flow->excitation, from, &orbit) < 0.5) {
-        if (follow_speed(flow, search->lambda, &orbit)) {
+        if (follow_speed(flow, search->lambda, 0, &orbit)) {
             take_orbit(flow, &orbit, a);
             return FF_OK;
         }

@@ -16,7 +16,7 @@ typedef struct dynamics_attractor {
     double growth;        /* of an aperiodic motion: the Lyapunov exponent per mesh cycle */
     size_t cycles;        /* that were followed */
     int ends;             /* how many branches ended while the speed changed */
-    double ended;         /* lambda at which the last of them did */
+    double ended;         /* lambda at which the first of them did */
 } dynamics_attractor;
 
 typedef struct dynamics_search {
