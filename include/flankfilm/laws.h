@@ -24,8 +24,10 @@ enum {
     FF_LIQUID_HEAT_CAPACITY = 3,        /* J/(kg K) */
     FF_LIQUID_PRESSURE_COEFFICIENT = 4, /* dln(eta)/dp at ambient pressure, 1/Pa */
     FF_LIQUID_REFERENCE_TEMPERATURE =
-        5,             /* K, the same at every T: one that the liquid is known at */
-    FF_LIQUID_BASE = 6 /* since 1.3: FF_BASE_..., the same at every T */
+        5,              /* K, the same at every T: one that the liquid is known at */
+    FF_LIQUID_BASE = 6, /* since 1.3: FF_BASE_..., the same at every T */
+    FF_LIQUID_BASE_COEFFICIENT =
+        7 /* since 1.3: the pressure coefficient of the ISO VG 100 oil of that base, 1/Pa */
 };
 
 /* Base oils, whose correlations and laws differ; further ones may follow. */

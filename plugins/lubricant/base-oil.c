@@ -82,3 +82,18 @@ double lubricant_base_pressure_coefficient(int base, double nu, double ln_eta0, 
     *slope = scale * (ln_eta0_slope * log1p(rise) + L * rise_slope / (1 + rise));
     return scale * L * log1p(rise);
 }
+
+double lubricant_base_coefficient(int base, double T, double *slope)
+{
+    const int64_t grade = lubricant_grade_find("ISO VG 100");
+    const double cold = log(313.15), hot = log(373.15);
+    const double y_cold = lubricant_d341_ordinate(lubricant_grade_nu_40(grade));
+    const double y_hot = lubricant_d341_ordinate(lubricant_grade_nu_100(grade, base));
+    const double by_ln_T = (y_hot - y_cold) / (hot - cold), y = y_cold + by_ln_T * (log(T) - cold);
+    double nu, nu_slope, rho, rho_slope;
+    lubricant_d341_nu(1, &y, &nu, &nu_slope);
+    nu_slope *= by_ln_T / T;
+    lubricant_d1250_density(lubricant_base_density_15(base), 1, &T, &rho, &rho_slope);
+    return lubricant_base_pressure_coefficient(base, nu, log(nu * rho), nu_slope,
+                                               nu_slope / nu + rho_slope / rho, slope);
+}

@@ -20,4 +20,7 @@ double lubricant_base_heat_capacity(int base, double density_15, double T, doubl
 double lubricant_base_pressure_coefficient(int base, double nu, double ln_eta0, double nu_slope,
                                            double ln_eta0_slope, double *slope);
 
+/* The same of the typical ISO VG 100 oil of that base at T, K, and its slope over T. */
+double lubricant_base_coefficient(int base, double T, double *slope);
+
 #endif

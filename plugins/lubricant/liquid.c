@@ -188,6 +188,11 @@ static double base_oil(const lubricant_oil *oil, double T, double *slope)
     return oil->base < 0 ? unknown(slope) : constant(oil->base, slope);
 }
 
+static double base_coefficient(const lubricant_oil *oil, double T, double *slope)
+{
+    return oil->base < 0 ? unknown(slope) : lubricant_base_coefficient(oil->base, T, slope);
+}
+
 /* Properties that are asked for one by one. */
 static property *const properties[LUBRICANT_PROPERTIES] = {
     [FF_LIQUID_CONDUCTIVITY] = conductivity,
@@ -195,6 +200,7 @@ static property *const properties[LUBRICANT_PROPERTIES] = {
     [FF_LIQUID_PRESSURE_COEFFICIENT] = pressure_coefficient,
     [FF_LIQUID_REFERENCE_TEMPERATURE] = reference_temperature,
     [FF_LIQUID_BASE] = base_oil,
+    [FF_LIQUID_BASE_COEFFICIENT] = base_coefficient,
 };
 
 /*

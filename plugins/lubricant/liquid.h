@@ -13,7 +13,7 @@
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
 
-enum { LUBRICANT_PROPERTIES = FF_LIQUID_BASE + 1 };
+enum { LUBRICANT_PROPERTIES = FF_LIQUID_BASE_COEFFICIENT + 1 };
 
 /* An instance of both models. NaN, -1 and NULL: not given. */
 typedef struct lubricant_oil {

@@ -2,7 +2,7 @@
 #include <flankfilm/author.h>
 
 extern const ff_model viscosity_isoviscous, viscosity_barus, viscosity_roelands,
-    viscosity_two_slope, viscosity_doolittle_tait, viscosity_yasutomi;
+    viscosity_two_slope, viscosity_doolittle_tait, viscosity_yasutomi, viscosity_modulus;
 
 FF_EXPORT_MODELS(&viscosity_isoviscous, &viscosity_barus, &viscosity_roelands, &viscosity_two_slope,
-                 &viscosity_doolittle_tait, &viscosity_yasutomi);
+                 &viscosity_doolittle_tait, &viscosity_yasutomi, &viscosity_modulus);

@@ -10,7 +10,7 @@
 #include <string.h>
 
 static const char *const laws[] = {"viscosity/barus", "viscosity/two-slope", "viscosity/roelands",
-                                   "viscosity/doolittle-tait"};
+                                   "viscosity/doolittle-tait", "viscosity/modulus"};
 enum { LAWS = sizeof laws / sizeof laws[0] };
 
 static bool needs_others(const ff_model *model)

@@ -69,6 +69,11 @@ static const law laws[] = {
     {"viscosity/yasutomi", false, {GLASS}},
     {"viscosity/yasutomi", true, {GLASS}},
     {"viscosity/yasutomi", true, {GLASS, {"pressure_cap", "0.3 GPa"}}},
+    {"viscosity/modulus", false, {{NULL, NULL}}},
+    {"viscosity/modulus", true, {{"base", "PAO"}}},
+    {"viscosity/modulus",
+     false,
+     {{"a1", "-20 MPa"}, {"a2", "220 kPa/K"}, {"pressure_cap", "1 GPa"}}},
 };
 enum { LAWS = sizeof laws / sizeof *laws };
 

@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Bode's law: ln(eta/eta0) = p/(A + B p), A = a1 + a2 T, B = b1 + b2 T (T in K), as Gold et al.
+ * 2001 fit it to gear oils. The base of an oil has A and B of its ISO VG 100 oil; of another oil A
+ * is those times the pressure coefficient of the VG 100 oil over its own, so that the rise at
+ * ambient pressure is in proportion.
+ */
+#include "law.h"
+#include "references.h"
+
+#include "../numerics/liquid.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+enum { PARAFFINIC, NAPHTHENIC, PAO, BASES };
+
+/* Arana, Larranaga & Ulacia 2019, tables 2 and 3: measured to some 0.5 to 1 GPa, 25 to 100 degC. */
+static const struct modulus_constants {
+    double a1, a2, b1, b2; /* Pa, Pa/K, 1, 1/K */
+} of_base[BASES] = {
+    [PARAFFINIC] = {-2.28e7, 2.26e5, -0.0682, 2.768e-4},
+    [NAPHTHENIC] = {-7.23e7, 3.48e5, 5.0e-3, -1.83e-5},
+    [PAO] = {-5.73e7, 3.90e5, -0.0395, 2.354e-4},
+};
+
+/* A over that of the VG 100 oil, at equal steps of temperature between which a cubic goes. */
+enum { NODES = 111 };
+
+typedef struct modulus {
+    const ff_host *host;
+    ff_viscosity service;
+    viscosity_oil oil;
+    double a1, a2, b1, b2; /* SI; a1 NaN: by the base */
+    int32_t base;          /* -1: that of the oil */
+    double least, most;    /* K, between which the law holds */
+    bool scaled;
+    double scale[NODES], slope[NODES]; /* 1, 1/K */
+} modulus;
+
+/* A and B at a temperature, and their slopes. */
+typedef struct moduli {
+    double A, B, A_T, B_T;
+} moduli;
+
+static double scale_at(const modulus *m, double T, double *slope)
+{
+    const double step = (viscosity_hottest - viscosity_coldest) / (NODES - 1);
+    *slope = 0;
+    if (!m->scaled)
+        return 1;
+    double at = (T - viscosity_coldest) / step;
+    size_t i = at < NODES - 2 ? (size_t)at : NODES - 2;
+    double t = at - (double)i, u = 1 - t, left = m->scale[i], right = m->scale[i + 1];
+    double by_left = step * m->slope[i], by_right = step * m->slope[i + 1];
+    *slope = (6 * t * u * (right - left) + u * (1 - 3 * t) * by_left - t * (2 - 3 * t) * by_right) /
+             step;
+    return u * u * (1 + 2 * t) * left + t * t * (3 - 2 * t) * right +
+           t * u * (u * by_left - t * by_right);
+}
+
+static double within(const modulus *m, double T)
+{
+    return fmin(fmax(T, m->least), m->most);
+}
+
+static moduli moduli_at(const modulus *m, double T)
+{
+    double slope, scale = scale_at(m, T, &slope), A = m->a1 + m->a2 * T;
+    return (moduli){A * scale, m->b1 + m->b2 * T, m->a2 * scale + A * slope, m->b2};
+}
+
+/* A law at one temperature. */
+typedef struct isotherm {
+    double A, B, cap;
+} isotherm;
+
+FF_SIMD
+static void curve(const void *law, double ln_eta0, size_t n, const double *restrict p,
+                  double *restrict ln_eta, double *restrict dln_dp)
+{
+    const isotherm *at = law;
+    const double A = at->A, B = at->B, cap = at->cap;
+    for (size_t i = 0; i < n; i++) {
+        double q = viscosity_clip(p[i], cap), part = 1 / (A + B * q), slope = A * part * part;
+        ln_eta[i] = ln_eta0 + q * part + slope * (p[i] - q);
+        dln_dp[i] = slope;
+    }
+}
+
+static int64_t rise(const void *self, size_t n, const double *p, const double *T, double *rise,
+                    double *by_p, double *by_T)
+{
+    const modulus *m = self;
+    int64_t outside = 0;
+    for (size_t i = 0; i < n; i++) {
+        double in = within(m, T[i]), q = viscosity_clip(p[i], m->oil.pressure_cap);
+        const moduli at = moduli_at(m, in);
+        double part = 1 / (at.A + at.B * q), slope = at.A * part * part;
+        double part_T = -(at.A_T + at.B_T * q) * part * part;
+        int beyond = in < T[i] || in > T[i];
+        rise[i] = q * part + slope * (p[i] - q);
+        by_p[i] = slope;
+        by_T[i] = q * part_T + (at.A_T * part * part + 2 * at.A * part * part_T) * (p[i] - q);
+        by_T[i] = beyond ? 0 : by_T[i];
+        outside |= beyond || p[i] > m->oil.pressure_cap;
+    }
+    return outside;
+}
+
+static ff_status eval(const void *self, size_t n, const double *p, const double *T, double *ln_eta,
+                      double *dln_dp, double *dln_dT)
+{
+    const modulus *m = self;
+    if (dln_dT || !numerics_is_uniform(n, T))
+        return viscosity_eval_rise(self, rise, 313.15, n, p, T, ln_eta, dln_dp, dln_dT);
+    if (n == 0)
+        return FF_OK;
+    const viscosity_ambient ambient = viscosity_oil_begin(&m->oil, n, T);
+    const double all = viscosity_one_temperature(self, 313.15, T), in = within(m, all);
+    const moduli at = moduli_at(m, in);
+    const isotherm one = {at.A, at.B, m->oil.pressure_cap};
+    viscosity_points(curve, &one, ambient.ln_eta0, n, p, ln_eta, dln_dp);
+    ff_status status = viscosity_oil_end(&m->oil, &ambient, n, p, T, ln_eta, NULL);
+    return in < all || in > all ? numerics_worse(status, FF_DOMAIN) : status;
+}
+
+static const ff_param params[] = {
+    VISCOSITY_OIL_ROWS(modulus),
+    FF_ONE_OF("paraffinic|naphthenic|PAO", "base", modulus, base, 0, NULL,
+              "base oil, whose measured A and B hold; without it that of the oil, a mineral oil "
+              "being paraffinic"),
+    FF_QUANTITY("a1", "Pa", modulus, a1, 0, NULL, NULL, -1e12, 1e12, -2e8, 2e8,
+                "A at 0 K, in place of that of the base; with a2 = 0 the A of any temperature"),
+    FF_QUANTITY("a2", "Pa/K", modulus, a2, 0, "0 Pa/K", NULL, -1e10, 1e10, 0, 1e6,
+                "slope of A over temperature"),
+    FF_QUANTITY("b1", "1", modulus, b1, 0, NULL, NULL, -100, 100, -0.2, 0.2,
+                "B at 0 K; 0 where a1 is given alone: Barus"),
+    FF_QUANTITY("b2", "1/K", modulus, b2, 0, "0 1/K", NULL, -1, 1, -1e-3, 1e-3,
+                "slope of B over temperature"),
+};
+
+/* Takes the constants of the base, which the law or the oil names. */
+static ff_status take_base(modulus *m)
+{
+    static const int of_oil[] = {[FF_BASE_MINERAL] = PARAFFINIC, [FF_BASE_PAO] = PAO};
+    double T = m->oil.liquid ? numerics_reference_temperature(m->oil.liquid) : 0, base = NAN;
+    if (m->oil.liquid &&
+        m->oil.liquid->eval(m->oil.liquid->self, FF_LIQUID_BASE, 1, &T, &base, NULL) < 0)
+        base = NAN;
+    bool known = base >= 0 && base <= FF_BASE_PAO;
+    if (m->base < 0 && !known)
+        return ff_failf(m->host, FF_INVALID, "base",
+                        "A and B are known of mineral oils and PAO alone, and %s: give a1, a2, b1 "
+                        "and b2, or base, or take another law",
+                        isnan(base) ? "the oil does not tell its base" : "this oil is another");
+    if (m->base < 0)
+        m->base = of_oil[(int)base];
+    else if (known && (m->base == PAO) != (of_oil[(int)base] == PAO))
+        return ff_failf(m->host, FF_INVALID, "base",
+                        "the base stands in two places: here %s, and in the oil %s",
+                        m->base == PAO ? "PAO" : "a mineral one",
+                        m->base == PAO ? "a mineral one" : "PAO");
+    m->a1 = of_base[m->base].a1;
+    m->a2 = of_base[m->base].a2;
+    m->b1 = of_base[m->base].b1;
+    m->b2 = of_base[m->base].b2;
+    m->scaled = known;
+    return FF_OK;
+}
+
+/* The coefficient of the VG 100 oil over that of the oil, and its slope; an oil that does not tell
+   its own counts as VG 100. */
+static double ratio_at(const ff_liquid *liquid, double T, double *slope)
+{
+    double own = NAN, by_own = NAN, base = NAN, by_base = NAN;
+    liquid->eval(liquid->self, FF_LIQUID_PRESSURE_COEFFICIENT, 1, &T, &own, &by_own);
+    liquid->eval(liquid->self, FF_LIQUID_BASE_COEFFICIENT, 1, &T, &base, &by_base);
+    double ratio = base / own, by_T = ratio * (by_base / base - by_own / own);
+    *slope = isfinite(by_T) ? by_T : 0;
+    return ratio > 0 && isfinite(ratio) ? ratio : NAN;
+}
+
+/* Fills in the scale; an oil whose coefficient is known at one temperature has one scale. */
+static void take_scale(modulus *m)
+{
+    const ff_liquid *liquid = m->oil.liquid;
+    double unused, same = ratio_at(liquid, numerics_reference_temperature(liquid), &unused);
+    bool moves = false;
+    same = isnan(same) ? 1 : same;
+    for (size_t i = 0; i < NODES; i++) {
+        double T =
+            viscosity_coldest + (viscosity_hottest - viscosity_coldest) * (double)i / (NODES - 1);
+        m->scale[i] = ratio_at(liquid, T, &m->slope[i]);
+        if (isnan(m->scale[i])) {
+            m->scale[i] = same;
+            m->slope[i] = 0;
+        }
+        moves = moves || fabs(m->scale[i] - 1) > 1e-12;
+    }
+    m->scaled = moves;
+}
+
+/* Narrows the range to the temperatures at which value + slope T is at least `least`. */
+static void narrow(modulus *m, double value, double slope, double least)
+{
+    double end = (least - value) / slope;
+    if (slope > 0)
+        m->least = fmax(m->least, end);
+    else if (slope < 0)
+        m->most = fmin(m->most, end);
+    else if (value < least)
+        m->most = -1;
+}
+
+static ff_status ready(void *self)
+{
+    modulus *m = self;
+    viscosity_oil_ready(&m->oil, viscosity_highest_cap);
+    const bool alone = m->a2 < 0 || m->a2 > 0 || m->b2 < 0 || m->b2 > 0 || !isnan(m->b1);
+    ff_status status = FF_OK;
+    m->scaled = false;
+    if (!isnan(m->a1) && m->base >= 0)
+        return ff_failf(m->host, FF_INVALID, "base",
+                        "a1 is given, and base tells another one: leave one of them out");
+    if (isnan(m->a1) && alone)
+        return ff_failf(m->host, FF_INVALID, "a1",
+                        "a2, b1 and b2 need a1, the A that they go with");
+    if (isnan(m->a1)) {
+        status = take_base(m);
+    } else {
+        m->b1 = isnan(m->b1) ? 0 : m->b1;
+    }
+    if (status != FF_OK)
+        return status;
+    if (m->scaled)
+        take_scale(m);
+    const double cap = m->oil.pressure_cap, T = viscosity_one_temperature(self, 313.15, NULL);
+    const double least = 0.05 * fabs(m->a1 + m->a2 * T);
+    m->least = viscosity_coldest;
+    m->most = viscosity_hottest;
+    narrow(m, m->a1, m->a2, least);
+    narrow(m, m->a1 + m->b1 * cap, m->a2 + m->b2 * cap, least);
+    if (!(T >= m->least && T <= m->most))
+        return ff_failf(m->host, FF_INVALID, "a1",
+                        "at %g degC A is %.4g MPa and B %.4g; A, and A + B p up to %g GPa, must be "
+                        "above 0",
+                        T - 273.15, 1e-6 * (m->a1 + m->a2 * T), m->b1 + m->b2 * T, 1e-9 * cap);
+    return FF_OK;
+}
+
+FF_VISCOSITY_LAW(viscosity_modulus, modulus, eval, .id = "viscosity/modulus", .version = "1.0.0",
+                 .summary = "measured rise of gear oils up to 1 GPa, by the base of the oil",
+                 .reference =
+                     "Gold, Schmidt, Dicke, Loos & Assmann 2001, J. Synth. Lubr. 18, "
+                     "51-79; Arana, Larranaga & Ulacia 2019, tables 2 and 3, after Mann 1995 "
+                     "and Hoglund 1999",
+                 .bibtex = BIB_Gold2001 "\n" BIB_Arana2019, .licence = "GPL-3.0-or-later",
+                 .params = FF_TABLE(params), .inputs = FF_TABLE(viscosity_inputs),
+                 .wire = viscosity_wire, .ready = ready, .cost = 1e-3);

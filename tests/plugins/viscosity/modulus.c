@@ -1,0 +1,143 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* viscosity/modulus against figures computed from its constants by hand, and over grades of oil. */
+#include <check.h>
+#include <stage.h>
+
+#include <flankfilm/laws.h>
+
+#include <math.h>
+#include <string.h>
+
+static const double GPa = 1e9;
+
+typedef struct scene {
+    stage *oil, *law;
+    const ff_viscosity *v;
+} scene;
+
+/* An oil by its base and grade, which the law takes A and B of. */
+static scene open_scene(const char *base, const char *grade)
+{
+    scene s = {stage_open("lubricant/grade"), stage_open("viscosity/modulus"), NULL};
+    stage_set_text(s.oil, "grade", grade);
+    stage_set_text(s.oil, "base", base);
+    stage_link(s.law, "oil", s.oil);
+    return s;
+}
+
+static scene open_law(const char *base, const char *grade)
+{
+    scene s = open_scene(base, grade);
+    s.v = stage_service(s.law, FF_VISCOSITY_ID);
+    return s;
+}
+
+static void close_scene(scene *s)
+{
+    stage_close(s->law);
+    stage_close(s->oil);
+}
+
+static double rise(const scene *s, double p, double T)
+{
+    const double none = 0;
+    double ln, ambient;
+    s->v->eval(s->v->self, 1, &p, &T, &ln, NULL, NULL);
+    s->v->eval(s->v->self, 1, &none, &T, &ambient, NULL, NULL);
+    return ln - ambient;
+}
+
+/* 1/int_0^3GPa eta0/eta dp by Simpson's rule. */
+static double film_coefficient(const scene *s, double T)
+{
+    enum { PARTS = 6000 };
+    const double step = 3 * GPa / PARTS;
+    double sum = 0;
+    for (int i = 0; i <= PARTS; i++)
+        sum += (i == 0 || i == PARTS ? 1 : i % 2 ? 4 : 2) * exp(-rise(s, i * step, T));
+    return 3 / (sum * step);
+}
+
+static void test_table(void)
+{
+    static const double p[] = {0.2, 0.5, 1, 1.5, 2};
+    static const struct {
+        const char *base;
+        double T, A, B, alpha, ln[5];
+    } rows[] = {
+        {"mineral", 90, 5.927e7, 0.0323, 15.74, {3.04, 6.63, 10.92, 13.92, 16.14}},
+        {"mineral", 120, 6.605e7, 0.0406, 13.85, {2.70, 5.79, 9.37, 11.81, 13.58}},
+        {"PAO", 85, 8.238e7, 0.0448, 10.99, {2.19, 4.77, 7.86, 10.03, 11.63}},
+        {"PAO", 110, 9.213e7, 0.0507, 9.68, {1.96, 4.26, 7.00, 8.92, 10.34}},
+    };
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+        scene s = open_law(rows[k].base, "ISO VG 100");
+        const double T = 273.15 + rows[k].T, none = 0;
+        double ln, slope;
+        s.v->eval(s.v->self, 1, &none, &T, &ln, &slope, NULL);
+        check_near("A", 1 / slope, rows[k].A, 0.5e4 / rows[k].A * 1.01);
+        check_near("B", GPa / rise(&s, GPa, T) - 1 / slope, rows[k].B * GPa, 0.5e-4 / rows[k].B);
+        check_near("alpha*", film_coefficient(&s, T) * GPa, rows[k].alpha, 0.005 / rows[k].alpha);
+        for (int i = 0; i < 5; i++)
+            check_near("ln(eta/eta0)", rise(&s, p[i] * GPa, T), rows[k].ln[i],
+                       0.005 / rows[k].ln[i] * 1.01);
+        close_scene(&s);
+    }
+}
+
+/* Of another grade the slope at ambient pressure follows the oil's own coefficient, and B stays. */
+static void test_grades(void)
+{
+    const double T = 353.15;
+    scene vg = open_law("mineral", "ISO VG 100"), other = open_law("mineral", "ISO VG 32");
+    const ff_liquid *a = stage_service(vg.oil, FF_LIQUID_ID);
+    const ff_liquid *b = stage_service(other.oil, FF_LIQUID_ID);
+    double one = 0, two = 0;
+    a->eval(a->self, FF_LIQUID_PRESSURE_COEFFICIENT, 1, &T, &one, NULL);
+    b->eval(b->self, FF_LIQUID_PRESSURE_COEFFICIENT, 1, &T, &two, NULL);
+    const double A = 0.4 * GPa / rise(&vg, 0.4 * GPa, T),
+                 A_2 = 0.4 * GPa / rise(&other, 0.4 * GPa, T);
+    const double B = (-0.0682 + 2.768e-4 * T) * 0.4 * GPa;
+    check_true("thinner oils rise less", two < 0.97 * one);
+    check_near("A", (A_2 - B) / (A - B), one / two, 1e-6);
+    close_scene(&vg);
+    close_scene(&other);
+}
+
+static void refuse(const char *what, const char *const set[][2], const char *item)
+{
+    stage *s = stage_open("viscosity/modulus");
+    stage_set_text(s, "eta0", "10 mPa s");
+    for (int i = 0; set[i][0]; i++)
+        stage_set_text(s, set[i][0], set[i][1]);
+    check_true(what, stage_ready(s) == FF_INVALID && !strcmp(stage_why_item(s), item) &&
+                         strlen(stage_why(s)) > 20);
+    stage_close(s);
+}
+
+static void test_refusals(void)
+{
+    scene s = open_scene("ester", "ISO VG 100");
+    check_true("an ester", stage_ready(s.law) == FF_INVALID &&
+                               strstr(stage_why(s.law), "this oil is another") != NULL);
+    close_scene(&s);
+    s = open_scene("PAO", "ISO VG 68");
+    stage_set_text(s.law, "base", "naphthenic");
+    check_true("another base", stage_ready(s.law) == FF_INVALID);
+    close_scene(&s);
+    refuse("nothing given", (const char *const[][2]){{NULL, NULL}}, "base");
+    refuse("two bases", (const char *const[][2]){{"base", "PAO"}, {"a1", "60 MPa"}, {NULL, NULL}},
+           "base");
+    refuse("B alone", (const char *const[][2]){{"b1", "0.03"}, {NULL, NULL}}, "a1");
+    refuse("A below 0", (const char *const[][2]){{"a1", "-60 MPa"}, {NULL, NULL}}, "a1");
+    refuse("A + B p below 0",
+           (const char *const[][2]){{"a1", "60 MPa"}, {"b1", "-0.0062"}, {NULL, NULL}}, "a1");
+}
+
+int main(void)
+{
+    test_table();
+    test_grades();
+    test_refusals();
+    return check_done();
+}
