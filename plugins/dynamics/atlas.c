@@ -26,10 +26,8 @@ static int lies_between(const dynamics_flow *flow, const dynamics_point *a, cons
     double lambda = orbit->lambda, distance;
     if (!(lambda >= fmin(a->lambda, z->lambda) && lambda <= fmax(a->lambda, z->lambda)))
         return 0;
-    double x = z->lambda != a->lambda ? (lambda - a->lambda) / (z->lambda - a->lambda) : 0;
     dynamics_orbit near = {.period = orbit->period, .lambda = lambda};
-    for (int i = 0; i < 2; i++)
-        near.x[i] = a->x[i] + x * (z->x[i] - a->x[i]);
+    dynamics_curve_between(flow, a, z, lambda, near.x);
     if (!dynamics_orbit_distance(flow, orbit, near.x, &distance) || distance > far)
         return 0;
     return dynamics_orbit_solve(flow, 1e-10, &near) &&

@@ -451,13 +451,36 @@ int dynamics_curve_double(const dynamics_continuation_range *t, const dynamics_p
            orbit->lambda > t->low && orbit->lambda < t->high;
 }
 
+/* Hermite's cubic at a share x of the way from a to z, of the slopes `from` and `to` there. */
+static double cubic_at(double a, double z, double from, double to, double x)
+{
+    return a + x * (from + x * (3 * (z - a) - 2 * from - to + x * (2 * (a - z) + from + to)));
+}
+
+/* The cubic follows the curve round a fold at either end, where a straight line would lead to the
+   motion on the other side of it. */
+void dynamics_curve_between(const dynamics_flow *flow, const dynamics_point *a,
+                            const dynamics_point *z, double lambda, double state[2])
+{
+    enum { HALVINGS = 50 };
+    double u = dynamics_state_unit(flow->excitation, a->x), low = 0, high = 1;
+    double way[3] = {(z->x[0] - a->x[0]) / u, (z->x[1] - a->x[1]) / u, z->lambda - a->lambda};
+    double length = sqrt(dynamics_dot(way, way));
+    for (int i = 0; i < HALVINGS && z->lambda != a->lambda; i++) {
+        double x = 0.5 * (low + high);
+        double at =
+            cubic_at(a->lambda, z->lambda, length * a->tangent[2], length * z->tangent[2], x);
+        *((at < lambda) == (a->lambda < z->lambda) ? &low : &high) = x;
+    }
+    for (int i = 0; i < 2; i++)
+        state[i] = cubic_at(a->x[i], z->x[i], length * a->tangent[i], length * z->tangent[i], low);
+}
+
 int dynamics_curve_solve(const dynamics_flow *flow, const dynamics_point *a,
                          const dynamics_point *z, double lambda, dynamics_orbit *orbit)
 {
-    double x = z->lambda != a->lambda ? (lambda - a->lambda) / (z->lambda - a->lambda) : 0;
-    for (int i = 0; i < 2; i++)
-        orbit->x[i] = a->x[i] + x * (z->x[i] - a->x[i]);
     orbit->lambda = lambda;
+    dynamics_curve_between(flow, a, z, lambda, orbit->x);
     return dynamics_orbit_solve(flow, tolerance, orbit);
 }
 

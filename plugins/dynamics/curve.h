@@ -61,6 +61,10 @@ ff_status dynamics_curve_trace(const dynamics_continuation_range *tracing,
 int dynamics_curve_double(const dynamics_continuation_range *tracing,
                           const dynamics_point *doubling, int period, dynamics_orbit *orbit);
 
+/* The state near the curve between two neighbouring points at a lambda between theirs. */
+void dynamics_curve_between(const dynamics_flow *flow, const dynamics_point *a,
+                            const dynamics_point *z, double lambda, double state[2]);
+
 /* Solves the orbit of the curve between two neighbouring points at a lambda between them. */
 int dynamics_curve_solve(const dynamics_flow *flow, const dynamics_point *a,
                          const dynamics_point *z, double lambda, dynamics_orbit *orbit);
