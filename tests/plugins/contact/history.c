@@ -22,7 +22,7 @@ static double value_at(const stage *tooth, const char *output, double at)
 static void check_printed_figures(void)
 {
     static double load[MOST];
-    pair p = pair_open(0);
+    pair p = pair_open_printed();
     size_t n;
     pair_stations(&p, &n);
     pair_share(&p, force, load);
@@ -57,7 +57,7 @@ static void check_printed_figures(void)
 static void check_relations(void)
 {
     static double load[MOST];
-    pair p = pair_open(1);
+    pair p = pair_open();
     size_t n;
     pair_stations(&p, &n);
     pair_share(&p, force, load);
@@ -103,18 +103,19 @@ static void check_relations(void)
     pair_close(&p);
 }
 
-/* Gears and load swapped end for end: the same history read backwards. */
+/* Gears exchanged and the load turned end for end: the same history read backwards. */
 static void check_swapped(void)
 {
     static double load[2][MOST];
     double worst = 0;
-    pair p[2] = {pair_open(0), pair_open(0)};
+    pair p[2] = {pair_open(), pair_open_exchanged()};
     size_t n;
     const double *roll = pair_stations(&p[0], &n);
     for (size_t i = 0; i < n; i++)
         load[0][i] = load[1][n - 1 - i] = 2000 + 4000 * (roll[i] - roll[0]);
     for (int k = 0; k < 2; k++) {
         stage_give_series(p[k].tooth, "load.tooth_force", n, load[k]);
+        stage_set_text(p[k].tooth, "load_ramp", k ? "0.125 deg" : "0.2 deg"); /* the same path */
         if (!check_true("runs", stage_run_wanted(p[k].tooth, pair_dry) == FF_OK))
             return;
     }

@@ -21,13 +21,29 @@ static pair open_stages(void)
     return p;
 }
 
-pair pair_open(int unequal)
+static pair open_with(const char *teeth, const char *shift, const char *moduli)
 {
     pair p = open_stages();
-    stage_set_text(p.gear, "teeth", unequal ? "[25, 40]" : "50");
-    stage_set_text(p.gear, "profile_shift", unequal ? "[0.3, 0.1]" : "0");
+    stage_set_text(p.gear, "teeth", teeth);
+    stage_set_text(p.gear, "profile_shift", shift);
+    stage_set_text(p.gear, "elastic_modulus", moduli);
     stage_run(p.gear);
     return p;
+}
+
+pair pair_open(void)
+{
+    return open_with("[25, 40]", "[0.3, 0.1]", "[206 GPa, 170 GPa]");
+}
+
+pair pair_open_exchanged(void)
+{
+    return open_with("[40, 25]", "[0.1, 0.3]", "[170 GPa, 206 GPa]");
+}
+
+pair pair_open_printed(void)
+{
+    return open_with("50", "0", "206 GPa");
 }
 
 pair pair_open_long(const char *tip_diameter)

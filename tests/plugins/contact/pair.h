@@ -9,8 +9,12 @@ typedef struct pair {
     stage *gear, *duty, *tooth;
 } pair;
 
-/* Li & Kahraman's 50/50 pair, or 25/40 with profile shift, at 1250 Hz; tooth has no load yet. */
-pair pair_open(int unequal);
+/* A pair of 25 and 40 teeth with profile shift at 1250 Hz; tooth has no load yet. */
+pair pair_open(void);
+/* The same with its gears exchanged, so that gear 1 has 40 teeth. */
+pair pair_open_exchanged(void);
+/* Li & Kahraman's 50/50 pair, whose figures are printed. */
+pair pair_open_printed(void);
 /* The 50/50 pair with other tip diameters. */
 pair pair_open_long(const char *tip_diameter);
 void pair_close(pair *p);
