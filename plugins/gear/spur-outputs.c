@@ -68,7 +68,7 @@ static ff_status write_pairs(const spur *s, uint64_t wanted)
 {
     const gear_spur_pair *p = &s->pair;
     double teeth[2], shift[2], elastic[2], poisson[2], roughness[2], form[2], tool[2], yield[2],
-        active[2], density[2], conductivity[2], heat[2], hardness[2];
+        grade[2] = {0}, active[2], density[2], conductivity[2], heat[2], hardness[2];
     const double lowest[2] = {p->sap, p->line_length - p->tip};
     gear_measures measures;
     gear_measure_teeth(&s->spec, p, &measures);
@@ -78,6 +78,8 @@ static ff_status write_pairs(const spur *s, uint64_t wanted)
         elastic[i] = s->made_of[i].modulus;
         poisson[i] = s->made_of[i].poisson;
         yield[i] = s->made_of[i].yield;
+        if (s->quality.count > 0)
+            grade[i] = ff_of_both(&s->quality, i);
         density[i] = s->made_of[i].density;
         conductivity[i] = s->made_of[i].conductivity;
         heat[i] = s->made_of[i].specific_heat;
@@ -116,6 +118,7 @@ static ff_status write_pairs(const spur *s, uint64_t wanted)
         {OUT_TIP_THICKNESS, p->tip_thickness},
         {OUT_ACTIVE_ROOT_RADIUS, active},
         {OUT_YIELD_STRENGTH, yield},
+        {OUT_FLANK_CLASS, grade},
         {OUT_DENSITY, density},
         {OUT_THERMAL_CONDUCTIVITY, conductivity},
         {OUT_SPECIFIC_HEAT, heat},

@@ -36,8 +36,9 @@ static const ff_param params[] = {
                 "K_Hbeta"),
     FF_QUANTITY("transverse_load_factor", "1", micropitting, load.transverse, 0, "1", NULL, 1, 10,
                 1, 2, "K_Halpha"),
-    FF_COUNT("quality_grade", micropitting, load.grade, 0, "6", NULL, 1, 12, 0, 0,
-             "flank tolerance class of ISO 1328-1, which shares the load"),
+    FF_COUNT_OR("auto", "quality_grade", micropitting, load.grade, 0, "auto", NULL, 1, 12, 0, 0,
+                "flank tolerance class of ISO 1328-1, which shares the load; auto: the coarser of "
+                "both gears, or 6 where they have no `quality`"),
     FF_SWITCH("adequate_tip_relief", micropitting, relieved, "false",
               "whether the tips are relieved as the load asks for: cooler teeth"),
     RATING_HEAT_ROWS(micropitting),
@@ -211,7 +212,8 @@ static ff_status set_bulk(const micropitting *s, const rating_pair *p, rating *r
     r->friction = 0.045 * pow(load / (sum * radius), 0.2) * pow(1e3 * viscosity, -0.05) * rough *
                   lubricant_factor(s);
     const double e = fmax(rating_addendum_ratio(p, 0), rating_addendum_ratio(p, 1));
-    const double relief = s->relieved && s->load.grade <= 6 ? 1 + 0.24 * e + 0.71 * e * e : 1;
+    const double relief =
+        s->relieved && rating_grade(p, &s->load) <= 6 ? 1 + 0.24 * e + 0.71 * e * e : 1;
     const double power = 1e-3 * p->force * p->base[0] * p->omega; /* kW */
     const double heat =
         power * r->friction * loss_factor(p) / (1e6 * p->centre_distance * p->width);

@@ -69,6 +69,12 @@ const ff_port rating_inputs[1 + RATING_INPUTS + 1] = {
      .dims = "gear",
      .flags = FF_OPTIONAL,
      .from = "gear"},
+    {.name = "gear.flank_class",
+     .unit = "1",
+     .doc = "tolerance classes of ISO 1328-1 of the flanks, 0: not known",
+     .dims = "gear",
+     .flags = FF_OPTIONAL,
+     .from = "gear"},
     {.name = "gear.elastic_modulus",
      .unit = "Pa",
      .doc = "Young's moduli, by which a steel is known",
@@ -167,7 +173,7 @@ ff_status rating_pair_read(const ff_host *host, const char *standard, const ff_a
                            const rating_heat *heat, const ff_liquid *oil, rating_pair *p)
 {
     double roughness[2];
-    double yield[2] = {0};
+    double yield[2] = {0}, grade[2] = {0};
     *p = (rating_pair){.oil = oil, .dynamic_factor = 1, .yield = NAN};
     const struct {
         int row;
@@ -198,12 +204,15 @@ ff_status rating_pair_read(const ff_host *host, const char *standard, const ff_a
         status = numerics_pinion(host, &in[RATING_IN_PINION], p->teeth, &p->pinion);
     if (status == FF_OK && in[RATING_IN_YIELD].data)
         status = read_two(host, &in[RATING_IN_YIELD], "gear.yield_strength", yield);
+    if (status == FF_OK && in[RATING_IN_CLASS].data)
+        status = read_two(host, &in[RATING_IN_CLASS], "gear.flank_class", grade);
     if (status == FF_OK)
         status = read_materials(host, standard, in, heat, p);
     if (status != FF_OK)
         return status;
     for (int i = 0; i < 2; i++)
         p->yield = yield[i] > 0 ? fmin(p->yield, yield[i]) : p->yield;
+    p->grade = fmax(grade[0], grade[1]);
     p->roughness = (roughness[0] + roughness[1]) / 2 * sqrt(2 / M_PI); /* Ra of Gaussian heights */
     if (!(p->roughness > 0))
         return ff_failf(
@@ -233,9 +242,16 @@ double rating_speed(const rating_pair *p, int gear, double place)
     return gear == 0 ? p->omega * place : p->omega / p->ratio * (p->line - place);
 }
 
+double rating_grade(const rating_pair *p, const rating_load *load)
+{
+    if (load->grade >= 0)
+        return (double)load->grade;
+    return p->grade > 0 ? p->grade : 6;
+}
+
 double rating_load_share(const rating_pair *p, const rating_load *load, double place)
 {
-    double least = ((double)(load->grade < 7 ? 7 : load->grade) - 2) / 15;
+    double least = (fmax(rating_grade(p, load), 7) - 2) / 15;
     double lower = p->end - p->base_pitch, upper = p->sap + p->base_pitch; /* LPSTC and HPSTC */
     double share = 1;
     if (place < lower)

@@ -29,6 +29,7 @@ enum {
     RATING_IN_ROUGHNESS,
     RATING_IN_PROFILE,
     RATING_IN_YIELD,
+    RATING_IN_CLASS,
     RATING_IN_MODULI,
     RATING_IN_HEAT, /* three rows */
     RATING_IN_HEAT_LAST = RATING_IN_HEAT + NUMERICS_HEAT_INPUTS - 1,
@@ -52,6 +53,7 @@ typedef struct rating_pair {
     double roughness;     /* Ra, mean of both flanks */
     double tip_relief[2]; /* 0: none, or not known */
     double yield;         /* of the weaker flank; NaN: not known */
+    double grade;         /* the coarser class of ISO 1328-1 of both flanks; 0: not known */
     double contact[2];    /* B = sqrt(k rho c) of the gears, J/(m2 K s^0.5) */
     double force;         /* along the line of action */
     double omega, oil_temperature, dynamic_factor;
@@ -79,12 +81,15 @@ typedef struct rating_heat {
 /* Factors of the load that the user gives. */
 typedef struct rating_load {
     double application, face, transverse; /* K_A, K_Hbeta, K_Halpha */
-    int64_t grade;                        /* flank tolerance class of ISO 1328-1 */
+    int64_t grade;                        /* flank tolerance class of ISO 1328-1; below 0: auto */
 } rating_load;
 
 /* Reads the inputs; gears that are not of steel, which `standard` does not cover, are refused. */
 ff_status rating_pair_read(const ff_host *host, const char *standard, const ff_array *in,
                            const rating_heat *heat, const ff_liquid *oil, rating_pair *p);
+
+/* The flank tolerance class that a rating goes by: the given one, or that of the gears, or 6. */
+double rating_grade(const rating_pair *p, const rating_load *load);
 
 /* Relative radius of curvature at a place on the path. */
 double rating_radius(const rating_pair *p, double place);

@@ -47,8 +47,9 @@ static const ff_param params[] = {
                 "K_Hbeta = K_Bbeta"),
     FF_QUANTITY("transverse_load_factor", "1", scuffing, load.transverse, 0, "1", NULL, 1, 10, 1, 2,
                 "K_Halpha = K_Balpha"),
-    FF_COUNT("quality_grade", scuffing, load.grade, 0, "6", NULL, 1, 12, 0, 0,
-             "flank tolerance class of ISO 1328-1, which shares the load"),
+    FF_COUNT_OR("auto", "quality_grade", scuffing, load.grade, 0, "auto", NULL, 1, 12, 0, 0,
+                "flank tolerance class of ISO 1328-1, which shares the load; auto: the coarser of "
+                "both gears, or 6 where they have no `quality`"),
     RATING_HEAT_ROWS(scuffing),
     FF_QUANTITY("mesh_stiffness", "N/(mm um)", scuffing, mesh_stiffness, 0, "20 N/(mm um)", NULL,
                 0.1, 1000, 5, 40,
@@ -285,7 +286,7 @@ static double ingoing_factor(double driving, double driven)
 static double tip_relief_factor(const scuffing *s, const rating_pair *p, double driving,
                                 double driven)
 {
-    if (s->load.grade > 6)
+    if (rating_grade(p, &s->load) > 6)
         return 1;
     double best =
         s->load.application * p->force * cos(p->pressure_angle) / (p->width * s->tooth_stiffness);

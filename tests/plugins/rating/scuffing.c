@@ -195,8 +195,44 @@ static void check_refusals(void)
     stage_close(oil);
 }
 
+/* Mean contact temperature of the relieved pair with the classes of its gears (0: none given) and
+ * that of the rating. */
+static double temperature_with(double class_1, double class_2, const char *grade)
+{
+    pair p = pair_c;
+    p.relief[0] = 24, p.relief[1] = 11;
+    stage *oil, *s = open_scuffing(&p, &oil);
+    const double of_gears[] = {class_1, class_2};
+    stage_give_series(s, "gear.flank_class", 2, of_gears);
+    if (grade)
+        stage_set_text(s, "quality_grade", grade);
+    stage_set(s, "load_stage", 9);
+    check_true("runs", stage_run(s) == FF_OK);
+    double sum = 0;
+    size_t n;
+    const double *of_path = stage_get(s, "contact_temperature", &n);
+    for (size_t i = 0; i < n; i++)
+        sum += of_path[i] / (double)n;
+    stage_close(s);
+    stage_close(oil);
+    return sum;
+}
+
+/* The coarser gear's class holds; a class given to the rating replaces it; 6 where none is known.
+ */
+static void check_class(void)
+{
+    double coarse = temperature_with(0, 0, "10"), fine = temperature_with(0, 0, "6");
+    check_true("the class matters", fabs(coarse / fine - 1) > 1e-3);
+    check_near("gear 2 is coarser", temperature_with(5, 10, NULL), coarse, 1e-14);
+    check_near("gear 1 is coarser", temperature_with(10, 5, NULL), coarse, 1e-14);
+    check_near("the rating's own", temperature_with(5, 10, "6"), fine, 1e-14);
+    check_near("none known", temperature_with(0, 0, NULL), fine, 1e-14);
+}
+
 int main(void)
 {
+    check_class();
     check_flash(&pair_a);
     check_flash(&pair_c);
     const pair *const pairs[] = {&pair_a, &pair_c};
