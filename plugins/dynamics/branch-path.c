@@ -15,7 +15,7 @@ static const double straight = 0.97, short_step = 1e-4;
 /* Corrections after which a step counts as too long. */
 enum { MAX_CORRECTIONS = 9 };
 
-typedef struct dynamics_continuation path;
+typedef dynamics_branch_path path;
 
 int dynamics_branch_path_init(path *p, const dynamics_continuation_request *request)
 {
@@ -135,7 +135,6 @@ int dynamics_branch_path_begin(path *p)
 int dynamics_branch_path_step(path *p)
 {
     for (; p->ds > shortest_step; p->ds *= 0.5) {
-        p->done = p->ds;
         int corrections = correct_point(p);
         double along = corrections ? find_tangent(p) : 0;
         if (along == 0 || (along < straight && p->ds > short_step))

@@ -10,7 +10,7 @@
 
 #include <lapacke.h>
 
-struct dynamics_continuation {
+typedef struct dynamics_branch_path {
     const dynamics_continuation_request *request;
     dynamics_harmonics *b;
     size_t n;              /* numbers in the series; ln w stands behind them */
@@ -20,29 +20,29 @@ struct dynamics_continuation {
     lapack_int *pivot;
     double *time;     /* room for the samples of a motion */
     double direction; /* 1: w rises at first, -1: it falls */
-    double ds, done;  /* arc length of the next step and of the last one */
+    double ds;        /* arc length of the next step */
     double scale;     /* size of the series */
-};
+} dynamics_branch_path;
 
 /* 0: out of memory; what was allocated is freed by dynamics_branch_path_free in any case. */
-int dynamics_branch_path_init(dynamics_continuation *path,
+int dynamics_branch_path_init(dynamics_branch_path *path,
                               const dynamics_continuation_request *request);
-void dynamics_branch_path_free(dynamics_continuation *path);
+void dynamics_branch_path_free(dynamics_branch_path *path);
 
 /* Begins at the point z: finds the tangent there. 0: the equations are singular. */
-int dynamics_branch_path_begin(dynamics_continuation *path);
+int dynamics_branch_path_begin(dynamics_branch_path *path);
 
 /* Finds the next point, `next`, and its tangent, `row`; 0: no step is short enough. */
-int dynamics_branch_path_step(dynamics_continuation *path);
+int dynamics_branch_path_step(dynamics_branch_path *path);
 
 /* Makes the next point the last one. */
-void dynamics_branch_path_accept(dynamics_continuation *path);
+void dynamics_branch_path_accept(dynamics_branch_path *path);
 
 /* Shortens the next step; 0: it is shorter than the shortest. */
-int dynamics_branch_path_shorten(dynamics_continuation *path);
+int dynamics_branch_path_shorten(dynamics_branch_path *path);
 
 /* Solves for the motion at ln w = `end`, which lies between the last point and the next, and makes
    it the last point; 0: what was found is on another branch. */
-int dynamics_branch_path_end(dynamics_continuation *path, double end);
+int dynamics_branch_path_end(dynamics_branch_path *path, double end);
 
 #endif

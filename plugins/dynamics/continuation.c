@@ -21,7 +21,7 @@ enum { MAX_POINTS = 20000, MAX_JUMPS = 60, MAX_JUMPS_HERE = 8 };
 /* Behind a fold the frequency changes by this share, so that every jump leads nearer to the end. */
 static const double leap = 2e-4;
 
-typedef struct dynamics_continuation path;
+typedef dynamics_branch_path path;
 
 static ff_status fail_because(dynamics_continuation_result *result, const char *why)
 {
@@ -313,58 +313,4 @@ ff_status dynamics_continuation_from(const dynamics_continuation_request *reques
 out:
     dynamics_branch_path_free(&p);
     return status;
-}
-
-dynamics_continuation *dynamics_continuation_new(const dynamics_continuation_request *request)
-{
-    path *p = calloc(1, sizeof *p);
-    if (p && !dynamics_branch_path_init(p, request)) {
-        dynamics_continuation_free(p);
-        return NULL;
-    }
-    if (p)
-        p->direction = request->from_above ? -1 : 1;
-    return p;
-}
-
-void dynamics_continuation_free(path *p)
-{
-    if (!p)
-        return;
-    dynamics_branch_path_free(p);
-    free(p);
-}
-
-ff_status dynamics_continuation_begin(path *p, double w, dynamics_continuation_result *result)
-{
-    ff_status status = start_branch(p, w, result);
-    if (status == FF_OK && !dynamics_branch_path_begin(p))
-        return fail_because(result,
-                            "the branch has no direction: the equations are singular there");
-    return status;
-}
-
-int dynamics_continuation_begin_in_contact(path *p, double w)
-{
-    return start_in_contact(p, w) && dynamics_branch_path_begin(p);
-}
-
-dynamics_continuation_point dynamics_continuation_here(const path *p)
-{
-    return (dynamics_continuation_point){
-        .x = p->z, .ln_w = p->z[p->n], .slope = p->tangent[p->n], .length = p->done};
-}
-
-int dynamics_continuation_step(path *p)
-{
-    if (!dynamics_branch_path_step(p))
-        return 0;
-    dynamics_branch_path_accept(p);
-    return 1;
-}
-
-int dynamics_continuation_solve(path *p, double ln_w, double *x)
-{
-    double step;
-    return dynamics_harmonics_solve(p->b, exp(ln_w), x, &step) == DYNAMICS_NEWTON_DONE;
 }

@@ -41,28 +41,4 @@ ff_status dynamics_continuation_from(const dynamics_continuation_request *reques
                                      const dynamics_continuation_start *from,
                                      dynamics_continuation_result *result);
 
-/* The same branch point by point, without jumps, in the direction of the request. */
-typedef struct dynamics_continuation dynamics_continuation;
-
-typedef struct dynamics_continuation_point {
-    const double *x; /* series, until the next step */
-    double ln_w;
-    double slope, length; /* derivative of ln w by arc length; length of the step that led here */
-} dynamics_continuation_point;
-
-dynamics_continuation *
-dynamics_continuation_new(const dynamics_continuation_request *request); /* NULL: out of memory */
-void dynamics_continuation_free(dynamics_continuation *path);
-
-/* Finds a motion at w, or near it on the way, and the direction of its branch. */
-ff_status dynamics_continuation_begin(dynamics_continuation *path, double w,
-                                      dynamics_continuation_result *result);
-/* The same from the motion at w that never loses contact; 0: there is none. */
-int dynamics_continuation_begin_in_contact(dynamics_continuation *path, double w);
-dynamics_continuation_point dynamics_continuation_here(const dynamics_continuation *path);
-int dynamics_continuation_step(dynamics_continuation *path); /* 0: no step is short enough */
-
-/* Solves for the motion at a frequency from a guess, which it replaces; 0: none is near. */
-int dynamics_continuation_solve(dynamics_continuation *path, double ln_w, double *x);
-
 #endif

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* dynamics/harmonic-balance: the periodic motion as a Fourier series, branch by branch. */
 #include "continuation.h"
-#include "harmonics-atlas.h"
 #include "harmonics-motion.h"
 #include "harmonics-warm-start.h"
 #include "harmonics.h"
@@ -16,12 +15,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Harmonics of the series of an atlas, where their number is left open. */
-enum { ATLAS_HARMONICS = 48 };
-
 typedef struct model {
     const ff_host *host;
-    double zeta, tolerance, atlas_from, atlas_to; /* Hz; NaN: follows the natural frequency */
+    double zeta, tolerance;
     int32_t damping, branch;
     dynamics_inertia inertia;
     int64_t harmonics_given, samples_given, steps_per_cycle; /* -1: auto */
@@ -52,10 +48,6 @@ static const ff_param params[] = {
     FF_QUANTITY("tolerance", "1", model, tolerance, FF_TUNABLE, "1e-6", NULL, 1e-12, 1e-1, 1e-9,
                 1e-3,
                 "amplitude of the first neglected harmonics, summed, over the static deflection"),
-    FF_QUANTITY("atlas.from", "Hz", model, atlas_from, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
-                "lowest mesh frequency of the atlas; default: natural_frequency/8"),
-    FF_QUANTITY("atlas.to", "Hz", model, atlas_to, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
-                "highest mesh frequency of the atlas; default: 1.4 natural_frequency"),
 };
 
 static ff_status ready(void *self)
@@ -64,7 +56,6 @@ static ff_status ready(void *self)
     m->harmonics = dynamics_count_or_auto(m->harmonics_given);
     m->samples = dynamics_count_or_auto(m->samples_given);
     dynamics_tell_servings(m->host, &m->inertia, m->zeta);
-    dynamics_tell_atlas(m->host, DYNAMICS_ATLAS_OUTPUTS);
     if (m->damping != DYNAMICS_DAMPING_ALWAYS)
         return ff_failf(m->host, FF_UNSUPPORTED, "damping",
                         "a damper that lets go in the gap makes the mesh force jump, which a "
@@ -278,36 +269,6 @@ static ff_status output_motion(model *m, const dynamics_excitation *excitation,
     return status;
 }
 
-static ff_status output_atlas(const model *m, const dynamics_excitation *excitation,
-                              const dynamics_inputs *inputs)
-{
-    const ff_host *host = m->host;
-    double natural = inputs->natural_frequency, from = m->atlas_from, to = m->atlas_to;
-    ff_status status = dynamics_atlas_bounds(host, natural, &from, &to);
-    if (status != FF_OK)
-        return status;
-    if (from < 0.05 * natural)
-        return ff_failf(host, FF_INVALID, "atlas.from",
-                        "below a twentieth of the natural frequency of %g Hz a series needs too "
-                        "many harmonics, but the atlas would run from %g Hz",
-                        natural, from);
-    dynamics_harmonics_range range = {.excitation = excitation,
-                                      .host = host,
-                                      .low = from / natural,
-                                      .high = to / natural,
-                                      .harmonics = m->harmonics ? m->harmonics : ATLAS_HARMONICS};
-    dynamics_harmonics_atlas atlas;
-    status = dynamics_harmonics_atlas_build(&range, &atlas);
-    if (status == FF_OK) {
-        host->quality(host->ctx, "atlas_points", (double)atlas.points, 16000,
-                      atlas.ended ? FF_DOUBTFUL : FF_GOOD, atlas.ended);
-        host->quality(host->ctx, "atlas_folds", (double)atlas.folds, 16000, FF_GOOD, NULL);
-        status = dynamics_harmonics_atlas_put(&atlas, excitation, natural, host);
-    }
-    dynamics_harmonics_atlas_free(&atlas);
-    return status;
-}
-
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
@@ -322,8 +283,6 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
         status = dynamics_stable_motions_put(
             &excitation, inputs.mesh_frequency / inputs.natural_frequency, m->host);
-    if (status == FF_OK && wanted >> DYNAMICS_SPEED_OUTPUT_COUNT)
-        status = output_atlas(m, &excitation, &inputs);
     m->from.harmonics = 0;
     dynamics_excitation_free(&excitation);
     return status;
@@ -345,6 +304,6 @@ FF_MODEL(
     .bibtex = BIB_camerongriffin1989 "\n", .licence = "GPL-3.0-or-later",
     .params = FF_TABLE(params), .inputs = dynamics_input_ports, .input_count = DYNAMICS_INPUT_COUNT,
     .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_motion_outputs,
-    .output_count = DYNAMICS_ATLAS_OUTPUT_COUNT, .output_stride = sizeof dynamics_motion_outputs[0],
+    .output_count = DYNAMICS_SPEED_OUTPUT_COUNT, .output_stride = sizeof dynamics_motion_outputs[0],
     .ready = ready, .evaluate = evaluate, .destroy = free, .carry = carry);
 FF_EXPORT_MODELS(&dynamics_harmonic_balance);

@@ -167,15 +167,6 @@ static size_t parts_for(const dynamics_motion *motion, size_t harmonics)
     return parts < needed ? needed : parts;
 }
 
-void dynamics_harmonics_monodromy(const dynamics_excitation *excitation, double T, const double *x,
-                                  size_t harmonics, double monodromy[4])
-{
-    dynamics_motion motion = {.excitation = excitation, .period = 1, .cycles = 1, .T = T};
-    walk w = {.motion = &motion, .x = x, .harmonics = harmonics};
-    take_monodromy(&w, parts_for(&motion, harmonics));
-    memcpy(monodromy, motion.monodromy, sizeof motion.monodromy);
-}
-
 ff_status dynamics_harmonics_motion(dynamics_motion *motion, const dynamics_inputs *inputs,
                                     const double *x, size_t harmonics, size_t per_cycle)
 {

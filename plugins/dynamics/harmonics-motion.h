@@ -10,8 +10,4 @@
 ff_status dynamics_harmonics_motion(dynamics_motion *motion, const dynamics_inputs *inputs,
                                     const double *x, size_t harmonics, size_t per_cycle);
 
-/* The monodromy alone, of mesh cycles of duration T. */
-void dynamics_harmonics_monodromy(const dynamics_excitation *excitation, double T, const double *x,
-                                  size_t harmonics, double monodromy[4]);
-
 #endif

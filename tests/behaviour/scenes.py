@@ -13,7 +13,7 @@ SCENES = {
                                'mesh.stiffness=[4e8 N/m,6e8 N/m,5e8 N/m]', 'tooth.load=motion', 'static.load=motion']),
     'coupled': (PAIR, [*FAST, 'motion.use=dynamics/coupled', 'motion.bearing_stiffness=[2e8 N/m,2e8 N/m]',
                        'motion.tolerance=1e-6']),
-    'harmonic-balance': (PAIR, [*FAST, *RANGE, 'motion.use=dynamics/harmonic-balance', 'motion.harmonics=16']),
+    'harmonic-balance': (PAIR, [*FAST, 'motion.use=dynamics/harmonic-balance', 'motion.harmonics=16']),
     'shooting': (PAIR, [*FAST, *RANGE, 'motion.search_speeds=4', 'motion.search_starts=4']),
     'time-integration': (PAIR, [*FAST, 'motion.use=dynamics/time-integration']),
     'quasi-static': (PAIR, [*FAST, *RANGE, 'slow.use=dynamics/quasi-static', 'static.load=slow']),
