@@ -705,9 +705,16 @@ typedef struct ff_guard_mark {
 } ff_guard_mark;
 
 ff_guard_mark ff_guard_current(void); /* may be called in a handler of signals */
-/* Writes '<before>oil: the plugin oil.so, rho: the plugin rho.so' of all services that the running
-   code may call; "" without any. May be called in a handler of signals. */
-void ff_guard_print_services(const ff_guard_mark *mark, const char *before, char *out, size_t size);
+
+/* The same in words, for another process: who is running, and its action; "" while no plugin is. */
+typedef struct ff_guard_mirror {
+    char
+        who[1500]; /* "film: the plugin film.so, or one that serves it (oil: the plugin oil.so)," */
+    char action[64];
+} ff_guard_mirror;
+
+/* From now on the mark of this thread is written there, too; NULL: nowhere. Borrowed. */
+void ff_guard_mirror_set(ff_guard_mirror *mirror);
 
 /* What a plugin must leave as it was: floating-point arithmetic and the locale, as they are now.
    Freed by ff_free. */

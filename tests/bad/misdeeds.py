@@ -27,10 +27,6 @@ MORE_PLACES = {"law": ["entry", "set", "service"], "stage": ["entry", "set", "re
 COMMANDS = ["run", "json", "study", "verify"]
 
 
-def names(verb, *functions):
-    return {what: f"{verb} during {{}}: it called {call}()" for what, call in functions}
-
-
 # what ends a run: what the sentence says of it
 TOLD = {
     "crash": "crashed during {}: segmentation fault",
@@ -50,20 +46,27 @@ TOLD = {
     "overflow": "crashed during {}: segmentation fault",
     "thread-crash": "crashed during {}: segmentation fault",
     "thread-abort": "crashed during {}: abort",
-    **names("ended the program", ("exit", "exit"), ("quick-exit", "exit"), ("_exit", "_exit"), ("_Exit", "_Exit"),
-            ("exit-group", "syscall"), ("execl", "execl"), ("execvp", "execvp"), ("execve", "execve"),
-            ("thread-exit", "pthread_exit"), ("raise", "raise"), ("kill", "kill"), ("stop", "kill"),
-            ("killpg", "killpg"), ("thread-kill", "pthread_kill")),
-    **names("broke the rules", ("fork", "fork"), ("vfork", "vfork"), ("child", "system"), ("popen", "popen"),
-            ("spawn", "posix_spawn"), ("umask", "umask"), ("handler", "signal"), ("action", "sigaction"),
-            ("mask", "pthread_sigmask"), ("process-mask", "sigprocmask"), ("stack", "sigaltstack"),
-            ("limit", "setrlimit"), ("stack-limit", "prlimit"), ("nice", "nice"), ("priority", "setpriority"),
-            ("variable", "setenv"), ("put-variable", "putenv"), ("unset-variable", "unsetenv"), ("clear", "clearenv"),
-            ("close", "close"), ("close-input", "close"), ("redirect", "dup2"), ("timer", "alarm"),
-            ("interval", "setitimer"), ("new-timer", "timer_create"), ("session", "setsid"), ("group", "setpgid")),
+    "bare-overflow": "crashed during {}: segmentation fault",
+    # the law is at fault, the stage crashes: both are named
+    "smash": "crashed during {}: segmentation fault",
+    "stale-jump": "crashed during {}: segmentation fault",
+    "unload": "crashed during {}: segmentation fault",
+    **dict.fromkeys(["exit", "quick-exit"], "ended the program during {}: it called exit()"),
+    "thread-exit": "ended the program during {}: it called pthread_exit()",
+    # no handler sees these: the leading process knows who was running
+    **dict.fromkeys(["_exit", "_Exit", "exit-group", "exit-thread", "execl", "execvp", "execve", "raw-exec", "raw-execat"],
+                    "ended the program during {}: exit code 0"),
+    "raise": "ended the program during {}: signal 15 (Terminated)",
+    "kill": "ended the program during {}: signal 9 (Killed), its own or of a system that is short of memory",
+    "stop": "ended the program during {}: signal 19 (Stopped (signal))",
+    "killpg": "ended the program during {}: signal 10 (User defined signal 1)",
+    "thread-kill": "ended the program during {}: signal 12 (User defined signal 2)",
+    "fork": "broke the rules during {}: it called fork()",
 }
-# of these it cannot be told any more which of those that take part did them
-VAGUE = ["trap"]
+# a law is known by the address of the fault, or by the calls that led to these ends; a stage, and what has no address
+# of its own, together with those that serve it
+BY_ADDRESS = ["crash", "read-null", "null-call", "wild", "constant", "bus", "illegal", "divide", "overflow"]
+BY_CALLS = ["abort", "complain", "assert", "free-twice", "free-inside", "exit", "quick-exit", "fork"]
 # what a run sets back and warns of
 SET_BACK = {
     "rounding": "changed the rounding mode",
@@ -76,22 +79,21 @@ PRINTED = {"print": 'printed "here I am"', "write": 'printed "here I am"'}
 # what a run does not see and does not suffer from: `verify` tells it
 HIDDEN = {
     "thread": "left a thread behind",
-    "hidden-umask": "changed the mask of new files",
-    "hidden-handler": "changed a signal handler",
-    "hidden-mask": "changed which signals are blocked",
-    "hidden-stack": "changed the stack of the signal handlers",
-    "hidden-limit": "changed a resource limit",
-    "hidden-variable": "changed the environment variables",
-    "hidden-clear": "changed the environment variables",
-    "hidden-close": "closed or replaced the standard output",
-    "hidden-redirect": "closed or replaced the standard error output",
-    "hidden-timer": "set a timer that sends a signal",
-    "hidden-child": "started another process",
+    **dict.fromkeys(["vfork", "child", "popen", "spawn"], "started another process"),
+    "umask": "changed the mask of new files",
+    **dict.fromkeys(["handler", "action"], "changed a signal handler"),
+    **dict.fromkeys(["mask", "process-mask"], "changed which signals are blocked"),
+    "stack": "changed the stack of the signal handlers",
+    **dict.fromkeys(["limit", "stack-limit"], "changed a resource limit"),
+    **dict.fromkeys(["nice", "priority"], "changed the priority of the process"),
+    **dict.fromkeys(["variable", "put-variable", "unset-variable", "clear"], "changed the environment variables"),
+    "close": "closed or replaced the standard output",
+    "close-input": "closed or replaced the standard input",
+    "redirect": "closed or replaced the standard error output",
+    **dict.fromkeys(["timer", "interval", "new-timer"], "set a timer that sends a signal"),
 }
-# these do nothing in a process that leads its group, as those of verify do
-UNDONE = ["session", "group"]
 # what a sanitizer or its allocator ends in another way
-OWN_WAY = ["free-twice", "free-inside", "thread-exit", "hidden-stack"]
+OWN_WAY = ["free-twice", "free-inside", "thread-exit", "stack", "bare-overflow"]
 
 CASE = """format: 2
 pipeline:
@@ -132,7 +134,7 @@ counts = collections.Counter()
 def run(misdeed, *args):
     limit = {"FLANKFILM_VERIFY_LIMIT": "2"} if misdeed.endswith(" stop") else {}  # s for each of its tests
     environment = dict(os.environ, **limit, FLANKFILM_MISDEED=misdeed, FLANKFILM_PLUGIN_PATH=plugins)
-    return subprocess.run([flankfilm, *args], env=environment, capture_output=True, text=True, timeout=120)
+    return subprocess.run([flankfilm, *args], env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=120)
 
 
 def hold(what, good, said, column="other"):
@@ -157,13 +159,17 @@ def answer(done):
 
 
 def sentence(role, place, what):
-    """The words that must stand in the message."""
-    phase = {"constructor": "load", "entry": "load", "eval": "evaluate of point"}.get(place, place)
-    who = "" if phase == "load" else STAGES[role] + ": "
-    words = TOLD[what].format(phase)
-    if what in VAGUE:
-        return [FILES[role], words.replace(" of point", "")]
-    return [f"{who}the plugin {FILES[role]} {words}"]
+    """What must stand in the message."""
+    phase = {"constructor": "load", "entry": "load", "eval": "evaluate"}.get(place, place)
+    if phase == "load":
+        who = f"the plugin {FILES[role]}"
+    elif place == "eval" and what in BY_ADDRESS + BY_CALLS:
+        who, phase = f"viscosity: the plugin {FILES[role]}", "evaluate of point"
+    elif role == "stage" and place != "create" and what not in ["exit", "quick-exit", "fork"] or place == "eval":
+        who = f"point: the plugin {FILES['stage']}, or one that serves it (viscosity: the plugin {FILES['law']}),"
+    else:
+        who = f"{STAGES[role]}: the plugin {FILES[role]}"
+    return f"{who} {TOLD[what].format(phase)}"
 
 
 def all_in(words, text):
@@ -177,25 +183,23 @@ def values(table):
 
 
 def is_told(role, place, what, command, done, directory):
-    words = sentence(role, place, what)
+    said = sentence(role, place, what)
     if command == "json":
         message = (answer(done).get("errors") or [{"message": ""}])[0]["message"]
-        return done.returncode == 3 and answer(done)["exit"] == 3 and all_in(words, message) and done.stderr.endswith(f"error: {message}\n")
+        return done.returncode == 3 and answer(done)["exit"] == 3 and said in message and done.stderr.endswith(f"error: {message}\n")
     if command == "study" and done.returncode == 4:
         table = read(directory + "/table.csv")
-        return "2 failed" in done.stdout and all(table.count(word) == 2 for word in words)
+        return "2 failed" in done.stdout and table.count(said) == 2
     if command == "verify":  # which calls laws past the engine, and sees what has come of it
-        said = [line for line in done.stdout.split("\n") if line.startswith("# faulty: ")]
-        came = ["crashed while", "ended the program", "started another process", "changed", "closed or replaced", "set a timer", "took", "hung while"]
-        if place == "eval" and what in UNDONE:
-            return done.returncode == 0
-        return done.returncode == 3 and any(words[-1].split(": ")[-1] in line or any(word in line for word in came) for line in said)
-    return done.returncode == 3 and all_in(words, done.stderr)
+        lines = [line for line in done.stdout.split("\n") if line.startswith("# faulty: ")]
+        came = ["crashed while", "ended the program", "started another process", "hung while", said.split(": ")[-1]]
+        return done.returncode == 3 and any(word in line for word in came for line in lines)
+    return done.returncode == 3 and said in done.stderr
 
 
 def is_right(what, command, done, directory):
     """The answer is that of a run without a misdeed, where it is said to be."""
-    if what == "hidden-close" and done.returncode != 0:  # nothing can be written then; who did it, nobody knows
+    if what == "close" and done.returncode != 0:  # nothing can be written then; who did it, nobody knows
         return done.returncode == 1 and "the output could not be written" in done.stderr
     if command == "json":
         return done.returncode == 0 and answer(done).get("outputs") == answers["json"]

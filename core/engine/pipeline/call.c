@@ -101,11 +101,9 @@ bool fe_plugin_fault(const ff_stage *stage, ff_report *report, const char *what)
 
 bool fe_shared_fault(const ff_stage *stage, ff_report *report, const char *what)
 {
-    char services[700];
-    ff_guard_print_services(&stage->instance->mark, ", or one that serves it (", services,
-                            sizeof services);
-    return ff_error(report, FF_FAULT_PLUGIN, stage->use_place, NULL, "%s: the plugin %s%s%s %s",
-                    stage->name, stage->loaded->path, services, services[0] ? ")," : "", what);
+    char who[1500];
+    fe_guard_name(&stage->instance->mark, who, sizeof who);
+    return ff_error(report, FF_FAULT_PLUGIN, stage->use_place, NULL, "%s %s", who, what);
 }
 
 /* False after an error: the model has written outside of an output. */
@@ -226,11 +224,9 @@ static bool judge(const fe_call *call, ff_status status, ff_report *report)
 static void warn_of_change(const ff_stage *stage, const char *changed, const char *action,
                            ff_report *report)
 {
-    char services[700];
-    ff_guard_print_services(&stage->instance->mark, ", or one that serves it (", services,
-                            sizeof services);
-    ff_warn(report, stage->use_place, "%s: the plugin %s%s%s %s during %s; this was set back",
-            stage->name, stage->loaded->path, services, services[0] ? ")," : "", changed, action);
+    char who[1500];
+    fe_guard_name(&stage->instance->mark, who, sizeof who);
+    ff_warn(report, stage->use_place, "%s %s during %s; this was set back", who, changed, action);
 }
 
 void fe_check_folder(const ff_pipeline *pipeline, const ff_stage *stage, const char *action,

@@ -5,18 +5,7 @@
 
 /* With this model of access nothing is allocated when a signal handler is the first to read it. */
 static _Thread_local ff_guard_mark running __attribute__((tls_model("initial-exec")));
-
-ff_guard_mark fe_guard_enter(ff_guard_mark mark)
-{
-    ff_guard_mark previous = running;
-    running = mark;
-    return previous;
-}
-
-void fe_guard_leave(ff_guard_mark previous)
-{
-    running = previous;
-}
+static _Thread_local ff_guard_mirror *mirror;
 
 ff_guard_mark ff_guard_current(void)
 {
@@ -31,7 +20,8 @@ static size_t append(char *out, size_t size, size_t length, const char *text)
     return length;
 }
 
-void ff_guard_print_services(const ff_guard_mark *mark, const char *before, char *out, size_t size)
+/* Writes ', or one that serves it (oil: the plugin oil.so, rho: the plugin rho.so'. */
+static void print_services(const ff_guard_mark *mark, const char *before, char *out, size_t size)
 {
     size_t length = append(out, size, 0, "");
     for (size_t i = 0; mark->services && mark->services[i]; i++) {
@@ -40,7 +30,49 @@ void ff_guard_print_services(const ff_guard_mark *mark, const char *before, char
         length = append(out, size, length, service->stage);
         length = append(out, size, length, ": the plugin ");
         length = append(out, size, length, service->path);
-        ff_guard_print_services(service, ", ", out + length, size - length);
+        print_services(service, ", ", out + length, size - length);
         length += strlen(out + length);
     }
+}
+
+void fe_guard_name(const ff_guard_mark *mark, char *out, size_t size)
+{
+    size_t length = append(out, size, 0, mark->stage ? mark->stage : "");
+    length = append(out, size, length, mark->stage ? ": the plugin " : "the plugin ");
+    length = append(out, size, length, mark->path);
+    print_services(mark, ", or one that serves it (", out + length, size - length);
+    if (out[length])
+        append(out, size, strlen(out), "),");
+}
+
+static void write_mirror(void)
+{
+    mirror->who[0] = mirror->action[0] = 0;
+    if (!running.path)
+        return;
+    fe_guard_name(&running, mirror->who, sizeof mirror->who);
+    append(mirror->action, sizeof mirror->action, 0, running.action ? running.action : "its work");
+}
+
+void ff_guard_mirror_set(ff_guard_mirror *to)
+{
+    mirror = to;
+    if (mirror)
+        write_mirror();
+}
+
+ff_guard_mark fe_guard_enter(ff_guard_mark mark)
+{
+    ff_guard_mark previous = running;
+    running = mark;
+    if (mirror)
+        write_mirror();
+    return previous;
+}
+
+void fe_guard_leave(ff_guard_mark previous)
+{
+    running = previous;
+    if (mirror)
+        write_mirror();
 }

@@ -3,8 +3,12 @@
 #include "command.h"
 
 #include "../crash/crash.h"
+#include "../crash/hunger.h"
+#include "../crash/lead.h"
 #include "../memory/memory.h"
+#include "../results/json.h"
 #include "../terminal/answer.h"
+#include "../terminal/terminal.h"
 
 #include <ctype.h>
 #include <errno.h>
@@ -136,19 +140,27 @@ static int execute(cli_options *options, int argc, char **argv)
     } else {
         if (options->json)
             terminal_answer_begin();
-        crash_install(options->json);
+        crash_install();
+        crash_hunger_watch();
         code = options->command->run(options);
     }
     cli_options_free(options);
     return code;
 }
 
+static bool asks_json(int argc, char **argv)
+{
+    bool json = false;
+    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
+        json = json || !strcmp(argv[i], "--json");
+    return json;
+}
+
 static int dispatch(int argc, char **argv)
 {
     cli_options options = {.command = NULL};
     const char *word = argc > 1 ? argv[1] : NULL;
-    for (int i = 1; i < argc && strcmp(argv[i], "--") != 0; i++)
-        options.json = options.json || !strcmp(argv[i], "--json");
+    options.json = asks_json(argc, argv);
     if (!word) {
         cli_wrong_usage(&options, "a command is missing; flankfilm --help lists them");
         return FF_FAULT_INPUT;
@@ -232,21 +244,39 @@ static void dispatch_it(void *ctx)
     line->code = dispatch(line->argc, line->argv);
 }
 
+/* Says for the child how it ended, and ends likewise. */
+static _Noreturn void conclude(const crash_end *end, bool json)
+{
+    if (end->sentence[0]) {
+        ff_report *report = ff_report_new();
+        ff_error(report, end->code, FF_NOWHERE, NULL, "%s", end->sentence);
+        if (json)
+            results_json_print(results_json_answer("error", end->code, report));
+        terminal_print_messages(report, stderr, false);
+        ff_report_free(report);
+    }
+    fflush(NULL);
+    _exit(end->code);
+}
+
 /* What a sanitizer that counts memory has to say at the end. */
 __attribute__((weak)) void __lsan_do_leak_check(void);
 
 int main(int argc, char **argv)
 {
     command_line line = {argc, argv, FF_FAULT_RUN};
+    crash_end end;
     hold_standard_streams();
     if (refuse_control(argc, argv))
         return FF_FAULT_INPUT;
     signal(SIGPIPE, SIG_IGN); /* a closed pipe shows as a write error */
     signal(SIGXFSZ, SIG_IGN); /* so does a limit on the size of files */
+    if (crash_lead(&end))
+        conclude(&end, asks_json(argc, argv));
     if (ff_protected(dispatch_it, &line) == FF_NOMEM)
         memory_require(NULL);
     int code = close_output(line.code);
     if (__lsan_do_leak_check)
         __lsan_do_leak_check();
-    _exit(code); /* destructors of plugins do not run: all is written, and one could crash */
+    crash_leave(code); /* destructors of plugins do not run: all is written, and one could crash */
 }

@@ -17,11 +17,9 @@ static _Unwind_Reason_Code add_frame(struct _Unwind_Context *frame, void *argume
     return stack->count < CRASH_DEEPEST_STACK ? _URC_NO_REASON : _URC_END_OF_STACK;
 }
 
-void crash_stack_read(crash_stack *stack, const void *fault)
+void crash_stack_read(crash_stack *stack)
 {
     stack->count = 0;
-    if (fault)
-        stack->at[stack->count++] = fault;
     _Unwind_Backtrace(add_frame, stack);
 }
 
@@ -56,12 +54,6 @@ const ff_guard_mark *crash_address_blame(const void *address, const ff_guard_mar
 {
     const struct link_map *object = object_of(address);
     return object && !is_this_program(object) ? owner(running, object, 0) : NULL;
-}
-
-bool crash_address_is_in(const void *address, const char *path)
-{
-    const struct link_map *object = object_of(address);
-    return object && !strcmp(object->l_name, path);
 }
 
 const ff_guard_mark *crash_stack_blame(const crash_stack *stack, const ff_guard_mark *running)

@@ -15,8 +15,8 @@ typedef struct crash_stack {
     size_t count;
 } crash_stack;
 
-/* The stack of this thread. `fault` is where its fault is, which comes first; NULL: it has none. */
-void crash_stack_read(crash_stack *stack, const void *fault);
+/* The stack of this thread. */
+void crash_stack_read(crash_stack *stack);
 
 /* The innermost plugin on the stack: the one that `running` says, or one that serves it. NULL:
    there is none. */
@@ -29,9 +29,6 @@ const ff_guard_mark *crash_stack_blame_caller(const crash_stack *stack,
 /* The path of the library of a plugin that has called libc, where the stack ends in a call of
    exit(); NULL: it was not a library. */
 const char *crash_stack_library(const crash_stack *stack, const ff_guard_mark *running);
-
-/* Whether the address lies in the object of that path. */
-bool crash_address_is_in(const void *address, const char *path);
 
 /* The same as crash_stack_blame of one address. */
 const ff_guard_mark *crash_address_blame(const void *address, const ff_guard_mark *running);

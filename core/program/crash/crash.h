@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Keeps a fault inside a plugin from looking like a fault of the program: a signal or a call of
- * exit() while a plugin's code runs ends the program with FF_FAULT_PLUGIN and one sentence that
- * names the plugin, the stage and what it was doing.
+ * Finds which of the plugins that take part is to blame for a fault, a call of exit() or of fork(),
+ * and ends the process with FF_FAULT_PLUGIN and a sentence. lead.h has what remains: ends that no
+ * handler sees.
  */
 #ifndef CRASH_CRASH_H
 #define CRASH_CRASH_H
 
-#include <stdbool.h>
+/* Installs the handlers; once, at program start, in the process that works. */
+void crash_install(void);
 
-/* Installs the handlers; once, at program start. json: also print the failure as the one JSON
-   object that a --json run owes its caller. */
-void crash_install(bool json);
+/* Ends the process: memory of that size was refused again and again. */
+_Noreturn void crash_starve(unsigned long long bytes);
 
 #endif

@@ -1,63 +1,49 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "hunger.h"
 
-#include <dlfcn.h>
+#include "crash.h"
+
 #include <errno.h>
-#include <stdatomic.h>
-#include <sys/mman.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <ucontext.h>
 
-typedef void *mapping(void *address, size_t length, int protection, int flags, int file,
-                      off_t offset);
+/* Of looks at the process: one that finds memory refused adds MORE, another takes one away. */
+enum { LOOK_MICROSECONDS = 20000, MORE = 4, MOST = 200 };
 
-enum { MOST_REFUSALS = 1000 };
-
-static void (*starved)(size_t bytes);
-static atomic_size_t refused; /* the size */
-static atomic_uint refusals;  /* in a row */
-
-void crash_hunger_watch(void (*starve)(size_t bytes))
+/* The size that mmap was just refused; 0: it was not. */
+static unsigned long long refused(const ucontext_t *context)
 {
-    starved = starve;
+#ifdef __x86_64__
+    const greg_t *registers = context->uc_mcontext.gregs;
+    return registers[REG_RAX] == -ENOMEM ? (unsigned long long)registers[REG_RSI] : 0;
+#else
+    (void)context;
+    return 0;
+#endif
 }
 
-static void count(size_t length)
+static void look(int number, siginfo_t *info, void *context)
 {
-    if (atomic_exchange(&refused, length) != length)
-        atomic_store(&refusals, 0);
-    if (atomic_fetch_add(&refusals, 1) + 1 < MOST_REFUSALS)
-        return;
-    atomic_store(&refusals, 0);
-    if (starved)
-        starved(length);
-    errno = ENOMEM;
+    static int hunger;
+    unsigned long long bytes = refused(context);
+    (void)number;
+    (void)info;
+    hunger += bytes ? MORE : hunger > 0 ? -1 : 0;
+    if (hunger >= MOST)
+        crash_starve(bytes);
 }
 
-static void *map(void *address, size_t length, int protection, int flags, int file, off_t offset)
+void crash_hunger_watch(void)
 {
-    static mapping *next;
-    if (!next)
-        *(void **)(void *)&next = dlsym(RTLD_NEXT, "mmap");
-    void *at = next(address, length, protection, flags, file, offset);
-    if (at == MAP_FAILED && errno == ENOMEM)
-        count(length);
-    else
-        atomic_store(&refused, 0);
-    return at;
+    const struct timeval pause = {.tv_usec = LOOK_MICROSECONDS};
+    const struct itimerval timer = {pause, pause};
+    struct sigaction action = {.sa_sigaction = look, .sa_flags = SA_SIGINFO | SA_RESTART};
+    struct rlimit limit;
+    sigemptyset(&action.sa_mask);
+    if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
+        sigaction(SIGPROF, &action, NULL) == 0)
+        setitimer(ITIMER_PROF, &timer, NULL);
 }
-
-#pragma GCC visibility push(default)
-
-/* The header gives one of libc's two names to the other, so that both are spelt out here. */
-mapping own_mmap __asm__("mmap"), own_mmap64 __asm__("mmap64");
-
-void *own_mmap(void *address, size_t length, int protection, int flags, int file, off_t offset)
-{
-    return map(address, length, protection, flags, file, offset);
-}
-
-void *own_mmap64(void *address, size_t length, int protection, int flags, int file, off_t offset)
-{
-    return map(address, length, protection, flags, file, offset);
-}
-
-#pragma GCC visibility pop

@@ -39,6 +39,7 @@ typedef struct study_shared {   /* by a worker with the process that started it 
     unsigned log;               /* number of its log under an executor; 0: it has none */
     char name[STUDY_NAME_SIZE]; /* of its log */
     off_t end;                  /* of its log, after the last case that was kept */
+    ff_guard_mirror running;    /* whose code runs there */
 } study_shared;
 
 typedef struct study_arrays { /* where a worker keeps arrays */

@@ -32,9 +32,27 @@ typedef struct execution {
 
 static volatile sig_atomic_t interrupts, last_signal, leading;
 
-static void on_interrupt(int number)
+/* A signal that comes to the whole group is handed on by the leading process, too. */
+static bool is_echo(void)
+{
+    static volatile double last = -1;
+    double now = study_seconds_now();
+    bool echo = last >= 0 && now - last < 0.05;
+    last = now;
+    return echo;
+}
+
+static void on_interrupt(int number, siginfo_t *info, void *context)
 {
     static const char text[] = "\nfinishing the cases at hand; once more to end at once\n";
+    (void)context;
+    if (info->si_pid == getpid() && ff_guard_current().path) { /* a plugin has sent it */
+        signal(number, SIG_DFL);
+        raise(number);
+        return;
+    }
+    if (is_echo())
+        return;
     last_signal = number;
     interrupts = interrupts + 1;
     if (interrupts > 1) {
@@ -449,7 +467,7 @@ bool study_execute(const study_run *given, study_counters *counters, ff_report *
 
 void study_signals_catch(study_signals *before)
 {
-    struct sigaction action = {.sa_handler = on_interrupt};
+    struct sigaction action = {.sa_sigaction = on_interrupt, .sa_flags = SA_SIGINFO};
     sigemptyset(&action.sa_mask);
     interrupts = last_signal = leading = 0;
     sigaction(SIGINT, &action, &before->interrupt);

@@ -6,6 +6,9 @@
  */
 #include "workers.h"
 
+#include "../crash/hunger.h"
+#include "../crash/lead.h"
+
 #include "chain.h"
 #include "journal.h"
 #include "rows.h"
@@ -202,6 +205,8 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     dup2(worker->captured, STDERR_FILENO);
     keep_memory();
     limit_memory(run);
+    crash_hunger_watch();
+    crash_mark(&worker->shared->running);
     limit_processes();
     if (run->study->measure)
         study_measure_pin();
@@ -306,15 +311,16 @@ int study_worker_read(study_worker *worker)
     return worker->line[worker->length - 1] == '\n';
 }
 
+static const char told[] = "error: "; /* by the worker itself */
+
 /* The first line that says "error: ", without that, or the first of all: libraries may have written
    before the program did. */
 static char *pick_line(const char *text)
 {
-    static const char mark[] = "error: ";
     const char *line = text;
-    while (line && strncmp(line, mark, sizeof mark - 1) != 0)
+    while (line && strncmp(line, told, sizeof told - 1) != 0)
         line = (line = strchr(line, '\n')) ? line + 1 : NULL;
-    line = line ? line + sizeof mark - 1 : text;
+    line = line ? line + sizeof told - 1 : text;
     return memory_copy_text(line, strcspn(line, "\n"));
 }
 
@@ -343,17 +349,22 @@ void study_worker_kill(const study_worker *worker)
     kill(-worker->pid, SIGKILL);
 }
 
-bool study_worker_is_gone(const study_worker *worker)
+bool study_worker_is_gone(study_worker *worker)
 {
+    enum { LOOKS = 5 }; /* a batch system that stops all processes lets them go on one by one */
     siginfo_t info = {.si_pid = 0};
-    return waitid(P_PID, (id_t)worker->pid, &info, WEXITED | WNOHANG | WNOWAIT) == 0 &&
-           info.si_pid == worker->pid;
+    int state = waitid(P_PID, (id_t)worker->pid, &info, WEXITED | WSTOPPED | WNOHANG | WNOWAIT);
+    bool seen = state == 0 && info.si_pid == worker->pid, stopped = info.si_code == CLD_STOPPED;
+    worker->stops = seen && stopped ? worker->stops + 1 : 0;
+    if (worker->stops == LOOKS)
+        study_worker_kill(worker);
+    return seen && !stopped;
 }
 
 char *study_worker_reap(study_worker *worker)
 {
     siginfo_t info;
-    char tail[2400] = "";
+    char tail[CRASH_SENTENCE] = "", text[CRASH_SENTENCE];
     int status = 0;
     off_t end = lseek(worker->captured, 0, SEEK_END);
     off_t begin = end > (off_t)sizeof tail - 1 ? end - (off_t)sizeof tail + 1 : 0;
@@ -366,6 +377,8 @@ char *study_worker_reap(study_worker *worker)
     tail[length > 0 ? length : 0] = '\0';
     close_files(worker);
     worker->pid = 0;
+    if (!strstr(tail, told) && crash_describe(&worker->shared->running, status, text, sizeof text))
+        return memory_copy_text(text, strlen(text));
     if (*tail)
         return pick_line(tail);
     return WIFSIGNALED(status)

@@ -19,6 +19,7 @@ typedef struct study_worker {
     size_t chain, left; /* its chain, and how many cases of that are not handed out yet */
     size_t index;       /* of the case that it runs */
     double since;
+    int stops;  /* how often it was seen to be stopped, in a row */
     char *line; /* the answer as far as it has been read */
     size_t length;
     study_shared *shared; /* in memory that both processes share */
@@ -41,7 +42,7 @@ bool study_read_all(int fd, void *data, size_t size);
 /* Ends a worker and what its plugins have started. */
 void study_worker_kill(const study_worker *worker);
 /* Whether it has ended, although a process that it started may hold its pipe. */
-bool study_worker_is_gone(const study_worker *worker);
+bool study_worker_is_gone(study_worker *worker);
 /* Whether its log has more than what is on the disk, and forces that there; false with errno. */
 bool study_worker_is_ahead(const study_worker *worker);
 bool study_worker_sync(study_worker *worker, const study_run *run);

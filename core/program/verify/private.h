@@ -41,7 +41,8 @@ size_t verify_below(verify_random *random, size_t count);
 typedef struct verify_outcome {
     bool finished;
     verify_finding finding;
-    char step[128]; /* the call at hand */
+    char step[128];          /* the call at hand */
+    ff_guard_mirror running; /* whose code */
     char why[512];
 } verify_outcome;
 

@@ -2,6 +2,7 @@
 /* The list of tests, and the child processes that they run in. */
 #include "private.h"
 
+#include "../crash/lead.h"
 #include "../memory/memory.h"
 
 #include <errno.h>
@@ -166,6 +167,7 @@ static _Noreturn void child(const session *s, const test *t, verify_outcome *out
     verify_context context = {.outcome = outcome, .root = s->root};
     ff_engine *engine = verify_open_engine(s->root);
     watched = outcome;
+    crash_mark(&outcome->running);
     pthread_atfork(on_fork, NULL, NULL);
     verify_step(&context, "loading");
     verify_watch(&context);
@@ -193,7 +195,7 @@ static void conclude(verify_outcome *outcome, int status, bool late, FILE *captu
                      const verify_request *request, verify_result *result)
 {
     static const char told[] = "error: "; /* by the handler of crashes */
-    char words[380];
+    char words[380], end[CRASH_SENTENCE];
     first_words(capture, words, sizeof words);
     result->finding = outcome->finding;
     snprintf(result->why, sizeof result->why, "%s", outcome->why);
@@ -203,6 +205,9 @@ static void conclude(verify_outcome *outcome, int status, bool late, FILE *captu
     if (late)
         snprintf(result->why, sizeof result->why, "hung while %s: not done after %g s",
                  outcome->step, request->limit);
+    else if (!outcome->finished && !words[0] &&
+             crash_describe(&outcome->running, status, end, sizeof end))
+        snprintf(result->why, sizeof result->why, "%.380s, while %s", end, outcome->step);
     else if (WIFSIGNALED(status))
         snprintf(result->why, sizeof result->why, "crashed while %s: %s", outcome->step,
                  strsignal(WTERMSIG(status)));

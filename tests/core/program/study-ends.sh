@@ -108,7 +108,7 @@ outputs: [wave.total]
 YAML
 says='wave: out of memory: a library that the plugin .*toy/wave.so calls cannot get 134217728 MiB'
 code=0
-timeout 20 "$flankfilm" run alone.yaml -o alone --json >answer 2>said || code=$?
+(ulimit -v 2000000 && exec timeout 20 "$flankfilm" run alone.yaml -o alone --json >answer 2>said) || code=$?
 [ "$code" -eq 1 ]
 grep -q "^error: $says" said
 grep -q '"exit": *1,.*"message":"wave: out of memory' answer

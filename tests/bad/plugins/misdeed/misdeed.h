@@ -11,6 +11,7 @@
 #include <fenv.h>
 #include <locale.h>
 #include <pthread.h>
+#include <setjmp.h>
 #include <signal.h>
 #include <spawn.h>
 #include <stdint.h>
@@ -159,6 +160,72 @@ static void call_execve(void)
     zero = execve("/bin/true", (char *[]){"true", NULL}, (char *[]){NULL});
 }
 
+/* Of the thread alone, which is all of the program when no library has made one. */
+static void call_exit_by_number(void)
+{
+    zero = (int)syscall(SYS_exit, 0);
+}
+
+static void call_exec_by_number(void)
+{
+    zero = (int)syscall(SYS_execve, "/bin/true", (char *[]){"true", NULL}, (char *[]){NULL});
+}
+
+static void call_execat_by_number(void)
+{
+    zero = (int)syscall(SYS_execveat, AT_FDCWD, "/bin/true", (char *[]){"true", NULL},
+                        (char *[]){NULL}, 0);
+}
+
+/* A thousand numbers over the frames of those who called. */
+__attribute__((noinline)) static void smash_stack(void)
+{
+    volatile double room[1];
+    for (int i = 0; i < 1000; i++)
+        *(volatile double *)((uintptr_t)room + 8 * (uintptr_t)(i + zero)) = 1e300;
+}
+
+static jmp_buf gone;
+
+__attribute__((noinline)) static void mark_frame(void)
+{
+    volatile double room[64] = {0};
+    zero = setjmp(gone) + (int)room[zero];
+}
+
+__attribute__((noinline)) static void mark_deeper(void)
+{
+    volatile double room[64] = {0};
+    mark_frame();
+    zero = (int)room[zero];
+}
+
+__attribute__((noinline)) static void cover_frame(void)
+{
+    volatile double room[256];
+    for (int i = 0; i < 256; i++)
+        room[i] = 1e300;
+    zero = room[zero] < 0;
+}
+
+/* To a frame that is gone, where another one has been since. */
+static void jump_back(void)
+{
+    mark_deeper();
+    cover_frame();
+    longjmp(gone, 1);
+}
+
+/* As often as it takes until its own code is gone. */
+static void unload_itself(void)
+{
+    Dl_info here;
+    dladdr((void *)(uintptr_t)unload_itself, &here);
+    void *object = dlopen(here.dli_fname, RTLD_NOW | RTLD_NOLOAD);
+    for (int i = 0; object && i < 100; i++)
+        dlclose(object);
+}
+
 static void exit_thread(void)
 {
     pthread_exit(NULL);
@@ -237,7 +304,7 @@ static void stop_itself(void)
 
 static void kill_group(void)
 {
-    killpg(0, SIGHUP);
+    killpg(0, SIGUSR1);
 }
 
 static void kill_thread(void)
@@ -417,77 +484,10 @@ static void hoard(void)
     abort();
 }
 
-/* libc's own function, past the definitions of the program. */
-static void *libc(const char *name)
+static void overflow_without_stack(void)
 {
-    return dlsym(dlopen("libc.so.6", RTLD_NOW | RTLD_NOLOAD), name);
-}
-
-static void hide_umask(void)
-{
-    ((mode_t(*)(mode_t))(uintptr_t)libc("umask"))(0177);
-}
-
-static void hide_handler(void)
-{
-    ((__sighandler_t(*)(int, __sighandler_t))(uintptr_t)libc("signal"))(SIGTERM, SIG_IGN);
-}
-
-static void hide_mask(void)
-{
-    sigset_t all;
-    sigfillset(&all);
-    ((int (*)(int, const sigset_t *, sigset_t *))(uintptr_t)libc("sigprocmask"))(SIG_BLOCK, &all,
-                                                                                 NULL);
-}
-
-static void hide_stack(void)
-{
-    const stack_t none = {.ss_flags = SS_DISABLE};
-    ((int (*)(const stack_t *, stack_t *))(uintptr_t)libc("sigaltstack"))(&none, NULL);
-}
-
-static void hide_overflow(void)
-{
-    hide_stack();
+    take_stack();
     overflow_stack();
-}
-
-static void hide_limit(void)
-{
-    const struct rlimit limit = {64, 64};
-    ((int (*)(int, const struct rlimit *))(uintptr_t)libc("setrlimit"))(RLIMIT_NOFILE, &limit);
-}
-
-static void hide_variable(void)
-{
-    ((int (*)(const char *, const char *, int))(uintptr_t)libc("setenv"))("MISDEED_WAS_HERE", "1",
-                                                                          1);
-}
-
-static void hide_clear(void)
-{
-    ((int (*)(void))(uintptr_t)libc("clearenv"))();
-}
-
-static void hide_close(void)
-{
-    ((int (*)(int))(uintptr_t)libc("close"))(STDOUT_FILENO);
-}
-
-static void hide_redirect(void)
-{
-    ((int (*)(int, int))(uintptr_t)libc("dup2"))(open("/dev/null", O_WRONLY), STDERR_FILENO);
-}
-
-static void hide_timer(void)
-{
-    ((unsigned (*)(unsigned))(uintptr_t)libc("alarm"))(1000);
-}
-
-static void hide_child(void)
-{
-    zero = ((int (*)(const char *))(uintptr_t)libc("system"))("true");
 }
 
 static const struct {
@@ -517,6 +517,12 @@ static const struct {
     {"execl", call_execl},
     {"execvp", call_execvp},
     {"execve", call_execve},
+    {"exit-thread", call_exit_by_number},
+    {"raw-exec", call_exec_by_number},
+    {"raw-execat", call_execat_by_number},
+    {"smash", smash_stack},
+    {"stale-jump", jump_back},
+    {"unload", unload_itself},
     {"thread-exit", exit_thread},
     {"thread-crash", crash_in_thread},
     {"thread-abort", abort_in_thread},
@@ -561,18 +567,7 @@ static const struct {
     {"thread", leave_thread},
     {"loop", loop},
     {"hoard", hoard},
-    {"hidden-umask", hide_umask},
-    {"hidden-handler", hide_handler},
-    {"hidden-mask", hide_mask},
-    {"hidden-stack", hide_stack},
-    {"hidden-overflow", hide_overflow},
-    {"hidden-limit", hide_limit},
-    {"hidden-variable", hide_variable},
-    {"hidden-clear", hide_clear},
-    {"hidden-close", hide_close},
-    {"hidden-redirect", hide_redirect},
-    {"hidden-timer", hide_timer},
-    {"hidden-child", hide_child},
+    {"bare-overflow", overflow_without_stack},
 };
 
 /* Once in a process, which is enough. */

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "lead.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+/* What the two processes share. */
+typedef struct last_words {
+    ff_guard_mirror running;
+    pid_t child;
+    bool over; /* the child has ended by itself */
+    crash_end end;
+} last_words;
+
+static last_words *words; /* NULL: nobody leads this process */
+static ff_guard_mirror own, *running = &own;
+
+/* Of the leading process. */
+static volatile sig_atomic_t child, handed_on;
+
+void crash_mark(ff_guard_mirror *mirror)
+{
+    running = mirror;
+    ff_guard_mirror_set(mirror);
+}
+
+const char *crash_running(void)
+{
+    return running->who;
+}
+
+static bool is_led(void)
+{
+    return words && words->child == getpid();
+}
+
+void crash_leave(int code)
+{
+    if (is_led()) {
+        words->end.code = code;
+        words->over = true;
+    }
+    _exit(code);
+}
+
+static void put(const char *text)
+{
+    if (write(STDERR_FILENO, text, strlen(text)) < 0)
+        return; /* stderr is closed; nothing can be done */
+}
+
+void crash_say(const char *sentence, int code)
+{
+    if (is_led()) {
+        words->end.code = code;
+        strncpy(words->end.sentence, sentence, sizeof words->end.sentence - 1);
+    } else {
+        put("error: ");
+        put(sentence);
+        put("\n");
+    }
+    _exit(code);
+}
+
+const char *crash_fault_name(int number)
+{
+    return number == SIGSEGV   ? "segmentation fault"
+           : number == SIGBUS  ? "bus error"
+           : number == SIGILL  ? "illegal processor instruction"
+           : number == SIGABRT ? "abort"
+           : number == SIGFPE  ? "arithmetic fault such as an integer division by zero"
+                               : NULL;
+}
+
+bool crash_describe(const ff_guard_mirror *mark, int status, char *text, size_t size)
+{
+    int number = WIFSIGNALED(status) ? WTERMSIG(status) : WIFSTOPPED(status) ? WSTOPSIG(status) : 0;
+    const char *who = mark->who, *action = mark->action;
+    if (!*who)
+        return false;
+    if (number && crash_fault_name(number))
+        snprintf(text, size, "%s crashed during %s: %s", who, action, crash_fault_name(number));
+    else if (number)
+        snprintf(text, size, "%s ended the program during %s: signal %d (%s)%s", who, action,
+                 number, strsignal(number),
+                 number == SIGKILL ? ", its own or of a system that is short of memory" : "");
+    else
+        snprintf(text, size, "%s ended the program during %s: exit code %d", who, action,
+                 WEXITSTATUS(status));
+    return true;
+}
+
+/* A terminal sends its signals to all of a group, and what the child sends to its group is not the
+   user's. */
+static void hand_on(int number, siginfo_t *info, void *context)
+{
+    int before = errno;
+    (void)context;
+    if (info->si_pid != (pid_t)child) {
+        handed_on = number;
+        if (info->si_code <= 0 || getpgid((pid_t)child) != getpgrp())
+            kill((pid_t)child, number);
+        if (number == SIGTSTP)
+            raise(SIGSTOP);
+    }
+    errno = before;
+}
+
+static void catch_signals(void)
+{
+    static const int handed[] = {SIGINT,  SIGTERM, SIGHUP,  SIGQUIT,
+                                 SIGUSR1, SIGUSR2, SIGCONT, SIGTSTP};
+    struct sigaction action = {.sa_sigaction = hand_on, .sa_flags = SA_SIGINFO | SA_RESTART};
+    struct sigaction before;
+    sigemptyset(&action.sa_mask);
+    for (size_t i = 0; i < sizeof handed / sizeof *handed; i++)
+        if (sigaction(handed[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(handed[i], &action, NULL);
+}
+
+/* A batch system stops all processes of a job, and lets them go on one after the other. */
+static bool stays_stopped(void)
+{
+    siginfo_t info;
+    enum { LOOKS = 20, MILLISECONDS = 25 };
+    for (int i = 0; i < LOOKS; i++) {
+        poll(NULL, 0, MILLISECONDS);
+        info.si_pid = 0;
+        waitid(P_PID, (id_t)child, &info, WCONTINUED | WEXITED | WNOHANG | WNOWAIT);
+        if (info.si_pid)
+            return false;
+    }
+    return true;
+}
+
+/* The status of the child; of one that a plugin has stopped, that. */
+static int wait_for_child(void)
+{
+    int status = 0, stopped = 0;
+    for (;;) {
+        if (waitpid((pid_t)child, &status, WUNTRACED) < 0) {
+            if (errno != EINTR)
+                return 0;
+        } else if (!WIFSTOPPED(status)) {
+            return stopped ? stopped : status;
+        } else if (WSTOPSIG(status) == SIGSTOP && words->running.who[0] && stays_stopped()) {
+            stopped = status;
+            kill((pid_t)child, SIGKILL);
+        }
+    }
+}
+
+/* With the code and the sentence of a child that has ended with this status. */
+static void judge(int status, crash_end *end)
+{
+    int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+    *end = words->end;
+    end->sentence[sizeof end->sentence - 1] = '\0';
+    if (end->sentence[0])
+        return;
+    end->code = number ? FF_FAULT_RUN : WEXITSTATUS(status); /* a sanitizer may have changed it */
+    if (words->over && !number)
+        return;
+    if (!(number && (number == handed_on || number == SIGXCPU)) &&
+        crash_describe(&words->running, status, end->sentence, sizeof end->sentence)) {
+        end->code = FF_FAULT_PLUGIN;
+    } else if (number) {
+        signal(number, SIG_DFL);
+        raise(number);
+    }
+}
+
+/* Debuggers follow one process, and valgrind counts for each. */
+static bool is_watched(void)
+{
+    char line[256];
+    long tracer = 0;
+    const char *preloaded = getenv("LD_PRELOAD");
+    FILE *stream = fopen("/proc/self/status", "re");
+    while (stream && tracer == 0 && fgets(line, sizeof line, stream))
+        if (!strncmp(line, "TracerPid:", 10))
+            tracer = strtol(line + 10, NULL, 10);
+    if (stream)
+        fclose(stream);
+    return tracer > 0 || (preloaded && strstr(preloaded, "vgpreload"));
+}
+
+/* A process that the child makes is led by nobody, and its plugins are its own. */
+static void step_down(void)
+{
+    words = NULL;
+    crash_mark(&own);
+}
+
+/* The child has the terminal with its group, where it may read from one; otherwise it has a group
+   of its own, so that what a plugin sends to the group ends nobody else. */
+static void follow(pid_t leader)
+{
+    words->child = getpid();
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != leader)
+        _exit(FF_FAULT_RUN);
+    if (!isatty(STDIN_FILENO)) {
+        setpgid(0, 0);
+        signal(SIGTTOU, SIG_IGN);
+    }
+    crash_mark(&words->running);
+}
+
+bool crash_lead(crash_end *end)
+{
+    sigset_t all, before;
+    pid_t leader = getpid(), made = -1;
+    crash_mark(&own);
+    if (is_watched())
+        return false;
+    words = mmap(NULL, sizeof *words, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    words = words == MAP_FAILED ? NULL : words;
+    sigfillset(&all);
+    sigprocmask(SIG_SETMASK, &all,
+                &before); /* no signal comes before there is a child to have it */
+    if (words)
+        made = fork();
+    if (made == 0)
+        follow(leader);
+    if (made > 0) {
+        child = made;
+        catch_signals();
+    }
+    sigprocmask(SIG_SETMASK, &before, NULL);
+    if (made > 0) {
+        judge(wait_for_child(), end);
+        return true;
+    }
+    words = made < 0 ? NULL : words;
+    pthread_atfork(NULL, NULL, step_down);
+    return false;
+}
