@@ -5,7 +5,7 @@
 
 /* With this model of access nothing is allocated when a signal handler is the first to read it. */
 static _Thread_local ff_guard_mark running __attribute__((tls_model("initial-exec")));
-static _Thread_local ff_guard_mirror *mirror;
+static _Thread_local ff_guard_mirror *mirror __attribute__((tls_model("initial-exec")));
 
 ff_guard_mark ff_guard_current(void)
 {

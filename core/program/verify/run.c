@@ -207,7 +207,7 @@ static void conclude(verify_outcome *outcome, int status, bool late, FILE *captu
                  outcome->step, request->limit);
     else if (!outcome->finished && !words[0] &&
              crash_describe(&outcome->running, status, end, sizeof end))
-        snprintf(result->why, sizeof result->why, "%.380s, while %s", end, outcome->step);
+        snprintf(result->why, sizeof result->why, "%.360s, while %s", end, outcome->step);
     else if (WIFSIGNALED(status))
         snprintf(result->why, sizeof result->why, "crashed while %s: %s", outcome->step,
                  strsignal(WTERMSIG(status)));

@@ -1,4 +1,5 @@
-"""libflankfilm gives what engine.h declares and nothing else, and the program takes nothing else from it.
+"""libflankfilm gives what engine.h declares and nothing else, and the program takes nothing else from it. It defines no function
+for others: libraries and plugins would have it in place of libc's.
 
 exports.py HEADER LIBRARY PROGRAM SOURCE_ROOT
 """
@@ -24,6 +25,12 @@ def symbols(file, which):
     return {line.split()[0].split('@')[0] for line in output.splitlines()}
 
 
+def functions(file):
+    """Those that the dynamic linker may give to others. Variables of libc are copied into a program that uses them."""
+    output = subprocess.run(['nm', '-D', '-P', '--defined-only', file], check=True, capture_output=True, text=True).stdout
+    return {line.split()[0] for line in output.splitlines() if line.split()[1] in 'TWi'}
+
+
 def dynamic(file, tag):
     output = subprocess.run(['readelf', '-d', file], check=True, capture_output=True, text=True).stdout
     return set(re.findall(rf'\({tag}\).*\[(.*)\]', output))
@@ -46,6 +53,7 @@ def main(header, library, program, source):
         ('given, but not declared', given - names),
         ('given under a name of its own', other),
         ('taken by the program, but not declared', taken - names),
+        ('a function that the program defines for all', functions(program)),
         ('needed by the library', dynamic(library, 'NEEDED') ^ NEEDED),
         ('not the name of the library', dynamic(library, 'SONAME') ^ {'libflankfilm.so.0'}),
         ('of the engine alone', set(inside(Path(source)))),

@@ -63,6 +63,29 @@ wait "$run" || code=$?
 [ "$code" -eq 143 ]
 rm child
 
+# a single case, done in a child of the process that is started: signals end both, and so does the end of the first
+cat >single.yaml <<YAML
+format: 2
+pipeline: {wave: {use: toy/wave, amplitude: 2 mm, work: 60 s, end: spawn}}
+outputs: [wave.total]
+YAML
+for signal in 15 9; do
+    "$flankfilm" run single.yaml -o single >said 2>&1 &
+    run=$!
+    wait_for child
+    kill "$(cat child)"
+    rm child
+    worker=$(cat "/proc/$run/task/$run/children")
+    [ "$(echo "$worker" | wc -w)" -eq 1 ]
+    worker=${worker% }
+    kill -"$signal" "$run"
+    code=0
+    wait "$run" || code=$?
+    [ "$code" -eq $((128 + signal)) ]
+    ends "$worker"
+done
+[ ! -s said ]
+
 # likewise at the limit of a case, and at its end
 for how in 'work: 60 s/, time_limit: 1 s' 'work: 0 s/'; do
     write_study limit "${how%%/*}, end: spawn" "${how#*/}"
