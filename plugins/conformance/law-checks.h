@@ -8,7 +8,7 @@
 
 #include <stdbool.h>
 
-enum { CONFORMANCE_AXES = 4, CONFORMANCE_RESULTS = 3, CONFORMANCE_SPEEDS = 3 };
+enum { CONFORMANCE_AXES = 4, CONFORMANCE_RESULTS = 4, CONFORMANCE_SPEEDS = 3 };
 
 /* An argument. */
 typedef struct conformance_axis {

@@ -31,6 +31,21 @@ static ff_status rate(const void *table, size_t n, const double *const *in, doub
     return law->rate(law->self, n, in[2], in[3], in[1], in[0], out[0], out[1], out[2]);
 }
 
+static ff_status flow_at_pressure(const void *table, size_t n, const double *const *in,
+                                  double speed, double *const *out)
+{
+    const ff_rheology_3 *law = table;
+    return law->flow(law->self, n, in[2], in[3], in[0], in[1], speed, out[0], out[3], out[1],
+                     out[2]);
+}
+
+static ff_status shear_at_pressure(const void *table, size_t n, const double *const *in,
+                                   double speed, double *const *out)
+{
+    const ff_rheology_3 *law = table;
+    return law->shear(law->self, n, in[0], in[3], in[1], in[2], speed, out[0]);
+}
+
 const conformance_function conformance_functions[] = {
     {.service = FF_RHEOLOGY_ID,
      .name = "flow",
@@ -67,6 +82,31 @@ const conformance_function conformance_functions[] = {
      .speed_count = 1,
      .rising = true,
      .call = rate},
+    {.service = FF_RHEOLOGY_3_ID,
+     .name = "flow at pressure",
+     .size = sizeof(ff_rheology_3),
+     .axes = {&conformance_ln_eta, &conformance_film, &conformance_pressure,
+              &conformance_temperature},
+     .axis_count = 4,
+     .results = {"psi", "dpsi_dln_eta", "dpsi_dh", "dpsi_dp"},
+     .by = {0, 0, 1, 2},
+     .result_count = 4,
+     .speeds = {0, 1.5, -1.5},
+     .speed_count = 3,
+     .positive = true,
+     .call = flow_at_pressure},
+    {.service = FF_RHEOLOGY_3_ID,
+     .name = "shear at pressure",
+     .size = sizeof(ff_rheology_3),
+     .axes = {&conformance_pressure, &conformance_ln_eta, &conformance_film,
+              &conformance_temperature},
+     .axis_count = 4,
+     .results = {"tau"},
+     .result_count = 1,
+     .speeds = {0, 1.5, -1.5},
+     .speed_count = 3,
+     .follows_speed = true,
+     .call = shear_at_pressure},
 };
 const size_t conformance_function_count =
     sizeof conformance_functions / sizeof conformance_functions[0];

@@ -8,15 +8,42 @@
 #include "law.h"
 #include "references.h"
 
+#include "../numerics/liquid.h"
+
 static const double STRESS_MAX = 1e300; /* Pa */
 
 typedef struct carreau {
     const ff_host *host;
     ff_rheology service;
     ff_rheology_2 service_2;
+    ff_rheology_3 service_3;
+    rheology_eyring eyring;
     double limiting_stress_coefficient;
-    double G, n; /* Pa, 1 */
+    double G, n; /* Pa, 1; G NaN: auto */
 } carreau;
+
+/* G over the Eyring stress with which n = 0.27 follows Ree-Eyring within 5 % up to five times that
+   stress. */
+static const double over_eyring = 1.86;
+
+/* The law at each of n <= RHEOLOGY_BLOCK points: G and its slope over p. */
+static ff_status stresses_at(const carreau *c, size_t n, const double *p, const double *T,
+                             double *G, double *by_p)
+{
+    ff_status status = FF_OK;
+    if (isnan(c->G))
+        status = rheology_eyring_stress(&c->eyring, n, p, T, G, by_p);
+    for (size_t i = 0; i < n; i++) {
+        G[i] = isnan(c->G) ? over_eyring * G[i] : c->G;
+        by_p[i] = isnan(c->G) ? over_eyring * by_p[i] : 0;
+    }
+    return status;
+}
+
+static double limit_of(const carreau *c)
+{
+    return isnan(c->G) ? c->eyring.coefficient : c->limiting_stress_coefficient;
+}
 
 /* ln(1 + e^x) */
 static double log_one_more(double x)
@@ -25,9 +52,9 @@ static double log_one_more(double x)
 }
 
 /* ln S, held so that its multiples stay finite. */
-static double ln_strain(const carreau *c, double ln_eta, double h, double u_s)
+static double ln_strain(double G, double ln_eta, double h, double u_s)
 {
-    double x = ln_eta + log(fabs(u_s)) - log(rheology_film(h)) - log(c->G);
+    double x = ln_eta + log(fabs(u_s)) - log(rheology_film(h)) - log(G);
     return fmin(fmax(x, -1e6), 1e6);
 }
 
@@ -47,42 +74,84 @@ static int fluidity(const carreau *c, double ln_eta, double ln_S, double *psi, d
     return held;
 }
 
-static ff_status flow(const void *self, size_t count, const double *ln_eta, const double *h,
-                      double u_s, double *psi, double *dpsi_dln_eta, double *dpsi_dh)
+/* Of one block; where by_p is given, that is the slope of G before and of psi after. */
+static int flow_some(const carreau *c, size_t count, const double *G, const double *ln_eta,
+                     const double *h, double u_s, double *psi, double *by_p, double *dpsi_dln_eta,
+                     double *dpsi_dh)
 {
-    const carreau *c = self;
     int outside = 0;
     for (size_t i = 0; i < count; i++) {
         double l = fmax(ln_eta[i], -RHEOLOGY_LN_MAX), by_eta, by_h;
         int thin = h[i]<RHEOLOGY_FILM_MIN, weak = l> ln_eta[i];
-        double ln_S = u_s != 0 ? ln_strain(c, fmin(l, 1e6), h[i], u_s) : -1e6;
+        double ln_S = u_s != 0 ? ln_strain(G[i], fmin(l, 1e6), h[i], u_s) : -1e6;
         outside |= fluidity(c, fmin(l, 1e6), ln_S, &psi[i], &by_eta, &by_h) || thin || weak;
+        by_p[i] *= by_h / G[i]; /* G and h are in S alike */
         if (dpsi_dln_eta)
             dpsi_dln_eta[i] = weak ? 0 : by_eta;
         if (dpsi_dh)
             dpsi_dh[i] = thin ? 0 : by_h / rheology_film(h[i]);
     }
-    return outside ? FF_DOMAIN : FF_OK;
+    return outside;
 }
 
-static ff_status shear(const void *self, size_t count, const double *p, const double *ln_eta,
-                       const double *h, double u_s, double *tau)
+static ff_status flow_at(const void *self, size_t n, const double *p, const double *T,
+                         const double *ln_eta, const double *h, double u_s, double *psi,
+                         double *dpsi_dp, double *dpsi_dln_eta, double *dpsi_dh)
+{
+    double G[RHEOLOGY_BLOCK], by_p[RHEOLOGY_BLOCK];
+    ff_status worst = FF_OK;
+    for (size_t from = 0; from < n && worst >= 0; from += RHEOLOGY_BLOCK) {
+        size_t count = n - from < RHEOLOGY_BLOCK ? n - from : RHEOLOGY_BLOCK;
+        ff_status status = stresses_at(self, count, p + from, T ? T + from : NULL, G, by_p);
+        int outside =
+            flow_some(self, count, G, ln_eta + from, h + from, u_s, psi + from, by_p,
+                      dpsi_dln_eta ? dpsi_dln_eta + from : NULL, dpsi_dh ? dpsi_dh + from : NULL);
+        for (size_t i = 0; i < count && dpsi_dp; i++)
+            dpsi_dp[from + i] = by_p[i];
+        worst = numerics_worse(worst, numerics_worse(status, outside ? FF_DOMAIN : FF_OK));
+    }
+    return worst;
+}
+
+static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
+                      double *psi, double *dpsi_dln_eta, double *dpsi_dh)
+{
+    const carreau *c = self;
+    return rheology_ambient_flow(self, flow_at, isnan(c->G), n, ln_eta, h, u_s, psi, dpsi_dln_eta,
+                                 dpsi_dh);
+}
+
+static ff_status shear_at(const void *self, size_t count, const double *p, const double *T,
+                          const double *ln_eta, const double *h, double u_s, double *tau)
 {
     const carreau *c = self;
     const double ln_most = log(STRESS_MAX);
+    double G[RHEOLOGY_BLOCK], by_p[RHEOLOGY_BLOCK];
+    ff_status worst = FF_OK;
     int outside = 0;
     for (size_t i = 0; i < count; i++) {
+        const size_t k = i % RHEOLOGY_BLOCK, left = count - i;
+        if (k == 0 && u_s != 0)
+            worst =
+                numerics_worse(worst, stresses_at(c, left < RHEOLOGY_BLOCK ? left : RHEOLOGY_BLOCK,
+                                                  p + i, T ? T + i : NULL, G, by_p));
         if (u_s == 0) {
             tau[i] = 0;
             continue;
         }
-        double ln_S = ln_strain(c, ln_eta[i], h[i], u_s);
-        double ln_tau = log(c->G) + ln_S + (c->n - 1) / 2 * log_one_more(2 * ln_S);
+        double ln_S = ln_strain(G[k], ln_eta[i], h[i], u_s);
+        double ln_tau = log(G[k]) + ln_S + (c->n - 1) / 2 * log_one_more(2 * ln_S);
         double plain = exp(fmin(ln_tau, ln_most));
-        tau[i] = copysign(rheology_limited(plain, p[i], c->limiting_stress_coefficient), u_s);
+        tau[i] = copysign(rheology_limited(plain, p[i], limit_of(c)), u_s);
         outside |= ln_tau > ln_most || h[i] < RHEOLOGY_FILM_MIN;
     }
-    return outside ? FF_DOMAIN : FF_OK;
+    return numerics_worse(worst, outside ? FF_DOMAIN : FF_OK);
+}
+
+static ff_status shear(const void *self, size_t n, const double *p, const double *ln_eta,
+                       const double *h, double u_s, double *tau)
+{
+    return shear_at(self, n, p, NULL, ln_eta, h, u_s, tau);
 }
 
 /* ln(tau/G) over y = ln S, and its first two derivatives by y. */
@@ -118,9 +187,9 @@ typedef struct sheared {
     int held;
 } sheared;
 
-static sheared rate_at(const carreau *c, double ln_eta, double tau)
+static sheared rate_at(const carreau *c, double thinning, double ln_eta, double tau)
 {
-    const double G = fmax(c->G, RHEOLOGY_STRESS_LEAST), top = log(RHEOLOGY_RATE_MAX / G);
+    const double G = fmax(thinning, RHEOLOGY_STRESS_LEAST), top = log(RHEOLOGY_RATE_MAX / G);
     const double most = fmax(1, top + ln_eta);
     stress last = stress_at(c->n, most);
     double ln_T = log(tau / G), fluidity = exp(-ln_eta);
@@ -144,13 +213,19 @@ static ff_status rate(const void *self, size_t n, const double *p, const double 
                       double *drate_dln_eta)
 {
     const carreau *c = self;
-    const rheology_limit limit = rheology_limit_of(c->limiting_stress_coefficient);
+    const rheology_limit limit = rheology_limit_of(limit_of(c));
+    double G[RHEOLOGY_BLOCK], by_p[RHEOLOGY_BLOCK];
+    ff_status worst = FF_OK;
     int outside = 0;
-    (void)T;
     for (size_t i = 0; i < n; i++) {
+        const size_t k = i % RHEOLOGY_BLOCK, left = n - i;
+        if (k == 0)
+            worst =
+                numerics_worse(worst, stresses_at(c, left < RHEOLOGY_BLOCK ? left : RHEOLOGY_BLOCK,
+                                                  p + i, T ? T + i : NULL, G, by_p));
         double size = fmin(fabs(tau[i]), RHEOLOGY_TAU_MAX), slip_slope;
         int thin = ln_eta[i] < RHEOLOGY_LN_ETA_MIN;
-        sheared s = rate_at(c, fmin(fmax(ln_eta[i], RHEOLOGY_LN_ETA_MIN), 1e6), size);
+        sheared s = rate_at(c, G[k], fmin(fmax(ln_eta[i], RHEOLOGY_LN_ETA_MIN), 1e6), size);
         double slip = rheology_slip(size, p[i], limit, &slip_slope);
         rate[i] = copysign(s.rate + slip, tau[i]);
         if (drate_dtau)
@@ -159,21 +234,31 @@ static ff_status rate(const void *self, size_t n, const double *p, const double 
             drate_dln_eta[i] = thin ? 0 : copysign(1, tau[i]) * s.by_ln_eta;
         outside |= s.held || thin || fabs(tau[i]) > RHEOLOGY_TAU_MAX;
     }
-    return outside ? FF_DOMAIN : FF_OK;
+    return numerics_worse(worst, outside ? FF_DOMAIN : FF_OK);
 }
 
 static const ff_param params[] = {
-    FF_QUANTITY("G", "MPa", carreau, G, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0, 1e30, 0.01, 50,
-                "stress where shear thinning sets in"),
+    FF_QUANTITY_OR("auto", "G", "MPa", carreau, G, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0, 1e30,
+                   0.01, 50,
+                   "stress where shear thinning sets in; auto: 1.86 times the Eyring stress 2 "
+                   "Lambda/alpha(p, T) of ree-eyring, which n = 0.27 follows within 5 %"),
     FF_QUANTITY("n", "1", carreau, n, FF_REQUIRED, NULL, NULL, 0.01, 1, 0.2, 1,
                 "exponent of the thinned stress, tau ~ rate^n; 1: Newtonian"),
     RHEOLOGY_LIMITING_STRESS_ROW(carreau),
 };
 
-FF_RHEOLOGY_2_LAW(
-    rheology_carreau, carreau, flow, shear, rate, .id = "rheology/carreau", .version = "1.0.0",
-    .summary = "shear thinning by a power law above a stress G",
+static ff_status ready(void *self)
+{
+    carreau *c = self;
+    return isnan(c->G)
+               ? rheology_eyring_ready(c->host, &c->eyring, "G", c->limiting_stress_coefficient)
+               : FF_OK;
+}
+
+RHEOLOGY_3_LAW(
+    rheology_carreau, carreau, flow, shear, rate, flow_at, shear_at, .id = "rheology/carreau",
+    .version = "1.0.0", .summary = "shear thinning by a power law above a stress G",
     .reference = "Carreau 1972, Trans. Soc. Rheology 16, 99-127; Bair 2007, High-Pressure Rheology "
                  "for Quantitative Elastohydrodynamics; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
     .bibtex = BIB_Carreau1972 "\n" BIB_Bair2007 "\n" BIB_BairWiner1979,
-    .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .cost = 5.4e-2);
+    .licence = "GPL-3.0-or-later", .params = FF_TABLE(params), .ready = ready, .cost = 5.4e-2);

@@ -1,6 +1,127 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "law.h"
 
+#include "../numerics/liquid.h"
+
+const ff_port rheology_inputs[RHEOLOGY_INPUTS] = {
+    [RHEOLOGY_IN_VISCOSITY] = {.name = "viscosity",
+                               .unit = "",
+                               .doc = "viscosity of the oil, for a stress that is auto",
+                               .dims = "",
+                               .service = FF_VISCOSITY_ID,
+                               .flags = FF_OPTIONAL},
+    [RHEOLOGY_IN_OIL] = {.name = "oil",
+                         .unit = "",
+                         .doc = "the oil, whose base tells the limiting stress",
+                         .dims = "",
+                         .service = FF_LIQUID_ID,
+                         .flags = FF_OPTIONAL,
+                         .from = "lubricant"},
+};
+
+const ff_port rheology_outputs[RHEOLOGY_OUTPUTS] = {
+    {.name = "rheology", .unit = "", .doc = "the law", .dims = "", .service = FF_RHEOLOGY_ID},
+    {.name = "rate",
+     .unit = "",
+     .doc = "shear rate over shear stress",
+     .dims = "",
+     .service = FF_RHEOLOGY_2_ID},
+    {.name = "at_pressure",
+     .unit = "",
+     .doc = "the law, with stresses that follow pressure and temperature",
+     .dims = "",
+     .service = FF_RHEOLOGY_3_ID},
+};
+
+ff_status rheology_eyring_wire(rheology_eyring *e, uint32_t input, const void *service)
+{
+    if (input == RHEOLOGY_IN_VISCOSITY)
+        e->viscosity = service;
+    else
+        e->oil = service;
+    return FF_OK;
+}
+
+ff_status rheology_eyring_ready(const ff_host *host, rheology_eyring *e, const char *name,
+                                double given)
+{
+    /* Arana, Larranaga & Ulacia 2019, tables 2 and 3, at 20 to 100 degC */
+    static const double of_base[] = {[FF_BASE_MINERAL] = 0.047,
+                                     [FF_BASE_PAO] = 0.035,
+                                     [FF_BASE_ESTER] = 0,
+                                     [FF_BASE_PAG] = 0.044};
+    double T = 313.15, base = NAN;
+    e->coefficient = given;
+    if (!e->viscosity)
+        return ff_failf(host, FF_INVALID, name,
+                        "%s: auto follows the viscosity over pressure: wire a stage of the kind "
+                        "viscosity, or give a stress",
+                        name);
+    if (e->oil && e->oil->eval(e->oil->self, FF_LIQUID_BASE, 1, &T, &base, NULL) < 0)
+        base = NAN;
+    if (isnan(given) && base >= 0 && base <= FF_BASE_PAG)
+        e->coefficient = of_base[(int)base];
+    if (e->coefficient > 0)
+        return FF_OK;
+    return ff_failf(host, FF_INVALID, name,
+                    "%s: auto needs limiting_stress_coefficient, which is known by the base of "
+                    "mineral oils, PAO and PAG alone; give it, or a stress",
+                    name);
+}
+
+/* The secant of ln(eta) over p; below 1 MPa, where digits are lost, the mean of both slopes, which
+   is off by p^2/12 times the third derivative. A viscosity that does not rise has no such stress.
+ */
+FF_SIMD
+static void fill_stress(double twice, size_t n, const double *restrict p,
+                        const double *restrict ln_eta, const double *restrict slope,
+                        const double *restrict ambient, const double *restrict first,
+                        double *restrict stress, double *restrict by_p)
+{
+    const double low = 1e6, least = 1e-13;
+    for (size_t i = 0; i < n; i++) {
+        double q = p[i] > 1 ? p[i] : 1;
+        double mean = (first[i] + slope[i]) / 2, bend = (slope[i] - first[i]) / (2 * q);
+        double ratio = (ln_eta[i] - ambient[i]) / q;
+        double secant = p[i] < low ? mean : ratio, by = p[i] < low ? bend : (slope[i] - ratio) / q;
+        double held = secant > least ? secant : least;
+        stress[i] = twice / held;
+        by_p[i] = secant > least && p[i] > 1 ? -stress[i] / held * by : 0;
+    }
+}
+
+ff_status rheology_eyring_stress(const rheology_eyring *e, size_t n, const double *p,
+                                 const double *T, double *stress, double *by_p)
+{
+    static const double none[RHEOLOGY_BLOCK];
+    double ln_eta[RHEOLOGY_BLOCK], slope[RHEOLOGY_BLOCK], ambient[RHEOLOGY_BLOCK],
+        first[RHEOLOGY_BLOCK];
+    const ff_viscosity *v = e->viscosity;
+    const size_t one = numerics_is_uniform(n, T) && n > 1 ? 1 : n;
+    ff_status status = v->eval(v->self, n, p, T, ln_eta, slope, NULL);
+    status = numerics_worse(status, v->eval(v->self, one, none, T, ambient, first, NULL));
+    for (size_t i = one; i < n; i++) {
+        ambient[i] = ambient[0];
+        first[i] = first[0];
+    }
+    fill_stress(2 * e->coefficient, n, p, ln_eta, slope, ambient, first, stress, by_p);
+    return status;
+}
+
+ff_status rheology_ambient_flow(const void *self, rheology_flow_3 *flow, int moves, size_t n,
+                                const double *ln_eta, const double *h, double u_s, double *psi,
+                                double *by_ln_eta, double *by_h)
+{
+    static const double none[RHEOLOGY_BLOCK];
+    ff_status worst = moves ? FF_DOMAIN : FF_OK;
+    for (size_t from = 0; from < n && worst >= 0; from += RHEOLOGY_BLOCK)
+        worst = numerics_worse(
+            worst, flow(self, n - from < RHEOLOGY_BLOCK ? n - from : RHEOLOGY_BLOCK, none, NULL,
+                        ln_eta + from, h + from, u_s, psi + from, NULL,
+                        by_ln_eta ? by_ln_eta + from : NULL, by_h ? by_h + from : NULL));
+    return worst;
+}
+
 int64_t rheology_points(rheology_curve *curve, const void *law, size_t n, const double *ln_eta,
                         const double *h, double slip, double *psi, double *by_ln_eta, double *by_h)
 {

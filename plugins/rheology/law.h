@@ -89,6 +89,76 @@ ff_status rheology_rates(rheology_rate *curve, const void *law, size_t n, const 
                          const double *ln_eta, const double *tau, double *rate, double *by_tau,
                          double *by_ln_eta);
 
+/*
+ * The stress where shear thinning sets in follows pressure and temperature where a law says `auto`:
+ * tau_E = 2 Lambda/alpha, alpha = ln(eta/eta0)/p, the secant of the viscosity law that is wired.
+ */
+typedef struct rheology_eyring {
+    const ff_viscosity *viscosity; /* NULL: none is wired */
+    const ff_liquid *oil;          /* NULL: none is wired */
+    double coefficient;            /* Lambda; set by rheology_eyring_ready */
+} rheology_eyring;
+
+/* The inputs of such laws, and `wire`. */
+enum { RHEOLOGY_IN_VISCOSITY, RHEOLOGY_IN_OIL, RHEOLOGY_INPUTS };
+extern const ff_port rheology_inputs[RHEOLOGY_INPUTS];
+ff_status rheology_eyring_wire(rheology_eyring *e, uint32_t input, const void *service);
+
+/* Refuses `name: auto` without a viscosity law, or without Lambda: `given`, else by the base of the
+   oil. Returns Lambda in e->coefficient. */
+ff_status rheology_eyring_ready(const ff_host *host, rheology_eyring *e, const char *name,
+                                double given);
+
+/* tau_E of n <= RHEOLOGY_BLOCK points and its slope over p. */
+enum { RHEOLOGY_BLOCK = 256 };
+ff_status rheology_eyring_stress(const rheology_eyring *e, size_t n, const double *p,
+                                 const double *T, double *stress, double *by_p);
+
+/* `flow` of rheology/1 for laws that have that of rheology/3: who knows no pressure gets the stress
+   of ambient pressure, with FF_DOMAIN where it `moves` with it. */
+typedef ff_status rheology_flow_3(const void *self, size_t n, const double *p, const double *T,
+                                  const double *ln_eta, const double *h, double u_s, double *psi,
+                                  double *by_p, double *by_ln_eta, double *by_h);
+ff_status rheology_ambient_flow(const void *self, rheology_flow_3 *flow, int moves, size_t n,
+                                const double *ln_eta, const double *h, double u_s, double *psi,
+                                double *by_ln_eta, double *by_h);
+
+/* Outputs and functions of laws that offer all three services: the instance has the members
+   `service`, `service_2` and `service_3` beside `host`. */
+enum { RHEOLOGY_OUTPUTS = 3 };
+extern const ff_port rheology_outputs[RHEOLOGY_OUTPUTS];
+#define RHEOLOGY_3_LAW(law, type, flow, shear, rate, flow_3, shear_3, ...)                         \
+    static ff_status law##_create(const ff_host *host, void **self)                                \
+    {                                                                                              \
+        type *ff_self = calloc(1, sizeof *ff_self);                                                \
+        if (!ff_self)                                                                              \
+            return FF_NOMEM;                                                                       \
+        ff_self->host = host;                                                                      \
+        ff_self->service = (ff_rheology){sizeof(ff_rheology), ff_self, flow, shear};               \
+        ff_self->service_2 = (ff_rheology_2){sizeof(ff_rheology_2), ff_self, rate};                \
+        ff_self->service_3 = (ff_rheology_3){sizeof(ff_rheology_3), ff_self, flow_3, shear_3};     \
+        *self = ff_self;                                                                           \
+        return FF_OK;                                                                              \
+    }                                                                                              \
+    static const void *law##_service(void *self, uint32_t row)                                     \
+    {                                                                                              \
+        type *ff_self = self;                                                                      \
+        const void *const tables[] = {&ff_self->service, &ff_self->service_2,                      \
+                                      &ff_self->service_3};                                        \
+        return row < RHEOLOGY_OUTPUTS ? tables[row] : NULL;                                        \
+    }                                                                                              \
+    static ff_status law##_wire(void *self, uint32_t input, const void *service)                   \
+    {                                                                                              \
+        return rheology_eyring_wire(&((type *)self)->eyring, input, service);                      \
+    }                                                                                              \
+    const ff_model law = {FF_HEAD(type, law##_create),                                             \
+                          .inputs = FF_TABLE(rheology_inputs),                                     \
+                          .outputs = FF_TABLE(rheology_outputs),                                   \
+                          .wire = law##_wire,                                                      \
+                          .service = law##_service,                                                \
+                          .destroy = free,                                                         \
+                          __VA_ARGS__}
+
 /* psi of n points and its derivatives; arrays never overlap. Returns whether any was held. */
 typedef int64_t rheology_curve(const void *law, size_t n, const double *ln_eta, const double *h,
                                double slip, double *psi, double *by_ln_eta, double *by_h);

@@ -8,26 +8,63 @@
 #include "law.h"
 #include "references.h"
 
+#include "../numerics/liquid.h"
+
 static const double STRESS_MAX = 1e300; /* Pa */
+static const double SLIP_MAX = 1e100;   /* m/(Pa s), of the sliding speed over tau0 */
 
 typedef struct ree_eyring {
     const ff_host *host;
     ff_rheology service;
     ff_rheology_2 service_2;
+    ff_rheology_3 service_3;
+    rheology_eyring eyring;
     double limiting_stress_coefficient;
-    double tau0;   /* Pa */
-    double ln_top; /* of e^x/eta in 1/(Pa s), where the rate reaches its bound */
+    double tau0; /* Pa; NaN: auto */
 } ree_eyring;
 
+/* tau0 of n <= RHEOLOGY_BLOCK points and its slope over p. */
+static ff_status stresses_at(const ree_eyring *r, size_t n, const double *p, const double *T,
+                             double *tau0, double *by_p)
+{
+    if (isnan(r->tau0))
+        return rheology_eyring_stress(&r->eyring, n, p, T, tau0, by_p);
+    for (size_t i = 0; i < n; i++) {
+        tau0[i] = r->tau0;
+        by_p[i] = 0;
+    }
+    return FF_OK;
+}
+
 FF_SIMD
-static int64_t curve(const void *law, size_t n, const double *restrict ln_eta,
-                     const double *restrict h, double slip, double *restrict psi,
-                     double *restrict by_ln_eta, double *restrict by_h)
+static void take_logs(size_t n, const double *restrict x, double *restrict ln)
+{
+    for (size_t i = 0; i < n; i++)
+        ln[i] = ff_log(x[i]);
+}
+
+/* ln(tau0) of the points that stresses_at has answered. */
+static void logs_of(const ree_eyring *r, size_t n, const double *tau0, double *ln)
+{
+    if (isnan(r->tau0)) {
+        take_logs(n, tau0, ln);
+        return;
+    }
+    const double same = n > 0 ? log(tau0[0]) : 0;
+    for (size_t i = 0; i < n; i++)
+        ln[i] = same;
+}
+
+/* psi at tau0, and its slopes; that over p is through tau0, whose slope it replaces. */
+FF_SIMD
+static int64_t curve(double speed, size_t n, const double *restrict tau0,
+                     const double *restrict ln_eta, const double *restrict h, double *restrict psi,
+                     double *restrict by_p, double *restrict by_ln_eta, double *restrict by_h)
 {
     int64_t held = 0;
-    (void)law;
     for (size_t i = 0; i < n; i++) {
-        double film = rheology_film(h[i]);
+        double film = rheology_film(h[i]), ratio_0 = speed / tau0[i];
+        double slip = ratio_0 < SLIP_MAX ? ratio_0 : SLIP_MAX;
         double a = rheology_fluidity(ln_eta[i]), s = slip / film;
         double most = a > s ? a : s, least = a > s ? s : a, ratio = least / most;
         double root = most * sqrt(1 + ratio * ratio);
@@ -35,18 +72,37 @@ static int64_t curve(const void *law, size_t n, const double *restrict ln_eta,
         psi[i] = root;
         by_ln_eta[i] = ln_eta[i] > -RHEOLOGY_LN_MAX ? by_eta : 0;
         by_h[i] = h[i] > RHEOLOGY_FILM_MIN ? by_film : 0;
-        held |= (ln_eta[i] < -RHEOLOGY_LN_MAX) | (h[i] < RHEOLOGY_FILM_MIN);
+        by_p[i] *= -s * (s / root) / tau0[i];
+        held |= (ln_eta[i] < -RHEOLOGY_LN_MAX) | (h[i] < RHEOLOGY_FILM_MIN) | !(slip < SLIP_MAX);
     }
     return held;
+}
+
+static ff_status flow_at(const void *self, size_t n, const double *p, const double *T,
+                         const double *ln_eta, const double *h, double u_s, double *psi,
+                         double *dpsi_dp, double *dpsi_dln_eta, double *dpsi_dh)
+{
+    double tau0[RHEOLOGY_BLOCK], by_p[RHEOLOGY_BLOCK], unwanted[2][RHEOLOGY_BLOCK];
+    ff_status worst = FF_OK;
+    for (size_t from = 0; from < n && worst >= 0; from += RHEOLOGY_BLOCK) {
+        size_t count = n - from < RHEOLOGY_BLOCK ? n - from : RHEOLOGY_BLOCK;
+        ff_status status = stresses_at(self, count, p + from, T ? T + from : NULL, tau0, by_p);
+        int64_t held = curve(fabs(u_s), count, tau0, ln_eta + from, h + from, psi + from, by_p,
+                             dpsi_dln_eta ? dpsi_dln_eta + from : unwanted[0],
+                             dpsi_dh ? dpsi_dh + from : unwanted[1]);
+        for (size_t i = 0; i < count && dpsi_dp; i++)
+            dpsi_dp[from + i] = by_p[i];
+        worst = numerics_worse(worst, numerics_worse(status, held ? FF_DOMAIN : FF_OK));
+    }
+    return worst;
 }
 
 static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
                       double *psi, double *dpsi_dln_eta, double *dpsi_dh)
 {
     const ree_eyring *r = self;
-    const double slip = fmin(fabs(u_s) / r->tau0, 1e100);
-    int64_t held = rheology_points(curve, r, n, ln_eta, h, slip, psi, dpsi_dln_eta, dpsi_dh);
-    return held || slip == 1e100 ? FF_DOMAIN : FF_OK;
+    return rheology_ambient_flow(self, flow_at, isnan(r->tau0), n, ln_eta, h, u_s, psi,
+                                 dpsi_dln_eta, dpsi_dh);
 }
 
 /* asinh S = ln(1 + u) with u = S + S^2/(1 + sqrt(1 + S^2)); ln(1 + u) loses no digits as u times
@@ -59,13 +115,14 @@ FF_SIMD_INLINE double arsinh(double S)
 }
 
 FF_SIMD
-static int64_t stresses(const ree_eyring *r, size_t n, const double *restrict p,
-                        const double *restrict ln_eta, const double *restrict h, double ln_slip,
+static int64_t stresses(double limiting, size_t n, const double *restrict tau_0,
+                        const double *restrict ln_tau0, const double *restrict p,
+                        const double *restrict ln_eta, const double *restrict h, double ln_speed,
                         double sign, double *restrict tau)
 {
-    const double tau0 = r->tau0, limiting = r->limiting_stress_coefficient;
     int64_t held = 0;
     for (size_t i = 0; i < n; i++) {
+        double tau0 = tau_0[i], ln_slip = ln_speed - ln_tau0[i];
         double ln_S = ln_eta[i] + ln_slip - ff_log(rheology_film(h[i]));
         /* asinh S = ln 2S where S is large; the cut at e^300 is exact in double precision */
         double near = ln_S < 300 ? ln_S : 300;
@@ -77,17 +134,31 @@ static int64_t stresses(const ree_eyring *r, size_t n, const double *restrict p,
     return held;
 }
 
+static ff_status shear_at(const void *self, size_t n, const double *p, const double *T,
+                          const double *ln_eta, const double *h, double u_s, double *tau)
+{
+    const ree_eyring *r = self;
+    const double limiting = isnan(r->tau0) ? r->eyring.coefficient : r->limiting_stress_coefficient;
+    const double ln_speed = log(fmax(fabs(u_s), 1e-300));
+    double tau0[RHEOLOGY_BLOCK], by_p[RHEOLOGY_BLOCK];
+    ff_status worst = FF_OK;
+    for (size_t i = 0; i < n && u_s == 0; i++)
+        tau[i] = 0;
+    for (size_t from = 0; from < n && worst >= 0 && u_s != 0; from += RHEOLOGY_BLOCK) {
+        size_t count = n - from < RHEOLOGY_BLOCK ? n - from : RHEOLOGY_BLOCK;
+        ff_status status = stresses_at(r, count, p + from, T ? T + from : NULL, tau0, by_p);
+        logs_of(r, count, tau0, by_p);
+        int64_t held = stresses(limiting, count, tau0, by_p, p + from, ln_eta + from, h + from,
+                                ln_speed, u_s < 0 ? -1 : 1, tau + from);
+        worst = numerics_worse(worst, numerics_worse(status, held ? FF_DOMAIN : FF_OK));
+    }
+    return worst;
+}
+
 static ff_status shear(const void *self, size_t n, const double *p, const double *ln_eta,
                        const double *h, double u_s, double *tau)
 {
-    const ree_eyring *r = self;
-    if (u_s == 0) {
-        for (size_t i = 0; i < n; i++)
-            tau[i] = 0;
-        return FF_OK;
-    }
-    const double ln_slip = log(fabs(u_s)) - log(r->tau0);
-    return stresses(r, n, p, ln_eta, h, ln_slip, u_s < 0 ? -1 : 1, tau) ? FF_DOMAIN : FF_OK;
+    return shear_at(self, n, p, NULL, ln_eta, h, u_s, tau);
 }
 
 /* x = |tau|/tau0 below which both hyperbolic functions follow from the series of sinh. */
@@ -110,15 +181,17 @@ FF_SIMD_INLINE double flat_sinh(double x)
  * then its tangent. y >= 1 moves with ln(eta), which the derivative by it knows: there tau0
  * e^y/eta is constant. `flat` and `steep`: points of this kind are there.
  */
-FF_SIMD_INLINE int64_t rates_of(const ree_eyring *r, size_t n, const double *restrict p,
+FF_SIMD_INLINE int64_t rates_of(rheology_limit limit, size_t n, const double *restrict tau_0,
+                                const double *restrict ln_tau0, const double *restrict p,
                                 const double *restrict ln_eta, const double *restrict tau,
                                 double *restrict rate, double *restrict by_tau,
-                                double *restrict by_ln_eta, double tau0, int flat, int steep)
+                                double *restrict by_ln_eta, int flat, int steep)
 {
-    const double most = RHEOLOGY_TAU_MAX, thin = RHEOLOGY_LN_ETA_MIN, top = r->ln_top;
-    const rheology_limit limit = rheology_limit_of(r->limiting_stress_coefficient);
+    const double most = RHEOLOGY_TAU_MAX, thin = RHEOLOGY_LN_ETA_MIN;
+    const double ln_most = log(2 * RHEOLOGY_RATE_MAX);
     int64_t held = 0;
     for (size_t i = 0; i < n; i++) {
+        double tau0 = tau_0[i], top = ln_most - ln_tau0[i];
         double size = tau[i] < 0 ? -tau[i] : tau[i], sign = tau[i] < 0 ? -1 : 1;
         double t = size < most ? size : most, slip_slope;
         double l = ln_eta[i] > thin ? ln_eta[i] : thin, value = 0, slope = 0, fall = 0, beyond = 0;
@@ -151,60 +224,70 @@ FF_SIMD_INLINE int64_t rates_of(const ree_eyring *r, size_t n, const double *res
 /* At n <= RUN points, of which often all are of one kind. */
 enum { RUN = 64 };
 FF_SIMD
-static int64_t rates_of_some(const ree_eyring *r, size_t n, const double *restrict p,
+static int64_t rates_of_some(rheology_limit limit, size_t n, const double *restrict tau0,
+                             const double *restrict ln_tau0, const double *restrict p,
                              const double *restrict ln_eta, const double *restrict tau,
                              double *restrict rate, double *restrict by_tau,
                              double *restrict by_ln_eta)
 {
-    const double tau0 = r->tau0 > RHEOLOGY_STRESS_LEAST ? r->tau0 : RHEOLOGY_STRESS_LEAST;
     int64_t flat = 0, steep = 0;
     for (size_t i = 0; i < n; i++) {
         double size = tau[i] < 0 ? -tau[i] : tau[i];
-        int64_t is_flat = size / tau0 < FLAT;
+        int64_t is_flat = size / tau0[i] < FLAT;
         flat |= is_flat;
         steep |= !is_flat;
     }
     if (!steep)
-        return rates_of(r, n, p, ln_eta, tau, rate, by_tau, by_ln_eta, tau0, 1, 0);
+        return rates_of(limit, n, tau0, ln_tau0, p, ln_eta, tau, rate, by_tau, by_ln_eta, 1, 0);
     if (!flat)
-        return rates_of(r, n, p, ln_eta, tau, rate, by_tau, by_ln_eta, tau0, 0, 1);
-    return rates_of(r, n, p, ln_eta, tau, rate, by_tau, by_ln_eta, tau0, 1, 1);
-}
-
-static int64_t rates(const void *self, size_t n, const double *p, const double *ln_eta,
-                     const double *tau, double *rate, double *by_tau, double *by_ln_eta)
-{
-    int64_t held = 0;
-    for (size_t i = 0; i < n; i += RUN)
-        held |= rates_of_some(self, n - i < RUN ? n - i : RUN, p + i, ln_eta + i, tau + i, rate + i,
-                              by_tau + i, by_ln_eta + i);
-    return held;
+        return rates_of(limit, n, tau0, ln_tau0, p, ln_eta, tau, rate, by_tau, by_ln_eta, 0, 1);
+    return rates_of(limit, n, tau0, ln_tau0, p, ln_eta, tau, rate, by_tau, by_ln_eta, 1, 1);
 }
 
 static ff_status rate(const void *self, size_t n, const double *p, const double *T,
                       const double *ln_eta, const double *tau, double *rate, double *drate_dtau,
                       double *drate_dln_eta)
 {
-    (void)T;
-    return rheology_rates(rates, self, n, p, ln_eta, tau, rate, drate_dtau, drate_dln_eta);
+    const ree_eyring *r = self;
+    const rheology_limit limit =
+        rheology_limit_of(isnan(r->tau0) ? r->eyring.coefficient : r->limiting_stress_coefficient);
+    double tau0[RUN], by_p[RUN], unwanted[2][RUN];
+    ff_status worst = FF_OK;
+    for (size_t i = 0; i < n && worst >= 0; i += RUN) {
+        size_t count = n - i < RUN ? n - i : RUN;
+        ff_status status = stresses_at(r, count, p + i, T ? T + i : NULL, tau0, by_p);
+        for (size_t k = 0; k < count; k++)
+            tau0[k] = fmax(tau0[k], RHEOLOGY_STRESS_LEAST);
+        logs_of(r, count, tau0, by_p);
+        int64_t held = rates_of_some(limit, count, tau0, by_p, p + i, ln_eta + i, tau + i, rate + i,
+                                     drate_dtau ? drate_dtau + i : unwanted[0],
+                                     drate_dln_eta ? drate_dln_eta + i : unwanted[1]);
+        worst = numerics_worse(worst, numerics_worse(status, held ? FF_DOMAIN : FF_OK));
+    }
+    return worst;
 }
 
 static const ff_param params[] = {
-    FF_QUANTITY("tau0", "MPa", ree_eyring, tau0, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0, 1e30,
-                0.5, 50, "Eyring stress, where shear thinning sets in"),
+    FF_QUANTITY_OR("auto", "tau0", "MPa", ree_eyring, tau0, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL,
+                   0, 1e30, 0.5, 50,
+                   "Eyring stress, where shear thinning sets in; auto: 2 Lambda/alpha(p, T), with "
+                   "the secant alpha of the viscosity law and Lambda, limiting_stress_coefficient "
+                   "or by the base of the oil (mineral 0.047, PAO 0.035, PAG 0.044)"),
     RHEOLOGY_LIMITING_STRESS_ROW(ree_eyring),
 };
 
 static ff_status ready(void *self)
 {
     ree_eyring *r = self;
-    r->ln_top = log(2 * RHEOLOGY_RATE_MAX / fmax(r->tau0, RHEOLOGY_STRESS_LEAST));
-    return FF_OK;
+    return isnan(r->tau0)
+               ? rheology_eyring_ready(r->host, &r->eyring, "tau0", r->limiting_stress_coefficient)
+               : FF_OK;
 }
 
-FF_RHEOLOGY_2_LAW(
-    rheology_ree_eyring, ree_eyring, flow, shear, rate, .id = "rheology/ree-eyring",
-    .version = "1.0.0", .summary = "shear thinning by a thermally activated flow",
+RHEOLOGY_3_LAW(
+    rheology_ree_eyring, ree_eyring, flow, shear, rate, flow_at, shear_at,
+    .id = "rheology/ree-eyring", .version = "1.0.0",
+    .summary = "shear thinning by a thermally activated flow",
     .reference = "Johnson & Tevaarwerk 1977, Proc. R. Soc. A 356, 215-236; Li & Kahraman 2011, "
                  "Proc. IMechE J, 740-753; " RHEOLOGY_LIMITING_STRESS_REFERENCE,
     .bibtex = BIB_JohnsonTevaarwerk1977 "\n" BIB_LiKahraman2011 "\n" BIB_BairWiner1979,

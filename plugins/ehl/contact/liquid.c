@@ -33,24 +33,32 @@ static int are_numbers(size_t n, const double *ln_eta, const double *h, double u
     return good;
 }
 
-static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
-                      double *psi, double *psi_l, double *psi_h)
+/* Notes an answer that is no number, where the points were numbers. */
+static ff_status hold_flow(const ehl_rheology_at *at, ff_status status, size_t n,
+                           const double *ln_eta, const double *h, double u_s,
+                           const double *const value[4])
+{
+    int worst = 0;
+    for (int k = 3; k >= 0; k--)
+        worst = value[k] && !numerics_are_finite(n, value[k]) ? k + 1 : worst;
+    if ((status == FF_OK || status == FF_DOMAIN) && (!worst || !are_numbers(n, ln_eta, h, u_s)))
+        return status;
+    return numerics_answer_note(at->answers,
+                                &(numerics_answer){"rheology", "psi", status, n, NULL, value[0],
+                                                   worst > 1 ? value[worst - 1] : NULL});
+}
+
+static ff_status ambient_flow(const void *self, size_t n, const double *ln_eta, const double *h,
+                              double u_s, double *psi, double *psi_l, double *psi_h)
 {
     const ehl_rheology_at *at = self;
     ff_status status = at->law->flow(at->law->self, n, ln_eta, h, u_s, psi, psi_l, psi_h);
-    int finite = numerics_are_finite(n, psi) && (!psi_l || numerics_are_finite(n, psi_l)) &&
-                 (!psi_h || numerics_are_finite(n, psi_h));
-    if ((status == FF_OK || status == FF_DOMAIN) && finite)
-        return status;
-    if ((status == FF_OK || status == FF_DOMAIN) && !are_numbers(n, ln_eta, h, u_s))
-        return status;
-    const double *slopes = psi_l && !numerics_are_finite(n, psi_l) ? psi_l : psi_h;
-    return numerics_answer_note(
-        at->answers, &(numerics_answer){"rheology", "psi", status, n, NULL, psi, slopes});
+    return hold_flow(at, status, n, ln_eta, h, u_s,
+                     (const double *const[]){psi, psi_l, psi_h, NULL});
 }
 
-static ff_status shear(const void *self, size_t n, const double *p, const double *ln_eta,
-                       const double *h, double u_s, double *tau)
+static ff_status ambient_shear(const void *self, size_t n, const double *p, const double *ln_eta,
+                               const double *h, double u_s, double *tau)
 {
     const ehl_rheology_at *at = self;
     ff_status status = at->law->shear(at->law->self, n, p, ln_eta, h, u_s, tau);
@@ -61,12 +69,63 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
                                 &(numerics_answer){"rheology", "tau", status, n, p, tau, NULL});
 }
 
-const ff_rheology *ehl_rheology_make(ehl_rheology_at *at, const ff_rheology *law,
-                                     numerics_answers *answers)
+static double *from(double *values, size_t i)
 {
-    *at = (ehl_rheology_at){
-        .service = {sizeof at->service, at, flow, shear}, .law = law, .answers = answers};
-    return law ? &at->service : NULL;
+    return values ? values + i : NULL;
+}
+
+static ff_status flow(const void *self, size_t n, const double *p, const double *T,
+                      const double *ln_eta, const double *h, double u_s, double *psi, double *psi_p,
+                      double *psi_l, double *psi_h)
+{
+    const ehl_rheology_at *at = self;
+    const ff_rheology_3 *law = at->at_pressure;
+    if (!law) {
+        for (size_t i = 0; psi_p && i < n; i++)
+            psi_p[i] = 0;
+        return ambient_flow(self, n, ln_eta, h, u_s, psi, psi_l, psi_h);
+    }
+    ff_status worst = FF_OK;
+    for (size_t i = 0; i < n && worst >= 0; i += NUMERICS_POINTS) {
+        size_t count = n - i < NUMERICS_POINTS ? n - i : NUMERICS_POINTS;
+        worst =
+            worse(worst, law->flow(law->self, count, p + i, T ? T + i : at->T, ln_eta + i, h + i,
+                                   u_s, psi + i, from(psi_p, i), from(psi_l, i), from(psi_h, i)));
+    }
+    return hold_flow(at, worst, n, ln_eta, h, u_s,
+                     (const double *const[]){psi, psi_l, psi_h, psi_p});
+}
+
+static ff_status shear(const void *self, size_t n, const double *p, const double *T,
+                       const double *ln_eta, const double *h, double u_s, double *tau)
+{
+    const ehl_rheology_at *at = self;
+    const ff_rheology_3 *law = at->at_pressure;
+    if (!law)
+        return ambient_shear(self, n, p, ln_eta, h, u_s, tau);
+    ff_status worst = FF_OK;
+    for (size_t i = 0; i < n && worst >= 0; i += NUMERICS_POINTS) {
+        size_t count = n - i < NUMERICS_POINTS ? n - i : NUMERICS_POINTS;
+        worst = worse(worst, law->shear(law->self, count, p + i, T ? T + i : at->T, ln_eta + i,
+                                        h + i, u_s, tau + i));
+    }
+    if ((worst == FF_OK || worst == FF_DOMAIN) &&
+        (numerics_are_finite(n, tau) || !are_numbers(n, ln_eta, h, u_s)))
+        return worst;
+    return numerics_answer_note(at->answers,
+                                &(numerics_answer){"rheology", "tau", worst, n, p, tau, NULL});
+}
+
+void ehl_rheology_make(ehl_rheology_at *at, const ehl_laws *wired, const double *T, ehl_laws *to)
+{
+    *at = (ehl_rheology_at){.service = {sizeof at->service, at, flow, shear},
+                            .ambient = {sizeof at->ambient, at, ambient_flow, ambient_shear},
+                            .law = wired->rheology_ambient,
+                            .at_pressure = wired->rheology,
+                            .T = T,
+                            .answers = to->answers};
+    to->rheology = at->law || at->at_pressure ? &at->service : NULL;
+    to->rheology_ambient = at->law ? &at->ambient : NULL;
 }
 
 int ehl_laws_failed(const ehl_laws *laws)
@@ -83,9 +142,9 @@ ff_status ehl_laws_at(ehl_isothermal *at, const ff_host *host, const ff_array *o
     *laws = (ehl_laws){
         .viscosity = numerics_viscosity_make(&at->viscosity, at->wired.viscosity, T, &at->answers),
         .density = numerics_density_make(&at->density, at->wired.density, T, &at->answers),
-        .rheology = ehl_rheology_make(&at->rheology, at->wired.rheology, &at->answers),
         .answers = &at->answers,
     };
+    ehl_rheology_make(&at->rheology, &at->wired, isnan(T) ? NULL : at->viscosity.T, laws);
     if (!oil[0].data)
         return FF_OK;
     laws->temperature = T;
@@ -112,12 +171,12 @@ ff_status ehl_fluid_evaluate(const ehl_laws *laws, size_t n, const double *p, co
         laws->viscosity->eval(laws->viscosity->self, n, p, NULL, q->ln_eta, q->ln_eta_p, NULL),
         laws->density->eval(laws->density->self, n, p, NULL, q->rho, q->rho_p, NULL));
     if (laws->rheology)
-        return worse(status, laws->rheology->flow(laws->rheology->self, n, q->ln_eta, h, sliding,
-                                                  q->psi, q->psi_l, q->psi_h));
+        return worse(status, laws->rheology->flow(laws->rheology->self, n, p, NULL, q->ln_eta, h,
+                                                  sliding, q->psi, q->psi_p, q->psi_l, q->psi_h));
     for (size_t i = 0; i < n; i++) { /* underflows to 0 where eta overflows */
         q->psi[i] = exp(-q->ln_eta[i]);
         q->psi_l[i] = -q->psi[i];
-        q->psi_h[i] = 0;
+        q->psi_h[i] = q->psi_p[i] = 0;
     }
     return status;
 }
@@ -127,8 +186,8 @@ ff_status ehl_fluid_shear(const ehl_laws *laws, size_t n, const double *p, const
 {
     ff_status status = laws->viscosity->eval(laws->viscosity->self, n, p, NULL, ln_eta, NULL, NULL);
     if (laws->rheology)
-        return worse(status,
-                     laws->rheology->shear(laws->rheology->self, n, p, ln_eta, h, sliding, tau));
+        return worse(status, laws->rheology->shear(laws->rheology->self, n, p, NULL, ln_eta, h,
+                                                   sliding, tau));
     for (size_t i = 0; i < n; i++) /* bounded so that the sum stays finite */
         tau[i] = exp(fmin(ln_eta[i], 230)) * sliding / h[i];
     return status;

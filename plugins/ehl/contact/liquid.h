@@ -12,14 +12,18 @@
 typedef struct ehl_laws {
     const ff_viscosity *viscosity;
     const ff_density *density;
-    const ff_rheology *rheology; /* NULL: Newtonian */
-    double temperature;          /* K, that of the oil; 0: none, laws answer at their own */
-    numerics_answers *answers;   /* what they failed to answer; NULL: nobody looks */
+    const ff_rheology_3 *rheology;       /* NULL: Newtonian */
+    const ff_rheology *rheology_ambient; /* the same without the pressure, for solvers of others */
+    double temperature;                  /* K, that of the oil; 0: none, laws answer at their own */
+    numerics_answers *answers;           /* what they failed to answer; NULL: nobody looks */
 } ehl_laws;
 
 typedef struct ehl_rheology_at {
-    ff_rheology service;
+    ff_rheology_3 service;
+    ff_rheology ambient;
     const ff_rheology *law;
+    const ff_rheology_3 *at_pressure; /* NULL: the law does not offer it */
+    const double *T;                  /* K, NUMERICS_POINTS equal ones; NULL: that of the law */
     numerics_answers *answers;
 } ehl_rheology_at;
 
@@ -50,14 +54,14 @@ typedef struct ehl_oil {
 typedef struct ehl_liquid {
     double *rho, *rho_p; /* kg/m3 and d/dp */
     double *ln_eta, *ln_eta_p;
-    double *psi, *psi_l, *psi_h; /* fluidity and d/d(ln eta), d/dh */
+    double *psi, *psi_l, *psi_h, *psi_p; /* fluidity and d/d(ln eta), d/dh, d/dp at fixed ln eta */
 } ehl_liquid;
 
-enum { EHL_LIQUID_ARRAYS = 7 };
+enum { EHL_LIQUID_ARRAYS = 8 };
 
-/* The law, held to what it owes; it lives as long as *at. */
-const ff_rheology *ehl_rheology_make(ehl_rheology_at *at, const ff_rheology *law,
-                                     numerics_answers *answers);
+/* Puts the law, held to what it owes, into `to`; it lives as long as *at. `wired` has the law as
+   rheology_ambient and, where it offers that, as rheology. `T`: as in ehl_rheology_at. */
+void ehl_rheology_make(ehl_rheology_at *at, const ehl_laws *wired, const double *T, ehl_laws *to);
 
 /* Whether one of the laws has failed, so that no film can be had. */
 int ehl_laws_failed(const ehl_laws *laws);

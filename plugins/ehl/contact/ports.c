@@ -64,6 +64,13 @@
                          .dims = "",                                                               \
                          .service = FF_RHEOLOGY_ID,                                                \
                          .flags = FF_OPTIONAL},                                                    \
+    [EHL_IN_RHEOLOGY_AT_PRESSURE] = {.name = "rheology.at_pressure",                               \
+                                     .unit = "",                                                   \
+                                     .doc = "the same where pressure and temperature change its "  \
+                                            "stresses",                                            \
+                                     .dims = "",                                                   \
+                                     .service = FF_RHEOLOGY_3_ID,                                  \
+                                     .flags = FF_OPTIONAL},                                        \
     [EHL_IN_OIL] = NUMERICS_OIL_ROWS, NUMERICS_OIL_DENSITY_ROW,                                    \
     [EHL_IN_LIQUID] = {.name = "oil",                                                              \
                        .unit = "",                                                                 \
@@ -574,5 +581,7 @@ void ehl_wire_law(ehl_laws *laws, uint32_t input, const void *service)
     else if (input == EHL_IN_DENSITY)
         laws->density = service;
     else if (input == EHL_IN_RHEOLOGY)
+        laws->rheology_ambient = service;
+    else if (input == EHL_IN_RHEOLOGY_AT_PRESSURE)
         laws->rheology = service;
 }

@@ -34,7 +34,7 @@ ff_status ehl_reynolds_create(ehl_reynolds *r, const ehl_grid *g, const ehl_laws
         *own[k] = next_array(&next, n);
     ehl_liquid *q = &r->liquid;
     double **liquid[EHL_LIQUID_ARRAYS] = {&q->rho, &q->rho_p, &q->ln_eta, &q->ln_eta_p,
-                                          &q->psi, &q->psi_l, &q->psi_h};
+                                          &q->psi, &q->psi_l, &q->psi_h,  &q->psi_p};
     for (size_t k = 0; k < EHL_LIQUID_ARRAYS; k++)
         *liquid[k] = next_array(&next, n);
     for (size_t k = 0; k < EHL_STENCIL; k++) {
@@ -144,6 +144,7 @@ static void ease_flow(ehl_reynolds *r, size_t count)
     }
     scale(count, r->ease, q->psi);
     scale(count, r->ease, q->psi_l);
+    scale(count, r->ease, q->psi_p);
     scale(count, r->ease, q->psi_h);
 }
 
@@ -153,14 +154,16 @@ static void mobility(ehl_reynolds *r, size_t count)
     const ehl_liquid *q = &r->liquid;
     const double *restrict rho = q->rho, *restrict rho_p = q->rho_p, *restrict psi = q->psi;
     const double *restrict psi_l = q->psi_l, *restrict psi_h = q->psi_h, *restrict gap = r->h;
-    const double *restrict ln_eta_p = q->ln_eta_p, *restrict thick = r->thick, floor = r->floor;
+    const double *restrict psi_p = q->psi_p, *restrict ln_eta_p = q->ln_eta_p,
+                           *restrict thick = r->thick, floor = r->floor;
     double *restrict f = r->f, *restrict f_p = r->f_p, *restrict f_h = r->f_h;
     FF_SIMD_LOOP
     for (size_t i = 0; i < count; i++) {
         double h = thick[i], square = h * h / 12;
         double open = gap[i] > floor ? 1 : 0; /* the floor does not move with h */
         f[i] = rho[i] * h * square * psi[i];
-        f_p[i] = h * square * (rho_p[i] * psi[i] + rho[i] * psi_l[i] * ln_eta_p[i]);
+        f_p[i] =
+            h * square * (rho_p[i] * psi[i] + rho[i] * psi_l[i] * ln_eta_p[i] + rho[i] * psi_p[i]);
         f_h[i] = open * square * rho[i] * (3 * psi[i] + h * psi_h[i]);
     }
 }

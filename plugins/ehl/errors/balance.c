@@ -183,8 +183,8 @@ static void compute_flow(ehl_balance *b, const ehl_march *m)
     size_t n = b->nodes;
     eq->laws.viscosity->eval(eq->laws.viscosity->self, n, p, NULL, b->ln_eta, NULL, NULL);
     if (eq->laws.rheology)
-        eq->laws.rheology->flow(eq->laws.rheology->self, n, b->ln_eta, h, m->step.sliding, b->psi,
-                                NULL, NULL);
+        eq->laws.rheology->flow(eq->laws.rheology->self, n, p, NULL, b->ln_eta, h, m->step.sliding,
+                                b->psi, NULL, NULL, NULL);
     else
         for (size_t i = 0; i < n; i++)
             b->psi[i] = exp(-b->ln_eta[i]);
@@ -343,8 +343,8 @@ static void fill_mobilities(const ehl_march *m, size_t n, const size_t *node, do
     }
     eq->laws.viscosity->eval(eq->laws.viscosity->self, n, p, NULL, ln_eta, NULL, NULL);
     if (eq->laws.rheology)
-        eq->laws.rheology->flow(eq->laws.rheology->self, n, ln_eta, h, m->step.sliding, f, NULL,
-                                NULL);
+        eq->laws.rheology->flow(eq->laws.rheology->self, n, p, NULL, ln_eta, h, m->step.sliding, f,
+                                NULL, NULL, NULL);
     for (size_t k = 0; k < n; k++) {
         double psi = eq->laws.rheology ? f[k] : exp(-ln_eta[k]);
         f[k] =

@@ -118,7 +118,7 @@ static outlet_oil oil_at_outlet(const ehl_reynolds *eq, const contact *c, double
 {
     double depth = fmin(1, c->buildup / c->a);
     double p = fmin(p_max, c->p_hertz * sqrt(depth * (2 - depth))), all[EHL_LIQUID_ARRAYS];
-    const ehl_liquid q = {all, all + 1, all + 2, all + 3, all + 4, all + 5, all + 6};
+    const ehl_liquid q = {all, all + 1, all + 2, all + 3, all + 4, all + 5, all + 6, all + 7};
     ehl_fluid_evaluate(&eq->laws, 1, &p, &h, c->sliding, &q);
     return (outlet_oil){p, *q.psi * eq->oil.viscosity, p * *q.rho_p / *q.rho};
 }

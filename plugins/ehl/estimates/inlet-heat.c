@@ -95,12 +95,13 @@ ff_status ehl_inlet_ratio(const ehl_laws *laws, const ehl_heated *film, size_t n
     for (size_t i = 0; !laws->rheology && i < n; i++)
         psi[i] = exp(-ln_eta[i]);
     if (laws->rheology) {
-        status = laws->rheology->flow(laws->rheology->self, n, ln_eta, h, film->sliding, psi,
-                                      unused, tau);
+        status = laws->rheology->flow(laws->rheology->self, n, p, NULL, ln_eta, h, film->sliding,
+                                      psi, NULL, unused, tau);
         worst = numerics_worse(worst, status);
     }
     if (laws->rheology && !is_newtonian(n, ln_eta, psi)) {
-        status = laws->rheology->shear(laws->rheology->self, n, p, ln_eta, h, film->sliding, tau);
+        status =
+            laws->rheology->shear(laws->rheology->self, n, p, NULL, ln_eta, h, film->sliding, tau);
         worst = numerics_worse(worst, status);
     } else {
         for (size_t i = 0; i < n; i++)

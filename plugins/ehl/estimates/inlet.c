@@ -84,15 +84,15 @@ static place at_reduced(const ehl_inlet *n, double q, size_t row)
 static double heated_share(const ehl_inlet *n, place at, double h, double mass, double speed,
                            double sliding)
 {
-    const ff_rheology *flow = n->laws.rheology;
+    const ff_rheology_3 *flow = n->laws.rheology;
     double ln_eta = interpolate_column(n->ln_eta, at), p = interpolate_column(n->p, at), psi, tau;
     double per = fmax(-interpolate_column(n->slope, at), 0) / n->conductivity;
     double past = speed * fmax(1 - mass / (interpolate_column(n->rho, at) * h), 0);
     psi = exp(-ln_eta);
     tau = sliding / (psi * h);
     if (flow) {
-        flow->flow(flow->self, 1, &ln_eta, &h, sliding, &psi, NULL, NULL);
-        flow->shear(flow->self, 1, &p, &ln_eta, &h, sliding, &tau);
+        flow->flow(flow->self, 1, &p, NULL, &ln_eta, &h, sliding, &psi, NULL, NULL, NULL);
+        flow->shear(flow->self, 1, &p, NULL, &ln_eta, &h, sliding, &tau);
     }
     return ehl_heat_ratio(per * past * past / psi, per * tau * sliding * h);
 }
@@ -107,7 +107,7 @@ static double reduced_pressure_at_inlet(const ehl_inlet *n, const opening *g, pl
                                         double speed, double sliding)
 {
     enum { NODES = 24 };
-    const ff_rheology *flow = n->laws.rheology;
+    const ff_rheology_3 *flow = n->laws.rheology;
     double mass = interpolate_column(n->rho, boundary) * g->film,
            push = 12 * n->oil.viscosity * speed;
     double q = 0, before = 0, ds = 1. / NODES;
@@ -122,8 +122,9 @@ static double reduced_pressure_at_inlet(const ehl_inlet *n, const opening *g, pl
             at = boundary;
         double ease = 1;
         if (flow && sliding != 0) {
-            double ln_eta = interpolate_column(n->ln_eta, at), psi;
-            flow->flow(flow->self, 1, &ln_eta, &h, sliding, &psi, NULL, NULL);
+            double ln_eta = interpolate_column(n->ln_eta, at), p = interpolate_column(n->p, at),
+                   psi;
+            flow->flow(flow->self, 1, &p, NULL, &ln_eta, &h, sliding, &psi, NULL, NULL, NULL);
             ease = exp(-ln_eta) / psi;
         }
         double rise =

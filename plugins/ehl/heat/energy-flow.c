@@ -255,7 +255,7 @@ static double stress_step(means m, double target, double scale)
 /* Sets tau_m to the stress of a film with the viscosity at its middle. */
 static void guess_stress(ehl_energy *e, const ehl_energy_film *film)
 {
-    const ff_rheology *law = e->laws.rheology;
+    const ff_rheology_3 *law = e->laws.rheology;
     size_t n = film->count, across = e->across.count;
     double slip = film->speed[1] - film->speed[0], *ln_eta = e->mass;
     for (size_t i = 0; i < n; i++) {
@@ -263,7 +263,7 @@ static void guess_stress(ehl_energy *e, const ehl_energy_film *film)
         e->tau_m[i] = exp(fmin(ln_eta[i], 230)) * slip / film->h[i];
     }
     if (law && e->flow)
-        note(e, law->shear(law->self, n, film->p, ln_eta, film->h, slip, e->tau_m));
+        note(e, law->shear(law->self, n, film->p, NULL, ln_eta, film->h, slip, e->tau_m));
     e->guessed = 1;
 }
 

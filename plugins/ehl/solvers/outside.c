@@ -110,7 +110,7 @@ ff_status ehl_outside(ehl_solver *s)
         .conserving = r->conserving,
         .viscosity = r->laws.viscosity,
         .density = r->laws.density,
-        .rheology = r->laws.rheology,
+        .rheology = r->laws.rheology_ambient,
     };
     o->fft = ehl_fft_create(g->nodes, s->kernel);
     ff_status status =

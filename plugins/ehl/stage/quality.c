@@ -81,7 +81,7 @@ static force friction(ehl_balance *b, const ehl_march *m, double boundary)
     if (m->rough) /* of smooth flanks the balance of mass has it */
         eq->laws.viscosity->eval(eq->laws.viscosity->self, n, film->p, NULL, b->ln_eta, NULL, NULL);
     if (eq->laws.rheology)
-        eq->laws.rheology->shear(eq->laws.rheology->self, n, film->p, b->ln_eta, eq->h, slide,
+        eq->laws.rheology->shear(eq->laws.rheology->self, n, film->p, NULL, b->ln_eta, eq->h, slide,
                                  b->left);
     for (size_t i = 0; i < n && (m->thermal || !eq->laws.rheology); i++)
         b->left[i] =

@@ -112,7 +112,7 @@ static double error(scene *s)
 int main(void)
 {
     stage *oil = stage_open("viscosity/roelands"), *rho = stage_open("density/dowson-higginson"),
-          *flow = stage_open("rheology/ree-eyring");
+          *flow = stage_open("rheology/ree-eyring"), *rising = stage_open("rheology/ree-eyring");
     stage_set(oil, "eta0", 0.005);
     stage_set(oil, "alpha", 11e-9);
     stage_set(rho, "rho0", 917.8);
@@ -120,12 +120,18 @@ int main(void)
     ehl_laws newtonian = {.viscosity = stage_service(oil, FF_VISCOSITY_ID),
                           .density = stage_service(rho, FF_DENSITY_ID)};
     ehl_laws eyring = newtonian;
-    eyring.rheology = stage_service(flow, FF_RHEOLOGY_ID);
+    eyring.rheology = stage_service(flow, FF_RHEOLOGY_3_ID);
+    ehl_laws secant = newtonian; /* a stress that rises with pressure */
+    stage_set_text(rising, "tau0", "auto");
+    stage_set(rising, "limiting_stress_coefficient", 0.04);
+    stage_link(rising, "viscosity", oil);
+    secant.rheology = stage_service(rising, FF_RHEOLOGY_3_ID);
     srand(3);
     for (int wedge = 1; wedge <= 2; wedge++)
         for (int k = 0; k < 8; k++) {
             static scene s;
-            make(&s, k & 1 ? &eyring : &newtonian, wedge, k & 2 ? 1e6 : 0, k >> 2);
+            make(&s, k & 1 ? wedge == 1 ? &secant : &eyring : &newtonian, wedge, k & 2 ? 1e6 : 0,
+                 k >> 2);
             check_below("derivatives against differences", error(&s), 1e-7);
             s.r.conserving = 1;
             s.r.unit = 1e-13;
@@ -137,13 +143,15 @@ int main(void)
             ehl_reynolds_destroy(&s.r);
             if (k >> 2)
                 continue;
-            make(&s, k & 1 ? &eyring : &newtonian, wedge, k & 2 ? 1e6 : 0, 0);
+            make(&s, k & 1 ? wedge == 1 ? &secant : &eyring : &newtonian, wedge, k & 2 ? 1e6 : 0,
+                 0);
             roughen(&s);
             check_below("of rough flanks", error(&s), 1e-7);
             ehl_reynolds_destroy(&s.r);
         }
     stage_close(oil);
     stage_close(rho);
+    stage_close(rising);
     stage_close(flow);
     return check_done();
 }

@@ -216,7 +216,7 @@ int main(void)
     stage_set(flow, "tau0", 5e6);
     ehl_laws laws = {.viscosity = stage_service(oil, FF_VISCOSITY_ID),
                      .density = stage_service(rho, FF_DENSITY_ID),
-                     .rheology = stage_service(flow, FF_RHEOLOGY_ID)};
+                     .rheology = stage_service(flow, FF_RHEOLOGY_3_ID)};
     make(&s, &laws);
     test_spoiled(&s);
     test_no_number(&s);
