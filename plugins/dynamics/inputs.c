@@ -74,7 +74,22 @@
                                 .unit = "1",                                                       \
                                 .doc = "share of one tooth pair, used where the line force is 0",  \
                                 .dims = "engagement? station",                                     \
-                                .flags = FF_OPTIONAL}
+                                .flags = FF_OPTIONAL},                                             \
+    [DYNAMICS_IN_FORCE_LEVEL] = {.name = "stiffness.force_level",                                  \
+                                 .unit = "N",                                                      \
+                                 .doc = "mesh forces from 0 up, of which the following are",       \
+                                 .dims = "level",                                                  \
+                                 .flags = FF_OPTIONAL},                                            \
+    [DYNAMICS_IN_LEVEL_STIFFNESS] = {.name = "stiffness.level_stiffness",                          \
+                                     .unit = "N/m",                                                \
+                                     .doc = "slope of the mesh under each of them",                \
+                                     .dims = "level phase",                                        \
+                                     .flags = FF_OPTIONAL},                                        \
+    [DYNAMICS_IN_LEVEL_TOOTH_FORCE] = {.name = "stiffness.level_tooth_force",                      \
+                                       .unit = "N",                                                \
+                                       .doc = "tooth force of one pair under each of them",        \
+                                       .dims = "level station",                                    \
+                                       .flags = FF_OPTIONAL}
 
 const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT] = {
     COMMON_ROWS,
@@ -224,6 +239,29 @@ static ff_status check_shapes(const ff_host *host, const ff_array *in)
     if (status == FF_OK)
         status = check_series(host, in, DYNAMICS_IN_LOAD_SHARE, stations);
     return status;
+}
+
+/* Levels without the tooth forces or the slopes there say nothing. */
+static ff_status read_levels(const ff_host *host, const ff_array *in, dynamics_force_levels *l)
+{
+    const ff_array *force = &in[DYNAMICS_IN_FORCE_LEVEL];
+    const ff_array *rows[] = {&in[DYNAMICS_IN_LEVEL_STIFFNESS], &in[DYNAMICS_IN_LEVEL_TOOTH_FORCE]};
+    const size_t lengths[] = {in[DYNAMICS_IN_PHASE].shape[0], in[DYNAMICS_IN_ROLL_ANGLE].shape[0]};
+    *l = (dynamics_force_levels){0};
+    if (!force->data || !rows[0]->data || !rows[1]->data)
+        return FF_OK;
+    size_t count = force->rank == 1 ? force->shape[0] : 0;
+    for (size_t i = 0; i < count; i++)
+        if (i == 0 ? force->data[0] != 0 : !(force->data[i] > force->data[i - 1]))
+            return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FORCE_LEVEL),
+                            "must rise from 0, but value %zu is %g N", i + 1, force->data[i]);
+    for (int i = 0; i < 2; i++)
+        if (rows[i]->rank != 2 || rows[i]->shape[0] != count || rows[i]->shape[1] != lengths[i])
+            return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_LEVEL_STIFFNESS + i),
+                            "must be %zu rows of %zu values", count, lengths[i]);
+    *l = (dynamics_force_levels){count,       lengths[0],    lengths[1],
+                                 force->data, rows[0]->data, rows[1]->data};
+    return FF_OK;
 }
 
 static ff_status check_cycle(const ff_host *host, const ff_array *in)
@@ -453,6 +491,8 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
         status = check_scalars(host, in);
     if (status == FF_OK)
         status = check_cycle(host, in);
+    if (status == FF_OK)
+        status = read_levels(host, in, &inputs->levels);
     if (status != FF_OK)
         return status;
     read_stations(in, inputs);

@@ -22,6 +22,9 @@ enum {
     DYNAMICS_IN_LOADED_ERROR,
     DYNAMICS_IN_TOOTH_FORCE,
     DYNAMICS_IN_LOAD_SHARE,
+    DYNAMICS_IN_FORCE_LEVEL,
+    DYNAMICS_IN_LEVEL_STIFFNESS,
+    DYNAMICS_IN_LEVEL_TOOTH_FORCE,
     DYNAMICS_INPUT_COUNT,
     /* read only by a model whose gears move on their bearings */
     DYNAMICS_IN_BASE_RADIUS = DYNAMICS_INPUT_COUNT,
@@ -76,10 +79,17 @@ typedef struct dynamics_inertia {
             "linear natural frequency at the mean of the stiffness that is wired (tangent or "     \
             "secant), in place of the mass")
 
+/* What the stiffness knows of other mesh forces than the mean; count 0: nothing. */
+typedef struct dynamics_force_levels {
+    size_t count, phases, stations;
+    const double *force, *stiffness, *tooth_force; /* rising from 0; a row for each of them */
+} dynamics_force_levels;
+
 typedef struct dynamics_inputs {
     double line_force, mesh_frequency, natural_frequency; /* N, Hz, Hz */
     size_t stations;
     const double *roll_angle, *tooth_force, *load_share; /* load_share may be NULL */
+    dynamics_force_levels levels;
     double roll_sap, pitch; /* rad; pitch: roll angle of one mesh cycle */
     uint64_t wanted;        /* outputs that are asked for; set by the model */
 } dynamics_inputs;

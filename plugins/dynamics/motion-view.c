@@ -2,6 +2,7 @@
 #include "motion-view.h"
 
 #include "motion.h"
+#include "sharing.h"
 
 #include <flankfilm/author.h>
 
@@ -33,7 +34,8 @@ dynamics_statistics dynamics_motion_view_statistics(const dynamics_motion_view *
 {
     size_t count = dynamics_motion_view_count(view);
     double first = sample_at(view, 0)->s;
-    dynamics_statistics st = {.low = first, .high = first, .force = sample_at(view, 0)->force};
+    double force = sample_at(view, 0)->force;
+    dynamics_statistics st = {.low = first, .high = first, .force = force, .least_force = force};
     for (size_t i = 0; i + 1 < count; i++) {
         const dynamics_sample *a = sample_at(view, i), *z = sample_at(view, i + 1);
         double h = z->phase - a->phase;
@@ -41,6 +43,7 @@ dynamics_statistics dynamics_motion_view_statistics(const dynamics_motion_view *
         st.low = fmin(st.low, z->s);
         st.high = fmax(st.high, z->s);
         st.force = fmax(st.force, z->force);
+        st.least_force = fmin(st.least_force, z->force);
     }
     st.mean /= (double)view->cycles;
     double square = 0, doubt = 0;
@@ -214,6 +217,7 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
     static const uint64_t of_stations = FF_BIT(DYNAMICS_OUT_TOOTH_FORCE) |
                                         FF_BIT(DYNAMICS_OUT_GAP) |
                                         FF_BIT(DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH);
+    const double newton = excitation->stiffness * excitation->length;
     double time = (double)view->cycles * view->T, quasi_static = largest_static(inputs);
     dynamics_between between = {0, 0};
     ff_status status = put_engagements(view, excitation, inputs, host);
@@ -222,8 +226,9 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
         between = look_between(view, inputs, 1);
         report_sampling(view, &between, inputs, host);
     }
+    dynamics_sharing_report(inputs, st->least_force * newton, st->force * newton, host);
     /* NaN: not looked for, which leaves the factor out */
-    double tooth = looked ? between.largest * excitation->stiffness * excitation->length : NAN;
+    double tooth = looked ? between.largest * newton : NAN;
     const struct {
         uint32_t output;
         double value;

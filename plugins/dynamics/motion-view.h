@@ -23,7 +23,7 @@ typedef struct dynamics_motion_view {
 } dynamics_motion_view;
 
 typedef struct dynamics_statistics {
-    double mean, rms, low, high, force;
+    double mean, rms, low, high, force, least_force;
     double rms_error; /* by the spacing of the samples, relative to rms */
 } dynamics_statistics;
 

@@ -51,16 +51,12 @@ static void find_pairs(const stiffness_source *s, size_t cycle, double phase, in
     c->count = at->count;
 }
 
-stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle, double phase,
-                                        int side)
+static stiffness_loaded share_force(const stiffness_source *s, const stiffness_position *at,
+                                    const stiffness_contacts *c, double phase, double force)
 {
-    stiffness_loaded r = {0};
-    stiffness_contacts c;
-    find_pairs(s, cycle, phase, side, &r.at, &c);
-    s->compliance(s->self, &r.at, &c);
-    r.solved = stiffness_share(&c, stiffness_source_force(s), &r.sharing);
-    double secant = stiffness_source_force(s) / r.sharing.deflection;
-    r.stiffness = s->tangent ? r.sharing.tangent : secant;
+    stiffness_loaded r = {.at = *at};
+    r.solved = stiffness_share(c, force, &r.sharing);
+    r.stiffness = s->tangent ? r.sharing.tangent : force / r.sharing.deflection;
     r.solved = r.solved && r.stiffness > 0 && isfinite(r.stiffness);
     const double same_gap = 1e-15; /* m */
     const int offset = 8; /* more than the whole cycles before SAP that a pair may touch in */
@@ -69,12 +65,45 @@ stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle,
         int place = (int)lround(r.at.age[i] - phase);
         if (r.sharing.force[i] > 0)
             r.loaded |= UINT64_C(1) << (place + offset);
-        if (c.gap[i] < least - same_gap) {
-            least = c.gap[i];
+        if (c->gap[i] < least - same_gap) {
+            least = c->gap[i];
             r.first = place;
         }
     }
     return r;
+}
+
+void stiffness_source_solve_all(const stiffness_source *s, size_t cycle, double phase, int side,
+                                size_t count, const double *force, stiffness_loaded *loaded)
+{
+    stiffness_position at;
+    stiffness_contacts c;
+    find_pairs(s, cycle, phase, side, &at, &c);
+    s->compliance(s->self, &at, &c);
+    for (size_t i = 0; i < count; i++)
+        loaded[i] = share_force(s, &at, &c, phase, fmax(force[i], least_force));
+}
+
+stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle, double phase,
+                                        int side)
+{
+    stiffness_loaded r;
+    stiffness_source_solve_all(s, cycle, phase, side, 1, &s->conditions->path.line_force, &r);
+    return r;
+}
+
+/* Whole mesh cycles between a pair and the one that entered last. */
+static int place_of(double age, double phase)
+{
+    return (int)lround(age - phase);
+}
+
+double stiffness_loaded_force(const stiffness_loaded *r, double age, double phase)
+{
+    for (size_t i = 0; i < r->at.count; i++)
+        if (place_of(r->at.age[i], phase) == place_of(age, phase))
+            return r->sharing.force[i];
+    return 0;
 }
 
 double stiffness_source_unloaded(const stiffness_source *s, size_t cycle, double phase)

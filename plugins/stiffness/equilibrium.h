@@ -52,6 +52,13 @@ typedef struct stiffness_loaded {
 stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle, double phase,
                                         int side);
 
+/* The same under several forces, N; 0 counts as next to none. */
+void stiffness_source_solve_all(const stiffness_source *s, size_t cycle, double phase, int side,
+                                size_t count, const double *force, stiffness_loaded *loaded);
+
+/* The force of the pair of that age, N; 0: it carries nothing. */
+double stiffness_loaded_force(const stiffness_loaded *loaded, double age, double phase);
+
 /* The force that the pairs carry, N. */
 double stiffness_source_force(const stiffness_source *s);
 

@@ -228,6 +228,6 @@ FF_MODEL(
     .reference =
         "ISO 6336-1:2019, Calculation of load capacity of spur and helical gears, clause 9",
     .bibtex = BIB_iso6336_1, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
-    .inputs = FF_TABLE(stiffness_inputs), .outputs = FF_TABLE(stiffness_outputs), .set = set,
+    .inputs = FF_TABLE(stiffness_inputs), .outputs = STIFFNESS_PLAIN_OUTPUTS, .set = set,
     .ready = ready, .evaluate = evaluate, .destroy = free, .cost = 3e-4);
 FF_EXPORT_MODELS(&stiffness_iso_6336);

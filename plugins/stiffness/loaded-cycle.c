@@ -4,6 +4,7 @@
 #include "breakpoints.h"
 #include "cycle.h"
 #include "hunting.h"
+#include "levels.h"
 #include "outputs.h"
 
 #include <flankfilm/author.h>
@@ -17,12 +18,6 @@ const double stiffness_corner_reach = 0.45;
    points over the hunting period of teeth without load and of loaded teeth; as many of the latter
    take a second or two. */
 enum { HUNTING_STEPS = 32, HUNTING_MOST = 1 << 22, LOADED_MOST = 1 << 19 };
-
-/* Whole mesh cycles between a pair and the one that entered last. */
-static int place_of(double age, double phase)
-{
-    return (int)lround(age - phase);
-}
 
 static stiffness_loaded solve(const stiffness_source *s, double phase, int side)
 {
@@ -38,10 +33,7 @@ static double stiffness_at(const void *self, double phase, int side)
 static double share_in(const stiffness_source *s, const stiffness_loaded *r, double age,
                        double phase)
 {
-    for (size_t i = 0; i < r->at.count; i++)
-        if (place_of(r->at.age[i], phase) == place_of(age, phase))
-            return r->sharing.force[i] / stiffness_source_force(s);
-    return 0;
+    return stiffness_loaded_force(r, age, phase) / stiffness_source_force(s);
 }
 
 static double share(const void *self, double age, double phase, int side)
@@ -54,7 +46,7 @@ static double share(const void *self, double age, double phase, int side)
 static double share_of_pair(const void *self, size_t number, double age, int side)
 {
     double phase = stiffness_phase_of(age, side);
-    int later = place_of(age, phase);
+    int later = (int)lround(age - phase);
     size_t period =
         stiffness_hunting_period(&((const stiffness_source *)self)->conditions->deviations);
     size_t cycle = number + period + (size_t)(later % (int)period);
@@ -207,6 +199,8 @@ ff_status stiffness_loaded_cycle_publish(const stiffness_source *source, uint64_
         stiffness_hunting_report(&s, &h, s.cycles.number);
     stiffness_result result = result_of(&s, &v, b, &h);
     status = stiffness_result_publish(s.host, wanted, &result, &s.conditions->path);
+    if (status == FF_OK)
+        status = stiffness_levels_publish(&s, &v.cycle, wanted);
 out:
     free(h.pressure);
     samples_free(&v);

@@ -8,7 +8,7 @@
 
 enum { HARMONICS = 20 }; /* of k that are given */
 
-const ff_port stiffness_outputs[STIFFNESS_OUTPUTS] = {
+const ff_port stiffness_outputs[STIFFNESS_LEVEL_OUTPUTS] = {
     {.name = "phase",
      .unit = "1",
      .doc = "mesh cycle from 0 (the entering pair at SAP) to 1; a phase given twice marks a jump: "
@@ -97,6 +97,23 @@ const ff_port stiffness_outputs[STIFFNESS_OUTPUTS] = {
      .doc = "largest less least of loaded_transmission_error over the mesh cycle",
      .dims = "",
      .max = INFINITY},
+    {.name = "force_level",
+     .unit = "N",
+     .doc = "mesh forces from 0 to 9 times the line force, which is one of them",
+     .dims = "level"},
+    {.name = "level_error",
+     .unit = "m",
+     .doc = "transmission error under each of them; under 0 that without load",
+     .dims = "level phase"},
+    {.name = "level_stiffness",
+     .unit = "N/m",
+     .doc = "slope dF/d(e_l) of the mesh force there",
+     .dims = "level phase",
+     .max = INFINITY},
+    {.name = "level_tooth_force",
+     .unit = "N",
+     .doc = "quasi-static normal force of one pair from SAP to tip there",
+     .dims = "level station"},
 };
 
 /* A station given twice is the limit from below, then from above; the tip is left from below. */
@@ -108,13 +125,20 @@ static int station_side(const stiffness_path *path, size_t i)
     return step <= STIFFNESS_PHASE_TOLERANCE ? STIFFNESS_BELOW : STIFFNESS_ABOVE;
 }
 
+double stiffness_station_age(const stiffness_path *path, size_t i, int *side)
+{
+    double age = (path->roll[i] - path->roll_sap) / path->pitch;
+    age = fmin(fmax(age, 0), path->contact_ratio);
+    *side = age <= STIFFNESS_PHASE_TOLERANCE ? STIFFNESS_ABOVE : station_side(path, i);
+    return age;
+}
+
 /* Share of F that the pair which enters in mesh cycle `number` carries at station i. */
 static double station_share(const stiffness_result *r, const stiffness_path *path, size_t number,
                             size_t i)
 {
-    double age = (path->roll[i] - path->roll_sap) / path->pitch;
-    age = fmin(fmax(age, 0), path->contact_ratio);
-    int side = age <= STIFFNESS_PHASE_TOLERANCE ? STIFFNESS_ABOVE : station_side(path, i);
+    int side;
+    double age = stiffness_station_age(path, i, &side);
     if (r->engagements > 1)
         return r->share_of_pair(r->self, number, age, side);
     return r->share(r->self, age, stiffness_phase_of(age, side), side);

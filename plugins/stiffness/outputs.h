@@ -27,9 +27,21 @@ enum {
     STIFFNESS_OUT_WORST_CYCLE,
     STIFFNESS_OUT_WORST_TEETH,
     STIFFNESS_OUT_PEAK_TO_PEAK,
-    STIFFNESS_OUTPUTS
+    STIFFNESS_OUTPUTS,
+    /* of a model that knows the mesh force at any force */
+    STIFFNESS_OUT_FORCE_LEVEL = STIFFNESS_OUTPUTS,
+    STIFFNESS_OUT_LEVEL_ERROR,
+    STIFFNESS_OUT_LEVEL_STIFFNESS,
+    STIFFNESS_OUT_LEVEL_TOOTH_FORCE,
+    STIFFNESS_LEVEL_OUTPUTS
 };
-extern const ff_port stiffness_outputs[STIFFNESS_OUTPUTS];
+extern const ff_port stiffness_outputs[STIFFNESS_LEVEL_OUTPUTS];
+
+/* The rows of a model without levels, in the place of FF_TABLE. */
+#define STIFFNESS_PLAIN_OUTPUTS stiffness_outputs, STIFFNESS_OUTPUTS, sizeof stiffness_outputs[0]
+
+/* Mesh cycles from SAP to a station, and the limit that is meant there. */
+double stiffness_station_age(const stiffness_path *path, size_t station, int *side);
 
 /* The result of a source: all that its outputs are made of. */
 typedef struct stiffness_result {

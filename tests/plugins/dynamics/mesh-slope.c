@@ -341,6 +341,61 @@ static void test_landing_at_jump(void)
     stage_close(s);
 }
 
+enum { LEVELS = 5 };
+
+/* Gives a stiffness that knows, at five forces, a slope that falls to 0.7 times itself and a tooth
+   force that is a line over the mesh force, so that the share of a pair is off by d (1/F_1 - 1/F)
+   between two of them. */
+static void give_levels(stage *s, const pair *p, double d, size_t rows)
+{
+    static double slope[LEVELS * PAIR_MAX_PHASES], teeth[LEVELS * PAIR_STATIONS];
+    double force[LEVELS];
+    for (size_t k = 0; k < LEVELS; k++) {
+        force[k] = 0.5 * (double)k * p->line_force;
+        for (size_t i = 0; i < p->phases; i++)
+            slope[k * p->phases + i] = p->stiffness[i] * (k < 2 ? 0.7 : 1);
+        for (size_t i = 0; i < PAIR_STATIONS; i++)
+            teeth[k * PAIR_STATIONS + i] = k ? 0.4 * force[k] + d * (i == 7) * p->line_force : 0;
+    }
+    const size_t phases[] = {rows, p->phases}, stations[] = {rows, PAIR_STATIONS};
+    stage_give_series(s, "stiffness.force_level", LEVELS, force);
+    stage_give(s, "stiffness.level_stiffness", 2, phases, slope);
+    stage_give(s, "stiffness.level_tooth_force", 2, stations, teeth);
+}
+
+/* The line sharing_change against the forces that the motion shows. */
+static void test_sharing(void)
+{
+    static const char *const models[] = {"dynamics/shooting", "dynamics/time-integration",
+                                         "dynamics/harmonic-balance"};
+    static const double changes[] = {0.001, 0.9};
+    for (int i = 0; i < 6; i++) {
+        pair p = pair_cosine(2375, 0.05, 1e-6, 50);
+        stage *s = pair_open(models[i % 3], &p);
+        double low = INFINITY, high = 0, d = changes[i / 3];
+        size_t count;
+        give_levels(s, &p, d, LEVELS);
+        check_true(models[i % 3], stage_run(s) == FF_OK);
+        const double *force = stage_get(s, "mesh_force", &count);
+        for (size_t k = 0; k < count; k++) {
+            low = fmin(low, force[k] / p.line_force);
+            high = fmax(high, force[k] / p.line_force);
+        }
+        check_true("the flanks do not part", low > 0.5 && high < 2);
+        check_near("change of the share", stage_quality(s, "sharing_change"),
+                   d * fmax(1 / low - 1, 1 - 1 / high), 1e-9);
+        check_true("the larger is told", (stage_quality(s, "sharing_change") > 0.02) == (i >= 3));
+        stage_close(s);
+    }
+    pair p = pair_trapezoid(2375);
+    stage *s = pair_open("dynamics/shooting", &p);
+    check_true("runs", stage_run(s) == FF_OK);
+    check_true("no line without levels", !stage_has_quality(s, "sharing_change"));
+    give_levels(s, &p, 0.1, LEVELS - 1);
+    check_true("a row is missing", stage_run(s) == FF_INVALID);
+    stage_close(s);
+}
+
 int main(void)
 {
     test_law();
@@ -351,5 +406,6 @@ int main(void)
     test_sources();
     test_landings();
     test_landing_at_jump();
+    test_sharing();
     return check_done();
 }

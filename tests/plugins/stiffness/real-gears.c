@@ -138,6 +138,58 @@ static void test_straight_lines(const char *definition)
     }
 }
 
+/* What a stiffness knows of other forces than its own is what it says under those. */
+static void test_levels(void)
+{
+    static const char *const torques[] = {"90 N m", "40 N m", "160 N m"};
+    static const size_t levels[] = {3, 2, 4}; /* 90 N m times 1, 4/9 and 16/9 */
+    chain c[3];
+    for (int i = 0; i < 3; i++) {
+        c[i] = open_chain("stiffness/load-distribution", "[23, 67]", "4 mm", "[0.35, -0.1]",
+                          torques[i]);
+        stage_set_text(c[i].gear, "tip_relief", "12 um");
+        stage_set_text(c[i].gear, "elastic_modulus", "[206 GPa, 170 GPa]");
+        stage_set_text(c[i].mesh, "compliance", "analytical");
+        stage_set_text(c[i].mesh, "points", "50");
+        check_true(torques[i], stage_run(c[i].mesh) == FF_OK);
+    }
+    size_t phases, stations, count, equal = 0;
+    const double *phase = stage_get(c[0].mesh, "phase", &phases);
+    const double *force = stage_get(c[0].mesh, "force_level", &count);
+    const double *error = stage_get(c[0].mesh, "level_error", NULL);
+    const double *slope = stage_get(c[0].mesh, "level_stiffness", NULL);
+    const double *teeth = stage_get(c[0].mesh, "level_tooth_force", NULL);
+    const double *unloaded = stage_get(c[0].mesh, "transmission_error", NULL);
+    check_true("from none to nine times the load", count == 10 && force[0] == 0);
+    check_near("nine times", force[9], 9 * stage_scalar(c[0].duty, "line_force"), 1e-12);
+    for (size_t i = 0; i < phases; i++)
+        check_true("no load", error[i] == unloaded[i]);
+    for (int i = 0; i < 3; i++) {
+        size_t n, row = levels[i];
+        const double *at = stage_get(c[i].mesh, "phase", &n);
+        const double *alone = stage_get(c[i].mesh, "tooth_force", &stations);
+        const double *loaded = stage_get(c[i].mesh, "loaded_transmission_error", NULL);
+        const double *k = stage_get(c[i].mesh, "stiffness", NULL);
+        double F = stage_scalar(c[i].duty, "line_force");
+        check_near("force", force[row], F, 1e-12);
+        for (size_t j = 0; j < stations; j++)
+            check_below("tooth force", fabs(teeth[row * stations + j] - alone[j]), 1e-9 * F);
+        for (size_t a = 0; a < phases; a++)
+            for (size_t b = 0; b < n; b++) {
+                int single = (a + 1 == phases || phase[a + 1] > phase[a]) &&
+                             (a == 0 || phase[a - 1] < phase[a]);
+                if (!single || fabs(at[b] - phase[a]) > 1e-12)
+                    continue;
+                check_near("error", error[row * phases + a], loaded[b], 1e-9);
+                check_near("slope", slope[row * phases + a], k[b], 1e-9);
+                equal++;
+            }
+    }
+    check_true("phases of all", equal > 120);
+    for (int i = 0; i < 3; i++)
+        close_chain(&c[i]);
+}
+
 int main(void)
 {
     test_pair_of_the_paper();
@@ -145,5 +197,6 @@ int main(void)
     test_table_on_a_gear();
     test_straight_lines("secant");
     test_straight_lines("tangent");
+    test_levels();
     return check_done();
 }

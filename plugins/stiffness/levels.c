@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "levels.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { MEAN = 3 /* the level of F */, MOST = 10 };
+
+typedef struct levels {
+    const stiffness_source *source;
+    size_t count;
+    double force[MOST];
+} levels;
+
+static levels levels_of(const stiffness_source *s)
+{
+    double F = s->conditions->path.line_force;
+    levels x = {.source = s, .count = F > 0 ? MOST : 1};
+    for (size_t i = 0; i < x.count; i++)
+        x.force[i] = F * (double)(i * i) / (MEAN * MEAN);
+    return x;
+}
+
+static ff_status fail_at(const levels *x, double phase, double force)
+{
+    return ff_failf(x->source->host, FF_INVALID, x->source->fault,
+                    "at phase %g the teeth cannot carry %g N, at which the mesh force is wanted, "
+                    "too",
+                    phase, force);
+}
+
+static ff_status put_cycle(const levels *x, const stiffness_cycle *cycle, double *error,
+                           double *stiffness)
+{
+    const stiffness_source *s = x->source;
+    stiffness_loaded r[MOST];
+    for (size_t i = 0; i < cycle->count; i++) {
+        stiffness_source_solve_all(s, s->cycles.number, cycle->phase[i],
+                                   stiffness_cycle_side(cycle, i), x->count, x->force, r);
+        for (size_t k = 0; k < x->count; k++) {
+            if (!r[k].solved)
+                return fail_at(x, cycle->phase[i], x->force[k]);
+            double deflection = x->force[k] > 0 ? r[k].sharing.deflection : 0;
+            error[k * cycle->count + i] = r[k].sharing.unloaded + deflection;
+            stiffness[k * cycle->count + i] = r[k].sharing.tangent;
+        }
+    }
+    return FF_OK;
+}
+
+static ff_status put_stations(const levels *x, double *force)
+{
+    const stiffness_source *s = x->source;
+    const stiffness_path *path = &s->conditions->path;
+    stiffness_loaded r[MOST];
+    for (size_t i = 0; i < path->stations; i++) {
+        int side;
+        double age = stiffness_station_age(path, i, &side), phase = stiffness_phase_of(age, side);
+        stiffness_source_solve_all(s, s->cycles.number, phase, side, x->count, x->force, r);
+        for (size_t k = 0; k < x->count; k++) {
+            if (!r[k].solved)
+                return fail_at(x, phase, x->force[k]);
+            force[k * path->stations + i] =
+                x->force[k] > 0 ? stiffness_loaded_force(&r[k], age, phase) : 0;
+        }
+    }
+    return FF_OK;
+}
+
+ff_status stiffness_levels_publish(const stiffness_source *s, const stiffness_cycle *cycle,
+                                   uint64_t wanted)
+{
+    const ff_host *host = s->host;
+    levels x = levels_of(s);
+    const size_t phases[] = {x.count, cycle->count};
+    const size_t stations[] = {x.count, s->conditions->path.stations};
+    ff_status status = FF_OK;
+    if (!(wanted >> STIFFNESS_OUT_FORCE_LEVEL))
+        return FF_OK;
+    double *force = ff_put_series(host, STIFFNESS_OUT_FORCE_LEVEL, x.count);
+    double *error = host->output(host->ctx, STIFFNESS_OUT_LEVEL_ERROR, 2, phases);
+    double *stiffness = host->output(host->ctx, STIFFNESS_OUT_LEVEL_STIFFNESS, 2, phases);
+    double *teeth = host->output(host->ctx, STIFFNESS_OUT_LEVEL_TOOTH_FORCE, 2, stations);
+    if (!force || !error || !stiffness || !teeth)
+        return FF_NOMEM;
+    for (size_t k = 0; k < x.count; k++)
+        force[k] = x.force[k];
+    status = put_cycle(&x, cycle, error, stiffness);
+    return status == FF_OK ? put_stations(&x, teeth) : status;
+}
