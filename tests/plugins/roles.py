@@ -354,7 +354,7 @@ def compare(pair, path):
         b = [-y for y in b] if rule == 'minus' else b
         pair.say(path, beyond(at[0][0], a, at[1][0], b, at[0][1]), within)
         return pair.say(path, beyond(at[1][0], b, at[0][0], a, at[0][1]), within)
-    if len(dims) == 1 and dims[0] in ('harmonic', 'method', 'engagement', 'x', 'point', 'fold', 'doubling', 'hunting', 'tooth_1', 'tooth_2', 'arc'):
+    if len(dims) == 1 and dims[0] in ('harmonic', 'level', 'landing', 'method', 'engagement', 'x', 'point', 'fold', 'doubling', 'hunting', 'tooth_1', 'tooth_2', 'arc'):
         return pair.say(path, off(a, b), 0.03 if dims[0] == 'x' else max(within, ROUGHLY))
     if pair.alike(stage):
         return pair.say(path, off(a, b), within)

@@ -403,6 +403,28 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
          .doc = "film-forming pressure coefficient of the law with its oil, 1/int eta0/eta "
                 "dp; 0: the viscosity does not rise",
          .dims = ""},
+    [EHL_FILM_AT_LANDING] =
+        {.name = "film_at_landing",
+         .unit = "m",
+         .doc =
+             "h_min where flanks meet that have been apart, for each such landing of the contact",
+         .dims = "landing",
+         .max = INFINITY},
+    [EHL_FILM_AT_LANDING_ERROR] = {.name = "film_at_landing_error",
+                                   .unit = "m",
+                                   .doc = "h_min_error there",
+                                   .dims = "landing",
+                                   .max = INFINITY},
+    [EHL_P_MAX_AT_LANDING] = {.name = "p_max_at_landing",
+                              .unit = "Pa",
+                              .doc = "largest p_max from there to the first maximum of the load",
+                              .dims = "landing",
+                              .max = INFINITY},
+    [EHL_P_MAX_AT_LANDING_ERROR] = {.name = "p_max_at_landing_error",
+                                    .unit = "Pa",
+                                    .doc = "p_max_error there",
+                                    .dims = "landing",
+                                    .max = INFINITY},
 };
 
 const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS] = {

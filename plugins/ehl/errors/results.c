@@ -18,7 +18,8 @@ int ehl_wants_h_min(uint64_t wanted)
 {
     static const uint64_t all = FF_BIT(EHL_H_MIN) | FF_BIT(EHL_H_MIN_ERROR) | FF_BIT(EHL_FILM) |
                                 FF_BIT(EHL_H_MIN_LOWEST) | FF_BIT(EHL_H_MIN_LOWEST_AT) |
-                                FF_BIT(EHL_H_MIN_LOWEST_MEAN) | FF_BIT(EHL_H_MIN_LOWEST_SPREAD);
+                                FF_BIT(EHL_H_MIN_LOWEST_MEAN) | FF_BIT(EHL_H_MIN_LOWEST_SPREAD) |
+                                FF_BIT(EHL_FILM_AT_LANDING) | FF_BIT(EHL_FILM_AT_LANDING_ERROR);
     return (wanted & all) != 0;
 }
 
@@ -33,7 +34,8 @@ int ehl_wants_h_central(uint64_t wanted)
 int ehl_wants_p_max(uint64_t wanted)
 {
     static const uint64_t all = FF_BIT(EHL_P_MAX) | FF_BIT(EHL_P_MAX_ERROR) |
-                                FF_BIT(EHL_P_MAX_HIGHEST) | FF_BIT(EHL_PRESSURE);
+                                FF_BIT(EHL_P_MAX_HIGHEST) | FF_BIT(EHL_PRESSURE) |
+                                FF_BIT(EHL_P_MAX_AT_LANDING) | FF_BIT(EHL_P_MAX_AT_LANDING_ERROR);
     return (wanted & all) != 0 || ehl_loss_of_shear(wanted);
 }
 

@@ -8,6 +8,7 @@
 #include "../heat/thermal.h"
 #include "../time/start.h"
 #include "../time/step-control.h"
+#include "landings.h"
 #include "outputs.h"
 
 #include <flankfilm/author.h>
@@ -464,6 +465,8 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
         status = ehl_results_measure(&r.results, &r.march, &r.whole, m->steps > 0);
     if (status == FF_OK)
         status = ehl_results_finish(&r.results, &r.march);
+    if (status == FF_OK)
+        status = ehl_landings_put(&r.results, &r.whole);
     if (status == FF_OK)
         ehl_inlet_heating_report(m->host, &m->heating, m->thermal != EHL_THERMAL_NONE, &r.whole,
                                  &m->laws, &r.oil);

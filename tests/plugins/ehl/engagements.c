@@ -122,11 +122,67 @@ static void check_model(const film_model *m, const char *steps, double same)
                    jump.n != ab.n || departure(&jump, 0, &ab) > 1e-3);
 }
 
+enum { LANDS = 35, TOP = 50, ROWS = 60 };
+
+/* A load that goes and comes back, to swell up to its first maximum, while a gap opens and closes;
+   the second engagement begins at that row (0: there is one). */
+static void open_landing(line *c, size_t second)
+{
+    double number[ROWS];
+    model_open(&film_models[2], c);
+    line_last(c, ROWS, 2e-4);
+    for (size_t i = 0; i < ROWS; i++) {
+        double fall = fmax(1 - (double)i / 20, 0), rise = 0, flight = 0;
+        if (i >= LANDS)
+            rise = 1 - 0.004 * pow((double)i - TOP, 2);
+        if (i > 20 && i < LANDS)
+            flight = (double)((i - 20) * (LANDS - i)) / 56;
+        c->load[i] = largest * (0.1 + 0.9 * fall) * (i <= 20) + largest * fmax(rise, 0);
+        c->gap[i] = 2e-7 * flight;
+        if (flight > 0)
+            c->load[i] = 0;
+        number[i] = second && i >= second;
+    }
+    stage_give_series(c->film, "contact.engagement", ROWS, number);
+    stage_set_text(c->film, "steps", "auto");
+}
+
+/* The film where the gap closes, and the largest pressure from there to the load's maximum, each
+   with the error of its instant. */
+static void test_landing(void)
+{
+    static const char outputs[] = "time h_min p_max h_min_error p_max_error film_at_landing "
+                                  "film_at_landing_error p_max_at_landing p_max_at_landing_error";
+    line c;
+    size_t n, highest = 0;
+    open_landing(&c, 0);
+    check_true("runs", line_run(&c, outputs) == FF_OK);
+    const double *time = stage_get(c.film, "time", &n), *p = stage_get(c.film, "p_max", NULL);
+    for (size_t i = 0; i < n; i++)
+        if (time[i] >= c.time[LANDS] && (i == 0 || time[i - 1] < c.time[TOP]))
+            highest = highest == 0 || p[i] > p[highest] ? i : highest;
+    check_true("one landing", stage_count(c.film, "film_at_landing") == 1);
+    check_near("film", line_value(&c, "film_at_landing", 0), line_at(&c, "h_min", c.time[LANDS]),
+               1e-12);
+    check_near("pressure", line_value(&c, "p_max_at_landing", 0), p[highest], 0);
+    check_near("its error", line_value(&c, "p_max_at_landing_error", 0),
+               fabs(line_value(&c, "p_max_error", highest)), 0);
+    double off = line_value(&c, "film_at_landing_error", 0);
+    check_true("error of the film",
+               off > 0 && off >= 0.999 * fabs(line_at(&c, "h_min_error", c.time[LANDS])));
+    line_close(&c);
+    open_landing(&c, LANDS);
+    check_true("runs", line_run(&c, outputs) == FF_OK);
+    check_true("another pair does not land", stage_count(c.film, "film_at_landing") == 0);
+    line_close(&c);
+}
+
 int main(void)
 {
     for (int k = 0; k < FILM_MODELS; k++)
         if (strcmp(film_models[k].name, "dense-newton") != 0)
             check_model(&film_models[k], "60", 1e-6);
     check_model(&film_models[2], "auto", 1e-3);
+    test_landing();
     return check_done();
 }
