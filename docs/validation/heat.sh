@@ -60,13 +60,13 @@ much as `full` does: it goes with Q^0.64, the heat with Q. `inlet` leaves out th
 
 ## Formulas of the inlet against the full solution
 
-`configs/thermal.yaml` (ISO VG 320 at 60 degC), 512 cells: central film over that of the cold oil, L = eta0 beta u_r^2/k.
+`configs/thermal.yaml` (ISO VG 320 at 60 degC) with `viscosity/roelands` and `tau0: 6 MPa`, 512 cells: central film over that of the cold oil, L = eta0 beta u_r^2/k.
 Gupta by `inlet_heating`; Wilson & Sheu 1983 by 1/(1 + 0.241 (1 + 14.8 Z^0.83) L^0.64), Z = |u_1 - u_2|/(u_1 + u_2).
 
 | slide-roll ratio | u_r, m/s | L | full | full, teeth 10 K warmer | inlet | Gupta | Wilson & Sheu |
 |---|---|---|---|---|---|---|---|""", flush=True)
 WARMER = ["hot.bulk_temperature=70 degC"]
-DISCS = ["cold.cells=512", "heated.cells=512", "hot.cells=512"]
+DISCS = ["cold.cells=512", "heated.cells=512", "hot.cells=512", "viscosity.use=viscosity/roelands", "flow.tau0=6 MPa"]
 oil = ["outputs=[oil.eta0, oil.conductivity]"]
 eta = [run("configs/thermal.yaml", "oil.temperature=%g degC" % T, *oil)["oil.eta0"] for T in (59, 60, 61)]
 k = run("configs/thermal.yaml", *oil)["oil.conductivity"]

@@ -105,7 +105,8 @@ ff_status rheology_eyring_stress(const rheology_eyring *e, size_t n, const doubl
         first[i] = first[0];
     }
     fill_stress(2 * e->coefficient, n, p, ln_eta, slope, ambient, first, stress, by_p);
-    return status;
+    /* a viscosity that was continued is told by its law to who calls that */
+    return status == FF_DOMAIN ? FF_OK : status;
 }
 
 ff_status rheology_ambient_flow(const void *self, rheology_flow_3 *flow, int moves, size_t n,

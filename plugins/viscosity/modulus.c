@@ -127,9 +127,11 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
 
 static const ff_param params[] = {
     VISCOSITY_OIL_ROWS(modulus),
-    FF_ONE_OF("paraffinic|naphthenic|PAO", "base", modulus, base, 0, NULL,
-              "base oil, whose measured A and B hold; without it that of the oil, a mineral oil "
-              "being paraffinic"),
+    FF_ONE_OF(
+        "paraffinic|naphthenic|PAO", "base", modulus, base, 0, NULL,
+        "measured ISO VG 100 oil, whose A and B hold as they are; without it that of the "
+        "oil's base (of mineral ones the paraffinic one), brought to the pressure coefficient "
+        "of the oil"),
     FF_QUANTITY("a1", "Pa", modulus, a1, 0, NULL, NULL, -1e12, 1e12, -2e8, 2e8,
                 "A at 0 K, in place of that of the base; with a2 = 0 the A of any temperature"),
     FF_QUANTITY("a2", "Pa/K", modulus, a2, 0, "0 Pa/K", NULL, -1e10, 1e10, 0, 1e6,
@@ -148,7 +150,7 @@ static ff_status take_base(modulus *m)
     if (m->oil.liquid &&
         m->oil.liquid->eval(m->oil.liquid->self, FF_LIQUID_BASE, 1, &T, &base, NULL) < 0)
         base = NAN;
-    bool known = base >= 0 && base <= FF_BASE_PAO;
+    bool known = base >= 0 && base <= FF_BASE_PAO, typed = m->base >= 0;
     if (m->base < 0 && !known)
         return ff_failf(m->host, FF_INVALID, "base",
                         "A and B are known of mineral oils and PAO alone, and %s: give a1, a2, b1 "
@@ -165,7 +167,7 @@ static ff_status take_base(modulus *m)
     m->a2 = of_base[m->base].a2;
     m->b1 = of_base[m->base].b1;
     m->b2 = of_base[m->base].b2;
-    m->scaled = known;
+    m->scaled = known && !typed;
     return FF_OK;
 }
 

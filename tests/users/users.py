@@ -90,7 +90,7 @@ pipeline:
   oil: {{use: lubricant/grade, grade: ISO VG 320, base: mineral}}
   viscosity: {{use: viscosity/{law}}}
   density: {{use: density/dowson-higginson, a: 0.6 1/GPa, b: 1.7 1/GPa}}
-  flow: {{use: rheology/ree-eyring, tau0: 6 MPa}}
+  flow: {{use: rheology/ree-eyring, tau0: auto}}
   duty: {{use: operating/steady, torque: 1100 N m, speed: 1450 rpm, oil_temperature: 70 degC}}
   mesh: {{use: stiffness/iso-6336}}
   tooth: {{use: contact/tooth-pair, load: mesh}}

@@ -211,6 +211,25 @@ static void test_other_services(void)
     stage_close(bare);
 }
 
+/* As far as S = 100, tau = 5.3 tau_E. */
+static void test_carreau_follows(void)
+{
+    scene a = open_scene("rheology/ree-eyring", "PAO", "ISO VG 220", "auto");
+    scene b = open_scene("rheology/carreau", "PAO", "ISO VG 220", "auto");
+    const double p = 0.9 * GPa, T = 345, h = 2e-7;
+    double worst = 0;
+    start(&a);
+    start(&b);
+    const double once = eyring(&a, p, T) * h / exp(ln_eta(&a, p, T));
+    for (double S = 0.1; S <= 100; S *= 1.2) {
+        double one = shear(&a, p, T, h, S * once), other = shear(&b, p, T, h, S * once);
+        worst = fmax(worst, fabs(other / one - 1));
+    }
+    check_below("Carreau against Ree-Eyring", worst, 0.05);
+    close_scene(&a);
+    close_scene(&b);
+}
+
 static void test_refusals(void)
 {
     scene s = open_scene("rheology/ree-eyring", "ester", "ISO VG 100", "auto");
@@ -235,6 +254,7 @@ int main(void)
     test_friction("rheology/ree-eyring");
     test_friction("rheology/carreau");
     test_sensitivity();
+    test_carreau_follows();
     test_other_services();
     test_refusals();
     return check_done();
