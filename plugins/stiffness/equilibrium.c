@@ -52,10 +52,11 @@ static void find_pairs(const stiffness_source *s, size_t cycle, double phase, in
 }
 
 static stiffness_loaded share_force(const stiffness_source *s, const stiffness_position *at,
-                                    const stiffness_contacts *c, double phase, double force)
+                                    const stiffness_contacts *c, double phase, double force,
+                                    const stiffness_sharing *near)
 {
     stiffness_loaded r = {.at = *at};
-    r.solved = stiffness_share(c, force, &r.sharing);
+    r.solved = stiffness_share_near(c, force, near, &r.sharing);
     r.stiffness = s->tangent ? r.sharing.tangent : force / r.sharing.deflection;
     r.solved = r.solved && r.stiffness > 0 && isfinite(r.stiffness);
     const double same_gap = 1e-15; /* m */
@@ -81,7 +82,8 @@ void stiffness_source_solve_all(const stiffness_source *s, size_t cycle, double 
     find_pairs(s, cycle, phase, side, &at, &c);
     s->compliance(s->self, &at, &c);
     for (size_t i = 0; i < count; i++)
-        loaded[i] = share_force(s, &at, &c, phase, fmax(force[i], least_force));
+        loaded[i] = share_force(s, &at, &c, phase, fmax(force[i], least_force),
+                                i > 0 && loaded[i - 1].solved ? &loaded[i - 1].sharing : NULL);
 }
 
 stiffness_loaded stiffness_source_solve(const stiffness_source *s, size_t cycle, double phase,

@@ -58,12 +58,12 @@ static ff_status put_stations(const levels *x, double *force)
     for (size_t i = 0; i < path->stations; i++) {
         int side;
         double age = stiffness_station_age(path, i, &side), phase = stiffness_phase_of(age, side);
-        stiffness_source_solve_all(s, s->cycles.number, phase, side, x->count, x->force, r);
-        for (size_t k = 0; k < x->count; k++) {
-            if (!r[k].solved)
+        force[i] = 0;
+        stiffness_source_solve_all(s, s->cycles.number, phase, side, x->count - 1, x->force + 1, r);
+        for (size_t k = 1; k < x->count; k++) {
+            if (!r[k - 1].solved)
                 return fail_at(x, phase, x->force[k]);
-            force[k * path->stations + i] =
-                x->force[k] > 0 ? stiffness_loaded_force(&r[k], age, phase) : 0;
+            force[k * path->stations + i] = stiffness_loaded_force(&r[k - 1], age, phase);
         }
     }
     return FF_OK;

@@ -157,17 +157,47 @@ static void report(const sharing_state *s, stiffness_sharing *r)
     r->residual /= s->approach;
 }
 
-bool stiffness_share(const stiffness_contacts *c, double force, stiffness_sharing *r)
+/* Starts from equal forces of all pairs. */
+static sharing_state start_anew(const stiffness_contacts *c, double force)
 {
     sharing_state s = {.contacts = c, .total = force, .count = c->count, .unloaded = INFINITY};
-    double x[2][STIFFNESS_MAX_PAIRS];
-    if (c->count == 0)
-        return false;
     for (size_t i = 0; i < c->count; i++) {
         s.member[i] = i;
         s.force[i] = force / (double)c->count;
         s.unloaded = fmin(s.unloaded, c->gap[i]);
     }
+    return s;
+}
+
+/* Starts from the pairs that are in contact under another force, in its proportions. */
+static sharing_state start_from(const stiffness_contacts *c, double force,
+                                const stiffness_sharing *near)
+{
+    sharing_state s = {.contacts = c, .total = force, .unloaded = near->unloaded};
+    double sum = 0;
+    for (size_t i = 0; i < c->count; i++)
+        sum += near->force[i];
+    for (size_t i = 0; i < c->count; i++) {
+        s.force[i] = near->force[i] * force / sum;
+        if (s.force[i] > 0)
+            s.member[s.count++] = i;
+    }
+    s.approach = separation(&s, s.member[0]);
+    return s;
+}
+
+bool stiffness_share(const stiffness_contacts *c, double force, stiffness_sharing *r)
+{
+    return stiffness_share_near(c, force, NULL, r);
+}
+
+bool stiffness_share_near(const stiffness_contacts *c, double force, const stiffness_sharing *near,
+                          stiffness_sharing *r)
+{
+    double x[2][STIFFNESS_MAX_PAIRS];
+    if (c->count == 0)
+        return false;
+    sharing_state s = near ? start_from(c, force, near) : start_anew(c, force);
     for (int set = 0;; set++) {
         if (set == MAX_SETS || !solve_contacts(&s))
             return false;

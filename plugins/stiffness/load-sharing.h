@@ -35,5 +35,8 @@ typedef struct stiffness_sharing {
 
 /* Shares the force, > 0. False: no solution, as a contact would be pressed through its tooth. */
 bool stiffness_share(const stiffness_contacts *c, double force, stiffness_sharing *result);
+/* The same, sooner, from the sharing of another force by the same contacts; NULL: there is none. */
+bool stiffness_share_near(const stiffness_contacts *c, double force, const stiffness_sharing *near,
+                          stiffness_sharing *result);
 
 #endif

@@ -126,11 +126,13 @@ static void test_all_sets(void)
     check_below("equilibrium", imbalance, 1e-15);
 }
 
-/* Forces of all sizes keep the law of complementarity. */
+/* Forces of all sizes keep the law of complementarity, also when they are found from a smaller or
+   a larger one. */
 static void test_extremes(void)
 {
     uint64_t random = 3;
-    double worst = 0;
+    uint64_t others = 7;
+    double worst = 0, apart = 0;
     for (int trial = 0; trial < 3000; trial++) {
         stiffness_contacts c = {.count = 3};
         for (size_t i = 0; i < 3; i++) {
@@ -140,12 +142,18 @@ static void test_extremes(void)
             c.compliance[i][i] = 3e-9;
             c.hertz[i] = (stiffness_hertz){1.7e-9, 1.4e-10 * (trial % 2)};
         }
-        stiffness_sharing r = {0};
-        int solved = stiffness_share(&c, pow(10, -6 + 10 * uniform(&random)), &r);
-        if (!solved)
+        stiffness_sharing r = {0}, other, again = {0};
+        double force = pow(10, -6 + 10 * uniform(&random));
+        int solved = stiffness_share(&c, force, &r);
+        double first = fmin(force * pow(10, 2 - 4 * uniform(&others)), 1e4);
+        if (!solved || !stiffness_share(&c, first, &other) ||
+            !stiffness_share_near(&c, force, &other, &again))
             check_true("solved", 0);
-        worst = fmax(worst, r.residual);
+        worst = fmax(worst, fmax(r.residual, again.residual));
+        for (size_t i = 0; i < 3; i++)
+            apart = fmax(apart, fabs(again.force[i] - r.force[i]) / force);
     }
+    check_below("from another force", apart, 1e-10);
     check_below("complementarity", worst, 1e-12);
 }
 

@@ -181,7 +181,8 @@ static void test_levels(void)
                 if (!single || fabs(at[b] - phase[a]) > 1e-12)
                     continue;
                 check_near("error", error[row * phases + a], loaded[b], 1e-9);
-                check_near("slope", slope[row * phases + a], k[b], 1e-9);
+                /* a pair that has just touched bears so little that its force has few digits */
+                check_near("slope", slope[row * phases + a], k[b], 1e-5);
                 equal++;
             }
     }
