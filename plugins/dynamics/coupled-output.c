@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "coupled-motion.h"
 #include "coupled-shooting.h"
+#include "landings.h"
 #include "motion-view.h"
 
 #include <flankfilm/author.h>
@@ -118,6 +119,16 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
                                    .unit = "N",
                                    .doc = "largest elastic force of each gear's bearings",
                                    .dims = "gear"},
+    [DYNAMICS_CO_LANDING_TIME] = {.name = "landing_time",
+                                  .unit = "s",
+                                  .doc =
+                                      "when the driving flanks meet after they have parted, since "
+                                      "the start of the motion shown; empty: they do not part",
+                                  .dims = "landing"},
+    [DYNAMICS_CO_LANDING_SPEED] = {.name = "landing_speed",
+                                   .unit = "m/s",
+                                   .doc = "how fast they approach each other there",
+                                   .dims = "landing"},
 };
 
 static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap);
@@ -136,7 +147,7 @@ static dynamics_motion_view view_of(const dynamics_coupled_motion *motion)
                                   .self = motion};
 }
 
-/* The force and the gap at a phase, straight between samples. */
+/* The force at a phase, straight between samples, and the gap by Hermite's cubic. */
 static void force_and_gap_at(const void *self, double phase, int left, double *force, double *gap)
 {
     const dynamics_coupled_motion *motion = self;
@@ -147,7 +158,10 @@ static void force_and_gap_at(const void *self, double phase, int left, double *f
     double h = z->excitation.phase - a->excitation.phase;
     double x = h > 0 ? fmin(fmax((phase - a->excitation.phase) / h, 0), 1) : 0;
     *force = a->excitation.force + x * (z->excitation.force - a->excitation.force);
-    *gap = a->gap + x * (z->gap - a->gap);
+    double slope_a = a->overlap_rate * motion->T * h, slope_z = z->overlap_rate * motion->T * h;
+    double c2 = 3 * (z->overlap - a->overlap) - 2 * slope_a - slope_z;
+    double c3 = slope_a + slope_z - 2 * (z->overlap - a->overlap);
+    *gap = fmax(-(a->overlap + x * (slope_a + x * (c2 + x * c3))), 0);
 }
 
 static ff_status put_cycle(const dynamics_coupled_motion *motion, const dynamics_coupled *pair,
@@ -224,6 +238,9 @@ ff_status dynamics_coupled_put(const dynamics_coupled_motion *motion, const dyna
         status = put_bearings(motion, pair, host);
     if (status == FF_OK)
         status = put_multipliers(motion, host);
+    if (status == FF_OK)
+        status = dynamics_landings_put(&view, pair->excitation, DYNAMICS_CO_LANDING_TIME,
+                                       DYNAMICS_CO_LANDING_SPEED, host);
     return status == FF_OK ? dynamics_motion_view_put(&view, &st, pair->excitation, inputs, host)
                            : status;
 }

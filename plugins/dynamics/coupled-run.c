@@ -377,7 +377,8 @@ static void add_sample(const dynamics_coupled_run *run, double phase,
                                                      .s = s.value,
                                                      .s_rate = s.rate,
                                                      .force = p.force},
-                                      .gap = fmax(-p.overlap[DYNAMICS_DRIVING].value, 0),
+                                      .overlap = p.overlap[DYNAMICS_DRIVING].value,
+                                      .overlap_rate = p.overlap[DYNAMICS_DRIVING].rate,
                                       .centre = place.centre,
                                       .contact_ratio = place.exit - place.entry};
     memcpy(sample.position, run->y, sizeof sample.position);

@@ -14,7 +14,7 @@ typedef struct dynamics_coupled_run dynamics_coupled_run;
 
 typedef struct dynamics_coupled_sample {
     dynamics_sample excitation;
-    double gap;
+    double overlap, overlap_rate; /* of the driving flanks */
     double centre, contact_ratio;
     double position[DYNAMICS_COORDINATES];
 } dynamics_coupled_sample;

@@ -110,6 +110,25 @@ static void test_frequencies(void)
     stage_close(s);
 }
 
+/* Times, over the mesh period, and speeds of the landings, likewise. */
+static void compare_landings(const pair *p, const stage *stiff, const stage *stiffer,
+                             const stage *rigid)
+{
+    static const char *const names[] = {"landing_time", "landing_speed"};
+    size_t count = stage_count(rigid, names[0]);
+    check_true("as many landings",
+               stage_count(stiff, names[0]) == count && stage_count(stiffer, names[0]) == count);
+    for (size_t i = 0; i < 2 * count; i++) {
+        const char *name = names[i % 2];
+        double a = stage_get(stiff, name, NULL)[i / 2], z = stage_get(stiffer, name, NULL)[i / 2];
+        double exact = stage_get(rigid, name, NULL)[i / 2];
+        double unit = i % 2 ? exact : 1 / p->mesh_frequency, first = fabs(z - exact) / unit;
+        check_below(name, first, 5e-2);
+        check_below("what is left is of second order", fabs(2 * z - a - exact) / unit,
+                    fmax(1e-3, 10 * first * first));
+    }
+}
+
 /* The error of stiff bearings falls as their compliance, which moves the resonance by k/kb = 2e-3
    of its frequency, 0.1 of its width: two of them lead to the single degree of freedom. Returns the
    share of the time with contact on the back flanks. */
@@ -135,6 +154,7 @@ static double compare_with_rigid(const pair *p, const char *branch, const char *
         check_below("what is left is of second order", fabs(2 * z - a - exact) / unit,
                     fmax(1e-3, 10 * first * first));
     }
+    compare_landings(p, stiff, stiffer, rigid);
     double largest = stage_scalar(rigid, "floquet_max");
     check_near("largest multiplier", stage_scalar(stiffer, "floquet_max"), largest, 5e-3);
     check_near("period", stage_scalar(stiffer, "period"), 1, 0);
