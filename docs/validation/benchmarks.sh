@@ -18,6 +18,7 @@ run() { # NAME [--set ...]
         cat "$work/said" >&2
         exit 1
     }
+    python3 "$here/tables.py" "$work/$name"
 }
 
 "$build/tests/plugins/viscosity/test-viscosity-card-fit" print mil-l-23699.yaml |

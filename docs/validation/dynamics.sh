@@ -60,10 +60,12 @@ while IFS='|' read -r source title settings; do
     echo "| $title | period | rms um | DMF/F | W_d/W_s | time apart |"
     echo "|---|---|---|---|---|---|"
     "$program" run "$here/dynamics.yaml" "$@" -o "$work/$source-atlas" > /dev/null
+    python3 "$here/tables.py" "$work/$source-atlas"
     for point in "1250 lower" "2085 lower" "2375 lower" "2375 upper"; do
         "$program" run "$here/dynamics.yaml" "$@" --set duty.mesh_frequency="${point% *} Hz" \
             --set motion.branch="${point#* }" --set motion.max_period=1 \
             --set motion.search_starts=0 -o "$work/$source" > /dev/null
+        python3 "$here/tables.py" "$work/$source"
         scalars=$work/$source/motion-scalars.csv
         cp "$scalars" "$work/$source-$(echo "$point" | tr ' ' -).csv"
         awk -v point="$point" -v rms="$(number dte_rms "$scalars")" \
@@ -84,6 +86,7 @@ while IFS='|' read -r source title settings; do
         END { print "| their doublings | " substr(list, 3) " |" }' "$work/$source-atlas/motion-doubling.csv"
     echo
     "$program" run "$here/dynamics.yaml" "$@" --set 'outputs=[mesh.stiffness_mean, mesh.stiffness_harmonics]' -o "$work/$source-mesh" > /dev/null
+    python3 "$here/tables.py" "$work/$source-mesh"
     axes "$top" "$title; blue: period 1, orange: period 2" "mesh frequency, Hz" >> "$work/lines"
     draw "$work/$source-atlas/motion-point.csv" >> "$work/lines"
     top=$((top + 390))

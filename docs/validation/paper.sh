@@ -22,6 +22,7 @@ run() { # NAME FILE [--set ...]
         cat "$work/$name.said" >&2
         exit 1
     }
+    python3 "$here/tables.py" "$work/$name"
 }
 at() { # POINT NAME FILE [--set ...]
     case $1 in

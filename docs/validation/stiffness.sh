@@ -35,6 +35,7 @@ while IFS='|' read -r name colour dashes settings; do
     set --
     for setting in $settings; do set -- "$@" --set "$setting"; done
     "$program" run "$here/stiffness.yaml" "$@" -o "$work/$row" > /dev/null
+    python3 "$here/tables.py" "$work/$row"
     "$program" run "$here/stiffness.yaml" "$@" --json > "$work/$row.json"
     mean=$(number mesh.stiffness_mean "$work/$row.json")
     ratio=$(number mesh.loaded_contact_ratio "$work/$row.json")
@@ -70,6 +71,7 @@ levels() { # SETTINGS
         shift
     done
     "$program" run "$here/stiffness.yaml" -o "$work/levels" "$@" > /dev/null
+    python3 "$here/tables.py" "$work/levels"
     awk -F, '
         FILENAME ~ /harmonic/ { if (FNR == 2) first = $1; next }
         FNR == 1 { next }
@@ -109,6 +111,7 @@ echo
 echo "| W_s/F at SAP | before LPSTC | at the pitch point | largest difference from the mirror image, ten digits |"
 echo "|---|---|---|---|"
 "$program" run "$here/stiffness.yaml" --set $finite --set 'outputs=[mesh.load_share, gears.roll_angle]' -o "$work/shares" > /dev/null
+python3 "$here/tables.py" "$work/shares"
 awk -F, 'FNR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /load_share/) c = i; next }
     { s[++n] = $c }
     END {

@@ -2,13 +2,37 @@
 #include "../arrays/npy.h"
 #include "write.h"
 
+#include "../accuracy/axis.h"
 #include "../memory/memory.h"
 
 #include <stdlib.h>
 
-bool results_has_file(const ff_result *result)
+const ff_result **results_axes(const ff_pipeline *pipeline)
 {
-    return result->rank > 1 || result->count > RESULTS_LONGEST_TEXT;
+    const ff_result **axes = memory_alloc(sizeof *axes);
+    size_t count = 0;
+    for (size_t s = 0; s < pipeline->count; s++) {
+        const ff_stage *stage = &pipeline->stages[s];
+        for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
+            const ff_result *asked = &stage->results[i];
+            for (uint32_t k = 0; asked->requested && asked->data && k < asked->rank; k++) {
+                const ff_result *axis =
+                    accuracy_axis(pipeline, stage, asked->dims[k], asked->shape[k], asked, "rad");
+                axes = memory_resize(axes, (count + 2) * sizeof *axes);
+                axes[count] = axis;
+                count += axis != NULL;
+            }
+        }
+    }
+    axes[count] = NULL;
+    return axes;
+}
+
+bool results_is_kept(const ff_result *result, const ff_result *const *axes)
+{
+    while (*axes && *axes != result)
+        axes++;
+    return result->data && (result->requested || *axes);
 }
 
 static void write_array(const ff_stage *stage, const ff_result *result, const char *ending,
@@ -24,12 +48,12 @@ static void write_array(const ff_stage *stage, const ff_result *result, const ch
 void results_write_arrays(const results_outcome *outcome, results_folder *folder)
 {
     const ff_pipeline *pipeline = outcome->pipeline;
+    const ff_result **axes = results_axes(pipeline);
     for (size_t s = 0; s < pipeline->count; s++) {
         const ff_stage *stage = &pipeline->stages[s];
         for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
             const ff_result *result = &stage->results[i];
-            if (!result->data || !results_has_file(result) ||
-                (!result->requested && result->rank > 1))
+            if (result->rank == 0 || !results_is_kept(result, axes))
                 continue;
             write_array(stage, result, "", result->data, folder);
             const accuracy_error *error = accuracy_find(outcome->errors, result);
@@ -37,4 +61,5 @@ void results_write_arrays(const results_outcome *outcome, results_folder *folder
                 write_array(stage, result, ACCURACY_BAR, error->bar, folder);
         }
     }
+    free(axes);
 }

@@ -86,9 +86,8 @@ static json_t *list_bars(const accuracy_error *e)
 /* Whether an array is not part of the object. */
 static bool is_elsewhere(const ff_result *result, results_arrays arrays)
 {
-    return arrays == RESULTS_IN_FILES
-               ? results_has_file(result)
-               : arrays != RESULTS_ALL_HERE && result->count > RESULTS_LONGEST_TEXT;
+    return arrays == RESULTS_IN_FILES ||
+           (arrays != RESULTS_ALL_HERE && result->count > RESULTS_LONGEST_TEXT);
 }
 
 /* Names the file of an array; null where none is written. */
@@ -139,23 +138,27 @@ static json_t *describe_output(const results_outcome *outcome, const ff_stage *s
     return entry;
 }
 
-/* Describes what the file requests; or, of what was computed on the way, the scalars and series. */
+/* Describes what the file requests; or, of what was computed on the way, the scalars, and series
+   that requested arrays are plotted against. */
 static json_t *describe_outputs(const results_outcome *outcome, bool requested,
                                 results_arrays arrays)
 {
     const ff_pipeline *pipeline = outcome->pipeline;
+    const ff_result **axes = results_axes(pipeline);
     json_t *outputs = json_object();
     for (size_t s = 0; s < pipeline->count; s++) {
         const ff_stage *stage = &pipeline->stages[s];
         for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
             const ff_result *result = &stage->results[i];
-            if (!result->data || result->requested != requested || (!requested && result->rank > 1))
+            if (!result->data || result->requested != requested ||
+                (result->rank && !results_is_kept(result, axes)))
                 continue;
             char *name = memory_print_text("%s.%s", stage->name, result->row->name);
             json_object_set_new(outputs, name, describe_output(outcome, stage, i, arrays));
             free(name);
         }
     }
+    free(axes);
     return outputs;
 }
 

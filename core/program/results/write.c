@@ -5,7 +5,6 @@
 bool results_write_run(const results_outcome *outcome, const char *directory,
                        results_folder *folder, char **removed)
 {
-    results_write_run_csv(outcome, folder);
     results_write_arrays(outcome, folder);
     FILE *stream = results_folder_begin(folder, "result", ".json");
     if (stream)

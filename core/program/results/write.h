@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Writes what a run or a study leaves in its directory: JSON and CSV. */
+/* Writes what a run or a study leaves in its directory. */
 #ifndef RESULTS_WRITE_H
 #define RESULTS_WRITE_H
 
@@ -20,30 +20,32 @@ typedef struct results_outcome {
     json_t *log; /* messages of the models: [{stage, level, text}] */
 } results_outcome;
 
+/* What the arrays that the file asks for are plotted against; NULL-ended, to be freed. */
+const ff_result **results_axes(const ff_pipeline *pipeline);
+/* Whether the numbers are kept: the file asks for them, or they are one of those. */
+bool results_is_kept(const ff_result *result, const ff_result *const *axes);
+/* Writes <stage>.<output>.npy of each array that the file asks for, and of what it is plotted
+   against; <stage>.<output>_error_bar.npy with the error bars of a series. */
+void results_write_arrays(const results_outcome *outcome, results_folder *folder);
+
 /* Arrays of more numbers are not written as text. */
 enum { RESULTS_LONGEST_TEXT = 10000 };
 
-/* Whether a result has a file of its own: a field, or a series that is too long for text. */
-bool results_has_file(const ff_result *result);
-/* Writes <stage>.<output>.npy: of all that the file asks for and of series on the way; and
-   <stage>.<output>_error_bar.npy with the error bars of such a series. */
-void results_write_arrays(const results_outcome *outcome, results_folder *folder);
-
 /* Where an answer in JSON has arrays: of those in files it says the name, shape, dims and unit. */
 typedef enum {
-    RESULTS_IN_FILES,    /* all that have a file of their own */
+    RESULTS_IN_FILES,    /* all: each has a file of its own */
     RESULTS_LONG_ABSENT, /* those that are too long for text are in no file, either */
     RESULTS_LONG_IN_FILES,
     RESULTS_ALL_HERE /* none */
 } results_arrays;
 
-/* Writes the files of a run to the folder in a directory: result.json, the tables and the fields.
+/* Writes the files of a run to the folder in a directory: result.json and the arrays.
    Sets `removed` to the names of what was made of earlier results there and is gone with them, to
    be freed. False with an error in the folder's report. */
 bool results_write_run(const results_outcome *outcome, const char *directory,
                        results_folder *folder, char **removed);
 /* Writes result.json, one JSON object: what the file asks for, what each stage was made of, and
-   scalars and series that were computed on the way. */
+   scalars that were computed on the way. Of arrays it names the files. */
 void results_write_run_json(const results_outcome *outcome, FILE *stream);
 /* Writes the answer of a run, one JSON object with what the file asks for. `directory` is where the
    results are, or NULL. */
@@ -51,13 +53,6 @@ void results_write_answer(const results_outcome *outcome, const char *directory,
                           FILE *stream);
 /* Names what each dimension of an output is plotted against: "gears.roll_angle", or "". */
 json_t *results_against(const ff_pipeline *pipeline, const ff_stage *stage, size_t output);
-
-/*
- * <stage>.csv holds the series along the first dimension of the model's table of outputs,
- * <stage>-<dimension>.csv those along another, and <stage>-scalars.csv the scalars. Errors that
- * were measured stand beside: a column <output>_error_bar, or "error" of the scalars.
- */
-void results_write_run_csv(const results_outcome *outcome, results_folder *folder);
 
 /* Says how a stage ended, in a word or two. */
 const char *results_status_name(const ff_stage *stage);

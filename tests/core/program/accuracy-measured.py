@@ -140,14 +140,13 @@ class Measured(lab.Lab):
     def test_files(self):
         self.write("order.yaml", FILE)
         self.call("run", "order.yaml", "-o", "order", "--set", "last.steps=10001")
-        with open("order/last-scalars.csv", encoding="utf-8") as file:
-            row = next(r for r in csv.DictReader(file) if r["name"] == "value")
+        entry = self.read("order/result.json")["outputs"]["last.value"]
         # the least of the wave, whose bar there is the largest nearby
-        self.assertAlmostEqual(float(row["error"]) / (SAFETY * (error_of(64) + error_of(128))), 1, places=4)
-        self.assertTrue(os.path.exists("order/last.wave_error_bar.npy"))
+        self.assertAlmostEqual(entry["error"]["value"] / (SAFETY * (error_of(64) + error_of(128))), 1, places=4)
         self.call("run", "order.yaml", "-o", "order")
-        with open("order/last.csv", encoding="utf-8") as file:
-            self.assertEqual(file.readline().strip(), "time [s],wave [m],wave_error_bar [m]")
+        entry = self.read("order/result.json")["outputs"]["last.wave"]
+        self.assertEqual(entry["error"]["file"], "last.wave_error_bar.npy")
+        self.assertEqual(len(self.numbers("order/last.wave_error_bar.npy", entry["shape"])), entry["shape"][0])
         self.call("report", "order")
         with open("order/report.html", encoding="utf-8") as file:
             self.assertTrue('"bar":[' in file.read())

@@ -147,7 +147,7 @@ class Directory(lab.Lab):
         calls = [line for line in done.stderr.splitlines() if '"' in line and '"/' not in line]
         gone = next(i for i, line in enumerate(calls) if "unlinkat" in line and '"result.json"' in line)
         back = next(i for i, line in enumerate(calls) if "renameat" in line and '"result.json"' in line)
-        data = [i for i, line in enumerate(calls) if "renameat" in line and ".csv" in line]
+        data = [i for i, line in enumerate(calls) if "renameat" in line and ".npy" in line]
         self.assertTrue(data and gone < min(data) and max(data) < back, calls)
 
     def test_unfinished_study_shows_its_own_cases(self):

@@ -178,10 +178,12 @@ class Fields(lab.Lab):
             self.assertEqual([line.split(",")[:3] for line in file][1:], [["1", "1", "0"], ["2", "2", "0"], ["2", "2", "1"]])
 
     def test_each_once(self):
-        """No field is in the text of a run, and none in two files."""
-        entries = {k: e for k, e in self.read("run/result.json")["outputs"].items() if "file" in e}
-        self.assertEqual({k: e["file"] for k, e in entries.items()}, {"wave.field": "wave.field.npy"})
-        self.assertEqual([name for name in os.listdir("run") if "field" in name], ["wave.field.npy"])
+        """No array is in the text of a run, and none in two files; of what nobody asked for, the axes alone."""
+        told = self.read("run/result.json")
+        entries = {k: e for k, e in {**told["outputs"], **told["computed"]}.items() if "shape" in e}
+        self.assertTrue(all("data" not in e and e["file"] == k + ".npy" for k, e in entries.items()), entries)
+        self.assertEqual({k for k in told["computed"] if k in entries}, {"wave.time"})
+        self.assertEqual({name for name in os.listdir("run") if name.startswith("wave")}, {e["file"] for e in entries.values()})
 
 
 lab.main()
