@@ -176,6 +176,8 @@ static bool run(fe_request *q)
 
 ff_status ff_instance_run(ff_instance *instance, const char *outputs)
 {
+    if (!instance)
+        return FF_INVALID;
     return fe_handle(&(fe_request){.instance = instance, .work = run, .text = outputs});
 }
 
@@ -208,6 +210,10 @@ static ff_status refuse(const ff_instance *i, bool (*work)(fe_request *q), const
 
 ff_status ff_instance_result(const ff_instance *i, const char *output, const ff_result **result)
 {
+    if (result)
+        *result = NULL;
+    if (!i || !output || !result)
+        return fe_absent(i, output ? "result" : "output");
     int row = ff_model_find_output(i->stage.loaded->model, output);
     bool there = !i->broken && i->stage.ran && row >= 0 && i->stage.results[row].data;
     *result = there ? &i->stage.results[row] : NULL;
@@ -216,6 +222,8 @@ ff_status ff_instance_result(const ff_instance *i, const char *output, const ff_
 
 ff_status ff_instance_quality(const ff_instance *i, size_t index, const ff_quality **line)
 {
+    if (!i || !line)
+        return fe_absent(i, "line");
     bool there = !i->broken && (i->stage.ran || i->failed) && index < i->stage.quality_count;
     *line = there ? &i->stage.quality[index] : NULL;
     return there ? FF_OK : FF_INVALID;
@@ -229,6 +237,8 @@ static bool refuse_verdict(fe_request *q)
 ff_status ff_instance_verdict(const ff_instance *i, int32_t *verdict)
 {
     const ff_quality *line;
+    if (!i || !verdict)
+        return fe_absent(i, "verdict");
     *verdict = i->stage.ran ? FF_GOOD : FF_BAD;
     if (i->broken || !(i->stage.ran || i->failed))
         return refuse(i, refuse_verdict, "");
@@ -251,6 +261,8 @@ static bool fetch(fe_request *q)
 
 ff_status ff_instance_service(ff_instance *instance, const char *interface, const void **table)
 {
+    if (!instance || !interface || !table)
+        return fe_absent(instance, interface ? "table" : "interface");
     *table = NULL;
     return fe_handle(
         &(fe_request){.instance = instance, .work = fetch, .name = interface, .fetched = table});
@@ -277,6 +289,8 @@ static bool call(fe_request *q)
 ff_status ff_instance_call(ff_instance *instance, const char *action, ff_status (*work)(void *ctx),
                            void *ctx)
 {
+    if (!instance || !action || !work)
+        return fe_absent(instance, action ? "work" : "action");
     return fe_handle(&(fe_request){
         .instance = instance, .work = call, .name = action, .call = work, .ctx = ctx});
 }
@@ -304,6 +318,8 @@ static bool carry(fe_request *q)
     ff_instance *i = q->instance, *from = q->other;
     void *state = NULL;
     size_t size = 0;
+    if (from->engine != i->engine)
+        return fe_refuse(i, "", "%s belongs to another engine", from->stage.use);
     bool there =
         ff_stage_has_state(&i->stage) && from->evaluated && ff_stage_has_state(&from->stage);
     if (there && !take_state(from, &state, &size, i->report))
@@ -320,11 +336,15 @@ static bool carry(fe_request *q)
 
 ff_status ff_instance_carry(ff_instance *to, ff_instance *from)
 {
+    if (!to || !from)
+        return fe_absent(to, "from");
     return fe_handle(&(fe_request){.instance = to, .work = carry, .other = from});
 }
 
 ff_status ff_instance_observe(ff_instance *instance, const ff_observer *observer)
 {
+    if (!instance)
+        return FF_INVALID;
     size_t known = sizeof instance->observer;
     memset(&instance->observer, 0, known);
     if (observer)
@@ -334,12 +354,12 @@ ff_status ff_instance_observe(ff_instance *instance, const ff_observer *observer
 
 const char *ff_instance_reason(const ff_instance *i)
 {
-    return i->reason;
+    return i ? i->reason : "";
 }
 
 const char *ff_instance_item(const ff_instance *i)
 {
-    return i->item;
+    return i ? i->item : "";
 }
 
 const ff_report *ff_instance_report(const ff_instance *i)

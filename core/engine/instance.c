@@ -79,6 +79,18 @@ bool fe_refuse(ff_instance *i, const char *item, const char *format, ...)
     return ff_error(i->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s: %s", i->stage.use, text);
 }
 
+static bool refuse_absent(fe_request *q)
+{
+    return fe_refuse(q->instance, "", "an argument is NULL: %s", q->text);
+}
+
+ff_status fe_absent(const ff_instance *i, const char *argument)
+{
+    fe_request request = {
+        .instance = (ff_instance *)(uintptr_t)i, .work = refuse_absent, .text = argument};
+    return i ? fe_handle(&request) : FF_INVALID;
+}
+
 bool fe_refuse_name(ff_instance *i, const char *what, const char *name, const char *const *names,
                     size_t count)
 {
@@ -147,7 +159,11 @@ static void allocate(void *of)
 ff_status ff_instance_new(ff_engine *engine, const char *id, ff_instance **instance)
 {
     fe_request request = {.work = load, .name = id};
+    if (!instance)
+        return FF_INVALID;
     *instance = NULL;
+    if (!engine || !id)
+        return FF_INVALID;
     if (fe_engine_call(engine, &engine->heap, allocate, &request) != FF_OK)
         return FF_NOMEM;
     ff_instance *i = request.instance;
@@ -235,6 +251,8 @@ static bool set(fe_request *q)
 
 ff_status ff_instance_set(ff_instance *instance, const char *param, const char *text)
 {
+    if (!instance || !param)
+        return fe_absent(instance, "param");
     return fe_handle(&(fe_request){.instance = instance, .work = set, .name = param, .text = text});
 }
 
@@ -242,6 +260,8 @@ ff_status ff_instance_set_reals(ff_instance *instance, const char *param, const 
                                 size_t count)
 {
     static const double none;
+    if (!instance || !param)
+        return fe_absent(instance, "param");
     return fe_handle(&(fe_request){.instance = instance,
                                    .work = set,
                                    .name = param,
@@ -287,8 +307,14 @@ static bool give(fe_request *q)
         return fe_refuse(i, q->name,
                          "an array of %u dimensions is given for \"%s\"; it takes \"%s\"",
                          array->rank, q->name, ff_model_input(model, (size_t)input)->dims);
-    for (uint32_t k = 0; k < array->rank; k++)
-        count *= feed.shape[k] = array->shape[k];
+    for (uint32_t k = 0; k < array->rank; k++) {
+        feed.shape[k] = array->shape ? array->shape[k] : SIZE_MAX;
+        if (__builtin_mul_overflow(count, feed.shape[k], &count))
+            break;
+    }
+    if (array->rank && count > PTRDIFF_MAX / sizeof *feed.array.data)
+        return fe_refuse(i, q->name, "the array for \"%s\" has more numbers than there can be",
+                         q->name);
     double *copy = ff_guarded_new(count);
     if (count)
         memcpy(copy, array->data, count * sizeof *copy);
@@ -299,6 +325,8 @@ static bool give(fe_request *q)
 
 ff_status ff_instance_give(ff_instance *instance, const char *input, const ff_array *array)
 {
+    if (!instance || !input)
+        return fe_absent(instance, "input");
     return fe_handle(
         &(fe_request){.instance = instance, .work = give, .name = input, .array = array});
 }
@@ -322,6 +350,8 @@ static bool use(fe_request *q)
         known = known || fe_is_on_wire(ff_model_input(model, k)->name, q->name);
     if (!known)
         return fe_refuse(i, q->name, "it has no wire \"%.80s\"", q->name);
+    if (from && from->engine != i->engine)
+        return fe_refuse(i, q->name, "%s belongs to another engine", from->stage.use);
     if (from && uses(from, i))
         return fe_refuse(i, q->name, "%s cannot feed it, since it uses it", from->stage.use);
     const char *why = from ? fe_wire_misfit(&b, &i->stage, q->name, from->stage.loaded) : NULL;
@@ -340,6 +370,8 @@ static bool use(fe_request *q)
 
 ff_status ff_instance_use(ff_instance *instance, const char *wire, ff_instance *from)
 {
+    if (!instance || !wire)
+        return fe_absent(instance, "wire");
     return fe_handle(&(fe_request){.instance = instance, .work = use, .name = wire, .other = from});
 }
 
@@ -355,6 +387,8 @@ static bool serve(fe_request *q)
 
 ff_status ff_instance_serve(ff_instance *instance, const char *wire, const void *table)
 {
+    if (!instance || !wire)
+        return fe_absent(instance, "wire");
     return fe_handle(
         &(fe_request){.instance = instance, .work = serve, .name = wire, .table = table});
 }
@@ -488,5 +522,7 @@ static bool make(fe_request *q)
 
 ff_status ff_instance_ready(ff_instance *instance)
 {
+    if (!instance)
+        return FF_INVALID;
     return fe_handle(&(fe_request){.instance = instance, .work = make});
 }

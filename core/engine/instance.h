@@ -56,6 +56,8 @@ ff_status fe_handle(fe_request *request);
 
 /* Reports 'barus: <text>' with the item at fault. Returns false. */
 bool fe_refuse(ff_instance *instance, const char *item, const char *format, ...) FF_PRINTF(3, 4);
+/* Refuses a call without an argument; FF_INVALID. The instance may be what is absent. */
+ff_status fe_absent(const ff_instance *instance, const char *argument);
 /* Reports that it has no such parameter or output, with the nearest of its names. Returns false. */
 bool fe_refuse_name(ff_instance *instance, const char *what, const char *name,
                     const char *const *names, size_t count);

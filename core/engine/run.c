@@ -89,7 +89,11 @@ static void make(void *ctx)
 ff_status ff_run_open(ff_engine *engine, const char *file, const char *const *sets, ff_run **run)
 {
     run_call call = {.text = file, .sets = sets, .work = open};
+    if (!run)
+        return FF_INVALID;
     *run = NULL;
+    if (!engine || !file)
+        return FF_INVALID;
     if (fe_engine_call(engine, &engine->heap, make, &call) != FF_OK)
         return FF_NOMEM;
     call.run->engine = engine;
@@ -122,6 +126,8 @@ static void start(run_call *call)
 ff_status ff_run_start(ff_run *run, const ff_observer *observer)
 {
     run_call call = {.run = run, .observer = observer, .work = start};
+    if (!run)
+        return FF_INVALID;
     run->started = true;
     ff_status status = handle(&call);
     run->failed = status != FF_OK;
@@ -174,6 +180,11 @@ static void refuse_result(run_call *call)
 
 ff_status ff_run_result(ff_run *run, const char *path, const ff_result **result)
 {
+    if (!result)
+        return FF_INVALID;
+    *result = NULL;
+    if (!run || !path)
+        return FF_INVALID;
     *result = run->broken ? NULL : find(run, path);
     return *result ? FF_OK : handle(&(run_call){.run = run, .text = path, .work = refuse_result});
 }
@@ -181,6 +192,8 @@ ff_status ff_run_result(ff_run *run, const char *path, const ff_result **result)
 ff_status ff_run_output(const ff_run *run, size_t index, const char **stage,
                         const ff_result **result)
 {
+    if (!run || !stage || !result)
+        return FF_INVALID;
     *stage = NULL;
     *result = NULL;
     for (size_t i = 0; !run->broken && i < run->pipeline->count; i++) {
@@ -197,6 +210,8 @@ ff_status ff_run_output(const ff_run *run, size_t index, const char **stage,
 
 ff_status ff_run_quality(const ff_run *run, size_t index, const ff_quality **line)
 {
+    if (!run || !line)
+        return FF_INVALID;
     *line = NULL;
     for (size_t i = 0; !run->broken && i < run->pipeline->count; i++) {
         const ff_stage *stage = &run->pipeline->stages[run->pipeline->order[i]];
@@ -218,6 +233,8 @@ static void refuse_verdict(run_call *call)
 ff_status ff_run_verdict(const ff_run *run, int32_t *verdict)
 {
     const ff_quality *line;
+    if (!run || !verdict)
+        return FF_INVALID;
     *verdict = run->started && !run->failed ? FF_GOOD : FF_BAD;
     if (run->broken || !run->started)
         return handle(&(run_call){.run = (ff_run *)(uintptr_t)run, .work = refuse_verdict});
@@ -228,5 +245,5 @@ ff_status ff_run_verdict(const ff_run *run, int32_t *verdict)
 
 const char *ff_stage_name(const ff_stage *stage)
 {
-    return stage->name;
+    return stage ? stage->name : "";
 }

@@ -27,7 +27,8 @@
  * in begin with `size`; those that the library fills in grow at their end.
  *
  * Errors: a function that can fail returns a status, FF_OK or one of plugin.h:
- *   FF_INVALID   the file, an assignment or an argument is wrong, or a model is not there;
+ *   FF_INVALID   the file, an assignment or an argument is wrong (NULL where that is not said to be
+ *                allowed, an object of another engine), or a model is not there;
  *   FF_BUG       a plugin is at fault;
  *   FF_NOCONV    the run failed: no convergence, no solution, a result that cannot be trusted;
  *   FF_STOPPED   an observer stopped the run;

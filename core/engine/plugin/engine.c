@@ -69,6 +69,8 @@ static void find_models(void *ctx)
 
 ff_status ff_engine_new(const ff_engine_options *options, ff_engine **engine)
 {
+    if (!engine)
+        return FF_INVALID;
     new_call call = {.engine = calloc(1, sizeof **engine), .options = options};
     *engine = call.engine;
     ff_status status = call.engine
@@ -91,7 +93,7 @@ void ff_engine_close(ff_engine *engine)
 
 const char *ff_engine_message(const ff_engine *engine)
 {
-    return engine->message;
+    return engine ? engine->message : "";
 }
 
 ff_status ff_protected(void (*function)(void *ctx), void *ctx)

@@ -331,6 +331,72 @@ static void watched(void)
     ff_instance_close(s);
 }
 
+static void nothing_given(ff_instance *s)
+{
+    const ff_result *result;
+    const ff_quality *line;
+    const void *table;
+    ff_instance *made;
+    int32_t verdict;
+    check_true("no engine", ff_instance_new(NULL, "toy/source", &made) == FF_INVALID && !made);
+    check_true("no id", ff_instance_new(engine, NULL, &made) == FF_INVALID && !made);
+    check_true("no place for it", ff_instance_new(engine, "toy/source", NULL) == FF_INVALID);
+    check_true("no name", refuses(s, ff_instance_set(s, NULL, "2 mm"), "", "NULL: param") &&
+                              refuses(s, ff_instance_set_reals(s, NULL, NULL, 0), "", "NULL") &&
+                              refuses(s, ff_instance_give(s, NULL, NULL), "", "NULL: input") &&
+                              refuses(s, ff_instance_use(s, NULL, NULL), "", "NULL: wire") &&
+                              refuses(s, ff_instance_serve(s, NULL, NULL), "", "NULL: wire"));
+    check_true("no output", refuses(s, ff_instance_result(s, NULL, &result), "", "NULL: output"));
+    check_true("no result", refuses(s, ff_instance_result(s, "level", NULL), "", "NULL: result"));
+    check_true("no interface",
+               refuses(s, ff_instance_service(s, NULL, &table), "", "NULL: interface"));
+    check_true("no work", refuses(s, ff_instance_call(s, "work", NULL, NULL), "", "NULL: work"));
+    check_true("no state", refuses(s, ff_instance_carry(s, NULL), "", "NULL: from"));
+    check_true("no instance", ff_instance_set(NULL, "level", "2 mm") == FF_INVALID &&
+                                  ff_instance_set_reals(NULL, "level", NULL, 0) == FF_INVALID &&
+                                  ff_instance_give(NULL, "level", NULL) == FF_INVALID &&
+                                  ff_instance_use(NULL, "source", s) == FF_INVALID &&
+                                  ff_instance_serve(NULL, "law", NULL) == FF_INVALID &&
+                                  ff_instance_ready(NULL) == FF_INVALID &&
+                                  ff_instance_run(NULL, NULL) == FF_INVALID &&
+                                  ff_instance_result(NULL, "level", &result) == FF_INVALID &&
+                                  !result && ff_instance_verdict(NULL, &verdict) == FF_INVALID &&
+                                  ff_instance_quality(NULL, 0, &line) == FF_INVALID &&
+                                  ff_instance_service(NULL, "law", &table) == FF_INVALID &&
+                                  ff_instance_carry(NULL, s) == FF_INVALID &&
+                                  ff_instance_observe(NULL, NULL) == FF_INVALID &&
+                                  !*ff_instance_reason(NULL) && !*ff_instance_item(NULL));
+}
+
+static void wrong_arguments(const ff_engine_options *options)
+{
+    static const double number = 1;
+    const size_t huge[] = {(size_t)1 << 62, 4, 4, 4};
+    ff_engine *other;
+    ff_instance *stranger, *s = open_source("2 mm"), *sum = open_model("toy/consumer");
+    nothing_given(s);
+    ff_array array = {.data = &number, .shape = huge, .rank = 1};
+    check_true("too many numbers", refuses(sum, ff_instance_give(sum, "more.series", &array),
+                                           "more.series", "more numbers than there can be"));
+    array.shape = NULL;
+    check_true("no shape", refuses(sum, ff_instance_give(sum, "more.series", &array), "more.series",
+                                   "more numbers than there can be"));
+    check_true("another engine", ff_engine_new(options, &other) == FF_OK &&
+                                     ff_instance_new(other, "toy/source", &stranger) == FF_OK);
+    check_true("does not feed", refuses(sum, ff_instance_use(sum, "source", stranger), "source",
+                                        "belongs to another engine"));
+    check_true("hands on nothing",
+               refuses(s, ff_instance_carry(s, stranger), "", "belongs to another engine"));
+    ff_instance_close(stranger);
+    ff_engine_close(other);
+    check_true("all is as it was",
+               ff_instance_use(sum, "source", s) == FF_OK && ff_instance_run(sum, NULL) == FF_OK);
+    ff_instance_close(sum);
+    ff_instance_close(s);
+    check_true("no engine to be made", ff_engine_new(options, NULL) == FF_INVALID);
+    check_true("which says nothing", !*ff_engine_message(NULL));
+}
+
 int main(void)
 {
     const char *toys = getenv("FLANKFILM_TEST_BAD");
@@ -348,6 +414,7 @@ int main(void)
     states();
     services();
     watched();
+    wrong_arguments(&options);
     ff_engine_close(engine);
     return check_done();
 }

@@ -204,6 +204,31 @@ static void two_engines(void)
     ff_engine_close(NULL);
 }
 
+static void wrong_arguments(void)
+{
+    ff_status status;
+    ff_run *none, *run = open_run(engine, two_stages, NULL, &status);
+    const ff_result *result;
+    const ff_quality *line;
+    const char *stage;
+    int32_t verdict;
+    check_true("no engine", ff_run_open(NULL, file, NULL, &none) == FF_INVALID && !none);
+    check_true("no file", ff_run_open(engine, NULL, NULL, &none) == FF_INVALID && !none);
+    check_true("no place for it", ff_run_open(engine, file, NULL, NULL) == FF_INVALID);
+    check_true("no path", ff_run_result(run, NULL, &result) == FF_INVALID && !result &&
+                              ff_run_result(run, "sum.sum", NULL) == FF_INVALID);
+    check_true("nothing to answer to", ff_run_output(run, 0, &stage, NULL) == FF_INVALID &&
+                                           ff_run_quality(run, 0, NULL) == FF_INVALID &&
+                                           ff_run_verdict(run, NULL) == FF_INVALID);
+    check_true("no run", ff_run_start(NULL, NULL) == FF_INVALID &&
+                             ff_run_result(NULL, "sum.sum", &result) == FF_INVALID &&
+                             ff_run_output(NULL, 0, &stage, &result) == FF_INVALID &&
+                             ff_run_quality(NULL, 0, &line) == FF_INVALID &&
+                             ff_run_verdict(NULL, &verdict) == FF_INVALID && !*ff_stage_name(NULL));
+    check_true("all is as it was", ff_run_start(run, NULL) == FF_OK);
+    ff_run_close(run);
+}
+
 int main(void)
 {
     int made = mkstemp(file);
@@ -218,6 +243,7 @@ int main(void)
     observed();
     moved();
     two_engines();
+    wrong_arguments();
     ff_engine_close(engine);
     unlink(file);
     return check_done();
