@@ -121,16 +121,6 @@ void lubricant_d341_nu(size_t n, const double *restrict y, double *restrict nu,
     }
 }
 
-/* The line through 40 and 100 degC. */
-double lubricant_d341_between(double nu_40, double nu_100, double T)
-{
-    double warm = lubricant_d341_ordinate(nu_40), hot = lubricant_d341_ordinate(nu_100);
-    double share = log(T / 313.15) / log(373.15 / 313.15), y = warm + (hot - warm) * share;
-    double nu, slope;
-    lubricant_d341_nu(1, &y, &nu, &slope);
-    return nu;
-}
-
 /* rho = rho15 exp(-a (1 + 0.8 a)), a = 0.6278 (T - 15 degC)/rho15: lubricating oils of 800 to 1164
    kg/m3, -18 to 150 degC (ASTM D1250, table 54D). */
 FF_SIMD

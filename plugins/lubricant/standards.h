@@ -42,8 +42,6 @@ double lubricant_viscosity_index(double nu_40, double nu_100);
 double lubricant_d341_ordinate(double nu); /* nu in m2/s */
 /* nu in m2/s at n ordinates, and its slope over them. */
 void lubricant_d341_nu(size_t n, const double *y, double *nu, double *slope);
-/* nu at T (K), m2/s, by the line through two measured viscosities. */
-double lubricant_d341_between(double nu_40, double nu_100, double T);
 #define LUBRICANT_D341_LEAST 0.21e-6 /* m2/s */
 #define LUBRICANT_D341_MOST  20.0
 

@@ -97,6 +97,18 @@ static void test_light_load(void)
     chain_close(&d);
 }
 
+/* C_B = 1 - 0.02 (20 - alpha), alpha in degrees, of a rack with a dedendum of 1.2 module. */
+static void test_pressure_angle(void)
+{
+    chain c = open_pair("250 N m");
+    stage_set_text(c.gear, "pressure_angle", "25 deg");
+    chain_run(&c);
+    size_t n;
+    const double *k = stage_get(c.mesh, "stiffness", &n);
+    check_near("one pair of 25 degrees", k[n - 1], 1.1 * single, 1e-5);
+    chain_close(&c);
+}
+
 static void test_relief_unloads_a_pair(void)
 {
     chain c = open_pair("250 N m");
@@ -233,6 +245,7 @@ int main(void)
     test_trapezoid();
     test_relief_before_sap();
     test_dedendum();
+    test_pressure_angle();
     test_light_load();
     test_relief_unloads_a_pair();
     test_printed_reports();

@@ -143,6 +143,8 @@ static void test_swapped_driver(void)
         stage_set_text(sides[i].c->mesh, "definition", "secant"); /* whose mean converges faster */
     }
     check_near("mean", chain_mean(&a), chain_mean(&b), 1e-5);
+    check_near("bodies of both gears", stage_quality(a.mesh, "half_plane"),
+               stage_quality(b.mesh, "half_plane"), 1e-9);
     size_t n;
     const double *here = stage_get(a.mesh, "load_share", &n),
                  *there = stage_get(b.mesh, "load_share", NULL);
