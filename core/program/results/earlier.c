@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum { MOST_TOLD = 4 };
 
@@ -163,10 +164,28 @@ static bool check(const char *directory, const char *name, const results_input *
     return !other || input->replace;
 }
 
+/* Whether result.json is of the same inputs, which its first words tell. */
+static bool begins_alike(const char *directory, const results_input *input)
+{
+    char words[64], found[64] = "", *path = memory_print_text("%s/result.json", directory);
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK), length;
+    free(path);
+    length = snprintf(words, sizeof words, "{\"format\":%d,\"key\":\"%016llx\"", RESULTS_FORMAT,
+                      (unsigned long long)input->key);
+    bool alike = file >= 0 && read(file, found, (size_t)length) == length && !strcmp(words, found);
+    if (file >= 0)
+        close(file);
+    return alike;
+}
+
 bool results_earlier_check(const char *directory, const results_input *input, char **replaced,
                            ff_report *report)
 {
     bool same;
+    if (begins_alike(directory, input)) {
+        *replaced = memory_print_text("%s", "");
+        return true;
+    }
     return check(directory, "result.json", input, &same, replaced, report);
 }
 

@@ -236,7 +236,6 @@ static void add_input(json_t *head, const results_input *input)
     for (size_t i = 0; i < input->set_count; i++)
         json_array_append_new(sets, results_json_text(input->sets[i]));
     json_object_set_new(head, "facts", results_json_facts(input->file));
-    json_object_set_new(head, "key", results_json_key(input->key));
     json_object_set_new(head, "sets", sets);
 }
 
@@ -304,8 +303,11 @@ static json_t *describe_stages(const ff_pipeline *pipeline, bool details)
 void results_write_run_json(const results_outcome *outcome, FILE *stream)
 {
     const ff_pipeline *pipeline = outcome->pipeline;
-    json_t *all = describe_head(outcome);
-    json_object_set_new(all, "format", json_integer(RESULTS_FORMAT));
+    json_t *all = json_pack("{s:i, s:o}", "format", RESULTS_FORMAT, "key",
+                            results_json_key(outcome->input->key)); /* earlier.c reads no more */
+    json_t *head = describe_head(outcome);
+    json_object_update(all, head);
+    json_decref(head);
     add_input(all, outcome->input);
     json_object_set_new(all, "outputs", describe_outputs(outcome, true, RESULTS_IN_FILES));
     json_object_set_new(all, "computed", describe_outputs(outcome, false, RESULTS_IN_FILES));

@@ -84,6 +84,8 @@ static void test_files(void)
     cli_expect("scalars on the way", &r,
                fabs(json_number_value(cli_at(r.json, "computed/wave.total/value")) -
                     0.002641793047) < 1e-12);
+    cli_expect("what a next run looks at stands first", &r,
+               !strncmp(r.out, "{\"format\":1,\"key\":\"", 19));
     cli_expect(
         "parameters with origin", &r,
         strcmp(cli_text_at(r.json, "stages/0/parameters/count/origin"), "--set") == 0 &&

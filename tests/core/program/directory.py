@@ -142,12 +142,14 @@ class Directory(lab.Lab):
             self.skipTest("needs strace")
         self.write("pair.yaml", PAIR)
         self.call("run", "pair.yaml")
-        done = subprocess.run(["strace", "-f", "-e", "trace=renameat,unlinkat", self.program, "run", "pair.yaml"],
+        done = subprocess.run(["strace", "-f", "-e", "trace=renameat,unlinkat,read", self.program, "run", "pair.yaml"],
                               capture_output=True, text=True, check=False)
         calls = [line for line in done.stderr.splitlines() if '"' in line and '"/' not in line]
         gone = next(i for i, line in enumerate(calls) if "unlinkat" in line and '"result.json"' in line)
         back = next(i for i, line in enumerate(calls) if "renameat" in line and '"result.json"' in line)
         data = [i for i, line in enumerate(calls) if "renameat" in line and ".npy" in line]
+        read = [line for line in calls if "read(" in line and 'format' in line and 'key' in line]
+        self.assertTrue(len(read) == 1 and read[0].endswith("= 36"), read)  # not read back: its inputs are the same
         self.assertTrue(data and gone < min(data) and max(data) < back, calls)
 
     def test_unfinished_study_shows_its_own_cases(self):
