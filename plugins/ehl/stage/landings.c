@@ -9,8 +9,8 @@ typedef struct landing {
     double film, film_error, pressure, pressure_error;
 } landing;
 
-/* Whether the flanks land at a row of the history, and the row of the first maximum of the load
-   behind it. */
+/* Whether the flanks land at a row of the history, to carry a load, and the row of its first
+   maximum. */
 static int lands_at(const ehl_history *h, size_t row, size_t *top)
 {
     const double *number = h->engagement;
@@ -21,7 +21,7 @@ static int lands_at(const ehl_history *h, size_t row, size_t *top)
     while (*top + 1 < h->count && (!number || number[*top + 1] == number[row]) &&
            !(h->load[*top + 1] < h->load[*top]))
         ++*top;
-    return 1;
+    return !ehl_is_lost(h, h->load[*top]);
 }
 
 static double value(const ehl_results *r, size_t i, uint32_t column)

@@ -175,6 +175,12 @@ static void test_landing(void)
     check_true("runs", line_run(&c, outputs) == FF_OK);
     check_true("another pair does not land", stage_count(c.film, "film_at_landing") == 0);
     line_close(&c);
+    open_landing(&c, 0);
+    for (size_t i = LANDS; i < ROWS; i++)
+        c.load[i] = 0;
+    check_true("runs", line_run(&c, outputs) == FF_OK);
+    check_true("nor one that carries no load", stage_count(c.film, "film_at_landing") == 0);
+    line_close(&c);
 }
 
 int main(void)
