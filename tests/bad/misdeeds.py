@@ -47,7 +47,7 @@ TOLD = {
     "thread-crash": "crashed during {}: segmentation fault",
     "thread-abort": "crashed during {}: abort",
     "bare-overflow": "crashed during {}: segmentation fault",
-    # the law is at fault, the stage crashes: both are named
+    # what is left of the stack says nothing any more
     "smash": "crashed during {}: segmentation fault",
     "stale-jump": "crashed during {}: segmentation fault",
     "unload": "crashed during {}: segmentation fault",
@@ -65,8 +65,10 @@ TOLD = {
 }
 # a law is known by the address of the fault, or by the calls that led to these ends; a stage, and what has no address
 # of its own, together with those that serve it
-BY_ADDRESS = ["crash", "read-null", "null-call", "wild", "constant", "bus", "illegal", "divide", "overflow"]
+BY_ADDRESS = ["smash", "stale-jump", "crash", "read-null", "null-call", "wild", "constant", "bus", "illegal", "divide", "overflow"]
 BY_CALLS = ["abort", "complain", "assert", "free-twice", "free-inside", "exit", "quick-exit", "fork"]
+# tried by each command
+STACK = ["smash", "stale-jump", "unload", "raw-exec", "stop"]
 # what a run sets back and warns of
 SET_BACK = {
     "rounding": "changed the rounding mode",
@@ -165,7 +167,7 @@ def sentence(role, place, what):
         who = f"the plugin {FILES[role]}"
     elif place == "eval" and what in BY_ADDRESS + BY_CALLS:
         who, phase = f"viscosity: the plugin {FILES[role]}", "evaluate of point"
-    elif role == "stage" and place != "create" and what not in ["exit", "quick-exit", "fork"] or place == "eval":
+    elif role == "stage" and place not in ["create", "set"] and what not in ["exit", "quick-exit", "fork"] or place == "eval":
         who = f"point: the plugin {FILES['stage']}, or one that serves it (viscosity: the plugin {FILES['law']}),"
     else:
         who = f"{STAGES[role]}: the plugin {FILES[role]}"
@@ -295,6 +297,8 @@ def trials():
                 for place in places + (MORE_PLACES[role] if what in TOLD else []):
                     for command in COMMANDS if place in places else ["json"]:
                         yield role, place, what, command
+            elif role == "law" and what in STACK:
+                yield from ((role, "eval", what, command) for command in COMMANDS[: 4 if what == "smash" else 3])
             else:  # verify takes the time of ten others
                 place = places[(i + (role == "law")) % len(places)]
                 yield role, place, what, "verify" if i % 9 == 0 or what in HIDDEN and i % 3 == 0 else COMMANDS[i % 3]

@@ -29,6 +29,9 @@
 #include <unistd.h>
 
 enum { MOST_STAGES = 1000, LONGEST_ANSWER = 1 << 24 };
+/* Looks that find a worker stopped, before it is ended: a batch system that stops all processes of
+   a job lets them go on one by one. */
+enum { MOST_STOPS = 5 };
 
 /* Limits how much memory the process may take beyond what it has already. */
 static void limit_memory(const study_run *run)
@@ -291,6 +294,7 @@ bool study_worker_send_case(study_worker *worker, const study_run *run, size_t i
     worker->busy = true;
     worker->index = index;
     worker->since = study_seconds_now();
+    worker->stops = 0;
     worker->length = 0;
     return study_write_all(worker->to, &index, sizeof index) &&
            (!row || (study_write_all(worker->to, &length, sizeof length) &&
@@ -351,12 +355,11 @@ void study_worker_kill(const study_worker *worker)
 
 bool study_worker_is_gone(study_worker *worker)
 {
-    enum { LOOKS = 5 }; /* a batch system that stops all processes lets them go on one by one */
     siginfo_t info = {.si_pid = 0};
     int state = waitid(P_PID, (id_t)worker->pid, &info, WEXITED | WSTOPPED | WNOHANG | WNOWAIT);
     bool seen = state == 0 && info.si_pid == worker->pid, stopped = info.si_code == CLD_STOPPED;
-    worker->stops = seen && stopped ? worker->stops + 1 : 0;
-    if (worker->stops == LOOKS)
+    worker->stops = !seen ? 0 : worker->stops + stopped;
+    if (stopped && worker->stops == MOST_STOPS)
         study_worker_kill(worker);
     return seen && !stopped;
 }
@@ -373,6 +376,8 @@ char *study_worker_reap(study_worker *worker)
     kill(-worker->pid, SIGKILL); /* while its number is still its own */
     while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR)
         ;
+    if (worker->stops >= MOST_STOPS)
+        status = W_STOPCODE(SIGSTOP);
     ssize_t length = pread(worker->captured, tail, sizeof tail - 1, begin);
     tail[length > 0 ? length : 0] = '\0';
     close_files(worker);
