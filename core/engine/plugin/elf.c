@@ -14,6 +14,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* Reads on until there is enough, or the end; a system may interrupt that, or give less. */
+static size_t read_at(int file, void *to, size_t size, off_t at)
+{
+    size_t done = 0;
+    ssize_t got = 1;
+    while (done < size && (got > 0 || errno == EINTR)) {
+        errno = 0;
+        got = pread(file, (char *)to + done, size - done, at + (off_t)done);
+        done += got > 0 ? (size_t)got : 0;
+    }
+    return done;
+}
+
 /* NULL, or what is wrong. A cut takes the table of sections first, which is at the end. */
 static const char *find_fault(int file, struct stat *status)
 {
@@ -25,7 +38,7 @@ static const char *find_fault(int file, struct stat *status)
     uint64_t size = (uint64_t)status->st_size;
     if (size == 0)
         return "is empty";
-    ssize_t got = pread(file, &head, sizeof head, 0);
+    size_t got = read_at(file, &head, sizeof head, 0);
     if (memcmp(head.e_ident, ELFMAG, SELFMAG) != 0)
         return "is not a shared object";
     if (got != sizeof head)
@@ -43,15 +56,15 @@ static uint64_t hash_file(int file)
 {
     uint64_t block[2048], hash = UINT64_C(0xcbf29ce484222325);
     off_t at = 0;
-    ssize_t got;
-    while ((got = pread(file, block, sizeof block, at)) > 0) {
-        size_t words = ((size_t)got + 7) / 8;
-        memset((char *)block + got, 0, 8 * words - (size_t)got);
+    size_t got;
+    while ((got = read_at(file, block, sizeof block, at)) > 0) {
+        size_t words = (got + 7) / 8;
+        memset((char *)block + got, 0, 8 * words - got);
         for (size_t i = 0; i < words; i++) {
             hash = (hash ^ block[i]) * UINT64_C(0x9e3779b97f4a7c15);
             hash ^= hash >> 32;
         }
-        at += got;
+        at += (off_t)got;
     }
     return hash ^ (uint64_t)at;
 }

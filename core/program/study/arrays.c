@@ -48,31 +48,37 @@ static off_t find_end(int directory, const study_run *run, const char *name)
 /* A log that no other process writes to: whoever holds the lock on the journal has its workers
    number theirs. Under an executor, of whose processes none knows of the others, each makes a new
    one; workers of an earlier run may not have ended everywhere. */
-static bool open_log(study_arrays *arrays, char why[ARRAYS_WHY])
+static bool open_log_in(int directory, study_arrays *arrays, char why[ARRAYS_WHY])
 {
     const study_run *run = arrays->run;
     study_shared *shared = arrays->shared;
     char *name = shared->name;
-    arrays->directory = open(run->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (arrays->directory < 0) {
-        snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
-        return false;
-    }
     if (!run->executor) {
         int length = snprintf(name, STUDY_NAME_SIZE, "arrays.%zu.log", arrays->slot);
         if (run->shards > 1)
             length = snprintf(name, STUDY_NAME_SIZE, "arrays.%zu-of-%zu.%zu.log", run->shard,
                               run->shards, arrays->slot);
         (void)length;
-        off_t end = shared->end ? shared->end : find_end(arrays->directory, run, name);
-        return arrays_log_open(&arrays->log, arrays->directory, name, end, false, why);
+        off_t end = shared->end ? shared->end : find_end(directory, run, name);
+        return arrays_log_open(&arrays->log, directory, name, end, false, why);
     }
     bool fresh = shared->log == 0, good;
     do {
         shared->log += fresh;
         snprintf(name, STUDY_NAME_SIZE, "arrays.farm-%u.log", shared->log);
-        good = arrays_log_open(&arrays->log, arrays->directory, name, shared->end, fresh, why);
+        good = arrays_log_open(&arrays->log, directory, name, shared->end, fresh, why);
     } while (!good && fresh && errno == EEXIST);
+    return good;
+}
+
+static bool open_log(study_arrays *arrays, char why[ARRAYS_WHY])
+{
+    int directory = open(arrays->run->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
+    if (directory < 0)
+        return false;
+    bool good = open_log_in(directory, arrays, why);
+    close(directory);
     return good;
 }
 
@@ -98,7 +104,7 @@ static json_t *describe(const study_run *run, const ff_pipeline *pipeline, const
 
 /* Appends an array and describes it; false with what is wrong. */
 static bool keep_one(study_arrays *arrays, const study_case *c, const ff_stage *stage,
-                     size_t output, json_t *all, char why[ARRAYS_WHY])
+                     size_t output, json_t *all, bool *open, char why[ARRAYS_WHY])
 {
     const ff_result *result = &stage->results[output];
     char name[ARRAYS_LONGEST_OUTPUT + 1];
@@ -106,8 +112,9 @@ static bool keep_one(study_arrays *arrays, const study_case *c, const ff_stage *
     snprintf(name, sizeof name, "%s.%s", stage->name, result->row->name);
     arrays_label label = {.key = c->key, .output = name, .rank = result->rank};
     memcpy(label.shape, result->shape, sizeof label.shape);
-    if (arrays->directory < 0 && !open_log(arrays, why))
+    if (!*open && !open_log(arrays, why))
         return false;
+    *open = true;
     if (!arrays_log_append(&arrays->log, &label, result->data, &offset)) {
         snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
         return false;
@@ -116,14 +123,15 @@ static bool keep_one(study_arrays *arrays, const study_case *c, const ff_stage *
     return true;
 }
 
-static bool keep_all(study_arrays *arrays, const study_case *c, json_t *all, char why[ARRAYS_WHY])
+static bool keep_all(study_arrays *arrays, const study_case *c, json_t *all, bool *open,
+                     char why[ARRAYS_WHY])
 {
     for (size_t i = 0; i < c->pipeline->count; i++) {
         const ff_stage *stage = &c->pipeline->stages[i];
         for (size_t k = 0; stage->ran && k < stage->loaded->model->output_count; k++) {
             const ff_result *result = &stage->results[k];
             if (result->requested && result->data && study_is_array(result) &&
-                !keep_one(arrays, c, stage, k, all, why))
+                !keep_one(arrays, c, stage, k, all, open, why))
                 return false;
         }
     }
@@ -134,13 +142,15 @@ bool study_arrays_keep(study_arrays *arrays, const study_case *c, json_t *record
 {
     char why[ARRAYS_WHY] = "";
     json_t *all = json_object();
-    bool good = keep_all(arrays, c, all, why);
+    bool open = false, good = keep_all(arrays, c, all, &open, why);
     if (good && json_object_size(all)) {
         arrays->shared->end = arrays->log.end;
         json_object_set(record, "arrays", all);
         json_object_set_new(record, "log",
                             json_pack("[s, I]", arrays->shared->name, (json_int_t)arrays->log.end));
     }
+    if (open)
+        arrays_log_close(&arrays->log);
     json_decref(all);
     return good ||
            ff_error(c->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "%s/%s could not be written: %s",

@@ -45,9 +45,9 @@ typedef struct study_shared {   /* by a worker with the process that started it 
 typedef struct study_arrays { /* where a worker keeps arrays */
     const study_run *run;
     study_shared *shared;
-    size_t slot;   /* number of the worker */
-    int directory; /* descriptor of the directory of the study; -1: the log is not open yet */
-    arrays_log log;
+    size_t slot; /* number of the worker */
+    arrays_log
+        log; /* open while the arrays of a case are written: no plugin meets its descriptor */
 } study_arrays;
 
 /* array-read.c: reads an array of a case from its log; NULL when there is none, or with what is

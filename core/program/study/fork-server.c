@@ -25,10 +25,11 @@ static bool has_input(int fd, int milliseconds)
 }
 
 /* Called with the first chain, since the leading process has made the directory by then. */
-static void open_pool(study_pool *pool, const study_run *run, int from)
+static void open_pool(study_pool *pool, const study_run *run, int from, int to)
 {
     study_pool_open(pool, run, study_records_open(run->directory, true));
-    pool->extra_fd = from;
+    pool->extra_fd = pool->hidden[0] = from;
+    pool->hidden[1] = to;
 }
 
 static _Noreturn void serve(const study_run *run, int from, int to)
@@ -44,7 +45,7 @@ static _Noreturn void serve(const study_run *run, int from, int to)
             if (!study_read_all(from, &task, sizeof task))
                 break;
             if (!pool.workers)
-                open_pool(&pool, run, from);
+                open_pool(&pool, run, from, to);
             study_pool_start_chain(&pool, task);
         }
         int state = study_pool_wait(&pool, 1000, &task);

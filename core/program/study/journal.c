@@ -121,24 +121,33 @@ static bool mark_directory(const char *path)
 }
 
 /* Drops what follows the last complete line. */
-static bool drop_torn_tail(int fd)
+static bool drop_torn_tail(study_journal *journal)
 {
     char c;
-    off_t end = lseek(fd, 0, SEEK_END);
-    while (end > 0 && pread(fd, &c, 1, end - 1) == 1 && c != '\n')
-        end--;
-    return end >= 0 && ftruncate(fd, end) == 0;
+    off_t end = lseek(journal->fd, 0, SEEK_END);
+    ssize_t got = 1;
+    while (end > 0 && ((got = pread(journal->fd, &c, 1, end - 1)) != 1 || c != '\n')) {
+        if (got != 1 && (got == 0 || errno != EINTR))
+            return false;
+        end -= got == 1;
+    }
+    journal->end = end;
+    return end >= 0 && ftruncate(journal->fd, end) == 0;
 }
 
-/* Tries for half a second, since workers of a run that was killed may hold the lock for a moment.
- */
-static bool lock_file(int fd, int how)
+enum lock { LOCK_TAKEN, LOCK_BUSY, LOCK_REFUSED /* the file system has no locks */ };
+
+/* Tries for half a second, since a run that was killed may hold the lock for a moment. */
+static enum lock lock_file(int fd, int how)
 {
     const struct timespec nap = {0, 20000000};
     int tries = 25, state;
-    while ((state = flock(fd, how | LOCK_NB)) != 0 && errno == EWOULDBLOCK && tries-- > 0)
+    while ((state = flock(fd, how | LOCK_NB)) != 0 && (errno == EINTR || errno == EWOULDBLOCK) &&
+           tries-- > 0)
         nanosleep(&nap, NULL);
-    return state == 0 || errno != EWOULDBLOCK;
+    return state == 0                               ? LOCK_TAKEN
+           : errno == EINTR || errno == EWOULDBLOCK ? LOCK_BUSY
+                                                    : LOCK_REFUSED;
 }
 
 static bool claim_directory(const char *path, ff_report *report)
@@ -158,62 +167,127 @@ void study_journal_name(const study_run *run, char name[STUDY_NAME_SIZE])
         snprintf(name, STUDY_NAME_SIZE, "journal.%zu-of-%zu.jsonl", run->shard, run->shards);
 }
 
+/* A link in place of the journal is not followed, and a pipe is not waited for. */
+static bool open_journal(study_journal *journal, ff_report *report)
+{
+    struct stat info;
+    int flags = O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+    journal->fd = openat(journal->directory, journal->name, flags, 0666);
+    if (journal->fd < 0 && errno != ELOOP && errno != EISDIR)
+        return false;
+    if (journal->fd >= 0 && fstat(journal->fd, &info) == 0 && S_ISREG(info.st_mode))
+        return true;
+    return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "name another directory with -o",
+                    "\"%s/%s\" is not a regular file", journal->path, journal->name);
+}
+
 static bool open_files(study_journal *journal, const study_run *run, ff_report *report)
 {
     static const char hint[] = "name another directory with -o";
     const char *path = run->directory;
-    char name[STUDY_NAME_SIZE];
+    size_t errors = ff_report_errors(report);
     bool alone = run->shards == 1;
-    study_journal_name(run, name);
+    enum lock lock = LOCK_TAKEN;
+    study_journal_name(run, journal->name);
     if (study_make_path(path))
         journal->directory = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (journal->directory >= 0 && !lock_file(journal->directory, alone ? LOCK_EX : LOCK_SH))
+    if (journal->directory >= 0)
+        lock = lock_file(journal->directory, alone ? LOCK_EX : LOCK_SH);
+    if (lock == LOCK_BUSY)
         return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, hint,
                         "another run is using the result directory \"%s\"", path);
     if (journal->directory >= 0 &&
-        (!claim_directory(path, report) || !study_check_format(path, report)))
+        (!claim_directory(path, report) || !study_check_format(path, report) ||
+         (lock == LOCK_REFUSED && !study_lock_take(journal, alone, report))))
         return false;
-    if (journal->directory >= 0)
-        journal->fd =
-            openat(journal->directory, name, O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
-    if (journal->fd >= 0 && !lock_file(journal->fd, LOCK_EX))
+    bool open = journal->directory >= 0 && open_journal(journal, report);
+    if (open && lock == LOCK_TAKEN && lock_file(journal->fd, LOCK_EX) == LOCK_BUSY)
         return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                         "another run works on shard %zu of \"%s\"", run->shard, path);
-    return (journal->fd >= 0 && drop_torn_tail(journal->fd)) ||
-           ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, hint,
-                    "the result directory \"%s\" cannot be used: %s", path, strerror(errno));
+    return (open && drop_torn_tail(journal)) ||
+           (ff_report_errors(report) == errors &&
+            ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, hint,
+                     "the result directory \"%s\" cannot be used: %s", path, strerror(errno)));
 }
 
 bool study_journal_open(study_journal *journal, const study_run *run, ff_report *report)
 {
-    *journal = (study_journal){.fd = -1, .directory = -1, .synced = study_seconds_now()};
+    *journal = (study_journal){
+        .fd = -1, .directory = -1, .path = run->directory, .synced = study_seconds_now()};
     bool good = open_files(journal, run, report);
     if (!good)
         study_journal_close(journal);
     return good;
 }
 
+/* Says what somebody else has done to the journal; NULL: it is as it was left. */
+static const char *find_change(const study_journal *journal)
+{
+    struct stat own, named, directory, path;
+    bool kept = stat(journal->path, &path) == 0 && fstat(journal->directory, &directory) == 0 &&
+                path.st_ino == directory.st_ino && path.st_dev == directory.st_dev;
+    if (!kept)
+        return "was removed with its directory";
+    if (fstatat(journal->directory, journal->name, &named, AT_SYMLINK_NOFOLLOW) != 0)
+        return "was removed";
+    if (fstat(journal->fd, &own) != 0 || own.st_ino != named.st_ino || own.st_dev != named.st_dev)
+        return "was replaced";
+    return own.st_size == 0 && journal->end > 0 ? "was emptied"
+           : own.st_size < journal->end         ? "was cut short"
+           : own.st_size > journal->end         ? "was written to by another process"
+                                                : NULL;
+}
+
+static bool is_as_left(const study_journal *journal, ff_report *report)
+{
+    const char *change = find_change(journal);
+    return !change || ff_error(report, FF_FAULT_RUN, FF_NOWHERE,
+                               "the same command does the cases again that the journal has not",
+                               "the journal \"%s/%s\" %s while the study ran", journal->path,
+                               journal->name, change);
+}
+
+static bool refuse_write(int cause, ff_report *report)
+{
+    return ff_error(report, FF_FAULT_RUN, FF_NOWHERE,
+                    "nothing that was finished is lost; the same command goes on",
+                    "the journal could not be written: %s", strerror(cause));
+}
+
+/* Where a file system cannot be asked for it, lines reach the disk without being asked, or never.
+ */
+static bool force(study_journal *journal, ff_report *report)
+{
+    int state;
+    while ((state = fdatasync(journal->fd)) != 0 && errno == EINTR)
+        ;
+    journal->synced = study_seconds_now();
+    return state == 0 || errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP ||
+           refuse_write(errno, report);
+}
+
 bool study_journal_append(study_journal *journal, const char *line, size_t length,
                           ff_report *report)
 {
-    off_t before = lseek(journal->fd, 0, SEEK_END);
-    ssize_t written = write(journal->fd, line, length);
-    if (written >= 0 && written < (ssize_t)length) /* writing the rest fails with the cause */
-        written = write(journal->fd, line + written, length - (size_t)written);
-    if (written < 0) {
-        int cause = errno;
-        if (before >= 0 && ftruncate(journal->fd, before) != 0)
-            cause = errno; /* the next run drops the incomplete line */
-        return ff_error(report, FF_FAULT_RUN, FF_NOWHERE,
-                        "nothing that was finished is lost; the same command goes on",
-                        "the journal could not be written: %s", strerror(cause));
+    if (!is_as_left(journal, report))
+        return false;
+    for (size_t done = 0; done < length;) {
+        ssize_t written = write(journal->fd, line + done, length - done);
+        if (written < 0 && errno != EINTR) {
+            int cause = errno;
+            if (ftruncate(journal->fd, journal->end) != 0)
+                cause = errno; /* the next run drops the incomplete line */
+            return refuse_write(cause, report);
+        }
+        done += written > 0 ? (size_t)written : 0;
     }
-    double now = study_seconds_now();
-    if (now - journal->synced > 1) {
-        fdatasync(journal->fd);
-        journal->synced = now;
-    }
-    return true;
+    journal->end += (off_t)length;
+    return study_seconds_now() - journal->synced <= 1 || force(journal, report);
+}
+
+bool study_journal_settle(study_journal *journal, ff_report *report)
+{
+    return is_as_left(journal, report) && force(journal, report);
 }
 
 void study_journal_close(study_journal *journal)
@@ -222,7 +296,10 @@ void study_journal_close(study_journal *journal)
         fdatasync(journal->fd);
         close(journal->fd);
     }
+    if (journal->lock_file)
+        study_lock_drop(journal);
     if (journal->directory >= 0)
         close(journal->directory);
+    journal->lock_file = false;
     journal->fd = journal->directory = -1;
 }

@@ -12,16 +12,24 @@ double study_seconds_now(void);
 
 typedef struct study_journal {
     int fd;
-    int directory; /* descriptor of its directory, which is locked */
-    double synced; /* when it was last forced to the disk */
+    int directory;              /* descriptor of its directory, which is locked */
+    const char *path;           /* of its directory */
+    char name[STUDY_NAME_SIZE]; /* of its file */
+    off_t end;                  /* how long the file was left */
+    double synced;              /* when it was last forced to the disk */
+    bool lock_file; /* it is locked by a file beside it, since the file system has no locks */
 } study_journal;
 
 /* Prints the name of the journal of this shard. */
 void study_journal_name(const study_run *run, char name[STUDY_NAME_SIZE]);
 /* Locks the directory and this shard's journal in it, and drops an unfinished last line. */
 bool study_journal_open(study_journal *journal, const study_run *run, ff_report *report);
+/* Refuses to write when the file is not the one that was left: removed, replaced, cut short, or
+   written to by another process. */
 bool study_journal_append(study_journal *journal, const char *line, size_t length,
                           ff_report *report);
+/* Forces the journal to the disk, and checks that its file is the one that was left. */
+bool study_journal_settle(study_journal *journal, ff_report *report);
 void study_journal_close(study_journal *journal);
 /* Returns the record as a line with its checksum, to be freed; `said` as in study_form_write. */
 char *study_journal_line(json_t *record, json_t *said);
@@ -57,7 +65,19 @@ bool study_describe(const study_run *run, const study_tally *tally, ff_report *r
  */
 void study_remove_parts(int directory);
 
-/* table.c: writes table.csv and the description with the verdicts; needs the keys of all cases. */
-bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_report *report);
+/* lock.c: locks by a file beside the journal, where the file system has no locks. The file names
+   the process, whose end the next one notices. */
+bool study_lock_take(study_journal *journal, bool alone, ff_report *report);
+void study_lock_drop(const study_journal *journal);
+
+/* recount.c: counts the cases of this run that have a key by their rows on the disk, in place of
+   what the counters hold. Reports the cases whose rows are lost. */
+bool study_recount(const study_run *run, study_records *records, char (*keys)[STUDY_KEY_SIZE],
+                   study_counters *counters, ff_report *report);
+
+/* table.c: writes table.csv and the description with the verdicts; needs the keys of all cases.
+   `records`: what the journals hold; NULL: it is read when no other shard writes the table. */
+bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], study_records *records,
+                       ff_report *report);
 
 #endif

@@ -27,13 +27,13 @@ static void set_apart(void)
 }
 
 static _Noreturn void search_cases(const study_run *run, const study_records *done, size_t first,
-                                   size_t end, size_t step, FILE *to)
+                                   size_t end, FILE *to)
 {
     study_kept kept = {.keys = true};
     double limit = ceil(fmin(run->study->time_limit, 1e6));
     set_apart();
     const ff_environment *environment = ff_environment_keep();
-    for (size_t i = first; i < end; i += step) {
+    for (size_t i = first; i < end; i += run->shards) {
         study_case c;
         study_known known = {.index = i};
         if (limit > 0)
@@ -51,8 +51,8 @@ static _Noreturn void search_cases(const study_run *run, const study_records *do
     _exit(0);
 }
 
-bool study_search_start(study_search *search, const study_run *run, const study_records *done,
-                        size_t first, size_t end, size_t step)
+bool study_search_start(study_search *search, const study_run *run, study_records *done,
+                        const int hidden[2], size_t first, size_t end)
 {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
@@ -62,8 +62,13 @@ bool study_search_start(study_search *search, const study_run *run, const study_
     bool child = search->pid == 0;
     close(ends[child ? 0 : 1]);
     FILE *stream = search->pid < 0 ? NULL : fdopen(ends[child], child ? "w" : "r");
+    if (child) {
+        close(hidden[0]);
+        close(hidden[1]);
+        study_records_let_go(done);
+    }
     if (child && stream)
-        search_cases(run, done, first, end, step, stream);
+        search_cases(run, done, first, end, stream);
     if (child)
         _exit(0);
     search->from = stream;

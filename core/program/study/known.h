@@ -22,10 +22,10 @@ typedef struct study_search {
     FILE *from;
 } study_search;
 
-/* Looks at the cases from `first` to `end` - 1, each `step`th. False: no process could be started.
- */
-bool study_search_start(study_search *search, const study_run *run, const study_records *done,
-                        size_t first, size_t end, size_t step);
+/* Looks at the cases of the shard from `first` to `end` - 1. Its process closes the two descriptors
+   that are hidden from plugins. False: no process could be started. */
+bool study_search_start(study_search *search, const study_run *run, study_records *done,
+                        const int hidden[2], size_t first, size_t end);
 /* Returns whether there is one more. */
 bool study_search_next(study_search *search, study_known *known);
 void study_search_end(study_search *search);

@@ -20,7 +20,8 @@
 
 void study_pool_open(study_pool *pool, const study_run *run, study_records *done)
 {
-    *pool = (study_pool){.run = run, .done = done, .said = json_object(), .extra_fd = -1};
+    *pool = (study_pool){
+        .run = run, .done = done, .said = json_object(), .hidden = {-1, -1}, .extra_fd = -1};
     pool->workers = memory_alloc(run->jobs * sizeof *pool->workers);
     pool->polled = memory_alloc((run->jobs + 1) * sizeof *pool->polled);
 }
@@ -35,8 +36,6 @@ void study_pool_close(study_pool *pool)
             free(study_worker_reap(worker));
         }
         free(worker->line);
-        if (worker->log > 0)
-            close(worker->log);
         if (worker->shared)
             munmap(worker->shared, sizeof *worker->shared);
     }
@@ -60,10 +59,9 @@ void study_pool_kill(const study_pool *pool)
 static void send_next_case(study_pool *pool, study_worker *worker)
 {
     const study_definition *study = pool->run->study;
-    size_t jobs = pool->run->jobs, length = study_chain_length(study);
+    size_t length = study_chain_length(study);
     size_t index = study_chain_case(study, worker->chain, length - worker->left--);
-    if (worker->pid == 0 &&
-        !study_worker_start(worker, pool->run, pool->done, pool->workers, jobs)) {
+    if (worker->pid == 0 && !study_worker_start(worker, pool)) {
         pool->cause = errno;
         worker->busy = true;
         worker->index = index;
@@ -204,6 +202,18 @@ static int record_crash(study_pool *pool, study_worker *worker, const char *stat
     return state;
 }
 
+/* What a plugin writes into the pipe of its worker spoils the answer. */
+static int refuse_answer(study_pool *pool, study_worker *worker, size_t *task)
+{
+    study_worker_kill(worker);
+    free(study_worker_reap(worker));
+    return record_crash(
+        pool, worker, "crashed",
+        memory_print_text("its answer was spoiled: a plugin has written into a file that is not "
+                          "its own"),
+        task);
+}
+
 static int read_answer(study_pool *pool, study_worker *worker, size_t *task)
 {
     int state = study_worker_read(worker);
@@ -214,11 +224,13 @@ static int read_answer(study_pool *pool, study_worker *worker, size_t *task)
     const char *line = worker->line;
     if (line[0] == '!')
         return finish_case(pool, worker, STUDY_VERDICT_FATAL, line + 1, task);
-    if (line[0] == '=') {
-        bool good = study_records_state(pool->done, worker->shared->key) == STUDY_OK;
-        return finish_case(pool, worker, good ? STUDY_VERDICT_KNOWN : STUDY_VERDICT_KNOWN_BAD, "",
+    enum study_state before = study_records_state(pool->done, worker->shared->key);
+    if (!strcmp(line, "=\n") && before != STUDY_UNKNOWN)
+        return finish_case(pool, worker,
+                           before == STUDY_OK ? STUDY_VERDICT_KNOWN : STUDY_VERDICT_KNOWN_BAD, "",
                            task);
-    }
+    if (!study_line_is_whole(line, worker->length))
+        return refuse_answer(pool, worker, task);
     bool good = study_line_is_ok(line);
     keep_record(pool, worker->shared->key, line);
     return finish_case(pool, worker, good ? STUDY_VERDICT_GOOD : STUDY_VERDICT_FAILED, line, task);

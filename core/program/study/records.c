@@ -6,6 +6,7 @@
 #include "journal.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -21,6 +22,11 @@ typedef struct entry {
     uint8_t state; /* STUDY_UNKNOWN: the slot is empty */
 } entry;
 
+typedef struct journal_file {
+    int fd; /* -1: it is opened for each record */
+    char name[STUDY_NAME_SIZE];
+} journal_file;
+
 typedef struct form {
     char name[STUDY_FORM_NAME];
     json_t *is;
@@ -29,8 +35,9 @@ typedef struct form {
 struct study_records {
     entry *slots; /* a power of two of them, of which half are free */
     size_t room, count;
-    int *files; /* descriptors */
+    struct journal_file *files;
     size_t file_count;
+    char *directory;
     form *forms;
     size_t form_count;
     json_t *kept; /* {key: record} */
@@ -200,9 +207,20 @@ static void add_line(study_records *r, int directory, const char *line, size_t l
         add(r, &found);
 }
 
+/* A link, a pipe or a device in place of a journal has no records. */
+static int open_journal(int directory, const char *name)
+{
+    struct stat info;
+    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW);
+    if (fd < 0 || (fstat(fd, &info) == 0 && S_ISREG(info.st_mode)))
+        return fd;
+    close(fd);
+    return -1;
+}
+
 static void read_journal(study_records *r, int directory, const char *name)
 {
-    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    int fd = open_journal(directory, name);
     int copy = fd < 0 || r->file_count == MOST_FILES ? -1 : fcntl(fd, F_DUPFD_CLOEXEC, 0);
     FILE *stream = copy < 0 ? NULL : fdopen(copy, "r");
     char *line = NULL;
@@ -220,13 +238,16 @@ static void read_journal(study_records *r, int directory, const char *name)
         return;
     }
     r->files = memory_resize(r->files, (r->file_count + 1) * sizeof *r->files);
-    r->files[r->file_count++] = fd;
+    journal_file *file = &r->files[r->file_count++];
+    file->fd = fd;
+    snprintf(file->name, sizeof file->name, "%s", name);
 }
 
 static bool is_journal(const char *name)
 {
     size_t length = strlen(name);
-    return !strncmp(name, "journal", 7) && length > 6 && !strcmp(name + length - 6, ".jsonl");
+    return !strncmp(name, "journal", 7) && length > 6 && length < STUDY_NAME_SIZE &&
+           !strcmp(name + length - 6, ".jsonl");
 }
 
 study_records *study_records_open(const char *directory, bool whole)
@@ -235,6 +256,7 @@ study_records *study_records_open(const char *directory, bool whole)
     DIR *list = opendir(directory);
     const struct dirent *item;
     grow(r);
+    r->directory = memory_copy_text(directory, strlen(directory));
     r->kept = json_object();
     r->described = json_object();
     r->logs = whole ? json_object() : NULL;
@@ -250,17 +272,26 @@ void study_records_close(study_records *r)
 {
     if (!r)
         return;
-    for (size_t i = 0; i < r->file_count; i++)
-        close(r->files[i]);
+    study_records_let_go(r);
     for (size_t i = 0; i < r->form_count; i++)
         json_decref(r->forms[i].is);
     json_decref(r->kept);
     json_decref(r->described);
     json_decref(r->logs);
+    free(r->directory);
     free(r->files);
     free(r->forms);
     free(r->slots);
     free(r);
+}
+
+void study_records_let_go(study_records *r)
+{
+    for (size_t i = 0; i < r->file_count; i++)
+        if (r->files[i].fd >= 0)
+            close(r->files[i].fd);
+    for (size_t i = 0; i < r->file_count; i++)
+        r->files[i].fd = -1;
 }
 
 size_t study_records_count(const study_records *r)
@@ -276,22 +307,36 @@ enum study_state study_records_state(const study_records *r, const char *key)
     return slot_of(r, number_of(key))->state;
 }
 
+/* Opens the journal of an entry when it was let go; to be closed then. */
+static int reopen(const study_records *r, const entry *e)
+{
+    int directory = open(r->directory, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    int fd = directory < 0 ? -1 : open_journal(directory, r->files[e->file].name);
+    if (directory >= 0)
+        close(directory);
+    return fd;
+}
+
 /* Reads the line at an entry again. */
 static json_t *read_entry(study_records *r, const entry *e)
 {
+    bool held = r->files[e->file].fd >= 0;
+    int fd = held ? r->files[e->file].fd : reopen(r, e);
     size_t room = 4096, length = 0;
     char *line = memory_alloc(room);
     ssize_t got;
     const char *end = NULL;
-    while (!end && (got = pread(r->files[e->file], line + length, room - length,
-                                (off_t)(e->offset + length))) > 0) {
-        end = memchr(line + length, '\n', (size_t)got);
-        length += (size_t)got;
+    do {
+        got = pread(fd, line + length, room - length, (off_t)(e->offset + length));
+        end = got > 0 ? memchr(line + length, '\n', (size_t)got) : NULL;
+        length += got > 0 ? (size_t)got : 0;
         if (!end && length == room)
             line = memory_resize(line, room *= 2);
-    }
+    } while (!end && (got > 0 || (got < 0 && errno == EINTR)));
     json_t *record = end ? restore(r, study_line_parse(line, (size_t)(end - line) + 1)) : NULL;
     free(line);
+    if (!held && fd >= 0)
+        close(fd);
     return record;
 }
 

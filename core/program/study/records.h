@@ -16,6 +16,9 @@ typedef struct study_records study_records;
    else its last one. `whole`: without records whose arrays are lost. */
 study_records *study_records_open(const char *directory, bool whole);
 void study_records_close(study_records *records); /* accepts NULL */
+/* Closes the journals, which are opened anew for each record that is read from now on: so a worker
+   holds no descriptor of them. */
+void study_records_let_go(study_records *records);
 size_t study_records_count(const study_records *records);
 
 enum study_state { STUDY_UNKNOWN, STUDY_NOT_OK, STUDY_OK };

@@ -6,6 +6,8 @@
 #include "case.h"
 #include "hash.h"
 
+#include "../arrays/record.h"
+
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -123,7 +125,7 @@ static bool read_kept(int fd, const ff_pipeline *pipeline, const ff_stage *stage
         return false;
     size_t size = (size_t)info.st_size;
     char *text = memory_alloc(size);
-    bool whole = pread(fd, text, size, 0) == info.st_size;
+    bool whole = arrays_read_at(fd, text, size, 0);
     memcpy(&sum, text, sizeof sum);
     whole =
         whole && sum == study_hash(STUDY_HASH_START ^ FORM, text + sizeof sum, size - sizeof sum);

@@ -164,8 +164,8 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
     bool known = verdict == STUDY_VERDICT_KNOWN || verdict == STUDY_VERDICT_KNOWN_BAD;
     if (verdict == STUDY_VERDICT_FATAL)
         return ff_error(r->report, FF_FAULT_RUN, FF_NOWHERE,
-                        "nothing that was finished is lost; the same command goes on", "%.*s",
-                        (int)strcspn(text, "\n"), text);
+                        "the same command goes on with the rest", "%.*s", (int)strcspn(text, "\n"),
+                        text);
     if (!known && !study_journal_append(&r->journal, text, strlen(text), r->report))
         return false;
     snprintf(r->keys[index], STUDY_KEY_SIZE, "%s", key);
@@ -305,7 +305,8 @@ static void answer_known(execution *r)
     study_known known;
     bool many = study_records_count(r->done) >= FEW && r->counters->total >= FEW;
     if (!many || run->study->streams || run->study->measure || study_is_chained(run->study) ||
-        !study_search_start(&search, run, r->done, r->next, end_of_chains(run), run->shards))
+        !study_search_start(&search, run, r->done, (int[]){r->journal.fd, r->journal.directory},
+                            r->next, end_of_chains(run)))
         return;
     r->searched = true;
     while (!r->ending && !interrupts && study_search_next(&search, &known)) {
@@ -325,6 +326,8 @@ static bool run_here(execution *r)
         return false;
     answer_known(r);
     study_pool_open(&r->pool, r->run, r->done);
+    r->pool.hidden[0] = r->journal.fd;
+    r->pool.hidden[1] = r->journal.directory;
     r->pool.groups = true;
     for (;;) {
         const void *answer = NULL;
@@ -439,10 +442,17 @@ static void finish_run(execution *r)
         ff_error(r->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                  "study: cases: row %zu of standard input is longer than 1 MiB",
                  run->study->count + 1);
-    if (ff_report_errors(r->report) == 0 && !run->end) {
+    bool good = ff_report_errors(r->report) == 0 && study_journal_settle(&r->journal, r->report);
+    study_records *rows = study_records_open(run->directory, true);
+    good = study_recount(run, rows, r->keys, r->counters, r->report) && good;
+    if (good && !run->end) {
         find_keys(r);
-        study_table_write(run, r->keys, r->report);
+        study_table_write(run, r->keys, run->shards == 1 ? rows : NULL, r->report);
     }
+    if (run->rows)
+        *run->rows = rows;
+    else
+        study_records_close(rows);
     study_journal_close(&r->journal);
 }
 

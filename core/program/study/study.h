@@ -19,6 +19,7 @@ typedef struct study_place {
     uint32_t line, column, width;
 } study_place;
 
+typedef struct study_records study_records;
 typedef struct study_rows study_rows;
 typedef struct study_spectrum study_spectrum;
 
@@ -207,6 +208,7 @@ typedef struct study_run {
     /* Tells what came of a row of standard input, as soon as the journal has it. */
     void (*answer)(void *ctx, size_t index, const json_t *record, bool known);
 
+    study_records **rows;         /* gets what the journals have at the end; NULL: nobody asks */
     char (*keys)[STUDY_KEY_SIZE]; /* filled in with the key of each case that ran or was known; NULL
                                      when the caller does not need them */
 

@@ -82,13 +82,12 @@ bool study_run_submitted(study_context *context, size_t begin, size_t end)
     run.keys = context->keys;
     run.begin = begin;
     run.end = end;
+    run.rows = &context->records;
+    study_records_close(context->records);
+    context->records = NULL;
     bool good = study_execute(&run, &counters, context->report);
     add_counters(context->counters, &counters);
-    if (!good)
-        return false;
-    study_records_close(context->records);
-    context->records = study_records_open(context->run->directory, false);
-    return true;
+    return good;
 }
 
 /* Drops the cases that have not run, and their keys, from the list; called when no more cases are
@@ -117,5 +116,5 @@ bool study_write_submitted(study_context *context)
     run.study = &context->list;
     if (!context->grid)
         run.described = &context->list;
-    return study_table_write(&run, context->keys, context->report);
+    return study_table_write(&run, context->keys, context->records, context->report);
 }

@@ -155,25 +155,30 @@ static void put_table(FILE *out, const study_definition *study, study_records *r
     free(units);
 }
 
-bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], ff_report *report)
+static bool write_files(const study_run *run, study_records *records, char (*keys)[STUDY_KEY_SIZE],
+                        study_tally *tally, ff_report *report)
+{
+    study_file table = study_file_begin(run->directory, "table.csv");
+    if (table.out)
+        put_table(table.out, run->study, records, keys, tally);
+    return study_file_end(&table, "the journal has all cases; the same command writes the table",
+                          report) &&
+           study_describe(run, tally, report);
+}
+
+bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], study_records *records,
+                       ff_report *report)
 {
     char *marker = memory_print_text("%s/%s", run->directory, study_marker);
     int lock = open(marker, O_RDONLY | O_CLOEXEC);
     if (lock >= 0)
         flock(lock, LOCK_EX); /* so that of shards that end together the last one writes the table,
                                  with all cases */
-    study_records *records = study_records_open(run->directory, false);
+    study_records *own = records ? NULL : study_records_open(run->directory, false);
     study_tally tally = {.cases = NULL};
-    study_file table = study_file_begin(run->directory, "table.csv");
-    if (table.out)
-        put_table(table.out, run->study, records, keys, &tally);
-    const char *hint =
-        access(marker, F_OK) == 0
-            ? "the journal has all cases; the same command writes the table"
-            : "the directory was removed while the study ran, and its journal with it";
-    bool good = study_file_end(&table, hint, report) && study_describe(run, &tally, report);
+    bool good = write_files(run, records ? records : own, keys, &tally, report);
     study_tally_free(&tally);
-    study_records_close(records);
+    study_records_close(own);
     free(marker);
     if (lock >= 0)
         close(lock);

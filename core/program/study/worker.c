@@ -220,7 +220,7 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
     study_memory memory = {
         .directory = stages,
         .stats = stats,
-        .arrays = {.run = run, .shared = worker->shared, .slot = slot, .directory = -1},
+        .arrays = {.run = run, .shared = worker->shared, .slot = slot},
         .seen = json_object(),
         .said = json_object(),
     };
@@ -242,8 +242,25 @@ static void close_files(study_worker *worker)
     close(worker->captured);
 }
 
-bool study_worker_start(study_worker *worker, const study_run *run, study_records *done,
-                        const study_worker *all, size_t count)
+/* Closes in a worker what belongs to others: without that the other workers would not see the end
+   of their input, and a plugin could write into the journal. */
+static void close_others(const study_worker *worker, const study_pool *pool)
+{
+    for (size_t i = 0; i < pool->run->jobs; i++) {
+        const study_worker *other = &pool->workers[i];
+        if (other->pid > 0 && other != worker) {
+            close(other->to);
+            close(other->from);
+            close(other->captured);
+        }
+    }
+    for (size_t i = 0; i < sizeof pool->hidden / sizeof *pool->hidden; i++)
+        if (pool->hidden[i] >= 0)
+            close(pool->hidden[i]);
+    study_records_let_go(pool->done);
+}
+
+bool study_worker_start(study_worker *worker, const study_pool *pool)
 {
     int to[2], from[2];
     if (!worker->shared) {
@@ -259,15 +276,11 @@ bool study_worker_start(study_worker *worker, const study_run *run, study_record
     fflush(NULL);
     worker->pid = fork();
     if (worker->pid == 0) {
-        for (size_t i = 0; i < count;
-             i++) /* otherwise the other workers would not see the end of their input */
-            if (all[i].pid > 0 && &all[i] != worker) {
-                close(all[i].to);
-                close(all[i].from);
-            }
+        close_others(worker, pool);
         close(to[1]);
         close(from[0]);
-        serve_cases(worker, run, done, (size_t)(worker - all) + 1, to[0], from[1]);
+        serve_cases(worker, pool->run, pool->done, (size_t)(worker - pool->workers) + 1, to[0],
+                    from[1]);
     }
     close(to[0]);
     close(from[1]);
@@ -336,15 +349,17 @@ bool study_worker_is_ahead(const study_worker *worker)
 bool study_worker_sync(study_worker *worker, const study_run *run)
 {
     off_t end = worker->shared->end;
-    if (worker->log <= 0) {
-        char *path = memory_print_text("%s/%s", run->directory, worker->shared->name);
-        worker->log = open(path, O_RDONLY | O_CLOEXEC);
-        free(path);
-    }
-    if (worker->log < 0 || fdatasync(worker->log) != 0)
-        return false;
-    worker->synced = end;
-    return true;
+    char *path = memory_print_text("%s/%s", run->directory, worker->shared->name);
+    int log = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW), state = -1;
+    free(path);
+    while (log >= 0 && (state = fdatasync(log)) != 0 && errno == EINTR)
+        ;
+    int cause = errno;
+    if (log >= 0)
+        close(log);
+    errno = cause;
+    worker->synced = state == 0 ? end : worker->synced;
+    return state == 0;
 }
 
 void study_worker_kill(const study_worker *worker)

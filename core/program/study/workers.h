@@ -23,14 +23,13 @@ typedef struct study_worker {
     char *line; /* the answer as far as it has been read */
     size_t length;
     study_shared *shared; /* in memory that both processes share */
-    int log;              /* descriptor of its log of arrays; 0: it has not been opened here */
     off_t synced;         /* how much of that log is on the disk */
 } study_worker;
 
-/* Starts a worker process, which skips cases that `done` holds. It closes the pipes of the `count`
-   workers in `all`. */
-bool study_worker_start(study_worker *worker, const study_run *run, study_records *done,
-                        const study_worker *all, size_t count);
+/* Starts a worker process of the pool, which skips cases that pool->done holds, and closes what
+   belongs to others: the store and the pipes of the other workers. */
+struct study_pool;
+bool study_worker_start(study_worker *worker, const struct study_pool *pool);
 bool study_worker_send_case(study_worker *worker, const study_run *run, size_t index);
 /* Returns 1 when the answer in worker->line is complete, 0 when it is not yet, -1 when the worker
    is gone. */
@@ -61,10 +60,11 @@ enum study_case_verdict {
 
 typedef struct study_pool {
     const study_run *run;
-    study_records *done;   /* of earlier runs, and of this one where cases form chains */
-    json_t *said;          /* the forms that records of cases that crashed have said */
-    bool ending;           /* chains are broken off after the running case */
-    int extra_fd;          /* a further file descriptor whose input ends the waiting; -1 for none */
+    study_records *done; /* of earlier runs, and of this one where cases form chains */
+    json_t *said;        /* the forms that records of cases that crashed have said */
+    bool ending;         /* chains are broken off after the running case */
+    int hidden[2];       /* descriptors that workers close, which are none of theirs; -1 for none */
+    int extra_fd;        /* a further file descriptor whose input ends the waiting; -1 for none */
     study_worker *workers; /* run->jobs of them */
     struct pollfd *polled;
     size_t turn; /* the worker to look at first */

@@ -9,10 +9,26 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <time.h>
+#include <unistd.h>
 
 enum { AMPLITUDE, COUNT, WORK, END, FACTORS, SHAPE };
 enum { TOTAL, TIME, HEIGHT, X, FIELD, LEVEL, LENGTHS };
-enum { GOOD, DOUBTFUL, BAD, FAIL, INVALID, NOISY, DEAF, QUIT, CRASH, SEGV, EAT, SPAWN, STARVE };
+enum {
+    GOOD,
+    DOUBTFUL,
+    BAD,
+    FAIL,
+    INVALID,
+    NOISY,
+    DEAF,
+    QUIT,
+    CRASH,
+    SEGV,
+    EAT,
+    SPAWN,
+    STARVE,
+    SCRIBBLE
+};
 
 typedef struct wave {
     const ff_host *host;
@@ -45,7 +61,8 @@ static const ff_param params[] = {
      .doc = "how the evaluation ends",
      .type = FF_CHOICE,
      .preset = "good",
-     .choices = "good|doubtful|bad|fail|invalid|noisy|deaf|quit|crash|segv|eat|spawn|starve"},
+     .choices =
+         "good|doubtful|bad|fail|invalid|noisy|deaf|quit|crash|segv|eat|spawn|starve|scribble"},
     {.name = "factors",
      .unit = "1",
      .doc = "a list that nothing depends on",
@@ -197,12 +214,22 @@ static int spawn(void)
     return run("sleep 60 </dev/null >/dev/null 2>&1 & echo $! >child");
 }
 
+/* Writes into whatever is open, as a program does that has closed a file twice. */
+static void scribble(void)
+{
+    for (int fd = 3; fd < 20; fd++)
+        if (write(fd, "scribble", 8) < 0)
+            continue;
+}
+
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const wave *w = self;
     (void)in;
     if (w->end == SPAWN && spawn() != 0)
         return FF_NOCONV;
+    if (w->end == SCRIBBLE)
+        scribble();
     ff_status status = w->end == STARVE ? starve() : work(w);
     if (status == FF_OK)
         status = give_series(w);

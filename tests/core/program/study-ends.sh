@@ -110,7 +110,7 @@ until rm -r removed; do :; done # a file may come between its listing and its en
 code=0
 wait "$run" || code=$?
 [ "$code" -eq 1 ]
-grep -q 'the directory was removed while the study ran, and its journal with it' said
+grep -q 'journal.jsonl" was removed with its directory while the study ran' said
 
 # what a killed run had begun to write is gone after the next one, and a missing example is named
 touch limit-10/study.json.7.part limit-10/table.csv.12345.part limit-10/own.part

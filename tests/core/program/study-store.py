@@ -1,0 +1,208 @@
+"""The end of a study is told from its rows on the disk: whatever happens to its files while it runs
+is one sentence and an exit code, and the same command then gives what a calm run gives, to the byte.
+
+study-store.py FLANKFILM STUB TOYS...      STUB is preloaded; "none" under a sanitizer
+"""
+import errno
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+flankfilm, stub = (str(pathlib.Path(a).resolve()) if a != "none" else a for a in sys.argv[1:3])
+lab = pathlib.Path(tempfile.mkdtemp())
+plugins = lab / "plugins" / "toy"
+plugins.mkdir(parents=True)
+for toy in sys.argv[3:]:
+    (plugins / toy.split("cli-toy-")[1]).symlink_to(pathlib.Path(toy).resolve())
+environment = {**os.environ, "FLANKFILM_PLUGIN_PATH": str(plugins.parent)}
+cases = 12
+failed = 0
+
+
+def write(name, wave, sweep, outputs="[wave.total, wave.height]"):
+    (lab / f"{name}.yaml").write_text(
+        f"format: 2\npipeline: {{wave: {{use: toy/wave, amplitude: 2 mm, {wave}}}}}\n"
+        f"outputs: {outputs}\nstudy: {{sweep: {{{sweep}}}}}\n"
+    )
+
+
+def start(study, folder, jobs=1, **system):
+    """Begins a run; `system` is told to the stub."""
+    extra = {"LD_PRELOAD": stub, **{k: str(v) for k, v in system.items()}} if system else {}
+    return subprocess.Popen(
+        [flankfilm, "run", f"{study}.yaml", f"-j{jobs}", "-o", folder],
+        cwd=lab, env={**environment, **extra}, text=True,
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    )
+
+
+def expect(what, run, code, words):
+    global failed
+    out, err = run.communicate(timeout=60)
+    lines = [line for line in err.splitlines() if line.startswith("error: ")]
+    if run.returncode != code or words not in out + err or (code in (1, 2) and len(lines) != 1):
+        failed += 1
+        print(f"FAIL {what}: code {run.returncode}, expected {code} and {words!r}\n{out}{err}")
+
+
+def rows(folder):
+    journal = lab / folder / "journal.jsonl"
+    return journal.read_bytes().count(b"\n") if journal.exists() else 0
+
+
+def wait_for(folder, count=3):
+    end = time.monotonic() + 30
+    while rows(folder) < count and time.monotonic() < end:
+        time.sleep(0.002)
+
+
+def check_calm(what, folder):
+    """The same command goes on, and the table is that of the calm run."""
+    expect(f"{what}, again", start("slow", folder), 0, f"{cases} of {cases} cases done")
+    if (lab / folder / "table.csv").read_bytes() != (lab / "calm" / "table.csv").read_bytes():
+        global failed
+        failed += 1
+        print(f"FAIL {what}: another table")
+
+
+def empty(journal):
+    os.truncate(journal, 0)
+
+
+def cut(journal):
+    os.truncate(journal, journal.stat().st_size // 2)
+
+
+def replace(journal):
+    shutil.copy(journal, journal.parent / "other")
+    os.replace(journal.parent / "other", journal)
+
+
+def link(journal):
+    journal.rename(lab / "elsewhere")
+    journal.symlink_to(lab / "elsewhere")
+
+
+def append(journal):
+    with open(journal, "ab") as out:
+        out.write(b"{}\n")
+
+
+def test_changed():
+    for how, words in (
+        (empty, "was emptied"), (cut, "was cut short"), (os.remove, "was removed"),
+        (replace, "was replaced"), (link, "was replaced"), (append, "was written to by another"),
+    ):
+        name = how.__name__
+        run = start("slow", name)
+        wait_for(name)
+        how(lab / name / "journal.jsonl")
+        expect(name, run, 1, f'journal.jsonl" {words}')
+        if how is link:
+            (lab / name / "journal.jsonl").unlink()
+        check_calm(name, name)
+    # after the last case, while nothing is written any more: its arrays are gone
+    run = start("slow", "logs")
+    wait_for("logs", cases - 2)
+    (lab / "logs" / "arrays.1.log").unlink()
+    expect("arrays removed", run, 1, "logs")
+    check_calm("arrays removed", "logs")
+
+
+def test_not_a_file():
+    for name, make in (
+        ("symlink", lambda j: j.symlink_to(lab / "slow.yaml")),
+        ("pipe", os.mkfifo),
+        ("folder", os.mkdir),
+    ):
+        place = lab / f"is-{name}"
+        place.mkdir()
+        (place / ".flankfilm-study").touch()
+        make(place / "journal.jsonl")
+        expect(name, start("slow", place.name), 2, 'journal.jsonl" is not a regular file')
+    if (lab / "slow.yaml").read_text()[:9] != "format: 2":
+        raise SystemExit("FAIL the link was followed")
+
+
+def descendants(pid):
+    """Of the process that is started, below the one that leads the run: its workers."""
+    try:
+        children = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    except OSError:
+        return []
+    below = [worker for child in children for worker in descendants(int(child))]
+    return below or [int(child) for child in children]
+
+
+def descriptors(pid):
+    for fd in pathlib.Path(f"/proc/{pid}/fd").glob("*"):
+        try:
+            yield os.readlink(fd)
+        except OSError:
+            pass
+
+
+def test_descriptors():
+    """No worker holds the store, and what a plugin writes into descriptors fails its case alone."""
+    run = start("long", "held", 2)
+    wait_for("held", 2)
+    held = {of for worker in descendants(run.pid) for of in descriptors(worker)}
+    expect("two workers", run, 0, f"{cases} of {cases}")
+    held = {os.path.relpath(h, lab / "held") for h in held}
+    store = [h for h in held if h == "." or h.startswith(("journal", "arrays"))]
+    if store or not held:
+        raise SystemExit(f"FAIL workers hold {store}")
+    for count, name in ((1, "one"), (2, "two")):
+        run = start("scribble", name, count)
+        expect(f"scribbled by {count}", run, 4, "3 of 3 cases done: 2 good, 1 failed")
+    tables = [(lab / name / "table.csv").read_text() for name in ("one", "two")]
+    if tables[0] != tables[1] or "written into a file that is not its own" not in tables[0]:
+        raise SystemExit(f"FAIL another table\n{tables}")
+
+
+def test_system():
+    """A system that interrupts, does by halves, cannot lock or cannot write."""
+    for name in ("INTERRUPT", "SHORT"):
+        expect(name, start("quick", name, **{name: 1}), 0, f"{cases} of {cases} cases done")
+    if (lab / "INTERRUPT" / "table.csv").read_bytes() != (lab / "SHORT" / "table.csv").read_bytes():
+        raise SystemExit("FAIL another table")
+    refused = start("quick", "sync", REFUSE_fdatasync=errno.EIO)
+    expect("a failing disk", refused, 1, "could not be written: Input/output error")
+    for cause in (errno.ENOLCK, errno.EOPNOTSUPP):
+        folder = f"lock-{cause}"
+        run = start("slow", folder, REFUSE_flock=cause)
+        wait_for(folder)
+        second = start("slow", folder, REFUSE_flock=cause)
+        expect("a second run", second, 2, "another run is using the result directory")
+        expect("without locks", run, 0, f"{cases} of {cases} cases done")
+        if (lab / folder / "journal.jsonl.lock").exists() or rows(folder) != cases:
+            raise SystemExit("FAIL a lock is left, or cases were done twice")
+    run = start("slow", "killed", REFUSE_flock=errno.ENOLCK)
+    wait_for("killed")
+    lock = (lab / "killed" / "journal.jsonl.lock").read_text()
+    os.kill(int(lock.split()[0]), signal.SIGKILL)
+    run.communicate()
+    again = start("slow", "killed", REFUSE_flock=errno.ENOLCK)
+    expect("a lock left behind", again, 0, f"{cases} of {cases} cases done")
+
+
+try:
+    points = f"wave.amplitude: {{from: 1 mm, to: 2 mm, points: {cases}}}"
+    write("slow", "work: 15 ms", points)
+    write("long", "work: 60 ms", points)
+    write("quick", "count: 5", points)
+    write("scribble", "count: 3", "wave.end: [good, scribble, good]", "[wave.total, wave.field]")
+    expect("calm", start("slow", "calm"), 0, f"{cases} of {cases} cases done")
+    test_changed()
+    test_not_a_file()
+    test_descriptors()
+    if stub != "none":
+        test_system()
+finally:
+    shutil.rmtree(lab)
+sys.exit(failed > 0)
