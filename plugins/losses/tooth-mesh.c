@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* losses/tooth-mesh: power loss of all tooth pairs in mesh, and flash temperature of their flanks.
  */
+#include "bulk.h"
 #include "friction.h"
 #include "references.h"
 
@@ -21,7 +22,9 @@ typedef struct tooth_mesh {
     ff_reals conductivity, density, specific_heat; /* of both gears */
     double bulk_temperature;                       /* K; NaN: auto */
     double thermal_conductance;                    /* W/K; NaN: endless */
+    double relief_factor;                          /* X_Ca */
     double oil_factor;                             /* NaN: auto */
+    int32_t bulk_rule, supply;
     int32_t formula;
     int64_t points;
     const ff_liquid *oil; /* NULL: none */
@@ -43,6 +46,14 @@ static const ff_param params[] = {
                 NULL, 0, 1e9, 0, 0,
                 "from the teeth to the oil: bulk_temperature is that of the oil and the mean loss "
                 "over this"),
+    FF_ONE_OF(LOSSES_BULK_RULES, "bulk_rule", tooth_mesh, bulk_rule, 0, NULL,
+              "of the temperature of the teeth, in place of a number: by ISO/TR 15144-1 from the "
+              "loss of this run (30 % of the rise), by thermal_conductance, or that of the oil; "
+              "without it by thermal_conductance where that is given, else that of the oil"),
+    FF_ONE_OF(LOSSES_SUPPLIES, "supply", tooth_mesh, supply, 0, "dip",
+              "how the oil comes to the teeth, for bulk_rule: standard: X_S 1, 1.2, 0.2"),
+    FF_QUANTITY("relief_factor", "1", tooth_mesh, relief_factor, FF_MIN_OPEN, "1", NULL, 0, 10, 1,
+                2, "X_Ca of the tip relief, for bulk_rule: standard"),
     FF_ONE_OF(LOSSES_FORMULAS, "formula", tooth_mesh, formula, 0, "schlenk",
               "of friction_coefficient_formula: ISO/TR 14179-2, or ISO/TR 15144-1"),
     FF_QUANTITY_OR("auto", "lubricant_factor", "1", tooth_mesh, oil_factor, FF_MIN_OPEN, "auto",
@@ -313,12 +324,21 @@ static ff_status write_parts(const tooth_mesh *s, const losses_mesh *m, uint64_t
     return each ? FF_OK : FF_NOMEM;
 }
 
+/* The temperature of the teeth before they meet, by the loss that heats them. */
+static double bulk_of(const tooth_mesh *s, const losses_mesh *m, double loss)
+{
+    if (s->bulk_temperature > 0)
+        return s->bulk_temperature;
+    if (s->bulk_rule == LOSSES_STANDARD)
+        return m->oil_temperature + losses_standard_rise(m, loss, s->supply, s->relief_factor);
+    return m->oil_temperature + (s->thermal_conductance > 0 ? loss / s->thermal_conductance : 0);
+}
+
 static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted)
 {
     const scatter of = scatter_of(m, NULL);
     const double mean = of.mean, input = m->torque * m->omega[0];
-    const double warmer = s->thermal_conductance > 0 ? mean / s->thermal_conductance : 0;
-    const double bulk = s->bulk_temperature > 0 ? s->bulk_temperature : m->oil_temperature + warmer;
+    const double bulk = bulk_of(s, m, mean);
     const double hottest = m->flash[m->hottest];
     const losses_formula f = losses_formula_of(m, s->formula, s->oil_factor);
     for (uint32_t row = OUT_FRICTION_FORMULA; row <= OUT_FRICTION_AGREEMENT; row++)
@@ -413,6 +433,17 @@ static ff_status ready(void *self)
         return ff_failf(s->host, FF_INVALID, "thermal_conductance",
                         "bulk_temperature is given, and thermal_conductance tells another one: "
                         "leave one of them out");
+    if (s->bulk_temperature > 0 && s->bulk_rule >= 0)
+        return ff_failf(s->host, FF_INVALID, "bulk_rule",
+                        "bulk_temperature is given, and bulk_rule tells another one: leave one of "
+                        "them out");
+    if (s->bulk_rule == LOSSES_CONDUCTANCE && !(s->thermal_conductance > 0))
+        return ff_failf(s->host, FF_INVALID, "thermal_conductance",
+                        "bulk_rule: conductance needs thermal_conductance");
+    if (s->thermal_conductance > 0 && s->bulk_rule >= 0 && s->bulk_rule != LOSSES_CONDUCTANCE)
+        return ff_failf(s->host, FF_INVALID, "bulk_rule",
+                        "thermal_conductance is given, and bulk_rule is not conductance: leave one "
+                        "of them out");
     return FF_OK;
 }
 

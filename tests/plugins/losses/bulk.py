@@ -46,7 +46,11 @@ slope = least / RISE + bend * RISE
 power, rise = loss(*WIRED, 'feedback.tolerance=1e-8')
 # G r = L0 - s r + b r^2, within the 1e-4 that the factors of a step settle to
 by_hand = 2 * cold / (G + slope + math.sqrt((G + slope) ** 2 - 4 * bend * cold))
+RULE = ('film.bulk=losses', 'losses.ehl=film', 'losses.bulk_rule=standard', 'losses.supply=spray', 'feedback.tolerance=1e-6')
+standard, standard_rise = loss(*RULE)
 good = [
+    # ISO/TR 15144-1 (84) at the loss that the loop ends with, a 91.5 mm, b 26.7 mm, X_S 1.2
+    hold('rise by the standard', standard_rise, 7400 * (1e-3 * standard / (91.5 * 26.7)) ** 0.72, 1e-4),
     hold('rise of the teeth over the oil', rise, by_hand, 1e-4),
     hold('loss through the conductance', power, G * rise, 1e-6),
     refused('a second bulk temperature', 'leave one of them out', *WIRED, 'losses.bulk_temperature=120 degC'),

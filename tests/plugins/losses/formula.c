@@ -150,6 +150,54 @@ static void test_verdicts(void)
     check_true("unheard of", verdict_at(0.25, "friction_bound") == FF_BAD);
 }
 
+/* ISO/TR 15144-1 at given losses by hand: 710 W on a 91.5 mm, b 14 mm, dip lubrication, +27.9 K;
+   175 W +10.2 K; and 605 W on 84.45 x 28 mm with spray, +19.2 K, which is 7400 (0.605/2364.6)^0.72.
+ */
+static void test_bulk_by_the_standard(void)
+{
+    static const struct {
+        double loss, rise, width;
+        const char *supply;
+    } rows[] = {
+        {710, 27.9, 14, "dip"}, {175, 10.2, 14, "dip"}, {605, 19.2, 84.45 * 28 / 91.5, "spray"}};
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+        open_mesh("1500 rpm", "0.3 um", NULL);
+        stage_set_text(m.losses, "bulk_rule", "standard");
+        stage_set_text(m.losses, "supply", rows[k].supply);
+        fill(0.04, 0);
+        stage_give_scalar(m.losses, "gear.face_width", 1e-3 * rows[k].width);
+        stage_run(m.losses);
+        const double scale = rows[k].loss / stage_scalar(m.losses, "power_loss_mean");
+        for (size_t i = 0; i < STEPS; i++)
+            m.loss[i] *= scale;
+        stage_give_series(m.losses, "ehl.power_loss", STEPS, m.loss);
+        stage_give_series(m.losses, "ehl.sliding_loss", STEPS, m.loss);
+        check_true("runs", stage_run(m.losses) == FF_OK);
+        check_near("loss", stage_scalar(m.losses, "power_loss_mean"), rows[k].loss, 1e-12);
+        check_near("rise", stage_scalar(m.losses, "bulk_temperature") - 363.15, rows[k].rise,
+                   0.05 / rows[k].rise);
+        close_mesh();
+    }
+}
+
+static void refuse_bulk(const char *name, const char *text, const char *rule)
+{
+    open_mesh("1500 rpm", "0.3 um", NULL);
+    stage_set_text(m.losses, "bulk_rule", rule);
+    if (name)
+        stage_set_text(m.losses, name, text);
+    check_true(rule, stage_ready(m.losses) == FF_INVALID && strlen(stage_why(m.losses)) > 20);
+    close_mesh();
+}
+
+static void test_bulk_is_said_once(void)
+{
+    refuse_bulk("bulk_temperature", "120 degC", "standard");
+    refuse_bulk("bulk_temperature", "120 degC", "oil");
+    refuse_bulk("thermal_conductance", "20 W/K", "standard");
+    refuse_bulk(NULL, NULL, "conductance");
+}
+
 static void test_what_is_not_known(void)
 {
     open_mesh("1500 rpm", NULL, NULL);
@@ -168,6 +216,8 @@ int main(void)
     test_second_formula();
     test_weight_of_the_mean();
     test_verdicts();
+    test_bulk_by_the_standard();
+    test_bulk_is_said_once();
     test_what_is_not_known();
     return check_done();
 }

@@ -3,6 +3,8 @@
 #include <check.h>
 #include <stage.h>
 
+#include <difference.h>
+
 #include <flankfilm/laws.h>
 
 #include <math.h>
@@ -85,6 +87,19 @@ static void test_table(void)
     }
 }
 
+typedef struct sample {
+    const scene *s;
+    double p;
+} sample;
+
+static double ln_over_T(const void *where, double T)
+{
+    const sample *at = where;
+    double ln;
+    at->s->v->eval(at->s->v->self, 1, &at->p, &T, &ln, NULL, NULL);
+    return ln;
+}
+
 /* Of another grade the slope at ambient pressure follows the oil's own coefficient, and B stays. */
 static void test_grades(void)
 {
@@ -100,6 +115,11 @@ static void test_grades(void)
     const double B = (-0.0682 + 2.768e-4 * T) * 0.4 * GPa;
     check_true("thinner oils rise less", two < 0.97 * one);
     check_near("A", (A_2 - B) / (A - B), one / two, 1e-6);
+    const double at = 322.6, p = 0.7 * GPa; /* between nodes of the scale */
+    const sample where = {&other, p};
+    double ln, slope;
+    other.v->eval(other.v->self, 1, &p, &at, &ln, NULL, &slope);
+    check_near("slope over T", slope, difference(ln_over_T, &where, at, 0.2), 1e-7);
     close_scene(&vg);
     close_scene(&other);
 }
