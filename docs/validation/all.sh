@@ -14,6 +14,7 @@ paper|figures 2 to 11 of Li & Kahraman 2011: what the paper states, what comes o
 benchmarks|geometry, contact, film formulas, oil, ISO stiffness and forced response against closed forms and another program
 measured|rolling force, loss of a mesh and pressure that others computed or measured, with what differs
 heat|films with heat by each step of the ladder, formulas of the inlet, traction over slip, a measured mesh loss at two temperatures of the teeth
+friction|a measured mesh loss by laws of oils that were measured elsewhere, laid down before the first run
 two-way|what the film does to the gears, where the power goes, and where oil ends a branch, beside a small-step model
 rattle|where oil between parted flanks ends their branch, over viscosity, load and backlash, and what loads it keeps apart for good
 film-steady|five film models against Martin's exact cylinder, an independent program's films and each other; what the inlet leaves out

@@ -24,12 +24,15 @@ LAWS = {"PAO100 (the choice)": [],
 
 
 def run(speed, sets):
-    """Scalars of the losses; None where no film was found."""
+    """Scalars of the losses; None where no film was found in half a minute, which is twenty times what others take."""
     words = [program, "run", FILE, "--json", "--set", "duty.speed=%d rpm" % speed, "--set", "film.bulk_temperature=%d degC" % TEETH[speed],
              "--set", "losses.bulk_temperature=%d degC" % TEETH[speed]]
     for word in sets:
         words += ["--set", word]
-    told = json.loads(subprocess.run(words, capture_output=True, text=True, check=False).stdout)
+    try:
+        told = json.loads(subprocess.run(words, capture_output=True, text=True, check=False, timeout=30).stdout)
+    except subprocess.TimeoutExpired:
+        return None
     if told["exit"] != 0:
         return None
     return {k: v["value"] for stage in told["stages"] if stage["stage"] == "losses" for k, v in stage["scalars"].items()}
@@ -62,6 +65,11 @@ for s in speeds:
     judged = "shown" if s in (2000, 10000) else "met" if loss and abs(off) <= 0.1 else "**missed**"
     print("| %d | %s | %s | %s |" % (s, "%.0f" % loss if loss else "-", "within" if loss and off == 0 else "%+.0f %%" % (100 * off), judged))
 print("""
+Up to 8000 rpm the measured losses lie between those of PAO100 and M100; the choice misses the 10 %, by up to 16 %. The oil moves
+the loss by a factor of 1.4 to 2.2, the Eyring stress and the limit within 10 % by 1 to 3 %: heat holds the stress. A film of N100 with heat,
+whose viscosity rises exponentially up to the limit, is not found in half a minute. Not in these films: that oil conducts heat better
+under pressure, and asperities at 2000 rpm.
+
 ## Friction coefficients
 
 By the film, weighted with load and sliding speed; by the formula of ISO/TR 14179-2; and measured, loss over power and loss factor, which

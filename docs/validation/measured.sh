@@ -182,6 +182,7 @@ and is not compared.
 
 ## What is not here
 
+- The mesh loss by laws of measured oils: [friction and loss against measurement](friction.md).
 - The mesh loss with heat in the film at two temperatures of the teeth, and inlet heating by Gupta and by Wilson & Sheu
   against a film with heat: [films with heat](heat.md).
 - Traction of squalane: curves are known as figures alone. Losses of the FZG gears: the same.
