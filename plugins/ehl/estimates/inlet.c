@@ -416,6 +416,8 @@ double ehl_inlet_balanced(const ehl_history *h, const ehl_oil *oil, size_t cells
     for (int k = 0; k < ROUNDS && fabs(change) > close; k++) {
         double dx = (end + outlet) / (double)cells, off = fmin(one * dx * dx, most);
         double ratio = off > 0 ? most_starved(h, oil, end, stride) / off : 1;
+        if (!(ratio > 0)) /* no inlet starves it: the shortest will do */
+            return fmin(longest, shortest_inlet(h, oil));
         /* one falls with the square of the length or faster, the other grows with it */
         double next = fmin(longest, end * sqrt(sqrt(ratio)));
         change = next / end - 1;

@@ -11,7 +11,7 @@ typedef struct sweep {
     ehl_energy *e;
     const ehl_energy_film *film;
     const ehl_temperature *t;
-    ehl_passage passage[2], rest; /* rest: at the end of the nodes, where none comes from */
+    ehl_passage passage[2], rest[2]; /* rest: at the end of the nodes, where none comes from */
 } sweep;
 
 /* Transverse flow of mass rho (w - z h_x u - z h_t), kg/(m2 s), at the nodes: what the flow along x
@@ -271,7 +271,7 @@ static int is_backward(const sweep *s, size_t g)
 /* Its way to node i. */
 static const ehl_passage *passage_to(const sweep *s, size_t g, size_t i)
 {
-    return is_backward(s, g) && i + 1 >= s->e->nodes ? &s->rest : &s->passage[g];
+    return is_backward(s, g) && i + 1 >= s->e->nodes ? &s->rest[g] : &s->passage[g];
 }
 
 /* The modes of flank g at node i without the flux there; returns what they make of its
@@ -281,7 +281,7 @@ static double flank_at(const sweep *s, size_t g, size_t i)
     const ehl_energy *e = s->e;
     const ehl_passage *way = passage_to(s, g, i);
     size_t n = e->flank[g].count, from = is_backward(s, g) ? i + 1 : i - 1;
-    from = way == &s->rest ? i : from;
+    from = way == &s->rest[g] ? i : from;
     double *modes = s->t->modes[g];
     const double *past = s->film->past_modes[g];
     return e->T_in + ehl_half_space_reach(&e->flank[g], way, modes + from * n, e->flux[g][from],
@@ -377,9 +377,9 @@ static void begin(sweep *s)
         memset(s->t->modes[g], 0, e->flank[g].count * sizeof *s->t->modes[g]);
         ehl_half_space_pass(&e->flank[g], fabs(s->film->speed[g]), s->film->dx, s->film->rate,
                             &s->passage[g]);
+        if (s->film->frame > 0)
+            ehl_half_space_pass(&e->flank[g], 0, s->film->dx, s->film->rate, &s->rest[g]);
     }
-    if (s->film->frame > 0)
-        ehl_half_space_pass(&e->flank[0], 0, s->film->dx, s->film->rate, &s->rest);
     e->change = 0;
 }
 

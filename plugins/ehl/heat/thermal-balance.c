@@ -97,8 +97,8 @@ void ehl_thermal_hold(ehl_march *m)
     ehl_worse(&t->unbalanced, fabs(made - gone) / scale);
     if (!(f.rate > 0))
         ehl_worse(&t->elsewise, steady_balance(m, &f, &sum));
-    double slowest = fmin(f.speed[0], f.speed[1]) + f.frame;
-    t->least_peclet = fmin(t->least_peclet, slowest * a / t->diffusivity);
+    for (size_t g = 0; g < 2; g++)
+        t->least_peclet = fmin(t->least_peclet, (f.speed[g] + f.frame) * a / t->diffusivity[g]);
     double highest = ehl_thermal_highest(m);
     t->highest = fmax(t->highest, highest);
     ehl_thermal_look_at_nodes(t, &f, m->state[0].heat, highest);
@@ -139,6 +139,6 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
     host->quality(
         host->ctx, "flank_peclet", t->least_peclet, slow,
         t->least_peclet >= slow ? FF_GOOD : FF_RANGE,
-        "u a rho c/k of the slower flank: below it heat spreads along the flank, which is "
+        "u a rho c/k of the flank that has less: below it heat spreads along it, which is "
         "left out");
 }

@@ -133,10 +133,11 @@ ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
     if (m->rough) /* and their way into the contact: start.c */
         lasts += length / most;
     double longest = least * lasts > length ? length / least : lasts;
-    for (size_t k = 0; k < 2; k++)
+    for (size_t k = 0; k < 2; k++) {
         ehl_half_space_create(&t->energy.flank[k], data->flank_contact[k], g->dx / most,
                               fmax(longest, length / most));
-    t->diffusivity = fmax(data->flank_diffusivity[0], data->flank_diffusivity[1]);
+        t->diffusivity[k] = data->flank_diffusivity[k];
+    }
     t->coefficient = data->friction;
     t->energy.laws = r->laws;
     t->energy.flow = data->flow;

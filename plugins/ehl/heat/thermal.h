@@ -42,8 +42,8 @@ typedef struct ehl_thermal {
     double *now, *change;         /* of them, as they are accelerated */
     int without;                  /* 1: films are solved for without heat */
     int cold_fails;               /* 1: the steady film was not found without heat either */
-    double diffusivity;           /* of the flanks, m2/s */
-    double least_peclet;          /* u a rho c/k of the slower flank, loaded instants */
+    double diffusivity[2];        /* of the flanks, m2/s */
+    double least_peclet;          /* u a rho c/k of a flank, the least of loaded instants */
     double highest;               /* K */
     double by_nodes;  /* error of the flow by the nodes across, relative, worst looked at */
     double looked_at; /* rise of the temperature then, K */

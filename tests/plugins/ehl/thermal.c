@@ -241,6 +241,23 @@ static void test_too_coarse(void)
     line_close(&c);
 }
 
+/* The slower flank conducts less: it is the other one along which heat spreads first. */
+static void test_flank_peclet(void)
+{
+    line c;
+    open_hot(&c, 128, 0.3);
+    stage_give_series(c.film, "gear.thermal_conductivity", 2, (double[]){50, 12});
+    stage_give_series(c.film, "gear.density", 2, (double[]){7850, 7700});
+    stage_give_series(c.film, "gear.specific_heat", 2, (double[]){484, 460});
+    check_true("runs", line_run(&c, "h_min") == FF_OK);
+    const double pi = 3.14159265358979323846;
+    double a = sqrt(8 * c.load[0] * c.radius[0] / (pi * c.modulus));
+    check_true("the slower flank has more", c.u2[0] * 7700 * 460 / 12 > c.u1[0] * 7850 * 484 / 50);
+    check_near("flank_peclet, of the faster flank", stage_quality(c.film, "flank_peclet"),
+               c.u1[0] * a * 7850 * 484 / 50, 1e-9);
+    line_close(&c);
+}
+
 static void test_refusals(void)
 {
     line c;
@@ -280,6 +297,7 @@ int main(void)
     test_law_range();
     test_localised_shear();
     test_too_coarse();
+    test_flank_peclet();
     test_refusals();
     return check_done();
 }
