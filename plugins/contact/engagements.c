@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "engagements.h"
 
+#include <assert.h>
 #include <math.h>
 
 /*
@@ -10,6 +11,7 @@
  */
 size_t contact_engagements_pick(size_t available, size_t most, size_t *picked)
 {
+    assert(most >= 1);
     const double golden = 0.61803398874989485;
     size_t count = available < most ? available : most;
     for (size_t i = 0, next = 0; i < count; i++) {

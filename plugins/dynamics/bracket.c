@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "bracket.h"
 
+#include <assert.h>
+
 double dynamics_bracket_secant(const dynamics_bracket *b)
 {
+    assert(!(b->f_low * b->f_high > 0));
     return b->high - b->f_high * (b->high - b->low) / (b->f_high - b->f_low);
 }
 

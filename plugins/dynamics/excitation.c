@@ -4,6 +4,7 @@
 #include "smooth-piece.h"
 #include "spring.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -144,6 +145,7 @@ void dynamics_excitation_free(dynamics_excitation *excitation)
 const dynamics_piece *dynamics_excitation_piece(const dynamics_excitation *excitation, double phase,
                                                 int left)
 {
+    assert(excitation->count > 0);
     size_t low = 0, high = excitation->count;
     while (high - low > 1) {
         size_t middle = low + (high - low) / 2;

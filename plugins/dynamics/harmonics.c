@@ -3,6 +3,7 @@
 
 #include "../numerics/room.h"
 
+#include <assert.h>
 #include <complex.h>
 #include <math.h>
 #include <stdlib.h>
@@ -147,6 +148,7 @@ static void sample_excitation(dynamics_harmonics *b)
 dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation, size_t harmonics,
                                            size_t samples)
 {
+    assert(samples % 2 == 0 && samples > 4 * harmonics);
     dynamics_harmonics *b = calloc(1, sizeof *b);
     if (!b)
         return NULL;

@@ -5,6 +5,7 @@
 #include "orbit-film.h"
 #include "trajectory.h"
 
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -31,6 +32,7 @@ dynamics_state dynamics_orbit_start(const dynamics_orbit *o)
 
 int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit)
 {
+    assert(orbit->period >= 1 && orbit->period <= DYNAMICS_PERIOD_MAX);
     double T = dynamics_cycle_duration(orbit->lambda);
     if (flow->excitation->film)
         dynamics_films_start(flow, T, orbit);

@@ -3,6 +3,7 @@
 
 #include "../numerics/pinion.h"
 
+#include <assert.h>
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -239,6 +240,7 @@ double rating_radius(const rating_pair *p, double place)
 
 double rating_speed(const rating_pair *p, int gear, double place)
 {
+    assert(gear == 0 || gear == 1);
     return gear == 0 ? p->omega * place : p->omega / p->ratio * (p->line - place);
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "cycle.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -50,6 +51,7 @@ int stiffness_cycle_side(const stiffness_cycle *cycle, size_t i)
 
 double stiffness_cycle_mean(const stiffness_cycle *cycle, const double *value)
 {
+    assert(cycle->count >= 2);
     double sum = 0;
     for (size_t i = 1; i < cycle->count; i++)
         sum += (cycle->phase[i] - cycle->phase[i - 1]) * (value[i] + value[i - 1]) / 2;

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "fourier.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
 size_t surface_power_of_two(double least)
 {
+    assert(least <= 0x1p52);
     size_t n = 1;
     while ((double)n < least && n < (size_t)1 << 52)
         n *= 2;
@@ -31,6 +33,7 @@ static void reverse_bits(size_t n, double complex *x)
 /* Cooley and Tukey 1965, radix 2. */
 ff_status surface_fourier(size_t n, double complex *x, double sign)
 {
+    assert(n > 0 && (n & (n - 1)) == 0);
     double complex *root = malloc((n / 2 + 1) * sizeof *root);
     if (!root)
         return FF_NOMEM;

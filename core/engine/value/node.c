@@ -3,6 +3,7 @@
 
 #include "tree.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -44,6 +45,7 @@ void fe_node_add(ff_tree *tree, ff_node *node, char *key, ff_place key_place, ff
 
 void fe_map_remove(ff_node *map, size_t index)
 {
+    assert(index < map->count);
     map->count--;
     for (size_t i = index; i < map->count; i++) {
         map->items[i] = map->items[i + 1];

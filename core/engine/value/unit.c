@@ -6,6 +6,7 @@
  */
 #include "unit.h"
 
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 #include <stdarg.h>
@@ -288,6 +289,7 @@ static double inverse(const ff_unit *unit)
 
 double ff_unit_to_si(const ff_unit *unit, double number)
 {
+    assert(unit->factor > 0);
     double n = inverse(unit);
     return (n > 0 ? number / n : number * unit->factor) + unit->offset;
 }

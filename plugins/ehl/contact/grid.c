@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "grid.h"
 
+#include <assert.h>
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
 
 double ehl_hertz_half_width(double load, double radius, double modulus)
 {
+    assert(load >= 0 && radius > 0 && modulus > 0);
     return sqrt(8 * load * radius / (pi * modulus));
 }
 
 double ehl_hertz_pressure(double load, double radius, double modulus)
 {
+    assert(load >= 0 && radius > 0 && modulus > 0);
     return sqrt(load * modulus / (2 * pi * radius));
 }
 
@@ -91,6 +94,7 @@ static void fit_roughness(ehl_grid *g, const ehl_instant *at, double modulus, do
 void ehl_grid_fit(ehl_grid *g, size_t cells, double inlet, double outlet, const ehl_history *h,
                   const ehl_oil *oil, double rq, double supplied)
 {
+    assert(cells >= 2);
     *g = (ehl_grid){.nodes = cells + 1, .inlet = supplied};
     for (size_t i = 0; i < h->count; i++) {
         ehl_instant at = ehl_history_row(h, i);

@@ -3,6 +3,7 @@
 
 #include "../../numerics/room.h"
 
+#include <assert.h>
 #include <flankfilm/simd.h>
 
 #include <fftw3.h>
@@ -18,6 +19,7 @@ static double log_integral(double s)
 
 void ehl_kernel_fill(size_t count, double dx, double modulus, double unit, double *d)
 {
+    assert(dx > 0 && modulus > 0);
     double scale = -4 / (acos(-1) * modulus);
     for (size_t k = 0; k < count; k++) {
         double s = (double)k, ln;
@@ -48,6 +50,7 @@ struct ehl_fft {
 
 ehl_fft *ehl_fft_create(size_t nodes, const double *d)
 {
+    assert(nodes >= 2);
     ehl_fft *f = calloc(1, sizeof *f);
     if (!f)
         return NULL;
