@@ -3,7 +3,7 @@
  */
 #include "fuzz.h"
 
-#include "../../core/program/study/study.h"
+#include "../../core/program/study/kinds/kinds.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

@@ -3,7 +3,7 @@
    that an editor completes and checks what the program does. */
 #include "catalogue.h"
 
-#include "../study/study.h"
+#include "../study/kinds/kinds.h"
 
 #include <stdlib.h>
 #include <string.h>

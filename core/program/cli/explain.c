@@ -8,7 +8,7 @@
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
-#include "../study/case.h"
+#include "../study/cases/case.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -9,7 +9,7 @@
 #include "../results/made.h"
 #include "../results/target.h"
 #include "../results/view.h"
-#include "../study/study.h"
+#include "../study/kinds/kinds.h"
 #include "../terminal/terminal.h"
 
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #include "../report/report.h"
 #include "../results/json.h"
 #include "../results/target.h"
-#include "../study/study.h"
+#include "../study/kinds/kinds.h"
 #include "command.h"
 
 #include <fcntl.h>

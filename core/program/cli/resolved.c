@@ -3,7 +3,7 @@
 
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
-#include "../study/yaml.h"
+#include "../study/cases/yaml.h"
 
 #include <stdlib.h>
 #include <string.h>

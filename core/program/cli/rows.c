@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Answers the rows of standard input: a line of JSON for each, in the order in which they end. */
-#include "../study/rows.h"
+#include "../study/cases/rows.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
 #include "../terminal/answer.h"

@@ -8,8 +8,8 @@
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
-#include "../study/case.h"
-#include "../study/hash.h"
+#include "../study/cases/case.h"
+#include "../study/store/hash.h"
 
 #include <ctype.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #ifndef CLI_SESSION_H
 #define CLI_SESSION_H
 
-#include "../study/study.h"
+#include "../study/kinds/kinds.h"
 #include "options.h"
 
 /* So many rows of a table of cases are tried by a check, and the last one. */

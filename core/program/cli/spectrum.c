@@ -2,7 +2,7 @@
 #include "spectrum.h"
 
 #include "../results/number.h"
-#include "../study/journal.h"
+#include "../study/store/journal.h"
 #include "../terminal/terminal.h"
 
 #include <math.h>

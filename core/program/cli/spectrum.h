@@ -3,7 +3,7 @@
 #ifndef CLI_SPECTRUM_H
 #define CLI_SPECTRUM_H
 
-#include "../study/spectrum.h"
+#include "../study/cases/spectrum.h"
 
 extern const char cli_spectrum_files[]; /* "spectrum.json, spectrum.figure.json, " */
 

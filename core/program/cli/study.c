@@ -10,8 +10,8 @@
 #include "../results/made.h"
 #include "../results/number.h"
 #include "../results/write.h"
-#include "../study/case.h"
-#include "../study/rows.h"
+#include "../study/cases/case.h"
+#include "../study/cases/rows.h"
 #include "../terminal/answer.h"
 
 #include <flankfilm/executor.h>

@@ -4,8 +4,8 @@
 
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
-#include "../study/hash.h"
-#include "../study/study.h"
+#include "../study/kinds/kinds.h"
+#include "../study/store/hash.h"
 
 #include <fcntl.h>
 #include <stdlib.h>

@@ -2,7 +2,7 @@
 #include "json.h"
 
 #include "../memory/memory.h"
-#include "../study/study.h"
+#include "../study/kinds/kinds.h"
 #include "../terminal/answer.h"
 
 #include <stdlib.h>

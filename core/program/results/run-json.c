@@ -5,7 +5,7 @@
 #include "../accuracy/axis.h"
 #include "../accuracy/choice.h"
 #include "../memory/memory.h"
-#include "../study/study.h"
+#include "../study/kinds/kinds.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "target.h"
 
-#include "../study/study.h"
+#include "../study/kinds/kinds.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -4,7 +4,7 @@
 #include "view-tables.h"
 
 #include "../accuracy/accuracy.h"
-#include "../study/judgement.h"
+#include "../study/store/judgement.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
  */
 #include "view-tables.h"
 
-#include "../study/records.h"
+#include "../study/store/records.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -4,7 +4,7 @@
 #define RESULTS_VIEW_TABLES_H
 
 #include "../arrays/log.h"
-#include "../study/study.h"
+#include "../study/kinds/kinds.h"
 #include "view.h"
 
 typedef struct results_rows {

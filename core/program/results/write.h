@@ -4,7 +4,7 @@
 #define RESULTS_WRITE_H
 
 #include "../accuracy/accuracy.h"
-#include "../study/study.h"
+#include "../study/kinds/kinds.h"
 #include "earlier.h"
 #include "folder.h"
 

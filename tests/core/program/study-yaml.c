@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What is written as YAML reads as itself. */
-#include "../../../core/program/study/yaml.h"
+#include "../../../core/program/study/cases/yaml.h"
 
 #include "check.h"
 

@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Records of a measured case the work of the stages in which cases differ, and what its requested
+ * series are plotted against, which is kept with them.
+ */
+#include "case.h"
+
+#include "../store/hash.h"
+#include "../store/journal.h"
+
+#include <sched.h>
+#include <stdlib.h>
+#include <string.h>
+
+uint64_t study_measure_fingerprint(uint64_t fingerprint, size_t repeat)
+{
+    fingerprint = study_hash_text(fingerprint, "measured");
+    return study_hash(fingerprint, &repeat, sizeof repeat);
+}
+
+void study_measure_pin(void)
+{
+    cpu_set_t set;
+    int core = sched_getcpu();
+    CPU_ZERO(&set);
+    if (core < 0)
+        return;
+    CPU_SET((size_t)core, &set);
+    sched_setaffinity(0, sizeof set,
+                      &set); /* when that fails, the measured costs merely spread more */
+}
+
+/* Returns the result "stage.name" of a stage that runs; NULL when there is none, or it is a
+   service. */
+static ff_result *find_result(const ff_pipeline *pipeline, const char *path, const ff_stage **stage)
+{
+    const char *name;
+    *stage = ff_stage_of(pipeline, path, &name);
+    bool runs = *stage && (*stage)->needed;
+    int output = runs ? ff_model_find_output((*stage)->loaded->model, name) : -1;
+    ff_result *result = output < 0 ? NULL : &(*stage)->results[output];
+    return result && !result->row->service ? result : NULL;
+}
+
+/* Ranks how well a result serves as what `self` is plotted against; 0 means not at all. */
+static int rank_as_axis(const study_measure *m, const ff_result *result, const ff_result *self)
+{
+    const char *dims = self->row->dims, *unit = result->row->unit, *name = result->row->name;
+    if (result == self || result->row->service || !result->row->dims || !dims ||
+        strcmp(result->row->dims, dims) != 0 || !*dims || strpbrk(dims, " "))
+        return 0;
+    if (m->along)
+        return !strcmp(name, m->along) ? 4 : 0;
+    return !strcmp(name, dims) ? 3 : !strcmp(unit, "rad") ? 2 : !strcmp(unit, "s") ? 1 : 0;
+}
+
+void study_measure_want(const study_definition *study, const ff_pipeline *pipeline)
+{
+    const study_measure *m = study->measure;
+    const ff_stage *stage;
+    for (size_t i = 0; m && i < m->request->count; i++) {
+        const ff_result *self = find_result(pipeline, m->request->items[i]->text, &stage);
+        for (size_t k = 0; self && k < stage->loaded->model->output_count; k++)
+            if (rank_as_axis(m, &stage->results[k], self))
+                stage->results[k].wanted = true;
+    }
+    for (size_t i = 0; i < study->extra_count; i++) {
+        ff_result *result = find_result(pipeline, study->extras[i], &stage);
+        if (result)
+            result->wanted = result->requested = true;
+    }
+}
+
+bool *study_measure_fresh(const study_measure *m, const ff_pipeline *pipeline)
+{
+    bool *fresh = memory_alloc((pipeline->count + 1) * sizeof *fresh);
+    for (size_t i = 0; i < pipeline->count; i++) {
+        size_t at = pipeline->order[i];
+        const ff_stage *stage = &pipeline->stages[at];
+        fresh[at] = m->all;
+        for (size_t k = 0; k < m->knob_count; k++)
+            fresh[at] = fresh[at] || !strcmp(m->knobs[k], stage->name);
+        for (size_t k = 0; k < stage->wire_count; k++)
+            fresh[at] = fresh[at] || (stage->wires[k].stage >= 0 && fresh[stage->wires[k].stage]);
+    }
+    return fresh;
+}
+
+static bool is_rising(const ff_result *result)
+{
+    for (size_t i = 1; i < result->count; i++)
+        if (!(result->data[i] >= result->data[i - 1]))
+            return false;
+    return result->count > 1 && result->data[result->count - 1] > result->data[0];
+}
+
+static ff_result *find_axis(const study_measure *m, const ff_stage *stage, const ff_result *self)
+{
+    ff_result *best = NULL;
+    int rank = 0;
+    for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
+        ff_result *result = &stage->results[k];
+        int here = result->data && result->rank == 1 && result->count == self->count
+                       ? rank_as_axis(m, result, self)
+                       : 0;
+        if (here > rank && is_rising(result)) {
+            rank = here;
+            best = result;
+        }
+    }
+    return best;
+}
+
+/* Adds {output: name of the series of its stage that it is plotted against}, and has that series
+   kept. */
+static void add_axis(const study_measure *m, const ff_pipeline *pipeline, const char *path,
+                     json_t *all)
+{
+    const ff_stage *stage;
+    const ff_result *result = find_result(pipeline, path, &stage);
+    ff_result *axis =
+        result && result->data && result->rank == 1 ? find_axis(m, stage, result) : NULL;
+    if (!axis)
+        return;
+    axis->requested = true;
+    json_object_set_new(all, path, json_string(axis->row->name));
+}
+
+void study_measure_record(const study_case *c, const study_definition *study, json_t *record)
+{
+    const study_measure *m = study->measure;
+    const ff_pipeline *pipeline = c->pipeline;
+    bool *fresh = study_measure_fresh(m, pipeline);
+    json_t *along = json_object(), *work = json_object();
+    for (size_t i = 0; i < m->request->count; i++)
+        add_axis(m, pipeline, m->request->items[i]->text, along);
+    for (size_t i = 0; i < study->extra_count; i++)
+        add_axis(m, pipeline, study->extras[i], along);
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (fresh[i] && pipeline->stages[i].ran)
+            json_object_set_new(work, pipeline->stages[i].name,
+                                json_real(pipeline->stages[i].work));
+    json_object_set_new(record, "measured", json_pack("{s:o, s:o}", "work", work, "along", along));
+    free(fresh);
+}

@@ -1,0 +1,197 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes table.csv: a row for each case with what was varied and the scalars that it gave. */
+#include "table.h"
+
+#include "spectrum.h"
+
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+static void put_cell(FILE *out, const char *text, size_t length)
+{
+    bool plain = strcspn(text, ",\"\n\r") >= length;
+    if (!plain)
+        fputc('"', out);
+    for (size_t i = 0; i < length; i++) {
+        if (text[i] == '"')
+            fputc('"', out);
+        fputc(text[i] == '\n' || text[i] == '\r' ? ' ' : text[i], out);
+    }
+    if (!plain)
+        fputc('"', out);
+}
+
+/* Returns the unit that follows a number, and sets the length of the number; NULL when there is no
+   number. */
+static const char *unit_of(const char *value, size_t *digits)
+{
+    double number;
+    const char *end;
+    if (!ff_number_parse(value, &number, &end))
+        return NULL;
+    *digits = (size_t)(end - value);
+    return end + strspn(end, " ");
+}
+
+/* Returns the unit that all values share; NULL when their units differ or one of them is not a
+   number. */
+static const char *common_unit(const study_definition *study, const study_varied *varied)
+{
+    size_t digits;
+    if (varied->names || study->points[varied->axis] == 0)
+        return NULL;
+    const char *unit = unit_of(study_varied_value(varied, 0), &digits);
+    for (size_t i = 1; unit && i < study->points[varied->axis]; i++) {
+        const char *other = unit_of(study_varied_value(varied, i), &digits);
+        unit = other && !strcmp(unit, other) ? unit : NULL;
+    }
+    return unit;
+}
+
+static void put_head(FILE *out, const study_definition *study, const char *const *units,
+                     json_t *columns)
+{
+    const char *name;
+    json_t *unit;
+    fputs("case,key,status", out);
+    for (size_t k = 0; k < study->varied_count; k++) {
+        fprintf(out, ",%s", study->varied[k].path);
+        if (units[k] && *units[k])
+            fprintf(out, " [%s]", units[k]);
+    }
+    if (study->spectrum)
+        fprintf(out, ",%s [%s]", study_time_name, study->spectrum->shares ? "1" : "s");
+    json_object_foreach(columns, name, unit)
+        fprintf(out, ",%s [%s]", name, json_string_value(unit));
+    fputs(",verdict,reasons,reason\n", out);
+}
+
+/* Two cells, which are empty for a case that has not run. */
+static void put_judgement(FILE *out, const study_judgement *judgement)
+{
+    char *reasons = judgement ? study_judgement_text(judgement) : NULL;
+    fprintf(out, ",%s,", judgement ? study_verdict_name(judgement->verdict) : "");
+    put_cell(out, reasons ? reasons : "", reasons ? strlen(reasons) : 0);
+    free(reasons);
+}
+
+static void put_row(FILE *out, const study_definition *study, const char *const *units,
+                    size_t index, const char *key, const json_t *record,
+                    const study_judgement *judgement, json_t *columns)
+{
+    const char *status = json_string_value(json_object_get(record, "status"));
+    const char *reason = json_string_value(json_object_get(record, "reason")), *name;
+    json_t *unit;
+    fprintf(out, "%zu,%s,%s", index + 1, key, status ? status : "not run");
+    for (size_t k = 0; k < study->varied_count; k++) {
+        const char *value = study_value(study, k, index);
+        size_t length = strlen(value);
+        if (units[k])
+            unit_of(value, &length);
+        fputc(',', out);
+        put_cell(out, value, length);
+    }
+    if (study->spectrum)
+        fprintf(out, ",%.12g", study->spectrum->times[index]);
+    json_object_foreach(columns, name, unit)
+    {
+        const json_t *pair = json_object_get(json_object_get(record, "outputs"), name);
+        fputc(',', out);
+        if (pair)
+            fprintf(out, "%.12g", json_number_value(json_array_get(pair, 1)));
+    }
+    put_judgement(out, record ? judgement : NULL);
+    fputc(',', out);
+    put_cell(out, reason ? reason : "", reason ? strlen(reason) : 0);
+    fputc('\n', out);
+}
+
+/* Returns {name: unit} of every output that some case gave, in the order of the cases. */
+static json_t *find_columns(const study_definition *study, study_records *records,
+                            char (*keys)[STUDY_KEY_SIZE])
+{
+    json_t *columns = json_object(), *pair, *known = json_object();
+    const char *name;
+    for (size_t i = 0; i < study->count; i++) {
+        const char *form = study_records_form(records, keys[i]);
+        if (json_object_get(known, form)) /* outputs and units are a part of the form */
+            continue;
+        if (*form)
+            json_object_set_new(known, form, json_true());
+        json_t *record = study_records_get(records, keys[i]);
+        json_object_foreach(json_object_get(record, "outputs"), name, pair)
+        {
+            if (!json_object_get(columns, name))
+                json_object_set(columns, name, json_array_get(pair, 0));
+        }
+        json_decref(record);
+    }
+    json_decref(known);
+    return columns;
+}
+
+/* Writes the head and a row for each case, and counts their verdicts. */
+static void put_table(FILE *out, const study_definition *study, study_records *records,
+                      char (*keys)[STUDY_KEY_SIZE], study_tally *tally)
+{
+    json_t *columns = find_columns(study, records, keys);
+    const char **units = memory_alloc(study->varied_count * sizeof *units);
+    for (size_t k = 0; k < study->varied_count; k++)
+        units[k] = common_unit(study, &study->varied[k]);
+    put_head(out, study, units, columns);
+    for (size_t i = 0; i < study->count; i++) {
+        json_t *record = study_records_get(records, keys[i]);
+        study_judgement judgement;
+        study_judgement_read(&judgement, record);
+        put_row(out, study, units, i, keys[i], record, &judgement, columns);
+        if (record)
+            study_tally_add(tally, i + 1, keys[i], &judgement);
+        study_judgement_free(&judgement);
+        json_decref(record);
+    }
+    json_decref(columns);
+    free(units);
+}
+
+bool study_describe(const study_run *run, const study_tally *tally, ff_report *report)
+{
+    if (!run->describe)
+        return true;
+    study_file file = study_file_begin(run->directory, study_description);
+    if (file.out)
+        run->describe(run->ctx, run->described, tally, file.out);
+    return study_file_end(&file, NULL, report);
+}
+
+static bool write_files(const study_run *run, study_records *records, char (*keys)[STUDY_KEY_SIZE],
+                        study_tally *tally, ff_report *report)
+{
+    study_file table = study_file_begin(run->directory, "table.csv");
+    if (table.out)
+        put_table(table.out, run->study, records, keys, tally);
+    return study_file_end(&table, "the journal has all cases; the same command writes the table",
+                          report) &&
+           study_describe(run, tally, report);
+}
+
+bool study_table_write(const study_run *run, char (*keys)[STUDY_KEY_SIZE], study_records *records,
+                       ff_report *report)
+{
+    char *marker = memory_print_text("%s/%s", run->directory, study_marker);
+    int lock = open(marker, O_RDONLY | O_CLOEXEC);
+    if (lock >= 0)
+        flock(lock, LOCK_EX); /* so that of shards that end together the last one writes the table,
+                                 with all cases */
+    study_records *own = records ? NULL : study_records_open(run->directory, false);
+    study_tally tally = {.cases = NULL};
+    bool good = write_files(run, records ? records : own, keys, &tally, report);
+    study_tally_free(&tally);
+    study_records_close(own);
+    free(marker);
+    if (lock >= 0)
+        close(lock);
+    return good;
+}

@@ -1,0 +1,446 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Runs studies whose later cases depend on what earlier ones gave: finds the driver, reads its keys
+   and the cases that are known beforehand, and runs it. */
+#include "kinds.h"
+#include "stability.h"
+#include "tradeoff.h"
+#include "uncertainty.h"
+
+#include "../cases/case.h"
+#include "../cases/spectrum.h"
+#include "../run/run.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const study_driver_row study_drivers[] = {
+    {"stability", "maps", "Map of where a pipeline converges, degrades or fails, and why",
+     study_map_keys, STUDY_MAP_KEYS},
+    {"tradeoff", "measures a trade-off",
+     "Error against cost of models and resolutions, with the Pareto front", study_tradeoff_keys,
+     STUDY_TRADEOFF_KEYS},
+    {"uncertainty", "samples uncertain inputs",
+     "What uncertain inputs make of the outputs, against the errors of grids and models",
+     study_uncertainty_keys, STUDY_UNCERTAINTY_KEYS},
+    {.name = NULL},
+};
+
+typedef struct study_driver {
+    const study_driver_row *row;
+    study_context context;
+    study_map *map; /* one of these three is set */
+    study_tradeoff *tradeoff;
+    study_uncertainty *uncertainty;
+} study_driver;
+
+/* Returns the outputs that the driver requests of its cases, as a file would list them. */
+static ff_node *request_of(study_context *context)
+{
+    ff_node *list = memory_arena_alloc(&context->arena, sizeof *list);
+    *list = (ff_node){.kind = FF_SEQUENCE, .count = context->output_count};
+    list->items = memory_arena_alloc(&context->arena, (list->count + 1) * sizeof *list->items);
+    for (size_t i = 0; i < list->count; i++) {
+        list->items[i] = memory_arena_alloc(&context->arena, sizeof **list->items);
+        *list->items[i] = (ff_node){.kind = FF_SCALAR,
+                                    .place = context->outputs[i]->place,
+                                    .text = context->outputs[i]->text};
+        if (i == 0)
+            list->place = list->items[0]->place;
+    }
+    return list;
+}
+
+/* Adds the stage in which an assignment makes cases differ. */
+static void add_knob(study_context *context, study_measure *m, const char *assignment)
+{
+    static const char prefix[] = "pipeline.";
+    if (!strncmp(assignment, prefix, sizeof prefix - 1))
+        assignment += sizeof prefix - 1;
+    size_t length = strcspn(assignment, ".="), i = 0;
+    for (const char *const *top = ff_file_keys(); *top; top++)
+        m->all = m->all || (strlen(*top) == length && !strncmp(*top, assignment, length));
+    while (i < m->knob_count &&
+           (strlen(m->knobs[i]) != length || strncmp(m->knobs[i], assignment, length) != 0))
+        i++;
+    if (i == m->knob_count && length > 0)
+        m->knobs[m->knob_count++] = memory_arena_text(&context->arena, assignment, length);
+}
+
+/* Returns what is measured beside the scalars; NULL when nothing is. */
+static study_measure *measure_of(study_context *context, const ff_node *request)
+{
+    size_t most = context->planned * context->path_count + context->stage_count + 1;
+    if (!context->measured)
+        return NULL;
+    study_measure *m = memory_arena_alloc(&context->arena, sizeof *m);
+    *m = (study_measure){.request = request, .along = context->along, .repeat = context->repeats};
+    m->knobs = memory_arena_alloc(&context->arena, most * sizeof *m->knobs);
+    for (size_t i = 0; i < context->planned; i++)
+        for (size_t k = 0; k < context->path_count; k++)
+            if (*context->list.varied[k].assignments[i])
+                add_knob(context, m, context->list.varied[k].assignments[i]);
+    for (size_t i = 0; i < context->stage_count; i++)
+        add_knob(context, m, context->stages[i]);
+    return m;
+}
+
+/* Makes the study consist of the cases that are known beforehand. */
+static void lay_out_planned(study_context *context, study_definition *study)
+{
+    const study_definition *grid = context->grid;
+    const ff_node *request = request_of(context);
+    context->planned = context->list.count;
+    context->measure = measure_of(context, request);
+    study->request = context->list.request = request;
+    study->extras = context->list.extras = context->extras;
+    study->extra_count = context->list.extra_count = context->extra_count;
+    study->measure = context->list.measure = context->measure;
+    study->overlay_first = context->measured;
+    study->varied = grid ? grid->varied : context->list.varied;
+    study->varied_count = grid ? grid->varied_count : context->list.varied_count;
+    study->count = context->planned;
+    study->axis_count = study->followed = study->direction = grid ? grid->axis_count : 1;
+    study->points = grid ? grid->points : memory_arena_alloc(&study->arena, sizeof *study->points);
+    if (!grid)
+        study->points[0] = context->planned;
+}
+
+/* Reports an unknown key, with the nearest known one or the name of the driver. */
+static void refuse_key(const study_driver_row *row, const char *key, ff_place place,
+                       ff_report *report)
+{
+    const char **names = memory_alloc(row->key_count * sizeof *names);
+    for (size_t i = 0; i < row->key_count; i++)
+        names[i] = row->keys[i].name;
+    const char *near = ff_nearest(key, names, row->key_count);
+    ff_error(report, FF_FAULT_INPUT, place, NULL, "%s: unknown key \"%.80s\"%s%s%s", row->name, key,
+             near ? "; did you mean \"" : " for study/", near ? near : row->name,
+             near ? "\"?" : "");
+    free(names);
+}
+
+static const ff_param *find_key(const study_driver_row *row, const char *key)
+{
+    for (size_t i = 0; i < row->key_count; i++)
+        if (!strcmp(row->keys[i].name, key))
+            return &row->keys[i];
+    return NULL;
+}
+
+static bool check_keys(const study_driver_row *row, const ff_node *map, ff_report *report)
+{
+    size_t errors = ff_report_errors(report);
+    for (size_t i = 0; i < map->count; i++)
+        if (strncmp(map->keys[i], "x-", 2) != 0 && !find_key(row, map->keys[i]))
+            refuse_key(row, map->keys[i], map->key_places[i], report);
+    for (size_t i = 0; i < row->key_count; i++) {
+        const ff_param *key = &row->keys[i];
+        if (!(key->flags & FF_REQUIRED) || ff_node_get(map, key->name))
+            continue;
+        char *hint = memory_print_text("%s: a value, a list or a map", key->name);
+        ff_error(report, FF_FAULT_INPUT, map->place, hint, "%s: \"%s\" is missing: %s", row->name,
+                 key->name, key->doc);
+        free(hint);
+    }
+    return ff_report_errors(report) == errors;
+}
+
+/* Reads a key that has a type, from its node or its preset. */
+static bool read_value(const study_driver_row *row, const ff_param *key, study_key_value *value,
+                       ff_report *report)
+{
+    char name[192], why[200];
+    ff_unit unit;
+    snprintf(name, sizeof name, "%s.%s", row->name, key->name);
+    ff_unit_parse(*key->unit ? key->unit : "1", &unit, why, sizeof why);
+    return value->node   ? ff_param_read(key, &unit, name, value->node, &value->value, report)
+           : key->preset ? ff_param_read_preset(key, &unit, name, &value->value, report)
+                         : true;
+}
+
+static bool read_keys(study_driver *driver, const ff_node *map, ff_report *report)
+{
+    const study_driver_row *row = driver->row;
+    size_t errors = ff_report_errors(report);
+    study_key_value *values = memory_alloc(row->key_count * sizeof *values);
+    check_keys(row, map, report);
+    for (size_t i = 0; i < row->key_count; i++) {
+        values[i].node = ff_node_get(map, row->keys[i].name);
+        if (row->keys[i].type != STUDY_TREE)
+            read_value(row, &row->keys[i], &values[i], report);
+    }
+    bool good = ff_report_errors(report) == errors;
+    if (good && row->keys == study_map_keys)
+        driver->map = study_map_read(&driver->context, values);
+    else if (good && row->keys == study_tradeoff_keys)
+        driver->tradeoff = study_tradeoff_read(&driver->context, values);
+    else if (good)
+        driver->uncertainty = study_uncertainty_read(&driver->context, values);
+    for (size_t i = 0; i < row->key_count; i++)
+        ff_value_clear(&values[i].value);
+    free(values);
+    return driver->map || driver->tradeoff || driver->uncertainty;
+}
+
+static bool open_driver(study_definition *study, const ff_node *root, const study_driver_row *row,
+                        ff_report *report)
+{
+    const ff_node *node = ff_node_get(root, "study");
+    study_driver *driver = study->driver = memory_alloc(sizeof *driver);
+    const ff_node *map = ff_node_get(node, row->name);
+    driver->row = row;
+    driver->context = (study_context){.name = row->name,
+                                      .root = root,
+                                      .report = report,
+                                      .further = "",
+                                      .list = *study,
+                                      .verdict = -1};
+    driver->context.list.arena = (memory_arena){0};
+    driver->context.list.points = &driver->context.list.count;
+    driver->context.list.axis_count = driver->context.list.followed =
+        driver->context.list.direction = 1;
+    if (map->kind != FF_MAP)
+        return ff_error(report, FF_FAULT_INPUT, map->place, NULL,
+                        "%s: expected a map; flankfilm schema lists what may stand there",
+                        row->name);
+    if (!read_keys(driver, map, report))
+        return false;
+    lay_out_planned(&driver->context, study);
+    for (size_t i = 0; i < node->count; i++)
+        for (const char *const *own = study_keys; *own; own++)
+            if (!strcmp(node->keys[i], *own) && !strstr(*own, "_limit"))
+                return ff_error(report, FF_FAULT_INPUT, map->place, NULL,
+                                "study: %s: a study either sweeps or %s: write two files",
+                                row->name, row->verb);
+    return true;
+}
+
+/* Returns the driver that a key names, or NULL. Unknown keys are errors. */
+static const study_driver_row *find_driver(const ff_node *node, ff_report *report)
+{
+    enum { MOST = 16 };
+    const char *known[MOST];
+    size_t count = 0;
+    const study_driver_row *found = NULL;
+    for (const char *const *key = study_keys; *key; key++)
+        known[count++] = *key;
+    for (const study_driver_row *row = study_drivers; row->name; row++)
+        known[count++] = row->name;
+    known[count] = NULL;
+    study_check_keys(node, "", known, report);
+    for (size_t i = 0; node->kind == FF_MAP && i < node->count; i++)
+        for (const study_driver_row *row = study_drivers; row->name; row++) {
+            if (strcmp(node->keys[i], row->name) != 0)
+                continue;
+            if (found)
+                ff_error(report, FF_FAULT_INPUT, node->key_places[i], NULL,
+                         "study: \"%s\" and \"%s\" exclude each other: write two files",
+                         found->name, row->name);
+            found = row;
+        }
+    return found;
+}
+
+study_definition *study_open(const ff_node *root, ff_report *report)
+{
+    const ff_node *node = ff_node_get(root, "study");
+    size_t errors = ff_report_errors(report);
+    const study_driver_row *row = find_driver(node, report);
+    if (ff_report_errors(report) > errors)
+        return NULL;
+    if (!row)
+        return study_read(node, report);
+    study_definition *study = memory_alloc(sizeof *study);
+    if (study_read_limits(study, node, report))
+        open_driver(study, root, row, report);
+    return study;
+}
+
+void study_free(study_definition *study)
+{
+    if (study && study->driver)
+        study_context_free(&study->driver->context);
+    if (study)
+        free(study->driver);
+    study_definition_free(study);
+}
+
+/* Checks that the pipeline has the stage of "stage.name". */
+static bool check_stage(const study_context *context, const ff_pipeline *pipeline, const char *path,
+                        ff_report *report)
+{
+    const char *name;
+    return ff_stage_of(pipeline, path, &name) ||
+           ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
+                    "%s: %s: the pipeline has no stage \"%.*s\"", context->name, path,
+                    (int)strcspn(path, "."), path);
+}
+
+/* Whether the driver cannot compare outputs of these dimensions: it takes scalars or, when it
+   measures, series as well. Of two dimensions an optional one may be absent. */
+static bool is_too_much(const study_context *context, const char *dims)
+{
+    bool series = *dims != '\0', field = strchr(dims, ' ') && !strchr(dims, '?');
+    return context->measured ? field : series;
+}
+
+static void check_output(const study_context *context, const ff_pipeline *pipeline,
+                         const ff_node *asked, ff_report *report)
+{
+    const char *name;
+    const ff_stage *stage = ff_stage_of(pipeline, asked->text, &name);
+    const ff_model *model = stage && stage->results ? stage->loaded->model : NULL;
+    int output = model ? ff_model_find_output(model, name) : -1;
+    const ff_port *row = output >= 0 ? stage->results[output].row : NULL;
+    if (row && row->dims && is_too_much(context, row->dims))
+        ff_error(report, FF_FAULT_INPUT, asked->place,
+                 context->measured ? NULL : "name a scalar, such as a mean or an extreme value",
+                 context->measured ? "%s: %s is a field; name scalars and series"
+                                   : "%s: %s is a series or a field, which cannot be compared",
+                 context->name, asked->text);
+}
+
+void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_report *report)
+{
+    const study_context *context = study->driver ? &study->driver->context : NULL;
+    size_t scaled = 0;
+    study_spectrum_check(study, pipeline, report);
+    for (size_t i = 0; context && study->request && i < study->request->count; i++)
+        check_output(context, pipeline, study->request->items[i], report);
+    for (size_t i = 0; context && i < context->name_count; i++)
+        check_stage(context, pipeline, context->names[i], report);
+    for (size_t i = 0; context && i < context->knob_count; i++) {
+        size_t param = SIZE_MAX;
+        if (check_stage(context, pipeline, context->knobs[i], report))
+            study_find_number(pipeline, context->knobs[i], &param);
+        scaled += param != SIZE_MAX;
+    }
+    if (study->driver && study->driver->uncertainty)
+        study_uncertainty_check(study->driver->uncertainty, pipeline, report);
+    if (context && context->knobs && scaled == 0)
+        ff_warn(report, FF_NOWHERE,
+                "%s: no number is refined, so that verdicts rest on the quality alone",
+                context->name);
+}
+
+/* Builds a case, and reports its first error; false when there is one. */
+static bool open_case(const study_context *context, const study_run *run, size_t number)
+{
+    const study_submitted *submitted = &context->cases[number];
+    study_case c;
+    study_case_open(&c, run, number, NULL);
+    bool good = study_case_is_good(&c);
+    if (!good) {
+        char *why = study_first_error(c.report);
+        ff_error(context->report, FF_FAULT_INPUT, submitted->place, NULL, "%s: %s: %s",
+                 context->name, submitted->label, why);
+        free(why);
+    }
+    study_case_close(&c);
+    return good;
+}
+
+/* Builds the first cases, so that errors show before anything runs. Only the first error at each
+   place is reported. */
+static bool open_cases(const study_context *context, const study_run *run, size_t count)
+{
+    ff_place wrong = FF_NOWHERE;
+    bool good = true;
+    for (size_t i = 0; i < count; i++) {
+        const ff_place place = context->cases[i].place;
+        if (context->repeats[i] > 0 || (wrong.source && wrong.source == place.source &&
+                                        wrong.line == place.line && wrong.column == place.column))
+            continue;
+        if (!open_case(context, run, i)) {
+            good = false;
+            wrong = place;
+        }
+    }
+    return good;
+}
+
+/* A level of a ladder that cannot be, whatever the inputs, is found with the first sample that the
+   file's own model takes. */
+static bool open_levels(const study_uncertainty *u, const study_run *run)
+{
+    for (size_t i = 0; i < u->pilot; i++) {
+        study_case c;
+        study_case_open(&c, run, study_uncertainty_pilot_case(u, 0, i), NULL);
+        bool possible = study_case_is_good(&c);
+        study_case_close(&c);
+        for (size_t k = 1; possible && k < u->level_count; k++)
+            if (!open_case(u->context, run, study_uncertainty_pilot_case(u, k, i)))
+                return false;
+        if (possible)
+            return true;
+    }
+    return true;
+}
+
+bool study_drive(const study_run *run, study_counters *counters, ff_report *report)
+{
+    study_driver *driver = run->study->driver;
+    study_context *context = &driver->context;
+    study_run own = *run;
+    *counters = (study_counters){.leads = true};
+    if (context->measured)
+        own.jobs = 1;
+    context->report = report;
+    context->run = &own;
+    context->counters = counters;
+    /* a sample of uncertain inputs may be one that cannot be, but not their medians */
+    size_t opened = context->measured ? context->planned : driver->uncertainty ? 1 : 0;
+    bool good = open_cases(context, run, opened) &&
+                (!driver->uncertainty || open_levels(driver->uncertainty, run)) &&
+                (driver->map        ? study_map_run(driver->map)
+                 : driver->tradeoff ? study_tradeoff_run(driver->tradeoff)
+                                    : study_uncertainty_run(driver->uncertainty)) &&
+                study_write_submitted(context);
+    for (size_t i = 0; good && i < context->file_count; i++)
+        good =
+            study_write_file(run->directory, context->files[i].name, context->files[i].text,
+                             "the journal has all cases; the same command writes the file", report);
+    context->run = NULL;
+    return good && ff_report_errors(report) == 0;
+}
+
+const char *study_compared(const study_definition *study, size_t i, size_t *index)
+{
+    const study_uncertainty *u = study->driver ? study->driver->uncertainty : NULL;
+    if (!u || i >= u->model_count)
+        return NULL;
+    *index = u->first_model + i;
+    return u->models[i].name;
+}
+
+const char *study_cases(const study_definition *study)
+{
+    return study->driver && study->driver->context.grid ? "cells of the grid" : "cases";
+}
+
+const char *study_further(const study_definition *study)
+{
+    return study->driver ? study->driver->context.further : "";
+}
+
+json_t *study_facts(const study_definition *study)
+{
+    return study->driver->context.facts;
+}
+
+int study_verdict(const study_definition *study)
+{
+    return study->driver->context.verdict;
+}
+
+char *study_files(const study_definition *study)
+{
+    const study_context *context = &study->driver->context;
+    char *text = memory_print_text("%s", "");
+    for (size_t i = 0; i < context->file_count; i++) {
+        char *longer = memory_print_text("%s%s, ", text, context->files[i].name);
+        free(text);
+        text = longer;
+    }
+    return text;
+}

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The kinds of studies: reads one, checks it, and runs it. */
+#ifndef STUDY_KINDS_H
+#define STUDY_KINDS_H
+
+#include "../run/run.h"
+
+/* Reads what stands under `study:`. After errors it returns NULL, or a study that must not be run
+   but keeps the texts that the messages need. The tree of the root must outlive the study. */
+study_definition *study_open(const ff_node *root, ff_report *report);
+void study_free(study_definition *study); /* frees its driver, too; accepts NULL */
+
+/* A kind of study whose later cases depend on what earlier ones gave. */
+typedef struct study_driver_row {
+    const char *name; /* the key under `study:` */
+    const char *verb; /* what it does, for messages: "maps" */
+    const char *summary;
+    /* what may stand under it; a key without a type takes a value, a list or a map */
+    const ff_param *keys;
+    size_t key_count;
+} study_driver_row;
+
+extern const study_driver_row study_drivers[]; /* ends with a row without a name */
+
+/* Checks that the pipeline has what the driver of the study names. */
+void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_report *report);
+/* Returns the name of the i-th model that a study compares the file's with, and its case; NULL
+   after the last one. */
+const char *study_compared(const study_definition *study, size_t i, size_t *index);
+const char *study_cases(const study_definition *study); /* what its cases are called: "cases" */
+const char *
+study_further(const study_definition *study); /* which cases may follow; "" when none do */
+
+/* Runs a study with a driver, in this process and its workers: the cases that it submits; then it
+   writes the table of those that ran and the files of the driver. */
+bool study_drive(const study_run *run, study_counters *counters, ff_report *report);
+/* What came of a study with a driver: members for `run --json`, or NULL. */
+json_t *study_facts(const study_definition *study);
+/* Its verdict, FF_GOOD or FF_BAD; -1 when its cases decide. */
+int study_verdict(const study_definition *study);
+/* Returns the names of its files, "map.csv, map.figure.json, ", to be freed. */
+char *study_files(const study_definition *study);
+
+#endif

@@ -1,0 +1,210 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Finds what a run would do, and what earlier runs have saved. */
+#include "run.h"
+
+#include "../cases/chain.h"
+#include "../store/hash.h"
+#include "../store/journal.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A case of an earlier run, by its assignments. */
+typedef struct earlier_case {
+    uint64_t set;  /* hash of the assignments */
+    uint64_t rank; /* of its record */
+    char key[STUDY_KEY_SIZE];
+} earlier_case;
+
+/* Counts case by case what is done. */
+typedef struct survey {
+    const study_run *run;
+    study_plan *plan;
+    study_records *records;
+    earlier_case *earlier; /* sorted; made when a case is found whose key has changed */
+    size_t earlier_count;
+    study_kept keys, kept; /* for keys alone, and for cases with their objects */
+    double spent;
+    size_t timed;
+} survey;
+
+static uint64_t hash_set(const json_t *set)
+{
+    char *text = json_dumps(set, JSON_COMPACT | JSON_SORT_KEYS);
+    uint64_t hash = study_hash_text(STUDY_HASH_START, text);
+    free(text);
+    return hash;
+}
+
+static int by_set(const void *a, const void *b)
+{
+    const earlier_case *one = a, *other = b;
+    if (one->set != other->set)
+        return one->set < other->set ? -1 : 1;
+    return one->rank < other->rank ? -1 : one->rank > other->rank;
+}
+
+static void index_earlier(survey *s)
+{
+    size_t at = 0;
+    uint64_t rank;
+    json_t *record;
+    s->earlier = memory_alloc((study_records_count(s->records) + 1) * sizeof *s->earlier);
+    while ((record = study_records_next(s->records, &at, &rank))) {
+        earlier_case *made = &s->earlier[s->earlier_count++];
+        *made = (earlier_case){.set = hash_set(json_object_get(record, "set")), .rank = rank};
+        snprintf(made->key, sizeof made->key, "%s",
+                 json_string_value(json_object_get(record, "key")));
+        json_decref(record);
+    }
+    qsort(s->earlier, s->earlier_count, sizeof *s->earlier, by_set);
+}
+
+/* Returns the last record with the assignments of the case, to be released; NULL: none has them. */
+static json_t *find_earlier(survey *s, size_t index)
+{
+    json_t *set = study_case_set(s->run->study, index);
+    uint64_t wanted = hash_set(set);
+    size_t low = 0, high;
+    json_decref(set);
+    if (!s->earlier)
+        index_earlier(s);
+    high = s->earlier_count;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (s->earlier[middle].set <= wanted)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low > 0 && s->earlier[low - 1].set == wanted
+               ? study_records_get(s->records, s->earlier[low - 1].key)
+               : NULL;
+}
+
+static void count_seconds(survey *s, const json_t *record)
+{
+    const json_t *seconds = json_object_get(record, "seconds");
+    s->spent += json_number_value(seconds);
+    s->timed += seconds != NULL;
+}
+
+/* Counts a case that was done with the same assignments but has another key now; for the first of
+   them, prints what has changed. */
+static void explain_change(survey *s, const study_case *c, size_t index)
+{
+    json_t *record = find_earlier(s, index);
+    count_seconds(s, record);
+    if (record && s->plan->again++ == 0 && study_case_is_good(c)) {
+        const char *input = json_string_value(json_object_get(record, "input"));
+        FILE *out = fmemopen(s->plan->changed, sizeof s->plan->changed, "w");
+        if (out) {
+            study_setup_compare(
+                c, s->run->study,
+                json_object_get(study_records_described(s->records), input ? input : ""), out);
+            fclose(out);
+        }
+        size_t length = strnlen(s->plan->changed, sizeof s->plan->changed - 1);
+        while (length > 0 && s->plan->changed[length - 1] != '\n')
+            length--; /* drops an incomplete last line */
+        s->plan->changed[length] = '\0';
+    }
+    json_decref(record);
+}
+
+/* A case that a model refused as it was made has its key from its assignments, which shows when the
+   models are made. */
+static void open_case(survey *s, study_case *c, size_t index)
+{
+    study_case_open(c, s->run, index, &s->keys);
+    if (c->kept && study_records_state(s->records, c->key) == STUDY_UNKNOWN) {
+        study_case_close(c);
+        study_case_open(c, s->run, index, &s->kept);
+    }
+}
+
+static void count_case(survey *s, study_chain *chain, size_t index)
+{
+    enum { TIMED = 10000 }; /* records that are looked at for how long a case takes */
+    study_plan *plan = s->plan;
+    study_case c;
+    open_case(s, &c, index);
+    study_chain_enter(chain, s->run->study, &c);
+    enum study_state state = study_records_state(s->records, c.key);
+    bool read = state != STUDY_UNKNOWN && (c.states || s->timed < TIMED);
+    json_t *record = read ? study_records_get(s->records, c.key) : NULL;
+    plan->done += state == STUDY_OK;
+    plan->failed += state == STUDY_NOT_OK;
+    if (state == STUDY_UNKNOWN)
+        explain_change(s, &c, index);
+    plan->left += !study_state_is_settled(state, s->run->rerun);
+    count_seconds(s, record);
+    study_chain_pass(chain, &c, record);
+    json_decref(record);
+    study_case_close(&c);
+}
+
+void study_preview(const study_run *given, study_plan *plan)
+{
+    study_run own = *given;
+    const study_run *run = &own;
+    const study_definition *study = run->study;
+    ff_tree *tree = study_case_tree(own.file);
+    own.tree = tree;
+    survey s = {.run = run, .plan = plan, .keys.keys = true};
+    size_t chains = 0;
+    study_chain chain = {0};
+    *plan = (study_plan){.seconds = -1};
+    s.records = study_records_open(run->directory, true);
+    for (size_t k = run->shard - 1; k < study_chains(study); k += run->shards) {
+        study_chain_begin(&chain, k);
+        chains++;
+        if (study_records_count(s.records) == 0) { /* all cases are left: none need be built */
+            plan->left += study_chain_length(study);
+            continue;
+        }
+        for (size_t i = 0; i < study_chain_length(study); i++)
+            count_case(&s, &chain, study_chain_case(study, k, i));
+    }
+    if (s.timed > 0)
+        plan->seconds = s.spent / (double)s.timed * (double)plan->left /
+                        fmax(1, fmin((double)run->jobs, (double)chains));
+    study_chain_free(&chain);
+    study_kept_free(&s.keys);
+    study_kept_free(&s.kept);
+    study_records_close(s.records);
+    free(s.earlier);
+    ff_tree_free(tree);
+}
+
+static void add_seconds(size_t *count, double *sum, const json_t *seconds)
+{
+    const char *stage;
+    json_t *value;
+    json_object_foreach((json_t *)(size_t)seconds, stage, value)
+    {
+        *count += 1;
+        *sum += json_number_value(value);
+    }
+}
+
+void study_savings_add(study_reuse_counts *savings, const json_t *record)
+{
+    add_seconds(&savings->computed, &savings->spent, json_object_get(record, "stages"));
+    add_seconds(&savings->reused, &savings->saved, json_object_get(record, "reused"));
+}
+
+study_reuse_counts study_savings(const char *directory)
+{
+    study_reuse_counts savings = {0};
+    size_t at = 0;
+    json_t *record;
+    study_records *records = study_records_open(directory, false);
+    while ((record = study_records_next(records, &at, NULL))) {
+        study_savings_add(&savings, record);
+        json_decref(record);
+    }
+    study_records_close(records);
+    return savings;
+}

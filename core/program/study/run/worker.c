@@ -1,0 +1,408 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * A worker process takes numbers of cases and answers with lines of the journal, so that a model
+ * that crashes ends this process alone. Two answers are not lines of the journal: "=" for a case
+ * that is done already, and "!text" when the study cannot go on.
+ */
+#include "workers.h"
+
+#include "../../crash/hunger.h"
+#include "../../crash/lead.h"
+#include "../cases/chain.h"
+#include "../cases/rows.h"
+#include "../store/journal.h"
+#include "../store/reuse.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <malloc.h>
+#include <math.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { MOST_STAGES = 1000, LONGEST_ANSWER = 1 << 24 };
+/* Looks that find a worker stopped, before it is ended: a batch system that stops all processes of
+   a job lets them go on one by one. */
+enum { MOST_STOPS = 5 };
+
+/* Limits how much memory the process may take beyond what it has already. */
+static void limit_memory(const study_run *run)
+{
+    unsigned long pages = 0;
+    double page = (double)sysconf(_SC_PAGESIZE);
+    double more = run->study->memory_limit;
+    FILE *stream = fopen("/proc/self/statm", "re");
+    if (!stream || fscanf(stream, "%lu", &pages) != 1)
+        pages = 0;
+    if (stream)
+        fclose(stream);
+    if (!(more > 0))
+        more = page * (double)sysconf(_SC_PHYS_PAGES) / (double)run->jobs;
+    struct rlimit limit;
+    if (pages == 0 || getrlimit(RLIMIT_AS, &limit) != 0)
+        return;
+    limit.rlim_cur = (rlim_t)(more + page * (double)pages);
+    if (limit.rlim_max == RLIM_INFINITY || limit.rlim_cur < limit.rlim_max)
+        setrlimit(RLIMIT_AS, &limit);
+}
+
+/* Bounds what a plugin that starts processes without end can do: the user may have so many more
+   processes and threads than the machine has now. */
+static void limit_processes(void)
+{
+    enum { MORE = 4096 };
+    unsigned long tasks = 0;
+    struct rlimit limit;
+    FILE *stream = fopen("/proc/loadavg", "re");
+    bool known = stream && fscanf(stream, "%*f %*f %*f %*u/%lu", &tasks) == 1;
+    if (stream)
+        fclose(stream);
+    if (!known || getrlimit(RLIMIT_NPROC, &limit) != 0 || limit.rlim_cur <= tasks + MORE)
+        return;
+    limit.rlim_cur = tasks + MORE;
+    setrlimit(RLIMIT_NPROC, &limit);
+}
+
+bool study_write_all(int fd, const void *data, size_t size)
+{
+    for (const char *at = data; size > 0;) {
+        ssize_t written = write(fd, at, size);
+        if (written < 0 && errno != EINTR)
+            return false;
+        at += written > 0 ? written : 0;
+        size -= written > 0 ? (size_t)written : 0;
+    }
+    return true;
+}
+
+bool study_open_pipes(int to[2], int from[2])
+{
+    if (pipe2(to, O_CLOEXEC) != 0)
+        return false;
+    if (pipe2(from, O_CLOEXEC) == 0)
+        return true;
+    close(to[0]);
+    close(to[1]);
+    return false;
+}
+
+/* Moves to the place of the case in its chain; the states of earlier cases that this process did
+   not run are in their records. */
+static void reach_case(study_chain *chain, const study_run *run, size_t index, study_records *done)
+{
+    size_t position, number;
+    if (!study_is_chained(run->study))
+        return;
+    number = study_chain_locate(run->study, index, &position);
+    if (!chain->states || chain->number != number || chain->position > position)
+        study_chain_begin(chain, number);
+    while (chain->position < position) {
+        study_case c;
+        study_case_open(&c, run, study_chain_case(run->study, number, chain->position), NULL);
+        study_chain_enter(chain, run->study, &c);
+        json_t *record = study_records_get(done, c.key);
+        study_chain_pass(chain, &c, record);
+        json_decref(record);
+        study_case_close(&c);
+    }
+}
+
+/* Adds the processor time in s, of the whole case and what its reused stages took once. */
+static void add_costs(const study_case *c, double spent, json_t *record)
+{
+    double saved = 0;
+    for (size_t i = 0; c->pipeline && i < c->pipeline->count; i++)
+        saved += c->pipeline->stages[i].reused ? c->pipeline->stages[i].work : 0;
+    json_object_set_new(record, "processor", json_real(round(spent * 1e6) / 1e6));
+    json_object_set_new(record, "processor_saved", json_real(round(saved * 1e6) / 1e6));
+}
+
+static bool run_case(const study_worker *worker, const study_run *run, size_t index,
+                     study_records *done, study_memory *memory, study_chain *chain, int to)
+{
+    study_case c;
+    reach_case(chain, run, index, done);
+    clock_t start = clock(); /* the case is all that this process does */
+    study_case_open(&c, run, index, &memory->kept);
+    study_chain_enter(chain, run->study, &c);
+    memcpy(worker->shared->key, c.key, sizeof c.key);
+    char *line = NULL;
+    json_t *record = NULL;
+    if (study_case_is_settled(&c, done, run->rerun)) {
+        line = memory_print_text("=\n");
+        record = c.states ? study_records_get(done, c.key) : NULL;
+    } else {
+        record = study_case_run(&c, run, index, memory);
+        char *why = record ? NULL : study_first_error(c.report);
+        add_costs(&c, (double)(clock() - start) / CLOCKS_PER_SEC, record);
+        line = record ? study_journal_line(record, memory->said) : memory_print_text("!%s\n", why);
+        free(why);
+    }
+    bool sent = study_write_all(to, line, strlen(line));
+    study_chain_pass(chain, &c, record);
+    json_decref(record);
+    free(line);
+    study_case_close(&c);
+    return sent;
+}
+
+/* What a case frees stays with the process for the next one, instead of going back to the system,
+   which would hand it out again page by page. */
+static void keep_memory(void)
+{
+    enum { TRIM = 1 << 28, TOP_PAD = 1 << 20, MMAP = 1 << 25 };
+    mallopt(M_TRIM_THRESHOLD, TRIM);
+    mallopt(M_TOP_PAD, TOP_PAD);
+    mallopt(M_MMAP_THRESHOLD, MMAP);
+}
+
+bool study_read_all(int fd, void *data, size_t size)
+{
+    for (char *at = data; size > 0;) {
+        ssize_t got = read(fd, at, size);
+        if (got == 0 || (got < 0 && errno != EINTR))
+            return false;
+        at += got > 0 ? got : 0;
+        size -= got > 0 ? (size_t)got : 0;
+    }
+    return true;
+}
+
+static bool take_case(const study_run *run, int from, size_t *index)
+{
+    size_t length;
+    if (!study_read_all(from, index, sizeof *index))
+        return false;
+    if (!run->study->streams)
+        return true;
+    if (!study_read_all(from, &length, sizeof length))
+        return false;
+    char *row = memory_alloc(length + 1);
+    bool whole = study_read_all(from, row, length);
+    if (whole)
+        study_rows_put(run->study->rows, *index, row);
+    free(row);
+    return whole;
+}
+
+static _Noreturn void serve_cases(const study_worker *worker, const study_run *run,
+                                  study_records *done, size_t slot, int from, int to)
+{
+    static study_reuse_stats stats[MOST_STAGES];
+    size_t index;
+    int null = open("/dev/null", O_RDWR);
+    setpgid(0, 0); /* what a plugin starts is ended with the worker */
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    signal(SIGINT, SIG_IGN);
+    signal(SIGTERM, SIG_IGN); /* the process that leads the run decides when to end */
+    dup2(null, STDIN_FILENO);
+    dup2(null, STDOUT_FILENO);
+    dup2(worker->captured, STDERR_FILENO);
+    keep_memory();
+    limit_memory(run);
+    crash_hunger_watch();
+    crash_mark(&worker->shared->running);
+    limit_processes();
+    if (run->study->measure)
+        study_measure_pin();
+    char *path = memory_print_text("%s/stages", run->directory);
+    mkdir(path, 0777); /* it may be there */
+    int stages = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    free(path);
+    study_memory memory = {
+        .directory = stages,
+        .stats = stats,
+        .arrays = {.run = run, .shared = worker->shared, .slot = slot},
+        .seen = json_object(),
+        .said = json_object(),
+    };
+    study_chain chain = {0};
+    const ff_environment *environment = ff_environment_keep();
+    while (take_case(run, from, &index)) {
+        ff_environment_restore(environment); /* destroy may have left it changed */
+        if (ftruncate(worker->captured, 0) != 0 ||
+            !run_case(worker, run, index, done, &memory, &chain, to))
+            break;
+    }
+    _exit(0);
+}
+
+static void close_files(study_worker *worker)
+{
+    close(worker->to);
+    close(worker->from);
+    close(worker->captured);
+}
+
+/* Closes in a worker what belongs to others: without that the other workers would not see the end
+   of their input, and a plugin could write into the journal. */
+static void close_others(const study_worker *worker, const study_pool *pool)
+{
+    for (size_t i = 0; i < pool->run->jobs; i++) {
+        const study_worker *other = &pool->workers[i];
+        if (other->pid > 0 && other != worker) {
+            close(other->to);
+            close(other->from);
+            close(other->captured);
+        }
+    }
+    for (size_t i = 0; i < sizeof pool->hidden / sizeof *pool->hidden; i++)
+        if (pool->hidden[i] >= 0)
+            close(pool->hidden[i]);
+    study_records_let_go(pool->done);
+}
+
+bool study_worker_start(study_worker *worker, const study_pool *pool)
+{
+    int to[2], from[2];
+    if (!worker->shared) {
+        worker->shared = mmap(NULL, sizeof *worker->shared, PROT_READ | PROT_WRITE,
+                              MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        if (worker->shared == MAP_FAILED)
+            worker->shared = NULL;
+    }
+    if (!worker->shared || !study_open_pipes(to, from))
+        return false;
+    worker->captured = memfd_create("flankfilm", MFD_CLOEXEC);
+    fcntl(worker->captured, F_SETFL, O_APPEND);
+    fflush(NULL);
+    worker->pid = fork();
+    if (worker->pid == 0) {
+        close_others(worker, pool);
+        close(to[1]);
+        close(from[0]);
+        serve_cases(worker, pool->run, pool->done, (size_t)(worker - pool->workers) + 1, to[0],
+                    from[1]);
+    }
+    close(to[0]);
+    close(from[1]);
+    worker->to = to[1];
+    worker->from = from[0];
+    worker->busy = false;
+    worker->length = 0;
+    if (worker->pid > 0) {
+        setpgid(worker->pid, worker->pid); /* it may not have come to it yet */
+        return true;
+    }
+    worker->pid = 0;
+    close_files(worker);
+    return false;
+}
+
+/* A number, and the text of the row when the worker may not know it. */
+bool study_worker_send_case(study_worker *worker, const study_run *run, size_t index)
+{
+    const study_definition *study = run->study;
+    const char *row = study->streams ? study_rows_text(study->rows, index) : NULL;
+    size_t length = row ? strlen(row) : 0;
+    worker->shared->key[0] = '\0';
+    worker->busy = true;
+    worker->index = index;
+    worker->since = study_seconds_now();
+    worker->stops = 0;
+    worker->length = 0;
+    return study_write_all(worker->to, &index, sizeof index) &&
+           (!row || (study_write_all(worker->to, &length, sizeof length) &&
+                     study_write_all(worker->to, row, length)));
+}
+
+int study_worker_read(study_worker *worker)
+{
+    enum { BLOCK = 65536 };
+    worker->line = memory_resize(worker->line, worker->length + BLOCK + 1);
+    ssize_t got = read(worker->from, worker->line + worker->length, BLOCK);
+    if (got < 0 && errno == EINTR)
+        return 0;
+    if (got <= 0 || worker->length > LONGEST_ANSWER)
+        return -1;
+    worker->length += (size_t)got;
+    worker->line[worker->length] = '\0';
+    return worker->line[worker->length - 1] == '\n';
+}
+
+static const char told[] = "error: "; /* by the worker itself */
+
+/* The first line that says "error: ", without that, or the first of all: libraries may have written
+   before the program did. */
+static char *pick_line(const char *text)
+{
+    const char *line = text;
+    while (line && strncmp(line, told, sizeof told - 1) != 0)
+        line = (line = strchr(line, '\n')) ? line + 1 : NULL;
+    line = line ? line + sizeof told - 1 : text;
+    return memory_copy_text(line, strcspn(line, "\n"));
+}
+
+bool study_worker_is_ahead(const study_worker *worker)
+{
+    return worker->shared && worker->shared->end > worker->synced;
+}
+
+bool study_worker_sync(study_worker *worker, const study_run *run)
+{
+    off_t end = worker->shared->end;
+    char *path = memory_print_text("%s/%s", run->directory, worker->shared->name);
+    int log = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW), state = -1;
+    free(path);
+    while (log >= 0 && (state = fdatasync(log)) != 0 && errno == EINTR)
+        ;
+    int cause = errno;
+    if (log >= 0)
+        close(log);
+    errno = cause;
+    worker->synced = state == 0 ? end : worker->synced;
+    return state == 0;
+}
+
+void study_worker_kill(const study_worker *worker)
+{
+    kill(worker->pid, SIGKILL);
+    kill(-worker->pid, SIGKILL);
+}
+
+bool study_worker_is_gone(study_worker *worker)
+{
+    siginfo_t info = {.si_pid = 0};
+    int state = waitid(P_PID, (id_t)worker->pid, &info, WEXITED | WSTOPPED | WNOHANG | WNOWAIT);
+    bool seen = state == 0 && info.si_pid == worker->pid, stopped = info.si_code == CLD_STOPPED;
+    worker->stops = !seen ? 0 : worker->stops + stopped;
+    if (stopped && worker->stops == MOST_STOPS)
+        study_worker_kill(worker);
+    return seen && !stopped;
+}
+
+char *study_worker_reap(study_worker *worker)
+{
+    siginfo_t info;
+    char tail[CRASH_SENTENCE] = "", text[CRASH_SENTENCE];
+    int status = 0;
+    off_t end = lseek(worker->captured, 0, SEEK_END);
+    off_t begin = end > (off_t)sizeof tail - 1 ? end - (off_t)sizeof tail + 1 : 0;
+    while (waitid(P_PID, (id_t)worker->pid, &info, WEXITED | WNOWAIT) < 0 && errno == EINTR)
+        ;
+    kill(-worker->pid, SIGKILL); /* while its number is still its own */
+    while (waitpid(worker->pid, &status, 0) < 0 && errno == EINTR)
+        ;
+    if (worker->stops >= MOST_STOPS)
+        status = W_STOPCODE(SIGSTOP);
+    ssize_t length = pread(worker->captured, tail, sizeof tail - 1, begin);
+    tail[length > 0 ? length : 0] = '\0';
+    close_files(worker);
+    worker->pid = 0;
+    if (!strstr(tail, told) && crash_describe(&worker->shared->running, status, text, sizeof text))
+        return memory_copy_text(text, strlen(text));
+    if (*tail)
+        return pick_line(tail);
+    return WIFSIGNALED(status)
+               ? memory_print_text("the process was ended by signal %d (%s)", WTERMSIG(status),
+                                   strsignal(WTERMSIG(status)))
+               : memory_print_text("the process ended with code %d", WEXITSTATUS(status));
+}

@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef STUDY_ARRAY_READ_H
+#define STUDY_ARRAY_READ_H
+
+#include "../../arrays/log.h"
+#include "../../memory/memory.h"
+
+#include <jansson.h>
+
+/* Reads an array of a case from its log; NULL when there is none, or with what is
+ * wrong.
+ */
+const double *study_array_read(arrays_reader *reader, const json_t *record, const char *name,
+                               memory_arena *arena, size_t *rank, size_t *count,
+                               char why[ARRAYS_WHY]);
+
+#endif

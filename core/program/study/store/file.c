@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Writes the files of a study beside its journal: after an error the earlier file is still there.
+ */
+#include "journal.h"
+
+#include "../../memory/memory.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+const char study_description[] = "study.json";
+
+study_file study_file_begin(const char *directory, const char *name)
+{
+    study_file file = {.path = memory_print_text("%s/%s", directory, name)};
+    file.part = memory_print_text("%s.%ld.part", file.path,
+                                  (long)getpid()); /* other shards may write the same file */
+    file.out = fopen(file.part, "we");
+    file.cause = errno;
+    return file;
+}
+
+bool study_file_end(study_file *file, const char *hint, ff_report *report)
+{
+    FILE *out = file->out;
+    errno = out ? EIO : file->cause; /* an earlier error of writing may be told no more */
+    bool good = out && fflush(out) == 0 && !ferror(out) && fsync(fileno(out)) == 0;
+    int cause = errno;
+    if (out && fclose(out) != 0 && good) {
+        cause = errno;
+        good = false;
+    }
+    if (good && rename(file->part, file->path) != 0) {
+        cause = errno;
+        good = false;
+    }
+    if (!good) {
+        unlink(file->part);
+        ff_error(report, FF_FAULT_RUN, FF_NOWHERE, hint, "%s could not be written: %s", file->path,
+                 strerror(cause));
+    }
+    free(file->path);
+    free(file->part);
+    return good;
+}
+
+bool study_write_file(const char *directory, const char *name, const char *text, const char *hint,
+                      ff_report *report)
+{
+    study_file file = study_file_begin(directory, name);
+    if (file.out)
+        fputs(text, file.out);
+    return study_file_end(&file, hint, report);
+}
+
+json_t *study_read_json(int directory, const char *name, json_error_t *error)
+{
+    struct stat about;
+    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe would not end */
+    bool regular = fd >= 0 && fstat(fd, &about) == 0 && S_ISREG(about.st_mode);
+    FILE *stream = regular ? fdopen(fd, "r") : NULL;
+    json_t *root = stream ? json_loadf(stream, 0, error) : NULL;
+    if (!stream)
+        snprintf(error->text, sizeof error->text, "%s",
+                 fd < 0 || regular ? strerror(errno) : "it is not a regular file");
+    if (stream)
+        fclose(stream);
+    else if (fd >= 0)
+        close(fd);
+    return root;
+}
+
+bool study_check_format(const char *directory, ff_report *report)
+{
+    char *path = memory_print_text("%s/%s", directory, study_description);
+    json_error_t error;
+    json_t *study = study_read_json(AT_FDCWD, path, &error);
+    const json_t *told = json_object_get(study, "format");
+    json_int_t format = told ? json_integer_value(told) : 1;
+    bool good =
+        !study || format == STUDY_FORMAT ||
+        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
+                 format < STUDY_FORMAT
+                     ? "name another directory with -o, or read it with that flankfilm"
+                     : "read it with a newer flankfilm",
+                 "\"%s\" is of %s flankfilm: its files are of format %lld, not %d", directory,
+                 format < STUDY_FORMAT ? "an older" : "a newer", (long long)format, STUDY_FORMAT);
+    json_decref(study);
+    free(path);
+    return good;
+}
+
+void study_remove_parts(int directory)
+{
+    static const char end[] = ".part";
+    const char *const heads[] = {study_description, "table.csv"};
+    int fd = openat(directory, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *list = fd < 0 ? NULL : fdopendir(fd);
+    const struct dirent *item;
+    while (list && (item = readdir(list)))
+        for (size_t i = 0; i < sizeof heads / sizeof *heads; i++) {
+            size_t length = strlen(item->d_name), head = strlen(heads[i]);
+            if (length > head + sizeof end && !strncmp(item->d_name, heads[i], head) &&
+                !strcmp(item->d_name + length - (sizeof end - 1), end))
+                unlinkat(dirfd(list), item->d_name, 0);
+        }
+    if (list)
+        closedir(list);
+    else if (fd >= 0)
+        close(fd);
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Hashes of what results depend on. */
+#ifndef STUDY_HASH_H
+#define STUDY_HASH_H
+
+#include <flankfilm/engine.h>
+
+/* Start of an FNV-1a hash of 64 bits. */
+#define STUDY_HASH_START UINT64_C(0xcbf29ce484222325)
+
+uint64_t study_hash(uint64_t hash, const void *data, size_t length);
+uint64_t study_hash_text(uint64_t hash, const char *text); /* NULL differs from "" */
+/* Hashes the model and parameters of a stage, and which outputs it computes. */
+uint64_t study_hash_setup(const ff_stage *stage);
+/* Hashes what the case depends on: models, parameters in SI, contents of files, what feeds what,
+   and which outputs are requested. Sets in fingerprints the same for each needed stage. */
+uint64_t study_fingerprint(const ff_pipeline *pipeline, uint64_t *fingerprints);
+/* Hashes what the results of a stage depend on, just before it is evaluated: as above, but with the
+   values that it is fed instead of the stages that feed it. A stage of a loop stands for all. */
+uint64_t study_hash_evaluation(const ff_pipeline *pipeline, const ff_stage *stage,
+                               const uint64_t *fingerprints);
+
+#endif

@@ -1,0 +1,364 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "judgement.h"
+
+#include "../../memory/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A quality line that is not good, or a warning. */
+typedef struct doubt {
+    char *words;
+    int verdict;
+    double beyond; /* how far it is beyond its limit, as a magnitude of a logarithm */
+} doubt;
+
+typedef struct doubts {
+    doubt *lines;
+    size_t count;
+} doubts;
+
+const char study_refused[] = "refused";
+
+const char *study_verdict_name(int verdict)
+{
+    return verdict == STUDY_CASE_FAILED    ? "failed"
+           : verdict == STUDY_CASE_REFUSED ? study_refused
+                                           : ff_verdict_name(verdict);
+}
+
+/* A name of a line in words: "inlet heating" of inlet_heating. */
+static char *words_of(const char *name)
+{
+    char *words = memory_copy_text(name, strlen(name));
+    for (char *c = words; *c; c++)
+        *c = *c == '_' ? ' ' : *c;
+    return words;
+}
+
+static double beyond_limit(double value, double limit)
+{
+    value = fabs(value);
+    limit = fabs(limit);
+    return value > 0 && limit > 0 && isfinite(value) ? fabs(log(value / limit)) : HUGE_VAL;
+}
+
+/* Adds a line that is not good. Lines of one name, of several stages, are one reason: the worst. */
+static void add_doubt(doubts *all, const char *name, double value, double limit, int verdict)
+{
+    if (verdict == FF_GOOD)
+        return;
+    doubt made = {words_of(name), verdict, beyond_limit(value, limit)};
+    for (size_t i = 0; i < all->count; i++) {
+        doubt *known = &all->lines[i];
+        if (strcmp(known->words, made.words) != 0)
+            continue;
+        known->beyond = fmax(known->beyond, made.beyond);
+        known->verdict = known->verdict > verdict ? known->verdict : verdict;
+        free(made.words);
+        return;
+    }
+    all->lines = memory_resize(all->lines, (all->count + 1) * sizeof *all->lines);
+    all->lines[all->count++] = made;
+}
+
+/* "film.z outside its calibrated range" of "film.z: 3 is outside the calibrated range, ...", else
+   the first clause: what differs between cases is left out, so that they can be counted. */
+static char *words_of_warning(const char *text)
+{
+    static const char range[] = " is outside the calibrated range";
+    size_t name = strcspn(text, ":");
+    if (strstr(text + name, range))
+        return memory_print_text("%.*s outside its calibrated range", (int)name, text);
+    size_t length = strcspn(text, ",;(");
+    while (length > 0 && text[length - 1] == ' ')
+        length--;
+    return memory_copy_text(text, length);
+}
+
+/* A warning is a reason to look, which leaves the verdict as it is. */
+static void add_warning(doubts *all, const char *text)
+{
+    doubt made = {words_of_warning(text), FF_GOOD, 0};
+    for (size_t i = 0; i < all->count; i++)
+        if (!strcmp(all->lines[i].words, made.words)) {
+            free(made.words);
+            return;
+        }
+    all->lines = memory_resize(all->lines, (all->count + 1) * sizeof *all->lines);
+    all->lines[all->count++] = made;
+}
+
+static int by_gravity(const void *a, const void *b)
+{
+    const doubt *one = a, *other = b;
+    if (one->verdict != other->verdict)
+        return one->verdict > other->verdict ? -1 : 1;
+    if (one->beyond < other->beyond || one->beyond > other->beyond)
+        return one->beyond > other->beyond ? -1 : 1;
+    return strcmp(one->words, other->words);
+}
+
+static void add_reason(study_judgement *judgement, char *words)
+{
+    judgement->reasons =
+        memory_resize(judgement->reasons, (judgement->count + 1) * sizeof *judgement->reasons);
+    judgement->reasons[judgement->count++] = words;
+}
+
+/* Takes over the lines. `failure` is the first reason of a case that failed, or NULL. */
+static study_judgement judge(doubts *all, bool failed, const char *failure)
+{
+    study_judgement judgement = {.verdict = failed ? STUDY_CASE_FAILED : FF_GOOD};
+    if (all->count)
+        qsort(all->lines, all->count, sizeof *all->lines, by_gravity);
+    if (all->count && (!failed || all->lines[0].verdict == FF_BAD))
+        judgement.verdict = all->lines[0].verdict;
+    if (judgement.verdict == STUDY_CASE_FAILED && failure)
+        add_reason(&judgement, memory_copy_text(failure, strlen(failure)));
+    for (size_t i = 0; i < all->count; i++)
+        add_reason(&judgement, all->lines[i].words);
+    free(all->lines);
+    return judgement;
+}
+
+static double number_of(const json_t *value)
+{
+    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+}
+
+void study_judge_record(json_t *record)
+{
+    doubts all = {0};
+    const char *stage, *name, *status = json_string_value(json_object_get(record, "status"));
+    json_t *lines, *line;
+    json_object_foreach(json_object_get(record, "quality"), stage, lines)
+        json_object_foreach(lines, name, line)
+    {
+        json_int_t verdict = json_integer_value(json_array_get(line, 2));
+        bool known = verdict >= FF_GOOD && verdict <= FF_BAD; /* to this version */
+        add_doubt(&all, name, number_of(json_array_get(line, 0)),
+                  number_of(json_array_get(line, 1)), known ? (int)verdict : FF_BAD);
+    }
+    json_t *warning;
+    size_t i;
+    json_array_foreach(json_object_get(record, "warnings"), i, warning)
+        add_warning(&all, json_is_string(warning) ? json_string_value(warning) : "a warning");
+    bool plain = !status || !strcmp(status, "failed") ||
+                 !strcmp(status, study_refused); /* that alone says nothing of the cause */
+    study_judgement judgement =
+        judge(&all, !status || strcmp(status, "ok") != 0, plain ? NULL : status);
+    if (status && !strcmp(status, study_refused))
+        judgement.verdict = STUDY_CASE_REFUSED;
+    study_judgement_add(&judgement, record);
+    study_judgement_free(&judgement);
+}
+
+bool study_judgement_read(study_judgement *judgement, const json_t *object)
+{
+    const char *verdict = json_string_value(json_object_get(object, "verdict"));
+    const json_t *reasons = json_object_get(object, "reasons");
+    size_t i;
+    json_t *reason;
+    *judgement = (study_judgement){.verdict = FF_GOOD};
+    while (verdict && judgement->verdict < STUDY_VERDICTS &&
+           strcmp(study_verdict_name(judgement->verdict), verdict) != 0)
+        judgement->verdict++;
+    if (!verdict || !json_is_array(reasons) || judgement->verdict == STUDY_VERDICTS) {
+        judgement->verdict = STUDY_CASE_FAILED;
+        return false;
+    }
+    json_array_foreach(reasons, i, reason)
+    {
+        const char *text = json_string_value(reason);
+        add_reason(judgement, memory_copy_text(text ? text : "", text ? strlen(text) : 0));
+    }
+    return true;
+}
+
+study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed)
+{
+    doubts all = {0};
+    for (size_t i = 0; i < pipeline->count; i++)
+        for (size_t k = 0; k < pipeline->stages[i].quality_count; k++) {
+            const ff_quality *line = &pipeline->stages[i].quality[k];
+            add_doubt(&all, line->name, line->value, line->limit, line->verdict);
+        }
+    return judge(&all, failed, NULL);
+}
+
+void study_judgement_free(study_judgement *judgement)
+{
+    for (size_t i = 0; i < judgement->count; i++)
+        free(judgement->reasons[i]);
+    free(judgement->reasons);
+    *judgement = (study_judgement){.verdict = FF_GOOD};
+}
+
+char *study_judgement_text(const study_judgement *judgement)
+{
+    char *text = memory_print_text("%s", "");
+    for (size_t i = 0; i < judgement->count; i++) {
+        char *longer = memory_print_text("%s%s%s", text, i ? ", " : "", judgement->reasons[i]);
+        free(text);
+        text = longer;
+    }
+    return text;
+}
+
+void study_judgement_add(const study_judgement *judgement, json_t *object)
+{
+    json_t *reasons = json_array();
+    for (size_t i = 0; i < judgement->count; i++)
+        json_array_append_new(reasons, json_string(judgement->reasons[i]));
+    json_object_set_new(object, "verdict", json_string(study_verdict_name(judgement->verdict)));
+    json_object_set_new(object, "reasons", reasons);
+}
+
+static void count_reason(json_t **reasons, const char *reason, json_int_t cases)
+{
+    *reasons = *reasons ? *reasons : json_object();
+    json_object_set_new(
+        *reasons, reason,
+        json_integer(json_integer_value(json_object_get(*reasons, reason)) + cases));
+}
+
+static void list_case(study_tally *tally, const study_judgement *judgement, size_t number,
+                      const char *key)
+{
+    tally->cases = tally->cases ? tally->cases : json_array();
+    if (json_array_size(tally->cases) > STUDY_MOST_JUDGED)
+        return;
+    json_t *entry = json_pack("{s:I, s:s}", "case", (json_int_t)number, "key", key);
+    study_judgement_add(judgement, entry);
+    json_array_append_new(tally->cases, entry);
+}
+
+void study_tally_add(study_tally *tally, size_t number, const char *key,
+                     const study_judgement *judgement)
+{
+    tally->counts[judgement->verdict]++;
+    for (size_t i = 0; i < judgement->count; i++)
+        count_reason(&tally->reasons[judgement->verdict], judgement->reasons[i], 1);
+    list_case(tally, judgement, number, key);
+}
+
+void study_tally_merge(study_tally *tally, study_tally *part)
+{
+    const char *reason;
+    json_t *cases;
+    for (int v = 0; v < STUDY_VERDICTS; v++) {
+        tally->counts[v] += part->counts[v];
+        json_object_foreach(part->reasons[v], reason, cases)
+            count_reason(&tally->reasons[v], reason, json_integer_value(cases));
+    }
+    if (part->cases && tally->cases)
+        json_array_extend(tally->cases, part->cases);
+    else if (part->cases)
+        tally->cases = json_incref(part->cases);
+    study_tally_free(part);
+}
+
+void study_tally_free(study_tally *tally)
+{
+    for (int v = 0; v < STUDY_VERDICTS; v++)
+        json_decref(tally->reasons[v]);
+    json_decref(tally->cases);
+    *tally = (study_tally){.cases = NULL};
+}
+
+typedef struct reason_count {
+    const char *reason;
+    json_int_t cases;
+} reason_count;
+
+static int by_frequency(const void *a, const void *b)
+{
+    const reason_count *one = a, *other = b;
+    if (one->cases != other->cases)
+        return one->cases > other->cases ? -1 : 1;
+    return strcmp(one->reason, other->reason);
+}
+
+/* Returns the reasons of a verdict, the most frequent first, to be freed. */
+static reason_count *sort_reasons(const study_tally *tally, int verdict, size_t *count)
+{
+    const char *reason;
+    json_t *cases;
+    reason_count *list =
+        memory_alloc((json_object_size(tally->reasons[verdict]) + 1) * sizeof *list);
+    *count = 0;
+    json_object_foreach(tally->reasons[verdict], reason, cases) list[(*count)++] =
+        (reason_count){reason, json_integer_value(cases)};
+    qsort(list, *count, sizeof *list, by_frequency);
+    return list;
+}
+
+char *study_tally_text(const study_tally *tally)
+{
+    char *text = NULL;
+    size_t length = 0, count;
+    FILE *out = memory_require(open_memstream(&text, &length));
+    const char *gap = "";
+    for (int v = 0; v < STUDY_VERDICTS; v++) {
+        if (!tally->counts[v])
+            continue;
+        fprintf(out, "%s%zu %s", gap, tally->counts[v], study_verdict_name(v));
+        gap = ", ";
+        reason_count *list = sort_reasons(tally, v, &count);
+        for (size_t i = 0; i < count; i++)
+            fprintf(out, "%s%s %" JSON_INTEGER_FORMAT, i ? ", " : " (", list[i].reason,
+                    list[i].cases);
+        fputs(count ? ")" : "", out);
+        free(list);
+    }
+    fclose(out);
+    return text;
+}
+
+static int by_number(const void *a, const void *b)
+{
+    const json_t *const *one = a, *const *other = b;
+    json_int_t first = json_integer_value(json_object_get(*one, "case"));
+    json_int_t second = json_integer_value(json_object_get(*other, "case"));
+    return first < second ? -1 : first > second;
+}
+
+/* Returns the cases in their order; null when they are too many. */
+static json_t *list_cases(const study_tally *tally)
+{
+    size_t count = json_array_size(tally->cases);
+    if (count > STUDY_MOST_JUDGED)
+        return json_null();
+    json_t **sorted = memory_alloc((count + 1) * sizeof *sorted), *list = json_array();
+    for (size_t i = 0; i < count; i++)
+        sorted[i] = json_array_get(tally->cases, i);
+    qsort(sorted, count, sizeof *sorted, by_number);
+    for (size_t i = 0; i < count; i++)
+        json_array_append(list, sorted[i]);
+    free(sorted);
+    return list;
+}
+
+void study_tally_describe(const study_tally *tally, json_t *object)
+{
+    json_t *counts = json_object(), *reasons = json_array();
+    int worst = FF_GOOD;
+    for (int v = 0; v < STUDY_VERDICTS; v++) {
+        size_t count;
+        json_object_set_new(counts, study_verdict_name(v),
+                            json_integer((json_int_t)tally->counts[v]));
+        worst = tally->counts[v] ? v : worst;
+        reason_count *list = sort_reasons(tally, v, &count);
+        for (size_t i = 0; i < count; i++)
+            json_array_append_new(reasons,
+                                  json_pack("{s:s, s:s, s:I}", "reason", list[i].reason, "verdict",
+                                            study_verdict_name(v), "cases", list[i].cases));
+        free(list);
+    }
+    json_object_set_new(object, "verdict", json_string(study_verdict_name(worst)));
+    json_object_set_new(object, "counts", counts);
+    json_object_set_new(object, "reasons", reasons);
+    json_object_set_new(object, "judged", list_cases(tally));
+}

@@ -1,0 +1,229 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Keeps results of stages on disk. The file of a stage is locked while one process computes what
+ * others wait for. A checksum tells a complete file from one that was broken off.
+ */
+#include "reuse.h"
+
+#include "hash.h"
+
+#include "../../arrays/record.h"
+#include "../../memory/memory.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static const double worth_keeping = 2e-3; /* s; keeping a file takes a tenth of that */
+enum {
+    FORM = 2, /* of a file: another one is of another version, and counts as damaged */
+    LARGEST = 1 << 26,
+    /* bytes of a file */ MOST_IDLE =
+        1 << 26 /* bytes kept in vain, after which a stage is not kept any more */
+};
+
+static void write_text(FILE *out, const char *text)
+{
+    size_t length = text ? strlen(text) : 0;
+    fwrite(&length, sizeof length, 1, out);
+    if (length)
+        fwrite(text, 1, length, out);
+}
+
+static void read_bytes(FILE *in, void *data, size_t size)
+{
+    if (fread(data, 1, size, in) != size)
+        memset(data, 0, size);
+}
+
+/* Returns NULL for an empty text. */
+static char *read_text(FILE *in)
+{
+    size_t length;
+    read_bytes(in, &length, sizeof length);
+    char *text = length ? memory_alloc(length + 1) : NULL;
+    if (text)
+        read_bytes(in, text, length);
+    return text;
+}
+
+/* Stage number `i` of those that are kept together: of the loop, or the stage alone. NULL: there
+   are no more. */
+static ff_stage *together(const ff_pipeline *pipeline, const ff_stage *stage, size_t i)
+{
+    if (stage->loop && i < stage->loop->count)
+        return &pipeline->stages[pipeline->order[stage->loop->first + i]];
+    return !stage->loop && i == 0 ? &pipeline->stages[stage - pipeline->stages] : NULL;
+}
+
+static void write_results(const ff_stage *stage, FILE *out)
+{
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        const ff_result *result = &stage->results[i];
+        int32_t rank = result->data ? (int32_t)result->rank : -1;
+        fwrite(&rank, sizeof rank, 1, out);
+        fwrite(result->shape, sizeof *result->shape, rank > 0 ? (size_t)rank : 0, out);
+        if (result->data)
+            fwrite(result->data, sizeof *result->data, result->count, out);
+    }
+    fwrite(&stage->seconds, sizeof stage->seconds, 1, out);
+    fwrite(&stage->work, sizeof stage->work, 1, out);
+    fwrite(&stage->quality_count, sizeof stage->quality_count, 1, out);
+    for (size_t i = 0; i < stage->quality_count; i++) {
+        const ff_quality *line = &stage->quality[i];
+        fwrite(&line->value, sizeof line->value, 1, out);
+        fwrite(&line->limit, sizeof line->limit, 1, out);
+        const int32_t verdict = line->range ? FF_RANGE : line->verdict;
+        fwrite(&verdict, sizeof verdict, 1, out);
+        write_text(out, line->name);
+        write_text(out, line->text);
+    }
+}
+
+/* Reads what write_results wrote, whose checksum has been verified. False when a wanted result is
+   missing. */
+static bool read_results(ff_stage *stage, FILE *in)
+{
+    bool all = true;
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        ff_result *result = &stage->results[i];
+        int32_t rank;
+        read_bytes(in, &rank, sizeof rank);
+        all = all && (rank >= 0 || !result->wanted); /* the model may not have given it */
+        if (rank < 0)
+            continue;
+        size_t shape[FF_MAX_RANK];
+        read_bytes(in, shape, (uint32_t)rank * sizeof *shape);
+        double *data = ff_result_fill(stage, i, (uint32_t)rank, shape);
+        read_bytes(in, data, result->count * sizeof *data);
+    }
+    size_t lines;
+    read_bytes(in, &stage->seconds, sizeof stage->seconds);
+    read_bytes(in, &stage->work, sizeof stage->work);
+    read_bytes(in, &lines, sizeof lines);
+    for (size_t i = 0; i < lines; i++) {
+        ff_quality line;
+        read_bytes(in, &line.value, sizeof line.value);
+        read_bytes(in, &line.limit, sizeof line.limit);
+        read_bytes(in, &line.verdict, sizeof line.verdict);
+        char *name = read_text(in), *text = read_text(in);
+        ff_add_quality(stage, name, line.value, line.limit, line.verdict, text);
+        free(name);
+        free(text);
+    }
+    return all;
+}
+
+static bool read_kept(int fd, const ff_pipeline *pipeline, const ff_stage *stage)
+{
+    struct stat info;
+    uint64_t sum;
+    if (fstat(fd, &info) != 0 || info.st_size <= (off_t)sizeof sum || info.st_size > LARGEST)
+        return false;
+    size_t size = (size_t)info.st_size;
+    char *text = memory_alloc(size);
+    bool whole = arrays_read_at(fd, text, size, 0);
+    memcpy(&sum, text, sizeof sum);
+    whole =
+        whole && sum == study_hash(STUDY_HASH_START ^ FORM, text + sizeof sum, size - sizeof sum);
+    FILE *in = whole ? fmemopen(text + sizeof sum, size - sizeof sum, "r") : NULL;
+    bool good = in != NULL;
+    for (size_t i = 0; good && together(pipeline, stage, i); i++)
+        good = read_results(together(pipeline, stage, i), in);
+    if (in)
+        fclose(in);
+    free(text);
+    return good;
+}
+
+void study_reuse_clear(int study)
+{
+    int fd = openat(study, "stages", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *list = fd < 0 ? NULL : fdopendir(fd);
+    const struct dirent *item;
+    while (list && (item = readdir(list)))
+        unlinkat(dirfd(list), item->d_name, 0);
+    if (list)
+        closedir(list);
+    else if (fd >= 0)
+        close(fd);
+}
+
+bool study_reuse_recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
+{
+    study_reuse *reuse = ctx;
+    size_t index = (size_t)(stage - pipeline->stages);
+    study_reuse_stats *own = &reuse->stats[index];
+    bool fresh = false;
+    for (size_t i = 0; reuse->fresh && together(pipeline, stage, i); i++)
+        fresh = fresh || reuse->fresh[together(pipeline, stage, i) - pipeline->stages];
+    if (reuse->directory < 0 || fresh || own->idle > MOST_IDLE ||
+        (own->seconds > 0 && own->seconds < worth_keeping))
+        return false;
+    snprintf(reuse->name, sizeof reuse->name, "%016llx",
+             (unsigned long long)study_hash_evaluation(pipeline, stage, reuse->fingerprints));
+    int fd = openat(reuse->directory, reuse->name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (fd < 0)
+        return false;
+    while (flock(fd, LOCK_EX) != 0 && errno == EINTR)
+        ;
+    if (read_kept(fd, pipeline, stage)) {
+        own->idle = 0;
+        close(fd);
+        return true;
+    }
+    reuse->held = fd;
+    return false;
+}
+
+/* Returns the number of bytes written. */
+static size_t write_kept(int fd, const ff_pipeline *pipeline, const ff_stage *stage)
+{
+    char *text = NULL;
+    size_t length = 0;
+    uint64_t sum = 0;
+    FILE *out = open_memstream(&text, &length);
+    if (!out)
+        return 0;
+    fwrite(&sum, sizeof sum, 1, out);
+    for (size_t i = 0; together(pipeline, stage, i); i++)
+        write_results(together(pipeline, stage, i), out);
+    bool whole = fclose(out) == 0 && length <= LARGEST;
+    if (whole) {
+        sum = study_hash(STUDY_HASH_START ^ FORM, text + sizeof sum, length - sizeof sum);
+        memcpy(text, &sum, sizeof sum);
+        whole = ftruncate(fd, 0) == 0 && pwrite(fd, text, length, 0) == (ssize_t)length;
+    }
+    if (!whole && ftruncate(fd, 0) != 0)
+        length = 0; /* the checksum will show that the file is invalid */
+    free(text);
+    return length;
+}
+
+void study_reuse_keep(void *ctx, const ff_pipeline *pipeline, const ff_stage *stage)
+{
+    study_reuse *reuse = ctx;
+    size_t index = (size_t)(stage - pipeline->stages);
+    bool good = true;
+    double seconds = 0;
+    for (size_t i = 0; together(pipeline, stage, i); i++) {
+        const ff_stage *one = together(pipeline, stage, i);
+        good = good && one->ran && one->status == FF_OK;
+        seconds += one->seconds;
+    }
+    reuse->stats[index].seconds = seconds;
+    if (reuse->held < 0)
+        return;
+    good = good && json_array_size(reuse->warnings) == 0;
+    size_t kept = good && seconds >= worth_keeping ? write_kept(reuse->held, pipeline, stage) : 0;
+    reuse->stats[index].idle += kept;
+    if (kept == 0)
+        unlinkat(reuse->directory, reuse->name, 0);
+    close(reuse->held);
+    reuse->held = -1;
+}
