@@ -44,16 +44,19 @@ void arrays_log_title(char title[ARRAYS_LOG_HEAD])
 
 bool arrays_log_check_title(const char title[ARRAYS_LOG_HEAD], char why[ARRAYS_WHY])
 {
-    char expected[ARRAYS_LOG_HEAD];
+    enum { START = sizeof title_start - 1 };
+    char expected[ARRAYS_LOG_HEAD], format[ARRAYS_LOG_HEAD - START + 1];
     arrays_log_title(expected);
     if (memcmp(title, expected, ARRAYS_LOG_HEAD) == 0)
         return true;
-    if (memcmp(title, title_start, sizeof title_start - 1) != 0)
+    memcpy(format, title + START, ARRAYS_LOG_HEAD - START); /* it may have no end */
+    format[ARRAYS_LOG_HEAD - START] = '\0';
+    format[strcspn(format, " \n")] = '\0';
+    if (memcmp(title, title_start, START) != 0)
         snprintf(why, ARRAYS_WHY, "it is not a log of arrays");
     else
-        snprintf(why, ARRAYS_WHY, "it is of format %.*s of such logs; this flankfilm reads %d",
-                 (int)strcspn(title + sizeof title_start - 1, " \n"),
-                 title + sizeof title_start - 1, ARRAYS_LOG_FORMAT);
+        snprintf(why, ARRAYS_WHY, "it is of format %s of such logs; this flankfilm reads %d",
+                 format, ARRAYS_LOG_FORMAT);
     return false;
 }
 

@@ -2,6 +2,7 @@
 /* A log of arrays that is broken off or changed at any byte: what is read is right or a sentence,
    and who goes on with it leaves the same bytes as if nothing had happened. */
 #include "../../../core/program/arrays/log.h"
+#include "../../../core/program/arrays/record.h"
 
 #include <check.h>
 #include <errno.h>
@@ -158,6 +159,18 @@ static void test_changed(const lab *l)
     check_true("and leaves the others", others);
 }
 
+/* A title may be spoiled up to its last byte: nothing behind it is read. */
+static void test_endless_title(void)
+{
+    char why[ARRAYS_WHY], title[ARRAYS_LOG_HEAD + 8];
+    arrays_log_title(title);
+    size_t start = (size_t)(strchr(title, '1') - title);
+    memset(title + start, '7', ARRAYS_LOG_HEAD - start);
+    strcpy(title + ARRAYS_LOG_HEAD, "beyond");
+    check_true("a title without an end", !arrays_log_check_title(title, why) &&
+                                             has(why, "777 of such logs") && !has(why, "beyond"));
+}
+
 static void test_formats(const lab *l)
 {
     char why[ARRAYS_WHY], bytes[MOST];
@@ -189,6 +202,7 @@ int main(void)
     test_torn(&l);
     test_changed(&l);
     test_formats(&l);
+    test_endless_title();
     unlinkat(l.directory, "log", 0);
     close(l.directory);
     check_true("nothing is left", rmdir(path) == 0);
