@@ -213,7 +213,9 @@ static ff_status rate(const void *self, size_t n, const double *p, const double 
                       double *drate_dln_eta)
 {
     const carreau *c = self;
-    const rheology_limit limit = rheology_limit_of(limit_of(c));
+    /* where G is auto the limit acts on the traction alone, never on the flow */
+    const rheology_limit limit =
+        rheology_limit_of(isnan(c->G) ? 0 : c->limiting_stress_coefficient);
     double G[RHEOLOGY_BLOCK], by_p[RHEOLOGY_BLOCK];
     ff_status worst = FF_OK;
     int outside = 0;

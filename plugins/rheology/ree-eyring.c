@@ -249,8 +249,9 @@ static ff_status rate(const void *self, size_t n, const double *p, const double 
                       double *drate_dln_eta)
 {
     const ree_eyring *r = self;
+    /* where tau0 is auto the limit acts on the traction alone, never on the flow */
     const rheology_limit limit =
-        rheology_limit_of(isnan(r->tau0) ? r->eyring.coefficient : r->limiting_stress_coefficient);
+        rheology_limit_of(isnan(r->tau0) ? 0 : r->limiting_stress_coefficient);
     double tau0[RUN], by_p[RUN], unwanted[2][RUN];
     ff_status worst = FF_OK;
     for (size_t i = 0; i < n && worst >= 0; i += RUN) {

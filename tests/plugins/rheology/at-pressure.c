@@ -184,6 +184,20 @@ static void test_sensitivity(void)
     }
 }
 
+/* At a point the rate is that of Eyring's law at the stress of the pressure, above the limit, too.
+ */
+static void test_rate(void)
+{
+    scene s = open_scene("rheology/ree-eyring", "mineral", "ISO VG 150", "auto");
+    start(&s);
+    const ff_rheology_2 *local = stage_service(s.flow, FF_RHEOLOGY_2_ID);
+    const double p = 0.7 * GPa, T = 371, tau = 1.2 * 0.047 * p, tau_E = eyring(&s, p, T);
+    double ln = ln_eta(&s, p, T), rate;
+    local->rate(local->self, 1, &p, &T, &ln, &tau, &rate, NULL, NULL);
+    check_near("rate", rate, tau_E * exp(-ln) * sinh(tau / tau_E), 1e-9);
+    close_scene(&s);
+}
+
 /* A stress in numbers is the same by all services; one that is auto continues that of ambient
    pressure where the caller knows no pressure, and says so. */
 static void test_other_services(void)
@@ -255,6 +269,7 @@ int main(void)
     test_friction("rheology/carreau");
     test_sensitivity();
     test_carreau_follows();
+    test_rate();
     test_other_services();
     test_refusals();
     return check_done();
