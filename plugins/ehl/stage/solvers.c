@@ -57,7 +57,7 @@ static const ff_param params[] = {
     FF_COUNT("thermal_nodes", ehl_model, thermal_nodes, 0, "8", NULL, EHL_ACROSS_LEAST,
              EHL_ACROSS_MOST, 0, 0,
              "thermal: full: nodes across the film, those of Gauss, Legendre and Lobatto; the "
-             "error, which node_error tells, falls exponentially with them"),
+             "error falls exponentially with them"),
     FF_QUANTITY_UNLESS("gear.thermal_conductivity", "flank_conductivity", "W/(m K)", ehl_model,
                        flank_conductivity, 0, NUMERICS_STEEL_CONDUCTIVITY, NULL, 1e-3, 1e4, 0, 0,
                        "thermal: full: of both flanks, where no gear tells; steel 50"),
