@@ -61,6 +61,7 @@ static int64_t curve(double speed, size_t n, const double *restrict tau0,
                      const double *restrict ln_eta, const double *restrict h, double *restrict psi,
                      double *restrict by_p, double *restrict by_ln_eta, double *restrict by_h)
 {
+    const double least_tau0 = speed / SLIP_MAX;
     int64_t held = 0;
     for (size_t i = 0; i < n; i++) {
         double film = rheology_film(h[i]), ratio_0 = speed / tau0[i];
@@ -73,7 +74,8 @@ static int64_t curve(double speed, size_t n, const double *restrict tau0,
         by_ln_eta[i] = ln_eta[i] > -RHEOLOGY_LN_MAX ? by_eta : 0;
         by_h[i] = h[i] > RHEOLOGY_FILM_MIN ? by_film : 0;
         by_p[i] *= -s * (s / root) / tau0[i];
-        held |= (ln_eta[i] < -RHEOLOGY_LN_MAX) | (h[i] < RHEOLOGY_FILM_MIN) | !(slip < SLIP_MAX);
+        held |=
+            (ln_eta[i] < -RHEOLOGY_LN_MAX) | (h[i] < RHEOLOGY_FILM_MIN) | (tau0[i] < least_tau0);
     }
     return held;
 }
