@@ -309,8 +309,10 @@ static bool give(fe_request *q)
                          array->rank, q->name, ff_model_input(model, (size_t)input)->dims);
     for (uint32_t k = 0; k < array->rank; k++) {
         feed.shape[k] = array->shape ? array->shape[k] : SIZE_MAX;
-        if (__builtin_mul_overflow(count, feed.shape[k], &count))
+        if (__builtin_mul_overflow(count, feed.shape[k], &count)) {
+            count = SIZE_MAX;
             break;
+        }
     }
     if (array->rank && count > PTRDIFF_MAX / sizeof *feed.array.data)
         return fe_refuse(i, q->name, "the array for \"%s\" has more numbers than there can be",

@@ -30,6 +30,14 @@ static bool sync_names(int directory)
     return fsync(directory) == 0 || errno == EINVAL;
 }
 
+bool arrays_force(int file)
+{
+    int state;
+    while ((state = fdatasync(file)) != 0 && errno == EINTR)
+        ;
+    return state == 0 || errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP;
+}
+
 /* A log that is new, or was broken off within its title, gets one. */
 static bool write_title(arrays_log *log, int directory)
 {
@@ -37,7 +45,7 @@ static bool write_title(arrays_log *log, int directory)
     arrays_log_title(title);
     log->end = ARRAYS_LOG_HEAD;
     return ftruncate(log->fd, 0) == 0 && write_at(log->fd, title, sizeof title, 0) &&
-           fdatasync(log->fd) == 0 && sync_names(directory);
+           arrays_force(log->fd) && sync_names(directory);
 }
 
 /* Cuts off what follows the end; false with what is wrong, which is "" when errno says it. A log

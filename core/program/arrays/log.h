@@ -51,6 +51,9 @@ bool arrays_log_open(arrays_log *log, int directory, const char *name, off_t end
 bool arrays_log_append(arrays_log *log, const arrays_label *label, const double *data,
                        off_t *offset);
 void arrays_log_close(arrays_log *log);
+/* Forces what was written to the disk; false with errno. A file system that cannot be asked for it
+   lets it reach the disk without being asked, or never. */
+bool arrays_force(int file);
 
 /* log-read.c: logs of a directory that are being read. */
 enum { ARRAYS_MOST_OPEN = 16 };

@@ -106,7 +106,8 @@ static void hand_on(int number, siginfo_t *info, void *context)
     int before = errno;
     (void)context;
     if (info->si_pid != (pid_t)child) {
-        handed_on = number;
+        if (number != SIGCONT && number != SIGTSTP)
+            handed_on = number;
         if (info->si_code <= 0 || getpgid((pid_t)child) != getpgrp())
             kill((pid_t)child, number);
         if (number == SIGTSTP)
@@ -142,14 +143,16 @@ static bool stays_stopped(void)
     return true;
 }
 
-/* The status of the child; of one that a plugin has stopped, that. */
+/* The status of the child; of one that a plugin has stopped, that. Where nobody can tell it any
+   more, the one that it has left, or that of a run that failed. */
 static int wait_for_child(void)
 {
     int status = 0, stopped = 0;
     for (;;) {
         if (waitpid((pid_t)child, &status, WUNTRACED) < 0) {
             if (errno != EINTR)
-                return 0;
+                return (words->over || words->end.sentence[0] ? words->end.code : FF_FAULT_RUN)
+                       << 8;
         } else if (!WIFSTOPPED(status)) {
             return stopped ? stopped : status;
         } else if (WSTOPSIG(status) == SIGSTOP && words->running.who[0] && stays_stopped()) {
@@ -165,8 +168,9 @@ static void judge(int status, crash_end *end)
     int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     *end = words->end;
     end->sentence[sizeof end->sentence - 1] = '\0';
-    if (end->sentence[0])
+    if (end->sentence[0] && !words->over && !number && WEXITSTATUS(status) == end->code)
         return;
+    end->sentence[0] = '\0';                                 /* a plugin has written there */
     end->code = number ? FF_FAULT_RUN : WEXITSTATUS(status); /* a sanitizer may have changed it */
     if (words->over && !number)
         return;
@@ -227,7 +231,8 @@ bool crash_lead(crash_end *end)
     words = words == MAP_FAILED ? NULL : words;
     sigfillset(&all);
     sigprocmask(SIG_SETMASK, &all,
-                &before); /* no signal comes before there is a child to have it */
+                &before);     /* no signal comes before there is a child to have it */
+    signal(SIGCHLD, SIG_DFL); /* ignored, it would keep the status of the child from us */
     if (words)
         made = fork();
     if (made == 0)

@@ -33,6 +33,7 @@ void study_pool_close(study_pool *pool)
         if (worker->pid) {
             close(worker->to);
             worker->to = -1;
+            kill(worker->pid, SIGCONT); /* one that a plugin has stopped would never end */
             free(study_worker_reap(worker));
         }
         free(worker->line);

@@ -6,6 +6,7 @@
  */
 #include "workers.h"
 
+#include "../../arrays/log.h"
 #include "../../crash/hunger.h"
 #include "../../crash/lead.h"
 #include "../cases/chain.h"
@@ -350,16 +351,15 @@ bool study_worker_sync(study_worker *worker, const study_run *run)
 {
     off_t end = worker->shared->end;
     char *path = memory_print_text("%s/%s", run->directory, worker->shared->name);
-    int log = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW), state = -1;
+    int log = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
     free(path);
-    while (log >= 0 && (state = fdatasync(log)) != 0 && errno == EINTR)
-        ;
+    bool done = log >= 0 && arrays_force(log);
     int cause = errno;
     if (log >= 0)
         close(log);
     errno = cause;
-    worker->synced = state == 0 ? end : worker->synced;
-    return state == 0;
+    worker->synced = done ? end : worker->synced;
+    return done;
 }
 
 void study_worker_kill(const study_worker *worker)

@@ -6,6 +6,7 @@
 #include "form.h"
 #include "hash.h"
 
+#include "../../arrays/log.h"
 #include "../../memory/memory.h"
 
 #include <dirent.h>
@@ -257,16 +258,12 @@ static bool refuse_write(int cause, ff_report *report)
                     "the journal could not be written: %s", strerror(cause));
 }
 
-/* Where a file system cannot be asked for it, lines reach the disk without being asked, or never.
- */
 static bool force(study_journal *journal, ff_report *report)
 {
-    int state;
-    while ((state = fdatasync(journal->fd)) != 0 && errno == EINTR)
-        ;
+    bool done = arrays_force(journal->fd);
+    int cause = errno;
     journal->synced = study_seconds_now();
-    return state == 0 || errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP ||
-           refuse_write(errno, report);
+    return done || refuse_write(cause, report);
 }
 
 bool study_journal_append(study_journal *journal, const char *line, size_t length,

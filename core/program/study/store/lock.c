@@ -79,6 +79,8 @@ static bool make_lock(const study_journal *journal, const char *name, ff_report 
     int cause = errno;
     if (fd >= 0)
         close(fd);
+    if (fd >= 0 && !good)
+        unlinkat(journal->directory, name, 0);
     return good || ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "name another directory with -o",
                             "the result directory \"%s\" cannot be used: %s", journal->path,
                             strerror(cause));
