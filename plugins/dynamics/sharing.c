@@ -56,12 +56,13 @@ void dynamics_sharing_report(const dynamics_inputs *inputs, double least, double
     dynamics_sharing_change low = dynamics_sharing_change_at(l, mean, least);
     dynamics_sharing_change high = dynamics_sharing_change_at(l, mean, largest);
     double share = fmax(low.share, high.share), slope = fmax(low.slope, high.slope);
+    int known = largest <= l->force[l->count - 1];
     snprintf(text, sizeof text,
              "largest change of the share of a pair between the mean load, whose sharing and slope "
              "the motion takes, and its mesh forces, %.3g to %.3g times that load; the slope of "
              "the mesh changes by up to %.3g %%%s",
              fmax(least, l->force[1]) / mean, fmin(largest, l->force[l->count - 1]) / mean,
-             100 * slope, largest > l->force[l->count - 1] ? "; larger forces are not known" : "");
-    host->quality(host->ctx, "sharing_change", share, limit, share <= limit ? FF_GOOD : FF_RANGE,
-                  text);
+             100 * slope, known ? "" : "; larger forces are not known");
+    host->quality(host->ctx, "sharing_change", share, limit,
+                  share <= limit && known ? FF_GOOD : FF_RANGE, text);
 }

@@ -123,7 +123,8 @@ void losses_motion_at(const losses_mesh *m, double roll, double radius[2], doubl
     }
 }
 
-/* Of the surface where there is one, else of the gears; Ra is Rq sqrt(2/pi) of Gaussian heights. */
+/* Of the surface where a flank has an Rq there, else of the gear; Ra is Rq sqrt(2/pi) of Gaussian
+ * heights. */
 static ff_status read_roughness(const ff_host *host, const ff_array *in, losses_mesh *m)
 {
     const double *gear = NULL, *surface[2] = {NULL, NULL}, most = 1;
@@ -133,10 +134,8 @@ static ff_status read_roughness(const ff_host *host, const ff_array *in, losses_
             status = read_row(host, in, IN_RQ_1 + i, 1, 0, most, &surface[i]);
     if (status == FF_OK && in[IN_ROUGHNESS].data)
         status = read_row(host, in, IN_ROUGHNESS, 2, 0, most, &gear);
-    if (surface[0] || surface[1])
-        m->roughness = (surface[0] ? *surface[0] : 0) + (surface[1] ? *surface[1] : 0);
-    else if (gear)
-        m->roughness = gear[0] + gear[1];
+    for (int i = 0; i < 2; i++)
+        m->roughness += surface[i] && *surface[i] > 0 ? *surface[i] : gear ? gear[i] : 0;
     m->roughness *= sqrt(2 / M_PI) / 2;
     return status;
 }

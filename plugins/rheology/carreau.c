@@ -24,7 +24,7 @@ typedef struct carreau {
 
 /* G over the Eyring stress with which n = 0.27 follows Ree-Eyring within 5 % up to five times that
    stress. */
-static const double over_eyring = 1.86;
+static const double over_eyring = 1.86, fitted_n = 0.27;
 
 /* The law at each of n <= RHEOLOGY_BLOCK points: G and its slope over p. */
 static ff_status stresses_at(const carreau *c, size_t n, const double *p, const double *T,
@@ -252,9 +252,15 @@ static const ff_param params[] = {
 static ff_status ready(void *self)
 {
     carreau *c = self;
-    return isnan(c->G)
-               ? rheology_eyring_ready(c->host, &c->eyring, "G", c->limiting_stress_coefficient)
-               : FF_OK;
+    if (!isnan(c->G))
+        return FF_OK;
+    ff_status status =
+        rheology_eyring_ready(c->host, &c->eyring, "G", c->limiting_stress_coefficient);
+    if (status == FF_OK && fabs(c->n - fitted_n) > 0.01)
+        return ff_failf(c->host, FF_UNSUPPORTED, "G",
+                        "auto follows the Eyring stress with n = %g alone, not with %g; give G",
+                        fitted_n, c->n);
+    return status;
 }
 
 RHEOLOGY_3_LAW(

@@ -3,6 +3,7 @@ is one sentence and an exit code, and the same command then gives what a calm ru
 
 study-store.py FLANKFILM STUB TOYS...      STUB is preloaded; "none" under a sanitizer
 """
+import contextlib
 import errno
 import os
 import pathlib
@@ -55,10 +56,21 @@ def rows(folder):
     return journal.read_bytes().count(b"\n") if journal.exists() else 0
 
 
-def wait_for(folder, count=3):
+def wait_for(folder, count=1):
     end = time.monotonic() + 30
     while rows(folder) < count and time.monotonic() < end:
         time.sleep(0.002)
+
+
+@contextlib.contextmanager
+def paused(run):
+    """The process that writes the store waits meanwhile, however long that takes."""
+    writer = children(run.pid)[0]
+    os.kill(writer, signal.SIGSTOP)
+    try:
+        yield
+    finally:
+        os.kill(writer, signal.SIGCONT)
 
 
 def check_calm(what, folder):
@@ -101,15 +113,17 @@ def test_changed():
         name = how.__name__
         run = start("slow", name)
         wait_for(name)
-        how(lab / name / "journal.jsonl")
+        with paused(run):
+            how(lab / name / "journal.jsonl")
         expect(name, run, 1, f'journal.jsonl" {words}')
         if how is link:
             (lab / name / "journal.jsonl").unlink()
         check_calm(name, name)
-    # after the last case, while nothing is written any more: its arrays are gone
+    # while the last cases run, its arrays are removed
     run = start("slow", "logs")
-    wait_for("logs", cases - 2)
-    (lab / "logs" / "arrays.1.log").unlink()
+    wait_for("logs", cases - 3)
+    with paused(run):
+        (lab / "logs" / "arrays.1.log").unlink()
     expect("arrays removed", run, 1, "logs")
     check_calm("arrays removed", "logs")
 
@@ -129,14 +143,17 @@ def test_not_a_file():
         raise SystemExit("FAIL the link was followed")
 
 
-def descendants(pid):
-    """Of the process that is started, below the one that leads the run: its workers."""
+def children(pid):
     try:
-        children = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+        return [int(child) for child in pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
     except OSError:
         return []
-    below = [worker for child in children for worker in descendants(int(child))]
-    return below or [int(child) for child in children]
+
+
+def descendants(pid):
+    """Of the process that is started, below the one that leads the run: its workers."""
+    below = [worker for child in children(pid) for worker in descendants(child)]
+    return below or children(pid)
 
 
 def descriptors(pid):
@@ -177,8 +194,9 @@ def test_system():
         folder = f"lock-{cause}"
         run = start("slow", folder, REFUSE_flock=cause)
         wait_for(folder)
-        second = start("slow", folder, REFUSE_flock=cause)
-        expect("a second run", second, 2, "another run is using the result directory")
+        with paused(run):
+            second = start("slow", folder, REFUSE_flock=cause)
+            expect("a second run", second, 2, "another run is using the result directory")
         expect("without locks", run, 0, f"{cases} of {cases} cases done")
         if (lab / folder / "journal.jsonl.lock").exists() or rows(folder) != cases:
             raise SystemExit("FAIL a lock is left, or cases were done twice")
@@ -193,7 +211,7 @@ def test_system():
 
 try:
     points = f"wave.amplitude: {{from: 1 mm, to: 2 mm, points: {cases}}}"
-    write("slow", "work: 15 ms", points)
+    write("slow", "work: 25 ms", points)
     write("long", "work: 60 ms", points)
     write("quick", "count: 5", points)
     write("scribble", "count: 3", "wave.end: [good, scribble, good]", "[wave.total, wave.field]")
