@@ -267,7 +267,7 @@ static ff_status find_at(const void *ctx, double lambda, dynamics_attractor *a)
     job j = *(const job *)ctx;
     j.lambda = lambda;
     j.searched = 0;
-    j.known = (dynamics_known_motions){NULL};
+    j.known = (dynamics_known_motions){.count = 0};
     ff_status status = find_motion(&j, a);
     dynamics_known_motions_free(&j.known);
     return status;

@@ -56,7 +56,7 @@ int dynamics_known_motions_add(const dynamics_flow *flow, const dynamics_orbit *
 void dynamics_known_motions_free(dynamics_known_motions *known)
 {
     free(known->orbits);
-    *known = (dynamics_known_motions){NULL};
+    *known = (dynamics_known_motions){.count = 0};
 }
 
 static int add_if_periodic(const dynamics_flow *flow, const dynamics_attractor *a,
@@ -165,7 +165,7 @@ ff_status dynamics_stable_motions_put(const dynamics_excitation *excitation, dou
                                       const ff_host *host)
 {
     dynamics_flow flow = {0};
-    dynamics_known_motions known = {NULL};
+    dynamics_known_motions known = {.count = 0};
     ff_status status = dynamics_flow_init(&flow, excitation) ? FF_OK : FF_NOMEM;
     if (status == FF_OK)
         status = dynamics_known_motions_find(&flow, log(frequency), NULL, host, &known);

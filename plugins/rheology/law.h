@@ -38,16 +38,10 @@ FF_SIMD_INLINE double rheology_film(double h)
     return h > RHEOLOGY_FILM_MIN ? h : RHEOLOGY_FILM_MIN;
 }
 
-/* The limiting shear stress of Bair & Winer 1979 is coefficient p, but 4 MPa at least, that of a
-   PAO at ambient pressure: a film whose limit vanished with p would slip in the inlet. */
-static const double RHEOLOGY_LIMIT_LEAST = 4e6; /* Pa */
-
-/* The limiting stress cuts the stress off; a film in tension has none. */
+/* The limiting shear stress of Bair & Winer 1979, tau_L = coefficient p, cuts the stress off. */
 FF_SIMD_INLINE double rheology_limited(double tau, double p, double coefficient)
 {
-    double most = coefficient * p > RHEOLOGY_LIMIT_LEAST ? coefficient * p : RHEOLOGY_LIMIT_LEAST;
-    double cut = tau < most ? tau : most;
-    cut = p > 0 ? cut : 0;
+    double most = coefficient * (p > 0 ? p : 0), cut = tau < most ? tau : most;
     return coefficient > 0 ? cut : tau;
 }
 
@@ -72,13 +66,14 @@ static inline rheology_limit rheology_limit_of(double coefficient)
 
 /*
  * What the limiting stress adds to the rate: the film slips by 1e7 1/s, as much as films do, 1 %
- * above the limit, and by the square of the excess.
+ * above tau_L, and by the square of the excess. tau_L is coefficient p, but 4 MPa at least, that of
+ * a PAO at ambient pressure: a film whose limit vanished with p would slip in the inlet.
  */
 FF_SIMD_INLINE double rheology_slip(double size, double p, rheology_limit limiting, double *slope)
 {
-    const double steep = 1e7 / (0.01 * 0.01), far = 1e9;
+    const double least = 4e6, steep = 1e7 / (0.01 * 0.01), far = 1e9;
     double limit = limiting.coefficient * p;
-    limit = limit > RHEOLOGY_LIMIT_LEAST ? limit : RHEOLOGY_LIMIT_LEAST;
+    limit = limit > least ? limit : least;
     double excess = size / limit - 1;
     excess = excess > 0 ? excess : 0;
     double near = excess < far ? excess : far;

@@ -94,8 +94,8 @@ HIDDEN = {
     "redirect": "closed or replaced the standard error output",
     **dict.fromkeys(["timer", "interval", "new-timer"], "set a timer that sends a signal"),
 }
-# what a sanitizer or its allocator ends in another way
-OWN_WAY = ["free-twice", "free-inside", "thread-exit", "stack", "bare-overflow"]
+# what a sanitizer, its allocator or its layout of the stack ends in another way
+OWN_WAY = ["stale-jump", "free-twice", "free-inside", "thread-exit", "stack", "bare-overflow"]
 
 CASE = """format: 2
 pipeline:

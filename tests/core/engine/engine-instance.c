@@ -373,7 +373,7 @@ static void wrong_arguments(const ff_engine_options *options)
     static const double number = 1;
     const size_t huge[] = {(size_t)1 << 62, 4, 4, 4};
     ff_engine *other;
-    ff_instance *stranger, *s = open_source("2 mm"), *sum = open_model("toy/consumer");
+    ff_instance *stranger = NULL, *s = open_source("2 mm"), *sum = open_model("toy/consumer");
     nothing_given(s);
     ff_array array = {.data = &number, .shape = huge, .rank = 1};
     check_true("too many numbers", refuses(sum, ff_instance_give(sum, "more.series", &array),
