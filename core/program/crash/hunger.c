@@ -7,7 +7,7 @@
 #include <signal.h>
 #include <stdbool.h>
 #include <sys/resource.h>
-#include <sys/time.h>
+#include <time.h>
 #include <ucontext.h>
 
 /* Of looks at the process: one that finds memory refused adds MORE, another takes one away. */
@@ -38,12 +38,15 @@ static void look(int number, siginfo_t *info, void *context)
 
 void crash_hunger_watch(void)
 {
-    const struct timeval pause = {.tv_usec = LOOK_MICROSECONDS};
-    const struct itimerval timer = {pause, pause};
+    const struct timespec pause = {.tv_nsec = 1000L * LOOK_MICROSECONDS};
+    const struct itimerspec often = {pause, pause};
+    struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGPROF};
+    timer_t timer; /* one of setitimer would go on in a program that takes the place of this one */
     struct sigaction action = {.sa_sigaction = look, .sa_flags = SA_SIGINFO | SA_RESTART};
     struct rlimit limit;
     sigemptyset(&action.sa_mask);
     if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY &&
-        sigaction(SIGPROF, &action, NULL) == 0)
-        setitimer(ITIMER_PROF, &timer, NULL);
+        sigaction(SIGPROF, &action, NULL) == 0 &&
+        timer_create(CLOCK_PROCESS_CPUTIME_ID, &event, &timer) == 0)
+        timer_settime(timer, 0, &often, NULL);
 }
