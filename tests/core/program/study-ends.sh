@@ -44,6 +44,11 @@ study: {sweep: {wave.amplitude: [1 mm]}$3}
 YAML
 }
 
+# a parent that ignores the ends of its children hands that on: the exit code is told all the same
+code=0
+env --ignore-signal=CHLD "$flankfilm" check absent.yaml >said 2>&1 || code=$?
+[ "$code" -eq 2 ] || { echo "with SIGCHLD ignored a file that is not there ends with $code"; cat said; exit 1; }
+
 # a case that takes a minute, and has started a process
 write_study long 'work: 60 s, end: spawn' ''
 "$flankfilm" run long.yaml -o long -j1 >said 2>&1 &

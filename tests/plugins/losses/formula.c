@@ -210,8 +210,32 @@ static void test_what_is_not_known(void)
     close_mesh();
 }
 
+/* The friction by the formula where the surface has these Rq, m. */
+static double formula_on(double rq_1, double rq_2)
+{
+    stage_give_scalar(m.losses, "surface.rq_1", rq_1);
+    stage_give_scalar(m.losses, "surface.rq_2", rq_2);
+    check_true("runs", stage_run_wanted(m.losses, "friction_coefficient_formula") == FF_OK);
+    return stage_scalar(m.losses, "friction_coefficient_formula");
+}
+
+/* A dent has no Rq and leaves each flank that of its gear; Ra enters with its fourth root. */
+static void test_surface(void)
+{
+    const double gear_rq = 0.4e-6 * sqrt(M_PI / 2);
+    open_mesh("1500 rpm", "0.4 um", NULL);
+    fill(0.02, 0);
+    check_true("runs", stage_run_wanted(m.losses, "friction_coefficient_formula") == FF_OK);
+    double bare = stage_scalar(m.losses, "friction_coefficient_formula");
+    check_near("a dent", formula_on(0, 0), bare, 1e-12);
+    check_near("flank 1 alone", formula_on(2 * gear_rq, 0), bare * pow(1.5, 0.25), 1e-12);
+    check_near("flank 2 alone", formula_on(0, 3 * gear_rq), bare * pow(2, 0.25), 1e-12);
+    close_mesh();
+}
+
 int main(void)
 {
+    test_surface();
     test_printed_example();
     test_second_formula();
     test_weight_of_the_mean();

@@ -258,6 +258,11 @@ static void test_refusals(void)
     check_true("no viscosity",
                stage_ready(alone) == FF_INVALID && strstr(stage_why(alone), "kind viscosity"));
     stage_close(alone);
+    scene steep = open_scene("rheology/carreau", "PAO", "ISO VG 220", "auto");
+    stage_set_text(steep.flow, "n", "0.6");
+    check_true("an exponent that was not fitted", stage_ready(steep.flow) == FF_UNSUPPORTED &&
+                                                      strstr(stage_why(steep.flow), "n = 0.27"));
+    close_scene(&steep);
 }
 
 int main(void)
