@@ -20,14 +20,14 @@ void ff_clean_text(char *out, size_t size, const char *text)
         n = plain ? 1 : fe_char_read(text, end, &c);
         if (n >= size)
             break;
-        if (plain)
-            *out = *text;
-        else if (is_clean(c))
+        bool clean = plain || is_clean(c);
+        size_t made = clean ? n : 1;
+        if (clean)
             memcpy(out, text, n);
         else
             *out = *text == '\n' || *text == '\t' ? ' ' : '?';
-        out += n;
-        size -= n;
+        out += made;
+        size -= made;
     }
     *out = 0;
 }

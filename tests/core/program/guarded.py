@@ -54,6 +54,8 @@ class Files(lab.Lab):
             said = self.call(*words, code=2)
             self.assertIn("a control character", said)
             self.assertNotRegex(said, "[\x00-\x09\x0b-\x1f\x7f\x80-\x9f]")
+            if "c\x9b31m" in words:
+                self.assertIn('"c?31m"', said)
 
 
 def places(value, path=()):
