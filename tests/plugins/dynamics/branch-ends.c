@@ -11,7 +11,7 @@
  */
 #include "check.h"
 
-#include "../../../plugins/dynamics/curve.h"
+#include "../../../plugins/dynamics/continuation/curve.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The geometry of a pair whose centres move: closed forms, derivatives, tooth pairs that come and
    go. */
-#include "../../../plugins/dynamics/coupled-pair.h"
+#include "../../../plugins/dynamics/coupled/coupled-pair.h"
 
 #include "check.h"
 

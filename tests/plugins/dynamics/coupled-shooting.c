@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The derivatives of a motion on bearings by its start against differences of motions, and motions
    found by Newton's method against what they are. */
-#include "../../../plugins/dynamics/coupled-shooting.h"
+#include "../../../plugins/dynamics/coupled/coupled-shooting.h"
 
 #include "check.h"
 

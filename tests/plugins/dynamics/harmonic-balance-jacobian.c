@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The analytic Jacobian of the balance against differences of its residual. */
-#include "../../../plugins/dynamics/harmonics.h"
+#include "../../../plugins/dynamics/series/harmonics.h"
 
 #include "check.h"
 

@@ -6,8 +6,8 @@
  */
 #include "check.h"
 
-#include "../../../plugins/dynamics/orbit.h"
-#include "../../../plugins/dynamics/trajectory.h"
+#include "../../../plugins/dynamics/orbits/orbit.h"
+#include "../../../plugins/dynamics/orbits/trajectory.h"
 #include "../../../plugins/numerics/integrator.h"
 
 #include <math.h>

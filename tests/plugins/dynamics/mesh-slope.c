@@ -4,10 +4,10 @@
 #include "check.h"
 #include "pair.h"
 
-#include "../../../plugins/dynamics/orbit.h"
-#include "../../../plugins/dynamics/oscillator.h"
-#include "../../../plugins/dynamics/spring.h"
-#include "../../../plugins/dynamics/trajectory.h"
+#include "../../../plugins/dynamics/excitation/spring.h"
+#include "../../../plugins/dynamics/orbits/orbit.h"
+#include "../../../plugins/dynamics/orbits/trajectory.h"
+#include "../../../plugins/dynamics/oscillator/oscillator.h"
 
 #include <math.h>
 #include <stdio.h>

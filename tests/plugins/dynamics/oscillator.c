@@ -2,7 +2,7 @@
 /* The integrator by itself: energy, reversal in time, grazing, and what its tolerance means. */
 #include "check.h"
 
-#include "../../../plugins/dynamics/oscillator.h"
+#include "../../../plugins/dynamics/oscillator/oscillator.h"
 
 #include <math.h>
 

@@ -2,7 +2,7 @@
 /* The exact way through a mesh cycle, by cases with a closed form and by what must not change. */
 #include "check.h"
 
-#include "../../../plugins/dynamics/orbit.h"
+#include "../../../plugins/dynamics/orbits/orbit.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -3,7 +3,7 @@
  * corners, jumps and short or rough tables stay as they are. */
 #include "check.h"
 
-#include "../../../plugins/dynamics/excitation.h"
+#include "../../../plugins/dynamics/excitation/excitation.h"
 
 #include <math.h>
 #include <stdio.h>

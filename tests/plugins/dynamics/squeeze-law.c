@@ -3,7 +3,7 @@
    the complementarity problem solved on a grid, against its limits, and the table against it. */
 #include "check.h"
 
-#include "../../../plugins/dynamics/squeeze-law.h"
+#include "../../../plugins/dynamics/oil/squeeze-law.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,0 +1,257 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "coupled-field.h"
+
+#include "../excitation/spring.h"
+
+#include <gsl/gsl_errno.h>
+
+#include <math.h>
+#include <string.h>
+
+static const int side_of[DYNAMICS_FLANKS + 1] = {1, -1, 0};
+
+double dynamics_field_phase(const dynamics_field *field, double t)
+{
+    return field->now->start + t / field->T;
+}
+
+int dynamics_field_damps(const dynamics_field *field, int flank)
+{
+    const dynamics_regime *r = &field->regime;
+    if (flank < DYNAMICS_FLANKS)
+        return r->touches[flank] && r->pressed[flank];
+    return field->pair->excitation->damping == DYNAMICS_DAMPING_ALWAYS &&
+           !r->touches[DYNAMICS_DRIVING] && !r->touches[DYNAMICS_BACK];
+}
+
+/* The mesh spring of a flank at a place. The displacement of the centres changes the stiffness,
+   which it may not take below 0, and with it the force that the mounted pair would have, in one
+   proportion.
+ */
+typedef struct mesh_spring {
+    double slope, offset; /* of the force over the overlap */
+    double by_stiffness;  /* derivative of the force by the stiffness */
+} mesh_spring;
+
+static mesh_spring spring_at(const dynamics_field *field, double phase, const dynamics_place *place,
+                             int flank, double overlap)
+{
+    const dynamics_piece *piece = field->now->piece;
+    double since = phase - piece->start, k = dynamics_piece_value(piece->k, piece->degree, since);
+    double now = fmax(k + dynamics_coupled_stiffness_change(
+                              field->pair, place, phase, field->regime.pairs, field->now->mounted),
+                      0);
+    if (!piece->bends || !(k > 0))
+        return (mesh_spring){now, 0, overlap};
+    int band = field->regime.band[flank];
+    double slope = dynamics_piece_value(dynamics_spring_slope(piece, band), piece->degree, since);
+    double offset = band ? dynamics_piece_value(piece->offset, piece->degree, since) : 0;
+    return (mesh_spring){now / k * slope, now / k * offset, (slope * overlap - offset) / k};
+}
+
+static void add_force(dynamics_push *p, const dynamics_overlap *overlap, double normal)
+{
+    for (int i = 0; i < DYNAMICS_COORDINATES; i++)
+        p->on[i] -= normal * overlap->gradient[i];
+}
+
+dynamics_push dynamics_field_push(const dynamics_field *field, double t, const double *y,
+                                  const dynamics_place *place)
+{
+    const dynamics_coupled *pair = field->pair;
+    const dynamics_piece *piece = field->now->piece;
+    double phase = dynamics_field_phase(field, t), since = phase - piece->start;
+    double c = 2 * pair->excitation->zeta;
+    double e = dynamics_piece_value(piece->e, piece->degree, since);
+    double e_rate = dynamics_piece_slope(piece->e, piece->degree, since) / field->T;
+    dynamics_push p = {0};
+    for (int i = 0; i < DYNAMICS_FLANKS; i++) {
+        p.overlap[i] =
+            dynamics_coupled_overlap(pair, place, side_of[i], y, y + DYNAMICS_RATES, e, e_rate);
+        mesh_spring spring = spring_at(field, phase, place, i, p.overlap[i].value);
+        p.normal[i] = spring.slope * p.overlap[i].value + c * p.overlap[i].rate - spring.offset;
+        if (dynamics_field_damps(field, i))
+            add_force(&p, &p.overlap[i], p.normal[i]);
+    }
+    if (dynamics_field_damps(field, DYNAMICS_FLANKS)) {
+        dynamics_overlap free =
+            dynamics_coupled_overlap(pair, place, 0, y, y + DYNAMICS_RATES, e, e_rate);
+        add_force(&p, &free, c * free.rate);
+    }
+    p.force = -p.on[DYNAMICS_Q];
+    return p;
+}
+
+int dynamics_field_slope(double t, const double y[], double dydt[], void *self)
+{
+    const dynamics_field *field = self;
+    const dynamics_coupled *pair = field->pair;
+    dynamics_place place;
+    dynamics_coupled_locate(pair, y, &place);
+    dynamics_push p = dynamics_field_push(field, t, y, &place);
+    const double *v = y + DYNAMICS_RATES;
+    double *a = dydt + DYNAMICS_RATES;
+    memcpy(dydt, v, DYNAMICS_COORDINATES * sizeof *v);
+    a[DYNAMICS_Q] = pair->excitation->load + p.on[DYNAMICS_Q];
+    dydt[DYNAMICS_TAKEN] = -p.on[DYNAMICS_Q] * v[DYNAMICS_Q];
+    for (int i = DYNAMICS_X1; i <= DYNAMICS_Y2; i++) {
+        int gear = i >= DYNAMICS_X2;
+        double force = p.on[i] - pair->bearing[gear] * y[i] - pair->damper[gear] * v[i];
+        a[i] = force / pair->mass[gear];
+        dydt[DYNAMICS_TAKEN] -= force * v[i];
+    }
+    return isfinite(a[DYNAMICS_Q]) ? GSL_SUCCESS : GSL_EBADFUNC;
+}
+
+/* The normal force of a flank, or of the damper in the gap, with its derivatives. */
+typedef struct normal_force {
+    dynamics_overlap overlap;
+    dynamics_bend bend; /* second derivatives of the overlap */
+    double value, by_state[DYNAMICS_TAKEN];
+} normal_force;
+
+static normal_force normal_at(const dynamics_field *field, double t, const double *y,
+                              const dynamics_place *place, int flank)
+{
+    const dynamics_coupled *pair = field->pair;
+    const dynamics_piece *piece = field->now->piece;
+    const double *v = y + DYNAMICS_RATES;
+    double phase = dynamics_field_phase(field, t), since = phase - piece->start;
+    double e = dynamics_piece_value(piece->e, piece->degree, since);
+    double e_rate = dynamics_piece_slope(piece->e, piece->degree, since) / field->T;
+    double c = 2 * pair->excitation->zeta, by_shift = 0;
+    int side = side_of[flank];
+    normal_force n = {.overlap = dynamics_coupled_overlap(pair, place, side, y, v, e, e_rate),
+                      .bend = dynamics_coupled_bend(place, side)};
+    mesh_spring spring = {0};
+    if (side)
+        spring = spring_at(field, phase, place, flank, n.overlap.value);
+    if (spring.slope > 0)
+        by_shift = dynamics_coupled_stiffness_slope(pair, place, phase, field->regime.pairs);
+    n.value = spring.slope * n.overlap.value + c * n.overlap.rate - spring.offset;
+    double turning[DYNAMICS_COORDINATES], shift[DYNAMICS_COORDINATES];
+    dynamics_bend_apply(&n.bend, v, turning);
+    dynamics_coupled_shift_slope(pair, place, shift, NULL);
+    for (int i = 0; i < DYNAMICS_COORDINATES; i++) {
+        n.by_state[i] = spring.slope * n.overlap.gradient[i] +
+                        by_shift * spring.by_stiffness * shift[i] + c * turning[i];
+        n.by_state[DYNAMICS_RATES + i] = c * n.overlap.gradient[i];
+    }
+    return n;
+}
+
+static void add_normal(const normal_force *n, double jacobian[][DYNAMICS_TAKEN])
+{
+    double unit[DYNAMICS_COORDINATES], bent[DYNAMICS_COORDINATES];
+    for (int k = 0; k < DYNAMICS_COORDINATES; k++) {
+        for (int i = 0; i < DYNAMICS_COORDINATES; i++)
+            unit[i] = i == k;
+        dynamics_bend_apply(&n->bend, unit, bent);
+        for (int i = 0; i < DYNAMICS_COORDINATES; i++) {
+            jacobian[i][k] -= n->by_state[k] * n->overlap.gradient[i] + n->value * bent[i];
+            jacobian[i][DYNAMICS_RATES + k] -=
+                n->by_state[DYNAMICS_RATES + k] * n->overlap.gradient[i];
+        }
+    }
+}
+
+void dynamics_field_jacobian(const dynamics_field *field, double t, const double *y,
+                             double jacobian[DYNAMICS_COORDINATES][DYNAMICS_TAKEN])
+{
+    const dynamics_coupled *pair = field->pair;
+    dynamics_place place;
+    dynamics_coupled_locate(pair, y, &place);
+    memset(jacobian, 0, DYNAMICS_COORDINATES * sizeof jacobian[0]);
+    for (int flank = 0; flank <= DYNAMICS_FLANKS; flank++) {
+        if (!dynamics_field_damps(field, flank))
+            continue;
+        normal_force n = normal_at(field, t, y, &place, flank);
+        add_normal(&n, jacobian);
+    }
+    for (int i = DYNAMICS_X1; i <= DYNAMICS_Y2; i++) {
+        int gear = i >= DYNAMICS_X2;
+        jacobian[i][i] -= pair->bearing[gear];
+        jacobian[i][DYNAMICS_RATES + i] -= pair->damper[gear];
+        for (int k = 0; k < DYNAMICS_TAKEN; k++)
+            jacobian[i][k] /= pair->mass[gear];
+    }
+}
+
+void dynamics_field_find_bands(dynamics_field *field, double t, const double *overlap)
+{
+    const dynamics_piece *piece = field->now->piece;
+    double since = dynamics_field_phase(field, t) - piece->start;
+    for (int i = 0; i < DYNAMICS_FLANKS; i++)
+        field->regime.band[i] = overlap[i] > 0 ? dynamics_spring_band(piece, since, overlap[i]) : 0;
+}
+
+/* The gate at the knee of the spring of a flank. */
+static double knee_gate(const dynamics_field *field, double t, int flank, double overlap)
+{
+    const dynamics_piece *piece = field->now->piece;
+    if (!piece->bends || !field->regime.touches[flank])
+        return 1;
+    double since = dynamics_field_phase(field, t) - piece->start;
+    double excess = dynamics_spring_excess(piece, since, overlap);
+    return field->regime.band[flank] ? excess : -excess;
+}
+
+void dynamics_field_gates(const dynamics_field *field, double t, const double *y,
+                          double gate[DYNAMICS_GATES])
+{
+    const dynamics_regime *r = &field->regime;
+    dynamics_place place;
+    dynamics_coupled_locate(field->pair, y, &place);
+    dynamics_push p = dynamics_field_push(field, t, y, &place);
+    double age = dynamics_field_phase(field, t) + place.shift;
+    for (int i = 0; i < DYNAMICS_FLANKS; i++) {
+        int touches = r->touches[i];
+        int clipped = field->pair->excitation->damping == DYNAMICS_DAMPING_CLIPPED && touches;
+        gate[DYNAMICS_TOUCH + i] = touches ? p.overlap[i].value : -p.overlap[i].value;
+        gate[DYNAMICS_PRESS + i] = !clipped ? 1 : r->pressed[i] ? p.normal[i] : -p.normal[i];
+        if (clipped && r->pressed[i])
+            gate[DYNAMICS_TOUCH + i] = 1; /* the damper lets go before the flanks part */
+        gate[DYNAMICS_KNEE + i] = knee_gate(field, t, i, p.overlap[i].value);
+    }
+    gate[DYNAMICS_COMES] = place.entry - (age + r->pairs.youngest - 1);
+    gate[DYNAMICS_GOES] = place.exit - (age + r->pairs.oldest);
+}
+
+double dynamics_field_gate_slope(const dynamics_field *field, int gate, double t, const double *y,
+                                 double slope[DYNAMICS_TAKEN])
+{
+    dynamics_place place;
+    double entry[DYNAMICS_COORDINATES];
+    dynamics_coupled_locate(field->pair, y, &place);
+    memset(slope, 0, DYNAMICS_TAKEN * sizeof *slope);
+    if (gate < DYNAMICS_PRESS) {
+        dynamics_overlap overlap = dynamics_field_push(field, t, y, &place).overlap[gate];
+        double by_time = overlap.rate;
+        memcpy(slope, overlap.gradient, sizeof overlap.gradient);
+        for (int i = 0; i < DYNAMICS_COORDINATES; i++)
+            by_time -= overlap.gradient[i] * y[DYNAMICS_RATES + i];
+        return by_time;
+    }
+    dynamics_coupled_shift_slope(field->pair, &place, slope, entry);
+    for (int i = 0; i < DYNAMICS_COORDINATES; i++)
+        slope[i] = (gate == DYNAMICS_COMES ? entry[i] : 0) - slope[i];
+    return -1 / field->T;
+}
+
+void dynamics_field_pass_gate(dynamics_field *field, int gate)
+{
+    dynamics_regime *r = &field->regime;
+    if (gate == DYNAMICS_COMES) {
+        r->pairs.youngest--;
+    } else if (gate == DYNAMICS_GOES) {
+        r->pairs.oldest--;
+    } else if (gate >= DYNAMICS_KNEE) {
+        r->band[gate - DYNAMICS_KNEE] = !r->band[gate - DYNAMICS_KNEE];
+    } else if (gate >= DYNAMICS_PRESS) {
+        r->pressed[gate - DYNAMICS_PRESS] = !r->pressed[gate - DYNAMICS_PRESS];
+    } else {
+        r->touches[gate] = !r->touches[gate];
+        r->pressed[gate] = r->touches[gate];
+        r->band[gate] = 0;
+    }
+}

@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The steady motion of a gear pair on its bearings: how it is reached, its stability, and the
+ * outputs. */
+#ifndef DYNAMICS_COUPLED_MOTION_H
+#define DYNAMICS_COUPLED_MOTION_H
+
+#include "../excitation/inputs.h"
+#include "../oscillator/motion.h"
+#include "../oscillator/settle.h"
+#include "coupled-run.h"
+
+/* The outputs behind DYNAMICS_OUT_PHASE to DYNAMICS_OUT_MULTIPLIERS. */
+enum {
+    DYNAMICS_CO_CENTRE_DISTANCE = DYNAMICS_OUT_MULTIPLIERS + 1,
+    DYNAMICS_CO_PRESSURE_ANGLE,
+    DYNAMICS_CO_BACKLASH,
+    DYNAMICS_CO_CONTACT_RATIO,
+    DYNAMICS_CO_DISPLACEMENT,
+    DYNAMICS_CO_BEARING_FORCE,
+    DYNAMICS_CO_LANDING_TIME,
+    DYNAMICS_CO_LANDING_SPEED,
+    DYNAMICS_COUPLED_OUTPUT_COUNT
+};
+
+extern const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT];
+
+typedef struct dynamics_coupled_motion {
+    dynamics_settled settled; /* delta and rate are not set: `state` has all coordinates */
+    size_t cycles;            /* that the outputs show */
+    double T;                 /* duration of a mesh cycle */
+    double from;              /* mesh over natural frequency of a motion to start from; 0: none */
+    double state[DYNAMICS_TAKEN]; /* at phase 0; before it is found, of the one to start from */
+    double monodromy[DYNAMICS_TAKEN * DYNAMICS_TAKEN];
+    double energy_error, parted, back;
+    dynamics_coupled_record record;
+} dynamics_coupled_motion;
+
+/* Finds the steady motion of a branch: by shooting, or where how->cycles are given by a slow sweep
+   of the speed and settling; `motion` has T set, and where it
+   starts from. FF_OK, FF_STOPPED, FF_NOMEM, or
+   FF_NOCONV: too many steps. */
+ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
+                                  const dynamics_settling *how, dynamics_coupled_motion *motion);
+
+/* Records the cycles that are shown and those of one more engagement, and the monodromy. The caller
+   frees motion->record.samples. */
+ff_status dynamics_coupled_motion_record(dynamics_coupled_motion *motion,
+                                         const dynamics_coupled *pair,
+                                         const dynamics_inputs *inputs, double tolerance,
+                                         size_t per_cycle, const ff_host *host);
+
+ff_status dynamics_coupled_put(const dynamics_coupled_motion *motion, const dynamics_coupled *pair,
+                               const dynamics_inputs *inputs, const ff_host *host);
+
+#endif

@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * A gear pair whose gears turn and move on their bearings. Coordinates are
+ *
+ *   q        rb1 theta1 + rb2 theta2, the approach of the driving flanks by the rotations,
+ *   x1, y1   displacement of gear 1 along the line of centres, towards gear 2, and across it,
+ *   x2, y2   the same of gear 2,
+ *
+ * in the units of excitation.h (Kim, Yoo & Chung 2010, J. Sound Vib. 329, 4409-4421). The rotation
+ * of the pair as a rigid body is left out: no spring opposes it. With s = q - (rb1 + rb2) psi,
+ * where psi is the turn of the line of centres, the driving flanks overlap by s - e - b and the
+ * back flanks by e - s - b. The half backlash b, the pressure angle and the ends of contact follow
+ * the distance of the centres. The force of a flank acts along its line of action, so that it is
+ * the gradient of the overlap.
+ */
+#ifndef DYNAMICS_COUPLED_PAIR_H
+#define DYNAMICS_COUPLED_PAIR_H
+
+#include "../excitation/excitation.h"
+
+enum { DYNAMICS_Q, DYNAMICS_X1, DYNAMICS_Y1, DYNAMICS_X2, DYNAMICS_Y2, DYNAMICS_COORDINATES };
+
+typedef struct dynamics_coupled {
+    const dynamics_excitation *excitation;
+    double mass[2];                   /* over the equivalent mass */
+    double bearing[2], damper[2];     /* stiffness and damping coefficient of the bearings */
+    double base, centre, line, angle; /* rb1 + rb2, centre distance, length of the line of action
+                                         between the base circles, pressure angle; mounted */
+    double base_1, base_pitch;        /* rb1, base pitch */
+    double *cycle, *pair_stiffness; /* the stiffness of one tooth pair at mesh cycles behind SAP */
+    size_t nodes;                   /* number of these points */
+    dynamics_excitation table;      /* its k is that stiffness over the stretch of these points */
+} dynamics_coupled;
+
+/* What follows from the position of the centres. */
+typedef struct dynamics_place {
+    double centre, turn, angle, half_gap;
+    double sin_turn, cos_turn, sin_angle, cos_angle;
+    double shift; /* of the contact along gear 1, mesh cycles */
+    double entry,
+        exit; /* of a tooth pair, mesh cycles behind SAP; their distance is the contact ratio */
+} dynamics_place;
+
+void dynamics_coupled_locate(const dynamics_coupled *pair, const double *position,
+                             dynamics_place *place);
+
+/* Tooth pairs: number j has been in mesh for phase + j cycles, from the youngest j to the oldest.
+ */
+typedef struct dynamics_pairs {
+    int youngest, oldest;
+} dynamics_pairs;
+
+/* The pairs in contact at a phase. */
+dynamics_pairs dynamics_coupled_pairs(const dynamics_place *place, double phase);
+/* The same for the mounted gears, whose pairs make up the mesh stiffness. */
+dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, double phase);
+
+/* What the displacement of the centres adds to the mesh stiffness. */
+double dynamics_coupled_stiffness_change(const dynamics_coupled *pair, const dynamics_place *place,
+                                         double phase, dynamics_pairs now, dynamics_pairs mounted);
+
+/* The overlap of the flanks of one side (1: driving, -1: back) or s - e (0), its rate and its
+   gradient by the coordinates. */
+typedef struct dynamics_overlap {
+    double value, rate, gradient[DYNAMICS_COORDINATES];
+} dynamics_overlap;
+
+dynamics_overlap dynamics_coupled_overlap(const dynamics_coupled *pair, const dynamics_place *place,
+                                          int side, const double *position, const double *velocity,
+                                          double e, double e_rate);
+
+/* The second derivatives of an overlap, which depends on the coordinates of the centres by their
+   difference alone: by it along the line of centres (x) and across it (y). */
+typedef struct dynamics_bend {
+    double xx, xy, yy;
+} dynamics_bend;
+
+dynamics_bend dynamics_coupled_bend(const dynamics_place *place, int side);
+/* The matrix of second derivatives times a change of the coordinates. */
+void dynamics_bend_apply(const dynamics_bend *bend, const double *change, double *product);
+
+/* The derivatives of place.shift and place.entry (NULL: not wanted) by the coordinates. */
+void dynamics_coupled_shift_slope(const dynamics_coupled *pair, const dynamics_place *place,
+                                  double *shift, double *entry);
+/* The derivative of dynamics_coupled_stiffness_change by place.shift. */
+double dynamics_coupled_stiffness_slope(const dynamics_coupled *pair, const dynamics_place *place,
+                                        double phase, dynamics_pairs now);
+
+/* The static deflection at phase 0: coordinates and rates. */
+void dynamics_coupled_rest(const dynamics_coupled *pair, double *state);
+
+/* Finds the stiffness of one tooth pair from its share of the load at the stations, which lie
+   `cycle` mesh cycles behind SAP. Without a share (NULL) the contact ratio changes nothing. 0: out
+   of memory. */
+int dynamics_coupled_pair_stiffness(dynamics_coupled *pair, size_t stations, const double *cycle,
+                                    const double *share);
+void dynamics_coupled_free(dynamics_coupled *pair);
+
+#endif

@@ -1,0 +1,437 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "coupled-run.h"
+
+#include "../../numerics/integrator.h"
+#include "../oscillator/bracket.h"
+#include "coupled-variation.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The longest step, in radians of the highest frequency. */
+static const double longest_step = 0.5;
+
+/* Steps since the start beyond which the motion is given up. */
+static const size_t step_limit = 10000000;
+
+/* The least error of a step, relative to the motion, that can be asked for. */
+static const double round_off = 1e-14;
+
+/* Events in a row that each advance by less than `slip`, rad, before the regime is held for that
+ * time. */
+enum { MAX_IDLE = 6 };
+static const double slip = 1e-6;
+
+struct dynamics_coupled_run {
+    dynamics_field field;
+    numerics_integrator gsl;
+    gsl_odeiv2_system system;
+    double y[DYNAMICS_COUPLED_SIZE];
+    dynamics_variation *variation;
+    int varies; /* its derivatives are followed */
+    size_t count;
+    dynamics_stretch *stretches;
+    double t;          /* since the start of the stretch */
+    double longest, h; /* steps */
+    double parted, back;
+    size_t steps;
+};
+
+/* A bound on the highest frequency: mesh and bearing on the lighter gear. */
+static double highest_frequency(const dynamics_coupled *pair)
+{
+    double k = 2 * pair->excitation->k_max, highest = k;
+    for (int i = 0; i < 2; i++)
+        highest = fmax(highest, (k + pair->bearing[i]) / pair->mass[i]);
+    return sqrt(highest + k);
+}
+
+static int by_start(const void *a, const void *z)
+{
+    double x = *(const double *)a, y = *(const double *)z;
+    return (x > y) - (x < y);
+}
+
+/* Splits the pieces of the mesh cycle where a tooth pair of the mounted gears leaves. */
+static int make_stretches(dynamics_coupled_run *run)
+{
+    const dynamics_coupled *pair = run->field.pair;
+    const dynamics_excitation *excitation = pair->excitation;
+    double end = pair->cycle[pair->nodes - 1], leaves = end - floor(end);
+    double *node = malloc((excitation->count + 2) * sizeof *node);
+    run->stretches = calloc(excitation->count + 1, sizeof *run->stretches);
+    if (!node || !run->stretches) {
+        free(node);
+        return 0;
+    }
+    size_t count = 0;
+    for (size_t i = 0; i < excitation->count; i++)
+        node[count++] = excitation->pieces[i].start;
+    if (leaves > 1e-9 && leaves < 1 - 1e-9)
+        node[count++] = leaves;
+    qsort(node, count, sizeof *node, by_start);
+    node[count] = 1;
+    for (size_t i = 0; i < count; i++) {
+        double length = node[i + 1] - node[i];
+        if (length < 1e-9 && i + 1 < count && node[i + 1] == leaves)
+            node[i + 1] = node[i], length = 0; /* it is a node of the mesh */
+        if (length <= 0)
+            continue;
+        const dynamics_piece *piece =
+            dynamics_excitation_piece(excitation, node[i] + 0.5 * length, 0);
+        run->stretches[run->count++] = (dynamics_stretch){
+            .piece = piece,
+            .start = node[i],
+            .length = length,
+            .mounted = dynamics_coupled_mounted_pairs(pair, node[i] + 0.5 * length),
+            .jump = piece->jump && node[i] == piece->start,
+        };
+    }
+    free(node);
+    return 1;
+}
+
+dynamics_coupled_run *dynamics_coupled_run_new(const dynamics_coupled *pair, double tolerance)
+{
+    dynamics_coupled_run *run = calloc(1, sizeof *run);
+    if (!run)
+        return NULL;
+    run->field.pair = pair;
+    run->longest = longest_step / highest_frequency(pair);
+    run->system =
+        (gsl_odeiv2_system){dynamics_field_slope, NULL, DYNAMICS_COUPLED_SIZE, &run->field};
+    if (numerics_integrator_make(&run->gsl, DYNAMICS_COUPLED_SIZE, tolerance, round_off) &&
+        make_stretches(run) && (run->variation = dynamics_variation_new(&run->field)))
+        return run;
+    dynamics_coupled_run_free(run);
+    return NULL;
+}
+
+void dynamics_coupled_run_free(dynamics_coupled_run *run)
+{
+    if (!run)
+        return;
+    numerics_integrator_free(&run->gsl);
+    dynamics_variation_free(run->variation);
+    free(run->stretches);
+    free(run);
+}
+
+/* Sets the contact of flanks: they touch where they overlap. */
+static void set_contact(dynamics_coupled_run *run, const dynamics_place *place)
+{
+    dynamics_push p = dynamics_field_push(&run->field, run->t, run->y, place);
+    double overlap[DYNAMICS_FLANKS];
+    for (int i = 0; i < DYNAMICS_FLANKS; i++) {
+        overlap[i] = p.overlap[i].value;
+        run->field.regime.touches[i] = run->field.regime.pressed[i] = overlap[i] > 0;
+    }
+    dynamics_field_find_bands(&run->field, run->t, overlap);
+}
+
+/* Sets the bands of the springs anew where one piece of the mesh cycle follows another. */
+static void set_bands(dynamics_coupled_run *run)
+{
+    dynamics_place place;
+    double overlap[DYNAMICS_FLANKS];
+    if (!run->field.now->piece->bends)
+        return;
+    dynamics_coupled_locate(run->field.pair, run->y, &place);
+    dynamics_push p = dynamics_field_push(&run->field, run->t, run->y, &place);
+    for (int i = 0; i < DYNAMICS_FLANKS; i++)
+        overlap[i] = run->field.regime.touches[i] ? p.overlap[i].value : 0;
+    dynamics_field_find_bands(&run->field, run->t, overlap);
+}
+
+void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *state)
+{
+    dynamics_place place;
+    memcpy(run->y, state, DYNAMICS_TAKEN * sizeof *state);
+    run->y[DYNAMICS_TAKEN] = 0;
+    run->field.T = T;
+    run->t = 0;
+    run->field.now = run->stretches;
+    run->steps = 0;
+    run->parted = run->back = 0;
+    dynamics_coupled_locate(run->field.pair, run->y, &place);
+    run->field.regime.pairs = dynamics_coupled_pairs(&place, 0);
+    run->field.regime.pairs.youngest--; /* as before the wrap that begins a cycle */
+    run->field.regime.pairs.oldest--;
+    set_contact(run, &place);
+    run->varies = 0;
+}
+
+void dynamics_coupled_start_varied(dynamics_coupled_run *run, double T, const double *state)
+{
+    dynamics_coupled_start(run, T, state);
+    dynamics_variation_start(run->variation);
+    run->varies = 1;
+}
+
+const double *dynamics_coupled_columns(const dynamics_coupled_run *run)
+{
+    return dynamics_variation_columns(run->variation);
+}
+
+const double *dynamics_coupled_state(const dynamics_coupled_run *run)
+{
+    return run->y;
+}
+
+void dynamics_coupled_clocks(const dynamics_coupled_run *run, double *parted, double *back)
+{
+    *parted = run->parted;
+    *back = run->back;
+}
+
+double dynamics_coupled_energy(const dynamics_coupled_run *run, double *kinetic)
+{
+    const double *v = run->y + DYNAMICS_RATES, *m = run->field.pair->mass;
+    *kinetic = 0.5 * (v[DYNAMICS_Q] * v[DYNAMICS_Q] +
+                      m[0] * (v[DYNAMICS_X1] * v[DYNAMICS_X1] + v[DYNAMICS_Y1] * v[DYNAMICS_Y1]) +
+                      m[1] * (v[DYNAMICS_X2] * v[DYNAMICS_X2] + v[DYNAMICS_Y2] * v[DYNAMICS_Y2]));
+    return *kinetic - run->field.pair->excitation->load * run->y[DYNAMICS_Q] +
+           run->y[DYNAMICS_TAKEN];
+}
+
+static void attempt(dynamics_coupled_run *run, double h, double *y, double *error)
+{
+    memcpy(y, run->y, sizeof run->y);
+    if (gsl_odeiv2_step_apply(run->gsl.step, run->t, h, y, error, NULL, NULL, &run->system))
+        y[0] = NAN;
+    error[DYNAMICS_TAKEN] = 0;
+    run->steps++;
+}
+
+static double gate_after(dynamics_coupled_run *run, int i, double h)
+{
+    double y[DYNAMICS_COUPLED_SIZE], error[DYNAMICS_COUPLED_SIZE], gate[DYNAMICS_GATES];
+    attempt(run, h, y, error);
+    dynamics_field_gates(&run->field, run->t + h, y, gate);
+    return gate[i];
+}
+
+/* Bisection takes over from the secant when that has not met the instant. */
+enum { MAX_PROBES = 80, MAX_SECANTS = 40 };
+
+/* The step between 0 and h at which gate i closes. */
+static double find_closing(dynamics_coupled_run *run, int i, double at_0, double h, double at_h)
+{
+    static const double closed = 1e-13; /* value of a gate that is 0 to some round-offs of what
+                                           it is the difference of */
+    dynamics_bracket b = {0, at_0, h, at_h, 0};
+    for (int n = 0; n < MAX_PROBES && b.high - b.low > 4 * DBL_EPSILON * h; n++) {
+        double middle = dynamics_bracket_secant(&b);
+        if (!(middle > b.low && middle < b.high) || n > MAX_SECANTS)
+            middle = b.low + 0.5 * (b.high - b.low);
+        double f = gate_after(run, i, middle);
+        if (fabs(f) < closed)
+            return middle;
+        dynamics_bracket_narrow(&b, middle, f);
+    }
+    return b.high;
+}
+
+/* Finds the first gate that closes in the step of h to y. A gate that dips between two open ends is
+   looked at in the middle. */
+static int find_event(dynamics_coupled_run *run, double h, const double *y, double *at, int *which)
+{
+    double a[DYNAMICS_GATES], z[DYNAMICS_GATES], m[DYNAMICS_GATES], middle[DYNAMICS_COUPLED_SIZE],
+        error[DYNAMICS_COUPLED_SIZE];
+    int found = 0, dips = 0;
+    dynamics_field_gates(&run->field, run->t, run->y, a);
+    dynamics_field_gates(&run->field, run->t + h, y, z);
+    for (int i = 0; i < DYNAMICS_COMES; i++) /* near the edge of the gap, over a step */
+        dips |= z[i] >= 0 &&
+                fmin(a[i], z[i]) < 0.5 * h * h * (1 + fabs(run->field.pair->excitation->load));
+    if (dips) {
+        attempt(run, 0.5 * h, middle, error);
+        dynamics_field_gates(&run->field, run->t + 0.5 * h, middle, m);
+    }
+    for (int i = 0; i < DYNAMICS_GATES; i++) {
+        double end = h, value = z[i];
+        if (dips && i < DYNAMICS_COMES && value >= 0 && m[i] < 0 && a[i] > 0)
+            end = 0.5 * h, value = m[i];
+        if (value >= 0)
+            continue;
+        double instant = a[i] <= 0 ? 0 : find_closing(run, i, a[i], end, value);
+        if (found && instant >= *at)
+            continue;
+        *at = instant;
+        *which = i;
+        found = 1;
+    }
+    return found;
+}
+
+static void accept_step(dynamics_coupled_run *run, double h, const double *y)
+{
+    const dynamics_regime *r = &run->field.regime;
+    int driving = r->touches[DYNAMICS_DRIVING] && r->pressed[DYNAMICS_DRIVING];
+    int back = r->touches[DYNAMICS_BACK] && r->pressed[DYNAMICS_BACK];
+    if (run->varies)
+        dynamics_variation_step(run->variation, run->t, h, run->y);
+    memcpy(run->y, y, sizeof run->y);
+    run->t += h;
+    run->parted += driving || back ? 0 : h;
+    run->back += back ? h : 0;
+}
+
+static void pass_gate(dynamics_coupled_run *run, int gate)
+{
+    if (run->varies)
+        dynamics_variation_pass_gate(run->variation, gate, run->t, run->y);
+    else
+        dynamics_field_pass_gate(&run->field, gate);
+}
+
+/* Integrates to the instant `end` of the stretch; 0: too many steps. */
+static int advance_to(dynamics_coupled_run *run, double end)
+{
+    static const double no_slope[DYNAMICS_COUPLED_SIZE] = {0};
+    double y[DYNAMICS_COUPLED_SIZE], error[DYNAMICS_COUPLED_SIZE];
+    int idle = 0, which = 0;
+    while (run->t < end) {
+        double h = fmin(run->h, run->longest), left = end - run->t, at = 0, next;
+        if (run->steps > step_limit)
+            return 0;
+        h = idle > MAX_IDLE ? fmin(h, slip) : h;
+        int last = h >= left * (1 - 1e-9);
+        h = last ? left : fmin(h, 0.5 * left + 0.5 * h);
+        attempt(run, h, y, error);
+        if (!isfinite(y[0]))
+            return 0;
+        next = h;
+        int adjusted =
+            gsl_odeiv2_control_hadjust(run->gsl.control, run->gsl.step, y, error, no_slope, &next);
+        if (adjusted == GSL_ODEIV_HADJ_DEC && h > 1e-9) {
+            run->h = next;
+            continue;
+        }
+        if (idle <= MAX_IDLE && find_event(run, h, y, &at, &which)) {
+            if (at > 0)
+                attempt(run, at, y, error), accept_step(run, at, y);
+            idle = at > slip ? 0 : idle + 1;
+            pass_gate(run, which);
+            continue;
+        }
+        accept_step(run, h, y);
+        idle = 0;
+        run->h = adjusted == GSL_ODEIV_HADJ_INC ? fmax(run->h, next) : run->h;
+        if (last)
+            run->t = end;
+    }
+    return 1;
+}
+
+/* Enters a stretch. Where e jumps the dampers that act give an impulse of 2 zeta times the jump. */
+static void enter_stretch(dynamics_coupled_run *run, const dynamics_stretch *next)
+{
+    const dynamics_coupled *pair = run->field.pair;
+    const dynamics_piece *before = run->field.now->piece;
+    double since = run->field.now->start + run->field.now->length - before->start;
+    double old = dynamics_piece_value(before->e, before->degree, since);
+    dynamics_place place;
+    run->field.now = next;
+    run->t = 0;
+    if (!next->jump) {
+        set_bands(run);
+        return;
+    }
+    double leap = next->piece->e[0] - old, before_leap, after_leap;
+    dynamics_coupled_energy(run, &before_leap);
+    dynamics_coupled_locate(pair, run->y, &place);
+    dynamics_push p = dynamics_field_push(&run->field, 0, run->y, &place);
+    dynamics_overlap open =
+        dynamics_coupled_overlap(pair, &place, 0, run->y, run->y + DYNAMICS_RATES, 0, 0);
+    for (int i = 0; i <= DYNAMICS_FLANKS; i++) {
+        const dynamics_overlap *o = i < DYNAMICS_FLANKS ? &p.overlap[i] : &open;
+        if (!dynamics_field_damps(&run->field, i))
+            continue;
+        double impulse = 2 * pair->excitation->zeta * leap * o->gradient[DYNAMICS_Q];
+        for (int k = 0; k < DYNAMICS_COORDINATES; k++)
+            run->y[DYNAMICS_RATES + k] +=
+                impulse * o->gradient[k] / (k == DYNAMICS_Q ? 1 : pair->mass[k >= DYNAMICS_X2]);
+        if (run->varies)
+            dynamics_variation_leap(run->variation, i, leap, &place);
+    }
+    dynamics_coupled_energy(run, &after_leap);
+    run->y[DYNAMICS_TAKEN] -= after_leap - before_leap;
+    set_contact(run, &place);
+}
+
+static void add_sample(const dynamics_coupled_run *run, double phase,
+                       dynamics_coupled_record *record)
+{
+    if (record->count == record->capacity)
+        return;
+    const dynamics_coupled *pair = run->field.pair;
+    dynamics_place place;
+    dynamics_coupled_locate(pair, run->y, &place);
+    dynamics_push p = dynamics_field_push(&run->field, run->t, run->y, &place);
+    dynamics_overlap s =
+        dynamics_coupled_overlap(pair, &place, 0, run->y, run->y + DYNAMICS_RATES, 0, 0);
+    dynamics_coupled_sample sample = {.excitation = {.phase = (double)record->cycles + phase,
+                                                     .s = s.value,
+                                                     .s_rate = s.rate,
+                                                     .force = p.force},
+                                      .overlap = p.overlap[DYNAMICS_DRIVING].value,
+                                      .overlap_rate = p.overlap[DYNAMICS_DRIVING].rate,
+                                      .centre = place.centre,
+                                      .contact_ratio = place.exit - place.entry};
+    memcpy(sample.position, run->y, sizeof sample.position);
+    record->samples[record->count++] = sample;
+}
+
+/* Integrates a stretch, from sample to sample when there is a record. */
+static int pass_stretch(dynamics_coupled_run *run, size_t *next, dynamics_coupled_record *record)
+{
+    const dynamics_stretch *now = run->field.now;
+    double n = record ? (double)record->per_cycle : 0, end = now->start + now->length;
+    for (; record && (double)*next / n < end - 1e-12; ++*next) {
+        double phase = (double)*next / n;
+        if (phase <= now->start + 1e-12)
+            continue;
+        if (!advance_to(run, (phase - now->start) * run->field.T))
+            return 0;
+        add_sample(run, phase, record);
+    }
+    return advance_to(run, now->length * run->field.T);
+}
+
+int dynamics_coupled_cycle(dynamics_coupled_run *run, double T, dynamics_coupled_record *record)
+{
+    size_t next = 0;
+    const dynamics_stretch *last = &run->stretches[run->count - 1];
+    run->field.now = last;
+    run->field.T = T;
+    run->h = run->longest;
+    run->field.regime.pairs.youngest++;
+    run->field.regime.pairs.oldest++;
+    for (size_t i = 0; i < run->count; i++) {
+        const dynamics_stretch *s = &run->stretches[i];
+        enter_stretch(run, s);
+        if (record && (s->jump || (i == 0 && record->cycles == 0)))
+            add_sample(run, s->start, record);
+        if (!pass_stretch(run, &next, record))
+            return 0;
+        double end = s->start + s->length, node = end * (record ? (double)record->per_cycle : 0);
+        int jump = run->stretches[(i + 1) % run->count].jump;
+        if (record && (jump || s == last || fabs(node - round(node)) < 1e-9))
+            add_sample(run, end, record);
+    }
+    if (record)
+        record->cycles++;
+    return 1;
+}
+
+int dynamics_coupled_record_init(dynamics_coupled_record *record, const dynamics_coupled *pair,
+                                 size_t per_cycle, size_t cycles)
+{
+    size_t capacity = (per_cycle + 4 + 2 * pair->excitation->count) * cycles;
+    *record = (dynamics_coupled_record){.per_cycle = per_cycle, .capacity = capacity};
+    record->samples = calloc(capacity, sizeof *record->samples);
+    return record->samples != NULL;
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Integrates a gear pair on its bearings as oscillator.h does the rigid one. Steps end at the nodes
+ * of the excitation and where flanks meet or part or a tooth pair comes or goes, so that each lies
+ * within one smooth regime.
+ */
+#ifndef DYNAMICS_COUPLED_RUN_H
+#define DYNAMICS_COUPLED_RUN_H
+
+#include "../oscillator/oscillator.h"
+#include "coupled-field.h"
+
+typedef struct dynamics_coupled_run dynamics_coupled_run;
+
+typedef struct dynamics_coupled_sample {
+    dynamics_sample excitation;
+    double overlap, overlap_rate; /* of the driving flanks */
+    double centre, contact_ratio;
+    double position[DYNAMICS_COORDINATES];
+} dynamics_coupled_sample;
+
+typedef struct dynamics_coupled_record {
+    size_t per_cycle, count, capacity, cycles;
+    dynamics_coupled_sample *samples;
+} dynamics_coupled_record;
+
+/* NULL: out of memory. */
+dynamics_coupled_run *dynamics_coupled_run_new(const dynamics_coupled *pair, double tolerance);
+void dynamics_coupled_run_free(dynamics_coupled_run *run);
+
+/* Starts at phase 0 of mesh cycles of duration T, from coordinates and rates. Resets the clocks. */
+void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *state);
+/* The same, and follows the derivatives of the motion by its start. */
+void dynamics_coupled_start_varied(dynamics_coupled_run *run, double T, const double *state);
+const double *dynamics_coupled_state(const dynamics_coupled_run *run);
+/* The derivatives of the state by that at the start, DYNAMICS_TAKEN columns one behind the other.
+ */
+const double *dynamics_coupled_columns(const dynamics_coupled_run *run);
+
+/* Integrates one mesh cycle; `record` may be NULL. 0: too many steps. */
+int dynamics_coupled_cycle(dynamics_coupled_run *run, double T, dynamics_coupled_record *record);
+
+/* The times since the start without contact and with contact of the back flanks. */
+void dynamics_coupled_clocks(const dynamics_coupled_run *run, double *parted, double *back);
+
+/* The sum of the kinetic energy, the potential of the load, and what mesh and bearings took since
+   the start, which is constant. */
+double dynamics_coupled_energy(const dynamics_coupled_run *run, double *kinetic);
+
+int dynamics_coupled_record_init(dynamics_coupled_record *record, const dynamics_coupled *pair,
+                                 size_t per_cycle, size_t cycles);
+
+#endif

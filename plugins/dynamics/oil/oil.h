@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The oil between parted flanks, as the user asks for it and as gear and lubricant give it. */
+#ifndef DYNAMICS_OIL_H
+#define DYNAMICS_OIL_H
+
+#include "../excitation/inputs.h"
+#include "film.h"
+
+enum { DYNAMICS_SQUEEZE_NONE, DYNAMICS_SQUEEZE_SERIES };
+
+typedef struct dynamics_oil {
+    int32_t squeeze, rolling;
+    double hand_over, supply; /* m; supply NaN: the gap is full of oil */
+} dynamics_oil;
+
+/* The parameters, for a member `oil` of the instance. */
+#define DYNAMICS_OIL_ROWS(type)                                                                    \
+    FF_ONE_OF("none|series", "squeeze", type, oil.squeeze, 0, "none",                              \
+              "oil squeezed out between flanks that have parted and meet again: none, or series, " \
+              "a film on either flank in series with the teeth"),                                  \
+        FF_SWITCH("squeeze_rolling", type, oil.rolling, "false",                                   \
+                  "with squeeze: whether the wedge of the rolling flanks bears load, too"),        \
+        FF_QUANTITY("handover_film", "um", type, oil.hand_over, FF_MIN_OPEN, "0.2 um", NULL, 0,    \
+                    1000, 0.02, 5,                                                                 \
+                    "with squeeze: film of the loaded flanks, at which the teeth take over"),      \
+        FF_QUANTITY("supply_film", "um", type, oil.supply, FF_MIN_OPEN, NULL, NULL, 0, 1e6, 0, 0,  \
+                    "with squeeze: film from which on the oil does not fill the gap; default: it " \
+                    "always does")
+
+/* In ready: refuses what does not go together, and says what serves nothing. */
+ff_status dynamics_oil_check(const ff_host *host, const dynamics_oil *oil, int32_t damping);
+
+/* The film for an excitation whose units are known, which it then belongs to; *film is NULL without
+   squeeze. */
+ff_status dynamics_oil_read(const ff_host *host, const ff_array *in, const dynamics_oil *oil,
+                            const dynamics_inputs *inputs, dynamics_excitation *excitation,
+                            dynamics_film **film);
+
+#endif

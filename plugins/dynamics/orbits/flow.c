@@ -1,0 +1,474 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "flow-run.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The relative size below which a kink of e is round-off. */
+static const double round_off = 1e-12;
+
+/* Steps in a mesh cycle beyond which the motion is given up. */
+static const size_t step_limit = 20000000;
+
+dynamics_state dynamics_state_at(double delta, double rate)
+{
+    dynamics_state y = {.delta = delta, .rate = rate};
+    dynamics_state_restart(&y);
+    return y;
+}
+
+dynamics_state dynamics_state_in_oil(double delta, double rate, const double film[2])
+{
+    dynamics_state y = dynamics_state_at(delta, rate);
+    y.oil.known = 1;
+    memcpy(y.oil.film, film, sizeof y.oil.film);
+    return y;
+}
+
+void dynamics_state_restart(dynamics_state *y)
+{
+    static const double one[4] = {1, 0, 0, 1};
+    memcpy(y->m, one, sizeof y->m);
+    y->change[0] = y->change[1] = 0;
+    y->det = 1;
+    dynamics_film_state oil = {.m = {{0, 0, 1, 0}, {0, 0, 0, 1}}, .known = y->oil.known};
+    memcpy(oil.film, y->oil.film, sizeof oil.film);
+    y->oil = oil;
+}
+
+static int is_straight(const dynamics_piece *p)
+{
+    for (int i = 2; i <= p->degree; i++)
+        if (p->e[i] != 0)
+            return 0;
+    return 1;
+}
+
+static int bends_after(const dynamics_piece *p)
+{
+    double length = p[0].length + p[1].length;
+    return !is_straight(&p[0]) || !is_straight(&p[1]) ||
+           fabs(p->e[0] + p->e[1] * p->length - p[1].e[0]) > round_off ||
+           fabs(p->e[1] - p[1].e[1]) * length > round_off;
+}
+
+int dynamics_flow_init(dynamics_flow *flow, const dynamics_excitation *excitation)
+{
+    *flow = (dynamics_flow){.excitation = excitation};
+    flow->free_until = malloc(excitation->count * sizeof *flow->free_until);
+    if (excitation->film)
+        flow->radau = malloc(sizeof *flow->radau);
+    if (!flow->free_until || (excitation->film && !flow->radau))
+        return 0;
+    if (flow->radau)
+        dynamics_radau_init(flow->radau);
+    for (size_t i = excitation->count; i-- > 0;) {
+        const dynamics_piece *p = &excitation->pieces[i];
+        int last = i + 1 == excitation->count;
+        flow->free_until[i] = last || excitation->fed_back || bends_after(p)
+                                  ? dynamics_piece_end(excitation, p)
+                                  : flow->free_until[i + 1];
+    }
+    return 1;
+}
+
+void dynamics_flow_free(dynamics_flow *flow)
+{
+    free(flow->free_until);
+    free(flow->radau);
+    *flow = (dynamics_flow){.excitation = NULL};
+}
+
+static int damper_acts(const dynamics_run *r)
+{
+    return r->excitation->damping == DYNAMICS_DAMPING_ALWAYS || r->excitation->half_gap == 0 ||
+           r->pressed;
+}
+
+/* Sets the band of the spring that belongs to the state. */
+static void find_band(dynamics_run *r)
+{
+    double bend = r->y->delta - r->side * r->excitation->half_gap;
+    r->band = r->side ? dynamics_spring_band(r->piece, r->at - r->piece->start, bend) : 0;
+}
+
+/* Sets the contact that belongs to the state. At the edge of the gap the direction of motion
+   decides, and at rest there the load, which presses the driving flanks. */
+static void find_contact(dynamics_run *r)
+{
+    double b = r->excitation->half_gap, delta = r->y->delta, rate = r->y->rate;
+    if (r->excitation->film) {
+        dynamics_run_find_films(r);
+        return;
+    }
+    r->side = (delta > b || (delta == b && rate >= 0)) - (delta < -b || (delta == -b && rate < 0));
+    if (b == 0)
+        r->side = 1;
+    r->pressed = r->side != 0;
+}
+
+/* s and s' are continuous at a node, so that delta = s - e jumps against e. Where e jumps the
+   damper gives an impulse of 2 zeta times the jump. */
+static void enter_piece(dynamics_run *r, const dynamics_piece *before, const dynamics_piece *piece)
+{
+    double e = dynamics_piece_value(before->e, before->degree, before->length);
+    double slope = dynamics_piece_slope(before->e, before->degree, before->length);
+    double leap = piece->jump ? piece->e[0] - e : 0;
+    double kink = (slope - piece->e[1]) / r->T;
+    r->y->delta -= leap;
+    r->y->rate += kink + (damper_acts(r) ? 2 * r->excitation->zeta * leap : 0);
+    r->y->change[1] -= kink / r->T;
+    r->piece = piece;
+    if (leap != 0 && r->excitation->film)
+        dynamics_run_follow_flanks(r);
+    if (leap != 0)
+        find_contact(r);
+    find_band(r);
+}
+
+/* The gate of a clipped contact: its force as a polynomial, which parts the flanks when it would
+ * pull. */
+static void contact_force_gate(const dynamics_run *r, const dynamics_taylor_series *s, double sign,
+                               dynamics_gate *g)
+{
+    double k[DYNAMICS_DEGREE + 1] = {0}, offset[DYNAMICS_DEGREE + 1] = {0};
+    double c = r->excitation->film ? 0 : 2 * r->excitation->zeta; /* films bear the teeth's force */
+    int degree = r->piece->degree;
+    double since = r->at - r->piece->start, unit = s->h / r->T;
+    dynamics_piece_shift(dynamics_spring_slope(r->piece, r->band), degree, since, unit, k);
+    if (r->band)
+        dynamics_piece_shift(r->piece->offset, degree, since, unit, offset);
+    for (int n = 0; n <= s->order; n++) {
+        double value = 0;
+        for (int i = 0; i <= degree && i <= n; i++)
+            value += k[i] * s->c[n - i][DYNAMICS_Z];
+        if (n < s->order)
+            value += c * (n + 1) * s->c[n + 1][DYNAMICS_Z] / s->h;
+        if (n <= degree && r->band)
+            value -= r->band * offset[n];
+        g->p[n] = sign * r->side * value;
+    }
+}
+
+/* The gate at the knee of the spring on one flank: how far the deflection exceeds it, times the
+   change of the slope there, as a polynomial; or how far it falls short (`sign` -1). */
+static void knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, int flank,
+                      double sign, dynamics_gate *g)
+{
+    double steeper[DYNAMICS_DEGREE + 1], chord[DYNAMICS_DEGREE + 1], offset[DYNAMICS_DEGREE + 1];
+    int degree = r->piece->degree;
+    double since = r->at - r->piece->start, unit = s->h / r->T;
+    dynamics_piece_shift(r->piece->k, degree, since, unit, steeper);
+    dynamics_piece_shift(r->piece->chord, degree, since, unit, chord);
+    dynamics_piece_shift(r->piece->offset, degree, since, unit, offset);
+    for (int i = 0; i <= degree; i++)
+        steeper[i] -= chord[i];
+    for (int n = 0; n <= s->order; n++) {
+        double value = 0;
+        for (int i = 0; i <= degree && i <= n; i++)
+            value += steeper[i] * s->c[n - i][DYNAMICS_Z];
+        g->p[n] = sign * (flank * value - (n <= degree ? offset[n] : 0));
+    }
+    g->knee = 1;
+    g->side = r->side;
+    g->pressed = r->pressed;
+    g->band = sign > 0 ? 0 : flank;
+}
+
+/* Adds the gates at the knees that the present contact can reach; returns the number of all. */
+static int add_knees(const dynamics_run *r, const dynamics_taylor_series *s, int count,
+                     dynamics_gate *g)
+{
+    if (!r->piece->bends || !r->side)
+        return count;
+    if (r->band)
+        knee_gate(r, s, r->band, 1, &g[count++]);
+    for (int flank = -1; flank <= 1 && !r->band; flank += 2)
+        if (flank == r->side || r->excitation->half_gap == 0)
+            knee_gate(r, s, flank, -1, &g[count++]);
+    return count;
+}
+
+/* The gate at an edge of the gap: sign z + offset. */
+static void gap_edge_gate(const dynamics_taylor_series *s, double sign, double offset,
+                          dynamics_gate *g)
+{
+    for (int n = 0; n <= s->order; n++)
+        g->p[n] = sign * s->c[n][DYNAMICS_Z];
+    g->p[0] += offset;
+}
+
+/* Finds the gates of the present contact and returns their number. */
+static int find_gates(const dynamics_run *r, const dynamics_taylor_series *s,
+                      dynamics_gate g[DYNAMICS_RUN_GATES])
+{
+    double b = r->excitation->half_gap;
+    for (int i = 0; i < DYNAMICS_RUN_GATES; i++)
+        g[i].knee = g[i].band = 0;
+    if (r->excitation->film && r->excitation->film->rolling) {
+        double load[2];
+        dynamics_run_holding_load(r, r->end, load);
+        contact_force_gate(r, s, 1, &g[0]);
+        g[0].p[0] -= load[0];
+        g[0].p[1] -= load[1];
+        g[0].side = g[0].pressed = 0;
+        return 1;
+    }
+    if (r->side == 0) {
+        g[0].side = g[0].pressed = g[1].pressed = 1;
+        g[1].side = -1;
+        gap_edge_gate(s, -1, b, &g[0]);
+        gap_edge_gate(s, 1, b, &g[1]);
+        return 2;
+    }
+    int clipped = r->excitation->damping == DYNAMICS_DAMPING_CLIPPED;
+    if (clipped && r->pressed) {
+        g[0].side = r->side, g[0].pressed = 0;
+        contact_force_gate(r, s, 1, &g[0]);
+        return 1;
+    }
+    g[0].side = g[0].pressed = 0;
+    gap_edge_gate(s, r->side, 0, &g[0]);
+    if (!clipped)
+        return 1;
+    g[1].side = r->side, g[1].pressed = 1;
+    contact_force_gate(r, s, -1, &g[1]);
+    return 2;
+}
+
+/* Whether the step is too short to reach the edge of the gap: the sum of all terms that may lead
+ * there bounds the motion. */
+static int cannot_reach_edge(const dynamics_run *r, const dynamics_taylor_series *s, double tiny)
+{
+    double z = s->c[0][DYNAMICS_Z], first = s->c[1][DYNAMICS_Z];
+    double reach = tiny + (r->side * first > 0 ? 0 : fabs(first));
+    double room = r->side ? r->side * z : r->excitation->half_gap - fabs(z);
+    for (int n = 2; n <= s->order; n++)
+        reach += fabs(s->c[n][DYNAMICS_Z]);
+    if (r->excitation->film && r->excitation->film->rolling)
+        return 0;
+    return room > reach && (r->excitation->damping != DYNAMICS_DAMPING_CLIPPED || r->side == 0);
+}
+
+/* The first change of contact within the step: its x and gate; -1: there is none. */
+static double find_event(const dynamics_run *r, const dynamics_taylor_series *s,
+                         dynamics_gate g[DYNAMICS_RUN_GATES], const dynamics_gate **which)
+{
+    double tiny = 8 * DBL_EPSILON * (1 + r->excitation->half_gap), first = -1;
+    int count =
+        r->excitation->half_gap == 0 || cannot_reach_edge(r, s, tiny) ? 0 : find_gates(r, s, g);
+    count = add_knees(r, s, count, g);
+    for (int i = 0; i < count; i++) {
+        double x = dynamics_taylor_first_exit(g[i].p, s->order, tiny);
+        if (x < 0 || (first >= 0 && x >= first))
+            continue;
+        first = x;
+        *which = &g[i];
+    }
+    return first;
+}
+
+/* Moves the state by x h along the series. */
+static void move_state(dynamics_run *r, const dynamics_taylor_series *s, double x)
+{
+    dynamics_state *y = r->y;
+    double offset = r->side * r->excitation->half_gap, at[2];
+    if (!r->variation) {
+        dynamics_taylor_at(s, DYNAMICS_Z, x, at);
+        y->delta = at[0] + offset;
+        y->rate = at[1];
+        return;
+    }
+    double v[DYNAMICS_COLUMNS], w[DYNAMICS_COLUMNS], m[4] = {y->m[0], y->m[1], y->m[2], y->m[3]};
+    dynamics_taylor_columns_at(s, x, v, w);
+    y->delta = v[DYNAMICS_Z] + offset;
+    y->rate = w[DYNAMICS_Z];
+    y->change[0] = v[DYNAMICS_Z_T];
+    y->change[1] = w[DYNAMICS_Z_T] - w[DYNAMICS_Z] / r->T;
+    y->m[0] = v[DYNAMICS_PHI_1] * m[0] + v[DYNAMICS_PHI_2] * m[2];
+    y->m[1] = v[DYNAMICS_PHI_1] * m[1] + v[DYNAMICS_PHI_2] * m[3];
+    y->m[2] = w[DYNAMICS_PHI_1] * m[0] + w[DYNAMICS_PHI_2] * m[2];
+    y->m[3] = w[DYNAMICS_PHI_1] * m[1] + w[DYNAMICS_PHI_2] * m[3];
+    if (r->excitation->film)
+        dynamics_run_carry_films(r, &v[DYNAMICS_PHI_1], &w[DYNAMICS_PHI_1]);
+    y->det *= v[DYNAMICS_PHI_1] * w[DYNAMICS_PHI_2] - v[DYNAMICS_PHI_2] * w[DYNAMICS_PHI_1];
+}
+
+/* Where the damper begins or ends to act the force jumps by `jump` times the rate, and the
+   derivatives are multiplied by the saltation matrix [1 0; -jump 1] (Leine & Nijmeijer 2004,
+   Dynamics and Bifurcations of Non-Smooth Mechanical Systems). */
+static void change_contact(dynamics_run *r, const dynamics_gate *g)
+{
+    if (g->knee) {
+        r->band = g->band;
+        return;
+    }
+    r->band = 0;
+    if (r->excitation->film) {
+        dynamics_run_release_flank(r);
+        return;
+    }
+    int same_side = g->side == r->side, damped = damper_acts(r);
+    if (!same_side)
+        r->y->delta = (g->side ? g->side : r->side) * r->excitation->half_gap;
+    r->side = g->side;
+    r->pressed = g->pressed;
+    if (same_side) {
+        find_band(r);
+        return;
+    }
+    double jump = 2 * r->excitation->zeta * (damper_acts(r) - damped);
+    r->y->m[2] -= jump * r->y->m[0];
+    r->y->m[3] -= jump * r->y->m[1];
+    r->y->change[1] -= jump * r->y->change[0];
+}
+
+/* Above its knee the spring lacks the offset, as if a drag of its size pulled the gears. */
+static void add_offset(const dynamics_run *r, double since, dynamics_piece_equation *q)
+{
+    double offset[DYNAMICS_DEGREE + 1];
+    dynamics_piece_shift(r->piece->offset, q->degree, since, 1 / r->T, offset);
+    for (int i = 0; i <= q->degree; i++)
+        q->drag[i] -= r->band * offset[i];
+    q->drags = 1;
+}
+
+/* Plans the next step: its equation and its end, at most at the node that ends the smooth stretch.
+ */
+static double plan_step(const dynamics_run *r, dynamics_piece_equation *q)
+{
+    double end = dynamics_piece_end(r->excitation, r->piece);
+    int flies = !r->pressed && r->side == 0;
+    if (flies)
+        end = r->flow->free_until[r->piece - r->excitation->pieces];
+    *q = (dynamics_piece_equation){.load = r->excitation->load,
+                                   .damper = damper_acts(r) ? 2 * r->excitation->zeta : 0};
+    double since = r->at - r->piece->start;
+    q->drags = r->excitation->fed_back;
+    q->degree = r->pressed || q->drags || !is_straight(r->piece) ? r->piece->degree : 1;
+    if (r->pressed)
+        dynamics_piece_shift(dynamics_spring_slope(r->piece, r->band), q->degree, since, 1 / r->T,
+                             q->k);
+    if (q->degree > 1 && !is_straight(r->piece))
+        dynamics_piece_shift(r->piece->e, q->degree, since, 1 / r->T, q->e);
+    if (q->drags)
+        dynamics_piece_shift(r->piece->drag, q->degree, since, 1 / r->T, q->drag);
+    if (r->pressed && r->band)
+        add_offset(r, since, q);
+    double left = end - r->at, size = dynamics_taylor_step_size(q, left * r->T);
+    if (r->idle > DYNAMICS_MAX_IDLE && left * r->T > dynamics_slip)
+        return r->at + dynamics_slip / r->T;
+    return size <= dynamics_taylor_longest_step
+               ? end
+               : r->at + left / ceil(size / dynamics_taylor_longest_step);
+}
+
+static void notify_observer(const dynamics_run *r, const dynamics_taylor_series *s, double end,
+                            double x, double damper)
+{
+    dynamics_step stride = {
+        .excitation = r->excitation,
+        .piece = r->piece,
+        .series = s,
+        .at = r->at,
+        .end = end,
+        .x = x,
+        .T = r->T,
+        .side = r->side,
+        .pressed = r->pressed,
+        .band = r->band,
+        .damper = damper,
+    };
+    r->observer->observe(r->observer->ctx, &stride);
+}
+
+/* Expands the motion up to `end`, or to an earlier time up to which the series converges. Returns
+   that time. */
+static double expand(const dynamics_run *r, const dynamics_piece_equation *q, double end,
+                     dynamics_taylor_series *s)
+{
+    enum { HALVINGS = 8 };
+    double z[2] = {r->y->delta - r->side * r->excitation->half_gap, r->y->rate};
+    s->converged = 0;
+    for (int k = 0; k <= HALVINGS && !s->converged; k++) {
+        end = k ? r->at + (end - r->at) / 2 : end;
+        if (r->variation)
+            dynamics_taylor_expand(q, r->T, (end - r->at) * r->T, z, r->y->change, s);
+        else
+            dynamics_taylor_expand_motion(q, (end - r->at) * r->T, z, s);
+    }
+    return end;
+}
+
+static void take_step(dynamics_run *r)
+{
+    dynamics_piece_equation q;
+    dynamics_taylor_series s;
+    dynamics_gate g[DYNAMICS_RUN_GATES];
+    const dynamics_gate *which = NULL;
+    double end = plan_step(r, &q);
+    r->end = end = expand(r, &q, end, &s);
+    double h = (end - r->at) * r->T;
+    double x = r->idle > DYNAMICS_MAX_IDLE ? -1 : find_event(r, &s, g, &which);
+    if (x >= 0)
+        end = fmin(r->at + x * (end - r->at), end);
+    if (r->observer)
+        notify_observer(r, &s, end, x >= 0 ? x : 1, q.damper);
+    if (x != 0)
+        move_state(r, &s, x >= 0 ? x : 1);
+    r->idle = x >= 0 && x * h < dynamics_slip ? r->idle + 1 : 0;
+    r->at = end;
+    if (x >= 0)
+        change_contact(r, which);
+}
+
+static int follow_cycle(dynamics_run *r)
+{
+    const dynamics_excitation *excitation = r->excitation;
+    const dynamics_piece *last = &excitation->pieces[excitation->count - 1];
+    r->piece = last;
+    find_contact(r);
+    enter_piece(r, last, excitation->pieces);
+    size_t steps = 0;
+    while (r->at < 1) {
+        if (r->at >= dynamics_piece_end(excitation, r->piece))
+            enter_piece(r, r->piece, r->piece + 1);
+        else if (!excitation->film || r->side)
+            take_step(r);
+        else if (!dynamics_run_step_in_oil(r))
+            return 0;
+        if (++steps > step_limit)
+            return 0;
+    }
+    if (excitation->film)
+        dynamics_run_follow_flanks(r);
+    return isfinite(r->y->delta) && isfinite(r->y->rate);
+}
+
+void dynamics_flow_films(const dynamics_flow *flow, double T, const double x[2], int known,
+                         double film[2])
+{
+    dynamics_state y = dynamics_state_in_oil(x[0], x[1], film);
+    dynamics_run r = {.flow = flow, .excitation = flow->excitation, .T = T, .y = &y};
+    r.piece = &r.excitation->pieces[r.excitation->count - 1];
+    y.oil.known = known;
+    find_contact(&r);
+    memcpy(film, y.oil.film, sizeof y.oil.film);
+}
+
+int dynamics_flow_motion(const dynamics_flow *flow, double T, dynamics_state *state,
+                         const dynamics_observer *observer)
+{
+    dynamics_run r = {
+        .flow = flow, .excitation = flow->excitation, .T = T, .y = state, .observer = observer};
+    return follow_cycle(&r);
+}
+
+int dynamics_flow_variation(const dynamics_flow *flow, double T, dynamics_state *state)
+{
+    dynamics_run r = {
+        .flow = flow, .excitation = flow->excitation, .T = T, .y = state, .variation = 1};
+    return follow_cycle(&r);
+}

@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A steady motion, its invariants, and what it means for the teeth: the outputs of the models. */
+#ifndef DYNAMICS_MOTION_H
+#define DYNAMICS_MOTION_H
+
+#include "../excitation/film-wire.h"
+#include "../excitation/inputs.h"
+#include "oscillator.h"
+
+enum {
+    DYNAMICS_OUT_PHASE,
+    DYNAMICS_OUT_DTE,
+    DYNAMICS_OUT_DTE_VELOCITY,
+    DYNAMICS_OUT_MESH_FORCE,
+    DYNAMICS_OUT_DTE_RMS,
+    DYNAMICS_OUT_DTE_MEAN,
+    DYNAMICS_OUT_DTE_PEAK_TO_PEAK,
+    DYNAMICS_OUT_TOOTH_FORCE,
+    DYNAMICS_OUT_GAP,
+    DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH,
+    DYNAMICS_OUT_DYNAMIC_FACTOR_MESH,
+    DYNAMICS_OUT_CONTACT_LOSS,
+    DYNAMICS_OUT_BACK_CONTACT,
+    DYNAMICS_OUT_NATURAL_FREQUENCY,
+    DYNAMICS_OUT_PERIOD,
+    DYNAMICS_OUT_FLOQUET_MAX,
+    DYNAMICS_OUT_MULTIPLIERS,
+    DYNAMICS_OUT_DTE_HARMONICS,
+    DYNAMICS_OUT_LANDING_TIME,
+    DYNAMICS_OUT_LANDING_SPEED,
+    DYNAMICS_MOTION_OUTPUT_COUNT,
+    /* about other motions at the same speed */
+    DYNAMICS_OUT_STABLE_MOTIONS = DYNAMICS_MOTION_OUTPUT_COUNT,
+    DYNAMICS_SPEED_OUTPUT_COUNT,
+    /* of models that know all motions over a range of speeds */
+    DYNAMICS_OUT_ATLAS_FREQUENCY = DYNAMICS_SPEED_OUTPUT_COUNT,
+    DYNAMICS_OUT_ATLAS_RMS,
+    DYNAMICS_OUT_ATLAS_STABLE,
+    DYNAMICS_OUT_ATLAS_BRANCH,
+    DYNAMICS_OUT_ATLAS_FLOQUET_MAX,
+    DYNAMICS_OUT_FOLD_FREQUENCY,
+    DYNAMICS_OUT_FOLD_BRANCH,
+    DYNAMICS_OUT_DOUBLING_FREQUENCY,
+    DYNAMICS_OUT_DOUBLING_BRANCH,
+    DYNAMICS_ATLAS_OUTPUT_COUNT,
+    /* of a model that keeps account of them */
+    DYNAMICS_OUT_DAMPER_LOSS = DYNAMICS_ATLAS_OUTPUT_COUNT,
+    DYNAMICS_OUT_SQUEEZE_LOSS,
+    DYNAMICS_OUT_EXCITATION_POWER,
+    DYNAMICS_OUT_TORQUE_POWER,
+    DYNAMICS_OUT_FRICTION_WORK,
+    DYNAMICS_OUT_FILM_POWER,
+    DYNAMICS_POWER_OUTPUT_COUNT
+};
+
+extern const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT];
+
+typedef struct dynamics_motion {
+    const dynamics_excitation *excitation;
+    int period;             /* mesh cycles, DYNAMICS_APERIODIC or DYNAMICS_UNBOUNDED */
+    size_t cycles;          /* that the outputs show */
+    double T;               /* duration of a mesh cycle, rad of the natural frequency */
+    dynamics_record record; /* of `cycles` and as many more as a tooth pair stays in mesh */
+    dynamics_clocks clocks; /* over `cycles` */
+    double monodromy[4];
+    const double *films;        /* at its start; NULL: there are none, or they are not known */
+    double in_oil[4][4];        /* monodromy in (delta, rate, films) of a motion with films */
+    double loss, squeeze, work; /* energy that damper and films took, the films alone, and that the
+                                   excitation brought in, over `cycles` */
+    double drag;                /* energy that friction and rolling took from the vibration */
+    double thickness;           /* energy that the loaded film brought in, of the work */
+    double det_error;           /* relative error of det M */
+    double
+        energy_error; /* energy brought in less what is lost and stored, relative to the energies */
+} dynamics_motion;
+
+/* Mesh cycles from the start of active profile (SAP) to the last station, rounded up. */
+size_t dynamics_mesh_cycles_of_engagement(const dynamics_inputs *inputs);
+
+/* Records the motion that starts at (delta, rate). `motion` has excitation, period, cycles and T
+   set, and is freed by dynamics_record_free(&motion->record). FF_NOCONV: too many steps. */
+ff_status dynamics_motion_record(dynamics_motion *motion, const dynamics_inputs *inputs,
+                                 double tolerance, size_t per_cycle, double delta, double rate);
+
+/* The outputs from DYNAMICS_OUT_ATLAS_FREQUENCY to DYNAMICS_OUT_ATLAS_FLOQUET_MAX, one number per
+   point of the atlas. */
+typedef struct dynamics_atlas_columns {
+    double *frequency, *rms, *stable, *branch, *floquet;
+} dynamics_atlas_columns;
+
+/* 0: out of memory. */
+int dynamics_atlas_columns_open(dynamics_atlas_columns *columns, size_t points,
+                                const ff_host *host);
+
+/* The Floquet multipliers, which are the eigenvalues of the monodromy, as complex pairs (re, im);
+   returns the largest modulus. */
+double dynamics_motion_multipliers(const dynamics_motion *motion, double multipliers[4]);
+
+/* Sets det_error by Abel's identity: det M = exp(-2 zeta t) over the time t in which the damper
+   acts. Clocks and monodromy are set. */
+void dynamics_motion_check_determinant(dynamics_motion *motion);
+
+/* Sets energy_error by the energies at both ends, the work brought in and what the damper took. */
+void dynamics_motion_check_energy(dynamics_motion *motion, double start, double end, double work,
+                                  double loss);
+
+/* The outputs from DYNAMICS_OUT_DAMPER_LOSS on: means over the motion shown. With a film wired back
+   says how far what goes in is from what comes out. */
+ff_status dynamics_motion_put_powers(const dynamics_motion *motion,
+                                     const dynamics_film_powers *film, const ff_host *host);
+
+ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inputs *inputs,
+                              const ff_host *host);
+
+#endif

@@ -1,0 +1,558 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "oscillator.h"
+
+#include "../../numerics/integrator.h"
+#include "../excitation/spring.h"
+#include "bracket.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The longest step, in radians of the stiffest mesh: it holds at most one turning point. */
+static const double longest_step = 0.5;
+
+/* Steps since the start beyond which the motion is given up. */
+static const size_t step_limit = 20000000;
+
+/* The least error of a step, relative to the motion, that can be asked for. */
+static const double round_off = 1e-14;
+
+/* Events in a row that each advance by less than `slip`, rad, before the regime is held for that
+ * time. */
+enum { MAX_IDLE = 4 };
+static const double slip = 1e-6;
+
+struct dynamics_oscillator {
+    const dynamics_excitation *excitation;
+    numerics_integrator gsl;
+    gsl_odeiv2_system system;
+    double y[DYNAMICS_STATE_SIZE];
+    int side;    /* 1: driving flanks touch, -1: back flanks, 0: neither */
+    int pressed; /* 0 with side != 0: the damper is clipped and the flank lags behind the teeth */
+    int band;    /* of the spring (spring.h) */
+    const dynamics_piece *piece;
+    double T;       /* duration of the mesh cycle */
+    double t;       /* time since the start of the piece */
+    int refine;     /* divides the longest step and each piece */
+    double longest; /* the longest step */
+    double cap;     /* the longest step in this piece */
+    double h;       /* next step */
+    dynamics_clocks clocks;
+    size_t steps;
+};
+
+/* A condition that holds as long as value >= 0; then the regime changes to (side, pressed), or the
+   spring alone to another band. */
+typedef struct gate {
+    double value, rate;
+    int side, pressed, knee, band;
+} gate;
+
+enum { MOST_GATES = 4 };
+
+/* The slope of the spring's force in the present band. */
+static double stiffness_at(const dynamics_oscillator *o, double t)
+{
+    return dynamics_piece_value(dynamics_spring_slope(o->piece, o->band), o->piece->degree,
+                                t / o->T);
+}
+
+static double stiffness_rate_at(const dynamics_oscillator *o, double t)
+{
+    return dynamics_piece_slope(dynamics_spring_slope(o->piece, o->band), o->piece->degree,
+                                t / o->T) /
+           o->T;
+}
+
+/* What the force of the spring is less than slope times deflection. */
+static double offset_at(const dynamics_oscillator *o, double t)
+{
+    return o->band ? o->band * dynamics_piece_value(o->piece->offset, o->piece->degree, t / o->T)
+                   : 0;
+}
+
+static double offset_rate_at(const dynamics_oscillator *o, double t)
+{
+    return o->band
+               ? o->band * dynamics_piece_slope(o->piece->offset, o->piece->degree, t / o->T) / o->T
+               : 0;
+}
+
+static void find_band(dynamics_oscillator *o)
+{
+    double bend = o->y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap;
+    o->band = o->side ? dynamics_spring_band(o->piece, o->t / o->T, bend) : 0;
+}
+
+static double error_at(const dynamics_oscillator *o, double t)
+{
+    return dynamics_piece_value(o->piece->e, o->piece->degree, t / o->T);
+}
+
+static double error_rate_at(const dynamics_oscillator *o, double t)
+{
+    return dynamics_piece_slope(o->piece->e, o->piece->degree, t / o->T) / o->T;
+}
+
+static double drag_at(const dynamics_oscillator *o, double t)
+{
+    return o->excitation->fed_back
+               ? dynamics_piece_value(o->piece->drag, o->piece->degree, t / o->T)
+               : 0;
+}
+
+/* What drives delta: the load less the drag and e''. */
+static double drive_at(const dynamics_oscillator *o, double t)
+{
+    double bend = dynamics_piece_bend(o->piece->e, o->piece->degree, t / o->T);
+    return o->excitation->load - drag_at(o, t) - bend / (o->T * o->T);
+}
+
+static int damper_acts(const dynamics_oscillator *o)
+{
+    return o->excitation->damping == DYNAMICS_DAMPING_ALWAYS || o->excitation->half_gap == 0 ||
+           o->pressed;
+}
+
+static double energy_rate_at(const dynamics_oscillator *o, double t, double bend)
+{
+    return dynamics_spring_at(o->piece, t / o->T, o->T, bend, o->band).energy_rate;
+}
+
+/* The equation of excitation.h in delta = s - e; its variation; and the powers of
+   damper and excitation, the latter less what the drag takes. */
+static int derivative(double t, const double y[], double dydt[], void *self)
+{
+    const dynamics_oscillator *o = self;
+    double k = o->pressed ? stiffness_at(o, t) : 0;
+    double c = damper_acts(o) ? 2 * o->excitation->zeta : 0;
+    double bend = y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap;
+    double force = c * y[DYNAMICS_RATE] + k * bend - (o->pressed ? offset_at(o, t) : 0);
+    dydt[DYNAMICS_DELTA] = y[DYNAMICS_RATE];
+    dydt[DYNAMICS_RATE] = drive_at(o, t) - force;
+    if (o->system.dimension == DYNAMICS_MOTION)
+        return GSL_SUCCESS;
+    dydt[DYNAMICS_M11] = y[DYNAMICS_M21];
+    dydt[DYNAMICS_M12] = y[DYNAMICS_M22];
+    dydt[DYNAMICS_M21] = -c * y[DYNAMICS_M21] - k * y[DYNAMICS_M11];
+    dydt[DYNAMICS_M22] = -c * y[DYNAMICS_M22] - k * y[DYNAMICS_M12];
+    dydt[DYNAMICS_LOSS] = c * y[DYNAMICS_RATE] * y[DYNAMICS_RATE];
+    dydt[DYNAMICS_WORK] = (o->pressed ? energy_rate_at(o, t, bend) : 0) -
+                          force * error_rate_at(o, t) -
+                          drag_at(o, t) * (y[DYNAMICS_RATE] + error_rate_at(o, t));
+    return GSL_SUCCESS;
+}
+
+dynamics_oscillator *dynamics_oscillator_new(const dynamics_excitation *excitation,
+                                             double tolerance, int refine, size_t components)
+{
+    dynamics_oscillator *o = calloc(1, sizeof *o);
+    if (!o)
+        return NULL;
+    o->excitation = excitation;
+    o->refine = refine;
+    o->longest = longest_step / refine / sqrt(excitation->k_max);
+    o->system = (gsl_odeiv2_system){derivative, NULL, components, o};
+    if (numerics_integrator_make(&o->gsl, components, tolerance, round_off))
+        return o;
+    dynamics_oscillator_free(o);
+    return NULL;
+}
+
+void dynamics_oscillator_free(dynamics_oscillator *o)
+{
+    if (!o)
+        return;
+    numerics_integrator_free(&o->gsl);
+    free(o);
+}
+
+/* Enters a piece of a mesh cycle of duration T. */
+static void enter_piece(dynamics_oscillator *o, const dynamics_piece *piece, double T)
+{
+    o->piece = piece;
+    o->T = T;
+    o->cap = fmin(o->longest, piece->length * T / o->refine);
+    o->t = 0;
+}
+
+void dynamics_oscillator_start(dynamics_oscillator *o, double T, double delta, double rate)
+{
+    const dynamics_excitation *excitation = o->excitation;
+    const dynamics_piece *last = &excitation->pieces[excitation->count - 1];
+    memset(o->y, 0, sizeof o->y);
+    o->y[DYNAMICS_DELTA] = delta;
+    o->y[DYNAMICS_RATE] = rate;
+    o->y[DYNAMICS_M11] = o->y[DYNAMICS_M22] = 1;
+    enter_piece(o, last, T);
+    o->t = last->length * T;
+    o->side = excitation->half_gap == 0 || delta >= excitation->half_gap
+                  ? 1
+                  : -(delta <= -excitation->half_gap);
+    o->pressed = o->side != 0;
+    find_band(o);
+    o->clocks = (dynamics_clocks){0};
+    o->steps = 0;
+}
+
+const double *dynamics_oscillator_state(const dynamics_oscillator *o)
+{
+    return o->y;
+}
+
+dynamics_clocks dynamics_oscillator_clocks(const dynamics_oscillator *o)
+{
+    return o->clocks;
+}
+
+size_t dynamics_oscillator_steps(const dynamics_oscillator *o)
+{
+    return o->steps;
+}
+
+double dynamics_oscillator_energy(const dynamics_oscillator *o)
+{
+    double s = o->y[DYNAMICS_DELTA] + error_at(o, o->t);
+    double s_rate = o->y[DYNAMICS_RATE] + error_rate_at(o, o->t);
+    double bend = o->pressed ? o->y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap : 0;
+    double stored =
+        dynamics_spring_at(o->piece, o->t / o->T, o->T, bend, bend != 0 ? o->band : 0).energy;
+    return 0.5 * s_rate * s_rate + stored - o->excitation->load * s;
+}
+
+/* s and s' are continuous at a node, so that delta = s - e jumps against e. Where e jumps the
+   damper gives an impulse of 2 zeta times the jump. */
+static void pass_node(dynamics_oscillator *o, const dynamics_piece *piece, double T)
+{
+    double before = dynamics_oscillator_energy(o);
+    double e = error_at(o, o->t), e_rate = error_rate_at(o, o->t);
+    enter_piece(o, piece, T);
+    double leap = piece->jump ? piece->e[0] - e : 0;
+    o->y[DYNAMICS_DELTA] -= leap;
+    o->y[DYNAMICS_RATE] +=
+        e_rate - error_rate_at(o, 0) + (damper_acts(o) ? 2 * o->excitation->zeta * leap : 0);
+    find_band(o);
+    o->y[DYNAMICS_WORK] += dynamics_oscillator_energy(o) - before;
+}
+
+/* Finds the gates at which flanks meet or part and returns their number. */
+static int find_contact_gates(const dynamics_oscillator *o, double t, const double *y,
+                              gate g[MOST_GATES])
+{
+    double b = o->excitation->half_gap, sign = o->side;
+    if (b == 0)
+        return 0;
+    if (o->side == 0) {
+        g[0] = (gate){.value = b - y[DYNAMICS_DELTA], .rate = -y[DYNAMICS_RATE], .side = 1};
+        g[1] = (gate){.value = b + y[DYNAMICS_DELTA], .rate = y[DYNAMICS_RATE], .side = -1};
+        g[0].pressed = g[1].pressed = 1;
+        return 2;
+    }
+    gate touch = {.value = sign * y[DYNAMICS_DELTA] - b, .rate = sign * y[DYNAMICS_RATE]};
+    if (o->excitation->damping != DYNAMICS_DAMPING_CLIPPED) {
+        g[0] = touch;
+        return 1;
+    }
+    double k = stiffness_at(o, t), c = 2 * o->excitation->zeta;
+    double push = k * touch.value + c * touch.rate - sign * offset_at(o, t);
+    double bend_rate = sign * (drive_at(o, t) - (o->pressed ? sign * push : 0));
+    double push_rate = stiffness_rate_at(o, t) * touch.value + k * touch.rate + c * bend_rate -
+                       sign * offset_rate_at(o, t);
+    if (o->pressed) {
+        g[0] = (gate){.value = push, .rate = push_rate, .side = o->side};
+        return 1;
+    }
+    g[0] = touch;
+    g[1] = (gate){.value = -push, .rate = -push_rate, .side = o->side, .pressed = 1};
+    return 2;
+}
+
+/* The gate at the knee of the spring on one flank: how far it is exceeded, or falls short of
+   (`sign` -1). */
+static gate knee_gate(const dynamics_oscillator *o, double t, const double *y, int flank,
+                      double sign)
+{
+    const dynamics_piece *p = o->piece;
+    double since = t / o->T, bend = flank * (y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap);
+    double steeper = dynamics_piece_value(p->k, p->degree, since) -
+                     dynamics_piece_value(p->chord, p->degree, since);
+    double steeper_rate = (dynamics_piece_slope(p->k, p->degree, since) -
+                           dynamics_piece_slope(p->chord, p->degree, since)) /
+                          o->T;
+    double rate = steeper_rate * bend + steeper * flank * y[DYNAMICS_RATE] -
+                  dynamics_piece_slope(p->offset, p->degree, since) / o->T;
+    return (gate){.value = sign * dynamics_spring_excess(p, since, bend),
+                  .rate = sign * rate,
+                  .side = o->side,
+                  .pressed = o->pressed,
+                  .knee = 1,
+                  .band = sign > 0 ? 0 : flank};
+}
+
+/* Finds the gates of the present regime and returns their number. */
+static int find_gates(const dynamics_oscillator *o, double t, const double *y, gate g[MOST_GATES])
+{
+    int count = find_contact_gates(o, t, y, g);
+    if (!o->piece->bends || !o->side)
+        return count;
+    if (o->band)
+        g[count++] = knee_gate(o, t, y, o->band, 1);
+    for (int flank = -1; flank <= 1 && !o->band; flank += 2)
+        if (flank == o->side || o->excitation->half_gap == 0)
+            g[count++] = knee_gate(o, t, y, flank, -1);
+    return count;
+}
+
+/* Tries a step from the present state. `error` gets GSL's estimate for the motion alone: the
+   variation obeys the same equation and may grow to any size. */
+static void attempt(dynamics_oscillator *o, double h, double *y, double *error)
+{
+    memcpy(y, o->y, sizeof o->y);
+    gsl_odeiv2_step_apply(o->gsl.step, o->t, h, y, error, NULL, NULL, &o->system);
+    for (int i = DYNAMICS_MOTION; i < DYNAMICS_STATE_SIZE; i++)
+        error[i] = 0;
+    o->steps++;
+}
+
+/* The value or the rate of gate i after a step of h. */
+static double gate_after_step(dynamics_oscillator *o, int i, int rate, double h)
+{
+    double y[DYNAMICS_STATE_SIZE], error[DYNAMICS_STATE_SIZE];
+    gate g[MOST_GATES];
+    attempt(o, h, y, error);
+    find_gates(o, o->t + h, y, g);
+    return rate ? g[i].rate : g[i].value;
+}
+
+/* Bisection takes over from the secant when that has not met the instant: some 52 halvings of a
+   step reach round-off. */
+enum { MAX_PROBES = 100, MAX_SECANTS = 50 };
+
+/* The step at which gate i, or its rate, changes sign between 0 and h. */
+static double find_change(dynamics_oscillator *o, int i, int rate, double at_0, double h,
+                          double at_h)
+{
+    dynamics_bracket b = {0, at_0, h, at_h, 0};
+    double small = 4 * DBL_EPSILON * (fabs(at_0) + fabs(at_h));
+    for (int n = 0; n < MAX_PROBES && b.high - b.low > 4 * DBL_EPSILON * h; n++) {
+        double middle = dynamics_bracket_secant(&b);
+        if (!(middle > b.low && middle < b.high) || n > MAX_SECANTS)
+            middle = b.low + 0.5 * (b.high - b.low);
+        double f = gate_after_step(o, i, rate, middle);
+        if (fabs(f) <= small)
+            return middle;
+        dynamics_bracket_narrow(&b, middle, f);
+    }
+    return b.high;
+}
+
+/* Whether the cubic through two values and rates stays clear of 0 in between. */
+static int stays_clear(const gate *a, const gate *z, double h)
+{
+    double slope = (z->value - a->value) / h;
+    double c2 = (3 * slope - 2 * a->rate - z->rate) / h;
+    double c3 = (a->rate + z->rate - 2 * slope) / (h * h);
+    double root = sqrt(fmax(c2 * c2 - 3 * c3 * a->rate, 0));
+    double x = -a->rate / (c2 + root); /* the minimum, since the rate there rises */
+    if (!(x > 0 && x < h))
+        return 0;
+    double lowest = a->value + x * (a->rate + x * (c2 + x * c3));
+    return lowest > 0.1 * (fmin(a->value, z->value) - lowest);
+}
+
+/* The first instant in the step of h at which gate i closes, or -1. Without a change of sign the
+   gate may still touch 0 in between: then its lowest point is looked at. */
+static double find_closing(dynamics_oscillator *o, int i, const gate *a, const gate *z, double h)
+{
+    double tiny = 100 * DBL_EPSILON * (1 + o->excitation->half_gap);
+    if (a->value < -tiny || (a->value < 0 && a->rate < 0))
+        return 0;
+    double start = fmax(a->value, 0);
+    if (z->value < 0)
+        return start == 0 && a->rate <= 0 ? 0 : find_change(o, i, 0, start, h, z->value);
+    if (!(a->rate < 0 && z->rate > 0) || stays_clear(a, z, h))
+        return -1;
+    double lowest = find_change(o, i, 1, a->rate, h, z->rate);
+    double value = gate_after_step(o, i, 0, lowest);
+    return value < -tiny ? find_change(o, i, 0, start, lowest, value) : -1;
+}
+
+/* The flanks meet or part at the edge of the gap. Where the force jumps there, the variation is
+   multiplied by the saltation matrix 1 + [0 0; jump/rate 0] (Leine & Nijmeijer 2004, Dynamics and
+   Bifurcations of Non-Smooth Mechanical Systems). */
+static void cross_edge(dynamics_oscillator *o, const gate *g)
+{
+    double before[DYNAMICS_STATE_SIZE], after[DYNAMICS_STATE_SIZE], rate = o->y[DYNAMICS_RATE];
+    o->y[DYNAMICS_DELTA] = (o->side ? o->side : g->side) * o->excitation->half_gap;
+    derivative(o->t, o->y, before, o);
+    o->side = g->side;
+    o->band = 0;
+    o->pressed = g->pressed;
+    derivative(o->t, o->y, after, o);
+    double salt = rate != 0 ? (after[DYNAMICS_RATE] - before[DYNAMICS_RATE]) / rate : 0;
+    o->y[DYNAMICS_M21] += salt * o->y[DYNAMICS_M11];
+    o->y[DYNAMICS_M22] += salt * o->y[DYNAMICS_M12];
+}
+
+/* When a flank begins to lag behind the teeth, the damper takes the energy of the spring. A jump of
+   e across the edge of the gap brings energy in or takes it out. */
+static void change_regime(dynamics_oscillator *o, const gate *g)
+{
+    if (g->knee) {
+        o->band = g->band;
+        return;
+    }
+    double b = o->excitation->half_gap, energy = dynamics_oscillator_energy(o);
+    int same_side = g->side == o->side;
+    if (!same_side && fabs(fabs(o->y[DYNAMICS_DELTA]) - b) < 1e-9 * (1 + b)) {
+        cross_edge(o, g);
+        return;
+    }
+    o->side = g->side;
+    o->pressed = g->pressed;
+    find_band(o);
+    double change = dynamics_oscillator_energy(o) - energy;
+    if (same_side)
+        o->y[DYNAMICS_LOSS] -= change;
+    else
+        o->y[DYNAMICS_WORK] += change;
+}
+
+static void accept_step(dynamics_oscillator *o, double h, const double *y)
+{
+    memcpy(o->y, y, sizeof o->y);
+    if (o->pressed && o->band)
+        o->y[DYNAMICS_WORK] += dynamics_spring_knee_energy(o->piece, (o->t + h) / o->T, o->band) -
+                               dynamics_spring_knee_energy(o->piece, o->t / o->T, o->band);
+    o->t += h;
+    o->clocks.parted += o->pressed ? 0 : h;
+    o->clocks.back += o->pressed && o->side < 0 ? h : 0;
+    o->clocks.damped += damper_acts(o) ? h : 0;
+}
+
+/* Finds the first event in the step of h to y, its instant and its gate; 0: there is none. */
+static int find_event(dynamics_oscillator *o, double h, const double *y, double *at, gate *which)
+{
+    gate a[MOST_GATES], z[MOST_GATES];
+    int count = find_gates(o, o->t, o->y, a), found = 0;
+    find_gates(o, o->t + h, y, z);
+    for (int i = 0; i < count; i++) {
+        double instant = find_closing(o, i, &a[i], &z[i], h);
+        if (instant < 0 || (found && instant >= *at))
+            continue;
+        *at = instant;
+        *which = a[i];
+        found = 1;
+    }
+    return found;
+}
+
+/* Integrates to the instant `end` of the piece; 0: too many steps. */
+static int advance_to(dynamics_oscillator *o, double end)
+{
+    static const double no_slope[DYNAMICS_STATE_SIZE] = {0};
+    double y[DYNAMICS_STATE_SIZE], error[DYNAMICS_STATE_SIZE];
+    int idle = 0;
+    while (o->t < end) {
+        if (o->steps > step_limit)
+            return 0;
+        double h = fmin(o->h, o->cap), left = end - o->t, at = 0;
+        if (idle >= MAX_IDLE)
+            h = fmin(h, slip);
+        int last = h >= left * (1 - 1e-9);
+        h = last ? left : fmin(h, 0.5 * left + 0.5 * h);
+        gate which = {0};
+        attempt(o, h, y, error);
+        double next = h;
+        int adjusted =
+            gsl_odeiv2_control_hadjust(o->gsl.control, o->gsl.step, y, error, no_slope, &next);
+        if (adjusted == GSL_ODEIV_HADJ_DEC && h > 1e-9) {
+            o->h = next;
+            continue;
+        }
+        if (idle < MAX_IDLE && find_event(o, h, y, &at, &which)) {
+            if (at > 0)
+                attempt(o, at, y, error), accept_step(o, at, y);
+            idle = at > slip ? 0 : idle + 1;
+            change_regime(o, &which);
+            continue;
+        }
+        accept_step(o, h, y);
+        idle = 0;
+        o->h = adjusted == GSL_ODEIV_HADJ_INC ? fmax(o->h, next) : o->h;
+        if (last)
+            o->t = end;
+    }
+    return 1;
+}
+
+static void add_sample(const dynamics_oscillator *o, double phase, dynamics_record *record)
+{
+    if (record->count == record->capacity)
+        return;
+    double delta = o->y[DYNAMICS_DELTA], rate = o->y[DYNAMICS_RATE];
+    record->samples[record->count++] = (dynamics_sample){
+        .phase = (double)record->cycles + phase,
+        .s = delta + error_at(o, o->t),
+        .s_rate = rate + error_rate_at(o, o->t),
+        .force = dynamics_mesh_force(o->excitation, o->piece, o->t / o->T, delta, rate),
+    };
+}
+
+/* Integrates a piece from sample to sample. Its start gets a sample when the excitation jumps
+   there. `next` is the number of the next sample of the cycle. */
+static int record_piece(dynamics_oscillator *o, const dynamics_piece *piece, double T, size_t *next,
+                        dynamics_record *record)
+{
+    double n = (double)record->per_cycle, end = piece->start + piece->length;
+    for (; (double)*next / n <= piece->start + 1e-12; ++*next)
+        ;
+    if (piece->jump || (piece == o->excitation->pieces && record->cycles == 0))
+        add_sample(o, piece->start, record);
+    for (; (double)*next / n < end - 1e-12; ++*next) {
+        double phase = (double)*next / n;
+        if (!advance_to(o, (phase - piece->start) * T))
+            return 0;
+        add_sample(o, phase, record);
+    }
+    return advance_to(o, piece->length * T);
+}
+
+int dynamics_oscillator_cycle(dynamics_oscillator *o, double T, dynamics_record *record)
+{
+    const dynamics_excitation *excitation = o->excitation;
+    size_t next = 0;
+    o->h = o->longest;
+    for (size_t i = 0; i < excitation->count; i++) {
+        const dynamics_piece *piece = &excitation->pieces[i];
+        int final = i + 1 == excitation->count;
+        double end = final ? 1 : piece->start + piece->length;
+        pass_node(o, piece, T);
+        if (!(record ? record_piece(o, piece, T, &next, record) : advance_to(o, piece->length * T)))
+            return 0;
+        int jump = excitation->pieces[(i + 1) % excitation->count].jump;
+        double node = end * (record ? (double)record->per_cycle : 0);
+        if (record && (jump || final || fabs(node - round(node)) < 1e-9))
+            add_sample(o, end, record);
+    }
+    if (record)
+        record->cycles++;
+    return 1;
+}
+
+int dynamics_record_init(dynamics_record *record, const dynamics_excitation *excitation,
+                         size_t per_cycle, size_t cycles)
+{
+    size_t capacity = (per_cycle + 2 + 2 * excitation->count) * cycles;
+    *record = (dynamics_record){.per_cycle = per_cycle, .capacity = capacity};
+    record->samples = malloc(capacity * sizeof *record->samples);
+    return record->samples != NULL;
+}
+
+void dynamics_record_free(dynamics_record *record)
+{
+    free(record->samples);
+    record->samples = NULL;
+}

@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* dynamics/coupled: the gear pair on its bearings, two translations and a rotation per gear. */
+#include "../coupled/coupled-motion.h"
+#include "../coupled/coupled-shooting.h"
+#include "references.h"
+
+#include <flankfilm/author.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The motion that a case of a chain hands to its neighbour. */
+typedef struct handed {
+    char mark[16];
+    double mesh_frequency;        /* Hz; 0: there is none */
+    double state[DYNAMICS_TAKEN]; /* at phase 0: m, m/s */
+} handed;
+static const char mark[16] = "coupled 1";
+
+typedef struct model {
+    const ff_host *host;
+    double zeta, tolerance, settle_tolerance;
+    int32_t damping, branch;
+    dynamics_inertia inertia;
+    ff_reals bearing, bearing_zeta,
+        mass; /* N/m, 1, kg; one value or two; mass empty: the gears' own */
+    int64_t cycles_settle, cycles_measured, steps_per_cycle;
+    handed from, to; /* what the neighbouring case left, and what it is left */
+} model;
+
+static const ff_param params[] = {
+    FF_QUANTITY("damping_ratio", "1", model, zeta, 0, "0.01", NULL, 0, 10, 1e-3, 0.2,
+                "damping of the mesh over critical damping at the mean stiffness, c/(2 sqrt(k m))"),
+    FF_ONE_OF("always|contact|clipped", "damping", model, damping, 0, "always",
+              "when the mesh damper acts: always (also in free flight, as Li & Kahraman 2011), in "
+              "contact only, or in contact and clipped so that the flanks never pull"),
+    FF_ONE_OF(
+        "lower|upper", "branch", model, branch, 0, "lower",
+        "which of several motions: lower is the one without separation where it is stable, or "
+        "else what comes up slowly from 0.7 times the mesh frequency; upper comes down from "
+        "1.4 times the natural frequency of the mesh; where a study follows the speed, for "
+        "the first case of a chain"),
+    FF_QUANTITY("equivalent_mass", "kg", model, inertia.equivalent_mass, FF_MIN_OPEN, NULL,
+                "inertia", 0, 1e9, 0, 0,
+                "mass that the mesh spring sees in rotation; default: the gear's"),
+    FF_QUANTITY("natural_frequency", "Hz", model, inertia.natural_frequency, FF_MIN_OPEN, NULL,
+                "inertia", 0, 1e9, 0, 0,
+                "linear natural frequency of the mesh on stiff bearings at the mean stiffness, in "
+                "place of the mass"),
+    FF_LIST("bearing_stiffness", "N/m", model, bearing, FF_REQUIRED | FF_MIN_OPEN, NULL, NULL, 0,
+            1e15, 1e7, 1e11, 1, 2,
+            "radial stiffness that shaft and bearings give each gear, the same in all directions; "
+            "one value or two"),
+    FF_LIST("bearing_damping_ratio", "1", model, bearing_zeta, 0, "0.02", NULL, 0, 10, 1e-3, 0.2, 1,
+            2,
+            "damping of each gear on its bearings over critical damping, c/(2 sqrt(k m)); one "
+            "value or two"),
+    FF_LIST("gear_mass", "kg", model, mass, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0, 1, 2,
+            "masses that move on the bearings; default: the gears'; one value or two"),
+    FF_COUNT_OR(
+        "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
+        "mesh cycles in which the motion may settle behind a slow sweep of the speed; auto: by "
+        "shooting, and where that finds none, four times what the damping takes"),
+    FF_COUNT("cycles_measured", model, cycles_measured, 0, "16", NULL, 1, 256, 0, 0,
+             "mesh cycles shown when the motion is not periodic"),
+    FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,
+             "points shown per mesh cycle; the integrator's steps are its own"),
+    FF_QUANTITY("tolerance", "1", model, tolerance, FF_TUNABLE, "1e-9", NULL, 1e-13, 1e-3, 1e-12,
+                1e-6, "error of one integration step over the static deflection"),
+    FF_QUANTITY(
+        "settle_tolerance", "1", model, settle_tolerance, FF_TUNABLE, "1e-6", NULL, 1e-12, 1e-2,
+        1e-10, 1e-4,
+        "distance to the periodic motion at which it has settled, over the static deflection"),
+};
+
+static ff_status ready(void *self)
+{
+    const model *m = self;
+    dynamics_tell_servings(m->host, &m->inertia, m->zeta);
+    return FF_OK;
+}
+
+static ff_status check_gears(const model *m, const ff_array *in)
+{
+    for (int i = DYNAMICS_INPUT_COUNT; i < DYNAMICS_COUPLED_INPUT_COUNT; i++) {
+        const char *name = dynamics_input_ports[i].name;
+        int pair = i != DYNAMICS_IN_CENTRE_DISTANCE;
+        if (!in[i].data)
+            continue;
+        if (pair && (in[i].rank != 1 || in[i].shape[0] != 2))
+            return ff_failf(m->host, FF_INVALID, name, "must be two values, one for each gear");
+        for (int k = 0; k <= pair; k++)
+            if (!(in[i].data[k] > 0 && isfinite(in[i].data[k])))
+                return ff_failf(m->host, FF_INVALID, name, "must be above 0, but is %g %s",
+                                in[i].data[k], dynamics_input_ports[i].unit);
+    }
+    const double *base = in[DYNAMICS_IN_BASE_RADIUS].data,
+                 centre = in[DYNAMICS_IN_CENTRE_DISTANCE].data[0];
+    if (!(centre > (base[0] + base[1]) * (1 + 1e-9)))
+        return ff_failf(m->host, FF_INVALID, dynamics_input_ports[DYNAMICS_IN_CENTRE_DISTANCE].name,
+                        "must be above the sum of the base radii, %g m, but is %g m",
+                        base[0] + base[1], centre);
+    if (m->mass.count == 0 && !in[DYNAMICS_IN_MASS].data)
+        return ff_failf(m->host, FF_INVALID, "gear_mass",
+                        "no masses are known: give gear_mass, or wire a gear that offers mass");
+    return FF_OK;
+}
+
+/* Makes the checked inputs dimensionless. Per gear the damper is c = 2 zeta sqrt(k m). */
+static ff_status build_pair(const model *m, const ff_array *in, const dynamics_inputs *inputs,
+                            dynamics_coupled *pair)
+{
+    const dynamics_excitation *excitation = pair->excitation;
+    const double *base = in[DYNAMICS_IN_BASE_RADIUS].data;
+    double unit_mass = excitation->stiffness / (excitation->omega * excitation->omega);
+    pair->base = (base[0] + base[1]) / excitation->length;
+    pair->centre = in[DYNAMICS_IN_CENTRE_DISTANCE].data[0] / excitation->length;
+    pair->line = sqrt((pair->centre - pair->base) * (pair->centre + pair->base));
+    pair->angle = atan2(pair->line, pair->base);
+    pair->base_1 = base[0] / excitation->length;
+    pair->base_pitch = pair->base_1 * inputs->pitch;
+    for (int i = 0; i < 2; i++) {
+        pair->mass[i] =
+            (m->mass.count > 0 ? ff_of_both(&m->mass, i) : in[DYNAMICS_IN_MASS].data[i]) /
+            unit_mass;
+        pair->bearing[i] = ff_of_both(&m->bearing, i) / excitation->stiffness;
+        pair->damper[i] =
+            2 * ff_of_both(&m->bearing_zeta, i) * sqrt(pair->bearing[i] * pair->mass[i]);
+    }
+    double *cycle = calloc(2 * inputs->stations, sizeof *cycle), *share = cycle + inputs->stations;
+    if (!cycle)
+        return FF_NOMEM;
+    int known = inputs->load_share || inputs->line_force > 0;
+    for (size_t i = 0; i < inputs->stations; i++) {
+        cycle[i] = fmax((inputs->roll_angle[i] - inputs->roll_sap) / inputs->pitch, 0);
+        if (known)
+            share[i] = inputs->load_share ? inputs->load_share[i]
+                                          : inputs->tooth_force[i] / inputs->line_force;
+    }
+    int built =
+        dynamics_coupled_pair_stiffness(pair, inputs->stations, cycle, known ? share : NULL);
+    free(cycle);
+    return built ? FF_OK : FF_NOMEM;
+}
+
+static void report(const model *m, const dynamics_coupled_motion *motion, double largest)
+{
+    const ff_host *host = m->host;
+    dynamics_periodicity_line(&motion->settled, m->settle_tolerance,
+                              "the motion does not repeat itself within 8 mesh cycles: aperiodic, "
+                              "or it needs more cycles_settle",
+                              host);
+    host->quality(host->ctx, "settled_cycles", (double)motion->settled.cycles,
+                  (double)motion->settled.limit, FF_GOOD, NULL);
+    double limit = m->tolerance * fmax(1e4, 2 * (double)motion->cycles * motion->T);
+    host->quality(host->ctx, "energy_balance", motion->energy_error, limit,
+                  motion->energy_error <= limit ? FF_GOOD : FF_DOUBTFUL, NULL);
+    if (motion->settled.period > 0)
+        host->quality(host->ctx, "stability", largest, 1, largest < 1 ? FF_GOOD : FF_DOUBTFUL,
+                      largest < 1 ? NULL : "a disturbance of this motion does not die out");
+}
+
+static ff_status fail_too_many_steps(const ff_host *host, const dynamics_inputs *inputs)
+{
+    return ff_failf(host, FF_NOCONV, "bearing_stiffness",
+                    "a mesh frequency of %g Hz with bearings this stiff takes too many steps; take "
+                    "softer bearings, a higher speed, or dynamics/time-integration for rigid ones",
+                    inputs->mesh_frequency);
+}
+
+/* The highest frequency of a gear on its bearings, relative to that of the mesh. */
+static double highest_frequency(const dynamics_coupled *pair)
+{
+    return sqrt(1 + fmax(pair->bearing[0] / pair->mass[0], pair->bearing[1] / pair->mass[1]));
+}
+
+/* The unit of a component of the state. */
+static double unit_of(const dynamics_excitation *excitation, int i)
+{
+    return excitation->length * (i < DYNAMICS_RATES ? 1 : excitation->omega);
+}
+
+static void take_over(const handed *from, const dynamics_excitation *excitation,
+                      const dynamics_inputs *inputs, dynamics_coupled_motion *motion)
+{
+    motion->from = from->mesh_frequency / inputs->natural_frequency;
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+        motion->state[i] = from->state[i] / unit_of(excitation, i);
+}
+
+static void hand_on(const dynamics_coupled_motion *motion, const dynamics_excitation *excitation,
+                    const dynamics_inputs *inputs, handed *to)
+{
+    memcpy(to->mark, mark, sizeof mark);
+    to->mesh_frequency = inputs->mesh_frequency;
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+        to->state[i] = motion->state[i] * unit_of(excitation, i);
+}
+
+static ff_status output_motion(model *m, const dynamics_coupled *pair,
+                               const dynamics_inputs *inputs)
+{
+    double multipliers[2 * DYNAMICS_TAKEN], largest = 0;
+    dynamics_coupled_motion motion = {.T = 2 * M_PI * inputs->natural_frequency /
+                                           inputs->mesh_frequency};
+    dynamics_settling how = {
+        .branch = (dynamics_branch)m->branch,
+        .T = motion.T,
+        .cycles = dynamics_count_or_auto(m->cycles_settle),
+        .tolerance = m->settle_tolerance,
+        .step_tolerance = m->tolerance,
+        .host = m->host,
+    };
+    if (m->from.mesh_frequency > 0)
+        take_over(&m->from, pair->excitation, inputs, &motion);
+    m->from.mesh_frequency = m->to.mesh_frequency = 0;
+    if (motion.T * highest_frequency(pair) > dynamics_longest_cycle)
+        return fail_too_many_steps(m->host, inputs);
+    dynamics_coupled_run *run = dynamics_coupled_run_new(pair, m->tolerance);
+    ff_status status = run ? dynamics_coupled_settle(run, pair, &how, &motion) : FF_NOMEM;
+    if (status == FF_OK && motion.settled.period != DYNAMICS_UNBOUNDED)
+        hand_on(&motion, pair->excitation, inputs, &m->to);
+    motion.cycles =
+        motion.settled.period > 0 ? (size_t)motion.settled.period : (size_t)m->cycles_measured;
+    motion.cycles = motion.settled.period == DYNAMICS_UNBOUNDED ? 1 : motion.cycles;
+    if (status == FF_OK)
+        status = dynamics_coupled_motion_record(&motion, pair, inputs, m->tolerance,
+                                                (size_t)m->steps_per_cycle, m->host);
+    if (status == FF_OK)
+        status = dynamics_coupled_multipliers(motion.monodromy, multipliers, &largest);
+    if (status == FF_OK)
+        report(m, &motion, largest);
+    if (status == FF_OK)
+        status = dynamics_coupled_put(&motion, pair, inputs, m->host);
+    if (status == FF_NOCONV)
+        status = fail_too_many_steps(m->host, inputs);
+    free(motion.record.samples);
+    dynamics_coupled_run_free(run);
+    return status;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    model *m = self;
+    dynamics_excitation excitation = {.zeta = m->zeta, .damping = m->damping};
+    dynamics_coupled pair = {.excitation = &excitation};
+    dynamics_inputs inputs;
+    ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
+    inputs.wanted = wanted;
+    if (status == FF_OK)
+        status = check_gears(m, in);
+    if (status == FF_OK)
+        status = build_pair(m, in, &inputs, &pair);
+    if (status == FF_OK)
+        status = output_motion(m, &pair, &inputs);
+    dynamics_coupled_free(&pair);
+    dynamics_excitation_free(&excitation);
+    return status;
+}
+
+static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)
+{
+    model *m = self;
+    m->from.mesh_frequency = 0;
+    if (from && from->count == sizeof m->from && !memcmp(from->bytes, mark, sizeof mark))
+        memcpy(&m->from, from->bytes, sizeof m->from);
+    if (to) {
+        to->bytes = &m->to;
+        to->count = m->to.mesh_frequency > 0 ? sizeof m->to : 0;
+    }
+    return FF_OK;
+}
+
+FF_MODEL(dynamics_coupled_model, model, .id = "dynamics/coupled", .version = "1.0.0",
+         .summary = "non-linear dynamics of the gear pair with two translations and a rotation per "
+                    "gear; backlash, pressure angle and contact ratio follow the centre distance",
+         .reference = "Kim, Yoo & Chung 2010, Dynamic analysis for a pair of spur gears with "
+                      "translational motion due to bearing deformation, J. Sound Vib. 329, "
+                      "4409-4421; Li & Kahraman 2011, Proc. IMechE J 225, 740-753, eqs 2-5",
+         .bibtex = BIB_kim2010gears "\n", .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
+         .inputs = dynamics_input_ports, .input_count = DYNAMICS_COUPLED_INPUT_COUNT,
+         .input_stride = sizeof dynamics_input_ports[0], .outputs = dynamics_coupled_outputs,
+         .output_count = DYNAMICS_COUPLED_OUTPUT_COUNT,
+         .output_stride = sizeof dynamics_coupled_outputs[0], .ready = ready, .evaluate = evaluate,
+         .destroy = free, .carry = carry);
+FF_EXPORT_MODELS(&dynamics_coupled_model);
