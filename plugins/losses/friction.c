@@ -124,6 +124,14 @@ static void report_bound(const ff_host *host, const losses_mesh *m)
                   text);
 }
 
+void losses_report_factor(const ff_host *host, const losses_mesh *m)
+{
+    const bool within = m->contact_ratio >= 1 && m->contact_ratio <= 2;
+    host->quality(host->ctx, "loss_factor_range", m->contact_ratio, m->contact_ratio < 1 ? 1 : 2,
+                  within ? FF_GOOD : FF_RANGE,
+                  "contact ratio; loss_factor counts one or two pairs in mesh, 1 to 2");
+}
+
 void losses_report_friction(const ff_host *host, const losses_mesh *m, const losses_formula *f,
                             bool wanted)
 {

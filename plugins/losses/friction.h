@@ -25,6 +25,9 @@ double losses_friction_mean(const losses_mesh *m);
 /* `oil_factor` NaN: by the base of the oil. */
 losses_formula losses_formula_of(const losses_mesh *m, int32_t formula, double oil_factor);
 
+/* The range of the loss factor. */
+void losses_report_factor(const ff_host *host, const losses_mesh *m);
+
 /* The verdicts on friction; `wanted`: the formula itself was asked for. */
 void losses_report_friction(const ff_host *host, const losses_mesh *m, const losses_formula *f,
                             bool wanted);

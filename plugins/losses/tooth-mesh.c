@@ -386,6 +386,8 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
         losses_report_friction(
             s->host, m, &f,
             (wanted & (FF_BIT(OUT_FRICTION_FORMULA) | FF_BIT(OUT_FRICTION_AGREEMENT))) != 0);
+    if (status == FF_OK && wanted & FF_BIT(OUT_LOSS_FACTOR))
+        losses_report_factor(s->host, m);
     return status;
 }
 
@@ -428,7 +430,12 @@ static ff_status ready(void *self)
          "this output needs the roughness of the flanks: give roughness_ra to the gear stage, or "
          "wire a surface"},
     };
+    static const char other[] = "bulk_rule is not standard";
+    const int by_standard = s->bulk_rule == LOSSES_STANDARD;
+    const ff_serving rows[] = {{!by_standard, "supply", "", NULL, other},
+                               {!by_standard, "relief_factor", "", NULL, other}};
     ff_tell_needs(s->host, needs, sizeof needs / sizeof needs[0]);
+    ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
     if (s->bulk_temperature > 0 && s->thermal_conductance > 0)
         return ff_failf(s->host, FF_INVALID, "thermal_conductance",
                         "bulk_temperature is given, and thermal_conductance tells another one: "

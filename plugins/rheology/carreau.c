@@ -27,9 +27,10 @@ typedef struct carreau {
 static const double over_eyring = 1.86, fitted_n = 0.27;
 
 /* The law at each of n <= RHEOLOGY_BLOCK points: G and its slope over p. */
-static ff_status stresses_at(const carreau *c, size_t n, const double *p, const double *T,
+static ff_status stresses_at(const void *self, size_t n, const double *p, const double *T,
                              double *G, double *by_p)
 {
+    const carreau *c = self;
     ff_status status = FF_OK;
     if (isnan(c->G))
         status = rheology_eyring_stress(&c->eyring, n, p, T, G, by_p);
@@ -74,22 +75,20 @@ static int fluidity(const carreau *c, double ln_eta, double ln_S, double *psi, d
     return held;
 }
 
-/* Of one block; where by_p is given, that is the slope of G before and of psi after. */
-static int flow_some(const carreau *c, size_t count, const double *G, const double *ln_eta,
-                     const double *h, double u_s, double *psi, double *by_p, double *dpsi_dln_eta,
-                     double *dpsi_dh)
+/* Of one block; by_p is the slope of G before and of psi after. */
+static int64_t flow_some(const void *law, double u_s, size_t count, const double *G,
+                         const double *ln_eta, const double *h, double *psi, double *by_p,
+                         double *dpsi_dln_eta, double *dpsi_dh)
 {
-    int outside = 0;
+    int64_t outside = 0;
     for (size_t i = 0; i < count; i++) {
         double l = fmax(ln_eta[i], -RHEOLOGY_LN_MAX), by_eta, by_h;
         int thin = h[i]<RHEOLOGY_FILM_MIN, weak = l> ln_eta[i];
         double ln_S = u_s != 0 ? ln_strain(G[i], fmin(l, 1e6), h[i], u_s) : -1e6;
-        outside |= fluidity(c, fmin(l, 1e6), ln_S, &psi[i], &by_eta, &by_h) || thin || weak;
+        outside |= fluidity(law, fmin(l, 1e6), ln_S, &psi[i], &by_eta, &by_h) || thin || weak;
         by_p[i] *= by_h / G[i]; /* G and h are in S alike */
-        if (dpsi_dln_eta)
-            dpsi_dln_eta[i] = weak ? 0 : by_eta;
-        if (dpsi_dh)
-            dpsi_dh[i] = thin ? 0 : by_h / rheology_film(h[i]);
+        dpsi_dln_eta[i] = weak ? 0 : by_eta;
+        dpsi_dh[i] = thin ? 0 : by_h / rheology_film(h[i]);
     }
     return outside;
 }
@@ -98,19 +97,8 @@ static ff_status flow_at(const void *self, size_t n, const double *p, const doub
                          const double *ln_eta, const double *h, double u_s, double *psi,
                          double *dpsi_dp, double *dpsi_dln_eta, double *dpsi_dh)
 {
-    double G[RHEOLOGY_BLOCK], by_p[RHEOLOGY_BLOCK];
-    ff_status worst = FF_OK;
-    for (size_t from = 0; from < n && worst >= 0; from += RHEOLOGY_BLOCK) {
-        size_t count = n - from < RHEOLOGY_BLOCK ? n - from : RHEOLOGY_BLOCK;
-        ff_status status = stresses_at(self, count, p + from, T ? T + from : NULL, G, by_p);
-        int outside =
-            flow_some(self, count, G, ln_eta + from, h + from, u_s, psi + from, by_p,
-                      dpsi_dln_eta ? dpsi_dln_eta + from : NULL, dpsi_dh ? dpsi_dh + from : NULL);
-        for (size_t i = 0; i < count && dpsi_dp; i++)
-            dpsi_dp[from + i] = by_p[i];
-        worst = numerics_worse(worst, numerics_worse(status, outside ? FF_DOMAIN : FF_OK));
-    }
-    return worst;
+    return rheology_flow_at(stresses_at, flow_some, self, n, p, T, ln_eta, h, u_s, psi, dpsi_dp,
+                            dpsi_dln_eta, dpsi_dh);
 }
 
 static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
@@ -142,7 +130,8 @@ static ff_status shear_at(const void *self, size_t count, const double *p, const
         double ln_S = ln_strain(G[k], ln_eta[i], h[i], u_s);
         double ln_tau = log(G[k]) + ln_S + (c->n - 1) / 2 * log_one_more(2 * ln_S);
         double plain = exp(fmin(ln_tau, ln_most));
-        tau[i] = copysign(rheology_limited(plain, p[i], limit_of(c)), u_s);
+        double least = isnan(c->G) ? G[k] / over_eyring : RHEOLOGY_LIMIT_LEAST;
+        tau[i] = copysign(rheology_limited(plain, p[i], limit_of(c), least), u_s);
         outside |= ln_tau > ln_most || h[i] < RHEOLOGY_FILM_MIN;
     }
     return numerics_worse(worst, outside ? FF_DOMAIN : FF_OK);

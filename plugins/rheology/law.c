@@ -109,6 +109,26 @@ ff_status rheology_eyring_stress(const rheology_eyring *e, size_t n, const doubl
     return status == FF_DOMAIN ? FF_OK : status;
 }
 
+ff_status rheology_flow_at(rheology_stresses *stresses, rheology_some *some, const void *law,
+                           size_t n, const double *p, const double *T, const double *ln_eta,
+                           const double *h, double u_s, double *psi, double *dpsi_dp,
+                           double *dpsi_dln_eta, double *dpsi_dh)
+{
+    double stress[RHEOLOGY_BLOCK], by_p[RHEOLOGY_BLOCK], unwanted[2][RHEOLOGY_BLOCK];
+    ff_status worst = FF_OK;
+    for (size_t from = 0; from < n && worst >= 0; from += RHEOLOGY_BLOCK) {
+        size_t count = n - from < RHEOLOGY_BLOCK ? n - from : RHEOLOGY_BLOCK;
+        ff_status status = stresses(law, count, p + from, T ? T + from : NULL, stress, by_p);
+        int64_t held = some(law, u_s, count, stress, ln_eta + from, h + from, psi + from, by_p,
+                            dpsi_dln_eta ? dpsi_dln_eta + from : unwanted[0],
+                            dpsi_dh ? dpsi_dh + from : unwanted[1]);
+        for (size_t i = 0; i < count && dpsi_dp; i++)
+            dpsi_dp[from + i] = by_p[i];
+        worst = numerics_worse(worst, numerics_worse(status, held ? FF_DOMAIN : FF_OK));
+    }
+    return worst;
+}
+
 ff_status rheology_ambient_flow(const void *self, rheology_flow_3 *flow, int moves, size_t n,
                                 const double *ln_eta, const double *h, double u_s, double *psi,
                                 double *by_ln_eta, double *by_h)

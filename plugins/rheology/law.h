@@ -38,10 +38,16 @@ FF_SIMD_INLINE double rheology_film(double h)
     return h > RHEOLOGY_FILM_MIN ? h : RHEOLOGY_FILM_MIN;
 }
 
-/* The limiting shear stress of Bair & Winer 1979, tau_L = coefficient p, cuts the stress off. */
-FF_SIMD_INLINE double rheology_limited(double tau, double p, double coefficient)
+/* Least limiting stress where none follows from the oil, Pa: that of a PAO at ambient pressure. A
+   limit that vanished with p would cut off the Newtonian stress of the inlet. */
+static const double RHEOLOGY_LIMIT_LEAST = 4e6;
+
+/* The limiting shear stress of Bair & Winer 1979, tau_L = coefficient p, cuts the stress off where
+   it is above `least`. */
+FF_SIMD_INLINE double rheology_limited(double tau, double p, double coefficient, double least)
 {
-    double most = coefficient * (p > 0 ? p : 0), cut = tau < most ? tau : most;
+    double limit = coefficient * p, most = limit > least ? limit : least;
+    double cut = tau < most ? tau : most;
     return coefficient > 0 ? cut : tau;
 }
 
@@ -66,12 +72,11 @@ static inline rheology_limit rheology_limit_of(double coefficient)
 
 /*
  * What the limiting stress adds to the rate: the film slips by 1e7 1/s, as much as films do, 1 %
- * above tau_L, and by the square of the excess. tau_L is coefficient p, but 4 MPa at least, that of
- * a PAO at ambient pressure: a film whose limit vanished with p would slip in the inlet.
+ * above tau_L, and by the square of the excess.
  */
 FF_SIMD_INLINE double rheology_slip(double size, double p, rheology_limit limiting, double *slope)
 {
-    const double least = 4e6, steep = 1e7 / (0.01 * 0.01), far = 1e9;
+    const double least = RHEOLOGY_LIMIT_LEAST, steep = 1e7 / (0.01 * 0.01), far = 1e9;
     double limit = limiting.coefficient * p;
     limit = limit > least ? limit : least;
     double excess = size / limit - 1;
@@ -113,6 +118,19 @@ ff_status rheology_eyring_ready(const ff_host *host, rheology_eyring *e, const c
 enum { RHEOLOGY_BLOCK = 256 };
 ff_status rheology_eyring_stress(const rheology_eyring *e, size_t n, const double *p,
                                  const double *T, double *stress, double *by_p);
+
+/* `flow` of rheology/3, block by block: `stresses` fills in the stress of a law at each point and
+   its slope over p, which `some` turns into that of psi. `some` returns whether any was held, and
+   its by_ln_eta and by_h are never NULL. */
+typedef ff_status rheology_stresses(const void *law, size_t n, const double *p, const double *T,
+                                    double *stress, double *by_p);
+typedef int64_t rheology_some(const void *law, double u_s, size_t n, const double *stress,
+                              const double *ln_eta, const double *h, double *psi, double *by_p,
+                              double *by_ln_eta, double *by_h);
+ff_status rheology_flow_at(rheology_stresses *stresses, rheology_some *some, const void *law,
+                           size_t n, const double *p, const double *T, const double *ln_eta,
+                           const double *h, double u_s, double *psi, double *dpsi_dp,
+                           double *dpsi_dln_eta, double *dpsi_dh);
 
 /* `flow` of rheology/1 for laws that have that of rheology/3: who knows no pressure gets the stress
    of ambient pressure, with FF_DOMAIN where it `moves` with it. */

@@ -44,7 +44,7 @@ static int64_t stresses(size_t n, const double *restrict p, const double *restri
     for (size_t i = 0; i < n; i++) {
         double ln_tau = ln_eta[i] + ln_speed - ff_log(rheology_film(h[i]));
         double plain = ff_exp(ln_tau < RHEOLOGY_LN_MAX ? ln_tau : RHEOLOGY_LN_MAX);
-        tau[i] = sign * rheology_limited(plain, p[i], limiting);
+        tau[i] = sign * rheology_limited(plain, p[i], limiting, RHEOLOGY_LIMIT_LEAST);
         held |= (ln_tau > RHEOLOGY_LN_MAX) | (h[i] < RHEOLOGY_FILM_MIN);
     }
     return held;

@@ -24,9 +24,10 @@ typedef struct ree_eyring {
 } ree_eyring;
 
 /* tau0 of n <= RHEOLOGY_BLOCK points and its slope over p. */
-static ff_status stresses_at(const ree_eyring *r, size_t n, const double *p, const double *T,
+static ff_status stresses_at(const void *self, size_t n, const double *p, const double *T,
                              double *tau0, double *by_p)
 {
+    const ree_eyring *r = self;
     if (isnan(r->tau0))
         return rheology_eyring_stress(&r->eyring, n, p, T, tau0, by_p);
     for (size_t i = 0; i < n; i++) {
@@ -57,12 +58,13 @@ static void logs_of(const ree_eyring *r, size_t n, const double *tau0, double *l
 
 /* psi at tau0, and its slopes; that over p is through tau0, whose slope it replaces. */
 FF_SIMD
-static int64_t curve(double speed, size_t n, const double *restrict tau0,
+static int64_t curve(const void *law, double u_s, size_t n, const double *restrict tau0,
                      const double *restrict ln_eta, const double *restrict h, double *restrict psi,
                      double *restrict by_p, double *restrict by_ln_eta, double *restrict by_h)
 {
-    const double least_tau0 = speed / SLIP_MAX;
+    const double speed = fabs(u_s), least_tau0 = speed / SLIP_MAX;
     int64_t held = 0;
+    (void)law;
     for (size_t i = 0; i < n; i++) {
         double film = rheology_film(h[i]), ratio_0 = speed / tau0[i];
         double slip = ratio_0 < SLIP_MAX ? ratio_0 : SLIP_MAX;
@@ -84,19 +86,8 @@ static ff_status flow_at(const void *self, size_t n, const double *p, const doub
                          const double *ln_eta, const double *h, double u_s, double *psi,
                          double *dpsi_dp, double *dpsi_dln_eta, double *dpsi_dh)
 {
-    double tau0[RHEOLOGY_BLOCK], by_p[RHEOLOGY_BLOCK], unwanted[2][RHEOLOGY_BLOCK];
-    ff_status worst = FF_OK;
-    for (size_t from = 0; from < n && worst >= 0; from += RHEOLOGY_BLOCK) {
-        size_t count = n - from < RHEOLOGY_BLOCK ? n - from : RHEOLOGY_BLOCK;
-        ff_status status = stresses_at(self, count, p + from, T ? T + from : NULL, tau0, by_p);
-        int64_t held = curve(fabs(u_s), count, tau0, ln_eta + from, h + from, psi + from, by_p,
-                             dpsi_dln_eta ? dpsi_dln_eta + from : unwanted[0],
-                             dpsi_dh ? dpsi_dh + from : unwanted[1]);
-        for (size_t i = 0; i < count && dpsi_dp; i++)
-            dpsi_dp[from + i] = by_p[i];
-        worst = numerics_worse(worst, numerics_worse(status, held ? FF_DOMAIN : FF_OK));
-    }
-    return worst;
+    return rheology_flow_at(stresses_at, curve, self, n, p, T, ln_eta, h, u_s, psi, dpsi_dp,
+                            dpsi_dln_eta, dpsi_dh);
 }
 
 static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
@@ -117,11 +108,12 @@ FF_SIMD_INLINE double arsinh(double S)
 }
 
 FF_SIMD
-static int64_t stresses(double limiting, size_t n, const double *restrict tau_0,
+static int64_t stresses(double limiting, int moves, size_t n, const double *restrict tau_0,
                         const double *restrict ln_tau0, const double *restrict p,
                         const double *restrict ln_eta, const double *restrict h, double ln_speed,
                         double sign, double *restrict tau)
 {
+    const double low = moves ? 0 : RHEOLOGY_LIMIT_LEAST, share = moves ? 1 : 0;
     int64_t held = 0;
     for (size_t i = 0; i < n; i++) {
         double tau0 = tau_0[i], ln_slip = ln_speed - ln_tau0[i];
@@ -130,7 +122,7 @@ static int64_t stresses(double limiting, size_t n, const double *restrict tau_0,
         double near = ln_S < 300 ? ln_S : 300;
         double stress = tau0 * (arsinh(ff_exp(near)) + (ln_S > 300 ? ln_S - 300 : 0));
         double plain = stress < STRESS_MAX ? stress : STRESS_MAX;
-        tau[i] = sign * rheology_limited(plain, p[i], limiting);
+        tau[i] = sign * rheology_limited(plain, p[i], limiting, low + share * tau0);
         held |= !(stress < STRESS_MAX) | (h[i] < RHEOLOGY_FILM_MIN);
     }
     return held;
@@ -150,8 +142,8 @@ static ff_status shear_at(const void *self, size_t n, const double *p, const dou
         size_t count = n - from < RHEOLOGY_BLOCK ? n - from : RHEOLOGY_BLOCK;
         ff_status status = stresses_at(r, count, p + from, T ? T + from : NULL, tau0, by_p);
         logs_of(r, count, tau0, by_p);
-        int64_t held = stresses(limiting, count, tau0, by_p, p + from, ln_eta + from, h + from,
-                                ln_speed, u_s < 0 ? -1 : 1, tau + from);
+        int64_t held = stresses(limiting, isnan(r->tau0), count, tau0, by_p, p + from,
+                                ln_eta + from, h + from, ln_speed, u_s < 0 ? -1 : 1, tau + from);
         worst = numerics_worse(worst, numerics_worse(status, held ? FF_DOMAIN : FF_OK));
     }
     return worst;

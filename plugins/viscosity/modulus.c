@@ -16,6 +16,7 @@
 enum { PARAFFINIC, NAPHTHENIC, PAO, BASES };
 
 /* Arana, Larranaga & Ulacia 2019, tables 2 and 3: measured to some 0.5 to 1 GPa, 25 to 100 degC. */
+static const double measured_to = 1e9, coldest_measured = 298.15, hottest_measured = 373.15;
 static const struct modulus_constants {
     double a1, a2, b1, b2; /* Pa, Pa/K, 1, 1/K */
 } of_base[BASES] = {
@@ -34,6 +35,7 @@ typedef struct modulus {
     double a1, a2, b1, b2; /* SI; a1 NaN: by the base */
     int32_t base;          /* -1: that of the oil */
     double least, most;    /* K, between which the law holds */
+    bool measured;         /* the constants are those of the base */
     bool scaled;
     double scale[NODES], slope[NODES]; /* 1, 1/K */
 } modulus;
@@ -88,6 +90,14 @@ static void curve(const void *law, double ln_eta0, size_t n, const double *restr
     }
 }
 
+/* 1: a measured oil is asked for more than was measured, where its law is extrapolated. */
+static int extrapolates(const modulus *m, double p, double T)
+{
+    const double rounding = 1e-9;
+    return m->measured && (p > measured_to * (1 + rounding) || T < coldest_measured - rounding ||
+                           T > hottest_measured + rounding);
+}
+
 static int64_t rise(const void *self, size_t n, const double *p, const double *T, double *rise,
                     double *by_p, double *by_T)
 {
@@ -103,7 +113,7 @@ static int64_t rise(const void *self, size_t n, const double *p, const double *T
         by_p[i] = slope;
         by_T[i] = q * part_T + (at.A_T * part * part + 2 * at.A * part * part_T) * (p[i] - q);
         by_T[i] = beyond ? 0 : by_T[i];
-        outside |= beyond || p[i] > m->oil.pressure_cap;
+        outside |= beyond || p[i] > m->oil.pressure_cap || extrapolates(m, p[i], T[i]);
     }
     return outside;
 }
@@ -122,7 +132,10 @@ static ff_status eval(const void *self, size_t n, const double *p, const double 
     const isotherm one = {at.A, at.B, m->oil.pressure_cap};
     viscosity_points(curve, &one, ambient.ln_eta0, n, p, ln_eta, dln_dp);
     ff_status status = viscosity_oil_end(&m->oil, &ambient, n, p, T, ln_eta, NULL);
-    return in < all || in > all ? numerics_worse(status, FF_DOMAIN) : status;
+    int outside = in < all || in > all;
+    for (size_t i = 0; i < n && !outside; i++)
+        outside = extrapolates(m, p[i], all);
+    return outside ? numerics_worse(status, FF_DOMAIN) : status;
 }
 
 static const ff_param params[] = {
@@ -168,6 +181,7 @@ static ff_status take_base(modulus *m)
     m->b1 = of_base[m->base].b1;
     m->b2 = of_base[m->base].b2;
     m->scaled = known && !typed;
+    m->measured = true;
     return FF_OK;
 }
 
@@ -203,16 +217,31 @@ static void take_scale(modulus *m)
     m->scaled = moves;
 }
 
-/* Narrows the range to the temperatures at which value + slope T is at least `least`. */
-static void narrow(modulus *m, double value, double slope, double least)
+/* Whether A, and A + B p up to the cap, are at least `least`. */
+static bool holds_at(const modulus *m, double T, double least)
 {
-    double end = (least - value) / slope;
-    if (slope > 0)
-        m->least = fmax(m->least, end);
-    else if (slope < 0)
-        m->most = fmin(m->most, end);
-    else if (value < least)
-        m->most = -1;
+    const moduli at = moduli_at(m, T);
+    return at.A >= least && at.A + at.B * m->oil.pressure_cap >= least;
+}
+
+/* The temperature on the way from T, where the law holds, to `last` up to which it does. */
+static double end_of_range(const modulus *m, double T, double last, double least)
+{
+    enum { STEPS = 500, HALVINGS = 40 };
+    for (int i = 1; i <= STEPS; i++) {
+        double good = T + (last - T) * (i - 1) / STEPS, bad = T + (last - T) * i / STEPS;
+        if (holds_at(m, bad, least))
+            continue;
+        for (int k = 0; k < HALVINGS; k++) {
+            double middle = (good + bad) / 2;
+            if (holds_at(m, middle, least))
+                good = middle;
+            else
+                bad = middle;
+        }
+        return good;
+    }
+    return last;
 }
 
 static ff_status ready(void *self)
@@ -221,7 +250,7 @@ static ff_status ready(void *self)
     viscosity_oil_ready(&m->oil, viscosity_highest_cap);
     const bool alone = m->a2 < 0 || m->a2 > 0 || m->b2 < 0 || m->b2 > 0 || !isnan(m->b1);
     ff_status status = FF_OK;
-    m->scaled = false;
+    m->scaled = m->measured = false;
     if (!isnan(m->a1) && m->base >= 0)
         return ff_failf(m->host, FF_INVALID, "base",
                         "a1 is given, and base tells another one: leave one of them out");
@@ -238,16 +267,15 @@ static ff_status ready(void *self)
     if (m->scaled)
         take_scale(m);
     const double cap = m->oil.pressure_cap, T = viscosity_one_temperature(self, 313.15, NULL);
-    const double least = 0.05 * fabs(m->a1 + m->a2 * T);
-    m->least = viscosity_coldest;
-    m->most = viscosity_hottest;
-    narrow(m, m->a1, m->a2, least);
-    narrow(m, m->a1 + m->b1 * cap, m->a2 + m->b2 * cap, least);
-    if (!(T >= m->least && T <= m->most))
+    const moduli at = moduli_at(m, T);
+    const double least = 0.05 * fabs(at.A);
+    if (!(at.A > 0) || !holds_at(m, T, least))
         return ff_failf(m->host, FF_INVALID, "a1",
                         "at %g degC A is %.4g MPa and B %.4g; A, and A + B p up to %g GPa, must be "
                         "above 0",
-                        T - 273.15, 1e-6 * (m->a1 + m->a2 * T), m->b1 + m->b2 * T, 1e-9 * cap);
+                        T - 273.15, 1e-6 * at.A, at.B, 1e-9 * cap);
+    m->least = end_of_range(m, T, viscosity_coldest, least);
+    m->most = end_of_range(m, T, viscosity_hottest, least);
     return FF_OK;
 }
 

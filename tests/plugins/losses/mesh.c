@@ -28,7 +28,8 @@ static void test_mean_loss(double contact_ratio)
     check_below("cycle", stage_quality(s, "cycle_error"), 1e-3);
     check_below("engagement", stage_quality(s, "engagement"), 1e-9);
     check_below("force times sliding", stage_quality(s, "friction_power_error"), 1e-12);
-    check_true("trusted", stage_verdict(s) == FF_GOOD);
+    /* loss_factor counts two pairs in mesh at most */
+    check_true("trusted", stage_verdict(s) == (contact_ratio <= 2 ? FF_GOOD : FF_DOUBTFUL));
     stage_close(s);
 }
 

@@ -161,6 +161,20 @@ static void test_friction(const char *law)
     close_scene(&s);
 }
 
+/* The limit of the traction is Lambda p where that is above the Eyring stress, and the Eyring
+   stress below: at low pressure a Newtonian stress is not cut, and nothing steps at p = 0. */
+static void test_low_pressure(const char *law)
+{
+    scene s = open_scene(law, "mineral", "ISO VG 100", "auto");
+    start(&s);
+    const double T = 363.15, h = 1e-6, p = 1e5;
+    check_near("Newtonian at 0.1 MPa", shear(&s, p, T, h, 1), exp(ln_eta(&s, p, T)) / h, 1e-3);
+    check_near("no step at p = 0", shear(&s, -1e-3, T, 1e-9, 9), shear(&s, 1e-3, T, 1e-9, 9), 1e-9);
+    check_near("the Eyring stress there", shear(&s, 0, T, 1e-9, 9), 5.57e6, 1e-3);
+    check_near("Lambda p at 1 GPa", shear(&s, GPa, T, 1e-7, 90), 0.047e9, 1e-12);
+    close_scene(&s);
+}
+
 /* By hand: d ln tau/d ln Lambda = 1 - S/(sqrt(1 + S^2) asinh S). */
 static void test_sensitivity(void)
 {
@@ -270,6 +284,8 @@ int main(void)
     test_table();
     test_slopes("rheology/ree-eyring");
     test_slopes("rheology/carreau");
+    test_low_pressure("rheology/ree-eyring");
+    test_low_pressure("rheology/carreau");
     test_friction("rheology/ree-eyring");
     test_friction("rheology/carreau");
     test_sensitivity();

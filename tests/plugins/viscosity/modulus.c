@@ -154,10 +154,55 @@ static void test_refusals(void)
            (const char *const[][2]){{"a1", "60 MPa"}, {"b1", "-0.0062"}, {NULL, NULL}}, "a1");
 }
 
+/* A + B p stays above 0 with the scale of the grade, however cold, hot and compressed. */
+static void test_range_of_grades(void)
+{
+    static const char *const grades[] = {"ISO VG 10", "ISO VG 100", "ISO VG 1000"};
+    for (int k = 0; k < 6; k++) {
+        scene s = open_law(k < 3 ? "mineral" : "PAO", grades[k % 3]);
+        const double p[] = {9.9 * GPa};
+        double least = INFINITY, most = 0;
+        for (double T = 150; T <= 700; T += 0.5) {
+            double up = rise(&s, p[0], T);
+            least = fmin(least, up);
+            most = fmax(most, up);
+        }
+        check_true("rises at every temperature", least > 0);
+        check_below("and within 20 times what it does at ambient pressure", most, 20 * 9.9 / 0.02);
+        close_scene(&s);
+    }
+}
+
+/* Beyond what was measured of the oil the law is extrapolated, and says so. */
+static void test_extrapolation(void)
+{
+    static const double p[] = {1 * GPa, 1.05 * GPa, 0.5 * GPa, 0.5 * GPa};
+    static const double T[] = {373.15, 330, 383.15, 293.15};
+    scene s = open_law("PAO", "ISO VG 150");
+    stage *own = stage_open("viscosity/modulus");
+    stage_set_text(own, "eta0", "10 mPa s");
+    stage_set_text(own, "a1", "60 MPa");
+    const ff_viscosity *v = stage_service(own, FF_VISCOSITY_ID);
+    double ln, by_T;
+    for (int i = 0; i < 4; i++) {
+        ff_status expected = i == 0 ? FF_OK : FF_DOMAIN;
+        check_true("one temperature",
+                   s.v->eval(s.v->self, 1, &p[i], &T[i], &ln, NULL, NULL) == expected);
+        check_true("with slopes",
+                   s.v->eval(s.v->self, 1, &p[i], &T[i], &ln, NULL, &by_T) == expected);
+        check_true("constants of the user's own",
+                   v->eval(v->self, 1, &p[i], &T[i], &ln, NULL, NULL) == FF_OK);
+    }
+    stage_close(own);
+    close_scene(&s);
+}
+
 int main(void)
 {
     test_table();
     test_grades();
+    test_range_of_grades();
+    test_extrapolation();
     test_refusals();
     return check_done();
 }
