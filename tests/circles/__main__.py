@@ -24,7 +24,7 @@ MOST = 25  # .c files, or headers, of a folder
 # each part with its folders, which may use those named before them; other kinds of plugins have none, or no order
 PARTS = {
     'core': ['engine/value', 'engine/plugin', 'engine/pipeline', 'engine', 'program'],
-    'core/program/study': ['store', 'cases', 'run', 'kinds/estimates', 'kinds'],
+    'core/program/study': ['store', 'cases', 'run', 'kinds/answer', 'kinds/uncertainty/estimates', 'kinds/uncertainty', 'kinds/tradeoff', 'kinds/stability', 'kinds'],
     'plugins/dynamics': ['excitation', 'oil', 'oscillator', 'orbits', 'continuation', 'series', 'coupled', 'stage'],
     'plugins/ehl': ['contact', 'equations', 'solvers', 'estimates', 'heat', 'time', 'errors', 'stage'],
 }

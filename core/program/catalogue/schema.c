@@ -224,13 +224,13 @@ static json_t *stage_schema(const catalogue *c, json_t *definitions)
                      cases);
 }
 
-/* The keys of a driver; those that it reads itself have no type. */
-static json_t *driver_schema(const study_driver_row *driver)
+/* The keys of a kind of study; those that it reads itself have no type. */
+static json_t *kind_schema(const study_kind *kind)
 {
     json_t *map = open_map();
-    json_object_set_new(map, "description", json_string(driver->summary));
-    for (size_t i = 0; i < driver->key_count; i++) {
-        const ff_param *key = &driver->keys[i];
+    json_object_set_new(map, "description", json_string(kind->summary));
+    for (size_t i = 0; i < kind->key_count; i++) {
+        const ff_param *key = &kind->keys[i];
         if (key->type)
             add_param(map, key);
         else
@@ -240,14 +240,14 @@ static json_t *driver_schema(const study_driver_row *driver)
     return map;
 }
 
-/* A study has keys of its own and those of its drivers. */
+/* A study has keys of its own and those of its kinds. */
 static json_t *study_schema(void)
 {
     json_t *map = open_map();
     for (const char *const *key = study_keys; *key; key++)
         json_object_set_new(properties(map), *key, json_true());
-    for (const study_driver_row *driver = study_drivers; driver->name; driver++)
-        json_object_set_new(properties(map), driver->name, driver_schema(driver));
+    for (const study_kind *const *kind = study_kinds; *kind; kind++)
+        json_object_set_new(properties(map), (*kind)->name, kind_schema(*kind));
     return map;
 }
 

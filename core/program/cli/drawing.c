@@ -8,7 +8,7 @@
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
-#include "../study/kinds/tolerances.h"
+#include "../study/kinds/uncertainty/tolerances.h"
 #include "../terminal/terminal.h"
 
 #include <math.h>

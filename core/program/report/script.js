@@ -198,13 +198,14 @@
   /* Makes the figures of a list of descriptions, with their tables. */
   function expand(box) {
     JSON.parse(box.querySelector('script').textContent).forEach(function (figure) {
-      var node = make('figure'), caption = make('figcaption'), script = make('script');
+      var drawn = figure.sort !== 'tables', node = make(drawn ? 'figure' : 'div'), caption = make('figcaption'), script = make('script');
       script.type = 'application/json';
       script.textContent = JSON.stringify(figure);
       caption.appendChild(make('span', '', figure.title));
-      node.appendChild(caption);
-      node.appendChild(script);
+      if (drawn) node.appendChild(caption);
+      if (drawn) node.appendChild(script);
       box.appendChild(node);
+      (figure.words || []).forEach(function (words) { node.appendChild(make('p', '', words)); });
       (figure.tables || []).forEach(function (table) {
         var details = make('details');
         if (!table.rows.length) return;

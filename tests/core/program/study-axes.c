@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* What stands under `study:` as axes and points; the Sobol sequence. */
 #include "../../../core/program/study/kinds/kinds.h"
-#include "../../../core/program/study/kinds/tolerances.h"
+#include "../../../core/program/study/kinds/uncertainty/tolerances.h"
 
 #include <check.h>
 #include <math.h>

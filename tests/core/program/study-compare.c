@@ -2,7 +2,7 @@
 /* The numbers of a trade-off: differences between answers, the front, its knee. */
 #include "../../../core/program/accuracy/compare.h"
 
-#include "../../../core/program/study/kinds/front.h"
+#include "../../../core/program/study/kinds/tradeoff/front.h"
 
 #include <check.h>
 #include <math.h>

@@ -12,7 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "../../../core/program/study/kinds/estimates/estimate.h"
+#include "../../../core/program/study/kinds/uncertainty/estimates/estimate.h"
 
 /* of each problem: 5 intervals plainly, 2 and 5 of ladders, 2 of indices; 5 means; 2 errors */
 enum { CHECKS = 3 * (14 + 5 + 2), RISK = 100 };

@@ -103,3 +103,17 @@ bool study_csv_is_silent(const char *text)
         text++;
     return !*text || *text == '#';
 }
+
+void study_csv_write(FILE *out, const char *text, size_t length, bool always)
+{
+    bool quoted = always || strcspn(text, ",\"\n\r") < length;
+    if (quoted)
+        fputc('"', out);
+    for (size_t i = 0; i < length; i++) {
+        if (text[i] == '"')
+            fputc('"', out);
+        fputc(text[i] == '\n' || text[i] == '\r' ? ' ' : text[i], out);
+    }
+    if (quoted)
+        fputc('"', out);
+}

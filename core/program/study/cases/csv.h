@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 enum { STUDY_CSV_FIELDS = 1000 }; /* at most; of more, one is kept */
 
@@ -30,5 +31,7 @@ bool study_csv_is_silent(const char *text);
 char study_csv_separator(const char *text);
 study_csv_line study_csv_split(const char *text, char separator);
 void study_csv_free(study_csv_line *line);
+/* Writes a field, in quotes where it needs them or `always`. */
+void study_csv_write(FILE *out, const char *text, size_t length, bool always);
 
 #endif

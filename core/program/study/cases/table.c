@@ -2,6 +2,7 @@
 /* Writes table.csv: a row for each case with what was varied and the scalars that it gave. */
 #include "table.h"
 
+#include "csv.h"
 #include "spectrum.h"
 
 #include <fcntl.h>
@@ -9,20 +10,6 @@
 #include <string.h>
 #include <sys/file.h>
 #include <unistd.h>
-
-static void put_cell(FILE *out, const char *text, size_t length)
-{
-    bool plain = strcspn(text, ",\"\n\r") >= length;
-    if (!plain)
-        fputc('"', out);
-    for (size_t i = 0; i < length; i++) {
-        if (text[i] == '"')
-            fputc('"', out);
-        fputc(text[i] == '\n' || text[i] == '\r' ? ' ' : text[i], out);
-    }
-    if (!plain)
-        fputc('"', out);
-}
 
 /* Returns the unit that follows a number, and sets the length of the number; NULL when there is no
    number. */
@@ -74,7 +61,7 @@ static void put_judgement(FILE *out, const study_judgement *judgement)
 {
     char *reasons = judgement ? study_judgement_text(judgement) : NULL;
     fprintf(out, ",%s,", judgement ? study_verdict_name(judgement->verdict) : "");
-    put_cell(out, reasons ? reasons : "", reasons ? strlen(reasons) : 0);
+    study_csv_write(out, reasons ? reasons : "", reasons ? strlen(reasons) : 0, false);
     free(reasons);
 }
 
@@ -92,7 +79,7 @@ static void put_row(FILE *out, const study_definition *study, const char *const 
         if (units[k])
             unit_of(value, &length);
         fputc(',', out);
-        put_cell(out, value, length);
+        study_csv_write(out, value, length, false);
     }
     if (study->spectrum)
         fprintf(out, ",%.12g", study->spectrum->times[index]);
@@ -105,7 +92,7 @@ static void put_row(FILE *out, const study_definition *study, const char *const 
     }
     put_judgement(out, record ? judgement : NULL);
     fputc(',', out);
-    put_cell(out, reason ? reason : "", reason ? strlen(reason) : 0);
+    study_csv_write(out, reason ? reason : "", reason ? strlen(reason) : 0, false);
     fputc('\n', out);
 }
 

@@ -2,35 +2,16 @@
 /* Runs studies whose later cases depend on what earlier ones gave: finds the driver, reads its keys
    and the cases that are known beforehand, and runs it. */
 #include "kinds.h"
-#include "stability.h"
-#include "tradeoff.h"
-#include "uncertainty.h"
 
-#include "../cases/case.h"
 #include "../cases/spectrum.h"
-#include "../run/run.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-const study_driver_row study_drivers[] = {
-    {"stability", "maps", "Map of where a pipeline converges, degrades or fails, and why",
-     study_map_keys, STUDY_MAP_KEYS},
-    {"tradeoff", "measures a trade-off",
-     "Error against cost of models and resolutions, with the Pareto front", study_tradeoff_keys,
-     STUDY_TRADEOFF_KEYS},
-    {"uncertainty", "samples uncertain inputs",
-     "What uncertain inputs make of the outputs, against the errors of grids and models",
-     study_uncertainty_keys, STUDY_UNCERTAINTY_KEYS},
-    {.name = NULL},
-};
-
 typedef struct study_driver {
-    const study_driver_row *row;
+    const study_kind *kind;
     study_context context;
-    study_map *map; /* one of these three is set */
-    study_tradeoff *tradeoff;
-    study_uncertainty *uncertainty;
+    void *study; /* what the kind has read */
 } study_driver;
 
 /* Returns the outputs that the driver requests of its cases, as a file would list them. */
@@ -106,39 +87,38 @@ static void lay_out_planned(study_context *context, study_definition *study)
 }
 
 /* Reports an unknown key, with the nearest known one or the name of the driver. */
-static void refuse_key(const study_driver_row *row, const char *key, ff_place place,
-                       ff_report *report)
+static void refuse_key(const study_kind *kind, const char *key, ff_place place, ff_report *report)
 {
-    const char **names = memory_alloc(row->key_count * sizeof *names);
-    for (size_t i = 0; i < row->key_count; i++)
-        names[i] = row->keys[i].name;
-    const char *near = ff_nearest(key, names, row->key_count);
-    ff_error(report, FF_FAULT_INPUT, place, NULL, "%s: unknown key \"%.80s\"%s%s%s", row->name, key,
-             near ? "; did you mean \"" : " for study/", near ? near : row->name,
+    const char **names = memory_alloc(kind->key_count * sizeof *names);
+    for (size_t i = 0; i < kind->key_count; i++)
+        names[i] = kind->keys[i].name;
+    const char *near = ff_nearest(key, names, kind->key_count);
+    ff_error(report, FF_FAULT_INPUT, place, NULL, "%s: unknown key \"%.80s\"%s%s%s", kind->name,
+             key, near ? "; did you mean \"" : " for study/", near ? near : kind->name,
              near ? "\"?" : "");
     free(names);
 }
 
-static const ff_param *find_key(const study_driver_row *row, const char *key)
+static const ff_param *find_key(const study_kind *kind, const char *key)
 {
-    for (size_t i = 0; i < row->key_count; i++)
-        if (!strcmp(row->keys[i].name, key))
-            return &row->keys[i];
+    for (size_t i = 0; i < kind->key_count; i++)
+        if (!strcmp(kind->keys[i].name, key))
+            return &kind->keys[i];
     return NULL;
 }
 
-static bool check_keys(const study_driver_row *row, const ff_node *map, ff_report *report)
+static bool check_keys(const study_kind *kind, const ff_node *map, ff_report *report)
 {
     size_t errors = ff_report_errors(report);
     for (size_t i = 0; i < map->count; i++)
-        if (strncmp(map->keys[i], "x-", 2) != 0 && !find_key(row, map->keys[i]))
-            refuse_key(row, map->keys[i], map->key_places[i], report);
-    for (size_t i = 0; i < row->key_count; i++) {
-        const ff_param *key = &row->keys[i];
+        if (strncmp(map->keys[i], "x-", 2) != 0 && !find_key(kind, map->keys[i]))
+            refuse_key(kind, map->keys[i], map->key_places[i], report);
+    for (size_t i = 0; i < kind->key_count; i++) {
+        const ff_param *key = &kind->keys[i];
         if (!(key->flags & FF_REQUIRED) || ff_node_get(map, key->name))
             continue;
         char *hint = memory_print_text("%s: a value, a list or a map", key->name);
-        ff_error(report, FF_FAULT_INPUT, map->place, hint, "%s: \"%s\" is missing: %s", row->name,
+        ff_error(report, FF_FAULT_INPUT, map->place, hint, "%s: \"%s\" is missing: %s", kind->name,
                  key->name, key->doc);
         free(hint);
     }
@@ -146,12 +126,12 @@ static bool check_keys(const study_driver_row *row, const ff_node *map, ff_repor
 }
 
 /* Reads a key that has a type, from its node or its preset. */
-static bool read_value(const study_driver_row *row, const ff_param *key, study_key_value *value,
+static bool read_value(const study_kind *kind, const ff_param *key, study_key_value *value,
                        ff_report *report)
 {
     char name[192], why[200];
     ff_unit unit;
-    snprintf(name, sizeof name, "%s.%s", row->name, key->name);
+    snprintf(name, sizeof name, "%s.%s", kind->name, key->name);
     ff_unit_parse(*key->unit ? key->unit : "1", &unit, why, sizeof why);
     return value->node   ? ff_param_read(key, &unit, name, value->node, &value->value, report)
            : key->preset ? ff_param_read_preset(key, &unit, name, &value->value, report)
@@ -160,36 +140,31 @@ static bool read_value(const study_driver_row *row, const ff_param *key, study_k
 
 static bool read_keys(study_driver *driver, const ff_node *map, ff_report *report)
 {
-    const study_driver_row *row = driver->row;
+    const study_kind *kind = driver->kind;
     size_t errors = ff_report_errors(report);
-    study_key_value *values = memory_alloc(row->key_count * sizeof *values);
-    check_keys(row, map, report);
-    for (size_t i = 0; i < row->key_count; i++) {
-        values[i].node = ff_node_get(map, row->keys[i].name);
-        if (row->keys[i].type != STUDY_TREE)
-            read_value(row, &row->keys[i], &values[i], report);
+    study_key_value *values = memory_alloc(kind->key_count * sizeof *values);
+    check_keys(kind, map, report);
+    for (size_t i = 0; i < kind->key_count; i++) {
+        values[i].node = ff_node_get(map, kind->keys[i].name);
+        if (kind->keys[i].type != STUDY_TREE)
+            read_value(kind, &kind->keys[i], &values[i], report);
     }
     bool good = ff_report_errors(report) == errors;
-    if (good && row->keys == study_map_keys)
-        driver->map = study_map_read(&driver->context, values);
-    else if (good && row->keys == study_tradeoff_keys)
-        driver->tradeoff = study_tradeoff_read(&driver->context, values);
-    else if (good)
-        driver->uncertainty = study_uncertainty_read(&driver->context, values);
-    for (size_t i = 0; i < row->key_count; i++)
+    driver->study = good ? kind->read(&driver->context, values) : NULL;
+    for (size_t i = 0; i < kind->key_count; i++)
         ff_value_clear(&values[i].value);
     free(values);
-    return driver->map || driver->tradeoff || driver->uncertainty;
+    return driver->study != NULL;
 }
 
-static bool open_driver(study_definition *study, const ff_node *root, const study_driver_row *row,
+static bool open_driver(study_definition *study, const ff_node *root, const study_kind *kind,
                         ff_report *report)
 {
     const ff_node *node = ff_node_get(root, "study");
     study_driver *driver = study->driver = memory_alloc(sizeof *driver);
-    const ff_node *map = ff_node_get(node, row->name);
-    driver->row = row;
-    driver->context = (study_context){.name = row->name,
+    const ff_node *map = ff_node_get(node, kind->name);
+    driver->kind = kind;
+    driver->context = (study_context){.name = kind->name,
                                       .root = root,
                                       .report = report,
                                       .further = "",
@@ -202,7 +177,7 @@ static bool open_driver(study_definition *study, const ff_node *root, const stud
     if (map->kind != FF_MAP)
         return ff_error(report, FF_FAULT_INPUT, map->place, NULL,
                         "%s: expected a map; flankfilm schema lists what may stand there",
-                        row->name);
+                        kind->name);
     if (!read_keys(driver, map, report))
         return false;
     lay_out_planned(&driver->context, study);
@@ -211,32 +186,32 @@ static bool open_driver(study_definition *study, const ff_node *root, const stud
             if (!strcmp(node->keys[i], *own) && !strstr(*own, "_limit"))
                 return ff_error(report, FF_FAULT_INPUT, map->place, NULL,
                                 "study: %s: a study either sweeps or %s: write two files",
-                                row->name, row->verb);
+                                kind->name, kind->verb);
     return true;
 }
 
-/* Returns the driver that a key names, or NULL. Unknown keys are errors. */
-static const study_driver_row *find_driver(const ff_node *node, ff_report *report)
+/* Returns the kind that a key names, or NULL. Unknown keys are errors. */
+static const study_kind *find_kind(const ff_node *node, ff_report *report)
 {
     enum { MOST = 16 };
     const char *known[MOST];
     size_t count = 0;
-    const study_driver_row *found = NULL;
+    const study_kind *found = NULL;
     for (const char *const *key = study_keys; *key; key++)
         known[count++] = *key;
-    for (const study_driver_row *row = study_drivers; row->name; row++)
-        known[count++] = row->name;
+    for (const study_kind *const *kind = study_kinds; *kind; kind++)
+        known[count++] = (*kind)->name;
     known[count] = NULL;
     study_check_keys(node, "", known, report);
     for (size_t i = 0; node->kind == FF_MAP && i < node->count; i++)
-        for (const study_driver_row *row = study_drivers; row->name; row++) {
-            if (strcmp(node->keys[i], row->name) != 0)
+        for (const study_kind *const *kind = study_kinds; *kind; kind++) {
+            if (strcmp(node->keys[i], (*kind)->name) != 0)
                 continue;
             if (found)
                 ff_error(report, FF_FAULT_INPUT, node->key_places[i], NULL,
                          "study: \"%s\" and \"%s\" exclude each other: write two files",
-                         found->name, row->name);
-            found = row;
+                         found->name, (*kind)->name);
+            found = *kind;
         }
     return found;
 }
@@ -245,14 +220,14 @@ study_definition *study_open(const ff_node *root, ff_report *report)
 {
     const ff_node *node = ff_node_get(root, "study");
     size_t errors = ff_report_errors(report);
-    const study_driver_row *row = find_driver(node, report);
+    const study_kind *kind = find_kind(node, report);
     if (ff_report_errors(report) > errors)
         return NULL;
-    if (!row)
+    if (!kind)
         return study_read(node, report);
     study_definition *study = memory_alloc(sizeof *study);
     if (study_read_limits(study, node, report))
-        open_driver(study, root, row, report);
+        open_driver(study, root, kind, report);
     return study;
 }
 
@@ -315,43 +290,26 @@ void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_
             study_find_number(pipeline, context->knobs[i], &param);
         scaled += param != SIZE_MAX;
     }
-    if (study->driver && study->driver->uncertainty)
-        study_uncertainty_check(study->driver->uncertainty, pipeline, report);
+    if (study->driver && study->driver->study && study->driver->kind->check)
+        study->driver->kind->check(study->driver->study, pipeline, report);
     if (context && context->knobs && scaled == 0)
         ff_warn(report, FF_NOWHERE,
                 "%s: no number is refined, so that verdicts rest on the quality alone",
                 context->name);
 }
 
-/* Builds a case, and reports its first error; false when there is one. */
-static bool open_case(const study_context *context, const study_run *run, size_t number)
-{
-    const study_submitted *submitted = &context->cases[number];
-    study_case c;
-    study_case_open(&c, run, number, NULL);
-    bool good = study_case_is_good(&c);
-    if (!good) {
-        char *why = study_first_error(c.report);
-        ff_error(context->report, FF_FAULT_INPUT, submitted->place, NULL, "%s: %s: %s",
-                 context->name, submitted->label, why);
-        free(why);
-    }
-    study_case_close(&c);
-    return good;
-}
-
 /* Builds the first cases, so that errors show before anything runs. Only the first error at each
    place is reported. */
-static bool open_cases(const study_context *context, const study_run *run, size_t count)
+static bool open_cases(const study_context *context)
 {
     ff_place wrong = FF_NOWHERE;
     bool good = true;
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < context->opened; i++) {
         const ff_place place = context->cases[i].place;
         if (context->repeats[i] > 0 || (wrong.source && wrong.source == place.source &&
                                         wrong.line == place.line && wrong.column == place.column))
             continue;
-        if (!open_case(context, run, i)) {
+        if (!study_submitted_opens(context, i, true)) {
             good = false;
             wrong = place;
         }
@@ -359,22 +317,11 @@ static bool open_cases(const study_context *context, const study_run *run, size_
     return good;
 }
 
-/* A level of a ladder that cannot be, whatever the inputs, is found with the first sample that the
-   file's own model takes. */
-static bool open_levels(const study_uncertainty *u, const study_run *run)
+static void give_answer(study_driver *driver)
 {
-    for (size_t i = 0; i < u->pilot; i++) {
-        study_case c;
-        study_case_open(&c, run, study_uncertainty_pilot_case(u, 0, i), NULL);
-        bool possible = study_case_is_good(&c);
-        study_case_close(&c);
-        for (size_t k = 1; possible && k < u->level_count; k++)
-            if (!open_case(u->context, run, study_uncertainty_pilot_case(u, k, i)))
-                return false;
-        if (possible)
-            return true;
-    }
-    return true;
+    study_answer answer = {.context = &driver->context, .file = driver->kind->file};
+    driver->kind->reduce(driver->study, &answer);
+    study_answer_close(&answer);
 }
 
 bool study_drive(const study_run *run, study_counters *counters, ff_report *report)
@@ -388,14 +335,10 @@ bool study_drive(const study_run *run, study_counters *counters, ff_report *repo
     context->report = report;
     context->run = &own;
     context->counters = counters;
-    /* a sample of uncertain inputs may be one that cannot be, but not their medians */
-    size_t opened = context->measured ? context->planned : driver->uncertainty ? 1 : 0;
-    bool good = open_cases(context, run, opened) &&
-                (!driver->uncertainty || open_levels(driver->uncertainty, run)) &&
-                (driver->map        ? study_map_run(driver->map)
-                 : driver->tradeoff ? study_tradeoff_run(driver->tradeoff)
-                                    : study_uncertainty_run(driver->uncertainty)) &&
-                study_write_submitted(context);
+    bool good = open_cases(context) && driver->kind->cases(driver->study);
+    if (good)
+        give_answer(driver);
+    good = good && study_write_submitted(context);
     for (size_t i = 0; good && i < context->file_count; i++)
         good =
             study_write_file(run->directory, context->files[i].name, context->files[i].text,
@@ -406,11 +349,11 @@ bool study_drive(const study_run *run, study_counters *counters, ff_report *repo
 
 const char *study_compared(const study_definition *study, size_t i, size_t *index)
 {
-    const study_uncertainty *u = study->driver ? study->driver->uncertainty : NULL;
-    if (!u || i >= u->model_count)
+    const study_context *context = study->driver ? &study->driver->context : NULL;
+    if (!context || i >= context->compared_count)
         return NULL;
-    *index = u->first_model + i;
-    return u->models[i].name;
+    *index = context->first_compared + i;
+    return context->compared[i];
 }
 
 const char *study_cases(const study_definition *study)

@@ -3,24 +3,12 @@
 #ifndef STUDY_KINDS_H
 #define STUDY_KINDS_H
 
-#include "../run/run.h"
+#include "answer/kind.h"
 
 /* Reads what stands under `study:`. After errors it returns NULL, or a study that must not be run
    but keeps the texts that the messages need. The tree of the root must outlive the study. */
 study_definition *study_open(const ff_node *root, ff_report *report);
 void study_free(study_definition *study); /* frees its driver, too; accepts NULL */
-
-/* A kind of study whose later cases depend on what earlier ones gave. */
-typedef struct study_driver_row {
-    const char *name; /* the key under `study:` */
-    const char *verb; /* what it does, for messages: "maps" */
-    const char *summary;
-    /* what may stand under it; a key without a type takes a value, a list or a map */
-    const ff_param *keys;
-    size_t key_count;
-} study_driver_row;
-
-extern const study_driver_row study_drivers[]; /* ends with a row without a name */
 
 /* Checks that the pipeline has what the driver of the study names. */
 void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_report *report);

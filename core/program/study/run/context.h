@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What tradeoff.c and stability.c share: a study whose later cases depend on what earlier ones
+ * What the kinds share: a study whose later cases depend on what earlier ones
  * gave. A driver reads its keys and submits the cases that are known beforehand; later it runs
  * them, looks at what they gave and submits others. A study that was broken off goes on in the next
  * run, which submits the same cases and finds the finished ones in the journal.
@@ -81,8 +81,7 @@ typedef struct study_context {
 
     /* The driver sets these before anything has run. */
     bool measured; /* costs count: cases run one after the other on one core, what differs between
-                      them is computed each time, and all of them must be valid before any is run;
-                      otherwise outputs are scalars */
+                      them is computed each time; otherwise outputs are scalars */
     const char *further;      /* which cases may follow: "then halvings"; "" when none do */
     const char *const *paths; /* what cases assign: the columns of table.csv */
     size_t path_count;
@@ -99,6 +98,9 @@ typedef struct study_context {
     const char *along;         /* as in study_measure */
     const char *const *stages; /* stages whose work counts although cases do not differ there */
     size_t stage_count;
+    size_t opened;         /* so many of the first cases must be valid before any is run */
+    const char **compared; /* names of the models that it compares the file's with */
+    size_t compared_count, first_compared; /* number of the first one's case */
 
     study_definition list; /* the submitted cases, along one axis that grows */
     size_t room;           /* for how many cases the columns of `list` and these have memory: */
@@ -142,6 +144,9 @@ FILE *study_context_file(study_context *context, const char *name);
    context, whose texts live as long as it. Cases that differ in `repeat` alone are all run. */
 size_t study_submit(study_context *context, const study_setting *settings, size_t repeat,
                     const char *label, const ff_node *place);
+/* Builds a case; reports its first error where that is asked for, and returns false when there is
+   one. */
+bool study_submitted_opens(const study_context *context, size_t number, bool reported);
 /* Runs the cases with the numbers from `begin` to `end` - 1. False when the study cannot go on. */
 bool study_run_submitted(study_context *context, size_t begin, size_t end);
 /* Writes the table of the cases that ran, and the description of the study. */

@@ -3,6 +3,7 @@
 #include "context.h"
 #include "run.h"
 
+#include "../cases/case.h"
 #include "../cases/table.h"
 
 #include <stdlib.h>
@@ -120,4 +121,20 @@ bool study_write_submitted(study_context *context)
     if (!context->grid)
         run.described = &context->list;
     return study_table_write(&run, context->keys, context->records, context->report);
+}
+
+bool study_submitted_opens(const study_context *context, size_t number, bool reported)
+{
+    const study_submitted *submitted = &context->cases[number];
+    study_case c;
+    study_case_open(&c, context->run, number, NULL);
+    bool good = study_case_is_good(&c);
+    if (!good && reported) {
+        char *why = study_first_error(c.report);
+        ff_error(context->report, FF_FAULT_INPUT, submitted->place, NULL, "%s: %s: %s",
+                 context->name, submitted->label, why);
+        free(why);
+    }
+    study_case_close(&c);
+    return good;
 }

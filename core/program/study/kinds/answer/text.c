@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "text.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+void study_line_add(study_line *line, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    int length = vsnprintf(line->text + line->used, sizeof line->text - line->used, format, args);
+    va_end(args);
+    line->used += length > 0 ? (size_t)length : 0;
+    if (line->used >= sizeof line->text)
+        line->used = sizeof line->text - 1;
+}
+
+void study_line_print(const study_context *context, study_line *line, int indent)
+{
+    study_context_print_line(context, indent, line->text);
+    line->used = 0;
+    line->text[0] = '\0';
+}
+
+bool study_read_number(const char *text, double *number, const char **end)
+{
+    char *stop;
+    size_t sign = strspn(text, "+-");
+    *number = strtod(text, &stop);
+    *end = stop;
+    return stop != text && strspn(text + sign, "0123456789.") > 0;
+}
+
+const char *study_text_of(const json_t *map, const char *key)
+{
+    const char *text = json_string_value(json_object_get(map, key));
+    return text ? text : "";
+}
+
+double study_number_of(const json_t *map, const char *key)
+{
+    const json_t *value = json_object_get(map, key);
+    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+}

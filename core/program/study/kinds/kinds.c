@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The kinds of studies whose later cases depend on what earlier ones gave. */
+#include "answer/kind.h"
+
+extern const study_kind study_stability_kind, study_tradeoff_kind, study_uncertainty_kind;
+
+const study_kind *const study_kinds[] = {&study_stability_kind, &study_tradeoff_kind,
+                                         &study_uncertainty_kind, NULL};

@@ -1,0 +1,193 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What a map found: the result, and its tables. */
+#include "stability.h"
+
+#include <string.h>
+
+enum { MOST_BOUNDARIES = 40 }; /* of an axis that are shown */
+
+static json_t *text_or_null(const char *text)
+{
+    json_t *json = text ? json_string(text) : NULL;
+    return json ? json : json_null();
+}
+
+static json_t *number_or_null(double number, bool there)
+{
+    json_t *json = there ? json_real(number)
+                         : NULL; /* json_real returns NULL for a number that is not finite */
+    return json ? json : json_null();
+}
+
+/* Returns the key of a case in the journal; NULL without a case. */
+static const char *key_of(const study_map *map, int64_t number)
+{
+    const study_outcome *answer = study_map_outcome(map, number);
+    return answer ? answer->key : NULL;
+}
+
+static json_t *describe_cell(const study_map *map, const study_cell *cell)
+{
+    json_t *set = json_object();
+    bool grid = cell->halved == map->axis_count;
+    for (size_t a = 0; a < map->axis_count; a++)
+        json_object_set_new(set, map->grid->varied[a].path, text_or_null(cell->settings[a].name));
+    return json_pack("{s:o, s:b, s:s, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:o, s:s, s:o}", "set",
+                     set, "grid", (int)grid, "verdict", study_class_names[cell->class], "because",
+                     text_or_null(cell->line), "value", number_or_null(cell->value, cell->line),
+                     "limit", number_or_null(cell->limit, cell->line), "text",
+                     text_or_null(cell->why), "note", text_or_null(cell->note), "output",
+                     text_or_null(cell->output), "difference",
+                     number_or_null(cell->difference, cell->output), "estimate",
+                     number_or_null(cell->estimate, cell->output), "key", key_of(map, cell->number),
+                     "refined", text_or_null(key_of(map, cell->finer)));
+}
+
+static json_t *describe_boundary(const study_map *map, const study_boundary *b)
+{
+    const study_cell *low = &map->cells[b->low], *high = &map->cells[b->high];
+    const study_cell *worse = low->class > high->class ? low : high;
+    json_t *at = json_object();
+    for (size_t a = 0; a < map->axis_count; a++)
+        if (a != b->axis)
+            json_object_set_new(at, map->grid->varied[a].path, text_or_null(low->settings[a].name));
+    return json_pack("{s:s, s:o, s:[o,o], s:[s,s], s:o, s:o}", "axis",
+                     map->grid->varied[b->axis].path, "at", at, "between",
+                     text_or_null(low->settings[b->axis].name),
+                     text_or_null(high->settings[b->axis].name), "verdicts",
+                     study_class_names[low->class], study_class_names[high->class], "because",
+                     text_or_null(worse->line), "text", text_or_null(worse->why));
+}
+
+/* Returns {verdict: [cells of the grid, cells between]}. */
+static json_t *counts_of(const study_map *map)
+{
+    json_t *counts = json_object();
+    for (size_t k = 0; k < STUDY_CLASSES; k++)
+        json_object_set_new(
+            counts, study_class_names[k],
+            json_pack("[I, I]", (json_int_t)map->counts[k], (json_int_t)map->more[k]));
+    return counts;
+}
+
+static json_t *facts_of(const study_map *map)
+{
+    return json_pack("{s:I, s:o, s:[I, I]}", "cells", (json_int_t)map->count, "verdicts",
+                     counts_of(map), "noted", (json_int_t)map->noted[0], (json_int_t)map->noted[1]);
+}
+
+static json_t *value_of(const study_map *map)
+{
+    json_t *cells = json_array(), *boundaries = json_array(), *axes = json_array();
+    for (size_t a = 0; a < map->axis_count; a++) {
+        json_t *values = json_array();
+        for (size_t i = 0; i < map->grid->points[a]; i++)
+            json_array_append_new(values, text_or_null(study_map_value(map, a, i)));
+        json_array_append_new(axes, json_pack("{s:s, s:o, s:b}", "path", map->grid->varied[a].path,
+                                              "values", values, "log", (int)map->log[a]));
+    }
+    for (size_t i = 0; i < map->count; i++)
+        json_array_append_new(cells, describe_cell(map, &map->cells[i]));
+    for (size_t i = 0; i < map->boundary_count; i++)
+        json_array_append_new(boundaries, describe_boundary(map, &map->boundaries[i]));
+    return json_pack("{s:o, s:o, s:o, s:o}", "axes", axes, "counts", counts_of(map), "boundaries",
+                     boundaries, "cells", cells);
+}
+
+static void add_file(const study_map *map, study_answer *answer)
+{
+    static const study_column rest[] = {
+        {.of = {"verdict"}, .name = "verdict"},
+        {.of = {"grid"}, .name = "found", .words = {"between", "grid"}},
+        {.of = {"because"}, .name = "because"},
+        {.of = {"value"}, .name = "value"},
+        {.of = {"limit"}, .name = "limit"},
+        {.of = {"output"}, .name = "output"},
+        {.of = {"difference"}, .name = "difference"},
+        {.of = {"estimate"}, .name = "estimate"},
+        {.of = {"key"}, .name = "key"},
+        {.of = {"refined"}, .name = "refined"},
+        {.of = {"text"}, .name = "text", .quoted = true},
+        {.of = {"note"}, .name = "note", .quoted = true},
+    };
+    const size_t more = sizeof rest / sizeof *rest;
+    study_column *columns =
+        memory_arena_alloc(&map->context->arena, (map->axis_count + more) * sizeof *columns);
+    for (size_t a = 0; a < map->axis_count; a++)
+        columns[a] = (study_column){.of = {"set", map->grid->varied[a].path},
+                                    .name = map->grid->varied[a].path};
+    memcpy(columns + map->axis_count, rest, sizeof rest);
+    study_answer_add(answer,
+                     &(study_table){.columns = columns,
+                                    .column_count = map->axis_count + more,
+                                    .rows = json_incref(json_object_get(answer->value, "cells")),
+                                    .forms = STUDY_IN_FILE});
+}
+
+/* "2.976 m/s converged", "3.025 m/s failed", where it lies, and what decides the worse of both. */
+static json_t *boundary_row(const study_map *map, const study_boundary *b)
+{
+    const study_cell *low = &map->cells[b->low], *high = &map->cells[b->high];
+    const study_cell *worse = low->class > high->class ? low : high;
+    json_t *at = json_object();
+    for (size_t a = 0; a < map->axis_count; a++)
+        if (a != b->axis)
+            json_object_set_new(at, map->grid->varied[a].path,
+                                json_string(study_map_short(map, low->settings[a].name)));
+    return json_pack(
+        "{s:s++, s:s++, s:o, s:o}", "low", study_map_short(map, low->settings[b->axis].name), " ",
+        study_class_names[low->class], "high", study_map_short(map, high->settings[b->axis].name),
+        " ", study_class_names[high->class], "at", at, "because", text_or_null(worse->line));
+}
+
+static void tell_boundaries(const study_map *map, study_answer *answer, size_t axis)
+{
+    const char *path = map->grid->varied[axis].path;
+    json_t *rows = json_array();
+    size_t count = 0, columns = 0;
+    study_column *all =
+        memory_arena_alloc(&map->context->arena, (map->axis_count + 3) * sizeof *all);
+    all[columns++] = (study_column){.of = {"low"}, .head = "from", .width = -1};
+    all[columns++] = (study_column){.of = {"high"}, .head = "to", .width = -1, .before = " | "};
+    for (size_t a = 0; a < map->axis_count; a++)
+        if (a != axis)
+            all[columns++] = (study_column){.of = {"at", map->grid->varied[a].path},
+                                            .head = map->grid->varied[a].path,
+                                            .width = -1};
+    all[columns++] = (study_column){.of = {"because"}, .head = "because of"};
+    for (size_t i = 0; i < map->boundary_count; i++)
+        if (map->boundaries[i].axis == axis && count++ < MOST_BOUNDARIES)
+            json_array_append_new(rows, boundary_row(map, &map->boundaries[i]));
+    if (count)
+        study_context_print_line(map->context, 0, "");
+    study_answer_add(answer, &(study_table){.title = study_context_format(
+                                                map->context, "boundaries along %s:", path),
+                                            .columns = all,
+                                            .column_count = columns,
+                                            .rows = rows,
+                                            .indent = 2,
+                                            .whole = true,
+                                            .folded = true,
+                                            .forms = STUDY_ON_TERMINAL | STUDY_ON_PAGE});
+    if (count > MOST_BOUNDARIES)
+        study_answer_say(answer, STUDY_ON_TERMINAL | STUDY_ON_PAGE, 0,
+                         "  ... and %zu more along %s, see map.json", count - MOST_BOUNDARIES,
+                         path);
+}
+
+void study_map_reduce(void *study, study_answer *answer)
+{
+    const study_map *map = study;
+    answer->value = value_of(map);
+    answer->digits = 9;
+    answer->facts = facts_of(map);
+    study_map_print(map);
+    add_file(map, answer);
+    for (size_t a = 0; a < map->axis_count; a++)
+        tell_boundaries(map, answer, a);
+    for (size_t i = 0; i < study_map_slices(map); i++)
+        study_map_draw(map, i, answer);
+    study_context_print_line(map->context, 0, "");
+    /* a map is there to find cells that fail, so only silent failures make it bad */
+    map->context->verdict = map->counts[STUDY_SILENT] + map->more[STUDY_SILENT] ? FF_BAD : FF_GOOD;
+}

@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Runs the cells of a map in rounds: the grid, its refined cases, then repeatedly cells halfway
+ * between neighbours whose classes differ.
+ */
+#include "stability.h"
+
+#include <math.h>
+#include <string.h>
+
+static const ff_param keys[STUDY_MAP_KEYS] = {
+    [MAP_AXES] = {.name = "axes",
+                  .unit = "",
+                  .type = STUDY_TREE,
+                  .flags = FF_REQUIRED,
+                  .doc = "map from paths to ranges or lists, as under sweep: the grid"},
+    [MAP_OUTPUTS] = {.name = "outputs",
+                     .unit = "",
+                     .type = STUDY_TREE,
+                     .flags = FF_REQUIRED,
+                     .doc = "list of the scalars that must be right: [film.h_min_lowest]"},
+    [MAP_ESTIMATES] = {.name = "estimates",
+                       .unit = "",
+                       .type = STUDY_TREE,
+                       .doc = "map from outputs to the lines of quality that say their errors"},
+    [MAP_REFINE] = {.name = "refine",
+                    .unit = "",
+                    .type = STUDY_TREE,
+                    .doc =
+                        "list of parameters to double in the case that confirms a cell, or a map "
+                        "to factors"},
+    [MAP_BISECT] = {.name = "bisect",
+                    .unit = "",
+                    .type = STUDY_TREE,
+                    .doc = "halvings between neighbours that differ, 0 to 40, or a map from axes"},
+    [MAP_PHYSICAL] = {.name = "physical",
+                      .unit = "",
+                      .type = STUDY_TREE,
+                      .doc = "list of lines of quality, and of conditions in SI, which say that "
+                             "the machine itself is unstable, or a map to the lines that warn "
+                             "because of it"},
+    [MAP_NOTES] = {.name = "notes",
+                   .unit = "",
+                   .type = STUDY_TREE,
+                   .doc = "map from such lines and conditions to words behind their value, which "
+                          "leave the verdict alone: {\"motion.period > 1\": mesh cycles long}"},
+    [MAP_RANGE] = {.name = "range",
+                   .unit = "",
+                   .type = STUDY_TREE,
+                   .doc = "list of lines of quality that say where a model applies"},
+    [MAP_TOLERANCE] = {.name = "tolerance",
+                       .unit = "",
+                       .type = STUDY_TREE,
+                       .preset = "1 %",
+                       .doc = "for an output without an estimate"},
+};
+
+static size_t point_of(const study_map *map, size_t axis, size_t cell)
+{
+    return cell / study_map_stride(map, axis) % map->grid->points[axis];
+}
+
+static study_cell *add_cell(study_map *map, const study_setting *settings)
+{
+    study_context *context = map->context;
+    if ((map->count & (map->count - 1)) == 0) {
+        size_t room = map->count ? 2 * map->count : 1;
+        study_cell *more = memory_arena_alloc(&context->arena, room * sizeof *more);
+        if (map->count)
+            memcpy(more, map->cells, map->count * sizeof *more);
+        map->cells = more;
+    }
+    study_cell *cell = &map->cells[map->count++];
+    *cell = (study_cell){.settings = settings,
+                         .halved = map->axis_count,
+                         .number = STUDY_NOT_SUBMITTED,
+                         .finer = STUDY_NOT_SUBMITTED};
+    cell->at = memory_arena_alloc(&context->arena, map->axis_count * sizeof *cell->at);
+    return cell;
+}
+
+/* Adds the cells of the grid, whose cases study_map_read has submitted first. */
+static void add_grid(study_map *map)
+{
+    for (size_t i = 0; i < map->grid->count; i++) {
+        study_setting *settings =
+            memory_arena_alloc(&map->context->arena, map->axis_count * sizeof *settings);
+        for (size_t a = 0; a < map->axis_count; a++)
+            settings[a] =
+                (study_setting){study_assignment(map->grid, a, i), study_value(map->grid, a, i)};
+        study_cell *cell = add_cell(map, settings);
+        const char *end;
+        cell->number = (int64_t)i;
+        for (size_t a = 0; a < map->axis_count; a++)
+            if (!study_read_number(settings[a].name, &cell->at[a], &end))
+                cell->at[a] = (double)point_of(map, a, i);
+    }
+}
+
+/* Adds a cell halfway between two cells that differ along the axis. */
+static void add_between(study_map *map, size_t axis, size_t low, size_t high)
+{
+    study_context *context = map->context;
+    study_setting *settings =
+        memory_arena_alloc(&context->arena, map->axis_count * sizeof *settings);
+    study_cell *cell = add_cell(map, settings);
+    const study_cell *a = &map->cells[low], *b = &map->cells[high];
+    const char *path = map->grid->varied[axis].path, *unit;
+    double number;
+    memcpy(settings, a->settings, map->axis_count * sizeof *settings);
+    memcpy(cell->at, a->at, map->axis_count * sizeof *cell->at);
+    cell->halved = axis;
+    double middle =
+        map->log[axis] ? sqrt(a->at[axis] * b->at[axis]) : (a->at[axis] + b->at[axis]) / 2;
+    study_read_number(a->settings[axis].name, &number, &unit);
+    settings[axis].assignment = study_context_format(context, "%s=%.12g%s", path, middle, unit);
+    settings[axis].name = settings[axis].assignment + strlen(path) + 1;
+    study_read_number(settings[axis].name, &cell->at[axis],
+                      &unit); /* the number as rounded by printing */
+}
+
+/* Submits the case of a cell. `finer` has values of the knobs, with NULL for one that stays; a knob
+   that is also an axis replaces its value. */
+static int64_t submit_cell(const study_map *map, const study_cell *cell, const char *const *finer)
+{
+    study_context *context = map->context;
+    size_t paths = context->path_count;
+    study_setting *settings = memory_arena_alloc(&context->arena, paths * sizeof *settings);
+    for (size_t i = 0; i < paths; i++) {
+        settings[i] = i < map->axis_count ? cell->settings[i] : (study_setting){"", ""};
+        for (size_t k = 0; k < map->knob_count && finer; k++)
+            if (finer[k] && !strcmp(map->knobs[k], context->paths[i]))
+                settings[i] = (study_setting){
+                    study_context_format(context, "%s=%s", map->knobs[k], finer[k]), finer[k]};
+    }
+    return (int64_t)study_submit(context, settings, 0, "", NULL);
+}
+
+/* Submits the refined case and returns its number; STUDY_NOT_SUBMITTED when nothing can be refined.
+ */
+static int64_t submit_refined(const study_map *map, const study_cell *cell)
+{
+    study_context *context = map->context;
+    const char **finer = memory_arena_alloc(&context->arena, (map->knob_count + 1) * sizeof *finer);
+    size_t scaled = 0;
+    if (map->knob_count)
+        study_scale_parameters(context, (size_t)cell->number, map->knobs, map->factors,
+                               map->knob_count, finer);
+    for (size_t k = 0; k < map->knob_count; k++)
+        scaled += finer[k] != NULL;
+    return scaled ? submit_cell(map, cell, finer) : STUDY_NOT_SUBMITTED;
+}
+
+/* Runs the cases with the numbers from `begin` to `end` - 1 and judges the cells from `first` on.
+ */
+static bool run_round(study_map *map, int64_t begin, int64_t end, size_t first)
+{
+    if (begin < end && !study_run_submitted(map->context, (size_t)begin, (size_t)end))
+        return false;
+    for (size_t i = first; i < map->count; i++) {
+        study_cell *cell = &map->cells[i];
+        study_judge(map, cell, study_map_outcome(map, cell->number),
+                    study_map_outcome(map, cell->finer));
+    }
+    return true;
+}
+
+/* Runs the cells from `first` on, then the refined cases of those that have an answer to compare.
+ */
+static bool run_cells(study_map *map, size_t first)
+{
+    int64_t begin = 0, end = (int64_t)map->grid->count;
+    for (size_t i = first; i < map->count; i++)
+        if (map->cells[i].number == STUDY_NOT_SUBMITTED) {
+            map->cells[i].number = submit_cell(map, &map->cells[i], NULL);
+            begin = i == first ? map->cells[i].number : begin;
+            end = map->cells[i].number + 1;
+        }
+    if (first == map->count)
+        return true;
+    if (!run_round(map, begin, end, first))
+        return false;
+    begin = end;
+    for (size_t i = first; i < map->count; i++) {
+        study_cell *cell = &map->cells[i];
+        cell->finer =
+            cell->class <= STUDY_DEGRADED ? submit_refined(map, cell) : STUDY_NOT_SUBMITTED;
+        end = cell->finer == STUDY_NOT_SUBMITTED ? end : cell->finer + 1;
+    }
+    return run_round(map, begin, end, first);
+}
+
+static void find_boundaries(study_map *map)
+{
+    study_context *context = map->context;
+    size_t cells = map->grid->count;
+    map->boundaries =
+        memory_arena_alloc(&context->arena, cells * map->axis_count * sizeof *map->boundaries);
+    for (size_t a = 0; a < map->axis_count; a++) {
+        size_t stride = study_map_stride(map, a);
+        for (size_t i = 0; map->halvings[a] && i < cells; i++) {
+            bool last = point_of(map, a, i) + 1 == map->grid->points[a];
+            if (last || map->cells[i].class == map->cells[i + stride].class)
+                continue;
+            map->boundaries[map->boundary_count++] =
+                (study_boundary){.axis = a,
+                                 .low = i,
+                                 .high = i + stride,
+                                 .slice = i % study_map_slices(map),
+                                 .column = point_of(map, 0, i),
+                                 .row = map->axis_count > 1 ? point_of(map, 1, i) : 0};
+        }
+    }
+}
+
+/* Narrows a boundary to the middle and the end that differs from it; where both ends do, to the
+   better one. */
+static void narrow_boundary(const study_map *map, study_boundary *b, size_t middle)
+{
+    enum study_class low = map->cells[b->low].class, high = map->cells[b->high].class;
+    enum study_class at = map->cells[middle].class;
+    if (at == low || (at != high && high < low))
+        b->low = middle;
+    else
+        b->high = middle;
+}
+
+static bool halve_boundaries(study_map *map)
+{
+    size_t most = 0;
+    for (size_t i = 0; i < map->boundary_count; i++)
+        if (map->halvings[map->boundaries[i].axis] > most)
+            most = map->halvings[map->boundaries[i].axis];
+    for (size_t n = 0; n < most; n++) {
+        size_t first = map->count, next = first;
+        for (size_t i = 0; i < map->boundary_count; i++) {
+            const study_boundary *b = &map->boundaries[i];
+            if (n < map->halvings[b->axis])
+                add_between(map, b->axis, b->low, b->high);
+        }
+        if (!run_cells(map, first))
+            return false;
+        for (size_t i = 0; i < map->boundary_count; i++)
+            if (n < map->halvings[map->boundaries[i].axis])
+                narrow_boundary(map, &map->boundaries[i], next++);
+    }
+    return true;
+}
+
+static bool run_map(void *study)
+{
+    study_map *map = study;
+    add_grid(map);
+    if (!run_cells(map, 0))
+        return false;
+    find_boundaries(map);
+    if (!halve_boundaries(map))
+        return false;
+    for (size_t i = 0; i < map->count; i++) {
+        bool grid = i < map->grid->count;
+        (grid ? map->counts : map->more)[map->cells[i].class]++;
+        map->noted[!grid] += map->cells[i].note != NULL;
+    }
+    return true;
+}
+
+const study_kind study_stability_kind = {
+    .name = "stability",
+    .verb = "maps",
+    .summary = "Map of where a pipeline converges, degrades or fails, and why",
+    .file = "map",
+    .keys = keys,
+    .key_count = STUDY_MAP_KEYS,
+    .read = study_map_read,
+    .cases = run_map,
+    .reduce = study_map_reduce,
+};

@@ -1,0 +1,246 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Computes the result of a trade-off: the error and the cost of every candidate, the
+   fronts. */
+#include "tradeoff.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t point)
+{
+    return study_outcome_of(t->context, study_tradeoff_case(t, point, 0));
+}
+
+static accuracy_series series_of(const study_output *output)
+{
+    return (accuracy_series){output->rank, output->count, output->at, output->values, 0};
+}
+
+/* Whether an output is judged by its rms: where the reference passes through 0, the largest error
+   tells how far that place has moved, over a number that means nothing. */
+static bool by_rms(const study_tradeoff *t, size_t output)
+{
+    const study_output *reference = &study_tradeoff_outcome(t, 0)->outputs[output];
+    bool above = false, below = false;
+    for (size_t i = 0; reference->values && i < reference->count; i++) {
+        above = above || reference->values[i] > 0;
+        below = below || reference->values[i] < 0;
+    }
+    return t->judge == TRADEOFF_BY_RMS || (t->judge == TRADEOFF_BY_SIGN && above && below);
+}
+
+bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
+                            accuracy_difference *d)
+{
+    const study_output *answer = &study_tradeoff_outcome(t, a)->outputs[output];
+    const study_output *reference = &study_tradeoff_outcome(t, b)->outputs[output];
+    accuracy_series one = series_of(answer), other = series_of(reference);
+    bool good = answer->values && reference->values && !strcmp(answer->along, reference->along) &&
+                accuracy_compare(&one, &other, d);
+    if (good)
+        d->judged = by_rms(t, output) ? d->rms : d->largest;
+    return good;
+}
+
+static json_t *processor(void)
+{
+    char line[256];
+    json_t *name = NULL;
+    FILE *stream = fopen("/proc/cpuinfo", "re");
+    while (stream && !name && fgets(line, sizeof line, stream)) {
+        const char *colon = strchr(line, ':');
+        line[strcspn(line, "\n")] = '\0';
+        if (!strncmp(line, "model name", 10) && colon)
+            name = json_string(colon + 1 + strspn(colon + 1, " "));
+    }
+    if (stream)
+        fclose(stream);
+    return name ? name : json_string("unknown");
+}
+
+static json_t *today(void)
+{
+    char text[32] = "";
+    time_t now = time(NULL);
+    struct tm utc;
+    if (gmtime_r(&now, &utc))
+        strftime(text, sizeof text, "%Y-%m-%d", &utc);
+    return json_string(text);
+}
+
+static int compare_numbers(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static json_t *cost_of(const study_tradeoff *t, size_t point, double *median)
+{
+    double *all = memory_arena_alloc(&t->context->arena, t->repeats * sizeof *all);
+    size_t count = 0;
+    for (size_t i = 0; i < t->repeats; i++) {
+        double work = study_outcome_of(t->context, study_tradeoff_case(t, point, i))->work;
+        if (isfinite(work))
+            all[count++] = work;
+    }
+    qsort(all, count, sizeof *all, compare_numbers);
+    *median = count ? (all[(count - 1) / 2] + all[count / 2]) / 2 : (double)NAN;
+    return count ? json_pack("{s:f, s:f, s:f, s:o, s:I}", "median", *median, "min", all[0], "max",
+                             all[count - 1], "spread",
+                             study_json_real((all[count - 1] - all[0]) / *median), "repeats",
+                             (json_int_t)count)
+                 : json_null();
+}
+
+/* Returns how far the last two levels of the reference are apart: smaller errors cannot be told
+   apart. */
+static double floor_of(const study_tradeoff *t, size_t levels, size_t output)
+{
+    accuracy_difference d;
+    bool known = levels > 1 && study_tradeoff_compare(t, levels - 2, levels - 1, output, &d);
+    return known ? d.judged : 0;
+}
+
+static json_t *error_of(const study_tradeoff *t, size_t point, size_t reference, size_t output,
+                        double *judged)
+{
+    accuracy_difference d;
+    *judged = NAN;
+    if (!study_tradeoff_compare(t, point, reference, output, &d))
+        return json_null();
+    *judged = d.judged;
+    return json_pack("{s:f, s:f, s:f}", "largest", d.largest, "rms", d.rms, "judged", d.judged);
+}
+
+static json_t *describe_reference(const study_tradeoff *t, size_t levels)
+{
+    json_t *list = json_array();
+    bool reached = levels > 1;
+    for (size_t level = 0; level < levels; level++) {
+        json_t *changes = json_object();
+        for (size_t i = 0; level > 0 && i < t->context->output_count; i++) {
+            accuracy_difference d;
+            bool good = study_tradeoff_compare(t, level - 1, level, i, &d);
+            json_object_set_new(changes, t->context->outputs[i]->text,
+                                study_json_real(good ? d.judged : (double)NAN));
+            if (level == levels - 1)
+                reached = reached && good && d.judged <= t->accuracy / 10;
+        }
+        json_array_append_new(
+            list,
+            json_pack("{s:s, s:o, s:o}", "label", t->points[level].label, "seconds",
+                      study_json_real(study_tradeoff_outcome(t, level)->work), "change", changes));
+    }
+    return json_pack("{s:b, s:o}", "reached", (int)reached, "levels", list);
+}
+
+/* Describes the front, and what each step along it costs and gains; says of each error whether it
+   is on the front. */
+static json_t *describe_front(const study_tradeoff *t, const double *cost, const double *error,
+                              json_t *const *errors)
+{
+    size_t count = t->candidates;
+    size_t *front = memory_arena_alloc(&t->context->arena, (count + 1) * sizeof *front);
+    size_t length = study_front(cost, error, count, front);
+    size_t knee = study_front_knee(cost, error, front, length);
+    json_t *list = json_array();
+    for (size_t c = 0; c < count; c++)
+        if (json_is_object(errors[c]))
+            json_object_set_new(errors[c], "front", json_false());
+    for (size_t i = 0; i < length; i++) {
+        json_t *one =
+            json_pack("{s:I, s:f, s:f, s:b}", "candidate", (json_int_t)front[i], "seconds",
+                      cost[front[i]], "error", error[front[i]], "knee", (int)(i == knee));
+        if (i > 0)
+            json_object_update_new(
+                one, json_pack("{s:f, s:f}", "times_the_cost", cost[front[i]] / cost[front[i - 1]],
+                               "part_of_the_error", error[front[i]] / error[front[i - 1]]));
+        json_object_set_new(errors[front[i]], "front", json_true());
+        json_object_set_new(errors[front[i]], "knee", json_boolean(i == knee));
+        json_array_append_new(list, one);
+    }
+    return list;
+}
+
+/* A count of work, which is a result or a line of quality. NaN: the case has none. */
+static double count_of(const study_tradeoff *t, const study_outcome *answer, size_t count)
+{
+    const study_output *result = &answer->outputs[t->context->output_count + count];
+    double sum = 0;
+    for (size_t i = 0; result->values && i < result->count; i++)
+        sum += result->values[i];
+    for (size_t i = 0; !result->values && i < answer->quality_count; i++)
+        if (!strcmp(answer->quality[i].name, t->counts[count]))
+            return answer->quality[i].value;
+    return result->values ? sum : (double)NAN;
+}
+
+static json_t *describe_candidate(const study_tradeoff *t, size_t point, double *cost)
+{
+    const study_point *p = &t->points[point];
+    const study_outcome *answer = study_tradeoff_outcome(t, point);
+    json_t *set = json_object(), *record = json_object(), *assignments = json_array();
+    json_t *counts = json_object();
+    for (size_t k = 0; k < t->knob_count; k++) {
+        if (!p->assignments[k])
+            continue;
+        json_object_set_new(set, t->knobs[k], json_string(p->values[k]));
+        json_array_append_new(assignments, json_string(p->assignments[k]));
+    }
+    for (size_t i = 0; i < t->count_count; i++) {
+        double count = count_of(t, answer, i);
+        if (isfinite(count))
+            json_object_set_new(counts, t->counts[i], json_real(count));
+    }
+    json_object_set_new(record, "label", json_string(p->label));
+    json_object_set_new(record, "set", set);
+    json_object_set_new(record, "assignments", assignments);
+    json_object_set_new(record, "status", json_string(answer->status));
+    if (*answer->reason)
+        json_object_set_new(record, "reason", json_string(answer->reason));
+    json_object_set_new(record, "seconds", cost_of(t, point, cost));
+    json_object_set_new(record, "shared_seconds", json_real(answer->shared));
+    json_object_set_new(record, "counts", counts);
+    json_object_set_new(record, "errors", json_object());
+    return record;
+}
+
+/* Adds the errors of all candidates in an output, and returns the front that they make with the
+   costs. */
+static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t output, json_t *list,
+                               const double *cost)
+{
+    const char *name = t->context->outputs[output]->text;
+    double floor = floor_of(t, levels, output);
+    double *error = memory_arena_alloc(&t->context->arena, t->candidates * sizeof *error);
+    json_t **errors = memory_arena_alloc(&t->context->arena, t->candidates * sizeof *errors);
+    for (size_t c = 0; c < t->candidates; c++) {
+        errors[c] = error_of(t, t->levels + c, levels - 1, output, &error[c]);
+        json_object_set_new(json_object_get(json_array_get(list, c), "errors"), name, errors[c]);
+        if (isfinite(error[c])) /* no candidate is known to be better than that */
+            error[c] = fmax(error[c], fmax(floor, 1e-15));
+    }
+    json_t *front = describe_front(t, cost, error, errors);
+    for (size_t c = 0; c < t->candidates; c++)
+        if (json_is_object(errors[c]))
+            json_object_set_new(errors[c], "over_front",
+                                study_json_real(study_front_excess(cost, error, t->candidates, c)));
+    return json_pack("{s:s, s:f, s:o}", "judge", by_rms(t, output) ? "rms" : "largest",
+                     "reference_error", floor, "front", front);
+}
+
+json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels)
+{
+    json_t *list = json_array(), *fronts = json_object();
+    double *cost = memory_arena_alloc(&t->context->arena, t->candidates * sizeof *cost);
+    for (size_t c = 0; c < t->candidates; c++)
+        json_array_append_new(list, describe_candidate(t, t->levels + c, &cost[c]));
+    for (size_t i = 0; i < t->context->output_count; i++)
+        json_object_set_new(fronts, t->context->outputs[i]->text,
+                            describe_output(t, levels, i, list, cost));
+    return json_pack("{s:o, s:o, s:f, s:o, s:o, s:o}", "date", today(), "processor", processor(),
+                     "accuracy", t->accuracy, "reference", describe_reference(t, levels),
+                     "candidates", list, "outputs", fronts);
+}

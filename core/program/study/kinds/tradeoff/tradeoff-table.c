@@ -1,0 +1,225 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A trade-off as tables and in sentences. */
+#include "tradeoff.h"
+
+#include <string.h>
+
+enum { SHOWN = STUDY_ON_TERMINAL | STUDY_ON_PAGE };
+
+/* The columns of a table as they are added to it. */
+typedef struct columns {
+    study_column *all;
+    size_t count;
+} columns;
+
+static void add(columns *c, study_column column)
+{
+    c->all[c->count++] = column;
+}
+
+static columns new_columns(study_context *context, size_t most)
+{
+    return (columns){memory_arena_alloc(&context->arena, most * sizeof(study_column)), 0};
+}
+
+/* Sorts candidates by rising cost, with those without a cost last. */
+static json_t *sort_by_cost(const json_t *candidates)
+{
+    json_t *sorted = json_array();
+    for (size_t i = 0; i < json_array_size(candidates); i++) {
+        json_t *one = json_array_get(candidates, i);
+        double cost = study_number_of(json_object_get(one, "seconds"), "median");
+        size_t k = json_array_size(sorted);
+        for (; k > 0; k--) {
+            const json_t *before = json_object_get(json_array_get(sorted, k - 1), "seconds");
+            if (!(study_number_of(before, "median") > cost) &&
+                (json_is_object(before) || !(cost > 0)))
+                break;
+        }
+        json_array_insert(sorted, k, one);
+    }
+    return sorted;
+}
+
+/* Returns {name: null} for every count that some candidate has. */
+static json_t *names_of_counts(const json_t *candidates)
+{
+    json_t *names = json_object(), *candidate, *value;
+    const char *name;
+    size_t i;
+    json_array_foreach(candidates, i, candidate)
+        json_object_foreach(json_object_get(candidate, "counts"), name, value)
+            json_object_set_new(names, name, json_null());
+    return names;
+}
+
+static void add_file(study_answer *answer, const json_t *result)
+{
+    json_t *candidates = json_object_get(result, "candidates"), *one;
+    json_t *outputs = json_object_get(result, "outputs"), *names = names_of_counts(candidates);
+    study_context *context = answer->context;
+    columns c = new_columns(context, 7 + json_object_size(names) + 4 * json_object_size(outputs));
+    const char *name;
+    add(&c, (study_column){.of = {"label"}, .name = "candidate", .quoted = true});
+    add(&c, (study_column){.of = {"status"}, .name = "status"});
+    add(&c, (study_column){.of = {"seconds", "median"}, .name = "cost [s]"});
+    add(&c, (study_column){.of = {"seconds", "min"}, .name = "cost_min [s]"});
+    add(&c, (study_column){.of = {"seconds", "max"}, .name = "cost_max [s]"});
+    add(&c, (study_column){.of = {"seconds", "repeats"}, .name = "repeats"});
+    json_object_foreach(names, name, one)
+    {
+        const char *kept = study_context_format(context, "%s", name);
+        add(&c, (study_column){.of = {"counts", kept}, .name = kept});
+    }
+    json_object_foreach(outputs, name, one)
+    {
+        static const char *const members[][2] = {{"largest", "%s error"},
+                                                 {"rms", "%s rms"},
+                                                 {"front", "%s front"},
+                                                 {"over_front", "%s cost_over_front"}};
+        for (size_t k = 0; k < 4; k++)
+            add(&c, (study_column){.of = {"errors", name, members[k][0]},
+                                   .name = study_context_format(context, members[k][1], name)});
+    }
+    add(&c, (study_column){.of = {"reason"}, .name = "reason", .quoted = true});
+    study_answer_add(answer, &(study_table){.columns = c.all,
+                                            .column_count = c.count,
+                                            .rows = json_incref(candidates),
+                                            .forms = STUDY_IN_FILE});
+    json_decref(names);
+}
+
+/* `count` names the count that has a column, or is NULL. */
+static void add_candidates(study_answer *answer, const char *output, const json_t *of,
+                           json_t *candidates, const char *count, json_t *figure)
+{
+    study_context *context = answer->context;
+    columns c = new_columns(context, 10);
+    const char *dot = count ? strrchr(count, '.') : NULL;
+    bool rms = !strcmp(study_text_of(of, "judge"), "rms");
+    add(&c, (study_column){
+                .of = {"errors", output, "front"}, .head = "", .words = {"", "*"}, .width = 1});
+    for (int k = 0; k < 2; k++)
+        add(&c, (study_column){.of = {"errors", output, k ? "rms" : "largest"},
+                               .head = k ? "rms" : "error",
+                               .unit = "%",
+                               .factor = 100,
+                               .width = 8,
+                               .digits = 3,
+                               .missing = "-"});
+    add(&c, (study_column){.of = {"seconds", "median"},
+                           .head = "cost",
+                           .unit = "s",
+                           .width = 9,
+                           .digits = 3,
+                           .missing = "-"});
+    add(&c, (study_column){.of = {"seconds", "spread"},
+                           .head = "spread",
+                           .unit = "%",
+                           .factor = 100,
+                           .width = 6,
+                           .fixed = true,
+                           .missing = "-"});
+    if (dot)
+        add(&c, (study_column){.of = {"counts", count},
+                               .head = study_context_format(context, "%.8s", dot + 1),
+                               .width = 8,
+                               .fixed = true});
+    add(&c, (study_column){.of = {"label"}, .head = "", .before = "  "});
+    add(&c, (study_column){.of = {"reason"}, .head = "", .before = ": "});
+    add(&c, (study_column){.of = {"errors", output, "knee"},
+                           .head = "",
+                           .words = {"", "<- knee"},
+                           .before = "  "});
+    const char *title = study_context_format(context, "%s, known to %.2g %%%s", output,
+                                             100 * study_number_of(of, "reference_error"),
+                                             rms ? ", judged by rms" : "");
+    study_answer_add(answer, &(study_table){.title = title,
+                                            .summary = "all candidates",
+                                            .columns = c.all,
+                                            .column_count = c.count,
+                                            .rows = json_incref(candidates),
+                                            .folded = true,
+                                            .figure = figure,
+                                            .forms = SHOWN});
+}
+
+static const study_column front_columns[] = {
+    {.of = {"rank"}, .head = "", .width = 3},
+    {.of = {"label"}, .head = "on the front", .width = -12},
+    {.of = {"seconds"}, .head = "cost", .unit = "s", .width = 9, .digits = 3},
+    {.of = {"error"}, .head = "error", .unit = "%", .factor = 100, .width = 8, .digits = 3},
+    {.of = {"bought"}, .head = "against the one above", .before = "  "},
+    {.of = {"knee"}, .head = "", .words = {"", "knee"}, .before = "  "},
+};
+
+static void add_front(study_answer *answer, const json_t *candidates, const json_t *front,
+                      json_t *figure)
+{
+    json_t *rows = json_array(), *one;
+    size_t i;
+    json_array_foreach(front, i, one)
+    {
+        json_int_t candidate = json_integer_value(json_object_get(one, "candidate"));
+        json_t *row = json_copy(one);
+        json_object_set(row, "label",
+                        json_object_get(json_array_get(candidates, (size_t)candidate), "label"));
+        json_object_set_new(row, "rank", json_integer((json_int_t)i + 1));
+        if (i > 0)
+            json_object_set_new(row, "bought",
+                                json_sprintf("%.3g times the cost, error divided by %.3g",
+                                             study_number_of(one, "times_the_cost"),
+                                             1 / study_number_of(one, "part_of_the_error")));
+        json_array_append_new(rows, row);
+    }
+    study_answer_add(answer,
+                     &(study_table){.title = "the front",
+                                    .columns = front_columns,
+                                    .column_count = sizeof front_columns / sizeof *front_columns,
+                                    .rows = rows,
+                                    .figure = figure,
+                                    .forms = SHOWN});
+}
+
+static void tell_reference(study_answer *answer, const json_t *result)
+{
+    const json_t *reference = json_object_get(result, "reference");
+    size_t i;
+    json_t *level, *change;
+    const char *output;
+    json_array_foreach(json_object_get(reference, "levels"), i, level)
+    {
+        study_line line = {0};
+        study_line_add(&line, "reference %zu: %s, %.3g s", i, study_text_of(level, "label"),
+                       study_number_of(level, "seconds"));
+        json_object_foreach(json_object_get(level, "change"), output, change) study_line_add(
+            &line, "; %s changed by %.2g %%", output, 100 * json_number_value(change));
+        study_answer_say(answer, SHOWN, -1, "%s", line.text);
+    }
+    if (!json_is_true(json_object_get(reference, "reached")))
+        study_answer_say(answer, SHOWN, 2,
+                         "it changes by more than a tenth of the smallest error sought, %.3g %%",
+                         100 * study_number_of(result, "accuracy"));
+}
+
+void study_tradeoff_tell(study_answer *answer)
+{
+    const json_t *result = answer->value, *candidates = json_object_get(result, "candidates");
+    json_t *sorted = sort_by_cost(candidates), *names = names_of_counts(candidates), *of;
+    const char *count = json_object_iter_key(json_object_iter(names)), *output;
+    count = count ? study_context_format(answer->context, "%s", count) : NULL;
+    tell_reference(answer, result);
+    json_object_foreach((json_t *)(size_t)json_object_get(result, "outputs"), output, of)
+    {
+        json_t *figure = study_answer_draw(answer, study_tradeoff_figure(result, output, of));
+        study_context_print_line(answer->context, 0, "");
+        add_candidates(answer, output, of, sorted, count, figure);
+        add_front(answer, candidates, json_object_get(of, "front"), figure);
+    }
+    add_file(answer, result);
+    study_context_print_line(answer->context, 0, "");
+    study_context_print_line(answer->context, 0, "* on the front");
+    study_context_print_line(answer->context, 0, "");
+    json_decref(sorted);
+    json_decref(names);
+}

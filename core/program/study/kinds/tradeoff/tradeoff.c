@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Error against cost: refines a reference until it hardly changes, then runs each candidate several
+ * times, alone on a core; finds the Pareto front.
+ */
+#include "tradeoff.h"
+
+#include <math.h>
+
+static const ff_param keys[STUDY_TRADEOFF_KEYS] = {
+    [TRADEOFF_OUTPUTS] = {.name = "outputs",
+                          .unit = "",
+                          .type = STUDY_TREE,
+                          .flags = FF_REQUIRED,
+                          .doc = "list of the outputs that matter: [film.h_min]"},
+    [TRADEOFF_REFERENCE] =
+        {.name = "reference",
+         .unit = "",
+         .type = STUDY_TREE,
+         .flags = FF_REQUIRED,
+         .doc = "map from paths to the values of the finest answer; refine: knobs to "
+                "double, or a map to factors; refinements: how often at most, else 3"},
+    [TRADEOFF_CANDIDATES] = {.name = "candidates",
+                             .unit = "",
+                             .type = STUDY_TREE,
+                             .flags = FF_REQUIRED,
+                             .doc = "list of maps from paths to values, as under sweep"},
+    [TRADEOFF_REPEATS] = {.name = "repeats",
+                          .unit = "",
+                          .type = FF_INT,
+                          .preset = "5",
+                          .min = 1,
+                          .max = 100,
+                          .doc =
+                              "runs of each candidate, 1 to 100; the median of their costs counts"},
+    [TRADEOFF_ACCURACY] =
+        {.name = "accuracy",
+         .unit = "1",
+         .type = FF_REAL,
+         .flags = FF_MIN_OPEN,
+         .preset = "0.5 %",
+         .max = INFINITY,
+         .low = 1e-9,
+         .high = 1,
+         .doc = "smallest error sought, above 0; the reference is to change by a tenth"},
+    [TRADEOFF_COUNTS] = {.name = "counts",
+                         .unit = "",
+                         .type = STUDY_TREE,
+                         .doc = "list of what counts work: [film.convolutions]"},
+    [TRADEOFF_ALONG] = {.name = "along",
+                        .unit = "",
+                        .type = FF_TEXT,
+                        .doc = "the series that others are compared along; else one is found"},
+    [TRADEOFF_STAGES] = {.name = "stages",
+                         .unit = "",
+                         .type = STUDY_TREE,
+                         .doc = "list of stages whose work counts although candidates share them"},
+    [TRADEOFF_JUDGE] =
+        {.name = "judge",
+         .unit = "",
+         .type = FF_CHOICE,
+         .preset = "auto",
+         .choices = "auto|largest|rms",
+         .doc = "which error of a series makes fronts: the largest, or the rms along it; auto: "
+                "the rms of what changes its sign, else the largest"},
+};
+
+/* Whether every output differs from the level before by at most a tenth of the smallest error
+   sought. */
+static bool level_has_settled(const study_tradeoff *t, size_t level)
+{
+    accuracy_difference d;
+    for (size_t i = 0; i < t->context->output_count; i++)
+        if (!study_tradeoff_compare(t, level - 1, level, i, &d) || d.judged > t->accuracy / 10)
+            return false;
+    return true;
+}
+
+/* Runs the levels of the reference until one has settled. */
+static bool run_reference(study_tradeoff *t)
+{
+    study_context *context = t->context;
+    for (t->ran = 0; t->ran < t->levels;) {
+        size_t level = t->ran++;
+        if (!study_run_submitted(context, level, level + 1))
+            return false;
+        const study_outcome *outcome = study_tradeoff_outcome(t, level);
+        bool lost = *outcome->reason == '\0' && !outcome->outputs[0].values;
+        if (*outcome->reason || lost)
+            return ff_error(
+                context->report, FF_FAULT_RUN, t->points[level].place->place,
+                "a coarser reference, or fewer refinements, may do",
+                "%s: the reference failed (%s): %s", context->name, t->points[level].label,
+                lost ? "what it gave is lost; --rerun all computes it anew" : outcome->reason);
+        if (level > 0 && level_has_settled(t, level))
+            return true;
+    }
+    return true;
+}
+
+static bool run_cases(void *study)
+{
+    study_tradeoff *t = study;
+    return run_reference(t) &&
+           study_run_submitted(t->context, t->levels, study_tradeoff_case(t, t->count, 0));
+}
+
+static void reduce(void *study, study_answer *answer)
+{
+    const study_tradeoff *t = study;
+    answer->value = study_tradeoff_result(t, t->ran);
+    study_tradeoff_tell(answer);
+}
+
+const study_kind study_tradeoff_kind = {
+    .name = "tradeoff",
+    .verb = "measures a trade-off",
+    .summary = "Error against cost of models and resolutions, with the Pareto front",
+    .file = "tradeoff",
+    .keys = keys,
+    .key_count = STUDY_TRADEOFF_KEYS,
+    .read = study_tradeoff_read,
+    .cases = run_cases,
+    .reduce = reduce,
+};

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* A trade-off runs ever finer levels of a reference, then each candidate several times. */
+#ifndef STUDY_TRADEOFF_H
+#define STUDY_TRADEOFF_H
+
+#include "../answer/kind.h"
+#include "../answer/text.h"
+#include "front.h"
+
+#include "../../../accuracy/compare.h"
+
+enum { STUDY_MOST_KNOBS = 64 };
+
+/* A level or a candidate: what it assigns to each knob; NULL when the file's value stays. */
+typedef struct study_point {
+    const char **assignments, **values;
+    const char *label;
+    const ff_node *place;
+} study_point;
+
+enum {
+    TRADEOFF_OUTPUTS,
+    TRADEOFF_REFERENCE,
+    TRADEOFF_CANDIDATES,
+    TRADEOFF_REPEATS,
+    TRADEOFF_ACCURACY,
+    TRADEOFF_COUNTS,
+    TRADEOFF_ALONG,
+    TRADEOFF_STAGES,
+    TRADEOFF_JUDGE,
+    STUDY_TRADEOFF_KEYS
+};
+
+/* By which error of a series fronts are made, in the order of the words of `judge`. */
+typedef enum { TRADEOFF_BY_SIGN, TRADEOFF_BY_LARGEST, TRADEOFF_BY_RMS } study_tradeoff_judge;
+
+typedef struct study_tradeoff {
+    study_context *context;
+    size_t repeats;
+    double accuracy; /* the smallest relative error sought */
+    study_tradeoff_judge judge;
+    const char **counts; /* "film.steps": results or lines of quality that count work */
+    size_t count_count;
+    const char
+        *knobs[STUDY_MOST_KNOBS]; /* the paths that points assign, or names of choices of files */
+    size_t knob_count;
+    study_point *points; /* the levels, then the candidates */
+    size_t count, levels, candidates;
+    size_t ran; /* of the levels */
+} study_tradeoff;
+
+/* tradeoff-read.c: reads the keys and submits all cases; NULL after an error. */
+void *study_tradeoff_read(study_context *context, const study_key_value *values);
+
+/* Returns the number of a case of a point: levels run once, candidates `repeats` times. */
+size_t study_tradeoff_case(const study_tradeoff *t, size_t point, size_t repeat);
+/* Returns what the first case of a point gave. */
+const study_outcome *study_tradeoff_outcome(const study_tradeoff *t, size_t point);
+
+/* tradeoff-result.c: finds how far two points are apart in an output. False when they cannot be
+   compared. */
+bool study_tradeoff_compare(const study_tradeoff *t, size_t a, size_t b, size_t output,
+                            accuracy_difference *d);
+/* Returns the whole result; `levels` of the reference ran. */
+json_t *study_tradeoff_result(const study_tradeoff *t, size_t levels);
+
+/* tradeoff-table.c: what it found, from the value of the answer. */
+void study_tradeoff_tell(study_answer *answer);
+/* tradeoff-figure.c: draws error against cost for an output. */
+json_t *study_tradeoff_figure(const json_t *result, const char *name, const json_t *output);
+
+#endif

@@ -1,0 +1,284 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Allocates samples to levels, and estimates means and standard deviations from them. */
+#include "estimate.h"
+
+#include "../../../../memory/memory.h"
+
+#include <gsl/gsl_cdf.h>
+#include <gsl/gsl_statistics.h>
+#include <math.h>
+#include <stdlib.h>
+
+/* m_i = N sqrt(d_i / w_i) sum sqrt(d_j w_j) gives the variance sum d_i / m_i = 1 / N at the least
+   cost sum w_i m_i (Peherstorfer et al. 2016, theorem 3.4). Where level 0 needs more for its
+   variance to be known, or the pilot has more, the others are allotted what variance that leaves.
+   False: too many. */
+static bool count_samples(const double *d, const double *cost, size_t levels, double plain,
+                          double least, double *count)
+{
+    double left = 1 / plain, sum = 0;
+    for (size_t i = 0; i < levels; i++)
+        sum += sqrt(d[i] * cost[i]);
+    count[0] = fmax(least, ceil(plain * sqrt(d[0] / cost[0]) * sum));
+    left -= d[0] / count[0];
+    sum -= sqrt(d[0] * cost[0]);
+    for (size_t i = 1; i < levels; i++) {
+        count[i] = fmax(ceil(sqrt(d[i] / cost[i]) * sum / left), count[i - 1] + ESTIMATE_LEAST);
+        if (!(left > 0) || count[i] > 1e6)
+            return false;
+    }
+    return true;
+}
+
+static double cost_of(const double *count, const double *cost, size_t levels)
+{
+    double sum = 0;
+    for (size_t i = 0; i < levels; i++)
+        sum += count[i] * cost[i];
+    return sum;
+}
+
+/* The shares of the variance that samples of each level leave: for a mean by falling correlation,
+   d_i = rho_i^2 - rho_(i+1)^2, of the last level what the inputs do not explain; for a probability
+   near 1/2 with one cheap level, how often that lies on the other side, acos(rho) / pi of normal
+   variates, over p (1 - p) = 1/4. */
+static void share_variance(const double *rho2, size_t levels, double unexplained, estimate_aim aim,
+                           double *d)
+{
+    for (size_t i = 0; i < levels; i++)
+        d[i] = fmax(rho2[i] - (i + 1 < levels ? rho2[i + 1] : 0), 0);
+    if (aim == ESTIMATE_MEAN)
+        d[levels - 1] *= unexplained;
+    if (aim == ESTIMATE_DISTRIBUTION && levels == 2) {
+        d[0] = 4 * acos(sqrt(rho2[1])) / acos(-1);
+        d[1] = 1;
+    }
+}
+
+/* Tries the levels that the bits of `set` name. */
+static void try_levels(estimate_plan *best, unsigned set, const estimate_pilot *pilot,
+                       const double *cost, const double *unexplained, double plain,
+                       estimate_aim aim)
+{
+    double rho2[ESTIMATE_MOST_LEVELS] = {1}, w[ESTIMATE_MOST_LEVELS] = {1};
+    double count[ESTIMATE_MOST_LEVELS], d[ESTIMATE_MOST_LEVELS] = {0};
+    size_t used[ESTIMATE_MOST_LEVELS] = {0}, n = 1;
+    for (size_t k = 1; k < pilot->levels; k++) {
+        double r2 = best->correlation[k] * best->correlation[k];
+        size_t at = n;
+        if (!(set >> k & 1))
+            continue;
+        for (; at > 1 && rho2[at - 1] < r2; at--) {
+            rho2[at] = rho2[at - 1];
+            w[at] = w[at - 1];
+            used[at] = used[at - 1];
+        }
+        rho2[at] = r2;
+        w[at] = cost[k];
+        used[at] = k;
+        n++;
+    }
+    share_variance(rho2, n, unexplained[used[n - 1]], aim, d);
+    if ((aim == ESTIMATE_DISTRIBUTION && n > 2) ||
+        !count_samples(d, w, n, plain, fmax(ESTIMATE_LEAST, (double)pilot->count), count) ||
+        cost_of(count, w, n) >= best->cost)
+        return;
+    best->cost = cost_of(count, w, n);
+    best->levels = n;
+    for (size_t i = 0; i < n; i++) {
+        best->level[i] = used[i];
+        best->count[i] = (size_t)count[i];
+    }
+}
+
+estimate_plan estimate_allocate(const estimate_pilot *pilot, const double *cost, size_t plain,
+                                estimate_aim aim)
+{
+    size_t most = plain > pilot->count ? plain : pilot->count;
+    estimate_plan best = {.levels = 1, .count = {most}, .correlation = {1}, .cost = (double)most};
+    double unexplained[ESTIMATE_MOST_LEVELS];
+    double *part = memory_alloc((pilot->count + 1) * sizeof *part);
+    for (size_t k = 0; k < pilot->levels; k++) {
+        unexplained[k] =
+            estimate_explained(pilot->values[k], pilot->numbers, pilot->count, pilot->inputs, part);
+        if (k > 0)
+            best.correlation[k] =
+                estimate_correlation(pilot->values[0], pilot->values[k], pilot->count);
+    }
+    for (unsigned set = 0; set < 1u << pilot->levels; set += 2)
+        try_levels(&best, set, pilot, cost, unexplained, (double)plain, aim);
+    free(part);
+    return best;
+}
+
+static bool is_whole(const estimate_samples *s, size_t first, size_t i)
+{
+    for (size_t k = first; k < s->levels; k++)
+        if (!isfinite(s->values[k][i]))
+            return false;
+    return true;
+}
+
+static size_t begin_of(const estimate_samples *s, size_t block)
+{
+    return block ? s->count[block - 1] : 0;
+}
+
+/* What the samples contribute of a mean. */
+typedef struct parts {
+    double weight[ESTIMATE_MOST_LEVELS]; /* of all but the first samples */
+    double *own;                         /* those of the first ones, level by level */
+    double *value, *explained;           /* g of the last level; what the inputs explain of it */
+} parts;
+
+/*
+ * The weights of the control variates, cov(g_0, g_k) / var(g_k) over the samples that all levels
+ * have. Each of these takes that of the others, the rest their mean: no sample meets a weight that
+ * it made, and the weights of each level add up to nothing, so that the estimate is unbiased for
+ * counts that are given.
+ */
+static void find_weights(const estimate_samples *s, double (*g)(double, double), double about,
+                         parts *p)
+{
+    for (size_t k = 0; k < s->levels; k++) {
+        double *own = p->own + k * s->count[0], sum = 0, n = 0;
+        estimate_moments m = estimate_pairs(s->values[0], s->values[k], s->count[0], g, about);
+        for (size_t i = 0; i < s->count[0]; i++) {
+            double da = g(s->values[0][i], about) - m.mean_a;
+            double db = g(s->values[k][i], about) - m.mean_b, grow = m.count / (m.count - 1);
+            double bb = m.bb - db * db * grow;
+            own[i] = k == 0 ? 1 : m.count > 2 && bb > 0 ? (m.ab - da * db * grow) / bb : 0;
+            if (is_whole(s, 0, i)) {
+                sum += own[i];
+                n++;
+            }
+        }
+        p->weight[k] = n > 0 ? sum / n : 0;
+    }
+}
+
+static parts find_parts(const estimate_samples *s, double (*g)(double, double), double about)
+{
+    size_t last = s->levels - 1, count = s->count[last];
+    parts p = {.own = memory_alloc((s->levels * s->count[0] + 1) * sizeof *p.own),
+               .value = memory_alloc((count + 1) * sizeof *p.value),
+               .explained = memory_alloc((count + 1) * sizeof *p.explained)};
+    find_weights(s, g, about, &p);
+    for (size_t i = 0; i < count; i++) {
+        size_t block = 0;
+        while (i >= s->count[block])
+            block++;
+        p.value[i] = is_whole(s, block, i) ? g(s->values[last][i], about) : (double)NAN;
+    }
+    estimate_explained(p.value, s->numbers, count, s->inputs, p.explained);
+    return p;
+}
+
+/* How well samples tell their own variance: the degrees of freedom 2 sigma^4 / var(s^2) of n values
+   with a kurtosis, var(s^2) = sigma^4 (2 / (n - 1) + excess / n). */
+static double freedom_of(double n, double squares, double fourths)
+{
+    double excess = squares > 0 ? n * fourths / (squares * squares) - 3 : 0;
+    return 1 / (1 / (n - 1) + fmax(excess, 0) / (2 * n));
+}
+
+/* The sum of a block's contributions, which are NaN for samples that failed: its mean, the variance
+   of that, and the degrees of freedom that this is known with. */
+static double block_sum(const double *of, size_t count, double *variance, double *freedom)
+{
+    estimate_moments m = estimate_pairs(of, of, count, NULL, 0);
+    double fourths = 0;
+    for (size_t i = 0; i < count; i++)
+        fourths += isfinite(of[i]) ? pow(of[i] - m.mean_a, 4) : 0;
+    *variance = m.count * m.aa / (m.count - 1);
+    *freedom = freedom_of(m.count, m.aa, fourths);
+    return m.count * m.mean_a;
+}
+
+/* Overwrites the values of the last level by what each sample contributes. */
+static void contribute(const estimate_samples *s, double (*g)(double, double), double about,
+                       parts *p, const double *m)
+{
+    size_t last = s->levels - 1;
+    for (size_t block = 0; block < s->levels; block++)
+        for (size_t i = begin_of(s, block); i < s->count[block]; i++) {
+            double part = 0, weight = 0;
+            for (size_t k = block; k < s->levels; k++) {
+                double share = 1 / m[k] - (k > block ? 1 / m[k - 1] : 0);
+                weight = block ? p->weight[k] : p->own[k * s->count[0] + i];
+                part += weight * share * g(s->values[k][i], about);
+            }
+            p->value[i] = part - weight * p->explained[i] / m[last];
+        }
+}
+
+/*
+ * Estimates the mean of g. It is a sum over samples, each of which contributes what it has of
+ *   mean_0(m_0) + sum_k weight_k (mean_k(m_k) - mean_k(m_(k-1))) - weight_last mean(explained).
+ * Samples of a block, which are on the same levels, contribute alike and independently, so that
+ * the variance of the sum is found from the spread within the blocks, with the degrees of freedom
+ * of Welch and Satterthwaite.
+ */
+static estimate mean_of(const estimate_samples *s, double (*g)(double, double), double about)
+{
+    double m[ESTIMATE_MOST_LEVELS] = {0}, sum = 0, variance = 0, fourth = 0;
+    parts p = find_parts(s, g, about);
+    for (size_t block = 0; block < s->levels; block++)
+        for (size_t i = begin_of(s, block); i < s->count[block]; i++)
+            for (size_t k = block; is_whole(s, block, i) && k < s->levels; k++)
+                m[k]++;
+    contribute(s, g, about, &p, m);
+    for (size_t block = 0; block < s->levels; block++) {
+        size_t begin = begin_of(s, block);
+        double own, freedom;
+        sum += block_sum(p.value + begin, s->count[block] - begin, &own, &freedom);
+        if (!isfinite(own))
+            continue; /* of a single sample, whose spread is not known */
+        variance += own;
+        fourth += own * own / freedom;
+    }
+    free(p.own);
+    free(p.value);
+    free(p.explained);
+    double t = fourth > 0 ? gsl_cdf_tdist_Pinv(0.975, fmax(variance * variance / fourth, 1)) : 0;
+    double error = m[0] > 1 ? sqrt(variance) : (double)NAN;
+    double value = m[0] > 0 ? sum : (double)NAN;
+    return (estimate){value, value - t * error, value + t * error, error};
+}
+
+static double itself(double value, double about)
+{
+    (void)about;
+    return value;
+}
+
+static double square(double value, double about)
+{
+    return (value - about) * (value - about);
+}
+
+estimate estimate_mean(const estimate_samples *s)
+{
+    return mean_of(s, itself, 0);
+}
+
+static const double rounding = 1e-12;
+
+/* var = E (y - c)^2 - (mean - c)^2 for any c; c is near the mean, so that the second term is as
+   small as its correction by the variance of the mean. The interval is that of the logarithm; with
+   the inputs as control variates it held in 87 of 100 repeats of 60 samples, too few. Squares that
+   are all equal, as of two samples, tell nothing of their spread. */
+estimate estimate_deviation(const estimate_samples *s)
+{
+    estimate_samples alone = *s;
+    alone.inputs = 0;
+    estimate mean = estimate_mean(&alone), squares = mean_of(&alone, square, mean.value);
+    double variance = squares.value + mean.error * mean.error;
+    if (!(variance > 0))
+        return (estimate){variance >= 0 ? 0 : (double)NAN, 0, INFINITY, (double)NAN};
+    double half = (squares.high - squares.low) / 2 / variance / 2; /* of ln(sd) */
+    if (!(squares.error > rounding * variance))
+        half = INFINITY;
+    double deviation = sqrt(variance);
+    return (estimate){deviation, deviation * exp(-half), deviation * exp(half), (double)NAN};
+}

@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The values of a file that have a tolerance. */
+#ifndef STUDY_TOLERANCES_H
+#define STUDY_TOLERANCES_H
+
+#include <flankfilm/engine.h>
+
+#include "../../../memory/memory.h"
+
+typedef struct study_toleranced {
+    const char *path; /* as --set takes it */
+    const char *text; /* "3 mm +- 1 mm" */
+    ff_tolerance tolerance;
+} study_toleranced;
+
+/* All of them in the stages of the pipeline, in the order of the file; of the sets under `with:`
+   those of the model that is used. */
+study_toleranced *study_find_toleranced(const ff_node *root, memory_arena *arena, size_t *count);
+
+#endif

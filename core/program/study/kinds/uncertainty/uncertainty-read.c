@@ -1,0 +1,282 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Reads the keys of an uncertainty study, and submits the cases that are known beforehand. */
+#include "uncertainty.h"
+
+#include "../../../memory/memory.h"
+#include "../../cases/yaml.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_PATHS = 256 };
+
+/* The paths that cases assign: "sample" names the case, "accuracy" has its error measured. */
+typedef struct path_list {
+    const char *names[MOST_PATHS];
+    size_t count;
+} path_list;
+
+static bool refuse(const study_uncertainty *u, const ff_node *where, const char *hint,
+                   const char *what)
+{
+    return study_context_refuse(u->context, where, hint, what);
+}
+
+/* Returns the number of a path, which is added when it is new; MOST_PATHS when there are too many.
+ */
+static size_t find_path(path_list *paths, const char *name)
+{
+    size_t k = 0;
+    while (k < paths->count && strcmp(paths->names[k], name) != 0)
+        k++;
+    if (k == paths->count && k < MOST_PATHS)
+        paths->names[paths->count++] = name;
+    return k;
+}
+
+static bool read_outputs(study_uncertainty *u, const ff_node *list)
+{
+    study_context *context = u->context;
+    bool good = list && list->kind == FF_SEQUENCE && list->count > 0;
+    for (size_t i = 0; good && i < list->count; i++)
+        good = study_word(list->items[i]) && !strchr(list->items[i]->text, '*');
+    if (!good)
+        return refuse(u, list, "write outputs: [film.h_min_lowest]",
+                      "\"outputs\" is a list of scalars; the first one decides how many samples "
+                      "each level gets");
+    const char **bars = memory_arena_alloc(&context->arena, list->count * sizeof *bars);
+    for (size_t i = 0; i < list->count; i++)
+        bars[i] = study_context_format(context, "%s_error_bar", list->items[i]->text);
+    context->outputs = (const ff_node *const *)list->items;
+    context->output_count = context->extra_count = list->count;
+    context->extras = bars;
+    return true;
+}
+
+static bool read_percentiles(study_uncertainty *u, const ff_node *list)
+{
+    static const double usual[] = {0.05, 0.5, 0.95};
+    u->share_count = list ? list->count : 3;
+    if (list && (list->kind != FF_SEQUENCE || list->count > UNCERTAINTY_MOST_SHARES))
+        return refuse(u, list, "write percentiles: [5 %, 50 %, 95 %]",
+                      "\"percentiles\" is a list of at most 16 shares");
+    for (size_t i = 0; i < u->share_count; i++) {
+        const char *word = list ? study_word(list->items[i]) : NULL, *end = "";
+        double *share = &u->shares[i];
+        *share = list ? (double)NAN : usual[i];
+        if (word && study_read_number(word, share, &end) && !strcmp(end + strspn(end, " "), "%"))
+            *share /= 100;
+        if (!(*share > 0 && *share < 1))
+            return refuse(u, list->items[i], NULL, "a percentile is a share such as 5 %");
+    }
+    return true;
+}
+
+static bool read_condition(study_uncertainty *u, const ff_node *node, uncertainty_condition *c)
+{
+    const study_context *context = u->context;
+    const char *text = study_word(node), *sign = text ? strpbrk(text, "<>") : NULL;
+    size_t length = sign ? (size_t)(sign - text) : 0;
+    while (length > 0 && text[length - 1] == ' ')
+        length--;
+    *c = (uncertainty_condition){.text = text, .place = node, .above = sign && *sign == '>'};
+    for (c->output = 0; sign && c->output < context->output_count; c->output++) {
+        const char *name = context->outputs[c->output]->text;
+        if (strlen(name) != length || strncmp(name, text, length) != 0)
+            continue;
+        c->limit = sign + 1 + strspn(sign + 1, " ");
+        return true;
+    }
+    return refuse(u, node, "write conditions: [\"film.h_min_lowest < 0.1 um\"]",
+                  sign ? "a condition is about one of the outputs of this study"
+                       : "a condition is an output, < or >, and a limit with its unit");
+}
+
+static bool read_conditions(study_uncertainty *u, const ff_node *list)
+{
+    size_t count = list ? list->count : 0;
+    u->conditions = memory_arena_alloc(&u->context->arena, (count + 1) * sizeof *u->conditions);
+    if (list && list->kind != FF_SEQUENCE)
+        return refuse(u, list, "write conditions: [\"film.h_min_lowest < 0.1 um\"]",
+                      "\"conditions\" is a list");
+    for (; u->condition_count < count; u->condition_count++)
+        if (!read_condition(u, list->items[u->condition_count], &u->conditions[u->condition_count]))
+            return false;
+    return true;
+}
+
+/* The cost of a level: a share of that of a case as the file stands. */
+static bool read_cost(const study_uncertainty *u, const ff_node *node, uncertainty_patch *patch)
+{
+    const char *word = study_word(node), *end = "";
+    if (!word || !study_read_number(word, &patch->cost, &end) || !(patch->cost > 0) ||
+        (*end && strcmp(end + strspn(end, " "), "%") != 0))
+        return refuse(u, node, NULL,
+                      "a cost is a share of that of a case as the file stands, such as 2 %");
+    if (*end)
+        patch->cost /= 100;
+    return true;
+}
+
+static bool read_patch(const study_uncertainty *u, const char *name, const ff_node *map,
+                       bool costed, path_list *paths, uncertainty_patch *patch)
+{
+    size_t assigned = 0;
+    *patch = (uncertainty_patch){.name = name, .place = map, .cost = (double)NAN};
+    patch->assignments =
+        memory_arena_alloc(&u->context->arena, MOST_PATHS * sizeof *patch->assignments);
+    if (!study_is_map(map))
+        return refuse(u, map, "write quick: {film.use: ehl/inlet-analysis}",
+                      "expected a map from paths to values");
+    for (size_t i = 0; i < map->count; i++) {
+        if (costed && !strcmp(map->keys[i], "cost")) {
+            if (!read_cost(u, map->items[i], patch))
+                return false;
+            continue;
+        }
+        size_t k = find_path(paths, map->keys[i]);
+        if (k == MOST_PATHS)
+            return refuse(u, map, NULL, "more than 256 paths");
+        if (k < u->first_patch)
+            return refuse(u, map->items[i], NULL,
+                          study_context_format(u->context, "%.80s: an uncertain input sets it",
+                                               map->keys[i]));
+        char *text = study_yaml_assignment(map->keys[i], map->items[i]);
+        patch->assignments[k] = study_context_format(u->context, "%s", text);
+        free(text);
+        assigned++;
+    }
+    return assigned > 0 || refuse(u, map, NULL, "it changes nothing");
+}
+
+static bool read_patches(study_uncertainty *u, const ff_node *map, const char *key, bool costed,
+                         path_list *paths, uncertainty_patch *patches, size_t most, size_t *count)
+{
+    if (map && (!study_is_map(map) || map->count > most - *count))
+        return refuse(u, map, NULL,
+                      study_context_format(u->context,
+                                           "\"%s\" is a map of at most %zu names to maps", key,
+                                           most - *count));
+    for (size_t i = 0; map && i < map->count; i++)
+        if (!read_patch(u, map->keys[i], map->items[i], costed, paths, &patches[(*count)++]))
+            return false;
+    return true;
+}
+
+/* Level by level, so that a worker goes on with the models that it has. */
+static void submit_pilot(study_uncertainty *u)
+{
+    double *numbers = variates_draw(&u->inputs, u->seed, VARIATES_MAIN, u->pilot);
+    u->first_pilot = u->context->list.count;
+    for (size_t k = 0; k < u->level_count; k++)
+        for (size_t i = 0; i < u->pilot; i++)
+            study_uncertainty_submit(
+                u, study_context_format(u->context, "pilot %zu, %s", i + 1, u->levels[k].name),
+                numbers + i * u->inputs.count, &u->levels[k], false);
+    free(numbers);
+}
+
+/* Two samples A and B of the cheapest level, and for each group of inputs one of A with those of B:
+   Saltelli et al. 2010, Comput. Phys. Commun. 181, 259. */
+static void submit_sensitivity(study_uncertainty *u)
+{
+    const variates *v = &u->inputs;
+    double *a = variates_draw(v, u->seed, VARIATES_FIRST, u->sensitivity);
+    double *b = variates_draw(v, u->seed, VARIATES_SECOND, u->sensitivity);
+    double mixed[VARIATE_MOST];
+    u->first_sensitivity = u->context->list.count;
+    for (size_t block = 0; u->sensitivity && block < v->groups + 2; block++)
+        for (size_t i = 0; i < u->sensitivity; i++) {
+            for (size_t k = 0; k < v->count; k++) {
+                bool second = block == 1 || (block > 1 && v->all[k].group == block - 2);
+                mixed[k] = (second ? b : a)[i * v->count + k];
+            }
+            study_uncertainty_submit(u,
+                                     study_context_format(u->context, "share %zu, %s",
+                                                          block * u->sensitivity + i + 1,
+                                                          u->levels[u->level_count - 1].name),
+                                     mixed, &u->levels[u->level_count - 1], false);
+        }
+    free(a);
+    free(b);
+}
+
+/* Refuses too many cases before any is made; those that a ladder chooses are not known yet. */
+static bool check_count(const study_uncertainty *u)
+{
+    size_t samples = u->level_count > 1 ? u->level_count * u->pilot : u->samples;
+    size_t count = 2 + u->model_count + samples + u->sensitivity * (u->inputs.groups + 2);
+    return count <= STUDY_MOST_SUBMITTED ||
+           refuse(u, ff_node_get(ff_node_get(u->context->root, "study"), u->context->name), NULL,
+                  "more than 1000000 cases: fewer samples, or a smaller sensitivity");
+}
+
+static void submit_planned(study_uncertainty *u)
+{
+    u->nominal = study_uncertainty_submit(u, "medians", NULL, NULL, false);
+    u->measured = study_uncertainty_submit(u, "medians, measured", NULL, NULL, true);
+    u->first_model = u->context->list.count;
+    for (size_t i = 0; i < u->model_count; i++)
+        study_uncertainty_submit(u,
+                                 study_context_format(u->context, "medians, %s", u->models[i].name),
+                                 NULL, &u->models[i], false);
+    if (u->level_count == 1)
+        u->pilot = 0;
+    submit_pilot(u);
+    submit_sensitivity(u);
+    u->first_main = u->context->list.count;
+}
+
+/* Reads the keys that have a type. */
+static void read_values(study_uncertainty *u, const study_key_value *values)
+{
+    u->samples = (size_t)values[UNCERTAINTY_SAMPLES].value.integer;
+    u->seed = (uint64_t)values[UNCERTAINTY_SEED].value.integer;
+    u->pilot = (size_t)values[UNCERTAINTY_PILOT].value.integer;
+    u->sensitivity = (size_t)values[UNCERTAINTY_SENSITIVITY].value.integer;
+    u->aim = (estimate_aim)values[UNCERTAINTY_AIM].value.integer;
+    u->levels[0] = (uncertainty_patch){.name = "as the file stands", .cost = 1};
+    u->level_count = 1;
+}
+
+void *study_uncertainty_read(study_context *context, const study_key_value *values)
+{
+    study_uncertainty *u = memory_arena_alloc(&context->arena, sizeof *u);
+    path_list *paths = memory_arena_alloc(&context->arena, sizeof *paths);
+    u->context = context;
+    read_values(u, values);
+    if (!read_outputs(u, values[UNCERTAINTY_OUTPUTS].node) ||
+        !variates_read(&u->inputs, context, values[UNCERTAINTY_INPUTS].node,
+                       values[UNCERTAINTY_CORRELATIONS].node) ||
+        !read_percentiles(u, values[UNCERTAINTY_PERCENTILES].node) ||
+        !read_conditions(u, values[UNCERTAINTY_CONDITIONS].node))
+        return NULL;
+    find_path(paths, "sample");
+    for (size_t i = 0; i < u->inputs.count; i++)
+        for (size_t k = 0; k < u->inputs.all[i].path_count; k++)
+            if (find_path(paths, u->inputs.all[i].paths[k]) == MOST_PATHS) {
+                refuse(u, values[UNCERTAINTY_INPUTS].node, NULL, "more than 256 paths");
+                return NULL;
+            }
+    u->first_patch = paths->count;
+    if (!read_patches(u, values[UNCERTAINTY_LADDER].node, "ladder", true, paths, u->levels,
+                      ESTIMATE_MOST_LEVELS, &u->level_count) ||
+        !read_patches(u, values[UNCERTAINTY_MODELS].node, "models", false, paths, u->models,
+                      UNCERTAINTY_MOST_MODELS, &u->model_count) ||
+        !check_count(u))
+        return NULL;
+    find_path(paths, "accuracy");
+    context->paths = paths->names;
+    context->path_count = paths->count;
+    if (u->level_count > 1)
+        context->further = "then the samples that the pilot shows to be worth their cost";
+    submit_planned(u);
+    context->opened = 1; /* a sample may be one that cannot be, but not the medians */
+    context->first_compared = u->first_model;
+    context->compared_count = u->model_count;
+    context->compared = memory_arena_alloc(&context->arena, (u->model_count + 1) * sizeof(char *));
+    for (size_t i = 0; i < u->model_count; i++)
+        context->compared[i] = u->models[i].name;
+    return u;
+}

@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "uncertainty.h"
+
+#include "../../../memory/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const ff_param keys[STUDY_UNCERTAINTY_KEYS] = {
+    [UNCERTAINTY_OUTPUTS] = {.name = "outputs",
+                             .unit = "",
+                             .type = STUDY_TREE,
+                             .flags = FF_REQUIRED,
+                             .doc = "list of scalars: [film.h_min_lowest]; the first one decides "
+                                    "how many samples each level gets"},
+    [UNCERTAINTY_INPUTS] = {.name = "inputs",
+                            .unit = "",
+                            .type = STUDY_TREE,
+                            .doc =
+                                "map from paths to {normal: [MEAN, SPREAD]}, {lognormal: [MEDIAN, "
+                                "SPREAD]}, {uniform: [FROM, TO]} or {samples: FILE.csv or a "
+                                "list}; with sets: [PATHS] one value for several. Left out: the "
+                                "values of the pipeline that have a tolerance"},
+    [UNCERTAINTY_CORRELATIONS] = {.name = "correlations",
+                                  .unit = "",
+                                  .type = STUDY_TREE,
+                                  .doc = "list of [INPUT, INPUT, r], of the normal variates "
+                                         "(Gaussian copula)"},
+    [UNCERTAINTY_CONDITIONS] = {.name = "conditions",
+                                .unit = "",
+                                .type = STUDY_TREE,
+                                .doc = "list of conditions whose probability is asked: "
+                                       "[\"film.lambda_ratio_lowest < 1\"]"},
+    [UNCERTAINTY_PERCENTILES] = {.name = "percentiles",
+                                 .unit = "",
+                                 .type = STUDY_TREE,
+                                 .doc = "list of shares, else [5 %, 50 %, 95 %]"},
+    [UNCERTAINTY_SAMPLES] = {.name = "samples",
+                             .unit = "",
+                             .type = FF_INT,
+                             .preset = "100",
+                             .min = 2,
+                             .max = 1000000,
+                             .doc = "how many of the file's model; with a ladder: whose standard "
+                                    "error is to be reached"},
+    [UNCERTAINTY_SEED] = {.name = "seed",
+                          .unit = "",
+                          .type = FF_INT,
+                          .preset = "1",
+                          .min = 0,
+                          .max = 1000000,
+                          .doc = "of the random numbers; the same seed gives the same samples"},
+    [UNCERTAINTY_LADDER] = {.name = "ladder",
+                            .unit = "",
+                            .type = STUDY_TREE,
+                            .doc = "map from names to cheaper models, the cheapest last: {quick: "
+                                   "{film.use: ehl/inlet-analysis, cost: 2 %}}"},
+    [UNCERTAINTY_PILOT] = {.name = "pilot",
+                           .unit = "",
+                           .type = FF_INT,
+                           .preset = "20",
+                           .min = 5,
+                           .max = 10000,
+                           .doc = "first samples, on every level of the ladder, which tell how "
+                                  "many more are worth their cost"},
+    [UNCERTAINTY_AIM] = {.name = "aim",
+                         .unit = "",
+                         .type = FF_CHOICE,
+                         .preset = "mean",
+                         .choices = "mean|distribution",
+                         .doc = "what a ladder must give as well as plain samples: the mean alone, "
+                                "or percentiles and probabilities, too"},
+    [UNCERTAINTY_SENSITIVITY] = {.name = "sensitivity",
+                                 .unit = "",
+                                 .type = FF_INT,
+                                 .preset = "0",
+                                 .min = 0,
+                                 .max = 100000,
+                                 .doc = "n: Sobol indices of the inputs from n (inputs + 2) cases "
+                                        "of the last level"},
+    [UNCERTAINTY_MODELS] = {.name = "models",
+                            .unit = "",
+                            .type = STUDY_TREE,
+                            .doc = "map from names to other models or settings, tried at the "
+                                   "medians: {thermal: {film.thermal: full}}"},
+};
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* What all samples share, such as a mesh under one torque, is computed once, and is no cost of a
+   sample: the cases of level 0 reuse it from the second one on. */
+static double shared_seconds(const study_uncertainty *u)
+{
+    double least = INFINITY;
+    for (size_t i = 1; i < u->pilot; i++)
+        least =
+            fmin(least, study_outcome_of(u->context, study_uncertainty_pilot_case(u, 0, i))->saved);
+    return isfinite(least) ? least : 0;
+}
+
+/* The median processor time of the cases of a level in the pilot. */
+static double seconds_of(const study_uncertainty *u, size_t level)
+{
+    double shared = shared_seconds(u);
+    double *all = memory_alloc(u->pilot * sizeof *all);
+    size_t count = 0;
+    for (size_t i = 0; i < u->pilot; i++) {
+        const study_outcome *outcome =
+            study_outcome_of(u->context, study_uncertainty_pilot_case(u, level, i));
+        if (outcome->processor > 0)
+            all[count++] = outcome->processor + fmax(0, outcome->saved - shared);
+    }
+    qsort(all, count, sizeof *all, compare);
+    double median = count ? all[count / 2] : (double)NAN;
+    free(all);
+    return median;
+}
+
+/* A cost that the file states makes samples the same on every machine. One that is measured is that
+   of the pilot's records, which stay; to one of 1, 2 or 5 times a power of ten. */
+static void find_costs(study_uncertainty *u)
+{
+    for (size_t k = 0; k < u->level_count; k++)
+        u->seconds[k] = seconds_of(u, k);
+    for (size_t k = 0; k < u->level_count; k++) {
+        double share = u->seconds[k] / u->seconds[0], power = pow(10, floor(log10(share)));
+        double digit = share / power < 1.5   ? 1
+                       : share / power < 3.5 ? 2
+                       : share / power < 7.5 ? 5
+                                             : 10;
+        u->cost[k] = isfinite(u->levels[k].cost) ? u->levels[k].cost
+                     : isfinite(share)           ? digit * power
+                                                 : 1;
+    }
+}
+
+/* Chooses the counts by the first output. */
+static void plan_samples(study_uncertainty *u)
+{
+    double *values = memory_alloc(u->level_count * u->pilot * sizeof *values);
+    double *numbers = variates_draw(&u->inputs, u->seed, VARIATES_MAIN, u->pilot);
+    estimate_pilot pilot = {
+        .levels = u->level_count, .count = u->pilot, .inputs = u->inputs.count, .numbers = numbers};
+    for (size_t k = 0; k < u->level_count; k++) {
+        pilot.values[k] = values + k * u->pilot;
+        for (size_t i = 0; i < u->pilot; i++)
+            values[k * u->pilot + i] =
+                study_uncertainty_value(u, study_uncertainty_pilot_case(u, k, i), 0);
+    }
+    find_costs(u);
+    u->plan = estimate_allocate(&pilot, u->cost, u->samples, u->aim);
+    free(values);
+    free(numbers);
+}
+
+static void submit_main(study_uncertainty *u)
+{
+    size_t last = u->plan.count[u->plan.levels - 1];
+    double *numbers = variates_draw(&u->inputs, u->seed, VARIATES_MAIN, last);
+    u->numbers =
+        memory_arena_alloc(&u->context->arena, (last * u->inputs.count + 1) * sizeof *numbers);
+    memcpy(u->numbers, numbers, last * u->inputs.count * sizeof *numbers);
+    free(numbers);
+    for (size_t slot = 0; slot < u->plan.levels; slot++) {
+        const uncertainty_patch *level = &u->levels[u->plan.level[slot]];
+        for (size_t i = u->pilot; i < u->plan.count[slot]; i++)
+            study_uncertainty_submit(
+                u, study_context_format(u->context, "sample %zu, %s", i + 1, level->name),
+                u->numbers + i * u->inputs.count, level, false);
+    }
+}
+
+/* A level of a ladder that cannot be, whatever the inputs, is found with the first sample that the
+   file's own model takes. */
+static bool open_levels(const study_uncertainty *u)
+{
+    for (size_t i = 0; i < u->pilot; i++) {
+        if (!study_submitted_opens(u->context, study_uncertainty_pilot_case(u, 0, i), false))
+            continue;
+        for (size_t k = 1; k < u->level_count; k++)
+            if (!study_submitted_opens(u->context, study_uncertainty_pilot_case(u, k, i), true))
+                return false;
+        return true;
+    }
+    return true;
+}
+
+static bool run_cases(void *study)
+{
+    study_uncertainty *u = study;
+    study_context *context = u->context;
+    u->plan = (estimate_plan){
+        .levels = 1, .count = {u->samples}, .correlation = {1}, .cost = (double)u->samples};
+    u->cost[0] = 1;
+    u->seconds[0] = (double)NAN;
+    if (!open_levels(u) || !study_run_submitted(context, 0, u->first_main))
+        return false;
+    if (u->level_count > 1)
+        plan_samples(u);
+    submit_main(u);
+    return study_run_submitted(context, u->first_main, context->list.count);
+}
+
+/* The unit of an output of the pipeline; NULL when it is not known. */
+static const char *unit_of(const ff_pipeline *pipeline, const char *path)
+{
+    const char *name;
+    const ff_stage *stage = ff_stage_of(pipeline, path, &name);
+    const ff_model *model = stage && stage->results ? stage->loaded->model : NULL;
+    int output = model ? ff_model_find_output(model, name) : -1;
+    return output >= 0 ? stage->results[output].row->unit : NULL;
+}
+
+/* Checks that limits have the units of their outputs. */
+static void check(const void *study, const ff_pipeline *pipeline, ff_report *report)
+{
+    const study_uncertainty *u = study;
+    for (size_t i = 0; i < u->condition_count; i++) {
+        const uncertainty_condition *c = &u->conditions[i];
+        const char *unit = unit_of(pipeline, u->context->outputs[c->output]->text);
+        ff_unit parsed;
+        char why[300];
+        double value;
+        if (unit && (!ff_unit_parse(unit, &parsed, why, sizeof why) ||
+                     !ff_quantity_parse(c->limit, &parsed, unit, &value, why, sizeof why)))
+            ff_error(report, FF_FAULT_INPUT, c->place->place, NULL, "%s: %.100s: %s",
+                     u->context->name, c->text, why);
+    }
+}
+
+const study_kind study_uncertainty_kind = {
+    .name = "uncertainty",
+    .verb = "samples uncertain inputs",
+    .summary = "What uncertain inputs make of the outputs, against the errors of grids and models",
+    .file = "uncertainty",
+    .keys = keys,
+    .key_count = STUDY_UNCERTAINTY_KEYS,
+    .read = study_uncertainty_read,
+    .cases = run_cases,
+    .reduce = study_uncertainty_reduce,
+    .check = check,
+};
