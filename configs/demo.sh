@@ -23,12 +23,12 @@ echo "Building the program and its models, which takes one core some two minutes
 # shellcheck disable=SC2046
 step ninja -C build flankfilm $(ninja -C build -t targets all | sed -n 's/^\(plugins\/.*\.so\): .*/\1/p')
 
-# of what the program says here is the part on the films
 said=$(build/flankfilm run configs/li-kahraman-2011.yaml "$@")
-printf '%s\n' "$said" | awk 'BEGIN { RS = ""; ORS = "\n\n" } NR == 1 || /^(Stages|film_static|film)\n/'
 results=$(printf '%s\n' "$said" | sed -n 's/^results in //p')
 cat <<END
-Results, those of the gears, the motion and the contacts with them, are in $results. Next:
+$said
+
+Next:
   build/flankfilm report $results           # its figures, as one page
   build/flankfilm explain configs/li-kahraman-2011.yaml    # what ran, and why
   build/flankfilm models                                   # what can be swapped

@@ -141,10 +141,10 @@ typedef struct ff_result {
     const char *dims[FF_MAX_RANK]; /* "t", "x" */
     size_t count;                  /* product of shape; 1 for a scalar */
     /* Draft: */
-    bool wanted;    /* requested, or needed by another stage */
-    bool requested; /* by the file */
-    bool required;  /* must be given: requested by name, or for a required input */
-    bool refused;   /* by the model, for these inputs */
+    bool wanted;        /* requested, or needed by another stage */
+    uint32_t requested; /* by the file: its place among the outputs asked for, from 1; 0: not */
+    bool required;      /* must be given: requested by name, or for a required input */
+    bool refused;       /* by the model, for these inputs */
 } ff_result;
 
 /* The result "stage.output". FF_INVALID: there is no such output, or it was not computed, and the

@@ -69,6 +69,7 @@ typedef struct fe_build {
     ff_engine *engine;
     ff_report *report;
     bool everything;
+    uint32_t requested; /* outputs so far */
     uint32_t file_rank; /* of the file's layer: that of an assignment is higher */
 } fe_build;
 

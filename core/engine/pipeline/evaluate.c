@@ -57,7 +57,8 @@ static bool drop_refused(const ff_pipeline *pipeline, ff_stage *stage)
     if (stage->results[output].required && (!instance->member || !instance->member->first ||
                                             must_feed(pipeline, &stage->results[output])))
         return false;
-    stage->results[output].wanted = stage->results[output].requested = false;
+    stage->results[output].wanted = false;
+    stage->results[output].requested = 0;
     stage->results[output].refused = true;
     return true;
 }

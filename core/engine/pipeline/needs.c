@@ -66,7 +66,8 @@ static void leave_out(fe_build *b, ff_stage *stage, size_t output, const char *t
                                    *readers ? "needed by " : "requested by name", readers),
                  "%s.%s (%s): %s", stage->name, result->row->name, stage->use, text);
     }
-    result->wanted = result->requested = false;
+    result->wanted = false;
+    result->requested = 0;
     result->refused = true;
 }
 

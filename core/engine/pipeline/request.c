@@ -5,15 +5,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Gives an output the next place among those that are asked for, unless it has one. */
+static void request(fe_build *b, ff_result *result)
+{
+    if (!result->requested)
+        result->requested = ++b->requested;
+}
+
 /* Requests all scalars and series of the stage; false when it has none. */
-static bool request_all(ff_stage *stage)
+static bool request_all(fe_build *b, ff_stage *stage)
 {
     bool some = false;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const ff_dims *dims = &stage->loaded->output_dims[i];
         ff_result *result = &stage->results[i];
         bool field = dims->rank - dims->first_optional > 1;
-        result->requested = result->requested || (!field && !result->row->service);
+        if (!field && !result->row->service)
+            request(b, result);
         some = some || result->requested;
     }
     return some;
@@ -28,7 +36,7 @@ static void request_one(fe_build *b, ff_stage *stage, const char *name, ff_place
                  "outputs: \"%s\" of %s is a service for other stages; it has no values", name,
                  stage->name);
     } else if (output >= 0) {
-        stage->results[output].requested = true;
+        request(b, &stage->results[output]);
         stage->results[output].required = true;
     } else {
         const char **names = fe_alloc(model->output_count * sizeof *names);
@@ -59,7 +67,7 @@ static void read_request(fe_build *b, const ff_node *item)
         return;
     if (strcmp(name, "*") != 0)
         request_one(b, stage, name, item->place);
-    else if (!request_all(stage))
+    else if (!request_all(b, stage))
         ff_error(b->report, FF_FAULT_INPUT, item->place, NULL,
                  "outputs: %s (%s) has no scalars and no series", stage->name, stage->use);
     fe_link_from(b, stage);
@@ -79,7 +87,7 @@ static void request_default(fe_build *b)
     }
     for (size_t i = 0; i < pipeline->count; i++) {
         ff_stage *stage = &pipeline->stages[i];
-        if (!feeds[i] && stage->loaded && request_all(stage))
+        if (!feeds[i] && stage->loaded && request_all(b, stage))
             stage->why = fe_pipeline_print(pipeline, "feeds no other stage");
     }
     fe_free(feeds);

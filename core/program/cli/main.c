@@ -20,8 +20,10 @@
 
 static const cli_command commands[] = {
     {"run", "FILE", "run the pipeline or the study of a YAML file and write its results",
-     "Runs the stages that the requested outputs need, prints a summary and writes the results:\n"
-     "result.json and a .npy for each array. Results of the same file are replaced,\n"
+     "Runs the stages that the requested outputs need, prints these outputs in the file's order "
+     "and\n"
+     "writes the results: result.json and a .npy for each array. Results of the same file are "
+     "replaced,\n"
      "and what was made of them goes; a directory that holds anything but results of flankfilm is\n"
      "refused, as are results of another file. With --json nothing is written unless -o is given.\n"
      "A file with \"study\" makes many cases. What they give is kept as soon as it is there: the\n"

@@ -61,6 +61,8 @@ static const option_row rows[] = {
     {"strict", 0, NULL, "run check",
      "count a doubtful answer or a warning as a failure: code 1, 4 for a study, 2 for check",
      OPTIONAL, NULL},
+    {"all", 0, NULL, "run",
+     "of a single case, print all that was computed, not only what it asks for", OPTIONAL, NULL},
     {"replace", 0, NULL, "run", "replace results of another file in the directory", OPTIONAL, NULL},
     {"json", 0, NULL, "run plan check explain fit models report export verify",
      "print one JSON object, all values in SI, and nothing else", OPTIONAL, NULL},

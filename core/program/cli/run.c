@@ -59,9 +59,9 @@ static void warn_of_replaced(const place *to, ff_report *report)
                 to->directory, to->removed);
 }
 
-static void print_outcome(const results_outcome *outcome, const place *to)
+static void print_outcome(const results_outcome *outcome, const place *to, bool all)
 {
-    cli_print_summary(outcome);
+    cli_print_summary(outcome, all);
     fflush(stdout);
     if (ff_report_count(outcome->report)) {
         fputc('\n', stderr);
@@ -114,7 +114,7 @@ static int run_session(cli_session *session, const cli_options *options, const r
         results_write_answer(&outcome, to->written ? to->directory : NULL,
                              cli_option(options, "arrays") != NULL, terminal_answer());
     } else {
-        print_outcome(&outcome, to);
+        print_outcome(&outcome, to, cli_option(options, "all") != NULL);
     }
     json_decref(progress.log);
     accuracy_free(&errors);

@@ -6,6 +6,7 @@
 #include "../accuracy/axis.h"
 #include "../accuracy/lines.h"
 #include "../memory/memory.h"
+#include "../results/label.h"
 #include "../results/number.h"
 
 #include <math.h>
@@ -109,22 +110,30 @@ static void print_range(const ff_result *result, double a, double b, char *out, 
         snprintf(out, size, "%.4g to %.4g%s%s", a, b, gap, unit.unit);
 }
 
-/* Where the extremes of a series lie. */
+/* Where the extremes of a series lie; briefly, "at 22.3 and 16.6 deg", or "" where no series says
+ * it.
+ */
 static void print_where(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
-                        size_t least, size_t greatest, char *out, size_t size)
+                        size_t least, size_t greatest, bool briefly, char *out, size_t size)
 {
     const ff_result *result = &stage->results[output];
     const char *dim = result->dims[0];
     const ff_result *axis = accuracy_axis(pipeline, stage, dim, result->count, result, "rad");
     if (!axis) {
-        snprintf(out, size, "min at %s %zu, max at %zu of %zu", dim, least + 1, greatest + 1,
-                 result->count);
+        if (!briefly)
+            snprintf(out, size, "min at %s %zu, max at %zu of %zu", dim, least + 1, greatest + 1,
+                     result->count);
         return;
     }
     double a = axis->data[least], b = axis->data[greatest];
     results_readable unit = results_readable_unit(axis->row->unit, fmax(fabs(a), fabs(b)));
-    snprintf(out, size, "min at %.4g, max at %.4g%s%s (%s)", a * unit.factor, b * unit.factor,
-             *unit.unit ? " " : "", unit.unit, axis->row->name);
+    const char *gap = *unit.unit ? " " : "";
+    if (briefly)
+        snprintf(out, size, "at %.3g and %.3g%s%s", a * unit.factor, b * unit.factor, gap,
+                 unit.unit);
+    else
+        snprintf(out, size, "min at %.4g, max at %.4g%s%s (%s)", a * unit.factor, b * unit.factor,
+                 gap, unit.unit, axis->row->name);
 }
 
 static void print_shape(const ff_stage *stage, size_t output, char *out, size_t size)
@@ -161,32 +170,70 @@ static void print_error(const paper *page, const ff_result *result, char *out, s
         snprintf(out + length, size - length, " +- ?");
 }
 
-/* Name, value or range, what it means, and the shape of a field or where the extremes of a series
-   lie. */
-static void print_result(const paper *page, const ff_pipeline *pipeline, const ff_stage *stage,
-                         size_t output, int width)
+/* An output in words. */
+typedef struct shown {
+    char value[96];  /* or its range */
+    char place[256]; /* the shape of a field, or where the extremes of a series lie; or "" */
+} shown;
+
+static shown show(const paper *page, const ff_pipeline *pipeline, const ff_stage *stage,
+                  size_t output, bool briefly)
 {
-    const int value_width = VALUE + (page->errors->count > 0 ? BAR : 0);
     const ff_result *result = &stage->results[output];
-    char value[96] = "(none)", place[256] = "";
+    shown text = {.value = "(none)"};
     size_t least = 0, greatest = 0;
-    bool pair = print_pair(result, value, sizeof value);
+    bool pair = print_pair(result, text.value, sizeof text.value);
     if (result->count > 0 && !pair) {
         find_extremes(result, &least, &greatest);
-        print_range(result, result->data[least], result->data[greatest], value, sizeof value);
+        print_range(result, result->data[least], result->data[greatest], text.value,
+                    sizeof text.value);
     }
     bool from_end_to_end = least == 0 && greatest + 1 == result->count;
     if (result->rank > 1)
-        print_shape(stage, output, place, sizeof place);
-    else if (result->rank == 1 && !pair && strstr(value, " to ") && !from_end_to_end)
-        print_where(pipeline, stage, output, least, greatest, place, sizeof place);
-    print_error(page, result, value, sizeof value);
-    int column = printf("  %-*s  %-*s  ", width, result->row->name, value_width, value);
-    size_t length = strlen(result->row->doc) + sizeof place + 2;
-    char *text = memory_alloc(length);
-    snprintf(text, length, "%s%s%s", result->row->doc, *place ? "; " : "", place);
-    terminal_print_wrapped(text, column, column);
-    free(text);
+        print_shape(stage, output, text.place, sizeof text.place);
+    else if (result->rank == 1 && !pair && strstr(text.value, " to ") && !from_end_to_end)
+        print_where(pipeline, stage, output, least, greatest, briefly, text.place,
+                    sizeof text.place);
+    print_error(page, result, text.value, sizeof text.value);
+    return text;
+}
+
+/* Prints the name and the value; returns the columns that they take. */
+static int print_value(const paper *page, const char *name, int width, const shown *text)
+{
+    return printf("  %-*s  %-*s  ", width, name, VALUE + (page->errors->count > 0 ? BAR : 0),
+                  text->value);
+}
+
+static void print_result(const paper *page, const ff_pipeline *pipeline, const ff_stage *stage,
+                         size_t output, int width)
+{
+    const ff_port *row = stage->results[output].row;
+    shown text = show(page, pipeline, stage, output, false);
+    int column = print_value(page, row->name, width, &text);
+    char *words = memory_print_text("%s%s%s", row->doc, *text.place ? "; " : "", text.place);
+    terminal_print_wrapped(words, column, column);
+    free(words);
+}
+
+/* Prints an output that is asked for: what it is called, and where its extremes lie if the line has
+   room. */
+static void print_asked(const paper *page, const ff_pipeline *pipeline, const results_asked *asked,
+                        int width)
+{
+    char label[RESULTS_LABEL_SIZE];
+    shown text = show(page, pipeline, asked->stage, asked->output, true);
+    int column = print_value(page, asked->name, width, &text);
+    const int room = terminal_width() - column;
+    const int left = room - (int)(*text.place ? strlen("; ") + strlen(text.place) : 0);
+    const char *doc = asked->stage->results[asked->output].row->doc;
+    results_label(doc, left > 0 ? (size_t)left : 0, label);
+    bool fits = *text.place && (int)strlen(label) <= left;
+    if (!fits)
+        results_label(doc, room > 0 ? (size_t)room : 0, label);
+    char *words = memory_print_text("%s%s%s", label, fits ? "; " : "", fits ? text.place : "");
+    terminal_print_wrapped(words, column, column);
+    free(words);
 }
 
 /* The requested results, and the scalars that were computed besides. */
@@ -211,6 +258,43 @@ static void print_results(paper *page, const ff_pipeline *pipeline, const ff_sta
         start_line(page);
         print_result(page, pipeline, stage, i, width);
     }
+}
+
+/* Whether the output is a field, or what others of them are plotted against: it has no value that
+   a line could give. */
+static bool is_array_only(const ff_result *result, const ff_result *const *axes)
+{
+    while (*axes && *axes != result)
+        axes++;
+    return result->rank > 1 || *axes;
+}
+
+/* Prints what the file asks for, in its order, a line for each but fields and axes. */
+static void print_answer(paper *page, const ff_pipeline *pipeline)
+{
+    size_t count, length = 0;
+    results_asked *list = results_list_asked(pipeline, &count);
+    const ff_result **axes = results_axes(pipeline);
+    char *arrays = NULL;
+    FILE *others = memory_require(open_memstream(&arrays, &length));
+    int width = 0;
+    for (size_t i = 0; i < count; i++)
+        if (is_array_only(&list[i].stage->results[list[i].output], axes))
+            fprintf(others, "%s%s", ftell(others) > 0 ? ", " : "", list[i].name);
+        else if ((int)strlen(list[i].name) > width)
+            width = (int)strlen(list[i].name);
+    fclose(others);
+    width = width < MOST_NAME ? width : MOST_NAME;
+    putchar('\n');
+    for (size_t i = 0; i < count; i++) {
+        if (!is_array_only(&list[i].stage->results[list[i].output], axes))
+            print_asked(page, pipeline, &list[i], width);
+    }
+    if (*arrays)
+        terminal_print_wrapped(arrays, printf("  in the results: "), 4);
+    free(arrays);
+    free(axes);
+    results_free_asked(list, count);
 }
 
 /* What is not good. */
@@ -348,7 +432,48 @@ static void print_errors(paper *page, const results_outcome *outcome)
     page->heading = NULL;
 }
 
-void cli_print_summary(const results_outcome *outcome)
+/* Prints each stage, with its time, and whatever was computed. */
+static void print_everything(paper *page, const ff_pipeline *pipeline)
+{
+    page->heading = "Stages";
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[pipeline->order[i]];
+        if (stage->ran || stage->status != FF_OK)
+            print_stage(page, stage);
+    }
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (pipeline->stages[pipeline->order[i]].ran)
+            print_results(page, pipeline, &pipeline->stages[pipeline->order[i]]);
+}
+
+/* Prints the stages that failed. */
+static void print_failures(paper *page, const ff_pipeline *pipeline)
+{
+    page->heading = "Stages that failed";
+    for (size_t i = 0; i < pipeline->count; i++)
+        if (pipeline->stages[pipeline->order[i]].status != FF_OK)
+            print_stage(page, &pipeline->stages[pipeline->order[i]]);
+}
+
+/* Prints what ran, how many checks were good, and where the rest is. */
+static void print_tally(const ff_pipeline *pipeline)
+{
+    size_t ran = 0, checks = 0, good = 0;
+    double seconds = 0;
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        ran += stage->ran ? 1 : 0;
+        seconds += stage->ran ? stage->seconds : 0;
+        for (size_t k = 0; stage->ran && k < stage->quality_count; k++) {
+            checks++;
+            good += stage->quality[k].verdict == FF_GOOD ? 1 : 0;
+        }
+    }
+    printf("\n%zu stages in %.3g s, %zu of %zu checks good; --all prints all that they computed\n",
+           ran, seconds, good, checks);
+}
+
+void cli_print_summary(const results_outcome *outcome, bool all)
 {
     const ff_pipeline *pipeline = outcome->pipeline;
     paper page = {.errors = outcome->errors, .colour = terminal_colour(stdout)};
@@ -356,18 +481,17 @@ void cli_print_summary(const results_outcome *outcome)
     ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : outcome->input->file);
     paint(&page, "1", title);
     putchar('\n');
-    page.heading = "Stages";
-    for (size_t i = 0; i < pipeline->count; i++) {
-        const ff_stage *stage = &pipeline->stages[pipeline->order[i]];
-        if (stage->ran || stage->status != FF_OK)
-            print_stage(&page, stage);
-    }
-    for (size_t i = 0; i < pipeline->count; i++)
-        if (pipeline->stages[pipeline->order[i]].ran)
-            print_results(&page, pipeline, &pipeline->stages[pipeline->order[i]]);
+    if (all)
+        print_everything(&page, pipeline);
+    else
+        print_answer(&page, pipeline);
+    if (!all)
+        print_failures(&page, pipeline);
     print_log(&page, outcome->log);
     print_errors(&page, outcome);
     page.heading = "To be looked at";
     for (size_t i = 0; i < pipeline->count; i++)
         print_quality(&page, &pipeline->stages[pipeline->order[i]]);
+    if (!all)
+        print_tally(pipeline);
 }

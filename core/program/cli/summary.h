@@ -4,7 +4,8 @@
 
 #include "../results/write.h"
 
-/* What a person wants to read of a run, on stdout, as wide as the terminal. */
-void cli_print_summary(const results_outcome *outcome);
+/* Prints what the file asks for, and what is to be looked at, on stdout, as wide as the terminal;
+   with `all` also the stages and whatever was computed besides. */
+void cli_print_summary(const results_outcome *outcome, bool all);
 
 #endif

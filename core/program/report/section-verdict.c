@@ -5,74 +5,30 @@
 #include "page.h"
 
 #include "../memory/memory.h"
+#include "../results/label.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* ANY: the highest of a series, where it is not 0 */
-enum { LEAST, MOST, LARGEST, ANY, MEAN, RANGE, PLAIN, PERCENT };
+enum { LABEL = 60 }; /* bytes that an output is called by, if it has more than one clause */
 
-static const struct row {
-    const char *words, *output;
-    int how;
-} rows[] = {
-    {"Least film thickness", "h_min", LEAST},
-    {"Lowest film over roughness (lambda)", "lambda_ratio", LEAST},
-    {"Highest pressure", "p_max", MOST},
-    {"Highest Hertz pressure", "hertz_pressure", MOST},
-    {"Largest friction coefficient", "friction_coefficient", LARGEST},
-    {"Mean friction coefficient (magnitude)", "friction_coefficient", MEAN},
-    {"Highest power loss", "power_loss", MOST},
-    {"Mean power loss", "power_loss", MEAN},
-    {"Mean power loss of the mesh", "power_loss_mean", PLAIN},
-    {"Efficiency of the mesh", "efficiency", PERCENT},
-    {"Highest flash temperature rise", "flash_temperature", MOST},
-    {"Highest contact temperature", "contact_temperature", MOST},
-    {"Largest share of the asperities in the load", "asperity_load_share", ANY},
-    {"Largest share of the contact where asperities touch", "contact_ratio", ANY},
-    {"Highest load per width", "load_per_width", MOST},
-    {"Transmission error, rms of its alternating part", "dte_rms", PLAIN},
-    {"Transmission error, peak to peak", "dte_peak_to_peak", PLAIN},
-    {"Quasi-static transmission error, peak to peak", "loaded_transmission_error", RANGE},
-    {"Time without contact", "contact_loss", PERCENT},
-    {"Time in contact on the back flank", "back_contact", PERCENT},
-    {"Largest dynamic over quasi-static tooth force", "dynamic_factor_tooth", PLAIN},
-    {"Largest mesh force over the static one", "dynamic_factor_mesh", PLAIN},
-    {"Roughness Rq of gear 1", "rq_1", PLAIN},
-    {"Roughness Rq of gear 2", "rq_2", PLAIN},
-    {"Contact ratio", "contact_ratio", PLAIN},
-    {"Speed of gear 1", "speed", PLAIN},
-    {"Mesh frequency", "mesh_frequency", PLAIN},
-};
+/* Ranks of the least and the greatest number of a series. */
+typedef struct extremes {
+    size_t least, greatest;
+} extremes;
 
-static size_t find_extreme(const ff_array *array, int how)
+static extremes find_extremes(const ff_array *array)
 {
-    size_t best = 0;
+    extremes at = {0, 0};
     for (size_t i = 1; i < report_array_size(array); i++) {
-        double a = array->data[i], b = array->data[best];
-        bool better = how == LEAST ? a < b : how == LARGEST ? fabs(a) > fabs(b) : a > b;
-        best = better || (isfinite(a) && !isfinite(b)) ? i : best;
+        double value = array->data[i];
+        if (value < array->data[at.least] || !isfinite(array->data[at.least]))
+            at.least = i;
+        if (value > array->data[at.greatest] || !isfinite(array->data[at.greatest]))
+            at.greatest = i;
     }
-    return best;
-}
-
-/* Returns the mean magnitude over x, by the trapezoidal rule, or over the points without x. */
-static double mean_of(const ff_array *y, const ff_array *x)
-{
-    double sum = 0, length = 0;
-    size_t count = report_array_size(y);
-    for (size_t i = 1; i < count; i++) {
-        double step = x->data ? x->data[i] - x->data[i - 1] : 1;
-        sum += step * 0.5 * (fabs(y->data[i]) + fabs(y->data[i - 1]));
-        length += step;
-    }
-    return length > 0 ? sum / length : fabs(y->data[0]);
-}
-
-static double range_of(const ff_array *array)
-{
-    return array->data[find_extreme(array, MOST)] - array->data[find_extreme(array, LEAST)];
+    return at;
 }
 
 /* Writes "roll angle 22.3 deg, single contact". */
@@ -114,34 +70,55 @@ static void write_error(report_page *page, size_t variable, size_t at)
     report_release(page, &bar);
 }
 
-static void write_row(report_page *page, const struct row *row, size_t variable)
+static void write_number(report_page *page, size_t variable, double value, size_t at)
 {
     const results_view_variable *of = page->view->variables[variable];
     char text[REPORT_TEXT_SIZE];
+    report_quantity_text(report_si_unit(of->unit, of->output), value, text);
+    report_put_text(page->out, text);
+    write_error(page, variable, at);
+}
+
+/* Writes a value, the values of both gears, or what a series goes from and to; then where. */
+static void write_values(report_page *page, size_t variable, const ff_array *y)
+{
+    const results_view_variable *of = page->view->variables[variable];
     int axis = of->rank == 1 ? report_find_axis(page->view, variable, 0, 0) : -1;
-    ff_array y = report_load(page, (int)variable, 0), x = report_load(page, axis, 0);
-    size_t at = y.data && row->how < MEAN ? find_extreme(&y, row->how) : 0;
-    if (y.data && report_array_size(&y) > 0 && (row->how != ANY || y.data[at] > 0)) {
-        double value = row->how == MEAN      ? mean_of(&y, &x)
-                       : row->how == RANGE   ? range_of(&y)
-                       : row->how == LARGEST ? fabs(y.data[at])
-                                             : y.data[at];
-        if (row->how == PERCENT)
-            snprintf(text, sizeof text, "%.4g %%", 100 * value);
-        else
-            report_quantity_text(report_si_unit(of->unit, of->output), value, text);
-        report_print(page->out, "<tr><th scope=\"row\">%s</th><td>", row->words);
-        report_put_text(page->out, page->view->stages[of->stage]->name);
-        fputs("</td><td class=\"number\">", page->out);
-        report_put_text(page->out, text);
-        if (row->how < MEAN || row->how == PLAIN)
-            write_error(page, variable, at);
-        fputs("</td><td>", page->out);
-        if (row->how < MEAN && x.data && at < report_array_size(&x))
-            write_place(page, axis, x.data[at]);
-        fputs("</td></tr>\n", page->out);
+    ff_array x = report_load(page, axis, 0);
+    size_t count = report_array_size(y);
+    bool pair = count == 2 && axis < 0;
+    extremes at = pair ? (extremes){0, 1} : find_extremes(y);
+    double least = y->data[at.least], greatest = y->data[at.greatest];
+    bool varies = pair || greatest > least;
+    write_number(page, variable, least, at.least);
+    if (varies) {
+        fputs(pair ? ", " : " to ", page->out);
+        write_number(page, variable, greatest, at.greatest);
+    }
+    fputs("</td><td>", page->out);
+    if (x.data && report_array_size(&x) == count && !pair && varies) {
+        fputs("least at ", page->out);
+        write_place(page, axis, x.data[at.least]);
+        fputs("; largest at ", page->out);
+        write_place(page, axis, x.data[at.greatest]);
     }
     report_release(page, &x);
+}
+
+/* Writes what an output is called, its name, its values, and where. */
+static void write_row(report_page *page, size_t variable)
+{
+    const results_view_variable *of = page->view->variables[variable];
+    ff_array y = report_load(page, (int)variable, 0);
+    if (y.data && report_array_size(&y) > 0) {
+        char label[RESULTS_LABEL_SIZE];
+        results_label(of->doc, LABEL, label);
+        report_print(page->out,
+                     "<tr><th scope=\"row\">%s</th><td><code>%s</code></td><td class=\"number\">",
+                     label, of->name);
+        write_values(page, variable, &y);
+        fputs("</td></tr>\n", page->out);
+    }
     report_release(page, &y);
 }
 
@@ -233,19 +210,60 @@ static void write_judgement(report_page *page)
     end_reasons(page, listed);
 }
 
-static void write_run(report_page *page)
+/* Whether a series is what another output that the file asks for is plotted against. */
+static bool is_axis(const results_view *view, size_t series)
 {
-    const results_view *view = page->view;
-    write_judgement(page);
-    fputs("<table class=\"verdict run\"><thead><tr><th>quantity</th><th>stage</th><th>value</th>"
+    for (size_t v = 0; v < view->variable_count; v++)
+        for (uint32_t k = 0; k < view->variables[v]->rank; k++)
+            if (v != series && (view->variables[v]->flags & RESULTS_VIEW_ASKED) &&
+                !strcmp(view->variables[v]->against[k], view->variables[series]->name))
+                return true;
+    return false;
+}
+
+/* Whether the table has a row of an output: one that is asked for, or a scalar that was computed
+   besides. Fields and axes are in the figures. */
+static bool has_row(const results_view *view, size_t v, bool asked)
+{
+    const results_view_variable *of = view->variables[v];
+    if (((of->flags & RESULTS_VIEW_ASKED) != 0) != asked || report_is_bar(of))
+        return false;
+    return of->rank == 0 || (of->rank == 1 && asked && !is_axis(view, v));
+}
+
+static size_t count_rows(const results_view *view, bool asked)
+{
+    size_t count = 0;
+    for (size_t v = 0; v < view->variable_count; v++)
+        count += has_row(view, v, asked) ? 1 : 0;
+    return count;
+}
+
+static void write_table(report_page *page, bool asked)
+{
+    fputs("<div class=\"wide\"><table class=\"verdict "
+          "run\"><thead><tr><th>quantity</th><th>output</th><th>value</th>"
           "<th>where</th></tr></thead><tbody>\n",
           page->out);
-    for (size_t r = 0; r < sizeof rows / sizeof *rows; r++)
-        for (size_t v = 0; v < view->variable_count; v++)
-            if (!strcmp(view->variables[v]->output, rows[r].output) &&
-                view->variables[v]->rank == (rows[r].how < PLAIN))
-                write_row(page, &rows[r], v);
-    fputs("</tbody></table>\n", page->out);
+    for (size_t v = 0; v < page->view->variable_count; v++)
+        if (has_row(page->view, v, asked))
+            write_row(page, v);
+    fputs("</tbody></table></div>\n", page->out);
+}
+
+/* Writes what the file asks for, in its order; folded, the scalars that were computed besides. */
+static void write_run(report_page *page)
+{
+    write_judgement(page);
+    if (count_rows(page->view, true) > 0)
+        write_table(page, true);
+    size_t others = count_rows(page->view, false);
+    if (others == 0)
+        return;
+    fprintf(page->out, "<details><summary>%zu more that %s computed</summary>\n", others,
+            others == 1 ? "was" : "were");
+    write_table(page, false);
+    fputs("</details>\n", page->out);
 }
 
 /* Loads a scalar over the cases, in SI. */

@@ -7,6 +7,39 @@
 
 #include <stdlib.h>
 
+static int compare_places(const void *a, const void *b)
+{
+    const results_asked *x = a, *y = b;
+    uint32_t left = x->stage->results[x->output].requested;
+    uint32_t right = y->stage->results[y->output].requested;
+    return (left > right) - (left < right);
+}
+
+results_asked *results_list_asked(const ff_pipeline *pipeline, size_t *count)
+{
+    results_asked *list = memory_alloc(sizeof *list);
+    *count = 0;
+    for (size_t s = 0; s < pipeline->count; s++) {
+        const ff_stage *stage = &pipeline->stages[s];
+        for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
+            if (!stage->results[i].data || !stage->results[i].requested)
+                continue;
+            char *name = memory_print_text("%s.%s", stage->name, stage->results[i].row->name);
+            list = memory_resize(list, (*count + 1) * sizeof *list);
+            list[(*count)++] = (results_asked){stage, i, name};
+        }
+    }
+    qsort(list, *count, sizeof *list, compare_places);
+    return list;
+}
+
+void results_free_asked(results_asked *list, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        free(list[i].name);
+    free(list);
+}
+
 const ff_result **results_axes(const ff_pipeline *pipeline)
 {
     const ff_result **axes = memory_alloc(sizeof *axes);

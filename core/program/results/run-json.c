@@ -138,10 +138,22 @@ static json_t *describe_output(const results_outcome *outcome, const ff_stage *s
     return entry;
 }
 
-/* Describes what the file requests; or, of what was computed on the way, the scalars, and series
-   that requested arrays are plotted against. */
-static json_t *describe_outputs(const results_outcome *outcome, bool requested,
-                                results_arrays arrays)
+/* Describes what the file asks for, in its order. */
+static json_t *describe_asked(const results_outcome *outcome, results_arrays arrays)
+{
+    size_t count;
+    results_asked *list = results_list_asked(outcome->pipeline, &count);
+    json_t *outputs = json_object();
+    for (size_t i = 0; i < count; i++)
+        json_object_set_new(outputs, list[i].name,
+                            describe_output(outcome, list[i].stage, list[i].output, arrays));
+    results_free_asked(list, count);
+    return outputs;
+}
+
+/* Describes the scalars that were computed on the way, and the series that arrays are plotted
+   against. */
+static json_t *describe_computed(const results_outcome *outcome)
 {
     const ff_pipeline *pipeline = outcome->pipeline;
     const ff_result **axes = results_axes(pipeline);
@@ -150,11 +162,12 @@ static json_t *describe_outputs(const results_outcome *outcome, bool requested,
         const ff_stage *stage = &pipeline->stages[s];
         for (size_t i = 0; stage->ran && i < stage->loaded->model->output_count; i++) {
             const ff_result *result = &stage->results[i];
-            if (!result->data || result->requested != requested ||
+            if (!result->data || result->requested ||
                 (result->rank && !results_is_kept(result, axes)))
                 continue;
             char *name = memory_print_text("%s.%s", stage->name, result->row->name);
-            json_object_set_new(outputs, name, describe_output(outcome, stage, i, arrays));
+            json_object_set_new(outputs, name,
+                                describe_output(outcome, stage, i, RESULTS_IN_FILES));
             free(name);
         }
     }
@@ -309,8 +322,8 @@ void results_write_run_json(const results_outcome *outcome, FILE *stream)
     json_object_update(all, head);
     json_decref(head);
     add_input(all, outcome->input);
-    json_object_set_new(all, "outputs", describe_outputs(outcome, true, RESULTS_IN_FILES));
-    json_object_set_new(all, "computed", describe_outputs(outcome, false, RESULTS_IN_FILES));
+    json_object_set_new(all, "outputs", describe_asked(outcome, RESULTS_IN_FILES));
+    json_object_set_new(all, "computed", describe_computed(outcome));
     json_object_set_new(all, "stages", describe_stages(pipeline, true));
     json_object_set(all, "log", outcome->log);
     write_object(all, stream);
@@ -324,7 +337,7 @@ void results_write_answer(const results_outcome *outcome, const char *directory,
                             : directory ? RESULTS_LONG_IN_FILES
                                         : RESULTS_LONG_ABSENT;
     json_object_set_new(all, "directory", results_json_text(directory));
-    json_object_set_new(all, "outputs", describe_outputs(outcome, true, arrays));
+    json_object_set_new(all, "outputs", describe_asked(outcome, arrays));
     json_object_set_new(all, "stages", describe_stages(outcome->pipeline, false));
     json_object_set(all, "log", outcome->log);
     write_object(all, stream);

@@ -20,6 +20,17 @@ typedef struct results_outcome {
     json_t *log; /* messages of the models: [{stage, level, text}] */
 } results_outcome;
 
+/* An output that the file asks for, and that was computed. */
+typedef struct results_asked {
+    const ff_stage *stage;
+    size_t output;
+    char *name; /* "film.h_min", owned */
+} results_asked;
+
+/* Returns them in the order of the file, to be freed by results_free_asked. */
+results_asked *results_list_asked(const ff_pipeline *pipeline, size_t *count);
+void results_free_asked(results_asked *list, size_t count);
+
 /* What the arrays that the file asks for are plotted against; NULL-ended, to be freed. */
 const ff_result **results_axes(const ff_pipeline *pipeline);
 /* Whether the numbers are kept: the file asks for them, or they are one of those. */

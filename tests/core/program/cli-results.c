@@ -37,7 +37,7 @@ static void test_json(void)
 
 static void test_summary(void)
 {
-    outcome r = cli("$F run pair.yaml");
+    outcome r = cli("$F run pair.yaml --all");
     cli_expect("summary", &r,
                r.code == 0 && cli_has(r.out, "a pair of toys\n") && cli_has(r.out, "toy/wave") &&
                    cli_has(r.out, "\nsum\n  sum  7.233") && cli_has(r.out, " mm") &&
@@ -63,6 +63,24 @@ static void test_summary(void)
             break;
     }
     cli_expect("at most 100 columns", &r, longest <= 100);
+}
+
+/* What the file asks for is printed in its order, and nothing else. */
+static void test_answer(void)
+{
+    outcome r =
+        cli("$F run pair.yaml --set outputs='[sum.sum, wave.level, wave.total, wave.field]'");
+    const char *sum = strstr(r.out, "  sum.sum "), *level = strstr(r.out, "  wave.level ");
+    const char *total = strstr(r.out, "  wave.total ");
+    cli_expect("in the file's order", &r, sum && level && total && sum < level && level < total);
+    cli_expect("a field is in the results", &r, cli_has(r.out, "in the results: wave.field\n"));
+    cli_expect("no stage, and no number besides", &r,
+               !cli_has(r.out, "toy/wave") && !cli_has(r.out, "  cost ") &&
+                   cli_has(r.out, "--all prints all"));
+    r = cli("$F run pair.yaml --json --set outputs='[sum.sum, wave.level, wave.total]'");
+    cli_expect("in JSON, too", &r,
+               r.json && strstr(r.out, "\"sum.sum\"") < strstr(r.out, "\"wave.level\"") &&
+                   strstr(r.out, "\"wave.level\"") < strstr(r.out, "\"wave.total\""));
 }
 
 static void test_files(void)
@@ -167,6 +185,7 @@ int main(int argc, char **argv)
     cli_open(argc, argv);
     test_json();
     test_summary();
+    test_answer();
     test_files();
     test_long();
     test_again();

@@ -81,12 +81,24 @@ class Report(lab.Lab):
         page = self.read_page("pair/report.html")
         dom, figures = self.look("pair/report.html")
         self.assertGreater(figures, 12)
-        for words in ("Least film thickness", "roll angle", "LPSTC", "HPSTC", "µm)", "GPa",
+        for words in ("least film thickness", "roll angle", "LPSTC", "HPSTC", "µm)", "GPa",
                       "Quality of the numbers", "unity-50.yaml", "@article"):
             self.assertIn(words, page)
         self.read_extremes(page)
         self.assertRegex(dom, r'"extremes">film_static: least film 0\.\d+ µm, highest pressure 0\.\d+ GPa')
         self.assertRegex(dom, r"<output>roll angle [\d.]+ deg</output>")
+
+    def test_asked(self):
+        """The first table has what the file asks for, of any model, in the file's order; what was computed besides is folded."""
+        with open("asked.yaml", "w", encoding="utf-8") as file:
+            file.write("format: 2\npipeline: {wave: {use: toy/wave, amplitude: 2 mm, count: 8}}\n"
+                       "outputs: [wave.total, wave.height, wave.level]\n")
+        self.call("run", "asked.yaml", "-o", "asked")
+        self.call("report", "asked")
+        self.look("asked/report.html")
+        asked = self.read_page("asked/report.html").split("<details>")
+        self.assertEqual(re.findall(r"<td><code>([^<]*)</code>", asked[0]), ["wave.total", "wave.height", "wave.level"])
+        self.assertIn("<code>wave.cost</code>", asked[1])
 
     def test_rough_flanks(self):
         """The flanks move with the slider, asperities have their pressure, and nothing is out of the figure."""

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Numbers as text that reads back, and in readable units. */
+#include "../../../core/program/results/label.h"
 #include "../../../core/program/results/number.h"
 
 #include <check.h>
@@ -21,6 +22,28 @@ static void test_exact(void)
     check_true("no more digits than it takes", strcmp(text, "0.3") == 0);
     results_number_exact((double)NAN, text);
     check_true("none", strcmp(text, "nan") == 0);
+}
+
+/* As many clauses as have room, at least one; brackets of a formula stay. */
+static void test_label(void)
+{
+    static const struct {
+        const char *doc, *label;
+        size_t room;
+    } rows[] = {
+        {"highest pressure", "highest pressure", 0},
+        {"load, never negative; needs a gear", "load, never negative", 20},
+        {"load, never negative; needs a gear", "load", 19},
+        {"film (parabola, through nodes)", "film", 80},
+        {"u_r = (u1 + u2)/2", "u_r = (u1 + u2)/2", 0},
+        {"a, b, c", "a, b", 5},
+        {"", "", 9},
+    };
+    char label[RESULTS_LABEL_SIZE];
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        results_label(rows[i].doc, rows[i].room, label);
+        check_true(rows[i].doc, strcmp(label, rows[i].label) == 0);
+    }
 }
 
 static void test_readable(void)
@@ -58,6 +81,7 @@ static void test_readable(void)
 int main(void)
 {
     test_exact();
+    test_label();
     test_readable();
     return check_done();
 }

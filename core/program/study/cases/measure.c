@@ -66,8 +66,10 @@ void study_measure_want(const study_definition *study, const ff_pipeline *pipeli
     }
     for (size_t i = 0; i < study->extra_count; i++) {
         ff_result *result = find_result(pipeline, study->extras[i], &stage);
-        if (result)
-            result->wanted = result->requested = true;
+        if (result) {
+            result->wanted = true;
+            result->requested = 1;
+        }
     }
 }
 

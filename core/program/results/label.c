@@ -1,0 +1,31 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "label.h"
+
+#include <ctype.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Whether the label ends at the latest here: brackets behind an operator belong to a formula. */
+static bool is_end(const char *doc, size_t at)
+{
+    return !doc[at] || !strncmp(doc + at, "; ", 2) ||
+           (at > 0 && !strncmp(doc + at, " (", 2) && isalnum((unsigned char)doc[at - 1]));
+}
+
+static bool is_clause_end(const char *doc, size_t at)
+{
+    return is_end(doc, at) || !strncmp(doc + at, ", ", 2);
+}
+
+void results_label(const char *doc, size_t room, char out[RESULTS_LABEL_SIZE])
+{
+    size_t length = 0, at = 0;
+    do {
+        while (!is_clause_end(doc, at))
+            at++;
+        if (length == 0 || at <= room)
+            length = at;
+    } while (!is_end(doc, at++));
+    snprintf(out, RESULTS_LABEL_SIZE, "%.*s", (int)length, doc);
+}

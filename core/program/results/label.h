@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef RESULTS_LABEL_H
+#define RESULTS_LABEL_H
+
+#include <stddef.h>
+
+enum { RESULTS_LABEL_SIZE = 256 };
+
+/* What an output is called beside its name: as many clauses of its doc as have room in so many
+   bytes, without what stands behind "; " or in brackets; at least the first clause. */
+void results_label(const char *doc, size_t room, char out[RESULTS_LABEL_SIZE]);
+
+#endif
