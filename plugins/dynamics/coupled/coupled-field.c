@@ -41,11 +41,12 @@ static mesh_spring spring_at(const dynamics_field *field, double phase, const dy
     double now = fmax(k + dynamics_coupled_stiffness_change(
                               field->pair, place, phase, field->regime.pairs, field->now->mounted),
                       0);
-    if (!piece->bends || !(k > 0))
+    if (!dynamics_spring_bends(piece) || !(k > 0))
         return (mesh_spring){now, 0, overlap};
     int band = field->regime.band[flank];
     double slope = dynamics_piece_value(dynamics_spring_slope(piece, band), piece->degree, since);
-    double offset = band ? dynamics_piece_value(piece->offset, piece->degree, since) : 0;
+    double offset =
+        band ? dynamics_piece_value(dynamics_spring_offset(piece, band), piece->degree, since) : 0;
     return (mesh_spring){now / k * slope, now / k * offset, (slope * overlap - offset) / k};
 }
 
@@ -185,15 +186,18 @@ void dynamics_field_find_bands(dynamics_field *field, double t, const double *ov
         field->regime.band[i] = overlap[i] > 0 ? dynamics_spring_band(piece, since, overlap[i]) : 0;
 }
 
-/* The gate at the knee of the spring of a flank. */
-static double knee_gate(const dynamics_field *field, double t, int flank, double overlap)
+/* The gates at the knees of the spring of a flank, where the band begins and where it ends. */
+static void knee_gates(const dynamics_field *field, double t, int flank, double overlap,
+                       double gate[DYNAMICS_GATES])
 {
     const dynamics_piece *piece = field->now->piece;
-    if (!piece->bends || !field->regime.touches[flank])
-        return 1;
+    int band = field->regime.band[flank], bends = piece->lines && field->regime.touches[flank];
     double since = dynamics_field_phase(field, t) - piece->start;
-    double excess = dynamics_spring_excess(piece, since, overlap);
-    return field->regime.band[flank] ? excess : -excess;
+    gate[DYNAMICS_FALLS + flank] =
+        bends && band > 0 ? dynamics_spring_excess(piece, band, since, overlap) : 1;
+    gate[DYNAMICS_RISES + flank] = bends && band + 1 < piece->lines
+                                       ? -dynamics_spring_excess(piece, band + 1, since, overlap)
+                                       : 1;
 }
 
 void dynamics_field_gates(const dynamics_field *field, double t, const double *y,
@@ -211,7 +215,7 @@ void dynamics_field_gates(const dynamics_field *field, double t, const double *y
         gate[DYNAMICS_PRESS + i] = !clipped ? 1 : r->pressed[i] ? p.normal[i] : -p.normal[i];
         if (clipped && r->pressed[i])
             gate[DYNAMICS_TOUCH + i] = 1; /* the damper lets go before the flanks part */
-        gate[DYNAMICS_KNEE + i] = knee_gate(field, t, i, p.overlap[i].value);
+        knee_gates(field, t, i, p.overlap[i].value, gate);
     }
     gate[DYNAMICS_COMES] = place.entry - (age + r->pairs.youngest - 1);
     gate[DYNAMICS_GOES] = place.exit - (age + r->pairs.oldest);
@@ -245,8 +249,10 @@ void dynamics_field_pass_gate(dynamics_field *field, int gate)
         r->pairs.youngest--;
     } else if (gate == DYNAMICS_GOES) {
         r->pairs.oldest--;
-    } else if (gate >= DYNAMICS_KNEE) {
-        r->band[gate - DYNAMICS_KNEE] = !r->band[gate - DYNAMICS_KNEE];
+    } else if (gate >= DYNAMICS_RISES) {
+        r->band[gate - DYNAMICS_RISES]++;
+    } else if (gate >= DYNAMICS_FALLS) {
+        r->band[gate - DYNAMICS_FALLS]--;
     } else if (gate >= DYNAMICS_PRESS) {
         r->pressed[gate - DYNAMICS_PRESS] = !r->pressed[gate - DYNAMICS_PRESS];
     } else {

@@ -65,8 +65,9 @@ int dynamics_field_damps(const dynamics_field *field, int flank);
 enum {
     DYNAMICS_TOUCH,
     DYNAMICS_PRESS = DYNAMICS_FLANKS,
-    DYNAMICS_KNEE = 2 * DYNAMICS_FLANKS,
-    DYNAMICS_COMES = 3 * DYNAMICS_FLANKS,
+    DYNAMICS_FALLS = 2 * DYNAMICS_FLANKS, /* below the knee where its band of the spring begins */
+    DYNAMICS_RISES = 3 * DYNAMICS_FLANKS, /* above the one where it ends */
+    DYNAMICS_COMES = 4 * DYNAMICS_FLANKS,
     DYNAMICS_GOES,
     DYNAMICS_GATES
 };

@@ -2,6 +2,7 @@
 #include "coupled-run.h"
 
 #include "../../numerics/integrator.h"
+#include "../excitation/spring.h"
 #include "../oscillator/bracket.h"
 #include "coupled-variation.h"
 
@@ -136,7 +137,7 @@ static void set_bands(dynamics_coupled_run *run)
 {
     dynamics_place place;
     double overlap[DYNAMICS_FLANKS];
-    if (!run->field.now->piece->bends)
+    if (!dynamics_spring_bends(run->field.now->piece))
         return;
     dynamics_coupled_locate(run->field.pair, run->y, &place);
     dynamics_push p = dynamics_field_push(&run->field, run->t, run->y, &place);

@@ -28,17 +28,27 @@ static int has_slope_of(const double *a, const double *b, double length)
 
 static int jumps(const dynamics_piece *a, const dynamics_piece *b)
 {
-    return !meets(a, a->k, b->k) || !meets(a, a->e, b->e) || !meets(a, a->chord, b->chord) ||
-           !meets(a, a->offset, b->offset);
+    if (!meets(a, a->k, b->k) || !meets(a, a->e, b->e))
+        return 1;
+    for (int i = 0; i < a->lines; i++)
+        if (!meets(a, a->line[i].slope, b->line[i].slope) ||
+            !meets(a, a->line[i].offset, b->line[i].offset))
+            return 1;
+    return 0;
 }
 
 /* Whether b carries on the straight lines of a. */
 static int continues(const dynamics_piece *a, const dynamics_piece *b)
 {
     double length = a->length + b->length;
-    return a->degree == 1 && b->degree == 1 && !jumps(a, b) && has_slope_of(a->k, b->k, length) &&
-           has_slope_of(a->e, b->e, length) && has_slope_of(a->chord, b->chord, length) &&
-           has_slope_of(a->offset, b->offset, length);
+    if (a->degree != 1 || b->degree != 1 || jumps(a, b) || !has_slope_of(a->k, b->k, length) ||
+        !has_slope_of(a->e, b->e, length))
+        return 0;
+    for (int i = 0; i < a->lines; i++)
+        if (!has_slope_of(a->line[i].slope, b->line[i].slope, length) ||
+            !has_slope_of(a->line[i].offset, b->line[i].offset, length))
+            return 0;
+    return 1;
 }
 
 static void set_line(double *c, const double *value, size_t i, double unit, double length)
@@ -56,10 +66,11 @@ static dynamics_piece piece_between(const dynamics_excitation *excitation,
     set_line(p.k, x->stiffness, i, unit, p.length);
     if (x->error)
         set_line(p.e, x->error, i, excitation->length, p.length);
-    if (spring) {
-        p.bends = 1;
-        set_line(p.chord, spring->chord, i, unit, p.length);
-        set_line(p.offset, spring->offset, i, unit * excitation->length, p.length);
+    p.lines = spring ? (int)spring->lines : 0;
+    for (int k = 0; k < p.lines; k++) {
+        const dynamics_spring_row row = dynamics_spring_row_of(spring, (size_t)k);
+        set_line(p.line[k].slope, row.slope, i, unit, p.length);
+        set_line(p.line[k].offset, row.offset, i, unit * excitation->length, p.length);
     }
     return p;
 }
@@ -100,14 +111,21 @@ void dynamics_excitation_mark_jumps(dynamics_excitation *excitation)
             jumps(&excitation->pieces[i ? i - 1 : excitation->count - 1], &excitation->pieces[i]);
 }
 
+static double steepest(const dynamics_mesh_curves *x, const dynamics_spring_nodes *spring, size_t i)
+{
+    return spring
+               ? fmax(x->stiffness[i], dynamics_spring_row_of(spring, spring->lines - 1).slope[i])
+               : x->stiffness[i];
+}
+
 int dynamics_excitation_build_bent(dynamics_excitation *excitation,
                                    const dynamics_mesh_curves *curves,
                                    const dynamics_spring_nodes *spring)
 {
     dynamics_mesh_curves with_slope = *curves, *x = &with_slope;
-    if (spring)
+    if (spring && spring->stiffness)
         x->stiffness = spring->stiffness;
-    if (spring && !spring->chord)
+    if (spring && !spring->lines)
         spring = NULL;
     excitation->count = 0;
     excitation->k_max = 0;
@@ -116,7 +134,7 @@ int dynamics_excitation_build_bent(dynamics_excitation *excitation,
     if (!excitation->pieces)
         return 0;
     for (size_t i = 0; i < x->count; i++)
-        excitation->k_max = fmax(excitation->k_max, x->stiffness[i] / excitation->stiffness);
+        excitation->k_max = fmax(excitation->k_max, steepest(x, spring, i) / excitation->stiffness);
     for (size_t first = 0, i = 0; i + 1 < x->count; i++) {
         int ends = i + 2 == x->count || is_jump(x, i + 1);
         if (is_jump(x, i)) {
@@ -174,8 +192,12 @@ double dynamics_mesh_force(const dynamics_excitation *excitation, const dynamics
 double dynamics_rest_bend(const dynamics_excitation *excitation)
 {
     const dynamics_piece *first = excitation->pieces;
-    double k = first->k[0] > 0 ? first->k[0] : 1;
-    return (excitation->load + first->offset[0]) / k;
+    double k = first->k[0] > 0 ? first->k[0] : 1, bend = excitation->load / k;
+    for (int i = 0; i < first->lines; i++) {
+        double there = (excitation->load + first->line[i].offset[0]) / first->line[i].slope[0];
+        bend = i ? fmin(bend, there) : there;
+    }
+    return bend;
 }
 
 double dynamics_rest_deflection(const dynamics_excitation *excitation)

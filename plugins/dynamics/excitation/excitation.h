@@ -7,9 +7,9 @@
  *
  * in the unit of length `length`, the mean mesh stiffness and the unit of time 1/omega, omega^2 =
  * mean stiffness / equivalent mass. g is the dead zone of half width `half_gap`. Where k is the
- * slope of the mesh at the mean load, the force behind the dead zone bends, as spring.h has it. k
- * and e are polynomials between the nodes of a mesh cycle and may jump there; so is drag, which is
- * 0 without a film that gives its friction back.
+ * slope of the mesh at the mean load, or the mesh force is known at several loads, the force behind
+ * the dead zone bends, as spring.h has it. k and e are polynomials between the nodes of a mesh
+ * cycle and may jump there; so is drag, which is 0 without a film that gives its friction back.
  */
 #ifndef DYNAMICS_EXCITATION_H
 #define DYNAMICS_EXCITATION_H
@@ -25,17 +25,23 @@ enum {
 
 /* A stretch of the mesh cycle between nodes: the coefficients of k and e in powers of the phase
    since its start. */
-enum { DYNAMICS_DEGREE = 7 };
+enum { DYNAMICS_DEGREE = 7, DYNAMICS_LINES = 32 };
+
+/* A straight line of the force over g = s - e: slope g - offset. */
+typedef struct dynamics_line {
+    double slope[DYNAMICS_DEGREE + 1], offset[DYNAMICS_DEGREE + 1];
+} dynamics_line;
+
 typedef struct dynamics_piece {
     double start, length; /* mesh cycles */
     int degree;           /* 1: straight lines */
     double k[DYNAMICS_DEGREE + 1], e[DYNAMICS_DEGREE + 1];
-    int bends; /* whether the force is k g - offset above a knee and chord g below it (spring.h) */
-    double chord[DYNAMICS_DEGREE + 1], offset[DYNAMICS_DEGREE + 1];
     double drag[DYNAMICS_DEGREE + 1]; /* of friction and rolling */
     double
         film[DYNAMICS_DEGREE + 1]; /* growth of the pairs' films, each by its share of the load */
-    int jump;                      /* k or e is discontinuous at the start */
+    int jump;                      /* k, e or the spring is discontinuous at the start */
+    int lines;                     /* 0: the force is k g; else the greatest of these (spring.h) */
+    dynamics_line line[DYNAMICS_LINES];
 } dynamics_piece;
 
 /* What the smooth pieces make of the straight lines of a table. */
@@ -51,6 +57,7 @@ typedef struct dynamics_excitation {
     double zeta, load, half_gap;
     int damping;
     int on_chord; /* whether k is to be the chord where the stiffness is the slope (spring.h) */
+    int shared;   /* whether the spring follows the mesh force at all loads (spring.h) */
     int fed_back; /* whether a film gave drag and thickness; all pieces then have the full degree */
     double length, stiffness, omega; /* units: m, N/m, rad/s */
     dynamics_representation represented;
@@ -95,9 +102,11 @@ static inline void dynamics_piece_start_later(const dynamics_piece *from, double
 {
     dynamics_piece_shift(from->k, from->degree, since, 1, to->k);
     dynamics_piece_shift(from->e, from->degree, since, 1, to->e);
-    dynamics_piece_shift(from->chord, from->degree, since, 1, to->chord);
-    dynamics_piece_shift(from->offset, from->degree, since, 1, to->offset);
-    to->bends = from->bends;
+    to->lines = from->lines;
+    for (int i = 0; i < from->lines; i++) {
+        dynamics_piece_shift(from->line[i].slope, from->degree, since, 1, to->line[i].slope);
+        dynamics_piece_shift(from->line[i].offset, from->degree, since, 1, to->line[i].offset);
+    }
 }
 
 static inline double dynamics_piece_bend(const double *c, int degree, double since)

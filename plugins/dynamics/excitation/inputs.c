@@ -80,6 +80,11 @@
                                  .doc = "mesh forces from 0 up, of which the following are",       \
                                  .dims = "level",                                                  \
                                  .flags = FF_OPTIONAL},                                            \
+    [DYNAMICS_IN_LEVEL_ERROR] = {.name = "stiffness.level_error",                                  \
+                                 .unit = "m",                                                      \
+                                 .doc = "transmission error under each of them",                   \
+                                 .dims = "level phase",                                            \
+                                 .flags = FF_OPTIONAL},                                            \
     [DYNAMICS_IN_LEVEL_STIFFNESS] = {.name = "stiffness.level_stiffness",                          \
                                      .unit = "N/m",                                                \
                                      .doc = "slope of the mesh under each of them",                \
@@ -241,27 +246,93 @@ static ff_status check_shapes(const ff_host *host, const ff_array *in)
     return status;
 }
 
-/* Levels without the tooth forces or the slopes there say nothing. */
-static ff_status read_levels(const ff_host *host, const ff_array *in, dynamics_force_levels *l)
+static ff_status check_level_forces(const ff_host *host, const ff_array *force, size_t *count)
 {
-    const ff_array *force = &in[DYNAMICS_IN_FORCE_LEVEL];
-    const ff_array *rows[] = {&in[DYNAMICS_IN_LEVEL_STIFFNESS], &in[DYNAMICS_IN_LEVEL_TOOTH_FORCE]};
-    const size_t lengths[] = {in[DYNAMICS_IN_PHASE].shape[0], in[DYNAMICS_IN_ROLL_ANGLE].shape[0]};
-    *l = (dynamics_force_levels){0};
-    if (!force->data || !rows[0]->data || !rows[1]->data)
-        return FF_OK;
-    size_t count = force->rank == 1 ? force->shape[0] : 0;
-    for (size_t i = 0; i < count; i++)
+    *count = force->rank == 1 ? force->shape[0] : 0;
+    for (size_t i = 0; i < *count; i++)
         if (i == 0 ? force->data[0] != 0 : !(force->data[i] > force->data[i - 1]))
             return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FORCE_LEVEL),
                             "must rise from 0, but value %zu is %g N", i + 1, force->data[i]);
-    for (int i = 0; i < 2; i++)
-        if (rows[i]->rank != 2 || rows[i]->shape[0] != count || rows[i]->shape[1] != lengths[i])
-            return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_LEVEL_STIFFNESS + i),
-                            "must be %zu rows of %zu values", count, lengths[i]);
-    *l = (dynamics_force_levels){count,       lengths[0],    lengths[1],
-                                 force->data, rows[0]->data, rows[1]->data};
     return FF_OK;
+}
+
+static ff_status read_levels(const ff_host *host, const ff_array *in, dynamics_force_levels *l)
+{
+    const double **rows[] = {&l->error, &l->stiffness, &l->tooth_force};
+    *l = (dynamics_force_levels){.phases = in[DYNAMICS_IN_PHASE].shape[0],
+                                 .stations = in[DYNAMICS_IN_ROLL_ANGLE].shape[0]};
+    if (!in[DYNAMICS_IN_FORCE_LEVEL].data)
+        return FF_OK;
+    l->force = in[DYNAMICS_IN_FORCE_LEVEL].data;
+    ff_status status = check_level_forces(host, &in[DYNAMICS_IN_FORCE_LEVEL], &l->count);
+    for (int i = 0; i < 3 && status == FF_OK; i++) {
+        int input = DYNAMICS_IN_LEVEL_ERROR + i;
+        size_t length = input == DYNAMICS_IN_LEVEL_TOOTH_FORCE ? l->stations : l->phases;
+        *rows[i] = in[input].data;
+        if (in[input].data &&
+            (in[input].rank != 2 || in[input].shape[0] != l->count || in[input].shape[1] != length))
+            status = ff_failf(host, FF_INVALID, name_of(input), "must be %zu rows of %zu values",
+                              l->count, length);
+    }
+    return status;
+}
+
+/* Two values of one error, m, that differ by no more are one. */
+static int agree(double a, double z, double size)
+{
+    return fabs(a - z) <= 1e-6 * size + 1e-15;
+}
+
+/* Row 0 of the levels is the transmission error without load, and the row of the mean force is that
+   under load. */
+static ff_status check_rows(const ff_host *host, const ff_array *in, const dynamics_force_levels *l,
+                            double force)
+{
+    const double *rows[] = {in[DYNAMICS_IN_TRANSMISSION_ERROR].data,
+                            in[DYNAMICS_IN_LOADED_ERROR].data};
+    const int inputs[] = {DYNAMICS_IN_TRANSMISSION_ERROR, DYNAMICS_IN_LOADED_ERROR};
+    for (size_t k = 0; k < l->count; k++) {
+        int which = k == 0 ? 0 : fabs(l->force[k] - force) <= 1e-9 * force ? 1 : -1;
+        for (size_t i = 0; which >= 0 && i < l->phases; i++) {
+            double there = l->error[k * l->phases + i], known = rows[which] ? rows[which][i] : 0;
+            if ((rows[which] || which == 0) &&
+                !agree(there, known, l->error[(l->count - 1) * l->phases + i] - l->error[i]))
+                return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_LEVEL_ERROR),
+                                "is %g m under %g N at phase %g, where %s is %g m", there,
+                                l->force[k], in[DYNAMICS_IN_PHASE].data[i], name_of(inputs[which]),
+                                known);
+        }
+    }
+    return FF_OK;
+}
+
+/* Levels that a mesh force can be made of: errors and slopes that rise with the force. */
+static ff_status check_levels(const ff_host *host, const ff_array *in,
+                              const dynamics_force_levels *l, double force)
+{
+    if (l->count < 2 || !l->error)
+        return ff_failf(host, FF_INVALID, "force",
+                        "shared needs a stiffness that knows its transmission error under several "
+                        "forces (force_level, level_error), such as stiffness/load-distribution "
+                        "under a torque; take force: frozen");
+    if (l->count > DYNAMICS_LINES)
+        return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FORCE_LEVEL),
+                        "has %zu forces, more than %d", l->count, DYNAMICS_LINES);
+    for (size_t k = 0; k < l->count; k++)
+        for (size_t i = 0; i < l->phases; i++) {
+            size_t at = k * l->phases + i;
+            if (k > 0 && !(l->error[at] > l->error[at - l->phases]))
+                return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_LEVEL_ERROR),
+                                "must rise with the force, but at phase %g it is %g m under %g N "
+                                "and %g m under %g N",
+                                in[DYNAMICS_IN_PHASE].data[i], l->error[at - l->phases],
+                                l->force[k - 1], l->error[at], l->force[k]);
+            if (l->stiffness && !(l->stiffness[at] > 0))
+                return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_LEVEL_STIFFNESS),
+                                "must be above 0, but is %g N/m under %g N at phase %g",
+                                l->stiffness[at], l->force[k], in[DYNAMICS_IN_PHASE].data[i]);
+        }
+    return check_rows(host, in, l, force);
 }
 
 static ff_status check_cycle(const ff_host *host, const ff_array *in)
@@ -416,7 +487,7 @@ static void report_spring(const ff_host *host, const dynamics_spring_nodes *s)
     double off = fmax(s->soft, s->unknown);
     if (!s->stiffness)
         return;
-    if (!s->chord) {
+    if (!s->lines) {
         snprintf(
             text, sizeof text,
             "with squeeze: series the motion vibrates on the chord F/(e_l - e), above which the "
@@ -457,8 +528,41 @@ static void report_damping(const ff_host *host, const dynamics_excitation *excit
             "none of which a machine would settle to");
 }
 
-static ff_status build_excitation(const ff_host *host, const ff_array *in, double force,
-                                  dynamics_excitation *excitation)
+static void report_shared(const ff_host *host, const dynamics_force_levels *l, double force,
+                          double convex)
+{
+    static const double limit = 1e-3;
+    char text[240];
+    snprintf(text, sizeof text,
+             "largest share of the mean force by which the mesh force at one of its %zu forces up "
+             "to %.3g times the mean lies below the line of a softer force, and was raised",
+             l->count, l->force[l->count - 1] / force);
+    host->quality(host->ctx, "mesh_force_convex", convex, limit,
+                  convex <= limit ? FF_GOOD : FF_DOUBTFUL, text);
+}
+
+/* The spring at the nodes of the curves. */
+static ff_status make_spring(const ff_host *host, const ff_array *in, const dynamics_inputs *inputs,
+                             const dynamics_mesh_curves *curves,
+                             const dynamics_excitation *excitation, dynamics_spring_nodes *spring)
+{
+    double force = inputs->line_force, convex;
+    if (!excitation->shared)
+        return dynamics_spring_nodes_make(curves, in[DYNAMICS_IN_LOADED_ERROR].data, force,
+                                          excitation->on_chord, spring)
+                   ? FF_OK
+                   : FF_NOMEM;
+    ff_status status = check_levels(host, in, &inputs->levels, force);
+    if (status != FF_OK)
+        return status;
+    if (!dynamics_spring_nodes_share(&inputs->levels, force, 1, spring, &convex))
+        return FF_NOMEM;
+    report_shared(host, &inputs->levels, force, convex);
+    return FF_OK;
+}
+
+static ff_status build_excitation(const ff_host *host, const ff_array *in,
+                                  const dynamics_inputs *inputs, dynamics_excitation *excitation)
 {
     dynamics_mesh_curves curves = {
         .count = in[DYNAMICS_IN_PHASE].shape[0],
@@ -466,12 +570,11 @@ static ff_status build_excitation(const ff_host *host, const ff_array *in, doubl
         .stiffness = in[DYNAMICS_IN_STIFFNESS].data,
         .error = in[DYNAMICS_IN_TRANSMISSION_ERROR].data,
     };
-    dynamics_spring_nodes spring;
-    if (!dynamics_spring_nodes_make(&curves, in[DYNAMICS_IN_LOADED_ERROR].data, force,
-                                    excitation->on_chord, &spring))
-        return FF_NOMEM;
-    int built =
-        dynamics_excitation_build_bent(excitation, &curves, spring.stiffness ? &spring : NULL);
+    dynamics_spring_nodes spring = {0};
+    ff_status status = make_spring(host, in, inputs, &curves, excitation, &spring);
+    if (status != FF_OK)
+        return status;
+    int built = dynamics_excitation_build_bent(excitation, &curves, spring.rows ? &spring : NULL);
     report_spring(host, &spring);
     report_damping(host, excitation);
     dynamics_spring_nodes_free(&spring);
@@ -514,5 +617,6 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
     excitation->length = length_unit(in, stiffness);
     excitation->half_gap = in[DYNAMICS_IN_BACKLASH].data[0] / 2 / excitation->length;
     excitation->load = inputs->line_force / stiffness / excitation->length;
-    return build_excitation(host, in, inputs->line_force, excitation);
+    inputs->shared = excitation->shared;
+    return build_excitation(host, in, inputs, excitation);
 }

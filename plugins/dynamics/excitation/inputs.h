@@ -4,6 +4,7 @@
 #define DYNAMICS_INPUTS_H
 
 #include "excitation.h"
+#include "spring.h"
 
 #include <flankfilm/author.h>
 
@@ -23,6 +24,7 @@ enum {
     DYNAMICS_IN_TOOTH_FORCE,
     DYNAMICS_IN_LOAD_SHARE,
     DYNAMICS_IN_FORCE_LEVEL,
+    DYNAMICS_IN_LEVEL_ERROR,
     DYNAMICS_IN_LEVEL_STIFFNESS,
     DYNAMICS_IN_LEVEL_TOOTH_FORCE,
     DYNAMICS_INPUT_COUNT,
@@ -70,6 +72,11 @@ typedef struct dynamics_inertia {
     FF_ONE_OF("always|contact|clipped", "damping", type, damping, 0, "always",                     \
               "when the damper acts: always (also in free flight, as Li & Kahraman 2011), in "     \
               "contact only, or in contact and clipped so that the flanks never pull")
+#define DYNAMICS_FORCE_ROW(type)                                                                   \
+    FF_ONE_OF(                                                                                     \
+        "frozen|shared", "force", type, force, 0, "frozen",                                        \
+        "mesh force: frozen at the sharing and the slope of the mean load, or shared anew at "     \
+        "every force, of a stiffness that knows it at several (force_level)")
 #define DYNAMICS_INERTIA_ROWS(type)                                                                \
     FF_QUANTITY("equivalent_mass", "kg", type, inertia.equivalent_mass, FF_MIN_OPEN, NULL,         \
                 "inertia", 0, 1e9, 0, 0, "mass that the mesh spring sees; default: the gear's"),   \
@@ -79,17 +86,12 @@ typedef struct dynamics_inertia {
             "linear natural frequency at the mean of the stiffness that is wired (tangent or "     \
             "secant), in place of the mass")
 
-/* What the stiffness knows of other mesh forces than the mean; count 0: nothing. */
-typedef struct dynamics_force_levels {
-    size_t count, phases, stations;
-    const double *force, *stiffness, *tooth_force; /* rising from 0; a row for each of them */
-} dynamics_force_levels;
-
 typedef struct dynamics_inputs {
     double line_force, mesh_frequency, natural_frequency; /* N, Hz, Hz */
     size_t stations;
     const double *roll_angle, *tooth_force, *load_share; /* load_share may be NULL */
     dynamics_force_levels levels;
+    int shared; /* whether the motion follows these, and a pair's share the mesh force */
     double roll_sap, pitch; /* rad; pitch: roll angle of one mesh cycle */
     uint64_t wanted;        /* outputs that are asked for; set by the model */
 } dynamics_inputs;

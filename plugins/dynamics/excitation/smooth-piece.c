@@ -154,12 +154,17 @@ static int fit_piece(const dynamics_excitation *excitation, const dynamics_mesh_
     *piece = (dynamics_piece){.start = x->phase[first],
                               .length = x->phase[last] - x->phase[first],
                               .degree = DYNAMICS_DEGREE,
-                              .bends = spring != NULL};
-    return fit_series(x, x->stiffness, unit, ends, distance, piece->k) &&
-           (!x->error || fit_series(x, x->error, length, ends, of_others, piece->e)) &&
-           (!spring ||
-            (fit_series(x, spring->chord, unit, ends, of_others, piece->chord) &&
-             fit_series(x, spring->offset, unit * length, ends, of_others, piece->offset)));
+                              .lines = spring ? (int)spring->lines : 0};
+    if (!fit_series(x, x->stiffness, unit, ends, distance, piece->k) ||
+        (x->error && !fit_series(x, x->error, length, ends, of_others, piece->e)))
+        return 0;
+    for (int i = 0; i < piece->lines; i++) {
+        const dynamics_spring_row row = dynamics_spring_row_of(spring, (size_t)i);
+        if (!fit_series(x, row.slope, unit, ends, of_others, piece->line[i].slope) ||
+            !fit_series(x, row.offset, unit * length, ends, of_others, piece->line[i].offset))
+            return 0;
+    }
+    return 1;
 }
 
 size_t dynamics_smooth_piece(const dynamics_excitation *excitation, const dynamics_mesh_curves *x,

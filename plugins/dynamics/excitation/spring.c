@@ -13,25 +13,30 @@ static const double round_off = 1e-6;
 
 double dynamics_spring_knee_energy(const dynamics_piece *p, double since, int band)
 {
-    if (!p->bends || band == 0)
-        return 0;
-    double offset = dynamics_piece_value(p->offset, p->degree, since);
-    double steeper = dynamics_piece_value(p->k, p->degree, since) -
-                     dynamics_piece_value(p->chord, p->degree, since);
-    return steeper > 0 ? 0.5 * offset * offset / steeper : 0;
+    double energy = 0;
+    for (int i = 1; p->lines && i <= abs(band); i++) {
+        double offset = dynamics_piece_value(p->line[i].offset, p->degree, since) -
+                        dynamics_piece_value(p->line[i - 1].offset, p->degree, since);
+        double steeper = dynamics_piece_value(p->line[i].slope, p->degree, since) -
+                         dynamics_piece_value(p->line[i - 1].slope, p->degree, since);
+        energy += steeper > 0 ? 0.5 * offset * offset / steeper : 0;
+    }
+    return energy;
 }
 
 dynamics_spring dynamics_spring_at(const dynamics_piece *p, double since, double T, double bend,
                                    int band)
 {
-    const double *slope = dynamics_spring_slope(p, band);
+    const double *slope = dynamics_spring_slope(p, band), *offsets;
     double k = dynamics_piece_value(slope, p->degree, since);
     double k_rate = dynamics_piece_slope(slope, p->degree, since) / T;
     dynamics_spring s = {k * bend, 0.5 * k * bend * bend, 0.5 * k_rate * bend * bend};
-    if (!p->bends || band == 0)
+    if (band == 0)
         return s;
-    double offset = band * dynamics_piece_value(p->offset, p->degree, since);
-    double offset_rate = band * dynamics_piece_slope(p->offset, p->degree, since) / T;
+    offsets = dynamics_spring_offset(p, band);
+    double offset = dynamics_spring_sign(band) * dynamics_piece_value(offsets, p->degree, since);
+    double offset_rate =
+        dynamics_spring_sign(band) * dynamics_piece_slope(offsets, p->degree, since) / T;
     s.force -= offset;
     s.energy += dynamics_spring_knee_energy(p, since, band) - offset * bend;
     s.energy_rate -= offset_rate * bend;
@@ -40,12 +45,12 @@ dynamics_spring dynamics_spring_at(const dynamics_piece *p, double since, double
 
 double dynamics_spring_force(const dynamics_piece *p, double since, double bend)
 {
-    double k = dynamics_piece_value(p->k, p->degree, since);
     int band = dynamics_spring_band(p, since, bend);
-    if (!p->bends)
-        return k * bend;
-    return band ? k * bend - band * dynamics_piece_value(p->offset, p->degree, since)
-                : dynamics_piece_value(p->chord, p->degree, since) * bend;
+    double force = dynamics_piece_value(dynamics_spring_slope(p, band), p->degree, since) * bend;
+    return band
+               ? force - dynamics_spring_sign(band) *
+                             dynamics_piece_value(dynamics_spring_offset(p, band), p->degree, since)
+               : force;
 }
 
 static double way_at(const dynamics_mesh_curves *x, const double *loaded, size_t i)
@@ -53,7 +58,7 @@ static double way_at(const dynamics_mesh_curves *x, const double *loaded, size_t
     return loaded[i] - (x->error ? x->error[i] : 0);
 }
 
-/* Sets k, chord and offset at node i. */
+/* Sets k, the chord and the slope at node i. */
 static void make_node(const dynamics_mesh_curves *x, const double *loaded, double F, size_t i,
                       dynamics_spring_nodes *s)
 {
@@ -67,10 +72,13 @@ static void make_node(const dynamics_mesh_curves *x, const double *loaded, doubl
         k = F / way;
         offset = 0;
     }
-    s->stiffness[i] = k;
-    s->offset[i] = fmax(offset, 0);
-    s->chord[i] = k * knee * F / (knee * F + s->offset[i]);
-    s->steeper += share * s->offset[i] / F;
+    const dynamics_spring_row below = dynamics_spring_row_of(s, 0),
+                              above = dynamics_spring_row_of(s, 1);
+    s->stiffness[i] = above.slope[i] = k;
+    above.offset[i] = fmax(offset, 0);
+    below.slope[i] = k * knee * F / (knee * F + above.offset[i]);
+    below.offset[i] = 0;
+    s->steeper += share * above.offset[i] / F;
 }
 
 static int is_needed(const dynamics_mesh_curves *x, const double *loaded, double F)
@@ -84,14 +92,16 @@ static int is_needed(const dynamics_mesh_curves *x, const double *loaded, double
 int dynamics_spring_nodes_make(const dynamics_mesh_curves *x, const double *loaded, double force,
                                int on_chord, dynamics_spring_nodes *s)
 {
-    *s = (dynamics_spring_nodes){.stiffness = NULL};
+    *s = (dynamics_spring_nodes){.count = x->count};
     if (!is_needed(x, loaded, force))
         return 1;
-    s->stiffness = malloc(3 * x->count * sizeof *s->stiffness);
-    if (!s->stiffness)
+    s->stiffness = malloc(x->count * sizeof *s->stiffness);
+    s->rows = malloc(4 * x->count * sizeof *s->rows);
+    s->lines = 2;
+    if (!s->stiffness || !s->rows) {
+        dynamics_spring_nodes_free(s);
         return 0;
-    s->chord = s->stiffness + x->count;
-    s->offset = s->chord + x->count;
+    }
     for (size_t i = 0; i < x->count; i++)
         make_node(x, loaded, force, i, s);
     for (size_t i = 0; on_chord && i < x->count; i++) {
@@ -99,12 +109,99 @@ int dynamics_spring_nodes_make(const dynamics_mesh_curves *x, const double *load
         s->stiffness[i] = way > 0 ? force / way : x->stiffness[i];
     }
     if (on_chord)
-        s->chord = s->offset = NULL;
+        s->lines = 0;
     return 1;
+}
+
+size_t dynamics_spring_levels(const dynamics_force_levels *l, double force, int every,
+                              size_t taken[DYNAMICS_LINES])
+{
+    size_t mean = 0, count = 0;
+    while (mean + 1 < l->count && l->force[mean] < force * (1 - round_off))
+        mean++;
+    for (size_t i = 0; i < l->count; i++)
+        if (i == 0 || i + 1 == l->count || (i + mean) % (size_t)every == 0)
+            taken[count++] = i;
+    return count;
+}
+
+/* Slopes of neighbouring lines differ by at least this part: else their knee is not defined. */
+static const double least_bend = 1e-5;
+
+/* The levels that lines are made of, and the last line that is kept at a node: the deflection from
+   which it was made, its force there, and its slope. */
+typedef struct last_line {
+    double g, force, slope;
+} last_line;
+
+static last_line last_line_at(const dynamics_force_levels *l, const dynamics_spring_nodes *s,
+                              size_t level, size_t i)
+{
+    const dynamics_spring_row row = dynamics_spring_row_of(s, s->lines - 1);
+    double g = l->error[level * l->phases + i] - l->error[i];
+    return (last_line){g, row.slope[i] * g - row.offset[i], row.slope[i]};
+}
+
+/* A line at node i. With slopes it is the tangent at the point (g, F) of the level, raised where
+   the last line lies above it and turned where it is less steep than the chord between both points:
+   neither happens where the levels are convex. Without slopes it is the chord from the point to
+   that of the next level. Returns by how much its force at its level exceeds that of the level. */
+static double make_line(const dynamics_force_levels *l, const dynamics_spring_nodes *s,
+                        const size_t level[3], size_t i, const dynamics_spring_row *row)
+{
+    size_t at = level[1] * l->phases + i, next = level[2] * l->phases + i;
+    double g = l->error[at] - l->error[i], force = l->force[level[1]], slope;
+    double way = l->error[next] - l->error[at], rise = l->force[level[2]] - force, over = 0;
+    slope = l->stiffness ? l->stiffness[at] : rise / way;
+    if (s->lines) {
+        last_line last = last_line_at(l, s, level[0], i);
+        double there = last.force + last.slope * (g - last.g);
+        double least = last.slope * (1 + least_bend);
+        over = fmax(there - force, 0);
+        if (l->stiffness)
+            slope = fmax(slope, (force + over - last.force) / (g - last.g));
+        force = l->stiffness ? force + over : there;
+        slope = fmax(l->stiffness ? slope : (rise - over) / way, least);
+    }
+    row->slope[i] = slope;
+    row->offset[i] = s->lines ? slope * g - force : 0;
+    return over;
+}
+
+/* Whether a line is steeper than the last one by more than the least at any node. */
+static int bends_up(const dynamics_spring_nodes *s, const dynamics_spring_row *row)
+{
+    static const double exact = 1e-9;
+    const dynamics_spring_row last = dynamics_spring_row_of(s, s->lines - 1);
+    for (size_t i = 0; i < s->count; i++)
+        if (row->slope[i] > last.slope[i] * (1 + least_bend + exact))
+            return 1;
+    return 0;
+}
+
+int dynamics_spring_nodes_share(const dynamics_force_levels *l, double force, int every,
+                                dynamics_spring_nodes *s, double *convex)
+{
+    size_t taken[DYNAMICS_LINES], count = dynamics_spring_levels(l, force, every, taken), last = 0;
+    *s = (dynamics_spring_nodes){.count = l->phases};
+    s->rows = malloc(2 * count * s->count * sizeof *s->rows);
+    *convex = 0;
+    for (size_t n = 0; s->rows && n + (l->stiffness ? 0 : 1) < count; n++) {
+        const dynamics_spring_row row = dynamics_spring_row_of(s, s->lines);
+        const size_t level[] = {last, taken[n], taken[n + 1 < count ? n + 1 : n]};
+        for (size_t i = 0; i < s->count; i++)
+            *convex = fmax(*convex, make_line(l, s, level, i, &row) / force);
+        if (s->lines && !bends_up(s, &row))
+            continue;
+        s->lines++;
+        last = taken[n];
+    }
+    return s->rows != NULL;
 }
 
 void dynamics_spring_nodes_free(dynamics_spring_nodes *s)
 {
     free(s->stiffness);
-    s->stiffness = s->chord = s->offset = NULL;
+    free(s->rows);
+    s->stiffness = s->rows = NULL;
 }

@@ -72,6 +72,10 @@ ff_status dynamics_oil_read(const ff_host *host, const ff_array *in, const dynam
     *out = NULL;
     if (oil->squeeze == DYNAMICS_SQUEEZE_NONE)
         return FF_OK;
+    if (excitation->shared)
+        return ff_failf(host, FF_UNSUPPORTED, "force",
+                        "a film between parted flanks (squeeze: series) bends teeth of one "
+                        "stiffness; take force: frozen, or squeeze: none");
     if (!(excitation->half_gap > 0))
         return ff_failf(host, FF_INVALID, "squeeze",
                         "series needs a gear with backlash: without it the flanks never part");

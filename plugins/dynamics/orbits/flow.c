@@ -139,7 +139,8 @@ static void contact_force_gate(const dynamics_run *r, const dynamics_taylor_seri
     double since = r->at - r->piece->start, unit = s->h / r->T;
     dynamics_piece_shift(dynamics_spring_slope(r->piece, r->band), degree, since, unit, k);
     if (r->band)
-        dynamics_piece_shift(r->piece->offset, degree, since, unit, offset);
+        dynamics_piece_shift(dynamics_spring_offset(r->piece, r->band), degree, since, unit,
+                             offset);
     for (int n = 0; n <= s->order; n++) {
         double value = 0;
         for (int i = 0; i <= degree && i <= n; i++)
@@ -147,24 +148,28 @@ static void contact_force_gate(const dynamics_run *r, const dynamics_taylor_seri
         if (n < s->order)
             value += c * (n + 1) * s->c[n + 1][DYNAMICS_Z] / s->h;
         if (n <= degree && r->band)
-            value -= r->band * offset[n];
+            value -= dynamics_spring_sign(r->band) * offset[n];
         g->p[n] = sign * r->side * value;
     }
 }
 
-/* The gate at the knee of the spring on one flank: how far the deflection exceeds it, times the
-   change of the slope there, as a polynomial; or how far it falls short (`sign` -1). */
-static void knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, int flank,
+/* The gate at the knee of the spring on one flank from which a line takes over: how far the
+   deflection exceeds it, times the change of the slope there, as a polynomial; or how far it falls
+   short (`sign` -1). */
+static void knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, int flank, int line,
                       double sign, dynamics_gate *g)
 {
-    double steeper[DYNAMICS_DEGREE + 1], chord[DYNAMICS_DEGREE + 1], offset[DYNAMICS_DEGREE + 1];
+    const dynamics_line *above = &r->piece->line[line], *below = above - 1;
+    double change[2][DYNAMICS_DEGREE + 1], steeper[DYNAMICS_DEGREE + 1],
+        offset[DYNAMICS_DEGREE + 1];
     int degree = r->piece->degree;
     double since = r->at - r->piece->start, unit = s->h / r->T;
-    dynamics_piece_shift(r->piece->k, degree, since, unit, steeper);
-    dynamics_piece_shift(r->piece->chord, degree, since, unit, chord);
-    dynamics_piece_shift(r->piece->offset, degree, since, unit, offset);
-    for (int i = 0; i <= degree; i++)
-        steeper[i] -= chord[i];
+    for (int i = 0; i <= degree; i++) {
+        change[0][i] = above->slope[i] - below->slope[i];
+        change[1][i] = above->offset[i] - below->offset[i];
+    }
+    dynamics_piece_shift(change[0], degree, since, unit, steeper);
+    dynamics_piece_shift(change[1], degree, since, unit, offset);
     for (int n = 0; n <= s->order; n++) {
         double value = 0;
         for (int i = 0; i <= degree && i <= n; i++)
@@ -174,20 +179,21 @@ static void knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, in
     g->knee = 1;
     g->side = r->side;
     g->pressed = r->pressed;
-    g->band = sign > 0 ? 0 : flank;
+    g->band = flank * (sign > 0 ? line - 1 : line);
 }
 
 /* Adds the gates at the knees that the present contact can reach; returns the number of all. */
 static int add_knees(const dynamics_run *r, const dynamics_taylor_series *s, int count,
                      dynamics_gate *g)
 {
-    if (!r->piece->bends || !r->side)
+    if (!dynamics_spring_bends(r->piece) || !r->side)
         return count;
-    if (r->band)
-        knee_gate(r, s, r->band, 1, &g[count++]);
-    for (int flank = -1; flank <= 1 && !r->band; flank += 2)
-        if (flank == r->side || r->excitation->half_gap == 0)
-            knee_gate(r, s, flank, -1, &g[count++]);
+    int on = dynamics_spring_sign(r->band), line = abs(r->band);
+    if (line)
+        knee_gate(r, s, on, line, 1, &g[count++]);
+    for (int flank = -1; flank <= 1 && line + 1 < r->piece->lines; flank += 2)
+        if (on ? flank == on : flank == r->side || r->excitation->half_gap == 0)
+            knee_gate(r, s, flank, line + 1, -1, &g[count++]);
     return count;
 }
 
@@ -329,9 +335,10 @@ static void change_contact(dynamics_run *r, const dynamics_gate *g)
 static void add_offset(const dynamics_run *r, double since, dynamics_piece_equation *q)
 {
     double offset[DYNAMICS_DEGREE + 1];
-    dynamics_piece_shift(r->piece->offset, q->degree, since, 1 / r->T, offset);
+    dynamics_piece_shift(dynamics_spring_offset(r->piece, r->band), q->degree, since, 1 / r->T,
+                         offset);
     for (int i = 0; i <= q->degree; i++)
-        q->drag[i] -= r->band * offset[i];
+        q->drag[i] -= dynamics_spring_sign(r->band) * offset[i];
     q->drags = 1;
 }
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "full-contact.h"
 
+#include "../excitation/spring.h"
 #include "oscillator.h"
 
 #include <math.h>
@@ -47,7 +48,7 @@ static int find_fixed_point(dynamics_oscillator *o, const dynamics_excitation *c
                             double tolerance, double *delta, double *rate)
 {
     enum { MAX_STEPS = 30 };
-    int bends = closed->pieces->bends;
+    int bends = dynamics_spring_bends(closed->pieces);
     for (int i = 0; i < (bends ? MAX_STEPS : 1); i++) {
         double from[2] = {*delta, *rate};
         dynamics_oscillator_start(o, T, *delta, *rate);

@@ -88,19 +88,12 @@ static int is_left(const dynamics_inputs *inputs, size_t i)
            inputs->roll_angle[i + 1] - inputs->roll_angle[i] < 1e-12 * inputs->pitch;
 }
 
-static double static_share(const dynamics_inputs *inputs, size_t station)
-{
-    if (inputs->line_force > 0)
-        return inputs->tooth_force[station] / inputs->line_force;
-    return inputs->load_share ? inputs->load_share[station] : 0;
-}
-
-/* Li & Kahraman 2011, eq. 5: W_d = (W_s/F) DMF, the static share of the mesh force at the phase of
-   the station. */
+/* The force of the pair at each station at the phase of that station. */
 static ff_status put_engagements(const dynamics_motion_view *view,
                                  const dynamics_excitation *excitation,
                                  const dynamics_inputs *inputs, const ff_host *host)
 {
+    const double newton = excitation->stiffness * excitation->length;
     size_t shape[2] = {view->cycles, inputs->stations};
     uint32_t rank = view->cycles > 1 ? 2 : 1;
     double *force = host->output(host->ctx, DYNAMICS_OUT_TOOTH_FORCE, rank, &shape[2 - rank]);
@@ -111,8 +104,8 @@ static ff_status put_engagements(const dynamics_motion_view *view,
         for (size_t station = 0; station < inputs->stations; station++, i++) {
             double phase = (double)cycle + dynamics_station_phase(inputs, station), dmf;
             view->look_up(view->self, phase, is_left(inputs, station), &dmf, &gap[i]);
-            force[i] =
-                static_share(inputs, station) * dmf * excitation->stiffness * excitation->length;
+            double share = dynamics_share(inputs, station, dmf * newton);
+            force[i] = share * dmf * excitation->stiffness * excitation->length;
             gap[i] *= excitation->length;
         }
     return FF_OK;
@@ -132,8 +125,8 @@ typedef struct dynamics_between {
     double beyond; /* half-way between two stations, by how much it leaves the span of both */
 } dynamics_between;
 
-/* As on `parts` times the stations. */
-static dynamics_between look_between(const dynamics_motion_view *view,
+/* As on `parts` times the stations; `newton`: the unit of force. */
+static dynamics_between look_between(const dynamics_motion_view *view, double newton,
                                      const dynamics_inputs *inputs, size_t parts)
 {
     dynamics_between found = {0, 0};
@@ -145,12 +138,13 @@ static dynamics_between look_between(const dynamics_motion_view *view,
                    way = dynamics_station_phase(inputs, i + 1) - begin, gap, force[3];
             if (way < 1e-12)
                 continue;
-            double share = static_share(inputs, i), step = static_share(inputs, i + 1) - share;
             for (int k = 0; k < 3; k++) {
                 double at = from + 0.5 * k * part;
                 view->look_up(view->self, (double)cycle + begin + at * way, k == 2, &force[k],
                               &gap);
-                force[k] *= share + at * step;
+                double share = dynamics_share(inputs, i, force[k] * newton);
+                double next = dynamics_share(inputs, i + 1, force[k] * newton);
+                force[k] *= share + at * (next - share);
             }
             double high = fmax(force[0], force[2]), low = fmin(force[0], force[2]);
             found.beyond = fmax(found.beyond, fmax(force[1] - high, low - force[1]));
@@ -164,14 +158,14 @@ enum { MOST_PARTS = 27 };
 
 /* Returns how many stations follow the motion, by what it does on two, three, five and more times
    as many: few of them see little of a vibration that turns between two. 0: more than those. */
-static double enough_stations(const dynamics_motion_view *view, const dynamics_inputs *inputs,
-                              double limit)
+static double enough_stations(const dynamics_motion_view *view, double newton,
+                              const dynamics_inputs *inputs, double limit)
 {
     size_t parts = 1;
     dynamics_between found;
     do {
         parts += (parts + 1) / 2;
-        found = look_between(view, inputs, parts);
+        found = look_between(view, newton, inputs, parts);
     } while (found.beyond > limit * found.largest && parts < MOST_PARTS);
     return found.beyond > limit * found.largest ? 0 : (double)(inputs->stations * parts);
 }
@@ -180,13 +174,14 @@ static double enough_stations(const dynamics_motion_view *view, const dynamics_i
    amplitude where it turns back, which is what a monotone cubic cuts off; a jump between them, as
    of the damper's force at a corner of the transmission error, is ramped over and does not. The
    Hertz pressure is off by half as much. */
-static void report_sampling(const dynamics_motion_view *view, const dynamics_between *found,
-                            const dynamics_inputs *inputs, const ff_host *host)
+static void report_sampling(const dynamics_motion_view *view, double newton,
+                            const dynamics_between *found, const dynamics_inputs *inputs,
+                            const ff_host *host)
 {
     const double limit = 0.02;
     double error = found->largest > 0 ? found->beyond / found->largest : 0;
     char more[96] = "", text[240];
-    double enough = error > limit ? enough_stations(view, inputs, limit) : 0;
+    double enough = error > limit ? enough_stations(view, newton, inputs, limit) : 0;
     if (enough > 0)
         snprintf(more, sizeof more, "; the gear's stations: %.0f or more follow the vibration",
                  100 * ceil(enough / 100));
@@ -223,8 +218,8 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
     ff_status status = put_engagements(view, excitation, inputs, host);
     const int looked = (inputs->wanted & of_stations) != 0;
     if (looked) {
-        between = look_between(view, inputs, 1);
-        report_sampling(view, &between, inputs, host);
+        between = look_between(view, newton, inputs, 1);
+        report_sampling(view, newton, &between, inputs, host);
     }
     dynamics_sharing_report(inputs, st->least_force * newton, st->force * newton, host);
     /* NaN: not looked for, which leaves the factor out */

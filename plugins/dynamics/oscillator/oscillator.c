@@ -69,15 +69,19 @@ static double stiffness_rate_at(const dynamics_oscillator *o, double t)
 /* What the force of the spring is less than slope times deflection. */
 static double offset_at(const dynamics_oscillator *o, double t)
 {
-    return o->band ? o->band * dynamics_piece_value(o->piece->offset, o->piece->degree, t / o->T)
+    return o->band ? dynamics_spring_sign(o->band) *
+                         dynamics_piece_value(dynamics_spring_offset(o->piece, o->band),
+                                              o->piece->degree, t / o->T)
                    : 0;
 }
 
 static double offset_rate_at(const dynamics_oscillator *o, double t)
 {
-    return o->band
-               ? o->band * dynamics_piece_slope(o->piece->offset, o->piece->degree, t / o->T) / o->T
-               : 0;
+    return o->band ? dynamics_spring_sign(o->band) *
+                         dynamics_piece_slope(dynamics_spring_offset(o->piece, o->band),
+                                              o->piece->degree, t / o->T) /
+                         o->T
+                   : 0;
 }
 
 static void find_band(dynamics_oscillator *o)
@@ -269,39 +273,43 @@ static int find_contact_gates(const dynamics_oscillator *o, double t, const doub
     return 2;
 }
 
-/* The gate at the knee of the spring on one flank: how far it is exceeded, or falls short of
-   (`sign` -1). */
-static gate knee_gate(const dynamics_oscillator *o, double t, const double *y, int flank,
+/* The gate at the knee of the spring on one flank from which a line takes over: how far it is
+   exceeded, or falls short of (`sign` -1). */
+static gate knee_gate(const dynamics_oscillator *o, double t, const double *y, int flank, int line,
                       double sign)
 {
     const dynamics_piece *p = o->piece;
+    const dynamics_line *above = &p->line[line], *below = above - 1;
     double since = t / o->T, bend = flank * (y[DYNAMICS_DELTA] - o->side * o->excitation->half_gap);
-    double steeper = dynamics_piece_value(p->k, p->degree, since) -
-                     dynamics_piece_value(p->chord, p->degree, since);
-    double steeper_rate = (dynamics_piece_slope(p->k, p->degree, since) -
-                           dynamics_piece_slope(p->chord, p->degree, since)) /
+    double steeper = dynamics_piece_value(above->slope, p->degree, since) -
+                     dynamics_piece_value(below->slope, p->degree, since);
+    double steeper_rate = (dynamics_piece_slope(above->slope, p->degree, since) -
+                           dynamics_piece_slope(below->slope, p->degree, since)) /
                           o->T;
-    double rate = steeper_rate * bend + steeper * flank * y[DYNAMICS_RATE] -
-                  dynamics_piece_slope(p->offset, p->degree, since) / o->T;
-    return (gate){.value = sign * dynamics_spring_excess(p, since, bend),
+    double offset_rate = (dynamics_piece_slope(above->offset, p->degree, since) -
+                          dynamics_piece_slope(below->offset, p->degree, since)) /
+                         o->T;
+    double rate = steeper_rate * bend + steeper * flank * y[DYNAMICS_RATE] - offset_rate;
+    return (gate){.value = sign * dynamics_spring_excess(p, line, since, bend),
                   .rate = sign * rate,
                   .side = o->side,
                   .pressed = o->pressed,
                   .knee = 1,
-                  .band = sign > 0 ? 0 : flank};
+                  .band = flank * (sign > 0 ? line - 1 : line)};
 }
 
 /* Finds the gates of the present regime and returns their number. */
 static int find_gates(const dynamics_oscillator *o, double t, const double *y, gate g[MOST_GATES])
 {
     int count = find_contact_gates(o, t, y, g);
-    if (!o->piece->bends || !o->side)
+    if (!dynamics_spring_bends(o->piece) || !o->side)
         return count;
-    if (o->band)
-        g[count++] = knee_gate(o, t, y, o->band, 1);
-    for (int flank = -1; flank <= 1 && !o->band; flank += 2)
-        if (flank == o->side || o->excitation->half_gap == 0)
-            g[count++] = knee_gate(o, t, y, flank, -1);
+    int on = dynamics_spring_sign(o->band), line = abs(o->band);
+    if (line)
+        g[count++] = knee_gate(o, t, y, on, line, 1);
+    for (int flank = -1; flank <= 1 && line + 1 < o->piece->lines; flank += 2)
+        if (on ? flank == on : flank == o->side || o->excitation->half_gap == 0)
+            g[count++] = knee_gate(o, t, y, flank, line + 1, -1);
     return count;
 }
 

@@ -25,6 +25,151 @@ static double value_at(const double *rows, size_t columns, const place *p, size_
     return p->share < 1 ? *low + p->share * (*high - *low) : *high;
 }
 
+/* Levels out of those of a stiffness; NULL: all. */
+typedef struct chosen {
+    const dynamics_force_levels *of;
+    const size_t *kept;
+    size_t count;
+} chosen;
+
+static size_t level_of(const chosen *c, size_t i)
+{
+    return c->kept ? c->kept[i] : i;
+}
+
+static double force_at(const chosen *c, size_t i)
+{
+    return c->of->force[level_of(c, i)];
+}
+
+static double tooth_at(const chosen *c, size_t i, size_t station)
+{
+    return c->of->tooth_force[level_of(c, i) * c->of->stations + station];
+}
+
+static double rise_over(const chosen *c, size_t i, size_t station)
+{
+    return (tooth_at(c, i + 1, station) - tooth_at(c, i, station)) /
+           (force_at(c, i + 1) - force_at(c, i));
+}
+
+/* The tooth force at a station, N. A further pair that touches between two levels bends it there:
+   between them it follows the lines of the intervals before and behind, up to where these meet, and
+   the straight line between both levels where they do not. Of two pairs both bend at one force, so
+   that their forces add up to the mesh force. */
+static double tooth_force_of(const chosen *c, double force, size_t station)
+{
+    size_t low = 0;
+    while (low + 2 < c->count && force_at(c, low + 1) <= force)
+        low++;
+    double rise = rise_over(c, low, station), from = tooth_at(c, low, station);
+    double straight = from + rise * (force - force_at(c, low));
+    if (low == 0 || low + 2 >= c->count)
+        return straight;
+    double before = rise_over(c, low - 1, station), behind = rise_over(c, low + 1, station);
+    if (!((rise - before) * (behind - rise) > 0))
+        return straight;
+    double left = from + before * (force - force_at(c, low));
+    double right = tooth_at(c, low + 1, station) - behind * (force_at(c, low + 1) - force);
+    return before < behind ? fmax(left, right) : fmin(left, right);
+}
+
+double dynamics_share(const dynamics_inputs *inputs, size_t station, double force)
+{
+    const dynamics_force_levels *l = &inputs->levels;
+    const chosen all = {l, NULL, l->count};
+    if (inputs->shared && l->tooth_force) {
+        force = fmin(fmax(force, l->force[1]), l->force[l->count - 1]);
+        return tooth_force_of(&all, force, station) / force;
+    }
+    if (inputs->line_force > 0)
+        return inputs->tooth_force[station] / inputs->line_force;
+    return inputs->load_share ? inputs->load_share[station] : 0;
+}
+
+/* The deflection at node i under a force, N. */
+static double deflection_of(const dynamics_spring_nodes *nodes, size_t i, double force)
+{
+    double g = INFINITY;
+    for (size_t n = 0; n < nodes->lines; n++) {
+        const dynamics_spring_row row = dynamics_spring_row_of(nodes, n);
+        g = fmin(g, (force + row.offset[i]) / row.slope[i]);
+    }
+    return g;
+}
+
+/* The force at node i and deflection g, N. */
+static double force_of(const dynamics_spring_nodes *nodes, size_t i, double g)
+{
+    double force = 0;
+    for (size_t n = 0; n < nodes->lines; n++) {
+        const dynamics_spring_row row = dynamics_spring_row_of(nodes, n);
+        force = fmax(force, row.slope[i] * g - row.offset[i]);
+    }
+    return force;
+}
+
+/* The spring of all levels and of every second one. */
+typedef struct spring_pair {
+    dynamics_spring_nodes of[2];
+    size_t kept[2][DYNAMICS_LINES], count[2];
+} spring_pair;
+
+static double largest_change(const dynamics_force_levels *l, const spring_pair *s, double force)
+{
+    double worst = 0;
+    for (size_t i = 0; i < l->phases; i++) {
+        double g = deflection_of(&s->of[0], i, force);
+        worst = fmax(worst, fabs(force_of(&s->of[1], i, g) - force));
+    }
+    const chosen all = {l, s->kept[0], s->count[0]}, half = {l, s->kept[1], s->count[1]};
+    for (size_t i = 0; l->tooth_force && i < l->stations; i++)
+        worst = fmax(worst, fabs(tooth_force_of(&all, force, i) - tooth_force_of(&half, force, i)));
+    return worst;
+}
+
+double dynamics_level_error(const dynamics_inputs *inputs, double least, double largest)
+{
+    enum { FORCES = 32 };
+    const dynamics_force_levels *l = &inputs->levels;
+    spring_pair s = {0};
+    double convex, worst = -1;
+    least = fmax(least, 0);
+    largest = fmin(largest, l->force[l->count - 1]);
+    int made = 1;
+    for (int i = 0; i < 2 && made; i++) {
+        s.count[i] = dynamics_spring_levels(l, inputs->line_force, i + 1, s.kept[i]);
+        made = dynamics_spring_nodes_share(l, inputs->line_force, i + 1, &s.of[i], &convex);
+    }
+    for (int i = 0; made && i <= FORCES; i++)
+        worst = fmax(worst, largest_change(l, &s, least + (largest - least) * i / FORCES));
+    for (int i = 0; i < 2; i++)
+        dynamics_spring_nodes_free(&s.of[i]);
+    return worst < 0 ? -1 : worst / inputs->line_force;
+}
+
+static void report_levels(const dynamics_inputs *inputs, double least, double largest,
+                          const ff_host *host)
+{
+    static const double limit = 0.05;
+    const dynamics_force_levels *l = &inputs->levels;
+    double mean = inputs->line_force, error = dynamics_level_error(inputs, least, largest);
+    int known = largest <= l->force[l->count - 1];
+    char text[320];
+    snprintf(text, sizeof text,
+             "change of mesh and tooth forces, over the mean load, when every second of the %zu "
+             "forces of the stiffness is left out; the motion reaches %.3g to %.3g times that "
+             "load%s%s",
+             l->count, least / mean, largest / mean,
+             known ? "" : ", beyond the largest, where the force goes on straight",
+             l->tooth_force ? ""
+                            : "; tooth forces at these are not known, those of the mean load "
+                              "are split in proportion");
+    host->quality(host->ctx, "force_levels", fmax(error, 0), limit,
+                  error >= 0 && error <= limit && known && l->tooth_force ? FF_GOOD : FF_DOUBTFUL,
+                  text);
+}
+
 dynamics_sharing_change dynamics_sharing_change_at(const dynamics_force_levels *l, double mean,
                                                    double force)
 {
@@ -51,7 +196,12 @@ void dynamics_sharing_report(const dynamics_inputs *inputs, double least, double
     const dynamics_force_levels *l = &inputs->levels;
     double mean = inputs->line_force;
     char text[320];
-    if (l->count < 2 || !(mean > 0) || !(largest - least > 1e-9 * mean))
+    if (inputs->shared) {
+        report_levels(inputs, least, largest, host);
+        return;
+    }
+    if (l->count < 2 || !l->stiffness || !l->tooth_force || !(mean > 0) ||
+        !(largest - least > 1e-9 * mean))
         return;
     dynamics_sharing_change low = dynamics_sharing_change_at(l, mean, least);
     dynamics_sharing_change high = dynamics_sharing_change_at(l, mean, largest);

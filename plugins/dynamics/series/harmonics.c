@@ -2,6 +2,7 @@
 #include "harmonics.h"
 
 #include "../../numerics/room.h"
+#include "../excitation/spring.h"
 
 #include <assert.h>
 #include <complex.h>
@@ -23,12 +24,13 @@ typedef struct edge {
 struct dynamics_harmonics {
     const dynamics_excitation *excitation;
     size_t harmonics, samples;
-    int bends;              /* whether the spring does (spring.h) */
-    double *k, *e;          /* at the samples, from their exact harmonics below samples/2 */
-    double *chord, *offset; /* the same of a spring that bends */
-    double *e_series;       /* the series of e */
-    double *time;           /* room for samples */
-    edge *edges;            /* that the motion passes */
+    size_t lines; /* of the spring (spring.h), at least 1 */
+    double *slope,
+        *offset;      /* of each, at the samples, from their exact harmonics below samples/2 */
+    double *e;        /* the same */
+    double *e_series; /* the series of e */
+    double *time;     /* room for samples */
+    edge *edges;      /* that the motion passes */
     fftw_complex *spectrum;
     fftw_plan to_time, to_spectrum;
     double *cosine, *sine;          /* of the stiffness along the motion, up to 2 H */
@@ -69,27 +71,26 @@ static void add_jump(double complex *c, size_t count, double theta,
     }
 }
 
-/* The curves of a piece. */
-enum { CURVE_K, CURVE_E, CURVE_CHORD, CURVE_OFFSET };
+/* A curve of the pieces: e, or one of a line. */
+enum { CURVE_E, CURVE_SLOPE, CURVE_OFFSET };
+typedef struct curve {
+    int which;
+    size_t line;
+} curve;
 
-static const double *coefficients_of(const dynamics_piece *p, int curve)
+static const double *coefficients_of(const dynamics_piece *p, curve c)
 {
-    switch (curve) {
-    case CURVE_K:
-        return p->k;
-    case CURVE_E:
+    if (c.which == CURVE_E)
         return p->e;
-    case CURVE_CHORD:
-        return p->chord;
-    default:
-        return p->offset;
-    }
+    if (c.which == CURVE_OFFSET)
+        return p->line[c.line].offset;
+    return dynamics_spring_slope(p, (int)c.line);
 }
 
 /* The integral of a curve over a piece. */
-static double integral_of(const dynamics_piece *p, int curve)
+static double integral_of(const dynamics_piece *p, curve which)
 {
-    const double *c = coefficients_of(p, curve);
+    const double *c = coefficients_of(p, which);
     double sum = 0;
     for (int i = p->degree; i >= 0; i--)
         sum = (c[i] / (i + 1) + sum) * p->length;
@@ -97,14 +98,14 @@ static double integral_of(const dynamics_piece *p, int curve)
 }
 
 /* The harmonics 0 to count - 1 of a curve. */
-static void exact_harmonics(const dynamics_excitation *excitation, int curve, double complex *c,
+static void exact_harmonics(const dynamics_excitation *excitation, curve which, double complex *c,
                             size_t count)
 {
     memset(c, 0, count * sizeof *c);
     for (size_t i = 0; i < excitation->count; i++) {
         const dynamics_piece *p = &excitation->pieces[i],
                              *before = &excitation->pieces[i ? i - 1 : excitation->count - 1];
-        const double *a = coefficients_of(before, curve), *z = coefficients_of(p, curve);
+        const double *a = coefficients_of(before, which), *z = coefficients_of(p, which);
         double end[DYNAMICS_DEGREE + 1] = {0}, jump[DYNAMICS_DEGREE + 1], derivative = 1;
         int degree = before->degree > p->degree ? before->degree : p->degree, jumps = 0;
         dynamics_piece_shift(a, before->degree, before->length, 1, end);
@@ -113,30 +114,30 @@ static void exact_harmonics(const dynamics_excitation *excitation, int curve, do
             jumps |= jump[j] != 0;
             derivative *= (j + 1) / (2 * M_PI);
         }
-        c[0] += integral_of(p, curve);
+        c[0] += integral_of(p, which);
         if (jumps)
             add_jump(c, count, 2 * M_PI * p->start, jump, degree);
     }
 }
 
-static void sample_curve(dynamics_harmonics *b, int curve, double *samples)
+static void sample_curve(dynamics_harmonics *b, int which, size_t line, double *samples)
 {
     size_t half = b->samples / 2;
     b->spectrum[half] = 0;
-    exact_harmonics(b->excitation, curve, b->spectrum, half);
+    exact_harmonics(b->excitation, (curve){which, line}, b->spectrum, half);
     fftw_execute_dft_c2r(b->to_time, b->spectrum, samples);
 }
 
 static void sample_excitation(dynamics_harmonics *b)
 {
     size_t half = b->samples / 2;
-    sample_curve(b, CURVE_K, b->k);
-    if (b->bends) {
-        sample_curve(b, CURVE_CHORD, b->chord);
-        sample_curve(b, CURVE_OFFSET, b->offset);
+    for (size_t i = 0; i < b->lines; i++) {
+        sample_curve(b, CURVE_SLOPE, i, b->slope + i * b->samples);
+        if (i > 0)
+            sample_curve(b, CURVE_OFFSET, i, b->offset + i * b->samples);
     }
     b->spectrum[half] = 0;
-    exact_harmonics(b->excitation, CURVE_E, b->spectrum, half);
+    exact_harmonics(b->excitation, (curve){CURVE_E, 0}, b->spectrum, half);
     b->e_series[0] = creal(b->spectrum[0]);
     for (size_t n = 1; n <= b->harmonics; n++) {
         b->e_series[2 * n - 1] = 2 * creal(b->spectrum[n]);
@@ -156,13 +157,12 @@ dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation
     b->excitation = excitation;
     b->harmonics = harmonics;
     b->samples = samples;
-    b->bends = excitation->pieces->bends;
-    b->k = numerics_fftw_array(samples, sizeof(double));
-    b->chord = numerics_fftw_array(samples, sizeof(double));
-    b->offset = numerics_fftw_array(samples, sizeof(double));
+    b->lines = excitation->pieces->lines > 1 ? (size_t)excitation->pieces->lines : 1;
+    b->slope = numerics_fftw_array(b->lines * samples, sizeof(double));
+    b->offset = numerics_fftw_array(b->lines * samples, sizeof(double));
     b->e = numerics_fftw_array(samples, sizeof(double));
     b->time = numerics_fftw_array(samples, sizeof(double));
-    b->edges = malloc(4 * samples * sizeof *b->edges);
+    b->edges = malloc(2 * samples * b->lines * sizeof *b->edges);
     b->spectrum = numerics_fftw_array(samples / 2 + 1, sizeof *b->spectrum);
     b->e_series = malloc(size * sizeof(double));
     b->cosine = malloc((2 * harmonics + 1) * sizeof(double));
@@ -172,9 +172,9 @@ dynamics_harmonics *dynamics_harmonics_new(const dynamics_excitation *excitation
     b->try = malloc(size * sizeof(double));
     b->jacobian = malloc(size * size * sizeof(double));
     b->pivot = malloc(size * sizeof *b->pivot);
-    if (b->k && b->e && b->chord && b->offset && b->time && b->edges && b->spectrum &&
-        b->e_series && b->cosine && b->sine && b->residual && b->trial && b->try && b->jacobian &&
-        b->pivot && numerics_has_room(numerics_fftw_room(samples))) {
+    if (b->slope && b->e && b->offset && b->time && b->edges && b->spectrum && b->e_series &&
+        b->cosine && b->sine && b->residual && b->trial && b->try && b->jacobian && b->pivot &&
+        numerics_has_room(numerics_fftw_room(samples))) {
         fftw_make_planner_thread_safe(); /* it is one per process, and other plugins plan, too */
         b->to_time = fftw_plan_dft_c2r_1d((int)samples, b->spectrum, b->time, FFTW_ESTIMATE);
         b->to_spectrum = fftw_plan_dft_r2c_1d((int)samples, b->time, b->spectrum, FFTW_ESTIMATE);
@@ -193,8 +193,7 @@ void dynamics_harmonics_free(dynamics_harmonics *b)
         return;
     fftw_destroy_plan(b->to_time);
     fftw_destroy_plan(b->to_spectrum);
-    free(b->k);
-    free(b->chord);
+    free(b->slope);
     free(b->offset);
     free(b->e);
     free(b->time);
@@ -250,24 +249,31 @@ static double bend(const dynamics_excitation *excitation, double delta)
     return delta > h ? delta - h : delta < -h ? delta + h : 0;
 }
 
-/* The force of a flank above that of the chord, if it is positive (spring.h). */
-static double excess(const dynamics_harmonics *b, size_t i, double bend)
+/* By how much the force of a line exceeds that of the line before at sample i (spring.h). */
+static double excess(const dynamics_harmonics *b, size_t line, size_t i, double bend)
 {
-    return (b->k[i] - b->chord[i]) * bend - b->offset[i];
+    size_t at = line * b->samples + i, below = at - b->samples;
+    return (b->slope[at] - b->slope[below]) * bend -
+           (b->offset[at] - (line > 1 ? b->offset[below] : 0));
 }
 
 /* The slope of the force at sample i. */
 static double slope_at(const dynamics_harmonics *b, size_t i, double bend)
 {
-    return b->bends && !(excess(b, i, fabs(bend)) > 0) ? b->chord[i] : b->k[i];
+    size_t line = 0;
+    while (line + 1 < b->lines && excess(b, line + 1, i, fabs(bend)) > 0)
+        line++;
+    return b->slope[line * b->samples + i];
 }
 
 static double spring_force(const dynamics_harmonics *b, size_t i, double bend)
 {
-    double more = b->bends ? excess(b, i, fabs(bend)) : 0;
-    if (!b->bends)
-        return b->k[i] * bend;
-    return b->chord[i] * bend + (more > 0 ? (bend < 0 ? -more : more) : 0);
+    double more = 0, there = 1;
+    for (size_t line = 1; line < b->lines && there > 0; line++) {
+        there = excess(b, line, i, fabs(bend));
+        more += there > 0 ? there : 0;
+    }
+    return b->slope[i] * bend + (more > 0 ? (bend < 0 ? -more : more) : 0);
 }
 
 /* Between the samples i and j a force of that slope begins or ends, which is proportional to a
@@ -292,24 +298,23 @@ static int find_edge(const dynamics_harmonics *b, size_t i, int side, edge *e)
     double to = b->time[j] - side * b->excitation->half_gap;
     if ((from > 0) == (to > 0) || b->excitation->half_gap == 0)
         return 0;
-    const double *k = b->bends ? b->chord : b->k;
-    *e = edge_between(i, j, from, to, 0.5 * (k[i] + k[j]) * side);
+    *e = edge_between(i, j, from, to, 0.5 * (b->slope[i] + b->slope[j]) * side);
     return 1;
 }
 
-/* The same for the knee of the spring, where the excess of its force is the distance. */
-static int find_knee(const dynamics_harmonics *b, size_t i, int side, edge *e)
+/* The same for the knee of the spring from which a line takes over, where the excess of its force
+   is the distance. */
+static int find_knee(const dynamics_harmonics *b, size_t line, size_t i, int side, edge *e)
 {
     size_t j = (i + 1) % b->samples;
-    if (!b->bends)
-        return 0;
-    double from = excess(b, i, side * b->time[i] - b->excitation->half_gap);
-    double to = excess(b, j, side * b->time[j] - b->excitation->half_gap);
+    const double *above = b->slope + line * b->samples, *below = above - b->samples;
+    double from = excess(b, line, i, side * b->time[i] - b->excitation->half_gap);
+    double to = excess(b, line, j, side * b->time[j] - b->excitation->half_gap);
     if ((from > 0) == (to > 0))
         return 0;
     *e = edge_between(i, j, from, to, side);
-    e->after_i *= side * (b->k[i] - b->chord[i]);
-    e->after_j *= side * (b->k[j] - b->chord[j]);
+    e->after_i *= side * (above[i] - below[i]);
+    e->after_j *= side * (above[j] - below[j]);
     return 1;
 }
 
@@ -320,7 +325,8 @@ static size_t find_edges(dynamics_harmonics *b)
     for (size_t i = 0; i < b->samples; i++)
         for (int side = -1; side <= 1; side += 2) {
             count += find_edge(b, i, side, &b->edges[count]) ? 1 : 0;
-            count += find_knee(b, i, side, &b->edges[count]) ? 1 : 0;
+            for (size_t line = 1; line < b->lines; line++)
+                count += find_knee(b, line, i, side, &b->edges[count]) ? 1 : 0;
         }
     return count;
 }

@@ -21,7 +21,7 @@ static const char mark[16] = "coupled 1";
 typedef struct model {
     const ff_host *host;
     double zeta, tolerance, settle_tolerance;
-    int32_t damping, branch;
+    int32_t damping, force, branch;
     dynamics_inertia inertia;
     ff_reals bearing, bearing_zeta,
         mass; /* N/m, 1, kg; one value or two; mass empty: the gears' own */
@@ -41,6 +41,7 @@ static const ff_param params[] = {
         "else what comes up slowly from 0.7 times the mesh frequency; upper comes down from "
         "1.4 times the natural frequency of the mesh; where a study follows the speed, for "
         "the first case of a chain"),
+    DYNAMICS_FORCE_ROW(model),
     FF_QUANTITY("equivalent_mass", "kg", model, inertia.equivalent_mass, FF_MIN_OPEN, NULL,
                 "inertia", 0, 1e9, 0, 0,
                 "mass that the mesh spring sees in rotation; default: the gear's"),
@@ -243,7 +244,8 @@ static ff_status output_motion(model *m, const dynamics_coupled *pair,
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
-    dynamics_excitation excitation = {.zeta = m->zeta, .damping = m->damping};
+    dynamics_excitation excitation = {
+        .zeta = m->zeta, .damping = m->damping, .shared = m->force == 1};
     dynamics_coupled pair = {.excitation = &excitation};
     dynamics_inputs inputs;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);

@@ -18,7 +18,7 @@
 typedef struct model {
     const ff_host *host;
     double zeta, tolerance;
-    int32_t damping, branch;
+    int32_t damping, force, branch;
     dynamics_inertia inertia;
     int64_t harmonics_given, samples_given, steps_per_cycle; /* -1: auto */
     size_t harmonics, samples;                               /* the same; 0: auto */
@@ -35,6 +35,7 @@ static const ff_param params[] = {
               "one, else followed up from 0.7 times the mesh frequency; upper is followed down "
               "from 1.4 times the natural frequency, also where it is unstable; where a study "
               "follows the speed, it is for the first case of a chain"),
+    DYNAMICS_FORCE_ROW(model),
     DYNAMICS_INERTIA_ROWS(model),
     FF_COUNT_OR("auto", "harmonics", model, harmonics_given, FF_TUNABLE, "auto", NULL, 1,
                 DYNAMICS_MOST_HARMONICS, 5, DYNAMICS_MOST_HARMONICS,
@@ -273,7 +274,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     model *m = self;
     const uint64_t motion_outputs = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
-    dynamics_excitation excitation = {.zeta = m->zeta, .damping = m->damping};
+    dynamics_excitation excitation = {
+        .zeta = m->zeta, .damping = m->damping, .shared = m->force == 1};
     dynamics_inputs inputs;
     m->to.harmonics = 0;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);

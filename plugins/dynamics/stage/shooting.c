@@ -22,7 +22,7 @@
 typedef struct model {
     const ff_host *host;
     double zeta, atlas_from, atlas_to, arc_step;
-    int32_t damping, knows; /* KNOWS_... */
+    int32_t damping, force, knows; /* KNOWS_... */
     const char *branch_word;
     dynamics_inertia inertia;
     dynamics_oil oil;
@@ -54,6 +54,7 @@ static const ff_param params[] = {
               "which stable motions stable_motions counts and branch: largest chooses from: those "
               "that lower, upper and 16 starts lead to; or those of the atlas, too, which is then "
               "built and takes some 50 times as long"),
+    DYNAMICS_FORCE_ROW(model),
     DYNAMICS_INERTIA_ROWS(model),
     DYNAMICS_OIL_ROWS(model),
     DYNAMICS_FILM_WIRE_ROWS(model),
@@ -418,6 +419,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
              .wanted = wanted,
              .excitation = {.zeta = m->zeta,
                             .damping = m->damping,
+                            .shared = m->force == 1,
                             .on_chord = m->oil.squeeze == DYNAMICS_SQUEEZE_SERIES}};
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
     j.inputs.wanted = wanted;

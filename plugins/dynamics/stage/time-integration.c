@@ -19,7 +19,7 @@
 typedef struct model {
     const ff_host *host;
     double zeta, tolerance, settle_tolerance;
-    int32_t damping, branch;
+    int32_t damping, force, branch;
     dynamics_inertia inertia;
     dynamics_oil oil;
     dynamics_film_wire wire;
@@ -35,6 +35,7 @@ static const ff_param params[] = {
               "or else what comes up slowly from 0.7 times the mesh frequency; upper comes down "
               "from 1.4 times the natural frequency; where a study follows the speed, it is for "
               "the first case of a chain"),
+    DYNAMICS_FORCE_ROW(model),
     DYNAMICS_INERTIA_ROWS(model),
     DYNAMICS_OIL_ROWS(model),
     DYNAMICS_FILM_WIRE_ROWS(model),
@@ -270,6 +271,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     job j = {.m = m,
              .excitation = {.zeta = m->zeta,
                             .damping = m->damping,
+                            .shared = m->force == 1,
                             .on_chord = m->oil.squeeze == DYNAMICS_SQUEEZE_SERIES}};
     dynamics_film_powers powers;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
