@@ -1,46 +1,30 @@
 /* SPDX-License-Identifier: MIT */
-/* Runs: one case of a pipeline from its file to its results. */
-#include "plugin/engine.h"
+/* Runs: one case of a pipeline, from its file with settings to its evaluation. */
+#include "run.h"
 
 #include <string.h>
 
-struct ff_run {
-    ff_engine *engine;
-    fe_heap heap;
-    ff_tree *tree;
-    ff_report *report; /* of the call that is being made */
-    ff_pipeline *pipeline;
-    bool broken; /* it had no memory once, and can only be closed */
-    bool started, failed;
-};
-
-/* The arguments of a call, and what it answers. */
-typedef struct run_call {
-    ff_run *run;
-    const char *text;        /* a file, or the path of a result */
-    const char *const *sets; /* NULL-terminated, or NULL */
-    const ff_observer *observer;
-    void (*work)(struct run_call *call);
-} run_call;
-
 static void work(void *ctx)
 {
-    run_call *call = ctx;
+    fe_run_request *call = ctx;
     ff_run *run = call->run;
-    run->report = ff_report_new();
+    if (!run->report)
+        run->report = ff_report_new();
+    run->said = ff_report_new();
     call->work(call);
-    fe_engine_say(run->engine, run->report);
+    fe_engine_say(run->engine, run->said);
+    if (call->step)
+        ff_report_append(run->report, run->said);
 }
 
 static void forget(void *ctx)
 {
     ff_run *run = ctx;
-    ff_report_free(run->report);
-    run->report = NULL;
+    ff_report_free(run->said);
+    run->said = NULL;
 }
 
-/* Makes the call, with messages of its own. */
-static ff_status handle(run_call *call)
+ff_status fe_run_call(fe_run_request *call)
 {
     ff_run *run = call->run;
     if (run->broken)
@@ -48,88 +32,230 @@ static ff_status handle(run_call *call)
     run->broken = fe_engine_call(run->engine, &run->heap, work, call) != FF_OK;
     if (run->broken)
         return FF_NOMEM;
-    ff_status status = fe_status_of(run->report);
+    ff_status status = fe_status_of(run->said);
     fe_protected(&run->heap, forget, run);
     return status;
 }
 
-/* What the program does with many cases. */
-static void refuse_many(run_call *call, const ff_node *root)
-{
-    static const char *const keys[] = {"study", "accuracy"};
-    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
-        const ff_node *node = ff_node_get(root, keys[i]);
-        if (node && !(node->kind == FF_SCALAR && !*node->text))
-            ff_error(call->run->report, FF_FAULT_INPUT, node->place, "flankfilm run FILE does both",
-                     "%s: the library runs one case, whose models are known", keys[i]);
-    }
-}
-
-static void open(run_call *call)
-{
-    ff_run *run = call->run;
-    run->tree = ff_tree_load(call->text, run->report);
-    if (!ff_tree_root(run->tree))
-        return;
-    for (const char *const *set = call->sets; set && *set; set++)
-        ff_tree_set(run->tree, *set, NULL, NULL, run->report);
-    refuse_many(call, ff_tree_root(run->tree));
-    if (ff_report_errors(run->report) > 0)
-        return;
-    run->pipeline = ff_pipeline_build(run->tree, run->engine, false, run->report);
-    ff_engine_warn_displaced(run->engine, run->report);
-}
-
 static void make(void *ctx)
 {
-    run_call *call = ctx;
+    fe_run_request *call = ctx;
     call->run = fe_alloc(sizeof *call->run);
 }
 
-ff_status ff_run_open(ff_engine *engine, const char *file, const char *const *sets, ff_run **run)
+/* Makes a run with its first step. */
+static ff_status begin(ff_engine *engine, fe_run_request *call, ff_run **run)
 {
-    run_call call = {.text = file, .sets = sets, .work = open};
+    if (fe_engine_call(engine, &engine->heap, make, call) != FF_OK)
+        return FF_NOMEM;
+    call->run->engine = engine;
+    call->step = true;
+    ff_status status = fe_run_call(call);
+    *run = call->run;
+    if (call->run->broken) {
+        *run = NULL;
+        ff_run_close(call->run);
+    }
+    return status;
+}
+
+static void read(fe_run_request *call)
+{
+    call->run->tree = fe_tree_load(call->text, call->run->said);
+}
+
+ff_status ff_run_read(ff_engine *engine, const char *file, ff_run **run)
+{
     if (!run)
         return FF_INVALID;
     *run = NULL;
     if (!engine || !file)
         return FF_INVALID;
-    if (fe_engine_call(engine, &engine->heap, make, &call) != FF_OK)
-        return FF_NOMEM;
-    call.run->engine = engine;
-    ff_status status = handle(&call);
-    if (status == FF_OK)
-        *run = call.run;
-    else
-        ff_run_close(call.run);
+    return begin(engine, &(fe_run_request){.work = read, .text = file}, run);
+}
+
+static void parse(fe_run_request *call)
+{
+    call->run->tree = fe_tree_parse(call->name, call->directory, call->text, call->run->said);
+}
+
+ff_status ff_run_parse(ff_engine *engine, const char *name, const char *directory, const char *text,
+                       ff_run **run)
+{
+    fe_run_request call = {.work = parse, .text = text, .name = name, .directory = directory};
+    if (!run)
+        return FF_INVALID;
+    *run = NULL;
+    if (!engine || !name || !directory || !text)
+        return FF_INVALID;
+    return begin(engine, &call, run);
+}
+
+static void copy(fe_run_request *call)
+{
+    call->run->tree = fe_tree_copy(call->from->tree);
+}
+
+ff_status ff_run_copy(const ff_run *run, ff_run **copied)
+{
+    if (!copied)
+        return FF_INVALID;
+    *copied = NULL;
+    if (!run || !ff_run_root(run))
+        return FF_INVALID;
+    return begin(run->engine, &(fe_run_request){.work = copy, .from = run}, copied);
+}
+
+/* Whether its file, which was read, can still be set. */
+static bool is_open(const ff_run *run)
+{
+    return run && ff_run_root(run) && !run->pipeline;
+}
+
+static void set(fe_run_request *call)
+{
+    fe_tree_set(call->run->tree, call->text, call->path, call->value, call->run->said);
+}
+
+ff_status ff_run_set_at(ff_run *run, const char *assignment, const ff_place *path,
+                        const ff_place *value)
+{
+    fe_run_request call = {
+        .run = run, .work = set, .step = true, .text = assignment, .path = path, .value = value};
+    return is_open(run) && assignment ? fe_run_call(&call) : FF_INVALID;
+}
+
+ff_status ff_run_set(ff_run *run, const char *assignment)
+{
+    return ff_run_set_at(run, assignment, NULL, NULL);
+}
+
+static void put(fe_run_request *call)
+{
+    fe_tree_put(call->run->tree, call->text, call->node);
+}
+
+ff_status ff_run_put(ff_run *run, const char *key, const ff_node *node)
+{
+    fe_run_request call = {.run = run, .work = put, .step = true, .text = key, .node = node};
+    return is_open(run) && key && node ? fe_run_call(&call) : FF_INVALID;
+}
+
+/* Says what was wrong before once more: a file with an error cannot be started. */
+static void build(fe_run_request *call)
+{
+    ff_run *run = call->run;
+    ff_report_append(run->said, run->report);
+    run->pipeline = fe_pipeline_build(run->tree, run->engine, call->all, run->said);
+    run->ready = run->pipeline && ff_report_errors(run->said) == 0;
+}
+
+ff_status ff_run_build(ff_run *run, bool everything)
+{
+    fe_run_request call = {.run = run, .work = build, .step = true, .all = everything};
+    return is_open(run) ? fe_run_call(&call) : FF_INVALID;
+}
+
+/* False where the file asks for what the program does with many cases. */
+static bool refuse_many(const ff_node *root, ff_report *report)
+{
+    static const char *const keys[] = {"study", "accuracy"};
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; i++) {
+        const ff_node *node = ff_node_get(root, keys[i]);
+        if (node && !(node->kind == FF_SCALAR && !*node->text))
+            ff_error(report, FF_FAULT_INPUT, node->place, "flankfilm run FILE does both",
+                     "%s: the library runs one case, whose models are known", keys[i]);
+    }
+    return ff_report_errors(report) == 0;
+}
+
+static void prepare(fe_run_request *call)
+{
+    if (!refuse_many(fe_tree_root(call->run->tree), call->run->said))
+        return;
+    build(call);
+    ff_engine_warn_displaced(call->run->engine, call->run->said);
+}
+
+ff_status ff_run_ready(ff_run *run)
+{
+    fe_run_request call = {.run = run, .work = prepare, .step = true};
+    if (run && run->ready)
+        return FF_OK;
+    return is_open(run) ? fe_run_call(&call) : FF_INVALID;
+}
+
+ff_status ff_run_open(ff_engine *engine, const char *file, const char *const *sets, ff_run **run)
+{
+    ff_status status = ff_run_read(engine, file, run);
+    if (!run || !*run)
+        return status;
+    for (; sets && *sets && ff_run_root(*run); sets++)
+        if (ff_run_set(*run, *sets) == FF_NOMEM)
+            status = FF_NOMEM;
+    if (ff_run_root(*run))
+        status = ff_run_ready(*run);
+    if (status != FF_OK) {
+        ff_run_close(*run);
+        *run = NULL;
+    }
     return status;
 }
 
+static void change(fe_run_request *call)
+{
+    ff_run *run = call->run;
+    call->done =
+        fe_pipeline_change(run->pipeline, run->tree, call->changes, call->count, call->all);
+}
+
+ff_status ff_run_change(ff_run *run, const char *const *assignments, size_t count, bool objects)
+{
+    fe_run_request call = {
+        .run = run, .work = change, .changes = assignments, .count = count, .all = objects};
+    if (!run || !run->ready || (count && !assignments))
+        return FF_INVALID;
+    ff_status status = fe_run_call(&call);
+    run->ready = run->ready && call.done;
+    return status == FF_OK && !call.done ? FF_UNSUPPORTED : status;
+}
+
+static void end(void *ctx)
+{
+    ff_run *run = ctx;
+    fe_pipeline_free(run->pipeline);
+    fe_tree_free(run->tree);
+}
+
+/* What a caller added to a stage lies in memory that is not the run's. */
 void ff_run_close(ff_run *run)
 {
     if (!run)
         return;
+    if (!run->broken)
+        fe_protected(&run->heap, end, run);
     fe_heap_close(&run->heap);
     fe_free(run);
 }
 
 /* Members that the caller's struct is too short for are NULL. */
-static void start(run_call *call)
+static void start(fe_run_request *call)
 {
     ff_observer observer = {.size = sizeof observer};
     if (call->observer)
         memcpy(&observer, call->observer,
                call->observer->size < sizeof observer ? call->observer->size : sizeof observer);
-    ff_pipeline_run(call->run->pipeline, &observer, call->run->report);
+    fe_pipeline_run(call->run->pipeline, &observer, call->run->said);
 }
 
 ff_status ff_run_start(ff_run *run, const ff_observer *observer)
 {
-    run_call call = {.run = run, .observer = observer, .work = start};
-    if (!run)
-        return FF_INVALID;
+    fe_run_request call = {.run = run, .work = start, .step = true, .observer = observer};
+    ff_status status = run ? ff_run_ready(run) : FF_INVALID;
+    if (status != FF_OK)
+        return status;
     run->started = true;
-    ff_status status = handle(&call);
+    status = fe_run_call(&call);
     run->failed = status != FF_OK;
     for (size_t i = 0; !run->broken && i < run->pipeline->count; i++)
         if (run->pipeline->stages[i].status == FF_STOPPED && status != FF_OK)
@@ -137,113 +263,17 @@ ff_status ff_run_start(ff_run *run, const ff_observer *observer)
     return status;
 }
 
-/* Whether the stage has results, which are whole. */
-static bool is_done(const ff_stage *stage)
+ff_report *ff_run_report(ff_run *run)
 {
-    return stage->ran || stage->reused;
+    return run && !run->broken ? run->report : NULL;
 }
 
-/* The result of that path; NULL: it was not computed. */
-static const ff_result *find(const ff_run *run, const char *path)
+const ff_node *ff_run_root(const ff_run *run)
 {
-    const char *name;
-    const ff_stage *stage = ff_stage_of(run->pipeline, path, &name);
-    int output = stage && is_done(stage) ? ff_model_find_output(stage->loaded->model, name) : -1;
-    return output >= 0 && stage->results[output].data ? &stage->results[output] : NULL;
+    return run && !run->broken && run->tree ? fe_tree_root(run->tree) : NULL;
 }
 
-static const char *why_not(const ff_run *run, const ff_stage *stage, const ff_result *result)
+ff_pipeline *ff_run_pipeline(const ff_run *run)
 {
-    if (!run->started)
-        return "the run has not been started";
-    if (result && result->refused)
-        return "the model does not give it for these inputs";
-    if (!result || !result->wanted)
-        return "`outputs` of the file does not ask for it";
-    return stage->status == FF_OK ? "what feeds its stage failed" : "its stage failed";
-}
-
-static void refuse_result(run_call *call)
-{
-    const ff_run *run = call->run;
-    const char *name;
-    const ff_stage *stage = ff_stage_of(run->pipeline, call->text, &name);
-    const ff_model *model = stage && stage->loaded ? stage->loaded->model : NULL;
-    int output = model ? ff_model_find_output(model, name) : -1;
-    if (!stage || (model && (output < 0 || ff_model_output(model, (size_t)output)->service)))
-        ff_error(run->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "there is no result \"%.80s\"",
-                 call->text);
-    else
-        ff_error(run->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%.80s was not computed: %s",
-                 call->text, why_not(run, stage, output < 0 ? NULL : &stage->results[output]));
-}
-
-ff_status ff_run_result(ff_run *run, const char *path, const ff_result **result)
-{
-    if (!result)
-        return FF_INVALID;
-    *result = NULL;
-    if (!run || !path)
-        return FF_INVALID;
-    *result = run->broken ? NULL : find(run, path);
-    return *result ? FF_OK : handle(&(run_call){.run = run, .text = path, .work = refuse_result});
-}
-
-ff_status ff_run_output(const ff_run *run, size_t index, const char **stage,
-                        const ff_result **result)
-{
-    if (!run || !stage || !result)
-        return FF_INVALID;
-    *stage = NULL;
-    *result = NULL;
-    for (size_t i = 0; !run->broken && i < run->pipeline->count; i++) {
-        const ff_stage *s = &run->pipeline->stages[run->pipeline->order[i]];
-        for (size_t k = 0; is_done(s) && k < s->loaded->model->output_count; k++)
-            if (s->results[k].data && index-- == 0) {
-                *stage = s->name;
-                *result = &s->results[k];
-                return FF_OK;
-            }
-    }
-    return run->broken ? FF_NOMEM : FF_INVALID;
-}
-
-ff_status ff_run_quality(const ff_run *run, size_t index, const ff_quality **line)
-{
-    if (!run || !line)
-        return FF_INVALID;
-    *line = NULL;
-    for (size_t i = 0; !run->broken && i < run->pipeline->count; i++) {
-        const ff_stage *stage = &run->pipeline->stages[run->pipeline->order[i]];
-        if (index < stage->quality_count) {
-            *line = &stage->quality[index];
-            return FF_OK;
-        }
-        index -= stage->quality_count;
-    }
-    return FF_INVALID;
-}
-
-static void refuse_verdict(run_call *call)
-{
-    ff_error(call->run->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
-             "there is no verdict: the run has not been started");
-}
-
-ff_status ff_run_verdict(const ff_run *run, int32_t *verdict)
-{
-    const ff_quality *line;
-    if (!run || !verdict)
-        return FF_INVALID;
-    *verdict = run->started && !run->failed ? FF_GOOD : FF_BAD;
-    if (run->broken || !run->started)
-        return handle(&(run_call){.run = (ff_run *)(uintptr_t)run, .work = refuse_verdict});
-    for (size_t i = 0; ff_run_quality(run, i, &line) == FF_OK; i++)
-        *verdict = line->verdict > *verdict ? line->verdict : *verdict;
-    return FF_OK;
-}
-
-const char *ff_stage_name(const ff_stage *stage)
-{
-    return stage ? stage->name : "";
+    return run && !run->broken ? run->pipeline : NULL;
 }

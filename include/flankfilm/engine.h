@@ -108,6 +108,25 @@ typedef struct ff_pipeline ff_pipeline;
 ff_status ff_run_open(ff_engine *engine, const char *file, const char *const *sets, ff_run **run);
 void ff_run_close(ff_run *run); /* NULL is nothing */
 
+/*
+ * The same in steps: the file is read, or its text is taken from memory, where `name` serves
+ * messages and relative files lie beside `directory`; settings follow, a later one over those
+ * before; ff_run_ready loads and wires, and says all that is wrong with the file and the settings.
+ * A step that fails leaves a run that can only be asked for its messages and closed; *run is NULL
+ * without memory or arguments.
+ */
+ff_status ff_run_read(ff_engine *engine, const char *file, ff_run **run);
+ff_status ff_run_parse(ff_engine *engine, const char *name, const char *directory, const char *text,
+                       ff_run **run);
+/* "film.cells=512". A path starts among the stages unless its first word may stand at the top of a
+   file; "include=FILE" lays a file over what is there. Once the run is ready it can be set no more:
+   a copy can. */
+ff_status ff_run_set(ff_run *run, const char *assignment);
+ff_status ff_run_ready(ff_run *run);
+/* What was read and set so far, without its messages, as a run of its own that is closed before the
+   first. */
+ff_status ff_run_copy(const ff_run *run, ff_run **copy);
+
 /* Called during ff_run_start; any member may be NULL. A call must return. */
 typedef struct ff_observer {
     size_t size;
@@ -427,44 +446,8 @@ struct ff_node {
     ff_place *key_places; /* map */
 };
 
-typedef struct ff_tree ff_tree;
-
-/*
- * Reads `path`, reads the files of its `include:` list first (relative to the file that names
- * them, or else to the examples that came with the library) and merges: maps deep, all else is
- * replaced by the later; `include` itself is left out.
- * Refuses duplicate keys, tags, several documents, more than 64 levels, 1 MiB of text, 100 000
- * nodes after alias expansion, 4096 keys in a map, 1000 anchors in a file, 16 levels or 64 files of
- * includes, and a file that includes itself. Merge key "<<" takes aliases of maps. Always returns a
- * tree; it has no root when the report got errors that leave nothing to read: a file is lost or
- * broken off. Places point into the tree, so it outlives the report's printing.
- */
-ff_tree *ff_tree_load(const char *path, ff_report *report);
-
-/* The same from memory: name serves messages, directory the relative files. */
-ff_tree *ff_tree_parse(const char *name, const char *directory, const char *text,
-                       ff_report *report);
-
-/* The tree as it is now, to be changed by itself; it points into the first, which outlives it. */
-ff_tree *ff_tree_copy(const ff_tree *tree);
-
-/*
- * Applies "a.b.c=value": the value is read as YAML, maps on the way are made, a list index is
- * ".0". A path starts among the stages unless its first word may stand at the top of a file.
- * "include=FILE", or a list of files, merges files into the tree. `path` and `value` are the places
- * of both where a file says them; NULL: they point into the assignment itself.
- */
-bool ff_tree_set(ff_tree *tree, const char *assignment, const ff_place *path, const ff_place *value,
-                 ff_report *report);
-
 /* The words that may stand at the top of a file: "format", "title", ...; NULL-terminated. */
 const char *const *ff_file_keys(void);
-
-/* Puts a copy of a node of the tree, places and all, under a key of its root. */
-void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node);
-
-const ff_node *ff_tree_root(const ff_tree *tree); /* a map, or NULL */
-void ff_tree_free(ff_tree *tree);
 
 const ff_node *ff_node_get(const ff_node *map, const char *key); /* NULL: absent or no map */
 
@@ -616,31 +599,34 @@ struct ff_pipeline {
     struct fe_pipeline_memory *memory;
 };
 
-/*
- * Reads the file's `format`, `title`, `pipeline` and `outputs`, loads the models that are needed
- * (with `everything` all of them, as `check` wants), binds parameters, wires stages and
- * calls their `ready`. All errors of the file go to the report in one pass. NULL only when nothing
- * can be shown; with errors in the report the pipeline must not be run. The tree and the engine
- * outlive the pipeline.
- */
-ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool everything,
-                               ff_report *report);
+/* Runs in the program's hands. Messages of all steps, to which a caller can add its own; they count
+   as errors of the file. NULL when the run had no memory once: then so are the next two. */
+ff_report *ff_run_report(ff_run *run);
+const ff_node *ff_run_root(const ff_run *run);   /* of the file with its settings; NULL: not read */
+ff_pipeline *ff_run_pipeline(const ff_run *run); /* NULL: not built */
+
+/* As ff_run_set, with the places where a file says path and value; NULL: they point into the
+   assignment. */
+ff_status ff_run_set_at(ff_run *run, const char *assignment, const ff_place *path,
+                        const ff_place *value);
+/* Puts a copy of a node, places and all, under a key of the file. */
+ff_status ff_run_put(ff_run *run, const char *key, const ff_node *node);
+
+/* As ff_run_ready, whatever the keys of a program say, such as `study`; with `everything` also the
+   stages that no output needs are loaded and made, as `check` wants. The pipeline may be there to
+   be shown when there are errors. */
+ff_status ff_run_build(ff_run *run, bool everything);
 
 /*
- * Goes on with other values: "stage.parameter=value", which change the tree that the pipeline was
- * built from, too. An object stays where its values do, unless a service is wired to it or it hands
- * on a state (`carry`); all others are made anew. The pipeline answers as one built from that tree.
- * False: an assignment says something else than a plain value of a parameter that had one, or it is
- * worth a message; then the pipeline is of no more use, and building another one says why.
+ * Goes on with other values: "stage.parameter=value". An object stays where its values do, unless a
+ * service is wired to it or it hands on a state (`carry`); all others are made anew. The run
+ * answers as one that was read with these values. FF_UNSUPPORTED: an assignment says something else
+ * than a plain value of a parameter that had one, or it is worth a message; then the run can only
+ * be closed, and another one says why.
  * Without `objects` there are none afterwards, and none says what it has against the values: the
  * pipeline tells its parameters and wires alone.
  */
-bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const *assignments,
-                        size_t count, bool objects);
-
-/* Runs what is needed; observer may be NULL. False when a stage failed: the report says why, and
-   the results so far stay readable. */
-bool ff_pipeline_run(ff_pipeline *pipeline, const ff_observer *observer, ff_report *report);
+ff_status ff_run_change(ff_run *run, const char *const *assignments, size_t count, bool objects);
 
 /* The stage of "stage.name"; NULL: there is none. *name: what stands behind the dot, or "". */
 ff_stage *ff_stage_of(const ff_pipeline *pipeline, const char *path, const char **name);
@@ -664,7 +650,6 @@ void ff_drop_quality(ff_stage *stage, size_t line);
 
 /* The parameters under `feedback`. */
 const ff_param *ff_feedback_rows(size_t *count);
-void ff_pipeline_free(ff_pipeline *pipeline);
 
 /* All messages of the last call of the instance, and its model, parameters and times, as those of a
    stage in a pipeline. */

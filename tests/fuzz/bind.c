@@ -3,6 +3,8 @@
  */
 #include "fuzz.h"
 
+#include "../../core/engine/pipeline/pipeline.h"
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static ff_engine *engine; /* models stay loaded */
@@ -13,16 +15,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     must(engine || ff_engine_new(&options, &engine) == FF_OK);
     char *text = fuzz_text(data, size);
     ff_report *report = ff_report_new();
-    ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
-    ff_pipeline *pipeline = ff_pipeline_build(tree, engine, size % 2, report);
+    fe_tree *tree = fe_tree_parse("fuzz.yaml", "/nonexistent", text, report);
+    ff_pipeline *pipeline = fe_pipeline_build(tree, engine, size % 2, report);
     if (pipeline && ff_report_errors(report) == 0)
-        must(ff_pipeline_run(pipeline, NULL, report) == (ff_report_errors(report) == 0));
+        must(fe_pipeline_run(pipeline, NULL, report) == (ff_report_errors(report) == 0));
     else
         must(ff_report_errors(report) > 0);
     fuzz_print(report);
-    ff_pipeline_free(pipeline);
+    fe_pipeline_free(pipeline);
     ff_report_free(report);
-    ff_tree_free(tree);
+    fe_tree_free(tree);
     free(text);
     return 0;
 }

@@ -8,6 +8,7 @@
 
 #include "../../core/engine/plugin/param.h"
 #include "../../core/engine/plugin/private.h"
+#include "../../core/engine/value/tree.h"
 
 #include <math.h>
 
@@ -220,8 +221,8 @@ static void give_values(const ff_loaded *loaded, maker *m)
 {
     char *rest = fuzz_text(m->at, (size_t)(m->end - m->at));
     ff_report *report = ff_report_new();
-    ff_tree *tree = ff_tree_parse("values", "/nonexistent", rest, report);
-    const ff_node *root = ff_tree_root(tree);
+    fe_tree *tree = fe_tree_parse("values", "/nonexistent", rest, report);
+    const ff_node *root = fe_tree_root(tree);
     size_t params = loaded->model->param_count;
     for (size_t i = 0; params && root && i < root->count; i++) {
         const ff_param *row = ff_model_param(loaded->model, i % params);
@@ -241,7 +242,7 @@ static void give_values(const ff_loaded *loaded, maker *m)
     }
     fuzz_print(report);
     ff_report_free(report);
-    ff_tree_free(tree);
+    fe_tree_free(tree);
     free(rest);
 }
 

@@ -2,6 +2,8 @@
 /* The reader of YAML: a text, and behind its first NUL byte a --set assignment. */
 #include "fuzz.h"
 
+#include "../../core/engine/value/tree.h"
+
 #include <string.h>
 
 static void walk(const ff_node *node)
@@ -18,16 +20,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     char *text = fuzz_text(data, size);
     size_t length = strlen(text);
     ff_report *report = ff_report_new();
-    ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
-    if (length < size && ff_tree_root(tree))
-        ff_tree_set(tree, text + length + 1, NULL, NULL, report);
-    if (ff_tree_root(tree))
-        walk(ff_tree_root(tree));
+    fe_tree *tree = fe_tree_parse("fuzz.yaml", "/nonexistent", text, report);
+    if (length < size && fe_tree_root(tree))
+        fe_tree_set(tree, text + length + 1, NULL, NULL, report);
+    if (fe_tree_root(tree))
+        walk(fe_tree_root(tree));
     else
         must(ff_report_errors(report) > 0);
     fuzz_print(report);
     ff_report_free(report);
-    ff_tree_free(tree);
+    fe_tree_free(tree);
     free(text);
     return 0;
 }

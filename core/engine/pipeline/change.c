@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* A pipeline that goes on with other values of parameters: its stages and wires stay. */
 #include "build.h"
+#include "pipeline.h"
 
 #include "../value/tree.h"
 
@@ -74,10 +75,10 @@ static void open_objects(fe_build *b)
     }
 }
 
-bool ff_pipeline_change(ff_pipeline *pipeline, ff_tree *tree, const char *const *assignments,
+bool fe_pipeline_change(ff_pipeline *pipeline, fe_tree *tree, const char *const *assignments,
                         size_t count, bool objects)
 {
-    const ff_node *root = ff_tree_root(tree);
+    const ff_node *root = fe_tree_root(tree);
     bool *changed = fe_alloc((pipeline->count + 1) * sizeof *changed);
     bool good = is_as_built(pipeline), moved = false;
     for (size_t i = 0; i < count && good; i++) {

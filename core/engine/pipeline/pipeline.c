@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Building a pipeline from a file, step by step. */
+#include "pipeline.h"
 #include "build.h"
 
 #include <stdlib.h>
@@ -15,10 +16,10 @@ static void warn_of_feedback(const fe_build *b, const ff_node *feedback)
                 "feedback: no stage that runs is in a loop, so that it changes nothing");
 }
 
-ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool everything,
+ff_pipeline *fe_pipeline_build(const fe_tree *tree, ff_engine *engine, bool everything,
                                ff_report *report)
 {
-    const ff_node *root = ff_tree_root(tree);
+    const ff_node *root = fe_tree_root(tree);
     if (!root)
         return NULL;
     ff_pipeline *pipeline = fe_alloc(sizeof *pipeline);
@@ -31,7 +32,7 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool ever
                   .everything = everything,
                   .file_rank = root->rank};
     if (!fe_read_stages(&b, root)) {
-        ff_pipeline_free(pipeline);
+        fe_pipeline_free(pipeline);
         return NULL;
     }
     for (size_t i = 0; everything && i < pipeline->count; i++)
@@ -56,7 +57,7 @@ ff_pipeline *ff_pipeline_build(const ff_tree *tree, ff_engine *engine, bool ever
     return pipeline;
 }
 
-void ff_pipeline_free(ff_pipeline *pipeline)
+void fe_pipeline_free(ff_pipeline *pipeline)
 {
     if (!pipeline)
         return;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 /* Runs each needed stage once, and each loop round after round, in order. */
 #include "build.h"
+#include "pipeline.h"
 
 #include <stdlib.h>
 
@@ -56,7 +57,7 @@ static void begin_run(ff_pipeline *pipeline)
     }
 }
 
-bool ff_pipeline_run(ff_pipeline *pipeline, const ff_observer *watch, ff_report *report)
+bool fe_pipeline_run(ff_pipeline *pipeline, const ff_observer *watch, ff_report *report)
 {
     bool good = true;
     begin_run(pipeline);

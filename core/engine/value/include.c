@@ -13,7 +13,7 @@
 
 /* A file that is being read. */
 typedef struct file {
-    ff_tree *tree;
+    fe_tree *tree;
     ff_report *report;
     const struct file *parent; /* the file that includes it, or NULL */
     ff_place place;            /* of its name in the parent */
@@ -237,24 +237,24 @@ static ff_node *load(file *f)
     return node;
 }
 
-bool fe_node_include(ff_tree *tree, const ff_node *named, ff_report *report)
+bool fe_node_include(fe_tree *tree, const ff_node *named, ff_report *report)
 {
     const file f = {.tree = tree, .report = report, .path = "--set"};
     return load_named(&f, named, &tree->root);
 }
 
-ff_tree *ff_tree_load(const char *path, ff_report *report)
+fe_tree *fe_tree_load(const char *path, ff_report *report)
 {
-    ff_tree *tree = fe_alloc(sizeof *tree);
+    fe_tree *tree = fe_alloc(sizeof *tree);
     char *hint = access(path, F_OK) == 0 ? NULL : fe_near_file(path);
     tree->root = load(&(file){.tree = tree, .report = report, .path = path, .hint = hint});
     fe_free(hint);
     return tree;
 }
 
-ff_tree *ff_tree_parse(const char *name, const char *directory, const char *text, ff_report *report)
+fe_tree *fe_tree_parse(const char *name, const char *directory, const char *text, ff_report *report)
 {
-    ff_tree *tree = fe_alloc(sizeof *tree);
+    fe_tree *tree = fe_alloc(sizeof *tree);
     file f = {.tree = tree, .report = report, .path = name};
     size_t length = strlen(text);
     if (length > FE_MOST_TEXT)

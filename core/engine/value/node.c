@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-ff_node *fe_node_new(ff_tree *tree, ff_node_kind kind, ff_place place)
+ff_node *fe_node_new(fe_tree *tree, ff_node_kind kind, ff_place place)
 {
     ff_node *node = fe_arena_alloc(&tree->arena, sizeof *node);
     tree->nodes++;
@@ -18,7 +18,7 @@ ff_node *fe_node_new(ff_tree *tree, ff_node_kind kind, ff_place place)
     return node;
 }
 
-static void *grow(ff_tree *tree, const void *old, size_t count, size_t size)
+static void *grow(fe_tree *tree, const void *old, size_t count, size_t size)
 {
     void *grown = fe_arena_alloc(&tree->arena, (count ? 2 * count : 1) * size);
     if (count > 0)
@@ -26,7 +26,7 @@ static void *grow(ff_tree *tree, const void *old, size_t count, size_t size)
     return grown;
 }
 
-void fe_node_add(ff_tree *tree, ff_node *node, char *key, ff_place key_place, ff_node *item)
+void fe_node_add(fe_tree *tree, ff_node *node, char *key, ff_place key_place, ff_node *item)
 {
     size_t n = node->count++;
     if ((n & (n - 1)) == 0) { /* arrays have room for the next power of two */
@@ -67,7 +67,7 @@ bool fe_node_is_empty(const ff_node *node)
     return node->kind == FF_SCALAR && *node->text == '\0' && !node->quoted;
 }
 
-ff_node *fe_node_copy(ff_tree *tree, const ff_node *node)
+ff_node *fe_node_copy(fe_tree *tree, const ff_node *node)
 {
     ff_node *copy = fe_node_new(tree, node->kind, node->place);
     copy->text = node->text;
@@ -97,7 +97,7 @@ void fe_node_set_rank(ff_node *node, uint32_t rank)
         fe_node_set_rank(node->items[i], rank);
 }
 
-ff_node *fe_node_merge(ff_tree *tree, ff_node *base, ff_node *later)
+ff_node *fe_node_merge(fe_tree *tree, ff_node *base, ff_node *later)
 {
     if (base && (base->kind != FF_MAP || later->kind != FF_MAP))
         later->replaced = fe_node_is_empty(base) ? base->replaced : base;
@@ -117,7 +117,7 @@ ff_node *fe_node_merge(ff_tree *tree, ff_node *base, ff_node *later)
     return base;
 }
 
-ff_source *fe_tree_source(ff_tree *tree, const char *name, const char *directory, const char *text,
+ff_source *fe_tree_source(fe_tree *tree, const char *name, const char *directory, const char *text,
                           size_t length)
 {
     ff_source *source = fe_arena_alloc(&tree->arena, sizeof *source);
@@ -136,7 +136,7 @@ ff_source *fe_tree_source(ff_tree *tree, const char *name, const char *directory
 }
 
 /* A copy that stands in the same layers and remembers what the node replaced. */
-static ff_node *copy_layers(ff_tree *tree, const ff_node *node)
+static ff_node *copy_layers(fe_tree *tree, const ff_node *node)
 {
     ff_node *copy = fe_arena_alloc(&tree->arena, sizeof *copy);
     size_t room = 1;
@@ -157,9 +157,9 @@ static ff_node *copy_layers(ff_tree *tree, const ff_node *node)
     return copy;
 }
 
-ff_tree *ff_tree_copy(const ff_tree *tree)
+fe_tree *fe_tree_copy(const fe_tree *tree)
 {
-    ff_tree *copy = fe_alloc(sizeof *copy);
+    fe_tree *copy = fe_alloc(sizeof *copy);
     copy->nodes = tree->nodes;
     copy->files = tree->files;
     copy->ranks = tree->ranks;
@@ -167,12 +167,12 @@ ff_tree *ff_tree_copy(const ff_tree *tree)
     return copy;
 }
 
-const ff_node *ff_tree_root(const ff_tree *tree)
+const ff_node *fe_tree_root(const fe_tree *tree)
 {
     return tree->root;
 }
 
-void ff_tree_free(ff_tree *tree)
+void fe_tree_free(fe_tree *tree)
 {
     if (!tree)
         return;

@@ -3,9 +3,8 @@
 #ifndef FE_NODE_H
 #define FE_NODE_H
 
-#include <flankfilm/engine.h>
-
 #include "memory.h"
+#include "tree.h"
 
 enum {
     FE_MOST_LEVELS = 64,
@@ -17,7 +16,7 @@ enum {
 };
 
 /* Owns its nodes and the texts that places point into. No node has two parents. */
-struct ff_tree {
+struct fe_tree {
     fe_arena arena;
     ff_node *root;
     size_t nodes;   /* made so far */
@@ -25,10 +24,10 @@ struct ff_tree {
     uint32_t ranks; /* layers so far */
 };
 
-ff_node *fe_node_new(ff_tree *tree, ff_node_kind kind, ff_place place);
-ff_node *fe_node_copy(ff_tree *tree, const ff_node *node);
+ff_node *fe_node_new(fe_tree *tree, ff_node_kind kind, ff_place place);
+ff_node *fe_node_copy(fe_tree *tree, const ff_node *node);
 /* Adds to a map or, with key NULL, to a list. */
-void fe_node_add(ff_tree *tree, ff_node *node, char *key, ff_place key_place, ff_node *item);
+void fe_node_add(fe_tree *tree, ff_node *node, char *key, ff_place key_place, ff_node *item);
 void fe_map_remove(ff_node *map, size_t index);
 size_t fe_map_find(const ff_node *map, const char *key); /* map->count: absent */
 bool fe_node_is_empty(const ff_node *node);              /* a key without a value */
@@ -36,19 +35,19 @@ size_t fe_node_levels(const ff_node *node);              /* 1 for a scalar */
 void fe_node_set_rank(ff_node *node, uint32_t rank);
 
 /* Merges `later` into `base` (or NULL), which both become part of the result. */
-ff_node *fe_node_merge(ff_tree *tree, ff_node *base, ff_node *later);
+ff_node *fe_node_merge(fe_tree *tree, ff_node *base, ff_node *later);
 
 /* Merges the files that `named` lists into the tree. False after an error. */
-bool fe_node_include(ff_tree *tree, const ff_node *named, ff_report *report);
+bool fe_node_include(fe_tree *tree, const ff_node *named, ff_report *report);
 
 /* A source with copies of its texts, owned by the tree: line breaks are LF, a byte order mark is
    left out. */
-ff_source *fe_tree_source(ff_tree *tree, const char *name, const char *directory, const char *text,
+ff_source *fe_tree_source(fe_tree *tree, const char *name, const char *directory, const char *text,
                           size_t length);
 
 /* Reads `text`, whose lines and columns are those of the source, as one YAML document. Without
    content it is an empty scalar; NULL after an error that lost something. */
-ff_node *fe_yaml_read(ff_tree *tree, const ff_source *source, const char *text, ff_report *report);
+ff_node *fe_yaml_read(fe_tree *tree, const ff_source *source, const char *text, ff_report *report);
 
 struct yaml_parser_s;
 /* Reports the error of the parser in words for a user. */

@@ -8,7 +8,7 @@
 
 /* Follows the path of one assignment through the tree. */
 typedef struct walk {
-    ff_tree *tree;
+    fe_tree *tree;
     ff_report *report;
     uint32_t rank;
     const ff_place *at; /* the place that all words of the path get; NULL: their own */
@@ -115,7 +115,7 @@ static bool is_file_key(const char *word, size_t length)
 }
 
 /* Reads the value behind "=". The path becomes blanks, so that columns count from its start. */
-static ff_node *read_value(ff_tree *tree, const ff_source *source, const char *equals,
+static ff_node *read_value(fe_tree *tree, const ff_source *source, const char *equals,
                            ff_report *report)
 {
     const char *end = source->text + source->length;
@@ -139,7 +139,7 @@ static void relocate(ff_node *node, const ff_place *place)
     }
 }
 
-bool ff_tree_set(ff_tree *tree, const char *assignment, const ff_place *path, const ff_place *place,
+bool fe_tree_set(fe_tree *tree, const char *assignment, const ff_place *path, const ff_place *place,
                  ff_report *report)
 {
     size_t length = strlen(assignment), errors = ff_report_errors(report);
@@ -173,7 +173,7 @@ bool ff_tree_set(ff_tree *tree, const char *assignment, const ff_place *path, co
 }
 
 /* The node behind the words up to `end`; NULL: there is none. */
-static ff_node *find(ff_tree *tree, const char *at, const char *end)
+static ff_node *find(fe_tree *tree, const char *at, const char *end)
 {
     walk w = {.tree = tree, .slot = &tree->root};
     for (bool last = false; !last; at++) {
@@ -195,7 +195,7 @@ static bool is_plain(const ff_node *node)
     return node && node->kind == FF_SCALAR && !fe_node_is_empty(node);
 }
 
-bool fe_tree_change(ff_tree *tree, const char *assignment)
+bool fe_tree_change(fe_tree *tree, const char *assignment)
 {
     size_t length = strlen(assignment);
     if (length > FE_MOST_TEXT || !strchr(assignment, '='))
@@ -218,7 +218,7 @@ bool fe_tree_change(ff_tree *tree, const char *assignment)
     return good;
 }
 
-void ff_tree_put(ff_tree *tree, const char *key, const ff_node *node)
+void fe_tree_put(fe_tree *tree, const char *key, const ff_node *node)
 {
     ff_node *root = tree->root, *copy = fe_node_copy(tree, node);
     fe_node_set_rank(copy, tree->ranks++);

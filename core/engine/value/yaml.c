@@ -20,7 +20,7 @@ typedef struct reader {
     fe_resource open; /* the parser and its last event */
     yaml_parser_t parser;
     yaml_event_t event;
-    ff_tree *tree;
+    fe_tree *tree;
     const ff_source *source;
     ff_report *report;
     anchor *anchors;
@@ -334,7 +334,7 @@ static void close_parser(void *reader_of)
     yaml_parser_delete(&r->parser);
 }
 
-ff_node *fe_yaml_read(ff_tree *tree, const ff_source *source, const char *text, ff_report *report)
+ff_node *fe_yaml_read(fe_tree *tree, const ff_source *source, const char *text, ff_report *report)
 {
     if (!check_characters(source, report))
         return NULL;

@@ -6,21 +6,22 @@
 #include "goals.h"
 #include "lines.h"
 
-bool accuracy_run(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
-                  ff_pipeline *pipeline, const ff_observer *watch, ff_report *report)
+#include "../run/run.h"
+
+bool accuracy_run(accuracy_record *record, ff_run *run, ff_engine *engine, const ff_observer *watch,
+                  ff_report *report)
 {
-    const bool asked = accuracy_is_asked(tree) && accuracy_has_outputs(pipeline);
+    ff_pipeline *pipeline = record->answer = ff_run_pipeline(run);
     bool good;
-    record->answer = pipeline;
-    if (asked && accuracy_has_goals(tree)) {
-        good = accuracy_control(record, tree, engine, pipeline, watch, report);
+    if (!accuracy_has_outputs(pipeline))
+        return run_start(run, watch);
+    if (accuracy_has_goals(run)) {
+        good = accuracy_control(record, run, engine, watch, report);
     } else {
-        if (asked)
-            accuracy_want_beside(pipeline);
-        good = ff_pipeline_run(pipeline, watch, report) &&
-               (!asked || accuracy_measure(record, tree, engine, pipeline, watch, NULL));
+        accuracy_want_beside(pipeline);
+        good = run_start(run, watch) && accuracy_measure(record, run, engine, watch, NULL);
     }
-    if (good && asked)
+    if (good)
         accuracy_tell(record, record->answer);
     return good;
 }

@@ -119,7 +119,7 @@ static void run(trial *t, size_t stage, const char *use, accuracy_twin *next)
     const accuracy_choice *choice = t->choice;
     const char **sets = memory_alloc((choice->use_count + t->setting_count + 1) * sizeof *sets);
     bool *changed = memory_alloc((t->base->count + 1) * sizeof *changed);
-    const ff_place place = accuracy_place(t->scene.tree);
+    const ff_place place = accuracy_place(t->scene.file);
     size_t count = 0;
     for (size_t i = 0; i < choice->use_count; i++)
         sets[count++] = choice->uses[i];

@@ -16,6 +16,8 @@
 #include "settings.h"
 #include "twin.h"
 
+#include "../run/run.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,7 +39,7 @@ typedef struct control {
     accuracy_scene scene;
     ff_pipeline *asked;          /* with the models that were chosen, when they are */
     accuracy_choice *choice;     /* of models; NULL: not made yet, or the file names them all */
-    ff_tree *tree;               /* of the models that were chosen; NULL: those of the file */
+    ff_run *chosen;              /* with these models, not started; NULL: those of the file */
     accuracy_open open;          /* at the levels of the next attempt */
     attempt kept[MOST_ATTEMPTS]; /* with the models as they are */
     size_t kept_count;
@@ -59,7 +61,7 @@ static bool leaves_models_open(const ff_pipeline *pipeline)
 /* The models that were chosen, and the settings as they are; to be freed. */
 static const char **list_sets(control *c, size_t *count)
 {
-    size_t models = c->tree ? c->choice->use_count : 0;
+    size_t models = c->chosen ? c->choice->use_count : 0;
     const char **sets = memory_alloc((models + c->open.count + 1) * sizeof *sets);
     *count = models + c->open.count;
     for (size_t i = 0; i < *count; i++)
@@ -77,15 +79,15 @@ static void measure(control *c, attempt *a)
 {
     const accuracy_twin *runs[MOST_ATTEMPTS * (1 + ACCURACY_OWN)];
     accuracy_known known = {
-        .runs = runs, .said = a->run.report, .place = accuracy_place(c->scene.tree)};
+        .runs = runs, .said = a->run.report, .place = accuracy_place(c->scene.file)};
     for (size_t i = 0; i < c->kept_count; i++) {
         runs[known.count++] = &c->kept[i].run;
         for (size_t k = 0; k < c->kept[i].record.own_count; k++)
             runs[known.count++] = c->kept[i].record.own[k];
     }
     a->record.choice = c->choice;
-    a->run.stopped = !accuracy_measure(&a->record, a->run.tree, c->scene.engine, a->run.pipeline,
-                                       c->scene.watch, &known);
+    a->run.stopped =
+        !accuracy_measure(&a->record, a->run.run, c->scene.engine, c->scene.watch, &known);
     c->twins += a->record.twins;
     c->seconds += a->record.seconds;
 }
@@ -96,7 +98,7 @@ static void try_settings(control *c, attempt *next)
     size_t count;
     const char **sets = list_sets(c, &count);
     bool *changed = memory_alloc((c->asked->count + 1) * sizeof *changed);
-    const ff_place place = accuracy_place(c->scene.tree);
+    const ff_place place = accuracy_place(c->scene.file);
     c->scene.donor = c->best && c->best->run.good ? c->best->run.pipeline : NULL;
     for (size_t i = 0; i < c->open.count; i++)
         changed[c->open.knobs[i].stage - c->asked->stages] = true;
@@ -220,7 +222,7 @@ static double least_goal(const control *c)
         const ff_stage *stage = &c->asked->stages[i];
         for (size_t k = 0; stage->results && k < stage->loaded->model->output_count; k++)
             if (stage->results[k].requested)
-                least = fmin(least, accuracy_goal(c->scene.tree, stage, &stage->results[k]));
+                least = fmin(least, accuracy_goal(c->scene.file, stage, &stage->results[k]));
     }
     return least;
 }
@@ -228,13 +230,11 @@ static double least_goal(const control *c)
 /* Begins anew with the models that were chosen. */
 static void begin_with(control *c, const accuracy_choice *choice)
 {
-    const ff_place place = accuracy_place(c->scene.tree);
-    ff_report *unused = ff_report_new(); /* a try was built from the same */
-    c->tree = ff_tree_copy(c->scene.tree);
+    const ff_place place = accuracy_place(c->scene.file);
+    c->chosen = run_copy(c->scene.file);
     for (size_t i = 0; i < choice->use_count; i++)
-        ff_tree_set(c->tree, choice->uses[i], &place, &place, unused);
-    c->asked = ff_pipeline_build(c->tree, c->scene.engine, false, unused);
-    ff_report_free(unused);
+        run_set(c->chosen, choice->uses[i], &place, &place);
+    c->asked = run_build(c->chosen, false); /* as a try was, so that it says nothing new */
     accuracy_hand_states(c->scene.start, c->asked);
     c->scene.start = c->asked;
     drop_attempts(c);
@@ -395,25 +395,24 @@ static void adopt(control *c, accuracy_record *record)
     }
 }
 
-bool accuracy_control(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
-                      ff_pipeline *pipeline, const ff_observer *watch, ff_report *report)
+bool accuracy_control(accuracy_record *record, const ff_run *run, ff_engine *engine,
+                      const ff_observer *watch, ff_report *report)
 {
-    control c = {.scene = {.tree = tree, .engine = engine, .start = pipeline, .watch = watch},
+    ff_pipeline *pipeline = ff_run_pipeline(run);
+    control c = {.scene = {.file = run, .engine = engine, .start = pipeline, .watch = watch},
                  .asked = pipeline};
     accuracy_open_list(&c.open, pipeline);
     bool finished = search(&c);
     if (finished) {
         adopt(&c, record);
-        accuracy_twin_hand_on(record->twin, accuracy_place(tree), watch, report);
+        accuracy_twin_hand_on(record->twin, accuracy_place(run), watch, report);
     }
     bool good = finished && record->twin->good;
     drop_attempts(&c);
     if (c.choice)
         accuracy_choice_free(c.choice);
     free(c.choice);
-    if (c.tree)
-        ff_pipeline_free(c.asked);
-    ff_tree_free(c.tree);
+    ff_run_close(c.chosen);
     accuracy_open_free(&c.open);
     memory_arena_free(&c.arena);
     return good;

@@ -8,10 +8,10 @@
 /*
  * Runs and measures the file with the settings that it leaves open, coarse ones first, and refines
  * those that the errors come from, until all errors are below what the file asks for, or refining
- * helps no more. The record has the answer, which may be `pipeline` no more; what it says goes to
+ * helps no more. The record has the answer, which may be of another run; what that says goes to
  * the observer and the report. False after an error, and where the observer's progress stopped it.
  */
-bool accuracy_control(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
-                      ff_pipeline *pipeline, const ff_observer *watch, ff_report *report);
+bool accuracy_control(accuracy_record *record, const ff_run *run, ff_engine *engine,
+                      const ff_observer *watch, ff_report *report);
 
 #endif

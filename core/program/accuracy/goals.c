@@ -16,9 +16,9 @@ static const ff_param row = {.name = "accuracy",
                              .max = 100,
                              .choices = "measured"};
 
-static const ff_node *node_of(const ff_tree *tree)
+static const ff_node *node_of(const ff_run *run)
 {
-    const ff_node *node = ff_node_get(ff_tree_root(tree), row.name);
+    const ff_node *node = ff_node_get(ff_run_root(run), row.name);
     bool empty = node && node->kind == FF_SCALAR && !*node->text;
     return empty ? NULL : node;
 }
@@ -28,20 +28,20 @@ static bool is_measured(const ff_node *node)
     return node->kind == FF_SCALAR && !strcmp(node->text, row.choices);
 }
 
-bool accuracy_is_asked(const ff_tree *tree)
+bool accuracy_is_asked(const ff_run *run)
 {
-    return node_of(tree) != NULL;
+    return node_of(run) != NULL;
 }
 
-bool accuracy_has_goals(const ff_tree *tree)
+bool accuracy_has_goals(const ff_run *run)
 {
-    const ff_node *node = node_of(tree);
+    const ff_node *node = node_of(run);
     return node && !is_measured(node);
 }
 
-ff_place accuracy_place(const ff_tree *tree)
+ff_place accuracy_place(const ff_run *run)
 {
-    const ff_node *node = node_of(tree);
+    const ff_node *node = node_of(run);
     return node ? node->place : FF_NOWHERE;
 }
 
@@ -61,9 +61,9 @@ static double read_goal(const ff_node *node, const char *name, ff_report *report
     return goal;
 }
 
-double accuracy_goal(const ff_tree *tree, const ff_stage *stage, const ff_result *result)
+double accuracy_goal(const ff_run *run, const ff_stage *stage, const ff_result *result)
 {
-    const ff_node *node = node_of(tree);
+    const ff_node *node = node_of(run);
     if (node && node->kind == FF_MAP) {
         char *path = memory_print_text("%s.%s", stage->name, result->row->name);
         node = ff_node_get(node, path);
@@ -75,9 +75,9 @@ double accuracy_goal(const ff_tree *tree, const ff_stage *stage, const ff_result
     return goal;
 }
 
-char *accuracy_print_goals(const ff_tree *tree)
+char *accuracy_print_goals(const ff_run *run)
 {
-    const ff_node *node = node_of(tree);
+    const ff_node *node = node_of(run);
     char *text = memory_print_text("%s", node && node->kind == FF_SCALAR ? node->text : "");
     for (size_t i = 0; node && node->kind == FF_MAP && i < node->count; i++) {
         const ff_node *item = node->items[i];
@@ -150,9 +150,11 @@ static bool check_name(const ff_node *map, size_t item, char *const *names, size
     return false;
 }
 
-bool accuracy_check(const ff_tree *tree, const ff_pipeline *pipeline, ff_report *report)
+bool accuracy_check(ff_run *run)
 {
-    const ff_node *node = node_of(tree);
+    const ff_pipeline *pipeline = ff_run_pipeline(run);
+    const ff_node *node = node_of(run);
+    ff_report *report = ff_run_report(run);
     size_t errors = ff_report_errors(report), count;
     if (!node)
         return true;

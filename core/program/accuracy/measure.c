@@ -69,7 +69,7 @@ static void list_outputs(accuracy_twins *t)
             accuracy_error *e = &record->errors[record->count++];
             *e = (accuracy_error){.stage = stage,
                                   .result = &stage->results[i],
-                                  .goal = accuracy_goal(t->scene.tree, stage, &stage->results[i]),
+                                  .goal = accuracy_goal(t->scene.file, stage, &stage->results[i]),
                                   .zero = zero_of(answer, stage, &stage->results[i]),
                                   .relative = NAN,
                                   .largest = NAN,
@@ -298,15 +298,15 @@ static void conclude(const accuracy_twins *t)
         record->contradicted = record->contradicted || is_contradicted(&record->errors[i]);
 }
 
-bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
-                      const ff_pipeline *pipeline, const ff_observer *watch,
-                      const accuracy_known *known)
+bool accuracy_measure(accuracy_record *record, const ff_run *run, ff_engine *engine,
+                      const ff_observer *watch, const accuracy_known *known)
 {
+    const ff_pipeline *pipeline = ff_run_pipeline(run);
     accuracy_twins t = {
         .record = record,
         .answer = pipeline,
         .known = known,
-        .scene = {.tree = tree, .engine = engine, .start = pipeline, .watch = watch}};
+        .scene = {.file = run, .engine = engine, .start = pipeline, .watch = watch}};
     list_outputs(&t);
     accuracy_twins_find(&t);
     if (!t.stopped)

@@ -77,14 +77,13 @@ typedef struct accuracy_record {
 } accuracy_record;
 
 /*
- * Measures the errors of the scalars and series that the file asks for, from a pipeline that has
- * run. Known runs serve as twins where they have their settings; then the errors are told apart by
- * counts and tolerances, and not by settings, which takes more twins than the rest. False where the
- * observer stopped it.
+ * Measures the errors of the scalars and series that the file asks for, from a run of it that has
+ * ended well. Known runs serve as twins where they have their settings; then the errors are told
+ * apart by counts and tolerances, and not by settings, which takes more twins than the rest. False
+ * where the observer stopped it.
  */
-bool accuracy_measure(accuracy_record *record, const ff_tree *tree, ff_engine *engine,
-                      const ff_pipeline *pipeline, const ff_observer *watch,
-                      const accuracy_known *known);
+bool accuracy_measure(accuracy_record *record, const ff_run *run, ff_engine *engine,
+                      const ff_observer *watch, const accuracy_known *known);
 void accuracy_free(accuracy_record *record);
 
 /* NULL: the error of the output was not measured. */

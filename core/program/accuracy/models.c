@@ -3,6 +3,8 @@
 
 #include "goals.h"
 
+#include "../run/run.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -93,9 +95,9 @@ static bool refuse(const ff_node *use, const char *name, ff_report *report)
 }
 
 /* Puts the reference in the place of KIND/auto. */
-static void name_reference(ff_tree *tree, const char *name, const ff_node *stage, ff_engine *engine,
-                           ff_report *report)
+static void name_reference(ff_run *run, const char *name, const ff_node *stage, ff_engine *engine)
 {
+    ff_report *report = ff_run_report(run);
     const ff_node *use = ff_node_get(stage, "use"), *named = ff_node_get(stage, "reference");
     if (named && named->kind != FF_SCALAR) {
         ff_error(report, FF_FAULT_INPUT, named->place, NULL,
@@ -116,24 +118,26 @@ static void name_reference(ff_tree *tree, const char *name, const ff_node *stage
     }
     char *set = memory_print_text("pipeline.%s.use=%s", name, reference);
     const ff_place at = use->place;
-    ff_tree_set(tree, set, &at, &at, report);
+    run_set(run, set, &at, &at);
     free(set);
 }
 
-static void check_asked(const ff_tree *tree, const ff_pipeline *pipeline, ff_report *report)
+static void check_asked(ff_run *run)
 {
-    for (size_t i = 0; i < pipeline->count && !accuracy_has_goals(tree); i++) {
+    const ff_pipeline *pipeline = ff_run_pipeline(run);
+    for (size_t i = 0; i < pipeline->count && !accuracy_has_goals(run); i++) {
         const ff_stage *stage = &pipeline->stages[i];
         if (stage->needed && accuracy_open_use(stage))
-            ff_error(report, FF_FAULT_INPUT, stage->use_place, "accuracy: 2 %, or name the model",
+            ff_error(ff_run_report(run), FF_FAULT_INPUT, stage->use_place,
+                     "accuracy: 2 %, or name the model",
                      "%s: %s is chosen for an accuracy, and the file says none", stage->name,
                      accuracy_open_use(stage));
     }
 }
 
-static size_t stage_count(const ff_tree *tree)
+static size_t stage_count(const ff_run *run)
 {
-    const ff_node *root = ff_tree_root(tree), *stages = root ? ff_node_get(root, "pipeline") : NULL;
+    const ff_node *stages = ff_node_get(ff_run_root(run), "pipeline");
     return stages && stages->kind == FF_MAP ? stages->count : 0;
 }
 
@@ -147,37 +151,41 @@ static bool was_open(const ff_node *stage)
 }
 
 /* The key is no parameter of a model. */
-static void take_reference_away(ff_tree *tree, const char *name, ff_report *report)
+static void take_reference_away(ff_run *run, const char *name)
 {
     char *none = memory_print_text("pipeline.%s.reference=", name);
-    ff_tree_set(tree, none, NULL, NULL, report);
+    run_set(run, none, NULL, NULL);
     free(none);
 }
 
-bool accuracy_name_references(ff_tree *tree, ff_engine *engine, ff_report *report)
+bool accuracy_name_references(ff_run *run, ff_engine *engine)
 {
-    size_t errors = ff_report_errors(report), count = stage_count(tree);
+    const ff_report *report = ff_run_report(run);
+    size_t errors = ff_report_errors(report), count = stage_count(run);
     for (size_t i = 0; i < count; i++) {
-        const ff_node *stages = ff_node_get(ff_tree_root(tree), "pipeline"); /* of now */
+        const ff_node *stages = ff_node_get(ff_run_root(run), "pipeline"); /* of now */
         const ff_node *stage = stages->items[i];
         const char *name = stages->keys[i];
         const ff_node *reference = ff_node_get(stage, "reference");
         bool empty = !reference || (reference->kind == FF_SCALAR && !*reference->text);
         if (is_open_node(ff_node_get(stage, "use")))
-            name_reference(tree, name, stage, engine, report);
+            name_reference(run, name, stage, engine);
         if (!empty && was_open(stage))
-            take_reference_away(tree, name, report);
+            take_reference_away(run, name);
     }
     return ff_report_errors(report) == errors;
 }
 
-ff_pipeline *accuracy_build(ff_tree *tree, ff_engine *engine, bool everything, ff_report *report)
+ff_pipeline *accuracy_build_alone(ff_run *run, ff_engine *engine, bool everything)
 {
-    if (!accuracy_name_references(tree, engine, report))
-        return NULL;
-    ff_pipeline *pipeline = ff_pipeline_build(tree, engine, everything, report);
-    if (pipeline && ff_report_errors(report) == 0 && accuracy_check(tree, pipeline, report))
-        check_asked(tree, pipeline, report);
+    return accuracy_name_references(run, engine) ? run_build(run, everything) : NULL;
+}
+
+ff_pipeline *accuracy_build(ff_run *run, ff_engine *engine, bool everything)
+{
+    ff_pipeline *pipeline = accuracy_build_alone(run, engine, everything);
+    if (pipeline && !run_has_errors(run) && accuracy_check(run))
+        check_asked(run);
     return pipeline;
 }
 
@@ -200,9 +208,10 @@ const char **accuracy_candidates(const ff_stage *stage, ff_engine *engine, memor
     return list;
 }
 
-char *accuracy_print_key(const ff_tree *tree, const ff_pipeline *pipeline, ff_engine *engine)
+char *accuracy_print_key(const ff_run *run, ff_engine *engine)
 {
-    char *text = accuracy_print_goals(tree);
+    const ff_pipeline *pipeline = ff_run_pipeline(run);
+    char *text = accuracy_print_goals(run);
     memory_arena arena = {.blocks = NULL};
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];

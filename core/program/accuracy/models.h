@@ -12,11 +12,12 @@
  * held against: the one under `reference`, else the first under `with`, else the one that costs
  * most; of a law it is an error where the file names none. False after an error.
  */
-bool accuracy_name_references(ff_tree *tree, ff_engine *engine, ff_report *report);
+bool accuracy_name_references(ff_run *run, ff_engine *engine);
 
-/* The same, then builds the pipeline as ff_pipeline_build does, and checks what the file says of
-   accuracy. */
-ff_pipeline *accuracy_build(ff_tree *tree, ff_engine *engine, bool everything, ff_report *report);
+/* The same, then builds the pipeline as run_build does. NULL only when nothing can be shown. */
+ff_pipeline *accuracy_build_alone(ff_run *run, ff_engine *engine, bool everything);
+/* The same, then checks what the file says of accuracy. */
+ff_pipeline *accuracy_build(ff_run *run, ff_engine *engine, bool everything);
 
 /* What the stage of such a pipeline says, "ehl/auto"; NULL: it names its model. */
 const char *accuracy_open_use(const ff_stage *stage);
@@ -28,6 +29,6 @@ const char **accuracy_candidates(const ff_stage *stage, ff_engine *engine, memor
 
 /* What of the accuracy a case depends on, for its key: the goals, and the models that may be
    chosen, "2 %; film: ehl/film-formula 1a2b"; "" where none is asked for. To be freed. */
-char *accuracy_print_key(const ff_tree *tree, const ff_pipeline *pipeline, ff_engine *engine);
+char *accuracy_print_key(const ff_run *run, ff_engine *engine);
 
 #endif

@@ -3,6 +3,8 @@
 
 #include "axis.h"
 
+#include "../run/run.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -126,20 +128,20 @@ void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const c
     observation o = {scene, twin, affected};
     ff_observer watch = {
         .size = sizeof watch, .ctx = &o, .progress = progress, .log = take_note, .recall = recall};
-    *twin = (accuracy_twin){.report = ff_report_new(), .tree = ff_tree_copy(scene->tree)};
+    *twin = (accuracy_twin){.run = run_copy(scene->file)};
     if (scene->outputs)
-        ff_tree_set(twin->tree, scene->outputs, NULL, NULL, twin->report);
+        run_set(twin->run, scene->outputs, NULL, NULL);
     for (size_t i = 0; i < count; i++)
-        ff_tree_set(twin->tree, sets[i], place, place, twin->report);
-    twin->pipeline = ff_pipeline_build(twin->tree, scene->engine, false, twin->report);
-    if (twin->pipeline && ff_report_errors(twin->report) == 0) {
+        run_set(twin->run, sets[i], place, place);
+    twin->pipeline = run_build(twin->run, false);
+    twin->report = ff_run_report(twin->run);
+    if (twin->pipeline && !run_has_errors(twin->run)) {
         spread(twin->pipeline, affected); /* another model may have other wires */
         accuracy_want_beside(twin->pipeline);
         accuracy_hand_states(like, twin->pipeline);
         if (!scene->outputs)
             want_the_same(like, twin->pipeline);
-        twin->good = ff_pipeline_run(twin->pipeline, &watch, twin->report) &&
-                     ff_report_errors(twin->report) == 0;
+        twin->good = run_start(twin->run, &watch) && !run_has_errors(twin->run);
     }
     for (size_t i = 0; twin->pipeline && i < twin->pipeline->count; i++) {
         twin->stopped = twin->stopped || twin->pipeline->stages[i].status == FF_STOPPED;
@@ -203,10 +205,7 @@ void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_o
 
 void accuracy_twin_free(accuracy_twin *twin)
 {
-    ff_pipeline_free(twin->pipeline);
-    ff_tree_free(twin->tree);
-    if (twin->report)
-        ff_report_free(twin->report);
+    ff_run_close(twin->run);
     free(twin->notes);
     memory_arena_free(&twin->arena);
     *twin = (accuracy_twin){.pipeline = NULL};

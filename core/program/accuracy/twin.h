@@ -9,7 +9,7 @@
 
 /* What twins of an answer share. */
 typedef struct accuracy_scene {
-    const ff_tree *tree;
+    const ff_run *file; /* of which a twin is a copy */
     ff_engine *engine;
     /* What does not depend on the changes has its results from there; NULL: nothing has. */
     const ff_pipeline *donor;
@@ -26,9 +26,9 @@ typedef struct accuracy_note {
 } accuracy_note;
 
 typedef struct accuracy_twin {
-    ff_report *report;
-    ff_tree *tree;
-    ff_pipeline *pipeline; /* may be NULL after errors */
+    ff_run *run;
+    ff_report *report;     /* its messages */
+    ff_pipeline *pipeline; /* of it; may be NULL after errors */
     bool good;             /* it ran, and its results can be trusted */
     bool stopped;          /* the observer stopped it */
     double work;           /* s: CPU time of its stages */

@@ -8,6 +8,7 @@
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
+#include "../run/run.h"
 #include "../study/kinds/uncertainty/tolerances.h"
 #include "../terminal/terminal.h"
 
@@ -110,11 +111,11 @@ static bool is_pair(const ff_stage *stage)
 }
 
 /* Sets a value to one of its ends. */
-static void set_end(ff_tree *tree, const study_toleranced *t, bool high, ff_report *report)
+static void set_end(ff_run *run, const study_toleranced *t, bool high)
 {
     char *text = memory_print_text("%s=%.17g %s", t->path,
                                    high ? t->tolerance.high : t->tolerance.low, t->tolerance.unit);
-    ff_tree_set(tree, text, NULL, NULL, report);
+    run_set(run, text, NULL, NULL);
     free(text);
 }
 
@@ -151,41 +152,34 @@ static void keep_words(drawing *d, const ff_stage *stage)
 }
 
 /* The file with --set worked in, whatever a study does to it. */
-static ff_tree *load(const cli_options *options, ff_report *report)
+static ff_run *read_file(const cli_session *session, const cli_options *options)
 {
-    ff_tree *tree = ff_tree_load(options->operand, report);
-    for (size_t i = 0; i < options->set_count; i++)
-        ff_tree_set(tree, options->sets[i], NULL, NULL, report);
-    return tree;
+    ff_run *run = run_read(session->engine, options->operand);
+    run_set_all(run, options->sets, options->set_count);
+    return run;
 }
 
 /* Evaluates the gears with their tolerances at the ends that the bits of `corner` say; without them
    when it is negative. */
 static bool evaluate(drawing *d, long corner)
 {
-    ff_report *report = ff_report_new();
-    ff_tree *tree = load(d->options, report);
+    ff_run *run = read_file(d->session, d->options);
     for (size_t i = 0; corner >= 0 && i < d->toleranced_count; i++)
-        set_end(tree, d->toleranced[i], corner >> i & 1, report);
+        set_end(run, d->toleranced[i], corner >> i & 1);
     char *outputs = memory_print_text("outputs=[%s.*]", d->stage);
-    ff_tree_set(tree, outputs, NULL, NULL, report);
+    run_set(run, outputs, NULL, NULL);
     free(outputs);
-    ff_pipeline *pipeline = accuracy_name_references(tree, d->session->engine, report)
-                                ? ff_pipeline_build(tree, d->session->engine, false, report)
-                                : NULL;
+    const ff_pipeline *pipeline = accuracy_build_alone(run, d->session->engine, false);
     const char *rest;
     const ff_stage *stage = pipeline ? ff_stage_of(pipeline, d->stage, &rest) : NULL;
-    bool good = stage && ff_report_errors(report) == 0 && ff_pipeline_run(pipeline, NULL, report) &&
-                ff_report_errors(report) == 0;
+    bool good = stage && !run_has_errors(run) && run_start(run, NULL);
     if (good)
         take(d, stage, corner < 0);
     if (good && corner < 0)
         keep_words(d, stage);
     if (!good)
-        terminal_print_messages(report, stderr, terminal_colour(stderr));
-    ff_pipeline_free(pipeline);
-    ff_tree_free(tree);
-    ff_report_free(report);
+        terminal_print_messages(ff_run_report(run), stderr, terminal_colour(stderr));
+    ff_run_close(run);
     return good;
 }
 
@@ -292,9 +286,8 @@ int cli_print_drawing(cli_session *session, const cli_options *options)
     const ff_pipeline *pipeline = session->pipeline;
     json_t *answer = json_object();
     size_t count, tables = 0;
-    ff_report *unused = ff_report_new();
-    ff_tree *tree = load(options, unused);
-    const study_toleranced *list = study_find_toleranced(ff_tree_root(tree), &arena, &count);
+    ff_run *file = read_file(session, options);
+    const study_toleranced *list = study_find_toleranced(ff_run_root(file), &arena, &count);
     bool good = true;
     for (size_t i = 0; i < pipeline->count && good; i++) {
         const ff_stage *stage = &pipeline->stages[i];
@@ -313,8 +306,7 @@ int cli_print_drawing(cli_session *session, const cli_options *options)
     if (good && tables && options->json)
         results_json_print(json_incref(answer));
     json_decref(answer);
-    ff_tree_free(tree);
-    ff_report_free(unused);
+    ff_run_close(file);
     memory_arena_free(&arena);
     return good && tables ? EXIT_SUCCESS : FF_FAULT_INPUT;
 }

@@ -8,6 +8,7 @@
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
+#include "../run/run.h"
 #include "../study/cases/case.h"
 
 #include <stdlib.h>
@@ -237,15 +238,13 @@ static json_t *describe_compared(const cli_session *session, const cli_options *
     const char *name;
     size_t index;
     for (size_t i = 0; (name = study_compared(session->study, i, &index)); i++) {
-        ff_report *tried = ff_report_new();
-        ff_tree *tree = cli_session_try(session, options, index, false, tried);
-        char *fault = ff_report_errors(tried) ? study_first_error(tried) : NULL;
+        ff_run *tried = cli_session_try(session, options, index, false);
+        char *fault = run_has_errors(tried) ? study_first_error(ff_run_report(tried)) : NULL;
         json_array_append_new(list, json_pack("{s:s, s:o, s:o}", "model", name, "settings",
                                               settings_of(session->study, index), "fault",
                                               results_json_text(fault)));
         free(fault);
-        ff_tree_free(tree);
-        ff_report_free(tried);
+        ff_run_close(tried);
     }
     return list;
 }

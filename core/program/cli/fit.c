@@ -19,7 +19,7 @@ static bool work(fit *f, ff_engine *engine, const cli_options *options)
     const cli_words laws = cli_option_words(options, "law"), ats = cli_option_words(options, "at");
     bool good = fit_read(f, options->second);
     good = fit_add_laws(f, engine, laws.words, laws.count) && good;
-    good = fit_set(f, options->sets, options->set_count) && good;
+    good = fit_set(f, engine, options->sets, options->set_count) && good;
     return good && fit_set_conditions(f, ats.words, ats.count) && fit_run(f);
 }
 

@@ -7,6 +7,7 @@
 
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
+#include "../run/run.h"
 
 #include <flankfilm/laws.h>
 
@@ -110,17 +111,21 @@ static ff_place place_of(const ff_stage *stage, const char *param)
     return at >= 0 && stage->params[at].place.source ? stage->params[at].place : stage->place;
 }
 
-static double scalar(const ff_stage *oil, int what)
+static double scalar(ff_run *oils, const ff_stage *oil, int what)
 {
-    const ff_result *result = &oil->results[ff_model_find_output(oil->loaded->model, asked[what])];
-    return result->data ? *result->data : NAN;
+    char *path = memory_print_text("%s.%s", oil->name, asked[what]);
+    const ff_result *result;
+    bool known = ff_run_result(oils, path, &result) == FF_OK;
+    free(path);
+    return known ? *result->data : NAN;
 }
 
-static void hold(cli_session *session, const ff_stage *law, const ff_stage *oil, int what)
+static void hold(cli_session *session, const ff_stage *law, ff_run *oils, const ff_stage *oil,
+                 int what)
 {
     static const char *const units[] = {"", "Pa s", "kg/m3"};
     ff_instance *alone = make_law(session->engine, law);
-    double T = scalar(oil, TEMPERATURE), by_oil = scalar(oil, what);
+    double T = scalar(oils, oil, TEMPERATURE), by_oil = scalar(oils, oil, what);
     double by_law = alone ? ask_law(alone, what, T) : NAN;
     ff_instance_close(alone);
     if (!isfinite(by_law) || !isfinite(by_oil) || fabs(by_law - by_oil) <= 0.01 * fabs(by_oil))
@@ -145,16 +150,14 @@ static const ff_stage *stage_on(const ff_pipeline *pipeline, const ff_stage *sta
 }
 
 /* The laws of a stage that uses them beside an oil. One that takes the oil cannot contradict it. */
-static void hold_laws(cli_session *session, const ff_pipeline *oils, const ff_stage *user)
+static void hold_laws(cli_session *session, ff_run *oils, const ff_stage *user)
 {
     static const char *const wires[] = {NULL, "viscosity", "density"};
     const ff_stage *oil = stage_on(session->pipeline, user, "oil");
-    const char *rest;
-    const ff_stage *known = oil ? ff_stage_of(oils, oil->name, &rest) : NULL;
-    for (int what = ETA0; known && known->ran && what < ASKED; what++) {
+    for (int what = ETA0; oil && what < ASKED; what++) {
         const ff_stage *law = stage_on(session->pipeline, user, wires[what]);
         if (law && law->loaded && law->params && !stage_on(session->pipeline, law, "oil"))
-            hold(session, law, known, what);
+            hold(session, law, oils, oil, what);
     }
 }
 
@@ -189,20 +192,16 @@ void cli_check_temperatures(cli_session *session)
     }
 }
 
-void cli_check_oil(cli_session *session, ff_tree *tree, ff_report *report)
+void cli_check_oil(cli_session *session, ff_run *oils)
 {
     char *outputs = request(session->pipeline);
     if (!outputs)
         return;
-    ff_tree_set(tree, outputs, NULL, NULL, report);
-    ff_pipeline *oils = accuracy_name_references(tree, session->engine, report)
-                            ? ff_pipeline_build(tree, session->engine, false, report)
-                            : NULL;
-    if (oils && ff_report_errors(report) == 0)
-        ff_pipeline_run(oils, NULL, report);
-    for (size_t i = 0; ff_report_errors(report) == 0 && i < session->pipeline->count; i++)
+    run_set(oils, outputs, NULL, NULL);
+    if (accuracy_build_alone(oils, session->engine, false) && !run_has_errors(oils))
+        run_start(oils, NULL);
+    for (size_t i = 0; !run_has_errors(oils) && i < session->pipeline->count; i++)
         if (session->pipeline->stages[i].needed && session->pipeline->stages[i].loaded)
             hold_laws(session, oils, &session->pipeline->stages[i]);
-    ff_pipeline_free(oils);
     free(outputs);
 }

@@ -8,9 +8,8 @@
 /* Reports temperatures of an oil that stand in two places and differ, with both places. */
 void cli_check_temperatures(cli_session *session);
 
-/* Reports what a run of the pipeline would refuse of its oils. `tree`: the same file once more,
-   which is changed. What is wrong about the oils themselves goes to `report`, whose sources are the
-   tree's. */
-void cli_check_oil(cli_session *session, ff_tree *tree, ff_report *report);
+/* Reports what a run of the pipeline would refuse of its oils. `oils`: the same file once more, of
+   which these alone are run; what is wrong about them is in its messages. */
+void cli_check_oil(cli_session *session, ff_run *oils);
 
 #endif

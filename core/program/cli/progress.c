@@ -52,7 +52,10 @@ static void on_log(void *ctx, const ff_stage *stage, int level, const char *text
 
 void cli_progress_begin(cli_progress *progress, ff_report *report)
 {
-    *progress = (cli_progress){.watch = {.progress = on_progress, .log = on_log, .ctx = progress},
+    *progress = (cli_progress){.watch = {.size = sizeof progress->watch,
+                                         .ctx = progress,
+                                         .progress = on_progress,
+                                         .log = on_log},
                                .report = report,
                                .log = json_array(),
                                .terminal = isatty(STDERR_FILENO) != 0};

@@ -6,7 +6,7 @@
 #include "../results/json.h"
 
 typedef struct cli_progress {
-    ff_observer watch; /* to give to ff_pipeline_run */
+    ff_observer watch; /* to give to ff_run_start */
     ff_report *report;
     json_t *log; /* [{stage, level, text}]; the caller frees it */
     bool terminal;

@@ -3,6 +3,7 @@
 
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
+#include "../run/run.h"
 #include "../study/cases/yaml.h"
 
 #include <stdlib.h>
@@ -170,9 +171,9 @@ static void print_pipeline(const ff_pipeline *pipeline, const ff_node *map)
     }
 }
 
-static void print_tree(const ff_tree *tree, const ff_pipeline *pipeline, const char *file)
+static void print_run(const ff_run *run, const char *file)
 {
-    const ff_node *root = ff_tree_root(tree);
+    const ff_node *root = ff_run_root(run);
     char name[400];
     ff_clean_text(name, sizeof name, file);
     printf("# %s as flankfilm " CLI_VERSION
@@ -181,28 +182,24 @@ static void print_tree(const ff_tree *tree, const ff_pipeline *pipeline, const c
            name);
     for (size_t i = 0; i < root->count; i++)
         if (!strcmp(root->keys[i], "pipeline"))
-            print_pipeline(pipeline, root->items[i]);
+            print_pipeline(ff_run_pipeline(run), root->items[i]);
         else
             print_entry(NULL, root->keys[i], root->items[i], "", 0);
 }
 
-/* The tree of a session has the first case of its study laid over the file, so it is read anew. */
+/* The run of a session has the first case of its study laid over the file, so it is read anew. */
 void cli_print_resolved(const cli_session *session, const cli_options *options)
 {
     if (!session->study) {
-        print_tree(session->tree, session->pipeline, options->operand);
+        print_run(session->run, options->operand);
         return;
     }
-    ff_report *captured = ff_report_new(); /* stages may lack what the cases bring */
-    ff_tree *tree = ff_tree_load(options->operand, captured);
-    for (size_t i = 0; i < options->set_count; i++)
-        ff_tree_set(tree, options->sets[i], NULL, NULL, captured);
+    ff_run *run = run_read(session->engine, options->operand);
+    run_set_all(run, options->sets, options->set_count);
     if (session->study->request)
-        ff_tree_put(tree, "outputs", session->study->request);
-    ff_pipeline *pipeline = accuracy_build(tree, session->engine, false, captured);
-    if (ff_tree_root(tree)) /* the file can still be read */
-        print_tree(tree, pipeline, options->operand);
-    ff_pipeline_free(pipeline);
-    ff_tree_free(tree);
-    ff_report_free(captured);
+        run_put(run, "outputs", session->study->request);
+    accuracy_build(run, session->engine, false); /* stages may lack what the cases bring */
+    if (ff_run_root(run))                        /* the file can still be read */
+        print_run(run, options->operand);
+    ff_run_close(run);
 }

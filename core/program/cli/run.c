@@ -12,6 +12,7 @@
 #include "../memory/memory.h"
 #include "../results/earlier.h"
 #include "../results/write.h"
+#include "../run/run.h"
 
 #include <stdlib.h>
 
@@ -89,10 +90,13 @@ static int run_session(cli_session *session, const cli_options *options, const r
 {
     cli_progress progress;
     cli_progress_begin(&progress, session->report);
-    accuracy_record errors = {.count = 0};
-    if (!accuracy_run(&errors, session->tree, session->engine, session->pipeline, &progress.watch,
-                      session->report) &&
-        ff_report_errors(session->report) == 0)
+    accuracy_record errors = {.answer = session->pipeline};
+    bool good =
+        accuracy_is_asked(session->run)
+            ? accuracy_run(&errors, session->run, session->engine, &progress.watch, session->report)
+            : run_start(session->run, &progress.watch);
+    ff_report_append(session->report, ff_run_report(session->run));
+    if (!good && ff_report_errors(session->report) == 0)
         ff_error(session->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "the run was stopped");
     cli_progress_end(&progress);
     ff_engine_warn_displaced(session->engine, session->report); /* models that were tried */
@@ -151,9 +155,9 @@ int cli_run(const cli_options *options)
     if (options->directory || !options->json)
         to.directory = cli_run_directory(options);
     input.pipeline = session.pipeline;
-    char *accuracy = accuracy_print_goals(session.tree);
+    char *accuracy = accuracy_print_goals(session.run);
     input.accuracy = accuracy;
-    char *key = good ? accuracy_print_key(session.tree, session.pipeline, session.engine) : NULL;
+    char *key = good ? accuracy_print_key(session.run, session.engine) : NULL;
     input.key = good ? results_input_key(session.pipeline, key) : 0;
     if (good && !options->json)
         cli_print_swaps(&session, options);

@@ -8,6 +8,7 @@
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
+#include "../run/run.h"
 #include "../study/cases/case.h"
 #include "../study/store/hash.h"
 
@@ -23,12 +24,10 @@ static size_t first_case(const cli_session *session, const cli_options *options)
     const study_definition *study = session->study;
     size_t index = 0, most = study->count < CLI_MOST_ROWS ? study->count : CLI_MOST_ROWS;
     for (bool refused = study->spectrum; refused && index < most;) {
-        ff_report *captured = ff_report_new();
-        ff_tree *tree = cli_session_try(session, options, index, false, captured);
-        refused = study_case_is_refused(study, captured);
+        ff_run *run = cli_session_try(session, options, index, false);
+        refused = study_case_is_refused(study, ff_run_report(run));
         index += refused;
-        ff_tree_free(tree);
-        ff_report_free(captured);
+        ff_run_close(run);
     }
     return index < most ? index : 0;
 }
@@ -36,33 +35,35 @@ static size_t first_case(const cli_session *session, const cli_options *options)
 /* Applies the first case of a study to the tree: it shows what holds for all cases. */
 static bool open_study(cli_session *session, const cli_options *options)
 {
-    const ff_node *node = ff_node_get(ff_tree_root(session->tree), "study");
+    const ff_node *node = ff_node_get(ff_run_root(session->run), "study");
     if (!node || (node->kind == FF_SCALAR && !*node->text))
         return true;
     size_t errors = ff_report_errors(session->report);
-    session->study = study_open(ff_tree_root(session->tree), session->report);
+    session->study = study_open(ff_run_root(session->run), session->report);
     if (ff_report_errors(session->report) > errors)
         return false;
     setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
     if (session->study->streams)            /* no case is known yet */
         return true;
     if (!session->study->overlay_first) /* the first case may be the one that fails */
-        ff_tree_put(session->tree, "outputs", session->study->request);
+        run_put(session->run, "outputs", session->study->request);
     else
         study_overlay(session->study, session->first = first_case(session, options), options->sets,
-                      options->set_count, session->tree, session->report);
+                      options->set_count, session->run);
     return true;
 }
 
-/* Adds the messages of that severity of another report, whose sources may be freed before. */
-static void copy_messages(cli_session *session, const ff_report *captured, ff_severity severity)
+/* Adds the messages of that severity of a run. */
+static void copy_messages(cli_session *session, ff_run *run, ff_severity severity)
 {
-    for (size_t i = 0; i < ff_report_count(captured); i++) {
-        const ff_message *m = ff_report_at(captured, i);
+    const ff_report *said = ff_run_report(run);
+    for (size_t i = 0; i < ff_report_count(said); i++) {
+        const ff_message *m = ff_report_at(said, i);
         ff_source source = m->place.source ? *m->place.source : (ff_source){0};
         ff_place place = m->place;
-        source.temporary = true; /* it is freed with the tree */
-        place.source = place.source ? &source : NULL;
+        source.temporary = true; /* it is freed with the run */
+        if (place.source && run != session->run)
+            place.source = &source;
         if (m->severity != severity)
             continue;
         if (m->severity == FF_ERROR)
@@ -79,42 +80,32 @@ static int32_t leave(void *ctx, const ff_stage *stage, double fraction)
 }
 
 /* Runs the stages that say nothing of their progress, since they are quick, and all others up to
-   their first word on it, and reports what is wrong with their input. */
-static void run_quick(ff_pipeline *pipeline, ff_report *report)
+   their first word on it, to find what is wrong with their input. */
+static void run_quick(ff_run *run)
 {
     const ff_observer watch = {.size = sizeof watch, .progress = leave};
-    ff_report *own = ff_report_new();
-    ff_pipeline_run(pipeline, &watch, own);
-    for (size_t i = 0; i < ff_report_count(own); i++) {
-        const ff_message *m = ff_report_at(own, i);
-        if (m->severity == FF_ERROR)
-            ff_error(report, m->fault, m->place, m->hint, "%s", m->text);
-    }
-    ff_report_free(own);
+    run_start(run, &watch);
 }
 
-ff_tree *cli_session_try(const cli_session *session, const cli_options *options, size_t index,
-                         bool runs, ff_report *report)
+ff_run *cli_session_try(const cli_session *session, const cli_options *options, size_t index,
+                        bool runs)
 {
-    ff_tree *tree = ff_tree_load(options->operand, report);
-    study_overlay(session->study, index, options->sets, options->set_count, tree, report);
-    ff_pipeline *pipeline = accuracy_build(tree, session->engine, true, report);
-    if (runs && pipeline && ff_report_errors(report) == 0)
-        run_quick(pipeline, report);
-    ff_pipeline_free(pipeline);
-    return tree;
+    ff_run *run = run_read(session->engine, options->operand);
+    study_overlay(session->study, index, options->sets, options->set_count, run);
+    if (accuracy_build(run, session->engine, true) && runs && !run_has_errors(run))
+        run_quick(run);
+    return run;
 }
 
 /* Adds the messages of that severity of a case to the report. */
 static void try_case(cli_session *session, const cli_options *options, size_t index,
                      ff_severity severity)
 {
-    ff_report *captured = ff_report_new();
-    ff_tree *tree = cli_session_try(session, options, index, severity == FF_ERROR, captured);
-    if (!study_case_is_refused(session->study, captured)) /* the sums tell how much time it is */
-        copy_messages(session, captured, severity);
-    ff_tree_free(tree);
-    ff_report_free(captured);
+    ff_run *run = cli_session_try(session, options, index, severity == FF_ERROR);
+    if (!study_case_is_refused(session->study, ff_run_report(run))) /* the sums tell how much time
+                                                                       it is */
+        copy_messages(session, run, severity);
+    ff_run_close(run);
 }
 
 /* By how much the number of a case grows with a point of an axis. */
@@ -171,14 +162,12 @@ static void try_spread(cli_session *session, const cli_options *options)
     session->tried = study->count < CLI_MOST_SPREAD ? study->count : CLI_MOST_SPREAD;
     for (size_t i = 0; i < session->tried; i++) {
         size_t index = session->tried > 1 ? i * (study->count - 1) / (session->tried - 1) : 0;
-        ff_report *captured = ff_report_new();
-        ff_tree *tree = cli_session_try(session, options, index, true, captured);
-        if (ff_report_errors(captured) && bad++ == 0) {
+        ff_run *run = cli_session_try(session, options, index, true);
+        if (run_has_errors(run) && bad++ == 0) {
             first = index;
-            why = study_first_error(captured);
+            why = study_first_error(ff_run_report(run));
         }
-        ff_tree_free(tree);
-        ff_report_free(captured);
+        ff_run_close(run);
     }
     if (bad)
         ff_warn(session->report, FF_NOWHERE,
@@ -207,21 +196,15 @@ static void try_cases(cli_session *session, const cli_options *options)
 /* Of a study its first case. */
 static void check_oil(cli_session *session, const cli_options *options)
 {
-    ff_report *captured = ff_report_new();
-    ff_tree *tree = ff_tree_load(options->operand, captured);
-    if (session->study && session->study->overlay_first)
-        study_overlay(session->study, session->first, options->sets, options->set_count, tree,
-                      captured);
-    for (size_t i = 0; !session->study && i < options->set_count; i++)
-        ff_tree_set(tree, options->sets[i], NULL, NULL, captured);
-    if (!session->study || session->study->overlay_first) {
-        ff_report *found = ff_report_new();
-        cli_check_oil(session, tree, found);
-        copy_messages(session, found, FF_ERROR);
-        ff_report_free(found);
-    }
-    ff_tree_free(tree);
-    ff_report_free(captured);
+    ff_run *run = run_read(session->engine, options->operand);
+    if (!session->study)
+        run_set_all(run, options->sets, options->set_count);
+    else if (session->study->overlay_first)
+        study_overlay(session->study, session->first, options->sets, options->set_count, run);
+    if (!session->study || session->study->overlay_first)
+        cli_check_oil(session, run);
+    copy_messages(session, run, FF_ERROR);
+    ff_run_close(run);
 }
 
 static void warn_of_follow(const cli_session *session)
@@ -252,14 +235,13 @@ static void warn_of_displaced(cli_session *session)
 static bool open_file(cli_session *session, const cli_options *options, bool everything)
 {
     session->engine = cli_engine_new(options);
-    session->tree = ff_tree_load(options->operand, session->report);
-    if (!ff_tree_root(session->tree))
+    session->run = run_read(session->engine, options->operand);
+    run_set_all(session->run, options->sets, options->set_count);
+    ff_report_append(session->report, ff_run_report(session->run));
+    if (!ff_run_root(session->run) || !open_study(session, options))
         return false;
-    for (size_t i = 0; i < options->set_count; i++)
-        ff_tree_set(session->tree, options->sets[i], NULL, NULL, session->report);
-    if (!open_study(session, options))
-        return false;
-    session->pipeline = accuracy_build(session->tree, session->engine, everything, session->report);
+    session->pipeline = accuracy_build(session->run, session->engine, everything);
+    ff_report_append(session->report, ff_run_report(session->run));
     warn_of_follow(session);
     if (session->pipeline && ff_report_errors(session->report) == 0)
         cli_check_temperatures(session);
@@ -270,8 +252,10 @@ static bool open_file(cli_session *session, const cli_options *options, bool eve
     if (everything && session->pipeline && ff_report_errors(session->report) == 0)
         check_oil(session, options);
     if (everything && session->pipeline && ff_report_errors(session->report) == 0 &&
-        !(session->study && session->study->streams))
-        run_quick(session->pipeline, session->report);
+        !(session->study && session->study->streams)) {
+        run_quick(session->run);
+        copy_messages(session, session->run, FF_ERROR);
+    }
     if (everything && session->study && ff_report_errors(session->report) == 0)
         try_cases(session, options);
     return session->pipeline && ff_report_errors(session->report) == 0;
@@ -288,10 +272,9 @@ bool cli_session_open(cli_session *session, const cli_options *options, bool eve
 void cli_session_close(cli_session *session)
 {
     study_free(session->study);
-    ff_pipeline_free(session->pipeline);
-    ff_engine_close(session->engine);
-    ff_tree_free(session->tree);
     ff_report_free(session->report);
+    ff_run_close(session->run);
+    ff_engine_close(session->engine);
 }
 
 ff_engine *cli_engine_new(const cli_options *options)

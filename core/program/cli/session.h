@@ -14,9 +14,10 @@ enum { CLI_MOST_CASES = 256, CLI_MOST_SPREAD = 32 };
 
 typedef struct cli_session {
     ff_report *report;
-    ff_tree *tree;
     ff_engine *engine;
-    ff_pipeline *pipeline;   /* may be NULL after errors; of a study: a case that it can run */
+    ff_run *run;
+    ff_pipeline *pipeline;   /* of the run; may be NULL after errors; of a study: a case that it can
+                                run */
     study_definition *study; /* NULL: a single case */
     size_t first;            /* that case */
     size_t tried;            /* cases that a check has looked at as a whole; 0: not whole ones */
@@ -28,10 +29,10 @@ ff_engine *cli_engine_new(const cli_options *options);
 /* Loads the file, applies --set and builds the pipeline. False with errors in the report. */
 bool cli_session_open(cli_session *session, const cli_options *options, bool everything);
 void cli_session_close(cli_session *session);
-/* Builds a case of the study, which leaves its errors in the report, and `runs` the stages of it
-   that are quick. Their places are in the tree that is returned and is the caller's. */
-ff_tree *cli_session_try(const cli_session *session, const cli_options *options, size_t index,
-                         bool runs, ff_report *report);
+/* Builds a case of the study, and `runs` the stages of it that are quick. What is wrong with it is
+   in the messages of the run that is returned and is the caller's. */
+ff_run *cli_session_try(const cli_session *session, const cli_options *options, size_t index,
+                        bool runs);
 
 /* Where the results of a run are: -o, or results/<name of the file without its ending>, with what
    --set says behind it, so that a variant stands beside what it varies. Freed by the caller. */

@@ -5,6 +5,7 @@
 
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
+#include "../run/run.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -79,8 +80,7 @@ static void print_swap(const ff_pipeline *pipeline, const ff_stage *stage, const
 
 void cli_print_swaps(const cli_session *session, const cli_options *options)
 {
-    ff_report *captured = NULL;
-    ff_tree *tree = NULL;
+    ff_run *written = NULL; /* the file alone */
     for (size_t i = 0; i < options->set_count; i++) {
         const char *set = options->sets[i], *equals = strchr(set, '='), *rest = "";
         size_t length = equals ? (size_t)(equals - set) : 0;
@@ -88,16 +88,13 @@ void cli_print_swaps(const cli_session *session, const cli_options *options)
         const ff_stage *stage = ff_stage_of(session->pipeline, path, &rest);
         if (stage && stage->needed && stage->loaded && stage->params && !accuracy_open_use(stage) &&
             !strcmp(rest, "use")) {
-            captured = captured ? captured : ff_report_new();
-            tree = tree ? tree : ff_tree_load(options->operand, captured);
-            const ff_node *stages = ff_node_get(ff_tree_root(tree), "pipeline");
+            written = written ? written : run_read(session->engine, options->operand);
+            const ff_node *stages = ff_node_get(ff_run_root(written), "pipeline");
             const ff_node *use = ff_node_get(ff_node_get(stages, stage->name), "use");
             if (use && use->kind == FF_SCALAR && strcmp(use->text, stage->use) != 0)
                 print_swap(session->pipeline, stage, use->text);
         }
         free(path);
     }
-    ff_tree_free(tree);
-    if (captured)
-        ff_report_free(captured);
+    ff_run_close(written);
 }

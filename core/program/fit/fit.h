@@ -72,7 +72,7 @@ typedef struct fit {
     const ff_param *rows;  /* of its columns */
     ff_unit units[FIT_COLUMNS];
     double at[FIT_COLUMNS]; /* where the user asks; NaN: nowhere */
-    ff_tree *settings;      /* what the user says of parameters */
+    ff_run *settings;       /* what the user says of parameters */
     bool named;             /* the user has named the laws: each of them must be fitted */
     fit_law *laws;
     size_t law_count;
@@ -84,7 +84,7 @@ bool fit_read(fit *f, const char *path);
 /* names: "roelands" or "viscosity/roelands"; none: the laws that come with the program. */
 bool fit_add_laws(fit *f, ff_engine *engine, const char *const *names, size_t count);
 /* "name=value" or "viscosity/barus.name=value"; a value of "free" is to be found. */
-bool fit_set(fit *f, const char *const *sets, size_t count);
+bool fit_set(fit *f, ff_engine *engine, const char *const *sets, size_t count);
 /* Quantities inside the data, such as "80 degC". */
 bool fit_set_conditions(fit *f, const char *const *quantities, size_t count);
 bool fit_run(fit *f);

@@ -159,13 +159,13 @@ static bool set_all(fit *f, const ff_node *map)
     return good;
 }
 
-bool fit_set(fit *f, const char *const *sets, size_t count)
+bool fit_set(fit *f, ff_engine *engine, const char *const *sets, size_t count)
 {
-    bool good = true;
-    f->settings = ff_tree_parse("--set", ".", "{}", f->report);
+    bool good = ff_run_parse(engine, "--set", ".", "{}", &f->settings) == FF_OK;
     for (size_t i = 0; i < count && good; i++)
-        good = ff_tree_set(f->settings, sets[i], NULL, NULL, f->report);
-    const ff_node *root = good ? ff_tree_root(f->settings) : NULL;
+        good = ff_run_set(memory_require(f->settings), sets[i]) == FF_OK;
+    ff_report_append(f->report, memory_require(ff_run_report(f->settings)));
+    const ff_node *root = good ? ff_run_root(f->settings) : NULL;
     for (size_t i = 0; root && i < root->count && good; i++)
         good = strcmp(root->keys[i], "pipeline") != 0
                    ? set_param(f, root->keys[i], root->items[i], NULL)
@@ -253,5 +253,5 @@ void fit_free(fit *f)
     free(f->data.root);
     free(f->data.row);
     ff_columns_free(f->table);
-    ff_tree_free(f->settings);
+    ff_run_close(f->settings);
 }

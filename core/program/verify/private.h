@@ -84,7 +84,8 @@ typedef struct verify_context {
     const void **laws;     /* of each service input a plain law; NULL: none */
     verify_random random;
     FILE *table;                /* for a model that reads one, in memory; NULL: none yet */
-    struct verify_setup *given; /* from the user's pipeline; NULL: there is none */
+    ff_run *user;               /* the user's pipeline, from which: */
+    struct verify_setup *given; /* NULL: there is none */
     verify_outcome *outcome;
     ff_report *messages; /* about the parameter that was read last */
     bool watching;       /* from verify_watch on the model may change nothing of the process */
@@ -144,7 +145,7 @@ bool verify_setup_is_complete(const verify_setup *setup); /* every required inpu
 /* user-run.c: takes the parameters of the stage of the user's pipeline that uses the model and,
    with `run`, what the other stages feed it. False with errors in the report. */
 bool verify_take_user_run(verify_context *context, const verify_request *request, ff_engine *engine,
-                          bool run, ff_report *report);
+                          bool runs);
 
 /* instance.c: one instance of the model, which the engine makes and runs under watch. */
 typedef struct verify_instance {

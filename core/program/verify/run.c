@@ -100,16 +100,15 @@ static bool load(verify_context *context, ff_engine *engine, const char *id)
 static bool take_user_run(verify_context *context, const verify_request *request, ff_engine *engine,
                           bool inputs)
 {
-    ff_report *report = ff_report_new();
     verify_step(context, "running %s", request->pipeline);
-    bool good = verify_take_user_run(context, request, engine, inputs, report);
+    bool good = verify_take_user_run(context, request, engine, inputs);
+    const ff_report *report = ff_run_report(context->user);
     char *why = memory_print_text("%s: %s", request->pipeline,
                                   ff_report_count(report) ? ff_report_at(report, 0)->text
                                                           : "it cannot be used");
     if (!good)
         verify_outcome_set(context->outcome, VERIFY_FAILED, why);
     free(why);
-    ff_report_free(report);
     return good;
 }
 

@@ -3,6 +3,7 @@
 
 #include "../accuracy/models.h"
 #include "../memory/memory.h"
+#include "../run/run.h"
 
 #include <flankfilm/laws.h>
 
@@ -10,15 +11,16 @@
 #include <string.h>
 
 /* The name of the stage that uses the model; NULL after an error. */
-static const char *find_stage(const ff_node *root, const char *id, ff_report *report)
+static const char *find_stage(ff_run *user, const char *id)
 {
-    const ff_node *stages = ff_node_get(root, "pipeline");
+    const ff_node *stages = ff_node_get(ff_run_root(user), "pipeline");
     for (size_t i = 0; stages && stages->kind == FF_MAP && i < stages->count; i++) {
         const ff_node *use = ff_node_get(stages->items[i], "use");
         if (use && use->kind == FF_SCALAR && !strcmp(use->text, id))
             return stages->keys[i];
     }
-    ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "no stage of the file uses %s", id);
+    ff_error(ff_run_report(user), FF_FAULT_INPUT, FF_NOWHERE, NULL, "no stage of the file uses %s",
+             id);
     return NULL;
 }
 
@@ -72,25 +74,21 @@ static bool take_stage(verify_context *context, const ff_pipeline *pipeline, con
 }
 
 bool verify_take_user_run(verify_context *context, const verify_request *request, ff_engine *engine,
-                          bool run, ff_report *report)
+                          bool runs)
 {
     const ff_model *model = context->model;
-    ff_tree *tree = ff_tree_load(request->pipeline, report);
-    bool good = ff_tree_root(tree) && ff_report_errors(report) == 0;
-    for (size_t i = 0; i < request->set_count && good; i++)
-        good = ff_tree_set(tree, request->sets[i], NULL, NULL, report);
-    const char *name = good ? find_stage(ff_tree_root(tree), model->id, report) : NULL;
+    ff_run *user = context->user = run_read(engine, request->pipeline);
+    if (!run_has_errors(user))
+        run_set_all(user, request->sets, request->set_count);
+    const char *name = run_has_errors(user) ? NULL : find_stage(user, model->id);
     if (!name)
         return false;
     bool data = verify_data_outputs(model); /* a law has none, and no output asks for it */
     char *outputs = memory_print_text("outputs=[%s.*]", name);
     if (data)
-        ff_tree_set(tree, outputs, NULL, NULL, report);
+        run_set(user, outputs, NULL, NULL);
     free(outputs);
-    ff_pipeline *pipeline = accuracy_name_references(tree, engine, report)
-                                ? ff_pipeline_build(tree, engine, !data, report)
-                                : NULL;
-    return pipeline && ff_report_errors(report) == 0 &&
-           (!run || !data || ff_pipeline_run(pipeline, NULL, report)) &&
+    const ff_pipeline *pipeline = accuracy_build_alone(user, engine, !data);
+    return pipeline && !run_has_errors(user) && (!runs || !data || run_start(user, NULL)) &&
            take_stage(context, pipeline, name);
 }

@@ -119,11 +119,12 @@ static void write_recipe(void *ctx)
     const attempt *plan = ctx;
     const ff_engine_options options = {sizeof options, &plan->plugins, 1};
     ff_engine *engine;
-    ff_report *report = ff_report_new();
+    ff_run *run;
     ff_engine_new(&options, &engine);
-    ff_pipeline *p = ff_pipeline_build(ff_tree_load(plan->file, report), engine, false, report);
+    ff_run_open(engine, plan->file, NULL, &run);
+    const ff_pipeline *p = ff_run_pipeline(run);
     size_t rank[MOST_STAGES] = {0};
-    if (!p || p->count > MOST_STAGES || !ff_pipeline_run(p, NULL, report))
+    if (!p || p->count > MOST_STAGES || ff_run_start(run, NULL) != FF_OK)
         return;
     for (size_t i = 0; i < p->count; i++) {
         const ff_stage *stage = &p->stages[p->order[i]];

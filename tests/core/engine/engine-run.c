@@ -147,6 +147,77 @@ static void refused(void)
     check_true("an open model is refused", status == FF_INVALID && !run && says("toy/auto"));
 }
 
+static ff_run *parse(const char *text)
+{
+    ff_run *run;
+    char whole[400];
+    snprintf(whole, sizeof whole, "format: 2\n%s", text);
+    ff_run_parse(engine, "text.yaml", ".", whole, &run);
+    return run;
+}
+
+/* A file, its settings and its start one by one; a copy goes on from what was set. */
+static void in_steps(void)
+{
+    ff_run *run = parse(two_stages), *copy;
+    check_true("a setting", ff_run_set(run, "one.level=4 mm") == FF_OK);
+    check_true("a later one", ff_run_set(run, "one.level=6 mm") == FF_OK);
+    check_true("ready", ff_run_ready(run) == FF_OK && ff_run_ready(run) == FF_OK);
+    check_true("can be set no more", ff_run_set(run, "one.level=2 mm") == FF_INVALID);
+    check_true("a copy can",
+               ff_run_copy(run, &copy) == FF_OK && ff_run_set(copy, "one.level=2 mm") == FF_OK);
+    check_true("both start", ff_run_start(copy, NULL) == FF_OK && ff_run_start(run, NULL) == FF_OK);
+    check_near("the copy by itself", scalar(copy, "sum.sum"), 0.01, 1e-15);
+    check_near("the first by itself", scalar(run, "sum.sum"), 0.03, 1e-15);
+    ff_run_close(copy);
+    ff_run_close(run);
+}
+
+static void wrong_steps(void)
+{
+    ff_run *run = parse("pipeline: {one: {use: toy/source, level: 2 K}}\n"), *none;
+    const ff_result *result;
+    check_true("a broken setting", ff_run_set(run, "one.count") == FF_INVALID && says("\"=\""));
+    check_true("all that is wrong at once",
+               ff_run_ready(run) == FF_INVALID && says("\"=\"") && says("level"));
+    check_true("not to be started", ff_run_start(run, NULL) == FF_INVALID);
+    ff_run_close(run);
+    check_true("no such file", ff_run_read(engine, "/nonexistent", &run) == FF_INVALID && run &&
+                                   says("/nonexistent"));
+    check_true("nothing to set, copy, make ready or start",
+               ff_run_set(run, "one.count=1") == FF_INVALID &&
+                   ff_run_copy(run, &none) == FF_INVALID && !none &&
+                   ff_run_ready(run) == FF_INVALID && ff_run_start(run, NULL) == FF_INVALID);
+    check_true("nor to be asked for",
+               ff_run_result(run, "one.level", &result) == FF_INVALID && says("not been started"));
+    ff_run_close(run);
+    run = parse("study: {sweep: {one.level: [1 mm, 2 mm]}}\npipeline: {one: {use: toy/source, "
+                "level: 2 mm}}\n");
+    check_true("a study in steps is refused",
+               ff_run_ready(run) == FF_INVALID && says("study: the library"));
+    ff_run_close(run);
+}
+
+/* What the program needs beyond that. */
+static void by_the_program(void)
+{
+    static const char *const value[] = {"one.level=4 mm"}, *const model[] = {"one.use=toy/one"};
+    ff_run *run = parse(two_stages);
+    check_true("built", ff_run_build(run, false) == FF_OK && ff_run_start(run, NULL) == FF_OK);
+    check_true("another value",
+               ff_run_change(run, value, 1, true) == FF_OK && ff_run_start(run, NULL) == FF_OK);
+    check_near("counts", scalar(run, "sum.sum"), 0.02, 1e-15);
+    check_true("another model is too much", ff_run_change(run, model, 1, true) == FF_UNSUPPORTED &&
+                                                ff_run_start(run, NULL) == FF_INVALID);
+    ff_run_close(run);
+    run = parse(two_stages);
+    ff_error(ff_run_report(run), FF_FAULT_INPUT, FF_NOWHERE, NULL, "no case");
+    check_true("an error of the caller's", ff_run_build(run, false) == FF_INVALID &&
+                                               says("no case") && ff_run_pipeline(run) &&
+                                               ff_run_start(run, NULL) == FF_INVALID);
+    ff_run_close(run);
+}
+
 static int32_t stop(void *ctx, const ff_stage *of, double fraction)
 {
     (void)ctx;
@@ -214,7 +285,14 @@ static void wrong_arguments(void)
     int32_t verdict;
     check_true("no engine", ff_run_open(NULL, file, NULL, &none) == FF_INVALID && !none);
     check_true("no file", ff_run_open(engine, NULL, NULL, &none) == FF_INVALID && !none);
-    check_true("no place for it", ff_run_open(engine, file, NULL, NULL) == FF_INVALID);
+    check_true("no place for it", ff_run_open(engine, file, NULL, NULL) == FF_INVALID &&
+                                      ff_run_read(engine, file, NULL) == FF_INVALID &&
+                                      ff_run_copy(run, NULL) == FF_INVALID);
+    check_true("no text", ff_run_parse(engine, "a", ".", NULL, &none) == FF_INVALID && !none &&
+                              ff_run_read(engine, NULL, &none) == FF_INVALID && !none);
+    check_true("nothing to set", ff_run_set(run, NULL) == FF_INVALID &&
+                                     ff_run_set(NULL, "a=b") == FF_INVALID &&
+                                     ff_run_ready(NULL) == FF_INVALID);
     check_true("no path", ff_run_result(run, NULL, &result) == FF_INVALID && !result &&
                               ff_run_result(run, "sum.sum", NULL) == FF_INVALID);
     check_true("nothing to answer to", ff_run_output(run, 0, &stage, NULL) == FF_INVALID &&
@@ -240,6 +318,9 @@ int main(void)
     errors();
     failed();
     refused();
+    in_steps();
+    wrong_steps();
+    by_the_program();
     observed();
     moved();
     two_engines();

@@ -104,8 +104,8 @@ static const struct {
 static void format(const char *text, unsigned line, unsigned column, const char *phrase)
 {
     attempt a = {.report = ff_report_new(), .engine = try_engine(NULL, 0)};
-    a.tree = ff_tree_parse("case.yaml", ".", text, a.report);
-    a.pipeline = ff_pipeline_build(a.tree, a.engine, true, a.report);
+    a.tree = fe_tree_parse("case.yaml", ".", text, a.report);
+    a.pipeline = fe_pipeline_build(a.tree, a.engine, true, a.report);
     check_error(phrase, &a, line, column, phrase);
     try_close(&a);
 }

@@ -261,11 +261,11 @@ static void files(void)
         exit(2);
     const char *const places[] = {try_plugins()};
     attempt a = {.report = ff_report_new(), .engine = try_engine(places, 1)};
-    a.tree = ff_tree_parse("case.yaml", directory,
+    a.tree = fe_tree_parse("case.yaml", directory,
                            "format: 2\npipeline:\n"
                            "  a: {use: toy/source, level: 1 mm, table: data.csv}\n",
                            a.report);
-    a.pipeline = ff_pipeline_build(a.tree, a.engine, false, a.report);
+    a.pipeline = fe_pipeline_build(a.tree, a.engine, false, a.report);
     check_good("a file beside the text that names it", &a);
     check_true("its path is resolved", !strcmp(try_param(&a, "a", "table")->value.text, path));
     try_close(&a);

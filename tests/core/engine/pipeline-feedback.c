@@ -71,7 +71,7 @@ static void converging(void)
                                                     try_scalar(&a, "b", "evaluations") == 20);
     check_true("the quality of the last round alone",
                try_stage(&a, "a")->quality_count == 3 && try_stage(&a, "b")->quality_count == 1);
-    check_true("again gives the same", ff_pipeline_run(a.pipeline, NULL, a.report) &&
+    check_true("again gives the same", fe_pipeline_run(a.pipeline, NULL, a.report) &&
                                            rounds(&a) == 20 &&
                                            try_scalar(&a, "a", "evaluations") == 40);
     try_close(&a);
@@ -209,7 +209,7 @@ static void refused_at_first(void)
         attempt a = run_loop(0.5, requests[i]);
         check_good(i ? "requested as one of all" : "requested by name", &a);
         check_near("given from the second round on", try_scalar(&a, "a", "returned"), 2, 4e-6);
-        check_true("and in a second run", ff_pipeline_run(a.pipeline, NULL, a.report) &&
+        check_true("and in a second run", fe_pipeline_run(a.pipeline, NULL, a.report) &&
                                               try_result(&a, "a", "returned")->data);
         try_close(&a);
     }
@@ -248,12 +248,12 @@ static void what_is_told(void)
                           "  a: {use: loop/linear, base: 1 m, factor: 0.5, back: b, warns: true}\n"
                           "  b: {use: loop/linear, base: 0 m, before: a}\n",
                           false);
-    check_true("runs", ff_pipeline_run(a.pipeline, &watch, a.report));
+    check_true("runs", fe_pipeline_run(a.pipeline, &watch, a.report));
     check_true("the log of the last round alone",
                lines == 2 && !strcmp(last_line, "evaluation 20"));
     check_true("its warnings alone",
                ff_report_count(a.report) == 1 && try_says(&a, FF_WARNING, 3, 3, "level 2"));
-    check_true("stopped", !ff_pipeline_run(a.pipeline, &stopping, a.report) &&
+    check_true("stopped", !fe_pipeline_run(a.pipeline, &stopping, a.report) &&
                               try_stage(&a, "a")->status == FF_STOPPED && !try_stage(&a, "a")->ran);
     try_close(&a);
 }
@@ -268,7 +268,7 @@ static void chained(void)
                           false);
     a.pipeline->chained = true;
     ff_stage_set_state(&a.pipeline->stages[0], "xx", 2);
-    check_true("runs", ff_pipeline_run(a.pipeline, NULL, a.report));
+    check_true("runs", fe_pipeline_run(a.pipeline, NULL, a.report));
     check_true("from that state in each round", try_scalar(&a, "a", "evaluations") == 201 &&
                                                     try_scalar(&a, "b", "evaluations") == 20);
     check_true("and leaves one",

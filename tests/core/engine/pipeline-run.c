@@ -41,7 +41,7 @@ static void results(void)
         taken += a.pipeline->stages[i].seconds;
     check_true("time is taken, by each stage its own",
                try_stage(&a, "one")->seconds > 0 && taken < now() - begin);
-    check_true("again gives the same", ff_pipeline_run(a.pipeline, NULL, a.report) &&
+    check_true("again gives the same", fe_pipeline_run(a.pipeline, NULL, a.report) &&
                                            try_scalar(&a, "one", "evaluations") == 2 &&
                                            try_stage(&a, "one")->quality_count == 1);
     try_close(&a);
@@ -106,32 +106,32 @@ static void changes(void)
                         "  user: {use: toy/user}\n"
                         "outputs: [sum.sum, one.evaluations, user.value]\n");
     check_good("a run before the change", &a);
-    check_true("other values", ff_pipeline_change(a.pipeline, a.tree, values, 2, true) &&
-                                   ff_pipeline_run(a.pipeline, NULL, a.report));
+    check_true("other values", fe_pipeline_change(a.pipeline, a.tree, values, 2, true) &&
+                                   fe_pipeline_run(a.pipeline, NULL, a.report));
     check_near("what the changed one feeds", try_scalar(&a, "sum", "sum"), 0.015, 1e-15);
     check_true("its service", try_scalar(&a, "user", "value") == 10);
     check_true("what has another value is new", try_scalar(&a, "one", "evaluations") == 1);
     check_true("what keeps its values stays",
-               ff_pipeline_change(a.pipeline, a.tree, values + 1, 1, true) &&
-                   ff_pipeline_run(a.pipeline, NULL, a.report) &&
+               fe_pipeline_change(a.pipeline, a.tree, values + 1, 1, true) &&
+                   fe_pipeline_run(a.pipeline, NULL, a.report) &&
                    try_scalar(&a, "one", "evaluations") == 2);
     check_near("and answers as before", try_scalar(&a, "sum", "sum"), 0.015, 1e-15);
     check_true("what is wired to a service is new", try_scalar(&a, "user", "value") == 10);
     const ff_stage *one = ff_stage_of(a.pipeline, "one.level", &name);
     check_true("values without objects",
-               ff_pipeline_change(a.pipeline, a.tree, before, 1, false) &&
+               fe_pipeline_change(a.pipeline, a.tree, before, 1, false) &&
                    one->params[ff_model_find_param(one->loaded->model, "level")].value.real ==
                        0.002 &&
-                   !ff_pipeline_run(a.pipeline, NULL, a.report));
-    check_true("and with them", ff_pipeline_change(a.pipeline, a.tree, values, 1, true) &&
-                                    ff_pipeline_run(a.pipeline, NULL, a.report));
+                   !fe_pipeline_run(a.pipeline, NULL, a.report));
+    check_true("and with them", fe_pipeline_change(a.pipeline, a.tree, values, 1, true) &&
+                                    fe_pipeline_run(a.pipeline, NULL, a.report));
     check_near("as before", try_scalar(&a, "sum", "sum"), 0.015, 1e-15);
     try_close(&a);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
         a = try_build("pipeline: {one: {use: toy/source, level: 2 mm}, sum: {use: toy/consumer, "
                       "source: one}}\noutputs: [sum.sum]\n",
                       false);
-        check_true(others[i], !ff_pipeline_change(a.pipeline, a.tree, &others[i], 1, true));
+        check_true(others[i], !fe_pipeline_change(a.pipeline, a.tree, &others[i], 1, true));
         try_close(&a);
     }
 }
@@ -146,8 +146,8 @@ static void no_state_is_kept(void)
                         "  a: {use: loop/linear, base: 1 m}\n"
                         "outputs: [one.series, a.evaluations]\n");
     check_good("a run with a state", &a);
-    check_true("from no state", ff_pipeline_change(a.pipeline, a.tree, values, 1, true) &&
-                                    ff_pipeline_run(a.pipeline, NULL, a.report) &&
+    check_true("from no state", fe_pipeline_change(a.pipeline, a.tree, values, 1, true) &&
+                                    fe_pipeline_run(a.pipeline, NULL, a.report) &&
                                     try_scalar(&a, "a", "evaluations") == 1);
     try_close(&a);
 }
@@ -284,7 +284,7 @@ static void watched(void)
     ff_observer watch = {.progress = stop, .log = count_lines, .ctx = &lines};
     attempt a =
         try_build("pipeline: {one: {use: toy/source, level: 2 mm, answer: progress}}\n", false);
-    check_true("a run that is stopped", !ff_pipeline_run(a.pipeline, &watch, a.report) &&
+    check_true("a run that is stopped", !fe_pipeline_run(a.pipeline, &watch, a.report) &&
                                             ff_report_fault(a.report) == FF_FAULT_RUN);
     check_error("says so", &a, 0, 0, "it was stopped");
     check_true("log lines arrive", lines == 1);

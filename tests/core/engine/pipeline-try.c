@@ -30,10 +30,10 @@ static attempt begin(const char *text, const char *assignment, bool everything)
     char whole[8192];
     snprintf(whole, sizeof whole, "format: 2\n%s", text);
     attempt a = {.report = ff_report_new(), .engine = try_engine(directories, 1)};
-    a.tree = ff_tree_parse("case.yaml", ".", whole, a.report);
+    a.tree = fe_tree_parse("case.yaml", ".", whole, a.report);
     if (assignment)
-        ff_tree_set(a.tree, assignment, NULL, NULL, a.report);
-    a.pipeline = ff_pipeline_build(a.tree, a.engine, everything, a.report);
+        fe_tree_set(a.tree, assignment, NULL, NULL, a.report);
+    a.pipeline = fe_pipeline_build(a.tree, a.engine, everything, a.report);
     return a;
 }
 
@@ -51,14 +51,14 @@ attempt try_run(const char *text)
 {
     attempt a = begin(text, NULL, false);
     if (a.pipeline && ff_report_errors(a.report) == 0)
-        ff_pipeline_run(a.pipeline, NULL, a.report);
+        fe_pipeline_run(a.pipeline, NULL, a.report);
     return a;
 }
 
 void try_close(attempt *a)
 {
-    ff_pipeline_free(a->pipeline);
-    ff_tree_free(a->tree);
+    fe_pipeline_free(a->pipeline);
+    fe_tree_free(a->tree);
     ff_engine_close(a->engine);
     ff_report_free(a->report);
 }

@@ -3,13 +3,13 @@
 #ifndef PIPELINE_TRY_H
 #define PIPELINE_TRY_H
 
-#include <flankfilm/engine.h>
+#include "../../../core/engine/pipeline/pipeline.h"
 
 #include <check.h>
 
 /* A line "format: 2" is put before the text, so that the text's first line is line 2. */
 typedef struct attempt {
-    ff_tree *tree;
+    fe_tree *tree;
     ff_engine *engine;
     ff_report *report;
     ff_pipeline *pipeline; /* may be NULL */

@@ -173,8 +173,8 @@ static attempt with_card(const char *card, const char *text)
         exit(2);
     const char *const places[] = {try_plugins()};
     attempt a = {.report = ff_report_new(), .engine = try_engine(places, 1)};
-    a.tree = ff_tree_parse("case.yaml", directory, text, a.report);
-    a.pipeline = ff_pipeline_build(a.tree, a.engine, false, a.report);
+    a.tree = fe_tree_parse("case.yaml", directory, text, a.report);
+    a.pipeline = fe_pipeline_build(a.tree, a.engine, false, a.report);
     remove(path);
     remove(directory);
     return a;

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "../../../core/engine/value/tree.h"
 #include "value-check.h"
 
 static const struct {
@@ -91,7 +92,7 @@ START_TEST(says_what_and_where)
     char path[1100];
     snprintf(path, sizeof path, "%s/%s.yaml", folder(), rows[_i].name);
     ff_report *report = ff_report_new();
-    ff_tree *tree = ff_tree_load(path, report);
+    fe_tree *tree = fe_tree_load(path, report);
     ck_assert_msg(ff_report_errors(report) > 0, "%s: no error", rows[_i].name);
     const ff_message *first = ff_report_at(report, 0);
     ck_assert_msg(first->place.line == rows[_i].line && first->place.column == rows[_i].column,
@@ -100,7 +101,7 @@ START_TEST(says_what_and_where)
     ck_assert_msg(strstr(first->text, rows[_i].words), "%s: %s", rows[_i].name, first->text);
     ck_assert_int_eq(ff_report_fault(report), FF_FAULT_INPUT);
     ff_report_free(report);
-    ff_tree_free(tree);
+    fe_tree_free(tree);
 }
 END_TEST
 

@@ -6,6 +6,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "../../../core/engine/value/tree.h"
 #include "value-check.h"
 
 enum { MEBIBYTE = 1 << 20 };
@@ -50,23 +51,23 @@ static void check_refused(const char *words, double limit)
 {
     double start = seconds();
     ff_report *report = ff_report_new();
-    ff_tree *tree = ff_tree_parse("bound.yaml", NULL, text, report);
+    fe_tree *tree = fe_tree_parse("bound.yaml", NULL, text, report);
     double took = seconds() - start;
     ck_assert_uint_ge(ff_report_errors(report), 1);
     ck_assert_msg(strstr(ff_report_at(report, 0)->text, words), "%s",
                   ff_report_at(report, 0)->text);
     ck_assert_msg(took < limit, "%g s", took);
-    ff_tree_free(tree);
+    fe_tree_free(tree);
     ff_report_free(report);
 }
 
 static void check_accepted(void)
 {
     ff_report *report = ff_report_new();
-    ff_tree *tree = ff_tree_parse("bound.yaml", NULL, text, report);
+    fe_tree *tree = fe_tree_parse("bound.yaml", NULL, text, report);
     ck_assert_msg(ff_report_errors(report) == 0, "%s", ff_report_at(report, 0)->text);
-    ck_assert_ptr_nonnull(ff_tree_root(tree));
-    ff_tree_free(tree);
+    ck_assert_ptr_nonnull(fe_tree_root(tree));
+    fe_tree_free(tree);
     ff_report_free(report);
 }
 
@@ -309,9 +310,9 @@ static size_t count_nodes(const ff_node *node)
 static void check_round(void)
 {
     ff_report *report = ff_report_new();
-    ff_tree *tree = ff_tree_parse("fuzz.yaml", "/nonexistent", text, report);
-    if (ff_tree_root(tree))
-        ck_assert_uint_le(count_nodes(ff_tree_root(tree)), 100000);
+    fe_tree *tree = fe_tree_parse("fuzz.yaml", "/nonexistent", text, report);
+    if (fe_tree_root(tree))
+        ck_assert_uint_le(count_nodes(fe_tree_root(tree)), 100000);
     else
         ck_assert_uint_ge(ff_report_errors(report), 1);
     for (size_t i = 0; i < ff_report_count(report); i++) {
@@ -321,7 +322,7 @@ static void check_round(void)
         ck_assert_uint_le(m->place.column, used + 2);
     }
     ff_free(ff_report_text(report, true));
-    ff_tree_free(tree);
+    fe_tree_free(tree);
     ff_report_free(report);
 }
 
@@ -344,15 +345,15 @@ START_TEST(mutated_assignments)
     uint64_t state = 1986;
     for (int round = 0; round < 2000; round++) {
         ff_report *report = ff_report_new();
-        ff_tree *tree = ff_tree_parse("fuzz.yaml", ".", sample, report);
+        fe_tree *tree = fe_tree_parse("fuzz.yaml", ".", sample, report);
         used = 0;
         put(starts[round % 5]);
         mutate(&state);
         size_t errors = ff_report_errors(report);
-        bool done = ff_tree_set(tree, text, NULL, NULL, report);
+        bool done = fe_tree_set(tree, text, NULL, NULL, report);
         ck_assert(done == (ff_report_errors(report) == errors));
-        count_nodes(ff_tree_root(tree));
-        ff_tree_free(tree);
+        count_nodes(fe_tree_root(tree));
+        fe_tree_free(tree);
         ff_report_free(report);
     }
 }

@@ -10,7 +10,7 @@
 #include "value-check.h"
 
 static ff_report *report;
-static ff_tree *tree;
+static fe_tree *tree;
 static char folder[64];
 
 static void set_up(void)
@@ -25,7 +25,7 @@ static void set_up(void)
 static void tear_down(void)
 {
     char command[100];
-    ff_tree_free(tree);
+    fe_tree_free(tree);
     ff_report_free(report);
     snprintf(command, sizeof command, "rm -rf '%s'", folder);
     ck_assert_int_eq(system(command), 0);
@@ -48,18 +48,18 @@ static void write_file(const char *name, const char *text)
 
 static void parse(const char *text)
 {
-    tree = ff_tree_parse("test.yaml", folder, text, report);
+    tree = fe_tree_parse("test.yaml", folder, text, report);
 }
 
 static void load(const char *name)
 {
-    tree = ff_tree_load(path_of(name), report);
+    tree = fe_tree_load(path_of(name), report);
 }
 
 /* The node at "a.b.0". */
 static const ff_node *find(const char *path)
 {
-    const ff_node *node = ff_tree_root(tree);
+    const ff_node *node = fe_tree_root(tree);
     char copy[200], *rest = NULL;
     snprintf(copy, sizeof copy, "%s", path);
     for (char *word = strtok_r(copy, ".", &rest); word && node; word = strtok_r(NULL, ".", &rest)) {
@@ -128,7 +128,7 @@ START_TEST(places_count_characters_from_one)
     parse("größe: äöü\nb: {c: [1, 22]}\n");
     check_no_errors();
     check_place(find("größe")->place, 1, 8, 3);
-    check_place(ff_tree_root(tree)->key_places[0], 1, 1, 5);
+    check_place(fe_tree_root(tree)->key_places[0], 1, 1, 5);
     check_place(find("b")->place, 2, 4, 0);
     check_place(find("b.c")->place, 2, 8, 0);
     check_place(find("b.c.1")->place, 2, 12, 2);
@@ -139,7 +139,7 @@ END_TEST
 START_TEST(any_line_break_counts)
 {
     parse("a: 1\r\nb: 2\rc: 3\nd: [}\n");
-    ck_assert_ptr_null(ff_tree_root(tree));
+    ck_assert_ptr_null(fe_tree_root(tree));
     ck_assert_uint_eq(ff_report_at(report, 0)->place.line, 4);
 }
 END_TEST
@@ -157,7 +157,7 @@ START_TEST(alias_is_a_copy)
 {
     parse("study: &a {x: [1, 2]}\noutputs: *a\npipeline: {}\n");
     check_no_errors();
-    ck_assert(ff_tree_set(tree, "outputs.x.0=9", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "outputs.x.0=9", NULL, NULL, report));
     check_text("outputs.x.0", "9");
     check_text("study.x.0", "1");
     check_place(find("outputs.x.1")->place, 1, 19, 1);
@@ -200,7 +200,7 @@ START_TEST(all_errors_in_one_pass)
 {
     parse("a: 1\na: 2\nb: !t 3\nc: *none\nd: {e: 1, e: 2}\n");
     ck_assert_uint_eq(ff_report_errors(report), 4);
-    ck_assert_ptr_nonnull(ff_tree_root(tree));
+    ck_assert_ptr_nonnull(fe_tree_root(tree));
     check_text("a", "1");
     for (size_t i = 0; i < 4; i++)
         ck_assert_uint_eq(ff_report_at(report, i)->place.line, i + 2);
@@ -211,7 +211,7 @@ START_TEST(errors_before_a_broken_line_are_kept)
 {
     parse("a: 1\na: 2\nb: [1\nc: 2\n");
     ck_assert_uint_eq(ff_report_errors(report), 2);
-    ck_assert_ptr_null(ff_tree_root(tree));
+    ck_assert_ptr_null(fe_tree_root(tree));
 }
 END_TEST
 
@@ -231,7 +231,7 @@ START_TEST(includes_lie_under_the_file)
     ck_assert_ptr_null(find("include"));
     ck_assert_uint_lt(find("only")->rank, find("oil.eta0")->rank);
     ck_assert_uint_lt(find("oil.eta0")->rank, find("oil.b")->rank);
-    ck_assert(ff_tree_set(tree, "oil.c=1", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "oil.c=1", NULL, NULL, report));
     ck_assert_uint_lt(find("oil.b")->rank, find("pipeline.oil.c")->rank);
 }
 END_TEST
@@ -272,7 +272,7 @@ START_TEST(circle_of_includes_is_refused)
     check_error("includes itself by way of");
     ck_assert_uint_eq(ff_report_at(report, 0)->place.line, 2);
     ck_assert_uint_eq(ff_report_at(report, 0)->place.column, 11);
-    ck_assert_ptr_null(ff_tree_root(tree));
+    ck_assert_ptr_null(fe_tree_root(tree));
 }
 END_TEST
 
@@ -282,7 +282,7 @@ START_TEST(every_lost_include_is_reported)
     write_file("main.yaml", "include: [none.yaml, bad.yaml, ., also-none.yaml]\nb: 1\nb: 2\n");
     load("main.yaml");
     ck_assert_uint_eq(ff_report_errors(report), 5);
-    ck_assert_ptr_null(ff_tree_root(tree));
+    ck_assert_ptr_null(fe_tree_root(tree));
 }
 END_TEST
 
@@ -293,10 +293,10 @@ START_TEST(lost_files_have_a_nearest_name)
     write_file("main.yaml", "include: [gear.yaml]\n");
     load("main.yaml");
     ck_assert_str_eq(ff_report_at(report, 0)->hint, "did you mean \"gears.yaml\"?");
-    ff_tree_free(tree);
+    fe_tree_free(tree);
     load("mian.yaml");
     ck_assert_str_eq(ff_report_at(report, 1)->hint, "did you mean \"main.yaml\"?");
-    ff_tree_free(tree);
+    fe_tree_free(tree);
     load("else.yaml");
     ck_assert_ptr_null(ff_report_at(report, 2)->hint);
 }
@@ -339,13 +339,13 @@ START_TEST(unreadable_files_are_named)
     ck_assert_int_eq(mkfifo(path_of("pipe"), 0600), 0);
     for (size_t i = 0; i < ROWS(rows); i++) {
         ff_report *one = ff_report_new();
-        ff_tree *none = ff_tree_load(path_of(rows[i][0]), one);
-        ck_assert_ptr_null(ff_tree_root(none));
+        fe_tree *none = fe_tree_load(path_of(rows[i][0]), one);
+        ck_assert_ptr_null(fe_tree_root(none));
         ck_assert_uint_eq(ff_report_errors(one), 1);
         ck_assert_msg(strstr(ff_report_at(one, 0)->text, rows[i][1]) &&
                           strstr(ff_report_at(one, 0)->text, folder),
                       "%s", ff_report_at(one, 0)->text);
-        ff_tree_free(none);
+        fe_tree_free(none);
         ff_report_free(one);
     }
 }
@@ -370,7 +370,7 @@ static const char two_stages[] =
 START_TEST(assignment_replaces_a_value)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "duty.torque=300 N m", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "duty.torque=300 N m", NULL, NULL, report));
     check_text("pipeline.duty.torque", "300 N m");
     check_text("pipeline.duty.use", "operating/steady");
     check_no_errors();
@@ -380,9 +380,9 @@ END_TEST
 START_TEST(assignment_starts_at_the_top_for_top_words)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "pipeline.duty.torque=1 N m", NULL, NULL, report));
-    ck_assert(ff_tree_set(tree, "title=a: b", NULL, NULL, report));
-    ck_assert(ff_tree_set(tree, "outputs=[film.p_max]", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "pipeline.duty.torque=1 N m", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "title=a: b", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "outputs=[film.p_max]", NULL, NULL, report));
     check_text("pipeline.duty.torque", "1 N m");
     check_text("title.a", "b");
     ck_assert_uint_eq(find("outputs")->count, 1);
@@ -392,8 +392,8 @@ END_TEST
 START_TEST(assignment_reaches_into_lists)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "gears.teeth.1=25", NULL, NULL, report));
-    ck_assert(ff_tree_set(tree, "outputs.0=film.p_max", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "gears.teeth.1=25", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "outputs.0=film.p_max", NULL, NULL, report));
     check_text("pipeline.gears.teeth.0", "50");
     check_text("pipeline.gears.teeth.1", "25");
     check_text("outputs.0", "film.p_max");
@@ -403,8 +403,8 @@ END_TEST
 START_TEST(assignment_follows_keys_with_dots)
 {
     parse("format: 2\nstudy: {sweep: {duty.torque: {points: 2}}}\n");
-    ck_assert(ff_tree_set(tree, "study.sweep.duty.torque.points=3", NULL, NULL, report));
-    ck_assert(ff_tree_set(tree, "study.sweep.duty.torquem=1", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "study.sweep.duty.torque.points=3", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "study.sweep.duty.torquem=1", NULL, NULL, report));
     const ff_node *sweep = find("study.sweep");
     ck_assert_uint_eq(sweep->count, 2);
     ck_assert_str_eq(ff_node_get(ff_node_get(sweep, "duty.torque"), "points")->text, "3");
@@ -415,7 +415,7 @@ END_TEST
 START_TEST(assignment_makes_maps_on_the_way)
 {
     parse("format: 2\n");
-    ck_assert(ff_tree_set(tree, "oil.with.viscosity/barus.eta0=5 cP", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "oil.with.viscosity/barus.eta0=5 cP", NULL, NULL, report));
     check_text("pipeline.oil.with.viscosity/barus.eta0", "5 cP");
     ck_assert_uint_eq(find("pipeline.oil")->rank, 1);
 }
@@ -424,7 +424,7 @@ END_TEST
 START_TEST(assignment_of_a_map_merges)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "duty={torque: 1 N m, speed: 3 rpm}", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "duty={torque: 1 N m, speed: 3 rpm}", NULL, NULL, report));
     check_text("pipeline.duty.use", "operating/steady");
     check_text("pipeline.duty.torque", "1 N m");
     check_text("pipeline.duty.speed", "3 rpm");
@@ -434,10 +434,10 @@ END_TEST
 START_TEST(copy_changes_by_itself)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "duty.torque=5 N m", NULL, NULL, report));
-    ff_tree *first = tree, *copy = ff_tree_copy(first);
-    ck_assert(ff_tree_set(copy, "duty.torque=7 N m", NULL, NULL, report));
-    ck_assert(ff_tree_set(copy, "duty.more=1", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "duty.torque=5 N m", NULL, NULL, report));
+    fe_tree *first = tree, *copy = fe_tree_copy(first);
+    ck_assert(fe_tree_set(copy, "duty.torque=7 N m", NULL, NULL, report));
+    ck_assert(fe_tree_set(copy, "duty.more=1", NULL, NULL, report));
     check_text("pipeline.duty.torque", "5 N m");
     ck_assert_ptr_null(ff_node_get(find("pipeline.duty"), "more"));
     tree = copy;
@@ -446,7 +446,7 @@ START_TEST(copy_changes_by_itself)
     const ff_node *torque = find("pipeline.duty.torque");
     ck_assert_str_eq(torque->replaced->text, "5 N m");
     ck_assert_uint_eq(torque->rank, torque->replaced->rank + 1);
-    ff_tree_free(copy);
+    fe_tree_free(copy);
     tree = first;
 }
 END_TEST
@@ -454,9 +454,9 @@ END_TEST
 START_TEST(assignment_may_be_empty_or_hold_equals)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "title=", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "title=", NULL, NULL, report));
     check_text("title", "");
-    ck_assert(ff_tree_set(tree, "title = a=b", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "title = a=b", NULL, NULL, report));
     check_text("title", "a=b");
 }
 END_TEST
@@ -464,7 +464,7 @@ END_TEST
 START_TEST(assignment_places_point_into_it)
 {
     parse(two_stages);
-    ck_assert(ff_tree_set(tree, "düty.torque=\"3 N\"", NULL, NULL, report));
+    ck_assert(fe_tree_set(tree, "düty.torque=\"3 N\"", NULL, NULL, report));
     const ff_node *node = find("pipeline.düty.torque");
     ck_assert_str_eq(node->place.source->name, "--set");
     ck_assert_str_eq(node->place.source->text, "düty.torque=\"3 N\"");
@@ -499,7 +499,7 @@ START_TEST(assignment_is_refused)
 {
     parse(two_stages);
     const char *assignment = bad_assignments[_i].assignment;
-    ck_assert(!ff_tree_set(tree, assignment, NULL, NULL, report));
+    ck_assert(!fe_tree_set(tree, assignment, NULL, NULL, report));
     check_error(bad_assignments[_i].words);
     ck_assert_uint_eq(ff_report_at(report, 0)->place.column, bad_assignments[_i].column);
     ck_assert_str_eq(ff_report_at(report, 0)->place.source->name, "--set");
@@ -513,7 +513,7 @@ START_TEST(assignment_path_has_a_depth)
         strcat(text, "a.");
     strcat(text, "a=1");
     parse("format: 2\n");
-    ck_assert(!ff_tree_set(tree, text, NULL, NULL, report));
+    ck_assert(!fe_tree_set(tree, text, NULL, NULL, report));
     check_error("more than 64 levels deep");
 }
 END_TEST
@@ -521,8 +521,8 @@ END_TEST
 START_TEST(assignment_to_a_broken_file_is_false)
 {
     parse("a: [\n");
-    ck_assert(!ff_tree_set(tree, "a=1", NULL, NULL, report));
-    ck_assert_ptr_null(ff_tree_root(tree));
+    ck_assert(!fe_tree_set(tree, "a=1", NULL, NULL, report));
+    ck_assert_ptr_null(fe_tree_root(tree));
 }
 END_TEST
 
@@ -530,10 +530,10 @@ START_TEST(absent_things_are_null)
 {
     parse("a: 1\n");
     ck_assert_ptr_null(ff_node_get(NULL, "a"));
-    ck_assert_ptr_null(ff_node_get(ff_tree_root(tree), "b"));
+    ck_assert_ptr_null(ff_node_get(fe_tree_root(tree), "b"));
     ck_assert_ptr_null(ff_node_get(find("a"), "b"));
     ck_assert_str_eq(fe_kind_name(FF_MAP), "a map");
-    ff_tree_free(NULL);
+    fe_tree_free(NULL);
     ff_report_free(NULL);
 }
 END_TEST

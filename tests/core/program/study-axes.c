@@ -8,21 +8,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-static ff_tree *tree;
+static ff_engine *engine;
+static ff_run *run;
 static ff_report *report;
+
+static ff_run *parse(const char *text)
+{
+    ff_run *read;
+    if (!engine)
+        ff_engine_new(NULL, &engine);
+    ff_run_parse(engine, "study.yaml", ".", text, &read);
+    return read;
+}
 
 static study_definition *read_study(const char *text)
 {
-    report = ff_report_new();
-    tree = ff_tree_parse("study.yaml", ".", text, report);
-    return study_read(ff_node_get(ff_tree_root(tree), "study"), report);
+    run = parse(text);
+    report = ff_run_report(run);
+    return study_read(ff_node_get(ff_run_root(run), "study"), report);
 }
 
 static void forget(study_definition *study)
 {
     study_free(study);
-    ff_tree_free(tree);
-    ff_report_free(report);
+    ff_run_close(run);
 }
 
 static void expect_values(const char *what, const char *range, const char *const *values,
@@ -163,20 +172,16 @@ static void test_tolerances(void)
     static const char *const paths[] = {"g.d", "g.l.0", "g.s", "g.with.a/b.p"};
     memory_arena arena = {0};
     size_t count;
-    ff_report *unused = ff_report_new();
-    ff_tree *file = ff_tree_parse(
-        "file.yaml", ".",
+    ff_run *file = parse(
         "pipeline:\n  g: {use: a/b, d: 3 mm +- 1 mm, l: [5 um to 7 um, 2 um], s: 1 to 2, t: 2 mm,\n"
-        "      with: {a/b: {p: 1 +- 0.5}, a/c: {p: 1 +- 0.5}}}\n",
-        unused);
-    const study_toleranced *list = study_find_toleranced(ff_tree_root(file), &arena, &count);
+        "      with: {a/b: {p: 1 +- 0.5}, a/c: {p: 1 +- 0.5}}}\n");
+    const study_toleranced *list = study_find_toleranced(ff_run_root(file), &arena, &count);
     check_true("four values", count == 4);
     for (size_t i = 0; i < count && i < 4; i++)
         check_true(paths[i], !strcmp(list[i].path, paths[i]));
     check_true("their ends", list[1].tolerance.low == 5 && list[1].tolerance.high == 7);
     memory_arena_free(&arena);
-    ff_tree_free(file);
-    ff_report_free(unused);
+    ff_run_close(file);
 }
 
 int main(void)

@@ -9,6 +9,7 @@
 #include "../../accuracy/axis.h"
 #include "../../accuracy/goals.h"
 #include "../../accuracy/models.h"
+#include "../../run/run.h"
 #include "../store/hash.h"
 #include "../store/journal.h"
 #include "../store/reuse.h"
@@ -47,7 +48,7 @@ static const char *assignment_at(const study_definition *study, size_t index,
 }
 
 void study_overlay(const study_definition *study, size_t index, const char *const *sets,
-                   size_t set_count, ff_tree *tree, ff_report *report)
+                   size_t set_count, ff_run *run)
 {
     const char *text;
     size_t n = study->varied_count;
@@ -61,31 +62,27 @@ void study_overlay(const study_definition *study, size_t index, const char *cons
             place = &in_table;
         if (path && v->values)
             place = &v->values->items[study_rank(study, v->axis, index)]->place;
-        if (*text && ff_tree_root(tree))
-            ff_tree_set(tree, text, path, place, report);
+        if (*text)
+            run_set(run, text, path, place);
     }
-    if (study->request && ff_tree_root(tree))
-        ff_tree_put(tree, "outputs", study->request);
+    if (study->request)
+        run_put(run, "outputs", study->request);
     if (study->streams)
-        study_rows_check(study->rows, index, report);
+        study_rows_check(study->rows, index, ff_run_report(run));
 }
 
-ff_tree *study_case_tree(const char *file)
+ff_run *study_case_base(ff_engine *engine, const char *file)
 {
-    ff_report *report = ff_report_new();
-    ff_tree *tree = ff_tree_load(file, report);
-    if (ff_report_count(report) > 0 || !ff_tree_root(tree)) {
-        ff_tree_free(tree);
-        tree = NULL;
-    }
-    ff_report_free(report);
-    return tree;
+    ff_run *run = run_read(engine, file);
+    if (ff_report_count(ff_run_report(run)) == 0 && ff_run_root(run))
+        return run;
+    ff_run_close(run);
+    return NULL;
 }
 
 void study_kept_free(study_kept *kept)
 {
-    ff_pipeline_free(kept->pipeline);
-    ff_tree_free(kept->tree);
+    ff_run_close(kept->run);
     *kept = (study_kept){.keys = kept->keys};
 }
 
@@ -120,27 +117,26 @@ static bool list_changes(const study_definition *study, size_t from, size_t to, 
     return true;
 }
 
-/* Goes on with the pipeline of the case before; false when there is none, or it will not do. */
+/* Goes on with the run of the case before; false when there is none, or it will not do. */
 static bool take_kept(study_case *c, const study_run *run, size_t index, study_kept *kept)
 {
     enum { MOST_CHANGES = 200 };
     const study_definition *study = run->study;
     size_t count;
-    if (!kept->pipeline)
+    if (!kept->run)
         return false;
     const char **changes = memory_alloc((study->varied_count + 1) * sizeof *changes);
     bool good = kept->changes < MOST_CHANGES &&
                 list_changes(study, kept->index, index, changes, &count) &&
-                ff_pipeline_change(kept->pipeline, kept->tree, changes, count, !kept->keys);
+                ff_run_change(kept->run, changes, count, !kept->keys) == FF_OK;
     free(changes);
     if (!good) {
         study_kept_free(kept);
         return false;
     }
-    c->tree = kept->tree;
-    c->pipeline = kept->pipeline;
-    kept->tree = NULL;
-    kept->pipeline = NULL;
+    c->run = kept->run;
+    c->pipeline = ff_run_pipeline(c->run);
+    kept->run = NULL;
     kept->changes++;
     return true;
 }
@@ -148,23 +144,24 @@ static bool take_kept(study_case *c, const study_run *run, size_t index, study_k
 void study_case_open(study_case *c, const study_run *run, size_t index, study_kept *kept)
 {
     const study_definition *study = run->study;
-    bool keeps = kept && run->tree && !study->measure && study_chain_length(study) == 1;
-    *c = (study_case){.report = ff_report_new(), .kept = keeps ? kept : NULL, .index = index};
+    bool keeps = kept && run->base && !study->measure && study_chain_length(study) == 1;
+    *c = (study_case){.kept = keeps ? kept : NULL, .index = index};
     if (!keeps || !take_kept(c, run, index, kept)) {
-        c->tree = run->tree ? ff_tree_copy(run->tree) : ff_tree_load(run->file, c->report);
-        study_overlay(study, index, run->sets, run->set_count, c->tree, c->report);
-        c->pipeline = accuracy_build(c->tree, run->engine, false, c->report);
+        c->run = run->base ? run_copy(run->base) : run_read(run->engine, run->file);
+        study_overlay(study, index, run->sets, run->set_count, c->run);
+        c->pipeline = accuracy_build(c->run, run->engine, false);
     }
+    c->report = ff_run_report(c->run);
     uint64_t fingerprint = hash_assignments(study, index);
     if (study_case_is_good(c)) {
         study_measure_want(study, c->pipeline);
-        if (accuracy_is_asked(c->tree))
+        if (accuracy_is_asked(c->run))
             accuracy_want_beside(c->pipeline);
         c->fingerprints = memory_alloc(c->pipeline->count * sizeof *c->fingerprints);
         fingerprint = study_fingerprint(c->pipeline, c->fingerprints);
     }
-    if (c->pipeline && accuracy_is_asked(c->tree)) {
-        char *asked = accuracy_print_key(c->tree, c->pipeline, run->engine);
+    if (c->pipeline && accuracy_is_asked(c->run)) {
+        char *asked = accuracy_print_key(c->run, run->engine);
         fingerprint = study_hash_text(study_hash_text(fingerprint, "accuracy"), asked);
         free(asked);
     }
@@ -177,16 +174,13 @@ void study_case_close(study_case *c)
 {
     /* what was said of a stage that does not change would not be said again */
     if (c->kept && c->pipeline && ff_report_count(c->report) == 0) {
-        c->kept->tree = c->tree;
-        c->kept->pipeline = c->pipeline;
+        c->kept->run = c->run;
         c->kept->index = c->index;
     } else {
-        ff_pipeline_free(c->pipeline);
-        ff_tree_free(c->tree);
+        ff_run_close(c->run);
         if (c->kept)
             c->kept->changes = 0;
     }
-    ff_report_free(c->report);
     free(c->fingerprints);
 }
 
@@ -396,12 +390,18 @@ static void compute(study_case *c, const study_run *run, study_reuse *reuse,
 {
     const study_measure *measure = run->study->measure;
     bool *fresh = measure ? study_measure_fresh(measure, c->pipeline) : NULL;
-    ff_observer watch = {
-        .log = note_warning, .recall = study_reuse_recall, .keep = study_reuse_keep, .ctx = reuse};
+    ff_observer watch = {.size = sizeof watch,
+                         .ctx = reuse,
+                         .log = note_warning,
+                         .recall = study_reuse_recall,
+                         .keep = study_reuse_keep};
     reuse->fresh = fresh;
     study_chain_restore_states(c);
-    accuracy_run(errors, c->tree, run->engine, c->pipeline, &watch, c->report);
-    c->pipeline = errors->answer;
+    if (accuracy_is_asked(c->run))
+        accuracy_run(errors, c->run, run->engine, &watch, c->report);
+    else
+        run_start(c->run, &watch);
+    c->pipeline = errors->answer ? errors->answer : c->pipeline;
     free(fresh);
 }
 

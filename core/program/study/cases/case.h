@@ -34,14 +34,13 @@ struct study_case;
 bool study_arrays_keep(study_arrays *arrays, const struct study_case *c, json_t *record);
 
 /* case.c */
-/* The pipeline of the last case, which the next one goes on with where they differ in plain values.
+/* The run of the last case, which the next one goes on with where they differ in plain values.
    Starts zeroed. */
 typedef struct study_kept {
-    ff_tree *tree;
-    ff_pipeline *pipeline; /* NULL: there is none */
-    size_t index;          /* of that case */
-    size_t changes;        /* since it was built: its memory grows by each */
-    bool keys;             /* set by who asks for the keys of cases alone: no objects are made */
+    ff_run *run;    /* NULL: there is none */
+    size_t index;   /* of that case */
+    size_t changes; /* since it was built: its memory grows by each */
+    bool keys;      /* set by who asks for the keys of cases alone: no objects are made */
 } study_kept;
 
 void study_kept_free(study_kept *kept);
@@ -57,11 +56,11 @@ typedef struct study_memory { /* what a worker keeps from case to case */
 } study_memory;
 
 typedef struct study_case {
-    study_kept *kept; /* where its pipeline goes when it is closed; NULL: nowhere */
+    study_kept *kept; /* where its run goes when it is closed; NULL: nowhere */
     size_t index;
-    ff_report *report;
-    ff_tree *tree;
-    ff_pipeline *pipeline; /* may be NULL after errors */
+    ff_run *run;
+    ff_report *report;     /* its messages */
+    ff_pipeline *pipeline; /* of it; may be NULL after errors */
     uint64_t *fingerprints;
     char key[STUDY_KEY_SIZE];
     const json_t *states; /* {stage: state} that it starts from; NULL when it is not in a chain */
@@ -70,7 +69,7 @@ typedef struct study_case {
 
 /* Reads the file of a study for its cases; NULL when there is anything to say of it, which is said
    of each case then. */
-ff_tree *study_case_tree(const char *file);
+ff_run *study_case_base(ff_engine *engine, const char *file);
 /* `kept` may be NULL. */
 void study_case_open(study_case *c, const study_run *run, size_t index, study_kept *kept);
 void study_case_close(study_case *c);

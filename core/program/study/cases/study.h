@@ -107,9 +107,10 @@ const char *study_value(const study_definition *study, size_t k, size_t index);
 /* Returns the point of a case on an axis. */
 size_t study_rank(const study_definition *study, size_t axis, size_t index);
 
-/* Lays a case over a tree: first the files that it includes, then `sets`, then its values. */
+/* Lays a case over the file of a run: first the files that it includes, then `sets`, then its
+ * values. */
 void study_overlay(const study_definition *study, size_t index, const char *const *sets,
-                   size_t set_count, ff_tree *tree, ff_report *report);
+                   size_t set_count, ff_run *run);
 
 /* chain.c: the cases form chains, along which a state is handed on; without `follow` every case is
    a chain of its own. */
@@ -134,7 +135,7 @@ struct study_counters;
 typedef struct study_run {
     const study_definition *study;
     const char *file;
-    const ff_tree *tree; /* the file, of which each case changes a copy; NULL: each reads it anew */
+    const ff_run *base; /* the file, of which each case is a copy; NULL: each reads it anew */
     const char **sets;
     size_t set_count;
     ff_engine *engine;

@@ -150,8 +150,8 @@ void study_preview(const study_run *given, study_plan *plan)
     study_run own = *given;
     const study_run *run = &own;
     const study_definition *study = run->study;
-    ff_tree *tree = study_case_tree(own.file);
-    own.tree = tree;
+    ff_run *base = study_case_base(own.engine, own.file);
+    own.base = base;
     survey s = {.run = run, .plan = plan, .keys.keys = true};
     size_t chains = 0;
     study_chain chain = {0};
@@ -175,7 +175,7 @@ void study_preview(const study_run *given, study_plan *plan)
     study_kept_free(&s.kept);
     study_records_close(s.records);
     free(s.earlier);
-    ff_tree_free(tree);
+    ff_run_close(base);
 }
 
 static void add_seconds(size_t *count, double *sum, const json_t *seconds)

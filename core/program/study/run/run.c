@@ -467,8 +467,8 @@ bool study_execute(const study_run *given, study_counters *counters, ff_report *
     const study_run *run = &own;
     execution r = {.run = run, .report = report, .counters = counters};
     *counters = (study_counters){.total = 0};
-    ff_tree *tree = study_case_tree(own.file);
-    own.tree = tree;
+    ff_run *base = study_case_base(own.engine, own.file);
+    own.base = base;
     run_cases(&r);
     leading = 0;
     if (r.open)
@@ -476,7 +476,7 @@ bool study_execute(const study_run *given, study_counters *counters, ff_report *
     study_records_close(r.done);
     if (!run->keys)
         free(r.keys);
-    ff_tree_free(tree);
+    ff_run_close(base);
     return ff_report_errors(report) == 0;
 }
 

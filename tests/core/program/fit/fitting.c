@@ -97,8 +97,8 @@ bool fitting_run(fitting *f, const points *data)
     while (f->hold[held])
         held++;
     bool good = fit_read(&f->fit, path) && fit_add_laws(&f->fit, f->engine, &f->id, 1) &&
-                fit_set(&f->fit, f->hold, held) && fit_set_conditions(&f->fit, NULL, 0) &&
-                fit_run(&f->fit);
+                fit_set(&f->fit, f->engine, f->hold, held) &&
+                fit_set_conditions(&f->fit, NULL, 0) && fit_run(&f->fit);
     f->law = f->fit.laws;
     unlink(path);
     return good;

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "run.h"
+
+#include "../memory/memory.h"
+
+ff_run *run_read(ff_engine *engine, const char *file)
+{
+    ff_run *run;
+    ff_run_read(engine, file, &run);
+    return memory_require(run);
+}
+
+ff_run *run_copy(const ff_run *run)
+{
+    ff_run *copy;
+    ff_run_copy(run, &copy);
+    return memory_require(copy);
+}
+
+/* A run that had no memory has no messages. */
+static void require(ff_run *run)
+{
+    memory_require(ff_run_report(run));
+}
+
+void run_set(ff_run *run, const char *assignment, const ff_place *path, const ff_place *value)
+{
+    ff_run_set_at(run, assignment, path, value);
+    require(run);
+}
+
+void run_set_all(ff_run *run, const char *const *assignments, size_t count)
+{
+    for (size_t i = 0; i < count; i++)
+        run_set(run, assignments[i], NULL, NULL);
+}
+
+void run_put(ff_run *run, const char *key, const ff_node *node)
+{
+    ff_run_put(run, key, node);
+    require(run);
+}
+
+ff_pipeline *run_build(ff_run *run, bool everything)
+{
+    ff_run_build(run, everything);
+    require(run);
+    return ff_run_pipeline(run);
+}
+
+bool run_has_errors(ff_run *run)
+{
+    return ff_report_errors(ff_run_report(run)) > 0;
+}
+
+bool run_start(ff_run *run, const ff_observer *watch)
+{
+    bool good = ff_run_start(run, watch) == FF_OK;
+    require(run);
+    return good;
+}
