@@ -17,13 +17,19 @@ static const double least_part = 0.01;
 
 static const char ending[] = "_error";
 
+static bool ends_in_error(const char *name)
+{
+    size_t length = strlen(name), tail = sizeof ending - 1;
+    return length > tail && !strcmp(name + length - tail, ending);
+}
+
 /* "h_min_space_error" is of the output with the longest name that the line begins with; of fields
    no error is measured. */
 const ff_result *accuracy_estimated(const ff_stage *stage, const char *line)
 {
-    size_t length = strlen(line), tail = sizeof ending - 1, longest = 0;
+    size_t longest = 0;
     const ff_result *found = NULL;
-    if (length <= tail || strcmp(line + length - tail, ending) != 0)
+    if (!ends_in_error(line))
         return NULL;
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const char *name = stage->results[i].row->name;
@@ -34,6 +40,20 @@ const ff_result *accuracy_estimated(const ff_stage *stage, const char *line)
         }
     }
     return found && found->requested && found->rank > 1 ? NULL : found;
+}
+
+bool accuracy_is_least(const ff_stage *stage, const ff_result *result)
+{
+    const char *name = result->row->name;
+    for (size_t i = 0; i < stage->quality_count && !ends_in_error(name); i++) {
+        const ff_quality *line = &stage->quality[i];
+        const ff_result *of = isinf(line->value) ? accuracy_estimated(stage, line->name) : NULL;
+        size_t stem = of ? strlen(of->row->name) : 0;
+        if (of && !strncmp(name, of->row->name, stem) && (!name[stem] || name[stem] == '_') &&
+            !strcmp(result->row->unit, of->row->unit))
+            return true;
+    }
+    return false;
 }
 
 bool accuracy_may_estimate(const ff_port *row, const ff_port *of)

@@ -176,6 +176,17 @@ typedef struct shown {
     char place[256]; /* the shape of a field, or where the extremes of a series lie; or "" */
 } shown;
 
+/* Whether what an output is off by is known, or is another output. */
+static bool known_error(const ff_stage *stage, const ff_result *result)
+{
+    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
+        const ff_result *of = &stage->results[i];
+        if (accuracy_may_estimate(result->row, of->row) && accuracy_is_least(stage, of))
+            return false;
+    }
+    return true;
+}
+
 static shown show(const paper *page, const ff_pipeline *pipeline, const ff_stage *stage,
                   size_t output, bool briefly)
 {
@@ -185,8 +196,9 @@ static shown show(const paper *page, const ff_pipeline *pipeline, const ff_stage
     bool pair = print_pair(result, text.value, sizeof text.value);
     if (result->count > 0 && !pair) {
         find_extremes(result, &least, &greatest);
-        print_range(result, result->data[least], result->data[greatest], text.value,
-                    sizeof text.value);
+        size_t at = accuracy_is_least(stage, result) ? strlen(strcpy(text.value, ">= ")) : 0;
+        print_range(result, result->data[least], result->data[greatest], text.value + at,
+                    sizeof text.value - at);
     }
     bool from_end_to_end = least == 0 && greatest + 1 == result->count;
     if (result->rank > 1)
@@ -194,6 +206,8 @@ static shown show(const paper *page, const ff_pipeline *pipeline, const ff_stage
     else if (result->rank == 1 && !pair && strstr(text.value, " to ") && !from_end_to_end)
         print_where(pipeline, stage, output, least, greatest, briefly, text.place,
                     sizeof text.place);
+    if (!known_error(stage, result))
+        strcpy(text.value, "not known");
     print_error(page, result, text.value, sizeof text.value);
     return text;
 }
@@ -306,9 +320,11 @@ static void print_quality(paper *page, const ff_stage *stage)
         if (line->verdict == FF_GOOD)
             continue;
         start_line(page);
-        int column = printf("  %s.%s = %.3g, held to %.3g: ", stage->name, line->name, line->value,
-                            line->limit) +
-                     (int)strlen(verdict);
+        char value[RESULTS_NUMBER_SIZE];
+        results_number_short(line->value, value);
+        int column =
+            printf("  %s.%s = %s, held to %.3g: ", stage->name, line->name, value, line->limit) +
+            (int)strlen(verdict);
         paint_verdict(page, line->verdict, verdict);
         if (line->text)
             column += printf(", ");

@@ -4,6 +4,7 @@
 #include "../memory/memory.h"
 #include "../study/kinds/kinds.h"
 #include "../terminal/answer.h"
+#include "number.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -77,9 +78,11 @@ void results_json_add_doubts(json_t *answer, const ff_pipeline *pipeline)
             const ff_quality *line = &stage->quality[k];
             if (line->verdict != FF_DOUBTFUL)
                 continue;
-            char *text = memory_print_text("%s: doubtful: %s is %.3g, held to %.3g%s%s",
-                                           stage->name, line->name, line->value, line->limit,
-                                           line->text ? ": " : "", line->text ? line->text : "");
+            char value[RESULTS_NUMBER_SIZE];
+            results_number_short(line->value, value);
+            char *text = memory_print_text("%s: doubtful: %s is %s, held to %.3g%s%s", stage->name,
+                                           line->name, value, line->limit, line->text ? ": " : "",
+                                           line->text ? line->text : "");
             json_array_append_new(list, describe_message(&stage->place, text, NULL));
             free(text);
         }

@@ -20,6 +20,11 @@ void results_number_exact(double value, char out[RESULTS_NUMBER_SIZE])
     }
 }
 
+void results_number_short(double value, char out[RESULTS_NUMBER_SIZE])
+{
+    snprintf(out, RESULTS_NUMBER_SIZE, isfinite(value) ? "%.3g" : "not known", value);
+}
+
 results_readable results_readable_unit(const char *si_unit, double magnitude)
 {
     const double pi = 3.14159265358979323846;

@@ -11,6 +11,9 @@ enum { RESULTS_NUMBER_SIZE = 32 };
    finite. */
 void results_number_exact(double value, char out[RESULTS_NUMBER_SIZE]);
 
+/* Writes three digits of a line of quality, or "not known". */
+void results_number_short(double value, char out[RESULTS_NUMBER_SIZE]);
+
 /* A unit in which a value of that size reads well: number = si * factor + offset. */
 typedef struct results_readable {
     double factor, offset;

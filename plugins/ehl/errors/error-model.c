@@ -261,21 +261,41 @@ void ehl_space_keep(const ehl_march *m, ehl_instant_film *f)
         memset(f->change, 0, eq->nodes * sizeof *f->change);
 }
 
-/*
- * Returns half of what the highest pressure falls by within four nodes, over it, where that is more
- * than a twentieth of it and not at the outlet: such a peak, of a film that is squeezed, is as
- * narrow as the cells let it be, and climbs with each halving of them. Where it has no end, as of a
- * sudden load on Barus' oil, it climbs by 0.6 to 1 times that.
- */
-static double narrow_peak(const ehl_reynolds *eq, const contact *c, const ehl_crest *of)
+/* Returns the share by which the film changes, under the pressure of the contact, while the oil
+   passes half of it; from 1 on the film is squeezed more than it is carried along. */
+static double change_of_film(const ehl_march *m, const contact *c, const ehl_crest *of)
 {
-    enum { NEAR = 4 };
-    const double broad = 0.05, *p = of->p;
-    size_t peak = NEAR;
-    while (peak + NEAR + 1 < eq->nodes && p[peak] < of->p_max)
-        peak++;
-    double fall = 1 - (p[peak - NEAR] + p[peak + NEAR]) / (2 * of->p_max);
-    return peak < outlet_from(eq, c) && fall > broad ? fall / 2 : 0;
+    const double *mass = m->state[0].mass, *before = m->state[1].mass;
+    double way = fabs(m->at.entrainment) * (m->state[0].time - m->state[1].time), most = 0;
+    for (size_t i = 0; i < m->solver->grid->nodes; i++)
+        if (of->p[i] > of->p_max / 2)
+            most = fmax(most, fabs(mass[i] - before[i]) / mass[i]);
+    return way > 0 ? most * c->a / way : INFINITY;
+}
+
+/*
+ * Records by how much the highest pressure may exceed p_max where the film is far from a steady
+ * one, of which the bounds are: by half of what p falls by within two nodes of a maximum above half
+ * of it, about what it falls by within a cell, times two. Where the film is squeezed, changing by
+ * more than three times itself, a maximum in front of the outlet that falls by more than 4 % of it
+ * is not resolved: under a sudden load on Barus' oil it climbs with each halving of the cells, and
+ * may be as high as it likes. A spike of the outlet has an end, which is known where it was looked
+ * at.
+ */
+static void record_narrow(ehl_results *r, const ehl_march *m, const contact *c, const ehl_crest *of)
+{
+    const double steady = 0.3, squeezed = 3, broad = 0.04, *p = of->p;
+    const double change = change_of_film(m, c, of);
+    const size_t outlet = outlet_from(m->solver->reynolds, c);
+    double *narrow = &r->row_in_space[EHL_NARROW], *tip = &r->row_in_space[EHL_TIP];
+    for (size_t i = 2; i + 2 < m->solver->grid->nodes && change > steady; i++) {
+        if (!(p[i] > of->p_max / 2 && p[i] >= p[i - 1] && p[i] > p[i + 1]))
+            continue;
+        double fall = p[i] - (p[i - 2] + p[i + 2]) / 2;
+        *tip = fmax(*tip, p[i] + fall / 2 - of->p_max);
+        if (i < outlet && fall > broad * p[i] && change > squeezed)
+            *narrow = INFINITY;
+    }
 }
 
 /* carried: what the cells have made of h_min and h_central on the film's way, relative. */
@@ -290,9 +310,9 @@ static void record_bounds(ehl_results *r, const ehl_march *m, double h_central, 
     r->row_in_space[EHL_LEAST] = (e.of[EHL_LEAST] + carried[EHL_LEAST]) * r->row[EHL_H_MIN];
     r->row_in_space[EHL_CENTRAL] =
         (e.of[EHL_CENTRAL] + carried[EHL_CENTRAL]) * r->row[EHL_H_CENTRAL];
-    double narrow = m->step.past ? narrow_peak(m->solver->reynolds, c, &of) : 0;
-    r->row_in_space[EHL_PEAK] = fmax(e.of[EHL_PEAK], narrow) * p_max;
-    r->row_in_space[EHL_NARROW] = narrow * p_max;
+    r->row_in_space[EHL_PEAK] = e.of[EHL_PEAK] * p_max;
+    if (ehl_wants_p_max(r->wanted) && !m->rough && m->step.past && m->known > 1)
+        record_narrow(r, m, c, &of);
 }
 
 static void keep_least(double *least, double value)

@@ -11,9 +11,9 @@
 
 /* Columns of the errors by the cells: those of EHL_BOUNDS, m and Pa, bounds or, of films, where
    EHL_MEASURED + EHL_LEAST or EHL_CENTRAL is 1, what they are, negative of a film that is too thin.
-   EHL_NARROW: of p_max, Pa, no error of it is less; it has a column of its own, since of p_max
-   nothing is measured. */
-enum { EHL_MEASURED = EHL_BOUNDS, EHL_NARROW = EHL_MEASURED + EHL_BOUNDS, EHL_SPACE };
+   EHL_NARROW: of p_max, infinite where the cells do not resolve a peak, else 0. EHL_TIP: of p_max,
+   Pa, no error of it is less where the film is not looked at on more cells. */
+enum { EHL_MEASURED = EHL_BOUNDS, EHL_NARROW = EHL_MEASURED + EHL_BOUNDS, EHL_TIP, EHL_SPACE };
 
 /* A table of rows of equal width, which grows: their number is known at the end only. */
 typedef struct ehl_rows {

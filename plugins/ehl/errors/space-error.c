@@ -49,10 +49,28 @@ static double tip_by_looks(const ehl_results *r, size_t row)
     return value + r->share * bound;
 }
 
-/* The same, and no lower than a narrow peak may be. */
+static int is_extreme(const ehl_results *r, int kind)
+{
+    return kind == EHL_LEAST ? r->lowest_alone : kind == EHL_PEAK && r->highest_alone;
+}
+
+static int was_looked_at(const ehl_results *r, size_t row)
+{
+    for (size_t k = 0; k < r->looks; k++)
+        if (r->look[k].row == row)
+            return 1;
+    return 0;
+}
+
+/* The same, and no lower than a narrow peak may be, which is not that of all if it is below half of
+   it. */
 static double tip_of(const ehl_results *r, size_t row)
 {
-    return fmax(tip_by_looks(r, row), film_of(r, row, EHL_PEAK) + *part_of(r, row, EHL_NARROW));
+    const double value = film_of(r, row, EHL_PEAK), narrow = *part_of(r, row, EHL_NARROW);
+    double tip = tip_by_looks(r, row);
+    if (!is_extreme(r, EHL_PEAK) && !was_looked_at(r, row))
+        tip = fmax(tip, value + *part_of(r, row, EHL_TIP));
+    return is_extreme(r, EHL_PEAK) && value < r->highest / 2 ? tip : fmax(tip, value + narrow);
 }
 
 double ehl_space_part(const ehl_results *r, size_t row, int kind)
@@ -65,13 +83,9 @@ double ehl_space_part(const ehl_results *r, size_t row, int kind)
     return isfinite(part) ? part : as_good_as_none * film_of(r, row, kind);
 }
 
-static int is_extreme(const ehl_results *r, int kind)
-{
-    return kind == EHL_LEAST ? r->lowest_alone : kind == EHL_PEAK && r->highest_alone;
-}
-
 /* Returns what a row makes of the error of the output by the cells: its own, or by how much it goes
-   beyond the extreme of all, where that alone is wanted. A peak without a bound has none. */
+   beyond the extreme of all, where that alone is wanted; infinite: it is not known. A peak without
+   a bound has none. */
 static double error_of_row(const ehl_results *r, size_t row, int kind)
 {
     double value = film_of(r, row, kind), part = *part_of(r, row, kind), error = 0;
@@ -83,7 +97,7 @@ static double error_of_row(const ehl_results *r, size_t row, int kind)
         error = fabs(part) / value;
     else
         error = 1 - (value - part) / r->lowest;
-    return isfinite(error) ? error : 1e300;
+    return isnan(error) ? INFINITY : error;
 }
 
 static size_t worst_row(const ehl_results *r, int kind)
@@ -304,7 +318,7 @@ static size_t find_peak(const ehl_results *r)
         if (error_of_row(r, r->look[k].row, EHL_PEAK) > EHL_PEAK_LIMIT)
             return SIZE_MAX;
     }
-    if (*part_of(r, worst, EHL_NARROW) >= *part_of(r, worst, EHL_PEAK) && error > 0)
+    if (isinf(error))
         return SIZE_MAX; /* no look makes that less */
     if (r->looks == 0)
         return error > EHL_PEAK_LIMIT / 2 ? worst : SIZE_MAX;
@@ -361,9 +375,10 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
                  r->finest, r->share);
     else if (kind != EHL_PEAK && r->measured[kind])
         snprintf(how, sizeof how, "; measured by the last passage of the contact on more cells");
-    if (kind == EHL_PEAK && *part_of(r, worst_row(r, kind), EHL_NARROW) > 0)
+    if (kind == EHL_PEAK && isinf(error))
         snprintf(enough, sizeof enough,
-                 "; a peak as narrow as a few cells: p_max is at least what they show");
+                 "; a peak as narrow as a few cells is not resolved: p_max is at least what they "
+                 "show");
     else if (kind == EHL_PEAK)
         snprintf(enough, sizeof enough,
                  "; above 0.1 the cells may cut the spike at the outlet off: use more of them");
