@@ -33,21 +33,35 @@ typedef struct mesh_spring {
     double by_stiffness;  /* derivative of the force by the stiffness */
 } mesh_spring;
 
-static mesh_spring spring_at(const dynamics_field *field, double phase, const dynamics_place *place,
-                             int flank, double overlap)
+/* The stiffness of the mounted pair at a phase, and that where the centres are. */
+typedef struct mesh_stiffness {
+    double since, mounted, now;
+} mesh_stiffness;
+
+static mesh_stiffness stiffness_at(const dynamics_field *field, double phase,
+                                   const dynamics_place *place)
 {
     const dynamics_piece *piece = field->now->piece;
     double since = phase - piece->start, k = dynamics_piece_value(piece->k, piece->degree, since);
-    double now = fmax(k + dynamics_coupled_stiffness_change(
-                              field->pair, place, phase, field->regime.pairs, field->now->mounted),
-                      0);
-    if (!dynamics_spring_bends(piece) || !(k > 0))
-        return (mesh_spring){now, 0, overlap};
+    double change = dynamics_coupled_stiffness_change(field->pair, place, phase,
+                                                      field->regime.pairs, field->now->mounted);
+    return (mesh_stiffness){since, k, fmax(k + change, 0)};
+}
+
+static mesh_spring spring_at(const dynamics_field *field, const mesh_stiffness *k, int flank,
+                             double overlap)
+{
+    const dynamics_piece *piece = field->now->piece;
+    if (!dynamics_spring_bends(piece) || !(k->mounted > 0))
+        return (mesh_spring){k->now, 0, overlap};
     int band = field->regime.band[flank];
-    double slope = dynamics_piece_value(dynamics_spring_slope(piece, band), piece->degree, since);
+    double slope =
+        dynamics_piece_value(dynamics_spring_slope(piece, band), piece->degree, k->since);
     double offset =
-        band ? dynamics_piece_value(dynamics_spring_offset(piece, band), piece->degree, since) : 0;
-    return (mesh_spring){now / k * slope, now / k * offset, (slope * overlap - offset) / k};
+        band ? dynamics_piece_value(dynamics_spring_offset(piece, band), piece->degree, k->since)
+             : 0;
+    return (mesh_spring){k->now / k->mounted * slope, k->now / k->mounted * offset,
+                         (slope * overlap - offset) / k->mounted};
 }
 
 static void add_force(dynamics_push *p, const dynamics_overlap *overlap, double normal)
@@ -65,11 +79,17 @@ dynamics_push dynamics_field_push(const dynamics_field *field, double t, const d
     double c = 2 * pair->excitation->zeta;
     double e = dynamics_piece_value(piece->e, piece->degree, since);
     double e_rate = dynamics_piece_slope(piece->e, piece->degree, since) / field->T;
+    const int *touches = field->regime.touches;
+    mesh_stiffness k = {0};
     dynamics_push p = {0};
+    if (touches[DYNAMICS_DRIVING] || touches[DYNAMICS_BACK])
+        k = stiffness_at(field, phase, place);
     for (int i = 0; i < DYNAMICS_FLANKS; i++) {
         p.overlap[i] =
             dynamics_coupled_overlap(pair, place, side_of[i], y, y + DYNAMICS_RATES, e, e_rate);
-        mesh_spring spring = spring_at(field, phase, place, i, p.overlap[i].value);
+        if (!touches[i])
+            continue;
+        mesh_spring spring = spring_at(field, &k, i, p.overlap[i].value);
         p.normal[i] = spring.slope * p.overlap[i].value + c * p.overlap[i].rate - spring.offset;
         if (dynamics_field_damps(field, i))
             add_force(&p, &p.overlap[i], p.normal[i]);
@@ -104,6 +124,41 @@ int dynamics_field_slope(double t, const double y[], double dydt[], void *self)
     return isfinite(a[DYNAMICS_Q]) ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
+void dynamics_course_find(const dynamics_field *field, double t, double h, const double *from,
+                          const double *to, dynamics_course *course)
+{
+    double slope_from[DYNAMICS_COUPLED_SIZE], slope_to[DYNAMICS_COUPLED_SIZE];
+    dynamics_field_slope(t, from, slope_from, (void *)field);
+    dynamics_field_slope(t + h, to, slope_to, (void *)field);
+    course->h = h;
+    for (int i = 0; i < DYNAMICS_COORDINATES; i++) {
+        int rate = DYNAMICS_RATES + i;
+        double v = h * from[rate], a = h * h * slope_from[rate];
+        double d = to[i] - from[i] - v - 0.5 * a, dv = h * to[rate] - v - a;
+        double da = h * h * slope_to[rate] - a;
+        course->power[0][i] = from[i];
+        course->power[1][i] = v;
+        course->power[2][i] = 0.5 * a;
+        course->power[3][i] = 10 * d - 4 * dv + 0.5 * da;
+        course->power[4][i] = 7 * dv - 15 * d - da;
+        course->power[5][i] = 6 * d - 3 * dv + 0.5 * da;
+    }
+}
+
+void dynamics_course_state(const dynamics_course *course, double share, double *state)
+{
+    for (int i = 0; i < DYNAMICS_COORDINATES; i++) {
+        double x = course->power[5][i], v = 5 * x;
+        for (int n = 4; n >= 0; n--)
+            x = course->power[n][i] + share * x;
+        for (int n = 4; n >= 1; n--)
+            v = n * course->power[n][i] + share * v;
+        state[i] = x;
+        state[DYNAMICS_RATES + i] = v / course->h;
+    }
+    state[DYNAMICS_TAKEN] = 0;
+}
+
 /* The normal force of a flank, or of the damper in the gap, with its derivatives. */
 typedef struct normal_force {
     dynamics_overlap overlap;
@@ -125,8 +180,10 @@ static normal_force normal_at(const dynamics_field *field, double t, const doubl
     normal_force n = {.overlap = dynamics_coupled_overlap(pair, place, side, y, v, e, e_rate),
                       .bend = dynamics_coupled_bend(place, side)};
     mesh_spring spring = {0};
-    if (side)
-        spring = spring_at(field, phase, place, flank, n.overlap.value);
+    if (side) {
+        mesh_stiffness k = stiffness_at(field, phase, place);
+        spring = spring_at(field, &k, flank, n.overlap.value);
+    }
     if (spring.slope > 0)
         by_shift = dynamics_coupled_stiffness_slope(pair, place, phase, field->regime.pairs);
     n.value = spring.slope * n.overlap.value + c * n.overlap.rate - spring.offset;

@@ -43,7 +43,7 @@ typedef struct dynamics_push {
     double force; /* on q, driving positive */
     double on[DYNAMICS_COORDINATES];
     dynamics_overlap overlap[DYNAMICS_FLANKS];
-    double normal[DYNAMICS_FLANKS]; /* of each flank, as if it were pressed */
+    double normal[DYNAMICS_FLANKS]; /* of a flank that touches, as if it were pressed; else 0 */
 } dynamics_push;
 
 /* t is the time since the start of the stretch. */
@@ -57,6 +57,18 @@ int dynamics_field_slope(double t, const double y[], double dydt[], void *field)
 /* The derivatives of the accelerations by coordinates and rates. */
 void dynamics_field_jacobian(const dynamics_field *field, double t, const double *y,
                              double jacobian[DYNAMICS_COORDINATES][DYNAMICS_TAKEN]);
+
+/* The motion within a step, by the polynomials of degree 5 that have the coordinates, rates and
+   accelerations of both ends. */
+typedef struct dynamics_course {
+    double h, power[6][DYNAMICS_COORDINATES]; /* in the share of the step */
+} dynamics_course;
+
+/* Of a step of duration h from time t, between two states. */
+void dynamics_course_find(const dynamics_field *field, double t, double h, const double *from,
+                          const double *to, dynamics_course *course);
+/* The state at a share of the step, but for the energy taken, which is 0. */
+void dynamics_course_state(const dynamics_course *course, double share, double *state);
 
 /* Whether the mesh damper acts on a flank (DYNAMICS_FLANKS: on the pair in its gap). */
 int dynamics_field_damps(const dynamics_field *field, int flank);

@@ -11,9 +11,13 @@
  */
 static const double nearly_periodic = 1e-3;
 
-/* The least relative change of the frequency per cycle in a sweep: a cycle costs more here than
+/* The least relative change of the frequency per cycle of a glide: a cycle costs more here than
    with rigid bearings. */
 static const double slowest = 1e-3;
+
+/* The farthest that a motion is looked for from where a glide ends, and, so that it is the one that
+   is settled to, from a state on the way to it, in static deflections. */
+static const double unsettled = 1, settling = 0.1;
 
 enum { HISTORY = 2 * DYNAMICS_LONGEST_PERIOD + 1 };
 
@@ -78,32 +82,94 @@ static void start_at_rest(dynamics_coupled_run *run, const dynamics_coupled *pai
     dynamics_coupled_start(run, T, rest);
 }
 
-/* Sweeps the speed from one frequency to another, after `start` cycles at the first. Where the
-   motion grows without bound it starts from rest again. */
-static ff_status sweep(dynamics_coupled_run *run, const dynamics_coupled *pair, const ff_host *host,
-                       double from, double to, size_t start)
+/* Changes the speed slowly from that of the orbit while the motion goes on, whether it repeats
+   itself or not. Where it grows without bound it starts from rest again. */
+static ff_status glide(dynamics_coupled_run *run, const dynamics_coupled *pair, const ff_host *host,
+                       double to, dynamics_coupled_orbit *orbit)
 {
-    double frequency = from, way = log(to / from);
+    double frequency = orbit->frequency, way = log(to / frequency);
+    dynamics_coupled_start(run, 2 * M_PI / frequency, orbit->state);
     for (size_t i = 0; way < 0 ? frequency > to : frequency < to; i++) {
-        if (i % 64 == 0 && host->progress(host->ctx, 0.5 * log(frequency / from) / way))
+        if (i % 64 == 0 && host->progress(host->ctx, 0.5 * log(frequency / orbit->frequency) / way))
             return FF_STOPPED;
         if (!dynamics_coupled_cycle(run, 2 * M_PI / frequency, NULL))
             return FF_NOCONV;
         if (is_unbounded(dynamics_coupled_state(run), pair->excitation))
             start_at_rest(run, pair, 2 * M_PI / frequency);
-        if (i >= start)
-            frequency *= 1 + (way < 0 ? -1 : 1) *
-                                 fmax(dynamics_sweep_rate(pair->excitation, frequency), slowest);
+        frequency *= 1 + (way < 0 ? -1 : 1) *
+                             fmax(dynamics_sweep_rate(pair->excitation, frequency), slowest);
+    }
+    orbit->frequency = to;
+    memcpy(orbit->state, dynamics_coupled_state(run), sizeof orbit->state);
+    return FF_OK;
+}
+
+/* The cycles after which a motion is nearest to itself; more of them are worth it where they bring
+   it much nearer. */
+static int likely_period(const history *h)
+{
+    int likely = 1;
+    for (int p = 2; p <= DYNAMICS_LONGEST_PERIOD && h->count > (size_t)p; p++)
+        if (change_over(h, p, 0) < 0.3 * change_over(h, likely, 0))
+            likely = p;
+    return likely;
+}
+
+/* Sets the period of an orbit to the shortest after which it returns. */
+static ff_status shorten(dynamics_coupled_run *run, double tolerance, dynamics_coupled_orbit *orbit)
+{
+    const double *y = dynamics_coupled_state(run);
+    double T = 2 * M_PI / orbit->frequency;
+    dynamics_coupled_start(run, T, orbit->state);
+    for (int p = 1; p < orbit->period; p++) {
+        double change = 0;
+        if (!dynamics_coupled_cycle(run, T, NULL))
+            return FF_NOCONV;
+        for (int i = 0; i < DYNAMICS_TAKEN; i++)
+            change = fmax(change, fabs(y[i] - orbit->state[i]));
+        if (change < 4 * tolerance)
+            orbit->period = p;
     }
     return FF_OK;
 }
 
-static ff_status settle_here(dynamics_coupled_run *run, const dynamics_coupled *pair,
-                             const dynamics_settling *how, dynamics_coupled_motion *motion)
+static void take_orbit(const dynamics_coupled_orbit *orbit, double tolerance,
+                       dynamics_coupled_motion *motion)
+{
+    memcpy(motion->state, orbit->state, sizeof motion->state);
+    motion->settled.period = orbit->period;
+    motion->settled.within = orbit->distance <= tolerance;
+    motion->settled.distance = orbit->distance;
+    motion->settled.cycles = orbit->cycles;
+}
+
+/* Looks by a run of its own for the periodic motion that one is on the way to. FF_NOCONV: there is
+   none that near. */
+static ff_status leap_ahead(dynamics_coupled_run *leaper, const dynamics_settling *how, int period,
+                            const double *state, dynamics_coupled_motion *motion)
+{
+    dynamics_coupled_orbit orbit = {
+        .frequency = 2 * M_PI / how->T, .period = period, .cycles = motion->settled.cycles};
+    memcpy(orbit.state, state, sizeof orbit.state);
+    ff_status status = dynamics_coupled_shoot(leaper, settling, how->tolerance, how->host, &orbit);
+    if (status == FF_OK)
+        status = shorten(leaper, how->tolerance, &orbit);
+    if (status == FF_OK)
+        take_orbit(&orbit, how->tolerance, motion);
+    return status;
+}
+
+/* Goes on from the motion's state until it repeats itself; now and then `leaper` (NULL: none) looks
+   ahead, and FF_NOCONV: where the motion repeats itself it does not find it. */
+static ff_status settle_here(dynamics_coupled_run *run, dynamics_coupled_run *leaper,
+                             const dynamics_coupled *pair, const dynamics_settling *how,
+                             dynamics_coupled_motion *motion)
 {
     const double *y = dynamics_coupled_state(run);
     dynamics_settled *settled = &motion->settled;
     history h = {.count = 0};
+    size_t leap = 2 * DYNAMICS_LONGEST_PERIOD;
+    dynamics_coupled_start(run, how->T, motion->state);
     remember(&h, y);
     while (settled->cycles < settled->limit && !settled->within) {
         if (settled->cycles % 64 == 0 &&
@@ -120,28 +186,18 @@ static ff_status settle_here(dynamics_coupled_run *run, const dynamics_coupled *
         }
         remember(&h, y);
         find_period(&h, pair->excitation, how, settled);
+        if (!leaper || (settled->cycles != leap && !settled->within))
+            continue;
+        int period = settled->within ? settled->period : likely_period(&h);
+        ff_status status = leap_ahead(leaper, how, period, y, motion);
+        if (status != FF_NOCONV || settled->within)
+            return status;
+        leap *= 2;
     }
     if (!settled->within && !(settled->distance < nearly_periodic))
         settled->period = DYNAMICS_APERIODIC;
     memcpy(motion->state, y, sizeof motion->state);
     return FF_OK;
-}
-
-/* What a slow sweep of the speed leads to. */
-static ff_status settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
-                        const dynamics_settling *how, dynamics_coupled_motion *motion)
-{
-    double frequency = 2 * M_PI / how->T, from = motion->from;
-    size_t start = 0;
-    if (from > 0) {
-        dynamics_coupled_start(run, 2 * M_PI / from, motion->state);
-    } else {
-        from = dynamics_sweep_from(how->branch, frequency);
-        start = dynamics_sweep_start_cycles(pair->excitation, 2 * M_PI / from);
-        start_at_rest(run, pair, 2 * M_PI / from);
-    }
-    ff_status status = sweep(run, pair, how->host, from, frequency, start);
-    return status == FF_OK ? settle_here(run, pair, how, motion) : status;
 }
 
 /* The motion without separation. FF_NOCONV: there is none that is stable. */
@@ -153,41 +209,47 @@ static ff_status shoot_in_contact(dynamics_coupled_run *run, const dynamics_coup
     return status == FF_OK && !orbit->touches ? FF_NOCONV : status;
 }
 
-/* The farthest that a motion is looked for from a state that has yet to settle, in static
-   deflections. */
-static const double unsettled = 1;
-
-/* Follows a motion to the frequency that is sought. Where the motion ends the speed is swept until
-   another is near. FF_NOCONV: none is near the state at that frequency. */
-static ff_status follow_and_sweep(dynamics_coupled_run *run, const dynamics_coupled *pair,
-                                  const dynamics_settling *how, dynamics_coupled_orbit *orbit)
+/* Looks for a periodic motion near the state of the orbit, which is kept where there is none. */
+static ff_status shoot_nearby(dynamics_coupled_run *run, const dynamics_settling *how,
+                              dynamics_coupled_orbit *orbit)
 {
-    static const double stretch = 0.03; /* of a sweep, in the logarithm of the frequency */
+    dynamics_coupled_orbit nearby = *orbit;
+    ff_status status =
+        dynamics_coupled_shoot(run, unsettled, dynamics_coupled_on_the_way, how->host, &nearby);
+    orbit->cycles = nearby.cycles;
+    if (status == FF_OK)
+        *orbit = nearby;
+    return status;
+}
+
+/* Follows a motion to the frequency that is sought. Where it ends, or does not repeat itself
+   (FF_NOCONV before), the speed glides until a periodic motion is near. FF_NOCONV: none is near the
+   state at that frequency. */
+static ff_status follow_and_glide(dynamics_coupled_run *run, const dynamics_coupled *pair,
+                                  const dynamics_settling *how, ff_status before,
+                                  dynamics_coupled_orbit *orbit)
+{
+    static const double stretch = 0.03; /* of a glide, in the logarithm of the frequency */
     double to = 2 * M_PI / how->T;
-    ff_status status = dynamics_coupled_follow(run, to, how->host, orbit);
-    while (status == FF_NOCONV && orbit->frequency != to) {
+    ff_status status = before;
+    while (status == FF_OK || (status == FF_NOCONV && orbit->frequency != to)) {
+        if (status == FF_OK)
+            status = dynamics_coupled_follow(run, to, how->host, orbit);
+        if (status != FF_NOCONV)
+            return status;
         double left = log(to / orbit->frequency);
         double next = fabs(left) > stretch ? orbit->frequency * exp(copysign(stretch, left)) : to;
-        dynamics_coupled_start(run, 2 * M_PI / orbit->frequency, orbit->state);
-        status = sweep(run, pair, how->host, orbit->frequency, next, 0);
+        status = glide(run, pair, how->host, next, orbit);
         if (status != FF_OK)
             return status;
-        orbit->frequency = next;
-        memcpy(orbit->state, dynamics_coupled_state(run), sizeof orbit->state);
-        dynamics_coupled_orbit nearby = *orbit;
-        status = dynamics_coupled_shoot(run, unsettled, how->tolerance, how->host, &nearby);
-        orbit->cycles = nearby.cycles;
-        if (status != FF_OK)
-            continue;
-        *orbit = nearby;
-        status = dynamics_coupled_follow(run, to, how->host, orbit);
+        status = shoot_nearby(run, how, orbit);
     }
     return status;
 }
 
-/* The motion in which a sweep begins. */
-static ff_status begin_sweep(dynamics_coupled_run *run, const dynamics_coupled *pair,
-                             const dynamics_settling *how, dynamics_coupled_orbit *orbit)
+/* The motion at which a slow change of the speed begins. FF_NOCONV: it does not repeat itself. */
+static ff_status begin(dynamics_coupled_run *run, const dynamics_coupled *pair,
+                       const dynamics_settling *how, dynamics_coupled_orbit *orbit)
 {
     orbit->frequency = dynamics_sweep_from(how->branch, 2 * M_PI / how->T);
     double T = 2 * M_PI / orbit->frequency;
@@ -200,64 +262,65 @@ static ff_status begin_sweep(dynamics_coupled_run *run, const dynamics_coupled *
         if (!dynamics_coupled_cycle(run, T, NULL))
             return FF_NOCONV;
     memcpy(orbit->state, dynamics_coupled_state(run), sizeof orbit->state);
-    return FF_OK;
+    return shoot_nearby(run, how, orbit);
 }
 
-/* Leads to where a sweep of the speed ends, or near it. */
-static ff_status approach(const dynamics_coupled *pair, const dynamics_settling *how,
-                          const dynamics_coupled_motion *motion, dynamics_coupled_orbit *orbit)
+/* Leads to where a slow change of the speed ends, or near it. */
+static ff_status approach(dynamics_coupled_run *run, const dynamics_coupled *pair,
+                          const dynamics_settling *how, const dynamics_coupled_motion *motion,
+                          dynamics_coupled_orbit *orbit)
 {
-    static const double on_the_way = 1e-6; /* error of a step: the end is found more closely */
-    dynamics_coupled_run *run =
-        dynamics_coupled_run_new(pair, fmax(how->step_tolerance, on_the_way));
-    if (!run)
-        return FF_NOMEM;
     ff_status status = FF_OK;
     orbit->frequency = motion->from;
     if (motion->from > 0)
         memcpy(orbit->state, motion->state, sizeof orbit->state);
     else
-        status = begin_sweep(run, pair, how, orbit);
-    if (status == FF_OK)
-        status = follow_and_sweep(run, pair, how, orbit);
-    dynamics_coupled_run_free(run);
-    return status;
+        status = begin(run, pair, how, orbit);
+    return follow_and_glide(run, pair, how, status, orbit);
 }
 
-/* What `settle` leads to, by Newton's method where the motion repeats itself after a cycle. */
-static ff_status shoot(dynamics_coupled_run *run, const dynamics_coupled *pair,
-                       const dynamics_settling *how, dynamics_coupled_motion *motion)
+/* What a slow change of the speed leads to, by the run and a coarse one. */
+static ff_status reach(dynamics_coupled_run *run, dynamics_coupled_run *coarse,
+                       const dynamics_coupled *pair, const dynamics_settling *how,
+                       dynamics_coupled_motion *motion)
 {
     double frequency = 2 * M_PI / how->T;
-    dynamics_coupled_orbit orbit = {.frequency = frequency};
-    ff_status status = FF_NOCONV;
-    if (how->branch == DYNAMICS_BRANCH_LOWER && !(motion->from > 0))
-        status = shoot_in_contact(run, pair, how, &orbit);
-    if (status == FF_NOCONV) {
-        status = approach(pair, how, motion, &orbit);
-        if (orbit.frequency != frequency || (status != FF_OK && status != FF_NOCONV))
-            return status;
-        memcpy(motion->state, orbit.state, sizeof motion->state);
-        status = dynamics_coupled_shoot(run, unsettled, how->tolerance, how->host, &orbit);
-    }
-    if (status == FF_NOCONV) {
-        dynamics_coupled_start(run, how->T, motion->state);
-        return settle_here(run, pair, how, motion);
-    }
+    dynamics_coupled_orbit orbit = {.frequency = frequency, .period = 1};
+    ff_status status = approach(coarse, pair, how, motion, &orbit);
+    if (orbit.frequency != frequency || (status != FF_OK && status != FF_NOCONV))
+        return status;
     memcpy(motion->state, orbit.state, sizeof motion->state);
-    motion->settled.period = 1;
-    motion->settled.within = orbit.distance <= how->tolerance;
-    motion->settled.distance = orbit.distance;
-    motion->settled.cycles = orbit.cycles;
-    return status;
+    status = dynamics_coupled_shoot(run, unsettled, how->tolerance, how->host, &orbit);
+    if (status == FF_OK)
+        take_orbit(&orbit, how->tolerance, motion);
+    if (status != FF_NOCONV)
+        return status;
+    status = settle_here(coarse, run, pair, how, motion);
+    if (status != FF_NOCONV)
+        return status;
+    motion->settled = (dynamics_settled){.limit = motion->settled.limit};
+    return settle_here(run, NULL, pair, how, motion);
 }
 
 ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
                                   const dynamics_settling *how, dynamics_coupled_motion *motion)
 {
+    static const double on_the_way = 1e-6; /* error of a step: the end is found more closely */
+    dynamics_coupled_orbit orbit = {.frequency = 2 * M_PI / how->T, .period = 1};
+    ff_status status = FF_NOCONV;
     motion->settled.limit =
         how->cycles ? how->cycles : dynamics_settle_limit(pair->excitation, how->T, how->tolerance);
-    return how->cycles ? settle(run, pair, how, motion) : shoot(run, pair, how, motion);
+    if (how->branch == DYNAMICS_BRANCH_LOWER && !(motion->from > 0))
+        status = shoot_in_contact(run, pair, how, &orbit);
+    if (status == FF_OK)
+        take_orbit(&orbit, how->tolerance, motion);
+    if (status != FF_NOCONV)
+        return status;
+    dynamics_coupled_run *coarse =
+        dynamics_coupled_run_new(pair, fmax(how->step_tolerance, on_the_way));
+    status = coarse ? reach(run, coarse, pair, how, motion) : FF_NOMEM;
+    dynamics_coupled_run_free(coarse);
+    return status;
 }
 
 /* The monodromy over the cycles that are shown; what overflows is cut off. */
@@ -271,11 +334,9 @@ static ff_status find_monodromy(dynamics_coupled_motion *motion, const dynamics_
     dynamics_coupled_start_varied(run, motion->T, motion->state);
     for (size_t i = 0; i < motion->cycles && status == FF_OK; i++)
         status = dynamics_coupled_cycle(run, motion->T, NULL) ? FF_OK : FF_NOCONV;
-    const double *columns = dynamics_coupled_columns(run);
-    for (int i = 0; i < DYNAMICS_TAKEN; i++)
-        for (int k = 0; k < DYNAMICS_TAKEN; k++)
-            motion->monodromy[i * DYNAMICS_TAKEN + k] =
-                fmin(fmax(columns[k * DYNAMICS_TAKEN + i], -1e100), 1e100);
+    const double *monodromy = dynamics_coupled_monodromy(run);
+    for (int i = 0; i < DYNAMICS_TAKEN * DYNAMICS_TAKEN; i++)
+        motion->monodromy[i] = fmin(fmax(monodromy[i], -1e100), 1e100);
     dynamics_coupled_run_free(run);
     return status;
 }

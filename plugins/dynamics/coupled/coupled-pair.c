@@ -53,8 +53,10 @@ dynamics_pairs dynamics_coupled_mounted_pairs(const dynamics_coupled *pair, doub
     return (dynamics_pairs){(int)ceil(-phase), (int)floor(pair->cycle[pair->nodes - 1] - phase)};
 }
 
-/* The stiffness of a tooth pair, constant beyond the ends. */
-static double pair_stiffness_at(const dynamics_coupled *pair, double cycle)
+/* The stiffness of a tooth pair, constant beyond the ends. `near` is the piece that was used last,
+   which is kept where it holds the place with room to spare. */
+static double pair_stiffness_at(const dynamics_coupled *pair, double cycle,
+                                const dynamics_piece **near)
 {
     size_t last = pair->nodes - 1;
     const double *at = pair->cycle, *k = pair->pair_stiffness;
@@ -62,9 +64,10 @@ static double pair_stiffness_at(const dynamics_coupled *pair, double cycle)
         return k[0];
     if (cycle >= at[last])
         return k[last];
-    double phase = (cycle - at[0]) / (at[last] - at[0]);
-    const dynamics_piece *piece = dynamics_excitation_piece(&pair->table, phase, 0);
-    return dynamics_piece_value(piece->k, piece->degree, phase - piece->start);
+    double phase = (cycle - at[0]) / (at[last] - at[0]), room = 1e-9;
+    if (!*near || phase < (*near)->start + room || phase > (*near)->start + (*near)->length - room)
+        *near = dynamics_excitation_piece(&pair->table, phase, 0);
+    return dynamics_piece_value((*near)->k, (*near)->degree, phase - (*near)->start);
 }
 
 /* Its derivative by the cycle. */
@@ -82,10 +85,15 @@ double dynamics_coupled_stiffness_change(const dynamics_coupled *pair, const dyn
                                          double phase, dynamics_pairs now, dynamics_pairs mounted)
 {
     double change = 0;
-    for (int j = now.youngest; j <= now.oldest; j++)
-        change += pair_stiffness_at(pair, phase + j + place->shift);
-    for (int j = mounted.youngest; j <= mounted.oldest; j++)
-        change -= pair_stiffness_at(pair, phase + j);
+    int from = now.youngest < mounted.youngest ? now.youngest : mounted.youngest,
+        to = now.oldest > mounted.oldest ? now.oldest : mounted.oldest;
+    for (int j = from; j <= to; j++) {
+        const dynamics_piece *near = NULL;
+        if (j >= now.youngest && j <= now.oldest)
+            change += pair_stiffness_at(pair, phase + j + place->shift, &near);
+        if (j >= mounted.youngest && j <= mounted.oldest)
+            change -= pair_stiffness_at(pair, phase + j, &near);
+    }
     return change;
 }
 

@@ -11,8 +11,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The longest step, in radians of the highest frequency. */
-static const double longest_step = 0.5;
+/* The longest step, in radians of the highest frequency; of a motion to errors of `coarse` and more
+   the longer one. */
+static const double longest_step = 0.5, longest_coarse = 1.5, coarse = 1e-7;
+
+/* The value at which a gate closes: some round-offs of what it is the difference of. A tenth of it
+   is tried for, and of coarse motions more will do. */
+static const double closed = 1e-13, closed_coarse = 1e-10;
 
 /* Steps since the start beyond which the motion is given up. */
 static const size_t step_limit = 10000000;
@@ -36,6 +41,7 @@ struct dynamics_coupled_run {
     dynamics_stretch *stretches;
     double t;          /* since the start of the stretch */
     double longest, h; /* steps */
+    double closed;     /* value of a gate that is as good as 0 */
     double parted, back;
     size_t steps;
 };
@@ -100,11 +106,13 @@ dynamics_coupled_run *dynamics_coupled_run_new(const dynamics_coupled *pair, dou
     if (!run)
         return NULL;
     run->field.pair = pair;
-    run->longest = longest_step / highest_frequency(pair);
+    run->longest = (tolerance < coarse ? longest_step : longest_coarse) / highest_frequency(pair);
+    run->closed = tolerance < coarse ? 0.1 * closed : closed_coarse;
     run->system =
         (gsl_odeiv2_system){dynamics_field_slope, NULL, DYNAMICS_COUPLED_SIZE, &run->field};
     if (numerics_integrator_make(&run->gsl, DYNAMICS_COUPLED_SIZE, tolerance, round_off) &&
-        make_stretches(run) && (run->variation = dynamics_variation_new(&run->field)))
+        make_stretches(run) &&
+        (run->variation = dynamics_variation_new(&run->field, 0.1 * tolerance)))
         return run;
     dynamics_coupled_run_free(run);
     return NULL;
@@ -171,9 +179,9 @@ void dynamics_coupled_start_varied(dynamics_coupled_run *run, double T, const do
     run->varies = 1;
 }
 
-const double *dynamics_coupled_columns(const dynamics_coupled_run *run)
+const double *dynamics_coupled_monodromy(const dynamics_coupled_run *run)
 {
-    return dynamics_variation_columns(run->variation);
+    return dynamics_variation_matrix(run->variation);
 }
 
 const double *dynamics_coupled_state(const dynamics_coupled_run *run)
@@ -206,62 +214,108 @@ static void attempt(dynamics_coupled_run *run, double h, double *y, double *erro
     run->steps++;
 }
 
-static double gate_after(dynamics_coupled_run *run, int i, double h)
+/* A step of duration h from the state of the run, and an event in it. */
+typedef struct event {
+    double at; /* time since the start of the step */
+    int gate;
+    double state[DYNAMICS_COUPLED_SIZE]; /* where `at` is above 0 */
+} event;
+
+static double gate_on_course(const dynamics_coupled_run *run, const dynamics_course *course, int i,
+                             double share)
 {
-    double y[DYNAMICS_COUPLED_SIZE], error[DYNAMICS_COUPLED_SIZE], gate[DYNAMICS_GATES];
-    attempt(run, h, y, error);
-    dynamics_field_gates(&run->field, run->t + h, y, gate);
+    double y[DYNAMICS_COUPLED_SIZE], gate[DYNAMICS_GATES];
+    dynamics_course_state(course, share, y);
+    dynamics_field_gates(&run->field, run->t + share * course->h, y, gate);
     return gate[i];
 }
 
-/* Bisection takes over from the secant when that has not met the instant. */
-enum { MAX_PROBES = 80, MAX_SECANTS = 40 };
-
-/* The step between 0 and h at which gate i closes. */
-static double find_closing(dynamics_coupled_run *run, int i, double at_0, double h, double at_h)
+/* The gate of the event after an attempt that ends there. */
+static double gate_after(dynamics_coupled_run *run, double h, event *e)
 {
-    static const double closed = 1e-13; /* value of a gate that is 0 to some round-offs of what
-                                           it is the difference of */
-    dynamics_bracket b = {0, at_0, h, at_h, 0};
-    for (int n = 0; n < MAX_PROBES && b.high - b.low > 4 * DBL_EPSILON * h; n++) {
-        double middle = dynamics_bracket_secant(&b);
-        if (!(middle > b.low && middle < b.high) || n > MAX_SECANTS)
-            middle = b.low + 0.5 * (b.high - b.low);
-        double f = gate_after(run, i, middle);
-        if (fabs(f) < closed)
-            return middle;
-        dynamics_bracket_narrow(&b, middle, f);
+    double error[DYNAMICS_COUPLED_SIZE], gate[DYNAMICS_GATES];
+    attempt(run, h, e->state, error);
+    dynamics_field_gates(&run->field, run->t + h, e->state, gate);
+    e->at = h;
+    return gate[e->gate];
+}
+
+/* Bisection takes over from the secant when that has not met the instant. */
+enum { MAX_PROBES = 80, MAX_SECANTS = 40, MAX_CORRECTIONS = 4 };
+
+/* Narrows a bracket once. */
+static double next_probe(const dynamics_bracket *b, int n)
+{
+    double middle = dynamics_bracket_secant(b);
+    return middle > b->low && middle < b->high && n <= MAX_SECANTS
+               ? middle
+               : b->low + 0.5 * (b->high - b->low);
+}
+
+/* Finds where the gate of the event closes, between shares of the step at which it is open and
+   closed. The course of the step leads near, and attempts correct that by its slope; if they do not
+   meet the instant, attempts narrow the bracket. */
+static void find_closing(dynamics_coupled_run *run, const dynamics_course *course,
+                         dynamics_bracket b, event *e)
+{
+    static const double near = 1e-9, apart = 1e-4; /* shares of the step */
+    dynamics_bracket wide = b;
+    double share = b.high, f = b.f_high;
+    for (int n = 0; n < MAX_PROBES && b.high - b.low > near && fabs(f) > closed; n++) {
+        share = next_probe(&b, n);
+        f = gate_on_course(run, course, e->gate, share);
+        dynamics_bracket_narrow(&b, share, f);
     }
-    return b.high;
+    double slope = (gate_on_course(run, course, e->gate, share + apart) -
+                    gate_on_course(run, course, e->gate, share - apart)) /
+                   (2 * apart);
+    for (int n = 0; n < MAX_CORRECTIONS && share > wide.low && share <= wide.high; n++) {
+        f = gate_after(run, share * course->h, e);
+        if (fabs(f) < run->closed || (n + 1 == MAX_CORRECTIONS && fabs(f) < closed))
+            return;
+        share -= f / slope;
+    }
+    for (int n = 0; n < MAX_PROBES && wide.high - wide.low > 4 * DBL_EPSILON; n++) {
+        share = next_probe(&wide, n);
+        f = gate_after(run, share * course->h, e);
+        if (fabs(f) < closed)
+            return;
+        dynamics_bracket_narrow(&wide, share, f);
+    }
+    gate_after(run, wide.high * course->h, e);
 }
 
 /* Finds the first gate that closes in the step of h to y. A gate that dips between two open ends is
    looked at in the middle. */
-static int find_event(dynamics_coupled_run *run, double h, const double *y, double *at, int *which)
+static int find_event(dynamics_coupled_run *run, double h, const double *y, event *first)
 {
-    double a[DYNAMICS_GATES], z[DYNAMICS_GATES], m[DYNAMICS_GATES], middle[DYNAMICS_COUPLED_SIZE],
-        error[DYNAMICS_COUPLED_SIZE];
-    int found = 0, dips = 0;
+    double a[DYNAMICS_GATES], z[DYNAMICS_GATES], m[DYNAMICS_GATES], middle[DYNAMICS_COUPLED_SIZE];
+    int found = 0, dips = 0, closes = 0;
+    dynamics_course course;
     dynamics_field_gates(&run->field, run->t, run->y, a);
     dynamics_field_gates(&run->field, run->t + h, y, z);
     for (int i = 0; i < DYNAMICS_COMES; i++) /* near the edge of the gap, over a step */
         dips |= z[i] >= 0 &&
                 fmin(a[i], z[i]) < 0.5 * h * h * (1 + fabs(run->field.pair->excitation->load));
+    for (int i = 0; i < DYNAMICS_GATES; i++)
+        closes |= z[i] < 0;
+    if (dips || closes)
+        dynamics_course_find(&run->field, run->t, h, run->y, y, &course);
     if (dips) {
-        attempt(run, 0.5 * h, middle, error);
+        dynamics_course_state(&course, 0.5, middle);
         dynamics_field_gates(&run->field, run->t + 0.5 * h, middle, m);
     }
     for (int i = 0; i < DYNAMICS_GATES; i++) {
-        double end = h, value = z[i];
-        if (dips && i < DYNAMICS_COMES && value >= 0 && m[i] < 0 && a[i] > 0)
-            end = 0.5 * h, value = m[i];
-        if (value >= 0)
+        dynamics_bracket b = {0, a[i], 1, z[i], 0};
+        if (dips && i < DYNAMICS_COMES && z[i] >= 0 && m[i] < 0 && a[i] > 0)
+            b = (dynamics_bracket){0, a[i], 0.5, m[i], 0};
+        if (b.f_high >= 0)
             continue;
-        double instant = a[i] <= 0 ? 0 : find_closing(run, i, a[i], end, value);
-        if (found && instant >= *at)
-            continue;
-        *at = instant;
-        *which = i;
+        event e = {.at = 0, .gate = i};
+        if (a[i] > 0)
+            find_closing(run, &course, b, &e);
+        if (!found || e.at < first->at)
+            *first = e;
         found = 1;
     }
     return found;
@@ -273,7 +327,7 @@ static void accept_step(dynamics_coupled_run *run, double h, const double *y)
     int driving = r->touches[DYNAMICS_DRIVING] && r->pressed[DYNAMICS_DRIVING];
     int back = r->touches[DYNAMICS_BACK] && r->pressed[DYNAMICS_BACK];
     if (run->varies)
-        dynamics_variation_step(run->variation, run->t, h, run->y);
+        dynamics_variation_step(run->variation, run->t, h, run->y, y);
     memcpy(run->y, y, sizeof run->y);
     run->t += h;
     run->parted += driving || back ? 0 : h;
@@ -293,9 +347,10 @@ static int advance_to(dynamics_coupled_run *run, double end)
 {
     static const double no_slope[DYNAMICS_COUPLED_SIZE] = {0};
     double y[DYNAMICS_COUPLED_SIZE], error[DYNAMICS_COUPLED_SIZE];
-    int idle = 0, which = 0;
+    int idle = 0;
+    event e;
     while (run->t < end) {
-        double h = fmin(run->h, run->longest), left = end - run->t, at = 0, next;
+        double h = fmin(run->h, run->longest), left = end - run->t, next;
         if (run->steps > step_limit)
             return 0;
         h = idle > MAX_IDLE ? fmin(h, slip) : h;
@@ -311,11 +366,11 @@ static int advance_to(dynamics_coupled_run *run, double end)
             run->h = next;
             continue;
         }
-        if (idle <= MAX_IDLE && find_event(run, h, y, &at, &which)) {
-            if (at > 0)
-                attempt(run, at, y, error), accept_step(run, at, y);
-            idle = at > slip ? 0 : idle + 1;
-            pass_gate(run, which);
+        if (idle <= MAX_IDLE && find_event(run, h, y, &e)) {
+            if (e.at > 0)
+                accept_step(run, e.at, e.state);
+            idle = e.at > slip ? 0 : idle + 1;
+            pass_gate(run, e.gate);
             continue;
         }
         accept_step(run, h, y);

@@ -33,9 +33,8 @@ void dynamics_coupled_start(dynamics_coupled_run *run, double T, const double *s
 /* The same, and follows the derivatives of the motion by its start. */
 void dynamics_coupled_start_varied(dynamics_coupled_run *run, double T, const double *state);
 const double *dynamics_coupled_state(const dynamics_coupled_run *run);
-/* The derivatives of the state by that at the start, DYNAMICS_TAKEN columns one behind the other.
- */
-const double *dynamics_coupled_columns(const dynamics_coupled_run *run);
+/* The derivatives of the state by that at the start, DYNAMICS_TAKEN rows of as many. */
+const double *dynamics_coupled_monodromy(const dynamics_coupled_run *run);
 
 /* Integrates one mesh cycle; `record` may be NULL. 0: too many steps. */
 int dynamics_coupled_cycle(dynamics_coupled_run *run, double T, dynamics_coupled_record *record);

@@ -20,10 +20,11 @@ static const double round_off = 1e-5;
 static const double surely_stable = 1 - 1e-6;
 
 /* Steps in the logarithm of the frequency: the longest is the width 3 zeta of a resonance with the
-   damping that is usual, the shortest is what a sweep does per cycle. On the way motions are found
-   to `on_the_way`, and none is taken that is farther than `near` from where the last two lead, both
-   in static deflections. */
-static const double longest = 0.03, shortest = 1e-3, on_the_way = 1e-3, near = 0.2;
+   damping that is usual; one shorter than `shortest` is left to the glide. None of the motions on
+   the way is taken that is farther than `near` from where the last three lead, in static
+   deflections. */
+static const double longest = 0.03, shortest = 4e-3, near = 0.2;
+const double dynamics_coupled_on_the_way = 1e-2;
 
 ff_status dynamics_coupled_multipliers(const double *monodromy, double *multipliers,
                                        double *largest)
@@ -52,12 +53,12 @@ ff_status dynamics_coupled_multipliers(const double *monodromy, double *multipli
 
 /* Turns the miss of a start after a cycle into its correction d, by (1 - M) d = miss. 0: there is
    none. */
-static int find_correction(const double *columns, double *miss)
+static int find_correction(const double *monodromy, double *miss)
 {
     double matrix[DYNAMICS_TAKEN * DYNAMICS_TAKEN];
     for (int i = 0; i < DYNAMICS_TAKEN; i++)
         for (int k = 0; k < DYNAMICS_TAKEN; k++) {
-            double m = columns[k * DYNAMICS_TAKEN + i];
+            double m = monodromy[i * DYNAMICS_TAKEN + k];
             if (!isfinite(m))
                 return 0;
             matrix[i * DYNAMICS_TAKEN + k] = (i == k) - m;
@@ -72,12 +73,12 @@ static ff_status correct(dynamics_coupled_run *run, dynamics_coupled_orbit *orbi
 {
     double T = 2 * M_PI / orbit->frequency, miss[DYNAMICS_TAKEN], parted, back;
     dynamics_coupled_start_varied(run, T, orbit->state);
-    orbit->cycles++;
-    if (!dynamics_coupled_cycle(run, T, NULL))
-        return FF_NOCONV;
+    for (int i = 0; i < orbit->period; i++, orbit->cycles++)
+        if (!dynamics_coupled_cycle(run, T, NULL))
+            return FF_NOCONV;
     for (int i = 0; i < DYNAMICS_TAKEN; i++)
         miss[i] = dynamics_coupled_state(run)[i] - orbit->state[i];
-    if (!find_correction(dynamics_coupled_columns(run), miss))
+    if (!find_correction(dynamics_coupled_monodromy(run), miss))
         return FF_NOCONV;
     orbit->distance = 0;
     for (int i = 0; i < DYNAMICS_TAKEN; i++) {
@@ -95,8 +96,8 @@ ff_status dynamics_coupled_shoot(dynamics_coupled_run *run, double far, double t
                                  const ff_host *host, dynamics_coupled_orbit *orbit)
 {
     double last = far / contraction, start[DYNAMICS_TAKEN], multipliers[2 * DYNAMICS_TAKEN];
-    double largest;
     memcpy(start, orbit->state, sizeof start);
+    orbit->largest = 0;
     for (int n = 0; n < MAX_CORRECTIONS; n++) {
         if (host->progress(host->ctx, 0))
             return FF_STOPPED;
@@ -113,25 +114,90 @@ ff_status dynamics_coupled_shoot(dynamics_coupled_run *run, double far, double t
                 return FF_NOCONV;
         if (orbit->distance > tolerance && !ends)
             continue;
-        ff_status status =
-            dynamics_coupled_multipliers(dynamics_coupled_columns(run), multipliers, &largest);
-        return status == FF_OK && !(largest < surely_stable) ? FF_NOCONV : status;
+        ff_status status = dynamics_coupled_multipliers(dynamics_coupled_monodromy(run),
+                                                        multipliers, &orbit->largest);
+        return status == FF_OK && !(orbit->largest < surely_stable) ? FF_NOCONV : status;
     }
     return FF_NOCONV;
+}
+
+/* The three last motions of a branch, the newest first. */
+typedef struct trail {
+    double at[3], state[3][DYNAMICS_TAKEN]; /* logarithms of the frequency */
+    int count;
+} trail;
+
+static void add_to_trail(trail *t, const dynamics_coupled_orbit *orbit)
+{
+    for (int i = 2; i > 0; i--) {
+        t->at[i] = t->at[i - 1];
+        memcpy(t->state[i], t->state[i - 1], sizeof t->state[i]);
+    }
+    t->at[0] = log(orbit->frequency);
+    memcpy(t->state[0], orbit->state, sizeof t->state[0]);
+    t->count += t->count < 3;
+}
+
+/* Where the trail leads, by Lagrange's polynomial. */
+static void predict(const trail *t, double at, double *state)
+{
+    memset(state, 0, sizeof t->state[0]);
+    for (int i = 0; i < t->count; i++) {
+        double weight = 1;
+        for (int k = 0; k < t->count; k++)
+            weight *= k == i ? 1 : (at - t->at[k]) / (t->at[i] - t->at[k]);
+        for (int j = 0; j < DYNAMICS_TAKEN; j++)
+            state[j] += weight * t->state[i][j];
+    }
+}
+
+/* Begins a trail at a motion. A point beside it follows from the derivative d of its start by the
+   logarithm of the frequency: (1 - M) d is the derivative of its end while the start stays. 0: the
+   derivative is not known. */
+static int begin_trail(dynamics_coupled_run *run, dynamics_coupled_orbit *orbit, trail *t)
+{
+    static const double aside = 1e-4; /* in the logarithm of the frequency */
+    dynamics_coupled_orbit moved = *orbit;
+    double at_end[DYNAMICS_TAKEN], T = 2 * M_PI / orbit->frequency;
+    moved.cycles = 0;
+    add_to_trail(t, orbit);
+    if (correct(run, &moved) != FF_OK)
+        return 0;
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+        at_end[i] = -dynamics_coupled_state(run)[i];
+    double monodromy[DYNAMICS_TAKEN * DYNAMICS_TAKEN];
+    memcpy(monodromy, dynamics_coupled_monodromy(run), sizeof monodromy);
+    orbit->cycles += moved.cycles + (size_t)orbit->period;
+    dynamics_coupled_start(run, T * exp(-aside), orbit->state);
+    for (int i = 0; i < orbit->period; i++)
+        if (!dynamics_coupled_cycle(run, T * exp(-aside), NULL))
+            return 0;
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+        at_end[i] += dynamics_coupled_state(run)[i];
+    if (!find_correction(monodromy, at_end))
+        return 0;
+    t->count = 2;
+    t->at[1] = t->at[0] - aside;
+    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+        t->state[1][i] = t->state[0][i] - at_end[i];
+    return 1;
 }
 
 ff_status dynamics_coupled_follow(dynamics_coupled_run *run, double to, const ff_host *host,
                                   dynamics_coupled_orbit *orbit)
 {
-    double step = longest, slope[DYNAMICS_TAKEN] = {0};
+    double step = longest;
+    trail behind = {.count = 0};
+    if (orbit->frequency != to && !begin_trail(run, orbit, &behind))
+        return FF_NOCONV;
     while (orbit->frequency != to) {
         double left = log(to / orbit->frequency);
         double way = fabs(left) <= step ? left : copysign(step, left);
         dynamics_coupled_orbit next = *orbit;
         next.frequency = way == left ? to : orbit->frequency * exp(way);
-        for (int i = 0; i < DYNAMICS_TAKEN; i++)
-            next.state[i] += slope[i] * way;
-        ff_status status = dynamics_coupled_shoot(run, near, on_the_way, host, &next);
+        predict(&behind, log(next.frequency), next.state);
+        ff_status status =
+            dynamics_coupled_shoot(run, near, dynamics_coupled_on_the_way, host, &next);
         orbit->cycles = next.cycles;
         if (status == FF_NOCONV && step > shortest) {
             step /= 2;
@@ -139,9 +205,8 @@ ff_status dynamics_coupled_follow(dynamics_coupled_run *run, double to, const ff
         }
         if (status != FF_OK)
             return status;
-        for (int i = 0; i < DYNAMICS_TAKEN; i++)
-            slope[i] = (next.state[i] - orbit->state[i]) / way;
         *orbit = next;
+        add_to_trail(&behind, orbit);
         step = fmin(1.5 * step, longest);
     }
     return FF_OK;

@@ -1,81 +1,176 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "coupled-variation.h"
 
-#include "../../numerics/integrator.h"
+#include <flankfilm/simd.h>
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* The motion and, behind it, the columns. */
-enum { COLUMNS = DYNAMICS_COUPLED_SIZE, SIZE = COLUMNS + DYNAMICS_TAKEN * DYNAMICS_TAKEN };
+/* The Taylor series of a step has at most this order; its rows are padded to whole vectors. */
+enum { N = DYNAMICS_TAKEN, ORDER = 20, NODES = 3, WIDE = 12 };
 
 struct dynamics_variation {
     dynamics_field *field;
-    numerics_integrator gsl;
-    gsl_odeiv2_system system;
-    double state[SIZE];
+    double negligible;   /* largest derivative of a term that ends the series of a step */
+    double matrix[N][N]; /* derivatives of the components, a row each */
 };
 
-/* Per column (x, v): x' = v, and v' is the Jacobian times the column. */
-static int slope(double t, const double state[], double rate[], void *self)
-{
-    double jacobian[DYNAMICS_COORDINATES][DYNAMICS_TAKEN];
-    int status = dynamics_field_slope(t, state, rate, self);
-    dynamics_field_jacobian(self, t, state, jacobian);
-    for (int k = 0; k < DYNAMICS_TAKEN; k++) {
-        const double *column = state + COLUMNS + k * DYNAMICS_TAKEN;
-        double *change = rate + COLUMNS + k * DYNAMICS_TAKEN;
-        memcpy(change, column + DYNAMICS_RATES, DYNAMICS_COORDINATES * sizeof *change);
-        for (int i = 0; i < DYNAMICS_COORDINATES; i++) {
-            double sum = 0;
-            for (int j = 0; j < DYNAMICS_TAKEN; j++)
-                sum += jacobian[i][j] * column[j];
-            change[DYNAMICS_RATES + i] = sum;
-        }
-    }
-    return status;
-}
-
-dynamics_variation *dynamics_variation_new(dynamics_field *field)
+dynamics_variation *dynamics_variation_new(dynamics_field *field, double negligible)
 {
     dynamics_variation *v = calloc(1, sizeof *v);
     if (!v)
         return NULL;
     v->field = field;
-    v->system = (gsl_odeiv2_system){slope, NULL, SIZE, field};
-    if (numerics_integrator_make(&v->gsl, SIZE, 1, 0))
-        return v;
-    free(v);
-    return NULL;
+    v->negligible = negligible;
+    return v;
 }
 
 void dynamics_variation_free(dynamics_variation *v)
 {
-    if (!v)
-        return;
-    numerics_integrator_free(&v->gsl);
     free(v);
 }
 
 void dynamics_variation_start(dynamics_variation *v)
 {
-    for (int k = 0; k < DYNAMICS_TAKEN; k++)
-        for (int i = 0; i < DYNAMICS_TAKEN; i++)
-            v->state[COLUMNS + k * DYNAMICS_TAKEN + i] = i == k;
+    for (int i = 0; i < N; i++)
+        for (int k = 0; k < N; k++)
+            v->matrix[i][k] = i == k;
 }
 
-const double *dynamics_variation_columns(const dynamics_variation *v)
+const double *dynamics_variation_matrix(const dynamics_variation *v)
 {
-    return v->state + COLUMNS;
+    return v->matrix[0];
 }
 
-void dynamics_variation_step(dynamics_variation *v, double t, double h, const double *y)
+/* What the mesh sees of a state: q, and gear 2 against gear 1 along the line of centres and across
+   it; and their rates. Its force on gear 1 is that on gear 2 turned round. */
+enum { SEEN = 3 };
+static const int seen[SEEN] = {DYNAMICS_Q, DYNAMICS_X2, DYNAMICS_Y2},
+                 against[SEEN] = {-1, DYNAMICS_X1, DYNAMICS_Y1};
+
+/* The derivatives of the mesh force on q and gear 2 by what it sees, over a step a polynomial in
+   the share of the step. */
+typedef struct mesh_powers {
+    double at[NODES][SEEN][2 * SEEN];
+    int count; /* 1: they are as good as constant */
+} mesh_powers;
+
+/* Takes them out of the derivatives of the accelerations. */
+static void find_mesh(const dynamics_field *field, double t, const double *state,
+                      double mesh[SEEN][2 * SEEN])
 {
-    double error[SIZE];
-    memcpy(v->state, y, COLUMNS * sizeof *y);
-    if (gsl_odeiv2_step_apply(v->gsl.step, t, h, v->state, error, NULL, NULL, &v->system))
-        v->state[COLUMNS] = NAN;
+    const dynamics_coupled *pair = field->pair;
+    double jacobian[DYNAMICS_COORDINATES][N];
+    dynamics_field_jacobian(field, t, state, jacobian);
+    for (int i = 0; i < SEEN; i++) {
+        double mass = i ? pair->mass[1] : 1;
+        for (int j = 0; j < SEEN; j++) {
+            mesh[i][j] = mass * jacobian[seen[i]][seen[j]] + (i && i == j ? pair->bearing[1] : 0);
+            mesh[i][SEEN + j] = mass * jacobian[seen[i]][DYNAMICS_RATES + seen[j]] +
+                                (i && i == j ? pair->damper[1] : 0);
+        }
+    }
+}
+
+/* The polynomial of degree 2 meets the derivatives at Gauss's nodes, so that its moments err by the
+   sixth power of h. */
+static void find_powers(const dynamics_field *field, double t, double h, const double *from,
+                        const double *to, double negligible, mesh_powers *power)
+{
+    static const double gauss = 0.38729833462074169; /* sqrt(15)/10 */
+    double at[NODES][SEEN][2 * SEEN], varies = 0;
+    dynamics_course course;
+    dynamics_course_find(field, t, h, from, to, &course);
+    for (int n = 0; n < NODES; n++) {
+        double x = 0.5 + (n - 1) * gauss, state[DYNAMICS_COUPLED_SIZE];
+        dynamics_course_state(&course, x, state);
+        find_mesh(field, t + x * h, state, at[n]);
+    }
+    for (int i = 0; i < SEEN; i++)
+        for (int j = 0; j < 2 * SEEN; j++) {
+            double slope = (at[2][i][j] - at[0][i][j]) / (2 * gauss);
+            double bend = (at[0][i][j] - 2 * at[1][i][j] + at[2][i][j]) / (2 * gauss * gauss);
+            power->at[0][i][j] = at[1][i][j] - 0.5 * slope + 0.25 * bend;
+            power->at[1][i][j] = slope - bend;
+            power->at[2][i][j] = bend;
+            varies = fmax(varies, fmax(fabs(slope), fabs(bend)));
+        }
+    power->count = h * varies > negligible ? NODES : 1;
+}
+
+/* The terms of the series of all columns, and what the mesh sees of them. */
+typedef struct series {
+    double term[ORDER + 1][N][WIDE], seen[ORDER + 1][2 * SEEN][WIDE];
+} series;
+
+FF_SIMD static void see(int n, series *s)
+{
+    for (int i = 0; i < 2 * SEEN; i++) {
+        int rate = i < SEEN ? 0 : DYNAMICS_RATES, other = against[i % SEEN];
+        const double *row = s->term[n][rate + seen[i % SEEN]];
+        const double *less = s->term[n][rate + (other < 0 ? 0 : other)];
+        double sign = other < 0 ? 0 : 1;
+        FF_SIMD_LOOP
+        for (int k = 0; k < WIDE; k++)
+            s->seen[n][i][k] = row[k] - sign * less[k];
+    }
+}
+
+/* Term n + 1 of the series from those before: per column (x, v), x' = v, and v' is what mesh and
+   bearings make of the column. Returns its largest size. */
+FF_SIMD static double next_term(int n, double h, const dynamics_coupled *pair,
+                                const mesh_powers *power, series *s)
+{
+    double step = h / (n + 1), push[SEEN][WIDE], size[WIDE] = {0}, largest = 0;
+    for (int i = 0; i < SEEN; i++) {
+        double sum[WIDE] = {0};
+        for (int m = 0; m < power->count && m <= n; m++)
+            for (int j = 0; j < 2 * SEEN; j++) {
+                double by = power->at[m][i][j];
+                const double *row = s->seen[n - m][j];
+                for (int k = 0; k < WIDE; k++)
+                    sum[k] += by * row[k];
+            }
+        memcpy(push[i], sum, sizeof sum);
+    }
+    for (int i = 0; i < DYNAMICS_COORDINATES; i++) {
+        int gear = i >= DYNAMICS_X2, on = i ? 1 + (i - DYNAMICS_X1) % 2 : 0;
+        double turns = i == DYNAMICS_Q || gear ? 1 : -1, by = i ? step / pair->mass[gear] : step;
+        double k_b = i ? pair->bearing[gear] : 0, c_b = i ? pair->damper[gear] : 0;
+        const double *at = s->term[n][i], *rate = s->term[n][DYNAMICS_RATES + i];
+        double *x = s->term[n + 1][i], *v = s->term[n + 1][DYNAMICS_RATES + i];
+        FF_SIMD_LOOP
+        for (int k = 0; k < WIDE; k++) {
+            x[k] = step * rate[k];
+            v[k] = by * (turns * push[on][k] - k_b * at[k] - c_b * rate[k]);
+            double more = fabs(x[k]) > fabs(v[k]) ? fabs(x[k]) : fabs(v[k]);
+            size[k] = more > size[k] ? more : size[k];
+        }
+    }
+    for (int k = 0; k < WIDE; k++)
+        largest = fmax(largest, size[k]);
+    return largest;
+}
+
+void dynamics_variation_step(dynamics_variation *v, double t, double h, const double *from,
+                             const double *to)
+{
+    mesh_powers power;
+    series s;
+    int last = 0;
+    find_powers(v->field, t, h, from, to, v->negligible, &power);
+    memset(s.term[0], 0, sizeof s.term[0]);
+    for (int i = 0; i < N; i++)
+        memcpy(s.term[0][i], v->matrix[i], sizeof v->matrix[i]);
+    for (double size = 1; last < ORDER && size > v->negligible; last++) {
+        see(last, &s);
+        size = next_term(last, h, v->field->pair, &power, &s);
+    }
+    for (int n = last; n > 0; n--)
+        for (int i = 0; i < N; i++)
+            for (int k = 0; k < N; k++)
+                v->matrix[i][k] += s.term[n][i][k];
 }
 
 /* A start that reaches the gate by dt later moves on by dt at the slope before the gate in place of
@@ -85,7 +180,7 @@ void dynamics_variation_step(dynamics_variation *v, double t, double h, const do
    0 on both sides. */
 void dynamics_variation_pass_gate(dynamics_variation *v, int gate, double t, const double *y)
 {
-    double before[COLUMNS], behind[COLUMNS], by_state[DYNAMICS_TAKEN];
+    double before[DYNAMICS_COUPLED_SIZE], behind[DYNAMICS_COUPLED_SIZE], by_state[N];
     if (gate >= DYNAMICS_PRESS && gate < DYNAMICS_COMES) {
         dynamics_field_pass_gate(v->field, gate);
         return;
@@ -94,17 +189,17 @@ void dynamics_variation_pass_gate(dynamics_variation *v, int gate, double t, con
     dynamics_field_slope(t, y, before, v->field);
     dynamics_field_pass_gate(v->field, gate);
     dynamics_field_slope(t, y, behind, v->field);
-    for (int i = 0; i < DYNAMICS_TAKEN; i++)
+    for (int i = 0; i < N; i++)
         rate += by_state[i] * before[i];
     if (rate == 0)
         return;
-    for (int k = 0; k < DYNAMICS_TAKEN; k++) {
-        double *column = v->state + COLUMNS + k * DYNAMICS_TAKEN, sooner = 0;
-        for (int i = 0; i < DYNAMICS_TAKEN; i++)
-            sooner += by_state[i] * column[i] / rate;
-        for (int i = 0; i < DYNAMICS_TAKEN; i++)
-            column[i] += (behind[i] - before[i]) * sooner;
-    }
+    double sooner[N] = {0};
+    for (int i = 0; i < N; i++)
+        for (int k = 0; k < N; k++)
+            sooner[k] += by_state[i] * v->matrix[i][k] / rate;
+    for (int i = 0; i < N; i++)
+        for (int k = 0; k < N; k++)
+            v->matrix[i][k] += (behind[i] - before[i]) * sooner[k];
 }
 
 /* The impulse 2 zeta leap g_q g acts along the gradient g of the overlap, which turns with the
@@ -116,10 +211,12 @@ void dynamics_variation_leap(dynamics_variation *v, int flank, double leap,
     int side = flank == DYNAMICS_DRIVING ? 1 : flank == DYNAMICS_BACK ? -1 : 0;
     dynamics_bend bend = dynamics_coupled_bend(place, side);
     double impulse = 2 * pair->excitation->zeta * leap * (side < 0 ? -1 : 1);
-    for (int k = 0; k < DYNAMICS_TAKEN; k++) {
-        double *column = v->state + COLUMNS + k * DYNAMICS_TAKEN, turned[DYNAMICS_COORDINATES];
+    for (int k = 0; k < N; k++) {
+        double column[DYNAMICS_COORDINATES], turned[DYNAMICS_COORDINATES];
+        for (int i = 0; i < DYNAMICS_COORDINATES; i++)
+            column[i] = v->matrix[i][k];
         dynamics_bend_apply(&bend, column, turned);
         for (int i = DYNAMICS_X1; i < DYNAMICS_COORDINATES; i++)
-            column[DYNAMICS_RATES + i] += impulse * turned[i] / pair->mass[i >= DYNAMICS_X2];
+            v->matrix[DYNAMICS_RATES + i][k] += impulse * turned[i] / pair->mass[i >= DYNAMICS_X2];
     }
 }

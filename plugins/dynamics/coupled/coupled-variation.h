@@ -8,17 +8,18 @@
 
 typedef struct dynamics_variation dynamics_variation;
 
-/* `field` must outlive it. NULL: out of memory. */
-dynamics_variation *dynamics_variation_new(dynamics_field *field);
+/* `field` must outlive it; `negligible` is the error of a step. NULL: out of memory. */
+dynamics_variation *dynamics_variation_new(dynamics_field *field, double negligible);
 void dynamics_variation_free(dynamics_variation *variation);
 
 /* No change yet: the unit matrix. */
 void dynamics_variation_start(dynamics_variation *variation);
-/* Column k holds the derivatives by component k of the state at the start. */
-const double *dynamics_variation_columns(const dynamics_variation *variation);
+/* Row i holds the derivatives of component i of the state, by each component at the start. */
+const double *dynamics_variation_matrix(const dynamics_variation *variation);
 
-/* Follows a step of the motion from the state y at time t. */
-void dynamics_variation_step(dynamics_variation *variation, double t, double h, const double *y);
+/* Follows a step of the motion, of duration h from time t, between two states. */
+void dynamics_variation_step(dynamics_variation *variation, double t, double h, const double *from,
+                             const double *to);
 /* Passes a gate that closes there, and moves the field on to the regime behind it. */
 void dynamics_variation_pass_gate(dynamics_variation *variation, int gate, double t,
                                   const double *y);

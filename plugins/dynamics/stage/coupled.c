@@ -61,8 +61,8 @@ static const ff_param params[] = {
             "masses that move on the bearings; default: the gears'; one value or two"),
     FF_COUNT_OR(
         "auto", "cycles_settle", model, cycles_settle, FF_TUNABLE, "auto", NULL, 1, 1e6, 0, 0,
-        "mesh cycles in which the motion may settle behind a slow sweep of the speed; auto: by "
-        "shooting, and where that finds none, four times what the damping takes"),
+        "the most mesh cycles in which a motion that shooting does not find may settle; auto: four "
+        "times what the damping takes"),
     FF_COUNT("cycles_measured", model, cycles_measured, 0, "16", NULL, 1, 256, 0, 0,
              "mesh cycles shown when the motion is not periodic"),
     FF_COUNT("steps_per_cycle", model, steps_per_cycle, FF_TUNABLE, "512", NULL, 16, 65536, 0, 0,

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The derivatives of a motion on bearings by its start against differences of motions, and motions
-   found by Newton's method against what they are. */
+   found by Newton's method against what they are and what a slow sweep of the speed leads to. */
 #include "../../../plugins/dynamics/coupled/coupled-shooting.h"
+#include "../../../plugins/dynamics/coupled/coupled-motion.h"
 
 #include "check.h"
 
@@ -82,11 +83,11 @@ static void test_columns(const scene *c)
     start[DYNAMICS_Q] += c->q;
     start[DYNAMICS_RATES + DYNAMICS_Q] += c->rate;
     start[DYNAMICS_RATES + DYNAMICS_X1] += 0.05;
-    dynamics_coupled_run *run = dynamics_coupled_run_new(&pair, tolerance),
+    dynamics_coupled_run *run = dynamics_coupled_run_new(&pair, 0.1 * tolerance),
                          *varied = dynamics_coupled_run_new(&pair, tolerance);
     dynamics_coupled_start_varied(varied, T, start);
     check_true("runs", dynamics_coupled_cycle(varied, T, NULL));
-    const double *columns = dynamics_coupled_columns(varied);
+    const double *monodromy = dynamics_coupled_monodromy(varied);
     for (int k = 0; k < N; k++) {
         double wide[N], narrow[N];
         difference(run, T, start, k, 2 * d, wide);
@@ -94,7 +95,7 @@ static void test_columns(const scene *c)
         for (int i = 0; i < N; i++) {
             bound = fmax(bound, fabs(wide[i] - narrow[i]));
             double exact = narrow[i] + (narrow[i] - wide[i]) / 3;
-            worst = fmax(worst, distance(columns[k * N + i], exact));
+            worst = fmax(worst, distance(monodromy[i * N + k], exact));
         }
     }
     dynamics_coupled_clocks(varied, &parted, &back);
@@ -121,7 +122,7 @@ static void test_shooting(void)
     const scene c = {"shooting", DYNAMICS_DAMPING_ALWAYS, 3, 7, 0.02, 0, 0, 0, 0};
     dynamics_excitation mesh;
     dynamics_coupled pair;
-    dynamics_coupled_orbit orbit = {.frequency = 2 * M_PI / 7};
+    dynamics_coupled_orbit orbit = {.frequency = 2 * M_PI / 7, .period = 1};
     double rest[2 * DYNAMICS_COORDINATES], worst = 0;
     make(&c, &mesh, &pair);
     dynamics_coupled_rest(&pair, rest);
@@ -152,8 +153,110 @@ static void test_shooting(void)
     dynamics_excitation_free(&mesh);
 }
 
+/* The slow twin: from rest the speed changes by a small share per cycle to that which is sought,
+   where the motion may settle. Returns the change over `period` of the last cycles; `state` is then
+   the motion at phase 0. */
+static double sweep_and_settle(dynamics_coupled_run *run, const dynamics_coupled *pair, double from,
+                               double to, int period, double *state)
+{
+    static const double rate = 1e-3;
+    enum { START = 150, SETTLE = 600 };
+    const double *y = dynamics_coupled_state(run);
+    double rest[2 * DYNAMICS_COORDINATES], frequency = from, change = 0;
+    dynamics_coupled_rest(pair, rest);
+    dynamics_coupled_start(run, 2 * M_PI / from, rest);
+    for (int i = 0; i < START; i++)
+        dynamics_coupled_cycle(run, 2 * M_PI / from, NULL);
+    for (; to < from ? frequency > to : frequency < to; frequency *= 1 + (to < from ? -rate : rate))
+        dynamics_coupled_cycle(run, 2 * M_PI / frequency, NULL);
+    for (int i = 0; i < SETTLE; i++) {
+        if (i + period == SETTLE)
+            memcpy(state, y, N * sizeof *state);
+        dynamics_coupled_cycle(run, 2 * M_PI / to, NULL);
+    }
+    for (int i = 0; i < N; i++)
+        change = fmax(change, distance(y[i], state[i]));
+    return change;
+}
+
+/* The distance of a state from the nearest of a motion. */
+static double distance_from_motion(dynamics_coupled_run *run, double T, int period,
+                                   const double *start, const double *state)
+{
+    double nearest = INFINITY;
+    dynamics_coupled_start(run, T, start);
+    for (int i = 0; i < period; i++) {
+        double worst = 0;
+        for (int k = 0; k < N; k++)
+            worst = fmax(worst, distance(dynamics_coupled_state(run)[k], state[k]));
+        nearest = fmin(nearest, worst);
+        dynamics_coupled_cycle(run, T, NULL);
+    }
+    return nearest;
+}
+
+/* A motion that is reached, against the twin. */
+typedef struct reached {
+    const char *name;
+    dynamics_branch branch;
+    double from; /* frequency at which the motion before it is reached; 0: there is none */
+    double frequency;
+    int period;
+    double least_parted; /* share of the time */
+} reached;
+
+static void reach(dynamics_coupled_run *run, const dynamics_coupled *pair, const reached *r,
+                  double frequency, dynamics_coupled_motion *motion)
+{
+    static const ff_host host = {.progress = go_on};
+    dynamics_settling how = {.branch = r->branch,
+                             .T = 2 * M_PI / frequency,
+                             .tolerance = 1e-6,
+                             .step_tolerance = 1e-8,
+                             .host = &host};
+    motion->T = how.T;
+    motion->settled = (dynamics_settled){0};
+    check_true("is reached", dynamics_coupled_settle(run, pair, &how, motion) == FF_OK);
+}
+
+static void test_twin(const reached *r)
+{
+    const scene c = {r->name, DYNAMICS_DAMPING_ALWAYS, 3, 5, 0.02, 0, 0, 0, 0};
+    dynamics_excitation mesh;
+    dynamics_coupled pair;
+    dynamics_coupled_motion motion = {0};
+    double state[N], parted, back, T = 2 * M_PI / r->frequency;
+    printf("%s\n", r->name);
+    make(&c, &mesh, &pair);
+    mesh.zeta = 0.02;
+    dynamics_coupled_run *run = dynamics_coupled_run_new(&pair, 1e-8);
+    if (r->from > 0) {
+        reach(run, &pair, r, r->from, &motion);
+        motion.from = r->from;
+    }
+    reach(run, &pair, r, r->frequency, &motion);
+    check_near("period", motion.settled.period, r->period, 0);
+    double begin = r->branch == DYNAMICS_BRANCH_UPPER ? 1.4 : 0.7 * r->frequency;
+    double change = sweep_and_settle(run, &pair, begin, r->frequency, r->period, state);
+    check_below("the twin settles", change, 1e-7);
+    check_below("the twin is elsewhere",
+                distance_from_motion(run, T, r->period, motion.state, state), 1e-7);
+    dynamics_coupled_clocks(run, &parted, &back);
+    check_true("contact is lost", parted > r->least_parted * r->period * T);
+    dynamics_coupled_run_free(run);
+    dynamics_coupled_free(&pair);
+    dynamics_excitation_free(&mesh);
+}
+
 int main(void)
 {
+    static const reached motions[] = {
+        {"lower, hardly parts", DYNAMICS_BRANCH_LOWER, 0, 0.375, 1, 0.03},
+        {"lower, period 2", DYNAMICS_BRANCH_LOWER, 0, 0.45, 2, 0.06},
+        {"upper, behind jumps", DYNAMICS_BRANCH_UPPER, 0, 0.6, 1, 0.3},
+        {"upper, handed on", DYNAMICS_BRANCH_UPPER, 0.675, 0.625, 1, 0.3},
+        {"lower, behind chaos", DYNAMICS_BRANCH_LOWER, 0, 1.5, 1, 0.2},
+    };
     static const scene scenes[] = {
         {"in contact", DYNAMICS_DAMPING_ALWAYS, 3, 7, 0, 0, 0, 0, 0},
         {"parts", DYNAMICS_DAMPING_ALWAYS, 3, 7, 0, -1.5, -0.5, 1, 0},
@@ -168,5 +271,7 @@ int main(void)
     for (size_t i = 0; i < sizeof scenes / sizeof scenes[0]; i++)
         test_columns(&scenes[i]);
     test_shooting();
+    for (size_t i = 0; i < sizeof motions / sizeof motions[0]; i++)
+        test_twin(&motions[i]);
     return check_done();
 }

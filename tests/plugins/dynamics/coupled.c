@@ -190,21 +190,6 @@ static void test_jump_on_stiff_bearings(void)
     compare_with_rigid(&p, "lower", "always");
 }
 
-/* Shooting, and what a slow sweep and many cycles lead to. */
-static void test_settled(void)
-{
-    static const char *const names[] = {"dte_rms", "dte_mean", "floquet_max", "contact_loss"};
-    pair p = pair_trapezoid(2375);
-    stage *shot = run(&p, 2e9, "branch=upper damping_ratio=0.03 tolerance=1e-8"),
-          *settled =
-              run(&p, 2e9, "branch=upper damping_ratio=0.03 tolerance=1e-8 cycles_settle=200");
-    check_below("shooting takes", stage_quality(shot, "settled_cycles"), 100);
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
-        check_near(names[i], stage_scalar(shot, names[i]), stage_scalar(settled, names[i]), 3e-6);
-    stage_close(shot);
-    stage_close(settled);
-}
-
 /* Handed on, a motion stays on its branch at a speed where another one is found alone. */
 static void test_chain(void)
 {
@@ -344,7 +329,6 @@ int main(void)
     test_frequencies();
     test_stiff_bearings();
     test_jump_on_stiff_bearings();
-    test_settled();
     test_chain();
     test_soft_bearings();
     test_clipped();
