@@ -1,6 +1,6 @@
 #!/bin/sh
 # Builds a fuzz target with clang's libFuzzer and sanitizers, and runs it on its corpus.
-#   tests/fuzz/fuzz.sh yaml|bind|study|units|table|descriptor WORK_DIRECTORY [OPTION OF libFuzzer]...
+#   tests/fuzz/fuzz.sh yaml|bind|study|store|units|table|descriptor WORK_DIRECTORY [OPTION OF libFuzzer]...
 #   tests/fuzz/fuzz.sh units /tmp/fuzz -max_total_time=20
 # New inputs gather in WORK_DIRECTORY/TARGET; one that crashes goes to tests/fuzz/found/TARGET, where
 # the tests read it from then on.
@@ -11,12 +11,12 @@ shift 2
 
 mkdir -p "$work/$target" "$work/toys/toy" "tests/fuzz/found/$target"
 case $target in
-study) more='core/engine/*.c core/program/study/*/*.c core/program/study/kinds/*/*.c core/program/study/kinds/*/*/*.c core/program/accuracy/*.c core/program/arrays/*.c core/program/memory/*.c core/program/crash/*.c' libraries='-ljansson -lgsl -lgslcblas' ;;
+store | study) more='core/engine/*.c core/program/results/*.c core/program/terminal/*.c core/program/study/*/*.c core/program/study/kinds/*/*.c core/program/study/kinds/*/*/*.c core/program/accuracy/*.c core/program/arrays/*.c core/program/memory/*.c core/program/crash/*.c' libraries='-ljansson -lgsl -lgslcblas' ;;
 *) more='' libraries='' ;;
 esac
 flags="-g -O1 -std=c11 -D_GNU_SOURCE -Iinclude"
 watched="-fsanitize=address,undefined -fno-sanitize-recover=undefined"
-places='-DFE_PLUGIN_DIR="/nonexistent" -DFE_PLUGIN_FOLDER="plugins" -DFE_UP_FROM_LIBRARY="../"'
+places='-DRESULTS_VERSION="0" -DFE_PLUGIN_DIR="/nonexistent" -DFE_PLUGIN_FOLDER="plugins" -DFE_UP_FROM_LIBRARY="../"'
 
 # what all targets share is compiled once, by the first of those that are built at a time
 build_shared() {

@@ -128,6 +128,21 @@ def test_changed():
     check_calm("arrays removed", "logs")
 
 
+def test_lost_start():
+    """What all rows have in common is said again: those rows alone run again that have lost bytes of their own."""
+    journal = lab / "many" / "journal.jsonl"
+    expect("many", start("many", "many"), 0, "300 of 300")
+    calm = (lab / "many" / "table.csv").read_bytes()
+    lines = journal.read_bytes().splitlines(keepends=True)
+    with open(journal, "r+b") as out:
+        out.write(bytes(len(lines[0]) - 1))
+        out.seek(sum(map(len, lines[:10])) - 1)  # the end of the tenth line: the next one is behind it
+        out.write(bytes(1))
+    expect("its start is lost", start("many", "many"), 0, "300 of 300 cases done, 298 of them before")
+    if (lab / "many" / "table.csv").read_bytes() != calm:
+        raise SystemExit("FAIL another table after a lost start")
+
+
 def test_not_a_file():
     for name, make in (
         ("symlink", lambda j: j.symlink_to(lab / "slow.yaml")),
@@ -214,9 +229,11 @@ try:
     write("slow", "work: 25 ms", points)
     write("long", "work: 60 ms", points)
     write("quick", "count: 5", points)
+    write("many", "count: 5", points.replace(str(cases), "300"))
     write("scribble", "count: 3", "wave.end: [good, scribble, good]", "[wave.total, wave.field]")
     expect("calm", start("slow", "calm"), 0, f"{cases} of {cases} cases done")
     test_changed()
+    test_lost_start()
     test_not_a_file()
     test_descriptors()
     if stub != "none":

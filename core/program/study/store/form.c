@@ -106,7 +106,10 @@ static void put_values(json_t *value, bool own_texts, bool *any, FILE *out)
     *any = true;
 }
 
-/* Names the form, and says it unless that was done. */
+/* A block of a journal that is lost must not take with it what all other lines need. */
+enum { LINES_OF_A_FORM = 256 };
+
+/* Names the form, and says it unless that was done in one of the lines before. */
 static void put_form(json_t *record, json_t *said, FILE *out)
 {
     const char *member;
@@ -117,14 +120,15 @@ static void put_form(json_t *record, json_t *said, FILE *out)
         hash_form(study_hash_text(hash, member), value, has_own_texts(member));
     snprintf(name, sizeof name, "%016llx", (unsigned long long)hash);
     fprintf(out, ",\"form\":\"%s\"", name);
-    if (json_object_get(said, name))
+    json_int_t since = json_integer_value(json_object_get(said, name));
+    json_object_set_new(said, name, json_integer((since + 1) % LINES_OF_A_FORM));
+    if (since > 0)
         return;
     json_t *form = json_object();
     json_object_foreach(record, member, value) if (!is_beside(member))
         json_object_set_new(form, member, empty(value, has_own_texts(member)));
     fputs(",\"is\":", out);
     json_dumpf(form, out, JSON_COMPACT);
-    json_object_set_new(said, name, json_true());
     json_decref(form);
 }
 

@@ -3,7 +3,7 @@
  * What records have in common is said once. The form of a record is the record without its numbers
  * and without the texts of its own; null stands in their places. A line of the journal names the
  * form and lists the values that fill those places, in their order; the first line of each worker
- * with a form says it, too:
+ * with a form, and every 256th after it, says it, too:
  *   {"case":1,"key":"...","status":"ok","form":"HASH","is":{...},"values":[...],"sum":"..."}
  * "log" and "parameters" stand beside the form.
  */
@@ -16,8 +16,8 @@
 
 enum { STUDY_FORM_NAME = 17 }; /* bytes of the hash that names a form, with its end */
 
-/* Writes the record as a line without its last brace. `said` has the names of the forms that the
-   process has said, and gets this one. */
+/* Writes the record as a line without its last brace. `said` has how many lines ago
+   the process has said each form, and gets this one. */
 void study_form_write(json_t *record, json_t *said, FILE *out);
 
 /* Returns the record of a line with a form; NULL when the values do not fill it. */

@@ -27,6 +27,7 @@ typedef struct entry {
 typedef struct journal_file {
     int fd; /* -1: it is opened for each record */
     char name[STUDY_NAME_SIZE];
+    bool formless; /* a line came before the one that says its form, or that line is lost */
 } journal_file;
 
 typedef struct form {
@@ -183,8 +184,9 @@ static const char *pass_log(study_records *r, int directory, const char *at)
     return *end != ']' || (size && json_integer_value(size) < needed) ? NULL : end + 1;
 }
 
-/* Reads the head of a line, by which its record is found. */
-static void add_line(study_records *r, int directory, const char *line, size_t length,
+/* Reads the head of a whole line, by which its record is found. False where its form is not known
+   yet. */
+static bool add_line(study_records *r, int directory, const char *line, size_t length,
                      uint16_t file, uint64_t offset)
 {
     char key[64], status[64], name[STUDY_FORM_NAME];
@@ -192,8 +194,8 @@ static void add_line(study_records *r, int directory, const char *line, size_t l
     at = word_after(at, ",\"key\":\"", key, sizeof key);
     at = word_after(at, ",\"status\":\"", status, sizeof status);
     at = pass_log(r, directory, at);
-    if (!at || !study_line_is_whole(line, length))
-        return;
+    if (!at)
+        return true;
     entry found = {.key = number_of(key),
                    .offset = offset,
                    .file = file,
@@ -205,8 +207,22 @@ static void add_line(study_records *r, int directory, const char *line, size_t l
         json_decref(record);
     }
     found.form = at ? find_form(r, name) : 0;
-    if (!at || found.form) /* else the line that said the form is lost */
+    bool known = !at || found.form;
+    if (known)
         add(r, &found);
+    return known;
+}
+
+/* Where the last of several lines begins that a lost block, with the ends of those before it, has
+   made one; the length where there is none. */
+static size_t find_last(const char *line, size_t length)
+{
+    static const char head[] = "{\"case\":";
+    size_t at = length;
+    for (size_t i = 1; i + sizeof head <= length; i++)
+        if (!memcmp(line + i, head, sizeof head - 1))
+            at = i;
+    return at;
 }
 
 /* A link, a pipe or a device in place of a journal has no records. */
@@ -220,29 +236,42 @@ static int open_journal(int directory, const char *name)
     return -1;
 }
 
-static void read_journal(study_records *r, int directory, const char *name)
+/* Reads the lines of a journal; those of unknown form are left out. */
+static void read_lines(study_records *r, int directory, uint16_t number)
 {
-    int fd = open_journal(directory, name);
-    int copy = fd < 0 || r->file_count == MOST_FILES ? -1 : fcntl(fd, F_DUPFD_CLOEXEC, 0);
+    journal_file *file = &r->files[number];
+    int copy = fcntl(file->fd, F_DUPFD_CLOEXEC, 0);
     FILE *stream = copy < 0 ? NULL : fdopen(copy, "r");
     char *line = NULL;
     size_t size = 0;
     ssize_t length;
     uint64_t offset = 0;
-    for (; stream && (length = getline(&line, &size, stream)) > 0; offset += (uint64_t)length)
-        add_line(r, directory, line, (size_t)length, (uint16_t)r->file_count, offset);
+    file->formless = false;
+    if (stream)
+        rewind(stream); /* its place is that of the descriptor */
+    for (; stream && (length = getline(&line, &size, stream)) > 0; offset += (uint64_t)length) {
+        size_t whole = (size_t)length;
+        bool good = study_line_is_whole(line, whole);
+        size_t at = good ? 0 : find_last(line, whole);
+        good = good || study_line_is_whole(line + at, whole - at);
+        if (good && !add_line(r, directory, line + at, whole - at, number, offset + at))
+            file->formless = true;
+    }
     free(line);
     if (stream)
         fclose(stream);
-    if (!stream) {
-        if (fd >= 0)
-            close(fd);
+}
+
+static void read_journal(study_records *r, int directory, const char *name)
+{
+    int fd = r->file_count == MOST_FILES ? -1 : open_journal(directory, name);
+    if (fd < 0)
         return;
-    }
     r->files = memory_resize(r->files, (r->file_count + 1) * sizeof *r->files);
     journal_file *file = &r->files[r->file_count++];
     file->fd = fd;
     snprintf(file->name, sizeof file->name, "%s", name);
+    read_lines(r, directory, (uint16_t)(r->file_count - 1));
 }
 
 static bool is_journal(const char *name)
@@ -265,6 +294,9 @@ study_records *study_records_open(const char *directory, bool whole)
     while (list && (item = readdir(list)))
         if (is_journal(item->d_name))
             read_journal(r, dirfd(list), item->d_name);
+    for (size_t i = 0; i < r->file_count; i++) /* with the forms that stand further behind */
+        if (r->files[i].formless)
+            read_lines(r, dirfd(list), (uint16_t)i);
     if (list)
         closedir(list);
     return r;

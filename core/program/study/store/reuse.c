@@ -35,21 +35,40 @@ static void write_text(FILE *out, const char *text)
         fwrite(text, 1, length, out);
 }
 
-static void read_bytes(FILE *in, void *data, size_t size)
+/* What is left of a file that is being read, which may say anything. */
+typedef struct kept_bytes {
+    const char *at;
+    size_t left;
+    bool good; /* it had all that was asked for */
+} kept_bytes;
+
+static const char *take_bytes(kept_bytes *in, size_t size)
 {
-    if (fread(data, 1, size, in) != size)
+    const char *at = in->at;
+    in->good = in->good && size <= in->left;
+    if (!in->good)
+        return NULL;
+    in->at += size;
+    in->left -= size;
+    return at;
+}
+
+static void read_bytes(kept_bytes *in, void *data, size_t size)
+{
+    const char *from = take_bytes(in, size);
+    if (from)
+        memcpy(data, from, size);
+    else
         memset(data, 0, size);
 }
 
 /* Returns NULL for an empty text. */
-static char *read_text(FILE *in)
+static char *read_text(kept_bytes *in)
 {
     size_t length;
     read_bytes(in, &length, sizeof length);
-    char *text = length ? memory_alloc(length + 1) : NULL;
-    if (text)
-        read_bytes(in, text, length);
-    return text;
+    const char *from = take_bytes(in, length);
+    return from && length ? memory_copy_text(from, length) : NULL;
 }
 
 /* Stage number `i` of those that are kept together: of the loop, or the stage alone. NULL: there
@@ -85,45 +104,64 @@ static void write_results(const ff_stage *stage, FILE *out)
     }
 }
 
-/* Reads what write_results wrote, whose checksum has been verified. False when a wanted result is
-   missing. */
-static bool read_results(ff_stage *stage, FILE *in)
+/* Reads the numbers of an output; `fill`: into the stage. */
+static void read_output(ff_stage *stage, size_t output, uint32_t rank, bool fill, kept_bytes *in)
+{
+    size_t shape[FF_MAX_RANK], count = 1;
+    in->good = in->good && rank <= stage->loaded->output_dims[output].rank && rank <= FF_MAX_RANK;
+    for (uint32_t k = 0; in->good && k < rank; k++) {
+        read_bytes(in, &shape[k], sizeof shape[k]);
+        in->good = in->good && (count == 0 || shape[k] <= in->left / count);
+        count *= shape[k];
+    }
+    in->good = in->good && count <= in->left / sizeof(double);
+    const char *from = take_bytes(in, in->good ? count * sizeof(double) : 0);
+    if (from && fill)
+        memcpy(ff_result_fill(stage, output, rank, shape), from, count * sizeof(double));
+}
+
+/* Reads what write_results wrote; `fill`: into the stage. False when a wanted result is missing or
+   the file is none that was written here. */
+static bool read_results(ff_stage *stage, bool fill, kept_bytes *in)
 {
     bool all = true;
-    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        ff_result *result = &stage->results[i];
+    double seconds, work;
+    size_t lines;
+    for (size_t i = 0; i < stage->loaded->model->output_count && in->good; i++) {
         int32_t rank;
         read_bytes(in, &rank, sizeof rank);
-        all = all && (rank >= 0 || !result->wanted); /* the model may not have given it */
-        if (rank < 0)
-            continue;
-        size_t shape[FF_MAX_RANK];
-        read_bytes(in, shape, (uint32_t)rank * sizeof *shape);
-        double *data = ff_result_fill(stage, i, (uint32_t)rank, shape);
-        read_bytes(in, data, result->count * sizeof *data);
+        all = all && (rank >= 0 || !stage->results[i].wanted); /* the model may not have given it */
+        if (rank >= 0)
+            read_output(stage, i, (uint32_t)rank, fill, in);
     }
-    size_t lines;
-    read_bytes(in, &stage->seconds, sizeof stage->seconds);
-    read_bytes(in, &stage->work, sizeof stage->work);
+    read_bytes(in, &seconds, sizeof seconds);
+    read_bytes(in, &work, sizeof work);
     read_bytes(in, &lines, sizeof lines);
-    for (size_t i = 0; i < lines; i++) {
+    if (fill) {
+        stage->seconds = seconds;
+        stage->work = work;
+    }
+    for (size_t i = 0; i < lines && in->good; i++) {
         ff_quality line;
         read_bytes(in, &line.value, sizeof line.value);
         read_bytes(in, &line.limit, sizeof line.limit);
         read_bytes(in, &line.verdict, sizeof line.verdict);
         char *name = read_text(in), *text = read_text(in);
-        ff_add_quality(stage, name, line.value, line.limit, line.verdict, text);
+        in->good = in->good && name && line.verdict >= 0 && line.verdict <= FF_RANGE;
+        if (fill && in->good)
+            ff_add_quality(stage, name, line.value, line.limit, line.verdict, text);
         free(name);
         free(text);
     }
-    return all;
+    return all && in->good;
 }
 
 static bool read_kept(int fd, const ff_pipeline *pipeline, const ff_stage *stage)
 {
     struct stat info;
     uint64_t sum;
-    if (fstat(fd, &info) != 0 || info.st_size <= (off_t)sizeof sum || info.st_size > LARGEST)
+    if (fstat(fd, &info) != 0 || !S_ISREG(info.st_mode) || info.st_size <= (off_t)sizeof sum ||
+        info.st_size > LARGEST)
         return false;
     size_t size = (size_t)info.st_size;
     char *text = memory_alloc(size);
@@ -131,14 +169,13 @@ static bool read_kept(int fd, const ff_pipeline *pipeline, const ff_stage *stage
     memcpy(&sum, text, sizeof sum);
     whole =
         whole && sum == study_hash(STUDY_HASH_START ^ FORM, text + sizeof sum, size - sizeof sum);
-    FILE *in = whole ? fmemopen(text + sizeof sum, size - sizeof sum, "r") : NULL;
-    bool good = in != NULL;
-    for (size_t i = 0; good && together(pipeline, stage, i); i++)
-        good = read_results(together(pipeline, stage, i), in);
-    if (in)
-        fclose(in);
+    for (int fill = 0; fill < 2 && whole; fill++) { /* a stage is filled by a good file alone */
+        kept_bytes in = {text + sizeof sum, size - sizeof sum, true};
+        for (size_t i = 0; whole && together(pipeline, stage, i); i++)
+            whole = read_results(together(pipeline, stage, i), fill, &in);
+    }
     free(text);
-    return good;
+    return whole;
 }
 
 void study_reuse_clear(int study)
@@ -167,7 +204,8 @@ bool study_reuse_recall(void *ctx, const ff_pipeline *pipeline, ff_stage *stage)
         return false;
     snprintf(reuse->name, sizeof reuse->name, "%016llx",
              (unsigned long long)study_hash_evaluation(pipeline, stage, reuse->fingerprints));
-    int fd = openat(reuse->directory, reuse->name, O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    int fd = openat(reuse->directory, reuse->name,
+                    O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0666);
     if (fd < 0)
         return false;
     while (flock(fd, LOCK_EX) != 0 && errno == EINTR)
