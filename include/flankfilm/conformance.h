@@ -57,6 +57,8 @@ typedef struct ff_fixture {
     ff_array (*array)(void *ctx, void *instance, const char *name);
     const char *(*why)(void *ctx, void *instance); /* the last refusal, "" without */
     void (*close)(void *ctx, void *instance);      /* accepts NULL */
+
+    int32_t from_run; /* 1: instances begin with the user's run */
 } ff_fixture;
 
 typedef struct ff_check {

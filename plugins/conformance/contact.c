@@ -3,6 +3,8 @@
 #include "evaluation.h"
 #include "offer.h"
 
+#include <flankfilm/rows.h>
+
 #include <math.h>
 
 static const double pi = 3.14159265358979323846;
@@ -75,9 +77,72 @@ static void hertz(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
+/* A pair of 25 and 40 teeth, module 3 mm, 20 deg, 18 mm wide, at 150 rad/s. */
+static void give_pair(const ff_fixture *fixture)
+{
+    enum { STATIONS = 41 };
+    const double angle = 20 * pi / 180, teeth[] = {25, 40},
+                 base[] = {0.0375 * cos(angle), 0.06 * cos(angle)},
+                 line = (base[0] + base[1]) * tan(angle);
+    double roll[STATIONS], r1[STATIONS], r2[STATIONS], force[STATIONS];
+    for (int i = 0; i < STATIONS; i++) {
+        roll[i] = 0.2 + 0.4 * i / (STATIONS - 1);
+        r1[i] = base[0] * roll[i];
+        r2[i] = line - r1[i];
+        force[i] = 2500;
+    }
+    fixture->give(fixture->ctx, NULL, 0, NULL, NULL);
+    conformance_give_series(fixture, "gear.roll_angle", STATIONS, roll);
+    conformance_give_series(fixture, "gear.radius_1", STATIONS, r1);
+    conformance_give_series(fixture, "gear.radius_2", STATIONS, r2);
+    conformance_give_series(fixture, "gear.teeth", 2, teeth);
+    conformance_give_scalar(fixture, "gear.face_width", 0.018);
+    conformance_give_scalar(fixture, "gear.reduced_modulus", 210e9);
+    conformance_give_scalar(fixture, "operating.speed", 150);
+    conformance_give_series(fixture, "load.tooth_force", STATIONS, force);
+}
+
+/* roll = omega t, u1 = omega R1, u2 = omega z1/z2 R2, w = W/b, at the stations that are given. */
+static void passage(const ff_fixture *fixture)
+{
+    conformance_evaluation run;
+    if (ff_model_find_input(fixture->model, "load.tooth_force") < 0 ||
+        ff_model_find_input(fixture->model, "gear.radius_1") < 0) {
+        fixture->skip(fixture->ctx, NULL); /* it is no pair of teeth */
+        return;
+    }
+    give_pair(fixture);
+    if (!conformance_evaluate(&run, fixture, NULL))
+        return;
+    conformance_array time = conformance_array_of(&run, "time"),
+                      r1 = conformance_array_of(&run, "radius_1"),
+                      r2 = conformance_array_of(&run, "radius_2"),
+                      u1 = conformance_array_of(&run, "speed_1"),
+                      u2 = conformance_array_of(&run, "speed_2"),
+                      load = conformance_array_of(&run, "load_per_width");
+    const double omega = 150, ratio = 25.0 / 40, base = 0.0375 * cos(20 * pi / 180), within = 1e-6;
+    bool good =
+        conformance_has_all(&run, "time radius_1 radius_2 speed_1 speed_2 load_per_width") &&
+        conformance_near(&run, "reduced_modulus", 0, conformance_scalar_of(&run, "reduced_modulus"),
+                         210e9, 210e9, within);
+    for (size_t i = 0; i < time.count && good; i++)
+        good =
+            conformance_near(&run, "radius_1", i, r1.data[i],
+                             base * (0.2 + omega * (time.data[i] - time.data[0])), base, within) &&
+            conformance_near(&run, "speed_1", i, u1.data[i], omega * r1.data[i], omega * r1.data[i],
+                             within) &&
+            conformance_near(&run, "speed_2", i, u2.data[i], omega * ratio * r2.data[i],
+                             omega * r2.data[i], within) &&
+            (load.data[i] <= 0 || i + 1 == time.count || i == 0 ||
+             conformance_near(&run, "load_per_width", i, load.data[i], 2500 / 0.018, 2500 / 0.018,
+                              within));
+    conformance_close(&run);
+}
+
 static const ff_check checks[] = {
     {"kinematics", "speeds of rolling and sliding are those of the surfaces", kinematics},
     {"hertz", "radius, width and pressure are those of Hertz", hertz},
+    {"passage", "a pair of teeth rolls, slides and bears as gears do", passage},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a density law owes: positive, not falling with pressure. */
+/* What a density law owes: positive, not falling with pressure, that of its oil. */
 #include "law-checks.h"
+#include "law-data.h"
 #include "offer.h"
 
 #include <flankfilm/laws.h>
@@ -33,13 +34,43 @@ const size_t conformance_function_count =
 static const double rho = 900;
 static const ff_density liquid = {sizeof liquid, &rho, conformance_constant_law};
 
-static const ff_check checks[] = {CONFORMANCE_LAW_CHECKS};
+/* At p = 0 and at each temperature it is the density of the oil that is wired, or rho0. */
+static void ambient(const ff_fixture *fixture)
+{
+    if (conformance_is_oil(fixture, FF_DENSITY_ID, FF_LIQUID_RHO0, 1))
+        conformance_is_as_set(fixture, FF_DENSITY_ID, "rho0", "850 kg/m3", 850, 1);
+}
+
+/* Liquids lose at most a third of their volume up to 1 GPa (Bridgman 1931: 20 to 30 %). */
+static void compression(const ff_fixture *fixture)
+{
+    void *instance;
+    fixture->serve(fixture->ctx, "oil", NULL);
+    fixture->set(fixture->ctx, "rho0", "850 kg/m3");
+    const ff_density *law = conformance_open_law(fixture, FF_DENSITY_ID, &instance);
+    if (!law)
+        return;
+    double level = conformance_law_at(law->eval, law->self, 0, NULL, NULL),
+           pressed = conformance_law_at(law->eval, law->self, 1e9, NULL, NULL);
+    if (!(pressed <= 1.5 * level))
+        ff_check_failf(fixture,
+                       "rho is %.4g at p = 0 and %.4g at 1 GPa: no liquid gives way by half", level,
+                       pressed);
+    fixture->close(fixture->ctx, instance);
+}
+
+static const ff_check checks[] = {
+    CONFORMANCE_LAW_CHECKS,
+    {"ambient", "is its oil at ambient pressure, and lighter the warmer it is", ambient},
+    {"compression", "gives way to pressure as a liquid does", compression},
+};
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks),
                                           .service = FF_DENSITY_ID,
                                           .plain = &liquid};
 
-CONFORMANCE_MODEL("density",
-                  "what a density law keeps: finite, pure, positive, never falling with pressure",
-                  "");
+CONFORMANCE_MODEL(
+    "density",
+    "what a density law keeps: finite, pure, positive, never falling with pressure, its oil",
+    "Bridgman 1931, The Physics of High Pressure");

@@ -6,6 +6,7 @@
 #include <math.h>
 
 enum { PHASES = 65, STATIONS = 60 };
+static const double backlash = 1e-4; /* m, of the test pair */
 
 static const double pi = 3.14159265358979323846;
 
@@ -39,7 +40,7 @@ static void give_pair(const ff_fixture *fixture, const test_pair *s)
         force[i] = share[i] * s->load;
     }
     fixture->give(fixture->ctx, NULL, 0, NULL, NULL);
-    conformance_give_scalar(fixture, "gear.backlash", 1e-4);
+    conformance_give_scalar(fixture, "gear.backlash", backlash);
     conformance_give_scalar(fixture, "gear.equivalent_mass", s->mass);
     conformance_give_series(fixture, "gear.base_radius", 2, radius);
     conformance_give_scalar(fixture, "gear.centre_distance", 0.15);
@@ -82,7 +83,7 @@ static void rest(const ff_fixture *fixture)
     conformance_array force = conformance_array_of(&run, "mesh_force"),
                       tooth = conformance_array_of(&run, "tooth_force"),
                       given = conformance_array_of(&run, "stiffness.tooth_force");
-    double play_half = 0.5e-4, deflection = plain.load / plain.stiffness;
+    double play_half = backlash / 2, deflection = plain.load / plain.stiffness;
     bool good = rotates_only(&run);
     if (!good)
         fixture->skip(fixture->ctx, NULL);
@@ -102,34 +103,110 @@ static void rest(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
-/* A linear oscillator under e = E cos(w t): |s| = E sqrt(1 + d^2)/sqrt((1 - r^2)^2 + d^2),
-   r = f/f_n, d = 2 zeta r. */
+/* The first harmonic of a series over its period, 2 int y exp(-2 pi i phase) dphase. */
+typedef struct harmonic {
+    double cosine, sine;
+} harmonic;
+
+static harmonic first_harmonic(conformance_array phase, conformance_array y, double period)
+{
+    harmonic h = {0, 0};
+    for (size_t i = 1; i < y.count; i++) {
+        double step = (phase.data[i] - phase.data[i - 1]) / period;
+        for (size_t k = i - 1; k <= i; k++) {
+            h.cosine += step * y.data[k] * cos(2 * pi * phase.data[k]);
+            h.sine += step * y.data[k] * sin(2 * pi * phase.data[k]);
+        }
+    }
+    return h;
+}
+
+static const double damping = 0.05, ratio = 0.7; /* of a linear pair: zeta, and f over f_n */
+
+/* A linear pair, that is of constant stiffness, under e = E cos(2 pi phase). False when the model
+   has no inertia, other freedoms or none of the parameters, which has been said. */
+static bool open_linear(conformance_evaluation *run, const ff_fixture *fixture, test_pair *s)
+{
+    *s = plain;
+    s->frequency = ratio * sqrt(s->stiffness / s->mass) / (2 * pi);
+    s->error = 0.05 * s->load / s->stiffness;
+    give_pair(fixture, s);
+    if (!fixture->set(fixture->ctx, "damping_ratio", "0.05") ||
+        !conformance_offers(fixture, "dte_velocity")) {
+        fixture->skip(fixture->ctx, NULL);
+        return false;
+    }
+    if (!conformance_evaluate(run, fixture, wanted))
+        return false;
+    if (rotates_only(run))
+        return true;
+    fixture->skip(fixture->ctx, NULL);
+    conformance_close(run);
+    return false;
+}
+
+/* F = (k + i w c)(S - E) and F = m w^2 S in the first harmonic, with w c = 2 zeta r k and
+   m w^2 = r^2 k: the mesh and the mass alike. |S| = E sqrt(1 + d^2)/sqrt((1 - r^2)^2 + d^2),
+   d = 2 zeta r. e is linear between 64 phases: its harmonic is sinc^2(1/64) of the cosine's. */
 static void linear(const ff_fixture *fixture)
 {
-    const double damping = 0.05, ratio = 0.7;
-    test_pair s = plain;
+    test_pair s;
     conformance_evaluation run;
-    double natural = sqrt(s.stiffness / s.mass) / (2 * pi), d = 2 * damping * ratio;
-    s.frequency = ratio * natural;
-    s.error = 0.05 * s.load / s.stiffness;
-    give_pair(fixture, &s);
-    if (!fixture->set(fixture->ctx, "damping_ratio", "0.05") ||
-        !conformance_offers(fixture, "multipliers")) {
-        fixture->skip(fixture->ctx, NULL);
+    if (!open_linear(&run, fixture, &s))
         return;
+    conformance_array phase = conformance_array_of(&run, "phase");
+    double natural = sqrt(s.stiffness / s.mass) / (2 * pi), d = 2 * damping * ratio,
+           amplitude = s.error * sqrt((1 + d * d) / (pow(1 - ratio * ratio, 2) + d * d)),
+           period = conformance_scalar_of(&run, "period"), x = pi / (PHASES - 1);
+    bool good = conformance_near(&run, "natural_frequency", 0,
+                                 conformance_scalar_of(&run, "natural_frequency"), natural, natural,
+                                 1e-6) &&
+                conformance_near(&run, "dte_rms of a linear oscillator", 0,
+                                 conformance_scalar_of(&run, "dte_rms"), amplitude / sqrt(2),
+                                 amplitude, 2e-3);
+    if (good && phase.count > 16 && fabs(period - 1) < 1e-9) {
+        harmonic S = first_harmonic(phase, conformance_array_of(&run, "dte"), period),
+                 F = first_harmonic(phase, conformance_array_of(&run, "mesh_force"), period),
+                 W = {S.cosine - s.error * pow(sin(x) / x, 2), S.sine};
+        double size = W.cosine * W.cosine + W.sine * W.sine, k = s.stiffness,
+               elastic = (F.cosine * W.cosine + F.sine * W.sine) / size,
+               viscous = (F.cosine * W.sine - F.sine * W.cosine) / size,
+               inertia = (F.cosine * S.cosine + F.sine * S.sine) /
+                         (S.cosine * S.cosine + S.sine * S.sine);
+        /* -viscous: the cosine leads */
+        if (conformance_near(&run, "mesh_force over the deflection, N/m,", 0, elastic, k, k,
+                             0.02) &&
+            conformance_near(&run, "the damper's share of it, 2 zeta r k,", 0, viscous, d * k,
+                             d * k, 0.1))
+            conformance_near(&run, "mesh_force over the motion, m w^2,", 0, inertia,
+                             ratio * ratio * k, ratio * ratio * k, 0.02);
     }
-    if (!conformance_evaluate(&run, fixture, wanted))
+    conformance_close(&run);
+}
+
+/* Of the pairs in mesh, at phases away from those where one comes or goes. */
+static void teeth(const ff_fixture *fixture)
+{
+    static const double phases[] = {0.1, 0.3, 0.5, 0.6, 0.85, 0.9};
+    test_pair s;
+    conformance_evaluation run;
+    if (!open_linear(&run, fixture, &s))
         return;
-    if (!rotates_only(&run)) {
+    conformance_array roll = conformance_array_of(&run, "gear.roll_angle"),
+                      tooth = conformance_array_of(&run, "tooth_force"),
+                      phase = conformance_array_of(&run, "phase"),
+                      force = conformance_array_of(&run, "mesh_force");
+    bool good = tooth.count == roll.count && force.count > 16 && force.count == phase.count &&
+                fabs(conformance_scalar_of(&run, "period") - 1) < 1e-9;
+    if (!good)
         fixture->skip(fixture->ctx, NULL);
-    } else if (conformance_near(&run, "natural_frequency", 0,
-                                conformance_scalar_of(&run, "natural_frequency"), natural, natural,
-                                1e-6)) {
-        double amplitude = s.error * sqrt((1 + d * d) / (pow(1 - ratio * ratio, 2) + d * d));
-        /* e is linear between 64 phases: its harmonic is sinc^2(1/64) of the cosine's */
-        conformance_near(&run, "dte_rms of a linear oscillator", 0,
-                         conformance_scalar_of(&run, "dte_rms"), amplitude / sqrt(2), amplitude,
-                         2e-3);
+    for (size_t i = 0; i < sizeof phases / sizeof *phases && good; i++) {
+        double sum = 0, cycle = 2 * pi / 50;
+        for (double at = roll.data[0] + phases[i] * cycle; at < roll.data[roll.count - 1];
+             at += cycle)
+            sum += conformance_at(roll, tooth, at);
+        good = conformance_near(&run, "the sum of the tooth forces, at the phases 0.1 to 0.9,", i,
+                                sum, conformance_at(phase, force, phases[i]), s.load, 0.01);
     }
     conformance_close(&run);
 }
@@ -221,9 +298,87 @@ static void energy(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
+/* The numbers that stand for a series are those of the series. */
+static void means(const ff_fixture *fixture)
+{
+    conformance_evaluation run;
+    if (!open_motion(&run, fixture))
+        return;
+    conformance_array phase = conformance_array_of(&run, "phase"),
+                      s = conformance_array_of(&run, "dte");
+    bool good = s.count > 16 && phase.count == s.count && phase.data[s.count - 1] > phase.data[0];
+    double mean = 0, square = 0, low = INFINITY, high = -INFINITY;
+    if (!good)
+        fixture->skip(fixture->ctx, NULL);
+    for (size_t i = 1; i < s.count && good; i++)
+        mean += (phase.data[i] - phase.data[i - 1]) * (s.data[i] + s.data[i - 1]) / 2 /
+                (phase.data[s.count - 1] - phase.data[0]);
+    for (size_t i = 0; i < s.count && good; i++) {
+        low = fmin(low, s.data[i]);
+        high = fmax(high, s.data[i]);
+        double a = s.data[i] - mean, b = i ? s.data[i - 1] - mean : 0;
+        square += i ? (phase.data[i] - phase.data[i - 1]) * (a * a + a * b + b * b) / 3 /
+                          (phase.data[s.count - 1] - phase.data[0])
+                    : 0;
+    }
+    double size = fmax(high - low, 1e-6 * fabs(mean));
+    if (good &&
+        conformance_near(&run, "dte_peak_to_peak", 0,
+                         conformance_scalar_of(&run, "dte_peak_to_peak"), high - low, size, 0.02) &&
+        conformance_near(&run, "dte_rms", 0, conformance_scalar_of(&run, "dte_rms"), sqrt(square),
+                         size, 0.02))
+        conformance_near(&run, "dte_mean", 0, conformance_scalar_of(&run, "dte_mean"), mean, size,
+                         0.02);
+    conformance_close(&run);
+}
+
+/* Under an error that takes the load off, flanks part: they do not pull until the backlash is
+   crossed. A damper may, by 2 zeta r of the swing. */
+static void parting(const ff_fixture *fixture)
+{
+    test_pair s = plain;
+    conformance_evaluation run;
+    s.frequency = ratio * sqrt(s.stiffness / s.mass) / (2 * pi);
+    s.error = 1.5 * s.load / s.stiffness;
+    give_pair(fixture, &s);
+    fixture->set(fixture->ctx, "damping_ratio", "0.03");
+    if (!conformance_offers(fixture, "dte_velocity")) {
+        fixture->skip(fixture->ctx, NULL); /* no inertia */
+        return;
+    }
+    if (!conformance_evaluate(&run, fixture, wanted))
+        return;
+    conformance_array phase = conformance_array_of(&run, "phase"),
+                      x = conformance_array_of(&run, "dte"),
+                      force = conformance_array_of(&run, "mesh_force");
+    double driving = INFINITY, pulling = -INFINITY, worst = 0;
+    bool good = x.count > 16 && force.count == x.count && phase.count == x.count;
+    if (!good)
+        fixture->skip(fixture->ctx, NULL);
+    for (size_t i = 0; i < x.count && good; i++) {
+        double apart = x.data[i] - s.error * cos(2 * pi * phase.data[i]);
+        if (force.data[i] > 0.25 * s.load)
+            driving = fmin(driving, apart);
+        if (force.data[i] < -0.25 * s.load)
+            pulling = fmax(pulling, apart);
+        worst = fmin(worst, force.data[i]);
+    }
+    if (good && pulling > driving - 0.9 * backlash)
+        ff_check_failf(
+            fixture,
+            "mesh_force is %.4g N where the flanks are %.3g m from where they drive, which "
+            "is within the backlash of %g m: they pull, at a load of %g N and e = %.3g m "
+            "cos(2 pi phase)",
+            worst, driving - pulling, backlash, s.load, s.error);
+    conformance_close(&run);
+}
+
 static const ff_check checks[] = {
     {"rest", "a pair of constant stiffness rests at F/k", rest},
     {"linear", "a linear pair answers as the oscillator of one degree of freedom", linear},
+    {"teeth", "the pairs in mesh bear what the mesh does", teeth},
+    {"means", "mean, rms and range are those of the series", means},
+    {"parting", "flanks part, and do not pull within the backlash", parting},
     {"periodicity", "position and velocity come back after the period", periodicity},
     {"energy", "the mesh force holds the load, and works nothing over a period", energy},
 };

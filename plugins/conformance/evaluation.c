@@ -79,6 +79,20 @@ bool conformance_near(const conformance_evaluation *e, const char *what, size_t 
     return false;
 }
 
+double conformance_at(conformance_array x, conformance_array y, double at)
+{
+    size_t i = 1;
+    if (x.count < 2 || y.count != x.count || at < x.data[0] || at > x.data[x.count - 1])
+        return 0;
+    while (i + 1 < x.count && x.data[i] < at)
+        i++;
+    double step = x.data[i] - x.data[i - 1];
+    if (step <= 0)
+        return y.data[i];
+    double share = (at - x.data[i - 1]) / step;
+    return (1 - share) * y.data[i - 1] + share * y.data[i];
+}
+
 void conformance_give_scalar(const ff_fixture *fixture, const char *input, double value)
 {
     fixture->give(fixture->ctx, input, 0, NULL, &value);

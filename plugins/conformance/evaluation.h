@@ -35,6 +35,9 @@ bool conformance_has_all(const conformance_evaluation *e, const char *names); /*
 bool conformance_near(const conformance_evaluation *e, const char *what, size_t at, double value,
                       double expected, double scale, double tolerance);
 
+/* y at x, linear between the points of a rising series; 0 outside of it. */
+double conformance_at(conformance_array x, conformance_array y, double at);
+
 void conformance_give_scalar(const ff_fixture *fixture, const char *input, double value);
 void conformance_give_series(const ff_fixture *fixture, const char *input, size_t count,
                              const double *data);

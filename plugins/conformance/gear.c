@@ -79,9 +79,76 @@ static void path(const ff_fixture *fixture)
     conformance_close(&run);
 }
 
+/* No flank reaches beyond the tip circle: R = sqrt(r_a^2 - r_b^2) there. */
+static bool ends_at_tips(const conformance_evaluation *run)
+{
+    conformance_array base = conformance_array_of(run, "base_radius"),
+                      tip = conformance_array_of(run, "tip_radius");
+    if (tip.count != 2 || base.count != 2)
+        return true;
+    double line = (base.data[0] + base.data[1]) *
+                  tan(conformance_scalar_of(run, "working_pressure_angle")),
+           reached[] = {base.data[0] * conformance_scalar_of(run, "roll_tip"),
+                        line - base.data[0] * conformance_scalar_of(run, "roll_sap")};
+    for (int i = 0; i < 2; i++) {
+        double most = sqrt(tip.data[i] * tip.data[i] - base.data[i] * base.data[i]);
+        if (reached[i] > most * (1 + 1e-9))
+            return ff_check_failf(run->fixture,
+                                  "%s is where the flank of gear %d has a radius of %.6g m, but at "
+                                  "its tip_radius %g m it has %.6g m",
+                                  i ? "roll_sap" : "roll_tip", i + 1, reached[i], tip.data[i],
+                                  most);
+    }
+    return true;
+}
+
+/* r_b = z m cos(alpha)/2, the centres are the pitch circles apart, 2/E' = sum (1 - nu^2)/E,
+   m = I1 I2/(I1 r_b2^2 + I2 r_b1^2). */
+static void pair(const ff_fixture *fixture)
+{
+    const double module = 4e-3, angle = 22 * pi / 180, within = 1e-9;
+    conformance_evaluation run;
+    bool told = !fixture->from_run && fixture->set(fixture->ctx, "module", "4 mm") &&
+                fixture->set(fixture->ctx, "pressure_angle", "22 deg");
+    if (told)
+        fixture->set(fixture->ctx, "teeth", "[27, 41]");
+    if (!conformance_evaluate(&run, fixture, NULL))
+        return;
+    conformance_array base = conformance_array_of(&run, "base_radius"),
+                      pitch = conformance_array_of(&run, "pitch_radius"),
+                      teeth = conformance_array_of(&run, "teeth"),
+                      inertia = conformance_array_of(&run, "inertia"),
+                      young = conformance_array_of(&run, "elastic_modulus"),
+                      poisson = conformance_array_of(&run, "poisson_ratio");
+    bool good = base.count == 2 && pitch.count == 2 && teeth.count == 2;
+    for (size_t i = 0; i < 2 && good && told; i++)
+        good = conformance_near(&run, "base_radius, of 4 mm and 22 deg,", i, base.data[i],
+                                teeth.data[i] * module * cos(angle) / 2, base.data[i], within);
+    good =
+        good && ends_at_tips(&run) &&
+        conformance_near(&run, "centre_distance", 0, conformance_scalar_of(&run, "centre_distance"),
+                         pitch.data[0] + pitch.data[1], pitch.data[0], within);
+    if (good && young.count == 2 && poisson.count == 2) {
+        double sum = 0;
+        for (int i = 0; i < 2; i++)
+            sum += (1 - poisson.data[i] * poisson.data[i]) / young.data[i];
+        good = conformance_near(&run, "reduced_modulus", 0,
+                                conformance_scalar_of(&run, "reduced_modulus"), 2 / sum, 2 / sum,
+                                within);
+    }
+    if (good && inertia.count == 2) {
+        const double *I = inertia.data, *r = base.data;
+        double mass = I[0] * I[1] / (I[0] * r[1] * r[1] + I[1] * r[0] * r[0]);
+        conformance_near(&run, "equivalent_mass", 0, conformance_scalar_of(&run, "equivalent_mass"),
+                         mass, mass, within);
+    }
+    conformance_close(&run);
+}
+
 static const ff_check checks[] = {
     {"involute", "radii, pitches and contact ratio are those of involutes", involute},
     {"path", "the path of contact runs from SAP to the tip", path},
+    {"pair", "circles, centres, mass and modulus are those of its data", pair},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,

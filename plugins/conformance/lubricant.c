@@ -2,6 +2,7 @@
 /* Draft. What an oil owes: positive properties, and a viscosity that does not rise with
    temperature. */
 #include "law-checks.h"
+#include "law-data.h"
 #include "offer.h"
 
 #include <flankfilm/laws.h>
@@ -116,7 +117,44 @@ static ff_status plain_eval(const void *self, int32_t what, size_t n, const doub
 
 static const ff_liquid plain = {sizeof plain, NULL, plain_eval};
 
-static const ff_check checks[] = {CONFORMANCE_LAW_CHECKS};
+/* NaN: not known. */
+static double at(const ff_liquid *oil, int32_t what, double T)
+{
+    double value = NAN;
+    oil->eval(oil->self, what, 1, &T, &value, NULL);
+    return value;
+}
+
+/* A grade is the kinematic viscosity at 40 degC (ISO 3448); alpha holds at alpha_at; warm oil is no
+   heavier. */
+static void data(const ff_fixture *fixture)
+{
+    void *instance;
+    bool graded = !fixture->from_run && fixture->set(fixture->ctx, "grade", "ISO VG 100"),
+         told = !fixture->from_run && fixture->set(fixture->ctx, "alpha", "12 1/GPa") &&
+                fixture->set(fixture->ctx, "alpha_at", "50 degC");
+    const ff_liquid *oil = conformance_open_law(fixture, FF_LIQUID_ID, &instance);
+    if (!oil)
+        return;
+    double nu = exp(at(oil, FF_LIQUID_LN_ETA0, 313.15)) / at(oil, FF_LIQUID_RHO0, 313.15),
+           alpha = at(oil, FF_LIQUID_PRESSURE_COEFFICIENT, 323.15),
+           cool = at(oil, FF_LIQUID_RHO0, 300), warm = at(oil, FF_LIQUID_RHO0, 360);
+    if (graded && !(fabs(nu - 1e-4) <= 1e-6))
+        ff_check_failf(fixture, "ISO VG 100 is eta0/rho0 = 100 mm2/s at 40 degC, but is %.4g mm2/s",
+                       1e6 * nu);
+    else if (told && !(fabs(alpha - 12e-9) <= 1e-11))
+        ff_check_failf(fixture, "alpha is %.4g 1/GPa at alpha_at, but must be 12 1/GPa",
+                       1e9 * alpha);
+    else if (warm > cool * (1 + 1e-9))
+        ff_check_failf(fixture, "rho0 rises from %.4g kg/m3 at 300 K to %.4g kg/m3 at 360 K", cool,
+                       warm);
+    fixture->close(fixture->ctx, instance);
+}
+
+static const ff_check checks[] = {
+    CONFORMANCE_LAW_CHECKS,
+    {"data", "has the properties that its data say, and expands with temperature", data},
+};
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,
                                           .checks = FF_TABLE(checks),

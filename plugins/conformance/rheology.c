@@ -2,6 +2,7 @@
 /* What a rheology owes: shear makes the film no thicker than a Newtonian one, whichever way it
  * goes. */
 #include "law-checks.h"
+#include "law-data.h"
 #include "offer.h"
 
 #include <flankfilm/laws.h>
@@ -216,10 +217,48 @@ static void check_rates(const ff_fixture *fixture)
     fixture->close(fixture->ctx, instance);
 }
 
+/* psi is the slope of the rate over the stress, and both follow from u_s/h alone. */
+static void check_tangent(const ff_fixture *fixture, const ff_rheology *law)
+{
+    const double d = 1e-4;
+    double ln_eta = -6 + 12 * fixture->random(fixture->ctx), p = 2e9,
+           h = 1e-7 * pow(1e2, fixture->random(fixture->ctx)),
+           u = 1e-2 * pow(1e3, fixture->random(fixture->ctx)), twice = 2 * h, psi, tau[4];
+    law->flow(law->self, 1, &ln_eta, &h, u, &psi, NULL, NULL);
+    law->shear(law->self, 1, &p, &ln_eta, &h, u * (1 - d), &tau[0]);
+    law->shear(law->self, 1, &p, &ln_eta, &h, u * (1 + d), &tau[1]);
+    law->shear(law->self, 1, &p, &ln_eta, &h, u, &tau[2]);
+    law->shear(law->self, 1, &p, &ln_eta, &twice, 2 * u, &tau[3]);
+    double slope = 2 * d * u / h / (tau[1] - tau[0]);
+    if (!(fabs(tau[3] - tau[2]) <= 1e-6 * tau[2]))
+        ff_check_failf(
+            fixture,
+            "shear: tau is %.6g Pa at u_s = %g m/s, h = %g m, but %.6g Pa at twice both, "
+            "where the shear rate is the same",
+            tau[2], u, h, tau[3]);
+    else if (!(fabs(psi - slope) <= 1e-3 * slope))
+        ff_check_failf(
+            fixture,
+            "flow: psi is %.6g at ln_eta = %g, u_s = %g m/s, h = %g m, but the shear rate "
+            "rises by %.6g with the stress there",
+            psi, ln_eta, u, h, slope);
+}
+
+static void tangent(const ff_fixture *fixture)
+{
+    void *instance;
+    const ff_rheology *law = conformance_open_law(fixture, FF_RHEOLOGY_ID, &instance);
+    fixture->step(fixture->ctx, "calling flow and shear");
+    for (int i = 0; i < POINTS && law; i++)
+        check_tangent(fixture, law);
+    fixture->close(fixture->ctx, instance);
+}
+
 static const ff_check checks[] = {
     CONFORMANCE_LAW_CHECKS,
     {"newtonian", "shears no stiffer than a Newtonian liquid, the same both ways", newtonian},
     {"rates", "so does its shear rate over stress, where it offers one", check_rates},
+    {"tangent", "pressure flow and shear are of one liquid", tangent},
 };
 
 const ff_conformance conformance_offer = {.size = sizeof conformance_offer,

@@ -5,11 +5,17 @@
 # one fault of each test is tried, which runs the same code of the program.
 set -u
 flankfilm=$1 plugins=$2 faults=$3 watched=${4:-}
+# what a list of wrong models is about: the check that finds each
+only() {
+    case $faults in *wrong.txt) [ "$test" = - ] && echo "--only $reason" || echo "--only $test" ;; esac
+}
 failed=0 seen=0 tests=' '
 # a crash is to look like one under AddressSanitizer, too
 export ASAN_OPTIONS="${ASAN_OPTIONS:-}:handle_segv=0"
 while read -r fault test reason; do
     [ "$fault" != '#' ] || continue
+    reason=${reason%%[ ]#*}
+    reason=${reason%"${reason##*[! ]}"}
     if [ -n "$watched" ]; then
         [ "$fault" != viscosity/leak ] || continue
         case $tests in *" $test "*) continue ;; esac
@@ -17,7 +23,7 @@ while read -r fault test reason; do
     fi
     seen=$((seen + 1))
     said=$(FLANKFILM_VERIFY_LIMIT=$([ "$fault" = viscosity/hang ] && echo 0.5 || echo 30) \
-        "$flankfilm" verify "$plugins/$fault.so")
+        "$flankfilm" verify "$plugins/$fault.so" $(only))
     code=$?
     first=$(printf '%s\n' "$said" | sed -n '/^not ok/ { s/^not ok [0-9]* - //; s/:.*//; p; q; }')
     why=$(printf '%s\n' "$said" | sed -n '/^# faulty: / { s///; p; q; }')

@@ -8,13 +8,19 @@
 #include <stdlib.h>
 
 typedef struct verdicts {
-    json_t *tests; /* NULL: TAP goes to stdout */
+    json_t *tests;       /* NULL: TAP goes to stdout */
+    const char *operand; /* the plugin, for how to repeat a test */
+    const char *pipeline;
     size_t count, faulty;
 } verdicts;
 
 static const char *finding_name(verify_finding finding)
 {
-    return finding == VERIFY_PASSED ? "passed" : finding == VERIFY_FAILED ? "faulty" : "untried";
+    static const char *const names[] = {[VERIFY_PASSED] = "passed",
+                                        [VERIFY_FAILED] = "faulty",
+                                        [VERIFY_SKIPPED] = "untried",
+                                        [VERIFY_LISTED] = "listed"};
+    return names[finding];
 }
 
 static void print_verdict(void *ctx, size_t number, const verify_result *result)
@@ -31,9 +37,16 @@ static void print_verdict(void *ctx, size_t number, const verify_result *result)
                                 result->seconds));
         return;
     }
+    if (result->finding == VERIFY_LISTED) {
+        printf("%-13s %s\n", result->test, result->claim);
+        return;
+    }
     printf("%sok %zu - %s: %s\n", faulty ? "not " : "", number, result->test, result->claim);
     if (result->why[0])
         printf("# %s: %s\n", finding_name(result->finding), result->why);
+    if (faulty)
+        printf("# again: flankfilm verify %s --only %s%s%s\n", t->operand, result->test,
+               t->pipeline ? " --pipeline " : "", t->pipeline ? t->pipeline : "");
     fflush(stdout);
 }
 
@@ -48,12 +61,16 @@ static double time_limit(void)
 int cli_verify_command(const cli_options *options)
 {
     ff_report *report = ff_report_new();
-    verdicts t = {.tests = options->json ? json_array() : NULL};
+    verdicts t = {.tests = options->json ? json_array() : NULL,
+                  .operand = options->operand,
+                  .pipeline = cli_option(options, "pipeline")};
     verify_request request = {.path = options->operand,
                               .pipeline = cli_option(options, "pipeline"),
                               .sets = options->sets,
                               .set_count = options->set_count,
-                              .limit = time_limit()};
+                              .limit = time_limit(),
+                              .only = cli_option(options, "only"),
+                              .list = cli_option(options, "list") != NULL};
     int code;
     if (!verify_plugin(&request, print_verdict, &t, report)) {
         code = cli_refuse(report, options, "nothing was tested");
@@ -63,7 +80,7 @@ int cli_verify_command(const cli_options *options)
             json_t *answer = results_json_answer(t.faulty ? "error" : "ok", code, report);
             json_object_set(answer, "tests", t.tests);
             results_json_print(answer);
-        } else {
+        } else if (!request.list) {
             printf("1..%zu\n", t.count);
         }
     }

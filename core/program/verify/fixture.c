@@ -137,6 +137,10 @@ static verify_setup *make_setup(fixture *f)
             setup->inputs[i] = f->changed->inputs[i];
             setup->services[i] = f->changed->services[i];
         }
+    for (size_t i = 0; i < model->param_count; i++)
+        if (!f->changed->values[i].size &&
+            verify_setup_is_replaced(setup, ff_model_param(model, i)))
+            setup->values[i].size = 0;
     return setup;
 }
 
@@ -270,7 +274,8 @@ void verify_run_check(verify_context *context, const ff_check *check)
                                .evaluate = evaluate,
                                .array = array,
                                .why = why,
-                               .close = close_instance},
+                               .close = close_instance,
+                               .from_run = context->given != NULL},
                  .context = context,
                  .changed = verify_setup_new(context),
                  .inputs_changed = memory_alloc(model->input_count * sizeof *f.inputs_changed)};

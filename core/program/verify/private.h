@@ -136,6 +136,8 @@ double verify_draw_number(const ff_param *row, verify_random *random, verify_ran
 const char *verify_make_table(verify_context *context);
 /* Whether all that is required could be drawn; else the test is skipped, unless `quietly`. */
 bool verify_setup_can_be_used(const verify_setup *setup, bool quietly);
+/* A service that is there takes the place of the parameter. */
+bool verify_setup_is_replaced(const verify_setup *setup, const ff_param *row);
 void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify_range range);
 void verify_setup_draw_inputs(verify_setup *setup, verify_random *random);
 void verify_setup_give(verify_setup *setup, size_t input, const double *data, uint32_t rank,

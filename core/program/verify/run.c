@@ -67,7 +67,8 @@ typedef struct session {
     void *ctx;
     size_t number;
     ff_report *report;
-    bool good; /* the user's file can be used */
+    bool good;  /* the user's file can be used */
+    bool found; /* the test that is asked for alone */
 } session;
 
 static bool concerns(const test *t, const ff_model *model)
@@ -283,17 +284,36 @@ static bool part(const char *path, char **root, char **id)
     return good;
 }
 
+/* Whether the name is one of those between commas. */
+static bool is_among(const char *name, const char *names)
+{
+    size_t length = strlen(name);
+    for (const char *at = names; *at; at += strcspn(at, ","), at += *at == ',')
+        if (strcspn(at, ",") == length && !strncmp(at, name, length))
+            return true;
+    return false;
+}
+
 /* False when nothing else can be tried. */
 static bool try(session *s, const test *t)
 {
-    verify_result result;
+    verify_result result = {.test = t->name, .claim = t->claim, .finding = VERIFY_LISTED};
     bool file = t->matter == USER_FILE;
+    bool asked = !s->request->only || is_among(t->name, s->request->only);
     if (file && !s->request->pipeline)
+        return true;
+    s->found = s->found || asked;
+    if (s->request->list) {
+        s->tell(s->ctx, ++s->number, &result);
+        return true;
+    }
+    if (!asked && t->matter >= ANY_MODEL)
         return true;
     run_test(s, t, &result);
     if (file && result.finding != VERIFY_PASSED)
         s->good = ff_error(s->report, FF_FAULT_INPUT, FF_NOWHERE, NULL, "%s", result.why);
-    else if (!file && (result.finding != VERIFY_SKIPPED || result.why[0]))
+    else if (!file && (asked || result.finding == VERIFY_FAILED) &&
+             (result.finding != VERIFY_SKIPPED || result.why[0]))
         s->tell(s->ctx, ++s->number, &result);
     return t->matter >= ANY_MODEL || result.finding == VERIFY_PASSED;
 }
@@ -309,7 +329,7 @@ static void try_kind(session *s)
         const ff_check *check = (const void *)((const char *)checks.offer->checks + offset);
         try(s, &(test){check->name, check->claim, ITS_KIND, ALL, NULL, check});
     }
-    if (!known) {
+    if (!known && !s->request->only && !s->request->list) {
         bool broken = ff_report_count(report) > 0;
         verify_result none = {.test = "kind",
                               .claim = "keeps what its kind asks for",
@@ -348,6 +368,9 @@ bool verify_plugin(const verify_request *request,
             try(&s, &any_model[i]);
         try_kind(&s);
     }
+    if (s.good && !s.found && s.number == 0)
+        s.good = ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "--list names them",
+                          "%s has no test \"%s\"", s.id, request->only);
     ff_engine_close(s.engine);
     free(s.root);
     free(s.id);

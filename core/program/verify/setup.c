@@ -122,8 +122,7 @@ static bool has_preset(const ff_model *model, size_t member)
     return !needed;
 }
 
-/* A service that is there takes the place of the parameter. */
-static bool is_replaced(const verify_setup *setup, const ff_param *row)
+bool verify_setup_is_replaced(const verify_setup *setup, const ff_param *row)
 {
     int input = row->instead ? ff_model_find_input(setup->context->model, row->instead) : -1;
     return input >= 0 && setup->services[input];
@@ -182,7 +181,7 @@ void verify_setup_draw_params(verify_setup *setup, verify_random *random, verify
     }
     for (size_t i = 0; i < model->param_count; i++) {
         setup->values[i].size = 0;
-        if (give[i] && !is_replaced(setup, ff_model_param(model, i)))
+        if (give[i] && !verify_setup_is_replaced(setup, ff_model_param(model, i)))
             draw_value(setup, i, random, range, &setup->values[i]);
     }
     free(give);

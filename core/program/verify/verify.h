@@ -12,7 +12,8 @@
 typedef enum verify_finding {
     VERIFY_PASSED,
     VERIFY_FAILED,
-    VERIFY_SKIPPED /* `why` says what is missing to try it */
+    VERIFY_SKIPPED, /* `why` says what is missing to try it */
+    VERIFY_LISTED   /* not run, since the tests were asked for alone */
 } verify_finding;
 
 typedef struct verify_result {
@@ -27,7 +28,9 @@ typedef struct verify_request {
     const char *pipeline;    /* YAML file with a stage that uses the model; NULL: none */
     const char *const *sets; /* changes to that file */
     size_t set_count;
-    double limit; /* seconds that a test may take */
+    double limit;     /* seconds that a test may take */
+    const char *only; /* names of tests, between commas; NULL: all */
+    bool list;        /* tell which tests there are, and run none */
 } verify_request;
 
 /* Tests that do not concern the model are left out; without a model, or without the parameters

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* A dry contact's pressure and Moes' film, which is level. */
-#define STUB_WIRE wire
+#define STUB_MORE .wire = wire, .evaluate = evaluate
 #include "stub.h"
 
 #include <flankfilm/viscosity.h>

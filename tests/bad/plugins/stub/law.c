@@ -24,6 +24,18 @@ static ff_status rho(const void *self, size_t n, const double *p, const double *
 
 static const double tau0 = 5e6;
 
+/* The rate over the stress, in place of its slope. */
+static void secant(double ln_eta, double h, double u, double *psi, double *by_ln_eta, double *by_h)
+{
+    double s = fmin(u / h / tau0, 1e100), x = s * exp(fmin(fmax(ln_eta, -300), 200)),
+           root = asinh(x), turn = root > 0 ? s / root / root * x / hypot(1, x) : 0;
+    *psi = x > 1e-6 ? s / root : exp(-fmin(fmax(ln_eta, -300), 300));
+    if (by_ln_eta)
+        *by_ln_eta = x > 1e-6 ? -turn : -*psi;
+    if (by_h)
+        *by_h = x > 1e-6 ? -*psi / h + turn / h : 0;
+}
+
 /* psi = sqrt(1/eta^2 + (u_s/(tau0 h))^2) */
 static ff_status flow(const void *self, size_t n, const double *ln_eta, const double *h, double u_s,
                       double *psi, double *by_ln_eta, double *by_h)
@@ -32,13 +44,18 @@ static ff_status flow(const void *self, size_t n, const double *ln_eta, const do
     for (size_t i = 0; i < n; i++) {
         double inverse = exp(-fmin(fmax(ln_eta[i], -300), 300)),
                shear = fmin(u_s * u_s / (tau0 * tau0) / h[i] / h[i], 1e250) *
-                       off("one-way", u_s > 0 ? 1 : 0);
+                       off("one-way", u_s > 0 ? 1 : 0) *
+                       off("wide", 1e-12 / fmax(h[i] * h[i], 1e-40));
         psi[i] = sqrt(inverse * inverse + shear) * off("thick", 0.7);
         int flat = fabs(ln_eta[i]) > 300;
         if (by_ln_eta)
             by_ln_eta[i] = flat ? 0 : -inverse * inverse / psi[i] * off("thick", 0.49);
         if (by_h)
-            by_h[i] = shear >= 1e250 ? 0 : -shear / psi[i] / h[i] * off("thick", 0.49);
+            by_h[i] =
+                shear >= 1e250 ? 0 : -shear / psi[i] / h[i] * off("thick", 0.49) * off("wide", 2);
+        if (is("secant") && u_s * u_s > 0 && h[i] > 1e-12)
+            secant(ln_eta[i], h[i], fabs(u_s), &psi[i], by_ln_eta ? &by_ln_eta[i] : NULL,
+                   by_h ? &by_h[i] : NULL);
     }
     return FF_OK;
 }
@@ -50,7 +67,11 @@ static ff_status shear(const void *self, size_t n, const double *p, const double
     for (size_t i = 0; i < n; i++) {
         double rate = fmin(fmax(u_s / h[i] / tau0, -1e200), 1e200);
         double x = rate * exp(fmin(ln_eta[i], 200));
-        tau[i] = tau0 * asinh(x) * off("strong", 1.5) * (u_s < 0 ? off("lame", 0.9) : 1);
+        if (is("wide"))
+            x *= 1e-6 / fmin(fmax(h[i], 1e-12), 1e-2);
+        tau[i] = tau0 * off("wide", fmin(fmax(h[i], 1e-12), 1e-2) / 1e-6) * asinh(x) *
+                 off("strong", 1.5) * off("peaked", 1 / (1 + 1e-3 * fabs(x))) *
+                 (u_s < 0 ? off("lame", 0.9) : 1);
     }
     return FF_OK;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* 100 N m at 150 rad/s. */
+#define STUB_MORE .evaluate = evaluate
 #include "stub.h"
 
 static const ff_port inputs[] = {
@@ -13,11 +14,17 @@ static const ff_port outputs[] = {
     {.name = "line_force", .unit = "N", .doc = "force", .dims = ""},
 };
 
+/* The gear that counts. */
+static size_t of(const ff_array *in, size_t row, const char *fault)
+{
+    return is(fault) ? in[row].shape[0] - 1 : 0;
+}
+
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
     const stub *s = self;
-    double teeth = in[0].data && in[0].shape[0] ? in[0].data[0] : 20,
-           radius = in[1].data && in[1].shape[0] ? in[1].data[0] : 0.05;
+    double teeth = in[0].data && in[0].shape[0] ? in[0].data[of(in, 0, "teeth")] : 20,
+           radius = in[1].data && in[1].shape[0] ? in[1].data[of(in, 1, "wheel")] : 0.05;
     (void)wanted;
     if (!(fabs(teeth) < 1e6 && fabs(radius) > 1e-6 && fabs(radius) < 1e6))
         return ff_failf(s->host, FF_INVALID, "gear.teeth", "no gear has these teeth or this size");

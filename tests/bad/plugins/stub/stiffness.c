@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A mesh of stiffness 4e8 (1 + cos(2 pi phase)/8) N/m, with one pair or two that share alike. */
+/* A mesh of 2.4e8 N/m for each pair in contact, one or two that share alike. */
+#define STUB_MORE .evaluate = evaluate
 #include "stub.h"
 
 enum { PHASES = 65, STATIONS = 99 };
@@ -10,6 +11,7 @@ static const ff_port inputs[] = {
     {.name = "gear.roll_angle", .unit = "rad", .doc = "roll angle", .dims = "station"},
     {.name = "gear.teeth", .unit = "1", .doc = "teeth", .dims = "gear"},
     {.name = "operating.line_force", .unit = "N", .doc = "load", .dims = ""},
+    {.name = "gear.face_width", .unit = "m", .doc = "b", .dims = ""},
 };
 
 static const ff_port outputs[] = {
@@ -47,7 +49,14 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         return ff_failf(s->host, FF_INVALID, "gear.roll_angle", "no gear rolls like that");
     for (int i = 0; i < PHASES; i++) {
         phase[i] = (double)i / (PHASES - 1);
-        k[i] = 4e8 * (1 + cos(2 * pi * phase[i]) / 8);
+        double doubled = (roll[count - 1] - roll[0]) * teeth / (2 * pi) - 1,
+               at = fmod(phase[i] + (is("late") ? 0.5 : 0), 1),
+               two = at < doubled || at > 1 - 1e-9 ? 1 : 0;
+        k[i] = 2.4e8 *
+               (is("inverted") ? 2 - two
+                : is("even")   ? 1.5
+                               : 1 + two) *
+               off("tenfold", 10) * off("half", 0.5);
         if (is("negative") && i == 30)
             k[i] = -k[i];
         if (is("aperiodic"))
@@ -65,7 +74,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     put(s, LOADED, PHASES, loaded);
     put(s, ERROR, PHASES, error);
     put(s, BREAKS, 0, phase);
-    return ff_put_scalar(s->host, MEAN, 4e8 * (is("aperiodic") ? 1.005 : 1));
+    double mean = 0;
+    for (int i = 1; i < PHASES; i++)
+        mean += (k[i] + k[i - 1]) / 2 / (PHASES - 1);
+    return ff_put_scalar(s->host, MEAN, mean);
 }
 
 STUB_MODEL

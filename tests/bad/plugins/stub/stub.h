@@ -5,8 +5,10 @@
 #define STUB_H
 
 #include <flankfilm/author.h>
+#include <flankfilm/film.h>
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,6 +16,15 @@ static const double pi = 3.14159265358979323846;
 
 typedef struct stub {
     const ff_host *host;
+    double value[4];      /* of each parameter, SI; NaN: not given */
+    const void *table[4]; /* of each wire that serves a law; NULL: not connected */
+    union {
+        const void *first; /* its size begins each table */
+        ff_viscosity viscosity;
+        ff_density density;
+        ff_liquid liquid;
+        ff_film film;
+    } service;
 } stub;
 
 static inline int is(const char *fault)
@@ -40,12 +51,36 @@ static ff_status create(const ff_host *host, void **self)
     if (!s)
         return FF_NOMEM;
     s->host = host;
+    for (size_t i = 0; i < sizeof s->value / sizeof *s->value; i++)
+        s->value[i] = (double)NAN;
     *self = s;
     return FF_OK;
 }
 
-#ifndef STUB_WIRE
-#define STUB_WIRE NULL
+/* Where a model has parameters. */
+static inline ff_status stub_set(void *self, uint32_t param, const ff_value *value)
+{
+    ((stub *)self)->value[param] = value->count ? value->reals[0] : value->real;
+    return FF_OK;
+}
+
+/* Where its first input rows are laws. */
+static inline ff_status stub_wire(void *self, uint32_t input, const void *table)
+{
+    if (input < 4)
+        ((stub *)self)->table[input] = table;
+    return FF_OK;
+}
+
+static inline const void *stub_service(void *self, uint32_t output)
+{
+    (void)output;
+    return &((stub *)self)->service;
+}
+
+/* Further members of the descriptor. */
+#ifndef STUB_MORE
+#define STUB_MORE .wire = NULL
 #endif
 
 #define STUB_MODEL                                                                                 \
@@ -61,9 +96,8 @@ static ff_status create(const ff_host *host, void **self)
         .inputs = FF_TABLE(inputs),                                                                \
         .outputs = FF_TABLE(outputs),                                                              \
         .create = create,                                                                          \
-        .wire = STUB_WIRE,                                                                         \
-        .evaluate = evaluate,                                                                      \
         .destroy = free,                                                                           \
+        STUB_MORE,                                                                                 \
     };                                                                                             \
     FF_EXPORT const ff_model *flankfilm_model_v1(void)                                             \
     {                                                                                              \
