@@ -12,7 +12,7 @@
 
 static const char *const models[] = {"stiffness/load-distribution", "stiffness/potential-energy",
                                      "stiffness/iso-6336"};
-enum { MODELS = 3 };
+enum { MODELS = 3, LEVELLED = 2 /* the first of them give levels of the force */ };
 
 static double largest_difference(const double *a, const double *b, size_t n)
 {
@@ -54,9 +54,58 @@ static void test_line_and_parabola_share_alike(void)
         const double *x = stage_get(a.mesh, "load_share", &n);
         check_below(models[m], largest_difference(x, stage_get(b.mesh, "load_share", NULL), n),
                     2e-7);
+        if (m < LEVELLED) { /* at every force, while the errors differ */
+            double F = stage_scalar(b.duty, "line_force");
+            const double *force = stage_get(a.mesh, "level_tooth_force", &n);
+            const double *other = stage_get(b.mesh, "level_tooth_force", NULL);
+            check_below("at all levels", largest_difference(force, other, n) / F, 2e-7);
+            const double *error = stage_get(a.mesh, "level_error", &n);
+            other = stage_get(b.mesh, "level_error", NULL);
+            check_true("errors differ", largest_difference(error, other, n) > 1e-6);
+        }
         chain_close(&a);
         chain_close(&b);
     }
+}
+
+/* Pairs side by side without Hertz's law: at each phase the levels lie on two lines, k_1 g below
+   the force at which the second pair touches and (k_1 + k_2) g - k_2 gap above it, where k_1 + k_2
+   is the stiffness without relief. */
+static void test_levels_in_closed_form(void)
+{
+    chain a = chain_with(models[1], "250 N m", "gear.tip_relief", "20 um");
+    chain b = chain_open(models[1], "250 N m");
+    chain_run(&b);
+    size_t levels, n, plain, seen[2] = {0, 0};
+    const double *force = stage_get(a.mesh, "force_level", &levels);
+    const double *phase = stage_get(a.mesh, "phase", &n),
+                 *s = stage_get(a.mesh, "level_error", NULL);
+    const double *k = stage_get(a.mesh, "level_stiffness", NULL);
+    const double *rigid = stage_get(b.mesh, "stiffness", &plain);
+    const double *at = stage_get(b.mesh, "phase", NULL);
+    double worst = 0;
+    for (size_t i = 0, j = 0; i < n; i++) {
+        while (j + 1 < plain && at[j] < phase[i] - 1e-12)
+            j++;
+        if (fabs(at[j] - phase[i]) > 1e-12 || (j + 1 < plain && at[j + 1] - at[j] < 1e-12))
+            continue; /* a breakpoint of the relief, or where pairs come and go */
+        size_t top = (levels - 1) * n + i, last = 0;
+        int both = fabs(k[top] / rigid[j] - 1) < 1e-9;
+        for (size_t l = 1; l < levels; l++) {
+            size_t here = l * n + i;
+            int joined = k[here] > k[i] * (1 + 1e-9);
+            double g = s[here] - s[i], gap = s[top] - s[i] - force[levels - 1] / k[top];
+            double there = joined ? k[top] * (g - gap) : k[i] * g;
+            worst = fmax(worst, fabs(there / force[l] - 1));
+            last = joined ? last : l;
+        }
+        check_true("the stiffness without relief", both || last == levels - 1);
+        seen[last + 1 < levels] += last > 0;
+    }
+    check_below("two lines", worst, 1e-9);
+    check_true("both are seen", seen[0] > 10 && seen[1] > 10);
+    chain_close(&a);
+    chain_close(&b);
 }
 
 /* e in the middle of double contact: half the relief of a line, a quarter of a parabola's. */
@@ -350,6 +399,7 @@ static void test_one_index_deviation_for_each_tooth(void)
 int main(void)
 {
     test_long_relief_unloads_sap();
+    test_levels_in_closed_form();
     test_line_and_parabola_share_alike();
     test_unloaded_error_of_relief();
     test_loaded_error();
