@@ -105,5 +105,16 @@ cat doc/flankfilm/reference/*/*.md | sed 's/\\|//g' | awk '
     /^\|/ { n = gsub(/\|/, "|"); if (cells && n != cells) { print; bad = 1 } cells = n; next }
     { cells = 0 }
     END { exit bad }'
-[ -f doc/flankfilm/plugins.md ]
+# each file that the page for authors names is there
+grep -oE '`(plugins|tests|docs|include|flankfilm)/[a-z0-9/_-]*\.?[a-z]*`' doc/flankfilm/plugins.md | tr -d '`' | sort -u >"$lab/named"
+[ "$(wc -l <"$lab/named")" -ge 20 ]
+while read -r named; do
+    case $named in
+    docs/*) [ -f "doc/flankfilm/${named#docs/}" ] ;;
+    include/*) [ -f "../$named" ] ;;
+    flankfilm/*) [ -e "../include/$named" ] ;;
+    plugins/toy/wide.so) ;; # made there by a command
+    *) [ -e "doc/flankfilm/source/$named" ] ;;
+    esac || { echo "plugins.md names $named, which is not installed" && exit 1; }
+done <"$lab/named"
 say "examples, schema and pages" "$count examples"

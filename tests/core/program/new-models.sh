@@ -29,7 +29,8 @@ for kind in $kinds unheard-of; do
     cd ..
 done
 
-for kind in gear operating stiffness dynamics contact viscosity density rheology ehl surface; do
+for kind in gear operating stiffness dynamics contact viscosity density rheology ehl surface \
+    lubricant discretisation losses rating; do
     [ -f "$plugins/$kind.template.c" ]
 done
 
