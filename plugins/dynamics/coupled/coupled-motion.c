@@ -305,7 +305,7 @@ static ff_status reach(dynamics_coupled_run *run, dynamics_coupled_run *coarse,
 ff_status dynamics_coupled_settle(dynamics_coupled_run *run, const dynamics_coupled *pair,
                                   const dynamics_settling *how, dynamics_coupled_motion *motion)
 {
-    static const double on_the_way = 1e-6; /* error of a step: the end is found more closely */
+    static const double on_the_way = 1e-5; /* error of a step: the end is found more closely */
     dynamics_coupled_orbit orbit = {.frequency = 2 * M_PI / how->T, .period = 1};
     ff_status status = FF_NOCONV;
     motion->settled.limit =
