@@ -484,6 +484,7 @@ typedef struct ff_loaded {
     ff_dims *input_dims;
     ff_dims *output_dims;
     char *displaced; /* other files of that id, "a.so, b.so", which are not used; NULL: none */
+    const struct fe_object_file *file; /* the engine's own */
 } ff_loaded;
 
 /*
@@ -688,9 +689,15 @@ typedef struct ff_guard_mark {
     const char *action;                    /* "evaluate" and the like */
     const void *code;                      /* an address in the object; NULL: not known */
     const struct ff_guard_mark **services; /* that it may call; NULL-ended, or NULL */
+    const ff_loaded *loaded;               /* NULL: it is being loaded */
 } ff_guard_mark;
 
 ff_guard_mark ff_guard_current(void); /* may be called in a handler of signals */
+
+/* The mark, or the one of a service that it may call, whose file was written over after it was
+   loaded, so that its code is no more what it was; NULL: none. A file that takes the place of
+   another one does no harm. May be called in a handler of signals. */
+const ff_guard_mark *ff_guard_written_over(const ff_guard_mark *mark);
 
 /* The same in words, for another process: who is running, and its action; "" while no plugin is. */
 typedef struct ff_guard_mirror {

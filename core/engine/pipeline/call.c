@@ -21,7 +21,8 @@ ff_guard_mark fe_enter_model(const ff_stage *stage, const char *action)
                             .stage = stage->name,
                             .action = action,
                             .code = (const void *)(uintptr_t)stage->loaded->model->create,
-                            .services = mark->services};
+                            .services = mark->services,
+                            .loaded = stage->loaded};
     return fe_guard_enter(*mark);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: MIT */
 /* Runs each needed stage once, and each loop round after round, in order. */
+#include "../plugin/engine.h"
 #include "build.h"
 #include "pipeline.h"
 
@@ -57,6 +58,22 @@ static void begin_run(ff_pipeline *pipeline)
     }
 }
 
+/* The code of a plugin whose file is written over is changed while it runs: a file that is put in
+   its place, as `install` does, leaves it alone. */
+static bool check_files(const ff_pipeline *pipeline, ff_report *report)
+{
+    static const char what[] =
+        "was written over while it was in use, so that what was computed may be "
+        "of neither build; run the command again";
+    bool good = true;
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        if (stage->needed && fe_is_written_over(stage->loaded))
+            good = fe_plugin_fault(stage, report, what);
+    }
+    return good;
+}
+
 bool fe_pipeline_run(ff_pipeline *pipeline, const ff_observer *watch, ff_report *report)
 {
     bool good = true;
@@ -76,5 +93,5 @@ bool fe_pipeline_run(ff_pipeline *pipeline, const ff_observer *watch, ff_report 
         if (stage->status == FF_STOPPED && !stage->instance->left)
             return false;
     }
-    return good;
+    return check_files(pipeline, report) && good;
 }

@@ -85,12 +85,28 @@ bool fe_elf_check(const char *path, fe_object_file *checked, char *why, size_t w
     return !fault;
 }
 
+static bool is_same_file(const struct stat *now, const struct stat *then)
+{
+    return now->st_dev == then->st_dev && now->st_ino == then->st_ino;
+}
+
+static bool is_as_written(const struct stat *now, const struct stat *then)
+{
+    return now->st_size == then->st_size && now->st_mtim.tv_sec == then->st_mtim.tv_sec &&
+           now->st_mtim.tv_nsec == then->st_mtim.tv_nsec;
+}
+
 bool fe_elf_is_same(int folder, const char *path, const fe_object_file *checked)
 {
     const struct stat *then = &checked->status;
     struct stat now;
-    return fstatat(folder, path, &now, 0) == 0 && now.st_dev == then->st_dev &&
-           now.st_ino == then->st_ino && now.st_size == then->st_size &&
-           now.st_mtim.tv_sec == then->st_mtim.tv_sec &&
-           now.st_mtim.tv_nsec == then->st_mtim.tv_nsec;
+    return fstatat(folder, path, &now, 0) == 0 && is_same_file(&now, then) &&
+           is_as_written(&now, then);
+}
+
+bool fe_elf_is_touched(const char *path, const fe_object_file *checked)
+{
+    const struct stat *then = &checked->status;
+    struct stat now;
+    return stat(path, &now) == 0 && is_same_file(&now, then) && !is_as_written(&now, then);
 }

@@ -34,6 +34,10 @@ ff_status fe_engine_lack(ff_engine *engine);
 /* Makes the messages of the report the message of the engine. Inside fe_engine_call. */
 void fe_engine_say(ff_engine *engine, const ff_report *report);
 
+/* Whether the file of the model has other bytes than when it was loaded, in the same place of the
+   disk: then its code has changed while it runs. */
+bool fe_is_written_over(const ff_loaded *loaded);
+
 /* Warns if other files have the id of the model, too. */
 void fe_warn_displaced(const ff_loaded *loaded, ff_report *report);
 

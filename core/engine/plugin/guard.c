@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: MIT */
 #include "guard.h"
 
+#include "private.h"
+
 #include <string.h>
 
 /* With this model of access nothing is allocated when a signal handler is the first to read it. */
@@ -10,6 +12,16 @@ static _Thread_local ff_guard_mirror *mirror __attribute__((tls_model("initial-e
 ff_guard_mark ff_guard_current(void)
 {
     return running;
+}
+
+const ff_guard_mark *ff_guard_written_over(const ff_guard_mark *mark)
+{
+    if (mark->loaded && fe_elf_is_touched(mark->loaded->path, mark->loaded->file))
+        return mark;
+    const ff_guard_mark *found = NULL;
+    for (size_t i = 0; !found && mark->services && mark->services[i]; i++)
+        found = ff_guard_written_over(mark->services[i]);
+    return found;
 }
 
 static size_t append(char *out, size_t size, size_t length, const char *text)

@@ -89,6 +89,14 @@ static void *open_file(const char *path, char *why, size_t why_size)
     return NULL;
 }
 
+bool fe_is_written_over(const ff_loaded *loaded)
+{
+    fe_object_file now;
+    char why[200];
+    return fe_elf_is_touched(loaded->path, loaded->file) &&
+           !(fe_elf_check(loaded->path, &now, why, sizeof why) && now.hash == loaded->build);
+}
+
 /* A model that is being loaded. */
 typedef struct loading {
     ff_engine *engine;
@@ -109,6 +117,9 @@ static void open_object(void *ctx)
     int folder = open(".", O_PATH | O_DIRECTORY | O_CLOEXEC); /* a constructor may leave it */
     void *object = open_file(l->loaded->path, l->why, sizeof l->why);
     l->loaded->build = file.hash;
+    fe_object_file *kept = fe_alloc(sizeof *kept);
+    *kept = file;
+    l->loaded->file = kept;
     bool same = fe_elf_is_same(folder < 0 ? AT_FDCWD : folder, l->loaded->path, &file);
     if (folder >= 0)
         close(folder);

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "progress.h"
 
+#include "../crash/lead.h"
+
 #include <signal.h>
 #include <stdio.h>
 #include <time.h>
@@ -11,10 +13,16 @@ static const double redraw_after = 0.1;
 
 static volatile sig_atomic_t interrupts;
 
-static void on_interrupt(int signal_number)
+static void on_interrupt(int signal_number, siginfo_t *info, void *context)
 {
     static const char text[] = "\nstopping; once more to end at once\n";
-    (void)signal_number;
+    (void)context;
+    if (crash_is_echo(info))
+        return;
+    if (interrupts) {
+        signal(signal_number, SIG_DFL);
+        raise(signal_number);
+    }
     interrupts = 1;
     if (write(STDERR_FILENO, text, sizeof text - 1) < 0)
         return; /* nobody is there to read it */
@@ -59,7 +67,7 @@ void cli_progress_begin(cli_progress *progress, ff_report *report)
                                .report = report,
                                .log = json_array(),
                                .terminal = isatty(STDERR_FILENO) != 0};
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction action = {.sa_sigaction = on_interrupt, .sa_flags = SA_SIGINFO};
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
 }

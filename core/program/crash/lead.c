@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "lead.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <poll.h>
 #include <pthread.h>
@@ -10,6 +11,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -99,6 +101,16 @@ bool crash_describe(const ff_guard_mirror *mark, int status, char *text, size_t 
     return true;
 }
 
+bool crash_is_echo(const siginfo_t *info)
+{
+    static volatile sig_atomic_t handed, direct;
+    if (info->si_code > 0)
+        return false;
+    if (is_led() && info->si_pid == getppid())
+        return ++handed <= direct;
+    return ++direct <= handed;
+}
+
 /* A terminal sends its signals to all of a group, and what the child sends to its group is not the
    user's. */
 static void hand_on(int number, siginfo_t *info, void *context)
@@ -128,6 +140,33 @@ static void catch_signals(void)
             sigaction(handed[i], &action, NULL);
 }
 
+/* Whether a thread of the stopped child is in a call that sends SIGSTOP; true where the system does
+   not tell. */
+static bool has_stopped_itself(void)
+{
+    char path[300];
+    bool itself = false, known = false;
+    snprintf(path, sizeof path, "/proc/%d/task", (int)child);
+    DIR *threads = opendir(path);
+    const struct dirent *thread;
+    while (threads && (thread = readdir(threads))) {
+        long call = -1;
+        unsigned long sent[3] = {0};
+        snprintf(path, sizeof path, "/proc/%d/task/%s/syscall", (int)child, thread->d_name);
+        FILE *stream = *thread->d_name == '.' ? NULL : fopen(path, "re");
+        if (!stream)
+            continue;
+        if (fscanf(stream, "%ld %lx %lx %lx", &call, &sent[0], &sent[1], &sent[2]) > 0)
+            known = true;
+        fclose(stream);
+        itself = itself || ((call == SYS_kill || call == SYS_tkill) && sent[1] == SIGSTOP) ||
+                 (call == SYS_tgkill && sent[2] == SIGSTOP);
+    }
+    if (threads)
+        closedir(threads);
+    return itself || !known;
+}
+
 /* A batch system stops all processes of a job, and lets them go on one after the other. */
 static bool stays_stopped(void)
 {
@@ -155,7 +194,8 @@ static int wait_for_child(void)
                        << 8;
         } else if (!WIFSTOPPED(status)) {
             return stopped ? stopped : status;
-        } else if (WSTOPSIG(status) == SIGSTOP && words->running.who[0] && stays_stopped()) {
+        } else if (WSTOPSIG(status) == SIGSTOP && words->running.who[0] && has_stopped_itself() &&
+                   stays_stopped()) {
             stopped = status;
             kill((pid_t)child, SIGKILL);
         }

@@ -11,6 +11,7 @@
 
 #include <flankfilm/engine.h>
 
+#include <signal.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -34,6 +35,10 @@ _Noreturn void crash_leave(int code);
 /* Ends the process with that sentence, said by who waits for it. May be called in a handler of
    signals. */
 _Noreturn void crash_say(const char *sentence, int code);
+
+/* Whether a signal that the handler has at hand is the one before once more: what comes to the
+   whole group is handed on by the leading process, too. */
+bool crash_is_echo(const siginfo_t *info);
 
 /* "segmentation fault"; NULL: the signal is no fault. */
 const char *crash_fault_name(int number);

@@ -94,6 +94,8 @@ static void close_part(results_folder *folder)
 {
     errno = 0;
     bool lost = folder->stream && ferror(folder->stream);
+    if (lost && write(fileno(folder->stream), "\n", 1) == 1) /* else the reason is told once more */
+        errno = 0;
     if (folder->stream && folder->sync)
         lost = fflush(folder->stream) != 0 || fsync(fileno(folder->stream)) != 0 || lost;
     if (folder->stream && (fclose(folder->stream) != 0 || lost))

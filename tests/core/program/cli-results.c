@@ -166,7 +166,7 @@ static void test_full_disk(void)
                     "(trap '' XFSZ; ulimit -f 8; $F run pair.yaml -o full "
                     "--set outputs='[wave.field]' --set wave.count=100)");
     cli_expect("a file that cannot be written", &r,
-               r.code == 1 && cli_has(r.err, "could not be written"));
+               r.code == 1 && cli_has(r.err, "could not be written: File too large"));
     r = cli("cmp before full/result.json && ls full/*.part");
     cli_expect("the earlier results are in place", &r, !*r.out && cli_has(r.err, "No such file"));
 }
@@ -180,6 +180,36 @@ static void test_in_use(void)
                strcmp(r.out, "2\n") == 0 && cli_has(r.err, "another run"));
 }
 
+/* The code of a plugin is the file, as long as it runs. */
+static void test_written_over(void)
+{
+    cli("cp -rL $FLANKFILM_PLUGIN_PATH own");
+    outcome r = cli("FLANKFILM_PLUGIN_PATH=own; $F run pair.yaml --set wave.work='0.6 s' & "
+                    "sleep 0.3; cp own/toy/wave.so new && mv new own/toy/wave.so; wait $!");
+    cli_expect("a file in its place does no harm", &r, r.code == 0);
+    r = cli("FLANKFILM_PLUGIN_PATH=own; $F run pair.yaml --set wave.work='0.6 s' & "
+            "sleep 0.3; touch own/toy/wave.so; wait $!");
+    cli_expect("nor the same bytes", &r, r.code == 0);
+    r = cli("FLANKFILM_PLUGIN_PATH=own; $F run pair.yaml --set wave.work='0.6 s' & "
+            "sleep 0.3; printf x >>own/toy/wave.so; wait $!");
+    cli_expect("other bytes are told at the end", &r,
+               r.code == 3 && cli_has(r.err, "wave: the plugin") &&
+                   cli_has(r.err, "wave.so was written over while it was in use, so that"));
+    r = cli("cp -rL $FLANKFILM_PLUGIN_PATH gone; FLANKFILM_PLUGIN_PATH=gone; "
+            "$F run pair.yaml --set wave.work='5 s' & sleep 0.3; : >gone/toy/wave.so; wait $!");
+    cli_expect("a fault over it is told, too", &r,
+               r.code == 3 && cli_has(r.err, "crashed during evaluate: its file was written over"));
+}
+
+/* As batch systems and debuggers do with a process that they look at. */
+static void test_stopped_from_outside(void)
+{
+    outcome r = cli("$F run pair.yaml --set wave.work='0.6 s' -o slept & leader=$!; sleep 0.3; "
+                    "child=$(pgrep -P $leader); kill -STOP $child; sleep 0.8; kill -CONT $child; "
+                    "wait $leader");
+    cli_expect("it goes on", &r, r.code == 0 && cli_exists("slept/result.json"));
+}
+
 int main(int argc, char **argv)
 {
     cli_open(argc, argv);
@@ -191,5 +221,7 @@ int main(int argc, char **argv)
     test_again();
     test_full_disk();
     test_in_use();
+    test_written_over();
+    test_stopped_from_outside();
     return cli_close();
 }

@@ -48,6 +48,8 @@ static pid_t start(int master, const char *line)
     return child;
 }
 
+static bool to_group; /* interrupts go to the whole group of the program */
+
 /* Runs the shell line on a terminal of its own. Sends an interrupt when the progress line is seen,
    and a second one when the first was heard. */
 static int on_terminal(const char *line, int interrupts)
@@ -63,7 +65,7 @@ static int on_terminal(const char *line, int interrupts)
     pid_t child = start(master, line);
     for (int i = 0; i < interrupts; i++) {
         read_until(master, i == 0 ? "%" : "once more to end");
-        kill(child, SIGINT);
+        kill(to_group ? -child : child, SIGINT);
     }
     read_until(master, NULL);
     waitpid(child, &status, 0);
@@ -81,7 +83,7 @@ static void expect(const char *what, bool condition)
 static void test_colour(void)
 {
     setenv("TERM", "xterm", 1);
-    on_terminal("$F run pair.yaml", 0);
+    on_terminal("$F run pair.yaml --all", 0);
     expect("colour on a terminal", cli_has(text, "\033[32mgood\033[0m"));
     on_terminal("NO_COLOR=1 $F run pair.yaml", 0);
     expect("NO_COLOR", !cli_has(text, "\033["));
@@ -122,6 +124,12 @@ static void test_interrupt(void)
            cli_has(cli_read("stopped/result.json"), "\"status\":\"stopped\""));
     code = on_terminal("exec $F run pair.yaml --set wave.work='5 s' --set wave.end=deaf", 2);
     expect("the second interrupt ends the program", code == 128 + SIGINT);
+    to_group = true;
+    code = on_terminal("exec $F run pair.yaml --set wave.work='5 s' -o stopped", 1);
+    expect("one to the whole group counts once", code == 1 && cli_has(text, "was stopped"));
+    code = on_terminal("exec $F run pair.yaml --set wave.work='5 s' --set wave.end=deaf", 2);
+    expect("two count twice", code == 128 + SIGINT);
+    to_group = false;
     code = on_terminal("exec $F run pair.yaml --json --set wave.work='5 s' >file", 1);
     expect("the same with --json", code == 1 && cli_has(cli_read("file"), "\"exit\":1"));
 }

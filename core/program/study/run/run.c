@@ -5,6 +5,7 @@
 #include "known.h"
 #include "workers.h"
 
+#include "../../crash/lead.h"
 #include "../cases/case.h"
 #include "../cases/chain.h"
 #include "../cases/rows.h"
@@ -37,16 +38,6 @@ typedef struct execution {
 
 static volatile sig_atomic_t interrupts, last_signal, leading;
 
-/* A signal that comes to the whole group is handed on by the leading process, too. */
-static bool is_echo(void)
-{
-    static volatile double last = -1;
-    double now = study_seconds_now();
-    bool echo = last >= 0 && now - last < 0.05;
-    last = now;
-    return echo;
-}
-
 static void on_interrupt(int number, siginfo_t *info, void *context)
 {
     static const char text[] = "\nfinishing the cases at hand; once more to end at once\n";
@@ -56,7 +47,7 @@ static void on_interrupt(int number, siginfo_t *info, void *context)
         raise(number);
         return;
     }
-    if (is_echo())
+    if (crash_is_echo(info))
         return;
     last_signal = number;
     interrupts = interrupts + 1;
