@@ -75,3 +75,11 @@ ssize_t pwritev(int fd, const struct iovec *parts, int count, off_t at)
         (ssize_t(*)(int, const struct iovec *, int, off_t))(uintptr_t)dlsym(RTLD_NEXT, "pwritev");
     return is_interrupted(&calls) ? -1 : real(fd, parts, getenv("SHORT") ? 1 : count, at);
 }
+
+ssize_t pwrite(int fd, const void *data, size_t size, off_t at)
+{
+    static unsigned calls;
+    ssize_t (*real)(int, const void *, size_t, off_t) =
+        (ssize_t(*)(int, const void *, size_t, off_t))(uintptr_t)dlsym(RTLD_NEXT, "pwrite");
+    return is_interrupted(&calls) ? -1 : real(fd, data, shorten(size), at);
+}

@@ -201,6 +201,10 @@ def test_system():
     """A system that interrupts, does by halves, cannot lock or cannot write."""
     for name in ("INTERRUPT", "SHORT"):
         expect(name, start("quick", name, **{name: 1}), 0, f"{cases} of {cases} cases done")
+        with open(lab / name / "journal.jsonl", "ab") as out:
+            out.write(b"half of a line")
+        again = start("quick", name, **{name: 1})
+        expect(f"{name}, again", again, 0, f"{cases} of {cases} cases done, {cases} of them before")
     if (lab / "INTERRUPT" / "table.csv").read_bytes() != (lab / "SHORT" / "table.csv").read_bytes():
         raise SystemExit("FAIL another table")
     refused = start("quick", "sync", REFUSE_fdatasync=errno.EIO)
