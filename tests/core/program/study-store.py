@@ -183,6 +183,10 @@ def test_descriptors():
     """No worker holds the store, and what a plugin writes into descriptors fails its case alone."""
     run = start("long", "held", 2)
     wait_for("held", 2)
+    run.terminate()
+    run.communicate()
+    run = start("long", "held", 2)  # which has read the rows of the one before
+    wait_for("held", rows("held") + 2)
     held = {of for worker in descendants(run.pid) for of in descriptors(worker)}
     expect("two workers", run, 0, f"{cases} of {cases}")
     held = {os.path.relpath(h, lab / "held") for h in held}
