@@ -181,6 +181,9 @@ typedef struct ff_asperity {
      */
     ff_status (*pressure)(const void *self, size_t n, const double *h, double *p_a,
                           double *dp_a_dh);
+    /* Reduced modulus E' of the flanks that p_a is for, Pa, > 0, elastic at any pressure: who knows
+       that of its contact takes p_a in proportion, and its hardness into account. */
+    double modulus;
 } ff_asperity;
 
 #endif

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include <flankfilm/author.h>
 
-extern const ff_model surface_dent, surface_measured, surface_sinusoidal, surface_synthetic;
+extern const ff_model surface_dent, surface_measured, surface_sinusoidal, surface_statistical,
+    surface_synthetic;
 
-FF_EXPORT_MODELS(&surface_dent, &surface_measured, &surface_sinusoidal, &surface_synthetic);
+FF_EXPORT_MODELS(&surface_dent, &surface_measured, &surface_sinusoidal, &surface_statistical,
+                 &surface_synthetic);

@@ -39,6 +39,8 @@ enum {
     EHL_IN_HEAT, /* of the gears: three rows */
     EHL_IN_HARDNESS = EHL_IN_HEAT + NUMERICS_HEAT_INPUTS,
     EHL_IN_SHEAR_RATE,
+    EHL_IN_ASPERITIES, /* of statistical flanks */
+    EHL_IN_CUTOFF,
     EHL_IN_BULK,
     EHL_IN_DISCRETISATION, /* of ehl/finite-volume alone */
     EHL_INPUTS

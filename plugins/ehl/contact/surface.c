@@ -107,6 +107,40 @@ double ehl_roughness_inlet(const ehl_roughness *r, double film)
     return r->curvature > 0 ? sqrt(2 * film / r->curvature) : HUGE_VAL;
 }
 
+/* Mean square of the k-th harmonic of n values. */
+static double harmonic(const double *z, size_t n, size_t k)
+{
+    const double turn = 2 * 3.14159265358979323846 * (double)k / (double)n;
+    const double step_c = cos(turn), step_s = sin(turn);
+    double c = 1, s = 0, sum_c = 0, sum_s = 0;
+    for (size_t i = 0; i < n; i++) {
+        double next = c * step_c - s * step_s;
+        sum_c += z[i] * c;
+        sum_s += z[i] * s;
+        s = s * step_c + c * step_s;
+        c = next;
+    }
+    return 2 * (sum_c * sum_c + sum_s * sum_s) / ((double)n * (double)n);
+}
+
+double ehl_roughness_longer(const ehl_roughness *r, double length)
+{
+    const double whole = (double)r->count * r->spacing, most = 5e7 / (double)r->count;
+    const double last = fmin(ceil(whole / length) - 1, most);
+    double all = 0, longer = 0;
+    for (int g = 0; g < 2; g++) {
+        double mean = 0, square = 0;
+        for (size_t i = 0; i < r->count; i++) {
+            mean += r->height[g][i] / (double)r->count;
+            square += r->height[g][i] * r->height[g][i] / (double)r->count;
+        }
+        all += square - mean * mean;
+        for (size_t k = 1; (double)k <= last && 2 * k < r->count; k++)
+            longer += harmonic(r->height[g], r->count, k);
+    }
+    return all > 0 ? longer / all : 0;
+}
+
 double ehl_roughness_rq(const ehl_roughness *r)
 {
     return hypot(r->rq[0], r->rq[1]);

@@ -43,6 +43,10 @@ double ehl_roughness_wavelength(const ehl_roughness *r);
 /* Length over which an asperity draws in a film of that thickness. */
 double ehl_roughness_inlet(const ehl_roughness *r, double film);
 
+/* Share of the variance of both flanks in waves longer than that, by the harmonics of the record.
+ */
+double ehl_roughness_longer(const ehl_roughness *r, double length);
+
 /* sqrt(Rq1^2 + Rq2^2) */
 double ehl_roughness_rq(const ehl_roughness *r);
 

@@ -49,6 +49,21 @@ void ehl_contact_mass(ehl_reynolds *r, const ehl_step *step, const ehl_film *fil
             mass[i] = fmin(r->mass[i], fmax(0, r->mass[i] + r->residual[i] / (r->dx * step->rate)));
 }
 
+void ehl_statistical_rows(ehl_reynolds *r, const ehl_film *film)
+{
+    for (size_t i = 1; i < r->last; i++) {
+        for (size_t s = i > 1 ? 0 : 1; s < EHL_STENCIL && film->full[i]; s++)
+            r->by_h[s][i] -= r->by_p[s][i] * r->p_a_h[i + s - 2];
+        if (film->full[i])
+            continue;
+        for (size_t s = 0; s < EHL_STENCIL; s++)
+            r->by_p[s][i] = r->by_h[s][i] = 0;
+        r->by_p[2][i] = 1;
+        r->by_h[2][i] = -r->p_a_h[i];
+        r->residual[i] = r->fluid[i];
+    }
+}
+
 int ehl_yield_begin(const ehl_reynolds *r, ehl_film *film)
 {
     int changed = 0;

@@ -28,6 +28,10 @@ void ehl_contact_rows(ehl_reynolds *r, const ehl_step *step, const ehl_film *fil
    holds, after a step in time. */
 void ehl_contact_mass(ehl_reynolds *r, const ehl_step *step, const ehl_film *film, double *mass);
 
+/* Statistical flanks, after the slopes: by_h takes what p_a changes by with h, since the slopes are
+   by p_f; and a cavitated node has p = p_a(h) in place of p = 0. */
+void ehl_statistical_rows(ehl_reynolds *r, const ehl_film *film);
+
 /*
  * Rough flanks: no pressure exceeds the hardness H. Where it reaches it the metal yields, elastic
  * and perfectly plastic, and the gap takes a plastic part:

@@ -86,21 +86,32 @@ int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film
     return filled;
 }
 
+/* 1: pressure is left where no asperities carry it any more, and no oil does. */
+static int is_left_over(const ehl_reynolds *r, const ehl_film *film, size_t i)
+{
+    return r->statistical.law && !film->full[i] && !(r->p_a[i] > 0) && fabs(film->p[i]) > 0;
+}
+
 double ehl_cavitation_shrink_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film,
                                   double *change)
 {
     size_t nodes = r->nodes;
+    const double *p = ehl_fluid(r, film);
     double cut = 0;
     int full_behind = 0;
     memset(change, 0, nodes * sizeof *change);
     w->split = 0;
     for (size_t i = nodes - 2; i > 0; i--) {
-        full_behind |= film->full[i] && !(film->p[i] < 0);
-        if (film->p[i] < 0) {
-            w->split |= full_behind;
+        full_behind |= film->full[i] && !(p[i] < 0);
+        if (is_left_over(r, film, i)) {
             change[i] = -film->p[i];
-            cut = fmax(cut, -film->p[i]);
+            cut = fmax(cut, fabs(film->p[i]));
             film->p[i] = 0;
+        } else if (film->full[i] && p[i] < 0) {
+            w->split |= full_behind;
+            change[i] = -p[i];
+            cut = fmax(cut, -p[i]);
+            film->p[i] -= p[i];
             film->full[i] = 0;
             w->cut[i] = 1;
             film->asperity[i] = 0;

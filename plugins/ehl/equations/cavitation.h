@@ -33,8 +33,9 @@ int ehl_cavitation_grow_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film 
    that way. */
 int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film, int steps);
 
-/* Cavitates the nodes with p < 0 and returns the largest |p| that was cut off, Pa; fills `change`
-   with the changes of p. */
+/* Cavitates the nodes where the pressure of the oil is below 0 and returns the largest part of it
+   that was cut off, Pa; fills `change` with the changes of p. With statistical flanks r has the gap
+   of the film. */
 double ehl_cavitation_shrink_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film,
                                   double *change);
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "reynolds.h"
 
+#include "../contact/lanes.h"
+
 #include <flankfilm/simd.h>
 
 #include <math.h>
@@ -18,7 +20,7 @@ static double *next_array(double **next, size_t nodes)
 ff_status ehl_reynolds_create(ehl_reynolds *r, const ehl_grid *g, const ehl_laws *laws,
                               const ehl_oil *oil, int wedge)
 {
-    enum { OWN = 15 };
+    enum { OWN = 20 };
     size_t n = g->nodes;
     *r = (ehl_reynolds){.nodes = n, .dx = g->dx, .wedge = wedge, .laws = *laws, .oil = *oil};
     r->floor = 1e-12;
@@ -29,7 +31,8 @@ ff_status ehl_reynolds_create(ehl_reynolds *r, const ehl_grid *g, const ehl_laws
     double **own[OWN] = {&r->half_square, &r->h,           &r->thick,     &r->mass,
                          &r->f,           &r->f_p,         &r->f_h,       &r->flux,
                          &r->residual,    &r->mean,        &r->mean_left, &r->mean_right,
-                         &r->pinch_left,  &r->pinch_right, &r->carried};
+                         &r->pinch_left,  &r->pinch_right, &r->carried,   &r->fluid,
+                         &r->p_a,         &r->p_a_h,       &r->spare_p_a, &r->spare_p_a_h};
     for (size_t k = 0; k < OWN; k++)
         *own[k] = next_array(&next, n);
     ehl_liquid *q = &r->liquid;
@@ -78,6 +81,11 @@ void ehl_reynolds_gap(ehl_reynolds *r, double radius, const ehl_film *film)
     double curvature = 1 / radius;
     for (size_t i = 0; i < r->nodes; i++)
         r->h[i] = film->h00 + r->half_square[i] * curvature + film->v[i];
+    if (r->statistical.law) {
+        r->law_status = ehl_statistical_pressure(&r->statistical, r->nodes, r->h, film->p, r->p_a,
+                                                 r->p_a_h, r->fluid);
+        r->touching = ehl_greatest(r->nodes, r->p_a, 0) > 0;
+    }
     if (!r->rough)
         return;
     for (size_t i = 0; i < r->nodes; i++)
@@ -89,11 +97,23 @@ void ehl_reynolds_gap(ehl_reynolds *r, double radius, const ehl_film *film)
     r->h[end] = fmax(r->h[end], r->contact);
 }
 
-/* Returns the last node that pressure can reach: one downstream of the last full one. */
+const double *ehl_fluid_of(const ehl_reynolds *r, const ehl_film *film, const double *h,
+                           double *room)
+{
+    if (!r->statistical.law)
+        return film->p;
+    ehl_statistical_pressure(&r->statistical, r->nodes, h, film->p, r->spare_p_a, r->spare_p_a_h,
+                             room);
+    return room;
+}
+
+/* Returns the last node that pressure can reach: one downstream of the last one that is full, or
+   whose asperities touch. */
 static size_t last_node(const ehl_reynolds *r, const ehl_film *film)
 {
     size_t i = r->nodes - 1;
-    while (!r->conserving && !r->rough && i > 1 && !film->full[i - 1])
+    while (!r->conserving && !r->rough && i > 1 && !film->full[i - 1] &&
+           !(r->statistical.law && r->p_a[i - 1] > 0))
         i--;
     return i;
 }
@@ -125,7 +145,7 @@ static void scale(size_t n, const double *restrict by, double *restrict value)
 void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film)
 {
     size_t count = last_node(r, film) + 1;
-    ff_status status = r->laws.density->eval(r->laws.density->self, count, film->p, NULL,
+    ff_status status = r->laws.density->eval(r->laws.density->self, count, ehl_fluid(r, film), NULL,
                                              r->liquid.rho, NULL, NULL);
     if (status != FF_OK)
         r->law_status = status;
@@ -272,7 +292,7 @@ static void fluxes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
     for (size_t i = 0; step->follows && r->carry && i < faces; i++)
         r->flux[i] -= step->entrainment / 2 *
                       ((r->carried[i] - r->mass[i]) + (r->carried[i + 1] - r->mass[i + 1]));
-    add_pressure_flow(r->last, 1 / r->dx, r->mean, film->p, r->flux);
+    add_pressure_flow(r->last, 1 / r->dx, r->mean, ehl_fluid(r, film), r->flux);
 }
 
 /* What flows in, less what flows out and what is stored: of nodes 1 to n - 2. */
@@ -293,8 +313,11 @@ void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film
     size_t count = r->last + 1;
     for (size_t i = 0; i < count; i++)
         r->thick[i] = r->h[i] > r->floor ? r->h[i] : r->floor;
-    r->law_status =
-        ehl_fluid_evaluate(&r->laws, count, film->p, r->thick, step->sliding, &r->liquid);
+    const double *p = ehl_fluid(r, film);
+    ff_status contact = r->statistical.law ? r->law_status : FF_OK;
+    r->law_status = ehl_fluid_evaluate(&r->laws, count, p, r->thick, step->sliding, &r->liquid);
+    if (r->law_status == FF_OK)
+        r->law_status = contact;
     if (r->ease)
         ease_flow(r, count);
     masses(r, film, count);
@@ -315,7 +338,7 @@ void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film
     for (size_t i = 1; !step->past && i + 1 < n; i++)
         r->residual[i] = r->flux[i] - r->flux[i - 1];
     for (size_t i = 1; r->leak > 0 && i + 1 < n; i++)
-        r->residual[i] -= r->dx * r->leak * r->f[i] * film->p[i];
+        r->residual[i] -= r->dx * r->leak * r->f[i] * p[i];
 }
 
 /* The stencil of the wedge and of the change in time, in rho h. */
@@ -392,7 +415,8 @@ FF_SIMD
 static void slopes_of_rows(ehl_reynolds *r, const ehl_film *film, const double c[3], size_t back,
                            size_t from, size_t to)
 {
-    const double *restrict p = film->p, *restrict rho = r->liquid.rho, *restrict h = r->h;
+    const double *restrict p = ehl_fluid(r, film), *restrict rho = r->liquid.rho;
+    const double *restrict h = r->h;
     const double *restrict rho_p = r->liquid.rho_p, *restrict mean = r->mean;
     const double *restrict mean_left = r->mean_left, *restrict mean_right = r->mean_right;
     const double *restrict f_p = r->f_p, *restrict f_h = r->f_h;

@@ -17,6 +17,7 @@
 
 #include "../contact/grid.h"
 #include "../contact/liquid.h"
+#include "statistical.h"
 
 /* What the contact prescribes for one solve. */
 typedef struct ehl_step {
@@ -52,10 +53,11 @@ typedef struct ehl_reynolds {
     double unit;        /* of the unknown mass, kg/m2 per Pa: makes it like a pressure */
     const double
         *rough; /* R1 + R2 at the nodes, m; NULL: smooth flanks, which have no asperity contact */
-    double contact;  /* contact film, m, also the thinnest film of the mobility */
-    double leak;     /* 1/m2: side flow out of the film, f leak p; 0: none */
-    double hardness; /* Pa, highest pressure where the film has a plastic part */
-    double give;     /* of the unknown plastic part, m per Pa: makes it like a pressure */
+    double contact;              /* contact film, m, also the thinnest film of the mobility */
+    double leak;                 /* 1/m2: side flow out of the film, f leak p; 0: none */
+    double hardness;             /* Pa, highest pressure where the film has a plastic part */
+    ehl_statistical statistical; /* of smooth flanks with asperities by their statistics */
+    double give; /* of the unknown plastic part, m per Pa: makes it like a pressure */
     ehl_laws laws;
     ehl_oil oil;
     const double *ease;  /* psi of the heated film over that of the laws; NULL: no heat */
@@ -63,8 +65,11 @@ typedef struct ehl_reynolds {
     const double *carry; /* mass that the flanks carry along, over u_r rho h; NULL: 1 */
     ehl_liquid liquid;
     double *memory;
-    double *half_square;                   /* x^2/2 */
-    double *h, *thick;                     /* thick: h, not below the floor */
+    double *half_square;         /* x^2/2 */
+    double *h, *thick;           /* thick: h, not below the floor */
+    double *fluid, *p_a, *p_a_h; /* of statistical flanks, at the gap that was computed last */
+    double *spare_p_a, *spare_p_a_h;
+    int touching;                          /* 1: p_a is above 0 somewhere */
     double *mass;                          /* rho h */
     double *carried;                       /* carry times that, with `carry` */
     double *f, *f_p, *f_h;                 /* mobility and its derivatives */
@@ -91,6 +96,23 @@ void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film);
 /* h, liquid, flux and residual. */
 void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
+/* The pressure of the oil, of which what statistical flanks carry is at the gap that was computed
+   last. */
+static inline const double *ehl_fluid(const ehl_reynolds *r, const ehl_film *film)
+{
+    return r->statistical.law ? r->fluid : film->p;
+}
+
+/* The same of another film, whose gap is h; `room` has a place for each node. */
+const double *ehl_fluid_of(const ehl_reynolds *r, const ehl_film *film, const double *h,
+                           double *room);
+
+/* 1: an equation holds at node i that its pressure, or its mass, is found by. */
+static inline int ehl_is_solved(const ehl_reynolds *r, const ehl_film *film, size_t i)
+{
+    return film->full[i] || r->conserving || r->statistical.law;
+}
+
 /* 1: node i is cavitated and its mass is unknown. */
 static inline int ehl_is_cavitated(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
@@ -106,7 +128,7 @@ static inline int ehl_yields(const ehl_reynolds *r, const ehl_film *film, size_t
 /* 1: the pressure of node i is unknown, and deflects the flanks. */
 static inline int ehl_carries(const ehl_reynolds *r, const ehl_film *film, size_t i)
 {
-    return film->full[i] && !ehl_yields(r, film, i);
+    return (film->full[i] || r->statistical.law) && !ehl_yields(r, film, i);
 }
 
 /* Sets the weights of the wedge through the face downstream of node i > 0, near rho h(i) + far rho

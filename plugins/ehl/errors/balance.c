@@ -102,7 +102,8 @@ static void compute_mass(const ehl_balance *b, const ehl_march *m, size_t k)
     const ehl_film *film = &m->state[k].film;
     const double *h = k == 0 ? eq->h : m->state[k].gap;
     double *rho = k == 0 ? b->rho : b->mass[k];
-    eq->laws.density->eval(eq->laws.density->self, b->nodes, film->p, NULL, rho, NULL, NULL);
+    const double *p = ehl_fluid_of(eq, film, h, b->volume);
+    eq->laws.density->eval(eq->laws.density->self, b->nodes, p, NULL, rho, NULL, NULL);
     for (size_t i = 0; i < b->nodes; i++)
         b->mass[k][i] = rho[i] * h[i];
     for (size_t i = 0; eq->conserving && i < b->nodes; i++)
@@ -179,7 +180,7 @@ static void fill_faces(size_t n, const double *restrict f, const double *restric
 static void compute_flow(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *p = m->state[0].film.p, *h = eq->h;
+    const double *p = ehl_fluid(eq, &m->state[0].film), *h = eq->h;
     size_t n = b->nodes;
     eq->laws.viscosity->eval(eq->laws.viscosity->self, n, p, NULL, b->ln_eta, NULL, NULL);
     if (eq->laws.rheology)
@@ -261,7 +262,8 @@ static double largest_left(const ehl_balance *b, const ehl_march *m, double flow
    the pressure is known to a share of p_max alone. */
 static double check_mass(ehl_balance *b, const ehl_march *m, double flow_scale, size_t peak)
 {
-    double most = 0, per_cell = m->state[0].film.p[peak] / m->solver->reynolds->dx;
+    const ehl_reynolds *eq = m->solver->reynolds;
+    double most = 0, per_cell = ehl_fluid(eq, &m->state[0].film)[peak] / eq->dx;
     ehl_worse(&most, largest_left(b, m, flow_scale, per_cell, peak + 1, 1));
     ehl_worse(&most, largest_left(b, m, flow_scale, per_cell, peak, -1));
     ehl_worse(&b->worst.mass, most);
@@ -274,12 +276,12 @@ static void check_cavitated(ehl_balance *b, const ehl_march *m, double p_max)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[0].film;
-    double least = fmax(p_max, 1e-2 * m->solver->grid->pressure);
+    const double *p = ehl_fluid(eq, film), least = fmax(p_max, 1e-2 * m->solver->grid->pressure);
     for (size_t i = 1; i + 1 < b->nodes; i++) {
-        if (film->full[i] && film->p[i] >= 0)
+        if (film->full[i] && p[i] >= 0)
             continue;
         if (film->full[i])
-            ehl_worse(&b->worst.cavitated, -film->p[i] / least);
+            ehl_worse(&b->worst.cavitated, -p[i] / least);
         else if (eq->conserving)
             ehl_worse(&b->worst.cavitated, film->content[i] / (eq->oil.density * eq->h[i]) - 1);
         else
@@ -291,7 +293,7 @@ static void check_cavitated(ehl_balance *b, const ehl_march *m, double p_max)
 static void integrate_volume(ehl_balance *b, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *p = m->state[0].film.p;
+    const double *p = ehl_fluid(eq, &m->state[0].film);
     double *half = b->mass[1], *volume = b->volume; /* the change of the masses is known */
     for (size_t i = 0; i < b->nodes; i++)
         half[i] = p[i] / 2;
@@ -310,7 +312,7 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
 {
     const double shortest = 100;
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *p = m->state[0].film.p, *h = eq->h;
+    const double *p = ehl_fluid(eq, &m->state[0].film), *h = eq->h;
     double D = 0, work = 0;
     integrate_volume(b, m);
     for (size_t i = 1; i + 1 < b->nodes; i++) {
@@ -338,7 +340,7 @@ static void fill_mobilities(const ehl_march *m, size_t n, const size_t *node, do
     enum { MOST = FACES * MOST_OF_FACE };
     double p[MOST], h[MOST], ln_eta[MOST];
     for (size_t k = 0; k < n; k++) {
-        p[k] = m->state[0].film.p[node[k]];
+        p[k] = ehl_fluid(eq, &m->state[0].film)[node[k]];
         h[k] = eq->h[node[k]];
     }
     eq->laws.viscosity->eval(eq->laws.viscosity->self, n, p, NULL, ln_eta, NULL, NULL);
@@ -356,7 +358,7 @@ static void fill_mobilities(const ehl_march *m, size_t n, const size_t *node, do
 static double outflow(const ehl_march *m, size_t i, const double *f)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *mass = m->state[0].mass, *p = m->state[0].film.p + i;
+    const double *mass = m->state[0].mass, *p = ehl_fluid(eq, &m->state[0].film) + i;
     double half = eq->wedge == 2 ? 0.5 : 0, carried = mass[i] * carrying(eq, i);
     double q = between(f[0], f[1]) * (p[1] - p[0]) / eq->dx;
     if (!eq->asymmetric)
@@ -417,7 +419,7 @@ static void check_content(ehl_balance *b, const ehl_march *m)
 double ehl_balance_hold(ehl_balance *b, const ehl_march *m, int wholly)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *p = m->state[0].film.p;
+    const double *p = ehl_fluid(eq, &m->state[0].film);
     ehl_balance_moment(b, m);
     check_conditions(b, m);
     b->unbalanced = 0;

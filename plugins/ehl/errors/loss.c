@@ -46,7 +46,7 @@ static shear shear_of(ehl_results *r, const ehl_march *m)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[0].film;
-    const double *p = film->p;
+    const double *p = ehl_fluid(eq, film);
     size_t count = eq->last + 1;
     double sliding = m->at.sliding, way = (sliding > 0) - (sliding < 0);
     double fluid = 0, asperities = 0;
@@ -56,7 +56,7 @@ static shear shear_of(ehl_results *r, const ehl_march *m)
         double tau = m->thermal ? ehl_thermal_stress(m, i) : r->tau[i];
         if (p[i] > 0 && !film->asperity[i])
             fluid += tau * film_of_node(eq, p, i);
-        asperities += film->asperity[i] ? p[i] : 0;
+        asperities += eq->statistical.law ? eq->p_a[i] : film->asperity[i] ? p[i] : 0;
     }
     return (shear){fluid * eq->dx, way * r->boundary_friction * asperities * eq->dx};
 }
@@ -107,14 +107,16 @@ static pressure_flow flow_of(const ehl_results *r, const ehl_march *m)
 {
     ehl_reynolds *eq = m->solver->reynolds;
     ehl_reynolds_evaluate(eq, &m->step, &m->state[0].film);
-    const double *p = m->state[0].film.p, *h = eq->h, *rho = eq->liquid.rho;
+    const double *p = ehl_fluid(eq, &m->state[0].film), *h = eq->h, *rho = eq->liquid.rho;
     double u = m->at.entrainment, dissipated = 0, work = 0, flow = 0;
     double *power = r->tau; /* the stress has been summed */
+    /* h p_a(h)_x adds up to 0, and in these sums h p_x is the moment of p to the last digits */
+    const double *all = m->state[0].film.p;
     for (size_t i = 0; i < eq->last; i++) {
         double rise = p[i + 1] - p[i];
         power[i] = eq->mean[i] * rise * rise * (rho[i] + rho[i + 1]) / (rho[i] * rho[i + 1]);
         dissipated += power[i];
-        work += (h[i] + h[i + 1]) * rise;
+        work += (h[i] + h[i + 1]) * (all[i + 1] - all[i]);
     }
     if (m->thermal)
         flow = ehl_thermal_pressure_flow(m);

@@ -35,7 +35,8 @@ typedef struct ehl_results {
     uint64_t wanted;
     size_t nodes;
     double boundary_friction;
-    double roughness;                   /* m, combined rms of both flanks; 0: unknown */
+    double roughness; /* m, combined rms of both flanks; 0: unknown */
+    double cutoff;    /* m, longest waves of it, of statistical flanks; 0: those of the contact */
     ehl_rows series, field[EHL_FIELDS]; /* width 0: not wanted */
     double *row;                        /* row of the series that is being filled in */
     double *tau, *ln_eta, *memory;
@@ -63,6 +64,7 @@ typedef struct ehl_results {
     double *row_in_space;                /* its row that is being filled in */
     double worst_gap_excess, widest_gap; /* while the contact is lost, m */
     double share_sum, ratio_sum, trapped_sum, worst_supply; /* sums over rough, loaded instants */
+    double least_gap;                                       /* of statistical flanks, over sigma */
     double yield_sum, deepest_yield, worst_yield; /* the same; deepest_yield: plastic part, m */
     size_t loaded;
     double worst_squeezed; /* W/m, in the outer half of the inlet */

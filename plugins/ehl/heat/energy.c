@@ -245,7 +245,7 @@ FF_SIMD_INLINE void prepare_column(const sweep *s, size_t i, size_t n)
     double p_t = film->p_t ? film->p_t[i] : 0, p_x = e->p_x[i], h = film->h[i],
            per_dx = 1 / film->dx, rate = film->rate, capacity = e->heat_capacity;
     int touches = ehl_energy_touches(film, i);
-    double friction = touches ? film->friction[i] : 0, sheared = touches ? 0 : h;
+    double friction = film->friction ? film->friction[i] : 0, sheared = touches ? 0 : h;
     double warmed = per_mean_slope(e, i, n) > 0 ? sheared : 0, conducted = e->conductivity / h;
     transverse_transport(s, i, n, c);
     FF_SIMD_LOOP
@@ -473,8 +473,7 @@ ehl_energy_sums ehl_energy_balance(ehl_energy *e, const ehl_energy_film *film,
             sum.stored += held * (film->rate * t->T[at] + (film->past ? film->past[at] : 0));
             sum.carried += held * fabs(e->u[at]) / film->dx * more + film->dx * rise;
         }
-        if (ehl_energy_touches(film, i))
-            sum.asperities += film->dx * film->friction[i];
+        sum.asperities += film->friction ? film->dx * film->friction[i] : 0;
         for (size_t g = 0; g < 2; g++)
             sum.flank[g] += film->dx * e->flux[g][i];
     }

@@ -36,9 +36,9 @@ typedef struct ehl_energy_film {
     const double *through;         /* mass that passes, kg/(m s), nodes; NULL: dp/dx is held */
     const unsigned char *full;     /* 1: the film is full */
     const unsigned char *asperity; /* 1: and its asperities are in contact; NULL: none are */
-    const double *friction;        /* heat of those, W/m2, nodes */
-    const double *past;            /* dT/dt = rate T + past; NULL: steady */
-    const double *past_modes[2];   /* the same of the modes of both flanks */
+    const double *friction;      /* heat of those, W/m2, nodes; 0 where none touch; NULL: nowhere */
+    const double *past;          /* dT/dt = rate T + past; NULL: steady */
+    const double *past_modes[2]; /* the same of the modes of both flanks */
 } ehl_energy_film;
 
 /* 1: asperities are in contact at node i, and p is theirs. */

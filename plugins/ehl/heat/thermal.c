@@ -245,10 +245,12 @@ static void pressure_in_time(const ehl_march *m, const ehl_film *film, const dou
 {
     ehl_thermal *t = m->thermal;
     size_t n = t->energy.nodes;
+    const ehl_reynolds *r = m->solver->reynolds;
+    const double *p = ehl_fluid(r, film);
     for (size_t i = 0; i < n; i++)
-        t->p_t[i] = c[0] * film->p[i];
+        t->p_t[i] = c[0] * p[i];
     for (size_t k = 0; k < 2; k++) {
-        const double *before = m->state[k].film.p;
+        const double *before = ehl_fluid_of(r, &m->state[k].film, m->state[k].gap, t->p_before);
         if (m->rough) {
             ehl_advect_values(m, &m->state[k], 1, before, t->p_before);
             before = t->p_before;
@@ -281,15 +283,17 @@ static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const e
         .speed = {fmax(step->entrainment + slide, 0) - frame,
                   fmax(step->entrainment - slide, 0) - frame},
         .rate = c[0],
-        .p = film->p,
+        .p = ehl_fluid(r, film),
         .h = r->thick,
         .through = t->through,
         .full = film->full,
         .asperity = m->rough ? film->asperity : NULL,
         .friction = t->friction,
     };
-    for (size_t i = 0; m->rough && i < n; i++)
-        t->friction[i] = t->coefficient * film->p[i] * fabs(step->sliding);
+    for (size_t i = 0; i < n; i++) {
+        double carried = r->statistical.law ? r->p_a[i] : film->asperity[i] ? film->p[i] : 0;
+        t->friction[i] = t->coefficient * carried * fabs(step->sliding);
+    }
     for (size_t i = 0; i < n; i++) { /* the faces are nodes, or lie between them */
         double before = r->flux[r->asymmetric || i < 1 ? i : i - 1];
         t->through[i] = i > 0 && i + 1 < n ? -(before + r->flux[i]) / 2 : 0;

@@ -112,7 +112,7 @@ static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_
         b->carries[i] = ehl_carries(r, film, i + 1);
     for (size_t i = first; i < b->rows; i++) {
         double *row = b->matrix + i * WIDTH;
-        if (!film->full[i + 1] && !r->conserving) {
+        if (!ehl_is_solved(r, film, i + 1)) {
             memset(row, 0, WIDTH * sizeof *row);
             row[LOWER] = 1;
             continue;
@@ -120,6 +120,8 @@ static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_
         /* column k - LOWER from the diagonal is k - LOWER + 2 from the node i - 2 of the stencil */
         fill_row(r->by_h[0][i + 1], r->by_h[1][i + 1], r->by_h[2][i + 1], r->by_h[3][i + 1],
                  b->cut + REACH + 3 - LOWER, row);
+        /* zeros, but where an elimination before came to no numbers */
+        memset(row + LOWER + 1 + UPPER, 0, (WIDTH - LOWER - 1 - UPPER) * sizeof *row);
         if (r->conserving)
             drop_columns(b->carries + i - LOWER, row);
         for (size_t s = 0; s < EHL_STENCIL; s++)
@@ -265,7 +267,7 @@ void ehl_band_factor(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, i
     arrange(b, from - 1);
     double *x = b->line + PAD;
     for (size_t i = 0; i < b->rows; i++)
-        x[i] = film->full[i + 1] || r->conserving
+        x[i] = ehl_is_solved(r, film, i + 1)
                    ? r->by_h[0][i + 1] + r->by_h[1][i + 1] + r->by_h[2][i + 1] + r->by_h[3][i + 1]
                    : 0;
     substitute(b->blocks, count_blocks(b->rows), x);

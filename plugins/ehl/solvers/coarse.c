@@ -98,7 +98,7 @@ static void gather(ehl_coarse *c, const ehl_reynolds *r, const ehl_film *film)
     memset(c->v, 0, c->most * sizeof *c->v);
     for (size_t i = 1; i < r->last; i++) {
         size_t b = block(c, i);
-        for (size_t s = i > 1 ? 0 : 1; s < EHL_STENCIL; s++) {
+        for (size_t s = i > 1 ? 0 : 1; s < EHL_STENCIL && film->full[i]; s++) {
             size_t node = i + s - 2, k = node / c->stride - b;
             double far = c->way[node % c->stride];
             double p = film->full[node] ? r->by_p[s][i] : 0, v = r->by_h[s][i];
@@ -222,7 +222,9 @@ static void deflect(ehl_coarse *c)
     }
 }
 
-static void restrict_to_blocks(ehl_coarse *c, const double *residual, size_t last)
+/* The balances alone: other nodes have an equation of their own, or none. */
+static void restrict_to_blocks(ehl_coarse *c, const double *residual, const unsigned char *full,
+                               size_t last)
 {
     size_t half = c->stride / 2, i = 1;
     for (size_t b = 0; b < c->count; b++) {
@@ -230,7 +232,7 @@ static void restrict_to_blocks(ehl_coarse *c, const double *residual, size_t las
         end = end < last ? end : last;
         double sum = 0;
         for (; i < end; i++)
-            sum += residual[i];
+            sum += full[i] ? residual[i] : 0;
         c->x[b] = sum;
     }
 }
@@ -267,7 +269,7 @@ int ehl_coarse_solve(ehl_coarse *c, size_t last, const double *residual, double 
 {
     if (!c->solvable)
         return 0;
-    restrict_to_blocks(c, residual, last);
+    restrict_to_blocks(c, residual, film->full, last);
     c->x[c->count] = c->loaded ? sum : 0;
     substitute(c);
     deflect(c);

@@ -29,6 +29,10 @@ static const double MOST_IMBALANCE_LEFT = 0.3, IMBALANCE_NOTICED = 0.01;
    pressure tells little of the film. */
 static const double LEAST_REDUCTION = 0.2, CAREFUL_REDUCTION = 0.05;
 
+/* The same where statistical flanks touch: where load passes between oil and asperities the film
+   changes, and the pressure hardly does. */
+static const double SHARED_REDUCTION = 1e-3;
+
 /* With rough flanks a change of the pressure within the tolerance is left once it is this share of
    it, and solved for down to it otherwise. */
 static const double SHARE_OF_LAST = 0.01;
@@ -247,7 +251,8 @@ static double forcing_term(const ehl_solver *s, double change, int careful)
 {
     if (s->reynolds->rough && change <= s->tolerance)
         return fmax(CAREFUL_REDUCTION, SHARE_OF_LAST * s->tolerance / change);
-    return fmin(careful ? CAREFUL_REDUCTION : LEAST_REDUCTION,
+    double least = careful ? CAREFUL_REDUCTION : LEAST_REDUCTION;
+    return fmin(s->reynolds->touching ? SHARED_REDUCTION : least,
                 fmax(CURVATURE * change, SHARE_OF_STEP * s->tolerance / change));
 }
 
@@ -296,6 +301,7 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     }
     *dh00 = combine_basis(w, &q, k, nodes, weight);
     w->krylov = k;
+    w->suffices = s->reynolds->touching ? CAREFUL_REDUCTION : 0;
     w->reached = first > 0 ? norm / first : 0;
     return isfinite(norm) ? FF_OK : FF_NOCONV;
 }
@@ -413,10 +419,12 @@ ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *
     for (w->split = w->coarse != NULL;;
          w->split = 0) { /* the band alone is slower, but misses no wave */
         for (size_t i = 1; i < r->last; i++)
-            w->product[i] = film->full[i] || r->conserving ? -r->residual[i] : 0;
+            w->product[i] = ehl_is_solved(r, film, i) ? -r->residual[i] : 0;
         ff_status status = gmres(s, film, step->loaded, missing, dh00);
-        if (status != FF_OK)
+        if (status != FF_OK) {
+            w->factored = 0; /* factors that are no numbers would look as if they still held */
             return status;
+        }
         w->unbalanced = 0;
         if (!w->split || !misses_imbalance(s, step, film, *dh00))
             break;

@@ -28,7 +28,8 @@ typedef struct ehl_linear {
     unsigned char *factored_kind;
     size_t factored_last;
     int factored, factored_loaded;
-    double reached;    /* norm of the residual that the last solution left, over its first */
+    double suffices; /* share of the residual that may be left in the end; 0: what was asked for */
+    double reached;  /* norm of the residual that the last solution left, over its first */
     double unbalanced; /* flow that it left unbalanced, over that through the contact; 0 without the
                           coarse grid, whose norm alone hides it */
     size_t krylov, krylov_fresh; /* iterations of the last solution, and of the first one after
@@ -46,10 +47,11 @@ void ehl_linear_deflect(ehl_solver *s, const double *p, double *v);
    FF_NOCONV: a number overflowed. */
 ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *film, double *dh00);
 
-/* 1: the last solution reached its accuracy within EHL_KRYLOV vectors. */
+/* 1: the last solution reached its accuracy within EHL_KRYLOV vectors, or what suffices where more
+   was asked for. */
 static inline int ehl_linear_converged(const ehl_linear *w)
 {
-    return w->krylov < EHL_KRYLOV;
+    return w->krylov < EHL_KRYLOV || w->reached <= w->suffices;
 }
 
 /* Whether what is predicted to be left after the step of the last solution is as small as the

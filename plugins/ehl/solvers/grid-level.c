@@ -80,6 +80,7 @@ ff_status ehl_grid_level_create(ehl_grid_level *l, const ehl_solver *s, size_t c
     l->reynolds.conserving = r->conserving;
     l->reynolds.contact = r->contact;
     l->reynolds.leak = r->leak;
+    l->reynolds.statistical = r->statistical;
     l->reynolds.unit = r->oil.density * (l->kernel[0] - l->kernel[n - 1]);
     l->solver = (ehl_solver){.grid = &l->grid,
                              .reynolds = &l->reynolds,

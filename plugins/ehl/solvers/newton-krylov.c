@@ -88,6 +88,8 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
         ehl_contact_rows(r, step, film);
         ehl_yield_columns(r, film);
     }
+    if (r->statistical.law)
+        ehl_statistical_rows(r, film);
     if (ehl_linear_solve(s, step, film, dh00) != FF_OK)
         return FF_NOCONV;
     s->counters.newton +=
@@ -160,6 +162,8 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
         if (rough)
             share = fmin(share, damped_share(&settled, k, dp));
         take_step(s, film, share, dh00);
+        if (s->reynolds->statistical.law)
+            ehl_reynolds_gap(s->reynolds, step->radius, film);
         double cut =
             ehl_cavitation_shrink_film(&w->cavitation, s->reynolds, film, w->linear.p_step);
         cut = fmax(cut, ehl_yield_turn(s->reynolds, film, w->linear.p_step));

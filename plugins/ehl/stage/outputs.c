@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "outputs.h"
 
+#include "../contact/lanes.h"
 #include "../equations/asperities.h"
 #include "../errors/time-error.h"
 #include "../heat/heat.h"
@@ -56,6 +57,7 @@ ff_status ehl_results_create(ehl_results *r, const ff_host *host, uint64_t wante
         .least_lambda = HUGE_VAL,
         .least_resolution = HUGE_VAL,
         .least_inlet = HUGE_VAL,
+        .least_gap = HUGE_VAL,
     };
     for (uint32_t k = 0; k < EHL_FIELDS; k++)
         r->field[k].width = wants(r, EHL_FIRST_FIELD + k) ? nodes : 0;
@@ -134,6 +136,20 @@ static void record_contact(ehl_results *r, const ehl_march *m)
     r->share_sum += carried / load;
     r->trapped_sum += shut / load;
     r->ratio_sum += r->row[EHL_CONTACT_RATIO];
+    r->loaded++;
+}
+
+/* Records the load that the asperities of statistical flanks carry. */
+static void record_statistical(ehl_results *r, const ehl_march *m)
+{
+    const ehl_reynolds *eq = m->solver->reynolds;
+    double load = ehl_film_load(&m->state[0].film, eq->nodes, eq->dx) / eq->dx;
+    double carried = ehl_sum(eq->nodes, eq->p_a), least = ehl_least(eq->nodes, eq->h);
+    r->least_gap = fmin(r->least_gap, least / eq->statistical.law->sigma);
+    if (!(load > 0 && m->at.load > 0) || m->contact_lost)
+        return;
+    r->row[EHL_ASPERITY_LOAD_SHARE] = carried / load;
+    r->share_sum += carried / load;
     r->loaded++;
 }
 
@@ -235,7 +251,7 @@ static double field_value(const ehl_reynolds *eq, const ehl_film *film, uint32_t
     case EHL_PRESSURE:
         return film->p[i];
     case EHL_ASPERITY_PRESSURE:
-        return film->asperity[i] ? film->p[i] : 0;
+        return eq->statistical.law ? eq->p_a[i] : film->asperity[i] ? film->p[i] : 0;
     case EHL_PLASTIC_DEPTH:
         return film->plastic ? film->plastic[i] : 0;
     case EHL_ROUGHNESS:
@@ -329,6 +345,8 @@ ff_status ehl_results_record(ehl_results *r, ehl_march *m, int last)
         ehl_law_note(&r->laws, m->heat->law_status);
     if (m->rough)
         record_contact(r, m);
+    if (eq->statistical.law)
+        record_statistical(r, m);
     if (film->plastic)
         record_yield(r, m);
     if (wants(r, EHL_TEMPERATURE_MAX))

@@ -74,6 +74,7 @@ static force friction(ehl_balance *b, const ehl_march *m, double boundary)
     const ehl_reynolds *eq = m->solver->reynolds;
     const ehl_film *film = &m->state[0].film;
     double slide = m->step.sliding, way = slide > 0 ? 1 : slide < 0 ? -1 : 0;
+    const double *fluid = ehl_fluid(eq, film);
     force f = {0, 0, 0, 0};
     size_t n = b->nodes;
     while (n > 1 && !(film->p[n - 1] > 0))
@@ -81,20 +82,22 @@ static force friction(ehl_balance *b, const ehl_march *m, double boundary)
     if (m->rough) /* of smooth flanks the balance of mass has it */
         eq->laws.viscosity->eval(eq->laws.viscosity->self, n, film->p, NULL, b->ln_eta, NULL, NULL);
     if (eq->laws.rheology)
-        eq->laws.rheology->shear(eq->laws.rheology->self, n, film->p, NULL, b->ln_eta, eq->h, slide,
+        eq->laws.rheology->shear(eq->laws.rheology->self, n, fluid, NULL, b->ln_eta, eq->h, slide,
                                  b->left);
     for (size_t i = 0; i < n && (m->thermal || !eq->laws.rheology); i++)
         b->left[i] =
             m->thermal ? ehl_thermal_stress(m, i) : slide / eq->h[i] * exp(fmin(b->ln_eta[i], 230));
     for (size_t i = 0; i < n; i++) {
-        double tau = b->left[i], p = film->p[i];
+        double tau = b->left[i], p = fluid[i];
         if (film->asperity[i])
             f.asperities += way * boundary * p;
         else if (p > 0)
             f.fluid += tau;
-        if (p > 0 && i + 1 < b->nodes && !(film->p[i + 1] > 0))
+        if (eq->statistical.law)
+            f.asperities += way * boundary * (film->p[i] - p);
+        if (p > 0 && i + 1 < b->nodes && !(fluid[i + 1] > 0))
             f.end += eq->rough ? 0 : tau;
-        f.all += fabs(tau) + boundary * p;
+        f.all += fabs(tau) + boundary * film->p[i];
     }
     return (force){f.fluid * eq->dx, f.asperities * eq->dx, f.all * eq->dx, f.end * eq->dx};
 }
@@ -102,7 +105,7 @@ static force friction(ehl_balance *b, const ehl_march *m, double boundary)
 static void compare_loss_outputs(ehl_balance *b, const ehl_march *m, const double *row, force f)
 {
     const ehl_reynolds *eq = m->solver->reynolds;
-    const double *p = m->state[0].film.p;
+    const double *p = ehl_fluid(eq, &m->state[0].film);
     double D = 0, u = m->step.entrainment;
     for (size_t i = 0; i + 1 < b->nodes; i++)
         D += b->face[i] * (p[i + 1] - p[i]) * (1 / b->rho[i] + 1 / b->rho[i + 1]) / 2;
@@ -433,6 +436,19 @@ static void report_rough_lambda(const ehl_results *r)
         "that friction and loss may be larger");
 }
 
+/* Flanks ride over waves that are longer than the contact. */
+static void report_long_waves(const ehl_results *r, const ehl_march *m)
+{
+    const double most = 1. / 3;
+    double share = ehl_roughness_longer(m->rough, 2 * m->solver->grid->half_width);
+    r->host->quality(r->host->ctx, "waves_longer_than_contact", share, most,
+                     share <= most ? FF_GOOD : FF_RANGE,
+                     "share of the variance of the flanks in waves longer than the largest "
+                     "contact, which rides over them: friction is that of a film on waves, and "
+                     "what asperities carry in three dimensions is not in it "
+                     "(surface/statistical)");
+}
+
 static void report_asperities(const ehl_results *r, const ehl_march *m)
 {
     double count = fmax(1, (double)r->loaded);
@@ -443,6 +459,7 @@ static void report_asperities(const ehl_results *r, const ehl_march *m)
              r->ratio_sum / count, r->trapped_sum / count);
     r->host->quality(r->host->ctx, "asperity_load", r->share_sum / count, 1, FF_GOOD, text);
     asperity_cells(r, m, r->share_sum / count);
+    report_long_waves(r, m);
     report_yield(r, m, count);
     report_at_most(
         r, "contact_supply", r->worst_supply, 0.01, FF_DOUBTFUL,
@@ -450,6 +467,27 @@ static void report_asperities(const ehl_results *r, const ehl_march *m)
     report_at_least(
         r, "cells_per_wavelength", ehl_roughness_wavelength(m->rough) / m->solver->grid->dx, 8,
         "cells over the mean distance of the peaks; below 8 the finest asperities are coarse");
+}
+
+/* What the asperities of statistical flanks carry is known to a factor of 3: so is K. */
+static void report_statistical(const ehl_results *r, const ehl_march *m)
+{
+    const double longest = 1.5, length = 2 * m->solver->grid->half_width;
+    char text[224];
+    snprintf(text, sizeof text,
+             "mean share of the load on asperities, by their statistics, whose K is known to a "
+             "factor of 3; the mean planes come as close as %.3g sigma",
+             r->least_gap);
+    r->host->quality(r->host->ctx, "asperity_load", r->share_sum / fmax(1, (double)r->loaded), 1,
+                     FF_GOOD, text);
+    if (r->cutoff > 0)
+        report_at_most(r, "roughness_cutoff", r->cutoff / length, longest, FF_RANGE,
+                       "longest waves of the roughness over the length of the largest contact; the "
+                       "flanks ride over longer ones, and rq is too large by these");
+    if (r->roughness > 0)
+        r->host->quality(r->host->ctx, "lambda", r->least_lambda, 0, FF_GOOD,
+                         "lowest film over the roughness of the flanks, whose asperities carry "
+                         "their share of the load");
 }
 
 /* The film at rest is not known, nor what was there before the creep that stands in for it. */
@@ -483,6 +521,8 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     if (m->rough) {
         report_asperities(r, m);
         report_rough_lambda(r);
+    } else if (m->solver->reynolds->statistical.law) {
+        report_statistical(r, m);
     } else if (r->roughness > 0) {
         ehl_lambda_report(r->host, r->least_lambda);
     }

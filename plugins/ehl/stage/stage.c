@@ -44,6 +44,8 @@ ff_status ehl_wire(void *self, uint32_t input, const void *service)
         m->liquid = service;
     else if (input == EHL_IN_SHEAR_RATE)
         m->shear_rate = service;
+    else if (input == EHL_IN_ASPERITIES)
+        m->asperities = service;
     else
         ehl_wire_law(&m->laws, input, service);
     m->rough = m->rough || input == EHL_IN_POSITION;
@@ -53,26 +55,32 @@ ff_status ehl_wire(void *self, uint32_t input, const void *service)
 ff_status ehl_ready(void *self)
 {
     static const char smooth[] = "the flanks are smooth: no surface is wired",
-                      ignored[] = "roughness is ignored";
+                      ignored[] = "roughness is ignored",
+                      statistical[] = "the asperities are known by their statistics alone";
     const ehl_model *m = self;
+    const int any = m->rough || m->asperities;
     const int flat = !m->rough || m->roughness == EHL_IGNORED;
-    const char *why = m->rough ? ignored : smooth, *cold = "thermal is not full";
+    const int bare = !any || m->roughness == EHL_IGNORED;
+    const char *why = any && !bare ? statistical
+                      : any        ? ignored
+                                   : smooth,
+               *cold = "thermal is not full";
     const int full = m->thermal == EHL_THERMAL_FULL;
     const ff_serving rows[] = {
         {m->steps > 0, "time_tolerance", "", NULL, "the time steps are given, and equal"},
-        {!m->rough, "roughness", "", NULL, smooth},
+        {!any, "roughness", "", NULL, smooth},
         {flat, "contact_film", "", NULL, why},
-        {flat, "boundary_friction", "", NULL, why},
-        {flat, "asperity_hardness", "", NULL, why},
+        {bare, "boundary_friction", "", NULL, why},
+        {bare, "asperity_hardness", "", NULL, why},
         {flat, "valleys", "", NULL, why},
         {flat || m->valleys != EHL_VENTILATED, "valley_length", "", NULL,
          flat ? why : "valleys is sealed"},
         {!flat && m->cavitation != EHL_CONSERVING, "cavitation", "", NULL,
          "rough flanks take mass-conserving"},
         {!flat && m->wedge > 0, "wedge", "", NULL, "rough flanks take the first order"},
-        {m->rough, "gear.roughness", "", "surface", "the surface has a roughness of its own"},
+        {any, "gear.roughness", "", "surface", "the surface has a roughness of its own"},
         {!full, "thermal_nodes", "", NULL, cold},
-        {flat, "gear.hardness", "", NULL, why},
+        {bare, "gear.hardness", "", NULL, why},
         {!full, "gear.thermal_conductivity", "", NULL, cold},
         {!full, "gear.density", "", NULL, cold},
         {!full, "gear.specific_heat", "", NULL, cold},
@@ -82,7 +90,24 @@ ff_status ehl_ready(void *self)
         {!full, "bulk_temperature", "", NULL, cold},
     };
     ff_serve(m->host, rows, sizeof rows / sizeof rows[0]);
+    if (bare || !m->asperities)
+        return FF_OK;
+    if (m->maker != ehl_newton_krylov || m->outside)
+        return ff_failf(m->host, FF_UNSUPPORTED, "surface.asperities",
+                        "%s knows smooth flanks only; ehl/finite-volume takes statistical ones%s",
+                        m->outside ? "the discretisation" : "this model",
+                        m->outside ? " where none is wired" : "");
+    if (m->cavitation == EHL_CONSERVING)
+        return ff_failf(m->host, FF_UNSUPPORTED, "cavitation",
+                        "between statistical flanks a cavitated film has no gap of its own that "
+                        "oil could fill: cavitation must be clip");
     return FF_OK;
+}
+
+/* 1: the film feels asperities that are known by their statistics. */
+static int is_statistical(const ehl_model *m)
+{
+    return m->asperities && m->roughness != EHL_IGNORED;
 }
 
 /* The parts of one run, in the order in which they are made. */
@@ -116,7 +141,7 @@ static ff_status record(const ehl_model *m, run *r, int last)
 {
     ff_status status = ehl_results_record(&r->results, &r->march, last);
     double error = r->results.by_cells;
-    if (m->tolerance > 0 || r->rough.count > 0 || !(error > 0) ||
+    if (m->tolerance > 0 || r->rough.count > 0 || r->reynolds.touching || !(error > 0) ||
         r->solver.maker != ehl_newton_krylov)
         return status;
     error = m->steps > 0 ? error : fmin(error, m->time_tolerance);
@@ -172,7 +197,7 @@ static ff_status read_hardness(const ehl_model *m, const ff_array *in, run *r)
 {
     const ff_array *row = &in[EHL_IN_HARDNESS];
     r->hardness = m->asperity_hardness;
-    if (!row->data || r->rough.count == 0)
+    if (!row->data || (r->rough.count == 0 && !is_statistical(m)))
         return FF_OK;
     r->gears_tell = 1;
     r->hardness = HUGE_VAL;
@@ -234,6 +259,11 @@ static ff_status equations_create(const ehl_model *m, run *r)
     ehl_kernel_fill(nodes, r->grid.dx, r->history.modulus, r->grid.half_width, r->kernel);
     eq->conserving = m->cavitation == EHL_CONSERVING;
     eq->unit = r->oil.density * (r->kernel[0] - r->kernel[nodes - 1]);
+    if (is_statistical(m))
+        eq->statistical = (ehl_statistical){.law = m->asperities,
+                                            .scale = r->history.modulus / m->asperities->modulus,
+                                            .share = 1,
+                                            .hardness = r->hardness};
     if (r->rough.count > 0) {
         /* mass-conserving cavitation: a bubble in a valley must give way; first-order wedge: the
            film boundary must make no waves */
@@ -431,6 +461,14 @@ static int is_of_heat(uint32_t output)
            output == EHL_FLASH_TEMPERATURE;
 }
 
+/* 1: an output of places where asperities touch, or yield. */
+static int is_of_places(uint32_t output)
+{
+    return output == EHL_CONTACT_RATIO || output == EHL_TRAPPED_SHARE ||
+           output == EHL_YIELD_SHARE || output == EHL_PLASTIC_DEPTH_MAX ||
+           output == EHL_PLASTIC_DEPTH || output == EHL_ROUGHNESS;
+}
+
 static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
 {
     run r = {0};
@@ -448,6 +486,11 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
         if ((wanted & FF_BIT(k)) && m->thermal != EHL_THERMAL_FULL && is_of_heat(k))
             return ff_failf(m->host, FF_UNSUPPORTED, ehl_outputs[k].name,
                             "this output needs thermal: full");
+    for (uint32_t k = 0; k < EHL_OUTPUTS; k++)
+        if ((wanted & FF_BIT(k)) && is_statistical(m) && is_of_places(k))
+            return ff_failf(m->host, FF_UNSUPPORTED, ehl_outputs[k].name,
+                            "this output needs flanks whose heights are known: asperities that are "
+                            "known by their statistics touch at no place of their own");
     double roughness;
     status = read_roughness(m, wanted, in, &roughness);
     if (status != FF_OK)
@@ -459,6 +502,7 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
         status = ehl_results_create(&r.results, m->host, wanted, &r.march);
     r.results.boundary_friction = m->boundary_friction;
     r.results.roughness = roughness;
+    r.results.cutoff = in[EHL_IN_CUTOFF].data ? *in[EHL_IN_CUTOFF].data : 0;
     if (status == FF_OK)
         status = march(m, in, &r);
     if (status == FF_OK)

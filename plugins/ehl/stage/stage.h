@@ -37,6 +37,7 @@ typedef struct ehl_model {
     const ff_liquid *liquid;         /* NULL: no oil is wired */
     const ff_rheology_2 *shear_rate; /* NULL: the rheology does not offer it */
     const ff_film *outside;          /* NULL: the solver of `maker` */
+    const ff_asperity *asperities;   /* NULL: no surface of statistical flanks is wired */
     int rough;                       /* a surface is wired */
 } ehl_model;
 

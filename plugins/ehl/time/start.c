@@ -93,6 +93,43 @@ static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_insta
     return cold == FF_OK ? solve_from_trial(m, step, at) : cold;
 }
 
+/* Finds the steady film of statistical flanks in the trial, from that of smooth ones by
+   continuation in what their asperities carry: its share grows by ratios, which shrink where a
+   solution fails. */
+static ff_status find_steady_of_asperities(ehl_march *m, const ehl_step *step,
+                                           const ehl_instant *at)
+{
+    enum { MOST_SHARES = 40 };
+    const double first = 1e-3, least = 1.05;
+    ehl_reynolds *r = m->solver->reynolds;
+    ehl_statistical *flanks = &r->statistical;
+    const size_t n = r->nodes;
+    ehl_film *film = &m->trial.film, *kept = &m->spare.film;
+    double reached = 0, ratio = 1 / first;
+    flanks->share = 0;
+    ff_status status = find_steady(m, step, at);
+    flanks->share = 1;
+    if (status == FF_OK) {
+        ehl_copy_film(kept, film, n);
+        ehl_reynolds_gap(r, step->radius, film);
+        reached = !r->touching;
+    }
+    for (int k = 0; k < MOST_SHARES && status == FF_OK && reached < 1; k++) {
+        flanks->share = fmin(1, fmax(reached, first) * ratio);
+        status = solve_from_trial(m, step, at);
+        if (status == FF_OK) {
+            reached = flanks->share;
+            ehl_copy_film(kept, film, n);
+        } else if (status == FF_NOCONV && ratio > least) {
+            ehl_copy_film(film, kept, n);
+            ratio = sqrt(ratio);
+            status = FF_OK;
+        }
+    }
+    flanks->share = 1;
+    return status == FF_OK && reached < 1 ? FF_NOCONV : status;
+}
+
 /* Fills the gap with oil without pressure, as it is at rest. */
 static void fill_gap(ehl_march *m, const ehl_instant *at)
 {
@@ -118,6 +155,8 @@ ff_status ehl_march_start_at(ehl_march *m, double time)
     ehl_step step = ehl_instant_step(m, &at);
     if (still)
         fill_gap(m, &at);
+    else if (m->solver->reynolds->statistical.law)
+        status = find_steady_of_asperities(m, &step, &at);
     else
         status = find_steady(m, &step, &at);
     if (status == FF_NOCONV)

@@ -104,7 +104,8 @@ static int extrapolate_films(ehl_march *m, double time, int loaded)
     memcpy(film->asperity, f0->asperity, n);
     for (size_t i = 0; i < n; i++) {
         double p = c[0] * f0->p[i] + c[1] * f1->p[i] + c[2] * f2->p[i];
-        film->p[i] = film->full[i] && p > 0 ? p : 0;
+        int carries = film->full[i] || f0->p[i] > 0; /* oil does, or statistical asperities */
+        film->p[i] = carries && p > 0 ? p : 0;
     }
     for (size_t i = 0; i < n && m->solver->reynolds->conserving; i++)
         film->content[i] = fmax(0, c[0] * s[0].mass[i] + c[1] * s[1].mass[i] + c[2] * s[2].mass[i]);

@@ -145,11 +145,12 @@ FIELD(ff_rheology_3, self, 8, 8);
 FIELD(ff_rheology_3, flow, 16, 8);
 FIELD(ff_rheology_3, shear, 24, 8);
 
-GROWING(ff_asperity, 32); /* since 1.3 */
+GROWING(ff_asperity, 40); /* since 1.3 */
 FIELD(ff_asperity, size, 0, 8);
 FIELD(ff_asperity, self, 8, 8);
 FIELD(ff_asperity, sigma, 16, 8);
 FIELD(ff_asperity, pressure, 24, 8);
+FIELD(ff_asperity, modulus, 32, 8);
 
 GROWING(ff_viscosity, 24);
 FIELD(ff_viscosity, size, 0, 8);

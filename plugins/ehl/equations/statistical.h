@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * Flanks whose asperities are known by their statistics: between mean planes at a distance h they
+ * carry p_a(h) (flankfilm.asperity/1), and the oil the rest of the pressure,
+ *
+ *   p = p_f + p_a(h),
+ *
+ * with p in the balance of load and in the deflection, and p_f in the equation of Reynolds and in
+ * the laws of the oil. The unknown is p. Where the metal of the summits yields they carry no more
+ * than their hardness H: p_a H/(p_a + H) in place of p_a.
+ */
+#ifndef EHL_STATISTICAL_H
+#define EHL_STATISTICAL_H
+
+#include <flankfilm/laws.h>
+
+typedef struct ehl_statistical {
+    const ff_asperity *law; /* NULL: no such flanks */
+    double scale;           /* on its p_a: E' of the contact over its own */
+    double share;           /* of p_a that counts, 1 but for a continuation */
+    double hardness;        /* Pa; 0: elastic */
+} ehl_statistical;
+
+/* Fills p_a and its slope over h at n nodes, and fluid = p - p_a. */
+ff_status ehl_statistical_pressure(const ehl_statistical *s, size_t n, const double *h,
+                                   const double *p, double *p_a, double *slope, double *fluid);
+
+#endif

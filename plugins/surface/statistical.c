@@ -1,0 +1,191 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * surface/statistical: flanks whose asperities are known by their statistics alone. Of both flanks
+ * they carry, by Greenwood & Tripp 1970-71 for Gaussian heights of their summits,
+ *
+ *   p_a = K E'/2 F_5/2(h/sigma),   K = (16 sqrt 2/15) pi (eta beta sigma)^2 sqrt(sigma/beta)
+ *
+ * with h between the mean planes, sigma = hypot(Rq1, Rq2), eta summits per area of radius beta, and
+ * F_5/2(H) = 4.4086e-5 (4 - H)^6.804 below H = 4, 0 above (Hu et al. 1994).
+ */
+#include "references.h"
+
+#include <flankfilm/author.h>
+#include <flankfilm/laws.h>
+#include <flankfilm/simd.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+static const double modulus = 230e9; /* E' of steel on steel, that p_a is for */
+
+typedef struct statistical {
+    const ff_host *host;
+    ff_asperity service;
+    ff_reals rq;    /* m, one or two */
+    double cutoff;  /* m; NaN: that of the contact */
+    double density; /* eta, 1/m2; NaN: by summit_product */
+    double radius;  /* beta, m; NaN: by summit_slope */
+    double product, slope;
+    double stiffness; /* K modulus/2, Pa */
+} statistical;
+
+enum { OUT_RQ_1, OUT_RQ_2, OUT_CUTOFF, OUT_DENSITY, OUT_RADIUS, OUT_ASPERITIES, OUTPUTS };
+
+static const ff_port outputs[OUTPUTS] = {
+    [OUT_RQ_1] = {.name = "rq_1",
+                  .unit = "m",
+                  .doc = "root mean square roughness of flank 1",
+                  .dims = "",
+                  .max = 100e-6},
+    [OUT_RQ_2] = {.name = "rq_2",
+                  .unit = "m",
+                  .doc = "root mean square roughness of flank 2",
+                  .dims = "",
+                  .max = 100e-6},
+    [OUT_CUTOFF] = {.name = "cutoff",
+                    .unit = "m",
+                    .doc = "longest waves that the roughness holds; 0: those of the contact",
+                    .dims = ""},
+    [OUT_DENSITY] = {.name = "summit_density",
+                     .unit = "1/m2",
+                     .doc = "summits per area",
+                     .dims = "",
+                     .max = INFINITY},
+    [OUT_RADIUS] = {.name = "summit_radius",
+                    .unit = "m",
+                    .doc = "radius of the summits",
+                    .dims = "",
+                    .max = INFINITY},
+    [OUT_ASPERITIES] = {.name = "asperities",
+                        .unit = "",
+                        .doc = "pressure of the asperities over the distance of the flanks",
+                        .dims = "",
+                        .service = FF_ASPERITY_ID},
+};
+
+static const ff_param params[] = {
+    FF_LIST("rq", "um", statistical, rq, FF_REQUIRED, NULL, NULL, 1e-4, 100, 0.02, 2, 1, 2,
+            "root mean square roughness of flank 1 and of flank 2, of waves shorter than cutoff; "
+            "one number: of both"),
+    FF_QUANTITY_OR("auto", "cutoff", "um", statistical, cutoff, FF_MIN_OPEN, "auto", NULL, 0, 1e4,
+                   20, 800,
+                   "longest waves that rq holds; auto: as long as the contact, whose flanks ride "
+                   "over longer ones. The film says where the cut-off is longer than that"),
+    FF_QUANTITY("summit_density", "1/mm^2", statistical, density, 0, NULL, NULL, 0, 1e12, 0, 0,
+                "summits per area; with summit_radius, in place of the next two"),
+    FF_QUANTITY("summit_radius", "um", statistical, radius, FF_MIN_OPEN, NULL, NULL, 0, 1e9, 0, 0,
+                "radius of the summits"),
+    FF_QUANTITY("summit_product", "1", statistical, product, 0, "0.05", NULL, 0, 1, 0.03, 0.05,
+                "density times radius of the summits times sigma (Greenwood & Tripp 1970-71)"),
+    FF_QUANTITY("summit_slope", "1", statistical, slope, FF_MIN_OPEN, "0.01", NULL, 0, 10, 1e-4,
+                0.1, "sigma over the radius of the summits; K goes with its root"),
+};
+
+FF_SIMD
+static int64_t carry(double stiffness, double sigma, size_t n, const double *restrict h,
+                     double *restrict p_a, double *restrict slope)
+{
+    const double factor = 4.4086e-5, power = 6.804, lowest = -1e3;
+    int64_t extrapolated = 0;
+    for (size_t i = 0; i < n; i++) {
+        double H = h[i] / sigma, held = H > lowest ? H : lowest, below = 4 - held;
+        double deep = below > 1e-30 ? below : 1e-30;
+        double rise = stiffness * factor * ff_exp((power - 1) * ff_log(deep));
+        double p = below > 0 ? rise * deep : 0;
+        p_a[i] = p;
+        slope[i] = below > 0 ? -power * rise / sigma : 0;
+        extrapolated |= H < 0;
+    }
+    return extrapolated;
+}
+
+static ff_status pressure(const void *self, size_t n, const double *h, double *p_a, double *dp_a_dh)
+{
+    enum { BLOCK = 256 };
+    const statistical *s = self;
+    double unwanted[BLOCK];
+    int64_t extrapolated = 0;
+    for (size_t from = 0; from < n; from += BLOCK) {
+        size_t count = n - from < BLOCK ? n - from : BLOCK;
+        extrapolated |= carry(s->stiffness, s->service.sigma, count, h + from, p_a + from,
+                              dp_a_dh ? dp_a_dh + from : unwanted);
+    }
+    return extrapolated ? FF_DOMAIN : FF_OK;
+}
+
+static ff_status ready(void *self)
+{
+    statistical *s = self;
+    const double sigma = hypot(ff_of_both(&s->rq, 0), ff_of_both(&s->rq, 1));
+    const int by_numbers = !isnan(s->density);
+    if (by_numbers != !isnan(s->radius))
+        return ff_failf(s->host, FF_INVALID, by_numbers ? "summit_radius" : "summit_density",
+                        "summit_density and summit_radius belong together: give both, or none");
+    const ff_serving rows[] = {
+        {by_numbers, "summit_product", "", "summit_density", NULL},
+        {by_numbers, "summit_slope", "", "summit_radius", NULL},
+    };
+    ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
+    if (!by_numbers) {
+        s->radius = sigma / s->slope;
+        s->density = s->product / (s->radius * sigma);
+    }
+    const double product = s->density * s->radius * sigma;
+    const double K = 16 * sqrt(2) / 15 * M_PI * product * product * sqrt(sigma / s->radius);
+    if (!isfinite(K))
+        return ff_failf(s->host, FF_INVALID, "summit_density",
+                        "summits of these numbers carry no finite pressure");
+    s->stiffness = K * modulus / 2;
+    s->service.sigma = sigma;
+    return FF_OK;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    const statistical *s = self;
+    const double values[] = {[OUT_RQ_1] = ff_of_both(&s->rq, 0),
+                             [OUT_RQ_2] = ff_of_both(&s->rq, 1),
+                             [OUT_CUTOFF] = isnan(s->cutoff) ? 0 : s->cutoff,
+                             [OUT_DENSITY] = s->density,
+                             [OUT_RADIUS] = s->radius};
+    (void)in;
+    for (uint32_t k = 0; k < OUT_ASPERITIES; k++)
+        if (wanted & FF_BIT(k) && ff_put_scalar(s->host, k, values[k]) != FF_OK)
+            return FF_NOMEM;
+    return FF_OK;
+}
+
+static const void *service(void *self, uint32_t row)
+{
+    statistical *s = self;
+    return row == OUT_ASPERITIES ? &s->service : NULL;
+}
+
+static ff_status create(const ff_host *host, void **self)
+{
+    statistical *s = calloc(1, sizeof *s);
+    if (!s)
+        return FF_NOMEM;
+    s->host = host;
+    s->service = (ff_asperity){sizeof s->service, s, NAN, pressure, modulus};
+    *self = s;
+    return FF_OK;
+}
+
+const ff_model surface_statistical = {
+    FF_HEAD(statistical, create),
+    .id = "surface/statistical",
+    .version = "1.0.0",
+    .summary = "asperities by their statistics, which carry a share of the load of a mixed film",
+    .reference = "Greenwood & Tripp 1970-71, Proc. IMechE 185, 625-633; Hu et al. 1994, J. Tribol. "
+                 "116, 470-478 (the fit of F_5/2)",
+    .bibtex = BIB_greenwood1970 "\n" BIB_hu1994,
+    .licence = "GPL-3.0-or-later",
+    .params = FF_TABLE(params),
+    .outputs = FF_TABLE(outputs),
+    .ready = ready,
+    .evaluate = evaluate,
+    .service = service,
+    .destroy = free,
+};
