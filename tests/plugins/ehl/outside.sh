@@ -12,7 +12,7 @@ case=$source/tests/third-party/penalty/penalty.yaml
 run() {
     name=$1 cells=$2
     shift 2
-    "$flankfilm" run "$case" --plugin-path "$folder" --set film.cells="$cells" "$@" -o "$lab/$name" >"$lab/$name.said" 2>&1
+    "$flankfilm" run --all "$case" --plugin-path "$folder" --set film.cells="$cells" "$@" -o "$lab/$name" >"$lab/$name.said" 2>&1
 }
 lowest() {
     sed -n 's/^ *h_min_lowest *\([0-9.]*\) um .*/\1/p' "$lab/$1.said"
@@ -21,7 +21,7 @@ lowest() {
 sed '/discretisation: mine/s/ discretisation: mine,//; /discretisation\/penalty/d' "$case" >"$lab/own.yaml"
 for cells in 96 192; do
     run "outside-$cells" "$cells"
-    "$flankfilm" run "$lab/own.yaml" --set film.cells="$cells" -o "$lab/own-$cells" >"$lab/own-$cells.said" 2>&1
+    "$flankfilm" run --all "$lab/own.yaml" --set film.cells="$cells" -o "$lab/own-$cells" >"$lab/own-$cells.said" 2>&1
     echo "$cells $(lowest "outside-$cells") $(lowest "own-$cells")"
 done >"$lab/films"
 awk '{ print $1 " cells: " $2 " um by discretisation/penalty, " $3 " um by ehl/finite-volume" }' "$lab/films"

@@ -24,14 +24,14 @@ pipeline:
   film: {use: ehl/film-formula, formula: moes}
 outputs: ["oil.*", film.h_central]
 EOF
-    said=$("$flankfilm" run "$lab/oil.yaml" --plugin-path "$plugins" -o "$lab/results" 2>&1)
+    said=$("$flankfilm" run --all "$lab/oil.yaml" --plugin-path "$plugins" -o "$lab/results" 2>&1)
     echo "$said" | grep -q 'lubricant/.* good$' || fail "$card" "$said"
     ! echo "$said" | grep -q warning || fail "$card" "$said"
     for value in temperature eta0 rho0 alpha expansion; do
         echo "$said" | grep -q "^  $value " || fail "$card" "no $value"
     done
     for law in $(sed -n 's/^      \(viscosity\/[a-z-]*\):.*/\1/p' "$card"); do
-        said=$("$flankfilm" run "$lab/oil.yaml" --plugin-path "$plugins" -o "$lab/results" \
+        said=$("$flankfilm" run --all "$lab/oil.yaml" --plugin-path "$plugins" -o "$lab/results" \
             --set viscosity.use="$law" --set outputs=film.h_central 2>&1)
         echo "$said" | grep -q '^  h_central ' || fail "$card, $law" "$said"
         films=$((films + 1))

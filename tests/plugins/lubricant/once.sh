@@ -14,7 +14,7 @@ run() { # SETTING...
         shift
     done
     shift
-    "$flankfilm" run "$source/configs/one-oil.yaml" --plugin-path "$plugins" -o "$lab/results" \
+    "$flankfilm" run --all "$source/configs/one-oil.yaml" --plugin-path "$plugins" -o "$lab/results" \
         --set film.use=ehl/film-formula --set outputs="[oil.*, film.h_central]" "$@" 2>&1 || true
 }
 says() { # TEXT, then SETTING...
