@@ -12,6 +12,7 @@ only() {
 failed=0 seen=0 tests=' '
 # a crash is to look like one under AddressSanitizer, too
 export ASAN_OPTIONS="${ASAN_OPTIONS:-}:handle_segv=0"
+last=
 while read -r fault test reason; do
     [ "$fault" != '#' ] || continue
     reason=${reason%%[ ]#*}
@@ -21,7 +22,7 @@ while read -r fault test reason; do
         case $tests in *" $test "*) continue ;; esac
         tests="$tests$test "
     fi
-    seen=$((seen + 1))
+    seen=$((seen + 1)) last=$fault
     said=$(FLANKFILM_VERIFY_LIMIT=$([ "$fault" = viscosity/hang ] && echo 0.5 || echo 30) \
         "$flankfilm" verify "$plugins/$fault.so" $(only))
     code=$?
@@ -39,5 +40,8 @@ while read -r fault test reason; do
     echo "$fault: wanted \"$test\" to fail with \"$reason\"; exit code $code, \"$first\": $why"
     failed=$((failed + 1))
 done <"$faults"
+# a test that is not there is named, also beside one that is
+said=$("$flankfilm" verify "$plugins/$last.so" --only "descriptor,nonsense" 2>&1) && failed=$((failed + 1))
+case $said in *'has no test "nonsense"'*) ;; *) failed=$((failed + 1)) && printf '%s\n' "$said" ;; esac
 echo "$failed of $seen faults were not found, or not for their reason"
 [ $failed -eq 0 ] && [ $seen -gt 0 ]

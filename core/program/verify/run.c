@@ -67,8 +67,8 @@ typedef struct session {
     void *ctx;
     size_t number;
     ff_report *report;
-    bool good;  /* the user's file can be used */
-    bool found; /* the test that is asked for alone */
+    bool good;     /* the user's file can be used */
+    char *missing; /* the tests that are asked for alone, those that were met blank; or NULL */
 } session;
 
 static bool concerns(const test *t, const ff_model *model)
@@ -285,13 +285,31 @@ static bool part(const char *path, char **root, char **id)
 }
 
 /* Whether the name is one of those between commas. */
-static bool is_among(const char *name, const char *names)
+/* Returns where the name stands in a list with commas; NULL where it does not. */
+static char *find_among(const char *name, char *names)
 {
     size_t length = strlen(name);
-    for (const char *at = names; *at; at += strcspn(at, ","), at += *at == ',')
+    for (char *at = names; *at; at += strcspn(at, ","), at += *at == ',')
         if (strcspn(at, ",") == length && !strncmp(at, name, length))
-            return true;
-    return false;
+            return at;
+    return NULL;
+}
+
+/* Whether the test is asked for; crosses its name out. */
+static bool is_asked(session *s, const char *name)
+{
+    char *at = s->missing ? find_among(name, s->missing) : NULL;
+    if (at)
+        memset(at, ' ', strlen(name));
+    return !s->missing || at;
+}
+
+/* False where a name that is asked for is that of no test. */
+static bool check_asked(session *s)
+{
+    const char *name = s->missing ? s->missing + strspn(s->missing, " ,") : "";
+    return !*name || ff_error(s->report, FF_FAULT_INPUT, FF_NOWHERE, "--list names them",
+                              "%s has no test \"%.*s\"", s->id, (int)strcspn(name, ","), name);
 }
 
 /* False when nothing else can be tried. */
@@ -299,10 +317,9 @@ static bool try(session *s, const test *t)
 {
     verify_result result = {.test = t->name, .claim = t->claim, .finding = VERIFY_LISTED};
     bool file = t->matter == USER_FILE;
-    bool asked = !s->request->only || is_among(t->name, s->request->only);
+    bool asked = is_asked(s, t->name);
     if (file && !s->request->pipeline)
         return true;
-    s->found = s->found || asked;
     if (s->request->list) {
         s->tell(s->ctx, ++s->number, &result);
         return true;
@@ -361,16 +378,16 @@ bool verify_plugin(const verify_request *request,
                         request->path);
     setenv("OPENBLAS_NUM_THREADS", "1", 1); /* a thread that stays is then the model's own */
     setenv("OMP_NUM_THREADS", "1", 1);
+    s.missing = request->only ? memory_copy_text(request->only, strlen(request->only)) : NULL;
     s.engine = verify_open_engine(s.root);
     if (try(&s, &descriptor) && try(&s, &pipeline)) {
         for (size_t i = 0; i < sizeof any_model / sizeof *any_model; i++)
             try(&s, &any_model[i]);
         try_kind(&s);
+        s.good = s.good && check_asked(&s);
     }
-    if (s.good && !s.found && s.number == 0)
-        s.good = ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "--list names them",
-                          "%s has no test \"%s\"", s.id, request->only);
     ff_engine_close(s.engine);
+    free(s.missing);
     free(s.root);
     free(s.id);
     return s.good;
