@@ -234,6 +234,7 @@ void ff_run_close(ff_run *run)
         return;
     if (!run->broken)
         fe_protected(&run->heap, end, run);
+    ff_report_free(run->report); /* a caller's messages lie in memory that is not the run's */
     fe_heap_close(&run->heap);
     fe_free(run);
 }
