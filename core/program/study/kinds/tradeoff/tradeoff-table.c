@@ -174,6 +174,7 @@ static void add_front(study_answer *answer, const json_t *candidates, const json
     }
     study_answer_add(answer,
                      &(study_table){.title = "the front",
+                                    .whole = true,
                                     .columns = front_columns,
                                     .column_count = sizeof front_columns / sizeof *front_columns,
                                     .rows = rows,
