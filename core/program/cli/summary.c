@@ -110,9 +110,7 @@ static void print_range(const ff_result *result, double a, double b, char *out, 
         snprintf(out, size, "%.4g to %.4g%s%s", a, b, gap, unit.unit);
 }
 
-/* Where the extremes of a series lie; briefly, "at 22.3 and 16.6 deg", or "" where no series says
- * it.
- */
+/* Where the extremes of a series lie; briefly "at 22.3 and 16.6 deg", "" if no series says it. */
 static void print_where(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
                         size_t least, size_t greatest, bool briefly, char *out, size_t size)
 {
@@ -485,8 +483,9 @@ static void print_tally(const ff_pipeline *pipeline)
             good += stage->quality[k].verdict == FF_GOOD ? 1 : 0;
         }
     }
-    printf("\n%zu stages in %.3g s, %zu of %zu checks good; --all prints all that they computed\n",
-           ran, seconds, good, checks);
+    if (ran > 0)
+        printf("\n%zu %s in %.3g s, %zu of %zu checks good; --all prints all that was computed\n",
+               ran, ran == 1 ? "stage" : "stages", seconds, good, checks);
 }
 
 void cli_print_summary(const results_outcome *outcome, bool all)

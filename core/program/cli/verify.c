@@ -73,8 +73,7 @@ int cli_verify_command(const cli_options *options)
                               .list = cli_option(options, "list") != NULL};
     int code;
     if (!verify_plugin(&request, print_verdict, &t, report)) {
-        code = cli_refuse(report, options,
-                          t.count ? "not all that was asked for was tested" : "nothing was tested");
+        code = cli_refuse(report, options, "nothing was tested");
     } else {
         code = t.faulty ? FF_FAULT_PLUGIN : EXIT_SUCCESS;
         if (options->json) {

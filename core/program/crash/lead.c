@@ -6,6 +6,7 @@
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,6 +14,7 @@
 #include <sys/prctl.h>
 #include <sys/syscall.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 /* What the two processes share. */
@@ -101,14 +103,32 @@ bool crash_describe(const ff_guard_mirror *mark, int status, char *text, size_t 
     return true;
 }
 
+static long long now_ns(void)
+{
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return time.tv_sec * 1000000000LL + time.tv_nsec;
+}
+
+/* A signal to the group comes twice, at any distance on a busy machine, and who sends it to the
+   leading process, too, as timeout(1) does, makes it three. Threads may take them at once. */
 bool crash_is_echo(const siginfo_t *info)
 {
-    static volatile sig_atomic_t handed, direct;
-    if (info->si_code > 0)
+    enum { SIGNALS = 65 };
+    static const long long pair = 1000000000LL, burst = 50000000LL; /* ns */
+    static atomic_llong counted[SIGNALS], seen[SIGNALS];
+    static atomic_int came_alone[SIGNALS]; /* those that came here, less those handed on */
+    const int n = info->si_signo;
+    if (info->si_code > 0 || n < 0 || n >= SIGNALS)
         return false;
-    if (is_led() && info->si_pid == getppid())
-        return ++handed <= direct;
-    return ++direct <= handed;
+    const long long now = now_ns();
+    if (now - atomic_exchange(&seen[n], now) > pair)
+        atomic_store(&came_alone[n], 0);
+    bool handed = is_led() && info->si_pid == getppid();
+    bool paired =
+        handed ? atomic_fetch_sub(&came_alone[n], 1) > 0 : atomic_fetch_add(&came_alone[n], 1) < 0;
+    long long last = atomic_load(&counted[n]);
+    return paired || now - last < burst || !atomic_compare_exchange_strong(&counted[n], &last, now);
 }
 
 /* A terminal sends its signals to all of a group, and what the child sends to its group is not the

@@ -13,9 +13,14 @@ static bool is_end(const char *doc, size_t at)
            (at > 0 && !strncmp(doc + at, " (", 2) && isalnum((unsigned char)doc[at - 1]));
 }
 
+/* A comma behind a digit or in brackets is one of a list of numbers. */
 static bool is_clause_end(const char *doc, size_t at)
 {
-    return is_end(doc, at) || !strncmp(doc + at, ", ", 2);
+    int open = 0;
+    for (size_t i = 0; i < at; i++)
+        open += (doc[i] == '[' || doc[i] == '(') - (doc[i] == ']' || doc[i] == ')');
+    return is_end(doc, at) || (!strncmp(doc + at, ", ", 2) && at > 0 && open == 0 &&
+                               !isdigit((unsigned char)doc[at - 1]));
 }
 
 void results_label(const char *doc, size_t room, char out[RESULTS_LABEL_SIZE])

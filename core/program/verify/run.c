@@ -68,7 +68,7 @@ typedef struct session {
     size_t number;
     ff_report *report;
     bool good;     /* the user's file can be used */
-    char *missing; /* the tests that are asked for alone, those that were met blank; or NULL */
+    char *missing; /* a copy of `only`, blank where a test has that name; NULL: tests are tried */
 } session;
 
 static bool concerns(const test *t, const ff_model *model)
@@ -284,32 +284,36 @@ static bool part(const char *path, char **root, char **id)
     return good;
 }
 
-/* Whether the name is one of those between commas. */
 /* Returns where the name stands in a list with commas; NULL where it does not. */
-static char *find_among(const char *name, char *names)
+static const char *find_among(const char *name, const char *names)
 {
     size_t length = strlen(name);
-    for (char *at = names; *at; at += strcspn(at, ","), at += *at == ',')
-        if (strcspn(at, ",") == length && !strncmp(at, name, length))
+    for (const char *at = names; *at; at += strcspn(at, ","), at += *at == ',') {
+        at += strspn(at, " ");
+        if (strcspn(at, " ,") == length && !strncmp(at, name, length))
             return at;
+    }
     return NULL;
 }
 
-/* Whether the test is asked for; crosses its name out. */
-static bool is_asked(session *s, const char *name)
+/* Overwrites the name of a test with blanks wherever it is asked for. */
+static void cross_out(session *s, const char *name)
 {
-    char *at = s->missing ? find_among(name, s->missing) : NULL;
-    if (at)
-        memset(at, ' ', strlen(name));
-    return !s->missing || at;
+    for (const char *at; (at = find_among(name, s->missing));)
+        memset(s->missing + (at - s->missing), ' ', strlen(name));
 }
 
-/* False where a name that is asked for is that of no test. */
+/* False where a name that is asked for is that of no test, or none is asked for. */
 static bool check_asked(session *s)
 {
-    const char *name = s->missing ? s->missing + strspn(s->missing, " ,") : "";
-    return !*name || ff_error(s->report, FF_FAULT_INPUT, FF_NOWHERE, "--list names them",
-                              "%s has no test \"%.*s\"", s->id, (int)strcspn(name, ","), name);
+    const char *only = s->request->only;
+    if (!only[strspn(only, " ,")])
+        return ff_error(s->report, FF_FAULT_INPUT, FF_NOWHERE, "--list names them",
+                        "--only names no test");
+    for (const char *at = s->missing; *(at += strspn(at, " ,")); at += strcspn(at, ","))
+        ff_error(s->report, FF_FAULT_INPUT, FF_NOWHERE, "--list names them",
+                 "%s has no test \"%.*s\"", s->id, (int)strcspn(at, ","), at);
+    return ff_report_errors(s->report) == 0;
 }
 
 /* False when nothing else can be tried. */
@@ -317,9 +321,13 @@ static bool try(session *s, const test *t)
 {
     verify_result result = {.test = t->name, .claim = t->claim, .finding = VERIFY_LISTED};
     bool file = t->matter == USER_FILE;
-    bool asked = is_asked(s, t->name);
+    bool asked = !s->request->only || find_among(t->name, s->request->only);
     if (file && !s->request->pipeline)
         return true;
+    if (s->missing) { /* the names are looked up before anything is tried */
+        cross_out(s, t->name);
+        return true;
+    }
     if (s->request->list) {
         s->tell(s->ctx, ++s->number, &result);
         return true;
@@ -364,6 +372,15 @@ static void try_kind(session *s)
     ff_report_free(report);
 }
 
+static void try_all(session *s)
+{
+    if (!try(s, &descriptor) || !try(s, &pipeline))
+        return;
+    for (size_t i = 0; i < sizeof any_model / sizeof *any_model; i++)
+        try(s, &any_model[i]);
+    try_kind(s);
+}
+
 bool verify_plugin(const verify_request *request,
                    void (*tell)(void *ctx, size_t number, const verify_result *result), void *ctx,
                    ff_report *report)
@@ -378,16 +395,20 @@ bool verify_plugin(const verify_request *request,
                         request->path);
     setenv("OPENBLAS_NUM_THREADS", "1", 1); /* a thread that stays is then the model's own */
     setenv("OMP_NUM_THREADS", "1", 1);
-    s.missing = request->only ? memory_copy_text(request->only, strlen(request->only)) : NULL;
     s.engine = verify_open_engine(s.root);
-    if (try(&s, &descriptor) && try(&s, &pipeline)) {
-        for (size_t i = 0; i < sizeof any_model / sizeof *any_model; i++)
-            try(&s, &any_model[i]);
-        try_kind(&s);
-        s.good = s.good && check_asked(&s);
+    if (request->only && !request->list) {
+        s.missing = memory_copy_text(request->only, strlen(request->only));
+        try_all(&s);
+        s.good = check_asked(&s);
+        free(s.missing);
+        s.missing = NULL;
     }
+    if (s.good)
+        try_all(&s);
+    if (s.good && request->only && !s.number)
+        s.good = ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
+                          "no test that --only names applies to %s", s.id);
     ff_engine_close(s.engine);
-    free(s.missing);
     free(s.root);
     free(s.id);
     return s.good;

@@ -130,6 +130,10 @@ static ff_status check_levels(const ff_host *host, const ff_array *in,
                         "shared needs a stiffness that knows its transmission error under several "
                         "forces (force_level, level_error), such as stiffness/load-distribution "
                         "under a torque; take force: frozen");
+    if (!(force > 0))
+        return ff_failf(host, FF_INVALID, "force",
+                        "shared needs a line force above 0, but it is %g N; take force: frozen",
+                        force);
     if (l->count > DYNAMICS_LINES)
         return ff_failf(host, FF_INVALID, name_of(DYNAMICS_IN_FORCE_LEVEL),
                         "has %zu forces, more than %d", l->count, DYNAMICS_LINES);

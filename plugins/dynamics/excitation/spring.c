@@ -145,9 +145,9 @@ static last_line last_line_at(const dynamics_force_levels *l, const dynamics_spr
 /* A line at node i. With slopes it is the tangent at the point (g, F) of the level, raised where
    the last line lies above it and turned where it is less steep than the chord between both points:
    neither happens where the levels are convex. Without slopes it is the chord from the point to
-   that of the next level. Returns by how much its force at its level exceeds that of the level. */
-static double make_line(const dynamics_force_levels *l, const dynamics_spring_nodes *s,
-                        const size_t level[3], size_t i, const dynamics_spring_row *row)
+   that of the next level. */
+static void make_line(const dynamics_force_levels *l, const dynamics_spring_nodes *s,
+                      const size_t level[3], size_t i, const dynamics_spring_row *row)
 {
     size_t at = level[1] * l->phases + i, next = level[2] * l->phases + i;
     double g = l->error[at] - l->error[i], force = l->force[level[1]], slope;
@@ -165,7 +165,6 @@ static double make_line(const dynamics_force_levels *l, const dynamics_spring_no
     }
     row->slope[i] = slope;
     row->offset[i] = s->lines ? slope * g - force : 0;
-    return over;
 }
 
 /* Whether a line is steeper than the last one by more than the least at any node. */
@@ -179,6 +178,22 @@ static int bends_up(const dynamics_spring_nodes *s, const dynamics_spring_row *r
     return 0;
 }
 
+/* Returns by how much the spring misses a level that its lines were made of at most, N. */
+static double largest_miss(const dynamics_force_levels *l, const dynamics_spring_nodes *s,
+                           size_t level)
+{
+    double most = 0;
+    for (size_t i = 0; i < s->count; i++) {
+        double g = l->error[level * l->phases + i] - l->error[i], force = 0;
+        for (size_t n = 0; n < s->lines; n++) {
+            const dynamics_spring_row row = dynamics_spring_row_of(s, n);
+            force = fmax(force, row.slope[i] * g - row.offset[i]);
+        }
+        most = fmax(most, fabs(force - l->force[level]));
+    }
+    return most;
+}
+
 int dynamics_spring_nodes_share(const dynamics_force_levels *l, double force, int every,
                                 dynamics_spring_nodes *s, double *convex)
 {
@@ -190,12 +205,14 @@ int dynamics_spring_nodes_share(const dynamics_force_levels *l, double force, in
         const dynamics_spring_row row = dynamics_spring_row_of(s, s->lines);
         const size_t level[] = {last, taken[n], taken[n + 1 < count ? n + 1 : n]};
         for (size_t i = 0; i < s->count; i++)
-            *convex = fmax(*convex, make_line(l, s, level, i, &row) / force);
+            make_line(l, s, level, i, &row);
         if (s->lines && !bends_up(s, &row))
             continue;
         s->lines++;
         last = taken[n];
     }
+    for (size_t n = 0; s->rows && n < count; n++)
+        *convex = fmax(*convex, largest_miss(l, s, taken[n]) / force);
     return s->rows != NULL;
 }
 

@@ -84,10 +84,11 @@ double ehl_space_part(const ehl_results *r, size_t row, int kind)
 }
 
 /* Returns what a row makes of the error of the output by the cells: its own, or by how much it goes
-   beyond the extreme of all, where that alone is wanted; infinite: it is not known. A peak without
-   a bound has none. */
+   beyond the extreme of all, where that alone is wanted. An error that is not known is infinite for
+   a peak, which is then known from below, and huge for a film. A peak without a bound has none. */
 static double error_of_row(const ehl_results *r, size_t row, int kind)
 {
+    static const double huge = 1e300;
     double value = film_of(r, row, kind), part = *part_of(r, row, kind), error = 0;
     if (kind == EHL_PEAK && !has_bound(r, row, kind))
         return 0;
@@ -97,7 +98,9 @@ static double error_of_row(const ehl_results *r, size_t row, int kind)
         error = fabs(part) / value;
     else
         error = 1 - (value - part) / r->lowest;
-    return isnan(error) ? INFINITY : error;
+    if (isnan(error) || (kind != EHL_PEAK && isinf(error)))
+        error = kind == EHL_PEAK ? (double)INFINITY : huge;
+    return error;
 }
 
 static size_t worst_row(const ehl_results *r, int kind)

@@ -76,7 +76,7 @@ static void test_answer(void)
     cli_expect("a field is in the results", &r, cli_has(r.out, "in the results: wave.field\n"));
     cli_expect("no stage, and no number besides", &r,
                !cli_has(r.out, "toy/wave") && !cli_has(r.out, "  cost ") &&
-                   cli_has(r.out, "--all prints all"));
+                   cli_has(r.out, "--all prints all that was computed"));
     r = cli("$F run pair.yaml --json --set outputs='[sum.sum, wave.level, wave.total]'");
     cli_expect("in JSON, too", &r,
                r.json && strstr(r.out, "\"sum.sum\"") < strstr(r.out, "\"wave.level\"") &&

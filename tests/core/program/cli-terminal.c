@@ -65,7 +65,11 @@ static int on_terminal(const char *line, int interrupts)
     pid_t child = start(master, line);
     for (int i = 0; i < interrupts; i++) {
         read_until(master, i == 0 ? "%" : "once more to end");
+        if (i > 0)
+            usleep(100000); /* a burst of signals counts once */
         kill(to_group ? -child : child, SIGINT);
+        if (to_group && i == 0)
+            kill(child, SIGINT); /* as timeout(1) does */
     }
     read_until(master, NULL);
     waitpid(child, &status, 0);

@@ -37,6 +37,8 @@ static void test_label(void)
         {"film (parabola, through nodes)", "film", 80},
         {"u_r = (u1 + u2)/2", "u_r = (u1 + u2)/2", 0},
         {"a, b, c", "a, b", 5},
+        {"phases in [0, 1) where k jumps", "phases in [0, 1) where k jumps", 0},
+        {"amplitude at 1, 2, 3 ... times f, by FFT", "amplitude at 1, 2, 3 ... times f", 0},
         {"", "", 9},
     };
     char label[RESULTS_LABEL_SIZE];

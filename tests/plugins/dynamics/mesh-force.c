@@ -329,6 +329,30 @@ static void test_linear(void)
     check_true("its fold, to 1e-6 Hz", fabs(fold[1] - fold[0]) < 1e-6);
 }
 
+/* Levels that bend back are no spring of lines: the line from 1 to 1.3 goes on to 5.33 F at 2.3,
+   where 3 F are given, and the quality says so. */
+static void test_bent_back(void)
+{
+    static const double deflection[4] = {0, 1, 1.3, 2.3};
+    static double error[4 * 6], loaded_error[6];
+    double force[4];
+    pair p = pair_trapezoid(1200);
+    for (size_t i = 0; i < 4 * 6; i++) {
+        force[i / 6] = (double)(i / 6) * p.line_force;
+        p.stiffness[i % 6] = p.stiffness[0];
+        error[i] = deflection[i / 6] * p.line_force / p.stiffness[0];
+    }
+    memcpy(loaded_error, error + 6, sizeof loaded_error);
+    stage *s = pair_open("dynamics/shooting", &p);
+    stage_give_series(s, "stiffness.loaded_transmission_error", 6, loaded_error);
+    stage_set_text(s, "force", "shared");
+    stage_give_series(s, "stiffness.force_level", 4, force);
+    stage_give(s, "stiffness.level_error", 2, (size_t[]){4, 6}, error);
+    check_true("runs", stage_run_wanted(s, "dte_rms") == FF_OK);
+    check_near("what the lines miss", stage_quality(s, "mesh_force_convex"), 7.0 / 3, 0.01);
+    stage_close(s);
+}
+
 /* Without relief at a constant phase: e moves by a thousandth of the deflection, and the answer is
    that of the slope of the mesh at the mean force, m z'' + c z' + k z = -m e''. */
 static void test_small_vibration(void)
@@ -437,6 +461,7 @@ int main(void)
     test_twin();
     test_balances();
     test_linear();
+    test_bent_back();
     test_small_vibration();
     test_half();
     test_slow();
