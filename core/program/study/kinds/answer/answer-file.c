@@ -56,7 +56,7 @@ static json_t *cell_of(const study_column *c, const json_t *row)
     const json_t *value = study_column_of(c, row);
     bool yes = json_is_true(value);
     if (json_is_number(value))
-        return json_real((c->factor ? c->factor : 1) * json_number_value(value));
+        return json_real((c->factor != 0 ? c->factor : 1) * json_number_value(value));
     if (json_is_boolean(value))
         return json_string(c->words[yes] ? c->words[yes] : yes ? "yes" : "no");
     if (json_is_string(value))

@@ -21,7 +21,7 @@ static int width_of(const char *text)
 static void put_cell(const study_column *c, const json_t *row, char text[CELL])
 {
     const json_t *value = study_column_of(c, row);
-    double factor = c->factor ? c->factor : 1, number = factor * json_number_value(value);
+    double factor = c->factor != 0 ? c->factor : 1, number = factor * json_number_value(value);
     bool yes = json_is_true(value);
     if (json_is_boolean(value))
         snprintf(text, CELL, "%s", c->words[yes] ? c->words[yes] : yes ? "1" : "0");
