@@ -159,7 +159,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static ff_engine *engine; /* models stay loaded */
     const char *toys = getenv("FLANKFILM_FUZZ_TOYS");
-    const uint8_t *parts[PARTS] = {NULL};
+    static const uint8_t none[1];
+    const uint8_t *parts[PARTS] = {none, none, none, none};
     size_t sizes[PARTS] = {0};
     ff_engine_options options = {
         .size = sizeof options, .plugin_paths = &toys, .plugin_path_count = 1};
@@ -167,9 +168,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     if (!engine) {
         must(ff_engine_new(&options, &engine) == FF_OK && mkdtemp(folder));
         atexit(leave);
-        put_file(".flankfilm-study", data, 0);
+        put_file(".flankfilm-study", none, 0);
     }
-    for (size_t i = 0, at = 0; i < PARTS && at <= size; i++) {
+    for (size_t i = 0, at = 0; i < PARTS && at < size; i++) {
         const uint8_t *end = size > at ? memchr(data + at, PART, size - at) : NULL;
         parts[i] = data + at;
         sizes[i] = i + 1 < PARTS && end ? (size_t)(end - parts[i]) : size - at;
@@ -180,6 +181,6 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     put_file("study.json", parts[2], sizes[2]);
     read_records();
     read_view();
-    read_stage(parts[3] ? parts[3] : data, sizes[3], engine);
+    read_stage(parts[3], sizes[3], engine);
     return 0;
 }
