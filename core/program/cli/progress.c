@@ -76,7 +76,8 @@ void cli_progress_end(cli_progress *progress)
 {
     if (progress->drawn > 0)
         fputs("\r\033[K", stderr);
-    signal(SIGINT, SIG_DFL);
+    if (!interrupts) /* the echo of an interrupt may still come */
+        signal(SIGINT, SIG_DFL);
 }
 
 bool cli_interrupted(void)

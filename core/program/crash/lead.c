@@ -128,7 +128,11 @@ bool crash_is_echo(const siginfo_t *info)
     bool paired =
         handed ? atomic_fetch_sub(&came_alone[n], 1) > 0 : atomic_fetch_add(&came_alone[n], 1) < 0;
     long long last = atomic_load(&counted[n]);
-    return paired || now - last < burst || !atomic_compare_exchange_strong(&counted[n], &last, now);
+    if (!paired && now - last < burst) {
+        atomic_fetch_add(&came_alone[n], handed ? 1 : -1);
+        return true;
+    }
+    return paired || !atomic_compare_exchange_strong(&counted[n], &last, now);
 }
 
 /* A terminal sends its signals to all of a group, and what the child sends to its group is not the
