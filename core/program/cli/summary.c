@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "summary.h"
+#include "output-text.h"
 
 #include "../terminal/terminal.h"
 
@@ -14,8 +15,6 @@
 #include <string.h>
 
 enum { VALUE = 24, BAR = 12, MOST_NAME = 40, VERDICT = 65, ERROR = 9 }; /* columns */
-
-static const double noise = 1e-9; /* relative; figures show 5 digits at most */
 
 typedef struct paper {
     const accuracy_record *errors;
@@ -78,140 +77,8 @@ static void print_stage(paper *page, const ff_stage *stage)
     putchar('\n');
 }
 
-static results_readable unit_of(const ff_port *row, double most)
-{
-    return results_readable_output(row->name, row->unit, most);
-}
-
-/* Ranks of the least and the greatest value. */
-static void find_extremes(const ff_result *result, size_t *least, size_t *greatest)
-{
-    *least = *greatest = 0;
-    for (size_t i = 1; i < result->count; i++) {
-        if (result->data[i] < result->data[*least])
-            *least = i;
-        if (result->data[i] > result->data[*greatest])
-            *greatest = i;
-    }
-}
-
-/* Numbers of one quantity; what is noise beside the greatest of them is 0. */
-static void print_range(const ff_result *result, double a, double b, char *out, size_t size)
-{
-    double most = fmax(fabs(a), fabs(b));
-    results_readable unit = unit_of(result->row, most);
-    const char *gap = *unit.unit ? " " : "";
-    bool constant = b - a <= noise * most;
-    a = fabs(a) < noise * most ? unit.offset : a * unit.factor + unit.offset;
-    b = fabs(b) < noise * most ? unit.offset : b * unit.factor + unit.offset;
-    if (constant)
-        snprintf(out, size, "%.5g%s%s", b, gap, unit.unit);
-    else
-        snprintf(out, size, "%.4g to %.4g%s%s", a, b, gap, unit.unit);
-}
-
-/* Where the extremes of a series lie; briefly "at 22.3 and 16.6 deg", "" if no series says it. */
-static void print_where(const ff_pipeline *pipeline, const ff_stage *stage, size_t output,
-                        size_t least, size_t greatest, bool briefly, char *out, size_t size)
-{
-    const ff_result *result = &stage->results[output];
-    const char *dim = result->dims[0];
-    const ff_result *axis = accuracy_axis(pipeline, stage, dim, result->count, result, "rad");
-    if (!axis) {
-        if (!briefly)
-            snprintf(out, size, "min at %s %zu, max at %zu of %zu", dim, least + 1, greatest + 1,
-                     result->count);
-        return;
-    }
-    double a = axis->data[least], b = axis->data[greatest];
-    results_readable unit = results_readable_unit(axis->row->unit, fmax(fabs(a), fabs(b)));
-    const char *gap = *unit.unit ? " " : "";
-    if (briefly)
-        snprintf(out, size, "at %.3g and %.3g%s%s", a * unit.factor, b * unit.factor, gap,
-                 unit.unit);
-    else
-        snprintf(out, size, "min at %.4g, max at %.4g%s%s (%s)", a * unit.factor, b * unit.factor,
-                 gap, unit.unit, axis->row->name);
-}
-
-static void print_shape(const ff_stage *stage, size_t output, char *out, size_t size)
-{
-    const ff_result *result = &stage->results[output];
-    size_t at = 0;
-    for (uint32_t i = 0; i < result->rank && at < size; i++)
-        at += (size_t)snprintf(out + at, size - at, "%s%zu %s", i ? " by " : "", result->shape[i],
-                               result->dims[i]);
-}
-
-/* The values of both gears, "[0.35, -0.1]": no series. */
-static bool print_pair(const ff_result *result, char *out, size_t size)
-{
-    if (result->rank != 1 || result->count != 2)
-        return false;
-    double a = result->data[0], b = result->data[1];
-    results_readable unit = unit_of(result->row, fmax(fabs(a), fabs(b)));
-    snprintf(out, size, "[%.5g, %.5g]%s%s", a * unit.factor + unit.offset,
-             b * unit.factor + unit.offset, *unit.unit ? " " : "", unit.unit);
-    return true;
-}
-
-/* Adds the error that was measured, over the value; of a series, the largest. */
-static void print_error(const paper *page, const ff_result *result, char *out, size_t size)
-{
-    const accuracy_error *error = accuracy_find(page->errors, result);
-    size_t length = strlen(out);
-    if (error && error->relative == 0) /* no setting changes it */
-        return;
-    if (error && error->bar)
-        snprintf(out + length, size - length, " +- %.2g %%", 100 * error->relative);
-    else if (error)
-        snprintf(out + length, size - length, " +- ?");
-}
-
-/* An output in words. */
-typedef struct shown {
-    char value[96];  /* or its range */
-    char place[256]; /* the shape of a field, or where the extremes of a series lie; or "" */
-} shown;
-
-/* Whether what an output is off by is known, or is another output. */
-static bool known_error(const ff_stage *stage, const ff_result *result)
-{
-    for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
-        const ff_result *of = &stage->results[i];
-        if (accuracy_may_estimate(result->row, of->row) && accuracy_is_least(stage, of))
-            return false;
-    }
-    return true;
-}
-
-static shown show(const paper *page, const ff_pipeline *pipeline, const ff_stage *stage,
-                  size_t output, bool briefly)
-{
-    const ff_result *result = &stage->results[output];
-    shown text = {.value = "(none)"};
-    size_t least = 0, greatest = 0;
-    bool pair = print_pair(result, text.value, sizeof text.value);
-    if (result->count > 0 && !pair) {
-        find_extremes(result, &least, &greatest);
-        size_t at = accuracy_is_least(stage, result) ? strlen(strcpy(text.value, ">= ")) : 0;
-        print_range(result, result->data[least], result->data[greatest], text.value + at,
-                    sizeof text.value - at);
-    }
-    bool from_end_to_end = least == 0 && greatest + 1 == result->count;
-    if (result->rank > 1)
-        print_shape(stage, output, text.place, sizeof text.place);
-    else if (result->rank == 1 && !pair && strstr(text.value, " to ") && !from_end_to_end)
-        print_where(pipeline, stage, output, least, greatest, briefly, text.place,
-                    sizeof text.place);
-    if (!known_error(stage, result))
-        strcpy(text.value, "not known");
-    print_error(page, result, text.value, sizeof text.value);
-    return text;
-}
-
 /* Prints the name and the value; returns the columns that they take. */
-static int print_value(const paper *page, const char *name, int width, const shown *text)
+static int print_value(const paper *page, const char *name, int width, const cli_output_text *text)
 {
     return printf("  %-*s  %-*s  ", width, name, VALUE + (page->errors->count > 0 ? BAR : 0),
                   text->value);
@@ -221,7 +88,7 @@ static void print_result(const paper *page, const ff_pipeline *pipeline, const f
                          size_t output, int width)
 {
     const ff_port *row = stage->results[output].row;
-    shown text = show(page, pipeline, stage, output, false);
+    cli_output_text text = cli_output_text_of(page->errors, pipeline, stage, output, false);
     int column = print_value(page, row->name, width, &text);
     char *words = memory_print_text("%s%s%s", row->doc, *text.place ? "; " : "", text.place);
     terminal_print_wrapped(words, column, column);
@@ -234,7 +101,8 @@ static void print_asked(const paper *page, const ff_pipeline *pipeline, const re
                         int width)
 {
     char label[RESULTS_LABEL_SIZE];
-    shown text = show(page, pipeline, asked->stage, asked->output, true);
+    cli_output_text text =
+        cli_output_text_of(page->errors, pipeline, asked->stage, asked->output, true);
     int column = print_value(page, asked->name, width, &text);
     const int room = terminal_width() - column;
     const int left = room - (int)(*text.place ? strlen("; ") + strlen(text.place) : 0);

@@ -79,21 +79,6 @@ static void write_number(report_page *page, size_t variable, double value, size_
     write_error(page, variable, at);
 }
 
-/* Whether an error line of the output has no number: it is known from below alone. */
-static bool is_least(const results_view *view, const results_view_variable *of)
-{
-    const size_t stem = strlen(of->output), end = strlen("_error");
-    for (size_t i = 0; i < view->cases[0]->quality_count; i++) {
-        const results_view_quality *line = view->cases[0]->quality[i];
-        const size_t length = strlen(line->name);
-        if (line->stage == of->stage && !isfinite(line->value) && length > stem + end &&
-            !strncmp(line->name, of->output, stem) && line->name[stem] == '_' &&
-            !strcmp(line->name + length - end, "_error"))
-            return true;
-    }
-    return false;
-}
-
 /* Writes a value, the values of both gears, or what a series goes from and to; then where. */
 static void write_values(report_page *page, size_t variable, const ff_array *y)
 {
@@ -105,7 +90,7 @@ static void write_values(report_page *page, size_t variable, const ff_array *y)
     extremes at = pair ? (extremes){0, 1} : find_extremes(y);
     double least = y->data[at.least], greatest = y->data[at.greatest];
     bool varies = pair || greatest > least;
-    fputs(is_least(page->view, of) ? "&#8805; " : "", page->out);
+    fputs(of->flags & RESULTS_VIEW_AT_LEAST ? "&#8805; " : "", page->out);
     write_number(page, variable, least, at.least);
     if (varies) {
         fputs(pair ? ", " : " to ", page->out);

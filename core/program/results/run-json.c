@@ -4,6 +4,7 @@
 
 #include "../accuracy/axis.h"
 #include "../accuracy/choice.h"
+#include "../accuracy/lines.h"
 #include "../memory/memory.h"
 #include "../study/kinds/kinds.h"
 
@@ -135,6 +136,8 @@ static json_t *describe_output(const results_outcome *outcome, const ff_stage *s
     }
     if (error)
         json_object_set_new(entry, "error", describe_error(error, arrays));
+    if (accuracy_is_least(stage, result))
+        json_object_set_new(entry, "at_least", json_true());
     return entry;
 }
 

@@ -34,7 +34,9 @@ static void add_outputs(results_reader *reader, json_t *outputs, uint32_t flags)
                                     .shape = json_object_get(entry, "shape"),
                                     .against = json_object_get(entry, "against"),
                                     .doc = json_object_get(entry, "doc")};
-        results_output *made = results_view_add_output(reader, name, &told, flags);
+        const uint32_t least =
+            json_is_true(json_object_get(entry, "at_least")) ? RESULTS_VIEW_AT_LEAST : 0;
+        results_output *made = results_view_add_output(reader, name, &told, flags | least);
         if (made)
             made->entry = entry;
         json_t *error = json_object_get(entry, "error");

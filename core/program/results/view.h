@@ -48,7 +48,8 @@ typedef struct results_view_axis {
 } results_view_axis;
 
 enum {
-    RESULTS_VIEW_ASKED = 1 /* the file asked for it; others were computed on the way */
+    RESULTS_VIEW_ASKED = 1,   /* the file asked for it; others were computed on the way */
+    RESULTS_VIEW_AT_LEAST = 2 /* its error is not known: it is known from below alone */
 };
 
 /* An output of a stage. A case may lack it, or its first dimension. */

@@ -100,6 +100,28 @@ class Report(lab.Lab):
         self.assertEqual(re.findall(r"<td><code>([^<]*)</code>", asked[0]), ["wave.total", "wave.height", "wave.level"])
         self.assertIn("<code>wave.cost</code>", asked[1])
 
+    def test_at_least(self):
+        """A peak that the cells do not resolve is known from below: print, result.json and page say so of it alone."""
+        with open("blow.csv", "w", encoding="utf-8") as file:
+            file.write("time [s],radius [mm],speed_1 [m/s],speed_2 [m/s],load_per_width [N/mm]\n"
+                       "0,12.8,0.05,0.05,2\n50e-6,12.8,0.05,0.05,150\n120e-6,12.8,0.05,0.05,150\n")
+        with open("blow.yaml", "w", encoding="utf-8") as file:
+            file.write("format: 2\npipeline:\n  spot: {use: contact/table, file: blow.csv}\n"
+                       "  viscosity: {use: viscosity/barus, eta0: 10 mPa s, alpha: 15 1/GPa}\n"
+                       "  density: {use: density/dowson-higginson, rho0: 870 kg/m3}\n"
+                       "  film: {use: ehl/finite-volume, cells: 64}\n"
+                       "outputs: [film.p_max_highest, film.h_min_lowest]\n")
+        said = self.call("run", "blow.yaml", "-o", "blow")
+        self.assertRegex(said, r"film\.p_max_highest +>= \d+")
+        self.assertNotRegex(said, r"film\.h_min_lowest +>=")
+        with open("blow/result.json", encoding="utf-8") as file:
+            outputs = json.load(file)["outputs"]
+        self.assertEqual([o.get("at_least", False) for o in outputs.values()], [True, False])
+        self.call("report", "blow")
+        page = self.read_page("blow/report.html")
+        self.assertRegex(page, r'film\.p_max_highest</code></td><td class="number">&#8805; ')
+        self.assertNotRegex(page, r'film\.h_min_lowest</code></td><td class="number">&#8805;')
+
     def test_rough_flanks(self):
         """The flanks move with the slider, asperities have their pressure, and nothing is out of the figure."""
         self.call("run", CONFIGS + "mixed-film.yaml", "-o", "rough", "--set", "film.cells=128", "--set", "film.steps=60",

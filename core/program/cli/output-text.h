@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* An output of a run in words. */
+#ifndef CLI_OUTPUT_TEXT_H
+#define CLI_OUTPUT_TEXT_H
+
+#include "../accuracy/accuracy.h"
+
+typedef struct cli_output_text {
+    char value[96];  /* or its range, with its error where one was measured */
+    char place[256]; /* the shape of a field, or where the extremes of a series lie; or "" */
+} cli_output_text;
+
+cli_output_text cli_output_text_of(const accuracy_record *errors, const ff_pipeline *pipeline,
+                                   const ff_stage *stage, size_t output, bool briefly);
+
+#endif
