@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Runs of the engine's, step by step. Each function ends the program without memory. */
+/* Calls of ff_run_* that end the program if memory is short. */
 #ifndef RUN_H
 #define RUN_H
 

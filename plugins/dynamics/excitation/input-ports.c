@@ -70,7 +70,7 @@
                                 .flags = FF_OPTIONAL},                                             \
     [DYNAMICS_IN_FORCE_LEVEL] = {.name = "stiffness.force_level",                                  \
                                  .unit = "N",                                                      \
-                                 .doc = "mesh forces from 0 up, of which the following are",       \
+                                 .doc = "mesh forces from 0 up, to which the level_... belong",    \
                                  .dims = "level",                                                  \
                                  .flags = FF_OPTIONAL},                                            \
     [DYNAMICS_IN_LEVEL_ERROR] = {.name = "stiffness.level_error",                                  \

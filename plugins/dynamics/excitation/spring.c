@@ -128,8 +128,8 @@ size_t dynamics_spring_levels(const dynamics_force_levels *l, double force, int 
 /* Slopes of neighbouring lines differ by at least this part: else their knee is not defined. */
 static const double least_bend = 1e-5;
 
-/* The levels that lines are made of, and the last line that is kept at a node: the deflection from
-   which it was made, its force there, and its slope. */
+/* The last line that is kept at a node: the deflection of the level that it was made from, its
+   force there, and its slope. */
 typedef struct last_line {
     double g, force, slope;
 } last_line;

@@ -210,7 +210,7 @@ void study_tradeoff_tell(study_answer *answer)
     const char *count = json_object_iter_key(json_object_iter(names)), *output;
     count = count ? study_context_format(answer->context, "%s", count) : NULL;
     tell_reference(answer, result);
-    json_object_foreach((json_t *)(size_t)json_object_get(result, "outputs"), output, of)
+    json_object_foreach(json_object_get(result, "outputs"), output, of)
     {
         json_t *figure = study_answer_draw(answer, study_tradeoff_figure(result, output, of));
         study_context_print_line(answer->context, 0, "");
