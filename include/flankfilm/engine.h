@@ -178,9 +178,10 @@ typedef struct ff_quality {
     const char *stage; /* its name */
     const char *name;
     double value, limit;
-    int32_t verdict;  /* FF_GOOD, FF_DOUBTFUL, FF_BAD */
-    const char *text; /* or NULL */
-    bool range;       /* doubtful, since the model is used outside of its range: FF_RANGE */
+    int32_t verdict;      /* FF_GOOD, FF_DOUBTFUL, FF_BAD */
+    const char *text;     /* or NULL */
+    bool range;           /* doubtful, since the model is used outside of its range: FF_RANGE */
+    const char *accepted; /* why the file accepts the doubt, which is good then; or NULL */
 } ff_quality;
 
 /* The worst verdict of the stages that ran, FF_BAD when the run failed, FF_INVALID before it; and
@@ -582,6 +583,7 @@ struct ff_stage {
     double work;      /* s: processor time of evaluate, over all threads */
     ff_quality *quality;
     size_t quality_count;
+    const ff_node *accept; /* {STAGE.LINE: reason} of the file, if it names the stage; or NULL */
     void *state;         /* in a chain: what evaluate starts from, then what it left; NULL: none */
     size_t state_size;   /* bytes of it */
     const ff_loop *loop; /* that it belongs to; NULL: none */
@@ -648,6 +650,8 @@ double *ff_result_fill(ff_stage *stage, size_t output, uint32_t rank, const size
 void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
                     const char *text);
 void ff_drop_quality(ff_stage *stage, size_t line);
+/* The verdict that the model gave, FF_RANGE among them, whatever the file accepts. */
+int ff_quality_given(const ff_quality *line);
 
 /* The parameters under `feedback`. */
 const ff_param *ff_feedback_rows(size_t *count);

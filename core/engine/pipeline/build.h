@@ -84,6 +84,8 @@ const char *fe_place_text(ff_pipeline *pipeline, ff_place place); /* "pair.yaml:
 /* Reports '<where>: expected <what>, found a list' at the node. Returns false. */
 bool fe_expected(fe_build *b, const ff_node *node, const char *where, const char *what);
 
+/* Returns a copy without what a terminal would act on, cut at 511 bytes; to be freed. */
+char *fe_copy_clean(const char *text);
 void fe_hand_on(const ff_message *m, ff_report *report); /* the same to another report */
 
 /* setting.c: the node at "a.b" behind maps within maps; NULL: there is none. */
@@ -235,9 +237,10 @@ void fe_drop_untouched(ff_stage *stage);
 /* False, with an error, when the stage's results cannot be used. */
 bool fe_check_results(const ff_stage *stage, ff_report *report);
 
-/* natural-bounds.c: adds a line of quality, FF_BAD, for each result outside of the natural bounds
-   of its row. */
+/* quality.c: adds a line of quality, FF_BAD, for each result outside of the natural bounds of its
+   row. */
 void fe_judge_bounds(ff_stage *stage);
+void fe_forget_quality(ff_stage *stage); /* all lines */
 
 /* evaluate.c: one evaluation of a stage, without the outputs that it refuses where nothing requires
    them. False after an error. */
@@ -256,8 +259,11 @@ bool fe_run_loop(ff_pipeline *pipeline, const ff_loop *loop, const ff_observer *
 bool fe_restore_state(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
 bool fe_save_state(const ff_pipeline *pipeline, ff_stage *stage, ff_report *report);
 
-/* request.c: marks the requested outputs; links what they need. */
+/* request.c: marks the requested outputs, and those that have limits; links what they need. */
 void fe_request_outputs(fe_build *b, const ff_node *outputs);
+void fe_request_limits(fe_build *b, const ff_node *limits);
+/* Keeps on each stage which of its doubts the file accepts. */
+void fe_read_accept(fe_build *b, const ff_node *accept);
 
 /* feedback.c: what the file says under `feedback`. */
 void fe_read_feedback(fe_build *b, const ff_node *feedback);

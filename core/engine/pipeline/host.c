@@ -192,13 +192,6 @@ typedef struct serves_call {
     const char *item, *outputs, *by, *text;
 } serves_call;
 
-static char *copy_text(const char *text)
-{
-    char clean[512];
-    ff_clean_text(clean, sizeof clean, text ? text : "");
-    return fe_copy_text(clean, strlen(clean));
-}
-
 static void free_serving(fe_serving *serving)
 {
     fe_free(serving->item);
@@ -215,10 +208,10 @@ static void keep_serving(void *ctx)
     size_t i = 0;
     while (i < instance->serving_count && strcmp(instance->servings[i].item, call->item) != 0)
         i++;
-    fe_serving serving = {.item = copy_text(call->item),
-                          .outputs = copy_text(call->outputs),
-                          .by = copy_text(call->by),
-                          .text = copy_text(call->text)};
+    fe_serving serving = {.item = fe_copy_clean(call->item),
+                          .outputs = fe_copy_clean(call->outputs),
+                          .by = fe_copy_clean(call->by),
+                          .text = fe_copy_clean(call->text)};
     if (i < instance->serving_count) {
         free_serving(&instance->servings[i]);
     } else {
@@ -259,9 +252,9 @@ static void keep_need(void *ctx)
     fe_instance *instance = call->instance;
     size_t count = instance->need_count;
     instance->needs = fe_resize(instance->needs, (count + 1) * sizeof *instance->needs);
-    instance->needs[count] = (fe_need){.items = copy_text(call->items),
-                                       .outputs = copy_text(call->outputs),
-                                       .text = copy_text(call->text)};
+    instance->needs[count] = (fe_need){.items = fe_copy_clean(call->items),
+                                       .outputs = fe_copy_clean(call->outputs),
+                                       .text = fe_copy_clean(call->text)};
     instance->need_count++;
 }
 
@@ -402,29 +395,6 @@ static double *host_output(void *ctx, uint32_t index, uint32_t rank, const size_
     return call.data;
 }
 
-void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
-                    const char *text)
-{
-    stage->quality = fe_resize(stage->quality, (stage->quality_count + 1) * sizeof *stage->quality);
-    ff_quality line = {.stage = stage->name,
-                       .name = copy_text(name),
-                       .value = value,
-                       .limit = limit,
-                       .verdict = verdict == FF_RANGE ? FF_DOUBTFUL : verdict,
-                       .range = verdict == FF_RANGE,
-                       .text = text && text[0] ? copy_text(text) : NULL};
-    stage->quality[stage->quality_count++] = line;
-}
-
-void ff_drop_quality(ff_stage *stage, size_t line)
-{
-    fe_free((void *)stage->quality[line].name);
-    fe_free((void *)stage->quality[line].text);
-    stage->quality_count--;
-    for (size_t i = line; i < stage->quality_count; i++)
-        stage->quality[i] = stage->quality[i + 1];
-}
-
 typedef struct quality_call {
     ff_stage *stage;
     const char *name, *text;
@@ -480,11 +450,5 @@ void fe_forget_results(ff_stage *stage)
         ff_guarded_free(stage->results[i].data, stage->results[i].count);
         stage->results[i].data = NULL;
     }
-    for (size_t i = 0; i < stage->quality_count; i++) {
-        fe_free((void *)stage->quality[i].name);
-        fe_free((void *)stage->quality[i].text);
-    }
-    fe_free(stage->quality);
-    stage->quality = NULL;
-    stage->quality_count = 0;
+    fe_forget_quality(stage);
 }

@@ -58,3 +58,10 @@ void fe_hand_on(const ff_message *m, ff_report *report)
     else
         ff_warn(report, m->place, "%s", m->text);
 }
+
+char *fe_copy_clean(const char *text)
+{
+    char clean[512];
+    ff_clean_text(clean, sizeof clean, text ? text : "");
+    return fe_copy_text(clean, strlen(clean));
+}

@@ -39,6 +39,8 @@ ff_pipeline *fe_pipeline_build(const fe_tree *tree, ff_engine *engine, bool ever
         fe_link_from(&b, &pipeline->stages[i]);
     fe_read_feedback(&b, ff_node_get(root, "feedback"));
     fe_request_outputs(&b, ff_node_get(root, "outputs"));
+    fe_request_limits(&b, ff_node_get(root, "limits"));
+    fe_read_accept(&b, ff_node_get(root, "accept"));
     fe_mark_needed(pipeline);
     fe_sort_stages(&b);
     for (size_t i = 0; i < pipeline->count; i++)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Reads which outputs the file requests. */
+/* Reads which outputs the file requests, and which doubts it accepts. */
 #include "build.h"
 
 #include <stdlib.h>
@@ -27,13 +27,21 @@ static bool request_all(fe_build *b, ff_stage *stage)
     return some;
 }
 
-static void request_one(fe_build *b, ff_stage *stage, const char *name, ff_place place)
+/* What is named by "STAGE.NAME", and where: `key` of the file, what NAME stands for there. */
+typedef struct naming {
+    const char *key, *item;
+} naming;
+static const naming of_outputs = {"outputs", "OUTPUT"}, of_limits = {"limits", "OUTPUT"},
+                    of_accept = {"accept", "LINE"};
+
+static void request_one(fe_build *b, ff_stage *stage, const char *name, ff_place place,
+                        const naming *as)
 {
     const ff_model *model = stage->loaded->model;
     int output = ff_model_find_output(model, name);
     if (output >= 0 && stage->results[output].row->service) {
         ff_error(b->report, FF_FAULT_INPUT, place, NULL,
-                 "outputs: \"%s\" of %s is a service for other stages; it has no values", name,
+                 "%s: \"%s\" of %s is a service for other stages; it has no values", as->key, name,
                  stage->name);
     } else if (output >= 0) {
         request(b, &stage->results[output]);
@@ -42,11 +50,26 @@ static void request_one(fe_build *b, ff_stage *stage, const char *name, ff_place
         const char **names = fe_alloc(model->output_count * sizeof *names);
         for (size_t i = 0; i < model->output_count; i++)
             names[i] = stage->results[i].row->name;
-        ff_error(b->report, FF_FAULT_INPUT, place, NULL,
-                 "outputs: %s (%s) has no output \"%.80s\"%s", stage->name, stage->use, name,
+        ff_error(b->report, FF_FAULT_INPUT, place, NULL, "%s: %s (%s) has no output \"%.80s\"%s",
+                 as->key, stage->name, stage->use, name,
                  fe_did_you_mean(b, name, names, model->output_count));
         fe_free(names);
     }
+}
+
+/* Finds and loads the stage of "STAGE.NAME"; NULL after an error. */
+static ff_stage *find_named(fe_build *b, const char *text, ff_place place, const naming *as,
+                            const char **name)
+{
+    size_t length = strcspn(text, ".");
+    const char *word = fe_pipeline_print(b->pipeline, "%.*s", (int)length, text);
+    *name = text[length] ? text + length + 1 : "";
+    ff_stage *stage = fe_find_stage(b, word, place, as->key);
+    if (stage && !**name)
+        ff_error(b->report, FF_FAULT_INPUT, place,
+                 as == &of_outputs ? "STAGE.* stands for its scalars and series" : NULL,
+                 "%s: \"%s\" is a stage; write %s.%s", as->key, word, word, as->item);
+    return stage && **name && fe_load_stage(b, stage) ? stage : NULL;
 }
 
 static void read_request(fe_build *b, const ff_node *item)
@@ -55,18 +78,12 @@ static void read_request(fe_build *b, const ff_node *item)
         fe_expected(b, item, "outputs", "STAGE.OUTPUT or STAGE.*");
         return;
     }
-    size_t length = strcspn(item->text, ".");
-    const char *word = fe_pipeline_print(b->pipeline, "%.*s", (int)length, item->text);
-    const char *name = item->text[length] ? item->text + length + 1 : "";
-    ff_stage *stage = fe_find_stage(b, word, item->place, "outputs");
-    if (stage && !*name)
-        ff_error(b->report, FF_FAULT_INPUT, item->place, NULL,
-                 "outputs: \"%s\" is a stage; write %s.OUTPUT, or %s.* for its scalars and series",
-                 word, word, word);
-    if (!stage || !*name || !fe_load_stage(b, stage))
+    const char *name;
+    ff_stage *stage = find_named(b, item->text, item->place, &of_outputs, &name);
+    if (!stage)
         return;
     if (strcmp(name, "*") != 0)
-        request_one(b, stage, name, item->place);
+        request_one(b, stage, name, item->place, &of_outputs);
     else if (!request_all(b, stage))
         ff_error(b->report, FF_FAULT_INPUT, item->place, NULL,
                  "outputs: %s (%s) has no scalars and no series", stage->name, stage->use);
@@ -124,4 +141,44 @@ void fe_request_outputs(fe_build *b, const ff_node *outputs)
         for (size_t i = 0; i < outputs->count; i++)
             if (!is_missed_again(b, outputs, i))
                 read_request(b, outputs->items[i]);
+}
+
+/* Whether the file says a map, or nothing; else an error says what is expected. */
+static bool is_map(fe_build *b, const ff_node *node, const char *key, const char *example)
+{
+    if (!node || (node->kind == FF_SCALAR && !node->text[0]))
+        return false;
+    if (node->kind != FF_MAP)
+        fe_expected(b, node, key, example);
+    return node->kind == FF_MAP;
+}
+
+void fe_request_limits(fe_build *b, const ff_node *limits)
+{
+    const char *name;
+    if (!is_map(b, limits, "limits", "a map such as {STAGE.OUTPUT: \"> 1.5\"}"))
+        return;
+    for (size_t i = 0; i < limits->count; i++) {
+        ff_stage *stage = find_named(b, limits->keys[i], limits->key_places[i], &of_limits, &name);
+        if (stage)
+            request_one(b, stage, name, limits->key_places[i], &of_limits);
+        if (stage)
+            fe_link_from(b, stage);
+    }
+}
+
+void fe_read_accept(fe_build *b, const ff_node *accept)
+{
+    const char *name;
+    if (!is_map(b, accept, "accept", "a map such as {STAGE.LINE: \"why the doubt is none\"}"))
+        return;
+    for (size_t i = 0; i < accept->count; i++) {
+        const ff_node *reason = accept->items[i];
+        ff_stage *stage = find_named(b, accept->keys[i], accept->key_places[i], &of_accept, &name);
+        if (reason->kind != FF_SCALAR || !reason->text[strspn(reason->text, " \t\n")])
+            fe_expected(b, reason, fe_pipeline_print(b->pipeline, "accept.%s", accept->keys[i]),
+                        "the reason why the doubt is none, in words");
+        else if (stage)
+            stage->accept = accept;
+    }
 }

@@ -101,8 +101,9 @@ static bool apply(walk *w, const ff_source *source, const char *at, const char *
 
 const char *const *ff_file_keys(void)
 {
-    static const char *const keys[] = {"format", "title",    "include",  "pipeline", "outputs",
-                                       "study",  "accuracy", "feedback", NULL};
+    static const char *const keys[] = {"format",  "title",  "include",  "pipeline",
+                                       "outputs", "study",  "accuracy", "feedback",
+                                       "limits",  "accept", NULL};
     return keys;
 }
 

@@ -42,18 +42,23 @@ const ff_result *accuracy_estimated(const ff_stage *stage, const char *line)
     return found && found->requested && found->rank > 1 ? NULL : found;
 }
 
-bool accuracy_is_least(const ff_stage *stage, const ff_result *result)
+double accuracy_estimated_share(const ff_stage *stage, const ff_result *result)
 {
     const char *name = result->row->name;
+    double share = NAN;
     for (size_t i = 0; i < stage->quality_count && !ends_in_error(name); i++) {
-        const ff_quality *line = &stage->quality[i];
-        const ff_result *of = isinf(line->value) ? accuracy_estimated(stage, line->name) : NULL;
+        const ff_result *of = accuracy_estimated(stage, stage->quality[i].name);
         size_t stem = of ? strlen(of->row->name) : 0;
         if (of && !strncmp(name, of->row->name, stem) && (!name[stem] || name[stem] == '_') &&
             !strcmp(result->row->unit, of->row->unit))
-            return true;
+            share = fmax(share, stage->quality[i].value);
     }
-    return false;
+    return share;
+}
+
+bool accuracy_is_least(const ff_stage *stage, const ff_result *result)
+{
+    return isinf(accuracy_estimated_share(stage, result));
 }
 
 bool accuracy_may_estimate(const ff_port *row, const ff_port *of)

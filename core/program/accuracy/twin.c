@@ -47,8 +47,8 @@ static void copy_results(const ff_stage *from, ff_stage *to)
     }
     for (size_t i = 0; i < from->quality_count; i++) {
         const ff_quality *line = &from->quality[i];
-        ff_add_quality(to, line->name, line->value, line->limit,
-                       line->range ? FF_RANGE : line->verdict, line->text);
+        ff_add_quality(to, line->name, line->value, line->limit, ff_quality_given(line),
+                       line->text);
     }
     to->seconds = from->seconds;
 }

@@ -284,6 +284,15 @@ static json_t *whole_schema(const catalogue *c, const char *version)
                   "largest error of what is asked for, \"2 %\", or of each output by itself; "
                   "\"measured\" measures the errors alone",
                   "additionalProperties", "type", "string"));
+    json_object_set_new(
+        top, "limits",
+        json_pack("{s:s, s:s, s:{s:[s, s]}}", "type", "object", "description",
+                  "what is enough, by output: \"> 1.5\", \"<= 120 degC\", or a list of such",
+                  "additionalProperties", "type", "string", "array"));
+    json_object_set_new(top, "accept",
+                        json_pack("{s:s, s:s, s:{s:s}}", "type", "object", "description",
+                                  "why a doubtful line of quality, STAGE.LINE, is none",
+                                  "additionalProperties", "type", "string"));
     json_object_set_new(top, "study", study_schema());
     json_object_set_new(top, "feedback", feedback_schema());
     json_object_set_new(top, "pipeline",

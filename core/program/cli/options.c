@@ -62,7 +62,8 @@ static const option_row rows[] = {
      OPTIONAL, set_rerun},
     {"fail-fast", 0, NULL, "run", "end a study at the first case that fails", OPTIONAL, NULL},
     {"strict", 0, NULL, "run check",
-     "count a doubtful answer or a warning as a failure: code 1, 4 for a study, 2 for check",
+     "count a doubtful answer, a limit not surely met or a warning as a failure: code 1, 4 for a "
+     "study, 2 for check",
      OPTIONAL, NULL},
     {"all", 0, NULL, "run",
      "of a single case, print all that was computed, not only what it asks for", OPTIONAL, NULL},

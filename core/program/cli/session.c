@@ -6,6 +6,7 @@
 #include "oil.h"
 
 #include "../accuracy/models.h"
+#include "../limits/limits.h"
 #include "../memory/memory.h"
 #include "../results/json.h"
 #include "../run/run.h"
@@ -241,6 +242,8 @@ static bool open_file(cli_session *session, const cli_options *options, bool eve
     if (!ff_run_root(session->run) || !open_study(session, options))
         return false;
     session->pipeline = accuracy_build(session->run, session->engine, everything);
+    if (session->pipeline)
+        limits_check(session->run);
     ff_report_append(session->report, ff_run_report(session->run));
     warn_of_follow(session);
     if (session->pipeline && ff_report_errors(session->report) == 0)

@@ -319,7 +319,11 @@ static int run_and_tell(const study_run *run, teller *t, ff_report *report)
         good = cli_spectrum_sum(run, &t->sums, report);
     int verdict = driven ? study_verdict(study) : -1;
     bool bad = verdict < 0 ? counters.failed > 0 : verdict == FF_BAD;
-    bad = bad || cli_is_strict_about(options, counters.tally.counts[FF_DOUBTFUL] > 0, report);
+    const study_tally *tally = &counters.tally;
+    bool doubtful =
+        tally->counts[FF_DOUBTFUL] + tally->limits[LIMITS_WITHIN] + tally->limits[LIMITS_MISSED] >
+        0;
+    bad = bad || cli_is_strict_about(options, doubtful, report);
     int code = !good ? ff_report_fault(report) : bad ? CLI_EXIT_CASES : EXIT_SUCCESS;
     if (t->terminal && run->progress)
         fputs("\r\033[K", stderr);

@@ -177,6 +177,35 @@ static void print_answer(paper *page, const ff_pipeline *pipeline)
     results_free_asked(list, count);
 }
 
+/* Says how the answers stand to their limits: those that are not surely met one by one. */
+static void print_limits(const paper *page, const limits_verdict *limits)
+{
+    static const int colours[LIMITS_STANDINGS] = {FF_GOOD, FF_DOUBTFUL, FF_BAD};
+    char *sentence = limits_sentence(limits);
+    if (*sentence) {
+        paint_verdict(page, colours[limits->worst], sentence);
+        putchar('\n');
+    }
+    for (size_t i = 0; i < limits->count; i++) {
+        const limits_row *row = &limits->rows[i];
+        const ff_port *port = row->stage->results[row->output].row;
+        results_readable unit = results_readable_output(port->name, port->unit, fabs(row->value));
+        if (row->standing == LIMITS_MET)
+            continue;
+        printf("  %s: ", row->name);
+        paint_verdict(page, colours[row->standing], limits_word(row->standing));
+        printf(", %s is asked and it is ", row->asked);
+        if (isnan(row->value))
+            printf("not known");
+        else
+            printf("%.5g", row->value * unit.factor + unit.offset);
+        if (row->bar > 0)
+            printf(" +- %.2g", row->bar * unit.factor);
+        printf("%s%s\n", *unit.unit ? " " : "", unit.unit);
+    }
+    free(sentence);
+}
+
 /* What is not good. */
 static void print_quality(paper *page, const ff_stage *stage)
 {
@@ -195,6 +224,21 @@ static void print_quality(paper *page, const ff_stage *stage)
         if (line->text)
             column += printf(", ");
         terminal_print_wrapped(line->text ? line->text : "", column, 4);
+    }
+}
+
+static void print_accepted(paper *page, const ff_stage *stage)
+{
+    for (size_t i = 0; i < stage->quality_count; i++) {
+        const ff_quality *line = &stage->quality[i];
+        if (!line->accepted)
+            continue;
+        start_line(page);
+        char value[RESULTS_NUMBER_SIZE];
+        results_number_short(line->value, value);
+        terminal_print_wrapped(
+            line->accepted,
+            printf("  %s.%s = %s, held to %.3g: ", stage->name, line->name, value, line->limit), 4);
     }
 }
 
@@ -364,6 +408,7 @@ void cli_print_summary(const results_outcome *outcome, bool all)
     ff_clean_text(title, sizeof title, pipeline->title ? pipeline->title : outcome->input->file);
     paint(&page, "1", title);
     putchar('\n');
+    print_limits(&page, outcome->limits);
     if (all)
         print_everything(&page, pipeline);
     else
@@ -372,6 +417,9 @@ void cli_print_summary(const results_outcome *outcome, bool all)
         print_failures(&page, pipeline);
     print_log(&page, outcome->log);
     print_errors(&page, outcome);
+    page.heading = "Doubts that the file accepts";
+    for (size_t i = 0; i < pipeline->count; i++)
+        print_accepted(&page, &pipeline->stages[pipeline->order[i]]);
     page.heading = "To be looked at";
     for (size_t i = 0; i < pipeline->count; i++)
         print_quality(&page, &pipeline->stages[pipeline->order[i]]);

@@ -162,6 +162,8 @@ double report_percentile(const double *list, size_t count, double percent);
 void report_write_sample(report_page *page, const report_scalar *scalar);
 
 /* These write the sections of the page. */
+/* Writes how the answers stand to the limits of the file: of a study, in how many cases. */
+void report_write_limits(report_page *page);
 void report_write_verdict(report_page *page);
 void report_write_speed(report_page *page);
 void report_write_series(report_page *page);

@@ -71,7 +71,10 @@ static void write_line(report_page *page, const report_check *w)
     if (page->view->study)
         fprintf(out, " %zu of %zu, as in case %zu", w->count, w->total, w->index + 1);
     fputs("</td>", out);
-    report_put_cell(out, w->line->text);
+    report_print(out, "<td>%s", w->line->text);
+    if (*w->line->accepted)
+        report_print(out, " <b>Accepted:</b> %s", w->line->accepted);
+    fputs("</td>", out);
     fputs("</tr>\n", out);
 }
 

@@ -181,6 +181,22 @@ static void write_reason(report_page *page, const results_view_quality *line)
     report_print(page->out, " = %s, held to %s)</small>", value, limit);
 }
 
+/* Names the doubts of a run that the file accepts, and why. */
+static void write_accepted(report_page *page)
+{
+    const results_view_case *c = page->view->cases[0];
+    size_t listed = 0;
+    for (size_t i = 0; i < c->quality_count; i++) {
+        const results_view_quality *line = c->quality[i];
+        if (!*line->accepted)
+            continue;
+        fputs(listed++ ? "; " : "<p class=\"note\">Accepted by the file: ", page->out);
+        report_print(page->out, "%s.%s (%s)", page->view->stages[line->stage]->name, line->name,
+                     line->accepted);
+    }
+    fputs(listed ? "</p>\n" : "", page->out);
+}
+
 /* The verdict of a run, with what the lines say that are not good. */
 static void write_judgement(report_page *page)
 {
@@ -209,6 +225,7 @@ static void write_judgement(report_page *page)
         fputs("</li>\n", page->out);
     }
     end_reasons(page, listed);
+    write_accepted(page);
 }
 
 /* Whether a series is what another output that the file asks for is plotted against. */
@@ -448,6 +465,7 @@ void report_write_verdict(report_page *page)
         report_put_text(page->out, view->cases[0]->reason);
         fputs("</p>\n", page->out);
     }
+    report_write_limits(page);
     (view->study ? write_study : write_run)(page);
     fputs("</section>\n", page->out);
 }

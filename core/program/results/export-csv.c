@@ -91,7 +91,9 @@ static bool put_scalars(const table *t, size_t index)
 static bool write_scalars(table *t)
 {
     const results_view *view = t->view;
-    bool good = begin_table(t, "scalars");
+    bool good = begin_table(t, "scalars"), limits = false;
+    for (size_t c = 0; c < view->case_count; c++)
+        limits = limits || view->cases[c]->limit_count > 0;
     if (!good)
         return false;
     put_axis_heads(t);
@@ -99,7 +101,7 @@ static bool write_scalars(table *t)
     for (size_t v = 0; v < view->variable_count; v++)
         if (view->variables[v]->rank == 0)
             put_head(t->out, view->variables[v]->name, view->variables[v]->unit);
-    fputs(",verdict,reasons,reason,command\n", t->out);
+    fprintf(t->out, "%s,verdict,reasons,reason,command\n", limits ? ",limits" : "");
     for (size_t c = 0; c < view->case_count && good; c++) {
         put_axes(t, c);
         fputc(',', t->out);
@@ -107,6 +109,10 @@ static bool write_scalars(table *t)
         fputc(',', t->out);
         put_number(t->out, view->cases[c]->seconds);
         good = put_scalars(t, c);
+        if (limits) {
+            fputc(',', t->out);
+            put_text(t->out, view->cases[c]->limits_text);
+        }
         fprintf(t->out, ",%s,", view->cases[c]->verdict);
         put_text(t->out, view->cases[c]->reasons);
         fputc(',', t->out);

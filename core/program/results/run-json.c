@@ -207,6 +207,8 @@ static json_t *describe_quality(const ff_stage *stage)
                       "text", results_json_text(line->text));
         if (line->verdict != FF_GOOD)
             json_object_set_new(said, "of", json_string(line->range ? "range" : "numbers"));
+        if (line->accepted)
+            json_object_set_new(said, "accepted", results_json_text(line->accepted));
         json_object_set_new(object, line->name, said);
     }
     return object;
@@ -303,6 +305,7 @@ static json_t *describe_head(const results_outcome *outcome)
     json_t *head = results_json_answer(outcome->status, outcome->exit_code, outcome->report);
     json_object_set_new(head, "title", results_json_text(outcome->pipeline->title));
     add_judgement(head, outcome);
+    json_object_set_new(head, "limits", limits_json(outcome->limits));
     json_object_set_new(head, "file", results_json_text(outcome->input->file));
     json_object_set_new(head, "accuracy", describe_accuracy(outcome));
     return head;

@@ -77,7 +77,8 @@ static void add_stages(results_reader *reader, results_view_case *c, const json_
             value = json_object_get(line, "value");
             limit = json_object_get(line, "limit");
             results_view_add_quality(reader, &rows, of, name, value, limit, verdict,
-                                     json_object_get(line, "text"));
+                                     json_object_get(line, "text"),
+                                     json_object_get(line, "accepted"));
             json_object_set_new(lines, name, json_pack("[O?, O?, i]", value, limit, verdict));
         }
         json_object_set_new(judged, of, lines);
@@ -111,8 +112,8 @@ bool results_view_read_run(results_reader *reader)
     add_outputs(reader, json_object_get(root, "outputs"), RESULTS_VIEW_ASKED);
     add_outputs(reader, json_object_get(root, "computed"), 0);
     results_view_take_outputs(reader, &reader->per_case[0]);
-    json_t *record = json_pack("{s:O?, s:{}, s:s}", "status", json_object_get(root, "status"),
-                               "quality", "key", "");
+    json_t *record = json_pack("{s:O?, s:{}, s:s, s:O?}", "status", json_object_get(root, "status"),
+                               "quality", "key", "", "limits", json_object_get(root, "limits"));
     add_stages(reader, c, json_object_get(root, "stages"), json_object_get(record, "quality"));
     study_judge_record(record);
     results_view_judge(reader, c, 1, record);

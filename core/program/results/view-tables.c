@@ -43,10 +43,41 @@ void *results_view_add_row(results_reader *reader, results_rows *rows, size_t si
     return rows->rows[rows->count++] = memory_arena_alloc(&reader->arena, size);
 }
 
+static double number_of(const json_t *value)
+{
+    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+}
+
+static void add_limits(results_reader *reader, results_view_case *c, const json_t *list)
+{
+    results_rows rows = {.rows = NULL};
+    const json_t *entry;
+    size_t i;
+    json_array_foreach(list, i, entry)
+    {
+        results_view_limit *row = results_view_add_row(reader, &rows, sizeof *row);
+        *row = (results_view_limit){
+            .output = results_view_text(reader, json_object_get(entry, "output")),
+            .asked = results_view_text(reader, json_object_get(entry, "asked")),
+            .unit = results_view_text(reader, json_object_get(entry, "unit")),
+            .value = number_of(json_object_get(entry, "value")),
+            .bar = number_of(json_object_get(entry, "bar")),
+            .standing =
+                (int32_t)limits_standing_of(json_string_value(json_object_get(entry, "standing"))),
+        };
+    }
+    c->limit_count = rows.count;
+    c->limits = results_view_take_rows(reader, &rows);
+    char *text = limits_text(list);
+    c->limits_text = memory_arena_text(&reader->arena, text, strlen(text));
+    free(text);
+}
+
 void results_view_judge(results_reader *reader, results_view_case *c, size_t number,
                         const json_t *record)
 {
     c->verdict = c->reasons = "";
+    add_limits(reader, c, json_object_get(record, "limits"));
     if (!record)
         return;
     study_judgement judgement;
@@ -246,15 +277,16 @@ void results_view_take_outputs(results_reader *reader, results_case *of)
 
 void results_view_add_quality(results_reader *reader, results_rows *rows, const char *stage,
                               const char *name, const json_t *value, const json_t *limit,
-                              int verdict, const json_t *text)
+                              int verdict, const json_t *text, const json_t *accepted)
 {
     results_view_quality *row = results_view_add_row(reader, rows, sizeof *row);
     *row = (results_view_quality){
         .stage = find_stage(reader, stage, strlen(stage)),
         .name = results_view_shared_text(reader, name),
         .text = results_view_shared_text(reader, json_string_value(text)),
-        .value = json_is_number(value) ? json_number_value(value) : (double)NAN,
-        .limit = json_is_number(limit) ? json_number_value(limit) : (double)NAN,
+        .value = number_of(value),
+        .limit = number_of(limit),
         .verdict = verdict,
+        .accepted = results_view_shared_text(reader, json_string_value(accepted)),
     };
 }

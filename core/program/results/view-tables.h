@@ -72,7 +72,7 @@ results_output *results_view_add_output(results_reader *reader, const char *name
 void results_view_take_outputs(results_reader *reader, results_case *of);
 void results_view_add_quality(results_reader *reader, results_rows *rows, const char *stage,
                               const char *name, const json_t *value, const json_t *limit,
-                              int verdict, const json_t *text);
+                              int verdict, const json_t *text, const json_t *accepted);
 
 /* Judges a case by its record, which is NULL when it has not run. */
 void results_view_judge(results_reader *reader, results_view_case *c, size_t number,

@@ -8,7 +8,7 @@
 #ifndef RESULTS_VIEW_H
 #define RESULTS_VIEW_H
 
-#include <flankfilm/engine.h>
+#include "../limits/limits.h"
 
 #include <stdbool.h>
 
@@ -68,9 +68,18 @@ typedef struct results_view_variable {
 typedef struct results_view_quality {
     size_t stage;
     const char *name, *text;
-    double value, limit; /* NaN: none */
-    int32_t verdict;     /* FF_GOOD ... */
+    double value, limit;  /* NaN: none */
+    int32_t verdict;      /* FF_GOOD ... */
+    const char *accepted; /* why the file accepts the doubt; "" where it does not */
 } results_view_quality;
+
+/* How a case stands to a limit of the file. */
+typedef struct results_view_limit {
+    const char *output, *asked; /* "scuffing.safety", "> 1.5" */
+    const char *unit;           /* SI, of the numbers */
+    double value, bar;          /* NaN: not known */
+    int32_t standing;           /* limits_standing */
+} results_view_limit;
 
 /* A case. The last dimension of the study varies fastest. */
 typedef struct results_view_case {
@@ -80,7 +89,10 @@ typedef struct results_view_case {
     double seconds;      /* NaN: unknown */
     const results_view_quality *const *quality;
     size_t quality_count;
-    const char *verdict; /* "good", "doubtful", "bad", "failed"; "" when it has not run */
+    const results_view_limit *const *limits;
+    size_t limit_count;
+    const char *limits_text; /* "missed: scuffing.safety > 1.5"; "" without limits */
+    const char *verdict;     /* "good", "doubtful", "bad", "failed"; "" when it has not run */
     const char *reasons; /* the lines that are not good, the worst first: "inlet heating, lambda" */
 } results_view_case;
 

@@ -4,6 +4,7 @@
 #define RESULTS_WRITE_H
 
 #include "../accuracy/accuracy.h"
+#include "../limits/limits.h"
 #include "../study/kinds/kinds.h"
 #include "earlier.h"
 #include "folder.h"
@@ -15,7 +16,8 @@ typedef struct results_outcome {
     const ff_report *report;
     const results_input *input;
     const accuracy_record *errors; /* those that were measured */
-    const char *status;            /* "ok", "failed", "stopped", "error" */
+    const limits_verdict *limits;
+    const char *status; /* "ok", "failed", "stopped", "error" */
     int exit_code;
     json_t *log; /* messages of the models: [{stage, level, text}] */
 } results_outcome;

@@ -9,6 +9,7 @@
 #include "../../accuracy/axis.h"
 #include "../../accuracy/goals.h"
 #include "../../accuracy/models.h"
+#include "../../limits/limits.h"
 #include "../../run/run.h"
 #include "../store/hash.h"
 #include "../store/journal.h"
@@ -17,6 +18,30 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Adds all that is written under a key of the file. */
+static uint64_t hash_node(uint64_t hash, const ff_node *node)
+{
+    hash = study_hash_text(hash, node->text ? node->text : "");
+    for (size_t i = 0; i < node->count; i++) {
+        if (node->kind == FF_MAP)
+            hash = study_hash_text(hash, node->keys[i]);
+        hash = hash_node(hash, node->items[i]);
+    }
+    return hash;
+}
+
+/* Adds what a case is judged by. */
+static uint64_t hash_judging(uint64_t hash, const ff_run *run)
+{
+    static const char *const keys[] = {"limits", "accept"};
+    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
+        const ff_node *node = ff_node_get(ff_run_root(run), keys[k]);
+        if (node)
+            hash = hash_node(study_hash_text(hash, keys[k]), node);
+    }
+    return hash;
+}
 
 /* A case that cannot be built has no resolved parameters, so its key comes from its assignments. */
 static uint64_t hash_assignments(const study_definition *study, size_t index)
@@ -165,6 +190,8 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
         fingerprint = study_hash_text(study_hash_text(fingerprint, "accuracy"), asked);
         free(asked);
     }
+    if (ff_run_root(c->run))
+        fingerprint = hash_judging(fingerprint, c->run);
     if (study->measure)
         fingerprint = study_measure_fingerprint(fingerprint, study->measure->repeat[index]);
     snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)fingerprint);
@@ -307,8 +334,10 @@ static void add_quality(json_t *record, const ff_pipeline *pipeline)
         for (size_t k = 0; k < stage->quality_count; k++) {
             const ff_quality *line = &stage->quality[k];
             json_object_set_new(lines, line->name,
-                                json_pack("[o, o, i, s*]", study_json_real(line->value),
-                                          study_json_real(line->limit), line->verdict, line->text));
+                                json_pack("[o, o, i, s*, s*]", study_json_real(line->value),
+                                          study_json_real(line->limit), line->verdict,
+                                          line->accepted && !line->text ? "" : line->text,
+                                          line->accepted));
         }
         if (lines)
             json_object_set_new(all, stage->name, lines);
@@ -363,6 +392,15 @@ static void add_bars(json_t *record, const accuracy_record *errors)
         json_object_set_new(outputs, name, json_pack("[s, f]", e->result->row->unit, e->bar[0]));
         free(name);
     }
+}
+
+/* Adds how the case stands to the limits of the file, if it has any. */
+static void add_limits(json_t *record, const study_case *c, const accuracy_record *errors)
+{
+    limits_verdict verdict = limits_judge(c->run, c->pipeline, errors);
+    if (verdict.count > 0)
+        json_object_set_new(record, "limits", limits_json(&verdict));
+    limits_free(&verdict);
 }
 
 /* Adds the results to the record, and keeps arrays. False after an error. */
@@ -423,6 +461,8 @@ static json_t *record_run(study_case *c, const study_run *run, size_t index, jso
     }
     if (good)
         add_bars(record, errors);
+    if (good)
+        add_limits(record, c, errors);
     study_chain_record_states(c, record);
     return record;
 }

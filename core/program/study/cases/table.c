@@ -5,6 +5,8 @@
 #include "csv.h"
 #include "spectrum.h"
 
+#include "../../limits/limits.h"
+
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,7 +41,7 @@ static const char *common_unit(const study_definition *study, const study_varied
 }
 
 static void put_head(FILE *out, const study_definition *study, const char *const *units,
-                     json_t *columns)
+                     json_t *columns, bool limits)
 {
     const char *name;
     json_t *unit;
@@ -53,7 +55,7 @@ static void put_head(FILE *out, const study_definition *study, const char *const
         fprintf(out, ",%s [%s]", study_time_name, study->spectrum->shares ? "1" : "s");
     json_object_foreach(columns, name, unit)
         fprintf(out, ",%s [%s]", name, json_string_value(unit));
-    fputs(",verdict,reasons,reason\n", out);
+    fprintf(out, "%s,verdict,reasons,reason\n", limits ? ",limits" : "");
 }
 
 /* Two cells, which are empty for a case that has not run. */
@@ -65,9 +67,18 @@ static void put_judgement(FILE *out, const study_judgement *judgement)
     free(reasons);
 }
 
+/* A cell that says how the case stands to the limits of the file. */
+static void put_limits(FILE *out, const json_t *list)
+{
+    char *text = limits_text(list);
+    fputc(',', out);
+    study_csv_write(out, text, strlen(text), false);
+    free(text);
+}
+
 static void put_row(FILE *out, const study_definition *study, const char *const *units,
                     size_t index, const char *key, const json_t *record,
-                    const study_judgement *judgement, json_t *columns)
+                    const study_judgement *judgement, json_t *columns, bool limits)
 {
     const char *status = json_string_value(json_object_get(record, "status"));
     const char *reason = json_string_value(json_object_get(record, "reason")), *name;
@@ -90,15 +101,18 @@ static void put_row(FILE *out, const study_definition *study, const char *const 
         if (pair)
             fprintf(out, "%.12g", json_number_value(json_array_get(pair, 1)));
     }
+    if (limits)
+        put_limits(out, json_object_get(record, "limits"));
     put_judgement(out, record ? judgement : NULL);
     fputc(',', out);
     study_csv_write(out, reason ? reason : "", reason ? strlen(reason) : 0, false);
     fputc('\n', out);
 }
 
-/* Returns {name: unit} of every output that some case gave, in the order of the cases. */
+/* Returns {name: unit} of every output that some case gave, in the order of the cases, and whether
+   one was judged by limits. */
 static json_t *find_columns(const study_definition *study, study_records *records,
-                            char (*keys)[STUDY_KEY_SIZE])
+                            char (*keys)[STUDY_KEY_SIZE], bool *limits)
 {
     json_t *columns = json_object(), *pair, *known = json_object();
     const char *name;
@@ -109,6 +123,7 @@ static json_t *find_columns(const study_definition *study, study_records *record
         if (*form)
             json_object_set_new(known, form, json_true());
         json_t *record = study_records_get(records, keys[i]);
+        *limits = *limits || json_object_get(record, "limits");
         json_object_foreach(json_object_get(record, "outputs"), name, pair)
         {
             if (!json_object_get(columns, name))
@@ -124,16 +139,17 @@ static json_t *find_columns(const study_definition *study, study_records *record
 static void put_table(FILE *out, const study_definition *study, study_records *records,
                       char (*keys)[STUDY_KEY_SIZE], study_tally *tally)
 {
-    json_t *columns = find_columns(study, records, keys);
+    bool limits = false;
+    json_t *columns = find_columns(study, records, keys, &limits);
     const char **units = memory_alloc(study->varied_count * sizeof *units);
     for (size_t k = 0; k < study->varied_count; k++)
         units[k] = common_unit(study, &study->varied[k]);
-    put_head(out, study, units, columns);
+    put_head(out, study, units, columns, limits);
     for (size_t i = 0; i < study->count; i++) {
         json_t *record = study_records_get(records, keys[i]);
         study_judgement judgement;
         study_judgement_read(&judgement, record);
-        put_row(out, study, units, i, keys[i], record, &judgement, columns);
+        put_row(out, study, units, i, keys[i], record, &judgement, columns, limits);
         if (record)
             study_tally_add(tally, i + 1, keys[i], &judgement);
         study_judgement_free(&judgement);

@@ -161,7 +161,10 @@ bool study_judgement_read(study_judgement *judgement, const json_t *object)
     const json_t *reasons = json_object_get(object, "reasons");
     size_t i;
     json_t *reason;
+    const json_t *limits = json_object_get(object, "limits");
     *judgement = (study_judgement){.verdict = FF_GOOD};
+    if (json_array_size(limits) > 0)
+        judgement->limits = 1 + (size_t)limits_worst(limits);
     while (verdict && judgement->verdict < STUDY_VERDICTS &&
            strcmp(study_verdict_name(judgement->verdict), verdict) != 0)
         judgement->verdict++;
@@ -239,6 +242,8 @@ void study_tally_add(study_tally *tally, size_t number, const char *key,
                      const study_judgement *judgement)
 {
     tally->counts[judgement->verdict]++;
+    if (judgement->limits > 0)
+        tally->limits[judgement->limits - 1]++;
     for (size_t i = 0; i < judgement->count; i++)
         count_reason(&tally->reasons[judgement->verdict], judgement->reasons[i], 1);
     list_case(tally, judgement, number, key);
@@ -253,6 +258,8 @@ void study_tally_merge(study_tally *tally, study_tally *part)
         json_object_foreach(part->reasons[v], reason, cases)
             count_reason(&tally->reasons[v], reason, json_integer_value(cases));
     }
+    for (int s = 0; s < LIMITS_STANDINGS; s++)
+        tally->limits[s] += part->limits[s];
     if (part->cases && tally->cases)
         json_array_extend(tally->cases, part->cases);
     else if (part->cases)
@@ -312,6 +319,13 @@ char *study_tally_text(const study_tally *tally)
                     list[i].cases);
         fputs(count ? ")" : "", out);
         free(list);
+    }
+    gap = "; limits: ";
+    for (int s = 0; s < LIMITS_STANDINGS; s++) {
+        if (!tally->limits[s])
+            continue;
+        fprintf(out, "%s%zu %s", gap, tally->limits[s], limits_word((limits_standing)s));
+        gap = ", ";
     }
     fclose(out);
     return text;

@@ -6,9 +6,7 @@
 #ifndef STUDY_JUDGEMENT_H
 #define STUDY_JUDGEMENT_H
 
-#include <flankfilm/engine.h>
-
-#include <jansson.h>
+#include "../../limits/limits.h"
 
 /* FF_GOOD, FF_DOUBTFUL and FF_BAD; a row of a spectrum whose input is beyond the limits of what can
    be computed; and a case without numbers that no line calls bad. */
@@ -18,6 +16,8 @@ typedef struct study_judgement {
     int verdict;
     char **reasons; /* in words, the worst first: "inlet heating" */
     size_t count;
+    size_t limits; /* how the case stands to those of the file: 1 + limits_standing; 0: none are
+                      known */
 } study_judgement;
 
 extern const char study_refused[]; /* "refused": the status of such a row, and its verdict */
@@ -25,7 +25,8 @@ const char *study_verdict_name(int verdict); /* "good", "doubtful", "bad", "refu
 
 /* Judges the record of a case by its status, lines and warnings, and adds the judgement to it. */
 void study_judge_record(json_t *record);
-/* Takes what study_judgement_add added. False when there is none: a case that failed. */
+/* Takes what study_judgement_add added, and how the case stands to limits. False when there is no
+   verdict: a case that failed. */
 bool study_judgement_read(study_judgement *judgement, const json_t *object);
 /* Judges what a pipeline has computed; `failed` says that the run ended with an error. */
 study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed);
@@ -38,6 +39,7 @@ void study_judgement_add(const study_judgement *judgement, json_t *object);
 enum { STUDY_MOST_JUDGED = 10000 }; /* cases that are listed one by one */
 typedef struct study_tally {
     size_t counts[STUDY_VERDICTS];
+    size_t limits[LIMITS_STANDINGS]; /* cases that are judged by limits, by the worst of them */
     json_t *reasons[STUDY_VERDICTS]; /* {reason: number of cases}; NULL while there are none */
     json_t *cases; /* [{case, key, verdict, reasons}]; NULL while there are none */
 } study_tally;
@@ -48,8 +50,8 @@ void study_tally_add(study_tally *tally, size_t number, const char *key,
 /* Adds the cases of `part`, which is emptied. */
 void study_tally_merge(study_tally *tally, study_tally *part);
 void study_tally_free(study_tally *tally);
-/* Returns "12 good, 104 doubtful (inlet heating 88, lambda 61)", to be freed; the most frequent
-   reasons come first. */
+/* Returns "12 good, 104 doubtful (inlet heating 88, lambda 61); limits: 110 met, 6 missed", to be
+   freed; the most frequent reasons come first. */
 char *study_tally_text(const study_tally *tally);
 /* Adds "verdict", the worst one, "counts" {good, doubtful, bad, refused,
    failed}, "reasons" [{reason,

@@ -97,7 +97,7 @@ static void write_results(const ff_stage *stage, FILE *out)
         const ff_quality *line = &stage->quality[i];
         fwrite(&line->value, sizeof line->value, 1, out);
         fwrite(&line->limit, sizeof line->limit, 1, out);
-        const int32_t verdict = line->range ? FF_RANGE : line->verdict;
+        const int32_t verdict = ff_quality_given(line);
         fwrite(&verdict, sizeof verdict, 1, out);
         write_text(out, line->name);
         write_text(out, line->text);

@@ -1,10 +1,71 @@
 /* SPDX-License-Identifier: MIT */
-/* Natural bounds: what the numbers of an output cannot be, by its row. */
+/* Lines of quality: what models say, unless the file accepts a doubt, and natural bounds, which are
+   what the numbers of an output cannot be by its row. */
 #include "build.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+
+/* Why the file accepts a doubt of that name; NULL: it does not. */
+static const char *reason_to_accept(const ff_stage *stage, const char *name)
+{
+    const size_t length = strlen(stage->name);
+    for (size_t i = 0; stage->accept && i < stage->accept->count; i++) {
+        const char *key = stage->accept->keys[i];
+        if (!strncmp(key, stage->name, length) && key[length] == '.' &&
+            !strcmp(key + length + 1, name))
+            return stage->accept->items[i]->text;
+    }
+    return NULL;
+}
+
+void ff_add_quality(ff_stage *stage, const char *name, double value, double limit, int verdict,
+                    const char *text)
+{
+    const bool doubt = verdict == FF_RANGE || verdict == FF_DOUBTFUL;
+    const char *reason = doubt ? reason_to_accept(stage, name) : NULL;
+    stage->quality = fe_resize(stage->quality, (stage->quality_count + 1) * sizeof *stage->quality);
+    ff_quality line = {.stage = stage->name,
+                       .name = fe_copy_clean(name),
+                       .value = value,
+                       .limit = limit,
+                       .verdict = reason  ? FF_GOOD
+                                  : doubt ? FF_DOUBTFUL
+                                          : verdict,
+                       .range = verdict == FF_RANGE,
+                       .text = text && text[0] ? fe_copy_clean(text) : NULL,
+                       .accepted = reason ? fe_copy_clean(reason) : NULL};
+    stage->quality[stage->quality_count++] = line;
+}
+
+int ff_quality_given(const ff_quality *line)
+{
+    return line->range ? FF_RANGE : line->accepted ? FF_DOUBTFUL : line->verdict;
+}
+
+static void free_quality(const ff_quality *line)
+{
+    fe_free((void *)line->name);
+    fe_free((void *)line->text);
+    fe_free((void *)line->accepted);
+}
+
+void ff_drop_quality(ff_stage *stage, size_t line)
+{
+    free_quality(&stage->quality[line]);
+    stage->quality_count--;
+    for (size_t i = line; i < stage->quality_count; i++)
+        stage->quality[i] = stage->quality[i + 1];
+}
+
+void fe_forget_quality(ff_stage *stage)
+{
+    while (stage->quality_count > 0)
+        free_quality(&stage->quality[--stage->quality_count]);
+    fe_free(stage->quality);
+    stage->quality = NULL;
+}
 
 typedef struct bounds {
     double least, most;

@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "limits.h"
+
+#include "../accuracy/lines.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct asked {
+    double bound; /* SI */
+    bool above;   /* numbers are to be above it */
+    bool equal;   /* or to be it */
+} asked;
+
+static const ff_node *node_of(const ff_run *run)
+{
+    const ff_node *node = ff_node_get(ff_run_root(run), "limits");
+    return node && node->kind == FF_MAP ? node : NULL;
+}
+
+/* Finds the output that a limit names; NULL where the pipeline does not have it. */
+static const ff_result *find_output(const ff_pipeline *pipeline, const char *path,
+                                    const ff_stage **stage)
+{
+    const char *name;
+    *stage = ff_stage_of(pipeline, path, &name);
+    int output =
+        *stage && (*stage)->loaded ? ff_model_find_output((*stage)->loaded->model, name) : -1;
+    return output < 0 || !(*stage)->results ? NULL : &(*stage)->results[output];
+}
+
+/* Reads "> 1.5 um" in the unit of the output; false after an error. */
+static bool read_limit(const ff_node *node, const char *path, const ff_port *output, asked *limit,
+                       ff_report *report)
+{
+    const char *text = node->kind == FF_SCALAR ? node->text : "";
+    if (*text != '<' && *text != '>')
+        return ff_error(report, FF_FAULT_INPUT, node->place, NULL,
+                        "limits.%s: expected \"> NUMBER UNIT\" or \"< NUMBER UNIT\" in quotes, or "
+                        "a list of them",
+                        path);
+    *limit = (asked){.above = *text == '>', .equal = text[1] == '='};
+    text += limit->equal ? 2 : 1;
+    text += strspn(text, " ");
+    const ff_param row = {.name = output->name,
+                          .unit = output->unit,
+                          .doc = output->doc,
+                          .type = FF_REAL,
+                          .flags = output->flags & FF_DIFFERENCE,
+                          .min = -INFINITY,
+                          .max = INFINITY};
+    ff_node number = *node;
+    ff_unit unit;
+    ff_value value;
+    char why[64], *name = memory_print_text("limits.%s", path);
+    number.text = (char *)text;
+    bool good = ff_unit_parse(row.unit, &unit, why, sizeof why) &&
+                ff_param_read(&row, &unit, name, &number, &value, report);
+    free(name);
+    if (good) {
+        limit->bound = value.real;
+        ff_value_clear(&value);
+    }
+    return good;
+}
+
+/* Number i of the limits of an output, which are one or a list; NULL after the last. */
+static const ff_node *limit_at(const ff_node *of, size_t i)
+{
+    if (of->kind != FF_SEQUENCE)
+        return i == 0 ? of : NULL;
+    return i < of->count ? of->items[i] : NULL;
+}
+
+bool limits_check(ff_run *run)
+{
+    const ff_node *node = node_of(run), *item;
+    ff_report *report = ff_run_report(run);
+    size_t errors = ff_report_errors(report);
+    for (size_t i = 0; node && i < node->count; i++) {
+        const ff_stage *stage;
+        const ff_result *result = find_output(ff_run_pipeline(run), node->keys[i], &stage);
+        asked unused;
+        for (size_t k = 0; result && (item = limit_at(node->items[i], k)); k++)
+            read_limit(item, node->keys[i], result->row, &unused, report);
+    }
+    return ff_report_errors(report) == errors;
+}
+
+/* The error of number k of an output: measured, or as the stage estimates it; NaN: not told. */
+static double bar_of(const ff_stage *stage, const ff_result *result, size_t k,
+                     const accuracy_record *errors)
+{
+    const accuracy_error *measured = accuracy_find(errors, result);
+    const ff_result *estimate = accuracy_estimate_of(stage, result);
+    if (measured)
+        return measured->bar ? measured->bar[k] : NAN;
+    return estimate ? estimate->data[k]
+                    : accuracy_estimated_share(stage, result) * fabs(result->data[k]);
+}
+
+/* How much further than the limit a number is on the side that is asked for. */
+static double margin_of(const asked *limit, double value)
+{
+    return limit->above ? value - limit->bound : limit->bound - value;
+}
+
+/* A number that is known from below alone meets no limit from above for sure. */
+static limits_standing stand(const asked *limit, double value, double bar, bool at_least)
+{
+    const double margin = margin_of(limit, value);
+    if (!(margin > 0 || (margin == 0 && limit->equal)))
+        return LIMITS_MISSED;
+    if (at_least)
+        return limit->above ? LIMITS_MET : LIMITS_WITHIN;
+    return margin <= bar && bar > 0 ? LIMITS_WITHIN : LIMITS_MET;
+}
+
+/* Judges all numbers of an output, and keeps the one that stands worst. */
+static void judge(limits_row *row, const asked *limit, const accuracy_record *errors)
+{
+    const ff_result *result = &row->stage->results[row->output];
+    const bool at_least = accuracy_is_least(row->stage, result);
+    double least = INFINITY;
+    row->standing = result->data && result->count > 0 ? LIMITS_MET : LIMITS_MISSED;
+    row->value = row->bar = NAN;
+    for (size_t k = 0; result->data && k < result->count; k++) {
+        const double bar = bar_of(row->stage, result, k, errors);
+        const limits_standing standing = stand(limit, result->data[k], bar, at_least);
+        const double margin = margin_of(limit, result->data[k]);
+        if (standing < row->standing ||
+            (standing == row->standing && !(margin < least) && !isnan(margin)))
+            continue;
+        *row = (limits_row){row->stage, row->output,     row->name, row->asked,
+                            standing,   result->data[k], bar};
+        least = margin;
+    }
+}
+
+limits_verdict limits_judge(const ff_run *run, const ff_pipeline *pipeline,
+                            const accuracy_record *errors)
+{
+    const ff_node *node = node_of(run), *item;
+    limits_verdict verdict = {.count = 0};
+    ff_report *unused = ff_report_new();
+    for (size_t i = 0; node && i < node->count; i++) {
+        const ff_stage *stage;
+        const ff_result *result = find_output(pipeline, node->keys[i], &stage);
+        asked limit;
+        for (size_t k = 0; result && (item = limit_at(node->items[i], k)); k++) {
+            if (!read_limit(item, node->keys[i], result->row, &limit, unused))
+                continue;
+            verdict.rows = memory_resize(verdict.rows, (verdict.count + 1) * sizeof *verdict.rows);
+            limits_row *row = &verdict.rows[verdict.count++];
+            *row = (limits_row){.stage = stage,
+                                .output = (size_t)(result - stage->results),
+                                .name = memory_print_text("%s", node->keys[i]),
+                                .asked = memory_print_text("%s", item->text)};
+            judge(row, &limit, errors);
+            if (row->standing > verdict.worst)
+                verdict.worst = row->standing;
+        }
+    }
+    ff_report_free(unused);
+    return verdict;
+}
+
+void limits_free(limits_verdict *verdict)
+{
+    for (size_t i = 0; i < verdict->count; i++) {
+        free(verdict->rows[i].name);
+        free(verdict->rows[i].asked);
+    }
+    free(verdict->rows);
+    *verdict = (limits_verdict){.count = 0};
+}
+
+const char *limits_word(limits_standing standing)
+{
+    static const char *const words[LIMITS_STANDINGS] = {"met", "met within its bar", "missed"};
+    return words[standing];
+}
+
+limits_standing limits_standing_of(const char *word)
+{
+    size_t s = 0;
+    while (s < LIMITS_MISSED && (!word || strcmp(word, limits_word((limits_standing)s)) != 0))
+        s++;
+    return (limits_standing)s;
+}
+
+static json_t *number_or_null(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+json_t *limits_json(const limits_verdict *verdict)
+{
+    json_t *list = json_array();
+    for (size_t i = 0; i < verdict->count; i++) {
+        const limits_row *row = &verdict->rows[i];
+        json_array_append_new(
+            list, json_pack("{s:s, s:s, s:s, s:o, s:o, s:s}", "output", row->name, "asked",
+                            row->asked, "standing", limits_word(row->standing), "value",
+                            number_or_null(row->value), "bar", number_or_null(row->bar), "unit",
+                            row->stage->results[row->output].row->unit));
+    }
+    return list;
+}
+
+static limits_standing standing_in(const json_t *entry)
+{
+    return limits_standing_of(json_string_value(json_object_get(entry, "standing")));
+}
+
+limits_standing limits_worst(const json_t *list)
+{
+    limits_standing worst = LIMITS_MET;
+    const json_t *entry;
+    size_t i;
+    json_array_foreach(list, i, entry)
+    {
+        if (standing_in(entry) > worst)
+            worst = standing_in(entry);
+    }
+    return worst;
+}
+
+char *limits_text(const json_t *list)
+{
+    const limits_standing worst = limits_worst(list);
+    const json_t *entry;
+    size_t i, length;
+    char *text = NULL;
+    FILE *out = memory_require(open_memstream(&text, &length));
+    fputs(json_array_size(list) ? limits_word(worst) : "", out);
+    const char *between = ": ";
+    json_array_foreach(list, i, entry)
+    {
+        const char *name = json_string_value(json_object_get(entry, "output")),
+                   *bound = json_string_value(json_object_get(entry, "asked"));
+        if (worst == LIMITS_MET || standing_in(entry) != worst)
+            continue;
+        fprintf(out, "%s%s %s", between, name ? name : "", bound ? bound : "");
+        between = ", ";
+    }
+    fclose(out);
+    return text;
+}
+
+char *limits_sentence(const limits_verdict *verdict)
+{
+    size_t counts[LIMITS_STANDINGS] = {0}, length;
+    char *text = NULL;
+    FILE *out = memory_require(open_memstream(&text, &length));
+    for (size_t i = 0; i < verdict->count; i++)
+        counts[verdict->rows[i].standing]++;
+    if (verdict->count > 0)
+        fprintf(out, "of %zu limit%s ", verdict->count, verdict->count == 1 ? "" : "s");
+    const char *between = "";
+    for (size_t s = LIMITS_STANDINGS; s-- > 0;) {
+        if (!counts[s])
+            continue;
+        fprintf(out, "%s%zu %s", between, counts[s], limits_word((limits_standing)s));
+        between = ", ";
+    }
+    fclose(out);
+    return text;
+}

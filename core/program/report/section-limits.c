@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* How the answers stand to the limits of the file. */
+#include "page.h"
+
+#include <math.h>
+#include <string.h>
+
+static const char *badge_of(int32_t standing)
+{
+    return standing == LIMITS_MET ? "good" : standing == LIMITS_WITHIN ? "doubtful" : "bad";
+}
+
+static void write_limit(report_page *page, const results_view_limit *limit)
+{
+    const char *dot = strchr(limit->output, '.');
+    const char *unit = report_si_unit(limit->unit, dot ? dot + 1 : limit->output);
+    char value[REPORT_TEXT_SIZE] = "not known", bar[REPORT_TEXT_SIZE];
+    if (!isnan(limit->value))
+        report_quantity_text(unit, limit->value, value);
+    report_print(page->out,
+                 "<tr><td><code>%s</code></td><td class=\"number\">%s</td><td "
+                 "class=\"number\">%s",
+                 limit->output, limit->asked, value);
+    if (limit->bar > 0) {
+        report_quantity_text(limit->unit, limit->bar, bar);
+        report_print(page->out, " &#177; %s", bar);
+    }
+    report_print(page->out, "</td><td><span class=\"badge %s\">%s</span></td></tr>\n",
+                 badge_of(limit->standing), limits_word((limits_standing)limit->standing));
+}
+
+void report_write_limits(report_page *page)
+{
+    const results_view *view = page->view;
+    size_t counts[LIMITS_STANDINGS] = {0}, cases = 0;
+    for (size_t c = 0; c < view->case_count; c++) {
+        int32_t worst = LIMITS_MET;
+        for (size_t i = 0; i < view->cases[c]->limit_count; i++)
+            if (view->cases[c]->limits[i]->standing > worst)
+                worst = view->cases[c]->limits[i]->standing;
+        cases += view->cases[c]->limit_count > 0;
+        counts[worst] += view->cases[c]->limit_count > 0;
+    }
+    if (cases == 0)
+        return;
+    if (view->study) {
+        fprintf(page->out,
+                "<p class=\"limits\">Of %zu cases %zu meet the limits of the file, %zu within "
+                "their bars alone, and %zu miss one.</p>\n",
+                cases, counts[LIMITS_MET], counts[LIMITS_WITHIN], counts[LIMITS_MISSED]);
+        return;
+    }
+    fputs("<div class=\"wide\"><table class=\"limits\"><thead><tr><th>limit of</th><th>asked</th>"
+          "<th>it is</th><th></th></tr></thead><tbody>\n",
+          page->out);
+    for (size_t i = 0; i < view->cases[0]->limit_count; i++)
+        write_limit(page, view->cases[0]->limits[i]);
+    fputs("</tbody></table></div>\n", page->out);
+}

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Limits of a file are judged with the error bars, doubts that it accepts are none, and both are told
+by terminal, JSON, page and tables.
+
+toy/verge answers 1.01 m and says that it is off by 1 %; at 2.2 m/s its line `residual` is doubtful."""
+import csv
+import json
+
+import lab
+
+RUN = """
+format: 2
+pipeline:
+  verge: {use: toy/verge}
+outputs: [verge.swing]
+limits: {%s}
+"""
+STUDY = """
+format: 2
+pipeline:
+  verge: {use: toy/verge}
+outputs: [verge.swing]
+limits: {verge.answer: "> 1005 mm", verge.swing: "< 0.5"}
+study:
+  sweep: {verge.cells: [100, 10], verge.speed: [2.2 m/s, 0.4 m/s]}
+"""
+STANDINGS = [  # of 1.01 m +- 0.0101 m, and of the swing, which is 0 and has no bar
+    ('verge.answer: "> 0.9 m"', "met"), ('verge.answer: ">0.9999 m"', "met within its bar"),
+    ('verge.answer: "> 99.9 cm"', "met"), ('verge.answer: ">= 1.01 m"', "met within its bar"),
+    ('verge.answer: "> 1.01 m"', "missed"), ('verge.answer: "> 1.015 m"', "missed"),
+    ('verge.answer: "< 1.015 m"', "met within its bar"), ('verge.answer: "< 1.03 m"', "met"),
+    ('verge.answer: "< 1 m"', "missed"), ('verge.swing: "< 1e-3"', "met"),
+    ('verge.swing: "<= 0"', "met"), ('verge.swing: "< 0"', "missed"), ('verge.answers: "> 0.99 m"', "met"),
+]
+REFUSED = [
+    ('limits={verge.anwser: "> 1 m"}', 9, 'limits: verge (toy/verge) has no output "anwser"; did you mean "answer"?'),
+    ('limits={verge: "> 1 m"}', 9, 'limits: "verge" is a stage; write verge.OUTPUT'),
+    ('limits={verg.answer: "> 1 m"}', 9, 'limits: there is no stage "verg"; did you mean "verge"?'),
+    ('limits={verge.answer: "1 m"}', 23, 'limits.verge.answer: expected "> NUMBER UNIT"'),
+    ('limits={verge.answer: ["> 1 m", {}]}', 33, 'limits.verge.answer: expected "> NUMBER UNIT"'),
+    ('limits={verge.answer: "> 1 K"}', 23, "limits.verge.answer: \"1 K\" is a temperature"),
+    ("limits=[verge.answer]", 8, "limits: expected a map such as"),
+    ("accept={verge.residual: }", 25, "accept.verge.residual: expected the reason"),
+    ("accept={verg.residual: x}", 9, 'accept: there is no stage "verg"'),
+    ("accept=all", 8, "accept: expected a map such as"),
+]
+
+
+class Limits(lab.Lab):
+    def write(self, name, text):
+        with open(name + ".yaml", "w", encoding="utf-8") as file:
+            file.write(text)
+        return name + ".yaml"
+
+    def answer(self, *words, code=0):
+        return json.loads(self.call("run", *words, "--json", code=code).splitlines()[0])
+
+    def test_standings(self):
+        for limit, standing in STANDINGS:
+            file = self.write("one", RUN % limit)
+            with self.subTest(limit=limit):
+                one, = self.answer(file)["limits"]
+                self.assertEqual(one["standing"], standing)
+                self.assertEqual(self.answer(file, "--strict", code=int(standing != "met"))["limits"], [one])
+
+    def test_lists_and_series(self):
+        file = self.write("list", RUN % 'verge.answer: ["> 1 m", "< 1 m"], verge.answers: "< 0.5 m"')
+        answer = self.answer(file)
+        self.assertEqual([limit["standing"] for limit in answer["limits"]],
+                         ["met within its bar", "missed", "missed"])
+        self.assertEqual([limit["value"] for limit in answer["limits"]], [1.01, 1.01, 1])
+        self.assertIn("verge.answer", answer["outputs"])  # a limit asks for its output
+
+    def test_measured_bar(self):
+        """A bar that twins have measured goes before what the stage estimates; that of a toy without tunable
+        settings is 0."""
+        file = self.write("measured", RUN % 'verge.swing: "< 0.5", verge.answer: "> 1 m"' + "accuracy: measured\n")
+        self.assertEqual([limit["standing"] for limit in self.answer(file)["limits"]], ["met", "met"])
+
+    def test_accept(self):
+        file = self.write("doubt", RUN % "")
+        doubtful = self.answer(file, "--set", "verge.speed=2.2 m/s", "--strict", code=1)
+        self.assertEqual((doubtful["verdict"], doubtful["reasons"]), ("doubtful", ["residual"]))
+        words = ("--set", "verge.speed=2.2 m/s", "--set", "accept={verge.residual: seen on the rig}")
+        accepted = self.answer(file, *words, "--strict")
+        line = accepted["stages"][0]["quality"]["residual"]
+        self.assertEqual((accepted["verdict"], line["verdict"], line["accepted"]), ("good", "good", "seen on the rig"))
+        self.assertIn("verge.residual = 2.2, held to 2: seen on the rig", self.call("run", file, *words, "-o", "doubt"))
+        self.call("report", "doubt")
+        with open("doubt/report.html", encoding="utf-8") as page:
+            self.assertIn("Accepted by the file: verge.residual (seen on the rig)", page.read())
+        self.assertIn('accept: verge has no line "residuum" in this run; did you mean "residual"?',
+                      self.call("run", file, "--set", "accept={verge.residuum: x}", "--replace", "-o", "doubt"))
+
+    def test_bad_is_not_accepted(self):
+        file = self.write("bad", "format: 2\npipeline: {wave: {use: toy/wave, amplitude: 2 mm, end: bad}}\n"
+                                 "outputs: [wave.total]\naccept: {wave.residual: never mind}\n")
+        self.assertIn("residual", self.call("run", file, "-o", "bad", code=1))
+
+    def test_run_is_told(self):
+        file = self.write("told", RUN % 'verge.answer: "< 1 m", verge.swing: "< 1"')
+        said = self.call("run", file, "-o", "told").splitlines()
+        self.assertEqual(said[1:3], ["of 2 limits 1 missed, 1 met",
+                                     "  verge.answer: missed, < 1 m is asked and it is 1.01 +- 0.01 m"])
+        self.call("report", "told")
+        with open("told/report.html", encoding="utf-8") as page:
+            text = page.read()
+        self.assertLess(text.index('<span class="badge bad">missed'), text.index('class="judgement"'))
+        self.call("export", "told", "--to", "csv", "-o", "told-csv")
+        with open("told-csv/scalars.csv", encoding="utf-8") as table:
+            self.assertEqual(next(csv.DictReader(table))["limits"], "missed: verge.answer < 1 m")
+
+    def test_study(self):
+        file = self.write("cases", STUDY)
+        said = self.call("run", file, "-o", "cases", "-j", "2").splitlines()[-1]
+        self.assertIn("4 of 4 cases done: 2 good, 2 doubtful (residual 2); limits: 1 met within its bar, 3 missed", said)
+        with open("cases/table.csv", encoding="utf-8") as table:
+            self.assertEqual([row["limits"] for row in csv.DictReader(table)],
+                             ["missed: verge.answer > 1005 mm", "missed: verge.answer > 1005 mm, verge.swing < 0.5",
+                              "met within its bar: verge.answer > 1005 mm", "missed: verge.swing < 0.5"])
+
+    def test_study_is_judged_anew(self):
+        """A case that is kept was judged by the limits of its time."""
+        file = self.write("anew", STUDY)
+        self.call("run", file, "-o", "anew")
+        said = self.call("run", file, "-o", "anew", "--set", 'limits={verge.answer: "> 0.5 m", verge.swing: "< 2"}',
+                         "--set", "accept={verge.residual: seen}", "--strict").splitlines()[-1]
+        self.assertIn("4 of 4 cases done: 4 good; limits: 4 met", said)
+        said = self.call("run", file, "-o", "anew", "--strict", code=4)
+        self.assertIn("4 of 4 cases done, 4 of them before", said)
+
+    def test_refused(self):
+        file = self.write("refused", RUN % "")
+        for setting, column, words in REFUSED:
+            with self.subTest(setting=setting):
+                said = self.call("check", file, "--set", setting, code=2)
+                self.assertIn(f"--set:1:{column}: error: {words}", said)
+
+
+lab.main()
