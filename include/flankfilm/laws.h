@@ -27,7 +27,11 @@ enum {
         5,              /* K, the same at every T: one that the liquid is known at */
     FF_LIQUID_BASE = 6, /* since 1.3: FF_BASE_..., the same at every T */
     FF_LIQUID_BASE_COEFFICIENT =
-        7 /* since 1.3: the pressure coefficient of the ISO VG 100 oil of that base, 1/Pa */
+        7, /* since 1.3: the pressure coefficient of the ISO VG 100 oil of that base, 1/Pa */
+    /* Since 1.3: under pressure the conductivity is 1 + c1 p/(1 + c2 p) times that at ambient
+       pressure; c1 and c2 in 1/Pa. */
+    FF_LIQUID_CONDUCTIVITY_RISE = 8,
+    FF_LIQUID_CONDUCTIVITY_BEND = 9
 };
 
 /* Base oils, whose correlations and laws differ; further ones may follow. */

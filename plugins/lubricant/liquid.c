@@ -193,6 +193,24 @@ static double base_coefficient(const lubricant_oil *oil, double T, double *slope
     return oil->base < 0 ? unknown(slope) : lubricant_base_coefficient(oil->base, T, slope);
 }
 
+static double conductivity_number(const lubricant_oil *oil, size_t which, double *slope)
+{
+    const ff_reals *c = &oil->conductivity_pressure;
+    return c->count == 0 ? unknown(slope) : constant(c->count > which ? c->data[which] : 0, slope);
+}
+
+static double conductivity_rise(const lubricant_oil *oil, double T, double *slope)
+{
+    (void)T;
+    return conductivity_number(oil, 0, slope);
+}
+
+static double conductivity_bend(const lubricant_oil *oil, double T, double *slope)
+{
+    (void)T;
+    return conductivity_number(oil, 1, slope);
+}
+
 /* Properties that are asked for one by one. */
 static property *const properties[LUBRICANT_PROPERTIES] = {
     [FF_LIQUID_CONDUCTIVITY] = conductivity,
@@ -201,6 +219,8 @@ static property *const properties[LUBRICANT_PROPERTIES] = {
     [FF_LIQUID_REFERENCE_TEMPERATURE] = reference_temperature,
     [FF_LIQUID_BASE] = base_oil,
     [FF_LIQUID_BASE_COEFFICIENT] = base_coefficient,
+    [FF_LIQUID_CONDUCTIVITY_RISE] = conductivity_rise,
+    [FF_LIQUID_CONDUCTIVITY_BEND] = conductivity_bend,
 };
 
 /*

@@ -39,6 +39,18 @@
     }
 enum { NUMERICS_HEAT_INPUTS = 3 };
 
+/* Parameters of both flanks where no gear tells, of a model with the members flank_conductivity,
+   flank_density and flank_heat_capacity. */
+#define NUMERICS_HEAT_PARAMS(when, type)                                                           \
+    FF_QUANTITY_UNLESS("gear.thermal_conductivity", "flank_conductivity", "W/(m K)", type,         \
+                       flank_conductivity, 0, NUMERICS_STEEL_CONDUCTIVITY, NULL, 1e-3, 1e4, 0, 0,  \
+                       when ": of both flanks, where no gear tells; steel 50"),                    \
+        FF_QUANTITY_UNLESS("gear.density", "flank_density", "kg/m3", type, flank_density, 0,       \
+                           NUMERICS_STEEL_DENSITY, NULL, 1, 1e5, 0, 0, "likewise; steel 7850"),    \
+        FF_QUANTITY_UNLESS("gear.specific_heat", "flank_heat_capacity", "J/(kg K)", type,          \
+                           flank_heat_capacity, 0, NUMERICS_STEEL_HEAT, NULL, 1, 1e5, 0, 0,        \
+                           "likewise; steel 484")
+
 typedef struct numerics_heat {
     double conductivity, density, specific_heat; /* SI */
 } numerics_heat;

@@ -6,13 +6,16 @@
  *   p_a = K E'/2 F_5/2(h/sigma),   K = (16 sqrt 2/15) pi (eta beta sigma)^2 sqrt(sigma/beta)
  *
  * with h between the mean planes, sigma = hypot(Rq1, Rq2), eta summits per area of radius beta, and
- * F_5/2(H) = 4.4086e-5 (4 - H)^6.804 below H = 4, 0 above (Hu et al. 1994).
+ * F_5/2(H) = 4.4086e-5 (4 - H)^6.804 below H = 4, 0 above (Hu et al. 1994), or the integral that
+ * this is fitted to, or p_a over h/sigma from a table.
  */
+#include "../lubricant/curve.h"
 #include "references.h"
 
 #include <flankfilm/author.h>
 #include <flankfilm/laws.h>
 #include <flankfilm/simd.h>
+#include <flankfilm/table.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,8 +30,23 @@ typedef struct statistical {
     double density; /* eta, 1/m2; NaN: by summit_product */
     double radius;  /* beta, m; NaN: by summit_slope */
     double product, slope;
-    double stiffness; /* K modulus/2, Pa */
+    double stiffness;      /* K modulus/2, Pa */
+    int32_t closure;       /* rank of the word */
+    const char *path;      /* of the table; NULL: none */
+    lubricant_curve curve; /* ln(p_a / 1 Pa) over h/sigma, of the integral or the table */
 } statistical;
+
+enum { FIT, INTEGRAL };
+
+/* Columns of the table. */
+enum { DISTANCE, PRESSURE };
+
+static const ff_param columns[] = {
+    FF_COLUMN("distance", "1", FF_REQUIRED | FF_INCREASING, NULL, -10, 20,
+              "of the mean planes, h/sigma"),
+    FF_COLUMN("pressure", "MPa", FF_REQUIRED, NULL, 1e-12, 1e6,
+              "that asperities of steel on steel carry"),
+};
 
 enum { OUT_RQ_1, OUT_RQ_2, OUT_CUTOFF, OUT_DENSITY, OUT_RADIUS, OUT_ASPERITIES, OUTPUTS };
 
@@ -80,6 +98,13 @@ static const ff_param params[] = {
                 "density times radius of the summits times sigma (Greenwood & Tripp 1970-71)"),
     FF_QUANTITY("summit_slope", "1", statistical, slope, FF_MIN_OPEN, "0.01", NULL, 0, 10, 1e-4,
                 0.1, "sigma over the radius of the summits; K goes with its root"),
+    FF_ONE_OF("fit|integral", "closure", statistical, closure, 0, "fit",
+              "F_5/2 by the fit of Hu et al., which is 0 beyond 4 sigma, or the integral over "
+              "Gaussian summits itself"),
+    FF_PATH("table", statistical, path, 0, NULL,
+            "p_a in place of Greenwood & Tripp's: a table with the columns distance [1] (h/sigma) "
+            "and pressure [MPa] of steel on steel, E' 230 GPa; ln p_a goes straight on beyond its "
+            "rows"),
 };
 
 FF_SIMD
@@ -98,6 +123,90 @@ static int64_t carry(double stiffness, double sigma, size_t n, const double *res
         extrapolated |= H < 0;
     }
     return extrapolated;
+}
+
+/* The same by the curve. */
+FF_SIMD
+static void carry_on(double sigma, size_t n, double *restrict p_a, double *restrict slope)
+{
+    const double most = 69; /* 1e30 Pa */
+    for (size_t i = 0; i < n; i++) {
+        double p = ff_exp(p_a[i] < most ? p_a[i] : most);
+        slope[i] = p_a[i] < most ? p * slope[i] / sigma : 0;
+        p_a[i] = p;
+    }
+}
+
+static ff_status pressure_by_curve(const void *self, size_t n, const double *h, double *p_a,
+                                   double *dp_a_dh)
+{
+    enum { BLOCK = 256 };
+    const statistical *s = self;
+    const double first = s->path ? s->curve.x[0] : 0, sigma = s->service.sigma, far = 1e3;
+    double H[BLOCK], unwanted[BLOCK];
+    int extrapolated = 0;
+    for (size_t from = 0; from < n; from += BLOCK) {
+        size_t count = n - from < BLOCK ? n - from : BLOCK;
+        double *slope = dp_a_dh ? dp_a_dh + from : unwanted;
+        for (size_t i = 0; i < count; i++) {
+            H[i] = fmin(fmax(h[from + i] / sigma, -far), far);
+            extrapolated |= H[i] < first;
+        }
+        lubricant_curve_values(&s->curve, count, H, p_a + from, slope);
+        carry_on(sigma, count, p_a + from, slope);
+    }
+    return extrapolated ? FF_DOMAIN : FF_OK;
+}
+
+/*
+ * F_k(H) = int_H^inf (s - H)^k phi(s) ds, k = 5/2, phi of a standard normal variable. With s = H +
+ * t^2 the integrand is an even analytic function of t, so that the sum over equal steps from t = 0
+ * converges faster than any power of the step.
+ */
+static double summits(double H)
+{
+    enum { STEPS = 200 };
+    const double end = sqrt(fmax(9 - H, 1)), dt = end / STEPS;
+    double sum = 0;
+    for (int i = 1; i <= STEPS; i++) {
+        double t = i * dt, s = H + t * t;
+        sum += 2 * pow(t, 6) * exp(-s * s / 2);
+    }
+    return sum * dt / sqrt(2 * M_PI);
+}
+
+static ff_status make_integral(statistical *s)
+{
+    enum { POINTS = 401 }; /* from -2 to 6 */
+    double H[POINTS], ln[POINTS];
+    for (int i = 0; i < POINTS; i++) {
+        H[i] = -2 + 0.02 * i;
+        ln[i] = log(s->stiffness * summits(H[i]));
+    }
+    return lubricant_curve_make(&s->curve, POINTS, H, ln) ? FF_OK : FF_NOMEM;
+}
+
+static ff_status read_table(statistical *s)
+{
+    const ff_table *t;
+    ff_status status = ff_table_read(s->host, "table", s->path, FF_TABLE(columns), &t);
+    if (status != FF_OK)
+        return status;
+    const double *p = t->columns[PRESSURE];
+    if (t->row_count < 2)
+        return ff_table_failf(s->host, t, FF_TABLE_ALL, PRESSURE,
+                              "a curve takes two distances or more");
+    double *ln = malloc(t->row_count * sizeof *ln);
+    for (size_t i = 0; ln && i < t->row_count; i++)
+        ln[i] = log(p[i]);
+    int made = ln && lubricant_curve_make(&s->curve, t->row_count, t->columns[DISTANCE], ln);
+    free(ln);
+    for (size_t i = 1; i < t->row_count; i++)
+        if (!(p[i] < p[i - 1]))
+            return ff_table_failf(s->host, t, i, PRESSURE,
+                                  "asperities carry less the further apart the flanks are: the "
+                                  "pressure must fall");
+    return made ? FF_OK : FF_NOMEM;
 }
 
 static ff_status pressure(const void *self, size_t n, const double *h, double *p_a, double *dp_a_dh)
@@ -122,9 +231,13 @@ static ff_status ready(void *self)
     if (by_numbers != !isnan(s->radius))
         return ff_failf(s->host, FF_INVALID, by_numbers ? "summit_radius" : "summit_density",
                         "summit_density and summit_radius belong together: give both, or none");
+    const char *const by = s->path ? "table" : "summit_density";
     const ff_serving rows[] = {
-        {by_numbers, "summit_product", "", "summit_density", NULL},
-        {by_numbers, "summit_slope", "", "summit_radius", NULL},
+        {by_numbers || s->path, "summit_product", "", by, NULL},
+        {by_numbers || s->path, "summit_slope", "", by, NULL},
+        {!!s->path, "summit_density", "", "table", NULL},
+        {!!s->path, "summit_radius", "", "table", NULL},
+        {!!s->path, "closure", "", "table", NULL},
     };
     ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
     if (!by_numbers) {
@@ -138,7 +251,11 @@ static ff_status ready(void *self)
                         "summits of these numbers carry no finite pressure");
     s->stiffness = K * modulus / 2;
     s->service.sigma = sigma;
-    return FF_OK;
+    lubricant_curve_free(&s->curve);
+    if (!s->path && (s->closure == FIT || !(K > 0)))
+        return FF_OK;
+    s->service.pressure = pressure_by_curve;
+    return s->path ? read_table(s) : make_integral(s);
 }
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
@@ -154,6 +271,13 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         if (wanted & FF_BIT(k) && ff_put_scalar(s->host, k, values[k]) != FF_OK)
             return FF_NOMEM;
     return FF_OK;
+}
+
+static void destroy(void *self)
+{
+    statistical *s = self;
+    lubricant_curve_free(&s->curve);
+    free(s);
 }
 
 static const void *service(void *self, uint32_t row)
@@ -187,5 +311,5 @@ const ff_model surface_statistical = {
     .ready = ready,
     .evaluate = evaluate,
     .service = service,
-    .destroy = free,
+    .destroy = destroy,
 };

@@ -154,6 +154,13 @@ ff_status ehl_laws_at(ehl_isothermal *at, const ff_host *host, const ff_array *o
     return numerics_answers_end(&at->answers, host, status);
 }
 
+void ehl_laws_move(ehl_isothermal *at, ehl_laws *laws, double T)
+{
+    laws->temperature = T;
+    for (size_t i = 0; i < NUMERICS_POINTS; i++)
+        at->viscosity.T[i] = at->density.T[i] = T;
+}
+
 ff_status ehl_fluid_oil(const ehl_laws *laws, ehl_oil *oil)
 {
     double p = 0;
@@ -181,13 +188,13 @@ ff_status ehl_fluid_evaluate(const ehl_laws *laws, size_t n, const double *p, co
     return status;
 }
 
-ff_status ehl_fluid_shear(const ehl_laws *laws, size_t n, const double *p, const double *h,
-                          double sliding, double *ln_eta, double *tau)
+ff_status ehl_fluid_shear(const ehl_laws *laws, size_t n, const double *p, const double *T,
+                          const double *h, double sliding, double *ln_eta, double *tau)
 {
-    ff_status status = laws->viscosity->eval(laws->viscosity->self, n, p, NULL, ln_eta, NULL, NULL);
+    ff_status status = laws->viscosity->eval(laws->viscosity->self, n, p, T, ln_eta, NULL, NULL);
     if (laws->rheology)
-        return worse(status, laws->rheology->shear(laws->rheology->self, n, p, NULL, ln_eta, h,
-                                                   sliding, tau));
+        return worse(status,
+                     laws->rheology->shear(laws->rheology->self, n, p, T, ln_eta, h, sliding, tau));
     for (size_t i = 0; i < n; i++) /* bounded so that the sum stays finite */
         tau[i] = exp(fmin(ln_eta[i], 230)) * sliding / h[i];
     return status;

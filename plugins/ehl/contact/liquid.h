@@ -44,6 +44,9 @@ enum { EHL_OIL_ROWS = 3 };
    in at->answers: the stage ends with numerics_answers_end. */
 ff_status ehl_laws_at(ehl_isothermal *at, const ff_host *host, const ff_array *oil, ehl_laws *laws);
 
+/* Takes laws that ehl_laws_at has set to the temperature of an oil to another one. */
+void ehl_laws_move(ehl_isothermal *at, ehl_laws *laws, double T);
+
 /* The liquid at ambient pressure. */
 typedef struct ehl_oil {
     double density, viscosity, ln_viscosity;
@@ -82,9 +85,9 @@ void ehl_law_report(const ff_host *host, ehl_law_answer worst); /* a line of the
 ff_status ehl_fluid_evaluate(const ehl_laws *laws, size_t n, const double *p, const double *h,
                              double sliding, const ehl_liquid *liquid);
 
-/* Mean shear stress tau at n nodes. */
-ff_status ehl_fluid_shear(const ehl_laws *laws, size_t n, const double *p, const double *h,
-                          double sliding, double *ln_eta, double *tau);
+/* Mean shear stress tau at n nodes; T: n, or NULL: the temperature of the laws. */
+ff_status ehl_fluid_shear(const ehl_laws *laws, size_t n, const double *p, const double *T,
+                          const double *h, double sliding, double *ln_eta, double *tau);
 
 /* Returns the part of int eta0/eta dp over one step in which ln(eta/eta0) goes from `left` to
    `right`, exact where it is linear. */

@@ -80,6 +80,28 @@
                        .flags = FF_OPTIONAL,                                                       \
                        .from = "lubricant"}
 
+/* What films of both sorts know of the flanks: how hard they are, what their asperities carry, and
+   how warm they are with `thermal` as it is said. */
+#define HARDNESS_ROW                                                                               \
+    {                                                                                              \
+        .name = "gear.hardness", .unit = "Pa",                                                     \
+        .doc = "hardness of both flanks, 0: not known; for rough flanks", .dims = "gear",          \
+        .flags = FF_OPTIONAL                                                                       \
+    }
+#define ASPERITIES_ROW                                                                             \
+    {                                                                                              \
+        .name = "surface.asperities", .unit = "",                                                  \
+        .doc = "pressure of asperities that are known by their statistics", .dims = "",            \
+        .service = FF_ASPERITY_ID, .flags = FF_OPTIONAL                                            \
+    }
+#define BULK_ROW(thermal)                                                                          \
+    {                                                                                              \
+        .name = "bulk.bulk_temperature", .unit = "K",                                              \
+        .doc = "temperature of the teeth by the loss that this film has, for thermal: " thermal    \
+               ", in place of the parameter bulk_temperature",                                     \
+        .dims = "", .flags = FF_OPTIONAL | FF_FEEDBACK, .from = "losses"                           \
+    }
+
 const ff_port ehl_inputs[EHL_INPUTS] = {
     CONTACT_AND_OIL("with a steady film of its own"),
     [EHL_IN_POSITION] = {.name = "surface.position",
@@ -125,36 +147,20 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                           .dims = "gear",
                           .flags = FF_OPTIONAL},
     [EHL_IN_HEAT] = NUMERICS_HEAT_ROWS(NULL),
-    [EHL_IN_HARDNESS] = {.name = "gear.hardness",
-                         .unit = "Pa",
-                         .doc = "hardness of both flanks, 0: not known; for rough flanks",
-                         .dims = "gear",
-                         .flags = FF_OPTIONAL},
+    [EHL_IN_HARDNESS] = HARDNESS_ROW,
     [EHL_IN_SHEAR_RATE] = {.name = "rheology.rate",
                            .unit = "",
                            .doc = "shear rate at a point of the film, for thermal: full",
                            .dims = "",
                            .service = FF_RHEOLOGY_2_ID,
                            .flags = FF_OPTIONAL},
-    [EHL_IN_ASPERITIES] = {.name = "surface.asperities",
-                           .unit = "",
-                           .doc = "pressure of asperities that are known by their statistics",
-                           .dims = "",
-                           .service = FF_ASPERITY_ID,
-                           .flags = FF_OPTIONAL},
+    [EHL_IN_ASPERITIES] = ASPERITIES_ROW,
     [EHL_IN_CUTOFF] = {.name = "surface.cutoff",
                        .unit = "m",
                        .doc = "longest waves of that roughness; 0: those of the contact",
                        .dims = "",
                        .flags = FF_OPTIONAL},
-    [EHL_IN_BULK] =
-        {.name = "bulk.bulk_temperature",
-         .unit = "K",
-         .doc = "temperature of the teeth by the loss that this film has, for thermal: full, "
-                "in place of the parameter bulk_temperature",
-         .dims = "",
-         .flags = FF_OPTIONAL | FF_FEEDBACK,
-         .from = "losses"},
+    [EHL_IN_BULK] = BULK_ROW("full"),
     [EHL_IN_DISCRETISATION] = {.name = "discretisation",
                                .unit = "",
                                .doc =
@@ -459,6 +465,10 @@ const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS] = {
                 "lambda ratio alone, and only without a surface",
          .dims = "gear",
          .flags = FF_OPTIONAL},
+    [EHL_ESTIMATE_IN_HEAT] = NUMERICS_HEAT_ROWS(NULL),
+    [EHL_ESTIMATE_IN_HARDNESS] = HARDNESS_ROW,
+    [EHL_ESTIMATE_IN_ASPERITIES] = ASPERITIES_ROW,
+    [EHL_ESTIMATE_IN_BULK] = BULK_ROW("local"),
 };
 
 const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
@@ -513,7 +523,8 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
                                    .dims = "t"},
     [EHL_ESTIMATE_ASPERITY_LOSS] = {.name = "asperity_loss",
                                     .unit = "W/m",
-                                    .doc = "0: the flanks are smooth",
+                                    .doc = "boundary friction of statistical asperities times "
+                                           "sliding speed; 0 without them",
                                     .dims = "t"},
     [EHL_ESTIMATE_H_MIN_ERROR] =
         {.name = "h_min_error",
@@ -529,6 +540,12 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
                 "h_central; needs a surface, or a gear with its roughness",
          .dims = "t",
          .max = INFINITY},
+    [EHL_ESTIMATE_ASPERITY_LOAD_SHARE] = {.name = "asperity_load_share",
+                                          .unit = "1",
+                                          .doc =
+                                              "share of the load that statistical asperities carry",
+                                          .dims = "t",
+                                          .max = 1},
     [EHL_ESTIMATE_X] = {.name = "x",
                         .unit = "m",
                         .doc = "position along the surface, 0 at the line of contact",

@@ -244,6 +244,28 @@ ff_status ehl_lambda_check(const ff_host *host, uint64_t wanted, uint32_t output
                     "roughness_ra to the gear stage, or wire a surface that is not flat");
 }
 
+ff_status ehl_read_hardness(const ff_host *host, const ff_array *gears, double otherwise,
+                            double *hardness)
+{
+    *hardness = gears->data ? HUGE_VAL : otherwise;
+    for (size_t i = 0; gears->data && i < gears->shape[0]; i++) {
+        if (!(gears->data[i] > 0))
+            return ff_failf(host, FF_INVALID, "gear.hardness",
+                            "the hardness of gear %zu is not known, and rough flanks need it; give "
+                            "the gear its hardness, or the name of its material",
+                            i + 1);
+        *hardness = fmin(*hardness, gears->data[i]);
+    }
+    return FF_OK;
+}
+
+void ehl_lambda_carried(const ff_host *host, double lowest)
+{
+    host->quality(host->ctx, "lambda", lowest, 0, FF_GOOD,
+                  "lowest film over the roughness of the flanks, whose asperities carry their "
+                  "share of the load");
+}
+
 void ehl_lambda_report(const ff_host *host, double lowest)
 {
     host->quality(host->ctx, "lambda", lowest, EHL_MIXED_BELOW,

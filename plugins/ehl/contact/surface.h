@@ -50,6 +50,11 @@ double ehl_roughness_longer(const ehl_roughness *r, double length);
 /* sqrt(Rq1^2 + Rq2^2) */
 double ehl_roughness_rq(const ehl_roughness *r);
 
+/* Of ground and run-in steel, 0.065 +- 0.015: 0.065 is the largest mean friction of FZG gears at
+   0.5 m/s (Ziegltrum 2017, quoted by Arana, Larranaga & Ulacia 2019), 0.08 to 0.135 that of rollers
+   and pins. */
+#define EHL_BOUNDARY_FRICTION "0.065"
+
 /* Below this film parameter lambda, film over the combined roughness of both flanks, asperities are
  * in contact (mixed lubrication). */
 #define EHL_MIXED_BELOW 3.
@@ -62,6 +67,14 @@ ff_status ehl_combined_roughness(const ff_host *host, const ff_array *gear, cons
 /* FF_UNSUPPORTED when this output is wanted without a roughness. */
 ff_status ehl_lambda_check(const ff_host *host, uint64_t wanted, uint32_t output, const char *name,
                            double rq);
+
+/* The hardness of rough flanks: of the softer gear, or `otherwise` where no gear is wired; a gear
+   that does not tell is refused. */
+ff_status ehl_read_hardness(const ff_host *host, const ff_array *gears, double otherwise,
+                            double *hardness);
+
+/* Quality of a film whose asperities carry a share of the load. */
+void ehl_lambda_carried(const ff_host *host, double lowest);
 
 /* Quality of a smooth film between flanks of known roughness. */
 void ehl_lambda_report(const ff_host *host, double lowest);

@@ -50,7 +50,8 @@ static shear shear_of(ehl_results *r, const ehl_march *m)
     size_t count = eq->last + 1;
     double sliding = m->at.sliding, way = (sliding > 0) - (sliding < 0);
     double fluid = 0, asperities = 0;
-    ff_status status = ehl_fluid_shear(&eq->laws, count, p, eq->h, sliding, r->ln_eta, r->tau);
+    ff_status status =
+        ehl_fluid_shear(&eq->laws, count, p, NULL, eq->h, sliding, r->ln_eta, r->tau);
     ehl_law_note(&r->laws, status);
     for (size_t i = 0; i < count; i++) {
         double tau = m->thermal ? ehl_thermal_stress(m, i) : r->tau[i];

@@ -13,8 +13,6 @@
 /* Smaller loads count as this share of the largest one for the film (estimate.h). */
 static const double light = 0.01;
 
-enum { STRESS_POINTS = 32 };
-
 static const uint64_t fields =
     FF_BIT(EHL_ESTIMATE_X) | FF_BIT(EHL_ESTIMATE_FILM) | FF_BIT(EHL_ESTIMATE_PRESSURE);
 
@@ -37,7 +35,21 @@ ff_status ehl_estimate_ready(void *self)
 {
     static const char field_rows[] = "x|film|pressure";
     const ehl_estimate *e = self;
+    const int bare = !e->asperities, cold = e->thermal != EHL_THERMAL_LOCAL;
+    static const char smooth[] = "no surface of statistical flanks is wired",
+                      unheated[] = "thermal is not local";
     const ff_serving rows[] = {
+        {bare, "share", "", NULL, smooth},
+        {bare, "boundary_friction", "", NULL, smooth},
+        {bare, "asperity_hardness", "", NULL, smooth},
+        {bare, "gear.hardness", "", NULL, smooth},
+        {cold, "bulk_temperature", "", NULL, unheated},
+        {cold, "flank_conductivity", "", NULL, unheated},
+        {cold, "flank_density", "", NULL, unheated},
+        {cold, "flank_heat_capacity", "", NULL, unheated},
+        {cold, "gear.thermal_conductivity", "", NULL, unheated},
+        {cold, "gear.density", "", NULL, unheated},
+        {cold, "gear.specific_heat", "", NULL, unheated},
         {1, "cells", field_rows, NULL, NULL},
         {1, "inlet", field_rows, NULL, NULL},
         {1, "outlet", field_rows, NULL, NULL},
@@ -52,6 +64,8 @@ ff_status ehl_estimate_wire(void *self, uint32_t input, const void *service)
     ehl_estimate *e = self;
     if (input == EHL_IN_LIQUID)
         e->liquid = service;
+    else if (input == EHL_ESTIMATE_IN_ASPERITIES)
+        e->asperities = service;
     else
         ehl_wire_law(&e->laws, input, service);
     e->rough = e->rough || input == EHL_ESTIMATE_IN_RQ_1;
@@ -119,6 +133,35 @@ static ff_status fill_moments(ehl_estimate *e)
     return FF_OK;
 }
 
+/* Sets the heat of the film, and takes its laws to the temperature of the teeth. */
+static ff_status read_heat(ehl_estimate *e, const ff_array *in)
+{
+    const double said[] = {e->flank_conductivity, e->flank_density, e->flank_heat_capacity};
+    const ff_array *bulk = &in[EHL_ESTIMATE_IN_BULK];
+    numerics_heat flank = {0};
+    e->conductivity = 0;
+    e->local = (ehl_local){.laws = &e->laws};
+    if (bulk->data && e->thermal != EHL_THERMAL_LOCAL)
+        return ff_failf(e->host, FF_INVALID, "bulk",
+                        "the teeth are warmer than the oil, which this film does not see: bulk "
+                        "needs thermal: local");
+    if (e->thermal == EHL_THERMAL_NONE)
+        return FF_OK;
+    if (e->thermal == EHL_THERMAL_LOCAL && in[EHL_IN_OIL].data) {
+        double T = bulk->data ? *bulk->data : e->bulk_temperature;
+        e->local.bulk = isnan(T) ? e->laws.temperature : T;
+        ehl_laws_move(&e->isothermal, &e->laws, e->local.bulk);
+    }
+    ff_status status = ehl_heat_conductivity(e->host, e->liquid, &e->laws, &e->conductivity);
+    if (status == FF_OK)
+        e->local.conducts = ehl_heat_conductivity_rise(e->liquid, e->laws.temperature);
+    for (int g = 0; g < 2 && status == FF_OK && e->local.bulk > 0; g++) {
+        status = numerics_heat_of(e->host, &in[EHL_ESTIMATE_IN_HEAT], said, g, &flank);
+        e->local.contact[g] = numerics_heat_contact(&flank);
+    }
+    return status;
+}
+
 static ff_status read_scene(ehl_estimate *e, const ff_array *in)
 {
     ff_status status = ehl_laws_at(&e->isothermal, e->host, &in[EHL_IN_OIL], &e->laws);
@@ -126,6 +169,8 @@ static ff_status read_scene(ehl_estimate *e, const ff_array *in)
         status = ehl_read_history(e->host, in, e->light_load, &e->history);
     if (status == FF_OK)
         status = ehl_history_one_way(&e->history, e->host, "a film without a squeeze term");
+    if (status == FF_OK)
+        status = read_heat(e, in);
     if (status != FF_OK)
         return status;
     if (ehl_fluid_oil(&e->laws, &e->oil) < 0)
@@ -147,6 +192,22 @@ static ff_status read_roughness(ehl_estimate *e, uint64_t wanted, const ff_array
     return status;
 }
 
+/* Sets what the asperities of statistical flanks carry. */
+static ff_status read_asperities(ehl_estimate *e, const ff_array *in)
+{
+    ehl_local *l = &e->local;
+    l->conductivity = e->conductivity;
+    l->share = e->share;
+    l->asperities = e->asperities;
+    l->boundary_friction = e->boundary_friction;
+    l->modulus = e->history.modulus;
+    l->viscosity = e->oil.viscosity;
+    l->alpha = e->alpha;
+    return e->asperities ? ehl_read_hardness(e->host, &in[EHL_ESTIMATE_IN_HARDNESS],
+                                             e->asperity_hardness, &l->hardness)
+                         : FF_OK;
+}
+
 static ff_status begin(ehl_estimate *e, uint64_t wanted, const ff_array *in)
 {
     ff_status status = read_scene(e, in);
@@ -154,14 +215,13 @@ static ff_status begin(ehl_estimate *e, uint64_t wanted, const ff_array *in)
         status = read_roughness(e, wanted, in);
     if (status != FF_OK)
         return status;
-    e->conductivity = 0;
-    if (e->thermal == EHL_THERMAL_INLET)
-        status = ehl_heat_conductivity(e->host, e->liquid, &e->laws, &e->conductivity);
-    if (status != FF_OK)
-        return status;
     e->alpha_star = ehl_alpha_star(&e->laws);
     e->alpha = e->alpha_star.value;
     e->answered = EHL_LAW_GOOD;
+    e->worst_rise = 0;
+    status = read_asperities(e, in);
+    if (status != FF_OK)
+        return status;
     if (wanted & fields)
         ehl_grid_fit(&e->grid, (size_t)e->cells, e->inlet, e->outlet, &e->history, &e->oil, 0, 0);
     return fill_moments(e);
@@ -208,7 +268,7 @@ static void set_series(const results *r, uint32_t output, size_t k, double value
 /* Returns the outputs that set_friction fills. */
 static uint64_t of_friction(void)
 {
-    uint64_t outputs = 0;
+    uint64_t outputs = FF_BIT(EHL_ESTIMATE_ASPERITY_LOAD_SHARE);
     for (uint32_t k = EHL_ESTIMATE_FRICTION_COEFFICIENT; k <= EHL_ESTIMATE_ASPERITY_LOSS; k++)
         outputs |= FF_BIT(k);
     return outputs;
@@ -230,31 +290,31 @@ static double rolling_loss(const ehl_estimate *e, size_t k)
     return 2 * u * scale * pow(U, 0.75) * rigid / pow(1 + pow(rigid / 1.45, 10), 0.1);
 }
 
-/* Sets the friction: tau over the contact of the actual load; 0 without load. */
-static void set_friction(const results *r, ehl_estimate *e, size_t k)
+/* Sets the friction over the contact of the actual load; 0 without load. */
+static void set_friction(const results *r, ehl_estimate *e, size_t k, double h_central)
 {
     const ehl_moment *m = &e->moment[k];
-    double x[STRESS_POINTS], p[STRESS_POINTS], h[STRESS_POINTS], ln_eta[STRESS_POINTS],
-        tau[STRESS_POINTS], sum = 0;
+    double x[EHL_LOCAL_POINTS], h[EHL_LOCAL_POINTS];
     double a = ehl_hertz_half_width(m->load, m->at.radius, e->history.modulus);
-    for (int i = 0; i < STRESS_POINTS; i++) {
-        double s = (2 * i + 1.) / STRESS_POINTS - 1;
-        x[i] = s * a;
-        p[i] = m->p_max * sqrt(1 - s * s);
-    }
-    e->profile(e, k, STRESS_POINTS, x, h);
-    ehl_law_note(&e->answered,
-                 ehl_fluid_shear(&e->laws, STRESS_POINTS, p, h, m->at.sliding, ln_eta, tau));
-    for (int i = 0; i < STRESS_POINTS; i++)
-        sum += tau[i];
-    double traction = sum * 2 * a / STRESS_POINTS;
-    double sliding = traction * m->at.sliding, rolling = rolling_loss(e, k);
+    for (int i = 0; i < EHL_LOCAL_POINTS; i++)
+        x[i] = ehl_local_place(i) * a;
+    e->profile(e, k, EHL_LOCAL_POINTS, x, h);
+    const ehl_local_contact c = {m->load,           m->at.radius, a, m->p_max, h_central,
+                                 m->at.entrainment, m->at.sliding};
+    const ehl_local_friction f =
+        m->load > 0 ? ehl_local_evaluate(&e->local, &c, h) : (ehl_local_friction){.oil = 0};
+    ehl_law_note(&e->answered, f.laws);
+    e->worst_rise = fmax(e->worst_rise, f.rise);
+    double traction = f.oil + f.asperities;
+    double sliding = f.oil * m->at.sliding, rolling = rolling_loss(e, k);
+    double asperity = f.asperities * m->at.sliding;
     set_series(r, EHL_ESTIMATE_TRACTION, k, traction);
-    set_series(r, EHL_ESTIMATE_POWER_LOSS, k, sliding + rolling);
+    set_series(r, EHL_ESTIMATE_POWER_LOSS, k, sliding + rolling + asperity);
     set_series(r, EHL_ESTIMATE_SLIDING_LOSS, k, sliding);
     set_series(r, EHL_ESTIMATE_ROLLING_LOSS, k, rolling);
     set_series(r, EHL_ESTIMATE_SQUEEZE_LOSS, k, 0);
-    set_series(r, EHL_ESTIMATE_ASPERITY_LOSS, k, 0);
+    set_series(r, EHL_ESTIMATE_ASPERITY_LOSS, k, asperity);
+    set_series(r, EHL_ESTIMATE_ASPERITY_LOAD_SHARE, k, f.share);
     set_series(r, EHL_ESTIMATE_FRICTION_COEFFICIENT, k, m->load > 0 ? traction / m->load : 0);
 }
 
@@ -298,7 +358,7 @@ static void set_moment(results *r, ehl_estimate *e, size_t k)
         r->least_lambda = fmin(r->least_lambda, film.h_central / e->roughness);
     }
     if (r->wanted & of_friction())
-        set_friction(r, e, k);
+        set_friction(r, e, k, film.h_central);
     if (r->film || r->pressure)
         set_fields(r, e, k);
 }
@@ -338,7 +398,13 @@ static void report(const ehl_estimate *e, double lowest, double least_lambda)
         host->quality(host->ctx, "light_instants", light_count, 0, FF_RANGE,
                       "instants with less than 1 % of the largest load, or none: the film of 1 % "
                       "stands in, and the gap of lost contact is added");
-    if (e->roughness > 0)
+    if (e->local.bulk > 0)
+        host->quality(host->ctx, "contact_heating", e->worst_rise, 0, FF_GOOD,
+                      "largest rise of the oil in the contact over the teeth, K, by its friction; "
+                      "0: no friction was asked for");
+    if (e->roughness > 0 && e->asperities)
+        ehl_lambda_carried(host, least_lambda);
+    else if (e->roughness > 0)
         ehl_lambda_report(host, least_lambda);
     if (lowest < 1e-9)
         host->quality(host->ctx, "continuum", lowest, 1e-9, FF_RANGE,

@@ -9,7 +9,9 @@
 #include "../contact/grid.h"
 #include "../contact/history.h"
 #include "../contact/ports.h"
+#include "../contact/surface.h"
 #include "inlet.h"
+#include "local.h"
 
 #include <flankfilm/plugin.h>
 
@@ -32,7 +34,31 @@
                        NULL, 0, 1e9, 0, 0,                                                         \
                        "a load per width that stands in for smaller ones; none: the film of 1 % "  \
                        "of the largest load stands in, and the gap of lost contact is added"),     \
-        EHL_THERMAL_PARAM(ehl_estimate), EHL_HEATING_PARAMS(ehl_estimate)
+        FF_ONE_OF("none|inlet|local", "thermal", ehl_estimate, thermal, 0, "none",                 \
+                  "heat of shear in the film. none: the film has the temperature of the oil. "     \
+                  "inlet: thinner oil in the inlet, as if conduction alone took its heat away. "   \
+                  "local: the film of inlet at the temperature of the teeth, and friction at the " \
+                  "one temperature that it gives the oil in the contact. Both need an oil with "   \
+                  "its conductivity"),                                                             \
+        FF_QUANTITY_OR("auto", "bulk_temperature", "degC", ehl_estimate, bulk_temperature, 0,      \
+                       "auto", NULL, -150, 1000, 0, 0,                                             \
+                       "thermal: local: temperature of the teeth; auto: that of the oil, which "   \
+                       "is the least it can be"),                                                  \
+        NUMERICS_HEAT_PARAMS("thermal: local", ehl_estimate),                                      \
+        FF_ONE_OF("greenwood-tripp|masjedi-khonsari|clarke", "share", ehl_estimate, share, 0,      \
+                  "greenwood-tripp",                                                               \
+                  "statistical flanks: the share of the load on asperities. greenwood-tripp: "     \
+                  "what they carry at the film that the oil makes of the rest of the load; "       \
+                  "masjedi-khonsari: by a fit to films of their own model; clarke: 1 - "           \
+                  "erf(lambda). They differ by a factor, which is how well it is known"),          \
+        FF_QUANTITY("boundary_friction", "1", ehl_estimate, boundary_friction, 0,                  \
+                    EHL_BOUNDARY_FRICTION, NULL, 0, 2, 0.05, 0.2,                                  \
+                    "friction coefficient of the asperities in contact"),                          \
+        FF_QUANTITY_UNLESS("gear.hardness", "asperity_hardness", "GPa", ehl_estimate,              \
+                           asperity_hardness, 0, "7 GPa", NULL, 0, 1e3, 0, 0,                      \
+                           "statistical flanks: highest pressure of asperities, where no gear "    \
+                           "tells its hardness; 0: elastic at every pressure"),                    \
+        EHL_HEATING_PARAMS(ehl_estimate)
 
 extern const ff_model ehl_film_formula_model; /* ehl/film-formula */
 
@@ -68,8 +94,12 @@ struct ehl_estimate {
     int64_t cells, steps; /* steps -1: the times of the history */
     double inlet, outlet, light_load;
     int rough; /* a surface is wired */
-    int32_t thermal;
-    const ff_liquid *liquid; /* NULL: no oil is wired */
+    int32_t thermal, share;
+    double bulk_temperature; /* K; NaN: that of the oil */
+    double flank_conductivity, flank_density, flank_heat_capacity;
+    double boundary_friction, asperity_hardness;
+    const ff_asperity *asperities; /* NULL: no statistical flanks */
+    const ff_liquid *liquid;       /* NULL: no oil is wired */
     ehl_inlet_heating heating;
     ehl_laws laws;
     ehl_isothermal isothermal;
@@ -79,7 +109,9 @@ struct ehl_estimate {
     ehl_oil oil;
     ehl_film_coefficient alpha_star;
     double alpha;        /* its value, 1/Pa */
-    double conductivity; /* of the oil, W/(m K), with thermal: inlet; else 0 */
+    double conductivity; /* of the oil, W/(m K), with heat; else 0 */
+    ehl_local local;
+    double worst_rise; /* of the oil over the teeth, K */
     ehl_grid grid;
     size_t count;
     ehl_moment *moment;

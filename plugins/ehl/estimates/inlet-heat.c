@@ -84,6 +84,16 @@ ff_status ehl_heat_conductivity(const ff_host *host, const ff_liquid *liquid, co
     return FF_OK;
 }
 
+ehl_conductivity_rise ehl_heat_conductivity_rise(const ff_liquid *liquid, double T)
+{
+    double c[2] = {NAN, NAN};
+    for (int32_t k = 0; k < 2; k++)
+        if (liquid->eval(liquid->self, FF_LIQUID_CONDUCTIVITY_RISE + k, 1, &T, &c[k], NULL) < 0 ||
+            !(c[k] >= 0 && isfinite(c[k])))
+            return (ehl_conductivity_rise){0, 0};
+    return (ehl_conductivity_rise){c[0], c[1]};
+}
+
 ff_status ehl_inlet_ratio(const ehl_laws *laws, const ehl_heated *film, size_t n, const double *p,
                           const double *h, const double *mass, double *room, double *ratio,
                           double *most)

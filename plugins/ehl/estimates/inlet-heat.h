@@ -16,11 +16,20 @@
 
 /* Ranks of the words of `thermal`. */
 enum { EHL_THERMAL_NONE, EHL_THERMAL_INLET, EHL_THERMAL_FULL };
+enum { EHL_THERMAL_LOCAL = EHL_THERMAL_FULL }; /* of the estimates */
 
 /* The conductivity of the oil at the temperature that its laws are called with, W/(m K), and
    whether they know temperature, which a quality line says; FF_INVALID. */
 ff_status ehl_heat_conductivity(const ff_host *host, const ff_liquid *liquid, const ehl_laws *laws,
                                 double *conductivity);
+
+/* How the conductivity rises with pressure, 1 + rise p/(1 + bend p), in 1/Pa; 0: it does not. */
+typedef struct ehl_conductivity_rise {
+    double rise, bend;
+} ehl_conductivity_rise;
+
+/* That of the oil, which need not tell. */
+ehl_conductivity_rise ehl_heat_conductivity_rise(const ff_liquid *liquid, double T);
 
 /* R(F, S). Beyond the table it is that of its edge. */
 double ehl_heat_ratio(double F, double S);

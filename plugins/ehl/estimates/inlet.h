@@ -61,13 +61,6 @@ typedef struct ehl_inlet_heating {
     double slope;        /* -d ln eta/dT, 1/K; 0: that of the law, or 0.03 where it has none */
 } ehl_inlet_heating;
 
-/* Row of the ladder for a model with a member `thermal` (inlet-heat.h). */
-#define EHL_THERMAL_PARAM(type)                                                                    \
-    FF_ONE_OF("none|inlet", "thermal", type, thermal, 0, "none",                                   \
-              "heat of shear in the film. none: the film has the temperature of the oil. inlet: "  \
-              "thinner oil in the inlet, as if conduction alone took its heat away; needs an oil " \
-              "with its conductivity")
-
 /* Rows of these parameters for a model with a member `heating`. */
 #define EHL_HEATING_PARAMS(type)                                                                   \
     FF_QUANTITY("oil_conductivity", "W/(m K)", type, heating.conductivity, 0, "0.14 W/(m K)",      \

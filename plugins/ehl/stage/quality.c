@@ -485,9 +485,7 @@ static void report_statistical(const ehl_results *r, const ehl_march *m)
                        "longest waves of the roughness over the length of the largest contact; the "
                        "flanks ride over longer ones, and rq is too large by these");
     if (r->roughness > 0)
-        r->host->quality(r->host->ctx, "lambda", r->least_lambda, 0, FF_GOOD,
-                         "lowest film over the roughness of the flanks, whose asperities carry "
-                         "their share of the load");
+        ehl_lambda_carried(r->host, r->least_lambda);
 }
 
 /* The film at rest is not known, nor what was there before the creep that stands in for it. */

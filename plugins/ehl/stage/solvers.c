@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* The models of the film that solve for the pressure: one stage (stage.h) with three solvers. */
+#include "../contact/surface.h"
 #include "../heat/across.h"
 #include "references.h"
 #include "stage.h"
@@ -58,14 +59,7 @@ static const ff_param params[] = {
              EHL_ACROSS_MOST, 0, 0,
              "thermal: full: nodes across the film, those of Gauss, Legendre and Lobatto; the "
              "error falls exponentially with them"),
-    FF_QUANTITY_UNLESS("gear.thermal_conductivity", "flank_conductivity", "W/(m K)", ehl_model,
-                       flank_conductivity, 0, NUMERICS_STEEL_CONDUCTIVITY, NULL, 1e-3, 1e4, 0, 0,
-                       "thermal: full: of both flanks, where no gear tells; steel 50"),
-    FF_QUANTITY_UNLESS("gear.density", "flank_density", "kg/m3", ehl_model, flank_density, 0,
-                       NUMERICS_STEEL_DENSITY, NULL, 1, 1e5, 0, 0, "likewise; steel 7850"),
-    FF_QUANTITY_UNLESS("gear.specific_heat", "flank_heat_capacity", "J/(kg K)", ehl_model,
-                       flank_heat_capacity, 0, NUMERICS_STEEL_HEAT, NULL, 1, 1e5, 0, 0,
-                       "likewise; steel 484"),
+    NUMERICS_HEAT_PARAMS("thermal: full", ehl_model),
     FF_QUANTITY_OR("auto", "bulk_temperature", "degC", ehl_model, bulk_temperature, 0, "auto", NULL,
                    -150, 1000, 0, 0,
                    "thermal: full: temperature of the flanks before they meet, and of the oil that "
@@ -74,8 +68,8 @@ static const ff_param params[] = {
     FF_QUANTITY("contact_film", "nm", ehl_model, contact_film, 0, "1 nm", NULL, 1e-3, 1e3, 0.5, 10,
                 "rough flanks: least film; the asperities carry what would press them closer. Two "
                 "molecular layers of an oil, 0.5 nm each (Israelachvili 2011)"),
-    FF_QUANTITY("boundary_friction", "1", ehl_model, boundary_friction, 0, "0.10", NULL, 0, 2, 0.05,
-                0.2, "friction coefficient of the asperities in contact"),
+    FF_QUANTITY("boundary_friction", "1", ehl_model, boundary_friction, 0, EHL_BOUNDARY_FRICTION,
+                NULL, 0, 2, 0.05, 0.2, "friction coefficient of the asperities in contact"),
     FF_QUANTITY_UNLESS(
         "gear.hardness", "asperity_hardness", "GPa", ehl_model, asperity_hardness, 0, "7 GPa", NULL,
         0, 1e3, 0, 0,

@@ -197,19 +197,9 @@ static ff_status read_hardness(const ehl_model *m, const ff_array *in, run *r)
 {
     const ff_array *row = &in[EHL_IN_HARDNESS];
     r->hardness = m->asperity_hardness;
-    if (!row->data || (r->rough.count == 0 && !is_statistical(m)))
-        return FF_OK;
-    r->gears_tell = 1;
-    r->hardness = HUGE_VAL;
-    for (size_t i = 0; i < row->shape[0]; i++) {
-        if (!(row->data[i] > 0))
-            return ff_failf(m->host, FF_INVALID, "gear.hardness",
-                            "the hardness of gear %zu is not known, and rough flanks need it; give "
-                            "the gear its hardness, or the name of its material",
-                            i + 1);
-        r->hardness = fmin(r->hardness, row->data[i]);
-    }
-    return FF_OK;
+    r->gears_tell = row->data && (r->rough.count > 0 || is_statistical(m));
+    return r->gears_tell ? ehl_read_hardness(m->host, row, m->asperity_hardness, &r->hardness)
+                         : FF_OK;
 }
 
 /* Refuses a hardness below the mean pressure pi/4 p_H (Johnson 1985, ch. 4): metal that yields all

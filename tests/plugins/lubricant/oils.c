@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { PROPERTIES = FF_LIQUID_BASE_COEFFICIENT + 1, POINTS = 200 };
+enum { PROPERTIES = FF_LIQUID_CONDUCTIVITY_BEND + 1, POINTS = 200 };
 
 static const ff_liquid *liquid(stage *oil)
 {

@@ -1,0 +1,134 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "local.h"
+
+#include <math.h>
+
+enum { N = EHL_LOCAL_POINTS, MOST_ROUNDS = 100 };
+
+double ehl_local_place(int part)
+{
+    return (2 * part + 1.) / N - 1;
+}
+
+/* What a function of one unknown needs to know. */
+typedef struct scene {
+    const ehl_local *l;
+    const ehl_local_contact *c;
+    double p[N], h[N];
+    ehl_local_friction f;
+} scene;
+
+/* Returns the root of an increasing function between a and b, whose signs differ there, to
+   `within`: false position after Dowell & Jarratt 1971, "Illinois". */
+static double root_of(double (*f)(scene *, double), scene *s, double a, double b, double within)
+{
+    double at_a = f(s, a), at_b = f(s, b);
+    if (!(at_a < 0))
+        return a;
+    for (int k = 0; k < MOST_ROUNDS && b - a > within && at_b > 0; k++) {
+        double x = (a * at_b - b * at_a) / (at_b - at_a);
+        x = fmin(fmax(x, a + within / 2), b - within / 2);
+        double at_x = f(s, x);
+        if (at_x < 0) {
+            a = x;
+            at_a = at_x;
+            at_b /= 2;
+        } else {
+            b = x;
+            at_b = at_x;
+            at_a /= 2;
+        }
+    }
+    return b;
+}
+
+/* s p_m - p_a of the film that the oil makes of its share of the load: h (1 - s)^-0.13 (Johnson,
+   Greenwood & Poon 1972, with the exponent of the load in Dowson & Higginson's film). */
+static double unbalanced(scene *s, double share)
+{
+    const ff_asperity *law = s->l->asperities;
+    double p_a = 0, h = s->c->h * pow(1 - share, -0.13), mean = s->c->load / (2 * s->c->a);
+    law->pressure(law->self, 1, &h, &p_a, NULL);
+    p_a *= s->l->modulus / law->modulus;
+    if (s->l->hardness > 0)
+        p_a /= 1 + p_a / s->l->hardness;
+    return share * mean - p_a;
+}
+
+/* Masjedi & Khonsari 2012, J. Tribol. 134, 011503, of line contacts. */
+static double masjedi_khonsari(const ehl_local *l, const ehl_local_contact *c)
+{
+    double size = l->modulus * c->radius, s = l->asperities->sigma / c->radius;
+    double U = l->viscosity * c->entrainment / size, W = c->load / size, G = l->alpha * l->modulus;
+    /* summits without a hardness: as hard as case-hardened steel, 7 of 230 GPa */
+    double V = l->hardness > 0 ? l->hardness / l->modulus : 0.03;
+    double ln = 6.015 * log(s) + 1.168 * log(V) + 0.485 * log(W) - 3.741 * log(U) - 2.898 * log(G);
+    double log_term = ln > 600 ? log(4470) + ln : log1p(4470 * exp(ln));
+    double percent = 0.005 * pow(W, -0.408) * pow(U, -0.088) * pow(G, 0.103) * log_term;
+    return fmin(fmax(percent / 100, 0), 1);
+}
+
+double ehl_local_share(const ehl_local *l, const ehl_local_contact *c)
+{
+    scene s = {.l = l, .c = c};
+    if (!l->asperities || !(c->load > 0))
+        return 0;
+    if (l->share == EHL_MASJEDI_KHONSARI)
+        return masjedi_khonsari(l, c);
+    if (l->share == EHL_CLARKE) /* Clarke et al. 2015, Tribol. Int. 90 */
+        return erfc(c->h / l->asperities->sigma);
+    return root_of(unbalanced, &s, 0, 1, 1e-9);
+}
+
+/* Sets the friction at one temperature, NAN: that of the laws, from the oil's share of p. */
+static void rub(scene *s, double T)
+{
+    const ehl_laws *laws = s->l->laws;
+    double at[N], ln_eta[N], tau[N], sum = 0;
+    for (int i = 0; i < N; i++)
+        at[i] = T;
+    s->f.laws =
+        ehl_fluid_shear(laws, N, s->p, isnan(T) ? NULL : at, s->h, s->c->sliding, ln_eta, tau);
+    for (int i = 0; i < N; i++)
+        sum += tau[i];
+    s->f.oil = sum * 2 * s->c->a / N;
+}
+
+/* T less the temperature that the friction at T makes. */
+static double too_warm(scene *s, double T)
+{
+    const ehl_local *l = s->l;
+    const ehl_local_contact *c = s->c;
+    double u_1 = c->entrainment + c->sliding / 2, u_2 = c->entrainment - c->sliding / 2;
+    rub(s, T);
+    double width = 2 * c->a, oil = fabs(s->f.oil) / width * fabs(c->sliding);
+    double all = oil + fabs(s->f.asperities) / width * fabs(c->sliding);
+    double p = (1 - s->f.share) * c->load / width;
+    double conductivity = l->conductivity * (1 + l->conducts.rise * p / (1 + l->conducts.bend * p));
+    double taken = l->contact[0] * sqrt(fabs(u_1)) + l->contact[1] * sqrt(fabs(u_2));
+    s->f.rise = 0.752 * all * sqrt(width) / taken + c->h * oil / (8 * conductivity);
+    return T - l->bulk - s->f.rise;
+}
+
+ehl_local_friction ehl_local_evaluate(const ehl_local *l, const ehl_local_contact *c,
+                                      const double *h)
+{
+    const double within = 1e-4; /* K */
+    scene s = {.l = l, .c = c};
+    s.f.share = ehl_local_share(l, c);
+    s.f.asperities = copysign(l->boundary_friction * s.f.share * c->load, c->sliding);
+    if (!(fabs(c->sliding) > 0))
+        s.f.asperities = 0;
+    for (int i = 0; i < N; i++) {
+        double x = ehl_local_place(i);
+        s.p[i] = (1 - s.f.share) * c->p_max * sqrt((1 - x) * (1 + x));
+        s.h[i] = h ? h[i] : c->h;
+    }
+    if (!(l->bulk > 0) || !(fabs(c->sliding) > 0)) {
+        rub(&s, l->bulk > 0 ? l->bulk : NAN);
+        return s.f;
+    }
+    double cold = too_warm(&s, l->bulk);
+    too_warm(&s, root_of(too_warm, &s, l->bulk, l->bulk - cold, within));
+    return s.f;
+}
