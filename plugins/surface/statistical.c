@@ -276,7 +276,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 static void destroy(void *self)
 {
     statistical *s = self;
-    lubricant_curve_free(&s->curve);
+    if (s)
+        lubricant_curve_free(&s->curve);
     free(s);
 }
 

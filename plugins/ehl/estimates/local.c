@@ -7,7 +7,7 @@ enum { N = EHL_LOCAL_POINTS, MOST_ROUNDS = 100 };
 
 double ehl_local_place(int part)
 {
-    return (2 * part + 1.) / N - 1;
+    return -cos(M_PI * (part + 0.5) / N);
 }
 
 /* What a function of one unknown needs to know. */
@@ -90,8 +90,8 @@ static void rub(scene *s, double T)
     s->f.laws =
         ehl_fluid_shear(laws, N, s->p, isnan(T) ? NULL : at, s->h, s->c->sliding, ln_eta, tau);
     for (int i = 0; i < N; i++)
-        sum += tau[i];
-    s->f.oil = sum * 2 * s->c->a / N;
+        sum += tau[i] * sin(M_PI * (i + 0.5) / N);
+    s->f.oil = sum * M_PI / N * s->c->a;
 }
 
 /* T less the temperature that the friction at T makes. */

@@ -49,7 +49,8 @@ typedef struct ehl_local_friction {
 
 enum { EHL_LOCAL_POINTS = 32 };
 
-/* x/a at the middles of the equal parts that the friction is summed over. */
+/* x/a of the places that the friction is summed over: in equal parts of the angle whose cosine it
+   is, by which Hertz's pressure is integrated exactly. */
 double ehl_local_place(int part);
 
 /* `h`: the film at these places; NULL: that of c everywhere. */

@@ -130,8 +130,116 @@ static void test_temperature(void)
     line_close(&c);
 }
 
+/* Paraffinic VG 100 at 90 degC with an Eyring stress 2 Lambda/alpha(p, T): scales of alpha and
+   Lambda. */
+typedef struct oil {
+    double alpha, lambda;
+} oil;
+
+static void open_oil(line *c, const char *model, oil scale)
+{
+    line_open(c, model);
+    line_grade(c, "ISO VG 100", 363.15);
+    stage_close(c->oil);
+    c->oil = stage_open("viscosity/modulus");
+    stage_set(c->oil, "a1", -2.28e7 / scale.alpha);
+    stage_set(c->oil, "a2", 2.26e5 / scale.alpha);
+    stage_set(c->oil, "b1", -0.0682 / scale.alpha);
+    stage_set(c->oil, "b2", 2.768e-4 / scale.alpha);
+    stage_link(c->oil, "oil", c->liquid);
+    c->flow = stage_open("rheology/ree-eyring");
+    stage_set_text(c->flow, "tau0", "auto");
+    stage_set(c->flow, "limiting_stress_coefficient", 0.047 * scale.lambda);
+    stage_link(c->flow, "viscosity", c->oil);
+    stage_link(c->flow, "oil", c->liquid);
+    stage_set(c->film, "cells", 256);
+    c->u1[0] = 4.4;
+    c->u2[0] = 3.6;
+}
+
+/* Friction and central film where the Hertz pressure is p_H. */
+static double friction(const char *model, oil scale, double p_H, double slide, double *h)
+{
+    line c;
+    open_oil(&c, model, scale);
+    c.load[0] = 2 * pi * p_H * p_H * c.radius[0] / c.modulus;
+    c.u1[0] = 4 + slide / 2;
+    c.u2[0] = 4 - slide / 2;
+    check_true("found", line_run(&c, "friction_coefficient h_central") == FF_OK);
+    double mu = line_value(&c, "friction_coefficient", 0);
+    *h = line_value(&c, "h_central", 0);
+    line_close(&c);
+    return mu;
+}
+
+static const oil plain = {1, 1};
+
+/* Rises with pressure, and stays below Lambda. */
+static void test_pressures(const char *model)
+{
+    double before = 0, h;
+    for (double p = 0.25e9; p < 3.01e9; p += 0.55e9) {
+        double mu = friction(model, plain, p, 0.8, &h);
+        check_true("rises", mu > before);
+        check_below("Lambda", mu, 0.047);
+        before = mu;
+    }
+}
+
+/* About the pitch point. */
+static void test_sliding(const char *model)
+{
+    double h, mu = friction(model, plain, 1e9, 4e-4, &h);
+    check_near("odd", friction(model, plain, 1e9, -4e-4, &h), -mu, 1e-6);
+    check_near("linear", friction(model, plain, 1e9, 2e-4, &h), mu / 2, 0.02);
+    check_true("none without sliding", fabs(friction(model, plain, 1e9, 0, &h)) <= 0);
+}
+
+/* By hand: mu = int tau_E asinh(eta u_s/(tau_E h_c)) dx/w over Hertz's ellipse, tau_E = 2
+   Lambda/alpha_sec with alpha_sec = 1/(A + B p). */
+static double by_hand(oil scale, double p_H, double slide, double h, double eta0)
+{
+    enum { PLACES = 2000 };
+    const double T = 363.15, A = (-2.28e7 + 2.26e5 * T) / scale.alpha,
+                 B = (-0.0682 + 2.768e-4 * T) / scale.alpha;
+    double sum = 0;
+    for (int i = 0; i < PLACES; i++) {
+        double x = (2 * i + 1.) / PLACES - 1, p = p_H * sqrt(1 - x * x);
+        double stress = 2 * 0.047 * scale.lambda * (A + B * p);
+        double tau = stress * asinh(eta0 * exp(p / (A + B * p)) * slide / (stress * h));
+        sum += fmin(tau, fmax(0.047 * scale.lambda * p, stress)) * 2 / PLACES;
+    }
+    return sum / (pi / 2 * p_H);
+}
+
+/* A tenth more of alpha and of Lambda. */
+static void test_sensitivities(const char *model, double within)
+{
+    const oil more[] = {{1.1, 1}, {1, 1.1}};
+    const double p_H = 1.2e9, slide = 0.4;
+    double h, h_more, mu = friction(model, plain, p_H, slide, &h), eta0;
+    line c;
+    open_oil(&c, model, plain);
+    eta0 = c.eta0;
+    line_close(&c);
+    check_near("by hand", mu, by_hand(plain, p_H, slide, h, eta0), within);
+    for (int k = 0; k < 2; k++) {
+        double rise = friction(model, more[k], p_H, slide, &h_more) / mu - 1;
+        double hand =
+            by_hand(more[k], p_H, slide, h_more, eta0) / by_hand(plain, p_H, slide, h, eta0) - 1;
+        check_true("a rise", rise > 0.005);
+        check_near(k ? "Lambda + 10 %" : "alpha + 10 %", rise, hand, within);
+    }
+}
+
 int main(void)
 {
+    test_pressures("ehl/film-formula");
+    test_pressures("ehl/finite-volume");
+    test_sliding("ehl/film-formula");
+    test_sliding("ehl/finite-volume");
+    test_sensitivities("ehl/film-formula", 0.01);
+    test_sensitivities("ehl/finite-volume", 0.05);
     test_published();
     test_shares();
     test_temperature();
