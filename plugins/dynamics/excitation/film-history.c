@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "film-history.h"
 
+#include "share.h"
+
 #include "../../numerics/interval.h"
 
 #include <math.h>
@@ -97,6 +99,112 @@ static ff_status read_thickness(const double *h, const double *p, dynamics_film_
     return status;
 }
 
+/* A place among non-decreasing stations: behind the first of two, by a share of their distance. */
+typedef struct between {
+    size_t i;
+    double share;
+} between;
+
+/* Where one station stands twice, it is that `before` the place or that behind it. */
+static between find_between(size_t count, const double *x, double at, int before)
+{
+    size_t i = numerics_interval(count, x, at);
+    while (before && i > 0 && x[i] >= at)
+        i--;
+    double h = x[i + 1] - x[i];
+    return (between){i, h > 0 ? fmin(fmax((at - x[i]) / h, 0), 1) : 0};
+}
+
+static double value_between(const between *b, const double *y)
+{
+    return y[b->i] + b->share * (y[b->i + 1] - y[b->i]);
+}
+
+/* Share of a pair under the mean force, or of a shared force under that of the instant. */
+static double share_at(const dynamics_film_history *y, const between *station, double force)
+{
+    const dynamics_inputs *inputs = y->inputs;
+    const double *bears = inputs->line_force > 0 ? inputs->tooth_force : inputs->load_share;
+    if (!(y->bearing > 0))
+        return bears ? value_between(station, bears) : 1;
+    double low = dynamics_share(inputs, station->i, force);
+    return low + station->share * (dynamics_share(inputs, station->i + 1, force) - low);
+}
+
+/* Adds one engagement's pairs at a phase under a mesh force; at the ends of an engagement `before`
+   the phase or behind it. */
+static void add_engagement(const dynamics_film_history *y, size_t number, double phase, int before,
+                           double force, dynamics_film_sum *sum)
+{
+    const dynamics_inputs *inputs = y->inputs;
+    const double *radius[2] = {y->in[DYNAMICS_IN_RADIUS_1].data, y->in[DYNAMICS_IN_RADIUS_2].data};
+    double slack = at_node * inputs->pitch;
+    size_t first = y->first[number], last = y->first[number + 1], count = last - first;
+    for (int pair = 0; pair < DYNAMICS_FILM_PAIRS && count > 1; pair++) {
+        double roll = inputs->roll_sap + (phase + pair) * inputs->pitch;
+        double start = y->roll[first], end = y->roll[last - 1];
+        if (roll > end + slack || (!before && roll > end - slack))
+            break;
+        if (roll < start - slack || (before && roll < start + slack))
+            continue;
+        between step = find_between(count, y->roll + first, roll, before);
+        between station = find_between(inputs->stations, inputs->roll_angle, roll, before);
+        double friction = y->width * value_between(&step, y->traction + first);
+        double rolling = y->width * value_between(&step, y->rolling + first);
+        double pressure = value_between(&step, y->pressure + first);
+        double share = share_at(y, &station, force), arm[2];
+        for (int g = 0; g < 2; g++)
+            arm[g] = value_between(&station, radius[g]);
+        /* rolling resistance is the loss over 2 u_r = r1 w1 + r2 w2 */
+        rolling /= arm[0] * y->speed[0] + arm[1] * y->speed[1];
+        sum->against[0] += (friction + rolling) * arm[0];
+        sum->against[1] += (rolling - friction) * arm[1];
+        sum->bearing += pressure * pressure * arm[0] * arm[1] / (arm[0] + arm[1]);
+        sum->share[pair] += share;
+        sum->film[pair] += share * value_between(&step, y->thickness + first);
+        sum->loss += y->width * value_between(&step, y->loss + first);
+    }
+}
+
+/* The mean over the engagements. A film in Hertz's contact bears W = c p^2 r: so the mesh force of
+   the instant is that of the round before, up to what the film does to its highest pressure. */
+dynamics_film_sum dynamics_film_history_at(const dynamics_film_history *y, double phase, int before)
+{
+    dynamics_film_sum sum = {.loss = 0};
+    double share = 1 / (double)y->engagements, all = 0;
+    for (size_t i = 0; i < y->engagements; i++) {
+        dynamics_film_sum one = {.loss = 0};
+        if (y->bearing > 0)
+            add_engagement(y, i, phase, before, y->inputs->line_force, &one);
+        add_engagement(y, i, phase, before, y->bearing * one.bearing, &sum);
+    }
+    sum.against[0] *= share;
+    sum.against[1] *= share;
+    sum.loss *= share;
+    sum.bearing *= share;
+    for (int pair = 0; pair < DYNAMICS_FILM_PAIRS; pair++)
+        all += sum.share[pair];
+    for (int pair = 0; pair < DYNAMICS_FILM_PAIRS && all > 0; pair++) {
+        sum.thickness += sum.film[pair] / all;
+        sum.film[pair] = sum.share[pair] > 0 ? sum.film[pair] / sum.share[pair] : 0;
+        sum.share[pair] /= all;
+    }
+    return sum;
+}
+
+/* Sets what makes a mesh force of p^2 r: that its mean over the mesh cycle is the load. */
+static void find_bearing(dynamics_film_history *y)
+{
+    enum { PHASES = 256 };
+    double mean = 0;
+    if (!y->inputs->shared || !y->inputs->levels.tooth_force)
+        return;
+    for (int i = 0; i < PHASES; i++)
+        mean += dynamics_film_history_at(y, (i + 0.5) / PHASES, 0).bearing / PHASES;
+    if (mean > 0)
+        y->bearing = y->inputs->line_force / mean;
+}
+
 ff_status dynamics_film_history_read(const ff_host *host, const ff_array *in,
                                      const dynamics_inputs *inputs, dynamics_film_history *y)
 {
@@ -138,82 +246,11 @@ ff_status dynamics_film_history_read(const ff_host *host, const ff_array *in,
     y->width = in[DYNAMICS_IN_FACE_WIDTH].data[0];
     y->speed[0] = inputs->mesh_frequency * inputs->pitch;
     y->speed[1] = y->speed[0] * teeth[0] / teeth[1];
-    return read_thickness(h, p, y);
-}
-
-/* A place among non-decreasing stations: behind the first of two, by a share of their distance. */
-typedef struct between {
-    size_t i;
-    double share;
-} between;
-
-/* Where one station stands twice, it is that `before` the place or that behind it. */
-static between find_between(size_t count, const double *x, double at, int before)
-{
-    size_t i = numerics_interval(count, x, at);
-    while (before && i > 0 && x[i] >= at)
-        i--;
-    double h = x[i + 1] - x[i];
-    return (between){i, h > 0 ? fmin(fmax((at - x[i]) / h, 0), 1) : 0};
-}
-
-static double value_between(const between *b, const double *y)
-{
-    return y[b->i] + b->share * (y[b->i + 1] - y[b->i]);
-}
-
-/* Adds one engagement's pairs at a phase; at the ends of an engagement `before` the phase or behind
-   it. */
-static void add_engagement(const dynamics_film_history *y, size_t first, size_t last, double phase,
-                           int before, dynamics_film_sum *sum)
-{
-    const dynamics_inputs *inputs = y->inputs;
-    const double *radius[2] = {y->in[DYNAMICS_IN_RADIUS_1].data, y->in[DYNAMICS_IN_RADIUS_2].data};
-    const double *bearing = inputs->line_force > 0 ? inputs->tooth_force : inputs->load_share;
-    double slack = at_node * inputs->pitch;
-    size_t count = last - first;
-    for (int pair = 0; pair < DYNAMICS_FILM_PAIRS; pair++) {
-        double roll = inputs->roll_sap + (phase + pair) * inputs->pitch;
-        double start = y->roll[first], end = y->roll[last - 1];
-        if (roll > end + slack || (!before && roll > end - slack))
-            break;
-        if (roll < start - slack || (before && roll < start + slack))
-            continue;
-        between step = find_between(count, y->roll + first, roll, before);
-        between station = find_between(inputs->stations, inputs->roll_angle, roll, before);
-        double friction = y->width * value_between(&step, y->traction + first);
-        double rolling = y->width * value_between(&step, y->rolling + first);
-        double share = bearing ? value_between(&station, bearing) : 1, arm[2];
-        for (int g = 0; g < 2; g++)
-            arm[g] = value_between(&station, radius[g]);
-        /* rolling resistance is the loss over 2 u_r = r1 w1 + r2 w2 */
-        rolling /= arm[0] * y->speed[0] + arm[1] * y->speed[1];
-        sum->against[0] += (friction + rolling) * arm[0];
-        sum->against[1] += (rolling - friction) * arm[1];
-        sum->share[pair] += share;
-        sum->film[pair] += share * value_between(&step, y->thickness + first);
-        sum->loss += y->width * value_between(&step, y->loss + first);
-    }
-}
-
-dynamics_film_sum dynamics_film_history_at(const dynamics_film_history *y, double phase, int before)
-{
-    dynamics_film_sum sum = {.loss = 0};
-    double share = 1 / (double)y->engagements, all = 0;
-    for (size_t i = 0; i < y->engagements; i++)
-        if (y->first[i + 1] - y->first[i] > 1)
-            add_engagement(y, y->first[i], y->first[i + 1], phase, before, &sum);
-    sum.against[0] *= share;
-    sum.against[1] *= share;
-    sum.loss *= share;
-    for (int pair = 0; pair < DYNAMICS_FILM_PAIRS; pair++)
-        all += sum.share[pair];
-    for (int pair = 0; pair < DYNAMICS_FILM_PAIRS && all > 0; pair++) {
-        sum.thickness += sum.film[pair] / all;
-        sum.film[pair] = sum.share[pair] > 0 ? sum.film[pair] / sum.share[pair] : 0;
-        sum.share[pair] /= all;
-    }
-    return sum;
+    y->pressure = p;
+    status = read_thickness(h, p, y);
+    if (status == FF_OK)
+        find_bearing(y);
+    return status;
 }
 
 void dynamics_film_history_free(dynamics_film_history *y)

@@ -275,10 +275,6 @@ ff_status dynamics_film_wire_read(const ff_host *host, const ff_array *in,
     *powers = (dynamics_film_powers){0, NAN};
     if (!dynamics_film_is_wired(in))
         return FF_OK;
-    if (excitation->shared)
-        return ff_failf(host, FF_UNSUPPORTED, "force",
-                        "a film that is wired back weighs the pairs by their shares of the mean "
-                        "load; take force: frozen");
     ff_status status = check_gear(host, in, inputs->stations);
     if (status == FF_OK)
         status = dynamics_film_history_read(host, in, inputs, &y);

@@ -25,68 +25,6 @@ static double value_at(const double *rows, size_t columns, const place *p, size_
     return p->share < 1 ? *low + p->share * (*high - *low) : *high;
 }
 
-/* Levels out of those of a stiffness; NULL: all. */
-typedef struct chosen {
-    const dynamics_force_levels *of;
-    const size_t *kept;
-    size_t count;
-} chosen;
-
-static size_t level_of(const chosen *c, size_t i)
-{
-    return c->kept ? c->kept[i] : i;
-}
-
-static double force_at(const chosen *c, size_t i)
-{
-    return c->of->force[level_of(c, i)];
-}
-
-static double tooth_at(const chosen *c, size_t i, size_t station)
-{
-    return c->of->tooth_force[level_of(c, i) * c->of->stations + station];
-}
-
-static double rise_over(const chosen *c, size_t i, size_t station)
-{
-    return (tooth_at(c, i + 1, station) - tooth_at(c, i, station)) /
-           (force_at(c, i + 1) - force_at(c, i));
-}
-
-/* The tooth force at a station, N. A further pair that touches between two levels bends it there:
-   between them it follows the lines of the intervals before and behind, up to where these meet, and
-   the straight line between both levels where they do not. Of two pairs both bend at one force, so
-   that their forces add up to the mesh force. */
-static double tooth_force_of(const chosen *c, double force, size_t station)
-{
-    size_t low = 0;
-    while (low + 2 < c->count && force_at(c, low + 1) <= force)
-        low++;
-    double rise = rise_over(c, low, station), from = tooth_at(c, low, station);
-    double straight = from + rise * (force - force_at(c, low));
-    if (low == 0 || low + 2 >= c->count)
-        return straight;
-    double before = rise_over(c, low - 1, station), behind = rise_over(c, low + 1, station);
-    if (!((rise - before) * (behind - rise) > 0))
-        return straight;
-    double left = from + before * (force - force_at(c, low));
-    double right = tooth_at(c, low + 1, station) - behind * (force_at(c, low + 1) - force);
-    return before < behind ? fmax(left, right) : fmin(left, right);
-}
-
-double dynamics_share(const dynamics_inputs *inputs, size_t station, double force)
-{
-    const dynamics_force_levels *l = &inputs->levels;
-    const chosen all = {l, NULL, l->count};
-    if (inputs->shared && l->tooth_force) {
-        force = fmin(fmax(force, l->force[1]), l->force[l->count - 1]);
-        return tooth_force_of(&all, force, station) / force;
-    }
-    if (inputs->line_force > 0)
-        return inputs->tooth_force[station] / inputs->line_force;
-    return inputs->load_share ? inputs->load_share[station] : 0;
-}
-
 /* The deflection at node i under a force, N. */
 static double deflection_of(const dynamics_spring_nodes *nodes, size_t i, double force)
 {
@@ -122,9 +60,11 @@ static double largest_change(const dynamics_force_levels *l, const spring_pair *
         double g = deflection_of(&s->of[0], i, force);
         worst = fmax(worst, fabs(force_of(&s->of[1], i, g) - force));
     }
-    const chosen all = {l, s->kept[0], s->count[0]}, half = {l, s->kept[1], s->count[1]};
+    const dynamics_chosen_levels all = {l, s->kept[0], s->count[0]},
+                                 half = {l, s->kept[1], s->count[1]};
     for (size_t i = 0; l->tooth_force && i < l->stations; i++)
-        worst = fmax(worst, fabs(tooth_force_of(&all, force, i) - tooth_force_of(&half, force, i)));
+        worst = fmax(worst, fabs(dynamics_tooth_force(&all, force, i) -
+                                 dynamics_tooth_force(&half, force, i)));
     return worst;
 }
 

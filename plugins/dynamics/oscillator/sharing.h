@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How the pairs share the mesh force of an instant; and what the line says of it: how far the
-   sharing of the mean load is from that of the forces that the motion reaches where it is frozen,
-   and how far the levels of the force are apart where it is not. */
+/* What the lines say of how the pairs share the mesh force of an instant: how far the sharing of
+   the mean load is from that of the forces that the motion reaches where it is frozen, and how far
+   the levels of the force are apart where it is not. */
 #ifndef DYNAMICS_SHARING_H
 #define DYNAMICS_SHARING_H
 
-#include "../excitation/inputs.h"
+#include "../excitation/share.h"
 
 /* Largest changes between the mean force and another one. */
 typedef struct dynamics_sharing_change {
@@ -15,12 +15,6 @@ typedef struct dynamics_sharing_change {
 /* The force is held within the levels above 0. */
 dynamics_sharing_change dynamics_sharing_change_at(const dynamics_force_levels *levels, double mean,
                                                    double force);
-
-/* The share of the pair at a station under a mesh force, N: that of the mean force, Li & Kahraman
-   2011, eq. 5, W_d = (W_s/F) DMF; or, with a shared force, straight between the levels, so that the
-   shares of all pairs add up to 1. Below the least level above 0, in flight, too, it is the share
-   there, and above the largest that of the largest. */
-double dynamics_share(const dynamics_inputs *inputs, size_t station, double force);
 
 /* Of a shared force, over the mean force: by how much the mesh force at the errors of its levels
    from `least` to `largest`, N, and the tooth forces there, change when every second level is left
