@@ -2,6 +2,7 @@
 #include "table-samples.h"
 
 #include "cycle.h"
+#include "table-levels.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -14,6 +15,9 @@ const ff_param stiffness_table_columns[STIFFNESS_TABLE_COLUMNS] = {
     FF_COLUMN("loaded_transmission_error", "um", 0, NULL, 0, 0,
               "under the load of the operating point"),
     FF_COLUMN("load_share", "1", 0, NULL, 0, 0, "of the entering pair"),
+    FF_COLUMN("force", "N", 0, NULL, 0, 0,
+              "mesh force under which loaded_transmission_error of the row is, from 0 up"),
+    FF_COLUMN("torque", "N m", 0, NULL, 0, 0, "not read: force is wanted"),
 };
 
 static ff_status use_lists(stiffness_table *t)
@@ -45,6 +49,14 @@ static ff_status use_columns(stiffness_table *t)
     t->error = column[COLUMN_ERROR];
     t->loaded = column[COLUMN_LOADED];
     t->share = column[COLUMN_SHARE];
+    if (column[COLUMN_TORQUE])
+        return ff_table_failf(t->host, t->file, FF_TABLE_ALL, COLUMN_TORQUE,
+                              "the mesh force is wanted, force [N]: the torque divided by the base "
+                              "radius of its gear");
+    if (t->load_share == FROM_FILE && !t->share)
+        return ff_failf(t->host, FF_INVALID, "load_share", "the file has no column load_share");
+    if (column[COLUMN_FORCE])
+        return stiffness_table_levels_check(t);
     if (!t->k && !(t->error && t->loaded))
         return ff_table_failf(t->host, t->file, FF_TABLE_ALL, FF_TABLE_ALL,
                               "the header must name stiffness, or transmission_error and "
@@ -56,8 +68,6 @@ static ff_status use_columns(stiffness_table *t)
     if (!t->k && t->definition == TANGENT)
         return ff_failf(t->host, FF_UNSUPPORTED, "definition",
                         "transmission errors at one load give the secant stiffness alone");
-    if (t->load_share == FROM_FILE && !t->share)
-        return ff_failf(t->host, FF_INVALID, "load_share", "the file has no column load_share");
     return FF_OK;
 }
 

@@ -14,6 +14,8 @@ enum {
     COLUMN_ERROR,
     COLUMN_LOADED,
     COLUMN_SHARE,
+    COLUMN_FORCE,
+    COLUMN_TORQUE,
     STIFFNESS_TABLE_COLUMNS
 };
 enum { LINEAR, CUBIC, FITTED };
@@ -33,6 +35,7 @@ typedef struct stiffness_table {
     ff_reals corner; /* phases where the slope of a fit may jump */
     bool *corner_at; /* the same as a flag for each distinct phase */
     const ff_table *file;
+    size_t forces;        /* at which the file has the samples; 0: at one, that of the duty */
     size_t count;         /* samples, of the lists or the file */
     const double *at, *k; /* their phases and stiffnesses; k NULL: transmission errors given */
     const double *error, *loaded, *share;

@@ -5,7 +5,7 @@
 #include "outputs.h"
 #include "path-inputs.h"
 #include "references.h"
-#include "table-samples.h"
+#include "table-levels.h"
 
 #include <flankfilm/author.h>
 
@@ -24,6 +24,7 @@ typedef struct curve {
 typedef struct table_curves {
     const stiffness_table *table;
     double contact_ratio;
+    double secant_of; /* N: the stiffness is that force over the deflection; 0: the curve k */
     curve k, error, loaded, share;
 } table_curves;
 
@@ -31,7 +32,8 @@ static const ff_param params[] = {
     FF_PATH("file", stiffness_table, path, FF_REQUIRED, "source",
             "table with the columns phase, stiffness [N/m], or phase, transmission_error [um], "
             "loaded_transmission_error [um], where k = F/(e_l - e); transmission_error may stand "
-            "beside stiffness, and with definition: tangent both; load_share as said there"),
+            "beside stiffness, and with definition: tangent both; load_share as said there; with a "
+            "column force [N], rows for each force from 0 up, loaded_transmission_error under it"),
     FF_LIST("phase", "1", stiffness_table, phase, FF_REQUIRED | FF_INCREASING, NULL, "source", 0, 1,
             0, 0, 1, 100000,
             "phases of the mesh cycle, 0 = the entering pair at SAP; one given twice holds the "
@@ -127,6 +129,9 @@ static double curve_at(const stiffness_table *t, const curve *c, double phase, i
 static double stiffness_at(const void *self, double phase, int side)
 {
     const table_curves *s = self;
+    if (s->secant_of > 0)
+        return s->secant_of / (curve_at(s->table, &s->loaded, phase, side) -
+                               curve_at(s->table, &s->error, phase, side));
     return curve_at(s->table, &s->k, phase, side);
 }
 
@@ -199,6 +204,7 @@ typedef struct table_work {
     stiffness_breakpoint *breaks;
     stiffness_cycle cycle;
     table_curves curves;
+    stiffness_table_levels levels;
 } table_work;
 
 static bool work_make(const stiffness_table *t, table_work *w)
@@ -223,13 +229,15 @@ static void work_free(table_work *w)
     curve_free(&w->curves.error);
     curve_free(&w->curves.loaded);
     curve_free(&w->curves.share);
+    stiffness_table_levels_free(&w->levels);
 }
 
 /* k and e at the points of the mesh cycle. */
 static ff_status sample_cycle(const stiffness_table *t, table_work *w)
 {
     table_curves *s = &w->curves;
-    const double *loaded = t->k ? t->loaded : NULL; /* without k it gave the stiffness */
+    /* without k, or levels of it, the error under load gave the stiffness */
+    const double *loaded = t->k || t->forces ? t->loaded : NULL;
     size_t breaks = list_cycle_breakpoints(t, s->contact_ratio, w->sample, w->breaks);
     if (!curve_make(t, w->sample, &s->k) || !curve_make(t, t->error, &s->error) ||
         !curve_make(t, loaded, &s->loaded) || !curve_make(t, t->share, &s->share) ||
@@ -242,7 +250,7 @@ static ff_status sample_cycle(const stiffness_table *t, table_work *w)
         return FF_NOMEM;
     for (size_t i = 0; i < w->cycle.count; i++) {
         int side = stiffness_cycle_side(&w->cycle, i);
-        w->stiffness[i] = curve_at(t, &s->k, w->cycle.phase[i], side);
+        w->stiffness[i] = stiffness_at(s, w->cycle.phase[i], side);
         w->error[i] = t->error ? curve_at(t, &s->error, w->cycle.phase[i], side) : 0;
         if (loaded)
             w->loaded[i] = curve_at(t, &s->loaded, w->cycle.phase[i], side);
@@ -277,12 +285,90 @@ static ff_status check_sharing(const stiffness_table *t, const stiffness_path *e
                     e->contact_ratio);
 }
 
+/* Fills in one row of the levels, which have `stations` tooth forces each. */
+static ff_status fill_level(const table_curves *at, const stiffness_path *path,
+                            const stiffness_cycle *cycle, double force, const double *slopes,
+                            double *rows[3])
+{
+    const stiffness_table *t = at->table;
+    curve slope = {0};
+    if (!curve_make(t, slopes, &slope)) {
+        curve_free(&slope);
+        return FF_NOMEM;
+    }
+    for (size_t i = 0; i < cycle->count; i++) {
+        int side = stiffness_cycle_side(cycle, i);
+        *rows[0]++ = curve_at(t, &at->error, cycle->phase[i], side);
+        *rows[1]++ = curve_at(t, &slope, cycle->phase[i], side);
+    }
+    for (size_t i = 0; i < path->stations; i++) {
+        int side;
+        double age = stiffness_station_age(path, i, &side);
+        *rows[2]++ = force > 0 ? force * share(at, age, stiffness_phase_of(age, side), side) : 0;
+    }
+    curve_free(&slope);
+    return FF_OK;
+}
+
+/* Gives the levels; of a table at one force there is one, 0. */
+static ff_status publish_levels(const stiffness_table *t, const table_work *w, uint64_t wanted,
+                                const stiffness_path *path)
+{
+    const ff_host *host = t->host;
+    const stiffness_table_levels *l = &w->levels;
+    const size_t count = l->count ? l->count : 1, n = w->cycle.count;
+    if (!(wanted >> STIFFNESS_OUT_FORCE_LEVEL))
+        return FF_OK;
+    double *force = ff_put_series(host, STIFFNESS_OUT_FORCE_LEVEL, count);
+    double *error = host->output(host->ctx, STIFFNESS_OUT_LEVEL_ERROR, 2, (size_t[]){count, n});
+    double *slope = host->output(host->ctx, STIFFNESS_OUT_LEVEL_STIFFNESS, 2, (size_t[]){count, n});
+    double *teeth = host->output(host->ctx, STIFFNESS_OUT_LEVEL_TOOTH_FORCE, 2,
+                                 (size_t[]){count, path->stations});
+    ff_status status = FF_OK;
+    if (!force || !error || !slope || !teeth)
+        return FF_NOMEM;
+    if (!l->count) {
+        force[0] = 0;
+        memcpy(error, w->error, n * sizeof *error);
+        memcpy(slope, w->stiffness, n * sizeof *slope);
+        memset(teeth, 0, path->stations * sizeof *teeth);
+        return FF_OK;
+    }
+    double *rows[3] = {error, slope, teeth};
+    for (size_t k = 0; k < count && status == FF_OK; k++) {
+        table_curves at = {.table = t, .contact_ratio = path->contact_ratio};
+        bool made = curve_make(t, l->error + k * t->count, &at.error) &&
+                    curve_make(t, l->share ? l->share + k * t->count : NULL, &at.share);
+        force[k] = l->force[k];
+        status = made ? fill_level(&at, path, &w->cycle, force[k], l->slope + k * t->count, rows)
+                      : FF_NOMEM;
+        curve_free(&at.error);
+        curve_free(&at.share);
+    }
+    return status;
+}
+
+/* Of a table at several forces, the samples under the line force take the place of those under
+   one. */
+static ff_status take_levels(stiffness_table *t, double line_force, table_work *w)
+{
+    ff_status status = stiffness_table_levels_make(t, line_force, &w->levels);
+    if (status != FF_OK)
+        return status;
+    size_t from = w->levels.mean * t->count;
+    t->loaded = w->levels.error + from;
+    t->share = w->levels.share ? w->levels.share + from : NULL;
+    t->k = t->definition == TANGENT ? w->levels.slope + from : NULL;
+    w->curves.secant_of = t->definition == TANGENT ? 0 : line_force;
+    return FF_OK;
+}
+
 /* Of the sum of the shares: rounding, or that of the figures in a file. */
 static const double rounding = 1e-12, balance_of_file = 0.02;
 
 static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
 {
-    const stiffness_table *t = self;
+    stiffness_table at_load = *(const stiffness_table *)self, *t = &at_load;
     stiffness_path path;
     table_work w = {0};
     ff_status status = stiffness_path_read(t->host, in, &path);
@@ -291,7 +377,10 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status != FF_OK)
         return status;
     w.curves = (table_curves){.table = t, .contact_ratio = path.contact_ratio};
-    status = work_make(t, &w) ? sample_stiffness(t, &path, w.sample) : FF_NOMEM;
+    if (t->forces)
+        status = take_levels(t, path.line_force, &w);
+    if (status == FF_OK)
+        status = work_make(t, &w) ? sample_stiffness(t, &path, w.sample) : FF_NOMEM;
     if (status == FF_OK)
         status = sample_cycle(t, &w);
     if (status != FF_OK)
@@ -310,6 +399,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     };
     report_fit(t, &w.curves);
     status = stiffness_result_publish(t->host, wanted, &result, &path);
+    if (status == FF_OK)
+        status = publish_levels(t, &w, wanted, &path);
 out:
     work_free(&w);
     return status;
@@ -320,7 +411,7 @@ FF_MODEL(stiffness_table_model, stiffness_table, .id = "stiffness/table", .versi
          .reference = "Steffen 1990, Astron. Astrophys. 239, 443-450 (the cubic interpolation)",
          .bibtex = BIB_steffen1990, .licence = "GPL-3.0-or-later", .params = FF_TABLE(params),
          .inputs = stiffness_inputs, .input_count = STIFFNESS_PATH_INPUTS,
-         .input_stride = sizeof stiffness_inputs[0], .outputs = STIFFNESS_PLAIN_OUTPUTS,
+         .input_stride = sizeof stiffness_inputs[0], .outputs = FF_TABLE(stiffness_outputs),
          .ready = ready, .evaluate = evaluate, .destroy = destroy,
          .columns = FF_TABLE(stiffness_table_columns));
 FF_EXPORT_MODELS(&stiffness_table_model);

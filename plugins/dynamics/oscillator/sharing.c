@@ -68,15 +68,47 @@ static double largest_change(const dynamics_force_levels *l, const spring_pair *
     return worst;
 }
 
+/* How much mesh and tooth forces at a force beyond the last level change, N, where that level is
+   left out, too: the line of the last one goes on straight, and its shares stay. -1: out of memory.
+ */
+static double change_beyond(const dynamics_inputs *inputs, double force)
+{
+    const dynamics_force_levels *l = &inputs->levels;
+    dynamics_force_levels fewer = *l;
+    dynamics_spring_nodes s[2] = {{0}, {0}};
+    double convex, worst = -1;
+    size_t last = l->count - 1;
+    if (last < 2)
+        return force;
+    fewer.count--;
+    if (dynamics_spring_nodes_share(l, inputs->line_force, 1, &s[0], &convex) &&
+        dynamics_spring_nodes_share(&fewer, inputs->line_force, 1, &s[1], &convex)) {
+        worst = 0;
+        for (size_t i = 0; i < l->phases; i++)
+            worst = fmax(worst, fabs(force_of(&s[1], i, deflection_of(&s[0], i, force)) - force));
+        for (size_t i = 0; l->tooth_force && i < l->stations; i++) {
+            const double *W = l->tooth_force + last * l->stations + i;
+            worst = fmax(
+                worst, fabs(*W / l->force[last] - *(W - l->stations) / l->force[last - 1]) * force);
+        }
+    }
+    dynamics_spring_nodes_free(&s[0]);
+    dynamics_spring_nodes_free(&s[1]);
+    return worst;
+}
+
 double dynamics_level_error(const dynamics_inputs *inputs, double least, double largest)
 {
     enum { FORCES = 32 };
     const dynamics_force_levels *l = &inputs->levels;
     spring_pair s = {0};
     double convex, worst = -1;
+    double end = l->force[l->count - 1], beyond = 0;
+    if (largest > end)
+        beyond = change_beyond(inputs, largest);
     least = fmax(least, 0);
-    largest = fmin(largest, l->force[l->count - 1]);
-    int made = 1;
+    largest = fmin(largest, end);
+    int made = beyond >= 0;
     for (int i = 0; i < 2 && made; i++) {
         s.count[i] = dynamics_spring_levels(l, inputs->line_force, i + 1, s.kept[i]);
         made = dynamics_spring_nodes_share(l, inputs->line_force, i + 1, &s.of[i], &convex);
@@ -85,7 +117,7 @@ double dynamics_level_error(const dynamics_inputs *inputs, double least, double 
         worst = fmax(worst, largest_change(l, &s, least + (largest - least) * i / FORCES));
     for (int i = 0; i < 2; i++)
         dynamics_spring_nodes_free(&s.of[i]);
-    return worst < 0 ? -1 : worst / inputs->line_force;
+    return worst < 0 ? -1 : fmax(worst, beyond) / inputs->line_force;
 }
 
 static void report_levels(const dynamics_inputs *inputs, double least, double largest,
@@ -101,7 +133,7 @@ static void report_levels(const dynamics_inputs *inputs, double least, double la
              "forces of the stiffness is left out; the motion reaches %.3g to %.3g times that "
              "load%s%s",
              l->count, least / mean, largest / mean,
-             known ? "" : ", beyond the largest, where the force goes on straight",
+             known ? "" : ", beyond the largest, which is left out there, too",
              l->tooth_force ? ""
                             : "; tooth forces at these are not known, those of the mean load "
                               "are split in proportion");

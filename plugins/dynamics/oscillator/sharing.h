@@ -18,7 +18,7 @@ dynamics_sharing_change dynamics_sharing_change_at(const dynamics_force_levels *
 
 /* Of a shared force, over the mean force: by how much the mesh force at the errors of its levels
    from `least` to `largest`, N, and the tooth forces there, change when every second level is left
-   out. -1: out of memory. */
+   out; beyond the last level, that one, too. -1: out of memory. */
 double dynamics_level_error(const dynamics_inputs *inputs, double least, double largest);
 
 /* The line force_levels of a shared force; else the line sharing_change, by the least and the

@@ -411,6 +411,28 @@ static void test_half(void)
         check_below("tooth force", fabs(W[1][i] - W[0][i]) / m.p.line_force, stated);
 }
 
+/* A motion that leaves the levels is doubtful, and the line covers what the missing ones change. */
+static void test_beyond(void)
+{
+    static mesh m;
+    double rms[2], stated = 0;
+    make_mesh(&m, &relieved, 2900, 10);
+    for (int all = 1; all >= 0; all--) {
+        m.levels = all ? 10 : 5; /* up to 1.8 times the mean force */
+        stage *s = open_shared("dynamics/shooting", &m);
+        stage_set(s, "damping_ratio", 0.03);
+        stage_set_text(s, "branch", "upper");
+        check_true("runs", run_motion(s));
+        rms[all] = stage_scalar(s, "dte_rms");
+        stated = stage_quality(s, "force_levels");
+        printf("levels up to %g F: %.2g\n", m.force[m.levels - 1] / m.p.line_force, stated);
+        check_true("doubtful if it leaves them", all || stage_verdict(s) == FF_DOUBTFUL);
+        stage_close(s);
+    }
+    check_below("rms", fabs(rms[1] / rms[0] - 1), stated);
+    check_true("more than between the levels", stated > 0.1);
+}
+
 /* At less than a hundredth of the natural frequency the motion is the loaded error. */
 static void test_slow(void)
 {
@@ -464,6 +486,7 @@ int main(void)
     test_bent_back();
     test_small_vibration();
     test_half();
+    test_beyond();
     test_slow();
     test_refusals();
     return check_done();

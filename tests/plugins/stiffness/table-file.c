@@ -134,6 +134,78 @@ static void test_load_share(void)
     stage_close(s);
 }
 
+/* Errors s = a(phase) F + b F^1.2 at five forces: at the line force, half-way between two of them,
+   both s and its slope, and the pairs' forces at each. */
+static double error_under(double phase, double force)
+{
+    return (3 + 0.5 * cos(2 * M_PI * phase)) * 1e-9 * force + 4e-11 * pow(force, 1.2);
+}
+
+static char *force_table(int slopes, const double *part, int forces)
+{
+    static char text[16384];
+    char *end = text;
+    double exit = unity.contact_ratio - 1;
+    const double at[] = {0, exit / 2, exit, exit, 0.5 + exit / 2};
+    end += sprintf(end, "force [N],phase,loaded_transmission_error [m],load_share%s\n",
+                   slopes ? ",stiffness [N/m]" : "");
+    for (int k = 0; k < forces; k++)
+        for (int i = 0; i < 5; i++) {
+            double F = part[k] * unity.line_force, h = 1e-4 * unity.line_force;
+            double rate = (error_under(at[i], F + h) - error_under(at[i], fmax(F - h, 0))) /
+                          (F > h ? 2 * h : h);
+            end +=
+                sprintf(end, "%.17g,%.17g,%.17g,%.17g", F, at[i],
+                        1e-6 * (i < 3) + error_under(at[i], F), i < 3 ? 0.5 + 0.05 * part[k] : 1);
+            end += slopes ? sprintf(end, ",%.17g\n", 1 / rate) : sprintf(end, "\n");
+        }
+    return text;
+}
+
+static void test_forces(void)
+{
+    static const double with[] = {0, 0.4, 1, 2, 4}, without[] = {0, 0.7, 1.3, 2, 4};
+    for (int i = 0; i < 4; i++) {
+        stage *s = open_file(force_table(i & 1, i & 2 ? without : with, 5));
+        stage_set_text(s, "load_share", "file");
+        stage_set_text(s, "ends", "jump");
+        stage_set_text(s, "definition", i & 1 ? "tangent" : "secant");
+        check_true("runs", stage_run(s) == FF_OK);
+        size_t levels, n, at = 0;
+        const double *force = stage_get(s, "force_level", &levels);
+        const double *phase = stage_get(s, "phase", &n), *k = stage_get(s, "stiffness", NULL);
+        const double *e = stage_get(s, "transmission_error", NULL);
+        const double *loaded = stage_get(s, "loaded_transmission_error", NULL);
+        const double *row = stage_get(s, "level_error", NULL);
+        const double *slope = stage_get(s, "level_stiffness", NULL);
+        const double *teeth = stage_get(s, "level_tooth_force", NULL);
+        double F = unity.line_force, way = error_under(0, F), h = 1e-4 * F;
+        check_true("forces", levels == (i & 2 ? 6 : 5));
+        while (force[at] < F * (1 - 1e-12))
+            at++;
+        check_near("the line force", force[at], F, 1e-12);
+        check_near("phase", phase[0], 0, 0);
+        check_near("e", e[0], 1e-6, 1e-12);
+        check_near("its row", row[0], e[0], 0);
+        check_near("row of the line force", row[at * n], loaded[0], 0);
+        check_near("e_l", loaded[0] - e[0], way, i & 2 ? 1e-3 : 1e-12);
+        double tangent = 2 * h / (error_under(0, F + h) - error_under(0, F - h));
+        check_near("slope", slope[at * n], tangent, i & 1 ? 5e-3 : 3e-2);
+        check_near("k", k[0], i & 1 ? slope[at * n] : F / (loaded[0] - e[0]), 1e-12);
+        check_near("W of one pair at SAP", teeth[at * PAIR_STATIONS], 0.55 * F, 1e-12);
+        check_near("and of both at LPSTC", teeth[at * PAIR_STATIONS + unity.lpstc], 0.55 * F,
+                   1e-12);
+        check_near("at the last force", teeth[(levels - 1) * PAIR_STATIONS], 0.7 * 4 * F, 1e-12);
+        stage_close(s);
+    }
+    static const double short_of[] = {0, 0.5};
+    stage *s = open_file(force_table(0, short_of, 2));
+    stage_set_text(s, "ends", "jump");
+    check_true("a table that ends below the load",
+               stage_run(s) == FF_INVALID && strstr(stage_why(s), ":7:1: the table ends at"));
+    stage_close(s);
+}
+
 static void expect_refusal(const char *text, const char *word)
 {
     stage *s = open_file(text);
@@ -180,6 +252,30 @@ static void test_refusals(void)
                    ":2:7: a load share lies between 0 and 1");
     expect_refusal("phase,stiffness [N/m],load_share\n0,4e8,1\n0.5,3e8,-0.1\n",
                    ":3:9: a load share lies between 0 and 1");
+    expect_refusal("phase,torque [N m],loaded_transmission_error [um]\n0,0,1\n0,9,2\n",
+                   ":1:7: the mesh force is wanted, force [N]: the torque divided by the base");
+    expect_refusal("phase,force [N],stiffness [N/m]\n0,0,1\n",
+                   ":1:7: beside force the header must name loaded_transmission_error");
+    expect_refusal(
+        "phase,force [N],transmission_error [um],loaded_transmission_error [um]\n0,0,1,2\n",
+        ":1:17: beside force the transmission error without load");
+    expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,5,1\n",
+                   ":2:3: the first rows must have the force 0");
+    expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n",
+                   ":3:5: behind the force 0 at least one");
+    expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0,5,2\n0,4,3\n",
+                   ":4:3: the forces must rise; found 4");
+    expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n0,5,2\n"
+                   "0.5,6,2\n",
+                   ":5:5: every force must have as many rows");
+    expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n0,5,2\n",
+                   ":4:3: every force must have as many rows as the first one has, 2");
+    expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n0,5,2\n"
+                   "0.6,5,2\n",
+                   ":5:1: every force must have the phases");
+    expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n0,5,2\n"
+                   "0.5,5,0.9\n",
+                   ":5:7: the transmission error must exceed that under the force before");
     expect_refusal("phase,stiffness [N/m],a,b,c,d,e,f,g,h,i,j,k,l,m,n,o\n0,1\n",
                    ":1:23: no column is called \"a\"");
 }
@@ -253,6 +349,7 @@ int main(void)
     test_slope_and_errors();
     test_error_beside_stiffness();
     test_load_share();
+    test_forces();
     test_refusals();
     test_no_text();
     test_long_files();

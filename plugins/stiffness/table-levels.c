@@ -1,0 +1,224 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#include "table-levels.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Forces and phases that differ by no more, over the force or in mesh cycles, are the same. */
+static const double same_force = 1e-9, same_phase = 1e-9;
+
+static ff_status fail_at(const stiffness_table *t, size_t row, size_t column, const char *why,
+                         double value)
+{
+    return ff_table_failf(t->host, t->file, row, column, "%s; found %.9g", why, value);
+}
+
+static ff_status check_header(const stiffness_table *t)
+{
+    const double *const *column = t->file->columns;
+    if (!column[COLUMN_LOADED])
+        return ff_table_failf(t->host, t->file, FF_TABLE_ALL, COLUMN_FORCE,
+                              "beside force the header must name loaded_transmission_error, under "
+                              "the force of its row");
+    if (column[COLUMN_ERROR])
+        return ff_table_failf(t->host, t->file, FF_TABLE_ALL, COLUMN_ERROR,
+                              "beside force the transmission error without load stands in "
+                              "loaded_transmission_error, in the rows of the force 0");
+    return FF_OK;
+}
+
+/* Whether a row has the force and the phase of its place. */
+static ff_status check_row(const stiffness_table *t, size_t i, size_t phases)
+{
+    const double *force = t->file->columns[COLUMN_FORCE], *at = t->file->columns[COLUMN_PHASE];
+    const double *error = t->file->columns[COLUMN_LOADED], *k = t->file->columns[COLUMN_STIFFNESS];
+    const double *part = t->file->columns[COLUMN_SHARE];
+    size_t first = i / phases * phases;
+    if (fabs(force[i] - force[first]) > same_force * force[first])
+        return fail_at(t, i, COLUMN_FORCE,
+                       "every force must have as many rows as the first one has", force[i]);
+    if (i == first && i > 0 && !(force[i] > force[i - 1]))
+        return fail_at(t, i, COLUMN_FORCE, "the forces must rise", force[i]);
+    if (fabs(at[i] - at[i % phases]) > same_phase)
+        return fail_at(t, i, COLUMN_PHASE, "every force must have the phases of the first one",
+                       at[i]);
+    if (i >= phases && !(error[i] > error[i - phases]))
+        return fail_at(t, i, COLUMN_LOADED,
+                       "the transmission error must exceed that under the force before, in m",
+                       error[i]);
+    if (k && !(k[i] > 0))
+        return fail_at(t, i, COLUMN_STIFFNESS, "a stiffness must be positive", k[i]);
+    if (part && !(part[i] >= 0 && part[i] <= 1))
+        return fail_at(t, i, COLUMN_SHARE, "a load share lies between 0 and 1", part[i]);
+    return FF_OK;
+}
+
+ff_status stiffness_table_levels_check(stiffness_table *t)
+{
+    const double *const *column = t->file->columns;
+    const double *force = column[COLUMN_FORCE];
+    size_t rows = t->file->row_count, phases = 0;
+    ff_status status = check_header(t);
+    if (status != FF_OK)
+        return status;
+    if (force[0] != 0)
+        return fail_at(t, 0, COLUMN_FORCE,
+                       "the first rows must have the force 0: the transmission error without load",
+                       force[0]);
+    while (phases < rows && force[phases] == 0)
+        phases++;
+    if (phases == rows)
+        return ff_table_failf(t->host, t->file, rows - 1, COLUMN_FORCE,
+                              "behind the force 0 at least one above it is needed");
+    for (size_t i = 0; i < rows && status == FF_OK; i++)
+        status = check_row(t, i, phases);
+    if (status != FF_OK)
+        return status;
+    if (rows % phases)
+        return ff_table_failf(t->host, t->file, rows - 1, COLUMN_FORCE,
+                              "every force must have as many rows as the first one has, %zu; this "
+                              "one has %zu",
+                              phases, rows % phases);
+    if (rows / phases > STIFFNESS_TABLE_FORCES)
+        return ff_table_failf(t->host, t->file, STIFFNESS_TABLE_FORCES * phases, COLUMN_FORCE,
+                              "more than %d forces", STIFFNESS_TABLE_FORCES);
+    t->forces = rows / phases;
+    t->count = phases;
+    t->k = NULL;
+    t->error = column[COLUMN_LOADED];
+    t->loaded = column[COLUMN_LOADED] + rows - phases;
+    return FF_OK;
+}
+
+/* The error under the forces at one phase, and its slopes by the force. */
+typedef struct curve {
+    size_t count;
+    double force[STIFFNESS_TABLE_FORCES], error[STIFFNESS_TABLE_FORCES];
+    double slope[STIFFNESS_TABLE_FORCES];
+} curve;
+
+static double rise(const curve *c, size_t i)
+{
+    return (c->error[i + 1] - c->error[i]) / (c->force[i + 1] - c->force[i]);
+}
+
+/* Steffen 1990, eq. (24) at the ends, of data that rise. */
+static double end_slope(double near, double behind, double h, double next)
+{
+    double slope = near * (1 + h / (h + next)) - behind * h / (h + next);
+    return fmin(fmax(slope, 0.1 * near), 2 * near);
+}
+
+/* Steffen 1990, eqs (8) and (11), of data that rise. */
+static void find_slopes(curve *c)
+{
+    size_t last = c->count - 1;
+    for (size_t i = 1; i < last; i++) {
+        double h = c->force[i] - c->force[i - 1], next = c->force[i + 1] - c->force[i];
+        double before = rise(c, i - 1), behind = rise(c, i);
+        double middle = (before * next + behind * h) / (h + next);
+        c->slope[i] = fmin(2 * fmin(before, behind), middle);
+    }
+    if (last == 1) {
+        c->slope[0] = c->slope[1] = rise(c, 0);
+        return;
+    }
+    double h = c->force[1] - c->force[0], next = c->force[2] - c->force[1];
+    c->slope[0] = end_slope(rise(c, 0), rise(c, 1), h, next);
+    h = c->force[last] - c->force[last - 1];
+    next = c->force[last - 1] - c->force[last - 2];
+    c->slope[last] = end_slope(rise(c, last - 1), rise(c, last - 2), h, next);
+}
+
+/* The cubic and its slope at a force between the forces low and low + 1. */
+static void read_curve(const curve *c, size_t low, double force, double *error, double *slope)
+{
+    double h = c->force[low + 1] - c->force[low], x = (force - c->force[low]) / h;
+    double chord = rise(c, low);
+    double a = c->slope[low], z = c->slope[low + 1], bend = 3 * chord - 2 * a - z;
+    double turn = a + z - 2 * chord;
+    *error = c->error[low] + h * x * (a + x * (bend + x * turn));
+    *slope = fmax(a + x * (2 * bend + 3 * x * turn), 1e-3 * chord);
+}
+
+static curve curve_at(const stiffness_table *t, size_t phase)
+{
+    const double *k = t->file->columns[COLUMN_STIFFNESS];
+    curve c = {.count = t->forces};
+    for (size_t i = 0; i < c.count; i++) {
+        size_t at = i * t->count + phase;
+        c.force[i] = t->file->columns[COLUMN_FORCE][i * t->count];
+        c.error[i] = t->file->columns[COLUMN_LOADED][at];
+    }
+    find_slopes(&c);
+    for (size_t i = 0; i < c.count && k; i++) {
+        double steepest = 3 * fmin(rise(&c, i ? i - 1 : 0), rise(&c, i + 1 < c.count ? i : i - 1));
+        c.slope[i] = fmin(1 / k[i * t->count + phase], steepest); /* keeps the cubic monotone */
+    }
+    return c;
+}
+
+/* Fills in one phase of all rows; `low`: the force of the table below the line force, where that
+   is not one of them. */
+static void fill_phase(const stiffness_table *t, stiffness_table_levels *l, size_t phase,
+                       int between)
+{
+    curve c = curve_at(t, phase);
+    for (size_t row = 0; row < l->count; row++) {
+        size_t from = row - (between && row > l->mean), at = row * t->count + phase;
+        const double *part = l->share ? t->file->columns[COLUMN_SHARE] : NULL;
+        if (between && row == l->mean) {
+            size_t low = row - 1;
+            double x = (l->force[row] - c.force[low]) / (c.force[row] - c.force[low]), slope;
+            read_curve(&c, low, l->force[row], &l->error[at], &slope);
+            l->slope[at] = 1 / slope;
+            if (part)
+                l->share[at] = part[low * t->count + phase] +
+                               x * (part[row * t->count + phase] - part[low * t->count + phase]);
+            continue;
+        }
+        l->error[at] = c.error[from];
+        l->slope[at] = 1 / c.slope[from];
+        if (part)
+            l->share[at] = part[from * t->count + phase];
+    }
+}
+
+ff_status stiffness_table_levels_make(const stiffness_table *t, double line_force,
+                                      stiffness_table_levels *l)
+{
+    const double *force = t->file->columns[COLUMN_FORCE];
+    size_t above = 0;
+    *l = (stiffness_table_levels){.count = 0};
+    while (above < t->forces && force[above * t->count] < line_force * (1 - same_force))
+        above++;
+    if (above == t->forces)
+        return ff_table_failf(t->host, t->file, (t->forces - 1) * t->count, COLUMN_FORCE,
+                              "the table ends at %.9g N, below the line force of %.9g N",
+                              force[(t->forces - 1) * t->count], line_force);
+    int between = force[above * t->count] > line_force * (1 + same_force);
+    l->mean = above;
+    l->count = t->forces + (between ? 1 : 0);
+    for (size_t row = 0; row < l->count; row++)
+        l->force[row] = between && row == above
+                            ? line_force
+                            : force[(row - (between && row > above)) * t->count];
+    l->error = malloc(l->count * t->count * sizeof *l->error);
+    l->slope = malloc(l->count * t->count * sizeof *l->slope);
+    if (t->load_share == FROM_FILE)
+        l->share = malloc(l->count * t->count * sizeof *l->share);
+    if (!l->error || !l->slope || (t->load_share == FROM_FILE && !l->share))
+        return FF_NOMEM;
+    for (size_t i = 0; i < t->count; i++)
+        fill_phase(t, l, i, between);
+    return FF_OK;
+}
+
+void stiffness_table_levels_free(stiffness_table_levels *l)
+{
+    free(l->error);
+    free(l->slope);
+    free(l->share);
+    *l = (stiffness_table_levels){.count = 0};
+}
