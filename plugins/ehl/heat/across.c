@@ -47,6 +47,25 @@ static void place(ehl_across *a)
     a->z[n] = 1;
 }
 
+/*
+ * The stiffness of a spectral vanishing viscosity (Tadmor 1989; Maday, Ould Kaber & Tadmor 1993):
+ * of the slopes only the modes above sqrt(count) resist, which a resolved temperature does not
+ * have.
+ */
+static void damp_highest(ehl_across *a)
+{
+    size_t n = a->count, last = n - 2, first = (size_t)sqrt((double)n);
+    for (size_t j = first + 1; j <= last; j++) {
+        double away = (double)(last - j) / (double)(j - first), part[EHL_ACROSS_MOST] = {0}, before;
+        for (size_t m = 0; m < n; m++)
+            for (size_t l = 0; l < n; l++)
+                part[l] += a->weight[m] * legendre(j, 2 * a->z[m] - 1, &before) * a->slope[l][m];
+        for (size_t l = 0; l < n; l++)
+            for (size_t k = 0; k < n; k++)
+                a->damping[l][k] += (2 * (double)j + 1) * exp(-away * away) * part[l] * part[k];
+    }
+}
+
 void ehl_across_create(ehl_across *a, size_t count)
 {
     memset(a, 0, sizeof *a);
@@ -81,6 +100,7 @@ void ehl_across_create(ehl_across *a, size_t count)
         for (size_t l = 0; l < count; l++)
             for (size_t m = 0; m < count; m++)
                 a->stiffness[k][l] += a->weight[m] * a->slope[k][m] * a->slope[l][m];
+    damp_highest(a);
 }
 
 double ehl_across_highest(const ehl_across *a, const double *values, double most)

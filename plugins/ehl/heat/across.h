@@ -7,7 +7,7 @@
 
 #include <stddef.h>
 
-enum { EHL_ACROSS_LEAST = 4, EHL_ACROSS_PRESET = 8, EHL_ACROSS_MOST = 16, EHL_ACROSS_FINE = 17 };
+enum { EHL_ACROSS_LEAST = 4, EHL_ACROSS_PRESET = 8, EHL_ACROSS_MOST = 32, EHL_ACROSS_FINE = 17 };
 
 typedef double ehl_across_matrix[EHL_ACROSS_MOST][EHL_ACROSS_MOST];
 
@@ -19,6 +19,7 @@ typedef struct ehl_across {
     ehl_across_matrix slope;                       /* d/dz */
     ehl_across_matrix integral;                    /* from 0 to node k */
     ehl_across_matrix stiffness;                   /* int (dv/dz) (dT/dz) dz */
+    ehl_across_matrix damping;                     /* the same, of the highest modes alone */
     double fine[EHL_ACROSS_FINE][EHL_ACROSS_MOST]; /* values at equal distances */
     double swing; /* largest size of one of these where those at the nodes are between -1 and 1 */
 } ehl_across;

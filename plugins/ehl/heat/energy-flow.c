@@ -22,7 +22,7 @@ static size_t room_of(size_t nodes, size_t across)
 ff_status ehl_energy_create(ehl_energy *e, size_t nodes, size_t across)
 {
     size_t n = nodes, all = nodes * across;
-    *e = (ehl_energy){.nodes = nodes, .share = 1, .highest = 2000, .lowest = 150};
+    *e = (ehl_energy){.nodes = nodes, .share = 1, .damping = 1, .highest = 2000, .lowest = 150};
     ehl_across_create(&e->across, across);
     double *next = e->memory = calloc(room_of(nodes, across), sizeof *next);
     if (!next)

@@ -55,9 +55,8 @@ typedef struct ehl_temperature {
 
 /* What the equations of one column are made of but its temperatures. */
 typedef struct ehl_column {
-    double below[EHL_ACROSS_MOST + 1]; /* heat that crosses between nodes from the lower one, ... */
-    double above[EHL_ACROSS_MOST + 1]; /* ... and from the upper one, per temperature, >= 0 */
-    double lift[EHL_ACROSS_MOST];      /* transverse transport by the slope at the node */
+    double damped;                /* conductance of the highest modes across, W/(m2 K) */
+    double lift[EHL_ACROSS_MOST]; /* transverse transport by the slope at the node */
     double on[EHL_ACROSS_MOST], back[EHL_ACROSS_MOST]; /* along the nodes, from before and behind */
     double own[EHL_ACROSS_MOST];      /* what storage, these and compression take by temperature */
     double source[EHL_ACROSS_MOST];   /* heat, and what was stored before */
@@ -97,6 +96,8 @@ typedef struct ehl_energy {
     unsigned char *there;   /* 1: tau_m has been found */
     double highest, lowest; /* K, of which the laws are called */
     double reach;           /* change of ln(eta) up to which laws are followed by their slopes */
+    double damping;         /* of the highest modes across, over the usual one */
+    int undamped;           /* 1: sweeps correct the temperatures for the damping of the modes */
     double share;           /* of the change of each temperature that a sweep takes */
     double change;          /* largest change of ln(eta) by the last sweep */
     ff_status law_status;

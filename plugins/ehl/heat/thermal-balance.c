@@ -99,12 +99,14 @@ void ehl_thermal_hold(ehl_march *m)
         ehl_worse(&t->elsewise, steady_balance(m, &f, &sum));
     for (size_t g = 0; g < 2; g++)
         t->least_peclet = fmin(t->least_peclet, (f.speed[g] + f.frame) * a / t->diffusivity[g]);
-    t->highest = fmax(t->highest, ehl_thermal_highest(m));
+    double highest = ehl_thermal_highest(m);
+    t->highest = fmax(t->highest, highest);
+    ehl_thermal_look_at_nodes(t, &f, m->state[0].heat, highest);
 }
 
 void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_march *m)
 {
-    const double limit = 10 * fmax(m->solver->tolerance, 1e-4), slow = 5;
+    const double enough = 0.05, limit = 10 * fmax(m->solver->tolerance, 1e-4), slow = 5;
     char text[200];
     /* first: what is wrong with a film that is cut is said by this line */
     host->quality(host->ctx, "temperature_max", t->highest, t->energy.highest,
@@ -120,6 +122,15 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
                   : t->unbalanced <= 0.05 ? FF_DOUBTFUL
                                           : FF_BAD,
                   text);
+    if (!m->rough) {
+        double off = fmin(t->by_nodes, 1);
+        snprintf(text, sizeof text,
+                 "estimate of the error of the film by the nodes across, over it, at its hottest; "
+                 "there are %zu thermal_nodes%s",
+                 t->energy.across.count, off <= enough ? "" : ": use more of them");
+        host->quality(host->ctx, "node_error", off, enough, off <= enough ? FF_GOOD : FF_DOUBTFUL,
+                      text);
+    }
     if (m->history->count == 1 && !m->rough)
         host->quality(host->ctx, "heat_of_flanks", t->elsewise, 0.02,
                       t->elsewise <= 0.02 ? FF_GOOD : FF_DOUBTFUL,

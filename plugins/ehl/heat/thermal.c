@@ -20,7 +20,14 @@ static const double LEAST_FACTOR = 1e-3;
    film whole sweeps may go away from its temperatures: after a round that did not end by itself,
    all sweeps of this instant take half of what they took. Where factors have settled, rounds of
    temperatures that do not are alike. */
-enum { MOST_ROUNDS = 80, MOST_PASSES = 8, WHOLE_PASSES = 3, MOST_IDLE = 6, FACTORS = 3 };
+enum {
+    MOST_ROUNDS = 80,
+    MOST_PASSES = 8,
+    STEADY_PASSES = 60,
+    WHOLE_PASSES = 3,
+    MOST_IDLE = 6,
+    FACTORS = 3
+};
 static const double SHARE_THAT_HESITATES = 0.5, LEAST_SWEEP = 0.125;
 
 /* Change of the flow of mass by the factors, relative, below which they are those of the film: it
@@ -38,6 +45,9 @@ static const double MIXED = 0.5;
 static const double SHRINKING = 0.95, LEAST_SHARE = 0.15;
 /* Change of ln(eta) by a sweep below which the temperatures are those of the film. */
 static const double WARM = 1e-3, WARM_STEADY = 1e-6;
+/* The same of a steady film, over what its factors were off before: with temperatures that lag the
+   rounds would not converge, since the factors that they accelerate are not those of the film. */
+static const double LAGGING = 0.01;
 /* Change of ln(eta) in time up to which laws are followed by their slopes, and ln(eta) by the
    curvature on the way to the last call: half its square times that curvature is a fifth of SETTLED
    for laws whose slopes bend as ln(eta)/10, and a twentieth of this is left where the curvature
@@ -48,7 +58,7 @@ static const double REACH = 0.02;
 static const double KEPT = 0.1;
 
 /* Fastest and slowest flank of a history along the nodes; FF_UNSUPPORTED where one moves against
-   the oil. */
+   the oil, or stays in a steady film. */
 static ff_status speeds_of(const ff_host *host, const ehl_history *h, double *least, double *most)
 {
     *least = HUGE_VAL;
@@ -62,6 +72,11 @@ static ff_status speeds_of(const ff_host *host, const ehl_history *h, double *le
                             "m/s (slide-roll ratio beyond 2): thermal: full follows flanks that "
                             "both move as the oil does; use thermal: inlet or none",
                             h->time[i], u1, u2);
+        if (h->count == 1 && !(slow > 0))
+            return ff_failf(host, FF_UNSUPPORTED, "thermal",
+                            "a flank at rest (slide-roll ratio 2) that is sheared for ever has no "
+                            "steady temperature: thermal: full follows it in a history in time, or "
+                            "use thermal: inlet or none");
         *least = fmin(*least, slow);
         *most = fmax(*most, fast);
     }
@@ -379,8 +394,7 @@ static double tightness(const ehl_march *m)
 }
 
 /* Computes the temperatures of the film and its factors; 1: they were those already. */
-static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, const double c[3],
-                  int most)
+static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, const double c[3])
 {
     ehl_thermal *t = m->thermal;
     ehl_reynolds *r = m->solver->reynolds;
@@ -391,17 +405,18 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
     ehl_reynolds_evaluate(r, step, film);
     ehl_energy_film f = film_of(m, step, film, c);
     ehl_temperature temperature = ehl_thermal_state(t, m->trial.heat);
+    const double lag = c[0] > 0 || !isfinite(t->off) ? warm : fmax(warm, LAGGING * t->off);
+    const int most = c[0] > 0 ? MOST_PASSES : STEADY_PASSES;
     int passes = 0;
     t->film = f;
-    if (!(c[0] >
-          0)) /* a steady film calls all laws anew, and those on the way to it do not count */
+    if (!(c[0] > 0)) /* a steady film calls all laws anew; those on the way to it do not count */
         t->energy.law_status = FF_OK;
     do {
         ehl_energy_flow(&t->energy, &f, temperature.T);
         t->energy.keep = passes == 0 && c[0] > 0 && !m->rough ? KEPT * sqrt(part) : 0;
         t->energy.share = passes < WHOLE_PASSES ? t->share : fmin(t->share, SHARE_THAT_HESITATES);
         ehl_energy_sweep(&t->energy, &f, &temperature);
-    } while (++passes < most && t->energy.change > warm);
+    } while (++passes < most && t->energy.change > lag);
     const int hesitates = c[0] > 0 && passes == MOST_PASSES && t->energy.change > warm;
     if (hesitates)
         t->share = fmax(SHARE_THAT_HESITATES * t->share, LEAST_SWEEP);
@@ -432,19 +447,18 @@ ff_status ehl_thermal_solve(ehl_march *m, const ehl_step *step, ehl_film *film, 
     t->idle = 0;
     ehl_anderson_begin(&t->anderson);
     t->energy.reach = REACH * sqrt(tightness(m));
-    const int on_the_way = m->known == 0 && step->past; /* to a steady film (start.c) */
-    for (t->round = 0; t->round < (on_the_way ? 1 : MOST_ROUNDS); t->round++) {
+    for (t->round = 0; t->round < MOST_ROUNDS; t->round++) {
         take_factors(t, m->trial.heat);
         ff_status status = m->solver->solve(m->solver, step, film, limit);
         if (status != FF_OK)
             return status;
         t->rounds++;
-        if (update(m, step, film, c, on_the_way ? 2 : MOST_PASSES))
+        if (update(m, step, film, c))
             return FF_OK;
         if (t->idle > MOST_IDLE)
             return FF_NOCONV;
     }
-    return on_the_way ? FF_OK : FF_NOCONV;
+    return FF_NOCONV;
 }
 
 void ehl_thermal_rest(ehl_march *m, const ehl_step *step, double time)

@@ -45,8 +45,10 @@ typedef struct ehl_thermal {
     double diffusivity[2];        /* of the flanks, m2/s */
     double least_peclet;          /* u a rho c/k of a flank, the least of loaded instants */
     double highest;               /* K */
-    double unbalanced, elsewise;  /* shares of the heat, worst of the instants looked at: of the
-                                     equations, and by other sums */
+    double by_nodes;  /* error of the flow by the nodes across, relative, worst looked at */
+    double looked_at; /* rise of the temperature then, K */
+    double unbalanced, elsewise; /* shares of the heat, worst of the instants looked at: of the
+                                    equations, and by other sums */
 } ehl_thermal;
 
 /* Temperatures for the march, whose states hold them. FF_UNSUPPORTED where a flank moves against
@@ -81,6 +83,11 @@ ehl_temperature ehl_thermal_state(const ehl_thermal *t, double *heat);
 
 /* Looks at the heat balance of the newest film. */
 void ehl_thermal_hold(ehl_march *m);
+
+/* Looks at what the nodes across leave of the newest film, whose temperatures are `heat`; of those
+   that become hotter, smooth flanks. The flow must be that of the temperatures. */
+void ehl_thermal_look_at_nodes(ehl_thermal *t, const ehl_energy_film *f, const double *heat,
+                               double highest);
 
 /* Its lines of the quality record. */
 void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_march *m);

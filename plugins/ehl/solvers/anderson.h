@@ -9,7 +9,7 @@
 
 #include <stddef.h>
 
-enum { EHL_ANDERSON_DEPTH = 24 };
+enum { EHL_ANDERSON_DEPTH = 8 };
 
 typedef struct ehl_anderson {
     size_t size, count; /* count: changes that are known */

@@ -58,7 +58,7 @@ static const ff_param params[] = {
     FF_COUNT("thermal_nodes", ehl_model, thermal_nodes, 0, "8", NULL, EHL_ACROSS_LEAST,
              EHL_ACROSS_MOST, 0, 0,
              "thermal: full: nodes across the film, those of Gauss, Legendre and Lobatto; the "
-             "error falls exponentially with them"),
+             "error, which node_error tells, falls exponentially with them"),
     NUMERICS_HEAT_PARAMS("thermal: full", ehl_model),
     FF_QUANTITY_OR("auto", "bulk_temperature", "degC", ehl_model, bulk_temperature, 0, "auto", NULL,
                    -150, 1000, 0, 0,

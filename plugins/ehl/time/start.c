@@ -76,21 +76,39 @@ static ff_status look_for_steady(ehl_march *m, const ehl_step *step, const ehl_i
     return status;
 }
 
-/* Finds the steady film in the trial. Where there is none with heat from the guess, the film
-   without heat is looked for, which tells whether heat is why, and the one with heat from there:
-   settling with heat takes the temperatures through decades of viscosity, and where it ends is
-   chance. */
+/* Looks for the film with heat from the one without, which is in the trial: with ever more damping
+   across, since few nodes have no film of a hot inlet with little of it. What it leaves is told by
+   node_error. */
+static ff_status warm_up(ehl_march *m, const ehl_step *step, const ehl_instant *at)
+{
+    enum { TRIES = 3 };
+    const double more = 4;
+    size_t n = m->solver->grid->nodes;
+    ehl_film *film = &m->trial.film, *cold = &m->state[0].film;
+    ff_status status = FF_NOCONV;
+    ehl_copy_film(cold, film, n);
+    for (int k = 0; k < TRIES && status == FF_NOCONV; k++) {
+        if (k > 0) {
+            m->thermal->energy.damping *= more;
+            ehl_copy_film(film, cold, n);
+        }
+        ehl_thermal_restart(m);
+        status = solve_from_trial(m, step, at);
+    }
+    return status;
+}
+
+/* Finds the steady film in the trial; one with heat from the one without, which tells whether heat
+   is why there is none. */
 static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
-    ff_status status = look_for_steady(m, step, at), cold;
-    if (status != FF_NOCONV || !m->thermal)
-        return status;
-    ehl_thermal_restart(m);
+    if (!m->thermal)
+        return look_for_steady(m, step, at);
     m->thermal->without = 1;
-    cold = look_for_steady(m, step, at);
+    ff_status status = look_for_steady(m, step, at);
     m->thermal->without = 0;
-    m->thermal->cold_fails = cold == FF_NOCONV;
-    return cold == FF_OK ? solve_from_trial(m, step, at) : cold;
+    m->thermal->cold_fails = status == FF_NOCONV;
+    return status == FF_OK ? warm_up(m, step, at) : status;
 }
 
 /* Finds the steady film of statistical flanks in the trial, from that of smooth ones by

@@ -284,7 +284,7 @@ static void test_tangent(void)
 /* Heats a film of that thickness for a few steps; oil flows back in it. */
 static void heat_up(bench *b, size_t count, double h)
 {
-    const double p_x = 30 * eta0 * 8 / (h * h);
+    const double p_x = 16 * eta0 * 8 / (h * h);
     b->film.count = count;
     for (size_t i = 0; i < LINE; i++) {
         b->h[i] = h * (1 + 1e-3 * (double)i);

@@ -270,6 +270,15 @@ static void test_refusals(void)
     stage_set_text(c.film, "thermal", "none");
     check_true("no temperature without", line_run(&c, "temperature_max") == FF_UNSUPPORTED);
     line_close(&c);
+    open_hot(&c, 128, 2);
+    check_true("a flank at rest in a steady film", line_run(&c, "h_min") == FF_UNSUPPORTED);
+    check_true("says so", strstr(stage_why(c.film), "no steady temperature") != NULL);
+    line_close(&c);
+    open_hot(&c, 128, 2);
+    stage_set(c.film, "steps", 4);
+    line_last(&c, 2, 1e-4);
+    check_true("in time it has one", line_run(&c, "h_min") == FF_OK);
+    line_close(&c);
     open_hot(&c, 128, 2.5);
     check_true("flanks against each other", line_run(&c, "h_min") == FF_UNSUPPORTED);
     check_true("says that, too", strstr(stage_why(c.film), "opposite directions") != NULL);

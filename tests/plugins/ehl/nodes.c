@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* thermal: full, the nodes across hot films: against twins with many of them. */
+#include "check.h"
+
+#include "line.h"
+
+#include <math.h>
+#include <stdio.h>
+
+/* A steady contact of unlike flanks: mean speed, m/s, slide-roll ratio, oil, and its K. */
+typedef struct hot {
+    double speed, slip;
+    const char *oil;
+    double entry;
+} hot;
+
+typedef struct found {
+    double h, friction, error;
+} found;
+
+static found film(const hot *at, double nodes)
+{
+    line c;
+    found f = {NAN, NAN, NAN};
+    char what[96];
+    line_open(&c, "ehl/finite-volume");
+    line_grade(&c, at->oil, at->entry);
+    line_eyring(&c, 5e6);
+    stage_set_text(c.film, "thermal", "full");
+    stage_set(c.film, "cells", 128);
+    stage_set(c.film, "inlet", 5);
+    stage_set(c.film, "outlet", 2);
+    stage_set(c.film, "thermal_nodes", nodes);
+    c.u1[0] = at->speed * (1 + at->slip / 2);
+    c.u2[0] = at->speed * (1 - at->slip / 2);
+    snprintf(what, sizeof what, "%g nodes, %g m/s, slide-roll ratio %g: found", nodes, at->speed,
+             at->slip);
+    if (check_true(what, line_run(&c, "h_central friction_coefficient") == FF_OK))
+        f = (found){line_value(&c, "h_central", 0), line_value(&c, "friction_coefficient", 0),
+                    stage_quality(c.film, "node_error")};
+    line_close(&c);
+    return f;
+}
+
+/* Of no film is the error by the nodes larger than it says. */
+static void test_errors(void)
+{
+    static const hot at[] = {
+        {2, 1, "ISO VG 320", 333.15},    {5, 0.3, "ISO VG 320", 333.15},
+        {5, 1.9, "ISO VG 100", 353.15},  {10, 0, "ISO VG 320", 333.15},
+        {10, 0.2, "ISO VG 320", 333.15}, {10, 1, "ISO VG 460", 333.15},
+        {20, 0, "ISO VG 320", 333.15},   {20, 0.2, "ISO VG 320", 333.15},
+        {20, 0.3, "ISO VG 320", 333.15}, {20, 1, "ISO VG 320", 333.15},
+    };
+    for (size_t k = 0; k < sizeof at / sizeof at[0]; k++) {
+        const found few = film(&at[k], 8), twin = film(&at[k], 20);
+        char what[96];
+        snprintf(what, sizeof what, "%g m/s, %g: off by %.2g, over node_error", at[k].speed,
+                 at[k].slip, few.h / twin.h - 1);
+        check_below(what, fabs(few.h / twin.h - 1) / few.error, 1);
+    }
+}
+
+/* Faster than any power of them: a half more nodes are worth a factor that grows. */
+static void test_order(void)
+{
+    const hot at = {5, 1, "ISO VG 320", 333.15};
+    const double twin = film(&at, 28).h;
+    double off[3];
+    for (int k = 0; k < 3; k++)
+        off[k] = fabs(film(&at, 8 + 4 * k).h / twin - 1);
+    check_below("the error of 12 nodes, over that of 8", off[1] / off[0], 0.15);
+    check_below("that of 16, over that of 12", off[2] / off[1], 0.5);
+    check_below("and small", off[2], 1e-4);
+}
+
+int main(void)
+{
+    test_errors();
+    test_order();
+    return check_done();
+}
