@@ -293,6 +293,7 @@ static double flank_at(const sweep *s, size_t g, size_t i)
 FF_SIMD_INLINE void change_temperatures(sweep *s, size_t i, size_t n, const double *by)
 {
     const double most = 100; /* K by which a sweep changes a temperature */
+    const double weight = s->film->weight ? s->film->weight[i] : 1;
     ehl_energy *e = s->e;
     const double *ln_eta_T = e->ln_eta_T + i * n;
     double *now = s->t->T + i * n, largest = 0, sum = 0, change = e->change, moved[EHL_ACROSS_MOST],
@@ -311,7 +312,7 @@ FF_SIMD_INLINE void change_temperatures(sweep *s, size_t i, size_t n, const doub
         double next = now[k] + share * by[k];
         next = next > lowest ? next : lowest;
         next = next < highest ? next : highest;
-        moved[k] = fabs((next - now[k]) * ln_eta_T[k]);
+        moved[k] = fabs((next - now[k]) * ln_eta_T[k]) * weight;
         now[k] = next;
     }
     for (size_t k = 0; k < n; k++)

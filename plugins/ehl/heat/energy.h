@@ -37,6 +37,7 @@ typedef struct ehl_energy_film {
     const unsigned char *full;     /* 1: the film is full */
     const unsigned char *asperity; /* 1: and its asperities are in contact; NULL: none are */
     const double *friction;      /* heat of those, W/m2, nodes; 0 where none touch; NULL: nowhere */
+    const double *weight;        /* of a change there, for the film; NULL: 1 */
     const double *past;          /* dT/dt = rate T + past; NULL: steady */
     const double *past_modes[2]; /* the same of the modes of both flanks */
 } ehl_energy_film;
@@ -99,7 +100,7 @@ typedef struct ehl_energy {
     double damping;         /* of the highest modes across, over the usual one */
     int undamped;           /* 1: sweeps correct the temperatures for the damping of the modes */
     double share;           /* of the change of each temperature that a sweep takes */
-    double change;          /* largest change of ln(eta) by the last sweep */
+    double change;          /* largest change of ln(eta) by the last sweep, weighted */
     ff_status law_status;
 } ehl_energy;
 

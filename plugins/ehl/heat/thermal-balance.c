@@ -101,7 +101,7 @@ void ehl_thermal_hold(ehl_march *m)
         t->least_peclet = fmin(t->least_peclet, (f.speed[g] + f.frame) * a / t->diffusivity[g]);
     double highest = ehl_thermal_highest(m);
     t->highest = fmax(t->highest, highest);
-    ehl_thermal_look_at_nodes(t, &f, m->state[0].heat, highest);
+    ehl_thermal_look_at_nodes(t, &f, m->state[0].heat, m->solver->reynolds->oil.alpha, highest);
 }
 
 void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_march *m)
@@ -125,7 +125,8 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
     if (!m->rough) {
         double off = fmin(t->by_nodes, 1);
         snprintf(text, sizeof text,
-                 "estimate of the error of the film by the nodes across, over it, at its hottest; "
+                 "estimate of the error of the film and its friction by the nodes across, at its "
+                 "hottest; "
                  "there are %zu thermal_nodes%s",
                  t->energy.across.count, off <= enough ? "" : ": use more of them");
         host->quality(host->ctx, "node_error", off, enough, off <= enough ? FF_GOOD : FF_DOUBTFUL,

@@ -26,17 +26,17 @@ enum {
     STEADY_PASSES = 60,
     WHOLE_PASSES = 3,
     MOST_IDLE = 6,
-    FACTORS = 3
+    FACTORS = EHL_THERMAL_FACTORS
 };
 static const double SHARE_THAT_HESITATES = 0.5, LEAST_SWEEP = 0.125;
+/* Change by a sweep of a steady film, over that of the sweep before, above which it hesitates. */
+static const double SLOW_SWEEP = 0.9;
 
 /* Change of the flow of mass by the factors, relative, below which they are those of the film: it
    changes h by about as much. A steady film begins without heat, a step next to its solution. A
    tenth of the bound of rough films moves h_min of ten random ones by 1.6e-3 at most, of eight by
    less than 3e-4, and friction by less than 3.3e-4 of its largest. */
 static const double SETTLED = 1e-4, SETTLED_STEADY = 1e-5, SETTLED_ROUGH = 1e-3;
-/* Of a larger change a share is taken, of this size. */
-static const double LARGE = 0.3;
 /* Rounds of a steady film after which its factors are accelerated, and the share of their change
    that is mixed with what the rounds before have shown. */
 static const int PLAIN_ROUNDS = 12;
@@ -85,7 +85,7 @@ static ff_status speeds_of(const ff_host *host, const ehl_history *h, double *le
 
 static ff_status allocate(ehl_thermal *t, ehl_march *m)
 {
-    enum { OWN = 7 + 2 * FACTORS, BLOCKS = EHL_STATES + 4 };
+    enum { OWN = 8 + 2 * FACTORS, BLOCKS = EHL_STATES + 4 };
     size_t n = t->energy.nodes;
     t->width = n * (t->energy.across.count + t->energy.flank[0].count + t->energy.flank[1].count +
                     FACTORS);
@@ -99,19 +99,13 @@ static ff_status allocate(ehl_thermal *t, ehl_march *m)
     t->moved[0] = next + 2 * t->width;
     t->moved[1] = next + 3 * t->width;
     next += 4 * t->width;
-    double **own[] = {&t->p_t,   &t->through,  &t->ease,    &t->swell,
-                      &t->carry, &t->friction, &t->p_before};
+    double **own[] = {&t->p_t,   &t->through,  &t->ease,     &t->swell,
+                      &t->carry, &t->friction, &t->p_before, &t->weight};
     for (size_t k = 0; k < sizeof own / sizeof own[0]; k++, next += n)
         *own[k] = next;
     t->now = next;
     t->change = next + FACTORS * n;
     return ehl_anderson_create(&t->anderson, FACTORS * n) ? FF_OK : FF_NOMEM;
-}
-
-/* Of the temperatures of a state: those of mobility, density and carried mass. */
-static double *factors_of(const ehl_thermal *t, double *heat)
-{
-    return heat + t->width - FACTORS * t->energy.nodes;
 }
 
 ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
@@ -172,7 +166,7 @@ ehl_temperature ehl_thermal_state(const ehl_thermal *t, double *heat)
 
 static void take_factors(ehl_thermal *t, double *heat)
 {
-    const double *next = factors_of(t, heat);
+    const double *next = ehl_thermal_factors(t, heat);
     double *to[FACTORS] = {t->ease, t->swell, t->carry};
     for (size_t k = 0; k < FACTORS; k++)
         memcpy(to[k], next + k * t->energy.nodes, t->energy.nodes * sizeof *to[k]);
@@ -187,7 +181,7 @@ void ehl_thermal_restart(ehl_march *m)
     for (size_t j = 0; j < n * t->energy.across.count; j++)
         heat[j] = t->energy.T_in;
     ehl_energy_restart(&t->energy);
-    double *next = factors_of(t, heat);
+    double *next = ehl_thermal_factors(t, heat);
     for (size_t j = 0; j < FACTORS * n; j++)
         next[j] = 1;
     take_factors(t, heat);
@@ -313,8 +307,11 @@ static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const e
         double before = r->flux[r->asymmetric || i < 1 ? i : i - 1];
         t->through[i] = i > 0 && i + 1 < n ? -(before + r->flux[i]) / 2 : 0;
     }
-    if (!(c[0] > 0))
+    if (!(c[0] > 0)) {
+        ehl_thermal_weigh(t, r, film);
+        f.weight = t->weight;
         return f;
+    }
     pressure_in_time(m, film, c);
     f.p_t = t->p_t;
     ehl_temperature past = ehl_thermal_state(t, t->past);
@@ -322,68 +319,6 @@ static ehl_energy_film film_of(const ehl_march *m, const ehl_step *step, const e
     f.past_modes[0] = past.modes[0];
     f.past_modes[1] = past.modes[1];
     return f;
-}
-
-/*
- * Computes the factors of the flow across the film. Returns by how much they change the flow
- * of mass, at most, relative to what the flanks carry along.
- */
-static double find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl_energy_film *f,
-                           const ehl_film *film, double *next)
-{
-    const ehl_energy *e = &t->energy;
-    size_t n = r->nodes;
-    double most = 0, held = r->rough ? EHL_NEAR_CONTACT * r->contact : 0;
-    for (size_t i = 0; i < f->count; i++) {
-        double mass = r->liquid.rho[i] * r->thick[i], swell = t->swell[i] * e->mass[i] / mass;
-        int within = ehl_is_cavitated(r, film, i) && !(i > 0 && film->full[i - 1]);
-        double carry = within ? 1 : e->carried[i] / e->mass[i];
-        double ratio = r->f[i] > 0 && e->mobility[i] > 0 ? e->mobility[i] / r->f[i] : 1;
-        double u = (f->speed[0] + f->speed[1]) / 2 + f->frame;
-        double driven = fabs(r->f[i] * e->p_x[i]) / (u * mass), part = driven / (1 + driven);
-        double off =
-            fabs(ratio - 1) * part + fabs(swell / t->swell[i] - 1) + fabs(carry - t->carry[i]);
-        double share = t->damping * (off > LARGE ? LARGE / off : 1);
-        if (film->full[i] && r->thick[i] > held && !(off <= most))
-            most = isfinite(off) ? off : HUGE_VAL;
-        swell = t->swell[i] + share * (swell - t->swell[i]);
-        next[i] = t->ease[i] * (1 + share * (ratio - 1)) * t->swell[i] / swell;
-        next[n + i] = swell;
-        next[2 * n + i] = t->carry[i] + share * (carry - t->carry[i]);
-    }
-    for (size_t i = f->count; i < n; i++)
-        for (size_t k = 0; k < FACTORS; k++)
-            next[k * n + i] = k > 0 ? next[k * n + f->count - 1] : 1;
-    return most;
-}
-
-/*
- * Changes the next factors of a steady film as the rounds before make it seem best. Of sheared oil
- * of which one layer takes all, the factors held make waves of a few cells in h, and these waves
- * such factors: rounds by themselves go away from the film, however small a share of the change
- * they take.
- */
-static void accelerate(ehl_thermal *t, size_t count, double *next)
-{
-    size_t n = t->energy.nodes;
-    double *now = t->now, *by = t->change, largest = 0;
-    const double *of[FACTORS] = {t->ease, t->swell, t->carry};
-    for (size_t i = 0; i < n; i++) {
-        now[i] = log(of[0][i]);
-        next[i] = log(next[i] / of[0][i]);
-        for (size_t k = 1; k < FACTORS; k++) {
-            now[k * n + i] = of[k][i];
-            next[k * n + i] -= of[k][i];
-        }
-    }
-    ehl_anderson_step(&t->anderson, now, next, by);
-    for (size_t j = 0; j < FACTORS * n; j++)
-        largest = fmax(largest, fabs(by[j]));
-    double share = largest > LARGE ? LARGE / largest : 1;
-    for (size_t j = 0; j < FACTORS * n; j++)
-        next[j] = now[j] + share * by[j];
-    for (size_t i = 0; i < n; i++)
-        next[i] = i < count ? exp(next[i]) : 1;
 }
 
 /* Returns the part of these bounds that a film has whose `tolerance` is below the usual one. */
@@ -405,27 +340,31 @@ static int update(ehl_march *m, const ehl_step *step, const ehl_film *film, cons
     ehl_reynolds_evaluate(r, step, film);
     ehl_energy_film f = film_of(m, step, film, c);
     ehl_temperature temperature = ehl_thermal_state(t, m->trial.heat);
-    const double lag = c[0] > 0 || !isfinite(t->off) ? warm : fmax(warm, LAGGING * t->off);
+    const double lag = c[0] > 0 ? warm : fmax(warm, LAGGING * fmin(t->off, EHL_LARGE_FACTOR));
     const int most = c[0] > 0 ? MOST_PASSES : STEADY_PASSES;
     int passes = 0;
+    double before = HUGE_VAL;
     t->film = f;
     if (!(c[0] > 0)) /* a steady film calls all laws anew; those on the way to it do not count */
         t->energy.law_status = FF_OK;
     do {
         ehl_energy_flow(&t->energy, &f, temperature.T);
         t->energy.keep = passes == 0 && c[0] > 0 && !m->rough ? KEPT * sqrt(part) : 0;
-        t->energy.share = passes < WHOLE_PASSES ? t->share : fmin(t->share, SHARE_THAT_HESITATES);
+        const int slows = t->energy.change > SLOW_SWEEP * before || c[0] > 0;
+        before = t->energy.change;
+        t->energy.share =
+            passes < WHOLE_PASSES || !slows ? t->share : fmin(t->share, SHARE_THAT_HESITATES);
         ehl_energy_sweep(&t->energy, &f, &temperature);
     } while (++passes < most && t->energy.change > lag);
     const int hesitates = c[0] > 0 && passes == MOST_PASSES && t->energy.change > warm;
     if (hesitates)
         t->share = fmax(SHARE_THAT_HESITATES * t->share, LEAST_SWEEP);
-    double before = t->off;
-    t->off = find_factors(t, r, &f, film, factors_of(t, m->trial.heat));
+    before = t->off;
+    t->off = ehl_thermal_find_factors(t, r, &f, film, ehl_thermal_factors(t, m->trial.heat));
     t->damping = t->off > SHRINKING * before ? fmax(LEAST_SHARE, 0.7 * t->damping)
                                              : fmin(1, 1.3 * t->damping);
     if (!(c[0] > 0) && t->round >= PLAIN_ROUNDS) {
-        accelerate(t, f.count, factors_of(t, m->trial.heat));
+        ehl_thermal_accelerate(t, f.count, ehl_thermal_factors(t, m->trial.heat));
         t->damping = MIXED;
     }
     t->idle = hesitates && t->off <= settled ? t->idle + 1 : 0;
@@ -471,7 +410,7 @@ void ehl_thermal_rest(ehl_march *m, const ehl_step *step, double time)
     ehl_temperature temperature = ehl_thermal_state(t, m->trial.heat);
     f.count = 1;
     ehl_energy_sweep(&t->energy, &f, &temperature);
-    memcpy(factors_of(t, m->trial.heat), factors_of(t, m->state[0].heat),
+    memcpy(ehl_thermal_factors(t, m->trial.heat), ehl_thermal_factors(t, m->state[0].heat),
            FACTORS * t->energy.nodes * sizeof *t->ease);
 }
 

@@ -12,6 +12,11 @@
 #include "../solvers/anderson.h"
 #include "energy.h"
 
+/* Of the flow across a film, at each node: mobility, density and carried mass. */
+enum { EHL_THERMAL_FACTORS = 3 };
+/* Of a larger change of them a share is taken, of this size. */
+static const double EHL_LARGE_FACTOR = 0.3;
+
 /* What a run gives of the flanks and the oil. */
 typedef struct ehl_thermal_data {
     size_t across;                      /* nodes */
@@ -30,6 +35,7 @@ typedef struct ehl_thermal {
     double *memory, *past, *p_t, *through;
     double *moved[2];             /* the last two states where the nodes move with the oil */
     double *friction, *p_before;  /* heat of the asperities, W/m2; pressure of a state, moved */
+    double *weight;               /* of a change at a node of a steady film */
     double coefficient;           /* of friction, of asperities in contact */
     double *ease, *swell, *carry; /* reynolds.h: of the film that is solved for */
     double rounds, solved;        /* counts: solutions for a film, and instants */
@@ -81,13 +87,27 @@ double ehl_thermal_pressure_flow(const ehl_march *m);
 /* The parts of a state. */
 ehl_temperature ehl_thermal_state(const ehl_thermal *t, double *heat);
 
+/* The factors of the temperatures of a state: EHL_THERMAL_FACTORS arrays of nodes. */
+double *ehl_thermal_factors(const ehl_thermal *t, double *heat);
+
+/* Sets the weights of the film. */
+void ehl_thermal_weigh(const ehl_thermal *t, const ehl_reynolds *r, const ehl_film *film);
+
+/* Computes the factors; returns by how much they change the flow of mass, at most, relative to what
+   the flanks carry along. */
+double ehl_thermal_find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl_energy_film *f,
+                                const ehl_film *film, double *next);
+
+/* Changes them to what the rounds before make seem best. */
+void ehl_thermal_accelerate(ehl_thermal *t, size_t count, double *next);
+
 /* Looks at the heat balance of the newest film. */
 void ehl_thermal_hold(ehl_march *m);
 
 /* Looks at what the nodes across leave of the newest film, whose temperatures are `heat`; of those
    that become hotter, smooth flanks. The flow must be that of the temperatures. */
 void ehl_thermal_look_at_nodes(ehl_thermal *t, const ehl_energy_film *f, const double *heat,
-                               double highest);
+                               double alpha, double highest);
 
 /* Its lines of the quality record. */
 void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_march *m);

@@ -42,7 +42,7 @@ static found film(const hot *at, double nodes)
     return f;
 }
 
-/* Of no film is the error by the nodes larger than it says. */
+/* Of no film, and of no friction, is the error by the nodes larger than it says. */
 static void test_errors(void)
 {
     static const hot at[] = {
@@ -58,6 +58,11 @@ static void test_errors(void)
         snprintf(what, sizeof what, "%g m/s, %g: off by %.2g, over node_error", at[k].speed,
                  at[k].slip, few.h / twin.h - 1);
         check_below(what, fabs(few.h / twin.h - 1) / few.error, 1);
+        if (at[k].slip > 0) {
+            snprintf(what, sizeof what, "%g m/s, %g: friction off by %.2g, over node_error",
+                     at[k].speed, at[k].slip, few.friction / twin.friction - 1);
+            check_below(what, fabs(few.friction / twin.friction - 1) / few.error, 1);
+        }
     }
 }
 

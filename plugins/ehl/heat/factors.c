@@ -1,0 +1,89 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* What the temperatures across a film make of its flow, and how a steady film is brought there. */
+#include "thermal.h"
+
+#include <math.h>
+
+/* Of the temperatures of a state: those of mobility, density and carried mass. */
+double *ehl_thermal_factors(const ehl_thermal *t, double *heat)
+{
+    return heat + t->width - EHL_THERMAL_FACTORS * t->energy.nodes;
+}
+
+/*
+ * Sets the weights of changes along a steady film. A viscosity that is off by a share moves the
+ * pressure there by this share, and the film by no more than alpha times that: where pressure
+ * begins, vortices of oil that flows back and forth take thousands of sweeps to their last digits,
+ * which the film does not see. Behind the contact all counts.
+ */
+void ehl_thermal_weigh(const ehl_thermal *t, const ehl_reynolds *r, const ehl_film *film)
+{
+    double most = 0;
+    for (size_t i = 0; i < r->nodes; i++) {
+        most = fmax(most, r->oil.alpha * film->p[i]);
+        t->weight[i] = fmin(most, 1);
+    }
+}
+
+/*
+ * Computes the factors of the flow across the film. Returns by how much they change the flow
+ * of mass, at most, relative to what the flanks carry along, weighted.
+ */
+double ehl_thermal_find_factors(ehl_thermal *t, const ehl_reynolds *r, const ehl_energy_film *f,
+                                const ehl_film *film, double *next)
+{
+    const ehl_energy *e = &t->energy;
+    size_t n = r->nodes;
+    double most = 0, held = r->rough ? EHL_NEAR_CONTACT * r->contact : 0;
+    for (size_t i = 0; i < f->count; i++) {
+        double mass = r->liquid.rho[i] * r->thick[i], swell = t->swell[i] * e->mass[i] / mass;
+        int within = ehl_is_cavitated(r, film, i) && !(i > 0 && film->full[i - 1]);
+        double carry = within ? 1 : e->carried[i] / e->mass[i];
+        double ratio = r->f[i] > 0 && e->mobility[i] > 0 ? e->mobility[i] / r->f[i] : 1;
+        double u = (f->speed[0] + f->speed[1]) / 2 + f->frame;
+        double driven = fabs(r->f[i] * e->p_x[i]) / (u * mass), part = driven / (1 + driven);
+        double off =
+            fabs(ratio - 1) * part + fabs(swell / t->swell[i] - 1) + fabs(carry - t->carry[i]);
+        double share = t->damping * (off > EHL_LARGE_FACTOR ? EHL_LARGE_FACTOR / off : 1);
+        off *= f->weight ? f->weight[i] : 1;
+        if (film->full[i] && r->thick[i] > held && !(off <= most))
+            most = isfinite(off) ? off : HUGE_VAL;
+        swell = t->swell[i] + share * (swell - t->swell[i]);
+        next[i] = t->ease[i] * (1 + share * (ratio - 1)) * t->swell[i] / swell;
+        next[n + i] = swell;
+        next[2 * n + i] = t->carry[i] + share * (carry - t->carry[i]);
+    }
+    for (size_t i = f->count; i < n; i++)
+        for (size_t k = 0; k < EHL_THERMAL_FACTORS; k++)
+            next[k * n + i] = k > 0 ? next[k * n + f->count - 1] : 1;
+    return most;
+}
+
+/*
+ * Changes the next factors of a steady film as the rounds before make it seem best. Of sheared oil
+ * of which one layer takes all, the factors held make waves of a few cells in h, and these waves
+ * such factors: rounds by themselves go away from the film, however small a share of the change
+ * they take.
+ */
+void ehl_thermal_accelerate(ehl_thermal *t, size_t count, double *next)
+{
+    size_t n = t->energy.nodes;
+    double *now = t->now, *by = t->change, largest = 0;
+    const double *of[EHL_THERMAL_FACTORS] = {t->ease, t->swell, t->carry};
+    for (size_t i = 0; i < n; i++) {
+        now[i] = log(of[0][i]);
+        next[i] = log(next[i] / of[0][i]);
+        for (size_t k = 1; k < EHL_THERMAL_FACTORS; k++) {
+            now[k * n + i] = of[k][i];
+            next[k * n + i] -= of[k][i];
+        }
+    }
+    ehl_anderson_step(&t->anderson, now, next, by);
+    for (size_t j = 0; j < EHL_THERMAL_FACTORS * n; j++)
+        largest = fmax(largest, fabs(by[j]));
+    double share = largest > EHL_LARGE_FACTOR ? EHL_LARGE_FACTOR / largest : 1;
+    for (size_t j = 0; j < EHL_THERMAL_FACTORS * n; j++)
+        next[j] = now[j] + share * by[j];
+    for (size_t i = 0; i < n; i++)
+        next[i] = i < count ? exp(next[i]) : 1;
+}
