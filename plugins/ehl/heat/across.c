@@ -120,3 +120,18 @@ double ehl_across_highest(const ehl_across *a, const double *values, double most
     }
     return most;
 }
+
+void ehl_across_move(const ehl_across *a, const ehl_across *other, size_t columns,
+                     const double *values, double *to)
+{
+    const size_t n = a->count, m = other->count;
+    double one[EHL_ACROSS_MOST];
+    memset(to, 0, columns * m * sizeof *to);
+    for (size_t k = 0; k < m; k++) {
+        for (size_t l = 0; l < n; l++)
+            one[l] = one_at(a, l, other->z[k]);
+        for (size_t i = 0; i < columns; i++)
+            for (size_t l = 0; l < n; l++)
+                to[i * m + k] += one[l] * values[i * n + l];
+    }
+}

@@ -43,6 +43,10 @@ FF_SIMD_INLINE void ehl_across_apply(const double *m, size_t stride, size_t n, c
    nodes. */
 double ehl_across_highest(const ehl_across *a, const double *values, double most);
 
+/* Sets `to` to the polynomials through `values` of as many columns, at other nodes. */
+void ehl_across_move(const ehl_across *a, const ehl_across *other, size_t columns,
+                     const double *values, double *to);
+
 /* EHL_ACROSS_LEAST to EHL_ACROSS_MOST nodes. */
 void ehl_across_create(ehl_across *a, size_t count);
 

@@ -96,8 +96,7 @@ FF_SIMD_INLINE void find_rest(const sweep *s, size_t i, size_t n, double *off)
     for (size_t k = 0; k < n; k++) {
         double from_ahead = ahead.near * ahead.T[k] + ahead.far * ahead.T_far[k],
                from_behind = behind.near * behind.T[k] + behind.far * behind.T_far[k];
-        double across = conducted * bend[k] + (s->e->undamped ? 0 : c->damped) * damped[k] +
-                        c->lift[k] * slope[k];
+        double across = conducted * bend[k] + c->damped * damped[k] + c->lift[k] * slope[k];
         off[k] = c->source[k] + c->on[k] * from_ahead + c->back[k] * from_behind -
                  c->own[k] * T[k] - across;
     }

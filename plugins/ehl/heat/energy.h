@@ -98,7 +98,6 @@ typedef struct ehl_energy {
     double highest, lowest; /* K, of which the laws are called */
     double reach;           /* change of ln(eta) up to which laws are followed by their slopes */
     double damping;         /* of the highest modes across, over the usual one */
-    int undamped;           /* 1: sweeps correct the temperatures for the damping of the modes */
     double share;           /* of the change of each temperature that a sweep takes */
     double change;          /* largest change of ln(eta) by the last sweep, weighted */
     ff_status law_status;

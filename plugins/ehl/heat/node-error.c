@@ -1,100 +1,99 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What the nodes across a film leave of it. The transport across is damped in its highest modes
- * (energy.c): sweeps whose residual has no damping and whose matrix has it (deferred correction,
- * Stetter 1978) take the temperatures towards those without. What they change the film by is the
- * error of the damping; that of the polynomials is their last coefficients.
+ * What the nodes across a film leave of it: its temperatures and flow are computed once more with a
+ * half more nodes, at the same pressure and gap, and what that changes is the error of the nodes
+ * that there are. It falls faster than any power of them, so that nearly all of it is seen.
  */
 #include "thermal.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* Sweeps: what one hands on to columns against the entrainment the next one sees, and a correction
-   that goes to and fro at first has settled by then. */
+/* Sweeps on the other nodes: they begin at the temperatures of the film. */
 enum { SWEEPS = 20 };
 
 /* Rise of the temperature, over that of the hottest instant that was looked at, from which on
    another one is. */
 static const double HOTTER = 1.1;
 
-/* Mobility and mass of a flow along the film. */
-typedef struct flow {
-    double *mobility, *mass;
-} flow;
-
-/*
- * Returns the last two coefficients of ln(eta) across column i in Legendre's polynomials, by size:
- * what the nodes leave where nothing is damped. The weights of Gauss and Lobatto are 1/(N (N + 1)
- * P_N^2) at the nodes, where P_(N-1) is x P_N, N = nodes - 1.
- */
-static double tail_of(const ehl_energy *e, size_t i)
+/* Returns by how much the film or its friction is off, relative, where its flow is `now` in place
+   of `then`. The film is the one whose inlet takes exp(-alpha p) from 1 to 0 (as 13.6), so that a
+   mobility that is off counts by its part of this way. What is behind carries the oil off, and has
+   the friction. */
+static double change_of_film(const ehl_energy *now, const ehl_energy *then,
+                             const ehl_energy_film *f, double alpha)
 {
-    const ehl_across *a = &e->across;
-    const size_t n = a->count;
-    const double N = (double)(n - 1);
-    double last = 0, before = 0;
-    for (size_t k = 0; k < n; k++) {
-        double part =
-            (k % 2 > 0 ? -1 : 1) * sqrt(a->weight[k] / (N * (N + 1))) * e->ln_eta[i * n + k];
-        last += N * part;
-        before += (2 * N - 1) * (2 * a->z[k] - 1) * part;
-    }
-    return fabs(last) + fabs(before);
-}
-
-/*
- * Returns by how much the film is off, relative. The film is the one whose inlet takes
- * exp(-alpha p) from 1 to 0 (as 13.6), so that a mobility that is off counts by its part of this
- * way. The density counts by what is behind.
- */
-static double change_of_film(const ehl_energy *e, const ehl_energy_film *f, double alpha,
-                             const flow *kept)
-{
-    double film = 0, mass = 0, left = 1, most = 0;
+    double film = 0, carried = 0, left = 1, most = 0, drag = 0, whole = 0;
     for (size_t i = 1; i < f->count; i++) {
-        if (!f->full[i] || !(kept->mobility[i] > 0))
+        if (!f->full[i] || !(then->mobility[i] > 0))
             continue;
         most = fmax(most, f->p[i]);
         const double next = exp(-alpha * most);
-        film += (left - next) * (fabs(log(e->mobility[i] / kept->mobility[i])) + tail_of(e, i));
-        mass = fmax(mass, (1 - next) * fabs(e->mass[i] / kept->mass[i] - 1));
+        film += (left - next) * fabs(log(now->mobility[i] / then->mobility[i]));
+        carried =
+            fmax(carried, (1 - next) * fabs(now->carried[i] - then->carried[i]) / then->mass[i]);
+        drag += now->tau_m[i] - then->tau_m[i];
+        whole += then->tau_m[i];
         left = next;
     }
-    return film + mass;
+    drag = f->speed[0] > f->speed[1] || f->speed[0] < f->speed[1] ? fabs(drag / whole) : 0;
+    return film + fmax(carried, drag);
 }
 
-void ehl_thermal_look_at_nodes(ehl_thermal *t, const ehl_energy_film *f, const double *heat,
-                               double alpha, double highest)
+/* A half more of them, or a quarter less where there is no room. */
+static size_t other_nodes(size_t n)
 {
-    ehl_energy *e = &t->energy;
-    const size_t n = e->nodes, temperatures = n * e->across.count;
-    double *now = t->moved[0], *room = t->moved[1], *flux = room + 2 * n;
-    const flow kept = {room, room + n};
+    return n + n / 2 <= EHL_ACROSS_MOST ? n + n / 2 : n - n / 4;
+}
+
+/* Returns what the nodes across are off by; infinite: it is not known. */
+static double error_of(ehl_energy *other, const ehl_energy *e, const ehl_energy_film *f,
+                       const ehl_temperature *film, double alpha)
+{
+    const size_t n = e->nodes, fields = n * other->across.count;
+    const size_t modes[2] = {n * e->flank[0].count, n * e->flank[1].count};
+    double *T = calloc(2 * fields + modes[0] + modes[1], sizeof *T), *past = T + fields;
+    if (!T)
+        return HUGE_VAL;
+    const ehl_temperature now = {T, {past + fields, past + fields + modes[0]}};
+    ehl_energy_film held = *f;
+    ehl_across_move(&e->across, &other->across, n, film->T, T);
+    for (size_t g = 0; g < 2; g++)
+        memcpy(now.modes[g], film->modes[g], modes[g] * sizeof *T);
+    if (f->past) {
+        ehl_across_move(&e->across, &other->across, n, f->past, past);
+        held.past = past;
+    }
+    ehl_energy_flow(other, &held, T);
+    for (int turn = 0; turn < SWEEPS; turn++) {
+        ehl_energy_sweep(other, &held, &now);
+        ehl_energy_flow(other, &held, T);
+    }
+    const double off = change_of_film(other, e, f, alpha);
+    free(T);
+    return isfinite(off) ? off : HUGE_VAL;
+}
+
+void ehl_thermal_look_at_nodes(ehl_thermal *t, const ehl_energy_film *f,
+                               const ehl_temperature *film, double alpha, double highest)
+{
+    const ehl_energy *e = &t->energy;
+    ehl_energy other;
     if (f->frame > 0 || !(highest - e->T_in > HOTTER * t->looked_at))
         return;
-    const double keep = e->keep, share = e->share, change = e->change;
-    const ehl_temperature given = ehl_thermal_state(t, now);
     t->looked_at = highest - e->T_in;
-    memcpy(now, heat, t->width * sizeof *now);
-    for (size_t g = 0; g < 2; g++)
-        memcpy(flux + g * n, e->flux[g], n * sizeof *flux);
-    memcpy(kept.mobility, e->mobility, n * sizeof *room);
-    memcpy(kept.mass, e->mass, n * sizeof *room);
-    e->undamped = 1;
-    e->share = 1;
-    e->keep = 0;
-    for (int turn = 0; turn < SWEEPS; turn++) {
-        ehl_energy_sweep(e, f, &given);
-        ehl_energy_flow(e, f, given.T);
+    double off = HUGE_VAL;
+    if (ehl_energy_create(&other, e->nodes, other_nodes(e->across.count)) == FF_OK) {
+        other.laws = e->laws;
+        other.flow = e->flow;
+        other.conductivity = e->conductivity;
+        other.heat_capacity = e->heat_capacity;
+        other.T_in = e->T_in;
+        other.reach = e->reach;
+        memcpy(other.flank, e->flank, sizeof other.flank);
+        off = error_of(&other, e, f, film, alpha);
     }
-    ehl_worse(&t->by_nodes, change_of_film(e, f, alpha, &kept));
-    e->undamped = 0;
-    e->share = share;
-    e->keep = keep;
-    memcpy(now, heat, temperatures * sizeof *now);
-    ehl_energy_flow(e, f, now);
-    e->change = change;
-    for (size_t g = 0; g < 2; g++)
-        memcpy(e->flux[g], flux + g * n, n * sizeof *flux);
+    ehl_energy_destroy(&other);
+    t->by_nodes = fmax(t->by_nodes, off);
 }

@@ -101,7 +101,7 @@ void ehl_thermal_hold(ehl_march *m)
         t->least_peclet = fmin(t->least_peclet, (f.speed[g] + f.frame) * a / t->diffusivity[g]);
     double highest = ehl_thermal_highest(m);
     t->highest = fmax(t->highest, highest);
-    ehl_thermal_look_at_nodes(t, &f, m->state[0].heat, m->solver->reynolds->oil.alpha, highest);
+    ehl_thermal_look_at_nodes(t, &f, &now, m->solver->reynolds->oil.alpha, highest);
 }
 
 void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_march *m)
@@ -123,7 +123,7 @@ void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_mar
                                           : FF_BAD,
                   text);
     if (!m->rough) {
-        double off = fmin(t->by_nodes, 1);
+        const double off = t->by_nodes;
         snprintf(text, sizeof text,
                  "estimate of the error of the film and its friction by the nodes across, at its "
                  "hottest; "

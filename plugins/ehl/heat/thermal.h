@@ -104,10 +104,10 @@ void ehl_thermal_accelerate(ehl_thermal *t, size_t count, double *next);
 /* Looks at the heat balance of the newest film. */
 void ehl_thermal_hold(ehl_march *m);
 
-/* Looks at what the nodes across leave of the newest film, whose temperatures are `heat`; of those
+/* Looks at what the nodes across leave of the newest film, whose temperatures are `film`; of those
    that become hotter, smooth flanks. The flow must be that of the temperatures. */
-void ehl_thermal_look_at_nodes(ehl_thermal *t, const ehl_energy_film *f, const double *heat,
-                               double alpha, double highest);
+void ehl_thermal_look_at_nodes(ehl_thermal *t, const ehl_energy_film *f,
+                               const ehl_temperature *film, double alpha, double highest);
 
 /* Its lines of the quality record. */
 void ehl_thermal_report(const ehl_thermal *t, const ff_host *host, const ehl_march *m);
