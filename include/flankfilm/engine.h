@@ -465,6 +465,24 @@ void ff_columns_free(const ff_table *table); /* NULL is nothing */
 /* The place of a field; a row or column of SIZE_MAX stands for all of them. */
 ff_place ff_columns_place(const ff_table *table, size_t row, size_t column);
 
+/* A field of a line of a table that has texts, without its quotes and the blanks around it. */
+typedef struct ff_field {
+    const char *at, *end;
+    uint32_t column, width; /* where it stands in the line, in characters, with its quotes */
+    bool quoted;
+    bool open; /* it begins with a quote that does not end it */
+} ff_field;
+
+/* Splits a line, which has no break at its end. Returns how many fields it has; those from `most`
+   on are not kept. `separator`: as its header has it; '\0': the line is one field. */
+size_t ff_fields_split(const char *begin, const char *end, char separator, size_t most,
+                       ff_field *fields);
+/* Semicolon, comma or tab, whichever parts the fields of a header; '\0': it is one field. */
+char ff_fields_separator(const char *begin, const char *end);
+/* Copies the text, in which a quote is written twice where the field has quotes, into at most
+   end - at + 1 bytes. Returns its length. */
+size_t ff_field_copy(const ff_field *field, char *out);
+
 /* Models. Each is loaded once, checked in full, and never unloaded. */
 
 /* The dimensions of a port row, read from its `dims`. */

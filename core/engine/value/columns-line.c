@@ -163,6 +163,57 @@ char fe_line_separator(fe_field line)
     return *s;
 }
 
+/* Sets what a field is without its quotes. */
+static ff_field read_field(const char *begin, fe_field text, const char *end)
+{
+    ff_field field = {.at = text.at, .end = text.end, .column = 1};
+    uint32_t code;
+    for (const char *at = begin; at < text.at; field.column++)
+        at += fe_char_read(at, end, &code);
+    for (const char *at = text.at; at < text.end; field.width++)
+        at += fe_char_read(at, end, &code);
+    field.quoted = text.at < text.end && *text.at == '"';
+    if (!field.quoted)
+        return field;
+    const char *at = ++field.at;
+    while (at < text.end && (*at != '"' || (at + 1 < text.end && at[1] == '"')))
+        at += 1 + (*at == '"');
+    field.open = at + 1 != text.end;
+    field.end = field.open ? text.end : at;
+    return field;
+}
+
+size_t ff_fields_split(const char *begin, const char *end, char separator, size_t most,
+                       ff_field *fields)
+{
+    size_t count = 0;
+    bool quotes = has(begin, end, '"');
+    for (const char *at = begin, *stop;; at = stop + 1, count++) {
+        stop = separator ? field_end(at, end, separator, quotes) : end;
+        if (count < most)
+            fields[count] = read_field(begin, fe_field_trim(at, stop), end);
+        if (stop == end)
+            return count + 1;
+    }
+}
+
+char ff_fields_separator(const char *begin, const char *end)
+{
+    char separator = fe_line_separator((fe_field){begin, end});
+    return separator == ' ' ? '\0' : separator;
+}
+
+size_t ff_field_copy(const ff_field *field, char *out)
+{
+    size_t length = 0;
+    for (const char *at = field->at; at < field->end; at++) {
+        at += field->quoted && *at == '"' && at + 1 < field->end;
+        out[length++] = *at;
+    }
+    out[length] = '\0';
+    return length;
+}
+
 ff_place ff_columns_place(const ff_table *table, size_t row, size_t column)
 {
     const fe_columns *c = (const fe_columns *)(const void *)table;

@@ -180,8 +180,13 @@ int cli_run(const cli_options *options)
                            .replace = cli_option(options, "replace") != NULL};
     int code;
     bool good = cli_session_open(&session, options, false);
-    if (good && session.study) {
-        code = cli_run_study(&session, options);
+    if (good && session.study && cli_option(options, "all"))
+        good = ff_error(session.report, FF_FAULT_INPUT, FF_NOWHERE,
+                        "table.csv has all that its cases gave; the page shows it",
+                        "%s has a study: --all is of a single case", options->operand);
+    if (session.study) {
+        code = good ? cli_run_study(&session, options)
+                    : cli_refuse(session.report, options, "nothing was run");
         cli_session_close(&session);
         return code;
     }

@@ -77,6 +77,21 @@ class Rows(lab.Lab):
         self.listed("quoted", '"x-a;b", wave.count\n"c;d", 4\n')
         self.assertEqual([row["wave.count"] for row in self.table("quoted")], ["4"])
 
+    def test_tabs_and_quotes_within_quotes(self):
+        """A field that is empty leads a line; a quote within quotes is written twice."""
+        self.listed("tabs", 'wave.amplitude [mm]\t"wave.count"\t"x-""own"""\n\t4\t\n"2 mm"\t5\t"a\tb"\n')
+        self.assertEqual([(row["wave.amplitude"], row["wave.count"]) for row in self.table("tabs")],
+                         [("", "4"), ("2 mm", "5")])
+
+    def test_the_head_of_a_table_is_quoted(self):
+        """The name of an axis is any text."""
+        for count in "4", "5":
+            self.write(f"of-{count}.yaml", f"pipeline: {{wave: {{count: {count}}}}}\n")
+        self.write("named.yaml", PIPELINE + 'study: {sweep: {\'own, "files"\': {include: [of-4.yaml, of-5.yaml]}}}\n')
+        self.call("run", "named.yaml", "-o", "named")
+        self.assertEqual([row['own, "files"'] for row in self.table("named")], ["of-4", "of-5"])
+        self.assertIn("--all is of a single case", self.call("run", "named.yaml", "--all", code=2))
+
     def test_what_is_wrong_has_its_place(self):
         for text, place, words in (
                 ("wave.amplitude\n", "", "has no case"),
@@ -89,8 +104,8 @@ class Rows(lab.Lab):
                 ("x-who\nAda\n", ":1:1:", "no column names a path"),
                 ("wave.amplitude, wave.count\n1 mm, 4\n2 mm\n", ":3:1:", "has 1 fields"),
                 ("wave.amplitude, wave.count\n1 mm, 4, 5\n", ":2:10:", "has 3 fields"),
-                ("wave.amplitude\n\"1 mm\n", ":2:1:", "not closed on its line"),
-                ("wave.amplitude\n\"1\" mm\n", ":2:1:", "follows the closing quote"),
+                ("wave.amplitude\n\"1 mm\n", ":2:1:", "begins with a quote, but does not end"),
+                ("wave.amplitude\n\"1\" mm\n", ":2:1:", "begins with a quote, but does not end"),
                 ("wave.amplitude\n1 mn\n", ":2:1:", "mn"),
                 ("wave.count; wave.amplitude\n4; 1 mn\n", ":2:4:", "mn"),
                 ("wave.amplitude\n1 mm\0\n", "", "character 0")):
@@ -149,6 +164,12 @@ class Rows(lab.Lab):
                       self.feed("spread", TABLE, code=2, words=("--shard", "1/2"))[1])
         answers, _ = self.feed("zero", "wave.count\n4\0\n", code=4)
         self.assertEqual(answers[0]["status"], "invalid")
+
+    def test_a_pipe_is_no_table(self):
+        os.mkfifo("pipe.csv")
+        for study in "cases: pipe.csv", "uncertainty: {inputs: {wave.amplitude: {samples: pipe.csv}}, outputs: [wave.total]}":
+            self.write("piped.yaml", PIPELINE + f"study: {{{study}}}\n")
+            self.assertIn("pipe.csv: it is not a regular file", self.call("check", "piped.yaml", code=2))
 
     def test_a_dash_of_the_command_line(self):
         self.listed("dash", "wave.count\n4\n")

@@ -3,105 +3,137 @@
 
 #include "../../memory/memory.h"
 
+#include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-bool study_csv_is_blank(char c)
+enum { LARGEST_FILE = 1 << 28 };
+
+static bool is_blank(char c)
 {
     return c == ' ' || c == '\t' || c == '\r';
 }
 
-static uint32_t count_characters(const char *from, const char *to)
+/* Returns NULL, or why the file cannot be read. */
+static const char *read_file(int fd, ff_source *source)
 {
-    uint32_t count = 0;
-    for (; from < to; from++)
-        count += ((unsigned char)*from & 0xc0) != 0x80;
-    return count;
-}
-
-char study_csv_separator(const char *text)
-{
-    bool quoted = false;
-    for (; *text; text++) {
-        quoted = quoted != (*text == '"');
-        if (!quoted && strchr(";,\t", *text))
-            return *text;
+    struct stat info;
+    ssize_t got = 1;
+    if (fd < 0 || fstat(fd, &info) != 0)
+        return strerror(errno);
+    if (!S_ISREG(info.st_mode))
+        return S_ISDIR(info.st_mode) ? strerror(EISDIR) : "it is not a regular file";
+    if (info.st_size > LARGEST_FILE)
+        return "it has more than 256 MiB";
+    free(source->text);
+    source->text = memory_alloc((size_t)info.st_size + 1);
+    while (source->length < (size_t)info.st_size && got != 0) {
+        got = read(fd, source->text + source->length, (size_t)info.st_size - source->length);
+        if (got < 0 && errno != EINTR)
+            return strerror(errno);
+        source->length += got > 0 ? (size_t)got : 0;
     }
-    return '\0';
+    source->text[source->length] = '\0';
+    return strlen(source->text) == source->length ? NULL
+                                                  : "it holds a character 0, so that it is no text";
 }
 
-/* Copies a quoted field, whose quotes are written twice; returns what follows it, NULL when it has
-   no end. */
-static const char *read_quoted(const char *at, char *out)
+const char *study_csv_open(study_csv *table, const char *path)
 {
-    for (at++; *at; at++) {
-        if (*at == '"' && at[1] != '"') {
-            *out = '\0';
-            return at + 1;
-        }
-        at += *at == '"';
-        *out++ = *at;
+    const char *slash = strrchr(path, '/');
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe would not end */
+    *table =
+        (study_csv){.source = {.name = memory_copy_text(path, strlen(path)),
+                               .text = memory_copy_text("", 0),
+                               .directory = slash ? memory_copy_text(path, (size_t)(slash - path) +
+                                                                               (slash == path))
+                                                  : memory_copy_text(".", 1)}};
+    const char *why = read_file(fd, &table->source);
+    table->at = table->source.text;
+    if (!strncmp(table->at, "\xef\xbb\xbf", 3))
+        table->at += 3;
+    if (fd >= 0)
+        close(fd);
+    return why;
+}
+
+bool study_csv_next(study_csv *table)
+{
+    while (*table->at) {
+        const char *line = table->at;
+        size_t length = strcspn(line, "\n");
+        table->at += length + (line[length] == '\n');
+        table->line++;
+        if (study_csv_is_silent(line, length))
+            continue;
+        study_csv_split(table, line, length);
+        return true;
     }
-    return NULL;
+    return false;
 }
 
-/* Reads the field at `at`; returns its end, NULL after a fault. */
-static const char *read_field(study_csv_line *l, const char *begin, const char *at, char separator)
+void study_csv_close(study_csv *table)
 {
-    study_csv_field *f = &l->fields[l->count++];
-    while (study_csv_is_blank(*at) && *at != separator)
-        at++;
-    const char *first = at, *end;
-    f->quoted = *at == '"';
-    if (f->quoted) {
-        f->text = memory_alloc(strlen(at) + 1);
-        end = at = read_quoted(at, f->text);
-        l->fault = at ? NULL : "a quote is opened and not closed on its line";
-        while (at && study_csv_is_blank(*at) && *at != separator)
-            at++;
-        if (at && *at && *at != separator)
-            l->fault = "something follows the closing quote";
-    } else {
-        while (*at && *at != separator)
-            at++;
-        for (end = at; end > first && study_csv_is_blank(end[-1]);)
-            end--;
-        f->text = memory_copy_text(first, (size_t)(end - first));
+    free(table->source.name);
+    free(table->source.text);
+    free(table->source.directory);
+    free(table->fields);
+    free(table->parts);
+    free(table->texts);
+}
+
+bool study_csv_is_silent(const char *line, size_t length)
+{
+    size_t i = 0;
+    while (i < length && is_blank(line[i]))
+        i++;
+    return i == length || line[i] == '#';
+}
+
+void study_csv_split(study_csv *table, const char *line, size_t length)
+{
+    const size_t most = STUDY_CSV_FIELDS + 1;
+    const char *end = line + length;
+    if (!table->headed) {
+        table->separator = ff_fields_separator(line, end);
+        table->parts = memory_resize(table->parts, most * sizeof *table->parts);
+        table->fields = memory_resize(table->fields, most * sizeof *table->fields);
+        table->headed = true;
     }
-    f->column = 1 + count_characters(begin, first);
-    f->width = count_characters(first, end ? end : first + strlen(first));
-    return l->fault ? NULL : at;
+    size_t count = ff_fields_split(line, end, table->separator, most, table->parts);
+    table->count = count < most ? count : most;
+    table->fault = NULL;
+    if (table->room < length + most) {
+        table->room = 2 * length + most;
+        table->texts = memory_resize(table->texts, table->room);
+    }
+    char *text = table->texts;
+    for (size_t i = 0; i < table->count && !table->fault; i++) {
+        const ff_field *part = &table->parts[i];
+        table->fields[i] = (study_csv_field){text, part->column, part->width, part->quoted};
+        text += ff_field_copy(part, text) + 1;
+        if (!part->open)
+            continue;
+        table->fault = "this field begins with a quote, but does not end with it";
+        table->count = i + 1;
+    }
 }
 
-study_csv_line study_csv_split(const char *text, char separator)
+const char *study_csv_unit(study_csv_field *head)
 {
-    size_t most = 1;
-    for (const char *at = text; *at; at++)
-        most += *at == separator;
-    study_csv_line l = {.fields =
-                            memory_alloc((most > STUDY_CSV_FIELDS ? STUDY_CSV_FIELDS + 1 : most) *
-                                         sizeof(study_csv_field))};
-    const char *at = text;
-    do {
-        if (l.count > STUDY_CSV_FIELDS)
-            return l;
-        at = read_field(&l, text, at, separator);
-    } while (at && *at && *at++ == separator);
-    return l;
-}
-
-void study_csv_free(study_csv_line *l)
-{
-    for (size_t i = 0; i < l->count; i++)
-        free(l->fields[i].text);
-    free(l->fields);
-}
-
-bool study_csv_is_silent(const char *text)
-{
-    while (study_csv_is_blank(*text))
-        text++;
-    return !*text || *text == '#';
+    char *open = strchr(head->text, '['), *close = open ? strrchr(open, ']') : NULL, *end = open;
+    if (!open)
+        return "";
+    if (!close || close[1] || open == head->text)
+        return NULL;
+    while (end > head->text && is_blank(end[-1]))
+        end--;
+    *close = '\0';
+    *end = '\0';
+    return open + 1;
 }
 
 void study_csv_write(FILE *out, const char *text, size_t length, bool always)

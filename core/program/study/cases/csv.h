@@ -1,36 +1,49 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* A line of a table whose fields are parted by semicolons, commas or tabs, and quoted as in RFC
-   4180, within the line. */
+/* Tables of texts, whose lines the engine splits; the first one that says something is the head. */
 #ifndef STUDY_CSV_H
 #define STUDY_CSV_H
 
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
+#include <flankfilm/engine.h>
+
 #include <stdio.h>
 
 enum { STUDY_CSV_FIELDS = 1000 }; /* at most; of more, one is kept */
 
-/* A part of a line, without its quotes and the blanks around it. */
 typedef struct study_csv_field {
     char *text;
     uint32_t column, width; /* in characters */
     bool quoted;
 } study_csv_field;
 
-typedef struct study_csv_line {
-    study_csv_field *fields;
+typedef struct study_csv {
+    ff_source source;
+    uint32_t line;           /* that was read last */
+    study_csv_field *fields; /* of that line */
     size_t count;
-    const char *fault; /* why it cannot be split, or NULL */
-} study_csv_line;
+    const char *fault; /* why the last of them is none, or NULL */
+    const char *at;    /* what follows the line */
+    bool headed;
+    char separator;
+    struct ff_field *parts;
+    char *texts;
+    size_t room;
+} study_csv;
 
-bool study_csv_is_blank(char c);
-/* Whether a line is empty or a remark. */
-bool study_csv_is_silent(const char *text);
-/* The first of the separators that stands outside of quotes; 0: there is none. */
-char study_csv_separator(const char *text);
-study_csv_line study_csv_split(const char *text, char separator);
-void study_csv_free(study_csv_line *line);
+/* Reads a file whole. NULL, or why it cannot be read; it is to be closed all the same. */
+const char *study_csv_open(study_csv *table, const char *path);
+/* Splits the next line that is neither blank nor a remark; false at the end. */
+bool study_csv_next(study_csv *table);
+void study_csv_close(study_csv *table);
+
+/* Whether a line is blank or a remark. */
+bool study_csv_is_silent(const char *line, size_t length);
+/* Splits a line from elsewhere; the first one is the head. */
+void study_csv_split(study_csv *table, const char *line, size_t length);
+
+/* Parts a head such as "duty.torque [N m]": ends its text behind the name, and returns the unit, ""
+   without one. NULL: the brackets are not at its end, or stand alone. */
+const char *study_csv_unit(study_csv_field *head);
+
 /* Writes a field, in quotes where it needs them or `always`. */
 void study_csv_write(FILE *out, const char *text, size_t length, bool always);
 

@@ -6,20 +6,12 @@
 #include "yaml.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <poll.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-enum {
-    MOST_ROWS = 1000000,
-    LONGEST_ROW = 1 << 20,
-    LARGEST_FILE = 1 << 28,
-    MOST_ERRORS = 20,
-    BLOCK = 1 << 16
-};
+enum { MOST_ROWS = 1000000, LONGEST_ROW = 1 << 20, MOST_ERRORS = 20, BLOCK = 1 << 16 };
 
 typedef struct column {
     size_t varied; /* SIZE_MAX: the user's own, or how long a row lasts */
@@ -29,12 +21,10 @@ typedef struct column {
 
 struct study_rows {
     study_definition *study;
-    ff_source source;
-    char separator;
+    study_csv table;
     column *columns;
     size_t column_count;
     size_t room;
-    uint32_t at; /* the line that was read last */
     /* standard input alone */
     bool streams, ended, cut;
     char **texts; /* of the rows, for other processes */
@@ -44,7 +34,7 @@ struct study_rows {
 
 static ff_place place_of(const study_rows *rows, const study_csv_field *f)
 {
-    return (ff_place){&rows->source, rows->at, f ? f->column : 1, f ? f->width : 0};
+    return (ff_place){&rows->table.source, rows->table.line, f ? f->column : 1, f ? f->width : 0};
 }
 
 static bool refuse(const study_rows *rows, const study_csv_field *f, ff_report *report,
@@ -57,25 +47,20 @@ static bool refuse(const study_rows *rows, const study_csv_field *f, ff_report *
 static bool read_head(study_rows *rows, study_csv_field *f, column *c, ff_report *report)
 {
     char why[200];
-    ff_unit unit;
-    char *open = strchr(f->text, '['), *close = open ? strrchr(open, ']') : NULL;
+    ff_unit parsed;
     c->varied = SIZE_MAX;
     c->unit = memory_copy_text("", 0);
     if (!strncmp(f->text, "x-", 2))
         return true;
-    if (open && (!close || close[1] || open == f->text))
+    const char *unit = study_csv_unit(f);
+    if (!unit)
         return refuse(rows, f, report, "write duty.torque [N m]",
                       "expected a path, and a unit in brackets");
-    if (open) {
-        free(c->unit);
-        c->unit = memory_copy_text(open + 1, (size_t)(close - open - 1));
-        while (open > f->text && study_csv_is_blank(open[-1]))
-            open--;
-        *open = '\0';
-        if (!ff_unit_parse(c->unit, &unit, why, sizeof why))
-            return ff_error(report, FF_FAULT_INPUT, place_of(rows, f), NULL,
-                            "the unit \"%.40s\" %s", c->unit, why);
-    }
+    free(c->unit);
+    c->unit = memory_copy_text(unit, strlen(unit));
+    if (*unit && !ff_unit_parse(unit, &parsed, why, sizeof why))
+        return ff_error(report, FF_FAULT_INPUT, place_of(rows, f), NULL, "the unit \"%.40s\" %s",
+                        unit, why);
     return (*f->text && !strchr(f->text, '=')) ||
            refuse(rows, f, report, "a path such as duty.torque, as --set takes it",
                   "a column needs a name");
@@ -109,21 +94,21 @@ static bool add_column(study_rows *rows, study_csv_field *f, column *c, ff_repor
     return true;
 }
 
-static bool read_heads(study_rows *rows, const char *text, ff_report *report)
+/* Takes the columns of the line that was split. */
+static bool read_heads(study_rows *rows, ff_report *report)
 {
     size_t errors = ff_report_errors(report);
-    rows->separator = study_csv_separator(text);
-    study_csv_line l = study_csv_split(text, rows->separator);
-    if (l.fault)
-        refuse(rows, &l.fields[l.count - 1], report, NULL, l.fault);
-    else if (l.count > STUDY_CSV_FIELDS)
+    study_csv *l = &rows->table;
+    if (l->fault)
+        refuse(rows, &l->fields[l->count - 1], report, NULL, l->fault);
+    else if (l->count > STUDY_CSV_FIELDS)
         refuse(rows, NULL, report, NULL, "there are more than 1000 columns");
-    rows->columns = memory_alloc(l.count * sizeof *rows->columns);
+    rows->columns = memory_alloc(l->count * sizeof *rows->columns);
     rows->study->varied =
-        memory_arena_alloc(&rows->study->arena, l.count * sizeof *rows->study->varied);
-    for (size_t i = 0; ff_report_errors(report) == errors && i < l.count; i++, rows->column_count++)
-        add_column(rows, &l.fields[i], &rows->columns[i], report);
-    study_csv_free(&l);
+        memory_arena_alloc(&rows->study->arena, l->count * sizeof *rows->study->varied);
+    for (size_t i = 0; ff_report_errors(report) == errors && i < l->count;
+         i++, rows->column_count++)
+        add_column(rows, &l->fields[i], &rows->columns[i], report);
     return ff_report_errors(report) == errors &&
            (rows->study->varied_count > 0 ||
             refuse(rows, NULL, report, NULL, "no column names a path of the pipeline"));
@@ -159,7 +144,7 @@ static char *assignment_of(const study_rows *rows, const column *c, const study_
     FILE *out = memory_require(open_memstream(&text, &length));
     fprintf(out, "%s=", path);
     if (!strcmp(path, "include")) {
-        char *beside = ff_path_beside(rows->source.directory, f->text);
+        char *beside = ff_path_beside(rows->table.source.directory, f->text);
         study_yaml_print_text(beside, true, out);
         ff_free(beside);
     } else {
@@ -171,9 +156,9 @@ static char *assignment_of(const study_rows *rows, const column *c, const study_
 }
 
 /* Takes how long the row lasts; *empty: it takes no time, so that it is no case. */
-static bool take_time(const study_rows *rows, const study_csv_line *l, bool *empty,
-                      ff_report *report)
+static bool take_time(const study_rows *rows, bool *empty, ff_report *report)
 {
+    const study_csv *l = &rows->table;
     const char *end;
     double number;
     for (size_t i = 0; !l->fault && l->count == rows->column_count && i < l->count; i++) {
@@ -197,37 +182,32 @@ static const char *keep(study_rows *rows, char *text)
     return kept;
 }
 
-/* Says why the fields are no case; false when they are one. *f: what it is about, or NULL. */
-static bool is_amiss(const study_rows *rows, const study_csv_line *l, const study_csv_field **f,
-                     char *why, size_t size)
-{
-    bool many = l->count > rows->column_count;
-    *f = l->fault ? &l->fields[l->count - 1] : many ? &l->fields[rows->column_count] : NULL;
-    if (!l->fault && l->count == rows->column_count)
-        return false;
-    if (l->fault)
-        snprintf(why, size, "%s", l->fault);
-    else
-        snprintf(why, size, "it has %zu fields, and the first line names %zu columns", l->count,
-                 rows->column_count);
-    return true;
-}
-
-static bool refuse_row(const study_rows *rows, const study_csv_line *l, ff_report *report)
+/* Whether the fields of the line are a case; reports why not, where there is a report. */
+static bool check_row(const study_rows *rows, ff_report *report)
 {
     char why[120];
-    const study_csv_field *f;
-    if (!is_amiss(rows, l, &f, why, sizeof why))
+    const study_csv *l = &rows->table;
+    bool many = l->count > rows->column_count;
+    const study_csv_field *f = l->fault ? &l->fields[l->count - 1]
+                               : many   ? &l->fields[rows->column_count]
+                                        : NULL;
+    if (!l->fault && l->count == rows->column_count)
         return true;
+    if (l->fault)
+        snprintf(why, sizeof why, "%s", l->fault);
+    else
+        snprintf(why, sizeof why, "it has %zu fields, and the first line names %zu columns",
+                 l->count, rows->column_count);
     return report &&
            ff_error(report, FF_FAULT_INPUT, rows->streams ? FF_NOWHERE : place_of(rows, f),
                     l->fault ? NULL : "a field that holds the separator is written in quotes", "%s",
                     why);
 }
 
-/* Takes what a line assigns into the row of that number; nothing when it is no case. */
-static void take_row(study_rows *rows, size_t index, const study_csv_line *l)
+/* Takes what the line assigns into the row of that number; nothing when it is no case. */
+static void take_row(study_rows *rows, size_t index)
 {
+    const study_csv *l = &rows->table;
     make_room(rows, index);
     for (size_t i = 0; !l->fault && l->count == rows->column_count && i < l->count; i++) {
         const column *c = &rows->columns[i];
@@ -235,18 +215,15 @@ static void take_row(study_rows *rows, size_t index, const study_csv_line *l)
         if (c->varied == SIZE_MAX)
             continue;
         study_varied *v = &rows->study->varied[c->varied];
-        v->places[index] = (study_place){rows->at, f->column, f->width};
+        v->places[index] = (study_place){l->line, f->column, f->width};
         v->assignments[index] = *f->text || f->quoted ? keep(rows, assignment_of(rows, c, f)) : "";
     }
 }
 
-static study_rows *rows_new(study_definition *study, const char *name, const char *directory)
+static study_rows *rows_new(study_definition *study)
 {
     study_rows *rows = memory_alloc(sizeof *rows);
-    *rows = (study_rows){.study = study,
-                         .source = {.name = memory_copy_text(name, strlen(name)),
-                                    .text = memory_copy_text("", 0),
-                                    .directory = memory_copy_text(directory, strlen(directory))}};
+    *rows = (study_rows){.study = study};
     study->rows = rows;
     study->points = memory_arena_alloc(&study->arena, sizeof *study->points);
     study->points[0] = 0;
@@ -269,56 +246,20 @@ void study_rows_free(study_rows *rows)
     free(rows->columns);
     free(rows->texts);
     free(rows->buffer);
-    free(rows->source.name);
-    free(rows->source.text);
-    free(rows->source.directory);
+    study_csv_close(&rows->table);
     free(rows);
 }
 
-/* Reads a regular file whole; NULL with errno, which is 0 for a device and what is too large. */
-static char *read_file(const char *path, size_t *length)
-{
-    struct stat info;
-    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    char *text = NULL;
-    *length = 0;
-    if (fd < 0)
-        return NULL;
-    bool known = fstat(fd, &info) == 0;
-    if (known)
-        errno = S_ISDIR(info.st_mode) ? EISDIR : 0;
-    if (known && S_ISREG(info.st_mode) && info.st_size <= LARGEST_FILE) {
-        ssize_t got = 1;
-        text = memory_alloc((size_t)info.st_size + 1);
-        while (*length < (size_t)info.st_size && got > 0) {
-            got = read(fd, text + *length, (size_t)info.st_size - *length);
-            *length += got > 0 ? (size_t)got : 0;
-        }
-        text[*length] = '\0';
-    }
-    int cause = errno;
-    close(fd);
-    errno = cause;
-    return text;
-}
-
-static const char *skip_mark(const char *text)
-{
-    return !strncmp(text, "\xef\xbb\xbf", 3) ? text + 3 : text;
-}
-
-static bool add_row(study_rows *rows, const char *text, ff_report *report)
+static bool add_row(study_rows *rows, ff_report *report)
 {
     study_definition *study = rows->study;
+    bool empty = false;
     if (study->count == MOST_ROWS)
         return refuse(rows, NULL, report, NULL, "at most 1000000 cases are possible");
-    study_csv_line l = study_csv_split(text, rows->separator);
-    bool empty = false;
-    if (refuse_row(rows, &l, report))
-        take_time(rows, &l, &empty, report);
+    if (check_row(rows, report))
+        take_time(rows, &empty, report);
     if (!empty)
-        take_row(rows, study->count++, &l);
-    study_csv_free(&l);
+        take_row(rows, study->count++);
     study->points[0] = study->count;
     return true;
 }
@@ -328,15 +269,9 @@ static bool read_lines(study_rows *rows, ff_report *report)
 {
     size_t errors = ff_report_errors(report);
     bool good = true;
-    for (const char *at = skip_mark(rows->source.text); good && *at;) {
-        size_t length = strcspn(at, "\n");
-        rows->at++;
-        char *text = memory_copy_text(at, length);
-        if (!study_csv_is_silent(text))
-            good = rows->columns ? add_row(rows, text, report) : read_heads(rows, text, report);
-        free(text);
+    while (good && study_csv_next(&rows->table)) {
+        good = rows->columns ? add_row(rows, report) : read_heads(rows, report);
         good = good && ff_report_errors(report) < errors + MOST_ERRORS;
-        at += length + (at[length] == '\n');
     }
     return ff_report_errors(report) == errors;
 }
@@ -344,32 +279,17 @@ static bool read_lines(study_rows *rows, ff_report *report)
 static bool read_table(study_definition *study, const ff_node *node, ff_report *report)
 {
     char *path = ff_path_beside(node->place.source->directory, node->text);
-    char *slash = strrchr(path, '/');
-    char *directory = slash ? memory_copy_text(path, (size_t)(slash - path) + (slash == path))
-                            : memory_copy_text(".", 1);
-    size_t length;
-    char *text = read_file(path, &length);
-    int cause = errno;
-    study_rows *rows = rows_new(study, path, directory);
-    bool good = text != NULL;
-    free(directory);
-    if (!text) {
-        ff_error(report, FF_FAULT_INPUT, node->place, NULL, "study: cases: %.300s: %s", path,
-                 cause ? strerror(cause) : "expected a file of at most 256 MiB");
-    } else {
-        free(rows->source.text);
-        rows->source.text = text;
-        rows->source.length = length;
-        good = strlen(text) == length ? read_lines(rows, report)
-                                      : refuse(rows, NULL, report, NULL,
-                                               "the file holds a character 0: it is no text");
-        if (good && study->count == 0)
-            good = ff_error(report, FF_FAULT_INPUT, node->place,
-                            "the first line names paths, each further line is a case",
-                            study->spectrum ? "study: cases: no row of %.300s lasts any time"
-                                            : "study: cases: %.300s has no case",
-                            path);
-    }
+    study_rows *rows = rows_new(study);
+    const char *why = study_csv_open(&rows->table, path);
+    bool good = why ? ff_error(report, FF_FAULT_INPUT, node->place, NULL,
+                               "study: cases: %.300s: %s", path, why)
+                    : read_lines(rows, report);
+    if (good && study->count == 0)
+        good = ff_error(report, FF_FAULT_INPUT, node->place,
+                        "the first line names paths, each further line is a case",
+                        study->spectrum ? "study: cases: no row of %.300s lasts any time"
+                                        : "study: cases: %.300s has no case",
+                        path);
     ff_free(path);
     study->overlay_first = good;
     return good;
@@ -392,8 +312,11 @@ bool study_rows_read(study_definition *study, const ff_node *node, ff_report *re
                         "study: cases: expected the name of a file or a list of rows");
     if (!is_dash(node))
         return read_table(study, node, report);
-    rows_new(study, "standard input", ".")->streams = true;
-    study->streams = true;
+    study_rows *rows = rows_new(study);
+    rows->table.source = (ff_source){.name = memory_copy_text("standard input", 14),
+                                     .text = memory_copy_text("", 0),
+                                     .directory = memory_copy_text(".", 1)};
+    rows->streams = study->streams = true;
     return true;
 }
 
@@ -410,7 +333,7 @@ static char *take_line(study_rows *rows)
     for (size_t i = 0; i < length; i++)
         text[i] = text[i] ? text[i] : '\1'; /* which no value may hold either */
     rows->taken += length + (end != NULL);
-    rows->at++;
+    rows->table.line++;
     return text;
 }
 
@@ -439,9 +362,12 @@ bool study_rows_begin(study_rows *rows, ff_report *report)
 {
     for (;;) {
         char *text = take_line(rows);
-        const char *first = text && rows->at == 1 ? skip_mark(text) : text;
-        bool found = first && !study_csv_is_silent(first);
-        bool good = found && read_heads(rows, first, report);
+        bool marked = text && rows->table.line == 1 && !strncmp(text, "\xef\xbb\xbf", 3);
+        const char *first = text && marked ? text + 3 : text;
+        bool found = first && !study_csv_is_silent(first, strlen(first));
+        if (found)
+            study_csv_split(&rows->table, first, strlen(first));
+        bool good = found && read_heads(rows, report);
         free(text);
         if (found)
             return good;
@@ -459,7 +385,7 @@ int study_rows_next(study_rows *rows)
     study_definition *study = rows->study;
     for (;;) {
         char *text = take_line(rows);
-        if (text && !study_csv_is_silent(text) && study->count < MOST_ROWS) {
+        if (text && !study_csv_is_silent(text, strlen(text)) && study->count < MOST_ROWS) {
             study_rows_put(rows, study->count, text);
             free(text);
             return 1;
@@ -492,21 +418,18 @@ const char *study_rows_text(const study_rows *rows, size_t index)
 
 void study_rows_put(study_rows *rows, size_t index, const char *text)
 {
-    study_csv_line l = study_csv_split(text, rows->separator);
-    take_row(rows, index, &l);
-    study_csv_free(&l);
+    study_csv_split(&rows->table, text, strlen(text));
+    take_row(rows, index);
     free(rows->texts[index]);
     rows->texts[index] = memory_copy_text(text, strlen(text));
     if (index >= rows->study->count)
         rows->study->points[0] = rows->study->count = index + 1;
 }
 
-bool study_rows_check(const study_rows *rows, size_t index, ff_report *report)
+bool study_rows_check(study_rows *rows, size_t index, ff_report *report)
 {
-    study_csv_line l = study_csv_split(rows->texts[index], rows->separator);
-    bool good = refuse_row(rows, &l, report);
-    study_csv_free(&l);
-    return good;
+    study_csv_split(&rows->table, rows->texts[index], strlen(rows->texts[index]));
+    return check_row(rows, report);
 }
 
 bool study_rows_are_cut(const study_rows *rows)

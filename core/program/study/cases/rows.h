@@ -31,7 +31,7 @@ bool study_rows_ended(const study_rows *rows);
 const char *study_rows_text(const study_rows *rows, size_t index);
 void study_rows_put(study_rows *rows, size_t index, const char *text);
 /* Reports what is wrong with a row whose fields are no case; report may be NULL. */
-bool study_rows_check(const study_rows *rows, size_t index, ff_report *report);
+bool study_rows_check(study_rows *rows, size_t index, ff_report *report);
 /* Whether the rows ended with a line that was too long. */
 bool study_rows_are_cut(const study_rows *rows);
 

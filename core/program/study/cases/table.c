@@ -40,17 +40,24 @@ static const char *common_unit(const study_definition *study, const study_varied
     return unit;
 }
 
+/* A name may be any text that the file gives an axis. */
+static void put_name(FILE *out, const char *name, const char *unit)
+{
+    char *head =
+        unit && *unit ? memory_print_text("%s [%s]", name, unit) : memory_print_text("%s", name);
+    fputc(',', out);
+    study_csv_write(out, head, strlen(head), false);
+    free(head);
+}
+
 static void put_head(FILE *out, const study_definition *study, const char *const *units,
                      json_t *columns, bool limits)
 {
     const char *name;
     json_t *unit;
     fputs("case,key,status", out);
-    for (size_t k = 0; k < study->varied_count; k++) {
-        fprintf(out, ",%s", study->varied[k].path);
-        if (units[k] && *units[k])
-            fprintf(out, " [%s]", units[k]);
-    }
+    for (size_t k = 0; k < study->varied_count; k++)
+        put_name(out, study->varied[k].path, units[k]);
     if (study->spectrum)
         fprintf(out, ",%s [%s]", study_time_name, study->spectrum->shares ? "1" : "s");
     json_object_foreach(columns, name, unit)

@@ -34,7 +34,7 @@ void study_table_csv(const study_table *table, FILE *out)
     for (size_t i = 0; i < table->column_count; i++)
         if (table->columns[i].name) {
             fputs(comma, out);
-            fputs(table->columns[i].name, out);
+            study_csv_write(out, table->columns[i].name, strlen(table->columns[i].name), false);
             comma = ",";
         }
     fputc('\n', out);

@@ -8,13 +8,11 @@
 #include "../../cases/csv.h"
 #include "../../cases/yaml.h"
 
-#include <errno.h>
 #include <gsl/gsl_cdf.h>
 #include <gsl/gsl_rng.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { MOST_SAMPLES = 1000000 };
 
@@ -139,71 +137,42 @@ static void add_sample(study_context *context, variate *v, const char *text, con
         study_context_format(context, "%s%s%s", text, *unit ? " " : "", unit);
 }
 
-/* The column of a head such as "duty.torque [N m]"; sets its unit. SIZE_MAX: there is none. */
-static size_t find_column(study_csv_line *head, const char *name, const char **unit)
+/* Takes the column of that name from the rows. Returns why it cannot, or NULL. */
+static const char *take_column(study_context *context, study_csv *table, variate *v)
 {
-    for (size_t i = 0; i < head->count; i++) {
-        char *text = head->fields[i].text, *open = strchr(text, '[');
-        size_t length = open ? (size_t)(open - text) : strlen(text);
-        while (length > 0 && study_csv_is_blank(text[length - 1]))
-            length--;
-        if (strlen(name) != length || strncmp(name, text, length) != 0)
-            continue;
-        *unit = "";
-        if (open && strchr(open, ']')) {
-            *strchr(open, ']') = '\0';
-            *unit = open + 1;
-        }
-        return i;
+    size_t column = 0;
+    const char *unit = NULL;
+    if (!study_csv_next(table))
+        return "it has no rows";
+    for (; column < table->count && !table->fault; column++)
+        if ((unit = study_csv_unit(&table->fields[column])) &&
+            !strcmp(table->fields[column].text, v->name))
+            break;
+    if (table->fault || column == table->count)
+        return table->fault ? table->fault : "no column has the name of the input";
+    unit = study_context_format(context, "%s", unit);
+    while (study_csv_next(table)) {
+        if (table->fault || table->count <= column || !*table->fields[column].text)
+            return table->fault ? table->fault : "a row has no value";
+        if (v->sample_count == MOST_SAMPLES)
+            return "more than 1000000 rows";
+        add_sample(context, v, table->fields[column].text, unit);
     }
-    return SIZE_MAX;
+    return v->sample_count ? NULL : "it has no rows";
 }
 
 static bool read_table(study_context *context, const ff_node *node, variate *v)
 {
-    char *path = ff_path_beside(node->place.source->directory, node->text), *text = NULL;
-    struct stat info;
-    bool regular = stat(path, &info) != 0 || S_ISREG(info.st_mode); /* a device may never end */
-    FILE *file = regular ? fopen(path, "re") : NULL;
-    size_t room = 0, column = SIZE_MAX;
-    const char *unit = "", *fault = !regular ? "it is not a regular file"
-                                    : file   ? NULL
-                                             : strerror(errno);
-    study_csv_line head = {.count = 0};
-    char separator = 0;
-    while (file && !fault && getline(&text, &room, file) > 0) {
-        text[strcspn(text, "\r\n")] = '\0';
-        if (study_csv_is_silent(text))
-            continue;
-        if (head.count == 0) {
-            separator = study_csv_separator(text);
-            head = study_csv_split(text, separator);
-            column = find_column(&head, v->name, &unit);
-            fault = head.fault           ? head.fault
-                    : column == SIZE_MAX ? "no column has the name of the input"
-                                         : NULL;
-            continue;
-        }
-        study_csv_line line = study_csv_split(text, separator);
-        if (line.fault || line.count <= column || !*line.fields[column].text)
-            fault = line.fault ? line.fault : "a row has no value";
-        else if (v->sample_count == MOST_SAMPLES)
-            fault = "more than 1000000 rows";
-        else
-            add_sample(context, v, line.fields[column].text, unit);
-        study_csv_free(&line);
-    }
-    if (!fault && v->sample_count == 0)
-        fault = "it has no rows";
+    char *path = ff_path_beside(node->place.source->directory, node->text);
+    study_csv table;
+    const char *fault = study_csv_open(&table, path);
+    if (!fault)
+        fault = take_column(context, &table, v);
     if (fault)
         ff_error(context->report, FF_FAULT_INPUT, node->place,
                  "its first row names columns, such as duty.torque [N m]", "%s: %.80s: %.200s: %s",
                  context->name, v->name, path, fault);
-    if (head.count)
-        study_csv_free(&head);
-    if (file)
-        fclose(file);
-    free(text);
+    study_csv_close(&table);
     ff_free(path);
     return !fault;
 }
