@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* Preloaded: a system that refuses or interrupts calls, as the environment says. REFUSE_flock,
-   REFUSE_fdatasync: the errno of each such call. INTERRUPT: every other read and write fails with
-   EINTR. SHORT: reads and writes do a part of what is asked. */
+   REFUSE_fcntl (for locks), REFUSE_fdatasync, REFUSE_ftruncate: the errno of each such call.
+   INTERRUPT: every other read and write fails with EINTR. SHORT: reads and writes do a part of what
+   is asked. */
 #include <dlfcn.h>
 #include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
@@ -36,6 +39,25 @@ int flock(int fd, int operation)
 {
     int (*real)(int, int) = (int (*)(int, int))(uintptr_t)dlsym(RTLD_NEXT, "flock");
     return is_refused("REFUSE_flock") ? -1 : real(fd, operation);
+}
+
+/* What is handed on is a pointer or an int, which both fit where a pointer is passed. */
+int fcntl(int fd, int operation, ...)
+{
+    int (*real)(int, int, void *) = (int (*)(int, int, void *))(uintptr_t)dlsym(RTLD_NEXT, "fcntl");
+    va_list args;
+    va_start(args, operation);
+    void *argument = va_arg(args, void *);
+    va_end(args);
+    bool locks = operation == F_SETLK || operation == F_SETLKW || operation == F_OFD_SETLK ||
+                 operation == F_OFD_SETLKW;
+    return locks && is_refused("REFUSE_fcntl") ? -1 : real(fd, operation, argument);
+}
+
+int ftruncate(int fd, off_t length)
+{
+    int (*real)(int, off_t) = (int (*)(int, off_t))(uintptr_t)dlsym(RTLD_NEXT, "ftruncate");
+    return is_refused("REFUSE_ftruncate") ? -1 : real(fd, length);
 }
 
 int fdatasync(int fd)

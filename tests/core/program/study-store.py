@@ -128,6 +128,26 @@ def test_changed():
     check_calm("arrays removed", "logs")
 
 
+def test_written_over():
+    """Another plugin is copied over one that runs: what was done before stays, and nothing is taken from a mixture."""
+    own = lab / "own" / "toy"
+    own.mkdir(parents=True)
+    for toy in plugins.iterdir():
+        shutil.copy(toy, own)
+    before = environment["FLANKFILM_PLUGIN_PATH"]
+    environment["FLANKFILM_PLUGIN_PATH"] = str(own.parent)
+    run = start("slow", "over")
+    wait_for("over", 2)
+    with paused(run):
+        (own / "wave.so").write_bytes((own / "walk.so").read_bytes())
+    expect("written over", run, 3, "wave.so was written over while the study ran")
+    if not 2 <= rows("over") < cases:
+        raise SystemExit(f"FAIL {rows('over')} rows of a plugin that was written over")
+    (own / "wave.so").write_bytes((plugins / "wave.so").read_bytes())
+    check_calm("written over", "over")
+    environment["FLANKFILM_PLUGIN_PATH"] = before
+
+
 def test_lost_start():
     """What all rows have in common is said again: those rows alone run again that have lost bytes of their own."""
     journal = lab / "many" / "journal.jsonl"
@@ -213,6 +233,13 @@ def test_system():
         raise SystemExit("FAIL another table")
     refused = start("quick", "sync", REFUSE_fdatasync=errno.EIO)
     expect("a failing disk", refused, 1, "could not be written: Input/output error")
+    # a torn tail that cannot be dropped; locks of fcntl, which the store does without
+    with open(lab / "SHORT" / "journal.jsonl", "ab") as out:
+        out.write(b"half of a line")
+    refused = start("quick", "SHORT", REFUSE_ftruncate=errno.EIO)
+    expect("a tail that stays", refused, 2, "cannot be used: Input/output error")
+    again = start("quick", "SHORT", REFUSE_fcntl=errno.ENOLCK)
+    expect("without locks of fcntl", again, 0, f"{cases} of {cases} cases done, {cases} of them before")
     for cause in (errno.ENOLCK, errno.EOPNOTSUPP):
         folder = f"lock-{cause}"
         run = start("slow", folder, REFUSE_flock=cause)
@@ -241,6 +268,7 @@ try:
     write("scribble", "count: 3", "wave.end: [good, scribble, good]", "[wave.total, wave.field]")
     expect("calm", start("slow", "calm"), 0, f"{cases} of {cases} cases done")
     test_changed()
+    test_written_over()
     test_lost_start()
     test_not_a_file()
     test_descriptors()

@@ -151,6 +151,19 @@ static int32_t next_chain(void *ctx, size_t *task)
     return 1;
 }
 
+/* Where a plugin's file was written over, nothing of it may be touched any more, also not to tell
+   what it is: the process that waits says so. */
+static void check_plugins(execution *r)
+{
+    char sentence[CRASH_SENTENCE];
+    if (!study_written_over(r->run, sentence, sizeof sentence))
+        return;
+    study_pool_kill(&r->pool);
+    if (r->run->executor)
+        study_fork_server_end(&r->fork_server);
+    crash_say(sentence, FF_FAULT_PLUGIN);
+}
+
 /* Counts an answer and adds it to the journal; `text` is what follows the verdict. False when no
    further cases are to run. */
 static bool record_answer(execution *r, size_t index, const char *key, char verdict,
@@ -162,6 +175,8 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
         return ff_error(r->report, FF_FAULT_RUN, FF_NOWHERE,
                         "the same command goes on with the rest", "%.*s", (int)strcspn(text, "\n"),
                         text);
+    if (!known)
+        check_plugins(r);
     if (!known && !study_journal_append(&r->journal, text, strlen(text), r->report))
         return false;
     snprintf(r->keys[index], STUDY_KEY_SIZE, "%s", key);
@@ -425,6 +440,7 @@ static void find_keys(execution *r)
 static void finish_run(execution *r)
 {
     const study_run *run = r->run;
+    check_plugins(r);
     if (run->progress)
         run->progress(run->ctx, r->counters);
     if (interrupts)

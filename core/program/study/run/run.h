@@ -61,4 +61,8 @@ typedef struct study_plan {
 
 void study_preview(const study_run *run, study_plan *plan);
 
+/* plugin-files.c: a sentence where the file of a plugin of the study was written over after it was
+   loaded; NULL: none was. A file that takes the place of another one does no harm. */
+const char *study_written_over(const study_run *run, char *text, size_t size);
+
 #endif
