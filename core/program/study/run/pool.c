@@ -232,7 +232,7 @@ static int read_answer(study_pool *pool, study_worker *worker, size_t *task)
                            task);
     if (!study_line_is_whole(line, worker->length))
         return refuse_answer(pool, worker, task);
-    bool good = study_line_is_ok(line);
+    bool good = study_line_state(line) == STUDY_OK;
     keep_record(pool, worker->shared->key, line);
     return finish_case(pool, worker, good ? STUDY_VERDICT_GOOD : STUDY_VERDICT_FAILED, line, task);
 }

@@ -199,29 +199,3 @@ json_t *study_form_fill(const json_t *form, const json_t *line)
     json_decref(record);
     return NULL;
 }
-
-static size_t count_places(const json_t *form)
-{
-    const char *name;
-    json_t *item;
-    size_t i, count = json_is_null(form);
-    json_object_foreach((json_t *)(size_t)form, name, item) count += count_places(item);
-    json_array_foreach(form, i, item) count += count_places(item);
-    return count;
-}
-
-void study_form_find(const json_t *form, const char *wanted, size_t *first, size_t *count)
-{
-    const char *name;
-    json_t *member;
-    *first = *count = 0;
-    json_object_foreach((json_t *)(size_t)form, name, member)
-    {
-        size_t places = count_places(member);
-        if (!strcmp(name, wanted)) {
-            *count = places;
-            return;
-        }
-        *first += places;
-    }
-}

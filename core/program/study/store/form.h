@@ -23,7 +23,4 @@ void study_form_write(json_t *record, json_t *said, FILE *out);
 /* Returns the record of a line with a form; NULL when the values do not fill it. */
 json_t *study_form_fill(const json_t *form, const json_t *line);
 
-/* Where the values of a member of the form, "stages", begin among all, and how many there are. */
-void study_form_find(const json_t *form, const char *member, size_t *first, size_t *count);
-
 #endif

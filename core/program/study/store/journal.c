@@ -77,13 +77,6 @@ json_t *study_line_parse(const char *line, size_t length)
     return study_line_is_whole(line, length) ? json_loadb(line, length - 1, 0, NULL) : NULL;
 }
 
-bool study_line_is_ok(const char *line)
-{
-    static const char head[] = "\"status\":\"ok\"";
-    const char *status = strstr(line, "\"status\":");
-    return status && !strncmp(status, head, sizeof head - 1);
-}
-
 bool study_make_path(const char *path)
 {
     char *copy = memory_print_text("%s/", path);

@@ -50,7 +50,6 @@ char *study_journal_line(json_t *record, json_t *said);
 bool study_line_is_whole(const char *line, size_t length);
 /* Returns what such a line says, to be released; NULL for another one. */
 json_t *study_line_parse(const char *line, size_t length);
-bool study_line_is_ok(const char *line); /* whether the record of a line is */
 
 enum study_rerun { STUDY_RERUN_NONE, STUDY_RERUN_FAILED, STUDY_RERUN_ALL };
 

@@ -184,22 +184,37 @@ static const char *pass_log(study_records *r, int directory, const char *at)
     return *end != ']' || (size && json_integer_value(size) < needed) ? NULL : end + 1;
 }
 
+/* Reads the key and the state of a whole line; returns what is behind them, or NULL. */
+static const char *read_head(const char *line, uint64_t *key, uint8_t *state)
+{
+    char text[64], status[64];
+    const char *at = line + strcspn(line, ",");
+    at = word_after(at, ",\"key\":\"", text, sizeof text);
+    at = word_after(at, ",\"status\":\"", status, sizeof status);
+    if (at)
+        *key = number_of(text);
+    *state = at && !strcmp(status, "ok") ? STUDY_OK : STUDY_NOT_OK;
+    return at;
+}
+
+enum study_state study_line_state(const char *line)
+{
+    uint64_t key;
+    uint8_t state;
+    read_head(line, &key, &state);
+    return state;
+}
+
 /* Reads the head of a whole line, by which its record is found. False where its form is not known
    yet. */
 static bool add_line(study_records *r, int directory, const char *line, size_t length,
                      uint16_t file, uint64_t offset)
 {
-    char key[64], status[64], name[STUDY_FORM_NAME];
-    const char *at = line + strcspn(line, ",");
-    at = word_after(at, ",\"key\":\"", key, sizeof key);
-    at = word_after(at, ",\"status\":\"", status, sizeof status);
-    at = pass_log(r, directory, at);
+    char name[STUDY_FORM_NAME];
+    entry found = {.offset = offset, .file = file};
+    const char *at = pass_log(r, directory, read_head(line, &found.key, &found.state));
     if (!at)
         return true;
-    entry found = {.key = number_of(key),
-                   .offset = offset,
-                   .file = file,
-                   .state = !strcmp(status, "ok") ? STUDY_OK : STUDY_NOT_OK};
     at = word_after(at, ",\"form\":\"", name, sizeof name);
     if ((at && !strncmp(at, ",\"is\":", 6)) || strstr(line, ",\"parameters\":{\"")) {
         json_t *record = study_records_take(r, line, length);

@@ -28,6 +28,7 @@ void study_records_let_go(study_records *records);
 size_t study_records_count(const study_records *records);
 
 enum study_state { STUDY_UNKNOWN, STUDY_NOT_OK, STUDY_OK };
+enum study_state study_line_state(const char *line); /* of a whole line of a journal */
 enum study_state study_records_state(const study_records *records, const char *key);
 /* Returns the record of a key, to be released; NULL when there is none. */
 json_t *study_records_get(study_records *records, const char *key);

@@ -3,6 +3,7 @@
 
 #include "../../../memory/memory.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdlib.h>
 
@@ -80,10 +81,22 @@ static void put_json(const study_answer *answer, const char *ending, const json_
     fclose(out);
 }
 
+/* The rows of all tables by their titles, for a kind that gives no value of its own. */
+static json_t *value_of(const study_answer *answer)
+{
+    json_t *value = json_object();
+    for (size_t i = 0; i < answer->table_count; i++) {
+        const study_table *table = answer->tables[i];
+        json_object_set(value, table->title ? table->title : answer->file, table->rows);
+    }
+    return value;
+}
+
 /* Returns the members for `run --json`, rounded to twelve digits. */
 static json_t *facts_of(const study_answer *answer)
 {
     char *text = json_dumps(answer->value, JSON_COMPACT | JSON_REAL_PRECISION(12));
+    assert(text); /* a kind makes its value of texts that JSON can hold */
     json_t *rounded = json_loads(text, 0, NULL);
     free(text);
     return json_pack("{s:o}", answer->context->name, rounded);
@@ -92,6 +105,8 @@ static json_t *facts_of(const study_answer *answer)
 void study_answer_close(study_answer *answer)
 {
     FILE *out = open_file(answer, "csv");
+    if (!answer->value)
+        answer->value = value_of(answer);
     for (size_t i = 0; i < answer->table_count; i++)
         if (answer->tables[i]->forms & STUDY_IN_FILE)
             study_table_csv(answer->tables[i], out);

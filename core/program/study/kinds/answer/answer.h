@@ -44,7 +44,7 @@ typedef struct study_table {
 typedef struct study_answer {
     study_context *context;
     const char *file;  /* "map": of map.csv, map.json and map.figure.json */
-    json_t *value;     /* what the JSON file holds; taken */
+    json_t *value;     /* what the JSON file holds; taken; NULL: the rows of the tables */
     int digits;        /* of its numbers; 0 means 6 */
     json_t *facts;     /* members for `run --json`; NULL: the value under the name of the kind */
     json_t *figures;   /* a list of drawings */
