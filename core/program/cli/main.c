@@ -255,8 +255,8 @@ static _Noreturn void conclude(const crash_end *end, bool json)
             results_json_print(results_json_answer("error", end->code, report));
         terminal_print_messages(report, stderr, false);
         ff_report_free(report);
+        fflush(NULL);
     }
-    fflush(NULL);
     _exit(end->code);
 }
 

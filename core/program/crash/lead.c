@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "lead.h"
 
+#include <assert.h>
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
@@ -33,6 +35,7 @@ static volatile sig_atomic_t child, handed_on;
 
 void crash_mark(ff_guard_mirror *mirror)
 {
+    assert(mirror);
     running = mirror;
     ff_guard_mirror_set(mirror);
 }
@@ -210,6 +213,7 @@ static bool stays_stopped(void)
    more, the one that it has left, or that of a run that failed. */
 static int wait_for_child(void)
 {
+    assert(child > 0 && words);
     int status = 0, stopped = 0;
     for (;;) {
         if (waitpid((pid_t)child, &status, WUNTRACED) < 0) {
@@ -247,19 +251,21 @@ static void judge(int status, crash_end *end)
     }
 }
 
-/* Debuggers follow one process, and valgrind counts for each. */
+/* Debuggers follow one process, and valgrind counts for each. Read without a stream: what is
+   allocated before the fork is copied after it. */
 static bool is_watched(void)
 {
-    char line[256];
-    long tracer = 0;
+    char status[1024] = ""; /* the line stands near the top */
     const char *preloaded = getenv("LD_PRELOAD");
-    FILE *stream = fopen("/proc/self/status", "re");
-    while (stream && tracer == 0 && fgets(line, sizeof line, stream))
-        if (!strncmp(line, "TracerPid:", 10))
-            tracer = strtol(line + 10, NULL, 10);
-    if (stream)
-        fclose(stream);
-    return tracer > 0 || (preloaded && strstr(preloaded, "vgpreload"));
+    int fd = open("/proc/self/status", O_RDONLY | O_CLOEXEC);
+    if (fd >= 0) {
+        if (read(fd, status, sizeof status - 1) < 0)
+            status[0] = '\0';
+        close(fd);
+    }
+    const char *tracer = strstr(status, "\nTracerPid:");
+    return (tracer && !strstr(tracer, "TracerPid:\t0\n")) ||
+           (preloaded && strstr(preloaded, "vgpreload"));
 }
 
 /* A process that the child makes is led by nobody, and its plugins are its own. */
