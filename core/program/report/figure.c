@@ -13,8 +13,8 @@
 
 enum { COLUMNS = 700, MOST_DOTS = 3000, MOST_CELLS = 200 };
 
-report_curve *report_plot_add(report_plot *plot, const report_unit *x_unit, const double *x,
-                              const report_unit *y_unit, const double *y, size_t count)
+report_curve *report_plot_add(report_plot *plot, const results_readable *x_unit, const double *x,
+                              const results_readable *y_unit, const double *y, size_t count)
 {
     if (plot->count == REPORT_MOST_CURVES || count == 0)
         return NULL;
@@ -31,7 +31,7 @@ report_curve *report_plot_add(report_plot *plot, const report_unit *x_unit, cons
     return curve;
 }
 
-void report_curve_bar(report_curve *curve, const report_unit *y_unit, const double *bar)
+void report_curve_bar(report_curve *curve, const results_readable *y_unit, const double *bar)
 {
     curve->bar = memory_alloc(curve->count * sizeof *curve->bar);
     for (size_t i = 0; i < curve->count; i++)

@@ -3,6 +3,7 @@
 #ifndef REPORT_PAGE_H
 #define REPORT_PAGE_H
 
+#include "../results/number.h"
 #include "../results/view.h"
 
 #include <stdbool.h>
@@ -35,23 +36,19 @@ typedef struct report_part {
 void report_part_begin(report_page *page, report_part *part);
 void report_part_end(report_page *page, report_part *part);
 
-/* units.c writes numbers as engineers read them: si * factor + offset. */
-typedef struct report_unit {
-    double factor, offset;
-    const char *unit; /* "" for a pure number */
-} report_unit;
-
-report_unit report_unit_for(const char *si_unit, double magnitude);
-/* Returns the SI unit of an output, by which report_unit_for tells a temperature from a rise of it.
- */
-const char *report_si_unit(const char *si_unit, const char *output);
-double report_convert(const report_unit *unit, double si);
+/* units.c writes numbers as engineers read them. `name` is that of an output or a parameter: it
+   tells a temperature from a rise of it. */
+results_readable report_unit_for(const char *name, const char *si_unit, double magnitude);
+double report_convert(const results_readable *unit, double si);
 enum { REPORT_TEXT_SIZE = 200 };
 void report_number_text(double value, char out[REPORT_TEXT_SIZE]);
 /* Prints an SI value as "22.3 deg". */
-void report_quantity_text(const char *si_unit, double si, char out[REPORT_TEXT_SIZE]);
-/* Returns what an output is called in a figure: "least film thickness" for h_min. */
-const char *report_output_words(const char *output, char out[REPORT_TEXT_SIZE]);
+void report_quantity_text(const char *name, const char *si_unit, double si,
+                          char out[REPORT_TEXT_SIZE]);
+/* Returns what an output is called in a figure, by its doc: "least film thickness" for h_min. */
+const char *report_output_words(const results_view_variable *of, char out[REPORT_TEXT_SIZE]);
+/* The same of what has no doc: the last word of its path. */
+const char *report_plain_name(const char *path, char out[REPORT_TEXT_SIZE]);
 /* Returns the value of an axis as the user wrote it, unless that is long. */
 const char *report_axis_word(const results_view_axis *axis, size_t point,
                              char out[REPORT_TEXT_SIZE]);
@@ -59,7 +56,7 @@ const char *report_axis_word(const results_view_axis *axis, size_t point,
    none). */
 void report_name_case(const results_view *view, size_t index, size_t a, int b,
                       char out[REPORT_TEXT_SIZE]);
-void report_label(const char *words, const report_unit *unit, char out[REPORT_TEXT_SIZE]);
+void report_label(const char *words, const results_readable *unit, char out[REPORT_TEXT_SIZE]);
 
 /* find.c: finds parts of the results; -1 when they are missing. */
 int report_find_output(const results_view *view, size_t stage, const char *output);
@@ -112,10 +109,10 @@ typedef struct report_plot {
 
 /* Copies the numbers in the units of the figure; returns the curve, or NULL when there is no room.
  */
-report_curve *report_plot_add(report_plot *plot, const report_unit *x_unit, const double *x,
-                              const report_unit *y_unit, const double *y, size_t count);
+report_curve *report_plot_add(report_plot *plot, const results_readable *x_unit, const double *x,
+                              const results_readable *y_unit, const double *y, size_t count);
 /* Gives a curve the error bars of its numbers, which are drawn as a band. */
-void report_curve_bar(report_curve *curve, const report_unit *y_unit, const double *bar);
+void report_curve_bar(report_curve *curve, const results_readable *y_unit, const double *bar);
 void report_plot_write(report_page *page, const report_plot *plot);
 void report_plot_free(report_plot *plot);
 
@@ -152,7 +149,7 @@ report_check *report_find_checks(const results_view *view, size_t *count);
 typedef struct report_scalar {
     const double *values;
     size_t count;
-    report_unit unit;
+    results_readable unit;
     char title[REPORT_TEXT_SIZE], label[REPORT_TEXT_SIZE];
 } report_scalar;
 bool report_is_sample(const results_view *view);

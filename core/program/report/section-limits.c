@@ -13,16 +13,16 @@ static const char *badge_of(int32_t standing)
 static void write_limit(report_page *page, const results_view_limit *limit)
 {
     const char *dot = strchr(limit->output, '.');
-    const char *unit = report_si_unit(limit->unit, dot ? dot + 1 : limit->output);
+    const char *name = dot ? dot + 1 : limit->output;
     char value[REPORT_TEXT_SIZE] = "not known", bar[REPORT_TEXT_SIZE];
     if (!isnan(limit->value))
-        report_quantity_text(unit, limit->value, value);
+        report_quantity_text(name, limit->unit, limit->value, value);
     report_print(page->out,
                  "<tr><td><code>%s</code></td><td class=\"number\">%s</td><td "
                  "class=\"number\">%s",
                  limit->output, limit->asked, value);
     if (limit->bar > 0) {
-        report_quantity_text(limit->unit, limit->bar, bar);
+        report_quantity_text("", limit->unit, limit->bar, bar);
         report_print(page->out, " &#177; %s", bar);
     }
     report_print(page->out, "</td><td><span class=\"badge %s\">%s</span></td></tr>\n",

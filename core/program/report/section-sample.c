@@ -7,6 +7,7 @@
 
 #include "../memory/memory.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -73,6 +74,7 @@ double *report_sort(const double *values, size_t count, size_t *kept)
 
 double report_percentile(const double *list, size_t count, double percent)
 {
+    assert(count > 0 && percent >= 0 && percent <= 100);
     double at = percent / 100 * (double)(count - 1);
     size_t low = (size_t)at;
     return low + 1 < count ? list[low] + (at - (double)low) * (list[low + 1] - list[low])
@@ -83,7 +85,7 @@ static void draw_histogram(report_page *page, const report_scalar *f)
 {
     static const char *const names[] = {"5 %", "50 %", "95 %"};
     static const double percents[] = {5, 50, 95};
-    const report_unit one = {1, 0, ""};
+    const results_readable one = {1, 0, ""};
     size_t kept, bins;
     double *list = report_sort(f->values, f->count, &kept), x[MOST_BINS], y[MOST_BINS] = {0};
     report_plot plot = {.count = 0, .from_zero = true};
@@ -143,12 +145,6 @@ static double correlation(const double *x, const double *y, const bool *counts, 
     return xx > 0 && yy > 0 ? xy / sqrt(xx * yy) : 0;
 }
 
-static const char *name_of(const results_view_axis *axis, char words[REPORT_TEXT_SIZE])
-{
-    const char *dot = strrchr(axis->path, '.');
-    return report_output_words(dot ? dot + 1 : axis->path, words);
-}
-
 /* Ranks cost the square of the cases; of many, the first will do. */
 static void draw_bars(report_page *page, const report_scalar *f)
 {
@@ -159,7 +155,7 @@ static void draw_bars(report_page *page, const report_scalar *f)
     double *x = memory_alloc(count * sizeof *x), *a = memory_alloc(count * sizeof *a);
     double *b = memory_alloc(count * sizeof *b), at[MOST_INPUTS], share[MOST_INPUTS];
     char names[MOST_INPUTS][REPORT_TEXT_SIZE], words[REPORT_TEXT_SIZE];
-    const report_unit one = {1, 0, ""};
+    const results_readable one = {1, 0, ""};
     report_plot plot = {.y0 = -1, .y1 = 1};
     for (size_t i = 0; i < count; i++)
         counts[i] = isfinite(f->values[i]);
@@ -173,7 +169,7 @@ static void draw_bars(report_page *page, const report_scalar *f)
         rank(x, counts, count, b);
         at[inputs] = (double)inputs;
         share[inputs] = correlation(a, b, counts, count);
-        snprintf(names[inputs++], REPORT_TEXT_SIZE, "%s", name_of(axis, words));
+        snprintf(names[inputs++], REPORT_TEXT_SIZE, "%s", report_plain_name(axis->path, words));
     }
     report_curve *curve = report_plot_add(&plot, &one, at, &one, share, inputs);
     if (curve) {
@@ -203,13 +199,14 @@ static void draw_dots(report_page *page, const report_scalar *f, const results_v
     }
     double number;
     const char *end = "";
-    report_unit unit = {1, 0, ""};
+    results_readable unit = {1, 0, ""};
     if (axis->values)
-        unit = report_unit_for(report_si_unit(axis->unit, axis->path), size);
+        unit = report_unit_for(axis->path, axis->unit, size);
     else if (ff_number_parse(axis->words[0], &number, &end))
         unit.unit = end + strspn(end, " ");
-    report_label(name_of(axis, words), &unit, plot.x_label);
-    snprintf(plot.title, sizeof plot.title, "%.100s over %.80s", f->title, name_of(axis, words));
+    report_label(report_plain_name(axis->path, words), &unit, plot.x_label);
+    snprintf(plot.title, sizeof plot.title, "%.100s over %.80s", f->title,
+             report_plain_name(axis->path, words));
     snprintf(plot.y_label, sizeof plot.y_label, "%s", f->label);
     report_curve *curve = report_plot_add(&plot, &unit, x, &f->unit, f->values, f->count);
     if (curve)

@@ -52,7 +52,7 @@ static const group surface_groups[] = {
 typedef struct figure {
     report_page *page;
     report_plot plot;
-    report_unit x_unit, y_unit;
+    results_readable x_unit, y_unit;
     char x_si[40], y_si[40]; /* "" before the first curve */
     bool alternating;
     bool *drawn; /* variables that have had their figure */
@@ -91,7 +91,7 @@ static void label_curve(const figure *d, report_curve *curve, size_t variable, s
     const char *stage = view->stages[of->stage]->name;
     if (several)
         snprintf(curve->label, sizeof curve->label, "%.60s: %.120s", stage,
-                 report_output_words(of->output, words));
+                 report_output_words(of, words));
     else
         snprintf(curve->label, sizeof curve->label, "%s", stage);
     if (view->study) {
@@ -113,11 +113,12 @@ static bool choose_units(figure *d, size_t variable, int axis, const ff_array *x
         return !strcmp(d->x_si, x_si) && !strcmp(d->y_si, of->unit);
     snprintf(d->x_si, sizeof d->x_si, "%s", x_si);
     snprintf(d->y_si, sizeof d->y_si, "%s", of->unit);
-    d->x_unit = along ? report_unit_for(along->unit, magnitude(x)) : (report_unit){1, 0, ""};
-    d->y_unit = report_unit_for(report_si_unit(of->unit, of->output), magnitude(y));
-    report_label(report_output_words(along ? along->output : of->dims[0], words), &d->x_unit,
-                 d->plot.x_label);
-    report_label(report_output_words(of->output, words), &d->y_unit, d->plot.y_label);
+    d->x_unit = along ? report_unit_for(along->output, along->unit, magnitude(x))
+                      : (results_readable){1, 0, ""};
+    d->y_unit = report_unit_for(of->output, of->unit, magnitude(y));
+    report_label(along ? report_output_words(along, words) : report_plain_name(of->dims[0], words),
+                 &d->x_unit, d->plot.x_label);
+    report_label(report_output_words(of, words), &d->y_unit, d->plot.y_label);
     return true;
 }
 
@@ -300,7 +301,7 @@ static void write_others(figure *d)
         if (d->drawn[v] || of->rank != 1 || axis || report_is_bar(of) ||
             !strncmp(of->output, "atlas_", 6))
             continue;
-        snprintf(d->plot.title, sizeof d->plot.title, "%s", report_output_words(of->output, words));
+        snprintf(d->plot.title, sizeof d->plot.title, "%s", report_output_words(of, words));
         for (size_t k = v; k < view->variable_count; k++)
             if (view->variables[k]->rank == 1 && !strcmp(view->variables[k]->output, of->output)) {
                 for (size_t c = 0; c < d->case_count; c++)

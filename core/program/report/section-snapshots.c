@@ -132,7 +132,7 @@ static void put_floats(FILE *out, const float *data, size_t count)
 }
 
 static void put_field(FILE *out, const stage_fields *m, const ff_array *field,
-                      const report_unit *unit, size_t frames, size_t cells)
+                      const results_readable *unit, size_t frames, size_t cells)
 {
     float *data = memory_alloc(frames * cells * sizeof *data);
     for (size_t k = 0; k < frames; k++)
@@ -145,7 +145,7 @@ static void put_field(FILE *out, const stage_fields *m, const ff_array *field,
 }
 
 static void put_axis(FILE *out, const ff_array *axis, size_t count, size_t kept,
-                     const report_unit *unit)
+                     const results_readable *unit)
 {
     float *data = memory_alloc(kept * sizeof *data);
     for (size_t i = 0; i < kept; i++) {
@@ -156,7 +156,8 @@ static void put_axis(FILE *out, const ff_array *axis, size_t count, size_t kept,
     free(data);
 }
 
-static void put_instants(FILE *out, const stage_fields *m, size_t kept, const report_unit *unit)
+static void put_instants(FILE *out, const stage_fields *m, size_t kept,
+                         const results_readable *unit)
 {
     float *data = memory_alloc(kept * sizeof *data);
     for (size_t k = 0; k < kept; k++) {
@@ -225,7 +226,7 @@ static void widen_to_contact(const stage_fields *m, double *from, double *to)
 typedef struct snapshots {
     stage_fields stages[MOST_STAGES];
     size_t count, start; /* start: the frame at which the slider stands first */
-    report_unit x, at, unit[FIELDS];
+    results_readable x, at, unit[FIELDS];
     double film;   /* the largest film in the middle of a contact, SI */
     double x0, x1; /* in the units of the figures */
 } snapshots;
@@ -345,7 +346,7 @@ static void choose_view(snapshots *s)
     double reach = 0, from = INFINITY, to = -INFINITY;
     for (size_t i = 0; i < report_array_size(&first->x); i++)
         reach = fmax(reach, fabs(first->x.data[i]));
-    s->x = first->x.data ? report_unit_for("m", reach) : (report_unit){1, 0, ""};
+    s->x = first->x.data ? report_unit_for("", "m", reach) : (results_readable){1, 0, ""};
     for (size_t m = 0; m < s->count; m++) {
         widen_to_contact(&s->stages[m], &from, &to);
         s->film = fmax(s->film, central_film(&s->stages[m]));
@@ -353,11 +354,11 @@ static void choose_view(snapshots *s)
     s->x0 = report_convert(&s->x, from - 0.2 * (to - from));
     s->x1 = report_convert(&s->x, to + 0.2 * (to - from));
     s->unit[PRESSURE] = s->unit[ASPERITIES] =
-        report_unit_for("Pa", largest_value(&first->field[PRESSURE]));
-    s->unit[FILM] = s->unit[ROUGHNESS] = report_unit_for("m", s->film);
-    s->unit[TEMPERATURE] = report_unit_for(report_si_unit("K", "temperature"), 1);
-    s->at =
-        first->angle ? report_unit_for("rad", 1) : report_unit_for("s", largest_value(&first->at));
+        report_unit_for("", "Pa", largest_value(&first->field[PRESSURE]));
+    s->unit[FILM] = s->unit[ROUGHNESS] = report_unit_for("", "m", s->film);
+    s->unit[TEMPERATURE] = report_unit_for("temperature", "K", 1);
+    s->at = first->angle ? report_unit_for("", "rad", 1)
+                         : report_unit_for("", "s", largest_value(&first->at));
     s->start = find_highest_pressure(first, first->frames < FRAMES ? first->frames : FRAMES);
 }
 

@@ -16,7 +16,7 @@ typedef struct case_scalar {
     size_t variable;
     double *values;
     double low, high;
-    report_unit unit;
+    results_readable unit;
 } case_scalar;
 
 static bool load_scalar(report_page *page, size_t variable, case_scalar *f)
@@ -39,7 +39,7 @@ static bool load_scalar(report_page *page, size_t variable, case_scalar *f)
         size = fmax(size, fabs(f->values[c]));
     }
     const results_view_variable *of = view->variables[variable];
-    f->unit = report_unit_for(report_si_unit(of->unit, of->output), size);
+    f->unit = report_unit_for(of->output, of->unit, size);
     return any;
 }
 
@@ -80,22 +80,16 @@ static size_t first_case_of(const results_view *view, size_t k, size_t a, int b)
     return index;
 }
 
-static const char *last_word(const char *path)
-{
-    const char *dot = strrchr(path, '.');
-    return dot ? dot + 1 : path;
-}
-
 /* Writes the label of an axis and returns its unit. */
-static report_unit show_axis(const results_view *view, const results_view_axis *axis,
-                             char label[REPORT_TEXT_SIZE])
+static results_readable show_axis(const results_view *view, const results_view_axis *axis,
+                                  char label[REPORT_TEXT_SIZE])
 {
     double size = 0;
     char words[REPORT_TEXT_SIZE];
     for (size_t i = 0; i < view->lengths[axis->dimension]; i++)
         size = fmax(size, fabs(axis->values[i]));
-    report_unit unit = report_unit_for(report_si_unit(axis->unit, axis->path), size);
-    report_label(report_output_words(last_word(axis->path), words), &unit, label);
+    results_readable unit = report_unit_for(axis->path, axis->unit, size);
+    report_label(report_plain_name(axis->path, words), &unit, label);
     return unit;
 }
 
@@ -104,14 +98,13 @@ static void write_title(const case_scalar *f, char out[REPORT_TEXT_SIZE])
     char words[REPORT_TEXT_SIZE];
     const results_view_variable *of = f->page->view->variables[f->variable];
     snprintf(out, REPORT_TEXT_SIZE, "%.60s: %.120s", f->page->view->stages[of->stage]->name,
-             report_output_words(of->output, words));
+             report_output_words(of, words));
 }
 
 static void write_label(const case_scalar *f, char out[REPORT_TEXT_SIZE])
 {
     char words[REPORT_TEXT_SIZE];
-    report_label(report_output_words(f->page->view->variables[f->variable]->output, words),
-                 &f->unit, out);
+    report_label(report_output_words(f->page->view->variables[f->variable], words), &f->unit, out);
 }
 
 /* Says whether values are spaced as by `spacing: log`, over a factor of five at least. */
@@ -126,7 +119,7 @@ static bool is_geometric(const double *values, size_t count)
 
 /* Finds a curve of which y is no further than a thousandth of its range: both chains of a sweep are
    one where there is one motion. */
-static report_curve *find_same(report_plot *plot, const report_unit *unit, const double *y)
+static report_curve *find_same(report_plot *plot, const results_readable *unit, const double *y)
 {
     for (size_t k = 0; k < plot->count; k++) {
         report_curve *curve = &plot->curves[k];
@@ -151,7 +144,7 @@ static void draw_lines(const case_scalar *f, const results_view_axis *axis, size
     double *y = memory_alloc(points * sizeof *y);
     report_plot plot = {.count = 0};
     plot.decades = is_geometric(axis->values, points);
-    report_unit unit = show_axis(view, axis, plot.x_label);
+    results_readable unit = show_axis(view, axis, plot.x_label);
     write_title(f, plot.title);
     write_label(f, plot.y_label);
     for (size_t k = 0; k < combinations && k < MOST_LINES; k++) {
@@ -193,7 +186,8 @@ static void draw_map(const case_scalar *f, const results_view_axis *x, const res
     report_map map = {.columns = view->lengths[x->dimension], .rows = view->lengths[y->dimension]};
     double *xs = memory_alloc(map.columns * sizeof *xs), *ys = memory_alloc(map.rows * sizeof *ys);
     double *values = memory_alloc(map.columns * map.rows * sizeof *values);
-    report_unit x_unit = show_axis(view, x, map.x_label), y_unit = show_axis(view, y, map.y_label);
+    results_readable x_unit = show_axis(view, x, map.x_label),
+                     y_unit = show_axis(view, y, map.y_label);
     write_title(f, title);
     report_name_case(view, first, x->dimension, (int)y->dimension, rest);
     snprintf(map.title, sizeof map.title, *rest ? "%.100s (%.90s)" : "%.100s%s", title, rest);
@@ -237,7 +231,7 @@ static void draw_dots(const case_scalar *f)
     const results_view *view = f->page->view;
     report_plot plot = {.count = 0};
     double *x = memory_alloc(view->case_count * sizeof *x);
-    const report_unit unit = {1, 0, ""};
+    const results_readable unit = {1, 0, ""};
     snprintf(plot.x_label, sizeof plot.x_label, "case");
     for (size_t c = 0; c < view->case_count; c++)
         x[c] = (double)(c + 1);
@@ -366,9 +360,8 @@ static void write_table_row(report_page *page, size_t index)
         ff_array array = report_load(page, (int)v, index);
         text[0] = '\0';
         if (array.data)
-            report_quantity_text(
-                report_si_unit(view->variables[v]->unit, view->variables[v]->output), array.data[0],
-                text);
+            report_quantity_text(view->variables[v]->output, view->variables[v]->unit,
+                                 array.data[0], text);
         report_release(page, &array);
         fputs("<td class=\"number\">", page->out);
         report_put_text(page->out, text);

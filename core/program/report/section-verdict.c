@@ -38,9 +38,9 @@ static void write_place(report_page *page, int axis, double at)
     if (axis < 0)
         return;
     const results_view_variable *along = page->view->variables[axis];
-    report_quantity_text(along->unit, at, text);
+    report_quantity_text(along->output, along->unit, at, text);
     bool roll = !strcmp(along->output, "roll_angle");
-    report_put_text(page->out, roll ? "roll angle" : report_output_words(along->output, words));
+    report_put_text(page->out, roll ? "roll angle" : report_output_words(along, words));
     report_print(page->out, " %s", text);
     if (!roll)
         return;
@@ -63,7 +63,7 @@ static void write_error(report_page *page, size_t variable, size_t at)
         double rounded = 0;
         snprintf(text, sizeof text, "%.2g", bar.data[at]);
         ff_number_parse(text, &rounded, &(const char *){NULL});
-        report_quantity_text(of->unit, rounded, text);
+        report_quantity_text("", of->unit, rounded, text);
         fputs(" &#177; ", page->out);
         report_put_text(page->out, text);
     }
@@ -74,7 +74,7 @@ static void write_number(report_page *page, size_t variable, double value, size_
 {
     const results_view_variable *of = page->view->variables[variable];
     char text[REPORT_TEXT_SIZE];
-    report_quantity_text(report_si_unit(of->unit, of->output), value, text);
+    report_quantity_text(of->output, of->unit, value, text);
     report_put_text(page->out, text);
     write_error(page, variable, at);
 }
@@ -169,8 +169,10 @@ static void write_reason(report_page *page, const results_view_quality *line)
     fputs(": ", page->out);
     if (!strncmp(line->text, "measured", 8) && length > end && length < sizeof name) {
         snprintf(name, sizeof name, "%.*s", (int)(length - end), line->name);
+        const int of = report_find_output(page->view, line->stage, name);
         fputs("error of the ", page->out);
-        report_put_text(page->out, report_output_words(name, words));
+        report_put_text(page->out, of < 0 ? report_plain_name(name, words)
+                                          : report_output_words(page->view->variables[of], words));
         fputs(", ", page->out);
     }
     report_put_text(page->out, *line->text ? line->text : line->name);
@@ -300,7 +302,7 @@ static void begin_span(report_page *page, const results_view_variable *of)
 {
     char words[REPORT_TEXT_SIZE];
     fputs("<tr><th scope=\"row\">", page->out);
-    report_put_text(page->out, report_output_words(of->output, words));
+    report_put_text(page->out, report_output_words(of, words));
     fputs("</th>", page->out);
     report_put_cell(page->out, page->view->stages[of->stage]->name);
 }
@@ -308,7 +310,7 @@ static void begin_span(report_page *page, const results_view_variable *of)
 static void put_value(report_page *page, const results_view_variable *of, double value)
 {
     char text[REPORT_TEXT_SIZE];
-    report_quantity_text(report_si_unit(of->unit, of->output), value, text);
+    report_quantity_text(of->output, of->unit, value, text);
     fputs("<td class=\"number\">", page->out);
     report_put_text(page->out, text);
     fputs("</td>", page->out);

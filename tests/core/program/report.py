@@ -81,11 +81,11 @@ class Report(lab.Lab):
         page = self.read_page("pair/report.html")
         dom, figures = self.look("pair/report.html")
         self.assertGreater(figures, 12)
-        for words in ("least film thickness", "roll angle", "LPSTC", "HPSTC", "µm)", "GPa",
+        for words in ("least film thickness", "roll angle", "LPSTC", "HPSTC", "µm)", "MPa",
                       "Quality of the numbers", "unity-50.yaml", "@article"):
             self.assertIn(words, page)
         self.read_extremes(page)
-        self.assertRegex(dom, r'"extremes">film_static: least film 0\.\d+ µm, highest pressure 0\.\d+ GPa')
+        self.assertRegex(dom, r'"extremes">film_static: least film 0\.\d+ µm, highest pressure [\d.]+ MPa')
         self.assertRegex(dom, r"<output>roll angle [\d.]+ deg</output>")
 
     def test_asked(self):
