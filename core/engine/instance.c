@@ -189,210 +189,16 @@ void ff_instance_close(ff_instance *instance)
     fe_free(instance);
 }
 
-/* The row of the parameter; -1 after an error. */
-static int find_param(ff_instance *i, const char *name)
-{
-    const ff_model *model = i->stage.loaded->model;
-    int row = ff_model_find_param(model, name);
-    if (row >= 0)
-        return row;
-    const char **names = fe_alloc((model->param_count + 1) * sizeof *names);
-    for (size_t k = 0; k < model->param_count; k++)
-        names[k] = ff_model_param(model, k)->name;
-    fe_refuse_name(i, "parameter", name, names, model->param_count);
-    fe_free(names);
-    return -1;
-}
-
-/* Ends the object, which is made anew when it is needed: it has what is about to change. */
-static void close_object(ff_instance *i)
+void fe_drop_object(ff_instance *i)
 {
     fe_close_instance(&i->stage);
     i->object.self = NULL;
     i->stage.ran = i->evaluated = false;
 }
 
-/* Puts a value in the place of those that its group has. */
-static void keep(ff_instance *i, size_t row, ff_value value)
-{
-    const ff_model *model = i->stage.loaded->model;
-    const char *group = ff_model_param(model, row)->group;
-    close_object(i);
-    for (size_t k = 0; k < model->param_count; k++) {
-        const char *other = ff_model_param(model, k)->group;
-        if (k == row || (value.size && group && other && !strcmp(group, other))) {
-            ff_value_clear(&i->given[k]);
-            i->given[k].size = 0;
-        }
-    }
-    i->given[row] = value;
-}
-
-static bool set(fe_request *q)
-{
-    ff_instance *i = q->instance;
-    int row = find_param(i, q->name);
-    ff_value value = {.size = 0};
-    if (row < 0)
-        return false;
-    const ff_param *param = ff_model_param(i->stage.loaded->model, (size_t)row);
-    const ff_unit *unit = &i->stage.loaded->param_units[row];
-    if (!i->names[row])
-        i->names[row] = fe_pipeline_print(&i->pipeline, "%s.%s", i->stage.name, param->name);
-    const char *name = i->names[row];
-    if ((q->text && !fe_param_read_text(param, unit, name, q->text, &value, i->report)) ||
-        (q->si && !fe_param_take(param, unit, name, q->si, q->count, &value, i->report))) {
-        snprintf(i->item, sizeof i->item, "%s", param->name);
-        return false;
-    }
-    keep(i, (size_t)row, value);
-    return true;
-}
-
-ff_status ff_instance_set(ff_instance *instance, const char *param, const char *text)
-{
-    if (!instance || !param)
-        return fe_absent(instance, "param");
-    return fe_handle(&(fe_request){.instance = instance, .work = set, .name = param, .text = text});
-}
-
-ff_status ff_instance_set_reals(ff_instance *instance, const char *param, const double *si,
-                                size_t count)
-{
-    static const double none;
-    if (!instance || !param)
-        return fe_absent(instance, "param");
-    return fe_handle(&(fe_request){.instance = instance,
-                                   .work = set,
-                                   .name = param,
-                                   .si = si ? si : &none,
-                                   .count = si ? count : 0});
-}
-
-static bool feeds(const fe_feed *feed)
+bool fe_is_fed(const fe_feed *feed)
 {
     return feed->from || feed->array.data || feed->table;
-}
-
-/* The array of a feed belongs to it. An object that knows that an array is connected need not be
-   made anew for another one. */
-static void connect(ff_instance *i, size_t input, fe_feed feed)
-{
-    fe_feed *old = &i->feeds[input];
-    bool fed = feeds(old), serves = ff_model_input(i->stage.loaded->model, input)->service;
-    if (serves || fed != feeds(&feed))
-        close_object(i);
-    ff_guarded_free(old->array.data, fe_count(&old->array));
-    *old = feed;
-    old->array.shape = old->shape;
-    i->stage.ran = false;
-}
-
-static bool give(fe_request *q)
-{
-    ff_instance *i = q->instance;
-    const ff_model *model = i->stage.loaded->model;
-    int input = ff_model_find_input(model, q->name);
-    const ff_array *array = q->array;
-    fe_feed feed = {.from = NULL};
-    size_t count = 1;
-    if (input < 0 || ff_model_input(model, (size_t)input)->service)
-        return fe_refuse(i, q->name, "it has no input \"%.80s\" for an array", q->name);
-    const ff_dims *dims = &i->stage.loaded->input_dims[input];
-    if (!array || !array->data) {
-        connect(i, (size_t)input, feed);
-        return true;
-    }
-    if (!fe_rank_fits(dims, array->rank))
-        return fe_refuse(i, q->name,
-                         "an array of %u dimensions is given for \"%s\"; it takes \"%s\"",
-                         array->rank, q->name, ff_model_input(model, (size_t)input)->dims);
-    for (uint32_t k = 0; k < array->rank; k++) {
-        feed.shape[k] = array->shape ? array->shape[k] : SIZE_MAX;
-        if (__builtin_mul_overflow(count, feed.shape[k], &count)) {
-            count = SIZE_MAX;
-            break;
-        }
-    }
-    if (array->rank && count > PTRDIFF_MAX / sizeof *feed.array.data)
-        return fe_refuse(i, q->name, "the array for \"%s\" has more numbers than there can be",
-                         q->name);
-    double *copy = ff_guarded_new(count);
-    if (count)
-        memcpy(copy, array->data, count * sizeof *copy);
-    feed.array = (ff_array){.data = copy, .rank = array->rank};
-    connect(i, (size_t)input, feed);
-    return true;
-}
-
-ff_status ff_instance_give(ff_instance *instance, const char *input, const ff_array *array)
-{
-    if (!instance || !input)
-        return fe_absent(instance, "input");
-    return fe_handle(
-        &(fe_request){.instance = instance, .work = give, .name = input, .array = array});
-}
-
-static bool uses(const ff_instance *i, const ff_instance *other)
-{
-    bool found = i == other;
-    for (size_t k = 0; k < i->stage.loaded->model->input_count && !found; k++)
-        found = i->feeds[k].from && uses(i->feeds[k].from, other);
-    return found;
-}
-
-/* Connects what the other instance offers, or nothing. */
-static bool use(fe_request *q)
-{
-    ff_instance *i = q->instance, *from = q->other;
-    const ff_model *model = i->stage.loaded->model;
-    fe_build b = {.pipeline = &i->pipeline, .report = i->report};
-    bool known = false;
-    for (size_t k = 0; k < model->input_count; k++)
-        known = known || fe_is_on_wire(ff_model_input(model, k)->name, q->name);
-    if (!known)
-        return fe_refuse(i, q->name, "it has no wire \"%.80s\"", q->name);
-    if (from && from->engine != i->engine)
-        return fe_refuse(i, q->name, "%s belongs to another engine", from->stage.use);
-    if (from && uses(from, i))
-        return fe_refuse(i, q->name, "%s cannot feed it, since it uses it", from->stage.use);
-    const char *why = from ? fe_wire_misfit(&b, &i->stage, q->name, from->stage.loaded) : NULL;
-    if (why)
-        return fe_refuse(i, q->name, "%s cannot feed its wire \"%s\": it %s", from->stage.use,
-                         q->name, why);
-    for (size_t k = 0; k < model->input_count; k++) {
-        const ff_port *row = ff_model_input(model, k);
-        if (!fe_is_on_wire(row->name, q->name))
-            continue;
-        int output = from ? fe_find_offer(from->stage.loaded, row) : -1;
-        connect(i, k, (fe_feed){.from = output < 0 ? NULL : from, .output = output});
-    }
-    return true;
-}
-
-ff_status ff_instance_use(ff_instance *instance, const char *wire, ff_instance *from)
-{
-    if (!instance || !wire)
-        return fe_absent(instance, "wire");
-    return fe_handle(&(fe_request){.instance = instance, .work = use, .name = wire, .other = from});
-}
-
-static bool serve(fe_request *q)
-{
-    ff_instance *i = q->instance;
-    int input = ff_model_find_input(i->stage.loaded->model, q->name);
-    if (input < 0 || !ff_model_input(i->stage.loaded->model, (size_t)input)->service)
-        return fe_refuse(i, q->name, "it has no service input \"%.80s\"", q->name);
-    connect(i, (size_t)input, (fe_feed){.table = q->table});
-    return true;
-}
-
-ff_status ff_instance_serve(ff_instance *instance, const char *wire, const void *table)
-{
-    if (!instance || !wire)
-        return fe_absent(instance, "wire");
-    return fe_handle(
-        &(fe_request){.instance = instance, .work = serve, .name = wire, .table = table});
 }
 
 /* Whether the wire that replaces the parameter is connected. */
@@ -400,7 +206,7 @@ static bool is_replaced(const ff_instance *i, const ff_param *row)
 {
     const ff_model *model = i->stage.loaded->model;
     for (size_t k = 0; row->instead && k < model->input_count; k++)
-        if (fe_is_on_wire(ff_model_input(model, k)->name, row->instead) && feeds(&i->feeds[k]))
+        if (fe_is_on_wire(ff_model_input(model, k)->name, row->instead) && fe_is_fed(&i->feeds[k]))
             return true;
     return false;
 }
@@ -444,7 +250,7 @@ static bool settle(ff_instance *i)
     }
     for (size_t k = 0; k < model->input_count; k++) {
         const ff_port *row = ff_model_input(model, k);
-        if (!feeds(&i->feeds[k]) && !(row->flags & FF_OPTIONAL))
+        if (!fe_is_fed(&i->feeds[k]) && !(row->flags & FF_OPTIONAL))
             return fe_refuse(i, row->name, "nothing feeds its input \"%s\"", row->name);
     }
     return true;
@@ -460,7 +266,7 @@ static bool make_feeding(ff_instance *i)
         if (!fe_pass_on(i, feed->from, ff_instance_ready(feed->from)))
             return false;
         if (feed->version != feed->from->version)
-            close_object(i);
+            fe_drop_object(i);
     }
     return true;
 }
@@ -476,7 +282,7 @@ static bool wire(ff_instance *i)
         const ff_port *row = ff_model_input(model, k);
         fe_feed *feed = &i->feeds[k];
         const void *table = feed->table;
-        if (!feeds(&i->feeds[k]))
+        if (!fe_is_fed(&i->feeds[k]))
             continue;
         if (row->service && feed->from) {
             feed->version = feed->from->version;
@@ -506,7 +312,7 @@ bool fe_make_object(ff_instance *i)
         return false;
     if (i->object.alive)
         return true;
-    close_object(i);
+    fe_drop_object(i);
     i->version++;
     fe_folder_keep(&i->memory.folder);
     i->object.watch = &i->observer;

@@ -63,6 +63,10 @@ bool fe_refuse_name(ff_instance *instance, const char *what, const char *name,
                     const char *const *names, size_t count);
 /* Makes the object of the model, unless it is up to date. */
 bool fe_make_object(ff_instance *instance);
+/* Ends the object, which is made anew when it is needed: it has what is about to change. */
+void fe_drop_object(ff_instance *instance);
+/* Whether anything is connected. */
+bool fe_is_fed(const fe_feed *feed);
 /* Adds the messages of another instance, whose call came to the status. False when that failed. */
 bool fe_pass_on(ff_instance *instance, const ff_instance *from, ff_status status);
 

@@ -2,6 +2,7 @@
 /* The arrays that a stage takes and gives: their dimensions agree, and their numbers are finite. */
 #include "build.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,6 +16,7 @@ bool fe_rank_fits(const ff_dims *dims, uint32_t rank)
 bool fe_enter_lengths(fe_lengths *all, const char *row, const ff_dims *dims, uint32_t rank,
                       const size_t *shape, char *why, size_t why_size)
 {
+    assert(fe_rank_fits(dims, rank));
     for (uint32_t i = 0; i < rank; i++) {
         const char *dim = dims->name[i + dims->rank - rank];
         size_t k = 0;

@@ -2,6 +2,7 @@
 /* Turns the outcome of a call into a model into messages with places in the user's file. */
 #include "build.h"
 
+#include <assert.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -42,6 +43,7 @@ static fe_serial locks_of(const ff_guard_mark *mark)
 
 fe_call fe_call_begin(const ff_stage *stage, const char *action)
 {
+    assert(stage->loaded && stage->instance);
     fe_instance *instance = stage->instance;
     fe_call call = {.stage = stage, .action = action};
     instance->item[0] = instance->text[0] = instance->fault[0] = 0;

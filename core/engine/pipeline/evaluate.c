@@ -2,6 +2,7 @@
 /* One evaluation of a stage, for the outputs that other stages and the user want. */
 #include "build.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <time.h>
 
@@ -96,6 +97,7 @@ static bool call_model(const ff_pipeline *pipeline, ff_stage *stage, const ff_ar
 bool fe_evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *in,
                  ff_report *report)
 {
+    assert(stage->loaded && stage->instance && !stage->instance->evaluating);
     uint64_t *sums = fe_sum_inputs(stage, in);
     bool good = call_model(pipeline, stage, in, report);
     good = fe_check_inputs(stage, in, sums, report) && good;

@@ -4,6 +4,7 @@
 
 #include "../plugin/param.h"
 
+#include <assert.h>
 #include <stdio.h>
 
 static void destroy(void *of)
@@ -63,6 +64,7 @@ bool fe_create_object(ff_stage *stage, ff_report *report)
 
 bool fe_set_param(ff_stage *stage, size_t param, ff_report *report)
 {
+    assert(param < stage->loaded->model->param_count);
     const ff_bound *bound = &stage->params[param];
     fe_instance *instance = stage->instance;
     if (!bound->present || bound->row->place)
@@ -85,6 +87,7 @@ static bool set(ff_stage *stage, ff_report *report)
 
 const void *fe_fetch_service(ff_stage *stage, uint32_t output, ff_report *report)
 {
+    assert(output < stage->loaded->model->output_count);
     const ff_model *model = stage->loaded->model;
     char what[200];
     fe_call call = fe_call_begin(stage, "service");
@@ -105,6 +108,7 @@ static const void *service_of(ff_stage *from, const ff_port *input, ff_report *r
 
 bool fe_wire_object(ff_stage *stage, size_t input, const void *service, ff_report *report)
 {
+    assert(input < stage->loaded->model->input_count);
     const ff_model *model = stage->loaded->model;
     if (!model->wire)
         return true;

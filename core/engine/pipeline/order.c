@@ -2,6 +2,7 @@
 /* Which stages run, why, and in which order. */
 #include "build.h"
 
+#include <assert.h>
 #include <stdlib.h>
 
 static void say_why(ff_pipeline *pipeline, ff_stage *stage)
@@ -82,6 +83,7 @@ static void report_cycle(fe_build *b, const ff_stage *first, ff_place place)
 /* Sorts depth first: a stage comes after those that feed it, but for feedback wires. */
 static void visit(fe_build *b, ff_stage *stage, size_t *sorted)
 {
+    assert(stage->instance->sorting == FE_NEW);
     ff_pipeline *pipeline = b->pipeline;
     stage->instance->sorting = FE_ENTERED;
     for (size_t i = 0; i < stage->wire_count; i++) {
@@ -105,6 +107,7 @@ void fe_sort_stages(fe_build *b)
     for (size_t i = 0; i < b->pipeline->count; i++)
         if (b->pipeline->stages[i].instance->sorting == FE_NEW)
             visit(b, &b->pipeline->stages[i], &sorted);
+    assert(sorted == b->pipeline->count);
     fe_find_loops(b);
     for (size_t i = b->pipeline->count; i-- > 0;) {
         ff_loop *loop = fe_loop_of(b->pipeline, &b->pipeline->stages[b->pipeline->order[i]]);

@@ -2,6 +2,7 @@
 /* Which wire an input is on, which output feeds it, and which outputs are wanted. */
 #include "build.h"
 
+#include <assert.h>
 #include <string.h>
 
 const char *fe_output_name(const ff_port *input)
@@ -11,10 +12,13 @@ const char *fe_output_name(const ff_port *input)
 
 const ff_wire *fe_input_wire(const ff_stage *stage, size_t input)
 {
+    assert(input < stage->loaded->model->input_count && stage->wire_count > 0);
     const ff_port *row = ff_model_input(stage->loaded->model, input);
     size_t i = 0;
-    while (!fe_is_on_wire(row->name, stage->wires[i].name))
+    while (!fe_is_on_wire(row->name, stage->wires[i].name)) {
         i++;
+        assert(i < stage->wire_count);
+    }
     return &stage->wires[i];
 }
 

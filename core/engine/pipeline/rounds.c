@@ -6,6 +6,7 @@
  */
 #include "build.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -327,6 +328,7 @@ static void leave(fe_loop_stage *m)
 bool fe_run_loop(ff_pipeline *pipeline, const ff_loop *loop, const ff_observer *watch,
                  ff_report *report)
 {
+    assert(loop->count > 0 && loop->first + loop->count <= pipeline->count);
     iteration it = {.pipeline = pipeline, .count = loop->count, .report = report};
     bool good = true, stopped = false, left = false;
     it.members = fe_alloc(loop->count * sizeof *it.members);

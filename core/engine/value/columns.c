@@ -5,6 +5,7 @@
 #include "memory.h"
 #include "text.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -93,6 +94,7 @@ static bool check_flags(const fe_column_reader *r, size_t k, size_t row, fe_fiel
 
 static bool read_number(fe_column_reader *r, size_t index, fe_field text, size_t row)
 {
+    assert(r->column_of[index] >= 0);
     fe_columns *c = r->c;
     size_t k = (size_t)r->column_of[index];
     const char *end = text.at, *name = c->asked[k]->name;

@@ -3,6 +3,7 @@
 
 #include <flankfilm/engine.h>
 
+#include <assert.h>
 #include <errno.h>
 #include <setjmp.h>
 #include <stdbool.h>
@@ -78,6 +79,7 @@ static void put_in(struct fe_block *block, struct fe_block **link)
 
 static void take_out(struct fe_block *block)
 {
+    assert(!block->link || *block->link == block);
     if (block->link)
         *block->link = block->next;
     if (block->next)
@@ -138,6 +140,7 @@ void ff_free(void *memory)
 
 void fe_resource_add(fe_resource *resource, void (*close)(void *object), void *object)
 {
+    assert(close);
     *resource = (fe_resource){.close = close, .object = object};
     if (!fe_heap_in_use())
         return;
@@ -150,6 +153,7 @@ void fe_resource_add(fe_resource *resource, void (*close)(void *object), void *o
 
 void fe_resource_remove(fe_resource *resource)
 {
+    assert(!resource->link || *resource->link == resource);
     if (resource->link)
         *resource->link = resource->next;
     if (resource->next)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
 #include "report.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
@@ -168,6 +169,7 @@ size_t ff_report_count(const ff_report *report)
 
 const ff_message *ff_report_at(const ff_report *report, size_t index)
 {
+    assert(index < report->count);
     return &report->messages[index];
 }
 

@@ -12,6 +12,7 @@
 #include "../memory/memory.h"
 #include "settings.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -53,6 +54,7 @@ static double weight_of(const double *at, size_t i, size_t count)
 
 double accuracy_typical(const double *values, const double *at, size_t count)
 {
+    assert(count > 0);
     weighed *all = memory_alloc(count * sizeof *all);
     double length = 0, sum = 0;
     size_t i = 0;
@@ -245,6 +247,9 @@ static double raise_to_largest(const accuracy_ladder *l, const double *all, cons
 double accuracy_estimate(const accuracy_ladder *l, double *error, double *shares,
                          double *by_tolerances)
 {
+    assert(l->answer && (l->half || l->twice));
+    assert(l->refined_count == 0 || l->refined);
+    assert(!l->loose == !l->tight);
     double *all = memory_alloc(l->count * sizeof *all);
     bool *typical = memory_alloc(l->count * sizeof *typical);
     mark_answer(l, typical);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "npy.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -33,6 +34,7 @@ static size_t print_shape(const size_t *shape, uint32_t rank, char *out, size_t 
 
 size_t arrays_npy_header(const size_t *shape, uint32_t rank, char header[ARRAYS_NPY_HEADER])
 {
+    assert(rank == 0 || shape);
     char *text = header + PREAMBLE;
     size_t room = ARRAYS_NPY_HEADER - PREAMBLE;
     size_t length =

@@ -3,6 +3,7 @@
 
 #include "../memory/memory.h"
 
+#include <assert.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multifit_nlinear.h>
 #include <gsl/gsl_qrng.h>
@@ -48,6 +49,7 @@ fit_axis fit_axis_of(const fit_param *param, size_t index)
 
 double fit_axis_value(const fit_axis *axis, double x)
 {
+    assert(axis->low <= axis->high);
     x = x > axis->low ? x : axis->low;
     x = x < axis->high ? x : axis->high;
     return axis->log ? exp(x) : x;
@@ -197,6 +199,7 @@ static void sample_starts(fit_search *s, start best[STARTS], double *residuals)
 
 bool fit_search_run(fit_search *s, double *x)
 {
+    assert(s->count > 0 && s->data->n > 0);
     start best[STARTS];
     double least = HUGE_VAL, *residuals = memory_alloc(s->data->n * sizeof *residuals);
     for (int k = 0; k < STARTS; k++)

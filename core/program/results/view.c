@@ -2,6 +2,7 @@
 #include "view.h"
 #include "view-tables.h"
 
+#include <assert.h>
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -13,6 +14,7 @@
 
 size_t results_view_point(const results_view *view, size_t index, size_t dimension)
 {
+    assert(dimension < view->dimension_count);
     size_t d;
     for (d = view->dimension_count; d-- > dimension + 1;)
         index /= view->lengths[d];
@@ -22,6 +24,7 @@ size_t results_view_point(const results_view *view, size_t index, size_t dimensi
 bool results_view_full_shape(const results_view *view, size_t variable, size_t index,
                              size_t shape[4])
 {
+    assert(variable < view->variable_count);
     size_t found[4] = {0};
     int32_t rank = view->shape(view->ctx, variable, index, found);
     uint32_t i, absent, full = view->variables[variable]->rank;

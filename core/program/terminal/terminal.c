@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "terminal.h"
 
+#include <assert.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
@@ -42,6 +43,7 @@ static int columns_of(const char *text, size_t length)
 
 void terminal_print_wrapped(const char *text, int column, int indent)
 {
+    assert(column >= 0 && indent >= 0);
     const char *gap = "";
     int width = terminal_width();
     while (*text) {
