@@ -20,7 +20,32 @@ static void cross(const double a[3], const double b[3], double c[3])
 
 dynamics_frame dynamics_frame_at(const dynamics_excitation *excitation, const dynamics_point *p)
 {
-    return (dynamics_frame){{p->x[0], p->x[1], p->lambda}, dynamics_state_unit(excitation, p->x)};
+    return (dynamics_frame){.origin = {p->x[0], p->x[1], p->lambda},
+                            .unit = dynamics_state_unit(excitation, p->x)};
+}
+
+void dynamics_scaled_tangent(const dynamics_frame *f, const dynamics_point *p, double tangent[3])
+{
+    tangent[0] = p->tangent[0] / f->unit;
+    tangent[1] = p->tangent[1] / f->unit;
+    tangent[2] = p->tangent[2];
+}
+
+void dynamics_point_of_cubic(const dynamics_frame *f, const double border[3],
+                             const dynamics_point *other, double s, double z[3])
+{
+    static const double straight = 0.5; /* cosine of the turn */
+    double place[3] = {(other->x[0] - f->origin[0]) / f->unit,
+                       (other->x[1] - f->origin[1]) / f->unit, other->lambda - f->origin[2]};
+    double tangent[3], length = dynamics_dot(place, border), x = s / length;
+    dynamics_scaled_tangent(f, other, tangent);
+    double cosine = dynamics_dot(tangent, border);
+    int turned = !(cosine > straight * sqrt(dynamics_dot(tangent, tangent)));
+    for (int k = 0; k < 3; k++) {
+        double off = place[k] - length * border[k];
+        double slope = turned ? 2 * off : length * (tangent[k] / cosine - border[k]);
+        z[k] = s * border[k] + x * x * (3 * off - slope + x * (slope - 2 * off));
+    }
 }
 
 static void return_rows(const dynamics_orbit *o, double unit, double rows[2][3])
@@ -56,10 +81,12 @@ int dynamics_bordered_newton(const dynamics_flow *flow, const dynamics_frame *f,
                              const double border[3], double tolerance, double z[3],
                              dynamics_orbit *o)
 {
-    static const double far = 2; /* from the origin of the frame: another motion */
+    static const double far = 2;          /* from the origin of the frame: another motion */
+    static const double promising = 1e-4; /* residual behind which one correction mostly suffices */
     double last = INFINITY;
     for (int i = 0; i < CORRECTIONS; i++) {
         set_orbit(f, z, o);
+        o->moments = f->moments && last < promising;
         if (!dynamics_orbit_map(flow, o))
             return 0;
         double residual = hypot(o->end[0] - o->x[0], o->end[1] - o->x[1]) / f->unit;

@@ -9,11 +9,20 @@
 /* Scaled coordinates about a point of the curve: (delta/unit, rate/unit, lambda). */
 typedef struct dynamics_frame {
     double origin[3], unit;
+    int moments; /* whether the solution may get its rms */
 } dynamics_frame;
 
 double dynamics_dot(const double a[3], const double b[3]);
 
 dynamics_frame dynamics_frame_at(const dynamics_excitation *excitation, const dynamics_point *p);
+
+void dynamics_scaled_tangent(const dynamics_frame *f, const dynamics_point *p, double tangent[3]);
+
+/* The point of a frame at the length s along the tangent `border` of its origin, on the cubic that
+   meets the curve and its tangent at the origin and at `other`; on the parabola that meets the
+   curve alone at `other` if its tangent has turned far. */
+void dynamics_point_of_cubic(const dynamics_frame *f, const double border[3],
+                             const dynamics_point *other, double s, double z[3]);
 
 /* Solves from z (in the frame), on the plane through it with the normal `border`, until the motion
    meets its start to `tolerance`. Then z and the orbit, whose period is set, are the solution; 0:

@@ -10,7 +10,8 @@
 
 enum { MOST_POINTS = 20000, FIRST_MARK = 64, MAX_SECANTS = 40 };
 
-static const double tolerance = 1e-10;                      /* of the return, in the state's unit */
+/* Of the return, in the state's unit: of a motion, and of a point on the way. */
+static const double tolerance = 1e-10, of_point = 1e-8;
 static const double first_step = 0.1, shortest_step = 1e-7; /* relative to the longest */
 static const double predicted = 2e-3; /* error of the prediction that the step aims at */
 static const double most_turn = 0.35; /* rad, of the tangent in a step */
@@ -26,7 +27,9 @@ static dynamics_point point_of(const dynamics_continuation_range *t, const dynam
         .doubling = dynamics_doubling_test(o),
         .largest = dynamics_largest_multiplier(o),
     };
-    if (t->moments && !dynamics_orbit_rms(t->flow, o, &p.rms))
+    if (o->moments)
+        p.rms = o->rms;
+    else if (t->moments && !dynamics_orbit_rms(t->flow, o, &p.rms))
         p.rms = 0;
     return p;
 }
@@ -47,28 +50,20 @@ static int append(dynamics_curve *c, const dynamics_point *p)
 
 /* A step of the continuation, from `from` by `ds` to `to`. */
 typedef struct stride {
-    dynamics_point from, to;
-    double ds;
-    dynamics_orbit orbit; /* at `to` */
-    double bend[3];       /* change of the tangent per arclength in the step before */
-    double half[2];       /* of the orbit at `from` */
-    double doubling,
-        before; /* test function at the point before `from`, and how far that lies back */
+    dynamics_point back, from, to; /* the one before `from`; there is none if `before` is 0 */
+    double ds, before;             /* the step, and the one that led to `from` */
+    dynamics_orbit orbit;          /* at `to` */
+    double half[2];                /* of the orbit at `from` */
 } stride;
 
-/* Solves for the point at arclength s of a stride whose end is known, from a parabola as a guess.
- */
+/* Solves for the point at arclength s of a stride whose end is known. */
 static int solve_in_stride(const dynamics_continuation_range *t, const stride *w, double s,
                            dynamics_orbit *o)
 {
     dynamics_frame f = dynamics_frame_at(t->flow->excitation, &w->from);
-    double u = f.unit,
-           border[3] = {w->from.tangent[0] / u, w->from.tangent[1] / u, w->from.tangent[2]};
-    double end[3] = {(w->to.x[0] - w->from.x[0]) / u, (w->to.x[1] - w->from.x[1]) / u,
-                     w->to.lambda - w->from.lambda};
-    double whole = dynamics_dot(border, end), x = s / whole, z[3];
-    for (int k = 0; k < 3; k++)
-        z[k] = s * border[k] + (end[k] - whole * border[k]) * x * x;
+    double border[3], z[3];
+    dynamics_scaled_tangent(&f, &w->from, border);
+    dynamics_point_of_cubic(&f, border, &w->to, s, z);
     return dynamics_bordered_newton(t->flow, &f, border, tolerance, z, o);
 }
 
@@ -87,12 +82,17 @@ static int find_root_of_test(const dynamics_continuation_range *t, const stride 
 {
     dynamics_bracket b = {0, at_start, arclength(t, w), at_end, 0};
     double whole = b.high;
+    stride near = *w; /* its end follows the root */
     int found = 0;
     for (int i = 0; i < MAX_SECANTS && b.high - b.low > 1e-10 * whole; i++) {
         double s = dynamics_bracket_secant(&b);
-        if (!solve_in_stride(t, w, s, o))
+        if (!solve_in_stride(t, &near, s, o))
             return found;
         found = 1;
+        near.to = (dynamics_point){.x = {o->x[0], o->x[1]}, .lambda = o->lambda};
+        if (!dynamics_curve_tangent(o, dynamics_state_unit(t->flow->excitation, o->x),
+                                    w->from.tangent, near.to.tangent))
+            near = *w;
         double f = test(o);
         if (fabs(f) < 1e-11 * (fabs(at_start) + fabs(at_end)))
             break;
@@ -124,7 +124,7 @@ static int is_halved(const dynamics_excitation *excitation, const dynamics_orbit
    speed and the test function is noise. */
 static int add_events(const dynamics_continuation_range *t, const stride *w, dynamics_curve *c)
 {
-    static const double noise = 1e-8;
+    static const double noise = 100 * of_point;
     dynamics_point found[2];
     double s[2];
     int count = 0;
@@ -169,7 +169,7 @@ static int hides_folds(double slope, double end_slope, double mean)
 /* The same for the doubling test, by the parabola through its last three values. */
 static int hides_doublings(const stride *w)
 {
-    double back = w->before, a = w->doubling, b = w->from.doubling;
+    double back = w->before, a = w->back.doubling, b = w->from.doubling;
     double c = dynamics_doubling_test(&w->orbit);
     if (back == 0 || a * b <= 0 || b * c <= 0)
         return 0;
@@ -179,34 +179,36 @@ static int hides_doublings(const stride *w)
     return lowest > 0 && lowest < w->ds && value / b < 0.3 * fmin(1, c / b);
 }
 
-/* Tries a step of w->ds: predicts to second order, corrects, and checks how far the tangent turned.
-   `error` is that of the prediction; 0: the step is too long. */
-static int try_stride(const dynamics_continuation_range *t, stride *w, double *error)
+/* Tries a step of w->ds: predicts, corrects, and checks how far the tangent turned. `error` is that
+   of the prediction, `turn` the angle; 0: the step is too long. */
+static int try_stride(const dynamics_continuation_range *t, stride *w, double *error, double *turn)
 {
     dynamics_frame f = dynamics_frame_at(t->flow->excitation, &w->from);
-    double u = f.unit, z[3], guess[3], ds = w->ds;
-    double border[3] = {w->from.tangent[0] / u, w->from.tangent[1] / u, w->from.tangent[2]};
+    double border[3], z[3], guess[3], ds = w->ds;
+    dynamics_scaled_tangent(&f, &w->from, border);
     for (int k = 0; k < 3; k++)
-        guess[k] = z[k] = ds * border[k] + 0.5 * ds * ds * w->bend[k] / (k < 2 ? u : 1);
-    if (!dynamics_bordered_newton(t->flow, &f, border, tolerance, z, &w->orbit))
+        z[k] = ds * border[k];
+    if (w->before > 0)
+        dynamics_point_of_cubic(&f, border, &w->back, ds, z);
+    memcpy(guess, z, sizeof guess);
+    f.moments = t->moments;
+    if (!dynamics_bordered_newton(t->flow, &f, border, of_point, z, &w->orbit))
         return 0;
     double miss[3] = {z[0] - guess[0], z[1] - guess[1], z[2] - guess[2]}, tangent[3];
     *error = sqrt(dynamics_dot(miss, miss));
     w->to = (dynamics_point){.x = {w->orbit.x[0], w->orbit.x[1]}, .lambda = w->orbit.lambda};
     if (!dynamics_curve_tangent(&w->orbit, dynamics_state_unit(t->flow->excitation, w->to.x),
-                                w->from.tangent, tangent))
+                                w->from.tangent, w->to.tangent))
         return 0;
-    double scaled[3] = {tangent[0] / u, tangent[1] / u, tangent[2]};
-    double size = sqrt(dynamics_dot(scaled, scaled));
-    double cosine = dynamics_dot(scaled, border) / (size * sqrt(dynamics_dot(border, border)));
+    dynamics_scaled_tangent(&f, &w->to, tangent);
+    double size = sqrt(dynamics_dot(tangent, tangent));
+    double cosine = dynamics_dot(tangent, border) / (size * sqrt(dynamics_dot(border, border)));
     int kink = ds < 1e-3 * t->step; /* grazing bends the curve sharply */
-    if (*error > 0.5 * ds || (cosine < cos(most_turn) && !kink))
+    *turn = acos(fmin(fmax(cosine, -1), 1));
+    if (*error > 0.5 * ds || (*turn > most_turn && !kink))
         return 0;
-    if (ds > 1e-2 * t->step &&
-        (hides_folds(border[2], scaled[2] / size, z[2] / ds) || hides_doublings(w)))
-        return 0;
-    memcpy(w->to.tangent, tangent, sizeof tangent);
-    return 1;
+    return ds <= 1e-2 * t->step ||
+           !(hides_folds(border[2], tangent[2] / size, z[2] / ds) || hides_doublings(w));
 }
 
 /* Ends the stride at the bound of the range that it passes; 0: no motion was found there. */
@@ -308,17 +310,12 @@ static int beyond_cap(const dynamics_excitation *excitation, const dynamics_poin
     return !(fabs(p->x[0]) < limit && fabs(p->x[1]) < limit);
 }
 
-static double next_step(const dynamics_continuation_range *t, double ds, double error)
+/* The prediction errs by the fourth power of the step, and where the curve bends evenly the tangent
+   turns as the step is long. */
+static double next_step(const dynamics_continuation_range *t, double ds, double error, double turn)
 {
-    double growth = error > 0 ? cbrt(predicted / error) : 2;
+    double growth = fmin(error > 0 ? sqrt(sqrt(predicted / error)) : 2, 0.8 * most_turn / turn);
     return fmin(ds * fmin(fmax(growth, 0.5), 1.6), t->step);
-}
-
-/* Sets the bend of the curve from the tangents at both ends of a step. */
-static void set_bend(stride *w)
-{
-    for (int k = 0; k < 3; k++)
-        w->bend[k] = (w->to.tangent[k] - w->from.tangent[k]) / w->ds;
 }
 
 /* Whether the curve ends with this stride, which may be cut short then. */
@@ -350,7 +347,7 @@ static ff_status follow_one_way(const dynamics_continuation_range *t, const dyna
                                 const dynamics_point *start, dynamics_curve *c,
                                 dynamics_curve_end *why)
 {
-    double error = 0;
+    double error = 0, turn = 0;
     mark first, recent;
     stride w = {.from = *start, .ds = first_step * t->step, .orbit = *orbit};
     memcpy(w.half, orbit->half, sizeof w.half);
@@ -362,7 +359,7 @@ static ff_status follow_one_way(const dynamics_continuation_range *t, const dyna
         if (i % 64 == 0 && t->host->progress(t->host->ctx, t->done))
             return FF_STOPPED;
         w.orbit.period = orbit->period;
-        if (!try_stride(t, &w, &error)) {
+        if (!try_stride(t, &w, &error, &turn)) {
             w.ds *= 0.5;
             if (w.ds < shortest_step * t->step)
                 return FF_OK;
@@ -382,15 +379,14 @@ static ff_status follow_one_way(const dynamics_continuation_range *t, const dyna
             return FF_NOMEM;
         if (last)
             return FF_OK;
-        set_bend(&w);
         int power_of_two = (c->count & (c->count - 1)) == 0; /* Brent's way to find a loop */
         if (c->count >= FIRST_MARK && power_of_two && !set_mark(t->flow, &w.orbit, &recent))
             return FF_OK;
-        w.doubling = w.from.doubling;
         w.before = w.ds;
+        w.back = w.from;
         w.from = w.to;
         memcpy(w.half, w.orbit.half, sizeof w.half);
-        w.ds = next_step(t, w.ds, error);
+        w.ds = next_step(t, w.ds, error, turn);
     }
 }
 

@@ -50,7 +50,7 @@ static void measure_growth(const dynamics_flow *flow, double T, dynamics_attract
     int n = 0;
     for (; n < GROWTH_CYCLES; n++) {
         dynamics_state y = dynamics_state_at(x[0], x[1]);
-        if (!dynamics_flow_variation(flow, T, &y))
+        if (!dynamics_flow_variation(flow, T, &y, NULL))
             break;
         double w[2] = {y.m[0] * v[0] + y.m[1] * v[1], y.m[2] * v[0] + y.m[3] * v[1]};
         double size = hypot(w[0], w[1]);

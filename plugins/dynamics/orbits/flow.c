@@ -473,9 +473,14 @@ int dynamics_flow_motion(const dynamics_flow *flow, double T, dynamics_state *st
     return follow_cycle(&r);
 }
 
-int dynamics_flow_variation(const dynamics_flow *flow, double T, dynamics_state *state)
+int dynamics_flow_variation(const dynamics_flow *flow, double T, dynamics_state *state,
+                            const dynamics_observer *observer)
 {
-    dynamics_run r = {
-        .flow = flow, .excitation = flow->excitation, .T = T, .y = state, .variation = 1};
+    dynamics_run r = {.flow = flow,
+                      .excitation = flow->excitation,
+                      .T = T,
+                      .y = state,
+                      .observer = observer,
+                      .variation = 1};
     return follow_cycle(&r);
 }

@@ -69,7 +69,8 @@ void dynamics_flow_films(const dynamics_flow *flow, double T, const double x[2],
    may be NULL. 0: too many steps. */
 int dynamics_flow_motion(const dynamics_flow *flow, double T, dynamics_state *state,
                          const dynamics_observer *observer);
-int dynamics_flow_variation(const dynamics_flow *flow, double T, dynamics_state *state);
+int dynamics_flow_variation(const dynamics_flow *flow, double T, dynamics_state *state,
+                            const dynamics_observer *observer);
 
 /* The start state of a motion, at which M = 1; and one with known films. */
 dynamics_state dynamics_state_at(double delta, double rate);

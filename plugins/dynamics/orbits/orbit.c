@@ -30,15 +30,23 @@ dynamics_state dynamics_orbit_start(const dynamics_orbit *o)
                           : dynamics_state_at(o->x[0], o->x[1]);
 }
 
+static double rms_of(const dynamics_trajectory *trace, double time)
+{
+    double mean = trace->sum / time;
+    return sqrt(fmax(trace->square / time - mean * mean, 0));
+}
+
 int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit)
 {
     assert(orbit->period >= 1 && orbit->period <= DYNAMICS_PERIOD_MAX);
     double T = dynamics_cycle_duration(orbit->lambda);
     if (flow->excitation->film)
         dynamics_films_start(flow, T, orbit);
+    dynamics_trajectory trace = {.origin = orbit->x[0]};
+    dynamics_observer moments = {dynamics_trajectory_observe_moments, &trace};
     dynamics_state y = dynamics_orbit_start(orbit);
     for (int i = 0; i < orbit->period; i++) {
-        if (!dynamics_flow_variation(flow, T, &y))
+        if (!dynamics_flow_variation(flow, T, &y, orbit->moments ? &moments : NULL))
             return 0;
         double now[2] = {y.delta, y.rate};
         if (dynamics_is_unbounded(flow->excitation, now[0], now[1]))
@@ -52,6 +60,7 @@ int dynamics_orbit_map(const dynamics_flow *flow, dynamics_orbit *orbit)
     orbit->slope[1] = -T * y.change[1];
     memcpy(orbit->m, y.m, sizeof orbit->m);
     orbit->det = y.det;
+    orbit->rms = rms_of(&trace, orbit->period * T);
     if (flow->excitation->film)
         dynamics_films_eliminate(&y, T, orbit);
     return 1;
@@ -156,8 +165,7 @@ int dynamics_orbit_rms(const dynamics_flow *flow, const dynamics_orbit *orbit, d
     for (int i = 0; i < orbit->period; i++)
         if (!dynamics_flow_motion(flow, T, &y, &observer))
             return 0;
-    double time = orbit->period * T, mean = trace.sum / time;
-    *rms = sqrt(fmax(trace.square / time - mean * mean, 0));
+    *rms = rms_of(&trace, orbit->period * T);
     return 1;
 }
 

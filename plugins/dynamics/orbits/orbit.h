@@ -36,6 +36,8 @@ typedef struct dynamics_orbit {
     double m[4];     /* monodromy: derivative of `end` by x */
     double slope[2]; /* derivative of `end` by lambda */
     double det;      /* of m, as the product over all steps, free of cancellation */
+    int moments;     /* whether the map finds the rms, too */
+    double rms;      /* as dynamics_orbit_rms has it */
     dynamics_films films;
 } dynamics_orbit;
 

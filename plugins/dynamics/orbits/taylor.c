@@ -49,6 +49,15 @@ static const double share[] = {0,       1.,      1. / 2,  1. / 3,  1. / 4,  1. /
                                1. / 21, 1. / 22, 1. / 23, 1. / 24, 1. / 25, 1. / 26, 1. / 27,
                                1. / 28, 1. / 29, 1. / 30};
 
+/* sum += factor x, in one vector, which gcc makes of a loop that it does not unroll first. */
+FF_SIMD_INLINE void add_product(double factor, const double *restrict x, int columns,
+                                double *restrict sum)
+{
+#pragma GCC unroll 1
+    for (int j = 0; j < columns; j++)
+        sum[j] += factor * x[j];
+}
+
 /* The recurrence of the coefficients of t/h, from the equation in taylor.h with straight k and e:
 
      n (n - 1) c_n = -damper h (n - 1) c_(n-1) - k_0 h^2 c_(n-2) - k_1 h^3 c_(n-3).
@@ -99,11 +108,17 @@ FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int
         degree--;
     for (int n = 2; n <= DYNAMICS_ORDER_MAX; n++) {
         double fa = -a * share[n], f = -share[n] * share[n - 1], sum[DYNAMICS_COLUMNS] = {0};
-        for (int i = 0; i <= degree && i <= n - 2; i++)
-            for (int j = 0; j < columns; j++)
-                sum[j] += k[i] * c[n - 2 - i][j];
+        int last = degree < n - 2 ? degree : n - 2;
+        if (last == DYNAMICS_DEGREE) /* most often: a loop of known length */
+            for (int i = 0; i <= DYNAMICS_DEGREE; i++)
+                add_product(k[i], c[n - 2 - i], columns, sum);
+        for (int i = 0; last < DYNAMICS_DEGREE && i <= last; i++)
+            add_product(k[i], c[n - 2 - i], columns, sum);
         for (int j = 0; j < columns; j++)
-            c[n][j] = fa * c[n - 1][j] + f * sum[j];
+            sum[j] *= f;
+        add_product(fa, c[n - 1], columns, sum);
+        for (int j = 0; j < columns; j++)
+            c[n][j] = sum[j];
         if (n == 2)
             c[n][0] += 0.5 * q->load * h * h;
         if (q->drags && n - 2 <= q->degree)

@@ -220,7 +220,7 @@ static int take_monodromy(const dynamics_flow *flow, const double x[2], dynamics
 {
     dynamics_state y = start_of(x, motion);
     for (size_t i = 0; i < motion->cycles; i++)
-        if (!dynamics_flow_variation(flow, motion->T, &y))
+        if (!dynamics_flow_variation(flow, motion->T, &y, NULL))
             return 0;
     memcpy(motion->monodromy, y.m, sizeof motion->monodromy);
     dynamics_films_monodromy(&y, motion->in_oil);

@@ -182,7 +182,7 @@ static void check_derivatives(int rolling)
         x[3] = 2 * 6.43;
     dynamics_flow_films(&f.flow, T, x, 1, &x[2]);
     dynamics_state y = dynamics_state_in_oil(x[0], x[1], &x[2]);
-    check_true("varies", dynamics_flow_variation(&f.flow, T, &y));
+    check_true("varies", dynamics_flow_variation(&f.flow, T, &y, NULL));
     for (int c = 0; c < 5; c++) {
         double end[2][4];
         for (int side = 0; side < 2; side++) {

@@ -117,7 +117,7 @@ static void test_variation(void)
     open_mesh(&c, 1.3, 1.2, 3);
     c.mesh.zeta = 0.03;
     dynamics_state y = dynamics_state_at(at[0], at[1]);
-    check_true("passes", dynamics_flow_variation(&c.flow, T, &y));
+    check_true("passes", dynamics_flow_variation(&c.flow, T, &y, NULL));
     for (int j = 0; j < 2; j++) {
         dynamics_state up = dynamics_state_at(at[0] + (j ? 0 : h), at[1] + (j ? h : 0));
         dynamics_state down = dynamics_state_at(at[0] - (j ? 0 : h), at[1] - (j ? h : 0));
