@@ -362,12 +362,11 @@ static void report_shared(const ff_host *host, const dynamics_force_levels *l, d
 
 /* The spring at the nodes of the curves. */
 static ff_status make_spring(const ff_host *host, const ff_array *in, const dynamics_inputs *inputs,
-                             const dynamics_mesh_curves *curves,
                              const dynamics_excitation *excitation, dynamics_spring_nodes *spring)
 {
     double force = inputs->line_force, convex;
     if (!excitation->shared)
-        return dynamics_spring_nodes_make(curves, in[DYNAMICS_IN_LOADED_ERROR].data, force,
+        return dynamics_spring_nodes_make(&inputs->curves, inputs->loaded_error, force,
                                           excitation->on_chord, spring)
                    ? FF_OK
                    : FF_NOMEM;
@@ -383,17 +382,12 @@ static ff_status make_spring(const ff_host *host, const ff_array *in, const dyna
 static ff_status build_excitation(const ff_host *host, const ff_array *in,
                                   const dynamics_inputs *inputs, dynamics_excitation *excitation)
 {
-    dynamics_mesh_curves curves = {
-        .count = in[DYNAMICS_IN_PHASE].shape[0],
-        .phase = in[DYNAMICS_IN_PHASE].data,
-        .stiffness = in[DYNAMICS_IN_STIFFNESS].data,
-        .error = in[DYNAMICS_IN_TRANSMISSION_ERROR].data,
-    };
     dynamics_spring_nodes spring = {0};
-    ff_status status = make_spring(host, in, inputs, &curves, excitation, &spring);
+    ff_status status = make_spring(host, in, inputs, excitation, &spring);
     if (status != FF_OK)
         return status;
-    int built = dynamics_excitation_build_bent(excitation, &curves, spring.rows ? &spring : NULL);
+    int built =
+        dynamics_excitation_build_bent(excitation, &inputs->curves, spring.rows ? &spring : NULL);
     report_spring(host, &spring);
     report_damping(host, excitation);
     dynamics_spring_nodes_free(&spring);
@@ -418,6 +412,13 @@ ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,
     if (status != FF_OK)
         return status;
     read_stations(in, inputs);
+    inputs->curves = (dynamics_mesh_curves){
+        .count = in[DYNAMICS_IN_PHASE].shape[0],
+        .phase = in[DYNAMICS_IN_PHASE].data,
+        .stiffness = in[DYNAMICS_IN_STIFFNESS].data,
+        .error = in[DYNAMICS_IN_TRANSMISSION_ERROR].data,
+    };
+    inputs->loaded_error = in[DYNAMICS_IN_LOADED_ERROR].data;
     double stiffness = in[DYNAMICS_IN_STIFFNESS_MEAN].data[0];
     inputs->line_force = in[DYNAMICS_IN_LINE_FORCE].data[0];
     inputs->mesh_frequency = in[DYNAMICS_IN_MESH_FREQUENCY].data[0];

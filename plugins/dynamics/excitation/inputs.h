@@ -90,6 +90,8 @@ typedef struct dynamics_inputs {
     double line_force, mesh_frequency, natural_frequency; /* N, Hz, Hz */
     size_t stations;
     const double *roll_angle, *tooth_force, *load_share; /* load_share may be NULL */
+    dynamics_mesh_curves curves;
+    const double *loaded_error; /* m, at the phases of the curves; NULL: not known */
     dynamics_force_levels levels;
     int shared; /* whether the motion follows these, and a pair's share the mesh force */
     double roll_sap, pitch; /* rad; pitch: roll angle of one mesh cycle */

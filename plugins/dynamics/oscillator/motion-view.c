@@ -221,7 +221,8 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
         between = look_between(view, newton, inputs, 1);
         report_sampling(view, newton, &between, inputs, host);
     }
-    dynamics_sharing_report(inputs, st->least_force * newton, st->force * newton, host);
+    dynamics_sharing_report(inputs, excitation->on_chord, st->least_force * newton,
+                            st->force * newton, host);
     /* NaN: not looked for, which leaves the factor out */
     double tooth = looked ? between.largest * newton : NAN;
     const struct {

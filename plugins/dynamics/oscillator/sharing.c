@@ -161,8 +161,56 @@ dynamics_sharing_change dynamics_sharing_change_at(const dynamics_force_levels *
     return found;
 }
 
-void dynamics_sharing_report(const dynamics_inputs *inputs, double least, double largest,
-                             const ff_host *host)
+/* The force of a frozen spring at node i and deflection g, N. */
+static double frozen_force(const dynamics_mesh_curves *curves, const dynamics_spring_nodes *nodes,
+                           size_t i, double g)
+{
+    const double *k = nodes->stiffness ? nodes->stiffness : curves->stiffness;
+    return nodes->lines ? force_of(nodes, i, g) : k[i] * g;
+}
+
+double dynamics_slope_change(const dynamics_inputs *inputs, int on_chord, double least,
+                             double largest)
+{
+    const dynamics_force_levels *l = &inputs->levels;
+    dynamics_spring_nodes mesh, frozen = {0};
+    double convex, mean = inputs->line_force, of_mesh = 0, of_frozen = 0;
+    int made =
+        dynamics_spring_nodes_share(l, mean, 1, &mesh, &convex) &&
+        dynamics_spring_nodes_make(&inputs->curves, inputs->loaded_error, mean, on_chord, &frozen);
+    least = fmax(least, 0);
+    largest = fmin(largest, l->force[l->count - 1]);
+    for (size_t i = 0; made && i < l->phases; i++) {
+        double from = deflection_of(&mesh, i, least), to = deflection_of(&mesh, i, largest);
+        of_mesh += (largest - least) / (to - from);
+        of_frozen += (frozen_force(&inputs->curves, &frozen, i, to) -
+                      frozen_force(&inputs->curves, &frozen, i, from)) /
+                     (to - from);
+    }
+    dynamics_spring_nodes_free(&mesh);
+    dynamics_spring_nodes_free(&frozen);
+    return made ? of_mesh / of_frozen - 1 : NAN;
+}
+
+static void report_slope(const dynamics_inputs *inputs, int on_chord, double least, double largest,
+                         const ff_host *host)
+{
+    static const double limit = 0.02;
+    double change = dynamics_slope_change(inputs, on_chord, least, largest);
+    int known = largest <= inputs->levels.force[inputs->levels.count - 1];
+    char text[320];
+    snprintf(text, sizeof text,
+             "between the least and the largest mesh force of the motion the mesh is on the mean "
+             "%.3g %% %s than the spring of the mean load that the motion takes, so that its "
+             "resonances lie some %.2g %% %s%s",
+             100 * fabs(change), change < 0 ? "softer" : "steeper", 50 * fabs(change),
+             change < 0 ? "lower" : "higher", known ? "" : "; larger forces are not known");
+    host->quality(host->ctx, "slope_change", fabs(change), limit,
+                  fabs(change) <= limit && known ? FF_GOOD : FF_RANGE, text);
+}
+
+void dynamics_sharing_report(const dynamics_inputs *inputs, int on_chord, double least,
+                             double largest, const ff_host *host)
 {
     static const double limit = 0.02;
     const dynamics_force_levels *l = &inputs->levels;
@@ -172,8 +220,11 @@ void dynamics_sharing_report(const dynamics_inputs *inputs, double least, double
         report_levels(inputs, least, largest, host);
         return;
     }
-    if (l->count < 2 || !l->stiffness || !l->tooth_force || !(mean > 0) ||
-        !(largest - least > 1e-9 * mean))
+    if (l->count < 2 || !(mean > 0) || !(largest - least > 1e-9 * mean))
+        return;
+    if (l->error)
+        report_slope(inputs, on_chord, least, largest, host);
+    if (!l->stiffness || !l->tooth_force)
         return;
     dynamics_sharing_change low = dynamics_sharing_change_at(l, mean, least);
     dynamics_sharing_change high = dynamics_sharing_change_at(l, mean, largest);

@@ -21,10 +21,17 @@ dynamics_sharing_change dynamics_sharing_change_at(const dynamics_force_levels *
    out; beyond the last level, that one, too. -1: out of memory. */
 double dynamics_level_error(const dynamics_inputs *inputs, double least, double largest);
 
-/* The line force_levels of a shared force; else the line sharing_change, by the least and the
-   largest mesh force of the motion, N; none where the stiffness does not know its levels or the
-   force is constant. */
-void dynamics_sharing_report(const dynamics_inputs *inputs, double least, double largest,
-                             const ff_host *host);
+/* Of a frozen force: by how much the chord of the mesh between its errors at the forces `least` and
+   `largest`, N, is steeper than that of the frozen spring between the same errors, on the mean over
+   the phases; the levels have errors. A natural frequency changes by half of it. NAN: out of
+   memory. */
+double dynamics_slope_change(const dynamics_inputs *inputs, int on_chord, double least,
+                             double largest);
+
+/* The line force_levels of a shared force; else the lines slope_change and sharing_change, by the
+   least and the largest mesh force of the motion, N; none where the stiffness does not know its
+   levels or the force is constant. `on_chord` as in excitation.h. */
+void dynamics_sharing_report(const dynamics_inputs *inputs, int on_chord, double least,
+                             double largest, const ff_host *host);
 
 #endif

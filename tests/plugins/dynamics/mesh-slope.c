@@ -343,27 +343,34 @@ static void test_landing_at_jump(void)
 
 enum { LEVELS = 5 };
 
-/* Gives a stiffness that knows, at five forces, a slope that falls to 0.7 times itself and a tooth
-   force that is a line over the mesh force, so that the share of a pair is off by d (1/F_1 - 1/F)
-   between two of them. */
+/* Gives a stiffness that knows, at five forces, a slope that is twice itself above `knee` times the
+   mean force and a tooth force that is a line over the mesh force, so that the share of a pair is
+   off by d (1/F_1 - 1/F) between two of them. */
+static const double knee = 1.05;
+
 static void give_levels(stage *s, const pair *p, double d, size_t rows)
 {
     static double slope[LEVELS * PAIR_MAX_PHASES], teeth[LEVELS * PAIR_STATIONS];
+    static double error[LEVELS * PAIR_MAX_PHASES];
     double force[LEVELS];
     for (size_t k = 0; k < LEVELS; k++) {
         force[k] = 0.5 * (double)k * p->line_force;
-        for (size_t i = 0; i < p->phases; i++)
-            slope[k * p->phases + i] = p->stiffness[i] * (k < 2 ? 0.7 : 1);
+        for (size_t i = 0; i < p->phases; i++) {
+            double above = fmax(force[k] - knee * p->line_force, 0);
+            slope[k * p->phases + i] = p->stiffness[i] * (above > 0 ? 2 : 1);
+            error[k * p->phases + i] = p->error[i] + (force[k] - above / 2) / p->stiffness[i];
+        }
         for (size_t i = 0; i < PAIR_STATIONS; i++)
             teeth[k * PAIR_STATIONS + i] = k ? 0.4 * force[k] + d * (i == 7) * p->line_force : 0;
     }
     const size_t phases[] = {rows, p->phases}, stations[] = {rows, PAIR_STATIONS};
     stage_give_series(s, "stiffness.force_level", LEVELS, force);
+    stage_give(s, "stiffness.level_error", 2, phases, error);
     stage_give(s, "stiffness.level_stiffness", 2, phases, slope);
     stage_give(s, "stiffness.level_tooth_force", 2, stations, teeth);
 }
 
-/* The line sharing_change against the forces that the motion shows. */
+/* The lines sharing_change and slope_change against the forces that the motion shows. */
 static void test_sharing(void)
 {
     static const char *const models[] = {"dynamics/shooting", "dynamics/time-integration",
@@ -384,13 +391,17 @@ static void test_sharing(void)
         check_true("the flanks do not part", low > 0.5 && high < 2);
         check_near("change of the share", stage_quality(s, "sharing_change"),
                    d * fmax(1 / low - 1, 1 - 1 / high), 1e-9);
+        double above = fmax(high - knee, 0) / 2, steeper = above / (high - low - above);
+        check_near("change of the slope", stage_quality(s, "slope_change"), steeper, 1e-9);
+        check_true("is told", steeper > 0.02 && stage_verdict(s) == FF_DOUBTFUL);
         check_true("the larger is told", (stage_quality(s, "sharing_change") > 0.02) == (i >= 3));
         stage_close(s);
     }
     pair p = pair_trapezoid(2375);
     stage *s = pair_open("dynamics/shooting", &p);
     check_true("runs", stage_run(s) == FF_OK);
-    check_true("no line without levels", !stage_has_quality(s, "sharing_change"));
+    check_true("no line without levels",
+               !stage_has_quality(s, "sharing_change") && !stage_has_quality(s, "slope_change"));
     give_levels(s, &p, 0.1, LEVELS - 1);
     check_true("a row is missing", stage_run(s) == FF_INVALID);
     stage_close(s);
