@@ -260,6 +260,7 @@ study:
                 (TWO + "    conditions: [sum < 1 mm]\n", "a condition is about one of the outputs"),
                 (TWO + "    conditions: [wave.total < 1 N]\n", "wave.total < 1 N"),
                 (TWO + "    percentiles: [5]\n", "a percentile is a share"),
+                (TWO + "    percentiles: [0.5 x]\n", "a percentile is a share"),
                 (TWO + "    ladder: {short: {wave.amplitude: 1 mm}}\n", "an uncertain input sets it"),
                 (TWO + "    ladder: {short: {cost: 1 %}}\n", "it changes nothing"),
                 (TWO + "    ladder: {short: {wave.count: 4, cost: cheap}}\n", "a cost is a share"),

@@ -33,6 +33,30 @@ bool study_read_number(const char *text, double *number, const char **end)
     return stop != text && strspn(text + sign, "0123456789.") > 0;
 }
 
+bool study_read_share(const char *text, double *share)
+{
+    const char *end = text;
+    bool good = text && study_read_number(text, share, &end);
+    end += good ? strspn(end, " ") : 0;
+    if (good && *end == '%')
+        *share /= 100, end++;
+    return good && *end == '\0';
+}
+
+bool study_read_quantity(study_context *context, const ff_node *node, const char *name,
+                         const char *hint, study_quantity *q)
+{
+    char why[200];
+    const char *word = study_word(node);
+    if (!word || !ff_number_parse(word, &q->number, &q->text))
+        return ff_error(context->report, FF_FAULT_INPUT, node ? node->place : FF_NOWHERE, hint,
+                        "%s: %.80s: expected a number with its unit", context->name, name);
+    q->text += strspn(q->text, " ");
+    return ff_unit_parse(q->text, &q->unit, why, sizeof why) ||
+           ff_error(context->report, FF_FAULT_INPUT, node->place, NULL,
+                    "%s: %.80s: the unit \"%.40s\" %s", context->name, name, q->text, why);
+}
+
 const char *study_text_of(const json_t *map, const char *key)
 {
     const char *text = json_string_value(json_object_get(map, key));

@@ -20,6 +20,20 @@ void study_line_print(const study_context *context, study_line *line, int indent
    is none. */
 bool study_read_number(const char *text, double *number, const char **end);
 
+/* Reads a share such as "0.01" or "1 %"; false where the text, which may be NULL, is none. */
+bool study_read_share(const char *text, double *share);
+
+/* A number with its unit, as it is written. */
+typedef struct study_quantity {
+    double number;
+    const char *text; /* of the unit, "" without one */
+    ff_unit unit;
+} study_quantity;
+
+/* Reads one; reports that the key of that name has none. */
+bool study_read_quantity(study_context *context, const ff_node *node, const char *name,
+                         const char *hint, study_quantity *quantity);
+
 /* Return a member of a JSON object; "" or NaN when it is missing. */
 const char *study_text_of(const json_t *map, const char *key);
 double study_number_of(const json_t *map, const char *key);

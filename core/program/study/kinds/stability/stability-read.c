@@ -208,23 +208,12 @@ static bool read_kinds(study_map *map)
            read_physical(map) && read_notes(map);
 }
 
-/* Reads a share such as "0.01" or "1 %". */
-static bool read_share(const char *text, double *share)
-{
-    const char *end = text;
-    bool good = text && study_read_number(text, share, &end);
-    end += good ? strspn(end, " ") : 0;
-    if (good && *end == '%')
-        *share /= 100, end++;
-    return good && *end == '\0';
-}
-
 static bool read_tolerance(study_map *map)
 {
     const ff_node *tolerance = map->values[MAP_TOLERANCE].node;
     map->tolerance = 0.01;
     return !tolerance ||
-           (read_share(study_word(tolerance), &map->tolerance) && map->tolerance > 0) ||
+           (study_read_share(study_word(tolerance), &map->tolerance) && map->tolerance > 0) ||
            refuse(map, tolerance, NULL, "\"tolerance\" is a share such as 1 %");
 }
 

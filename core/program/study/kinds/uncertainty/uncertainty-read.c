@@ -62,12 +62,10 @@ static bool read_percentiles(study_uncertainty *u, const ff_node *list)
         return refuse(u, list, "write percentiles: [5 %, 50 %, 95 %]",
                       "\"percentiles\" is a list of at most 16 shares");
     for (size_t i = 0; i < u->share_count; i++) {
-        const char *word = list ? study_word(list->items[i]) : NULL, *end = "";
         double *share = &u->shares[i];
-        *share = list ? (double)NAN : usual[i];
-        if (word && study_read_number(word, share, &end) && !strcmp(end + strspn(end, " "), "%"))
-            *share /= 100;
-        if (!(*share > 0 && *share < 1))
+        *share = usual[list ? 0 : i];
+        if ((list && !study_read_share(study_word(list->items[i]), share)) ||
+            !(*share > 0 && *share < 1))
             return refuse(u, list->items[i], NULL, "a percentile is a share such as 5 %");
     }
     return true;
@@ -109,14 +107,9 @@ static bool read_conditions(study_uncertainty *u, const ff_node *list)
 /* The cost of a level: a share of that of a case as the file stands. */
 static bool read_cost(const study_uncertainty *u, const ff_node *node, uncertainty_patch *patch)
 {
-    const char *word = study_word(node), *end = "";
-    if (!word || !study_read_number(word, &patch->cost, &end) || !(patch->cost > 0) ||
-        (*end && strcmp(end + strspn(end, " "), "%") != 0))
-        return refuse(u, node, NULL,
-                      "a cost is a share of that of a case as the file stands, such as 2 %");
-    if (*end)
-        patch->cost /= 100;
-    return true;
+    return (study_read_share(study_word(node), &patch->cost) && patch->cost > 0) ||
+           refuse(u, node, NULL,
+                  "a cost is a share of that of a case as the file stands, such as 2 %");
 }
 
 static bool read_patch(const study_uncertainty *u, const char *name, const ff_node *map,

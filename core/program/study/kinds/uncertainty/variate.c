@@ -30,53 +30,38 @@ static bool refuse(study_context *context, const ff_node *at, const char *name, 
                     "%s: %.80s: %s", context->name, name, what);
 }
 
-/* Reads a number with its unit; *end is set to the unit's text. */
-static bool read_number(study_context *context, const ff_node *node, const char *name,
-                        double *number, const char **text, ff_unit *unit)
-{
-    char why[200];
-    const char *word = study_word(node);
-    if (!word || !ff_number_parse(word, number, text))
-        return refuse(context, node, name, hint, "expected a number with its unit");
-    *text += strspn(*text, " ");
-    return ff_unit_parse(*text, unit, why, sizeof why) ||
-           ff_error(context->report, FF_FAULT_INPUT, node->place, NULL,
-                    "%s: %.80s: the unit \"%.40s\" %s", context->name, name, *text, why);
-}
-
 /* A spread in percent is that of the number before it; another one is in a unit of its own. */
 static bool read_spread(study_context *context, const ff_node *node, variate *v,
                         const ff_unit *unit)
 {
-    ff_unit own;
-    const char *text;
-    double number;
-    if (!read_number(context, node, v->name, &number, &text, &own))
+    study_quantity q;
+    if (!study_read_quantity(context, node, v->name, hint, &q))
         return false;
-    if (!strcmp(text, "%")) {
+    if (!strcmp(q.text, "%")) {
         if (unit->offset != 0)
             return refuse(context, node, v->name, "such as 3 K",
                           "a spread of a temperature is a number of kelvin");
-        v->b = number / 100 * fabs(v->a);
-    } else if (!ff_unit_same_dimension(&own, unit)) {
+        v->b = q.number / 100 * fabs(v->a);
+    } else if (!ff_unit_same_dimension(&q.unit, unit)) {
         return refuse(context, node, v->name, NULL,
                       "the spread has another dimension than the number before it");
     } else {
-        v->b = number * own.factor / unit->factor;
+        v->b = q.number * q.unit.factor / unit->factor;
     }
     return v->b >= 0 || refuse(context, node, v->name, NULL, "a spread is not negative");
 }
 
 static bool read_pair(study_context *context, const ff_node *list, variate *v)
 {
-    ff_unit unit, other;
-    const char *text;
+    study_quantity first, second;
     if (list->kind != FF_SEQUENCE || list->count != 2)
         return refuse(context, list, v->name, hint, "expected two numbers");
-    if (!read_number(context, list->items[0], v->name, &v->a, &v->unit, &unit))
+    if (!study_read_quantity(context, list->items[0], v->name, hint, &first))
         return false;
+    v->a = first.number;
+    v->unit = first.text;
     if (v->kind != VARIATE_UNIFORM) {
-        if (!read_spread(context, list->items[1], v, &unit))
+        if (!read_spread(context, list->items[1], v, &first.unit))
             return false;
         if (v->kind == VARIATE_LOGNORMAL && !(v->a > 0))
             return refuse(context, list, v->name, NULL, "lognormal wants a positive median");
@@ -84,12 +69,13 @@ static bool read_pair(study_context *context, const ff_node *list, variate *v)
             v->b = sqrt(log1p(v->b / v->a * (v->b / v->a)));
         return true;
     }
-    if (!read_number(context, list->items[1], v->name, &v->b, &text, &other))
+    if (!study_read_quantity(context, list->items[1], v->name, hint, &second))
         return false;
-    if (!ff_unit_same_dimension(&unit, &other))
+    v->b = second.number;
+    if (!ff_unit_same_dimension(&first.unit, &second.unit))
         return refuse(context, list, v->name, NULL, "the two ends have units that do not agree");
-    if (strcmp(text, v->unit) != 0)
-        v->b = ff_unit_from_si(&unit, ff_unit_to_si(&other, v->b));
+    if (strcmp(second.text, v->unit) != 0)
+        v->b = ff_unit_from_si(&first.unit, ff_unit_to_si(&second.unit, v->b));
     return v->a <= v->b || refuse(context, list, v->name, NULL, "the first end is the lower one");
 }
 
