@@ -155,10 +155,12 @@ static void contact_force_gate(const dynamics_run *r, const dynamics_taylor_seri
 
 /* The gate at the knee of the spring on one flank from which a line takes over: how far the
    deflection exceeds it, times the change of the slope there, as a polynomial; or how far it falls
-   short (`sign` -1). */
-static void knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, int flank, int line,
-                      double sign, dynamics_gate *g)
+   short (`sign` -1). 0: it is not reached, since the sum of the coefficients of a product is at
+   most the product of the sums. */
+static int knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, int flank, int line,
+                     double sign, dynamics_gate *g)
 {
+    const double rounding = 1e-12, tiny = 8 * DBL_EPSILON * (1 + r->excitation->half_gap);
     const dynamics_line *above = &r->piece->line[line], *below = above - 1;
     double change[2][DYNAMICS_DEGREE + 1], steeper[DYNAMICS_DEGREE + 1],
         offset[DYNAMICS_DEGREE + 1];
@@ -170,6 +172,16 @@ static void knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, in
     }
     dynamics_piece_shift(change[0], degree, since, unit, steeper);
     dynamics_piece_shift(change[1], degree, since, unit, offset);
+    double slopes = 0, way = 0, moved = 0, start = steeper[0] * s->c[0][DYNAMICS_Z];
+    for (int i = 0; i <= degree; i++) {
+        slopes += fabs(steeper[i]);
+        moved += i ? fabs(offset[i]) : 0;
+    }
+    for (int n = 0; n <= s->order; n++)
+        way += fabs(s->c[n][DYNAMICS_Z]);
+    double from = sign * (flank * start - offset[0]);
+    if (from > tiny && from > (1 + rounding) * slopes * way - fabs(start) + moved)
+        return 0;
     for (int n = 0; n <= s->order; n++) {
         double value = 0;
         for (int i = 0; i <= degree && i <= n; i++)
@@ -180,6 +192,7 @@ static void knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, in
     g->side = r->side;
     g->pressed = r->pressed;
     g->band = flank * (sign > 0 ? line - 1 : line);
+    return 1;
 }
 
 /* Adds the gates at the knees that the present contact can reach; returns the number of all. */
@@ -190,10 +203,10 @@ static int add_knees(const dynamics_run *r, const dynamics_taylor_series *s, int
         return count;
     int on = dynamics_spring_sign(r->band), line = abs(r->band);
     if (line)
-        knee_gate(r, s, on, line, 1, &g[count++]);
+        count += knee_gate(r, s, on, line, 1, &g[count]);
     for (int flank = -1; flank <= 1 && line + 1 < r->piece->lines; flank += 2)
         if (on ? flank == on : flank == r->side || r->excitation->half_gap == 0)
-            knee_gate(r, s, flank, line + 1, -1, &g[count++]);
+            count += knee_gate(r, s, flank, line + 1, -1, &g[count]);
     return count;
 }
 
