@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What a study reads back of its own: the journal, a log of arrays, study.json and the kept results
- * of a stage, parted by bytes 30. The lines of the journal and the kept results get their checksums
- * here, since anybody can compute them.
+ * What a study reads back of its own: the journal, a log of arrays, study.json, table.csv and
+ * the kept results of a stage, parted by bytes 30. The lines of the journal and the kept results
+ * get their checksums here, since anybody can compute them.
  */
 #include "fuzz.h"
 
@@ -16,7 +16,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PART = 30, PARTS = 4, MOST_STAGES = 8 };
+enum { PART = 30, PARTS = 5, MOST_STAGES = 8 };
 
 static const char document[] = "format: 2\n"
                                "pipeline:\n"
@@ -28,7 +28,7 @@ static char folder[] = "/tmp/flankfilm-fuzz-XXXXXX";
 
 static void leave(void)
 {
-    static const char *const names[] = {"journal.jsonl", "arrays.1.log", "study.json",
+    static const char *const names[] = {"journal.jsonl", "arrays.1.log", "study.json", "table.csv",
                                         ".flankfilm-study"};
     char path[80];
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
@@ -160,7 +160,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static ff_engine *engine; /* models stay loaded */
     const char *toys = getenv("FLANKFILM_FUZZ_TOYS");
     static const uint8_t none[1];
-    const uint8_t *parts[PARTS] = {none, none, none, none};
+    const uint8_t *parts[PARTS] = {none, none, none, none, none};
     size_t sizes[PARTS] = {0};
     ff_engine_options options = {
         .size = sizeof options, .plugin_paths = &toys, .plugin_path_count = 1};
@@ -179,8 +179,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     put_journal(parts[0], sizes[0]);
     put_file("arrays.1.log", parts[1], sizes[1]);
     put_file("study.json", parts[2], sizes[2]);
+    put_file("table.csv", parts[3], sizes[3]);
     read_records();
     read_view();
-    read_stage(parts[3], sizes[3], engine);
+    read_stage(parts[4], sizes[4], engine);
     return 0;
 }
