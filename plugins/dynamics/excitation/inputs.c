@@ -348,7 +348,7 @@ static void report_damping(const ff_host *host, const dynamics_excitation *excit
 }
 
 static void report_shared(const ff_host *host, const dynamics_force_levels *l, double force,
-                          double convex)
+                          double convex, double soft)
 {
     static const double limit = 1e-3;
     char text[240];
@@ -358,6 +358,11 @@ static void report_shared(const ff_host *host, const dynamics_force_levels *l, d
              l->count, l->force[l->count - 1] / force);
     host->quality(host->ctx, "mesh_force_convex", convex, limit,
                   convex <= limit ? FF_GOOD : FF_DOUBTFUL, text);
+    if (soft > 0)
+        host->quality(host->ctx, "soft_levels", soft, 0, FF_DOUBTFUL,
+                      "share of the phases and forces where level_stiffness is below the chord "
+                      "from the force before, as that of no mesh that stiffens under load: the "
+                      "chord is taken there");
 }
 
 /* The spring at the nodes of the curves. */
@@ -375,7 +380,7 @@ static ff_status make_spring(const ff_host *host, const ff_array *in, const dyna
         return status;
     if (!dynamics_spring_nodes_share(&inputs->levels, force, 1, spring, &convex))
         return FF_NOMEM;
-    report_shared(host, &inputs->levels, force, convex);
+    report_shared(host, &inputs->levels, force, convex, spring->soft);
     return FF_OK;
 }
 

@@ -128,6 +128,9 @@ size_t dynamics_spring_levels(const dynamics_force_levels *l, double force, int 
 /* Slopes of neighbouring lines differ by at least this part: else their knee is not defined. */
 static const double least_bend = 1e-5;
 
+/* A given slope that is raised by more than this part is told. */
+static const double much_softer = 1e-3;
+
 /* The last line that is kept at a node: the deflection of the level that it was made from, its
    force there, and its slope. */
 typedef struct last_line {
@@ -145,9 +148,9 @@ static last_line last_line_at(const dynamics_force_levels *l, const dynamics_spr
 /* A line at node i. With slopes it is the tangent at the point (g, F) of the level, raised where
    the last line lies above it and turned where it is less steep than the chord between both points:
    neither happens where the levels are convex. Without slopes it is the chord from the point to
-   that of the next level. */
-static void make_line(const dynamics_force_levels *l, const dynamics_spring_nodes *s,
-                      const size_t level[3], size_t i, const dynamics_spring_row *row)
+   that of the next level. Returns whether a slope that was given has been raised. */
+static int make_line(const dynamics_force_levels *l, const dynamics_spring_nodes *s,
+                     const size_t level[3], size_t i, const dynamics_spring_row *row)
 {
     size_t at = level[1] * l->phases + i, next = level[2] * l->phases + i;
     double g = l->error[at] - l->error[i], force = l->force[level[1]], slope;
@@ -165,6 +168,7 @@ static void make_line(const dynamics_force_levels *l, const dynamics_spring_node
     }
     row->slope[i] = slope;
     row->offset[i] = s->lines ? slope * g - force : 0;
+    return l->stiffness && slope > l->stiffness[at] * (1 + much_softer);
 }
 
 /* Whether a line is steeper than the last one by more than the least at any node. */
@@ -205,7 +209,7 @@ int dynamics_spring_nodes_share(const dynamics_force_levels *l, double force, in
         const dynamics_spring_row row = dynamics_spring_row_of(s, s->lines);
         const size_t level[] = {last, taken[n], taken[n + 1 < count ? n + 1 : n]};
         for (size_t i = 0; i < s->count; i++)
-            make_line(l, s, level, i, &row);
+            s->soft += make_line(l, s, level, i, &row) / (double)(count * s->count);
         if (s->lines && !bends_up(s, &row))
             continue;
         s->lines++;

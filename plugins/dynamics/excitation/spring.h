@@ -99,7 +99,8 @@ typedef struct dynamics_spring_nodes {
     double *stiffness;   /* NULL: as the curves have it */
     double *rows;        /* slopes of each line, then its offsets */
     double steeper;      /* mean of k over the chord F/(e_l - e), less 1 */
-    double soft;    /* share of the nodes where k is below that chord, which then stands for it */
+    double soft;    /* share of the nodes where k is below that chord, which then stands for it;
+                       of the nodes at all levels where the slope is below the chord before */
     double unknown; /* share of the nodes where e_l does not exceed e */
 } dynamics_spring_nodes;
 

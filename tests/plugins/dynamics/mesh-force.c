@@ -353,6 +353,34 @@ static void test_bent_back(void)
     stage_close(s);
 }
 
+/* A slope below the chord from the force before is that of no mesh that stiffens: the chord stands
+   for it, and the line says so. */
+static void test_soft_slope(void)
+{
+    static double error[3 * 6], slope[3 * 6], loaded_error[6];
+    double force[3];
+    pair p = pair_trapezoid(1200);
+    for (size_t i = 0; i < 3 * 6; i++) {
+        force[i / 6] = (double)(i / 6) * p.line_force;
+        error[i] = force[i / 6] / p.stiffness[i % 6];
+        slope[i] = p.stiffness[i % 6];
+    }
+    memcpy(loaded_error, error + 6, sizeof loaded_error);
+    for (int soft = 0; soft < 2; soft++) {
+        stage *s = pair_open("dynamics/shooting", &p);
+        slope[2 * 6 + 3] *= soft ? 0.8 : 1;
+        stage_give_series(s, "stiffness.loaded_transmission_error", 6, loaded_error);
+        stage_set_text(s, "force", "shared");
+        stage_give_series(s, "stiffness.force_level", 3, force);
+        stage_give(s, "stiffness.level_error", 2, (size_t[]){3, 6}, error);
+        stage_give(s, "stiffness.level_stiffness", 2, (size_t[]){3, 6}, slope);
+        check_true("runs", stage_run_wanted(s, "dte_rms") == FF_OK);
+        check_below("no force is raised", stage_quality(s, "mesh_force_convex"), 1e-3);
+        check_true("a raised slope is told", stage_has_quality(s, "soft_levels") == soft);
+        stage_close(s);
+    }
+}
+
 /* Without relief at a constant phase: e moves by a thousandth of the deflection, and the answer is
    that of the slope of the mesh at the mean force, m z'' + c z' + k z = -m e''. */
 static void test_small_vibration(void)
@@ -484,6 +512,7 @@ int main(void)
     test_balances();
     test_linear();
     test_bent_back();
+    test_soft_slope();
     test_small_vibration();
     test_half();
     test_beyond();
