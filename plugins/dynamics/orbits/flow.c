@@ -162,8 +162,8 @@ static int knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, int
 {
     const double rounding = 1e-12, tiny = 8 * DBL_EPSILON * (1 + r->excitation->half_gap);
     const dynamics_line *above = &r->piece->line[line], *below = above - 1;
-    double change[2][DYNAMICS_DEGREE + 1], steeper[DYNAMICS_DEGREE + 1],
-        offset[DYNAMICS_DEGREE + 1];
+    double change[2][DYNAMICS_DEGREE + 1], steeper[DYNAMICS_DEGREE + 1] = {0},
+                                                                     offset[DYNAMICS_DEGREE + 1];
     int degree = r->piece->degree;
     double since = r->at - r->piece->start, unit = s->h / r->T;
     for (int i = 0; i <= degree; i++) {
