@@ -90,7 +90,7 @@ static ff_port outputs[] = {{.name = "law", .unit = "", .doc = "the law", .dims 
 static ff_model model = {
     .size = sizeof model,
     .abi_major = FF_ABI_MAJOR,
-    .id = KIND "/" FAULT,
+    .id = stub_id,
     .version = "1.0.0",
     .summary = "A law with a fault",
     .reference = "",

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Frame of a model KIND/FAULT that is right but for the one fault that FAULT names. The file that
-   includes it defines `inputs`, `outputs` and `evaluate`. */
+/* Frame of a model that is right but for the one fault that `stub_fault` names; fault.c has the
+   names. The file that includes it defines `inputs`, `outputs` and `evaluate`. */
 #ifndef STUB_H
 #define STUB_H
 
@@ -11,6 +11,8 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+
+extern const char stub_fault[], stub_id[];
 
 static const double pi = 3.14159265358979323846;
 
@@ -29,7 +31,7 @@ typedef struct stub {
 
 static inline int is(const char *fault)
 {
-    return !strcmp(FAULT, fault);
+    return !strcmp(stub_fault, fault);
 }
 
 /* The factor that the fault puts on a figure that is else right. */
@@ -87,7 +89,7 @@ static inline const void *stub_service(void *self, uint32_t output)
     static const ff_model model = {                                                                \
         .size = sizeof model,                                                                      \
         .abi_major = FF_ABI_MAJOR,                                                                 \
-        .id = KIND "/" FAULT,                                                                      \
+        .id = stub_id,                                                                             \
         .version = "1.0.0",                                                                        \
         .summary = "A model with a fault",                                                         \
         .reference = "",                                                                           \
