@@ -172,6 +172,8 @@ typedef struct ff_port {
     const char *origin; /* input row that the number is counted from, where shares of it are
                            meant: "operating.oil_temperature"; NULL: 0 */
     int32_t headline;   /* FF_LEAST ...; of a scalar FF_NO_HEADLINE */
+    double apart;       /* of a scalar with a `quantity`: how far two stages that give it may lie
+                           apart, in `unit`; the larger of both holds; 0: not beyond rounding */
 } ff_port;
 
 typedef struct ff_value {

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* losses/tooth-mesh: power loss of all tooth pairs in mesh, and flash temperature of their flanks.
- */
+/* losses/tooth-mesh: loss of all tooth pairs in mesh, and flash temperature of their flanks. */
 #include "bulk.h"
 #include "friction.h"
 #include "references.h"
@@ -23,6 +22,7 @@ typedef struct tooth_mesh {
     double bulk_temperature;                       /* K; NaN: auto */
     double thermal_conductance;                    /* W/K; NaN: endless */
     double relief_factor;                          /* X_Ca */
+    double rise_factor;                            /* on the rise by the standard */
     double oil_factor;                             /* NaN: auto */
     int32_t bulk_rule, supply;
     int32_t formula;
@@ -54,6 +54,8 @@ static const ff_param params[] = {
               "how the oil comes to the teeth, for bulk_rule: standard: X_S 1, 1.2, 0.2"),
     FF_QUANTITY("relief_factor", "1", tooth_mesh, relief_factor, FF_MIN_OPEN, "1", NULL, 0, 10, 1,
                 2, "X_Ca of the tip relief, for bulk_rule: standard"),
+    FF_QUANTITY("rise_factor", "1", tooth_mesh, rise_factor, 0, "1", NULL, 0, 10, 0.5, 2,
+                "on the rise of the teeth by bulk_rule: standard: how sure it is, 1 +- 0.3"),
     FF_ONE_OF(LOSSES_FORMULAS, "formula", tooth_mesh, formula, 0, "schlenk",
               "of friction_coefficient_formula: ISO/TR 14179-2, or ISO/TR 15144-1"),
     FF_QUANTITY_OR("auto", "lubricant_factor", "1", tooth_mesh, oil_factor, FF_MIN_OPEN, "auto",
@@ -235,8 +237,7 @@ static void report_engagements(const tooth_mesh *s, const losses_mesh *m, const 
                      fabs(of->mean) > 0 ? of->deviation / fabs(of->mean) : 0, 0, FF_GOOD, text);
 }
 
-/* Reports whether the parts of the loss add up to the whole, or that the film does not give them.
- */
+/* Reports whether the parts of the loss add up to the whole, or that the film gives none. */
 static void report_parts(const tooth_mesh *s, const losses_mesh *m)
 {
     double off = 0, most = 0, lacking = 0;
@@ -261,8 +262,7 @@ static void report_parts(const tooth_mesh *s, const losses_mesh *m)
                      "maximum");
 }
 
-/* Reports whether the engagement, the friction power and the heat source are what the formulas
- * assume. */
+/* Reports whether engagement, friction power and heat source are as the formulas assume. */
 static void report(const tooth_mesh *s, const losses_mesh *m, const scatter *of, double efficiency)
 {
     const ff_host *host = s->host;
@@ -330,7 +330,8 @@ static double bulk_of(const tooth_mesh *s, const losses_mesh *m, double loss)
     if (s->bulk_temperature > 0)
         return s->bulk_temperature;
     if (s->bulk_rule == LOSSES_STANDARD)
-        return m->oil_temperature + losses_standard_rise(m, loss, s->supply, s->relief_factor);
+        return m->oil_temperature +
+               s->rise_factor * losses_standard_rise(m, loss, s->supply, s->relief_factor);
     return m->oil_temperature + (s->thermal_conductance > 0 ? loss / s->thermal_conductance : 0);
 }
 
@@ -433,17 +434,17 @@ static ff_status ready(void *self)
     static const char other[] = "bulk_rule is not standard";
     const int by_standard = s->bulk_rule == LOSSES_STANDARD;
     const ff_serving rows[] = {{!by_standard, "supply", "", NULL, other},
-                               {!by_standard, "relief_factor", "", NULL, other}};
+                               {!by_standard, "relief_factor", "", NULL, other},
+                               {!by_standard, "rise_factor", "", NULL, other}};
     ff_tell_needs(s->host, needs, sizeof needs / sizeof needs[0]);
     ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
-    if (s->bulk_temperature > 0 && s->thermal_conductance > 0)
-        return ff_failf(s->host, FF_INVALID, "thermal_conductance",
-                        "bulk_temperature is given, and thermal_conductance tells another one: "
-                        "leave one of them out");
-    if (s->bulk_temperature > 0 && s->bulk_rule >= 0)
-        return ff_failf(s->host, FF_INVALID, "bulk_rule",
-                        "bulk_temperature is given, and bulk_rule tells another one: leave one of "
-                        "them out");
+    const char *beside = s->thermal_conductance > 0 ? "thermal_conductance"
+                         : s->bulk_rule >= 0        ? "bulk_rule"
+                                                    : NULL;
+    if (s->bulk_temperature > 0 && beside)
+        return ff_failf(
+            s->host, FF_INVALID, beside,
+            "bulk_temperature is given, and %s tells another one: leave one of them out", beside);
     if (s->bulk_rule == LOSSES_CONDUCTANCE && !(s->thermal_conductance > 0))
         return ff_failf(s->host, FF_INVALID, "thermal_conductance",
                         "bulk_rule: conductance needs thermal_conductance");

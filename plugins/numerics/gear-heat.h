@@ -13,6 +13,10 @@
 #define NUMERICS_STEEL_DENSITY      "7850 kg/m3"
 #define NUMERICS_STEEL_HEAT         "484 J/(kg K)"
 
+/* Of the row of a temperature of the teeth, in K: its formulas are good to 30 % of some 30 K. */
+#define NUMERICS_BULK_QUANTITY                                                                     \
+    .shown = "degC", .quantity = "bulk temperature of the teeth", .apart = 10
+
 /* A list for both gears that an input replaces where a gear offers it. */
 #define NUMERICS_LIST_UNLESS(wire, name, unit, type, member, preset, min, max, doc)                \
     FF_ROW_UNLESS(wire, name, unit, doc, FF_REALS, 0, preset, NULL, NULL, min, max, 0, 0, 1, 2,    \

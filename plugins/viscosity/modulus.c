@@ -33,6 +33,7 @@ typedef struct modulus {
     ff_viscosity service;
     viscosity_oil oil;
     double a1, a2, b1, b2; /* SI; a1 NaN: by the base */
+    double factor;         /* on ln(eta/eta0) */
     int32_t base;          /* -1: that of the oil */
     double least, most;    /* K, between which the law holds */
     bool measured;         /* the constants are those of the base */
@@ -69,7 +70,8 @@ static double within(const modulus *m, double T)
 static moduli moduli_at(const modulus *m, double T)
 {
     double slope, scale = scale_at(m, T, &slope), A = m->a1 + m->a2 * T;
-    return (moduli){A * scale, m->b1 + m->b2 * T, m->a2 * scale + A * slope, m->b2};
+    const double over = 1 / m->factor, B = m->b1 + m->b2 * T;
+    return (moduli){over * A * scale, over * B, over * (m->a2 * scale + A * slope), over * m->b2};
 }
 
 /* A law at one temperature. */
@@ -153,6 +155,9 @@ static const ff_param params[] = {
                 "B at 0 K; 0 where a1 is given alone: Barus"),
     FF_QUANTITY("b2", "1/K", modulus, b2, 0, "0 1/K", NULL, -1, 1, -1e-3, 1e-3,
                 "slope of B over temperature"),
+    FF_QUANTITY("pressure_factor", "1", modulus, factor, FF_MIN_OPEN, "1", NULL, 0, 10, 0.8, 1.25,
+                "on ln(eta/eta0), and so on the pressure coefficient: how sure the rise with "
+                "pressure is, 1 +- 0.1"),
 };
 
 /* Takes the constants of the base, which the law or the oil names. */

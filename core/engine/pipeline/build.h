@@ -241,6 +241,11 @@ bool fe_check_results(const ff_stage *stage, ff_report *report);
    row. */
 void fe_judge_bounds(ff_stage *stage);
 void fe_forget_quality(ff_stage *stage); /* all lines */
+/* Marks as wanted what two needed stages give of one quantity. */
+void fe_want_quantities(ff_pipeline *pipeline);
+/* After a run: adds a line to each stage that gives a quantity as one before it does: FF_RANGE
+   where they lie further apart than their rows allow. */
+void fe_compare_quantities(ff_pipeline *pipeline);
 
 /* evaluate.c: one evaluation of a stage, without the outputs that it refuses where nothing requires
    them. False after an error. */

@@ -61,6 +61,7 @@ void fe_mark_needed(ff_pipeline *pipeline)
             mark(pipeline, stage);
         }
     }
+    fe_want_quantities(pipeline);
     for (size_t i = 0; i < pipeline->count; i++)
         if (!pipeline->stages[i].why)
             say_why(pipeline, &pipeline->stages[i]);

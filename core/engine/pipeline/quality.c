@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT */
-/* Lines of quality: what models say, unless the file accepts a doubt, and natural bounds, which are
-   what the numbers of an output cannot be by its row. */
+/* Lines of quality: what models say, unless the file accepts a doubt; natural bounds, which are
+   what the numbers of an output cannot be by its row; and what several stages give of one quantity.
+ */
 #include "build.h"
 
 #include <math.h>
@@ -128,5 +129,95 @@ void fe_judge_bounds(ff_stage *stage)
                  (size_t)(worst - result->data));
         ff_add_quality(stage, result->row->name, *worst, *worst < b.least ? b.least : b.most,
                        FF_BAD, text);
+    }
+}
+
+/* The output that the stage gives of a quantity, a scalar; NULL: none. */
+static ff_result *find_quantity(const ff_stage *stage, const char *quantity)
+{
+    for (size_t i = 0; stage->needed && stage->loaded && i < stage->loaded->model->output_count;
+         i++) {
+        ff_result *result = &stage->results[i];
+        if (result->row->quantity && !result->row->service && !*result->row->dims &&
+            !strcmp(result->row->quantity, quantity))
+            return result;
+    }
+    return NULL;
+}
+
+void fe_want_quantities(ff_pipeline *pipeline)
+{
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        for (size_t k = 0; stage->loaded && k < stage->loaded->model->output_count; k++) {
+            const char *quantity = stage->results[k].row->quantity;
+            ff_result *own = quantity ? find_quantity(stage, quantity) : NULL;
+            for (size_t j = 0; own && j < pipeline->count; j++)
+                if (j != i && find_quantity(&pipeline->stages[j], quantity))
+                    own->wanted = true;
+        }
+    }
+}
+
+/* One quantity, given by two stages. */
+typedef struct pair {
+    const ff_stage *stage;
+    const ff_result *result;
+    double apart, allowed;
+} pair;
+
+static void print_number(const ff_result *result, char *text, size_t size)
+{
+    const char *shown = result->row->shown ? result->row->shown : result->row->unit;
+    char why[120];
+    ff_unit unit;
+    if (ff_unit_parse(shown, &unit, why, sizeof why))
+        ff_quantity_print(*result->data, &unit, shown, text, size);
+}
+
+static void add_agreement(ff_stage *stage, const ff_result *own, const pair *other)
+{
+    char name[120], here[80] = "", there[80] = "", text[400];
+    snprintf(name, sizeof name, "%.80s_agreement", own->row->name);
+    print_number(own, here, sizeof here);
+    print_number(other->result, there, sizeof there);
+    snprintf(text, sizeof text, "%.100s: %s here, %s by %.80s.%.80s; how far they lie apart, in %s",
+             own->row->quantity, here, there, other->stage->name, other->result->row->name,
+             own->row->unit);
+    ff_add_quality(stage, name, other->apart, other->allowed,
+                   other->apart > other->allowed ? FF_RANGE : FF_GOOD, text);
+}
+
+/* Holds an output against the stages before its own, in the order of the run. */
+static void compare(const ff_pipeline *pipeline, size_t place, const ff_result *own)
+{
+    const double rounding = 1e-9;
+    ff_stage *stage = &pipeline->stages[pipeline->order[place]];
+    pair worst = {.apart = -1};
+    for (size_t j = 0; j < place; j++) {
+        const ff_stage *other = &pipeline->stages[pipeline->order[j]];
+        const ff_result *its = find_quantity(other, own->row->quantity);
+        if (!its || !its->data || its->count != 1)
+            continue;
+        const double apart = fabs(*own->data - *its->data);
+        const double allowed = fmax(fmax(own->row->apart, its->row->apart),
+                                    rounding * fmax(fabs(*own->data), fabs(*its->data)));
+        if (apart > worst.apart)
+            worst = (pair){other, its, apart, allowed};
+    }
+    if (worst.stage)
+        add_agreement(stage, own, &worst);
+}
+
+void fe_compare_quantities(ff_pipeline *pipeline)
+{
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[pipeline->order[i]];
+        for (size_t k = 0; stage->needed && k < stage->loaded->model->output_count; k++) {
+            const ff_result *own = &stage->results[k];
+            if (own->row->quantity && own->data && own->count == 1 &&
+                find_quantity(stage, own->row->quantity) == own)
+                compare(pipeline, i, own);
+        }
     }
 }

@@ -93,5 +93,6 @@ bool fe_pipeline_run(ff_pipeline *pipeline, const ff_observer *watch, ff_report 
         if (stage->status == FF_STOPPED && !stage->instance->left)
             return false;
     }
+    fe_compare_quantities(pipeline);
     return check_files(pipeline, report) && good;
 }

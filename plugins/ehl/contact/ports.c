@@ -420,6 +420,12 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
          .doc = "film-forming pressure coefficient of the law with its oil, 1/int eta0/eta "
                 "dp; 0: the viscosity does not rise",
          .dims = ""},
+    [EHL_BULK_TEMPERATURE] = {.name = "bulk_temperature",
+                              .unit = "K",
+                              .doc = "temperature of the teeth before they meet and of the oil "
+                                     "that enters; needs a stage of the oil",
+                              .dims = "",
+                              NUMERICS_BULK_QUANTITY},
     [EHL_FILM_AT_LANDING] =
         {.name = "film_at_landing",
          .unit = "m",

@@ -9,12 +9,12 @@
 
 #include <math.h>
 
-/* K, of the teeth: as their loss heats them, or given, or that of the oil. */
-static double bulk_temperature(const ehl_model *m, const ff_array *in)
+double ehl_stage_bulk(const ehl_model *m, const ff_array *in)
 {
-    if (in[EHL_IN_BULK].data)
+    if (m->thermal == EHL_THERMAL_FULL && in[EHL_IN_BULK].data)
         return *in[EHL_IN_BULK].data;
-    return isnan(m->bulk_temperature) ? m->laws.temperature : m->bulk_temperature;
+    return m->thermal != EHL_THERMAL_FULL || isnan(m->bulk_temperature) ? m->laws.temperature
+                                                                        : m->bulk_temperature;
 }
 
 /* thermal: full */
@@ -43,7 +43,7 @@ static ff_status thermal_create(const ehl_model *m, const ff_array *in, ehl_marc
         .across = (size_t)m->thermal_nodes,
         .conductivity = conductivity,
         .heat_capacity = heat_capacity,
-        .bulk = bulk_temperature(m, in),
+        .bulk = ehl_stage_bulk(m, in),
         .flank_contact = {numerics_heat_contact(&flank[0]), numerics_heat_contact(&flank[1])},
         .flank_diffusivity = {numerics_heat_diffusivity(&flank[0]),
                               numerics_heat_diffusivity(&flank[1])},

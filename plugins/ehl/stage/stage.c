@@ -481,6 +481,10 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
             return ff_failf(m->host, FF_UNSUPPORTED, ehl_outputs[k].name,
                             "this output needs flanks whose heights are known: asperities that are "
                             "known by their statistics touch at no place of their own");
+    const double bulk = ehl_stage_bulk(m, in);
+    if ((wanted & FF_BIT(EHL_BULK_TEMPERATURE)) && !(bulk > 0))
+        return ff_failf(m->host, FF_UNSUPPORTED, ehl_outputs[EHL_BULK_TEMPERATURE].name,
+                        "this output needs a stage of the oil, which has a temperature");
     double roughness;
     status = read_roughness(m, wanted, in, &roughness);
     if (status != FF_OK)
@@ -501,6 +505,8 @@ static ff_status evaluate(ehl_model *m, uint64_t wanted, const ff_array *in)
         status = ehl_results_finish(&r.results, &r.march);
     if (status == FF_OK)
         status = ehl_landings_put(&r.results, &r.whole);
+    if (status == FF_OK && (wanted & FF_BIT(EHL_BULK_TEMPERATURE)))
+        status = ff_put_scalar(m->host, EHL_BULK_TEMPERATURE, bulk);
     if (status == FF_OK)
         ehl_inlet_heating_report(m->host, &m->heating, m->thermal != EHL_THERMAL_NONE, &r.whole,
                                  &m->laws, &r.oil);

@@ -45,6 +45,10 @@ struct ehl_heat;
 struct ehl_march;
 struct ehl_thermal;
 
+/* K, of the teeth: as their loss heats them, or given, or that of the oil, which an isothermal film
+   has; 0: no oil tells. */
+double ehl_stage_bulk(const ehl_model *m, const ff_array *in);
+
 /* Lets the march heat the film, by what it makes of `heat` or `thermal`; without the parameter
    thermal it stays as it is. */
 ff_status ehl_stage_heat(const ehl_model *m, const ff_array *in, struct ehl_march *march,

@@ -55,6 +55,7 @@ FIELD(ff_port, shown, 80, 8);
 FIELD(ff_port, quantity, 88, 8);
 FIELD(ff_port, origin, 96, 8);
 FIELD(ff_port, headline, 104, 4);
+FIELD(ff_port, apart, 112, 8);
 
 GROWING(ff_value, 64);
 FIELD(ff_value, size, 0, 8);

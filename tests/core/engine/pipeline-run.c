@@ -88,6 +88,45 @@ static void natural_bounds(void)
     try_close(&a);
 }
 
+/* The line of the second of two toys that lie so far apart, in K; NULL: none. */
+static const ff_quality *agreement(attempt *a, const char *second, const char *outputs)
+{
+    char text[400];
+    snprintf(text, sizeof text,
+             "pipeline:\n  b: {use: toy/bounded, temperature: 300 K}\n"
+             "  c: {use: toy/bounded, temperature: %s}\noutputs: [%s]\n",
+             second, outputs);
+    *a = try_run(text);
+    const ff_stage *stage = try_stage(a, "c");
+    for (size_t i = 0; i < stage->quality_count; i++)
+        if (!strcmp(stage->quality[i].name, "temperature_agreement"))
+            return &stage->quality[i];
+    return NULL;
+}
+
+/* Two stages that give one quantity are asked for it and compared, by their rows. */
+static void quantities(void)
+{
+    attempt a;
+    const ff_quality *line = agreement(&a, "304 K", "b.share, c.share");
+    check_good("two that give one quantity", &a);
+    check_true("agree", line && line->verdict == FF_GOOD && !try_stage(&a, "b")->quality_count);
+    check_near("how far they lie apart", line->value, 4, 1e-12);
+    check_near("how far they may", line->limit, 5, 0);
+    check_true("nobody asked for it", !try_result(&a, "c", "temperature")->requested);
+    try_close(&a);
+    line = agreement(&a, "293.15 K", "b.share, c.share");
+    check_good("further apart", &a);
+    check_true("is a doubt of the range", line && line->verdict == FF_DOUBTFUL && line->range);
+    check_true("says both", strstr(line->text, "temperature of the toy: 20 degC here, 26.85 degC "
+                                               "by b.temperature") != NULL);
+    check_true("again, once more", fe_pipeline_run(a.pipeline, NULL, a.report) &&
+                                       try_stage(&a, "c")->quality_count == 1);
+    try_close(&a);
+    check_true("one that does not run", !agreement(&a, "400 K", "c.share"));
+    try_close(&a);
+}
+
 /* A pipeline that goes on with other values answers as one that is built with them; objects stay
    whose values do; what is no plain value of a parameter needs another pipeline. */
 static void changes(void)
@@ -295,6 +334,7 @@ int main(void)
 {
     results();
     natural_bounds();
+    quantities();
     changes();
     no_state_is_kept();
     many_outputs();

@@ -66,6 +66,15 @@ says 2 'there are 40, 80, 100 degC' viscosity "$data" --at "60 degC"
 says 2 'knows no temperature, and the data have several' viscosity "$data" --law barus
 # three isotherms together, at the noise of 2 % that the data have
 says 0 "viscosity/roelands 3 2.05 %" viscosity "$data" -o out
+# A = 59.27 MPa and B = 0.0323, those of M100 at 90 degC, from six points of ln eta = ln eta0 + p/(A + B p)
+awk 'BEGIN {
+    print "pressure [GPa], viscosity [mPa s]"
+    for (p = 0; p < 1.1; p += 0.2)
+        printf "%.1f, %.9g\n", p, 10 * exp(1000 * p/(59.27 + 0.0323 * 1000 * p))
+}' >modulus.csv
+run viscosity modulus.csv --law modulus -o out
+grep -q " a1  *5.927e+07 Pa" said && grep -q " b1  *0.0323 " said
+judge "A and B of the data" $?
 says 2 'is not a quantity of the data' viscosity "$data" --at "3 m"
 says 0 'p0 is outside of its calibrated range' viscosity "$data" --at "80 degC" --set z=0.5 --set p0=free -o out
 says 2 'has a parameter "zz"' viscosity "$data" --at "80 degC" --set zz=1

@@ -30,6 +30,18 @@ def hold(what, value, expected, within):
     return off <= within
 
 
+def agreement(*sets):
+    """The line that holds the losses' temperature of the teeth against that of the film: value, its limit, is it a doubt of the range?"""
+    told = json.loads(run(*sets, 'outputs=[losses.power_loss_mean]').stdout)
+    lines = [stage['quality']['bulk_temperature_agreement'] for stage in told['stages'] if 'bulk_temperature_agreement' in stage['quality']]
+    return (lines[0]['value'], lines[0]['limit'], lines[0].get('of', lines[0]['verdict'])) if len(lines) == 1 else None
+
+
+def true(what, holds, told=''):
+    print('%s  %s %s' % ('ok  ' if holds else 'BAD ', what, told))
+    return holds
+
+
 def refused(what, sentence, *sets):
     told = run(*sets)
     found = told.returncode != 0 and sentence in told.stdout + told.stderr
@@ -55,5 +67,25 @@ good = [
     hold('loss through the conductance', power, G * rise, 1e-6),
     refused('a second bulk temperature', 'leave one of them out', *WIRED, 'losses.bulk_temperature=120 degC'),
     refused('a film without temperatures', 'needs thermal: full', *WIRED, 'film.thermal=none'),
+]
+# The rise that the loss of a film at r over the oil makes falls with r, so that r = f(r) has one root; from far above it,
+# f again and again ends where the loop does, which begins at the oil.
+RULED = RULE[2:4]
+from_hot = [70.]
+for _ in range(4):
+    from_hot.append(loss(*RULED, 'film.bulk_temperature=%.9g degC' % (110 + from_hot[-1]))[1])
+at_oil = loss(*RULED, 'film.bulk_temperature=110 degC')[1]
+good += [
+    hold('the root from above, in K over 1 K', 1 + from_hot[-1] - standard_rise, 1, 0.01),
+    true('the rise falls with the temperature of the film', at_oil > standard_rise > from_hot[1], (at_oil, standard_rise, from_hot[1])),
+    hold('rise_factor', loss(*RULED, 'losses.rise_factor=1.3', 'film.bulk_temperature=110 degC')[1], 1.3 * at_oil, 1e-9),
+]
+apart = agreement('film.bulk_temperature=117 degC', 'losses.bulk_temperature=130 degC')
+near = agreement('film.bulk_temperature=117 degC', 'losses.bulk_temperature=125 degC')
+closed = agreement(*RULE)
+good += [
+    true('13 K apart are told', apart and abs(apart[0] - 13) < 1e-6 and apart[1] == 10 and apart[2] != 'good', apart),
+    true('8 K are not', near and abs(near[0] - 8) < 1e-6 and near[2] == 'good', near),
+    true('a loop agrees with itself', closed and closed[0] < 1e-3 and closed[2] == 'good', closed),
 ]
 sys.exit(0 if all(good) else 1)

@@ -311,6 +311,8 @@ static void spoil_ports(void)
         outputs[0].min = 1, outputs[0].max = 0;
     if (is("difference"))
         outputs[0].flags = FF_DIFFERENCE;
+    if (is("apart"))
+        outputs[0].apart = -1;
     if (is("headline"))
         outputs[0].headline = FF_MEAN + 1;
     if (is("origin"))

@@ -22,7 +22,13 @@ enum { SHARE, TEMPERATURE, RISE, FILM, IDLE };
 
 static const ff_port outputs[] = {
     {.name = "share", .unit = "1", .doc = "from 0 to 1", .dims = "", .max = 1},
-    {.name = "temperature", .unit = "K", .doc = "never below 0", .dims = ""},
+    {.name = "temperature",
+     .unit = "K",
+     .doc = "never below 0",
+     .dims = "",
+     .shown = "degC",
+     .quantity = "temperature of the toy",
+     .apart = 5},
     {.name = "rise", .unit = "K", .doc = "of any sign", .dims = "", .flags = FF_DIFFERENCE},
     {.name = "film", .unit = "m", .doc = "not negative", .dims = "t", .max = INFINITY},
     {.name = "idle", .unit = "1", .doc = "given when asked for", .dims = ""},
