@@ -271,5 +271,6 @@ void ehl_lambda_report(const ff_host *host, double lowest)
     host->quality(host->ctx, "lambda", lowest, EHL_MIXED_BELOW,
                   lowest < EHL_MIXED_BELOW ? FF_RANGE : FF_GOOD,
                   "lowest film over the roughness of the flanks, which this smooth film does not "
-                  "feel; below 3 asperities touch: add a stage of the kind surface");
+                  "feel; below 3 asperities touch, and the friction of what they carry is missing: "
+                  "add surface/statistical, or another stage of the kind surface");
 }

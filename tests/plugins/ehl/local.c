@@ -75,6 +75,30 @@ static void test_shares(void)
     line_close(&c);
 }
 
+/* Below lambda 1 friction of smooth flanks is no good answer, and the line of lambda says what
+   would make it one. */
+static void test_verdict(void)
+{
+    const double rq[] = {0.12e-6, 0.16e-6};
+    line c;
+    stage *flanks = open_mixed(&c, "greenwood-tripp", 0.2e-6);
+    check_true("asperities carry",
+               stage_quality(c.film, "lambda") < 1 && stage_quality_limit(c.film, "lambda") <= 0);
+    stage_close(flanks);
+    line_close(&c);
+    line_open(&c, "ehl/film-formula");
+    line_oil(&c, "viscosity/barus", 0.02, 4500 / 230e9);
+    line_eyring(&c, 6e6);
+    c.u1[0] = 1.3;
+    c.u2[0] = 1;
+    stage_give_series(c.film, "gear.roughness", 2, rq);
+    check_true("smooth", line_run(&c, "friction_coefficient") == FF_OK);
+    check_true("doubtful",
+               stage_verdict(c.film) != FF_GOOD &&
+                   stage_quality(c.film, "lambda") < stage_quality_limit(c.film, "lambda"));
+    line_close(&c);
+}
+
 static void open_hot(line *c, const char *thermal, double oil)
 {
     line_open(c, "ehl/film-formula");
@@ -243,5 +267,6 @@ int main(void)
     test_published();
     test_shares();
     test_temperature();
+    test_verdict();
     return check_done();
 }
