@@ -24,10 +24,12 @@ static void set_force(pair *p, double force)
         p->tooth_force[i] = force * p->load_share[i];
 }
 
-/* Scenes without a motion of one mesh cycle that the model finds, and how many there may be: a
-   rattle that never repeats itself, from below and from above, and f_n/1000. */
+/* Scenes without a motion of one mesh cycle that the model finds, and how many there may be: a huge
+   load and a gap of an atom, where the upper branch has no end, a rattle from below, f_n/1000, and
+   the hole from below, where round-off decides: of 12 loads that differ by 1e-12 three to five have
+   a motion. */
 static int refusals;
-static const int known_refusals = 3;
+static const int known_refusals = 5;
 
 /* The mean of the mesh force over a cycle less the load, over the largest force: a motion that
    repeats itself gains no speed. */
@@ -197,7 +199,7 @@ static void test_unstable(void)
 static void test_stop(void)
 {
     pair p = pair_trapezoid(2375);
-    for (int call = 1; call <= 3; call++) {
+    for (int call = 1; call <= 5; call += 2) {
         stage *s = pair_open("dynamics/harmonic-balance", &p);
         stage_set_text(s, "branch", "upper");
         stage_stop_at(s, call);
