@@ -133,13 +133,13 @@ void fe_judge_bounds(ff_stage *stage)
 }
 
 /* The output that the stage gives of a quantity, a scalar; NULL: none. */
-static ff_result *find_quantity(const ff_stage *stage, const char *quantity)
+static ff_result *find_quantity(const ff_stage *stage, const ff_port *as)
 {
     for (size_t i = 0; stage->needed && stage->loaded && i < stage->loaded->model->output_count;
          i++) {
         ff_result *result = &stage->results[i];
         if (result->row->quantity && !result->row->service && !*result->row->dims &&
-            !strcmp(result->row->quantity, quantity))
+            !strcmp(result->row->quantity, as->quantity) && !strcmp(result->row->unit, as->unit))
             return result;
     }
     return NULL;
@@ -150,10 +150,10 @@ void fe_want_quantities(ff_pipeline *pipeline)
     for (size_t i = 0; i < pipeline->count; i++) {
         const ff_stage *stage = &pipeline->stages[i];
         for (size_t k = 0; stage->loaded && k < stage->loaded->model->output_count; k++) {
-            const char *quantity = stage->results[k].row->quantity;
-            ff_result *own = quantity ? find_quantity(stage, quantity) : NULL;
+            const ff_port *row = stage->results[k].row;
+            ff_result *own = row->quantity ? find_quantity(stage, row) : NULL;
             for (size_t j = 0; own && j < pipeline->count; j++)
-                if (j != i && find_quantity(&pipeline->stages[j], quantity))
+                if (j != i && find_quantity(&pipeline->stages[j], row))
                     own->wanted = true;
         }
     }
@@ -184,6 +184,9 @@ static void add_agreement(ff_stage *stage, const ff_result *own, const pair *oth
     snprintf(text, sizeof text, "%.100s: %s here, %s by %.80s.%.80s; how far they lie apart, in %s",
              own->row->quantity, here, there, other->stage->name, other->result->row->name,
              own->row->unit);
+    for (size_t i = stage->quality_count; i-- > 0;)
+        if (!strcmp(stage->quality[i].name, name)) /* of another run, whose results were taken */
+            ff_drop_quality(stage, i);
     ff_add_quality(stage, name, other->apart, other->allowed,
                    other->apart > other->allowed ? FF_RANGE : FF_GOOD, text);
 }
@@ -193,16 +196,16 @@ static void compare(const ff_pipeline *pipeline, size_t place, const ff_result *
 {
     const double rounding = 1e-9;
     ff_stage *stage = &pipeline->stages[pipeline->order[place]];
-    pair worst = {.apart = -1};
+    pair worst = {.stage = NULL};
     for (size_t j = 0; j < place; j++) {
         const ff_stage *other = &pipeline->stages[pipeline->order[j]];
-        const ff_result *its = find_quantity(other, own->row->quantity);
+        const ff_result *its = find_quantity(other, own->row);
         if (!its || !its->data || its->count != 1)
             continue;
         const double apart = fabs(*own->data - *its->data);
         const double allowed = fmax(fmax(own->row->apart, its->row->apart),
                                     rounding * fmax(fabs(*own->data), fabs(*its->data)));
-        if (apart > worst.apart)
+        if (!worst.stage || apart - allowed > worst.apart - worst.allowed)
             worst = (pair){other, its, apart, allowed};
     }
     if (worst.stage)
@@ -216,7 +219,7 @@ void fe_compare_quantities(ff_pipeline *pipeline)
         for (size_t k = 0; stage->needed && k < stage->loaded->model->output_count; k++) {
             const ff_result *own = &stage->results[k];
             if (own->row->quantity && own->data && own->count == 1 &&
-                find_quantity(stage, own->row->quantity) == own)
+                find_quantity(stage, own->row) == own)
                 compare(pipeline, i, own);
         }
     }

@@ -112,7 +112,8 @@ static void drop_estimates(const accuracy_record *record, const ff_pipeline *ans
             if (stage->wires[k].stage >= 0)
                 feeds[stage->wires[k].stage] = true;
         for (size_t k = stage->quality_count; k-- > 0;)
-            if (accuracy_estimated(stage, stage->quality[k].name))
+            if (accuracy_estimated(stage, stage->quality[k].name) &&
+                !isinf(stage->quality[k].value)) /* no twin knows what is known from below alone */
                 ff_drop_quality(stage, k);
     }
     free(feeds);

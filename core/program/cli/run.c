@@ -74,8 +74,8 @@ static void print_outcome(const results_outcome *outcome, const place *to, bool 
     if (ff_report_errors(outcome->report) > 0)
         fprintf(stderr, "the run %s\n", cli_interrupted() ? "was stopped" : "failed");
     else if (outcome->exit_code != EXIT_SUCCESS)
-        fprintf(stderr,
-                "--strict: a doubtful answer, a missed limit or a warning counts as a failure\n");
+        fprintf(stderr, "--strict: a doubtful answer, a limit not surely met or a warning counts "
+                        "as a failure\n");
 }
 
 static void count_doubts(results_outcome *outcome, const cli_options *options)

@@ -106,7 +106,7 @@ static void print_asked(const paper *page, const ff_pipeline *pipeline, const re
     int column = print_value(page, asked->name, width, &text);
     const int room = terminal_width() - column;
     const int left = room - (int)(*text.place ? strlen("; ") + strlen(text.place) : 0);
-    const char *doc = asked->stage->results[asked->output].row->doc;
+    const char *doc = results_called(asked->stage->results[asked->output].row);
     results_label(doc, left > 0 ? (size_t)left : 0, label);
     bool fits = *text.place && (int)strlen(label) <= left;
     if (!fits)
@@ -195,11 +195,12 @@ static void print_limits(const paper *page, const limits_verdict *limits)
         printf("  %s: ", row->name);
         paint_verdict(page, colours[row->standing], limits_word(row->standing));
         printf(", %s is asked and it is ", row->asked);
-        if (isnan(row->value))
-            printf("not known");
-        else
-            printf("%.5g", row->value * unit.factor + unit.offset);
-        if (row->bar > 0)
+        if (isnan(row->value)) {
+            puts("not known");
+            continue;
+        }
+        printf("%s%.5g", isinf(row->bar) ? ">= " : "", row->value * unit.factor + unit.offset);
+        if (row->bar > 0 && !isinf(row->bar))
             printf(" +- %.2g", row->bar * unit.factor);
         printf("%s%s\n", *unit.unit ? " " : "", unit.unit);
     }

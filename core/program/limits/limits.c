@@ -31,16 +31,22 @@ static const ff_result *find_output(const ff_pipeline *pipeline, const char *pat
     return output < 0 || !(*stage)->results ? NULL : &(*stage)->results[output];
 }
 
+/* Says what stands under a limit's name. Returns false. */
+static bool refuse(const ff_node *node, const char *path, ff_report *report)
+{
+    return ff_error(report, FF_FAULT_INPUT, node->place, NULL,
+                    "limits.%s: expected \"> NUMBER UNIT\" or \"< NUMBER UNIT\" in quotes, or a "
+                    "list of them",
+                    path);
+}
+
 /* Reads "> 1.5 um" in the unit of the output; false after an error. */
 static bool read_limit(const ff_node *node, const char *path, const ff_port *output, asked *limit,
                        ff_report *report)
 {
     const char *text = node->kind == FF_SCALAR ? node->text : "";
     if (*text != '<' && *text != '>')
-        return ff_error(report, FF_FAULT_INPUT, node->place, NULL,
-                        "limits.%s: expected \"> NUMBER UNIT\" or \"< NUMBER UNIT\" in quotes, or "
-                        "a list of them",
-                        path);
+        return refuse(node, path, report);
     *limit = (asked){.above = *text == '>', .equal = text[1] == '='};
     text += limit->equal ? 2 : 1;
     text += strspn(text, " ");
@@ -83,6 +89,8 @@ bool limits_check(ff_run *run)
         const ff_stage *stage;
         const ff_result *result = find_output(ff_run_pipeline(run), node->keys[i], &stage);
         asked unused;
+        if (result && !limit_at(node->items[i], 0))
+            refuse(node->items[i], node->keys[i], report);
         for (size_t k = 0; result && (item = limit_at(node->items[i], k)); k++)
             read_limit(item, node->keys[i], result->row, &unused, report);
     }
@@ -95,9 +103,9 @@ static double bar_of(const ff_stage *stage, const ff_result *result, size_t k,
 {
     const accuracy_error *measured = accuracy_find(errors, result);
     const ff_result *estimate = accuracy_estimate_of(stage, result);
-    if (measured)
-        return measured->bar ? measured->bar[k] : NAN;
-    return estimate ? estimate->data[k]
+    if (measured && measured->bar)
+        return measured->bar[k];
+    return estimate ? fabs(estimate->data[k])
                     : accuracy_estimated_share(stage, result) * fabs(result->data[k]);
 }
 
@@ -202,10 +210,10 @@ json_t *limits_json(const limits_verdict *verdict)
     for (size_t i = 0; i < verdict->count; i++) {
         const limits_row *row = &verdict->rows[i];
         json_array_append_new(
-            list, json_pack("{s:s, s:s, s:s, s:o, s:o, s:s}", "output", row->name, "asked",
+            list, json_pack("{s:s, s:s, s:s, s:o, s:o, s:b, s:s}", "output", row->name, "asked",
                             row->asked, "standing", limits_word(row->standing), "value",
-                            number_or_null(row->value), "bar", number_or_null(row->bar), "unit",
-                            row->stage->results[row->output].row->unit));
+                            number_or_null(row->value), "bar", number_or_null(row->bar), "at_least",
+                            isinf(row->bar), "unit", row->stage->results[row->output].row->unit));
     }
     return list;
 }

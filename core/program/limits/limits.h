@@ -26,7 +26,8 @@ typedef struct limits_row {
     char *asked; /* "> 1.5", owned */
     limits_standing standing;
     double value; /* the number that is nearest to the limit, or farthest beyond; NaN: not known */
-    double bar;   /* its error, in the same SI unit; NaN: nothing tells it */
+    double bar;   /* its error, in the same SI unit; NaN: nothing tells it; infinite: the value is
+                     known from below alone */
 } limits_row;
 
 typedef struct limits_verdict {
@@ -37,7 +38,8 @@ typedef struct limits_verdict {
 
 /* Reports what cannot be read in the limits of the file; false then. */
 bool limits_check(ff_run *run);
-/* Judges what the pipeline has computed; outputs that it has not are missed. */
+/* Judges what the pipeline has computed. An output without numbers misses its limit; a limit that
+   limits_check refuses, or whose output the pipeline does not know, has no row. */
 limits_verdict limits_judge(const ff_run *run, const ff_pipeline *pipeline,
                             const accuracy_record *errors);
 void limits_free(limits_verdict *verdict);
@@ -45,7 +47,7 @@ void limits_free(limits_verdict *verdict);
 const char *limits_word(limits_standing standing); /* "met", "met within its bar", "missed" */
 /* The word's standing; LIMITS_MISSED for others. */
 limits_standing limits_standing_of(const char *word);
-/* [{output, asked, standing, value, bar, unit}]; null for a number that is not known. */
+/* [{output, asked, standing, value, bar, at_least, unit}]; null for a number that is not known. */
 json_t *limits_json(const limits_verdict *verdict);
 limits_standing limits_worst(const json_t *list);
 /* The same in a word, and the names where it is not "met": "missed: scuffing.safety > 1.5"; to be

@@ -19,8 +19,8 @@ static void write_limit(report_page *page, const results_view_limit *limit)
         report_quantity_text(name, limit->unit, limit->value, value);
     report_print(page->out,
                  "<tr><td><code>%s</code></td><td class=\"number\">%s</td><td "
-                 "class=\"number\">%s",
-                 limit->output, limit->asked, value);
+                 "class=\"number\">%s%s",
+                 limit->output, limit->asked, limit->at_least ? "\u2265 " : "", value);
     if (limit->bar > 0) {
         report_quantity_text("", limit->unit, limit->bar, bar);
         report_print(page->out, " &#177; %s", bar);

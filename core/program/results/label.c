@@ -6,6 +6,11 @@
 #include <stdio.h>
 #include <string.h>
 
+const char *results_called(const ff_port *row)
+{
+    return row->label && *row->label ? row->label : row->doc;
+}
+
 /* Whether the label ends at the latest here: brackets behind an operator belong to a formula. */
 static bool is_end(const char *doc, size_t at)
 {

@@ -2,9 +2,12 @@
 #ifndef RESULTS_LABEL_H
 #define RESULTS_LABEL_H
 
-#include <stddef.h>
+#include <flankfilm/plugin.h>
 
 enum { RESULTS_LABEL_SIZE = 256 };
+
+/* The words that a row has for its output: its label, else its doc. */
+const char *results_called(const ff_port *row);
 
 /* What an output is called beside its name: as many clauses of its doc as have room in so many
    bytes, without what stands behind "; " or in brackets; at least the first clause. */

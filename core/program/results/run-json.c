@@ -127,6 +127,8 @@ static json_t *describe_output(const results_outcome *outcome, const ff_stage *s
     const accuracy_error *error = accuracy_find(outcome->errors, result);
     json_t *entry = result->rank ? describe_array(stage, output) : describe_scalar(result);
     json_object_set_new(entry, "doc", results_json_text(result->row->doc));
+    if (result->row->label)
+        json_object_set_new(entry, "label", results_json_text(result->row->label));
     if (result->rank)
         json_object_set_new(entry, "against", results_against(pipeline, stage, output));
     if (result->rank && is_elsewhere(result, arrays)) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* study.json tells what a study consists of: its axes, and the stages of its first case. */
 #include "json.h"
+#include "label.h"
 #include "write.h"
 
 #include <stdlib.h>
@@ -101,7 +102,7 @@ static json_t *describe_stages(const ff_pipeline *pipeline, json_t *docs)
         for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
             const ff_port *row = ff_model_output(stage->loaded->model, k);
             snprintf(name, sizeof name, "%s.%s", stage->name, row->name);
-            json_object_set_new(docs, name, results_json_text(row->doc));
+            json_object_set_new(docs, name, results_json_text(results_called(row)));
         }
     }
     return list;

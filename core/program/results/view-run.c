@@ -29,11 +29,12 @@ static void add_outputs(results_reader *reader, json_t *outputs, uint32_t flags)
     json_t *entry;
     json_object_foreach(outputs, name, entry)
     {
+        const json_t *label = json_object_get(entry, "label");
         const results_entry told = {.unit = json_object_get(entry, "unit"),
                                     .dims = json_object_get(entry, "dims"),
                                     .shape = json_object_get(entry, "shape"),
                                     .against = json_object_get(entry, "against"),
-                                    .doc = json_object_get(entry, "doc")};
+                                    .doc = label ? label : json_object_get(entry, "doc")};
         const uint32_t least =
             json_is_true(json_object_get(entry, "at_least")) ? RESULTS_VIEW_AT_LEAST : 0;
         results_output *made = results_view_add_output(reader, name, &told, flags | least);

@@ -62,6 +62,7 @@ static void add_limits(results_reader *reader, results_view_case *c, const json_
             .unit = results_view_text(reader, json_object_get(entry, "unit")),
             .value = number_of(json_object_get(entry, "value")),
             .bar = number_of(json_object_get(entry, "bar")),
+            .at_least = json_is_true(json_object_get(entry, "at_least")),
             .standing =
                 (int32_t)limits_standing_of(json_string_value(json_object_get(entry, "standing"))),
         };

@@ -78,6 +78,7 @@ typedef struct results_view_limit {
     const char *output, *asked; /* "scuffing.safety", "> 1.5" */
     const char *unit;           /* SI, of the numbers */
     double value, bar;          /* NaN: not known */
+    bool at_least;              /* the value is known from below alone */
     int32_t standing;           /* limits_standing */
 } results_view_limit;
 

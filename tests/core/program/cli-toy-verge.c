@@ -26,7 +26,11 @@ static const ff_param params[] = {
 
 static const ff_port outputs[] = {
     {.name = "answer", .unit = "m", .doc = "1 m, nearly", .dims = ""},
-    {.name = "swing", .unit = "1", .doc = "1: it swings", .dims = ""},
+    {.name = "swing",
+     .unit = "1",
+     .doc = "1: it swings",
+     .dims = "",
+     .label = "state of <the> verge"},
     {.name = "answers", .unit = "m", .doc = "the same thrice", .dims = "t"},
 };
 

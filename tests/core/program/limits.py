@@ -39,6 +39,7 @@ REFUSED = [
     ('limits={verge.answer: "1 m"}', 23, 'limits.verge.answer: expected "> NUMBER UNIT"'),
     ('limits={verge.answer: ["> 1 m", {}]}', 33, 'limits.verge.answer: expected "> NUMBER UNIT"'),
     ('limits={verge.answer: "> 1 K"}', 23, "limits.verge.answer: \"1 K\" is a temperature"),
+    ("limits={verge.answer: []}", 23, 'limits.verge.answer: expected "> NUMBER UNIT"'),
     ("limits=[verge.answer]", 8, "limits: expected a map such as"),
     ("accept={verge.residual: }", 25, "accept.verge.residual: expected the reason"),
     ("accept={verg.residual: x}", 9, 'accept: there is no stage "verg"'),
@@ -127,7 +128,22 @@ class Limits(lab.Lab):
                          "--set", "accept={verge.residual: seen}", "--strict").splitlines()[-1]
         self.assertIn("4 of 4 cases done: 4 good; limits: 4 met", said)
         said = self.call("run", file, "-o", "anew", "--strict", code=4)
-        self.assertIn("4 of 4 cases done, 4 of them before", said)
+        self.assertIn("4 of 4 cases done, 4 of them before: 2 good, 2 doubtful (residual 2); "
+                      "limits: 1 met within its bar, 3 missed", said)
+        answer = self.answer(file, "-o", "anew")
+        self.assertEqual(answer["limits"], {"met": 0, "met within its bar": 1, "missed": 3})
+
+    def test_limit_of_a_case(self):
+        """A limit that cannot be read in a case makes that case invalid."""
+        for name, bound in ("one", "> 1 m"), ("two", "> 2 kg"):
+            self.write(name, f'format: 2\nlimits: {{verge.answer: "{bound}"}}\n')
+        file = self.write("own", "format: 2\npipeline: {verge: {use: toy/verge}}\noutputs: [verge.swing]\n"
+                                 "study: {sweep: {include: [one.yaml, two.yaml]}}\n")
+        self.call("run", file, "-o", "own", code=4)
+        with open("own/table.csv", encoding="utf-8") as table:
+            rows = list(csv.DictReader(table))
+        self.assertEqual([row["status"] for row in rows], ["ok", "invalid"])
+        self.assertIn('limits.verge.answer: "2 kg" is', rows[1]["reason"])
 
     def test_refused(self):
         file = self.write("refused", RUN % "")

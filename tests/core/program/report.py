@@ -100,6 +100,15 @@ class Report(lab.Lab):
         self.assertEqual(re.findall(r"<td><code>([^<]*)</code>", asked[0]), ["wave.total", "wave.height", "wave.level"])
         self.assertIn("<code>wave.cost</code>", asked[1])
 
+    def test_label(self):
+        """An output is called by the label of its row, if it has one, on terminal and page."""
+        with open("label.yaml", "w", encoding="utf-8") as file:
+            file.write("format: 2\npipeline: {verge: {use: toy/verge}}\noutputs: [verge.swing]\n")
+        self.assertIn("state of <the> verge", self.call("run", "label.yaml", "-o", "label"))
+        self.call("report", "label")
+        with open("label/report.html", encoding="utf-8") as page:
+            self.assertIn('<th scope="row">state of &lt;the&gt; verge</th>', page.read())
+
     def test_at_least(self):
         """A peak that the cells do not resolve is known from below: print, result.json and page say so of it alone."""
         with open("blow.csv", "w", encoding="utf-8") as file:

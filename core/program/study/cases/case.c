@@ -175,6 +175,8 @@ void study_case_open(study_case *c, const study_run *run, size_t index, study_ke
         c->run = run->base ? run_copy(run->base) : run_read(run->engine, run->file);
         study_overlay(study, index, run->sets, run->set_count, c->run);
         c->pipeline = accuracy_build(c->run, run->engine, false);
+        if (c->pipeline)
+            limits_check(c->run);
     }
     c->report = ff_run_report(c->run);
     uint64_t fingerprint = hash_assignments(study, index);

@@ -355,6 +355,16 @@ static json_t *list_cases(const study_tally *tally)
     return list;
 }
 
+/* Returns {met, met within its bar, missed}: numbers of cases. */
+static json_t *count_limits(const study_tally *tally)
+{
+    json_t *counts = json_object();
+    for (int s = 0; s < LIMITS_STANDINGS; s++)
+        json_object_set_new(counts, limits_word((limits_standing)s),
+                            json_integer((json_int_t)tally->limits[s]));
+    return counts;
+}
+
 void study_tally_describe(const study_tally *tally, json_t *object)
 {
     json_t *counts = json_object(), *reasons = json_array();
@@ -373,6 +383,8 @@ void study_tally_describe(const study_tally *tally, json_t *object)
     }
     json_object_set_new(object, "verdict", json_string(study_verdict_name(worst)));
     json_object_set_new(object, "counts", counts);
+    if (tally->limits[LIMITS_MET] + tally->limits[LIMITS_WITHIN] + tally->limits[LIMITS_MISSED] > 0)
+        json_object_set_new(object, "limits", count_limits(tally));
     json_object_set_new(object, "reasons", reasons);
     json_object_set_new(object, "judged", list_cases(tally));
 }
