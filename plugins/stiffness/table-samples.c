@@ -118,6 +118,13 @@ static ff_status check_periodic(const stiffness_table *t)
         if (end)
             return fail_at(t, "file", COLUMN_LOADED, t->distinct.before[0], loaded_jumps, *end);
     }
+    for (size_t i = 1; !end && t->ends == PERIODIC && i + 1 < t->forces; i++) {
+        const size_t row = i * t->count;
+        const double *between = differs_from_start(t, t->file->columns[COLUMN_LOADED] + row);
+        if (between)
+            return fail_at(t, "file", COLUMN_LOADED, row + t->distinct.before[0], loaded_jumps,
+                           *between);
+    }
     if (!end)
         return FF_OK;
     return fail_at(t, "stiffness", t->k ? COLUMN_STIFFNESS : COLUMN_LOADED, t->distinct.before[0],

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "spring.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -117,6 +118,7 @@ size_t dynamics_spring_levels(const dynamics_force_levels *l, double force, int 
                               size_t taken[DYNAMICS_LINES])
 {
     size_t mean = 0, count = 0;
+    assert(l->count <= DYNAMICS_LINES);
     while (mean + 1 < l->count && l->force[mean] < force * (1 - round_off))
         mean++;
     for (size_t i = 0; i < l->count; i++)

@@ -169,6 +169,16 @@ static double frozen_force(const dynamics_mesh_curves *curves, const dynamics_sp
     return nodes->lines ? force_of(nodes, i, g) : k[i] * g;
 }
 
+/* Whether a spring can be made of the levels: dynamics_spring_nodes_share relies on it. */
+static int make_a_spring(const dynamics_force_levels *l)
+{
+    int made = l->count >= 2 && l->count <= DYNAMICS_LINES && l->error;
+    for (size_t at = 0; made && at < l->count * l->phases; at++)
+        made = (at < l->phases || l->error[at] > l->error[at - l->phases]) &&
+               (!l->stiffness || l->stiffness[at] > 0);
+    return made;
+}
+
 double dynamics_slope_change(const dynamics_inputs *inputs, int on_chord, double least,
                              double largest)
 {
@@ -222,7 +232,7 @@ void dynamics_sharing_report(const dynamics_inputs *inputs, int on_chord, double
     }
     if (l->count < 2 || !(mean > 0) || !(largest - least > 1e-9 * mean))
         return;
-    if (l->error)
+    if (make_a_spring(l))
         report_slope(inputs, on_chord, least, largest, host);
     if (!l->stiffness || !l->tooth_force)
         return;

@@ -68,6 +68,10 @@ ff_status ehl_stage_heat(const ehl_model *m, const ff_array *in, ehl_march *marc
                         "the discretisation of another stage knows no heat: use thermal: none, or "
                         "leave the wire discretisation out");
     ff_status status = ehl_heat_conductivity(m->host, m->liquid, &m->laws, &conductivity);
+    if (status == FF_OK && ehl_heat_conductivity_rise(m->liquid, m->laws.temperature).rise > 0)
+        m->host->quality(m->host->ctx, "constant_conductivity", 1, 0, FF_RANGE,
+                         "the conductivity of the oil rises with pressure, which thermal: inlet "
+                         "and full do not know");
     if (m->thermal == EHL_THERMAL_FULL)
         return status == FF_OK ? thermal_create(m, in, march, conductivity, thermal) : status;
     if (status == FF_OK)

@@ -407,6 +407,29 @@ static void test_sharing(void)
     stage_close(s);
 }
 
+/* A frozen motion has no line where no spring can be made of the levels: more than it takes lines,
+   or errors that do not rise. */
+static void test_useless_levels(void)
+{
+    enum { MANY = 40 };
+    static double error[MANY * PAIR_MAX_PHASES], force[MANY];
+    for (int falls = 0; falls < 2; falls++) {
+        pair p = pair_cosine(2375, 0.05, 1e-6, 50);
+        stage *s = pair_open("dynamics/shooting", &p);
+        const size_t rows = falls ? LEVELS : MANY, shape[] = {rows, p.phases};
+        for (size_t k = 0; k < rows; k++) {
+            force[k] = 0.1 * (double)k * p.line_force;
+            for (size_t i = 0; i < p.phases; i++)
+                error[k * p.phases + i] = p.error[i] + (falls ? -1 : 1) * force[k] / p.stiffness[i];
+        }
+        stage_give_series(s, "stiffness.force_level", rows, force);
+        stage_give(s, "stiffness.level_error", 2, shape, error);
+        check_true("runs", stage_run(s) == FF_OK);
+        check_true("no line", !stage_has_quality(s, "slope_change"));
+        stage_close(s);
+    }
+}
+
 int main(void)
 {
     test_law();
@@ -418,5 +441,6 @@ int main(void)
     test_landings();
     test_landing_at_jump();
     test_sharing();
+    test_useless_levels();
     return check_done();
 }

@@ -259,6 +259,9 @@ static void test_refusals(void)
     expect_refusal(
         "phase,force [N],transmission_error [um],loaded_transmission_error [um]\n0,0,1,2\n",
         ":1:17: beside force the transmission error without load");
+    expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1.1\n1,0,1\n"
+                   "0,5,2\n0.5,5,2.1\n1,5,2.9\n0,9,3\n0.5,9,3.1\n1,9,3\n",
+                   ":7:5: the loaded transmission error is not periodic");
     expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,5,1\n",
                    ":2:3: the first rows must have the force 0");
     expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n",
