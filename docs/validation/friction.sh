@@ -100,7 +100,7 @@ def off(value, of):
 print("""
 ## FZG C-mod gears
 
-`%s`: 183.4 N m, Ra 0.2 um, a paraffinic gear oil of ISO VG 100 at 90 degC. At 0.5 m/s a mean of at most 0.065 was measured; at 8.3 m/s
+`%s`: 183.4 N m, Ra 0.2 um, a paraffinic gear oil of ISO VG 100 at 90 degC. At 0.5 m/s a mean of at most 0.065 was measured, which is also where the boundary friction 0.065 of the film comes from, so that this row cannot be missed and tests nothing; at 8.3 m/s
 what is known is the formula, 0.0423, which is no measurement of these gears: held to 0.040 to 0.055.
 
 | m/s | film, fluid alone | with asperities | formula | held to | |
@@ -109,7 +109,7 @@ for v, low, high in ((0.5, 0, 0.065), (8.3, 0.04, 0.055)):
     speed = ["duty.speed=%g rpm" % RPM[v]]
     fluid, both = run(C_MOD, speed + FLUID), run(C_MOD, speed)
     print("| %g | %.4f | %.4f | %.4f | %s | %s |" % (v, mu(fluid), mu(both), mu(both, "friction_coefficient_formula"),
-                                              "%.3f to %.3f" % (low, high) if low else "at most %.3f" % high, "met" if low <= mu(both) <= high else "**missed**"))
+                                              "%.3f to %.3f" % (low, high) if low else "at most %.3f" % high, ("met" if low else "by construction") if low <= mu(both) <= high else "**missed**"))
 print("""
 ## FZG C-PT gears over torque and speed
 
