@@ -11,7 +11,7 @@ shift 2
 
 mkdir -p "$work/$target" "$work/toys/toy" "tests/fuzz/found/$target"
 case $target in
-store | study) more='core/engine/*.c core/program/results/*.c core/program/terminal/*.c core/program/study/*/*.c core/program/study/kinds/*/*.c core/program/study/kinds/*/*/*.c core/program/accuracy/*.c core/program/arrays/*.c core/program/memory/*.c core/program/crash/*.c core/program/run/*.c' libraries='-ljansson -lgsl -lgslcblas' ;;
+store | study) more='core/engine/*.c core/program/results/*.c core/program/terminal/*.c core/program/study/*/*.c core/program/study/kinds/*/*.c core/program/study/kinds/*/*/*.c core/program/accuracy/*.c core/program/limits/*.c core/program/arrays/*.c core/program/memory/*.c core/program/crash/*.c core/program/run/*.c' libraries='-ljansson -lgsl -lgslcblas' ;;
 *) more='' libraries='' ;;
 esac
 flags="-g -O1 -std=c11 -D_GNU_SOURCE -Iinclude"
