@@ -154,6 +154,14 @@ void fe_drop_untouched(ff_stage *stage)
     }
 }
 
+/* What an output is off by is infinite where that is not known. */
+static bool may_be_infinite(const ff_port *row)
+{
+    static const char ending[] = "_error";
+    size_t length = strlen(row->name), end = strlen(ending);
+    return length > end && !strcmp(row->name + length - end, ending);
+}
+
 /* Whether an output cannot be used; `why` completes 'the plugin ...'. */
 static bool is_faulty(const ff_stage *stage, size_t output, fe_lengths *all, char *why, size_t size)
 {
@@ -170,7 +178,7 @@ static bool is_faulty(const ff_stage *stage, size_t output, fe_lengths *all, cha
         return true;
     }
     for (size_t k = 0; k < result->count; k++) {
-        if (isfinite(result->data[k]))
+        if (isfinite(result->data[k]) || (result->data[k] > 0 && may_be_infinite(result->row)))
             continue;
         snprintf(why, size, "gave %s at index %zu of the output \"%s\"",
                  isnan(result->data[k]) ? "no number (NaN)" : "an infinite number", k, name);

@@ -42,23 +42,39 @@ const ff_result *accuracy_estimated(const ff_stage *stage, const char *line)
     return found && found->requested && found->rank > 1 ? NULL : found;
 }
 
-double accuracy_estimated_share(const ff_stage *stage, const ff_result *result)
+/* Whether a line is of the error of a result, or of one whose name its own begins with. */
+static bool is_of(const ff_stage *stage, const ff_quality *line, const ff_result *result)
 {
     const char *name = result->row->name;
+    const ff_result *of = ends_in_error(name) ? NULL : accuracy_estimated(stage, line->name);
+    size_t stem = of ? strlen(of->row->name) : 0;
+    return of && !strncmp(name, of->row->name, stem) && (!name[stem] || name[stem] == '_') &&
+           !strcmp(result->row->unit, of->row->unit);
+}
+
+double accuracy_estimated_share(const ff_stage *stage, const ff_result *result)
+{
     double share = NAN;
-    for (size_t i = 0; i < stage->quality_count && !ends_in_error(name); i++) {
-        const ff_result *of = accuracy_estimated(stage, stage->quality[i].name);
-        size_t stem = of ? strlen(of->row->name) : 0;
-        if (of && !strncmp(name, of->row->name, stem) && (!name[stem] || name[stem] == '_') &&
-            !strcmp(result->row->unit, of->row->unit))
-            share = fmax(share, stage->quality[i].value);
+    for (size_t i = 0; i < stage->quality_count; i++) {
+        const ff_quality *line = &stage->quality[i];
+        if (is_of(stage, line, result))
+            share = fmax(share, isnan(line->value) ? (double)INFINITY : line->value);
     }
     return share;
 }
 
-bool accuracy_is_least(const ff_stage *stage, const ff_result *result)
+bool accuracy_is_unknown(const ff_stage *stage, const ff_result *result)
 {
     return isinf(accuracy_estimated_share(stage, result));
+}
+
+bool accuracy_is_least(const ff_stage *stage, const ff_result *result)
+{
+    bool least = false;
+    for (size_t i = 0; i < stage->quality_count; i++)
+        least =
+            least || (isinf(stage->quality[i].value) && is_of(stage, &stage->quality[i], result));
+    return least;
 }
 
 bool accuracy_may_estimate(const ff_port *row, const ff_port *of)

@@ -20,6 +20,8 @@ const ff_result *accuracy_estimated(const ff_stage *stage, const char *line);
 /* The largest relative error in the lines of the stage on the output, or on one whose name its own
    begins with, in the same unit: "h_min" of "h_min_lowest". NaN: there is none. */
 double accuracy_estimated_share(const ff_stage *stage, const ff_result *result);
+/* Whether the stage does not know the error of the output: a line of it has no number. */
+bool accuracy_is_unknown(const ff_stage *stage, const ff_result *result);
 /* Whether the stage knows the output from below alone: that error is infinite. */
 bool accuracy_is_least(const ff_stage *stage, const ff_result *result);
 /* Whether an output may say what another one is off by: "h_min_error", in its unit and along its

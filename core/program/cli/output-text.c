@@ -15,16 +15,21 @@ static results_readable unit_of(const ff_port *row, double most)
     return results_readable_output(row->name, row->unit, most);
 }
 
-/* Ranks of the least and the greatest value. */
-static void find_extremes(const ff_result *result, size_t *least, size_t *greatest)
+/* Ranks of the least and the greatest value that are known; false: none is. */
+static bool find_extremes(const ff_result *result, size_t *least, size_t *greatest)
 {
+    bool known = false;
     *least = *greatest = 0;
-    for (size_t i = 1; i < result->count; i++) {
-        if (result->data[i] < result->data[*least])
+    for (size_t i = 0; i < result->count; i++) {
+        if (!isfinite(result->data[i]))
+            continue;
+        if (!known || result->data[i] < result->data[*least])
             *least = i;
-        if (result->data[i] > result->data[*greatest])
+        if (!known || result->data[i] > result->data[*greatest])
             *greatest = i;
+        known = true;
     }
+    return known;
 }
 
 /* Numbers of one quantity; what is noise beside the greatest of them is 0. */
@@ -106,7 +111,7 @@ static bool known_error(const ff_stage *stage, const ff_result *result)
 {
     for (size_t i = 0; i < stage->loaded->model->output_count; i++) {
         const ff_result *of = &stage->results[i];
-        if (accuracy_may_estimate(result->row, of->row) && accuracy_is_least(stage, of))
+        if (accuracy_may_estimate(result->row, of->row) && accuracy_is_unknown(stage, of))
             return false;
     }
     return true;
@@ -120,10 +125,13 @@ cli_output_text cli_output_text_of(const accuracy_record *errors, const ff_pipel
     size_t least = 0, greatest = 0;
     bool pair = print_pair(result, text.value, sizeof text.value);
     if (result->count > 0 && !pair) {
-        find_extremes(result, &least, &greatest);
+        const bool known = find_extremes(result, &least, &greatest);
         size_t at = accuracy_is_least(stage, result) ? strlen(strcpy(text.value, ">= ")) : 0;
-        print_range(result, result->data[least], result->data[greatest], text.value + at,
-                    sizeof text.value - at);
+        if (known)
+            print_range(result, result->data[least], result->data[greatest], text.value + at,
+                        sizeof text.value - at);
+        else
+            strcpy(text.value, "not known");
     }
     bool from_end_to_end = least == 0 && greatest + 1 == result->count;
     if (result->rank > 1)

@@ -23,6 +23,8 @@ static extremes find_extremes(const ff_array *array)
     extremes at = {0, 0};
     for (size_t i = 1; i < report_array_size(array); i++) {
         double value = array->data[i];
+        if (!isfinite(value))
+            continue;
         if (value < array->data[at.least] || !isfinite(array->data[at.least]))
             at.least = i;
         if (value > array->data[at.greatest] || !isfinite(array->data[at.greatest]))

@@ -43,7 +43,7 @@ typedef struct errors {
  * which it pays `light`, but not with volumes around their nodes, where both errors cancel; and its
  * oil stays thin. Under larger loads the spike of a thick oil is a corner of the film, which costs
  * an order, and it stands in the middle where l is as long as a. The factors cover M 0.1 to 200 and
- * L 0 to 15 on 128 to 2048 cells with n > 3.
+ * L 0 to 15 on 128 to 2048 cells with n > 3. Errors above EHL_KNOWN_ERROR are not known.
  */
 typedef struct in_space {
     double base, by_L, by_square, wide, spike, first_base, first_by_L;
@@ -59,10 +59,10 @@ static double space_error(const ehl_reynolds *eq, const in_space *c, const conta
     double narrow = at->opening / (2 * at->a), fourth = narrow * narrow * narrow * narrow;
     double g = fourth / (fourth + 1), L = at->L, square = L * L;
     if (eq->wedge != 2)
-        return fmin(1, (c->first_base + g * light_first + (1 - g) * c->first_by_L * L) / n);
+        return ehl_known_error((c->first_base + g * light_first + (1 - g) * c->first_by_L * L) / n);
     double sum = c->base + (eq->asymmetric ? g * light_asymmetric : 0);
     sum += (1 - g) * (c->by_L * L + c->by_square * square + c->wide * L * wide * wide);
-    return fmin(1, sum / (n * n) + (1 - g) * c->spike * square / n);
+    return ehl_known_error(sum / (n * n) + (1 - g) * c->spike * square / n);
 }
 
 /* Returns the largest accumulated truncation of the film near that node. */

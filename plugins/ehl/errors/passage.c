@@ -219,6 +219,8 @@ static void find_errors(const ehl_results *r, const ehl_march *m, const ehl_pass
             error[i][k] = 1 - exact / coarse;
             if (!(fabs(coarse / film - 1) <= within * fmax(EHL_FILM_LIMIT, fabs(error[i][k]))))
                 error[i][k] = NAN;
+            else
+                error[i][k] = ehl_known_error(error[i][k]);
         }
     take_larger(all, count, error);
 }

@@ -73,22 +73,37 @@ static double tip_of(const ehl_results *r, size_t row)
     return is_extreme(r, EHL_PEAK) && value < r->highest / 2 ? tip : fmax(tip, value + narrow);
 }
 
+/* Returns the share of its value by which a row with a bound is off, at most. */
+static double share_of_row(const ehl_results *r, size_t row, int kind)
+{
+    const double value = film_of(r, row, kind);
+    const double part = kind == EHL_PEAK ? tip_of(r, row) - value : fabs(*part_of(r, row, kind));
+    return isfinite(part) ? part / value : (double)INFINITY;
+}
+
+/* A film without a bound is what the contact left of the one before, or what the one behind is made
+   of: its share is the larger one of both. That of a peak, which goes with the load, is not known.
+ */
 double ehl_space_part(const ehl_results *r, size_t row, int kind)
 {
-    const double as_good_as_none = 1e9;
-    double part = 0;
-    if (has_bound(r, row, kind))
-        part = kind == EHL_PEAK ? tip_of(r, row) - film_of(r, row, kind)
-                                : fabs(*part_of(r, row, kind));
-    return isfinite(part) ? part : as_good_as_none * film_of(r, row, kind);
+    const int none = kind == EHL_PEAK && !has_bound(r, row, kind);
+    size_t before = row + 1, behind = row;
+    while (before > 0 && !has_bound(r, before - 1, kind))
+        before--;
+    while (behind < r->series.count && !has_bound(r, behind, kind))
+        behind++;
+    const int led = before > 0, leads = behind < r->series.count;
+    const double share = fmax(led ? share_of_row(r, before - 1, kind) : 0,
+                              leads ? share_of_row(r, behind, kind) : 0);
+    const double value = film_of(r, row, kind);
+    return !(value > 0) ? 0 : (led || leads) && !none ? share * value : (double)INFINITY;
 }
 
 /* Returns what a row makes of the error of the output by the cells: its own, or by how much it goes
-   beyond the extreme of all, where that alone is wanted. An error that is not known is infinite for
-   a peak, which is then known from below, and huge for a film. A peak without a bound has none. */
+   beyond the extreme of all, where that alone is wanted; infinite: it is not known. A peak without
+   a bound has none. */
 static double error_of_row(const ehl_results *r, size_t row, int kind)
 {
-    static const double huge = 1e300;
     double value = film_of(r, row, kind), part = *part_of(r, row, kind), error = 0;
     if (kind == EHL_PEAK && !has_bound(r, row, kind))
         return 0;
@@ -98,9 +113,7 @@ static double error_of_row(const ehl_results *r, size_t row, int kind)
         error = fabs(part) / value;
     else
         error = 1 - (value - part) / r->lowest;
-    if (isnan(error) || (kind != EHL_PEAK && isinf(error)))
-        error = kind == EHL_PEAK ? (double)INFINITY : huge;
-    return error;
+    return isfinite(error) ? error : (double)INFINITY;
 }
 
 static size_t worst_row(const ehl_results *r, int kind)
@@ -166,7 +179,7 @@ static void put_errors(ehl_results *r, const ehl_passage *p, int kind)
         if (i < p->first || i > p->last) {
             *part *= is_measured(r, i, kind) ? 1 : share;
         } else if ((has_bound(r, i, kind) || is_extreme(r, kind)) &&
-                   isfinite(p->error[i - p->first][kind])) {
+                   !isnan(p->error[i - p->first][kind])) {
             *part = p->error[i - p->first][kind] * film_of(r, i, kind);
             *part_of(r, i, EHL_MEASURED + kind) = 1;
             r->measured[kind] = 1;
@@ -372,6 +385,8 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
     static const char *const extreme[] = {"h_min_lowest", "", "p_max_highest"};
     const char *of = is_extreme(r, kind) ? extreme[kind] : all[kind];
     double error = error_of(r, kind);
+    if (kind != EHL_PEAK && isinf(error))
+        error = NAN; /* not known, nor from which side */
     char how[128] = "", enough[96] = "", text[400];
     if (kind == EHL_PEAK && fabs(r->share - 1) > 0)
         snprintf(how, sizeof how, "; by its film on %d times the cells %.3g of what bounds it",
@@ -385,9 +400,12 @@ static void report_cells(const ehl_results *r, const ehl_march *m, int kind, con
     else if (kind == EHL_PEAK)
         snprintf(enough, sizeof enough,
                  "; above 0.1 the cells may cut the spike at the outlet off: use more of them");
-    else if (error > limit && error < 0.5)
+    else if (error > limit)
         snprintf(enough, sizeof enough, "; cells: %.0f would be about enough",
                  enough_cells(m, error, limit));
+    else if (isnan(error))
+        snprintf(enough, sizeof enough, "; above %g it is not known: use more cells",
+                 EHL_KNOWN_ERROR);
     snprintf(text, sizeof text,
              "estimate of the error of %s by the cells, over it; loads above 2 %% of the "
              "largest%s%s",

@@ -9,9 +9,20 @@
 
 #include "../equations/solver.h"
 
+#include <math.h>
+
 /* Above them the lines of the quality record are doubtful, and the bounds are measured. */
 #define EHL_FILM_LIMIT 0.02
 #define EHL_PEAK_LIMIT 0.1
+
+/* An error of a film by the cells above this share of it is not known, and infinite: neither the
+   factors of the bounds nor the order by which twice the cells tell it hold so far. */
+#define EHL_KNOWN_ERROR 0.5
+
+static inline double ehl_known_error(double error)
+{
+    return fabs(error) <= EHL_KNOWN_ERROR ? error : (double)INFINITY;
+}
 
 /* What the bounds look at of a film. */
 typedef struct ehl_crest {

@@ -175,7 +175,7 @@ static tolerances tolerances_of(const ehl_results *r, const ehl_march *m)
     double same = fmax(most, 1e-9), cells = r->worst_by_cells;
     if (!m->solver->outside)
         return (tolerances){same, fmax(0.01, 10 * same)};
-    double limit = fmax(same, cells > 0 ? cells : unknown);
+    double limit = fmax(same, cells > 0 && isfinite(cells) ? cells : unknown);
     return (tolerances){limit, fmax(0.01, 2 * limit)};
 }
 
