@@ -23,8 +23,10 @@ static void add_bar(results_reader *reader, const char *name, const results_entr
     free(bar);
 }
 
-static void add_outputs(results_reader *reader, json_t *outputs, uint32_t flags)
+/* Returns the names of those that are known from below alone. */
+static json_t *add_outputs(results_reader *reader, json_t *outputs, uint32_t flags)
 {
+    json_t *names = json_array();
     const char *name;
     json_t *entry;
     json_object_foreach(outputs, name, entry)
@@ -40,11 +42,14 @@ static void add_outputs(results_reader *reader, json_t *outputs, uint32_t flags)
         results_output *made = results_view_add_output(reader, name, &told, flags | least);
         if (made)
             made->entry = entry;
+        if (least)
+            json_array_append_new(names, json_string(name));
         json_t *error = json_object_get(entry, "error");
         if (json_object_get(error, "value") || json_object_get(error, "data") ||
             json_object_get(error, "file"))
             add_bar(reader, name, &told, error);
     }
+    return names;
 }
 
 static int verdict_of(const json_t *text)
@@ -110,11 +115,12 @@ bool results_view_read_run(results_reader *reader)
         .command = "",
     };
     reader->per_case = memory_alloc(sizeof *reader->per_case);
-    add_outputs(reader, json_object_get(root, "outputs"), RESULTS_VIEW_ASKED);
-    add_outputs(reader, json_object_get(root, "computed"), 0);
+    json_t *least = add_outputs(reader, json_object_get(root, "outputs"), RESULTS_VIEW_ASKED);
+    json_decref(add_outputs(reader, json_object_get(root, "computed"), 0));
     results_view_take_outputs(reader, &reader->per_case[0]);
-    json_t *record = json_pack("{s:O?, s:{}, s:s, s:O?}", "status", json_object_get(root, "status"),
-                               "quality", "key", "", "limits", json_object_get(root, "limits"));
+    json_t *record = json_pack("{s:O?, s:{}, s:s, s:o, s:O?}", "status",
+                               json_object_get(root, "status"), "quality", "key", "", "at_least",
+                               least, "limits", json_object_get(root, "limits"));
     add_stages(reader, c, json_object_get(root, "stages"), json_object_get(record, "quality"));
     study_judge_record(record);
     results_view_judge(reader, c, 1, record);

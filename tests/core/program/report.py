@@ -110,7 +110,7 @@ class Report(lab.Lab):
             self.assertIn('<th scope="row">state of &lt;the&gt; verge</th>', page.read())
 
     def test_at_least(self):
-        """A peak that the cells do not resolve is known from below: print, result.json and page say so of it alone."""
+        """A peak that the cells do not resolve is known from below: print, result.json, page and tables say so of it alone."""
         with open("blow.csv", "w", encoding="utf-8") as file:
             file.write("time [s],radius [mm],speed_1 [m/s],speed_2 [m/s],load_per_width [N/mm]\n"
                        "0,12.8,0.05,0.05,2\n50e-6,12.8,0.05,0.05,150\n120e-6,12.8,0.05,0.05,150\n")
@@ -130,6 +130,13 @@ class Report(lab.Lab):
         page = self.read_page("blow/report.html")
         self.assertRegex(page, r'film\.p_max_highest</code></td><td class="number">&#8805; ')
         self.assertNotRegex(page, r'film\.h_min_lowest</code></td><td class="number">&#8805;')
+        said = self.call("run", "blow.yaml", "--set", "study={sweep: {film.steps: [20, 30]}}", "-o", "blows")
+        words = "film.p_max_highest known from below alone"
+        self.assertIn(words + " 2", said)
+        self.call("export", "blows", "--to", "csv")
+        for table in "blows/table.csv", "blows/results-csv/scalars.csv":
+            with open(table, encoding="utf-8") as file:
+                self.assertEqual(file.read().count(words), 2)
 
     def test_rough_flanks(self):
         """The flanks move with the slider, asperities have their pressure, and nothing is out of the figure."""

@@ -326,7 +326,8 @@ static void add_warnings(json_t *record, const ff_report *report, json_t *logged
     json_decref(warnings);
 }
 
-/* Adds {stage: {name: [value, limit, verdict, text]}}. */
+/* Adds {stage: {name: [value, limit, verdict, text]}}, and the outputs that are known from below
+   alone, if any. */
 static void add_quality(json_t *record, const ff_pipeline *pipeline)
 {
     json_t *all = json_object();
@@ -345,6 +346,10 @@ static void add_quality(json_t *record, const ff_pipeline *pipeline)
             json_object_set_new(all, stage->name, lines);
     }
     json_object_set_new(record, "quality", all);
+    json_t *least = pipeline ? study_list_least(pipeline) : NULL;
+    if (json_array_size(least) > 0)
+        json_object_set(record, "at_least", least);
+    json_decref(least);
 }
 
 /* To the microsecond, which no clock here is better than. */

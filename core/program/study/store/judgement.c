@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "judgement.h"
 
+#include "../../accuracy/lines.h"
 #include "../../memory/memory.h"
 
 #include <math.h>
@@ -77,10 +78,10 @@ static char *words_of_warning(const char *text)
     return memory_copy_text(text, length);
 }
 
-/* A warning is a reason to look, which leaves the verdict as it is. */
-static void add_warning(doubts *all, const char *text)
+/* A reason to look, which leaves the verdict as it is; the words are taken over. */
+static void add_words(doubts *all, char *words)
 {
-    doubt made = {words_of_warning(text), FF_GOOD, 0};
+    doubt made = {words, FF_GOOD, 0};
     for (size_t i = 0; i < all->count; i++)
         if (!strcmp(all->lines[i].words, made.words)) {
             free(made.words);
@@ -88,6 +89,12 @@ static void add_warning(doubts *all, const char *text)
         }
     all->lines = memory_resize(all->lines, (all->count + 1) * sizeof *all->lines);
     all->lines[all->count++] = made;
+}
+
+/* An output that is known from below alone: wherever its value stands, the reasons do. */
+static void add_least(doubts *all, const char *name)
+{
+    add_words(all, memory_print_text("%s known from below alone", name));
 }
 
 static int by_gravity(const void *a, const void *b)
@@ -141,10 +148,12 @@ void study_judge_record(json_t *record)
         add_doubt(&all, name, number_of(json_array_get(line, 0)),
                   number_of(json_array_get(line, 1)), known ? (int)verdict : FF_BAD);
     }
-    json_t *warning;
+    json_t *warning, *name_of;
     size_t i;
-    json_array_foreach(json_object_get(record, "warnings"), i, warning)
-        add_warning(&all, json_is_string(warning) ? json_string_value(warning) : "a warning");
+    json_array_foreach(json_object_get(record, "warnings"), i, warning) add_words(
+        &all, words_of_warning(json_is_string(warning) ? json_string_value(warning) : "a warning"));
+    json_array_foreach(json_object_get(record, "at_least"), i, name_of)
+        add_least(&all, json_is_string(name_of) ? json_string_value(name_of) : "an output");
     bool plain = !status || !strcmp(status, "failed") ||
                  !strcmp(status, study_refused); /* that alone says nothing of the cause */
     study_judgement judgement =
@@ -180,6 +189,20 @@ bool study_judgement_read(study_judgement *judgement, const json_t *object)
     return true;
 }
 
+json_t *study_list_least(const ff_pipeline *pipeline)
+{
+    json_t *names = json_array();
+    for (size_t i = 0; i < pipeline->count; i++) {
+        const ff_stage *stage = &pipeline->stages[i];
+        for (size_t k = 0; stage->ran && k < stage->loaded->model->output_count; k++) {
+            const ff_result *result = &stage->results[k];
+            if (result->requested && result->data && accuracy_is_least(stage, result))
+                json_array_append_new(names, json_sprintf("%s.%s", stage->name, result->row->name));
+        }
+    }
+    return names;
+}
+
 study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed)
 {
     doubts all = {0};
@@ -188,6 +211,10 @@ study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed)
             const ff_quality *line = &pipeline->stages[i].quality[k];
             add_doubt(&all, line->name, line->value, line->limit, line->verdict);
         }
+    json_t *least = study_list_least(pipeline), *name;
+    size_t i;
+    json_array_foreach(least, i, name) add_least(&all, json_string_value(name));
+    json_decref(least);
     return judge(&all, failed, NULL);
 }
 

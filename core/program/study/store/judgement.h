@@ -23,11 +23,14 @@ typedef struct study_judgement {
 extern const char study_refused[]; /* "refused": the status of such a row, and its verdict */
 const char *study_verdict_name(int verdict); /* "good", "doubtful", "bad", "refused", "failed" */
 
-/* Judges the record of a case by its status, lines and warnings, and adds the judgement to it. */
+/* Judges the record of a case by its status, lines, warnings and what is known from below alone,
+   and adds the judgement to it. */
 void study_judge_record(json_t *record);
 /* Takes what study_judgement_add added, and how the case stands to limits. False when there is no
    verdict: a case that failed. */
 bool study_judgement_read(study_judgement *judgement, const json_t *object);
+/* Names of the requested outputs that are known from below alone: ["film.p_max_highest"]. */
+json_t *study_list_least(const ff_pipeline *pipeline);
 /* Judges what a pipeline has computed; `failed` says that the run ended with an error. */
 study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed);
 void study_judgement_free(study_judgement *judgement);
