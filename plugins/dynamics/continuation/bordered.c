@@ -64,10 +64,37 @@ static void set_orbit(const dynamics_frame *f, const double z[3], dynamics_orbit
     o->lambda = f->origin[2] + z[2];
 }
 
-/* Solves rows . u = r, with `border` as the third row, by Cramer's rule; 0: singular. */
+/* The row that alone tells something if both are one direction but for the accuracy of a point, or
+   else -1. Then the motions of one speed are a whole line: undamped flanks that touch where the
+   stiffness is constant may do so sooner or later. */
+static int only_row(double rows[2][3])
+{
+    static const double parallel = 1e-6;
+    double c[3], first = dynamics_dot(rows[0], rows[0]), second = dynamics_dot(rows[1], rows[1]);
+    cross(rows[0], rows[1], c);
+    return sqrt(dynamics_dot(c, c)) > parallel * (first + second) ? -1 : first < second;
+}
+
+/* The part of a direction across the row. */
+static void part_across(const double row[3], const double along[3], double part[3])
+{
+    double share = dynamics_dot(along, row) / dynamics_dot(row, row);
+    for (int i = 0; i < 3; i++)
+        part[i] = along[i] - share * row[i];
+}
+
+/* Solves rows . u = r, with `border` as the third row, by Cramer's rule; by the shortest u if one
+   row alone tells something. 0: singular. */
 static int solve_bordered(double rows[2][3], const double border[3], const double r[3], double u[3])
 {
     double a[3], b[3], c[3];
+    int only = only_row(rows);
+    if (only >= 0) {
+        part_across(border, rows[only], a);
+        for (int i = 0; i < 3; i++)
+            u[i] = r[only] * a[i] / dynamics_dot(a, a);
+        return isfinite(u[0]) && isfinite(u[1]) && isfinite(u[2]);
+    }
     cross(rows[1], border, a);
     cross(border, rows[0], b);
     cross(rows[0], rows[1], c);
@@ -113,8 +140,12 @@ int dynamics_curve_tangent(const dynamics_orbit *o, double unit, const double al
 {
     double rows[2][3], t[3];
     return_rows(o, unit, rows);
-    cross(rows[0], rows[1], t);
     double scaled[3] = {along[0] / unit, along[1] / unit, along[2]};
+    int only = only_row(rows);
+    if (only >= 0)
+        part_across(rows[only], scaled, t);
+    else
+        cross(rows[0], rows[1], t);
     double size = sqrt(dynamics_dot(t, t)) * (dynamics_dot(t, scaled) < 0 ? -1 : 1);
     if (size == 0 || !isfinite(size))
         return 0;

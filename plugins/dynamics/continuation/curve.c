@@ -12,6 +12,7 @@ enum { MOST_POINTS = 20000, FIRST_MARK = 64, MAX_SECANTS = 40 };
 
 /* Of the return, in the state's unit: of a motion, and of a point on the way. */
 static const double tolerance = 1e-10, of_point = 1e-8;
+static const double noise = 1e-6;                           /* of the test functions */
 static const double first_step = 0.1, shortest_step = 1e-7; /* relative to the longest */
 static const double predicted = 2e-3; /* error of the prediction that the step aims at */
 static const double most_turn = 0.35; /* rad, of the tangent in a step */
@@ -124,7 +125,6 @@ static int is_halved(const dynamics_excitation *excitation, const dynamics_orbit
    speed and the test function is noise. */
 static int add_events(const dynamics_continuation_range *t, const stride *w, dynamics_curve *c)
 {
-    static const double noise = 100 * of_point;
     dynamics_point found[2];
     double s[2];
     int count = 0;
@@ -382,7 +382,7 @@ static ff_status follow_one_way(const dynamics_continuation_range *t, const dyna
         int power_of_two = (c->count & (c->count - 1)) == 0; /* Brent's way to find a loop */
         if (c->count >= FIRST_MARK && power_of_two && !set_mark(t->flow, &w.orbit, &recent))
             return FF_OK;
-        w.before = w.ds;
+        w.before = fabs(w.to.fold) < noise ? 0 : w.ds; /* a cubic drifts along a line of motions */
         w.back = w.from;
         w.from = w.to;
         memcpy(w.half, w.orbit.half, sizeof w.half);

@@ -4,7 +4,7 @@
 #include "../excitation/inputs.h"
 #include "../oscillator/motion.h"
 #include "../oscillator/settle.h"
-#include "../series/continuation.h"
+#include "../series/branch.h"
 #include "../series/harmonics-motion.h"
 #include "../series/harmonics-warm-start.h"
 #include "../series/harmonics.h"
@@ -160,7 +160,7 @@ static void report_stability(const model *m, const dynamics_motion *motion, doub
 }
 
 static void report(const model *m, const dynamics_motion *motion, const solution *s,
-                   const dynamics_continuation_result *result, double largest)
+                   const dynamics_branch_result *result, double largest)
 {
     const ff_host *host = m->host;
     int enough = s->neglected <= m->tolerance;
@@ -177,18 +177,17 @@ static void report(const model *m, const dynamics_motion *motion, const solution
                   "change by more harmonics and samples, over the static deflection");
     host->quality(host->ctx, "determinant", motion->det_error, 1e-9,
                   motion->det_error <= 1e-9 ? FF_GOOD : FF_DOUBTFUL, NULL);
-    host->quality(host->ctx, "branch_points", (double)result->points, 20000,
+    host->quality(host->ctx, "jumps_on_the_way", result->ends, 20000,
                   result->lost ? FF_DOUBTFUL : FF_GOOD,
                   result->lost ? "the branch could not be followed to this mesh frequency; shown "
                                  "is the motion that never loses contact"
                                : NULL);
-    host->quality(host->ctx, "jumps_on_the_way", (double)result->folds, 20000, FF_GOOD, NULL);
     report_stability(m, motion, largest);
 }
 
 static ff_status report_and_output(const model *m, const dynamics_excitation *excitation,
                                    const dynamics_inputs *inputs, double w, const solution *s,
-                                   const dynamics_continuation_result *result)
+                                   const dynamics_branch_result *result)
 {
     dynamics_motion motion = {
         .excitation = excitation, .period = 1, .cycles = 1, .T = 2 * M_PI / w};
@@ -221,20 +220,20 @@ static size_t harmonics_on_the_way(double w)
     return (size_t)fmin(fmax(ceil(15 / w), 24), 160);
 }
 
-/* Follows the branch as a slow sweep would, from its start or from the motion of the neighbouring
-   case. */
-static ff_status follow_branch(const model *m, const dynamics_continuation_request *request,
-                               const dynamics_excitation *excitation, double natural,
-                               dynamics_continuation_result *result)
+/* Finds the series on the branch, or that into which the motion of the neighbouring case turns. */
+static ff_status find_series(const model *m, dynamics_branch_request *request, double natural,
+                             dynamics_branch_result *result)
 {
     double x[2 * DYNAMICS_MOST_HARMONICS + 1];
-    dynamics_continuation_start from = {x, m->from.harmonics, m->from.mesh_frequency / natural};
+    dynamics_branch_start from = {x, m->from.harmonics, m->from.mesh_frequency / natural};
     if (m->from.harmonics == 0 || from.w * DYNAMICS_MOST_HARMONICS < 2)
-        return dynamics_continuation_follow(request, result);
+        return dynamics_branch_series(request, result);
     for (size_t i = 0; i <= 2 * m->from.harmonics; i++)
-        x[i] = m->from.x[i] / excitation->length;
-    ff_status status = dynamics_continuation_from(request, &from, result);
-    return status == FF_NOCONV ? dynamics_continuation_follow(request, result) : status;
+        x[i] = m->from.x[i] / request->excitation->length;
+    request->from = from;
+    ff_status status = dynamics_branch_series(request, result);
+    request->from.x = NULL;
+    return status == FF_NOCONV ? dynamics_branch_series(request, result) : status;
 }
 
 /* The motion at the duty's mesh frequency. */
@@ -247,15 +246,15 @@ static ff_status output_motion(model *m, const dynamics_excitation *excitation,
             m, inputs,
             "so far below resonance a series of 512 harmonics does not reach twice "
             "the natural frequency; take dynamics/quasi-static");
-    dynamics_continuation_result result = {0};
+    dynamics_branch_result result = {0};
     solution s = {.x = calloc(2 * DYNAMICS_MOST_HARMONICS + 1, sizeof *s.x)};
-    dynamics_continuation_request request = {.excitation = excitation,
-                                             .host = m->host,
-                                             .from_above = m->branch == DYNAMICS_BRANCH_UPPER,
-                                             .w = w,
-                                             .harmonics = harmonics_on_the_way(w)};
+    dynamics_branch_request request = {.excitation = excitation,
+                                       .host = m->host,
+                                       .branch = (dynamics_branch)m->branch,
+                                       .w = w,
+                                       .harmonics = harmonics_on_the_way(w)};
     ff_status status =
-        s.x ? follow_branch(m, &request, excitation, inputs->natural_frequency, &result) : FF_NOMEM;
+        s.x ? find_series(m, &request, inputs->natural_frequency, &result) : FF_NOMEM;
     if (status == FF_OK)
         status = refine(m, excitation, w, result.x, request.harmonics, &s);
     if (status == FF_OK)

@@ -24,12 +24,10 @@ static void set_force(pair *p, double force)
         p->tooth_force[i] = force * p->load_share[i];
 }
 
-/* Scenes without a motion of one mesh cycle that the model finds, and how many there may be: a huge
-   load and a gap of an atom, where the upper branch has no end, a rattle from below, f_n/1000, and
-   the hole from below, where round-off decides: of 12 loads that differ by 1e-12 three to five have
-   a motion. */
+/* Scenes without a motion of one mesh cycle that the model finds, and how many there may be: a
+   rattle that never repeats itself, from below and from above, and f_n/1000. */
 static int refusals;
-static const int known_refusals = 5;
+static const int known_refusals = 3;
 
 /* The mean of the mesh force over a cycle less the load, over the largest force: a motion that
    repeats itself gains no speed. */
@@ -81,7 +79,23 @@ static void test_damping(void)
     run_both("2375 Hz", &p, 2);
 }
 
-/* Without damping no motion is trusted as stable. */
+/* Peak to peak of the undamped motion in which the flanks touch only while the stiffness is k: a
+   throw of the speed v at which they part takes 2 v m/F, and the spring turns it round in
+   2 (pi - atan(v w m/F))/w with w = sqrt(k/m). */
+static double thrown(const pair *p, double k)
+{
+    double m = p->mass, fall = p->line_force / m, w = sqrt(k / m), low = 0, high = 1;
+    while (high - low > 1e-15) {
+        double v = 0.5 * (low + high);
+        double cycle = 2 * v / fall + 2 * (M_PI - atan(v * w / fall)) / w;
+        *(cycle * p->mesh_frequency < 1 ? &low : &high) = v;
+    }
+    double rest = p->line_force / k;
+    return low * low / (2 * fall) + rest + hypot(rest, low / w);
+}
+
+/* Without damping no motion is trusted as stable. The flanks touch where the stiffness is constant,
+   so that they may do so sooner or later: the motions of one speed are a line. */
 static void test_no_damping(void)
 {
     pair p = pair_trapezoid(2375);
@@ -89,6 +103,9 @@ static void test_no_damping(void)
     const double *mu = stage_get(s, "multipliers", NULL);
     check_below("determinant is 1", fabs(mu[0] * mu[2] - mu[1] * mu[3] - 1), 1e-9);
     check_true("is doubtful", stage_verdict(s) == FF_DOUBTFUL);
+    double exact = thrown(&p, p.stiffness[0]);
+    /* half of 512 instants to a cycle beside both peaks: A (w/512 f)^2/8 + F/m (1/512 f)^2/8 */
+    check_near("peak to peak", stage_scalar(s, "dte_peak_to_peak") / exact, 1, 2.1e-5);
     stage_close(s);
 }
 
@@ -199,7 +216,7 @@ static void test_unstable(void)
 static void test_stop(void)
 {
     pair p = pair_trapezoid(2375);
-    for (int call = 1; call <= 5; call += 2) {
+    for (int call = 1; call <= 3; call++) {
         stage *s = pair_open("dynamics/harmonic-balance", &p);
         stage_set_text(s, "branch", "upper");
         stage_stop_at(s, call);

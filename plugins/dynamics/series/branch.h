@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/*
+ * The series of the motion of one mesh cycle on a branch. The flow of the return map leads to the
+ * branch and follows it to the speed (attractor.h); its motion is the guess from which Newton's
+ * method finds the series, stable or not.
+ */
+#ifndef DYNAMICS_BRANCH_H
+#define DYNAMICS_BRANCH_H
+
+#include "../oscillator/settle.h"
+#include "harmonics.h"
+
+#include <flankfilm/plugin.h>
+
+/* A motion to start from: its series at mesh over natural frequency w. */
+typedef struct dynamics_branch_start {
+    const double *x; /* NULL: none */
+    size_t harmonics;
+    double w;
+} dynamics_branch_start;
+
+typedef struct dynamics_branch_request {
+    const dynamics_excitation *excitation;
+    const ff_host *host;
+    dynamics_branch branch;
+    double w;         /* mesh over natural frequency */
+    size_t harmonics; /* of the series */
+    dynamics_branch_start from;
+} dynamics_branch_request;
+
+typedef struct dynamics_branch_result {
+    double *x; /* series at w with the request's harmonics; the caller frees it */
+    int ends;  /* of branches on the way */
+    int lost;  /* 1: no other motion was found, and x is that in which the flanks never part */
+    const char *why; /* the reason for FF_NOCONV */
+} dynamics_branch_result;
+
+ff_status dynamics_branch_series(const dynamics_branch_request *request,
+                                 dynamics_branch_result *result);
+
+#endif
