@@ -39,12 +39,6 @@ typedef struct weighed {
     double value, weight;
 } weighed;
 
-static int by_value(const void *a, const void *b)
-{
-    const weighed *one = a, *other = b;
-    return (one->value > other->value) - (one->value < other->value);
-}
-
 /* The part of a series that point i stands for. */
 static double weight_of(const double *at, size_t i, size_t count)
 {
@@ -62,7 +56,7 @@ double accuracy_typical(const double *values, const double *at, size_t count)
         all[k] = (weighed){values[k], weight_of(at, k, count)};
         length += all[k].weight;
     }
-    qsort(all, count, sizeof *all, by_value);
+    memory_sort(all, count, sizeof *all);
     for (; i + 1 < count && sum + all[i].weight < typical_share * length; i++)
         sum += all[i].weight;
     double typical = all[i].value;

@@ -81,10 +81,8 @@ char *accuracy_print_goals(const ff_run *run)
     char *text = memory_print_text("%s", node && node->kind == FF_SCALAR ? node->text : "");
     for (size_t i = 0; node && node->kind == FF_MAP && i < node->count; i++) {
         const ff_node *item = node->items[i];
-        char *longer = memory_print_text("%s%s%s: %s", text, *text ? ", " : "", node->keys[i],
-                                         item->kind == FF_SCALAR ? item->text : "");
-        free(text);
-        text = longer;
+        memory_add_text(&text, "%s%s: %s", *text ? ", " : "", node->keys[i],
+                        item->kind == FF_SCALAR ? item->text : "");
     }
     return text;
 }

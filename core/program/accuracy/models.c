@@ -219,9 +219,7 @@ char *accuracy_print_key(const ff_run *run, ff_engine *engine)
         const char **ids = chooses ? accuracy_candidates(stage, engine, &arena) : NULL;
         for (; ids && *ids; ids++) {
             unsigned long long build = loaded_of(engine, *ids)->build;
-            char *longer = memory_print_text("%s; %s: %s %llx", text, stage->name, *ids, build);
-            free(text);
-            text = longer;
+            memory_add_text(&text, "; %s: %s %llx", stage->name, *ids, build);
         }
     }
     memory_arena_free(&arena);

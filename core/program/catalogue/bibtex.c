@@ -41,11 +41,8 @@ static bool is_same_entry(const char *a, const char *b)
 
 static void add_user(entry *e, const char *user)
 {
-    if (strstr(e->users, user))
-        return;
-    char *longer = memory_print_text("%s%s%s", e->users, *e->users ? ", " : "", user);
-    free(e->users);
-    e->users = longer;
+    if (!strstr(e->users, user))
+        memory_add_text(&e->users, "%s%s", *e->users ? ", " : "", user);
 }
 
 static void add_entries(list *l, const char *bibtex, const char *user)

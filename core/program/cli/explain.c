@@ -109,10 +109,8 @@ static void print_outputs(const json_t *list)
     json_array_foreach(list, i, entry)
     {
         bool requested = json_is_true(json_object_get(entry, "requested"));
-        char *longer = memory_print_text("%s%s%s%s", names, i ? ", " : "", text_of(entry, "output"),
-                                         requested ? "*" : "");
-        free(names);
-        names = longer;
+        memory_add_text(&names, "%s%s%s", i ? ", " : "", text_of(entry, "output"),
+                        requested ? "*" : "");
     }
     if (*names)
         terminal_print_wrapped(names, printf("  computes: "), 4);
@@ -127,9 +125,7 @@ static void print_choice(const json_t *choice)
     size_t i;
     json_array_foreach(json_object_get(choice, "candidates"), i, entry)
     {
-        char *longer = memory_print_text("%s%s%s", names, i ? ", " : "", json_string_value(entry));
-        free(names);
-        names = longer;
+        memory_add_text(&names, "%s%s", i ? ", " : "", json_string_value(entry));
     }
     char *text = memory_print_text("the reference of %s; a run tries %s in its place",
                                    text_of(choice, "use"), *names ? names : "no other");

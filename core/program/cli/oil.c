@@ -35,17 +35,12 @@ static char *request(const ff_pipeline *pipeline)
     char *text = memory_print_text("outputs=[");
     size_t count = 0;
     for (size_t k = 0; k < pipeline->count; k++)
-        for (size_t i = 0; is_oil(&pipeline->stages[k]) && i < ASKED; i++) {
-            char *longer = memory_print_text("%s%s%s.%s", text, count++ ? ", " : "",
-                                             pipeline->stages[k].name, asked[i]);
-            free(text);
-            text = longer;
-        }
-    if (count) {
-        char *whole = memory_print_text("%s]", text);
-        free(text);
-        return whole;
-    }
+        for (size_t i = 0; is_oil(&pipeline->stages[k]) && i < ASKED; i++)
+            memory_add_text(&text, "%s%s.%s", count++ ? ", " : "", pipeline->stages[k].name,
+                            asked[i]);
+    memory_add_text(&text, "]");
+    if (count)
+        return text;
     free(text);
     return NULL;
 }

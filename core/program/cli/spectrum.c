@@ -188,12 +188,6 @@ typedef struct step {
     double value, time;
 } step;
 
-static int by_value(const void *a, const void *b)
-{
-    const step *one = a, *other = b;
-    return one->value < other->value ? -1 : one->value > other->value;
-}
-
 /* For how much of the time an output is below a value. */
 static json_t *curve_of(const study_run *run, const json_t *values, results_readable unit)
 {
@@ -209,7 +203,7 @@ static json_t *curve_of(const study_run *run, const json_t *values, results_read
         steps[count++] = (step){json_number_value(value), s->times[i]};
         whole += s->times[i];
     }
-    qsort(steps, count, sizeof *steps, by_value);
+    memory_sort(steps, count, sizeof *steps);
     for (size_t i = 0; i < count; i++)
         for (int end = 0; end < 2; end++) {
             time += end ? steps[i].time : 0;

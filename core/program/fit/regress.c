@@ -345,12 +345,6 @@ typedef struct point {
     double p, residual;
 } point;
 
-static int by_pressure(const void *a, const void *b)
-{
-    const point *x = a, *y = b;
-    return (x->p > y->p) - (x->p < y->p);
-}
-
 /* Counts runs of one sign along the pressure (Wald & Wolfowitz 1940): fewer than chance makes in 99
    of 100 cases mean that the law has another form than the data. */
 static void note_pattern(const fit_data *d, fit_law *law)
@@ -359,7 +353,7 @@ static void note_pattern(const fit_data *d, fit_law *law)
     double plus = 0, minus = 0, runs = 1;
     for (size_t i = 0; i < d->n; i++)
         points[i] = (point){d->p[i], law->residual[i]};
-    qsort(points, d->n, sizeof *points, by_pressure);
+    memory_sort(points, d->n, sizeof *points);
     for (size_t i = 0; i < d->n; i++) {
         bool up = points[i].residual > 0;
         plus += up;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "memory.h"
 
+#include <assert.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,14 +33,43 @@ char *memory_copy_text(const char *text, size_t length)
     return copy;
 }
 
+static char *print(const char *format, va_list args)
+{
+    char *text = NULL;
+    return memory_require(vasprintf(&text, format, args) < 0 ? NULL : text);
+}
+
 char *memory_print_text(const char *format, ...)
 {
     va_list args;
-    char *text = NULL;
     va_start(args, format);
-    int length = vasprintf(&text, format, args);
+    char *text = print(format, args);
     va_end(args);
-    return memory_require(length < 0 ? NULL : text);
+    return text;
+}
+
+void memory_add_text(char **text, const char *format, ...)
+{
+    va_list args;
+    va_start(args, format);
+    char *more = print(format, args);
+    va_end(args);
+    size_t length = strlen(*text), size = strlen(more) + 1;
+    *text = memory_resize(*text, length + size);
+    memcpy(*text + length, more, size);
+    free(more);
+}
+
+static int compare(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+void memory_sort(void *items, size_t count, size_t size)
+{
+    assert(size >= sizeof(double));
+    qsort(items, count, size, compare);
 }
 
 struct memory_block {

@@ -10,6 +10,11 @@ void *memory_alloc(size_t size);                /* zeroed */
 void *memory_resize(void *memory, size_t size); /* like realloc */
 char *memory_copy_text(const char *text, size_t length);
 char *memory_print_text(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* Prints behind a text of these functions, which may move. */
+void memory_add_text(char **text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+
+/* Sorts items of that size by the double that each begins with. */
+void memory_sort(void *items, size_t count, size_t size);
 
 /* Memory of one owner that is freed all at once. Starts zeroed. */
 typedef struct memory_arena {

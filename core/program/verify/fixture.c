@@ -202,9 +202,7 @@ static char *known_words(const ff_model *model, const char *words, const char *r
         int output = ff_model_find_output(model, word);
         if (output < 0 || ff_model_output(model, (size_t)output)->service || !strcmp(word, refused))
             continue;
-        char *longer = memory_print_text("%s %s", known, word);
-        free(known);
-        known = longer;
+        memory_add_text(&known, " %s", word);
     }
     return known;
 }

@@ -34,13 +34,6 @@ verify_setup *verify_open_accepted(verify_context *context, verify_instance *ins
     return NULL;
 }
 
-static void add_word(char **words, const char *word)
-{
-    char *longer = memory_print_text("%s %s", *words, word);
-    free(*words);
-    *words = longer;
-}
-
 bool verify_find_served(verify_context *c, verify_instance *instance, const verify_setup *setup,
                         char **served, double end)
 {
@@ -55,7 +48,7 @@ bool verify_find_served(verify_context *c, verify_instance *instance, const veri
         if (!verify_instance_is_sound(instance, status))
             return false;
         if (ff_instance_result(instance->made, row->name, &result) == FF_OK)
-            add_word(served, row->name);
+            memory_add_text(served, " %s", row->name);
         else if (status != FF_UNSUPPORTED && status != FF_STOPPED) /* stopped: too slow to tell */
             return verify_fail(c, "\"%s\" cannot be had alone: %s", row->name, instance->text);
     }
@@ -70,7 +63,7 @@ static char *list_given(const verify_instance *instance)
     for (size_t i = 0; i < instance->model->output_count; i++) {
         const char *name = ff_model_output(instance->model, i)->name;
         if (ff_instance_result(instance->made, name, &result) == FF_OK)
-            add_word(&given, name);
+            memory_add_text(&given, " %s", name);
     }
     return given;
 }

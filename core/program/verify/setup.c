@@ -23,12 +23,6 @@ verify_setup *verify_setup_new(verify_context *context)
     return setup;
 }
 
-static int compare_reals(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static double to_si(const verify_setup *setup, size_t param, double number)
 {
     const ff_unit *unit = &setup->context->loaded->param_units[param];
@@ -48,7 +42,7 @@ static void draw_reals(const verify_setup *setup, size_t param, verify_random *r
         reals[i] = to_si(setup, param, number);
     }
     if (row->flags & FF_INCREASING)
-        qsort(reals, value->count, sizeof *reals, compare_reals);
+        memory_sort(reals, value->count, sizeof *reals);
     value->reals = reals;
 }
 
@@ -236,7 +230,7 @@ void verify_setup_draw_inputs(verify_setup *setup, verify_random *random)
         for (size_t k = 0; k < count; k++)
             data[k] = draw_any(random, style);
         if (verify_below(random, 2))
-            qsort(data, count, sizeof *data, compare_reals);
+            memory_sort(data, count, sizeof *data);
         verify_setup_give(setup, i, data, dims->rank - shorter, shape);
         free(data);
     }

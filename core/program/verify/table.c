@@ -11,12 +11,6 @@
 
 enum { USUAL_ROWS = 6, MOST_ROWS = 1000 };
 
-static int compare_numbers(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static size_t count_rows(const ff_model *model)
 {
     size_t rows = USUAL_ROWS;
@@ -33,7 +27,7 @@ static void draw_column(const ff_param *column, size_t rows, verify_random *rand
     for (size_t i = 0; i < rows; i++)
         numbers[i] = verify_draw_number(column, random, VERIFY_CALIBRATED);
     if (column->flags & FF_INCREASING)
-        qsort(numbers, rows, sizeof *numbers, compare_numbers);
+        memory_sort(numbers, rows, sizeof *numbers);
 }
 
 /* The required columns, and any of the others. */
