@@ -171,29 +171,73 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                                .flags = FF_OPTIONAL},
 };
 
+/* The outputs that all models give alike; `k`: what their ranks begin with. */
+#define COMMON_OUTPUTS(k)                                                                          \
+    [k##_ROLL_ANGLE] = {.name = "roll_angle",                                                      \
+                        .unit = "rad",                                                             \
+                        .doc = "roll angle of gear 1; needs a contact that has one",               \
+                        .dims = "t"},                                                              \
+    [k##_ENGAGEMENT] = {.name = "engagement",                                                      \
+                        .unit = "1",                                                               \
+                        .doc = "mesh cycle of the motion in which the pair begins; 0 without one", \
+                        .dims = "t"},                                                              \
+    [k##_H_CENTRAL] = {.name = "h_central",                                                        \
+                       .unit = "m",                                                                \
+                       .doc = "film thickness at x = 0",                                           \
+                       .dims = "t",                                                                \
+                       .max = INFINITY},                                                           \
+    [k##_H_MIN_LOWEST] = {.name = "h_min_lowest",                                                  \
+                          .unit = "m",                                                             \
+                          .doc = "lowest h_min of all times",                                      \
+                          .dims = "",                                                              \
+                          .max = INFINITY},                                                        \
+    [k##_H_MIN_LOWEST_AT] = {.name = "h_min_lowest_at",                                            \
+                             .unit = "rad",                                                        \
+                             .doc = "roll angle of it; needs a contact that has one",              \
+                             .dims = ""},                                                          \
+    [k##_P_MAX_HIGHEST] = {.name = "p_max_highest",                                                \
+                           .unit = "Pa",                                                           \
+                           .doc = "highest pressure of all times",                                 \
+                           .dims = "",                                                             \
+                           .max = INFINITY},                                                       \
+    [k##_LAMBDA_RATIO_LOWEST] = {.name = "lambda_ratio_lowest",                                    \
+                                 .unit = "1",                                                      \
+                                 .doc = "lowest lambda_ratio of all times",                        \
+                                 .dims = "",                                                       \
+                                 .max = INFINITY},                                                 \
+    [k##_H_MIN_LOWEST_MEAN] = {.name = "h_min_lowest_mean",                                        \
+                               .unit = "m",                                                        \
+                               .doc = "mean over the engagements of the lowest h_min of each",     \
+                               .dims = "",                                                         \
+                               .max = INFINITY},                                                   \
+    [k##_H_MIN_LOWEST_SPREAD] = {.name = "h_min_lowest_spread",                                    \
+                                 .unit = "m",                                                      \
+                                 .doc = "highest less lowest of them; 0 with one engagement",      \
+                                 .dims = "",                                                       \
+                                 .max = INFINITY},                                                 \
+    [k##_ENGAGEMENTS_JUDGED] = {.name = "engagements_judged",                                      \
+                                .unit = "1",                                                       \
+                                .doc = "engagements that the results are of",                      \
+                                .dims = "",                                                        \
+                                .max = INFINITY},                                                  \
+    [k##_ALPHA_STAR] = {                                                                           \
+        .name = "alpha_star",                                                                      \
+        .unit = "1/Pa",                                                                            \
+        .doc = "film-forming pressure coefficient of the law with its oil, 1/int eta0/eta "        \
+               "dp; 0: the viscosity does not rise",                                               \
+        .dims = ""}
+
 const ff_port ehl_outputs[EHL_OUTPUTS] = {
+    COMMON_OUTPUTS(EHL),
     [EHL_TIME] = {.name = "time",
                   .unit = "s",
                   .doc = "times of the results: those of the steps",
                   .dims = "t"},
-    [EHL_ROLL_ANGLE] = {.name = "roll_angle",
-                        .unit = "rad",
-                        .doc = "roll angle of gear 1; needs a contact that has one",
-                        .dims = "t"},
-    [EHL_ENGAGEMENT] = {.name = "engagement",
-                        .unit = "1",
-                        .doc = "mesh cycle of the motion in which the pair begins; 0 without one",
-                        .dims = "t"},
     [EHL_H_MIN] = {.name = "h_min",
                    .unit = "m",
                    .doc = "least film thickness (parabola through the lowest nodes)",
                    .dims = "t",
                    .max = INFINITY},
-    [EHL_H_CENTRAL] = {.name = "h_central",
-                       .unit = "m",
-                       .doc = "film thickness at x = 0",
-                       .dims = "t",
-                       .max = INFINITY},
     [EHL_P_MAX] =
         {.name = "p_max", .unit = "Pa", .doc = "highest pressure", .dims = "t", .max = INFINITY},
     [EHL_FRICTION_COEFFICIENT] =
@@ -368,40 +412,6 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                          .unit = "K",
                          .doc = "temperature, mean across the film; needs thermal: full",
                          .dims = "t x"},
-    [EHL_H_MIN_LOWEST] = {.name = "h_min_lowest",
-                          .unit = "m",
-                          .doc = "lowest h_min of all times",
-                          .dims = "",
-                          .max = INFINITY},
-    [EHL_H_MIN_LOWEST_AT] = {.name = "h_min_lowest_at",
-                             .unit = "rad",
-                             .doc = "roll angle of it; needs a contact that has one",
-                             .dims = ""},
-    [EHL_H_MIN_LOWEST_MEAN] = {.name = "h_min_lowest_mean",
-                               .unit = "m",
-                               .doc = "mean over the engagements of the lowest h_min of each",
-                               .dims = "",
-                               .max = INFINITY},
-    [EHL_H_MIN_LOWEST_SPREAD] = {.name = "h_min_lowest_spread",
-                                 .unit = "m",
-                                 .doc = "highest less lowest of them; 0 with one engagement",
-                                 .dims = "",
-                                 .max = INFINITY},
-    [EHL_ENGAGEMENTS_JUDGED] = {.name = "engagements_judged",
-                                .unit = "1",
-                                .doc = "engagements that the results are of",
-                                .dims = "",
-                                .max = INFINITY},
-    [EHL_P_MAX_HIGHEST] = {.name = "p_max_highest",
-                           .unit = "Pa",
-                           .doc = "highest pressure of all times",
-                           .dims = "",
-                           .max = INFINITY},
-    [EHL_LAMBDA_RATIO_LOWEST] = {.name = "lambda_ratio_lowest",
-                                 .unit = "1",
-                                 .doc = "lowest lambda_ratio of all times",
-                                 .dims = "",
-                                 .max = INFINITY},
     [EHL_NEWTON_STEPS] = {.name = "newton_steps",
                           .unit = "1",
                           .doc = "Newton steps in all",
@@ -414,12 +424,6 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                        .unit = "1",
                        .doc = "time steps that had to be cut",
                        .dims = ""},
-    [EHL_ALPHA_STAR] =
-        {.name = "alpha_star",
-         .unit = "1/Pa",
-         .doc = "film-forming pressure coefficient of the law with its oil, 1/int eta0/eta "
-                "dp; 0: the viscosity does not rise",
-         .dims = ""},
     [EHL_BULK_TEMPERATURE] = {.name = "bulk_temperature",
                               .unit = "K",
                               .doc = "temperature of the teeth before they meet and of the oil "
@@ -478,23 +482,10 @@ const ff_port ehl_estimate_inputs[EHL_ESTIMATE_INPUTS] = {
 };
 
 const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
+    COMMON_OUTPUTS(EHL_ESTIMATE),
     [EHL_ESTIMATE_TIME] = {.name = "time", .unit = "s", .doc = "times of the results", .dims = "t"},
-    [EHL_ESTIMATE_ROLL_ANGLE] = {.name = "roll_angle",
-                                 .unit = "rad",
-                                 .doc = "roll angle of gear 1; needs a contact that has one",
-                                 .dims = "t"},
-    [EHL_ESTIMATE_ENGAGEMENT] =
-        {.name = "engagement",
-         .unit = "1",
-         .doc = "mesh cycle of the motion in which the pair begins; 0 without one",
-         .dims = "t"},
     [EHL_ESTIMATE_H_MIN] =
         {.name = "h_min", .unit = "m", .doc = "least film thickness", .dims = "t", .max = INFINITY},
-    [EHL_ESTIMATE_H_CENTRAL] = {.name = "h_central",
-                                .unit = "m",
-                                .doc = "film thickness at x = 0",
-                                .dims = "t",
-                                .max = INFINITY},
     [EHL_ESTIMATE_P_MAX] = {.name = "p_max",
                             .unit = "Pa",
                             .doc = "Hertz pressure of the load",
@@ -567,48 +558,7 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
                                .unit = "Pa",
                                .doc = "Hertz pressure",
                                .dims = "t x"},
-    [EHL_ESTIMATE_H_MIN_LOWEST] = {.name = "h_min_lowest",
-                                   .unit = "m",
-                                   .doc = "lowest h_min of all times",
-                                   .dims = "",
-                                   .max = INFINITY},
-    [EHL_ESTIMATE_H_MIN_LOWEST_AT] = {.name = "h_min_lowest_at",
-                                      .unit = "rad",
-                                      .doc = "roll angle of it; needs a contact that has one",
-                                      .dims = ""},
-    [EHL_ESTIMATE_P_MAX_HIGHEST] = {.name = "p_max_highest",
-                                    .unit = "Pa",
-                                    .doc = "highest pressure of all times",
-                                    .dims = "",
-                                    .max = INFINITY},
-    [EHL_ESTIMATE_LAMBDA_RATIO_LOWEST] = {.name = "lambda_ratio_lowest",
-                                          .unit = "1",
-                                          .doc = "lowest lambda_ratio of all times",
-                                          .dims = "",
-                                          .max = INFINITY},
-    [EHL_ESTIMATE_H_MIN_LOWEST_MEAN] = {.name = "h_min_lowest_mean",
-                                        .unit = "m",
-                                        .doc =
-                                            "mean over the engagements of the lowest h_min of each",
-                                        .dims = "",
-                                        .max = INFINITY},
-    [EHL_ESTIMATE_H_MIN_LOWEST_SPREAD] = {.name = "h_min_lowest_spread",
-                                          .unit = "m",
-                                          .doc =
-                                              "highest less lowest of them; 0 with one engagement",
-                                          .dims = "",
-                                          .max = INFINITY},
-    [EHL_ESTIMATE_ENGAGEMENTS_JUDGED] = {.name = "engagements_judged",
-                                         .unit = "1",
-                                         .doc = "engagements that the results are of",
-                                         .dims = "",
-                                         .max = INFINITY},
-    [EHL_ESTIMATE_ALPHA_STAR] =
-        {.name = "alpha_star",
-         .unit = "1/Pa",
-         .doc = "film-forming pressure coefficient of the law with its oil, 1/int eta0/eta "
-                "dp; 0: the viscosity does not rise",
-         .dims = ""},
+
 };
 
 ff_status ehl_read_history(const ff_host *host, const ff_array *in, double light_load,
