@@ -517,6 +517,10 @@ const ff_loaded *ff_engine_model(ff_engine *engine, const char *id, ff_place pla
 /* Warns of each model that was loaded so far while other files have its id, too. */
 void ff_engine_warn_displaced(const ff_engine *engine, ff_report *report);
 
+/* A model that was loaded so far whose file has other bytes now, so that its code is no more what
+   it was; NULL: there is none. A file that takes the place of another one does no harm. */
+const ff_loaded *ff_engine_written_over(const ff_engine *engine);
+
 /* Sorted ids of all models that can be found, without loading one. */
 const char *const *ff_engine_ids(ff_engine *engine, size_t *count);
 
@@ -716,9 +720,8 @@ typedef struct ff_guard_mark {
 
 ff_guard_mark ff_guard_current(void); /* may be called in a handler of signals */
 
-/* The mark, or the one of a service that it may call, whose file was written over after it was
-   loaded, so that its code is no more what it was; NULL: none. A file that takes the place of
-   another one does no harm. May be called in a handler of signals. */
+/* As ff_engine_written_over, of the mark or of a service that it may call. May be called in a
+   handler of signals. */
 const ff_guard_mark *ff_guard_written_over(const ff_guard_mark *mark);
 
 /* The same in words, for another process: who is running, and its action; "" while no plugin is. */

@@ -104,9 +104,15 @@ bool fe_elf_is_same(int folder, const char *path, const fe_object_file *checked)
            is_as_written(&now, then);
 }
 
-bool fe_elf_is_touched(const char *path, const fe_object_file *checked)
+bool fe_is_written_over(const ff_loaded *loaded)
 {
-    const struct stat *then = &checked->status;
+    const struct stat *then = &loaded->file->status;
     struct stat now;
-    return stat(path, &now) == 0 && is_same_file(&now, then) && !is_as_written(&now, then);
+    if (stat(loaded->path, &now) != 0 || !is_same_file(&now, then) || is_as_written(&now, then))
+        return false;
+    int file = open(loaded->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    bool same = file >= 0 && hash_file(file) == loaded->build;
+    if (file >= 0)
+        close(file);
+    return !same;
 }

@@ -34,8 +34,9 @@ ff_status fe_engine_lack(ff_engine *engine);
 /* Makes the messages of the report the message of the engine. Inside fe_engine_call. */
 void fe_engine_say(ff_engine *engine, const ff_report *report);
 
-/* Whether the file of the model has other bytes than when it was loaded, in the same place of the
-   disk: then its code has changed while it runs. */
+/* Whether the file of the model has other bytes now, in the same place of the disk: then its code
+   has changed while it runs. A file that takes its place does no harm. May be called in a handler
+   of signals. */
 bool fe_is_written_over(const ff_loaded *loaded);
 
 /* Warns if other files have the id of the model, too. */

@@ -16,7 +16,7 @@ ff_guard_mark ff_guard_current(void)
 
 const ff_guard_mark *ff_guard_written_over(const ff_guard_mark *mark)
 {
-    if (mark->loaded && fe_elf_is_touched(mark->loaded->path, mark->loaded->file))
+    if (mark->loaded && fe_is_written_over(mark->loaded))
         return mark;
     const ff_guard_mark *found = NULL;
     for (size_t i = 0; !found && mark->services && mark->services[i]; i++)

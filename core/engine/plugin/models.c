@@ -89,14 +89,6 @@ static void *open_file(const char *path, char *why, size_t why_size)
     return NULL;
 }
 
-bool fe_is_written_over(const ff_loaded *loaded)
-{
-    fe_object_file now;
-    char why[200];
-    return fe_elf_is_touched(loaded->path, loaded->file) &&
-           !(fe_elf_check(loaded->path, &now, why, sizeof why) && now.hash == loaded->build);
-}
-
 /* A model that is being loaded. */
 typedef struct loading {
     ff_engine *engine;
@@ -232,6 +224,14 @@ void ff_engine_warn_displaced(const ff_engine *engine, ff_report *report)
 {
     for (size_t i = 0; i < engine->count; i++)
         fe_warn_displaced(engine->models[i], report);
+}
+
+const ff_loaded *ff_engine_written_over(const ff_engine *engine)
+{
+    size_t i = 0;
+    while (i < engine->count && !fe_is_written_over(engine->models[i]))
+        i++;
+    return i < engine->count ? engine->models[i] : NULL;
 }
 
 const ff_loaded *ff_engine_model(ff_engine *engine, const char *id, ff_place place,

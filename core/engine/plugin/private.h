@@ -22,10 +22,6 @@ bool fe_elf_check(const char *path, fe_object_file *checked, char *why, size_t w
    unchanged. */
 bool fe_elf_is_same(int folder, const char *path, const fe_object_file *checked);
 
-/* Whether the file that was checked has been written since, whatever its bytes are now. May be
-   called in a handler of signals. */
-bool fe_elf_is_touched(const char *path, const fe_object_file *checked);
-
 /* The model of that id that the object exports: NULL where its only one is. On failure false, and
    `why` is a clause that completes 'the plugin x.so ...'. */
 bool fe_entry_find(void *object, const char *id, const ff_model **model, char *why,

@@ -52,7 +52,6 @@ typedef struct study_memory { /* what a worker keeps from case to case */
     json_t *seen; /* {stage, model and build: true} of the setups that a record of this worker
                      describes */
     json_t *said; /* the forms that its records have said */
-    study_kept kept;
 } study_memory;
 
 typedef struct study_case {

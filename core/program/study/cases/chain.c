@@ -54,47 +54,13 @@ size_t study_chain_case(const study_definition *study, size_t chain, size_t posi
 
 size_t study_chain_locate(const study_definition *study, size_t index, size_t *position)
 {
+    *position = 0;
+    if (!study_is_chained(study))
+        return index;
     size_t length = study_chain_length(study), stride = stride_of(study);
     size_t point = study_rank(study, study->followed, index);
     *position = runs_backwards(study, index) ? length - 1 - point : point;
     return index / (stride * length) * stride + index % stride;
-}
-
-void study_chain_begin(study_chain *chain, size_t number)
-{
-    json_decref(chain->states);
-    *chain = (study_chain){.number = number, .states = json_object()};
-}
-
-void study_chain_free(study_chain *chain)
-{
-    json_decref(chain->states);
-}
-
-void study_chain_enter(const study_chain *chain, const study_definition *study, study_case *c)
-{
-    if (!study_is_chained(study))
-        return;
-    c->states = chain->states;
-    char *states = json_dumps(c->states, JSON_COMPACT | JSON_SORT_KEYS);
-    uint64_t from = study_hash_text(STUDY_HASH_START, states);
-    free(states);
-    snprintf(c->from, sizeof c->from, "%016llx", (unsigned long long)from);
-    uint64_t key = study_hash_text(
-        study_hash_text(study_hash_text(STUDY_HASH_START, "follow"), c->key), chain->key);
-    snprintf(c->key, sizeof c->key, "%016llx", (unsigned long long)key);
-}
-
-void study_chain_pass(study_chain *chain, const study_case *c, const json_t *record)
-{
-    json_t *states = json_object_get(record, "state");
-    chain->position++;
-    memcpy(chain->key, c->key, sizeof chain->key);
-    if (!json_is_object(states))
-        return; /* a case that failed passes on the states that it was given */
-    json_incref(states);
-    json_decref(chain->states);
-    chain->states = states;
 }
 
 bool study_case_is_settled(const study_case *c, study_records *records, enum study_rerun rerun)

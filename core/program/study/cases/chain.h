@@ -7,23 +7,10 @@
 
 #include "../store/records.h"
 
-/* A position in a chain; {0} before the first study_chain_begin. */
-typedef struct study_chain {
-    size_t number, position;  /* of the chain, and of the next case in it */
-    char key[STUDY_KEY_SIZE]; /* of the case before it; "" for the first */
-    json_t *states;           /* {stage: bytes as text} that the next case starts from */
-} study_chain;
-
-void study_chain_begin(study_chain *chain, size_t number);
-void study_chain_free(study_chain *chain);
 /* Whether an axis is followed; otherwise each case is a chain of its own. */
 bool study_is_chained(const study_definition *study);
 /* Returns the chain of a case, and sets its position in that chain. */
 size_t study_chain_locate(const study_definition *study, size_t index, size_t *position);
-/* Makes the next case, which is open, part of the chain: its key depends on all cases before it. */
-void study_chain_enter(const study_chain *chain, const study_definition *study, study_case *c);
-/* Moves on from a finished case; record may be NULL. */
-void study_chain_pass(study_chain *chain, const study_case *c, const json_t *record);
 /* Puts the states into the stages before a run, and into the record after it. */
 void study_chain_restore_states(const study_case *c);
 void study_chain_record_states(const study_case *c, json_t *record);

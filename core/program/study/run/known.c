@@ -3,7 +3,8 @@
 
 #include "workers.h"
 
-#include "../cases/case.h"
+#include "../cases/chain.h"
+#include "../cases/walk.h"
 #include "../store/journal.h"
 
 #include <errno.h>
@@ -27,33 +28,29 @@ static void set_apart(void)
         dup2(null, fd);
 }
 
-static _Noreturn void search_cases(const study_run *run, const study_records *done, size_t first,
-                                   size_t end, FILE *to)
+static _Noreturn void search_cases(study_walk *walk, FILE *to)
 {
-    study_kept kept = {.keys = true};
+    const study_run *run = walk->run;
     double limit = ceil(fmin(run->study->time_limit, 1e6));
     set_apart();
     const ff_environment *environment = ff_environment_keep();
-    for (size_t i = first; i < end; i += run->shards) {
-        study_case c;
-        study_known known = {.index = i};
+    for (bool more = true; more;) {
         if (limit > 0)
             alarm((unsigned)limit);
         ff_environment_restore(environment);
-        study_case_open(&c, run, i, &kept);
-        memcpy(known.key, c.key, sizeof c.key);
-        bool sent = !study_state_is_settled(study_records_state(done, c.key), run->rerun) ||
-                    fwrite(&known, sizeof known, 1, to) == 1;
-        study_case_close(&c);
-        if (!sent)
-            break;
+        const study_case *c = study_walk_next(walk);
+        more = c != NULL;
+        if (!c || !study_case_is_settled(c, walk->records, run->rerun))
+            continue;
+        study_known known = {.index = c->index};
+        memcpy(known.key, c->key, sizeof c->key);
+        more = fwrite(&known, sizeof known, 1, to) == 1;
     }
     fflush(to);
     _exit(0);
 }
 
-bool study_search_start(study_search *search, const study_run *run, study_records *done,
-                        const int hidden[2], size_t first, size_t end)
+bool study_search_start(study_search *search, study_walk *walk, const int hidden[2])
 {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
@@ -66,10 +63,10 @@ bool study_search_start(study_search *search, const study_run *run, study_record
     if (child) {
         close(hidden[0]);
         close(hidden[1]);
-        study_records_let_go(done);
+        study_records_let_go(walk->records);
     }
     if (child && stream)
-        search_cases(run, done, first, end, stream);
+        search_cases(walk, stream);
     if (child)
         _exit(0);
     search->from = stream;

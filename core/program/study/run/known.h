@@ -6,8 +6,7 @@
 #ifndef STUDY_KNOWN_H
 #define STUDY_KNOWN_H
 
-#include "../cases/study.h"
-#include "../store/records.h"
+#include "../cases/walk.h"
 
 #include <stdio.h>
 #include <sys/types.h>
@@ -22,10 +21,9 @@ typedef struct study_search {
     FILE *from;
 } study_search;
 
-/* Looks at the cases of the shard from `first` to `end` - 1. Its process closes the two descriptors
-   that are hidden from plugins. False: no process could be started. */
-bool study_search_start(study_search *search, const study_run *run, study_records *done,
-                        const int hidden[2], size_t first, size_t end);
+/* Goes on with the walk in a process of its own, which closes the two descriptors that are hidden
+   from plugins. False: no process could be started. */
+bool study_search_start(study_search *search, study_walk *walk, const int hidden[2]);
 /* Returns whether there is one more. */
 bool study_search_next(study_search *search, study_known *known);
 void study_search_end(study_search *search);

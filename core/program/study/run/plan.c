@@ -3,6 +3,7 @@
 #include "run.h"
 
 #include "../cases/chain.h"
+#include "../cases/walk.h"
 #include "../store/hash.h"
 #include "../store/journal.h"
 
@@ -24,7 +25,6 @@ typedef struct survey {
     study_records *records;
     earlier_case *earlier; /* sorted; made when a case is found whose key has changed */
     size_t earlier_count;
-    study_kept keys, kept; /* for keys alone, and for cases with their objects */
     double spent;
     size_t timed;
 } survey;
@@ -92,9 +92,9 @@ static void count_seconds(survey *s, const json_t *record)
 
 /* Counts a case that was done with the same assignments but has another key now; for the first of
    them, prints what has changed. */
-static void explain_change(survey *s, const study_case *c, size_t index)
+static void explain_change(survey *s, const study_case *c)
 {
-    json_t *record = find_earlier(s, index);
+    json_t *record = find_earlier(s, c->index);
     count_seconds(s, record);
     if (record && s->plan->again++ == 0 && study_case_is_good(c)) {
         const char *input = json_string_value(json_object_get(record, "input"));
@@ -113,66 +113,45 @@ static void explain_change(survey *s, const study_case *c, size_t index)
     json_decref(record);
 }
 
-/* A case that a model refused as it was made has its key from its assignments, which shows when the
-   models are made. */
-static void open_case(survey *s, study_case *c, size_t index)
-{
-    study_case_open(c, s->run, index, &s->keys);
-    if (c->kept && study_records_state(s->records, c->key) == STUDY_UNKNOWN) {
-        study_case_close(c);
-        study_case_open(c, s->run, index, &s->kept);
-    }
-}
-
-static void count_case(survey *s, study_chain *chain, size_t index)
+static void count_case(survey *s, study_walk *walk)
 {
     enum { TIMED = 10000 }; /* records that are looked at for how long a case takes */
     study_plan *plan = s->plan;
-    study_case c;
-    open_case(s, &c, index);
-    study_chain_enter(chain, s->run->study, &c);
-    enum study_state state = study_records_state(s->records, c.key);
-    bool read = state != STUDY_UNKNOWN && (c.states || s->timed < TIMED);
-    json_t *record = read ? study_records_get(s->records, c.key) : NULL;
+    if (study_records_state(s->records, walk->c.key) == STUDY_UNKNOWN)
+        study_walk_make(walk);
+    const study_case *c = &walk->c;
+    enum study_state state = study_records_state(s->records, c->key);
     plan->done += state == STUDY_OK;
     plan->failed += state == STUDY_NOT_OK;
+    plan->left += !study_case_is_settled(c, s->records, s->run->rerun);
     if (state == STUDY_UNKNOWN)
-        explain_change(s, &c, index);
-    plan->left += !study_state_is_settled(state, s->run->rerun);
+        explain_change(s, c);
+    if (state == STUDY_UNKNOWN || s->timed >= TIMED)
+        return;
+    json_t *record = study_records_get(s->records, c->key);
     count_seconds(s, record);
-    study_chain_pass(chain, &c, record);
     json_decref(record);
-    study_case_close(&c);
 }
 
 void study_preview(const study_run *given, study_plan *plan)
 {
     study_run own = *given;
-    const study_run *run = &own;
-    const study_definition *study = run->study;
+    const study_definition *study = own.study;
     ff_run *base = study_case_base(own.engine, own.file);
     own.base = base;
-    survey s = {.run = run, .plan = plan, .keys.keys = true};
-    size_t chains = 0;
-    study_chain chain = {0};
+    survey s = {.run = &own, .plan = plan, .records = study_records_open(own.directory, true)};
+    study_walk walk = study_walk_begin(&own, s.records);
+    size_t first = own.shard - 1, all = study_chains(study);
+    size_t chains = first < all ? (all - first - 1) / own.shards + 1 : 0;
     *plan = (study_plan){.seconds = -1};
-    s.records = study_records_open(run->directory, true);
-    for (size_t k = run->shard - 1; k < study_chains(study); k += run->shards) {
-        study_chain_begin(&chain, k);
-        chains++;
-        if (study_records_count(s.records) == 0) { /* all cases are left: none need be built */
-            plan->left += study_chain_length(study);
-            continue;
-        }
-        for (size_t i = 0; i < study_chain_length(study); i++)
-            count_case(&s, &chain, study_chain_case(study, k, i));
-    }
+    if (study_records_count(s.records) == 0) /* all cases are left: none need be built */
+        plan->left = chains * study_chain_length(study);
+    while (study_records_count(s.records) > 0 && study_walk_next(&walk))
+        count_case(&s, &walk);
     if (s.timed > 0)
         plan->seconds = s.spent / (double)s.timed * (double)plan->left /
-                        fmax(1, fmin((double)run->jobs, (double)chains));
-    study_chain_free(&chain);
-    study_kept_free(&s.keys);
-    study_kept_free(&s.kept);
+                        fmax(1, fmin((double)own.jobs, (double)chains));
+    study_walk_end(&walk);
     study_records_close(s.records);
     free(s.earlier);
     ff_run_close(base);

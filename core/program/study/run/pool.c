@@ -160,7 +160,7 @@ static int finish_case(study_pool *pool, study_worker *worker, char verdict, con
     settle_arrays(pool, worker);
     worker->busy = false;
     *task = worker->chain;
-    if (pool->ending || verdict == STUDY_VERDICT_FATAL ||
+    if (pool->ending || verdict == STUDY_VERDICT_FATAL || verdict == STUDY_VERDICT_WRITTEN_OVER ||
         (verdict == STUDY_VERDICT_FAILED && pool->run->fail_fast))
         worker->left = 0;
     if (worker->left == 0)
@@ -223,8 +223,8 @@ static int read_answer(study_pool *pool, study_worker *worker, size_t *task)
     if (state == 0)
         return FF_TASK_NONE;
     const char *line = worker->line;
-    if (line[0] == '!')
-        return finish_case(pool, worker, STUDY_VERDICT_FATAL, line + 1, task);
+    if (line[0] == STUDY_VERDICT_FATAL || line[0] == STUDY_VERDICT_WRITTEN_OVER)
+        return finish_case(pool, worker, line[0], line + 1, task);
     enum study_state before = study_records_state(pool->done, worker->shared->key);
     if (!strcmp(line, "=\n") && before != STUDY_UNKNOWN)
         return finish_case(pool, worker,

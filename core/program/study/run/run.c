@@ -10,6 +10,7 @@
 #include "../cases/chain.h"
 #include "../cases/rows.h"
 #include "../cases/table.h"
+#include "../cases/walk.h"
 #include "../store/journal.h"
 #include "../store/reuse.h"
 
@@ -35,30 +36,6 @@ typedef struct execution {
     bool no_memory;                /* so that an executor was told to end */
     double start, reported;
 } execution;
-
-static volatile sig_atomic_t interrupts, last_signal, leading;
-
-static void on_interrupt(int number, siginfo_t *info, void *context)
-{
-    static const char text[] = "\nfinishing the cases at hand; once more to end at once\n";
-    (void)context;
-    if (info->si_pid == getpid() && ff_guard_current().path) { /* a plugin has sent it */
-        signal(number, SIG_DFL);
-        raise(number);
-        return;
-    }
-    if (crash_is_echo(info))
-        return;
-    last_signal = number;
-    interrupts = interrupts + 1;
-    if (interrupts > 1) {
-        signal(number, SIG_DFL); /* an executor may not come back to see it */
-        if (!leading)
-            raise(number);
-    }
-    if (leading && interrupts == 1 && write(STDERR_FILENO, text, sizeof text - 1) < 0)
-        return; /* stderr is closed; nothing can be done */
-}
 
 static size_t end_of_chains(const study_run *run)
 {
@@ -90,7 +67,7 @@ static void open_journal(void *ctx)
     const study_run *run = r->run;
     size_t total = run->study->count, first = run->shard - 1;
     size_t chains = end_of_chains(run) - run->begin;
-    leading = 1;
+    study_signals_lead(true);
     r->counters->leads = true;
     r->counters->total = first < chains ? (chains - first - 1) / run->shards + 1 : 0;
     r->counters->total *= study_chain_length(run->study);
@@ -142,26 +119,36 @@ static int32_t next_chain(void *ctx, size_t *task)
     execution *r = ctx;
     while (r->open && r->next < end_of_chains(r->run) && is_answered(r, r->next))
         r->next += r->run->shards;
-    if (r->open && !r->ending && !interrupts && r->run->study->streams)
+    if (r->open && !r->ending && study_signals_count() == 0 && r->run->study->streams)
         take_row(r);
-    if (!r->open || r->ending || interrupts || r->next >= end_of_chains(r->run))
+    if (!r->open || r->ending || study_signals_count() > 0 || r->next >= end_of_chains(r->run))
         return 0;
     *task = r->next;
     r->next += r->run->shards;
     return 1;
 }
 
-/* Where a plugin's file was written over, nothing of it may be touched any more, also not to tell
-   what it is: the process that waits says so. */
-static void check_plugins(execution *r)
+/* Nothing of a plugin whose file was written over may be touched any more, also not to tell what it
+   is: the process that waits says so. */
+static _Noreturn void end_written_over(execution *r, const char *path)
 {
     char sentence[CRASH_SENTENCE];
-    if (!study_written_over(r->run, sentence, sizeof sentence))
-        return;
+    snprintf(
+        sentence, sizeof sentence,
+        "the plugin %.*s was written over while the study ran; what it did before is kept, and "
+        "the same command goes on with the plugin as it is now",
+        (int)strcspn(path, "\n"), path);
     study_pool_kill(&r->pool);
     if (r->run->executor)
         study_fork_server_end(&r->fork_server);
     crash_say(sentence, FF_FAULT_PLUGIN);
+}
+
+static void check_plugins(execution *r)
+{
+    const ff_loaded *over = ff_engine_written_over(r->run->engine);
+    if (over)
+        end_written_over(r, over->path);
 }
 
 /* Counts an answer and adds it to the journal; `text` is what follows the verdict. False when no
@@ -175,7 +162,9 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
         return ff_error(r->report, FF_FAULT_RUN, FF_NOWHERE,
                         "the same command goes on with the rest", "%.*s", (int)strcspn(text, "\n"),
                         text);
-    if (!known)
+    if (verdict == STUDY_VERDICT_WRITTEN_OVER)
+        end_written_over(r, text);
+    if (!good && !known) /* a good answer was checked where it was made */
         check_plugins(r);
     if (!known && !study_journal_append(&r->journal, text, strlen(text), r->report))
         return false;
@@ -259,8 +248,7 @@ static _Noreturn void end_at_once(execution *r)
     study_pool_kill(&r->pool);
     if (r->run->executor)
         study_fork_server_end(&r->fork_server);
-    signal(last_signal, SIG_DFL);
-    raise(last_signal);
+    study_signals_raise();
     _exit(FF_FAULT_RUN);
 }
 
@@ -269,10 +257,10 @@ static void take_answer(void *ctx)
     answer_call *call = ctx;
     execution *r = call->r;
     bool forked = r->run->executor != NULL;
-    r->pool.ending = r->ending || interrupts;
+    r->pool.ending = r->ending || study_signals_count() > 0;
     call->state = forked ? study_fork_server_wait(&r->fork_server, call->milliseconds, &call->task)
                          : study_pool_wait(&r->pool, call->milliseconds, &call->task);
-    if (interrupts > 1)
+    if (study_signals_count() > 1)
         end_at_once(r);
     if (call->state > 0)
         call->text = forked ? r->fork_server.answer : r->pool.answer;
@@ -295,7 +283,8 @@ static int32_t wait_for_answer(void *ctx, int32_t milliseconds, size_t *task, co
 static bool expects_row(const execution *r)
 {
     const study_definition *study = r->run->study;
-    return study->streams && !r->ending && !interrupts && !study_rows_ended(study->rows);
+    return study->streams && !r->ending && study_signals_count() == 0 &&
+           !study_rows_ended(study->rows);
 }
 
 /* Waits for a row; false when none will come. */
@@ -314,19 +303,23 @@ static void answer_known(execution *r)
     const study_run *run = r->run;
     study_search search = {.pid = 0};
     study_known known;
-    bool many = study_records_count(r->done) >= FEW && r->counters->total >= FEW;
-    if (!many || run->study->streams || run->study->measure || study_is_chained(run->study) ||
-        !study_search_start(&search, run, r->done, (int[]){r->journal.fd, r->journal.directory},
-                            r->next, end_of_chains(run)))
+    if (study_records_count(r->done) < FEW || r->counters->total < FEW || run->study->streams ||
+        run->study->measure || study_is_chained(run->study))
         return;
-    r->searched = true;
-    while (!r->ending && !interrupts && study_search_next(&search, &known)) {
+    study_walk walk = study_walk_begin(run, r->done);
+    walk.chain = r->next;
+    walk.end = end_of_chains(run);
+    r->searched = study_search_start(&search, &walk, (int[]){r->journal.fd, r->journal.directory});
+    while (r->searched && !r->ending && study_signals_count() == 0 &&
+           study_search_next(&search, &known)) {
         bool good = study_records_state(r->done, known.key) == STUDY_OK;
         r->ending = !record_answer(r, known.index, known.key,
                                    good ? STUDY_VERDICT_KNOWN : STUDY_VERDICT_KNOWN_BAD, "");
         show_progress(r);
     }
-    study_search_end(&search);
+    if (r->searched)
+        study_search_end(&search);
+    study_walk_end(&walk);
 }
 
 /* Runs all cases by workers of this process. */
@@ -415,25 +408,15 @@ static bool run_cases(execution *r)
    other shards. */
 static void find_keys(execution *r)
 {
-    const study_run *run = r->run;
-    study_chain chain = {0};
-    study_kept kept = {0};
-    size_t length = study_chain_length(run->study);
-    for (size_t i = 0; i < run->study->count; i++) {
-        size_t index = study_chain_case(run->study, i / length, i % length);
-        study_case c;
-        if (i % length == 0)
-            study_chain_begin(&chain, i / length);
-        if (!r->keys[index][0]) {
-            study_case_open(&c, run, index, &kept);
-            study_chain_enter(&chain, run->study, &c);
-            memcpy(r->keys[index], c.key, sizeof c.key);
-            study_case_close(&c);
-        }
-        memcpy(chain.key, r->keys[index], sizeof chain.key);
-    }
-    study_chain_free(&chain);
-    study_kept_free(&kept);
+    study_walk walk = study_walk_begin(r->run, r->done);
+    const study_case *c;
+    walk.chain = 0;
+    walk.step = 1;
+    walk.keys = r->keys;
+    walk.kept.keys = false;
+    while ((c = study_walk_next(&walk)))
+        memcpy(r->keys[c->index], c->key, sizeof c->key);
+    study_walk_end(&walk);
 }
 
 /* Ends the run in the leading process when all cases are answered. */
@@ -443,7 +426,7 @@ static void finish_run(execution *r)
     check_plugins(r);
     if (run->progress)
         run->progress(run->ctx, r->counters);
-    if (interrupts)
+    if (study_signals_count() > 0)
         ff_error(r->report, FF_FAULT_RUN, FF_NOWHERE, "the same command goes on with the rest",
                  "the study was stopped");
     else if (r->counters->done < r->counters->total && !r->ending &&
@@ -477,7 +460,7 @@ bool study_execute(const study_run *given, study_counters *counters, ff_report *
     ff_run *base = study_case_base(own.engine, own.file);
     own.base = base;
     run_cases(&r);
-    leading = 0;
+    study_signals_lead(false);
     if (r.open)
         finish_run(&r);
     study_records_close(r.done);
@@ -485,19 +468,4 @@ bool study_execute(const study_run *given, study_counters *counters, ff_report *
         free(r.keys);
     ff_run_close(base);
     return ff_report_errors(report) == 0;
-}
-
-void study_signals_catch(study_signals *before)
-{
-    struct sigaction action = {.sa_sigaction = on_interrupt, .sa_flags = SA_SIGINFO};
-    sigemptyset(&action.sa_mask);
-    interrupts = last_signal = leading = 0;
-    sigaction(SIGINT, &action, &before->interrupt);
-    sigaction(SIGTERM, &action, &before->terminate);
-}
-
-void study_signals_restore(const study_signals *before)
-{
-    sigaction(SIGINT, &before->interrupt, NULL);
-    sigaction(SIGTERM, &before->terminate, NULL);
 }

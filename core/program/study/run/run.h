@@ -36,7 +36,7 @@ void study_savings_add(study_reuse_counts *savings, const json_t *record);
 bool study_recount(const study_run *run, study_records *records, char (*keys)[STUDY_KEY_SIZE],
                    study_counters *counters, ff_report *report);
 
-/* What SIGINT and SIGTERM did before. */
+/* signals.c: what SIGINT and SIGTERM did before. */
 typedef struct study_signals {
     struct sigaction interrupt, terminate;
 } study_signals;
@@ -45,6 +45,10 @@ typedef struct study_signals {
    a driver, which runs several lots of cases; the second ends at once. */
 void study_signals_catch(study_signals *before);
 void study_signals_restore(const study_signals *before);
+/* Whether this process ends the workers itself, and tells the user of the first signal. */
+void study_signals_lead(bool leads);
+int study_signals_count(void);  /* since they were caught */
+void study_signals_raise(void); /* does what the last one did by default */
 
 /* Runs what is not done yet, then writes table.csv. Failed cases are only counted; the report gets
    what keeps the study from going on. */
@@ -60,9 +64,5 @@ typedef struct study_plan {
 } study_plan;
 
 void study_preview(const study_run *run, study_plan *plan);
-
-/* plugin-files.c: a sentence where the file of a plugin of the study was written over after it was
-   loaded; NULL: none was. A file that takes the place of another one does no harm. */
-const char *study_written_over(const study_run *run, char *text, size_t size);
 
 #endif

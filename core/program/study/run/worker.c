@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
  * A worker process takes numbers of cases and answers with lines of the journal, so that a model
- * that crashes ends this process alone. Two answers are not lines of the journal: "=" for a case
- * that is done already, and "!text" when the study cannot go on.
+ * that crashes ends this process alone. Three answers are not lines of the journal: "=" for a case
+ * that is done already, "!text" when the study cannot go on, and "?path" of a plugin that was
+ * written over.
  */
 #include "workers.h"
 
@@ -11,6 +12,7 @@
 #include "../../crash/lead.h"
 #include "../cases/chain.h"
 #include "../cases/rows.h"
+#include "../cases/walk.h"
 #include "../store/journal.h"
 #include "../store/reuse.h"
 
@@ -95,27 +97,6 @@ bool study_open_pipes(int to[2], int from[2])
     return false;
 }
 
-/* Moves to the place of the case in its chain; the states of earlier cases that this process did
-   not run are in their records. */
-static void reach_case(study_chain *chain, const study_run *run, size_t index, study_records *done)
-{
-    size_t position, number;
-    if (!study_is_chained(run->study))
-        return;
-    number = study_chain_locate(run->study, index, &position);
-    if (!chain->states || chain->number != number || chain->position > position)
-        study_chain_begin(chain, number);
-    while (chain->position < position) {
-        study_case c;
-        study_case_open(&c, run, study_chain_case(run->study, number, chain->position), NULL);
-        study_chain_enter(chain, run->study, &c);
-        json_t *record = study_records_get(done, c.key);
-        study_chain_pass(chain, &c, record);
-        json_decref(record);
-        study_case_close(&c);
-    }
-}
-
 /* Adds the processor time in s, of the whole case and what its reused stages took once. */
 static void add_costs(const study_case *c, double spent, json_t *record)
 {
@@ -126,32 +107,46 @@ static void add_costs(const study_case *c, double spent, json_t *record)
     json_object_set_new(record, "processor_saved", json_real(round(saved * 1e6) / 1e6));
 }
 
-static bool run_case(const study_worker *worker, const study_run *run, size_t index,
-                     study_records *done, study_memory *memory, study_chain *chain, int to)
+/* Where the code of a plugin is no more what it was, the answer is its file. */
+static char *tell_written_over(const study_run *run)
 {
-    study_case c;
-    reach_case(chain, run, index, done);
-    clock_t start = clock(); /* the case is all that this process does */
-    study_case_open(&c, run, index, &memory->kept);
-    study_chain_enter(chain, run->study, &c);
-    memcpy(worker->shared->key, c.key, sizeof c.key);
-    char *line = NULL;
-    json_t *record = NULL;
-    if (study_case_is_settled(&c, done, run->rerun)) {
-        line = memory_print_text("=\n");
-        record = c.states ? study_records_get(done, c.key) : NULL;
-    } else {
-        record = study_case_run(&c, run, index, memory);
-        char *why = record ? NULL : study_first_error(c.report);
-        add_costs(&c, (double)(clock() - start) / CLOCKS_PER_SEC, record);
-        line = record ? study_journal_line(record, memory->said) : memory_print_text("!%s\n", why);
-        free(why);
+    const ff_loaded *over = ff_engine_written_over(run->engine);
+    return over ? memory_print_text("%c%s\n", STUDY_VERDICT_WRITTEN_OVER, over->path) : NULL;
+}
+
+/* Returns the answer to the open case, and sets the record that it hands on, to be released. */
+static char *answer_case(study_walk *walk, size_t index, study_memory *memory, clock_t start,
+                         json_t **record)
+{
+    study_case *c = &walk->c;
+    if (study_case_is_settled(c, walk->records, walk->run->rerun)) {
+        *record = c->states ? study_records_get(walk->records, c->key) : NULL;
+        return memory_print_text("=\n");
     }
+    *record = study_case_run(c, walk->run, index, memory);
+    add_costs(c, (double)(clock() - start) / CLOCKS_PER_SEC, *record);
+    char *over = study_record_is_ok(*record) ? NULL : tell_written_over(walk->run);
+    if (over || *record)
+        return over ? over : study_journal_line(*record, memory->said);
+    char *why = study_first_error(c->report);
+    char *line = memory_print_text("%c%s\n", STUDY_VERDICT_FATAL, why);
+    free(why);
+    return line;
+}
+
+static bool run_case(const study_worker *worker, study_walk *walk, size_t index,
+                     study_memory *memory, int to)
+{
+    json_t *record;
+    study_walk_to(walk, index);
+    clock_t start = clock(); /* the case is all that this process does */
+    study_walk_next(walk);
+    memcpy(worker->shared->key, walk->c.key, sizeof walk->c.key);
+    char *line = answer_case(walk, index, memory, start, &record);
     bool sent = study_write_all(to, line, strlen(line));
-    study_chain_pass(chain, &c, record);
+    study_walk_leave(walk, record);
     json_decref(record);
     free(line);
-    study_case_close(&c);
     return sent;
 }
 
@@ -225,12 +220,13 @@ static _Noreturn void serve_cases(const study_worker *worker, const study_run *r
         .seen = json_object(),
         .said = json_object(),
     };
-    study_chain chain = {0};
+    study_walk walk = study_walk_begin(run, done);
+    walk.kept.keys = false;
+    walk.end = SIZE_MAX; /* rows of standard input may come */
     const ff_environment *environment = ff_environment_keep();
     while (take_case(run, from, &index)) {
         ff_environment_restore(environment); /* destroy may have left it changed */
-        if (ftruncate(worker->captured, 0) != 0 ||
-            !run_case(worker, run, index, done, &memory, &chain, to))
+        if (ftruncate(worker->captured, 0) != 0 || !run_case(worker, &walk, index, &memory, to))
             break;
     }
     _exit(0);

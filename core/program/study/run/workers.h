@@ -53,9 +53,10 @@ char *study_worker_reap(study_worker *worker);
 enum study_case_verdict {
     STUDY_VERDICT_GOOD = '+',
     STUDY_VERDICT_FAILED = '-',
-    STUDY_VERDICT_KNOWN = '=',     /* an earlier run has done the case */
-    STUDY_VERDICT_KNOWN_BAD = '~', /* the same, and it failed then */
-    STUDY_VERDICT_FATAL = '!'      /* the study cannot go on */
+    STUDY_VERDICT_KNOWN = '=',       /* an earlier run has done the case */
+    STUDY_VERDICT_KNOWN_BAD = '~',   /* the same, and it failed then */
+    STUDY_VERDICT_FATAL = '!',       /* the study cannot go on */
+    STUDY_VERDICT_WRITTEN_OVER = '?' /* the same: a plugin's file was, whose path follows */
 };
 
 typedef struct study_pool {
