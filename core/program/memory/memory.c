@@ -92,6 +92,14 @@ char *memory_arena_text(memory_arena *arena, const char *text, size_t length)
     return copy;
 }
 
+void *memory_arena_grow(memory_arena *arena, void *items, size_t count, size_t size)
+{
+    if ((count & (count - 1)) != 0)
+        return items;
+    void *more = memory_arena_alloc(arena, (count ? 2 * count : 1) * size);
+    return count ? memcpy(more, items, count * size) : more;
+}
+
 void memory_arena_free(memory_arena *arena)
 {
     while (arena->blocks) {

@@ -22,6 +22,8 @@ typedef struct memory_arena {
 } memory_arena;
 
 void *memory_arena_alloc(memory_arena *arena, size_t size); /* zeroed, for any type */
+/* Makes room for one item more behind `count` of them; returns the array, which may have moved. */
+void *memory_arena_grow(memory_arena *arena, void *items, size_t count, size_t size);
 char *memory_arena_text(memory_arena *arena, const char *text, size_t length);
 void memory_arena_free(memory_arena *arena);
 

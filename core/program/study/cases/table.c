@@ -40,13 +40,19 @@ static const char *common_unit(const study_definition *study, const study_varied
     return unit;
 }
 
+/* A further cell; NULL leaves it empty. */
+static void put_text(FILE *out, const char *text)
+{
+    fputc(',', out);
+    study_csv_write(out, text ? text : "", text ? strlen(text) : 0, false);
+}
+
 /* A name may be any text that the file gives an axis. */
 static void put_name(FILE *out, const char *name, const char *unit)
 {
     char *head =
         unit && *unit ? memory_print_text("%s [%s]", name, unit) : memory_print_text("%s", name);
-    fputc(',', out);
-    study_csv_write(out, head, strlen(head), false);
+    put_text(out, head);
     free(head);
 }
 
@@ -69,8 +75,8 @@ static void put_head(FILE *out, const study_definition *study, const char *const
 static void put_judgement(FILE *out, const study_judgement *judgement)
 {
     char *reasons = judgement ? study_judgement_text(judgement) : NULL;
-    fprintf(out, ",%s,", judgement ? study_verdict_name(judgement->verdict) : "");
-    study_csv_write(out, reasons ? reasons : "", reasons ? strlen(reasons) : 0, false);
+    fprintf(out, ",%s", judgement ? study_verdict_name(judgement->verdict) : "");
+    put_text(out, reasons);
     free(reasons);
 }
 
@@ -78,8 +84,7 @@ static void put_judgement(FILE *out, const study_judgement *judgement)
 static void put_limits(FILE *out, const json_t *list)
 {
     char *text = limits_text(list);
-    fputc(',', out);
-    study_csv_write(out, text, strlen(text), false);
+    put_text(out, text);
     free(text);
 }
 
@@ -111,8 +116,7 @@ static void put_row(FILE *out, const study_definition *study, const char *const 
     if (limits)
         put_limits(out, json_object_get(record, "limits"));
     put_judgement(out, record ? judgement : NULL);
-    fputc(',', out);
-    study_csv_write(out, reason ? reason : "", reason ? strlen(reason) : 0, false);
+    put_text(out, reason);
     fputc('\n', out);
 }
 

@@ -10,11 +10,6 @@
 #include <string.h>
 #include <unistd.h>
 
-static double number_of(const json_t *value)
-{
-    return json_is_number(value) ? json_number_value(value) : (double)NAN;
-}
-
 static const char *text_of(study_context *context, const json_t *value)
 {
     const char *text = json_string_value(value);
@@ -45,7 +40,7 @@ static study_output read_output(study_context *context, arrays_reader *reader, c
     size_t points = 0, rank = 0;
     if (pair) {
         double *scalar = memory_arena_alloc(&context->arena, sizeof *scalar);
-        *scalar = number_of(json_array_get(pair, 1));
+        *scalar = study_json_number(json_array_get(pair, 1));
         output.values = scalar;
         output.count = 1;
         return output;
@@ -88,8 +83,8 @@ static void read_quality(study_context *context, const json_t *record, study_out
     json_object_foreach(stages, stage, lines) json_object_foreach(lines, name, line)
         outcome->quality[outcome->quality_count++] =
         (study_quality){.name = study_context_format(context, "%.80s.%.80s", stage, name),
-                        .value = number_of(json_array_get(line, 0)),
-                        .limit = number_of(json_array_get(line, 1)),
+                        .value = study_json_number(json_array_get(line, 0)),
+                        .limit = study_json_number(json_array_get(line, 1)),
                         .verdict = (int)json_integer_value(json_array_get(line, 2)),
                         .text = text_of(context, json_array_get(line, 3))};
 }
@@ -100,8 +95,8 @@ static void read_costs(const json_t *record, study_outcome *outcome)
 {
     json_t *work = json_object_get(json_object_get(record, "measured"), "work"), *value;
     const char *stage;
-    outcome->processor = number_of(json_object_get(record, "processor"));
-    outcome->saved = number_of(json_object_get(record, "processor_saved"));
+    outcome->processor = study_json_number(json_object_get(record, "processor"));
+    outcome->saved = study_json_number(json_object_get(record, "processor_saved"));
     outcome->work = study_record_is_ok(record) ? 0 : (double)NAN;
     json_object_foreach(work, stage, value) outcome->work += json_number_value(value);
     for (const char *const *key = (const char *const[]){"stages", "reused", NULL}; *key; key++)

@@ -15,10 +15,11 @@ static bool is_one_of(const char *name, const char *const *names)
 }
 
 /* Members that stand in each line. */
+static const char *const beside[] = {"case", "key", "status", "log", "parameters", NULL};
+
 static bool is_beside(const char *name)
 {
-    static const char *const names[] = {"case", "key", "status", "log", "parameters", NULL};
-    return is_one_of(name, names);
+    return is_one_of(name, beside);
 }
 
 /* Members whose texts are of one case. */
@@ -184,7 +185,6 @@ static json_t *fill(const json_t *form, const json_t *values, size_t *next)
 
 json_t *study_form_fill(const json_t *form, const json_t *line)
 {
-    static const char *const beside[] = {"case", "key", "status", "log", "parameters", NULL};
     const json_t *values = json_object_get(line, "values");
     json_t *record = json_object(), *member;
     const char *name;

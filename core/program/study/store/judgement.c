@@ -20,6 +20,11 @@ typedef struct doubts {
     size_t count;
 } doubts;
 
+double study_json_number(const json_t *value)
+{
+    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+}
+
 const char study_refused[] = "refused";
 
 const char *study_verdict_name(int verdict)
@@ -45,23 +50,27 @@ static double beyond_limit(double value, double limit)
     return value > 0 && limit > 0 && isfinite(value) ? fabs(log(value / limit)) : HUGE_VAL;
 }
 
-/* Adds a line that is not good. Lines of one name, of several stages, are one reason: the worst. */
-static void add_doubt(doubts *all, const char *name, double value, double limit, int verdict)
+/* Adds a reason, which takes the words. Lines of one name, of several stages, are one: the worst.
+ */
+static void add_reason(doubts *all, doubt made)
 {
-    if (verdict == FF_GOOD)
-        return;
-    doubt made = {words_of(name), verdict, beyond_limit(value, limit)};
     for (size_t i = 0; i < all->count; i++) {
         doubt *known = &all->lines[i];
         if (strcmp(known->words, made.words) != 0)
             continue;
         known->beyond = fmax(known->beyond, made.beyond);
-        known->verdict = known->verdict > verdict ? known->verdict : verdict;
+        known->verdict = known->verdict > made.verdict ? known->verdict : made.verdict;
         free(made.words);
         return;
     }
     all->lines = memory_resize(all->lines, (all->count + 1) * sizeof *all->lines);
     all->lines[all->count++] = made;
+}
+
+static void add_line(doubts *all, const char *name, double value, double limit, int verdict)
+{
+    if (verdict != FF_GOOD)
+        add_reason(all, (doubt){words_of(name), verdict, beyond_limit(value, limit)});
 }
 
 /* "film.z outside its calibrated range" of "film.z: 3 is outside the calibrated range, ...", else
@@ -81,14 +90,7 @@ static char *words_of_warning(const char *text)
 /* A reason to look, which leaves the verdict as it is; the words are taken over. */
 static void add_words(doubts *all, char *words)
 {
-    doubt made = {words, FF_GOOD, 0};
-    for (size_t i = 0; i < all->count; i++)
-        if (!strcmp(all->lines[i].words, made.words)) {
-            free(made.words);
-            return;
-        }
-    all->lines = memory_resize(all->lines, (all->count + 1) * sizeof *all->lines);
-    all->lines[all->count++] = made;
+    add_reason(all, (doubt){words, FF_GOOD, 0});
 }
 
 /* An output that is known from below alone: wherever its value stands, the reasons do. */
@@ -107,7 +109,7 @@ static int by_gravity(const void *a, const void *b)
     return strcmp(one->words, other->words);
 }
 
-static void add_reason(study_judgement *judgement, char *words)
+static void put_reason(study_judgement *judgement, char *words)
 {
     judgement->reasons =
         memory_resize(judgement->reasons, (judgement->count + 1) * sizeof *judgement->reasons);
@@ -123,16 +125,11 @@ static study_judgement judge(doubts *all, bool failed, const char *failure)
     if (all->count && (!failed || all->lines[0].verdict == FF_BAD))
         judgement.verdict = all->lines[0].verdict;
     if (judgement.verdict == STUDY_CASE_FAILED && failure)
-        add_reason(&judgement, memory_copy_text(failure, strlen(failure)));
+        put_reason(&judgement, memory_copy_text(failure, strlen(failure)));
     for (size_t i = 0; i < all->count; i++)
-        add_reason(&judgement, all->lines[i].words);
+        put_reason(&judgement, all->lines[i].words);
     free(all->lines);
     return judgement;
-}
-
-static double number_of(const json_t *value)
-{
-    return json_is_number(value) ? json_number_value(value) : (double)NAN;
 }
 
 void study_judge_record(json_t *record)
@@ -145,8 +142,8 @@ void study_judge_record(json_t *record)
     {
         json_int_t verdict = json_integer_value(json_array_get(line, 2));
         bool known = verdict >= FF_GOOD && verdict <= FF_BAD; /* to this version */
-        add_doubt(&all, name, number_of(json_array_get(line, 0)),
-                  number_of(json_array_get(line, 1)), known ? (int)verdict : FF_BAD);
+        add_line(&all, name, study_json_number(json_array_get(line, 0)),
+                 study_json_number(json_array_get(line, 1)), known ? (int)verdict : FF_BAD);
     }
     json_t *warning, *name_of;
     size_t i;
@@ -184,7 +181,7 @@ bool study_judgement_read(study_judgement *judgement, const json_t *object)
     json_array_foreach(reasons, i, reason)
     {
         const char *text = json_string_value(reason);
-        add_reason(judgement, memory_copy_text(text ? text : "", text ? strlen(text) : 0));
+        put_reason(judgement, memory_copy_text(text ? text : "", text ? strlen(text) : 0));
     }
     return true;
 }
@@ -209,7 +206,7 @@ study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed)
     for (size_t i = 0; i < pipeline->count; i++)
         for (size_t k = 0; k < pipeline->stages[i].quality_count; k++) {
             const ff_quality *line = &pipeline->stages[i].quality[k];
-            add_doubt(&all, line->name, line->value, line->limit, line->verdict);
+            add_line(&all, line->name, line->value, line->limit, line->verdict);
         }
     json_t *least = study_list_least(pipeline), *name;
     size_t i;

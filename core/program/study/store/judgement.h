@@ -20,6 +20,7 @@ typedef struct study_judgement {
                       known */
 } study_judgement;
 
+double study_json_number(const json_t *value); /* NaN where it is none */
 extern const char study_refused[]; /* "refused": the status of such a row, and its verdict */
 const char *study_verdict_name(int verdict); /* "good", "doubtful", "bad", "refused", "failed" */
 

@@ -65,6 +65,5 @@ const char *study_text_of(const json_t *map, const char *key)
 
 double study_number_of(const json_t *map, const char *key)
 {
-    const json_t *value = json_object_get(map, key);
-    return json_is_number(value) ? json_number_value(value) : (double)NAN;
+    return study_json_number(json_object_get(map, key));
 }

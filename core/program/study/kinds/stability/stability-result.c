@@ -14,9 +14,7 @@ static json_t *text_or_null(const char *text)
 
 static json_t *number_or_null(double number, bool there)
 {
-    json_t *json = there ? json_real(number)
-                         : NULL; /* json_real returns NULL for a number that is not finite */
-    return json ? json : json_null();
+    return there ? study_json_real(number) : json_null();
 }
 
 /* Returns the key of a case in the journal; NULL without a case. */
@@ -43,16 +41,26 @@ static json_t *describe_cell(const study_map *map, const study_cell *cell)
                      "refined", text_or_null(key_of(map, cell->finer)));
 }
 
+/* Where a boundary lies on the other axes; `shortened`: as study_map_short writes numbers. */
+static json_t *place_of(const study_map *map, const study_boundary *b, bool shortened)
+{
+    const study_setting *settings = map->cells[b->low].settings;
+    json_t *at = json_object();
+    for (size_t a = 0; a < map->axis_count; a++) {
+        const char *name = settings[a].name;
+        if (a != b->axis)
+            json_object_set_new(at, map->grid->varied[a].path,
+                                text_or_null(shortened ? study_map_short(map, name) : name));
+    }
+    return at;
+}
+
 static json_t *describe_boundary(const study_map *map, const study_boundary *b)
 {
     const study_cell *low = &map->cells[b->low], *high = &map->cells[b->high];
     const study_cell *worse = low->class > high->class ? low : high;
-    json_t *at = json_object();
-    for (size_t a = 0; a < map->axis_count; a++)
-        if (a != b->axis)
-            json_object_set_new(at, map->grid->varied[a].path, text_or_null(low->settings[a].name));
     return json_pack("{s:s, s:o, s:[o,o], s:[s,s], s:o, s:o}", "axis",
-                     map->grid->varied[b->axis].path, "at", at, "between",
+                     map->grid->varied[b->axis].path, "at", place_of(map, b, false), "between",
                      text_or_null(low->settings[b->axis].name),
                      text_or_null(high->settings[b->axis].name), "verdicts",
                      study_class_names[low->class], study_class_names[high->class], "because",
@@ -129,15 +137,11 @@ static json_t *boundary_row(const study_map *map, const study_boundary *b)
 {
     const study_cell *low = &map->cells[b->low], *high = &map->cells[b->high];
     const study_cell *worse = low->class > high->class ? low : high;
-    json_t *at = json_object();
-    for (size_t a = 0; a < map->axis_count; a++)
-        if (a != b->axis)
-            json_object_set_new(at, map->grid->varied[a].path,
-                                json_string(study_map_short(map, low->settings[a].name)));
     return json_pack(
         "{s:s++, s:s++, s:o, s:o}", "low", study_map_short(map, low->settings[b->axis].name), " ",
         study_class_names[low->class], "high", study_map_short(map, high->settings[b->axis].name),
-        " ", study_class_names[high->class], "at", at, "because", text_or_null(worse->line));
+        " ", study_class_names[high->class], "at", place_of(map, b, true), "because",
+        text_or_null(worse->line));
 }
 
 static void tell_boundaries(const study_map *map, study_answer *answer, size_t axis)

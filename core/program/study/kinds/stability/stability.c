@@ -10,47 +10,29 @@
 
 static const ff_param keys[STUDY_MAP_KEYS] = {
     [MAP_AXES] = {.name = "axes",
-                  .unit = "",
-                  .type = STUDY_TREE,
                   .flags = FF_REQUIRED,
                   .doc = "map from paths to ranges or lists, as under sweep: the grid"},
     [MAP_OUTPUTS] = {.name = "outputs",
-                     .unit = "",
-                     .type = STUDY_TREE,
                      .flags = FF_REQUIRED,
                      .doc = "list of the scalars that must be right: [film.h_min_lowest]"},
     [MAP_ESTIMATES] = {.name = "estimates",
-                       .unit = "",
-                       .type = STUDY_TREE,
                        .doc = "map from outputs to the lines of quality that say their errors"},
     [MAP_REFINE] = {.name = "refine",
-                    .unit = "",
-                    .type = STUDY_TREE,
                     .doc =
                         "list of parameters to double in the case that confirms a cell, or a map "
                         "to factors"},
     [MAP_BISECT] = {.name = "bisect",
-                    .unit = "",
-                    .type = STUDY_TREE,
                     .doc = "halvings between neighbours that differ, 0 to 40, or a map from axes"},
     [MAP_PHYSICAL] = {.name = "physical",
-                      .unit = "",
-                      .type = STUDY_TREE,
                       .doc = "list of lines of quality, and of conditions in SI, which say that "
                              "the machine itself is unstable, or a map to the lines that warn "
                              "because of it"},
     [MAP_NOTES] = {.name = "notes",
-                   .unit = "",
-                   .type = STUDY_TREE,
                    .doc = "map from such lines and conditions to words behind their value, which "
                           "leave the verdict alone: {\"motion.period > 1\": mesh cycles long}"},
     [MAP_RANGE] = {.name = "range",
-                   .unit = "",
-                   .type = STUDY_TREE,
                    .doc = "list of lines of quality that say where a model applies"},
     [MAP_TOLERANCE] = {.name = "tolerance",
-                       .unit = "",
-                       .type = STUDY_TREE,
                        .preset = "1 %",
                        .doc = "for an output without an estimate"},
 };
@@ -63,13 +45,7 @@ static size_t point_of(const study_map *map, size_t axis, size_t cell)
 static study_cell *add_cell(study_map *map, const study_setting *settings)
 {
     study_context *context = map->context;
-    if ((map->count & (map->count - 1)) == 0) {
-        size_t room = map->count ? 2 * map->count : 1;
-        study_cell *more = memory_arena_alloc(&context->arena, room * sizeof *more);
-        if (map->count)
-            memcpy(more, map->cells, map->count * sizeof *more);
-        map->cells = more;
-    }
+    map->cells = memory_arena_grow(&context->arena, map->cells, map->count, sizeof *map->cells);
     study_cell *cell = &map->cells[map->count++];
     *cell = (study_cell){.settings = settings,
                          .halved = map->axis_count,

@@ -29,13 +29,7 @@ static size_t find_knob(study_tradeoff *t, const char *path, const ff_node *plac
 static study_point *add_point(study_tradeoff *t, const ff_node *place)
 {
     study_context *context = t->context;
-    if ((t->count & (t->count - 1)) == 0) {
-        size_t room = t->count ? 2 * t->count : 1;
-        study_point *more = memory_arena_alloc(&context->arena, room * sizeof *more);
-        if (t->count)
-            memcpy(more, t->points, t->count * sizeof *more);
-        t->points = more;
-    }
+    t->points = memory_arena_grow(&context->arena, t->points, t->count, sizeof *t->points);
     study_point *p = &t->points[t->count++];
     *p = (study_point){.place = place};
     p->assignments = memory_arena_alloc(&context->arena, STUDY_MOST_KNOBS * sizeof *p->assignments);

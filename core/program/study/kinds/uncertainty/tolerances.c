@@ -7,7 +7,7 @@
 typedef struct search {
     memory_arena *arena;
     study_toleranced *list;
-    size_t count, room;
+    size_t count;
 } search;
 
 static void look_at(search *s, const ff_node *node, const char *path);
@@ -30,10 +30,7 @@ static void look_at(search *s, const ff_node *node, const char *path)
     }
     if (node->kind != FF_SCALAR || ff_tolerance_parse(node->text, &tolerance, why, sizeof why) <= 0)
         return;
-    if (s->count == s->room) {
-        s->room = 2 * s->room + 8;
-        s->list = memory_resize(s->list, s->room * sizeof *s->list);
-    }
+    s->list = memory_arena_grow(s->arena, s->list, s->count, sizeof *s->list);
     s->list[s->count++] =
         (study_toleranced){.path = memory_arena_text(s->arena, path, strlen(path)),
                            .text = node->text,
@@ -62,10 +59,6 @@ study_toleranced *study_find_toleranced(const ff_node *root, memory_arena *arena
     search s = {.arena = arena};
     for (size_t i = 0; pipeline && pipeline->kind == FF_MAP && i < pipeline->count; i++)
         look_at_stage(&s, pipeline->items[i], pipeline->keys[i]);
-    study_toleranced *kept = memory_arena_alloc(arena, (s.count + 1) * sizeof *kept);
-    for (size_t i = 0; i < s.count; i++)
-        kept[i] = s.list[i];
-    free(s.list);
     *count = s.count;
-    return kept;
+    return s.list;
 }

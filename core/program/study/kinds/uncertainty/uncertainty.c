@@ -9,32 +9,22 @@
 
 static const ff_param keys[STUDY_UNCERTAINTY_KEYS] = {
     [UNCERTAINTY_OUTPUTS] = {.name = "outputs",
-                             .unit = "",
-                             .type = STUDY_TREE,
                              .flags = FF_REQUIRED,
                              .doc = "list of scalars: [film.h_min_lowest]; the first one decides "
                                     "how many samples each level gets"},
     [UNCERTAINTY_INPUTS] = {.name = "inputs",
-                            .unit = "",
-                            .type = STUDY_TREE,
                             .doc =
                                 "map from paths to {normal: [MEAN, SPREAD]}, {lognormal: [MEDIAN, "
                                 "SPREAD]}, {uniform: [FROM, TO]} or {samples: FILE.csv or a "
                                 "list}; with sets: [PATHS] one value for several. Left out: the "
                                 "values of the pipeline that have a tolerance"},
     [UNCERTAINTY_CORRELATIONS] = {.name = "correlations",
-                                  .unit = "",
-                                  .type = STUDY_TREE,
                                   .doc = "list of [INPUT, INPUT, r], of the normal variates "
                                          "(Gaussian copula)"},
     [UNCERTAINTY_CONDITIONS] = {.name = "conditions",
-                                .unit = "",
-                                .type = STUDY_TREE,
                                 .doc = "list of conditions whose probability is asked: "
                                        "[\"film.lambda_ratio_lowest < 1\"]"},
     [UNCERTAINTY_PERCENTILES] = {.name = "percentiles",
-                                 .unit = "",
-                                 .type = STUDY_TREE,
                                  .doc = "list of shares, else [5 %, 50 %, 95 %]"},
     [UNCERTAINTY_SAMPLES] = {.name = "samples",
                              .unit = "",
@@ -52,8 +42,6 @@ static const ff_param keys[STUDY_UNCERTAINTY_KEYS] = {
                           .max = 1000000,
                           .doc = "of the random numbers; the same seed gives the same samples"},
     [UNCERTAINTY_LADDER] = {.name = "ladder",
-                            .unit = "",
-                            .type = STUDY_TREE,
                             .doc = "map from names to cheaper models, the cheapest last: {quick: "
                                    "{film.use: ehl/inlet-analysis, cost: 2 %}}"},
     [UNCERTAINTY_PILOT] = {.name = "pilot",
@@ -80,8 +68,6 @@ static const ff_param keys[STUDY_UNCERTAINTY_KEYS] = {
                                  .doc = "n: Sobol indices of the inputs from n (inputs + 2) cases "
                                         "of the last level"},
     [UNCERTAINTY_MODELS] = {.name = "models",
-                            .unit = "",
-                            .type = STUDY_TREE,
                             .doc = "map from names to other models or settings, tried at the "
                                    "medians: {thermal: {film.thermal: full}}"},
 };

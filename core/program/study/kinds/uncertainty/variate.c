@@ -112,13 +112,8 @@ static void sort_samples(variate *v)
 
 static void add_sample(study_context *context, variate *v, const char *text, const char *unit)
 {
-    if ((v->sample_count & (v->sample_count - 1)) == 0) {
-        size_t room = v->sample_count ? 2 * v->sample_count : 1;
-        const char **more = memory_arena_alloc(&context->arena, room * sizeof *more);
-        for (size_t i = 0; i < v->sample_count; i++)
-            more[i] = v->samples[i];
-        v->samples = more;
-    }
+    v->samples =
+        memory_arena_grow(&context->arena, v->samples, v->sample_count, sizeof *v->samples);
     v->samples[v->sample_count++] =
         study_context_format(context, "%s%s%s", text, *unit ? " " : "", unit);
 }
