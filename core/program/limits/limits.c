@@ -97,6 +97,30 @@ bool limits_check(ff_run *run)
     return ff_report_errors(report) == errors;
 }
 
+char *limits_print_key(const ff_run *run)
+{
+    const ff_node *node = node_of(run), *item;
+    ff_report *unused = ff_report_new(); /* limits_check has said what cannot be read */
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = memory_require(open_memstream(&text, &length));
+    for (size_t i = 0; node && i < node->count; i++) {
+        const ff_stage *stage;
+        const ff_pipeline *pipeline = ff_run_pipeline(run);
+        const ff_result *result = pipeline ? find_output(pipeline, node->keys[i], &stage) : NULL;
+        asked limit;
+        for (size_t k = 0; (item = limit_at(node->items[i], k)); k++)
+            if (result && read_limit(item, node->keys[i], result->row, &limit, unused))
+                fprintf(out, "%s %c%s %.12g\n", node->keys[i], limit.above ? '>' : '<',
+                        limit.equal ? "=" : "", limit.bound);
+            else
+                fprintf(out, "%s %s\n", node->keys[i], item->text ? item->text : "");
+    }
+    fclose(out);
+    ff_report_free(unused);
+    return text;
+}
+
 /* The error of number k of an output: measured, or as the stage estimates it; NaN: not told. */
 static double bar_of(const ff_stage *stage, const ff_result *result, size_t k,
                      const accuracy_record *errors)

@@ -38,6 +38,9 @@ typedef struct limits_verdict {
 
 /* Reports what cannot be read in the limits of the file; false then. */
 bool limits_check(ff_run *run);
+/* What is asked of the outputs, in SI: who asks the same gets the same text, which is to be freed.
+ */
+char *limits_print_key(const ff_run *run);
 /* Judges what the pipeline has computed. An output without numbers misses its limit; a limit that
    limits_check refuses, or whose output the pipeline does not know, has no row. */
 limits_verdict limits_judge(const ff_run *run, const ff_pipeline *pipeline,

@@ -67,10 +67,13 @@ static void add_limits(results_reader *reader, results_view_case *c, const json_
                 (int32_t)limits_standing_of(json_string_value(json_object_get(entry, "standing"))),
         };
     }
+    c->limits_text = "";
+    if (rows.count == 0) /* as in each of a million cases without limits */
+        return;
     c->limit_count = rows.count;
     c->limits = results_view_take_rows(reader, &rows);
     char *text = limits_text(list);
-    c->limits_text = memory_arena_text(&reader->arena, text, strlen(text));
+    c->limits_text = results_view_shared_text(reader, text);
     free(text);
 }
 

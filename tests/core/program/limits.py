@@ -134,6 +134,9 @@ class Limits(lab.Lab):
         said = self.call("run", file, "-o", "anew", "--set", 'limits={verge.answer: "> 0.5 m", verge.swing: "< 2"}',
                          "--set", "accept={verge.residual: seen}", "--strict").splitlines()[-1]
         self.assertIn("4 of 4 cases done: 4 good; limits: 4 met", said)
+        said = self.call("run", file, "-o", "anew", "--set", 'limits={verge.answer: ">500 mm", verge.swing: "< 2.0"}',
+                         "--set", "accept={verge.residual: seen}").splitlines()[-1]
+        self.assertIn("4 of 4 cases done, 4 of them before", said)  # the same limits in other words
         said = self.call("run", file, "-o", "anew", "--strict", code=4)
         self.assertIn("4 of 4 cases done, 4 of them before: 2 good, 2 doubtful (residual 2); "
                       "limits: 1 met within its bar, 3 missed", said)

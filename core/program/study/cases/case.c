@@ -31,16 +31,16 @@ static uint64_t hash_node(uint64_t hash, const ff_node *node)
     return hash;
 }
 
-/* Adds what a case is judged by. */
+/* Adds what a case is judged by: limits as they are meant, reasons as they are written. */
 static uint64_t hash_judging(uint64_t hash, const ff_run *run)
 {
-    static const char *const keys[] = {"limits", "accept"};
-    for (size_t k = 0; k < sizeof keys / sizeof *keys; k++) {
-        const ff_node *node = ff_node_get(ff_run_root(run), keys[k]);
-        if (node)
-            hash = hash_node(study_hash_text(hash, keys[k]), node);
+    const ff_node *accept = ff_node_get(ff_run_root(run), "accept");
+    if (ff_node_get(ff_run_root(run), "limits")) {
+        char *key = limits_print_key(run);
+        hash = study_hash_text(study_hash_text(hash, "limits"), key);
+        free(key);
     }
-    return hash;
+    return accept ? hash_node(study_hash_text(hash, "accept"), accept) : hash;
 }
 
 /* A case that cannot be built has no resolved parameters, so its key comes from its assignments. */
