@@ -47,6 +47,14 @@ double ehl_moes_film(const ehl_instant *at, double modulus, const ehl_oil *oil)
     return at->radius * sqrt(two_u) * pow(iso + piezo, 1 / s);
 }
 
+double ehl_row_film(const ehl_history *h, size_t row, const ehl_oil *oil)
+{
+    if (h->film)
+        return h->film[row];
+    ehl_instant at = ehl_history_row(h, row);
+    return ehl_moes_film(&at, h->modulus, oil);
+}
+
 /*
  * Returns the share of the film that is missing where the domain begins at a distance of `lengths`
  * S. The pressure of the inlet falls off over S, and the missing film with the square of the
@@ -65,12 +73,11 @@ static double inlet_shortfall(double a, double s, double lengths)
  * largest would need a domain whose cells are too coarse for the others; they use the domain of the
  * others.
  */
-static void reach(ehl_grid *g, const ehl_instant *at, double modulus, const ehl_oil *oil,
-                  int largest)
+static void reach(ehl_grid *g, const ehl_instant *at, double modulus, double film, int largest)
 {
     const double missing = 7.5e-4;
     double a = ehl_hertz_half_width(at->load, at->radius, modulus);
-    double s = sqrt(2 * at->radius * ehl_moes_film(at, modulus, oil));
+    double s = sqrt(2 * at->radius * film);
     double lengths = s > 0 ? sqrt(inlet_shortfall(a, s, 1) / missing) : 0;
     g->inlet = fmax(g->inlet, largest ? a + lengths * s : a + s);
     g->outlet = fmax(g->outlet, a + 2 * s);
@@ -102,7 +109,7 @@ void ehl_grid_fit(ehl_grid *g, size_t cells, double inlet, double outlet, const 
         g->half_width = fmax(g->half_width, a);
         g->pressure = fmax(g->pressure, ehl_hertz_pressure(at.load, at.radius, h->modulus));
         if (at.load >= EHL_LIGHT_LOAD * h->load_max)
-            reach(g, &at, h->modulus, oil, at.load >= 0.5 * h->load_max);
+            reach(g, &at, h->modulus, ehl_row_film(h, i, oil), at.load >= 0.5 * h->load_max);
         if (rq > 0)
             fit_roughness(g, &at, h->modulus, rq);
         if (!(at.entrainment > 0))

@@ -21,6 +21,9 @@ double ehl_hertz_pressure(double load, double radius, double modulus);
 /* Central film of an isothermal smooth line contact, all regimes (Moes 2000). */
 double ehl_moes_film(const ehl_instant *at, double modulus, const ehl_oil *oil);
 
+/* The same of a row of a history, which may know it. */
+double ehl_row_film(const ehl_history *h, size_t row, const ehl_oil *oil);
+
 /* Distance from the contact of half-width a at which its Hertzian gap has grown by h, where that is
    short against a: over it the pressure of the inlet rises (Greenwood 1972). */
 double ehl_hertz_gap_distance(double a, double radius, double h);

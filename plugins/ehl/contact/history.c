@@ -118,6 +118,7 @@ size_t ehl_history_engagement(const ehl_history *h, size_t row, ehl_history *one
     one->roll = from_row(h->roll, row);
     one->gap = from_row(h->gap, row);
     one->engagement = from_row(h->engagement, row);
+    one->film = from_row(h->film, row);
     return end;
 }
 

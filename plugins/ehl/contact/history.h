@@ -13,6 +13,7 @@ typedef struct ehl_history {
     const double *time, *radius, *speed_1, *speed_2, *load;
     const double *roll, *gap; /* NULL: not wired */
     const double *engagement; /* the number of each row; NULL: one contact all the time */
+    const double *film;       /* ehl_moes_film of each row; NULL: not known */
     double modulus;           /* E', Pa: 2/E' = sum (1 - nu^2)/E */
     double load_floor;        /* N/m; 0: none */
     double load_max;          /* N/m */

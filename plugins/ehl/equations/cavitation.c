@@ -3,6 +3,8 @@
 
 #include "../contact/lanes.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -45,11 +47,32 @@ void ehl_cavitation_begin(ehl_cavitation *w, size_t nodes)
     w->split = 0;
 }
 
+/* Whether a node of 1 to n - 2 gains mass without being full, and whether one is full although the
+   pressure of its oil is below 0. */
+FF_SIMD
+static int64_t any_gains(size_t n, const unsigned char *restrict full,
+                         const double *restrict residual)
+{
+    int64_t any = 0;
+    for (size_t i = 1; i + 1 < n; i++)
+        any |= (int64_t)((residual[i] > 0 ? 1 : 0) & (full[i] ^ FULL));
+    return any;
+}
+
+FF_SIMD
+static int64_t any_pulls(size_t n, const unsigned char *restrict full, const double *restrict p)
+{
+    int64_t any = 0;
+    for (size_t i = 1; i + 1 < n; i++)
+        any |= (int64_t)((p[i] < 0 ? 1 : 0) & full[i]);
+    return any;
+}
+
 int ehl_cavitation_grow_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film)
 {
     size_t end = r->nodes - 1, reach = w->stride - 1;
-    int grown = 0, longer = 0;
-    for (size_t i = 1; i < end; i++) {
+    int grown = 0, longer = 0, gains = any_gains(r->nodes, film->full, r->residual) != 0;
+    for (size_t i = 1; gains && i < end; i++) {
         if ((film->full[i] & FULL) || !(r->residual[i] > 0))
             continue;
         size_t from = i > reach ? i - reach : 1, to = i + reach < end ? i + reach : end - 1;
@@ -61,8 +84,9 @@ int ehl_cavitation_grow_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film 
         longer |= film->full[i] && i >= r->last;
         film->full[i] = film->full[i] != 0;
     }
+    w->moved = grown && w->stride > 1;
+    w->grown = grown;
     w->stride = grown ? 2 * w->stride : 1;
-    w->moved = grown;
     return longer;
 }
 
@@ -83,6 +107,7 @@ int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film
     }
     memset(w->cut, 0, r->nodes);
     w->moved = filled;
+    w->grown = 0;
     return filled;
 }
 
@@ -92,6 +117,18 @@ static int is_left_over(const ehl_reynolds *r, const ehl_film *film, size_t i)
     return r->statistical.law && !film->full[i] && !(r->p_a[i] > 0) && fabs(film->p[i]) > 0;
 }
 
+/*
+ * Whether the film ends between its last node and the next one. The pressure there falls off with
+ * the square of the distance from its end, so that it is a quarter at the last node of what it is a
+ * cell upstream where the film ends a cell downstream, and more where it ends farther.
+ */
+static int ends_in_node(const ehl_reynolds *r, const ehl_film *film)
+{
+    const double quarter = 0.25;
+    size_t end = r->last - 1;
+    return end < 2 || !(film->p[end] > quarter * film->p[end - 1]);
+}
+
 double ehl_cavitation_shrink_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film,
                                   double *change)
 {
@@ -99,8 +136,12 @@ double ehl_cavitation_shrink_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_
     const double *p = ehl_fluid(r, film);
     double cut = 0;
     int full_behind = 0;
-    memset(change, 0, nodes * sizeof *change);
     w->split = 0;
+    if (w->grown && !r->conserving && !ends_in_node(r, film))
+        w->moved = 1;
+    if (!r->statistical.law && !film->plastic && !any_pulls(nodes, film->full, p))
+        return 0;
+    memset(change, 0, nodes * sizeof *change);
     for (size_t i = nodes - 2; i > 0; i--) {
         full_behind |= film->full[i] && !(p[i] < 0);
         if (is_left_over(r, film, i)) {
@@ -129,6 +170,16 @@ double ehl_pressure_scale(const ehl_grid *g, const ehl_film *film, size_t nodes)
     return ehl_greatest(nodes, film->p, LEAST_SCALE * g->pressure);
 }
 
+/* Whether a node of 1 to last - 1 loses more than THINNING of its gap. */
+FF_SIMD
+static int64_t any_thins(size_t last, const double *restrict dh, const double *restrict h)
+{
+    int64_t any = 0;
+    for (size_t i = 1; i < last; i++)
+        any |= -dh[i] > THINNING * h[i];
+    return any;
+}
+
 double ehl_step_share(const ehl_grid *g, const ehl_reynolds *r, const ehl_film *film, double dp,
                       const double *dh)
 {
@@ -139,11 +190,19 @@ double ehl_step_share(const ehl_grid *g, const ehl_reynolds *r, const ehl_film *
         return dp > ROUGH_PRESSURE_CHANGE * most / PRESSURE_CHANGE
                    ? ROUGH_PRESSURE_CHANGE * most / (PRESSURE_CHANGE * dp)
                    : 1;
-    for (size_t i = 1; i < r->last; i++) { /* the film must not vanish */
+    int thins = any_thins(r->last, dh, r->h) != 0;
+    for (size_t i = 1; thins && i < r->last; i++) { /* the film must not vanish */
         double part = r->h[i] > r->floor && film->full[i] ? -dh[i] / (THINNING * r->h[i]) : 0;
         fall = part > fall ? part : fall;
     }
     return fmin(share, 1 / fall);
+}
+
+FF_SIMD
+static void scale(size_t n, double factor, double *x)
+{
+    for (size_t i = 0; i < n; i++)
+        x[i] *= factor;
 }
 
 int ehl_rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
@@ -155,9 +214,7 @@ int ehl_rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
     if (!(s->rescaling < SMALL_LOAD_ERROR))
         return 0;
     film->h00 -= (factor - 1) * film->v[centre < n ? centre : n - 1];
-    for (size_t i = 0; i < n; i++)
-        film->p[i] *= factor;
-    for (size_t i = 0; i < n; i++)
-        film->v[i] *= factor;
+    scale(n, factor, film->p);
+    scale(n, factor, film->v);
     return 1;
 }

@@ -10,7 +10,9 @@
 typedef struct ehl_cavitation {
     size_t stride;
     int split;             /* the last shrink cavitated nodes upstream of full ones */
-    int moved;             /* nodes changed their state since the last growth or filling began */
+    int moved;             /* nodes changed their state since the last growth or filling began,
+                              otherwise than by a growth of one node that is enough */
+    int grown;             /* the last growth filled nodes */
     unsigned char *filled; /* how often ehl_cavitation_fill filled a node in this solution */
     unsigned char *cut;    /* 1: cavitated by the last step, so that its oil is not known yet */
 } ehl_cavitation;
@@ -34,8 +36,8 @@ int ehl_cavitation_grow_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film 
 int ehl_cavitation_fill(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film, int steps);
 
 /* Cavitates the nodes where the pressure of the oil is below 0 and returns the largest part of it
-   that was cut off, Pa; fills `change` with the changes of p. With statistical flanks r has the gap
-   of the film. */
+   that was cut off, Pa; fills `change` with the changes of p if there are any, or if metal may
+   yield. With statistical flanks r has the gap of the film. */
 double ehl_cavitation_shrink_film(ehl_cavitation *w, const ehl_reynolds *r, ehl_film *film,
                                   double *change);
 

@@ -45,6 +45,7 @@ struct ehl_fft {
     size_t nodes, length;
     fftw_plan forward, backward;
     double *line, *spectrum; /* spectrum: real, because the kernel is even */
+    double *bent;            /* what comes back; `line` keeps the zeros at its end */
     fftw_complex *image;
 };
 
@@ -58,13 +59,16 @@ ehl_fft *ehl_fft_create(size_t nodes, const double *d)
     f->nodes = nodes;
     f->length = 2 * last;
     f->line = numerics_fftw_array(f->length, sizeof *f->line);
+    f->bent = numerics_fftw_array(f->length, sizeof *f->bent);
     f->spectrum = numerics_fftw_array(half, sizeof *f->spectrum);
     f->image = numerics_fftw_array(half, sizeof *f->image);
-    if (f->line && f->spectrum && f->image && numerics_has_room(numerics_fftw_room(f->length))) {
+    if (f->line && f->bent && f->spectrum && f->image &&
+        numerics_has_room(numerics_fftw_room(f->length))) {
         fftw_make_planner_thread_safe(); /* it is one per process, and other plugins plan, too */
         /* an estimated plan depends on the length alone, so that results repeat to the last bit */
-        f->forward = fftw_plan_dft_r2c_1d((int)f->length, f->line, f->image, FFTW_ESTIMATE);
-        f->backward = fftw_plan_dft_c2r_1d((int)f->length, f->image, f->line, FFTW_ESTIMATE);
+        f->forward = fftw_plan_dft_r2c_1d((int)f->length, f->line, f->image,
+                                          FFTW_ESTIMATE | FFTW_PRESERVE_INPUT);
+        f->backward = fftw_plan_dft_c2r_1d((int)f->length, f->image, f->bent, FFTW_ESTIMATE);
     }
     if (!f->forward || !f->backward) {
         ehl_fft_destroy(f);
@@ -77,6 +81,7 @@ ehl_fft *ehl_fft_create(size_t nodes, const double *d)
     fftw_execute(f->forward);
     for (size_t k = 0; k < half; k++)
         f->spectrum[k] = f->image[k][0] / (double)f->length;
+    memset(f->line, 0, f->length * sizeof *f->line);
     return f;
 }
 
@@ -94,11 +99,10 @@ void ehl_fft_apply(ehl_fft *f, const double *p, double *v)
 {
     size_t half = f->length / 2 + 1;
     memcpy(f->line, p, f->nodes * sizeof *p);
-    memset(f->line + f->nodes, 0, (f->length - f->nodes) * sizeof *p);
     fftw_execute(f->forward);
     multiply_pairs(half, f->spectrum, (double *)f->image);
     fftw_execute(f->backward);
-    memcpy(v, f->line, f->nodes * sizeof *v);
+    memcpy(v, f->bent, f->nodes * sizeof *v);
 }
 
 void ehl_fft_destroy(ehl_fft *f)
@@ -108,6 +112,7 @@ void ehl_fft_destroy(ehl_fft *f)
     fftw_destroy_plan(f->forward);
     fftw_destroy_plan(f->backward);
     free(f->line);
+    free(f->bent);
     free(f->spectrum);
     free(f->image);
     free(f);

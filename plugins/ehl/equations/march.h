@@ -24,6 +24,7 @@ typedef struct ehl_state {
     double thinnest; /* least h of all nodes, m */
     double highest;  /* greatest p of all nodes, Pa */
     int loaded;
+    int recursion; /* steps since the deflection that it stems from was computed anew */
 } ehl_state;
 
 typedef struct ehl_march {

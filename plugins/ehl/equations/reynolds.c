@@ -65,22 +65,21 @@ void ehl_reynolds_place(ehl_reynolds *r, double first)
 
 double ehl_film_load(const ehl_film *film, size_t nodes, double dx)
 {
-    enum { LANES = 4 };
-    double sum[LANES] = {0};
-    size_t i = 0;
-    for (; i + LANES <= nodes; i += LANES)
-        for (size_t k = 0; k < LANES; k++)
-            sum[k] += film->p[i + k];
-    for (; i < nodes; i++)
-        sum[0] += film->p[i];
-    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) * dx;
+    return ehl_sum(nodes, film->p) * dx;
+}
+
+/* h = h00 + x^2/2 curvature + v */
+FF_SIMD
+static void add_gaps(size_t n, double h00, double curvature, const double *restrict half_square,
+                     const double *restrict v, double *restrict h)
+{
+    for (size_t i = 0; i < n; i++)
+        h[i] = h00 + half_square[i] * curvature + v[i];
 }
 
 void ehl_reynolds_gap(ehl_reynolds *r, double radius, const ehl_film *film)
 {
-    double curvature = 1 / radius;
-    for (size_t i = 0; i < r->nodes; i++)
-        r->h[i] = film->h00 + r->half_square[i] * curvature + film->v[i];
+    add_gaps(r->nodes, film->h00, 1 / radius, r->half_square, film->v, r->h);
     if (r->statistical.law) {
         r->law_status = ehl_statistical_pressure(&r->statistical, r->nodes, r->h, film->p, r->p_a,
                                                  r->p_a_h, r->fluid);

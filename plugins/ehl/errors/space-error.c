@@ -272,12 +272,12 @@ static void keep_look(ehl_results *r, ehl_look look)
     r->look[k] = look;
 }
 
-/* Finds the error of p_max of a row. Of a spike that moves twice the cells are marched to it: those
-   of the run have smoothed how it changes. */
+/* Finds the error of p_max of a row. To a spike that moves four times the cells are marched: those
+   of the run have smoothed how it changes, and twice as many some of it. */
 static ff_status find_peak_error(ehl_results *r, const ehl_march *m, ehl_passage *p, size_t row,
                                  double *error)
 {
-    enum { FINER = 2 };
+    enum { FINER = 4 };
     double value = film_of(r, row, EHL_PEAK);
     double highest = is_extreme(r, EHL_PEAK) ? r->highest : value;
     double *change = malloc((1 + FINER) * r->nodes * sizeof *change);

@@ -326,7 +326,7 @@ static double most_starved(const ehl_history *h, const ehl_oil *oil, double end,
     double worst = 0, mean = 0;
     for (size_t i = 0; i < h->count; i += stride) {
         ehl_instant at = ehl_history_row(h, i);
-        double film = ehl_moes_film(&at, h->modulus, oil);
+        double film = ehl_row_film(h, i, oil);
         if (at.load < EHL_LIGHT_LOAD * h->load_max || !(film > 0))
             continue;
         double a = ehl_hertz_half_width(at.load, at.radius, h->modulus);
@@ -346,7 +346,7 @@ double ehl_inlet_supplied(const ehl_history *h, const ehl_oil *oil)
     for (size_t i = 0; i < h->count; i++) {
         ehl_instant at = ehl_history_row(h, i);
         double a = ehl_hertz_half_width(at.load, at.radius, h->modulus),
-               s = sqrt(2 * at.radius * ehl_moes_film(&at, h->modulus, oil));
+               s = sqrt(2 * at.radius * ehl_row_film(h, i, oil));
         widest = fmax(widest, a);
         if (at.load >= EHL_LIGHT_LOAD * h->load_max)
             end = fmax(end, a + 4 * s);
@@ -368,7 +368,7 @@ static double most_by_cells(const ehl_history *h, const ehl_oil *oil, size_t str
     double worst = 0;
     for (size_t i = 0; i < h->count; i += stride) {
         ehl_instant at = ehl_history_row(h, i);
-        double film = ehl_moes_film(&at, h->modulus, oil);
+        double film = ehl_row_film(h, i, oil);
         int creeps = h->at_rest && at.time <= h->wakes;
         if (creeps || at.load < EHL_LIGHT_LOAD * h->load_max || !(film > 0))
             continue;

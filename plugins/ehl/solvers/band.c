@@ -104,11 +104,21 @@ static void drop_columns(const double *restrict carries, double *restrict row)
         row[k] *= carries[k];
 }
 
+/* What ehl_carries says where no metal yields. */
+FF_SIMD
+static void find_carrying(size_t rows, int all, const unsigned char *restrict full,
+                          double *restrict carries)
+{
+    for (size_t i = 0; i < rows; i++)
+        carries[i] = all | full[i];
+}
+
 /* by_p + by_h * cut kernel; row i of the matrix is node i + 1. */
 static void fill(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, size_t first)
 {
-    memset(b->carries, 0, r->nodes * sizeof *b->carries);
-    for (size_t i = 0; i < b->rows; i++)
+    memset(b->carries + b->rows, 0, (r->nodes - b->rows) * sizeof *b->carries);
+    find_carrying(b->rows, r->statistical.law != NULL, film->full + 1, b->carries);
+    for (size_t i = 0; film->yielding > 0 && i < b->rows; i++)
         b->carries[i] = ehl_carries(r, film, i + 1);
     for (size_t i = first; i < b->rows; i++) {
         double *row = b->matrix + i * WIDTH;
@@ -153,8 +163,6 @@ static void eliminate(double *matrix, double *restrict inverse, size_t first, si
 /* Inverts the triangles of a block of `count` rows, which are columns i - LOWER ... of `row`. */
 static void invert_triangles(block *k, const double *row, const double *inverse, size_t count)
 {
-    memset(k->below_inverse, 0, sizeof k->below_inverse);
-    memset(k->above_inverse, 0, sizeof k->above_inverse);
     for (size_t j = 0; j < count; j++) { /* columns of the inverses */
         for (size_t i = j + 1; i < count; i++) {
             double sum = row[i * WIDTH + LOWER + j - i];
@@ -179,7 +187,8 @@ static void arrange(ehl_band *b, size_t first)
         block *k = b->blocks + n;
         size_t at = n * LANES, count = b->rows - at < LANES ? b->rows - at : LANES;
         const double *row = b->matrix + at * WIDTH;
-        memset(k, 0, sizeof *k);
+        if (count < LANES) /* whole blocks write all that is not always 0 */
+            memset(k, 0, sizeof *k);
         for (size_t i = 0; i < count; i++) {
             for (size_t j = i; j < LOWER; j++)
                 k->below[j][i] = row[i * WIDTH + j - i];
@@ -256,20 +265,27 @@ static void subtract(size_t n, const double *restrict x, double factor,
         dp[i] = x[i] - factor * border[i];
 }
 
+FF_SIMD
+static void add_slopes(size_t n, const double *restrict h0, const double *restrict h1,
+                       const double *restrict h2, const double *restrict h3, double *restrict sum)
+{
+    for (size_t i = 0; i < n; i++)
+        sum[i] = h0[i] + h1[i] + h2[i] + h3[i];
+}
+
 void ehl_band_factor(ehl_band *b, const ehl_reynolds *r, const ehl_film *film, int loaded,
                      size_t from)
 {
     b->rows = r->last - 1;
     b->loaded = loaded;
-    memset(b->line, 0, (r->nodes + 2 * (size_t)PAD) * sizeof *b->line);
+    memset(b->line + PAD + b->rows, 0, (PAD + r->nodes - b->rows) * sizeof *b->line);
     fill(b, r, film, from - 1);
     eliminate(b->matrix, b->inverse, from - 1, b->rows);
     arrange(b, from - 1);
     double *x = b->line + PAD;
-    for (size_t i = 0; i < b->rows; i++)
-        x[i] = ehl_is_solved(r, film, i + 1)
-                   ? r->by_h[0][i + 1] + r->by_h[1][i + 1] + r->by_h[2][i + 1] + r->by_h[3][i + 1]
-                   : 0;
+    add_slopes(b->rows, r->by_h[0] + 1, r->by_h[1] + 1, r->by_h[2] + 1, r->by_h[3] + 1, x);
+    for (size_t i = 0; !(r->conserving || r->statistical.law) && i < b->rows; i++)
+        x[i] = film->full[i + 1] ? x[i] : 0;
     substitute(b->blocks, count_blocks(b->rows), x);
     memcpy(b->border, x, b->rows * sizeof *x);
     b->border_sum = carried(count_blocks(b->rows), b->carries, x);

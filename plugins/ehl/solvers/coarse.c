@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "coarse.h"
 
+#include "../contact/lanes.h"
+
 #include <flankfilm/simd.h>
 
 #include <math.h>
@@ -231,6 +233,10 @@ static void restrict_to_blocks(ehl_coarse *c, const double *residual, const unsi
         size_t end = b + 1 < c->count ? (b + 2) * c->stride - half : last;
         end = end < last ? end : last;
         double sum = 0;
+        if (i < end && !memchr(full + i, 0, end - i)) {
+            sum = ehl_sum(end - i, residual + i);
+            i = end;
+        }
         for (; i < end; i++)
             sum += full[i] ? residual[i] : 0;
         c->x[b] = sum;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "gmres.h"
 
+#include "../contact/lanes.h"
 #include "../equations/asperities.h"
 #include "../equations/cavitation.h"
 
@@ -17,8 +18,10 @@ enum { KRYLOV_STALE = 3 };
 /* The coarse grid has a corner every so many nodes, and so many corners in all. */
 enum { LEAST_STRIDE = 16, LEAST_CORNERS = 16, MOST_CORNERS = 128 };
 
-/* A preconditioner is outdated when its diagonal has changed by this share. */
-static const double STALE_CHANGE = 0.3;
+/* Factors are outdated from the row on whose diagonal has changed by this share. Those of a steady
+   film, and where the norm of the pressure tells little of the film, are so as a whole, and
+   earlier. */
+static const double STALE_CHANGE = 0.5, CAREFUL_STALE_CHANGE = 0.3;
 
 /* Flow that a linear solution may leave unbalanced: as a share of the flow that it had to balance,
    and of the flow through the contact. Both must be exceeded to count. */
@@ -40,6 +43,10 @@ static const double SHARE_OF_LAST = 0.01;
 /* Newton's method neglects so many times the square of a relative change: alpha p_max/2 of a
    viscosity exp(alpha p), some 10 in a contact of gears. */
 static const double CURVATURE = 10;
+
+/* The factor is learned where a step follows another one: twice what was found, no less than LEAST,
+   and it grows by this where one step was enough. */
+static const double LEARNED = 2, LEAST_CURVATURE = 0.3, FORGETTING = 1.05;
 
 /* Share of the tolerance that a step may leave: the oil carries what each leaves through the
    contact, where it adds up; docs/performance.md has what the presets leave in all. */
@@ -110,6 +117,22 @@ static void scale(double *y, double factor, size_t n)
         y[i] *= factor;
 }
 
+/* y = x factor */
+FF_SIMD
+static void multiply(const double *restrict x, double factor, double *restrict y, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        y[i] = x[i] * factor;
+}
+
+/* y = x + by */
+FF_SIMD
+static void shift(const double *restrict x, double by, double *restrict y, size_t n)
+{
+    for (size_t i = 0; i < n; i++)
+        y[i] = x[i] + by;
+}
+
 const double *ehl_pressure_part(const ehl_solver *s, const ehl_film *film, const double *v)
 {
     ehl_linear *w = s->self;
@@ -135,12 +158,11 @@ static void apply_preconditioner(ehl_solver *s, const ehl_film *film, double sum
                                              w->h_step, &h00_change);
     if (split) {
         apply_jacobian(r, w->p_step, w->h_step, w->left);
-        for (size_t i = 1; i < r->last; i++)
-            w->product[i] -= w->left[i];
+        ehl_add(w->product + 1, -1, w->left + 1, r->last - 1);
     }
     ehl_band_solve(w->band, w->product, split ? 0 : sum, dp, dh00);
-    for (size_t i = 1; split && i < r->last; i++)
-        dp[i] += w->p_step[i];
+    if (split)
+        ehl_add(dp + 1, 1, w->p_step + 1, r->last - 1);
     *dh00 += h00_change;
 }
 
@@ -153,15 +175,13 @@ static void extend_krylov_space(ehl_solver *s, const ehl_film *film, int loaded,
 {
     ehl_linear *w = s->self;
     const ehl_reynolds *r = s->reynolds;
-    double *v = w->basis[k], *next = w->basis[k + 1], dh00 = v[0] / weight, sum = 0;
+    double *v = w->basis[k], *next = w->basis[k + 1], dh00 = v[0] / weight;
     v[0] = 0; /* the pressure is 0 at both ends */
     const double *p = ehl_pressure_part(s, film, v);
     ehl_linear_deflect(s, p, w->deflection[k]);
-    for (size_t i = 0; i <= r->last; i++)
-        w->h_step[i] = w->deflection[k][i] + dh00;
+    shift(w->deflection[k], dh00, w->h_step, r->last + 1);
     apply_jacobian(r, v, w->h_step, w->product);
-    for (size_t i = 1; i < r->last; i++)
-        sum += p[i];
+    double sum = ehl_sum(r->last - 1, p + 1);
     v[0] = dh00 * weight;
     apply_preconditioner(s, film, loaded ? sum : 0, next, &dh00);
     memset(next + r->last, 0, (r->nodes - r->last) * sizeof *next);
@@ -193,12 +213,19 @@ static double rotate_column(hessenberg *q, size_t k)
    dh00. */
 static double combine_basis(ehl_linear *w, hessenberg *q, size_t count, size_t nodes, double weight)
 {
-    memset(w->p_step, 0, nodes * sizeof *w->p_step);
-    memset(w->v_step, 0, nodes * sizeof *w->v_step);
+    if (count == 0) {
+        memset(w->p_step, 0, nodes * sizeof *w->p_step);
+        memset(w->v_step, 0, nodes * sizeof *w->v_step);
+    }
     for (size_t i = count; i-- > 0;) {
         for (size_t j = i + 1; j < count; j++)
             q->rest[i] -= q->h[i][j] * q->rest[j];
         q->rest[i] /= q->h[i][i];
+        if (i + 1 == count) {
+            multiply(w->basis[i], q->rest[i], w->p_step, nodes);
+            multiply(w->deflection[i], q->rest[i], w->v_step, nodes);
+            continue;
+        }
         ehl_add(w->p_step, q->rest[i], w->basis[i], nodes);
         ehl_add(w->v_step, q->rest[i], w->deflection[i], nodes);
     }
@@ -207,27 +234,30 @@ static double combine_basis(ehl_linear *w, hessenberg *q, size_t count, size_t n
     return dh00;
 }
 
-static double largest(const double *x, size_t n)
-{
-    double most = 0;
-    for (size_t i = 0; i < n; i++)
-        most = fabs(x[i]) > most ? fabs(x[i]) : most;
-    return most;
-}
-
-static double least_thickness(const ehl_reynolds *r)
-{
-    double least = r->thick[0];
-    for (size_t i = 1; i < r->last; i++)
-        least = fmin(least, r->thick[i]);
-    return least;
-}
-
 /* What is predicted to be left of a relative change: its share of the residual, and the square that
    Newton's method neglects. */
 static double left_of(const ehl_linear *w, double change)
 {
-    return change * (w->reached + CURVATURE * change);
+    return change * (w->reached + w->curvature * change);
+}
+
+void ehl_linear_learn(ehl_solver *s, double before, double reached, double now)
+{
+    ehl_linear *w = s->self;
+    double found = fmax(now / before - reached, 0) / before;
+    w->curvature = fmin(fmax(LEARNED * found, LEAST_CURVATURE), CURVATURE);
+}
+
+void ehl_linear_unlearn(ehl_solver *s)
+{
+    ehl_linear *w = s->self;
+    w->curvature = CURVATURE;
+}
+
+void ehl_linear_forget(ehl_solver *s)
+{
+    ehl_linear *w = s->self;
+    w->curvature = fmin(FORGETTING * w->curvature, CURVATURE);
 }
 
 int ehl_linear_settles(const ehl_solver *s, double pressure, double film, double times)
@@ -244,16 +274,18 @@ int ehl_linear_balances(const ehl_solver *s)
 
 /*
  * Returns the share of the residual that may be left of a change of the pressure, relative: that at
- * which the film is accurate to its tolerance, or what Newton's method neglects anyway (a forcing
- * term as of Eisenstat & Walker 1996).
+ * which the film is accurate to its tolerance with what Newton's method neglects, or what it
+ * neglects anyway (a forcing term as of Eisenstat & Walker 1996).
  */
 static double forcing_term(const ehl_solver *s, double change, int careful)
 {
     if (s->reynolds->rough && change <= s->tolerance)
         return fmax(CAREFUL_REDUCTION, SHARE_OF_LAST * s->tolerance / change);
     double least = careful ? CAREFUL_REDUCTION : LEAST_REDUCTION;
-    return fmin(s->reynolds->touching ? SHARED_REDUCTION : least,
-                fmax(CURVATURE * change, SHARE_OF_STEP * s->tolerance / change));
+    const ehl_linear *w = s->self;
+    double allowed = SHARE_OF_STEP * s->tolerance / change, neglected = w->curvature * change;
+    double left = neglected < allowed ? fmax(allowed - neglected, neglected) : neglected;
+    return fmin(s->reynolds->touching ? SHARED_REDUCTION : least, left);
 }
 
 /*
@@ -274,8 +306,8 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
        contact that deflects the flanks by it; under light loads, where the film changes the
        pressure long before the flanks deflect, the pressure over the least film */
     double weight = g->dx / (g->half_width * (s->kernel[0] - s->kernel[nodes - 1]));
-    double by_film = p_max / least_thickness(s->reynolds);
-    int careful = s->reynolds->rough || by_film < weight;
+    double by_film = p_max / ehl_least(rows, s->reynolds->thick);
+    int careful = w->careful = s->reynolds->rough || by_film < weight;
     weight = fmin(weight, by_film);
     apply_preconditioner(s, film, loaded ? missing : 0, w->basis[0], dh00);
     memset(w->basis[0] + rows, 0, (nodes - rows) * sizeof *w->basis[0]);
@@ -283,7 +315,7 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
     double first = sqrt(dot(w->basis[0], w->basis[0], rows)), norm = first;
     if (!isfinite(first))
         return FF_NOCONV;
-    double reduction = forcing_term(s, largest(w->basis[0], rows) / p_max, careful);
+    double reduction = forcing_term(s, ehl_greatest_size(rows, w->basis[0]) / p_max, careful);
     scale(w->basis[0], first > 0 ? 1 / first : 0, rows);
     q.rest[0] = first;
     while (k < EHL_KRYLOV && norm > reduction * first) {
@@ -309,50 +341,65 @@ static ff_status gmres(ehl_solver *s, const ehl_film *film, int loaded, double m
 /* Writes the diagonal of rows 1 ... last - 1, and returns whether one before row `from` that counts
    has changed too much. */
 FF_SIMD
-static int64_t compare_diagonal(size_t last, size_t from, double self, const double *restrict by_p,
-                                const double *restrict by_h, const unsigned char *restrict full,
-                                const double *restrict was, double *restrict now)
+static int64_t compare_diagonal(size_t last, size_t from, double self, double stale,
+                                const double *restrict by_p, const double *restrict by_h,
+                                const unsigned char *restrict full, const double *restrict was,
+                                double *restrict now)
 {
     int64_t drifted = 0;
     for (size_t i = 1; i < last; i++)
         now[i] = by_p[i] + self * by_h[i];
     for (size_t i = 1; i < from && i < last; i++) {
         double counted = full[i], change = fabs(now[i] - was[i]);
-        drifted |= counted * change > STALE_CHANGE * fabs(was[i]);
+        drifted |= counted * change > stale * fabs(was[i]);
     }
     return drifted;
 }
 
 /*
- * Leaves in `product` the diagonal of the matrix that the preconditioner approximates. Returns 1
- * when it has changed too much upstream of node `from` since the last factorisation: the residual
- * that such factors precondition says little about the remaining error.
+ * Leaves in `product` the diagonal of the matrix that the preconditioner approximates. Returns the
+ * first node upstream of node `from` where it has changed too much since its last factorisation, or
+ * `from`: the residual that such factors precondition says little about the remaining error.
  */
-static int diagonal_has_changed(const ehl_solver *s, const ehl_film *film, size_t from)
+static size_t first_drifted(const ehl_solver *s, const ehl_film *film, size_t from, double stale)
 {
     ehl_linear *w = s->self;
     const ehl_reynolds *r = s->reynolds;
     double self = s->kernel[0] - s->kernel[s->grid->nodes - 1];
-    return compare_diagonal(r->last, from, self, r->by_p[2], r->by_h[2], film->full, w->diagonal,
-                            w->product) != 0;
+    if (!compare_diagonal(r->last, from, self, stale, r->by_p[2], r->by_h[2], film->full,
+                          w->diagonal, w->product))
+        return from;
+    size_t i = 1;
+    while (i < from &&
+           !(film->full[i] && fabs(w->product[i] - w->diagonal[i]) > stale * fabs(w->diagonal[i])))
+        i++;
+    return i;
 }
 
-/* Which equation holds at a node: bit 0 full film, bit 1 asperity contact, bit 2 yield. */
-static unsigned char equation_of(const ehl_reynolds *r, const ehl_film *film, size_t i)
+/* Tells which equation holds at each node: bit 0 full film, bit 1 asperity contact, bit 2 yield. */
+FF_SIMD
+static void find_kinds(const ehl_reynolds *r, const ehl_film *film, unsigned char *restrict kind)
 {
-    return (unsigned char)(film->full[i] + 2 * film->asperity[i] + 4 * ehl_yields(r, film, i));
+    const unsigned char *restrict full = film->full, *restrict asperity = film->asperity;
+    size_t n = r->nodes;
+    for (size_t i = 0; i < n; i++)
+        kind[i] = (unsigned char)(full[i] | asperity[i] << 1);
+    for (size_t i = 0; film->yielding > 0 && i < n; i++)
+        kind[i] = (unsigned char)(kind[i] | ehl_yields(r, film, i) << 2);
 }
 
 /* Returns the first row whose factors must be made anew; `last` when all still hold. */
-static size_t first_outdated_row(const ehl_solver *s, const ehl_step *step, const ehl_film *film)
+static size_t first_outdated_row(const ehl_solver *s, const ehl_step *step)
 {
     const ehl_linear *w = s->self;
-    size_t last = s->reynolds->last, i = 1;
+    size_t last = s->reynolds->last, held = last < w->factored_last ? last : w->factored_last;
+    size_t i = 1;
     if (!w->factored || w->factored_loaded != step->loaded ||
         w->krylov > w->krylov_fresh + KRYLOV_STALE)
         return 1;
-    while (i < last && i < w->factored_last &&
-           equation_of(s->reynolds, film, i) == w->factored_kind[i])
+    if (memcmp(w->kind, w->factored_kind, held) == 0)
+        i = held;
+    while (i < held && w->kind[i] == w->factored_kind[i])
         i++;
     /* the column of a cavitated node stands for a mass, and rows upstream of it reach that
        column */
@@ -366,17 +413,18 @@ static void update_preconditioner(ehl_solver *s, const ehl_step *step, const ehl
 {
     ehl_linear *w = s->self;
     const ehl_reynolds *r = s->reynolds;
-    size_t from = first_outdated_row(s, step, film);
-    if (diagonal_has_changed(s, film, from))
-        from = 1;
+    find_kinds(r, film, w->kind);
+    size_t from = first_outdated_row(s, step);
+    int careful = w->careful || !(step->rate > 0);
+    size_t drifted = first_drifted(s, film, from, careful ? CAREFUL_STALE_CHANGE : STALE_CHANGE);
+    from = careful && drifted < from ? 1 : drifted;
     if (from == r->last && r->last == w->factored_last)
         return;
     ehl_band_factor(w->band, r, film, step->loaded, from);
     if (w->coarse && (from == 1 || !ehl_coarse_fits(w->coarse, r->last)))
         ehl_coarse_factor(w->coarse, r, film, step->loaded);
     memcpy(w->diagonal + from, w->product + from, (r->last - from) * sizeof *w->diagonal);
-    for (size_t i = 0; i < r->nodes; i++)
-        w->factored_kind[i] = equation_of(r, film, i);
+    memcpy(w->factored_kind, w->kind, r->nodes);
     w->factored_last = r->last;
     w->factored_loaded = step->loaded;
     w->factored = 1;
@@ -394,20 +442,27 @@ static int misses_imbalance(const ehl_solver *s, const ehl_step *step, const ehl
 {
     ehl_linear *w = s->self;
     const ehl_reynolds *r = s->reynolds;
-    double flow = 0, left = 0, most = 0, most_left = 0, thin = r->thick[0];
-    for (size_t i = 0; i <= r->last; i++)
-        w->h_step[i] = w->v_step[i] + dh00;
+    double flow = 0, left = 0, most = 0, most_left = 0, thin = ehl_least(r->last, r->thick);
+    shift(w->v_step, dh00, w->h_step, r->last + 1);
     apply_jacobian(r, w->p_step, w->h_step, w->left);
     for (size_t i = 1; i < r->last; i++) {
         flow -= film->full[i] ? r->residual[i] : 0;
         left -= film->full[i] ? r->residual[i] + w->left[i] : 0;
-        most = fmax(most, fabs(flow));
-        most_left = fmax(most_left, fabs(left));
-        thin = fmin(thin, r->thick[i]);
+        most = ehl_greater(fabs(flow), most);
+        most_left = ehl_greater(fabs(left), most_left);
     }
     double passing = r->oil.density * thin * (step->entrainment + step->rate * s->grid->half_width);
     w->unbalanced = most_left / passing;
     return most_left > MOST_IMBALANCE_LEFT * most && w->unbalanced > IMBALANCE_NOTICED;
+}
+
+/* The right-hand side of rows 1 ... last - 1: of those that ehl_is_solved tells. */
+FF_SIMD
+static void negate_solved(size_t last, int all, const unsigned char *restrict full,
+                          const double *restrict residual, double *restrict product)
+{
+    for (size_t i = 1; i < last; i++)
+        product[i] = (full[i] | all) ? -residual[i] : 0;
 }
 
 ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *film, double *dh00)
@@ -418,8 +473,8 @@ ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *
     double missing = (step->load - ehl_film_load(film, r->nodes, r->dx)) / r->dx;
     for (w->split = w->coarse != NULL;;
          w->split = 0) { /* the band alone is slower, but misses no wave */
-        for (size_t i = 1; i < r->last; i++)
-            w->product[i] = ehl_is_solved(r, film, i) ? -r->residual[i] : 0;
+        negate_solved(r->last, r->conserving || r->statistical.law, film->full, r->residual,
+                      w->product);
         ff_status status = gmres(s, film, step->loaded, missing, dh00);
         if (status != FF_OK) {
             w->factored = 0; /* factors that are no numbers would look as if they still held */
@@ -437,13 +492,15 @@ ff_status ehl_linear_solve(ehl_solver *s, const ehl_step *step, const ehl_film *
 ff_status ehl_linear_create(ehl_solver *s, ehl_linear *w)
 {
     size_t n = s->grid->nodes;
+    w->curvature = CURVATURE;
     w->fft = ehl_fft_create(n, s->kernel);
     w->band = ehl_band_create(n, s->kernel);
     /* where cavitated masses are unknowns the band converges faster without the coarse grid */
     size_t stride = n / MOST_CORNERS < LEAST_STRIDE ? LEAST_STRIDE : n / MOST_CORNERS;
     int split = n > LEAST_CORNERS * LEAST_STRIDE && !s->reynolds->conserving;
     w->coarse = split ? ehl_coarse_create(n, stride, s->kernel) : NULL;
-    w->factored_kind = calloc(n, 1);
+    w->factored_kind = calloc(2 * n, 1);
+    w->kind = w->factored_kind ? w->factored_kind + n : NULL;
     double *next = w->memory = calloc((2 * (size_t)EHL_KRYLOV + 8) * n, sizeof *next);
     if (!w->fft || !w->band || (split && !w->coarse) || !w->memory || !w->factored_kind)
         return FF_NOMEM;

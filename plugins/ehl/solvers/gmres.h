@@ -25,11 +25,13 @@ typedef struct ehl_linear {
     double *basis[EHL_KRYLOV + 1], *deflection[EHL_KRYLOV];
     double *product; /* Jacobian times a vector, or the right-hand side */
     double *p_step, *v_step, *h_step, *diagonal, *masked, *left;
-    unsigned char *factored_kind;
+    unsigned char *factored_kind, *kind;
     size_t factored_last;
     int factored, factored_loaded;
-    double suffices; /* share of the residual that may be left in the end; 0: what was asked for */
-    double reached;  /* norm of the residual that the last solution left, over its first */
+    int careful; /* rough flanks, or so light a load that the pressure tells little of the film */
+    double curvature; /* Newton's method neglects so many times the square of a relative change */
+    double suffices;  /* share of the residual that may be left in the end; 0: what was asked for */
+    double reached;   /* norm of the residual that the last solution left, over its first */
     double unbalanced; /* flow that it left unbalanced, over that through the contact; 0 without the
                           coarse grid, whose norm alone hides it */
     size_t krylov, krylov_fresh; /* iterations of the last solution, and of the first one after
@@ -53,6 +55,15 @@ static inline int ehl_linear_converged(const ehl_linear *w)
 {
     return w->krylov < EHL_KRYLOV || w->reached <= w->suffices;
 }
+
+/* Learns how much Newton's method neglects from a step that follows one of the size `before`, whose
+   linear solution left the share `reached`: its own size `now` is what that left. Relative. */
+void ehl_linear_learn(ehl_solver *s, double before, double reached, double now);
+
+void ehl_linear_unlearn(ehl_solver *s);
+
+/* Trusts less in what was learned, as a step without a second one. */
+void ehl_linear_forget(ehl_solver *s);
 
 /* Whether what is predicted to be left after the step of the last solution is as small as the
    tolerance allows, and of the film `times` as much. The step changed them by these shares. */

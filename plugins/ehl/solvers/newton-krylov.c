@@ -3,10 +3,13 @@
  * Newton's method for one instant. Cavitation, contact and yield are primal-dual active sets
  * (Hintermueller, Ito & Kunisch 2002); the linear systems are those of gmres.h.
  */
+#include "../contact/lanes.h"
 #include "../equations/asperities.h"
 #include "../equations/cavitation.h"
 #include "../equations/solver.h"
 #include "gmres.h"
+
+#include <flankfilm/simd.h>
 
 #include <math.h>
 #include <stdlib.h>
@@ -27,6 +30,20 @@ static void destroy(ehl_solver *s)
     s->self = NULL;
 }
 
+/* Fills h with the change of the film and `share` with the same over the film where it is full, and
+   returns the largest of these. */
+FF_SIMD
+static double measure_film(size_t last, double dh00, const double *restrict v,
+                           const unsigned char *restrict full, const double *restrict thick,
+                           double *restrict h, double *restrict share)
+{
+    for (size_t i = 1; i < last; i++) {
+        h[i] = v[i] + dh00;
+        share[i] = full[i] * h[i] / thick[i];
+    }
+    return ehl_greatest_size(last - 1, share + 1);
+}
+
 /* Fills h_step, the change of the film, and finds the largest changes: *dp of the pressure (Pa),
  *and dh of the full film as a share of it. A cavitated node's change of mass counts in *dh. */
 static void measure_step(const ehl_solver *s, const ehl_film *film, double dh00, double *dp,
@@ -34,6 +51,12 @@ static void measure_step(const ehl_solver *s, const ehl_film *film, double dh00,
 {
     const newton *w = s->self;
     const ehl_reynolds *r = s->reynolds;
+    if (!r->conserving && !(film->yielding > 0)) {
+        *dp = ehl_greatest_size(r->last - 1, w->linear.p_step + 1);
+        *dh = measure_film(r->last, dh00, w->linear.v_step, film->full, r->thick, w->linear.h_step,
+                           w->linear.left);
+        return;
+    }
     *dp = *dh = 0;
     for (size_t i = 1; i < r->last; i++) {
         int yields = ehl_yields(r, film, i);
@@ -70,6 +93,14 @@ static int rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
                                               : ehl_rescale_to_load(s, step, film);
 }
 
+/* 1: the first steps tell little of the last ones. A steady film begins far from its solution, and
+   a light load hardly shows in the pressure. */
+static int is_far(const ehl_solver *s, const ehl_step *step)
+{
+    const newton *w = s->self;
+    return !(step->rate > 0) || w->linear.careful;
+}
+
 /* Computes one Newton step: p_step, v_step, h_step, *dh00, and its largest changes *dp and *dh. */
 static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film, double *dh00,
                              double *dp, double *dh)
@@ -79,6 +110,8 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     ehl_reynolds_evaluate(r, step, film);
     int moved = r->conserving ? ehl_cavitation_fill(&w->cavitation, r, film, step->rate > 0)
                               : ehl_cavitation_grow_film(&w->cavitation, r, film);
+    if (w->cavitation.grown && is_far(s, step)) /* its end may move on */
+        w->cavitation.moved = 1;
     if (r->rough)
         moved |= ehl_contact_choose(r, step, film);
     if (moved)
@@ -144,13 +177,34 @@ static int is_small(const ehl_solver *s, double dp, double dh)
     return small && (whole || ehl_linear_balances(s));
 }
 
+/* The last Newton step of a smooth film that kept its ends, by which the next one is judged. */
+typedef struct judged {
+    double size, reached; /* relative change of the pressure; 0: none */
+} judged;
+
+/* Learns from the step before what is left after one, and keeps this one. */
+static void learn(ehl_solver *s, const ehl_step *step, judged *last, double size, int whole)
+{
+    const newton *w = s->self;
+    if (is_far(s, step))
+        return;
+    if (last->size > 0)
+        ehl_linear_learn(s, last->size, last->reached, size);
+    *last = (judged){.reached = w->linear.reached};
+    if (whole && !w->cavitation.moved && !s->reynolds->rough)
+        last->size = size;
+}
+
 static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int limit)
 {
     newton *w = s->self;
     size_t n = s->grid->nodes;
     int rough = s->reynolds->rough != NULL;
     damping settled = {.share = 1};
+    judged last = {0};
     ehl_cavitation_begin(&w->cavitation, n);
+    if (is_far(s, step))
+        ehl_linear_unlearn(s);
     if (ehl_yield_begin(s->reynolds, film))
         ehl_linear_deflect(s, film->p, film->v);
     rescale_to_load(s, step, film);
@@ -174,9 +228,13 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
         int whole =
             rescale_to_load(s, step, film) && share >= 1 && ehl_linear_converged(&w->linear);
         double scale = ehl_pressure_scale(s->grid, film, n);
+        learn(s, step, &last, dp / scale, whole);
         if (whole && !(w->cavitation.split && !rough) && cut <= s->tolerance * scale &&
-            is_small(s, dp / scale, dh))
+            is_small(s, dp / scale, dh)) {
+            if (k == 0)
+                ehl_linear_forget(s);
             return FF_OK;
+        }
     }
     return FF_NOCONV;
 }

@@ -217,10 +217,8 @@ static ff_status check_hardness(const ehl_model *m, const run *r)
 }
 
 /* Fits the domain and its nodes to the contact, the oil and the roughness. */
-static ff_status fit_grid(const ehl_model *m, run *r)
+static void fit_domain(const ehl_model *m, run *r)
 {
-    if (ehl_fluid_oil(&m->laws, &r->oil) < 0)
-        return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
     double rq = r->rough.count > 0 ? ehl_roughness_rq(&r->rough) : 0;
     double supplied = ehl_inlet_supplied(&r->history, &r->oil);
     ehl_grid_fit(&r->grid, (size_t)m->cells, m->inlet, m->outlet, &r->history, &r->oil, rq,
@@ -231,6 +229,21 @@ static ff_status fit_grid(const ehl_model *m, run *r)
                                         r->grid.inlet) /
                          r->grid.half_width,
                      m->outlet, &r->history, &r->oil, rq, supplied);
+}
+
+static ff_status fit_grid(const ehl_model *m, run *r)
+{
+    if (ehl_fluid_oil(&m->laws, &r->oil) < 0)
+        return ff_failf(m->host, FF_INVALID, NULL, "an oil law fails at ambient pressure");
+    double *film = malloc(r->history.count * sizeof *film); /* each row is looked at many times */
+    if (!film)
+        return FF_NOMEM;
+    for (size_t i = 0; i < r->history.count; i++)
+        film[i] = ehl_row_film(&r->history, i, &r->oil);
+    r->history.film = film;
+    fit_domain(m, r);
+    r->history.film = NULL;
+    free(film);
     if (!(r->grid.dx > 0 && isfinite(r->grid.dx)))
         return ff_failf(m->host, FF_INVALID, "contact.load_per_width",
                         "the contact and the oil give no finite length of the domain");

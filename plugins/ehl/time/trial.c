@@ -10,6 +10,8 @@
 #include "../solvers/grid-level.h"
 #include "truncation.h"
 
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <string.h>
 
@@ -59,6 +61,16 @@ void ehl_march_accept(ehl_march *m)
     m->at = m->trial_at;
 }
 
+/* y = a x1 + b x2 + c x3 */
+FF_SIMD
+static void combine(size_t n, double a, const double *restrict x1, double b,
+                    const double *restrict x2, double c, const double *restrict x3,
+                    double *restrict y)
+{
+    for (size_t i = 0; i < n; i++)
+        y[i] = a * x1[i] + b * x2[i] + c * x3[i];
+}
+
 /*
  * d(rho h)/dt = rate rho h + past, by backward Euler or by the two-step backward differentiation
  * formula for unequal steps (Hairer, Norsett & Wanner 1993, III.5). With rough flanks it is taken
@@ -75,21 +87,92 @@ static void time_derivative(ehl_march *m, ehl_step *step, const ehl_instant *at)
     step->follows = m->rough != NULL;
     if (m->rough)
         ehl_advect_mass(m, &one, &two);
-    if (m->scheme == EHL_EULER || m->smooth < 2) {
-        for (size_t i = 0; i < n; i++)
-            m->past[i] = -one[i] / dt;
-        return;
+    if (m->scheme == EHL_EULER || m->smooth < 2)
+        combine(n, -1 / dt, one, 0, one, 0, one, m->past);
+    else
+        combine(n, c[1], one, c[2], two, 0, two, m->past);
+}
+
+/* Keeps an extrapolated pressure above 0 where oil carried some, or statistical asperities did. A
+   film that `shrinks` loses the nodes without: one too many is found at once, as it gains mass. */
+FF_SIMD
+static void keep_carried(size_t n, const double *restrict before, int shrinks, double *restrict p,
+                         unsigned char *restrict full)
+{
+    for (size_t i = 0; i < n; i++) {
+        double most = p[i] > 0 ? p[i] : 0;
+        int carries = (full[i] != 0) | (before[i] > 0);
+        p[i] = carries ? most : 0;
     }
-    for (size_t i = 0; i < n; i++)
-        m->past[i] = c[1] * one[i] + c[2] * two[i];
+    for (size_t i = 0; shrinks && i < n; i++)
+        full[i] = full[i] & (p[i] > 0);
+}
+
+/* v += change kernel, for a change at node k alone. */
+FF_SIMD
+static void deflect_by(size_t n, size_t k, double change, const double *restrict kernel,
+                       double *restrict v)
+{
+    for (size_t i = k; i < n; i++)
+        v[i] += change * kernel[i - k];
+    for (size_t i = 0; i < k; i++)
+        v[i] += change * kernel[k - i];
 }
 
 /*
- * Sets the trial to a line or parabola in time through the last films; returns 0 while there are
- * too few. Its deflection is computed anew from its pressure: extrapolated by the same factors it
- * would depart from it, as the rounding errors of such a recursion grow with the square of the time
- * over the first step.
+ * Sets the deflection of the trial, `free` being its pressure before keep_carried: extrapolated
+ * like the pressure, and corrected where that was cut off. The rounding errors of such a recursion
+ * grow with the square of its steps, and faster where these differ: then, and after MOST of them,
+ * it is computed anew.
  */
+static void extrapolate_deflection(ehl_march *m, const double c[3], const double *free)
+{
+    enum { MOST = 8, MOST_CUT = 32 };
+    const double equal = 8; /* the factors of equal steps are 3, -3 and 1 */
+    const ehl_state *s = m->state;
+    ehl_film *film = &m->trial.film;
+    size_t n = m->solver->grid->nodes, cut = 0, place[MOST_CUT];
+    for (size_t i = 0; i < n && cut < MOST_CUT; i++)
+        if (film->p[i] < free[i] || film->p[i] > free[i])
+            place[cut++] = i;
+    int recursion = 0;
+    for (size_t k = 0; k < EHL_STATES; k++)
+        if (s[k].recursion > recursion)
+            recursion = s[k].recursion;
+    m->trial.recursion = recursion + 1;
+    if (cut == MOST_CUT || recursion >= MOST || fabs(c[0]) + fabs(c[1]) + fabs(c[2]) > equal) {
+        m->solver->deflect(m->solver, film->p, film->v);
+        m->trial.recursion = 0;
+        return;
+    }
+    combine(n, c[0], s[0].film.v, c[1], s[1].film.v, c[2], s[2].film.v, film->v);
+    for (size_t k = 0; k < cut; k++)
+        deflect_by(n, place[k], film->p[place[k]] - free[place[k]], m->solver->kernel, film->v);
+}
+
+/* Returns the last full node. */
+static size_t end_of_film(const ehl_film *film, size_t nodes)
+{
+    size_t i = nodes - 1;
+    while (i > 0 && !film->full[i])
+        i--;
+    return i;
+}
+
+/* Fills the nodes that the end of the film is about to pass, as it moved on in the last step, but
+   for one: a Newton step finds the next one, and cutting one off again costs a convolution. */
+static void lengthen(const ehl_march *m, double time, ehl_film *film)
+{
+    const ehl_state *s = m->state;
+    size_t n = m->solver->grid->nodes, now = end_of_film(&s[0].film, n);
+    double moved = (double)now - (double)end_of_film(&s[1].film, n);
+    double end = (double)now - 1 + moved * (time - s[0].time) / (s[0].time - s[1].time);
+    for (size_t i = now + 1; i + 1 < n && (double)i <= end; i++)
+        film->full[i] = 1;
+}
+
+/* Sets the trial to a line or parabola in time through the last films; returns 0 while there are
+   too few. */
 static int extrapolate_films(ehl_march *m, double time, int loaded)
 {
     const ehl_state *s = m->state;
@@ -100,17 +183,18 @@ static int extrapolate_films(ehl_march *m, double time, int loaded)
     ehl_lagrange_factors(m, time, count, c);
     ehl_film *film = &m->trial.film;
     const ehl_film *f0 = &s[0].film, *f1 = &s[1].film, *f2 = &s[2].film;
+    const int shrinks = !m->solver->reynolds->conserving;
     memcpy(film->full, f0->full, n);
     memcpy(film->asperity, f0->asperity, n);
-    for (size_t i = 0; i < n; i++) {
-        double p = c[0] * f0->p[i] + c[1] * f1->p[i] + c[2] * f2->p[i];
-        int carries = film->full[i] || f0->p[i] > 0; /* oil does, or statistical asperities */
-        film->p[i] = carries && p > 0 ? p : 0;
-    }
+    combine(n, c[0], f0->p, c[1], f1->p, c[2], f2->p, film->p);
+    memcpy(m->change, film->p, n * sizeof *film->p);
+    keep_carried(n, f0->p, shrinks, film->p, film->full);
+    if (shrinks)
+        lengthen(m, time, film);
     for (size_t i = 0; i < n && m->solver->reynolds->conserving; i++)
         film->content[i] = fmax(0, c[0] * s[0].mass[i] + c[1] * s[1].mass[i] + c[2] * s[2].mass[i]);
     film->h00 = c[0] * f0->h00 + c[1] * f1->h00 + c[2] * f2->h00;
-    m->solver->deflect(m->solver, film->p, film->v);
+    extrapolate_deflection(m, c, m->change);
     return 1;
 }
 
@@ -194,6 +278,7 @@ ff_status ehl_solve_trial(ehl_march *m, ehl_step *step, const ehl_instant *at)
 {
     ff_status status = FF_NOCONV;
     ehl_film *film = &m->trial.film;
+    m->trial.recursion = m->state[0].recursion + 1; /* unless it is computed anew */
     time_derivative(m, step, at);
     int carried = m->rough && step->loaded == m->state[0].loaded;
     for (int plain = 0; plain < 2 && status == FF_NOCONV && !(carried && plain); plain++) {
