@@ -2,6 +2,7 @@
 #include "load-curve.h"
 
 #include "../numerics/interval.h"
+#include "../numerics/steffen.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -33,38 +34,6 @@ double contact_pieces_make_ramps(size_t count, contact_piece *pieces, double wid
         pieces[i].to -= i < count - 1 ? width / 2 : 0;
     }
     return most;
-}
-
-/* Steffen 1990, section 2.2: one-sided slope at the end of the interval of length h0 and secant s0,
-   whose neighbour has h1 and s1. */
-static double end_slope(double h0, double h1, double s0, double s1)
-{
-    double p = s0 + (s0 - s1) * h0 / (h0 + h1);
-    if (p * s0 <= 0)
-        return 0;
-    return fabs(p) > 2 * fabs(s0) ? 2 * s0 : p;
-}
-
-/* Steffen 1990, Astron. Astrophys. 239, 443, eqs 8 and 11. */
-void contact_monotone_slopes(size_t n, const double *x, const double *y, double *slope)
-{
-    if (n == 2) {
-        slope[0] = slope[1] = (y[1] - y[0]) / (x[1] - x[0]);
-        return;
-    }
-    double h0 = x[1] - x[0], s0 = (y[1] - y[0]) / h0;
-    for (size_t i = 1; i + 1 < n; i++) {
-        double h1 = x[i + 1] - x[i], s1 = (y[i + 1] - y[i]) / h1;
-        double p = (s0 * h1 + s1 * h0) / (h0 + h1);
-        if (i == 1)
-            slope[0] = end_slope(h0, h1, s0, s1);
-        slope[i] =
-            (copysign(1, s0) + copysign(1, s1)) * fmin(fmin(fabs(s0), fabs(s1)), fabs(p) / 2);
-        if (i + 2 == n)
-            slope[n - 1] = end_slope(h1, h0, s1, s0);
-        h0 = h1;
-        s0 = s1;
-    }
 }
 
 /* Continues the line of the forces at `last` and at the station before it, in the direction of
@@ -147,7 +116,7 @@ double contact_load_error(const contact_load_curve *c)
                 x[j] = c->angle[i + 2 * j];
                 y[j] = c->value[i + 2 * j];
             }
-            contact_monotone_slopes(4, x, y, slope);
+            numerics_steffen_slopes(4, x, y, slope);
             double coarse = cubic_at(4, x, y, slope, c->angle[i + 3]);
             worst = fmax(worst, fabs(fmax(coarse, 0) - fmax(c->value[i + 3], 0)) / 4);
         }

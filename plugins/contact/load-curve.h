@@ -24,9 +24,6 @@ size_t contact_pieces_find(size_t n, const double *angle, double least, contact_
    (HUGE_VAL without a jump); the pieces are changed only when `width` is less than that. */
 double contact_pieces_make_ramps(size_t count, contact_piece *pieces, double width);
 
-/* Slopes of Steffen's monotone cubic; n >= 2 increasing x. */
-void contact_monotone_slopes(size_t n, const double *x, const double *y, double *slope);
-
 /* Where a force falls towards stations at which it is 0, or rises from them, the line of its last
    or first two stations carries on below 0 at the next two: the curve, which is cut off at 0, ends
    and begins where they point, and not at the station without force. `value` has the forces before.

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /* contact/tooth-pair: load, radii and speeds of one pair of teeth from SAP to tip. */
 #include "../numerics/interval.h"
+#include "../numerics/steffen.h"
 #include "history.h"
 #include "load-curve.h"
 #include "references.h"
@@ -289,7 +290,7 @@ static void set_slopes(const contact_load_curve *curve, double *slope)
 {
     for (size_t i = 0; i < curve->piece_count; i++) {
         size_t k = curve->pieces[i].first, n = curve->pieces[i].last - k + 1;
-        contact_monotone_slopes(n, curve->angle + k, curve->value + k, slope + k);
+        numerics_steffen_slopes(n, curve->angle + k, curve->value + k, slope + k);
     }
 }
 

@@ -3,6 +3,7 @@
 #include "curve.h"
 
 #include "../numerics/interval.h"
+#include "../numerics/steffen.h"
 
 #include <flankfilm/simd.h>
 
@@ -14,30 +15,6 @@
 static double secant(const lubricant_curve *c, size_t i)
 {
     return (c->y[i + 1] - c->y[i]) / (c->x[i + 1] - c->x[i]);
-}
-
-/* Steffen, equation 11: that of a parabola through three points, cut down where it would overshoot.
- */
-static double inner_slope(const lubricant_curve *c, size_t i)
-{
-    double before = secant(c, i - 1), after = secant(c, i);
-    double h = c->x[i] - c->x[i - 1], next = c->x[i + 1] - c->x[i];
-    double parabola = (before * next + after * h) / (h + next);
-    if (before * after <= 0)
-        return 0;
-    return copysign(fmin(2 * fmin(fabs(before), fabs(after)), fabs(parabola)), before);
-}
-
-/* Steffen, equations 24 to 27, for the first point, or the last. */
-static double end_slope(const lubricant_curve *c, bool last)
-{
-    size_t i = last ? c->n - 2 : 0, j = last ? c->n - 3 : 1;
-    double near = secant(c, i), far = secant(c, j);
-    double h = c->x[i + 1] - c->x[i], next = c->x[j + 1] - c->x[j];
-    double share = h / (h + next), parabola = near * (1 + share) - far * share;
-    if (parabola * near <= 0)
-        return 0;
-    return fabs(parabola) > 2 * fabs(near) ? 2 * near : parabola;
 }
 
 bool lubricant_curve_make(lubricant_curve *c, size_t n, const double *x, const double *y)
@@ -53,14 +30,7 @@ bool lubricant_curve_make(lubricant_curve *c, size_t n, const double *x, const d
                            .cube = memory + 4 * n};
     memcpy(c->x, x, n * sizeof *x);
     memcpy(c->y, y, n * sizeof *y);
-    c->slope[0] = n > 1 ? secant(c, 0) : 0;
-    c->slope[n - 1] = c->slope[0];
-    for (size_t i = 1; i + 1 < n; i++)
-        c->slope[i] = inner_slope(c, i);
-    if (n > 2) {
-        c->slope[0] = end_slope(c, false);
-        c->slope[n - 1] = end_slope(c, true);
-    }
+    numerics_steffen_slopes(n, x, y, c->slope);
     for (size_t i = 0; i + 1 < n; i++) {
         double h = c->x[i + 1] - c->x[i], s = secant(c, i), here = c->slope[i];
         c->square[i] = (3 * s - 2 * here - c->slope[i + 1]) / h;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "interpolation.h"
 
+#include "../numerics/steffen.h"
+
 #include "cycle.h"
 
 #include <math.h>
@@ -121,24 +123,6 @@ static double difference(const stiffness_table_phases *points, const double *val
     return value[points->before[to]] - value[points->after[from]];
 }
 
-/* Steffen 1990, eqs 8 and 11: slope at a breakpoint between two pieces of lengths h and secants s.
- */
-static double inner_slope(double h0, double s0, double h1, double s1)
-{
-    double p = (s0 * h1 + s1 * h0) / (h0 + h1);
-    double bound = fmin(fmin(fabs(s0), fabs(s1)), fabs(p) / 2);
-    return (copysign(1, s0) + copysign(1, s1)) * bound;
-}
-
-/* Steffen 1990, section 2.2: slope at the end of the pieces; h0 and s0 are of the last of them. */
-static double end_slope(double h0, double s0, double h1, double s1)
-{
-    double p = s0 + (s0 - s1) * h0 / (h0 + h1);
-    if (p * s0 <= 0)
-        return 0;
-    return fabs(p) > 2 * fabs(s0) ? 2 * s0 : p;
-}
-
 void stiffness_steffen_slopes(const stiffness_table_phases *points, const double *value,
                               double *before, double *after)
 {
@@ -148,16 +132,16 @@ void stiffness_steffen_slopes(const stiffness_table_phases *points, const double
         double h0 = length_after(points, back), h1 = length_after(points, i);
         double s0 = difference(points, value, back) / h0, s1 = difference(points, value, i) / h1;
         if (!stiffness_jumps_at(points, value, i)) {
-            before[i] = after[i] = inner_slope(h0, s0, h1, s1);
+            before[i] = after[i] = numerics_steffen_inner(h0, s0, h1, s1);
             continue;
         }
         double hb = length_after(points, back2), hn = length_after(points, next);
         before[i] = stiffness_jumps_at(points, value, back)
                         ? s0
-                        : end_slope(h0, s0, hb, difference(points, value, back2) / hb);
+                        : numerics_steffen_end(h0, s0, hb, difference(points, value, back2) / hb);
         after[i] = stiffness_jumps_at(points, value, next)
                        ? s1
-                       : end_slope(h1, s1, hn, difference(points, value, next) / hn);
+                       : numerics_steffen_end(h1, s1, hn, difference(points, value, next) / hn);
     }
 }
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "table-levels.h"
 
+#include "../numerics/steffen.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,6 +27,11 @@ static ff_status check_header(const stiffness_table *t)
         return ff_table_failf(t->host, t->file, FF_TABLE_ALL, COLUMN_ERROR,
                               "beside force the transmission error without load stands in "
                               "loaded_transmission_error, in the rows of the force 0");
+    if (column[COLUMN_STIFFNESS] && t->definition == SECANT)
+        return ff_table_failf(t->host, t->file, FF_TABLE_ALL, COLUMN_STIFFNESS,
+                              "beside force a stiffness is the slope dF/d(e_l) under the force of "
+                              "its row: say definition: tangent; the secant follows from the "
+                              "errors, so leave it out");
     return FF_OK;
 }
 
@@ -54,6 +61,28 @@ static ff_status check_row(const stiffness_table *t, size_t i, size_t phases)
     return FF_OK;
 }
 
+/* Whether the stiffness is the chord force/(error - error without load) in all rows, although the
+   slope of the errors is another: what was taken for a slope is none. */
+static ff_status check_slopes(const stiffness_table *t, size_t rows, size_t phases)
+{
+    static const double rounded = 1e-3, other = 1e-2;
+    const double *force = t->file->columns[COLUMN_FORCE], *k = t->file->columns[COLUMN_STIFFNESS];
+    const double *error = t->file->columns[COLUMN_LOADED];
+    double off = 0, bend = 0;
+    for (size_t i = phases; k && i < rows; i++) {
+        double chord = force[i] / (error[i] - error[i % phases]);
+        double part = (force[i] - force[i - phases]) / (error[i] - error[i - phases]);
+        off = fmax(off, fabs(k[i] / chord - 1));
+        bend = fmax(bend, fabs(k[i] / part - 1));
+    }
+    if (!k || off > rounded || bend < other)
+        return FF_OK;
+    return fail_at(t, phases, COLUMN_STIFFNESS,
+                   "in every row this is the chord, the force over the error less that without "
+                   "load; beside force it must be the slope dF/d(e_l): leave it out",
+                   k[phases]);
+}
+
 ff_status stiffness_table_levels_check(stiffness_table *t)
 {
     const double *const *column = t->file->columns;
@@ -80,6 +109,8 @@ ff_status stiffness_table_levels_check(stiffness_table *t)
                               "every force must have as many rows as the first one has, %zu; this "
                               "one has %zu",
                               phases, rows % phases);
+    if ((status = check_slopes(t, rows, phases)) != FF_OK)
+        return status;
     if (rows / phases > STIFFNESS_TABLE_FORCES)
         return ff_table_failf(t->host, t->file, STIFFNESS_TABLE_FORCES * phases, COLUMN_FORCE,
                               "more than %d forces", STIFFNESS_TABLE_FORCES);
@@ -103,34 +134,6 @@ static double rise(const curve *c, size_t i)
     return (c->error[i + 1] - c->error[i]) / (c->force[i + 1] - c->force[i]);
 }
 
-/* Steffen 1990, eq. (24) at the ends, of data that rise. */
-static double end_slope(double near, double behind, double h, double next)
-{
-    double slope = near * (1 + h / (h + next)) - behind * h / (h + next);
-    return fmin(fmax(slope, 0.1 * near), 2 * near);
-}
-
-/* Steffen 1990, eqs (8) and (11), of data that rise. */
-static void find_slopes(curve *c)
-{
-    size_t last = c->count - 1;
-    for (size_t i = 1; i < last; i++) {
-        double h = c->force[i] - c->force[i - 1], next = c->force[i + 1] - c->force[i];
-        double before = rise(c, i - 1), behind = rise(c, i);
-        double middle = (before * next + behind * h) / (h + next);
-        c->slope[i] = fmin(2 * fmin(before, behind), middle);
-    }
-    if (last == 1) {
-        c->slope[0] = c->slope[1] = rise(c, 0);
-        return;
-    }
-    double h = c->force[1] - c->force[0], next = c->force[2] - c->force[1];
-    c->slope[0] = end_slope(rise(c, 0), rise(c, 1), h, next);
-    h = c->force[last] - c->force[last - 1];
-    next = c->force[last - 1] - c->force[last - 2];
-    c->slope[last] = end_slope(rise(c, last - 1), rise(c, last - 2), h, next);
-}
-
 /* The cubic and its slope at a force between the forces low and low + 1. */
 static void read_curve(const curve *c, size_t low, double force, double *error, double *slope)
 {
@@ -151,7 +154,7 @@ static curve curve_at(const stiffness_table *t, size_t phase)
         c.force[i] = t->file->columns[COLUMN_FORCE][i * t->count];
         c.error[i] = t->file->columns[COLUMN_LOADED][at];
     }
-    find_slopes(&c);
+    numerics_steffen_slopes(c.count, c.force, c.error, c.slope);
     for (size_t i = 0; i < c.count && k; i++) {
         double steepest = 3 * fmin(rise(&c, i ? i - 1 : 0), rise(&c, i + 1 < c.count ? i : i - 1));
         c.slope[i] = fmin(1 / k[i * t->count + phase], steepest); /* keeps the cubic monotone */

@@ -29,11 +29,13 @@ typedef struct table_curves {
 } table_curves;
 
 static const ff_param params[] = {
-    FF_PATH("file", stiffness_table, path, FF_REQUIRED, "source",
-            "table with the columns phase, stiffness [N/m], or phase, transmission_error [um], "
-            "loaded_transmission_error [um], where k = F/(e_l - e); transmission_error may stand "
-            "beside stiffness, and with definition: tangent both; load_share as said there; with a "
-            "column force [N], rows for each force from 0 up, loaded_transmission_error under it"),
+    FF_PATH(
+        "file", stiffness_table, path, FF_REQUIRED, "source",
+        "table with the columns phase, stiffness [N/m], or phase, transmission_error [um], "
+        "loaded_transmission_error [um], where k = F/(e_l - e); transmission_error may stand "
+        "beside stiffness, and with definition: tangent both; load_share as said there; with a "
+        "column force [N], rows for each force from 0 up, loaded_transmission_error under it and, "
+        "with definition: tangent, stiffness, the slope there"),
     FF_LIST("phase", "1", stiffness_table, phase, FF_REQUIRED | FF_INCREASING, NULL, "source", 0, 1,
             0, 0, 1, 100000,
             "phases of the mesh cycle, 0 = the entering pair at SAP; one given twice holds the "

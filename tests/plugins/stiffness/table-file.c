@@ -198,6 +198,13 @@ static void test_forces(void)
         check_near("at the last force", teeth[(levels - 1) * PAIR_STATIONS], 0.7 * 4 * F, 1e-12);
         stage_close(s);
     }
+    stage *chord = open_file("phase,force [N],loaded_transmission_error [um],stiffness [N/um]\n"
+                             "0,0,1,1\n0.5,0,1.5,1\n0,500,3,250\n0.5,500,3.5,250\n"
+                             "0,9000,11,900\n0.5,9000,11.5,900\n");
+    stage_set_text(chord, "definition", "tangent");
+    check_true("a chord for a slope", stage_ready(chord) == FF_INVALID &&
+                                          strstr(stage_why(chord), ":4:9: in every row this is"));
+    stage_close(chord);
     static const double short_of[] = {0, 0.5};
     stage *s = open_file(force_table(0, short_of, 2));
     stage_set_text(s, "ends", "jump");
@@ -279,6 +286,9 @@ static void test_refusals(void)
     expect_refusal("phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n0,5,2\n"
                    "0.5,5,0.9\n",
                    ":5:7: the transmission error must exceed that under the force before");
+    expect_refusal("phase,force [N],loaded_transmission_error [um],stiffness [N/um]\n0,0,0,1\n"
+                   "0,5,2,2\n",
+                   ":1:48: beside force a stiffness is the slope");
     expect_refusal("phase,stiffness [N/m],a,b,c,d,e,f,g,h,i,j,k,l,m,n,o\n0,1\n",
                    ":1:23: no column is called \"a\"");
 }
