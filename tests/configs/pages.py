@@ -70,7 +70,7 @@ with tempfile.TemporaryDirectory() as lab:
     if ran.returncode or done.returncode:
         faults.append(f"study: run {ran.returncode}, report {done.returncode}: {ran.stderr}{done.stderr}")
     else:
-        look("study", "study/report.html", r'</span> Of 9 cases 7 are good, (.|\n)*"note">7 good \(')
+        look("study", "study/report.html", r'</span> Of 9 cases 9 are good, (.|\n)*"note">9 good[^<]*; outside the range of a model 2 \(')
 if len(files) < 10:
     faults.append(f"only {len(files)} files in {configs}")
 print("\n".join(faults))

@@ -19,6 +19,7 @@ int cli_cite(const cli_options *options);
 int cli_models(const cli_options *options);
 int cli_verify_command(const cli_options *options);
 int cli_new(const cli_options *options);
+int cli_compare(const cli_options *options);
 int cli_export(const cli_options *options);
 int cli_write_report(const cli_options *options);
 /* figures.c: whether the operand of `report` describes figures; and their page. */

@@ -305,7 +305,7 @@ static int explain(cli_session *session, const cli_options *options)
 static int confirm(cli_session *session, const cli_options *options)
 {
     size_t stages = session->pipeline->count, cases = session->study ? session->study->count : 1;
-    bool strict = cli_is_strict_about(options, false, session->report);
+    bool strict = cli_is_strict_about(options, false, false, session->report, false);
     int code = strict ? FF_FAULT_INPUT : EXIT_SUCCESS;
     if (options->json) {
         json_t *answer = results_json_answer(strict ? "error" : "ok", code, session->report);

@@ -57,6 +57,14 @@ static const cli_command commands[] = {
      "DIR is what run has written. The page holds its figures and needs no network; it is written\n"
      "to DIR/report.html unless -o says otherwise.\n",
      cli_write_report},
+    {"compare", "A B...", "show what designs give side by side, and how they differ",
+     "Each is a directory that run has written, or DIR:3, case 3 of a study. Differences are to "
+     "the\n"
+     "first, with the errors of both, and those that are smaller than what is known are said to be "
+     "so.\n"
+     "Series along the path of contact are drawn over its points SAP, LPSTC, pitch, HPSTC and "
+     "tip.\n",
+     cli_compare},
     {"export", "DIR", "write the results of a run or a study for other programs",
      "DIR is what run has written. NAME is csv (a directory) or netcdf (one file). Without -o the\n"
      "files go into DIR. Nothing half-written is left behind.\n",

@@ -51,6 +51,8 @@ static const option_row rows[] = {
      "write the results there (default: results/<name of the file>)", OPTIONAL, set_directory},
     {"output", 'o', "FILE", "report", "write the page there (default: DIR/report.html)", OPTIONAL,
      set_directory},
+    {"output", 'o', "NAME", "compare", "write a page NAME.html and a table NAME.csv", OPTIONAL,
+     set_directory},
     {"output", 'o', "PATH", "export", "write there (default: a file or a directory in DIR)",
      OPTIONAL, set_directory},
     {"output", 'o', "DIR", "new", "make this folder (default: NAME)", OPTIONAL, set_directory},
@@ -68,7 +70,7 @@ static const option_row rows[] = {
     {"all", 0, NULL, "run",
      "of a single case, print all that was computed, not only what it asks for", OPTIONAL, NULL},
     {"replace", 0, NULL, "run", "replace results of another file in the directory", OPTIONAL, NULL},
-    {"json", 0, NULL, "run plan check explain fit models report export verify",
+    {"json", 0, NULL, "run plan check explain fit models report compare export verify",
      "print one JSON object, all values in SI, and nothing else", OPTIONAL, NULL},
     {"arrays", 0, NULL, "run",
      "with --json, of a single case: also print arrays of more than 10000 numbers", OPTIONAL, NULL},
@@ -220,7 +222,11 @@ static bool take_operand(cli_options *options, const char *text)
         options->operand = text;
     else if (two && !options->second)
         options->second = text;
-    else
+    else if (two && strstr(options->command->operand, "...")) {
+        cli_words *more = &options->further;
+        more->words = memory_resize(more->words, (more->count + 1) * sizeof *more->words);
+        more->words[more->count++] = text;
+    } else
         return cli_wrong_usage(options, "%s takes one %s, but got \"%s\" as well",
                                options->command->name, options->command->operand, text);
     return true;
@@ -266,7 +272,8 @@ static bool check_missing(const cli_options *options)
     const cli_command *command = options->command;
     bool two = strchr(command->operand, ' ') != NULL;
     if ((!options->operand || (two && !options->second)) && command->operand[0] != '[')
-        return cli_wrong_usage(options, "%s wants a %s", command->name, command->operand);
+        return cli_wrong_usage(options, "%s wants %s%s", command->name,
+                               strstr(command->operand, "...") ? "" : "a ", command->operand);
     for (const option_row *row = rows; row < rows + ROWS; row++)
         if (row->occurrence == REQUIRED && accepts(command, row) && !cli_option(options, row->name))
             return cli_wrong_usage(options, "%s wants --%s %s", command->name, row->name,
@@ -328,4 +335,5 @@ void cli_options_free(cli_options *options)
     for (size_t i = 0; options->given && i < ROWS; i++)
         free(options->given[i].words);
     free(options->given);
+    free(options->further.words);
 }

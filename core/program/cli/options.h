@@ -19,6 +19,7 @@ typedef struct cli_options {
     const cli_command *command; /* NULL: none was understood */
     const char *operand;        /* FILE or ID */
     const char *second;         /* the second operand */
+    cli_words further;          /* those behind it, where the command takes more */
     const char **sets;
     size_t set_count;
     const char **plugin_paths;
@@ -33,7 +34,8 @@ typedef struct cli_options {
 
 struct cli_command {
     const char *name;
-    const char *operand; /* "FILE", or two of them; in brackets when it may be left out */
+    const char *operand; /* "FILE", or two of them; in brackets when it may be left out; more may
+                            follow where it ends in "..." */
     const char *summary; /* one line */
     const char *text;    /* what `help` says below the usage line */
     int (*run)(const cli_options *options); /* returns the exit code of the program */

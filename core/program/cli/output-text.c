@@ -35,16 +35,21 @@ static bool find_extremes(const ff_result *result, size_t *least, size_t *greate
 /* Numbers of one quantity; what is noise beside the greatest of them is 0. */
 static void print_range(const ff_result *result, double a, double b, char *out, size_t size)
 {
-    double most = fmax(fabs(a), fabs(b));
-    results_readable unit = unit_of(result->row, most);
-    const char *gap = *unit.unit ? " " : "";
-    bool constant = b - a <= noise * most;
-    a = fabs(a) < noise * most ? unit.offset : a * unit.factor + unit.offset;
+    const double most = fmax(fabs(a), fabs(b)), least = fmin(fabs(a), fabs(b));
+    const results_readable unit = unit_of(result->row, most);
+    /* a number that is small beside the other reads well in a unit of its own */
+    const results_readable first =
+        least >= noise * most && least < 1e-3 * most ? unit_of(result->row, fabs(a)) : unit;
+    const char *between = strcmp(first.unit, unit.unit) ? " " : "";
+    char low[RESULTS_NUMBER_SIZE], high[RESULTS_NUMBER_SIZE];
+    const bool constant = b - a <= noise * most;
+    a = fabs(a) < noise * most ? first.offset : a * first.factor + first.offset;
     b = fabs(b) < noise * most ? unit.offset : b * unit.factor + unit.offset;
-    if (constant)
-        snprintf(out, size, "%.5g%s%s", b, gap, unit.unit);
-    else
-        snprintf(out, size, "%.4g to %.4g%s%s", a, b, gap, unit.unit);
+    results_number_text(a, 4, " ", low);
+    results_number_text(b, constant ? 5 : 4, " ", high);
+    snprintf(out, size, "%s%s%s%s%s%s%s", constant ? "" : low, constant ? "" : between,
+             constant || !*between ? "" : first.unit, constant ? "" : " to ", high,
+             *unit.unit ? " " : "", unit.unit);
 }
 
 /* Where the extremes of a series lie; briefly "at 22.3 and 16.6 deg", "" if no series says it. */
@@ -87,8 +92,10 @@ static bool print_pair(const ff_result *result, char *out, size_t size)
         return false;
     double a = result->data[0], b = result->data[1];
     results_readable unit = unit_of(result->row, fmax(fabs(a), fabs(b)));
-    snprintf(out, size, "[%.5g, %.5g]%s%s", a * unit.factor + unit.offset,
-             b * unit.factor + unit.offset, *unit.unit ? " " : "", unit.unit);
+    char one[RESULTS_NUMBER_SIZE], other[RESULTS_NUMBER_SIZE];
+    results_number_text(a * unit.factor + unit.offset, 5, " ", one);
+    results_number_text(b * unit.factor + unit.offset, 5, " ", other);
+    snprintf(out, size, "[%s, %s]%s%s", one, other, *unit.unit ? " " : "", unit.unit);
     return true;
 }
 

@@ -41,8 +41,8 @@ static bool write_line(const char *text, size_t length)
 
 bool cli_answer_row(size_t index, const json_t *set, const json_t *record, bool known)
 {
-    static const char *const members[] = {"key",     "status", "verdict",
-                                          "reasons", "reason", "warnings"};
+    static const char *const members[] = {"key",   "status", "verdict", "reasons",
+                                          "range", "reason", "warnings"};
     json_t *line =
         json_pack("{s:I, s:b, s:O}", "case", (json_int_t)index + 1, "before", known, "set", set);
     for (size_t i = 0; i < sizeof members / sizeof *members; i++)

@@ -9,6 +9,7 @@
 #include "../accuracy/accuracy.h"
 #include "../accuracy/goals.h"
 #include "../accuracy/models.h"
+#include "../limits/accept.h"
 #include "../limits/limits.h"
 #include "../memory/memory.h"
 #include "../results/earlier.h"
@@ -38,7 +39,6 @@ typedef struct place {
 
 static void print_place(const place *to)
 {
-    putchar('\n');
     if (to->written && to->replaced && *to->replaced)
         printf("earlier results of this directory are replaced (%s)\n", to->replaced);
     if (to->removed && *to->removed)
@@ -61,9 +61,20 @@ static void warn_of_replaced(const place *to, ff_report *report)
                 to->directory, to->removed);
 }
 
-static void print_outcome(const results_outcome *outcome, const place *to, bool all)
+/* Whether --strict fails the outcome. */
+static bool is_strict_about(const results_outcome *outcome, const cli_options *options, bool tell)
 {
-    cli_print_summary(outcome, all);
+    study_judgement judgement = study_judge_pipeline(outcome->pipeline, false);
+    const bool doubtful = judgement.verdict != FF_GOOD;
+    study_judgement_free(&judgement);
+    return cli_is_strict_about(options, doubtful, outcome->limits->worst != LIMITS_MET,
+                               outcome->report, tell);
+}
+
+static void print_outcome(const results_outcome *outcome, const place *to,
+                          const cli_options *options)
+{
+    cli_print_summary(outcome, cli_option(options, "all") != NULL);
     fflush(stdout);
     if (ff_report_count(outcome->report)) {
         fputc('\n', stderr);
@@ -74,47 +85,13 @@ static void print_outcome(const results_outcome *outcome, const place *to, bool 
     if (ff_report_errors(outcome->report) > 0)
         fprintf(stderr, "the run %s\n", cli_interrupted() ? "was stopped" : "failed");
     else if (outcome->exit_code != EXIT_SUCCESS)
-        fprintf(stderr, "--strict: a doubtful answer, a limit not surely met or a warning counts "
-                        "as a failure\n");
+        is_strict_about(outcome, options, true);
 }
 
 static void count_doubts(results_outcome *outcome, const cli_options *options)
 {
-    study_judgement judgement = study_judge_pipeline(outcome->pipeline, false);
-    bool doubtful = judgement.verdict != FF_GOOD || outcome->limits->worst != LIMITS_MET;
-    if (outcome->exit_code == EXIT_SUCCESS &&
-        cli_is_strict_about(options, doubtful, outcome->report))
+    if (outcome->exit_code == EXIT_SUCCESS && is_strict_about(outcome, options, false))
         outcome->exit_code = FF_FAULT_RUN;
-    study_judgement_free(&judgement);
-}
-
-/* Warns of a doubt that the file accepts and that no line of the stage has: its name may be wrong.
- */
-static void warn_of_accepted(const ff_pipeline *pipeline, ff_report *report)
-{
-    for (size_t s = 0; s < pipeline->count; s++) {
-        const ff_stage *stage = &pipeline->stages[s];
-        const size_t length = strlen(stage->name);
-        const char **names = memory_alloc((stage->quality_count + 1) * sizeof *names);
-        for (size_t i = 0; i < stage->quality_count; i++)
-            names[i] = stage->quality[i].name;
-        for (size_t k = 0; stage->ran && stage->accept && k < stage->accept->count; k++) {
-            const char *key = stage->accept->keys[k];
-            if (strncmp(key, stage->name, length) != 0 || key[length] != '.')
-                continue;
-            size_t i = 0;
-            while (i < stage->quality_count && strcmp(names[i], key + length + 1) != 0)
-                i++;
-            if (i < stage->quality_count)
-                continue;
-            const char *nearest = ff_nearest(key + length + 1, names, stage->quality_count);
-            ff_warn(report, stage->accept->key_places[k],
-                    "accept: %s has no line \"%s\" in this run%s%s%s", stage->name,
-                    key + length + 1, nearest ? "; did you mean \"" : "", nearest ? nearest : "",
-                    nearest ? "\"?" : "");
-        }
-        free(names);
-    }
 }
 
 static int run_session(cli_session *session, const cli_options *options, const results_input *input,
@@ -134,7 +111,7 @@ static int run_session(cli_session *session, const cli_options *options, const r
     ff_engine_warn_displaced(session->engine, session->report); /* models that were tried */
 
     limits_verdict limits = limits_judge(session->run, errors.answer, &errors);
-    warn_of_accepted(errors.answer, session->report);
+    accept_check_pipeline(errors.answer, session->report);
     results_outcome outcome = {.pipeline = errors.answer,
                                .report = session->report,
                                .input = input,
@@ -153,7 +130,7 @@ static int run_session(cli_session *session, const cli_options *options, const r
         results_write_answer(&outcome, to->written ? to->directory : NULL,
                              cli_option(options, "arrays") != NULL, terminal_answer());
     } else {
-        print_outcome(&outcome, to, cli_option(options, "all") != NULL);
+        print_outcome(&outcome, to, options);
     }
     json_decref(progress.log);
     limits_free(&limits);

@@ -343,11 +343,22 @@ char *cli_run_directory(const cli_options *options)
     return cut;
 }
 
-bool cli_is_strict_about(const cli_options *options, bool doubtful, const ff_report *report)
+bool cli_is_strict_about(const cli_options *options, bool doubtful, bool unsure,
+                         const ff_report *report, bool tell)
 {
-    for (size_t i = 0; i < ff_report_count(report); i++)
-        doubtful = doubtful || ff_report_at(report, i)->severity == FF_WARNING;
-    return doubtful && cli_option(options, "strict");
+    bool warned = false;
+    for (size_t i = 0; i < ff_report_count(report); i++) {
+        const ff_message *m = ff_report_at(report, i);
+        warned = warned || (m->severity == FF_WARNING && !study_warning_of_range(m->text));
+    }
+    if (!cli_option(options, "strict") || !(doubtful || unsure || warned))
+        return false;
+    if (tell)
+        fprintf(stderr, "--strict: %s%s%s%s%s counts as a failure\n",
+                doubtful ? "a doubtful answer" : "", doubtful && (unsure || warned) ? ", " : "",
+                unsure ? "a limit not surely met" : "", unsure && warned ? ", " : "",
+                warned ? "a warning" : "");
+    return true;
 }
 
 int cli_refuse(const ff_report *report, const cli_options *options, const char *ending)

@@ -41,8 +41,10 @@ char *cli_run_directory(const cli_options *options);
  */
 char *cli_study_directory(const cli_options *options);
 
-/* Whether --strict is given and something was doubtful or warned of. */
-bool cli_is_strict_about(const cli_options *options, bool doubtful, const ff_report *report);
+/* Whether --strict is given and fails what was run: numbers are in doubt, a limit is not surely
+   met, or there is a warning that is not of the range of a model. `tell` says which. */
+bool cli_is_strict_about(const cli_options *options, bool doubtful, bool unsure,
+                         const ff_report *report, bool tell);
 
 /* Prints the errors, as JSON or with `ending` below them, and returns their exit code. */
 int cli_refuse(const ff_report *report, const cli_options *options, const char *ending);

@@ -303,6 +303,16 @@ static void tell_or_answer(const teller *t, const study_counters *counters, bool
         terminal_print_messages(report, stderr, terminal_colour(stderr));
 }
 
+/* Whether --strict fails the study. */
+static bool is_strict_about(const study_counters *counters, const cli_options *options,
+                            const ff_report *report, bool tell)
+{
+    const study_tally *tally = &counters->tally;
+    return cli_is_strict_about(options, tally->counts[FF_DOUBTFUL] > 0,
+                               tally->limits[LIMITS_WITHIN] + tally->limits[LIMITS_MISSED] > 0,
+                               report, tell);
+}
+
 /* Returns the exit code. */
 static int run_and_tell(const study_run *run, teller *t, ff_report *report)
 {
@@ -319,11 +329,8 @@ static int run_and_tell(const study_run *run, teller *t, ff_report *report)
         good = cli_spectrum_sum(run, &t->sums, report);
     int verdict = driven ? study_verdict(study) : -1;
     bool bad = verdict < 0 ? counters.failed > 0 : verdict == FF_BAD;
-    const study_tally *tally = &counters.tally;
-    bool doubtful =
-        tally->counts[FF_DOUBTFUL] + tally->limits[LIMITS_WITHIN] + tally->limits[LIMITS_MISSED] >
-        0;
-    bad = bad || cli_is_strict_about(options, doubtful, report);
+    const bool strict = is_strict_about(&counters, options, report, false);
+    bad = bad || strict;
     int code = !good ? ff_report_fault(report) : bad ? CLI_EXIT_CASES : EXIT_SUCCESS;
     if (t->terminal && run->progress)
         fputs("\r\033[K", stderr);
@@ -331,6 +338,8 @@ static int run_and_tell(const study_run *run, teller *t, ff_report *report)
         code = cli_refuse(report, options, "nothing was run");
     else
         tell_or_answer(t, &counters, good, code, report);
+    if (good && strict && !options->json && counters.leads)
+        is_strict_about(&counters, options, report, true);
     if (good && (driven || t->sums))
         note_files(study, t->directory);
     study_tally_free(&counters.tally);

@@ -15,6 +15,10 @@
 #include <string.h>
 
 enum { VALUE = 24, BAR = 12, MOST_NAME = 40, VERDICT = 65, ERROR = 9 }; /* columns */
+/* Of the lines of what is asked for: the widest name and value, in columns. */
+typedef struct print_widths {
+    int name, value;
+} print_widths;
 
 typedef struct paper {
     const accuracy_record *errors;
@@ -77,19 +81,13 @@ static void print_stage(paper *page, const ff_stage *stage)
     putchar('\n');
 }
 
-/* Prints the name and the value; returns the columns that they take. */
-static int print_value(const paper *page, const char *name, int width, const cli_output_text *text)
-{
-    return printf("  %-*s  %-*s  ", width, name, VALUE + (page->errors->count > 0 ? BAR : 0),
-                  text->value);
-}
-
 static void print_result(const paper *page, const ff_pipeline *pipeline, const ff_stage *stage,
                          size_t output, int width)
 {
     const ff_port *row = stage->results[output].row;
     cli_output_text text = cli_output_text_of(page->errors, pipeline, stage, output, false);
-    int column = print_value(page, row->name, width, &text);
+    int column = printf("  %-*s  %-*s  ", width, row->name,
+                        VALUE + (page->errors->count > 0 ? BAR : 0), text.value);
     char *words = memory_print_text("%s%s%s", row->doc, *text.place ? "; " : "", text.place);
     terminal_print_wrapped(words, column, column);
     free(words);
@@ -98,12 +96,12 @@ static void print_result(const paper *page, const ff_pipeline *pipeline, const f
 /* Prints an output that is asked for: what it is called, and where its extremes lie if the line has
    room. */
 static void print_asked(const paper *page, const ff_pipeline *pipeline, const results_asked *asked,
-                        int width)
+                        print_widths widths)
 {
     char label[RESULTS_LABEL_SIZE];
     cli_output_text text =
         cli_output_text_of(page->errors, pipeline, asked->stage, asked->output, true);
-    int column = print_value(page, asked->name, width, &text);
+    int column = printf("  %-*s  %-*s  ", widths.name, asked->name, widths.value, text.value);
     const int room = terminal_width() - column;
     const int left = room - (int)(*text.place ? strlen("; ") + strlen(text.place) : 0);
     const char *doc = results_called(asked->stage->results[asked->output].row);
@@ -112,7 +110,7 @@ static void print_asked(const paper *page, const ff_pipeline *pipeline, const re
     if (!fits)
         results_label(doc, room > 0 ? (size_t)room : 0, label);
     char *words = memory_print_text("%s%s%s", label, fits ? "; " : "", fits ? text.place : "");
-    terminal_print_wrapped(words, column, column);
+    terminal_print_cut(words, column);
     free(words);
 }
 
@@ -149,6 +147,12 @@ static bool is_array_only(const ff_result *result, const ff_result *const *axes)
     return result->rank > 1 || *axes;
 }
 
+static int widest(int width, const char *text)
+{
+    const int own = (int)strlen(text);
+    return own > width ? own : width;
+}
+
 /* Prints what the file asks for, in its order, a line for each but fields and axes. */
 static void print_answer(paper *page, const ff_pipeline *pipeline)
 {
@@ -157,21 +161,26 @@ static void print_answer(paper *page, const ff_pipeline *pipeline)
     const ff_result **axes = results_axes(pipeline);
     char *arrays = NULL;
     FILE *others = memory_require(open_memstream(&arrays, &length));
-    int width = 0;
-    for (size_t i = 0; i < count; i++)
-        if (is_array_only(&list[i].stage->results[list[i].output], axes))
+    print_widths widths = {0, 0};
+    for (size_t i = 0; i < count; i++) {
+        if (is_array_only(&list[i].stage->results[list[i].output], axes)) {
             fprintf(others, "%s%s", ftell(others) > 0 ? ", " : "", list[i].name);
-        else if ((int)strlen(list[i].name) > width)
-            width = (int)strlen(list[i].name);
+            continue;
+        }
+        const cli_output_text text =
+            cli_output_text_of(page->errors, pipeline, list[i].stage, list[i].output, true);
+        widths.name = widest(widths.name, list[i].name);
+        widths.value = widest(widths.value, text.value);
+    }
     fclose(others);
-    width = width < MOST_NAME ? width : MOST_NAME;
+    widths.name = widths.name < MOST_NAME ? widths.name : MOST_NAME;
     putchar('\n');
     for (size_t i = 0; i < count; i++) {
         if (!is_array_only(&list[i].stage->results[list[i].output], axes))
-            print_asked(page, pipeline, &list[i], width);
+            print_asked(page, pipeline, &list[i], widths);
     }
     if (*arrays)
-        terminal_print_wrapped(arrays, printf("  in the results: "), 4);
+        terminal_print_cut(arrays, printf("  in the results: "));
     free(arrays);
     free(axes);
     results_free_asked(list, count);
@@ -199,31 +208,35 @@ static void print_limits(const paper *page, const limits_verdict *limits)
             puts("not known");
             continue;
         }
-        printf("%s%.5g", isinf(row->bar) ? ">= " : "", row->value * unit.factor + unit.offset);
+        char number[RESULTS_NUMBER_SIZE];
+        results_number_text(row->value * unit.factor + unit.offset, 5, " ", number);
+        printf("%s%s", isinf(row->bar) ? ">= " : "", number);
+        results_number_text(row->bar * unit.factor, 2, " ", number);
         if (row->bar > 0 && !isinf(row->bar))
-            printf(" +- %.2g", row->bar * unit.factor);
+            printf(" +- %s", number);
         printf("%s%s\n", *unit.unit ? " " : "", unit.unit);
     }
     free(sentence);
 }
 
-/* What is not good. */
-static void print_quality(paper *page, const ff_stage *stage)
+/* What is not good of the numbers, or of the range of the models. */
+static void print_quality(paper *page, const ff_stage *stage, bool range)
 {
     for (size_t i = 0; i < stage->quality_count; i++) {
         const ff_quality *line = &stage->quality[i];
         const char *verdict = ff_verdict_name(line->verdict);
-        if (line->verdict == FF_GOOD)
+        if (line->verdict == FF_GOOD || line->range != range)
             continue;
         start_line(page);
         char value[RESULTS_NUMBER_SIZE];
         results_number_short(line->value, value);
         int column =
-            printf("  %s.%s = %s, held to %.3g: ", stage->name, line->name, value, line->limit) +
-            (int)strlen(verdict);
-        paint_verdict(page, line->verdict, verdict);
-        if (line->text)
-            column += printf(", ");
+            printf("  %s.%s = %s, held to %.3g: ", stage->name, line->name, value, line->limit);
+        if (!range) {
+            column += (int)strlen(verdict);
+            paint_verdict(page, line->verdict, verdict);
+            column += line->text ? printf(", ") : 0;
+        }
         terminal_print_wrapped(line->text ? line->text : "", column, 4);
     }
 }
@@ -421,9 +434,12 @@ void cli_print_summary(const results_outcome *outcome, bool all)
     page.heading = "Doubts that the file accepts";
     for (size_t i = 0; i < pipeline->count; i++)
         print_accepted(&page, &pipeline->stages[pipeline->order[i]]);
-    page.heading = "To be looked at";
+    page.heading = "Numbers in doubt";
     for (size_t i = 0; i < pipeline->count; i++)
-        print_quality(&page, &pipeline->stages[pipeline->order[i]]);
+        print_quality(&page, &pipeline->stages[pipeline->order[i]], false);
+    page.heading = "Models outside of their range";
+    for (size_t i = 0; i < pipeline->count; i++)
+        print_quality(&page, &pipeline->stages[pipeline->order[i]], true);
     if (!all)
         print_tally(pipeline);
 }

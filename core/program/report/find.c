@@ -29,6 +29,16 @@ bool report_is_bar(const results_view_variable *variable)
     return length > tail && !strcmp(variable->output + length - tail, bar_ending);
 }
 
+bool report_is_axis(const results_view *view, size_t series)
+{
+    for (size_t v = 0; v < view->variable_count; v++)
+        for (uint32_t k = 0; k < view->variables[v]->rank; k++)
+            if (v != series && (view->variables[v]->flags & RESULTS_VIEW_ASKED) &&
+                !strcmp(view->variables[v]->against[k], view->variables[series]->name))
+                return true;
+    return false;
+}
+
 /* Says whether a variable is a series of `count` points. */
 static bool is_series_of(const results_view *view, size_t series, size_t index, size_t count)
 {

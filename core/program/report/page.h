@@ -45,6 +45,8 @@ void report_number_text(double value, char out[REPORT_TEXT_SIZE]);
 /* Prints an SI value as "22.3 deg". */
 void report_quantity_text(const char *name, const char *si_unit, double si,
                           char out[REPORT_TEXT_SIZE]);
+/* Prints the error bar of an SI value with the two digits that are known of it. */
+void report_bar_text(const char *si_unit, double bar, char out[REPORT_TEXT_SIZE]);
 /* Returns what an output is called in a figure, by its doc: "least film thickness" for h_min. */
 const char *report_output_words(const results_view_variable *of, char out[REPORT_TEXT_SIZE]);
 /* The same of what has no doc: the last word of its path. */
@@ -65,6 +67,8 @@ int report_find_axis(const results_view *view, size_t variable, uint32_t dim, si
 /* Finds the error bar of a variable. */
 int report_find_bar(const results_view *view, size_t variable);
 bool report_is_bar(const results_view_variable *variable);
+/* Whether a series is what another output that the file asks for is plotted against. */
+bool report_is_axis(const results_view *view, size_t series);
 /* Returns the scalar output of that name of any stage, in SI; NaN when there is none. */
 double report_find_scalar(report_page *page, const char *output, size_t index);
 /* Loads unless something has failed; data is NULL when there is nothing. */
@@ -142,6 +146,9 @@ typedef struct report_check {
     const results_view_quality *line;
     size_t index, count, total;
 } report_check;
+/* Returns "good", "doubtful", "bad", or "range" of a line that says that a model is outside of it.
+ */
+const char *report_verdict_word(const results_view_quality *line);
 /* Returns each line of any case once, in the order of the first case that has it; to be freed. */
 report_check *report_find_checks(const results_view *view, size_t *count);
 
@@ -161,6 +168,8 @@ void report_write_sample(report_page *page, const report_scalar *scalar);
 /* These write the sections of the page. */
 /* Writes how the answers stand to the limits of the file: of a study, in how many cases. */
 void report_write_limits(report_page *page);
+/* Writes a cell with how a case stands to them, in its colour. */
+void report_put_standing(report_page *page, size_t index);
 void report_write_verdict(report_page *page);
 void report_write_speed(report_page *page);
 void report_write_series(report_page *page);

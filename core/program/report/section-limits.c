@@ -22,11 +22,30 @@ static void write_limit(report_page *page, const results_view_limit *limit)
                  "class=\"number\">%s%s",
                  limit->output, limit->asked, limit->at_least ? "\u2265 " : "", value);
     if (limit->bar > 0) {
-        report_quantity_text("", limit->unit, limit->bar, bar);
+        report_bar_text(limit->unit, limit->bar, bar);
         report_print(page->out, " &#177; %s", bar);
     }
     report_print(page->out, "</td><td><span class=\"badge %s\">%s</span></td></tr>\n",
                  badge_of(limit->standing), limits_word((limits_standing)limit->standing));
+}
+
+/* The worst standing of a case. */
+static int32_t worst_of(const results_view_case *c)
+{
+    int32_t worst = LIMITS_MET;
+    for (size_t i = 0; i < c->limit_count; i++)
+        worst = c->limits[i]->standing > worst ? c->limits[i]->standing : worst;
+    return worst;
+}
+
+void report_put_standing(report_page *page, size_t index)
+{
+    const results_view_case *c = page->view->cases[index];
+    if (c->limit_count == 0)
+        fputs("<td></td>", page->out);
+    else
+        report_print(page->out, "<td><span class=\"badge %s\">%s</span></td>",
+                     badge_of(worst_of(c)), c->limits_text);
 }
 
 void report_write_limits(report_page *page)
@@ -34,12 +53,8 @@ void report_write_limits(report_page *page)
     const results_view *view = page->view;
     size_t counts[LIMITS_STANDINGS] = {0}, cases = 0;
     for (size_t c = 0; c < view->case_count; c++) {
-        int32_t worst = LIMITS_MET;
-        for (size_t i = 0; i < view->cases[c]->limit_count; i++)
-            if (view->cases[c]->limits[i]->standing > worst)
-                worst = view->cases[c]->limits[i]->standing;
         cases += view->cases[c]->limit_count > 0;
-        counts[worst] += view->cases[c]->limit_count > 0;
+        counts[worst_of(view->cases[c])] += view->cases[c]->limit_count > 0;
     }
     if (cases == 0)
         return;

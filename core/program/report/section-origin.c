@@ -2,6 +2,14 @@
 /* The section on where the numbers come from. */
 #include "page.h"
 
+#include <string.h>
+
+/* A page is sent to others, whom the folders of its author do not concern. */
+static const char *without_folder(const char *text)
+{
+    return *text == '/' ? strrchr(text, '/') + 1 : text;
+}
+
 static void write_facts(report_page *page)
 {
     const results_view *view = page->view;
@@ -10,7 +18,7 @@ static void write_facts(report_page *page)
         fputs("<tr><th scope=\"row\">", page->out);
         report_put_text(page->out, view->facts[i]->name);
         fputs("</th>", page->out);
-        report_put_cell(page->out, view->facts[i]->text);
+        report_put_cell(page->out, without_folder(view->facts[i]->text));
         fputs("</tr>\n", page->out);
     }
     fputs("</tbody></table>\n", page->out);
@@ -32,7 +40,7 @@ static void write_stage(report_page *page, const results_view_stage *stage)
         fputs("<tr>", out);
         report_put_cell(out, stage->params[i]->name);
         report_put_cell(out, stage->params[i]->text);
-        report_put_cell(out, stage->params[i]->origin);
+        report_put_cell(out, without_folder(stage->params[i]->origin));
         fputs("</tr>\n", out);
     }
 }

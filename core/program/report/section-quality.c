@@ -16,6 +16,11 @@ static void put_number(FILE *out, double value)
     report_print(out, "<td class=\"number\">%s</td>", text);
 }
 
+const char *report_verdict_word(const results_view_quality *line)
+{
+    return line->range && line->verdict != FF_GOOD ? "range" : ff_verdict_name(line->verdict);
+}
+
 static report_check find_worst(const results_view *view, const results_view_quality *of)
 {
     report_check found = {.line = NULL};
@@ -67,7 +72,7 @@ static void write_line(report_page *page, const report_check *w)
     put_number(out, w->line->value);
     put_number(out, w->line->limit);
     fputs("<td>", out);
-    report_put_badge(out, ff_verdict_name(w->line->verdict));
+    report_put_badge(out, report_verdict_word(w->line));
     if (page->view->study)
         fprintf(out, " %zu of %zu, as in case %zu", w->count, w->total, w->index + 1);
     fputs("</td>", out);

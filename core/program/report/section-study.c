@@ -336,7 +336,12 @@ static void write_failed(report_page *page)
         fputs("</section>\n", page->out);
 }
 
-static void write_table_row(report_page *page, size_t index)
+/* Columns of the table of cases that some case needs. */
+typedef struct columns {
+    bool limits, range;
+} columns;
+
+static void write_table_row(report_page *page, size_t index, const columns *has)
 {
     const results_view *view = page->view;
     char text[REPORT_TEXT_SIZE];
@@ -354,6 +359,10 @@ static void write_table_row(report_page *page, size_t index)
     report_put_badge(page->out, view->cases[index]->verdict);
     fputs("</td>", page->out);
     report_put_cell(page->out, view->cases[index]->reasons);
+    if (has->range)
+        report_put_cell(page->out, view->cases[index]->range);
+    if (has->limits)
+        report_put_standing(page, index);
     for (size_t v = 0; v < view->variable_count; v++) {
         if (view->variables[v]->rank != 0)
             continue;
@@ -373,6 +382,11 @@ static void write_table_row(report_page *page, size_t index)
 static void write_table(report_page *page)
 {
     const results_view *view = page->view;
+    columns has = {false, false};
+    for (size_t c = 0; c < view->case_count; c++) {
+        has.limits = has.limits || view->cases[c]->limit_count > 0;
+        has.range = has.range || *view->cases[c]->range;
+    }
     fprintf(page->out, "<section><details><summary>All cases</summary>\n<div class=\"wide\"><table>"
                        "<thead><tr><th>case</th>");
     for (size_t a = 0; a < view->axis_count; a++) {
@@ -380,7 +394,8 @@ static void write_table(report_page *page)
         report_put_text(page->out, view->axes[a]->path);
         fputs("</th>", page->out);
     }
-    fputs("<th>status</th><th>verdict</th><th>because of</th>", page->out);
+    fprintf(page->out, "<th>status</th><th>verdict</th><th>because of</th>%s%s",
+            has.range ? "<th>outside of its range</th>" : "", has.limits ? "<th>limits</th>" : "");
     for (size_t v = 0; v < view->variable_count; v++)
         if (view->variables[v]->rank == 0) {
             fputs("<th>", page->out);
@@ -389,7 +404,7 @@ static void write_table(report_page *page)
         }
     fputs("</tr></thead><tbody>\n", page->out);
     for (size_t c = 0; c < view->case_count && c < MOST_ROWS; c++)
-        write_table_row(page, c);
+        write_table_row(page, c, &has);
     fputs("</tbody></table></div>\n", page->out);
     if (view->case_count > MOST_ROWS)
         fprintf(page->out, "<p class=\"note\">The first %d of %zu; table.csv has them all.</p>\n",

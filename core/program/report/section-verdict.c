@@ -62,10 +62,7 @@ static void write_error(report_page *page, size_t variable, size_t at)
     char text[REPORT_TEXT_SIZE];
     ff_array bar = report_load(page, report_find_bar(page->view, variable), 0);
     if (bar.data && at < report_array_size(&bar) && bar.data[at] > 0) {
-        double rounded = 0;
-        snprintf(text, sizeof text, "%.2g", bar.data[at]);
-        ff_number_parse(text, &rounded, &(const char *){NULL});
-        report_quantity_text("", of->unit, rounded, text);
+        report_bar_text(of->unit, bar.data[at], text);
         fputs(" &#177; ", page->out);
         report_put_text(page->out, text);
     }
@@ -125,21 +122,28 @@ static void write_row(report_page *page, size_t variable)
     report_release(page, &y);
 }
 
-static void count_verdicts(const results_view *view, size_t counts[3])
+/* Counts good lines, lines of numbers in doubt and of bad ones, and, under FF_RANGE, those that say
+   that a model is outside of its range. */
+static void count_verdicts(const results_view *view, size_t counts[FF_RANGE + 1])
 {
     for (size_t c = 0; c < view->case_count; c++)
         for (size_t i = 0; i < view->cases[c]->quality_count; i++) {
-            int32_t verdict = view->cases[c]->quality[i]->verdict;
-            counts[verdict < FF_GOOD || verdict > FF_BAD ? FF_BAD : verdict]++;
+            const results_view_quality *line = view->cases[c]->quality[i];
+            counts[line->verdict == FF_GOOD                            ? FF_GOOD
+                   : line->range                                       ? FF_RANGE
+                   : line->verdict < FF_GOOD || line->verdict > FF_BAD ? FF_BAD
+                                                                       : line->verdict]++;
         }
 }
 
 static void write_checks(report_page *page)
 {
-    size_t counts[3] = {0};
+    size_t counts[FF_RANGE + 1] = {0};
     count_verdicts(page->view, counts);
-    fprintf(page->out, "<a href=\"#quality\">%zu checks good, %zu doubtful, %zu bad</a>",
-            counts[FF_GOOD], counts[FF_DOUBTFUL], counts[FF_BAD]);
+    fprintf(page->out,
+            "<a href=\"#quality\">%zu checks good, %zu doubtful, %zu bad, %zu of models outside of "
+            "their range</a>",
+            counts[FF_GOOD], counts[FF_DOUBTFUL], counts[FF_BAD], counts[FF_RANGE]);
 }
 
 enum { SHOWN = 6 }; /* of the reasons; the others are folded */
@@ -201,18 +205,32 @@ static void write_accepted(report_page *page)
     fputs(listed ? "</p>\n" : "", page->out);
 }
 
-/* The verdict of a run, with what the lines say that are not good. */
-static void write_judgement(report_page *page)
+/* Writes what so many lines say that are not good, of the numbers or of the range of the models. */
+static void write_doubts(report_page *page, size_t count, bool range)
 {
     const results_view_case *c = page->view->cases[0];
-    size_t listed = 0, counts[3] = {0};
+    size_t listed = 0;
+    for (size_t i = 0; i < c->quality_count; i++) {
+        if (c->quality[i]->verdict == FF_GOOD || c->quality[i]->range != range)
+            continue;
+        begin_reason(page, listed++, count);
+        write_reason(page, c->quality[i]);
+        fputs("</li>\n", page->out);
+    }
+    end_reasons(page, listed);
+}
+
+/* The two verdicts of a run, of the numbers and of the range of the models. */
+static void write_judgement(report_page *page)
+{
+    size_t counts[FF_RANGE + 1] = {0};
     count_verdicts(page->view, counts);
     fputs("<p class=\"judgement\">", page->out);
-    report_put_badge(page->out, c->verdict);
+    report_put_badge(page->out, page->view->cases[0]->verdict);
     if (counts[FF_DOUBTFUL] + counts[FF_BAD] == 0)
         fprintf(page->out,
                 " Nothing speaks against these numbers: <a href=\"#quality\">all %zu "
-                "checks are good</a>.</p>\n",
+                "checks of them are good</a>.</p>\n",
                 counts[FF_GOOD]);
     else
         fprintf(page->out,
@@ -221,26 +239,16 @@ static void write_judgement(report_page *page)
                 counts[FF_BAD] ? "Some of these numbers are wrong"
                                : "Some of these numbers are in doubt",
                 counts[FF_GOOD], counts[FF_DOUBTFUL], counts[FF_BAD]);
-    for (size_t i = 0; i < c->quality_count; i++) {
-        if (c->quality[i]->verdict == FF_GOOD)
-            continue;
-        begin_reason(page, listed++, counts[FF_DOUBTFUL] + counts[FF_BAD]);
-        write_reason(page, c->quality[i]);
-        fputs("</li>\n", page->out);
-    }
-    end_reasons(page, listed);
+    write_doubts(page, counts[FF_DOUBTFUL] + counts[FF_BAD], false);
+    if (counts[FF_RANGE] > 0)
+        fprintf(
+            page->out,
+            "<p class=\"judgement\"><span class=\"badge range\">range</span> %s used outside of "
+            "what %s made for, which leaves the numbers as they are:</p>\n",
+            counts[FF_RANGE] == 1 ? "A model is" : "Models are",
+            counts[FF_RANGE] == 1 ? "it was" : "they were");
+    write_doubts(page, counts[FF_RANGE], true);
     write_accepted(page);
-}
-
-/* Whether a series is what another output that the file asks for is plotted against. */
-static bool is_axis(const results_view *view, size_t series)
-{
-    for (size_t v = 0; v < view->variable_count; v++)
-        for (uint32_t k = 0; k < view->variables[v]->rank; k++)
-            if (v != series && (view->variables[v]->flags & RESULTS_VIEW_ASKED) &&
-                !strcmp(view->variables[v]->against[k], view->variables[series]->name))
-                return true;
-    return false;
 }
 
 /* Whether the table has a row of an output: one that is asked for, or a scalar that was computed
@@ -250,7 +258,7 @@ static bool has_row(const results_view *view, size_t v, bool asked)
     const results_view_variable *of = view->variables[v];
     if (((of->flags & RESULTS_VIEW_ASKED) != 0) != asked || report_is_bar(of))
         return false;
-    return of->rank == 0 || (of->rank == 1 && asked && !is_axis(view, v));
+    return of->rank == 0 || (of->rank == 1 && asked && !report_is_axis(view, v));
 }
 
 static size_t count_rows(const results_view *view, bool asked)
@@ -408,7 +416,7 @@ static void write_reasons(report_page *page)
     for (size_t i = 0; i < doubts; i++) {
         begin_reason(page, i, doubts);
         fprintf(page->out, "<b>%zu of %zu cases</b> %s: ", checks[i].count, page->view->case_count,
-                ff_verdict_name(checks[i].line->verdict));
+                report_verdict_word(checks[i].line));
         write_reason(page, checks[i].line);
         fputs("</li>\n", page->out);
     }

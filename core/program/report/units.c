@@ -12,7 +12,9 @@ enum { ROOM = 44 }; /* of a figure's title */
 
 results_readable report_unit_for(const char *name, const char *si_unit, double magnitude)
 {
-    static const char *const greek[][2] = {{"um", "µm"}, {"us", "µs"}, {"N/um", "N/µm"}};
+    static const char *const greek[][2] = {
+        {"um", "µm"},       {"us", "µs"},       {"N/um", "N/µm"}, {"mm2/s", "mm²/s"},
+        {"kg m2", "kg m²"}, {"kg/m3", "kg/m³"}, {"1/m2", "1/m²"}};
     results_readable unit = results_readable_output(name, si_unit, fabs(magnitude));
     for (size_t i = 0; i < sizeof greek / sizeof *greek; i++)
         if (!strcmp(unit.unit, greek[i][0]))
@@ -28,9 +30,17 @@ double report_convert(const results_readable *unit, double si)
 void report_number_text(double value, char out[REPORT_TEXT_SIZE])
 {
     if (isfinite(value))
-        snprintf(out, REPORT_TEXT_SIZE, "%.4g", value);
+        results_number_text(value, 4, "\u202f", out);
     else
         strcpy(out, "–");
+}
+
+void report_bar_text(const char *si_unit, double bar, char out[REPORT_TEXT_SIZE])
+{
+    const results_readable unit = report_unit_for("", si_unit, bar);
+    results_number_text(bar * unit.factor, 2, "\u202f", out);
+    const size_t length = strlen(out);
+    snprintf(out + length, REPORT_TEXT_SIZE - length, *unit.unit ? " %s" : "%s", unit.unit);
 }
 
 void report_quantity_text(const char *name, const char *si_unit, double si,

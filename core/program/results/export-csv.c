@@ -91,9 +91,11 @@ static bool put_scalars(const table *t, size_t index)
 static bool write_scalars(table *t)
 {
     const results_view *view = t->view;
-    bool good = begin_table(t, "scalars"), limits = false;
-    for (size_t c = 0; c < view->case_count; c++)
+    bool good = begin_table(t, "scalars"), limits = false, range = false;
+    for (size_t c = 0; c < view->case_count; c++) {
         limits = limits || view->cases[c]->limit_count > 0;
+        range = range || *view->cases[c]->range;
+    }
     if (!good)
         return false;
     put_axis_heads(t);
@@ -101,7 +103,8 @@ static bool write_scalars(table *t)
     for (size_t v = 0; v < view->variable_count; v++)
         if (view->variables[v]->rank == 0)
             put_head(t->out, view->variables[v]->name, view->variables[v]->unit);
-    fprintf(t->out, "%s,verdict,reasons,reason,command\n", limits ? ",limits" : "");
+    fprintf(t->out, "%s,verdict,reasons%s,reason,command\n", limits ? ",limits" : "",
+            range ? ",range" : "");
     for (size_t c = 0; c < view->case_count && good; c++) {
         put_axes(t, c);
         fputc(',', t->out);
@@ -115,6 +118,10 @@ static bool write_scalars(table *t)
         }
         fprintf(t->out, ",%s,", view->cases[c]->verdict);
         put_text(t->out, view->cases[c]->reasons);
+        if (range) {
+            fputc(',', t->out);
+            put_text(t->out, view->cases[c]->range);
+        }
         fputc(',', t->out);
         put_text(t->out, view->cases[c]->reason);
         fputc(',', t->out);

@@ -20,6 +20,32 @@ void results_number_exact(double value, char out[RESULTS_NUMBER_SIZE])
     }
 }
 
+/* Copies digits with a gap between the thousands. */
+static void group(const char *digits, const char *gap, char out[RESULTS_NUMBER_SIZE])
+{
+    const size_t sign = *digits == '-', whole = strspn(digits + sign, "0123456789");
+    size_t length = 0;
+    for (size_t i = 0; digits[i] && length + strlen(gap) + 1 < RESULTS_NUMBER_SIZE; i++) {
+        const size_t left = i < sign + whole ? sign + whole - i : 0;
+        if (i > sign && left > 0 && left % 3 == 0)
+            for (const char *c = gap; *c; c++)
+                out[length++] = *c;
+        out[length++] = digits[i];
+    }
+    out[length] = '\0';
+}
+
+void results_number_text(double value, int digits, const char *gap, char out[RESULTS_NUMBER_SIZE])
+{
+    char text[RESULTS_NUMBER_SIZE];
+    snprintf(text, sizeof text, isfinite(value) ? "%.*g" : "not known", digits, value);
+    const double rounded = isfinite(value) ? strtod(text, NULL) : 0;
+    const bool large = fabs(rounded) >= 1e4 && fabs(rounded) < 1e9;
+    if (large && strchr(text, 'e'))
+        snprintf(text, sizeof text, "%.0f", rounded);
+    group(text, large ? gap : "", out);
+}
+
 void results_number_short(double value, char out[RESULTS_NUMBER_SIZE])
 {
     snprintf(out, RESULTS_NUMBER_SIZE, isfinite(value) ? "%.3g" : "not known", value);
@@ -34,14 +60,31 @@ results_readable results_readable_unit(const char *si_unit, double magnitude)
         double from, factor;
         const char *unit;
     } rows[] = {
-        {"m", 0, 1e6, "um"},        {"m", 1e-3, 1e3, "mm"},      {"m", 1, 1, "m"},
-        {"Pa", 0, 1, "Pa"},         {"Pa", 1e3, 1e-3, "kPa"},    {"Pa", 1e6, 1e-6, "MPa"},
-        {"Pa", 1e9, 1e-9, "GPa"},   {"N", 1e4, 1e-3, "kN"},      {"N/m", 1e3, 1e-3, "N/mm"},
-        {"N/m", 2e7, 1e-6, "N/um"}, {"rad", 0, 180 / pi, "deg"}, {"rad/s", 0, 30 / pi, "rpm"},
-        {"s", 0, 1e6, "us"},        {"s", 1e-3, 1e3, "ms"},      {"s", 1, 1, "s"},
-        {"Pa s", 0, 1e3, "mPa s"},  {"Pa s", 1, 1, "Pa s"},      {"m/s", 0, 1e3, "mm/s"},
-        {"m/s", 0.1, 1, "m/s"},     {"W", 1e4, 1e-3, "kW"},      {"W/m", 1e3, 1e-3, "W/mm"},
-        {"1/Pa", 0, 1e9, "1/GPa"},  {"Hz", 1e5, 1e-3, "kHz"},    {"1", 0, 1, ""},
+        {"m", 0, 1e6, "um"},
+        {"m", 1e-3, 1e3, "mm"},
+        {"m", 1, 1, "m"},
+        {"Pa", 0, 1, "Pa"},
+        {"Pa", 1e3, 1e-3, "kPa"},
+        {"Pa", 1e6, 1e-6, "MPa"},
+        {"Pa", 1e9, 1e-9, "GPa"},
+        {"N", 1e4, 1e-3, "kN"},
+        {"N/m", 1e3, 1e-3, "N/mm"},
+        {"N/m", 2e7, 1e-6, "N/um"},
+        {"rad", 0, 180 / pi, "deg"},
+        {"rad/s", 0, 30 / pi, "rpm"},
+        {"s", 0, 1e6, "us"},
+        {"s", 1e-3, 1e3, "ms"},
+        {"s", 1, 1, "s"},
+        {"m2/s", 0, 1e6, "mm2/s"},
+        {"Pa s", 0, 1e3, "mPa s"},
+        {"Pa s", 1, 1, "Pa s"},
+        {"m/s", 0, 1e3, "mm/s"},
+        {"m/s", 0.1, 1, "m/s"},
+        {"W", 1e4, 1e-3, "kW"},
+        {"W/m", 1e3, 1e-3, "W/mm"},
+        {"1/Pa", 0, 1e9, "1/GPa"},
+        {"Hz", 1e5, 1e-3, "kHz"},
+        {"1", 0, 1, ""},
     };
     results_readable readable = {1, 0, si_unit};
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)

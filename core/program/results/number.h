@@ -11,6 +11,10 @@ enum { RESULTS_NUMBER_SIZE = 32 };
    finite. */
 void results_number_exact(double value, char out[RESULTS_NUMBER_SIZE]);
 
+/* Writes so many digits as engineers read them: no power of ten between 1e-4 and 1e9, and from
+   10000 on `gap` between the thousands, "14 000"; "not known" for one that is not finite. */
+void results_number_text(double value, int digits, const char *gap, char out[RESULTS_NUMBER_SIZE]);
+
 /* Writes three digits of a line of quality, or "not known". */
 void results_number_short(double value, char out[RESULTS_NUMBER_SIZE]);
 

@@ -207,7 +207,7 @@ static json_t *describe_quality(const ff_stage *stage)
             json_pack("{s:o, s:o, s:s, s:o}", "value", study_json_real(line->value), "limit",
                       study_json_real(line->limit), "verdict", ff_verdict_name(line->verdict),
                       "text", results_json_text(line->text));
-        if (line->verdict != FF_GOOD)
+        if (line->verdict != FF_GOOD || line->accepted)
             json_object_set_new(said, "of", json_string(line->range ? "range" : "numbers"));
         if (line->accepted)
             json_object_set_new(said, "accepted", results_json_text(line->accepted));

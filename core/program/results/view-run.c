@@ -60,6 +60,12 @@ static int verdict_of(const json_t *text)
                                           : FF_BAD;
 }
 
+static bool is_of_range(const json_t *line)
+{
+    const char *of = json_string_value(json_object_get(line, "of"));
+    return of && !strcmp(of, "range");
+}
+
 /* Adds the quality and the time of the stages that ran; the lines to `judged`, too, as the record
    of a case has them. */
 static void add_stages(results_reader *reader, results_view_case *c, const json_t *stages,
@@ -76,16 +82,16 @@ static void add_stages(results_reader *reader, results_view_case *c, const json_
         if (!of || !json_is_true(json_object_get(stage, "ran")))
             continue;
         c->seconds += json_number_value(json_object_get(stage, "seconds"));
-        json_t *lines = json_object(), *value, *limit;
+        json_t *lines = json_object();
         json_object_foreach(json_object_get(stage, "quality"), name, line)
         {
-            int verdict = verdict_of(json_object_get(line, "verdict"));
-            value = json_object_get(line, "value");
-            limit = json_object_get(line, "limit");
-            results_view_add_quality(reader, &rows, of, name, value, limit, verdict,
-                                     json_object_get(line, "text"),
-                                     json_object_get(line, "accepted"));
-            json_object_set_new(lines, name, json_pack("[O?, O?, i]", value, limit, verdict));
+            json_t *judged_line = json_pack(
+                "[O?, O?, i, b]", json_object_get(line, "value"), json_object_get(line, "limit"),
+                verdict_of(json_object_get(line, "verdict")), is_of_range(line));
+            results_view_add_quality(reader, &rows, of, name, judged_line,
+                                     json_string_value(json_object_get(line, "text")),
+                                     json_string_value(json_object_get(line, "accepted")));
+            json_object_set_new(lines, name, judged_line);
         }
         json_object_set_new(judged, of, lines);
     }

@@ -156,10 +156,9 @@ static void add_quality(results_reader *reader, results_view_case *c, json_t *st
     const char *stage, *name;
     json_t *lines, *line;
     json_object_foreach(stages, stage, lines) json_object_foreach(lines, name, line)
-        results_view_add_quality(reader, &rows, stage, name, json_array_get(line, 0),
-                                 json_array_get(line, 1),
-                                 (int)json_integer_value(json_array_get(line, 2)),
-                                 json_array_get(line, 3), json_array_get(line, 4));
+        results_view_add_quality(reader, &rows, stage, name, line,
+                                 json_string_value(json_array_get(line, 3)),
+                                 json_string_value(json_array_get(line, 4)));
     c->quality_count = rows.count;
     c->quality = results_view_take_rows(reader, &rows);
 }

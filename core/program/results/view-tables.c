@@ -80,15 +80,18 @@ static void add_limits(results_reader *reader, results_view_case *c, const json_
 void results_view_judge(results_reader *reader, results_view_case *c, size_t number,
                         const json_t *record)
 {
-    c->verdict = c->reasons = "";
+    c->verdict = c->reasons = c->range = "";
     add_limits(reader, c, json_object_get(record, "limits"));
     if (!record)
         return;
     study_judgement judgement;
     study_judgement_read(&judgement, record);
-    char *reasons = study_judgement_text(&judgement);
+    char *reasons = study_judgement_text(&judgement, STUDY_REASONS),
+         *range = study_judgement_text(&judgement, STUDY_RANGE);
     c->verdict = study_verdict_name(judgement.verdict);
     c->reasons = memory_arena_text(&reader->arena, reasons, strlen(reasons));
+    c->range = memory_arena_text(&reader->arena, range, strlen(range));
+    free(range);
     free(reasons);
     const char *key = json_string_value(json_object_get(record, "key"));
     study_tally_add(&reader->tally, number, key ? key : "", &judgement);
@@ -280,17 +283,18 @@ void results_view_take_outputs(results_reader *reader, results_case *of)
 }
 
 void results_view_add_quality(results_reader *reader, results_rows *rows, const char *stage,
-                              const char *name, const json_t *value, const json_t *limit,
-                              int verdict, const json_t *text, const json_t *accepted)
+                              const char *name, const json_t *line, const char *text,
+                              const char *accepted)
 {
     results_view_quality *row = results_view_add_row(reader, rows, sizeof *row);
     *row = (results_view_quality){
         .stage = find_stage(reader, stage, strlen(stage)),
         .name = results_view_shared_text(reader, name),
-        .text = results_view_shared_text(reader, json_string_value(text)),
-        .value = number_of(value),
-        .limit = number_of(limit),
-        .verdict = verdict,
-        .accepted = results_view_shared_text(reader, json_string_value(accepted)),
+        .text = results_view_shared_text(reader, text),
+        .value = number_of(json_array_get(line, 0)),
+        .limit = number_of(json_array_get(line, 1)),
+        .verdict = (int32_t)json_integer_value(json_array_get(line, 2)),
+        .accepted = results_view_shared_text(reader, accepted),
+        .range = study_line_of_range(line),
     };
 }

@@ -70,9 +70,10 @@ results_output *results_view_add_output(results_reader *reader, const char *name
                                         const results_entry *entry, uint32_t flags);
 /* Hands the outputs that were added over to the case. */
 void results_view_take_outputs(results_reader *reader, results_case *of);
+/* `line` is as in the record of a case. */
 void results_view_add_quality(results_reader *reader, results_rows *rows, const char *stage,
-                              const char *name, const json_t *value, const json_t *limit,
-                              int verdict, const json_t *text, const json_t *accepted);
+                              const char *name, const json_t *line, const char *text,
+                              const char *accepted);
 
 /* Judges a case by its record, which is NULL when it has not run. */
 void results_view_judge(results_reader *reader, results_view_case *c, size_t number,

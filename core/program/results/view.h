@@ -71,6 +71,7 @@ typedef struct results_view_quality {
     double value, limit;  /* NaN: none */
     int32_t verdict;      /* FF_GOOD ... */
     const char *accepted; /* why the file accepts the doubt; "" where it does not */
+    bool range;           /* of the range of a model, and not of the numbers */
 } results_view_quality;
 
 /* How a case stands to a limit of the file. */
@@ -93,8 +94,10 @@ typedef struct results_view_case {
     const results_view_limit *const *limits;
     size_t limit_count;
     const char *limits_text; /* "missed: scuffing.safety > 1.5"; "" without limits */
-    const char *verdict;     /* "good", "doubtful", "bad", "failed"; "" when it has not run */
-    const char *reasons; /* the lines that are not good, the worst first: "inlet heating, lambda" */
+    const char *verdict; /* of the numbers: "good", "doubtful", "bad", "failed"; "" when it has not
+                            run */
+    const char *reasons; /* the lines that are not good, the worst first: "load balance, mass" */
+    const char *range;   /* those of models that are used outside of their range: "lambda" */
 } results_view_case;
 
 /* Figures that a study has described of itself, as the report draws them. */

@@ -68,6 +68,8 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
                   "it grows with speed");
     host->quality(host->ctx, "answer_error", estimate, 0.1, FF_GOOD, NULL);
     host->quality(host->ctx, "law", v->speed, 0.2, v->speed < 0.2 ? FF_DOUBTFUL : FF_GOOD, NULL);
+    if (v->load > 50)
+        host->quality(host->ctx, "reach", v->load, 50, FF_RANGE, "it was made for less");
     if (ff_put_scalar(host, 0, 1 + (v->load > 5 ? 10 : 1) * estimate) != FF_OK ||
         ff_put_scalar(host, 1, v->load > 0.5 && v->speed < 0.5) != FF_OK)
         return FF_NOMEM;

@@ -100,6 +100,45 @@ class Limits(lab.Lab):
         self.assertIn('accept: verge has no line "residuum" in this run; did you mean "residual"?',
                       self.call("run", file, "--set", "accept={verge.residuum: x}", "--replace", "-o", "doubt"))
 
+    def test_range_alone_is_no_failure(self):
+        """Numbers and the range of a model are two verdicts; --strict is about the numbers."""
+        file = self.write("range", RUN % "")
+        answer = self.answer(file, "--set", "verge.load=60 N", "--strict")
+        self.assertEqual([answer[key] for key in ("verdict", "reasons", "range")], ["good", [], ["reach"]])
+        self.assertEqual(answer["stages"][0]["quality"]["reach"]["of"], "range")
+        sweep = "study={zip: {verge.speed: [1 m/s, 2.2 m/s], verge.load: [60 N, 1 N]}}"
+        said = self.call("run", file, "--set", sweep, "--set", "accept={verge.residuum: x, verge.residual: seen}", "-o",
+                         "range", "--strict", code=4)
+        self.assertIn('accept: verge has no line "residuum" in this run; did you mean "residual"?', said)
+        self.assertIn("2 of 2 cases done: 2 good; outside the range of a model 1 (reach 1); accepted 1 (residual 1)\n", said)
+        self.assertIn("--strict: a warning counts as a failure", said)
+        with open("range/table.csv", encoding="utf-8") as table:
+            self.assertEqual([(row["verdict"], row["range"]) for row in csv.DictReader(table)],
+                             [("good", "reach"), ("good", "")])
+        self.call("report", "range")
+        with open("range/report.html", encoding="utf-8") as page:
+            text = page.read()
+        self.assertIn("<th>outside of its range</th>", text)
+        self.assertIn('<span class="badge range">range</span>', text)
+
+    def test_compare(self):
+        """Of 1.01 +- 0.0101 m and 1.0001 +- 0.0001 m the difference is -0.0099 +- 0.0102 m."""
+        file = self.write("designs", STUDY)
+        self.call("run", file, "-o", "designs")
+        said = self.call("compare", "designs:3", "designs:1", "designs:2", "-o", "side")
+        self.call("compare", "designs:3", "designs:1", "designs:2", "-o", "side")  # over its own files
+        self.assertIn("-0.0099 +- 0.01", said)
+        self.assertIn("smaller than what is known", said)
+        with open("side.csv", encoding="utf-8") as table:
+            row = next(row for row in csv.DictReader(table) if row["output of flankfilm"] == "verge.answer")
+        self.assertEqual([float(row[name]) for name in ("designs:3", "error of designs:3", "designs:1")],
+                         [1.01, 0.0101, 1.0001])
+        with open("side.html", encoding="utf-8") as page:
+            self.assertIn("smaller than what is known", page.read())
+        self.assertIn("designs: name one of its cases, designs:1 to designs:4",
+                      self.call("compare", "designs", "designs:1", code=2))
+        self.assertIn("compare wants A B...", self.call("compare", "designs:1", code=2))
+
     def test_bad_is_not_accepted(self):
         file = self.write("bad", "format: 2\npipeline: {wave: {use: toy/wave, amplitude: 2 mm, end: bad}}\n"
                                  "outputs: [wave.total]\naccept: {wave.residual: never mind}\n")
@@ -133,7 +172,7 @@ class Limits(lab.Lab):
         self.call("run", file, "-o", "anew")
         said = self.call("run", file, "-o", "anew", "--set", 'limits={verge.answer: "> 0.5 m", verge.swing: "< 2"}',
                          "--set", "accept={verge.residual: seen}", "--strict").splitlines()[-1]
-        self.assertIn("4 of 4 cases done: 4 good; limits: 4 met", said)
+        self.assertIn("4 of 4 cases done: 4 good; accepted 2 (residual 2); limits: 4 met", said)
         said = self.call("run", file, "-o", "anew", "--set", 'limits={verge.answer: ">500 mm", verge.swing: "< 2.0"}',
                          "--set", "accept={verge.residual: seen}").splitlines()[-1]
         self.assertIn("4 of 4 cases done, 4 of them before", said)  # the same limits in other words

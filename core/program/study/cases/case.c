@@ -326,8 +326,8 @@ static void add_warnings(json_t *record, const ff_report *report, json_t *logged
     json_decref(warnings);
 }
 
-/* Adds {stage: {name: [value, limit, verdict, text]}}, and the outputs that are known from below
-   alone, if any. */
+/* Adds {stage: {name: [value, limit, verdict, text, why it is accepted, true where it is of a
+   range]}} without what is not there, and the outputs that are known from below alone. */
 static void add_quality(json_t *record, const ff_pipeline *pipeline)
 {
     json_t *all = json_object();
@@ -341,6 +341,8 @@ static void add_quality(json_t *record, const ff_pipeline *pipeline)
                                           study_json_real(line->limit), line->verdict,
                                           line->accepted && !line->text ? "" : line->text,
                                           line->accepted));
+            if (line->range)
+                json_array_append_new(json_object_get(lines, line->name), json_true());
         }
         if (lines)
             json_object_set_new(all, stage->name, lines);

@@ -5,6 +5,7 @@
 #include "csv.h"
 #include "spectrum.h"
 
+#include "../../limits/accept.h"
 #include "../../limits/limits.h"
 
 #include <fcntl.h>
@@ -56,8 +57,15 @@ static void put_name(FILE *out, const char *name, const char *unit)
     free(head);
 }
 
+/* What some case has. */
+typedef struct table_has {
+    json_t *columns;    /* {name: unit} of its outputs, in the order of the cases */
+    bool limits, range; /* judged by limits; with a model outside of its range */
+    json_t *lines;      /* {"STAGE.LINE": true} of its quality */
+} table_has;
+
 static void put_head(FILE *out, const study_definition *study, const char *const *units,
-                     json_t *columns, bool limits)
+                     const table_has *found)
 {
     const char *name;
     json_t *unit;
@@ -66,31 +74,31 @@ static void put_head(FILE *out, const study_definition *study, const char *const
         put_name(out, study->varied[k].path, units[k]);
     if (study->spectrum)
         fprintf(out, ",%s [%s]", study_time_name, study->spectrum->shares ? "1" : "s");
-    json_object_foreach(columns, name, unit)
+    json_object_foreach(found->columns, name, unit)
         fprintf(out, ",%s [%s]", name, json_string_value(unit));
-    fprintf(out, "%s,verdict,reasons,reason\n", limits ? ",limits" : "");
+    fprintf(out, "%s,verdict,reasons%s,reason\n", found->limits ? ",limits" : "",
+            found->range ? ",range" : "");
 }
 
-/* Two cells, which are empty for a case that has not run. */
-static void put_judgement(FILE *out, const study_judgement *judgement)
+/* The same of a text that is freed. */
+static void put_made(FILE *out, char *text)
 {
-    char *reasons = judgement ? study_judgement_text(judgement) : NULL;
-    fprintf(out, ",%s", judgement ? study_verdict_name(judgement->verdict) : "");
-    put_text(out, reasons);
-    free(reasons);
-}
-
-/* A cell that says how the case stands to the limits of the file. */
-static void put_limits(FILE *out, const json_t *list)
-{
-    char *text = limits_text(list);
     put_text(out, text);
     free(text);
 }
 
+/* Two cells or three, which are empty for a case that has not run. */
+static void put_judgement(FILE *out, const study_judgement *judgement, bool range)
+{
+    fprintf(out, ",%s", judgement ? study_verdict_name(judgement->verdict) : "");
+    put_made(out, judgement ? study_judgement_text(judgement, STUDY_REASONS) : NULL);
+    if (range)
+        put_made(out, judgement ? study_judgement_text(judgement, STUDY_RANGE) : NULL);
+}
+
 static void put_row(FILE *out, const study_definition *study, const char *const *units,
                     size_t index, const char *key, const json_t *record,
-                    const study_judgement *judgement, json_t *columns, bool limits)
+                    const study_judgement *judgement, const table_has *found)
 {
     const char *status = json_string_value(json_object_get(record, "status"));
     const char *reason = json_string_value(json_object_get(record, "reason")), *name;
@@ -106,26 +114,41 @@ static void put_row(FILE *out, const study_definition *study, const char *const 
     }
     if (study->spectrum)
         fprintf(out, ",%.12g", study->spectrum->times[index]);
-    json_object_foreach(columns, name, unit)
+    json_object_foreach(found->columns, name, unit)
     {
         const json_t *pair = json_object_get(json_object_get(record, "outputs"), name);
         fputc(',', out);
         if (pair)
             fprintf(out, "%.12g", json_number_value(json_array_get(pair, 1)));
     }
-    if (limits)
-        put_limits(out, json_object_get(record, "limits"));
-    put_judgement(out, record ? judgement : NULL);
+    if (found->limits)
+        put_made(out, limits_text(json_object_get(record, "limits")));
+    put_judgement(out, record ? judgement : NULL, found->range);
     put_text(out, reason);
     fputc('\n', out);
 }
 
-/* Returns {name: unit} of every output that some case gave, in the order of the cases, and whether
-   one was judged by limits. */
-static json_t *find_columns(const study_definition *study, study_records *records,
-                            char (*keys)[STUDY_KEY_SIZE], bool *limits)
+/* Adds the names of the lines {stage: {name: line}}. */
+static void add_lines(json_t *names, json_t *quality)
 {
-    json_t *columns = json_object(), *pair, *known = json_object();
+    const char *stage, *name;
+    json_t *lines, *line;
+    json_object_foreach(quality, stage, lines)
+    {
+        json_object_foreach(lines, name, line)
+        {
+            char *whole = memory_print_text("%s.%s", stage, name);
+            json_object_set_new(names, whole, json_true());
+            free(whole);
+        }
+    }
+}
+
+static table_has find_columns(const study_definition *study, study_records *records,
+                              char (*keys)[STUDY_KEY_SIZE])
+{
+    table_has found = {.columns = json_object(), .lines = json_object()};
+    json_t *pair, *known = json_object();
     const char *name;
     for (size_t i = 0; i < study->count; i++) {
         const char *form = study_records_form(records, keys[i]);
@@ -134,40 +157,41 @@ static json_t *find_columns(const study_definition *study, study_records *record
         if (*form)
             json_object_set_new(known, form, json_true());
         json_t *record = study_records_get(records, keys[i]);
-        *limits = *limits || json_object_get(record, "limits");
+        found.limits = found.limits || json_object_get(record, "limits");
+        found.range = found.range || json_object_get(record, "range");
+        add_lines(found.lines, json_object_get(record, "quality"));
         json_object_foreach(json_object_get(record, "outputs"), name, pair)
         {
-            if (!json_object_get(columns, name))
-                json_object_set(columns, name, json_array_get(pair, 0));
+            if (!json_object_get(found.columns, name))
+                json_object_set(found.columns, name, json_array_get(pair, 0));
         }
         json_decref(record);
     }
     json_decref(known);
-    return columns;
+    return found;
 }
 
-/* Writes the head and a row for each case, and counts their verdicts. */
-static void put_table(FILE *out, const study_definition *study, study_records *records,
-                      char (*keys)[STUDY_KEY_SIZE], study_tally *tally)
+/* Writes the head and a row for each case, and counts their verdicts. Returns what they have. */
+static table_has put_table(FILE *out, const study_definition *study, study_records *records,
+                           char (*keys)[STUDY_KEY_SIZE], study_tally *tally)
 {
-    bool limits = false;
-    json_t *columns = find_columns(study, records, keys, &limits);
+    const table_has found = find_columns(study, records, keys);
     const char **units = memory_alloc(study->varied_count * sizeof *units);
     for (size_t k = 0; k < study->varied_count; k++)
         units[k] = common_unit(study, &study->varied[k]);
-    put_head(out, study, units, columns, limits);
+    put_head(out, study, units, &found);
     for (size_t i = 0; i < study->count; i++) {
         json_t *record = study_records_get(records, keys[i]);
         study_judgement judgement;
         study_judgement_read(&judgement, record);
-        put_row(out, study, units, i, keys[i], record, &judgement, columns, limits);
+        put_row(out, study, units, i, keys[i], record, &judgement, &found);
         if (record)
             study_tally_add(tally, i + 1, keys[i], &judgement);
         study_judgement_free(&judgement);
         json_decref(record);
     }
-    json_decref(columns);
     free(units);
+    return found;
 }
 
 bool study_describe(const study_run *run, const study_tally *tally, ff_report *report)
@@ -184,8 +208,13 @@ static bool write_files(const study_run *run, study_records *records, char (*key
                         study_tally *tally, ff_report *report)
 {
     study_file table = study_file_begin(run->directory, "table.csv");
-    if (table.out)
-        put_table(table.out, run->study, records, keys, tally);
+    if (table.out) {
+        const table_has found = put_table(table.out, run->study, records, keys, tally);
+        const ff_node *accept = run->pipeline->count ? run->pipeline->stages[0].accept : NULL;
+        accept_check_lines(accept, found.lines, report);
+        json_decref(found.columns);
+        json_decref(found.lines);
+    }
     return study_file_end(&table, "the journal has all cases; the same command writes the table",
                           report) &&
            study_describe(run, tally, report);

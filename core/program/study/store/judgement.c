@@ -12,6 +12,7 @@
 typedef struct doubt {
     char *words;
     int verdict;
+    study_list list;
     double beyond; /* how far it is beyond its limit, as a magnitude of a logarithm */
 } doubt;
 
@@ -26,6 +27,7 @@ double study_json_number(const json_t *value)
 }
 
 const char study_refused[] = "refused";
+static const char *const names_of_lists[STUDY_LISTS] = {"reasons", "range", "accepted"};
 
 const char *study_verdict_name(int verdict)
 {
@@ -56,7 +58,7 @@ static void add_reason(doubts *all, doubt made)
 {
     for (size_t i = 0; i < all->count; i++) {
         doubt *known = &all->lines[i];
-        if (strcmp(known->words, made.words) != 0)
+        if (strcmp(known->words, made.words) != 0 || known->list != made.list)
             continue;
         known->beyond = fmax(known->beyond, made.beyond);
         known->verdict = known->verdict > made.verdict ? known->verdict : made.verdict;
@@ -67,19 +69,25 @@ static void add_reason(doubts *all, doubt made)
     all->lines[all->count++] = made;
 }
 
-static void add_line(doubts *all, const char *name, double value, double limit, int verdict)
+/* Adds a line that is not good, or whose doubt is accepted. */
+static void add_line(doubts *all, const char *name, double value, double limit, int verdict,
+                     study_list list)
 {
-    if (verdict != FF_GOOD)
-        add_reason(all, (doubt){words_of(name), verdict, beyond_limit(value, limit)});
+    if (verdict != FF_GOOD || list == STUDY_ACCEPTED)
+        add_reason(all, (doubt){words_of(name), verdict, list, beyond_limit(value, limit)});
+}
+
+bool study_warning_of_range(const char *text)
+{
+    return strstr(text + strcspn(text, ":"), " is outside the calibrated range") != NULL;
 }
 
 /* "film.z outside its calibrated range" of "film.z: 3 is outside the calibrated range, ...", else
    the first clause: what differs between cases is left out, so that they can be counted. */
 static char *words_of_warning(const char *text)
 {
-    static const char range[] = " is outside the calibrated range";
     size_t name = strcspn(text, ":");
-    if (strstr(text + name, range))
+    if (study_warning_of_range(text))
         return memory_print_text("%.*s outside its calibrated range", (int)name, text);
     size_t length = strcspn(text, ",;(");
     while (length > 0 && text[length - 1] == ' ')
@@ -90,7 +98,7 @@ static char *words_of_warning(const char *text)
 /* A reason to look, which leaves the verdict as it is; the words are taken over. */
 static void add_words(doubts *all, char *words)
 {
-    add_reason(all, (doubt){words, FF_GOOD, 0});
+    add_reason(all, (doubt){words, FF_GOOD, STUDY_REASONS, 0});
 }
 
 /* An output that is known from below alone: wherever its value stands, the reasons do. */
@@ -109,11 +117,10 @@ static int by_gravity(const void *a, const void *b)
     return strcmp(one->words, other->words);
 }
 
-static void put_reason(study_judgement *judgement, char *words)
+static void put_words(study_words *list, char *words)
 {
-    judgement->reasons =
-        memory_resize(judgement->reasons, (judgement->count + 1) * sizeof *judgement->reasons);
-    judgement->reasons[judgement->count++] = words;
+    list->words = memory_resize(list->words, (list->count + 1) * sizeof *list->words);
+    list->words[list->count++] = words;
 }
 
 /* Takes over the lines. `failure` is the first reason of a case that failed, or NULL. */
@@ -122,14 +129,23 @@ static study_judgement judge(doubts *all, bool failed, const char *failure)
     study_judgement judgement = {.verdict = failed ? STUDY_CASE_FAILED : FF_GOOD};
     if (all->count)
         qsort(all->lines, all->count, sizeof *all->lines, by_gravity);
-    if (all->count && (!failed || all->lines[0].verdict == FF_BAD))
-        judgement.verdict = all->lines[0].verdict;
+    size_t worst = 0;
+    while (worst < all->count && all->lines[worst].list != STUDY_REASONS)
+        worst++;
+    if (worst < all->count && (!failed || all->lines[worst].verdict == FF_BAD))
+        judgement.verdict = all->lines[worst].verdict;
     if (judgement.verdict == STUDY_CASE_FAILED && failure)
-        put_reason(&judgement, memory_copy_text(failure, strlen(failure)));
+        put_words(&judgement.lists[STUDY_REASONS], memory_copy_text(failure, strlen(failure)));
     for (size_t i = 0; i < all->count; i++)
-        put_reason(&judgement, all->lines[i].words);
+        put_words(&judgement.lists[all->lines[i].list], all->lines[i].words);
     free(all->lines);
     return judgement;
+}
+
+bool study_line_of_range(const json_t *line)
+{
+    const size_t count = json_array_size(line);
+    return count > 3 && json_is_true(json_array_get(line, count - 1));
 }
 
 void study_judge_record(json_t *record)
@@ -143,7 +159,10 @@ void study_judge_record(json_t *record)
         json_int_t verdict = json_integer_value(json_array_get(line, 2));
         bool known = verdict >= FF_GOOD && verdict <= FF_BAD; /* to this version */
         add_line(&all, name, study_json_number(json_array_get(line, 0)),
-                 study_json_number(json_array_get(line, 1)), known ? (int)verdict : FF_BAD);
+                 study_json_number(json_array_get(line, 1)), known ? (int)verdict : FF_BAD,
+                 json_string_length(json_array_get(line, 4)) ? STUDY_ACCEPTED
+                 : study_line_of_range(line)                 ? STUDY_RANGE
+                                                             : STUDY_REASONS);
     }
     json_t *warning, *name_of;
     size_t i;
@@ -161,12 +180,22 @@ void study_judge_record(json_t *record)
     study_judgement_free(&judgement);
 }
 
+/* Adds the texts of a list in JSON. */
+static void read_words(study_words *list, const json_t *from)
+{
+    const json_t *word;
+    size_t i;
+    json_array_foreach(from, i, word)
+    {
+        const char *text = json_string_value(word);
+        put_words(list, memory_copy_text(text ? text : "", text ? strlen(text) : 0));
+    }
+}
+
 bool study_judgement_read(study_judgement *judgement, const json_t *object)
 {
     const char *verdict = json_string_value(json_object_get(object, "verdict"));
     const json_t *reasons = json_object_get(object, "reasons");
-    size_t i;
-    json_t *reason;
     const json_t *limits = json_object_get(object, "limits");
     *judgement = (study_judgement){.verdict = FF_GOOD};
     if (json_array_size(limits) > 0)
@@ -178,11 +207,8 @@ bool study_judgement_read(study_judgement *judgement, const json_t *object)
         judgement->verdict = STUDY_CASE_FAILED;
         return false;
     }
-    json_array_foreach(reasons, i, reason)
-    {
-        const char *text = json_string_value(reason);
-        put_reason(judgement, memory_copy_text(text ? text : "", text ? strlen(text) : 0));
-    }
+    for (size_t l = 0; l < STUDY_LISTS; l++)
+        read_words(&judgement->lists[l], json_object_get(object, names_of_lists[l]));
     return true;
 }
 
@@ -206,7 +232,10 @@ study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed)
     for (size_t i = 0; i < pipeline->count; i++)
         for (size_t k = 0; k < pipeline->stages[i].quality_count; k++) {
             const ff_quality *line = &pipeline->stages[i].quality[k];
-            add_line(&all, line->name, line->value, line->limit, line->verdict);
+            add_line(&all, line->name, line->value, line->limit, line->verdict,
+                     line->accepted ? STUDY_ACCEPTED
+                     : line->range  ? STUDY_RANGE
+                                    : STUDY_REASONS);
         }
     json_t *least = study_list_least(pipeline), *name;
     size_t i;
@@ -217,17 +246,20 @@ study_judgement study_judge_pipeline(const ff_pipeline *pipeline, bool failed)
 
 void study_judgement_free(study_judgement *judgement)
 {
-    for (size_t i = 0; i < judgement->count; i++)
-        free(judgement->reasons[i]);
-    free(judgement->reasons);
+    for (size_t l = 0; l < STUDY_LISTS; l++) {
+        for (size_t i = 0; i < judgement->lists[l].count; i++)
+            free(judgement->lists[l].words[i]);
+        free(judgement->lists[l].words);
+    }
     *judgement = (study_judgement){.verdict = FF_GOOD};
 }
 
-char *study_judgement_text(const study_judgement *judgement)
+char *study_judgement_text(const study_judgement *judgement, study_list list)
 {
+    const study_words *of = &judgement->lists[list];
     char *text = memory_print_text("%s", "");
-    for (size_t i = 0; i < judgement->count; i++) {
-        char *longer = memory_print_text("%s%s%s", text, i ? ", " : "", judgement->reasons[i]);
+    for (size_t i = 0; i < of->count; i++) {
+        char *longer = memory_print_text("%s%s%s", text, i ? ", " : "", of->words[i]);
         free(text);
         text = longer;
     }
@@ -236,11 +268,16 @@ char *study_judgement_text(const study_judgement *judgement)
 
 void study_judgement_add(const study_judgement *judgement, json_t *object)
 {
-    json_t *reasons = json_array();
-    for (size_t i = 0; i < judgement->count; i++)
-        json_array_append_new(reasons, json_string(judgement->reasons[i]));
     json_object_set_new(object, "verdict", json_string(study_verdict_name(judgement->verdict)));
-    json_object_set_new(object, "reasons", reasons);
+    for (size_t l = 0; l < STUDY_LISTS; l++) {
+        const study_words *list = &judgement->lists[l];
+        json_t *words = json_array();
+        for (size_t i = 0; i < list->count; i++)
+            json_array_append_new(words, json_string(list->words[i]));
+        if (list->count > 0 || l == STUDY_REASONS)
+            json_object_set(object, names_of_lists[l], words);
+        json_decref(words);
+    }
 }
 
 static void count_reason(json_t **reasons, const char *reason, json_int_t cases)
@@ -268,19 +305,34 @@ void study_tally_add(study_tally *tally, size_t number, const char *key,
     tally->counts[judgement->verdict]++;
     if (judgement->limits > 0)
         tally->limits[judgement->limits - 1]++;
-    for (size_t i = 0; i < judgement->count; i++)
-        count_reason(&tally->reasons[judgement->verdict], judgement->reasons[i], 1);
+    for (size_t l = 0; l < STUDY_LISTS; l++) {
+        const study_words *list = &judgement->lists[l];
+        json_t **reasons =
+            l == STUDY_REASONS ? &tally->reasons[judgement->verdict] : &tally->words_of[l];
+        tally->cases_of[l] += list->count > 0;
+        for (size_t i = 0; i < list->count; i++)
+            count_reason(reasons, list->words[i], 1);
+    }
     list_case(tally, judgement, number, key);
+}
+
+static void count_reasons(json_t **reasons, json_t *part)
+{
+    const char *reason;
+    json_t *cases;
+    json_object_foreach(part, reason, cases)
+        count_reason(reasons, reason, json_integer_value(cases));
 }
 
 void study_tally_merge(study_tally *tally, study_tally *part)
 {
-    const char *reason;
-    json_t *cases;
     for (int v = 0; v < STUDY_VERDICTS; v++) {
         tally->counts[v] += part->counts[v];
-        json_object_foreach(part->reasons[v], reason, cases)
-            count_reason(&tally->reasons[v], reason, json_integer_value(cases));
+        count_reasons(&tally->reasons[v], part->reasons[v]);
+    }
+    for (size_t l = 0; l < STUDY_LISTS; l++) {
+        tally->cases_of[l] += part->cases_of[l];
+        count_reasons(&tally->words_of[l], part->words_of[l]);
     }
     for (int s = 0; s < LIMITS_STANDINGS; s++)
         tally->limits[s] += part->limits[s];
@@ -295,6 +347,8 @@ void study_tally_free(study_tally *tally)
 {
     for (int v = 0; v < STUDY_VERDICTS; v++)
         json_decref(tally->reasons[v]);
+    for (size_t l = 0; l < STUDY_LISTS; l++)
+        json_decref(tally->words_of[l]);
     json_decref(tally->cases);
     *tally = (study_tally){.cases = NULL};
 }
@@ -312,24 +366,33 @@ static int by_frequency(const void *a, const void *b)
     return strcmp(one->reason, other->reason);
 }
 
-/* Returns the reasons of a verdict, the most frequent first, to be freed. */
-static reason_count *sort_reasons(const study_tally *tally, int verdict, size_t *count)
+/* Returns the reasons, the most frequent first, to be freed. */
+static reason_count *sort_reasons(json_t *reasons, size_t *count)
 {
     const char *reason;
     json_t *cases;
-    reason_count *list =
-        memory_alloc((json_object_size(tally->reasons[verdict]) + 1) * sizeof *list);
+    reason_count *list = memory_alloc((json_object_size(reasons) + 1) * sizeof *list);
     *count = 0;
-    json_object_foreach(tally->reasons[verdict], reason, cases) list[(*count)++] =
+    json_object_foreach(reasons, reason, cases) list[(*count)++] =
         (reason_count){reason, json_integer_value(cases)};
     qsort(list, *count, sizeof *list, by_frequency);
     return list;
 }
 
+static void print_reasons(json_t *reasons, FILE *out)
+{
+    size_t count;
+    reason_count *list = sort_reasons(reasons, &count);
+    for (size_t i = 0; i < count; i++)
+        fprintf(out, "%s%s %" JSON_INTEGER_FORMAT, i ? ", " : " (", list[i].reason, list[i].cases);
+    fputs(count ? ")" : "", out);
+    free(list);
+}
+
 char *study_tally_text(const study_tally *tally)
 {
     char *text = NULL;
-    size_t length = 0, count;
+    size_t length = 0;
     FILE *out = memory_require(open_memstream(&text, &length));
     const char *gap = "";
     for (int v = 0; v < STUDY_VERDICTS; v++) {
@@ -337,12 +400,14 @@ char *study_tally_text(const study_tally *tally)
             continue;
         fprintf(out, "%s%zu %s", gap, tally->counts[v], study_verdict_name(v));
         gap = ", ";
-        reason_count *list = sort_reasons(tally, v, &count);
-        for (size_t i = 0; i < count; i++)
-            fprintf(out, "%s%s %" JSON_INTEGER_FORMAT, i ? ", " : " (", list[i].reason,
-                    list[i].cases);
-        fputs(count ? ")" : "", out);
-        free(list);
+        print_reasons(tally->reasons[v], out);
+    }
+    for (size_t l = STUDY_RANGE; l < STUDY_LISTS; l++) {
+        if (!tally->cases_of[l])
+            continue;
+        fprintf(out, "; %s %zu", l == STUDY_RANGE ? "outside the range of a model" : "accepted",
+                tally->cases_of[l]);
+        print_reasons(tally->words_of[l], out);
     }
     gap = "; limits: ";
     for (int s = 0; s < LIMITS_STANDINGS; s++) {
@@ -389,6 +454,19 @@ static json_t *count_limits(const study_tally *tally)
     return counts;
 }
 
+/* Returns {cases, reasons [{reason, cases}]}. */
+static json_t *describe_list(const study_tally *tally, size_t of)
+{
+    json_t *list = json_array();
+    size_t count;
+    reason_count *sorted = sort_reasons(tally->words_of[of], &count);
+    for (size_t i = 0; i < count; i++)
+        json_array_append_new(
+            list, json_pack("{s:s, s:I}", "reason", sorted[i].reason, "cases", sorted[i].cases));
+    free(sorted);
+    return json_pack("{s:I, s:o}", "cases", (json_int_t)tally->cases_of[of], "reasons", list);
+}
+
 void study_tally_describe(const study_tally *tally, json_t *object)
 {
     json_t *counts = json_object(), *reasons = json_array();
@@ -398,7 +476,7 @@ void study_tally_describe(const study_tally *tally, json_t *object)
         json_object_set_new(counts, study_verdict_name(v),
                             json_integer((json_int_t)tally->counts[v]));
         worst = tally->counts[v] ? v : worst;
-        reason_count *list = sort_reasons(tally, v, &count);
+        reason_count *list = sort_reasons(tally->reasons[v], &count);
         for (size_t i = 0; i < count; i++)
             json_array_append_new(reasons,
                                   json_pack("{s:s, s:s, s:I}", "reason", list[i].reason, "verdict",
@@ -410,5 +488,8 @@ void study_tally_describe(const study_tally *tally, json_t *object)
     if (tally->limits[LIMITS_MET] + tally->limits[LIMITS_WITHIN] + tally->limits[LIMITS_MISSED] > 0)
         json_object_set_new(object, "limits", count_limits(tally));
     json_object_set_new(object, "reasons", reasons);
+    for (size_t l = STUDY_RANGE; l < STUDY_LISTS; l++)
+        if (tally->cases_of[l] > 0)
+            json_object_set_new(object, names_of_lists[l], describe_list(tally, l));
     json_object_set_new(object, "judged", list_cases(tally));
 }

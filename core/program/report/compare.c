@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The table of what several designs gave. */
+#include "compare.h"
+#include "page.h"
+
+#include "../memory/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ROOM = 3 * RESULTS_NUMBER_SIZE };
+static const double noise = 1e-12; /* relative, of sums in another order */
+
+/* A number of a design. */
+typedef struct number {
+    double value, bar; /* SI; NaN: not known */
+} number;
+
+/* Which number of an output a row has. */
+typedef enum { WHOLE, FIRST, SECOND, LEAST, LARGEST } part;
+
+/* Whether a line "h_min_space_error" of quality says the error of an output. It is that of the
+   output with the longest name that it begins with, and of those derived of it: h_min_lowest. */
+static bool is_error_of(const results_view *view, const results_view_quality *line,
+                        const results_view_variable *of)
+{
+    static const char ending[] = "_error";
+    const size_t length = strlen(line->name), tail = sizeof ending - 1;
+    const results_view_variable *stem = NULL;
+    if (line->stage != of->stage || length <= tail || strcmp(line->name + length - tail, ending))
+        return false;
+    for (size_t v = 0; v < view->variable_count; v++) {
+        const results_view_variable *other = view->variables[v];
+        const size_t own = strlen(other->output);
+        if (other->stage == of->stage && !strncmp(line->name, other->output, own) &&
+            line->name[own] == '_' && (!stem || own > strlen(stem->output)))
+            stem = other;
+    }
+    const size_t own = stem ? strlen(stem->output) : 0;
+    return stem && !strncmp(of->output, stem->output, own) &&
+           (!of->output[own] || of->output[own] == '_') && !strcmp(of->unit, stem->unit);
+}
+
+/* The error of number k of a variable: measured, or the largest share that a line of its stage
+   says. */
+static double bar_of(report_page *page, size_t variable, size_t index, size_t k, double value)
+{
+    const results_view *view = page->view;
+    const results_view_variable *of = view->variables[variable];
+    ff_array bars = report_load(page, report_find_bar(view, variable), index);
+    double bar = bars.data && k < report_array_size(&bars) ? bars.data[k] : (double)NAN;
+    report_release(page, &bars);
+    for (size_t i = 0; isnan(bar) && i < view->cases[index]->quality_count; i++) {
+        const results_view_quality *line = view->cases[index]->quality[i];
+        if (is_error_of(view, line, of) && isfinite(line->value))
+            bar = fabs(line->value * value);
+    }
+    return bar;
+}
+
+/* Finds a variable by its name; -1. */
+static int find(const results_view *view, const char *name)
+{
+    for (size_t v = 0; v < view->variable_count; v++)
+        if (!strcmp(view->variables[v]->name, name))
+            return (int)v;
+    return -1;
+}
+
+static size_t rank_of(const ff_array *array, part what)
+{
+    size_t at = what == SECOND ? 1 : 0;
+    for (size_t i = 1; what >= LEAST && i < report_array_size(array); i++) {
+        const double value = array->data[i], best = array->data[at];
+        if (isfinite(value) && (!isfinite(best) || (what == LEAST ? value < best : value > best)))
+            at = i;
+    }
+    return at;
+}
+
+/* Reads a number of a design. False after an error. */
+static bool read_number(const report_design *design, const char *name, part what, number *out)
+{
+    report_page page = {.view = design->view};
+    const int variable = find(design->view, name);
+    *out = (number){NAN, NAN};
+    ff_array array = report_load(&page, variable, design->index);
+    const size_t at = array.data ? rank_of(&array, what) : 0;
+    if (array.data && at < report_array_size(&array)) {
+        out->value = array.data[at];
+        out->bar = bar_of(&page, (size_t)variable, design->index, at, out->value);
+    }
+    report_release(&page, &array);
+    return !page.failed;
+}
+
+/* Prints a number, with its error, in the unit of the row: "0.2481 +- 0.003". */
+static void print_number(number n, const results_readable *unit, bool signs, char out[ROOM])
+{
+    char value[RESULTS_NUMBER_SIZE], bar[RESULTS_NUMBER_SIZE];
+    results_number_text(n.value * unit->factor + (signs ? 0 : unit->offset), 4, " ", value);
+    results_number_text(n.bar * unit->factor, 2, " ", bar);
+    snprintf(out, ROOM, "%s%s%s%s", signs && n.value > 0 ? "+" : "", isnan(n.value) ? "-" : value,
+             n.bar > 0 ? " +- " : "", n.bar > 0 ? bar : "");
+}
+
+/* What the difference of a design to the first one is: the bars of both add up, since errors of
+   one kind have one sign as often as not. */
+static void print_difference(number first, number other, const results_readable *unit,
+                             char out[2 * ROOM])
+{
+    const number d = {other.value - first.value, first.bar + other.bar};
+    char text[ROOM];
+    out[0] = '\0';
+    if (isnan(d.value))
+        return;
+    print_number(d, unit, true, text);
+    const double share = d.value / fabs(first.value);
+    const bool plain = unit->offset == 0 && first.value != 0 && isfinite(share);
+    if (fabs(d.value) <= noise * fabs(first.value))
+        snprintf(out, 2 * ROOM, "the same");
+    else if (fabs(d.value) <= d.bar)
+        snprintf(out, 2 * ROOM, "%s: smaller than what is known", text);
+    else if (plain)
+        snprintf(out, 2 * ROOM, "%s (%+.3g %%)", text, 100 * share);
+    else
+        snprintf(out, 2 * ROOM, "%s", text);
+}
+
+static json_t *real_or_null(double value)
+{
+    return isfinite(value) ? json_real(value) : json_null();
+}
+
+/* Sets member "NAME<rank>". */
+static void set(json_t *row, const char *name, size_t rank, json_t *value)
+{
+    char key[32];
+    snprintf(key, sizeof key, "%s%zu", name, rank);
+    json_object_set_new(row, key, value);
+}
+
+/* Adds the row of one number of an output. False after an error. */
+static bool add_row(json_t *rows, const results_view_variable *of, part what,
+                    const report_design *designs, size_t count)
+{
+    static const char *const words[] = {"", " (1)", " (2)", ", least", ", largest"};
+    number *numbers = memory_alloc(count * sizeof *numbers);
+    double most = 0;
+    bool good = true;
+    for (size_t i = 0; good && i < count; i++) {
+        good = read_number(&designs[i], of->name, what, &numbers[i]);
+        most = fmax(most, fabs(numbers[i].value));
+    }
+    const results_readable unit = results_readable_output(of->output, of->unit, most);
+    json_t *row = json_pack("{s:s+, s:s, s:s}", "output", of->name, words[what], "unit", unit.unit,
+                            "si", of->unit);
+    for (size_t i = 0; good && i < count; i++) {
+        char text[ROOM], difference[2 * ROOM];
+        print_number(numbers[i], &unit, false, text);
+        set(row, "text", i, json_string(text));
+        set(row, "value", i, real_or_null(numbers[i].value));
+        set(row, "bar", i, real_or_null(numbers[i].bar));
+        print_difference(numbers[0], numbers[i], &unit, difference);
+        set(row, "difference", i, json_string(i ? difference : ""));
+    }
+    json_array_append_new(rows, row);
+    free(numbers);
+    return good;
+}
+
+/* Whether an earlier design has the output, too. */
+static bool is_known(const report_design *designs, size_t before, const char *name)
+{
+    for (size_t i = 0; i < before; i++) {
+        const int known = find(designs[i].view, name);
+        if (known >= 0 && designs[i].view->variables[known]->flags & RESULTS_VIEW_ASKED)
+            return true;
+    }
+    return false;
+}
+
+/* Adds the rows of an output: one of a scalar, two of a series or of a pair of gears; none of a
+   field, and of a series that only says where others stand. */
+static bool add_output(json_t *rows, size_t v, size_t owner, const report_design *designs,
+                       size_t count)
+{
+    const results_view *view = designs[owner].view;
+    const results_view_variable *of = view->variables[v];
+    size_t shape[4];
+    if (!(of->flags & RESULTS_VIEW_ASKED) || report_is_bar(of) || of->rank > 1 ||
+        is_known(designs, owner, of->name) || report_is_axis(view, v))
+        return true;
+    if (of->rank == 0)
+        return add_row(rows, of, WHOLE, designs, count);
+    const bool pair =
+        results_view_full_shape(view, v, designs[owner].index, shape) && shape[0] == 2;
+    return add_row(rows, of, pair ? FIRST : LEAST, designs, count) &&
+           add_row(rows, of, pair ? SECOND : LARGEST, designs, count);
+}
+
+/* How each design stands to the limits of its file, and what is in doubt of it. */
+static void say_verdicts(study_answer *answer, const report_design *designs, size_t count)
+{
+    for (size_t i = 0; i < count; i++) {
+        const results_view_case *c = designs[i].view->cases[designs[i].index];
+        study_answer_say(answer, STUDY_ON_TERMINAL | STUDY_ON_PAGE, 4, "%s: %s%s%s%s%s%s%s%s",
+                         designs[i].name, strcmp(c->status, "ok") ? c->status : c->verdict,
+                         *c->reasons ? ", " : "", c->reasons,
+                         *c->range ? "; outside the range of a model: " : "", c->range,
+                         *c->limits_text ? "; limits " : "", c->limits_text,
+                         i == 0 ? "; the others are held against it" : "");
+    }
+}
+
+bool report_compare(study_answer *answer, const report_design *designs, size_t count)
+{
+    json_t *rows = json_array();
+    bool good = true;
+    for (size_t i = 0; i < count; i++)
+        for (size_t v = 0; good && v < designs[i].view->variable_count; v++)
+            good = add_output(rows, v, i, designs, count);
+    study_context *context = answer->context;
+    study_column *columns = memory_arena_alloc(&context->arena, (4 + 4 * count) * sizeof *columns);
+    size_t n = 0;
+    columns[n++] = (study_column){
+        .of = {"output"}, .name = "output of flankfilm", .head = "output", .width = -6};
+    for (size_t i = 0; i < count; i++)
+        columns[n++] = (study_column){.of = {study_context_format(context, "text%zu", i)},
+                                      .head = designs[i].name,
+                                      .before = "  ",
+                                      .width = -8};
+    columns[n++] = (study_column){.of = {"unit"}, .head = "", .width = -1};
+    for (size_t i = 1; i < count; i++)
+        columns[n++] = (study_column){
+            .of = {study_context_format(context, "difference%zu", i)},
+            .head =
+                count > 2 ? study_context_format(context, "by %s", designs[i].name) : "difference",
+            .before = "  ",
+            .width = -8};
+    columns[n++] = (study_column){.of = {"si"}, .name = "unit"};
+    for (size_t i = 0; i < 2 * count; i++)
+        columns[n++] = (study_column){
+            .of = {study_context_format(context, i % 2 ? "bar%zu" : "value%zu", i / 2)},
+            .name =
+                study_context_format(context, i % 2 ? "error of %s" : "%s", designs[i / 2].name)};
+    if (good)
+        say_verdicts(answer, designs, count);
+    study_answer_add(
+        answer,
+        &(study_table){.summary = "What each gives",
+                       .columns = columns,
+                       .column_count = n,
+                       .rows = rows,
+                       .forms = good ? STUDY_IN_FILE | STUDY_ON_TERMINAL | STUDY_ON_PAGE : 0,
+                       .digits = 9,
+                       .whole = true});
+    return good && report_compare_curves(answer, designs, count);
+}
