@@ -22,9 +22,6 @@ int cli_new(const cli_options *options);
 int cli_compare(const cli_options *options);
 int cli_export(const cli_options *options);
 int cli_write_report(const cli_options *options);
-/* figures.c: whether the operand of `report` describes figures; and their page. */
-bool cli_names_figures(const char *operand);
-int cli_report_figures(const cli_options *options);
 int cli_schema(const cli_options *options);
 int cli_fit_command(const cli_options *options);
 

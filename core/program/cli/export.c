@@ -12,6 +12,7 @@
 #include "../study/kinds/kinds.h"
 #include "../terminal/terminal.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -21,17 +22,24 @@ typedef struct form {
     const char *suffix; /* of one file: ".html"; "": it fills a directory */
     const char *begins; /* the first bytes of the file */
     /* From the view of the results; NULL: a program beside this one reads the directory itself. */
-    bool (*write)(const results_view *view, const results_target *target);
+    bool (*write)(const results_view *view, const results_target *target,
+                  const cli_options *options);
 } form;
 
-static bool write_csv(const results_view *view, const results_target *target)
+static bool write_csv(const results_view *view, const results_target *target,
+                      const cli_options *options)
 {
+    (void)options;
     return results_export_csv(view, target->folder);
 }
 
-static bool write_page(const results_view *view, const results_target *target)
+static bool write_page(const results_view *view, const results_target *target,
+                       const cli_options *options)
 {
-    return report_write(view, target->part, target->report);
+    report_template *with = report_template_open(cli_option(options, "template"), target->report);
+    const bool good = with && report_write(view, with, target->part, target->report);
+    report_template_close(with);
+    return good;
 }
 
 static const form forms[] = {
@@ -89,7 +97,7 @@ static bool write_to(const form *to, const results_view *view, const cli_options
     target->begins = to->begins;
     bool good = (*to->suffix || holds_no_run(target->path, target->report)) &&
                 results_target_open(target, !*to->suffix) &&
-                (to->write ? to->write(view, target)
+                (to->write ? to->write(view, target, options)
                            : cli_beside("flankfilm-netcdf", options->operand, target->part,
                                         target->report));
     if (good)
@@ -129,6 +137,52 @@ static int write_with(const cli_options *options, const char *to, const char *st
     return code;
 }
 
+/* A page of figures alone, from a file that describes them: `report map.figure.json`. */
+static bool names_figures(const char *operand)
+{
+    size_t length = strlen(operand);
+    return length > 5 && !strcmp(operand + length - 5, ".json");
+}
+
+static bool write_figures(const char *from, results_target *target)
+{
+    json_error_t error;
+    json_t *figures = study_read_json(AT_FDCWD, from, &error);
+    bool good = json_is_array(figures) || ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
+                                                   "\"%s\" does not describe figures: %s", from,
+                                                   figures ? "it is no list" : error.text);
+    FILE *out = good && results_target_open(target, false) ? fopen(target->part, "we") : NULL;
+    if (out) {
+        char *text = json_dumps(figures, JSON_COMPACT);
+        report_write_figures(out, from, text);
+        free(text);
+    }
+    json_decref(figures);
+    return good && results_target_end(target, out);
+}
+
+static int report_figures(const cli_options *options)
+{
+    const char *from = options->operand;
+    results_target target = {.report = ff_report_new(), .begins = REPORT_BEGINS};
+    target.path = options->directory
+                      ? memory_print_text("%s", options->directory)
+                      : memory_print_text("%.*s.html", (int)(strlen(from) - strlen(".json")), from);
+    int code = EXIT_SUCCESS;
+    if (!write_figures(from, &target)) {
+        code = cli_refuse(target.report, options, "nothing was written");
+    } else if (options->json) {
+        json_t *answer = results_json_answer("ok", code, target.report);
+        json_object_set_new(answer, "path", results_json_text(target.path));
+        results_json_print(answer);
+    } else {
+        printf("%s\n", target.path);
+    }
+    results_target_close(&target);
+    ff_report_free(target.report);
+    return code;
+}
+
 int cli_export(const cli_options *options)
 {
     return write_with(options, cli_option(options, "to"), "results");
@@ -136,6 +190,6 @@ int cli_export(const cli_options *options)
 
 int cli_write_report(const cli_options *options)
 {
-    return cli_names_figures(options->operand) ? cli_report_figures(options)
-                                               : write_with(options, "html", "report");
+    return names_figures(options->operand) ? report_figures(options)
+                                           : write_with(options, "html", "report");
 }

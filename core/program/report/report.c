@@ -1,103 +1,249 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "report.h"
 #include "page.h"
+#include "sha256.h"
+
+#include "../memory/memory.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
-static const char *const figure_style[] = {
-#include "figure.css.inc"
-};
+/* What a page is put together from: files of the source that are installed as
+   share/flankfilm/template, or those of a lab's own folder that have their names. */
+static const char *const layout[] = {
+#include "layout.html.inc"
+    NULL};
 static const char *const page_style[] = {
 #include "page.css.inc"
-};
+    NULL};
+static const char *const figure_style[] = {
+#include "figure.css.inc"
+    NULL};
 static const char *const figure_script[] = {
 #include "figure.js.inc"
-};
+    NULL};
+static const char *const page_script[] = {
+#include "script.js.inc"
+    NULL};
 /* the plotting library; 0 alone when the build had none */
 static const unsigned char library[] = {
 #include "library.js.inc"
     0};
-static const char *const script[] = {
-#include "script.js.inc"
+
+static const struct {
+    const char *name;
+    const char *const *lines;
+} parts[] = {{"layout.html", layout},
+             {"figure.css", figure_style},
+             {"page.css", page_style},
+             {"figure.js", figure_script},
+             {"script.js", page_script}};
+enum { LAYOUT, FIGURE_STYLE, PAGE_STYLE, FIGURE_SCRIPT, PAGE_SCRIPT, PARTS };
+
+typedef struct text {
+    char *text;
+    size_t length;
+} text;
+
+struct report_template {
+    text parts[PARTS];
+    text style, script; /* what stands in the page's elements */
 };
 
-#define WRITE(out, lines) write_lines(out, lines, sizeof(lines) / sizeof *(lines))
+static const char names_of_parts[] = "layout.html, figure.css, page.css, figure.js, script.js";
 
-static void write_lines(FILE *out, const char *const *lines, size_t count)
+static text join(const char *const *lines)
 {
-    for (size_t i = 0; i < count; i++)
-        fprintf(out, "%s\n", lines[i]);
+    text joined;
+    FILE *out = memory_require(open_memstream(&joined.text, &joined.length));
+    for (; *lines; lines++)
+        fprintf(out, "%s\n", *lines);
+    fclose(out);
+    return joined;
 }
 
-static void write_head(FILE *out, const char *title)
+/* Reads a file of the folder; its text stays NULL where there is none. */
+static text read_part(const char *folder, const char *name)
 {
-    fputs("<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-          "<meta name=\"generator\" content=\"flankfilm\">\n"
-          "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src "
-          "'unsafe-inline'; script-src 'unsafe-inline'; img-src data: blob:\">\n"
-          "<meta name=\"color-scheme\" content=\"light dark\">\n<title>",
-          out);
-    report_put_text(out, title);
-    fputs("</title>\n<style>\n", out);
-    WRITE(out, figure_style);
-    fputs("</style>\n<style>\n", out);
-    WRITE(out, page_style);
-    fputs("</style>\n</head>\n<body>\n<i id=\"light\" class=\"figure\" hidden></i>\n<header><h1>",
-          out);
-    report_put_text(out, title);
-    fputs("</h1></header>\n<main>\n"
-          "<noscript><p class=\"alarm\">The figures are drawn by a script, which is switched off "
-          "here.</p></noscript>\n<p class=\"alarm without\" hidden>This build has no plotting "
-          "library (libjs-vega): tables stand in place of the figures.</p>\n",
-          out);
+    text read = {NULL, 0};
+    char buffer[4096], *path = memory_print_text("%s/%s", folder, name);
+    struct stat about;
+    FILE *in = stat(path, &about) == 0 && S_ISREG(about.st_mode) ? fopen(path, "re") : NULL;
+    free(path);
+    if (!in)
+        return read;
+    FILE *out = memory_require(open_memstream(&read.text, &read.length));
+    for (size_t got; (got = fread(buffer, 1, sizeof buffer, in)) > 0;)
+        fwrite(buffer, 1, got, out);
+    fclose(in);
+    fclose(out);
+    return read;
 }
 
-static void write_foot(FILE *out, bool thinned)
+/* Finds the next "{{name}}" of a layout, and what stands behind it; NULL: there is none. */
+static const char *find_hole(const char *from, char name[16], const char **behind)
 {
-    if (thinned)
-        fputs("<p class=\"note\">Long curves are drawn with the first, lowest, highest and last "
-              "point "
-              "of each column of the drawing, maps and fields with fewer points than they have. "
-              "<code>flankfilm export</code> gives all numbers.</p>\n",
-              out);
-    fputs("</main>\n<script>\n", out);
+    const char *hole = strstr(from, "{{"), *end = hole ? strstr(hole, "}}") : NULL;
+    if (!end)
+        return NULL;
+    snprintf(name, 16, "%.*s", (int)(end - hole - 2), hole + 2);
+    *behind = end + 2;
+    return hole;
+}
+
+static bool check_layout(const char *of, const char *folder, ff_report *report)
+{
+    static const char *const holes[] = {"policy", "title", "style", "page", "script"};
+    enum { HOLES = sizeof holes / sizeof *holes };
+    bool pages = false;
+    char name[16];
+    const char *at = of;
+    if (strncmp(of, REPORT_BEGINS, strlen(REPORT_BEGINS)) != 0 || !strstr(of, "flankfilm"))
+        return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "begin with the installed one",
+                        "%s/layout.html does not begin with \"%s\", or does not name flankfilm",
+                        folder, REPORT_BEGINS);
+    while (find_hole(at, name, &at)) {
+        size_t i = 0;
+        while (i < HOLES && strcmp(name, holes[i]) != 0)
+            i++;
+        const char *near = i < HOLES ? NULL : ff_nearest(name, holes, HOLES);
+        if (i == HOLES)
+            return ff_error(report, FF_FAULT_INPUT, FF_NOWHERE,
+                            "policy, title, style, page and script are put in",
+                            "%s/layout.html: nothing is called {{%s}}%s%s%s", folder, name,
+                            near ? "; did you mean {{" : "", near ? near : "", near ? "}}?" : "");
+        pages = pages || !strcmp(name, "page");
+    }
+    return pages || ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
+                             "%s/layout.html has no place {{page}} for the page", folder);
+}
+
+/* Puts the elements of the page together. */
+static void assemble(report_template *made)
+{
+    FILE *out = memory_require(open_memstream(&made->style.text, &made->style.length));
+    fprintf(out, "\n%s%s", made->parts[FIGURE_STYLE].text, made->parts[PAGE_STYLE].text);
+    fclose(out);
+    out = memory_require(open_memstream(&made->script.text, &made->script.length));
+    fputc('\n', out);
     fwrite(library, 1, sizeof library - 1, out);
-    WRITE(out, figure_script);
-    WRITE(out, script);
-    fputs("</script>\n</body>\n</html>\n", out);
+    fprintf(out, "%s%s", made->parts[FIGURE_SCRIPT].text, made->parts[PAGE_SCRIPT].text);
+    fclose(out);
+}
+
+report_template *report_template_open(const char *folder, ff_report *report)
+{
+    report_template *made = memory_alloc(sizeof *made);
+    size_t own = 0;
+    for (size_t i = 0; i < PARTS; i++) {
+        made->parts[i] = folder ? read_part(folder, parts[i].name) : (text){NULL, 0};
+        own += made->parts[i].text != NULL;
+        if (!made->parts[i].text)
+            made->parts[i] = join(parts[i].lines);
+    }
+    assemble(made);
+    if (!folder || (own > 0 && check_layout(made->parts[LAYOUT].text, folder, report)))
+        return made;
+    if (own == 0)
+        ff_error(report, FF_FAULT_INPUT, FF_NOWHERE, "copy some of share/flankfilm/template",
+                 "--template %s: there is none of %s", folder, names_of_parts);
+    report_template_close(made);
+    return NULL;
+}
+
+void report_template_close(report_template *of)
+{
+    for (size_t i = 0; of && i < PARTS; i++)
+        free(of->parts[i].text);
+    if (of) {
+        free(of->style.text);
+        free(of->script.text);
+    }
+    free(of);
+}
+
+/* Nothing but what the page itself brings is run or applied, whatever its texts hold. The plotting
+   library sets the attribute `style` of what it draws. */
+static void put_policy(const report_template *with, FILE *out)
+{
+    char style[SHA256_BASE64], script[SHA256_BASE64];
+    sha256_base64(with->style.text, with->style.length, style);
+    sha256_base64(with->script.text, with->script.length, script);
+    fprintf(out,
+            "default-src 'none'; style-src-elem 'sha256-%s'; style-src-attr 'unsafe-inline'; "
+            "script-src 'sha256-%s'; img-src data: blob:",
+            style, script);
+}
+
+/* Writes the layout with what belongs into its places. */
+static void write_layout(const report_template *with, FILE *out, const char *title,
+                         const text *page)
+{
+    const char *from = with->parts[LAYOUT].text, *hole, *behind;
+    char name[16];
+    while ((hole = find_hole(from, name, &behind))) {
+        fwrite(from, 1, (size_t)(hole - from), out);
+        if (!strcmp(name, "title"))
+            report_put_text(out, title);
+        else if (!strcmp(name, "policy"))
+            put_policy(with, out);
+        else if (!strcmp(name, "style"))
+            fwrite(with->style.text, 1, with->style.length, out);
+        else if (!strcmp(name, "script"))
+            fwrite(with->script.text, 1, with->script.length, out);
+        else
+            fwrite(page->text, 1, page->length, out);
+        from = behind;
+    }
+    fputs(from, out);
 }
 
 void report_write_figures(FILE *out, const char *title, const char *json)
 {
-    write_head(out, title);
-    report_put_figures(out, json);
-    write_foot(out, false);
+    report_template *with = report_template_open(NULL, NULL);
+    text page;
+    FILE *stream = memory_require(open_memstream(&page.text, &page.length));
+    report_put_figures(stream, json);
+    fclose(stream);
+    write_layout(with, out, title, &page);
+    free(page.text);
+    report_template_close(with);
 }
 
-static void write_page(report_page *page)
+static void write_sections(report_page *page)
 {
     static void (*const sections[])(report_page *) = {
         report_write_verdict,   report_write_speed,   report_write_study,  report_write_series,
         report_write_snapshots, report_write_quality, report_write_origin,
     };
-    write_head(page->out, *page->view->title ? page->view->title : "flankfilm");
     for (size_t i = 0; i < sizeof sections / sizeof *sections && !page->failed; i++)
         sections[i](page);
-    write_foot(page->out, page->thinned);
+    if (page->thinned)
+        fputs("<p class=\"note\">Long curves are drawn with the first, lowest, highest and last "
+              "point of each column of the drawing, maps and fields with fewer points than they "
+              "have. <code>flankfilm export</code> gives all numbers.</p>\n",
+              page->out);
 }
 
-bool report_write(const results_view *view, const char *path, ff_report *report)
+bool report_write(const results_view *view, const report_template *with, const char *path,
+                  ff_report *report)
 {
-    report_page page = {.view = view, .out = fopen(path, "we")};
-    bool lost = !page.out;
-    if (page.out) {
-        write_page(&page);
+    text sections;
+    report_page page = {.view = view,
+                        .out = memory_require(open_memstream(&sections.text, &sections.length))};
+    write_sections(&page);
+    fclose(page.out);
+    FILE *out = fopen(path, "we");
+    bool lost = !out;
+    if (out) {
+        write_layout(with, out, *view->title ? view->title : "flankfilm", &sections);
         errno = 0;
-        lost = ferror(page.out) != 0;
-        lost = fclose(page.out) != 0 || lost;
+        lost = ferror(out) != 0;
+        lost = fclose(out) != 0 || lost;
     }
+    free(sections.text);
     if (lost && !page.failed)
         ff_error(report, FF_FAULT_RUN, FF_NOWHERE, NULL, "the page could not be written: %s",
                  strerror(errno ? errno : EIO));

@@ -10,8 +10,17 @@
 
 #define REPORT_BEGINS "<!DOCTYPE html>" /* the first bytes of a page */
 
+/* What pages are put together from. */
+typedef struct report_template report_template;
+
+/* That of the program, with the files layout.html, figure.css, page.css, figure.js and script.js of
+   a folder, unless it is NULL, in place of those of the same names. NULL after an error. */
+report_template *report_template_open(const char *folder, ff_report *report);
+void report_template_close(report_template *of); /* NULL is allowed */
+
 /* Writes the page to a file. False with an error in the report, which is the view's as well. */
-bool report_write(const results_view *view, const char *path, ff_report *report);
+bool report_write(const results_view *view, const report_template *with, const char *path,
+                  ff_report *report);
 
 /* Writes a page of nothing but figures, whose descriptions are a list in JSON. */
 void report_write_figures(FILE *out, const char *title, const char *json);

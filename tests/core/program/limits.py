@@ -3,8 +3,11 @@
 by terminal, JSON, page and tables.
 
 toy/verge answers 1.01 m and says that it is off by 1 %; at 2.2 m/s its line `residual` is doubtful."""
+import base64
 import csv
+import hashlib
 import json
+import os
 
 import lab
 
@@ -24,6 +27,7 @@ limits: {verge.answer: "> 1005 mm", verge.swing: "< 0.5"}
 study:
   sweep: {verge.cells: [100, 10], verge.speed: [2.2 m/s, 0.4 m/s]}
 """
+BEGINS = "<!DOCTYPE html><!-- flankfilm -->"
 STANDINGS = [  # of 1.01 m +- 0.0101 m, and of the swing, which is 0 and has no bar
     ('verge.answer: "> 0.9 m"', "met"), ('verge.answer: ">0.9999 m"', "met within its bar"),
     ('verge.answer: "> 99.9 cm"', "met"), ('verge.answer: ">= 1.01 m"', "met within its bar"),
@@ -120,6 +124,27 @@ class Limits(lab.Lab):
             text = page.read()
         self.assertIn("<th>outside of its range</th>", text)
         self.assertIn('<span class="badge range">range</span>', text)
+        for tag, directive in ("script", "script-src"), ("style", "style-src-elem"):
+            body = text.split(f"<{tag}>")[1].split(f"</{tag}>")[0].encode()
+            named = base64.b64encode(hashlib.sha256(body).digest()).decode()
+            self.assertIn(f"{directive} 'sha256-{named}'", text)
+        self.assertNotIn(self.directory, text)  # no path of a disk
+        self.template("range")
+
+    def template(self, results):
+        os.mkdir("lab")
+        self.assertIn("there is none of layout.html", self.call("report", results, "--template", "lab", code=2))
+        with open("lab/page.css", "w", encoding="utf-8") as file:
+            file.write("h1{color:teal}\n")
+        for layout, code in (BEGINS + "{{title}}{{page}}", 0), (BEGINS + "{{titel}}{{page}}", 2), ("{{page}}", 2):
+            with open("lab/layout.html", "w", encoding="utf-8") as file:
+                file.write(layout)
+            said = self.call("report", results, "--template", "lab", "-o", "lab.html", code=code)
+        self.assertIn('does not begin with "<!DOCTYPE html>"', said)
+        with open("lab.html", encoding="utf-8") as file:
+            text = file.read()
+        self.assertTrue(text.startswith(BEGINS + "flankfilm<section>"))
+        self.assertNotIn("{{", text)
 
     def test_compare(self):
         """Of 1.01 +- 0.0101 m and 1.0001 +- 0.0001 m the difference is -0.0099 +- 0.0102 m."""

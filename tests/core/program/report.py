@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chromium opens pages of every sort: each tries itself, zooms, toggles, moves its slider, and complains of nothing."""
 import base64
+import hashlib
 import json
 import os
 import re
@@ -280,6 +281,9 @@ study:
     def test_without_library(self):
         self.call("report", "run")
         page = self.read_page("run/report.html").replace("self.vega =", "self.none =")
+        script = re.search(r"<script>(.*)</script>", page, re.DOTALL).group(1).encode()
+        named = base64.b64encode(hashlib.sha256(script).digest()).decode()
+        page = re.sub(r"script-src 'sha256-[^']*'", lambda _: f"script-src 'sha256-{named}'", page)  # else nothing runs
         with open("tables.html", "w", encoding="utf-8") as file:
             file.write(page)
         dom, figures = self.look("tables.html")

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+#ifndef REPORT_SHA256_H
+#define REPORT_SHA256_H
+
+#include <stddef.h>
+
+enum { SHA256_BASE64 = 45 };
+
+/* Writes the SHA-256 of a text in base64, as a Content-Security-Policy names it. */
+void sha256_base64(const char *text, size_t length, char out[SHA256_BASE64]);
+
+#endif
