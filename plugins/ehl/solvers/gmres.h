@@ -56,6 +56,10 @@ static inline int ehl_linear_converged(const ehl_linear *w)
     return w->krylov < EHL_KRYLOV || w->reached <= w->suffices;
 }
 
+/* Factorises anew from the first node whose equation has changed, or all when the factors are
+   outdated. */
+void ehl_linear_factor(ehl_solver *s, const ehl_step *step, const ehl_film *film);
+
 /* Learns how much Newton's method neglects from a step that follows one of the size `before`, whose
    linear solution left the share `reached`: its own size `now` is what that left. Relative. */
 void ehl_linear_learn(ehl_solver *s, double before, double reached, double now);
