@@ -145,19 +145,20 @@ def test_written_over():
         raise SystemExit(f"FAIL {rows('over')} rows of a plugin that was written over")
     (own / "wave.so").write_bytes((plugins / "wave.so").read_bytes())
     check_calm("written over", "over")
-    # a model that a later case puts into a stage; a file that is touched alone does no harm
+    # a model that the files of a later case put into a stage; a file that is touched alone does no harm
     shutil.copy(own / "guess.so", own / "brief.so")
     run = start("swap", "swap")
     wait_for("swap", 1)
     os.utime(own / "wave.so")
-    wait_for("swap", 3)
+    wait_for("swap", cases // 2 + 2)
     with paused(run):
         (own / "brief.so").write_bytes((own / "walk.so").read_bytes())
     expect("a model of a later case", run, 3, "brief.so was written over while the study ran")
-    if rows("swap") != cases // 2:
-        raise SystemExit(f"FAIL {rows('swap')} rows beside a model that was written over")
+    done = rows("swap")
+    if not cases // 2 + 2 <= done < cases:
+        raise SystemExit(f"FAIL {done} rows beside a model that was written over")
     (own / "brief.so").write_bytes((own / "guess.so").read_bytes())
-    expect("once more", start("swap", "swap"), 0, f"{cases} of {cases} cases done, {cases // 2} of them before")
+    expect("once more", start("swap", "swap"), 0, f"{cases} of {cases} cases done, {done} of them before")
     environment["FLANKFILM_PLUGIN_PATH"] = before
 
 
@@ -278,10 +279,13 @@ try:
     write("long", "work: 60 ms", points)
     write("quick", "count: 5", points)
     write("many", "count: 5", points.replace(str(cases), "300"))
+    for model in "guess", "brief":
+        (lab / f"{model}.yaml").write_text(f"format: 2\npipeline: {{guess: {{use: toy/{model}}}}}\n")
+    files = ["guess.yaml"] * (cases // 2) + ["brief.yaml"] * (cases // 2)
     (lab / "swap.yaml").write_text(
         "format: 2\npipeline: {wave: {use: toy/wave, work: 25 ms}, guess: {use: toy/guess}}\n"
-        "outputs: [wave.total, guess.value]\nstudy: {sweep: {guess.use: [toy/guess, toy/brief], "
-        f"wave.amplitude: {{from: 1 mm, to: 2 mm, points: {cases // 2}}}}}}}\n"
+        f"outputs: [wave.total, guess.value]\nstudy: {{zip: {{include: [{', '.join(files)}], "
+        f"wave.amplitude: [{', '.join(f'{1 + i / 20} mm' for i in range(cases))}]}}}}\n"
     )
     write("scribble", "count: 3", "wave.end: [good, scribble, good]", "[wave.total, wave.field]")
     expect("calm", start("slow", "calm"), 0, f"{cases} of {cases} cases done")

@@ -151,6 +151,21 @@ static void check_plugins(execution *r)
         end_written_over(r, over->path);
 }
 
+/* A model that a worker alone has met is loaded here, too, and so watched from now on. */
+static void watch_models(const execution *r, const json_t *record)
+{
+    ff_report *unheard = ff_report_new();
+    const char *stage;
+    json_t *values;
+    json_object_foreach(json_object_get(record, "parameters"), stage, values)
+    {
+        const char *id = json_string_value(json_object_get(values, "use"));
+        if (id)
+            ff_engine_model(r->run->engine, id, FF_NOWHERE, unheard);
+    }
+    ff_report_free(unheard);
+}
+
 /* Counts an answer and adds it to the journal; `text` is what follows the verdict. False when no
    further cases are to run. */
 static bool record_answer(execution *r, size_t index, const char *key, char verdict,
@@ -175,6 +190,7 @@ static bool record_answer(execution *r, size_t index, const char *key, char verd
     json_t *record = !known ? study_records_take(r->done, text, strlen(text))
                      : told ? study_records_get(r->done, key)
                             : NULL;
+    watch_models(r, known ? NULL : record);
     study_judgement judgement;
     if (known)
         judgement = study_records_judge(r->done, key);
@@ -262,6 +278,8 @@ static void take_answer(void *ctx)
                          : study_pool_wait(&r->pool, call->milliseconds, &call->task);
     if (study_signals_count() > 1)
         end_at_once(r);
+    if (call->state == FF_TASK_NONE)
+        check_plugins(r); /* what has become of its code may run for ever */
     if (call->state > 0)
         call->text = forked ? r->fork_server.answer : r->pool.answer;
     show_progress(r);
