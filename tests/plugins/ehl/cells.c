@@ -166,14 +166,14 @@ static void beating(line *c, double cells)
 }
 
 static void falling_of(line *c, const char *model, const char *cavitation, double cells,
-                       double share, const char *wanted)
+                       double steps, double share, const char *wanted)
 {
     line_open(c, model);
     line_last(c, 4, 160e-6); /* a passage takes 78 us */
     c->time[1] = 40e-6;
     c->time[2] = 42.5e-6;
     c->load[2] = c->load[3] = share * c->load[0];
-    stage_set(c->film, "steps", 640);
+    stage_set(c->film, "steps", steps);
     set_cells(c, cells, share < 0.7 ? 5.957 : 5.577);
     stage_set_text(c->film, "cavitation", cavitation);
     check_true("runs", line_run(c, wanted) == FF_OK);
@@ -181,7 +181,7 @@ static void falling_of(line *c, const char *model, const char *cavitation, doubl
 
 static void falling(line *c, double cells, double share, const char *wanted)
 {
-    falling_of(c, "ehl/finite-volume", "clip", cells, share, wanted);
+    falling_of(c, "ehl/finite-volume", "clip", cells, 640, share, wanted);
 }
 
 /* The largest of what twice the cells tell at each instant, by second order: that the worst
@@ -232,13 +232,13 @@ static void test_series_of_peaks(void)
 {
     line c;
     size_t n;
-    falling(&c, 192, 0.8, "p_max p_max_error");
+    falling_of(&c, "ehl/finite-volume", "clip", 192, 320, 0.8, "p_max p_max_error");
     const double *p = stage_get(c.film, "p_max", &n), *e = stage_get(c.film, "p_max_error", NULL);
     double worst = 0, by_cells = stage_quality(c.film, "p_max_space_error");
     for (size_t i = 0; i < n; i++)
         worst = fmax(worst, e[i] / p[i]);
     printf("peaks: %.4f, by the cells %.4f\n", worst, by_cells);
-    check_below("more than what the cells make", by_cells / worst, 0.99); /* 0.978 */
+    check_below("more than what the cells make", by_cells / worst, 0.97);
     check_below("with what the steps make it is all",
                 worst / (by_cells + stage_quality(c.film, "p_max_time_error")), 1);
     line_close(&c);
@@ -274,8 +274,8 @@ static void test_valley_of_peaks(void)
 static void test_carried_by_volumes(void)
 {
     line c, fine;
-    falling_of(&c, "ehl/control-volume", "mass-conserving", 192, 0.8, outputs);
-    falling_of(&fine, "ehl/control-volume", "mass-conserving", FINER * 192, 0.8, outputs);
+    falling_of(&c, "ehl/control-volume", "mass-conserving", 192, 640, 0.8, outputs);
+    falling_of(&fine, "ehl/control-volume", "mass-conserving", FINER * 192, 640, 0.8, outputs);
     double central = off(&c, &fine, "h_central"),
            says = stage_quality(c.film, "h_central_space_error");
     check_told("volumes: h_central", central, says);
