@@ -55,12 +55,6 @@ bool report_is_sample(const results_view *view)
     return inputs > 0;
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 double *report_sort(const double *values, size_t count, size_t *kept)
 {
     double *list = memory_alloc((count + 1) * sizeof *list);
@@ -68,7 +62,7 @@ double *report_sort(const double *values, size_t count, size_t *kept)
     for (size_t i = 0; i < count; i++)
         if (isfinite(values[i]))
             list[(*kept)++] = values[i];
-    qsort(list, *kept, sizeof *list, compare_numbers);
+    memory_sort(list, *kept, sizeof *list);
     return list;
 }
 

@@ -43,10 +43,8 @@ static void add_difference(differences *all, const char *name, const char *param
     all->count++;
     if (all->count > MOST_TOLD)
         return;
-    char *longer = memory_print_text("%s%s%s%s%s: %s -> %s", all->text, *all->text ? ", " : "",
-                                     name, *param ? "." : "", param, before, now);
-    free(all->text);
-    all->text = longer;
+    memory_add_text(&all->text, "%s%s%s%s: %s -> %s", *all->text ? ", " : "", name,
+                    *param ? "." : "", param, before, now);
 }
 
 static const char *text_of(const json_t *object, const char *key, const char *otherwise)

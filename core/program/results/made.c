@@ -84,9 +84,7 @@ char *results_made_remove(const char *directory)
         *name++ = '\0';
         if (!remove_made(directory, line, name))
             continue;
-        char *longer = memory_print_text("%s%s%s", names, *names ? ", " : "", name);
-        free(names);
-        names = longer;
+        memory_add_text(&names, "%s%s", *names ? ", " : "", name);
     }
     if (stream)
         fclose(stream);

@@ -381,9 +381,7 @@ char *study_files(const study_definition *study)
     const study_context *context = &study->driver->context;
     char *text = memory_print_text("%s", "");
     for (size_t i = 0; i < context->file_count; i++) {
-        char *longer = memory_print_text("%s%s, ", text, context->files[i].name);
-        free(text);
-        text = longer;
+        memory_add_text(&text, "%s, ", context->files[i].name);
     }
     return text;
 }

@@ -259,9 +259,7 @@ char *study_judgement_text(const study_judgement *judgement, study_list list)
     const study_words *of = &judgement->lists[list];
     char *text = memory_print_text("%s", "");
     for (size_t i = 0; i < of->count; i++) {
-        char *longer = memory_print_text("%s%s%s", text, i ? ", " : "", of->words[i]);
-        free(text);
-        text = longer;
+        memory_add_text(&text, "%s%s", i ? ", " : "", of->words[i]);
     }
     return text;
 }

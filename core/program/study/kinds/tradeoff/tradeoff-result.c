@@ -70,12 +70,6 @@ static json_t *today(void)
     return json_string(text);
 }
 
-static int compare_numbers(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 static json_t *cost_of(const study_tradeoff *t, size_t point, double *median)
 {
     double *all = memory_arena_alloc(&t->context->arena, t->repeats * sizeof *all);
@@ -85,7 +79,7 @@ static json_t *cost_of(const study_tradeoff *t, size_t point, double *median)
         if (isfinite(work))
             all[count++] = work;
     }
-    qsort(all, count, sizeof *all, compare_numbers);
+    memory_sort(all, count, sizeof *all);
     *median = count ? (all[(count - 1) / 2] + all[count / 2]) / 2 : (double)NAN;
     return count ? json_pack("{s:f, s:f, s:f, s:o, s:I}", "median", *median, "min", all[0], "max",
                              all[count - 1], "spread",

@@ -72,12 +72,6 @@ static const ff_param keys[STUDY_UNCERTAINTY_KEYS] = {
                                    "medians: {thermal: {film.thermal: full}}"},
 };
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* What all samples share, such as a mesh under one torque, is computed once, and is no cost of a
    sample: the cases of level 0 reuse it from the second one on. */
 static double shared_seconds(const study_uncertainty *u)
@@ -101,7 +95,7 @@ static double seconds_of(const study_uncertainty *u, size_t level)
         if (outcome->processor > 0)
             all[count++] = outcome->processor + fmax(0, outcome->saved - shared);
     }
-    qsort(all, count, sizeof *all, compare);
+    memory_sort(all, count, sizeof *all);
     double median = count ? all[count / 2] : (double)NAN;
     free(all);
     return median;

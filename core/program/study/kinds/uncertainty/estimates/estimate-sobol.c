@@ -32,16 +32,10 @@ static void indices(const double *a, const double *b, const double *c, const siz
     *total = apart / n / (square_t / n - mean_t * mean_t / (n * n));
 }
 
-static int compare(const void *a, const void *b)
-{
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
 /* The middle 95 % of what resampled rows give (Efron 1979). */
 static void bound(estimate *e, double *values)
 {
-    qsort(values, RESAMPLES, sizeof *values, compare);
+    memory_sort(values, RESAMPLES, sizeof *values);
     e->low = values[RESAMPLES / 40];
     e->high = values[RESAMPLES - 1 - RESAMPLES / 40];
     e->error = (double)NAN;
