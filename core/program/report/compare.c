@@ -14,7 +14,7 @@ static const double noise = 1e-12; /* relative, of sums in another order */
 
 /* A number of a design. */
 typedef struct number {
-    double value, bar; /* SI; NaN: not known */
+    double value, bar; /* SI; NaN: there is none; an infinite bar: it is not known */
 } number;
 
 /* Which number of an output a row has. */
@@ -43,7 +43,7 @@ static bool is_error_of(const results_view *view, const results_view_quality *li
 }
 
 /* The error of number k of a variable: measured, or the largest share that a line of its stage
-   says. */
+   says. A line without a number says that it is not known. */
 static double bar_of(report_page *page, size_t variable, size_t index, size_t k, double value)
 {
     const results_view *view = page->view;
@@ -51,10 +51,11 @@ static double bar_of(report_page *page, size_t variable, size_t index, size_t k,
     ff_array bars = report_load(page, report_find_bar(view, variable), index);
     double bar = bars.data && k < report_array_size(&bars) ? bars.data[k] : (double)NAN;
     report_release(page, &bars);
-    for (size_t i = 0; isnan(bar) && i < view->cases[index]->quality_count; i++) {
+    const bool measured = !isnan(bar);
+    for (size_t i = 0; !measured && i < view->cases[index]->quality_count; i++) {
         const results_view_quality *line = view->cases[index]->quality[i];
-        if (is_error_of(view, line, of) && isfinite(line->value))
-            bar = fabs(line->value * value);
+        if (is_error_of(view, line, of))
+            bar = fmax(bar, isfinite(line->value) ? fabs(line->value * value) : (double)INFINITY);
     }
     return bar;
 }

@@ -3,6 +3,7 @@
    range below 0.2, fails above 3, and above a load of 5 N it is ten times worse than it says. */
 #include <flankfilm/author.h>
 
+#include <math.h>
 #include <stdlib.h>
 
 enum { LOAD, SPEED, CELLS };
@@ -66,7 +67,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         return ff_failf(host, FF_NOCONV, "speed", "step 7 of 9: %g m/s is above 3", v->speed);
     host->quality(host->ctx, "residual", v->speed, 2, v->speed > 2 ? FF_DOUBTFUL : FF_GOOD,
                   "it grows with speed");
-    host->quality(host->ctx, "answer_error", estimate, 0.1, FF_GOOD, NULL);
+    const int known = v->cells > 1;
+    host->quality(host->ctx, "answer_error", known ? estimate : (double)NAN, 0.1,
+                  known ? FF_GOOD : FF_DOUBTFUL, NULL);
     host->quality(host->ctx, "law", v->speed, 0.2, v->speed < 0.2 ? FF_DOUBTFUL : FF_GOOD, NULL);
     if (v->load > 50)
         host->quality(host->ctx, "reach", v->load, 50, FF_RANGE, "it was made for less");

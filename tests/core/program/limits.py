@@ -70,6 +70,17 @@ class Limits(lab.Lab):
                  for one in self.answer(self.write("all", RUN % text))["limits"]}
         self.assertEqual(found, dict(STANDINGS))
 
+    def test_error_not_known(self):
+        """An error that is not known is no error of 0, and stops nothing."""
+        file = self.write("coarse", RUN % 'verge.answer: ["< 3 m", "< 1 m"], verge.swing: "< 1"')
+        answer = self.answer(file, "--set", "verge.cells=1")
+        self.assertEqual([(one["standing"], one["bar"]) for one in answer["limits"]],
+                         [("met within its bar", None), ("missed", None), ("met", None)])
+        self.assertIsNone(answer["stages"][0]["quality"]["answer_error"]["value"])
+        sweep = "study={sweep: {verge.cells: [1, 100]}}"
+        self.call("run", file, "--set", sweep, "-o", "coarse")
+        self.assertIn("+0.9999 +- not known: smaller than what is known", self.call("compare", "coarse:2", "coarse:1"))
+
     def test_strict(self):
         for limit, standing in STANDINGS[0], STANDINGS[1], STANDINGS[4]:
             with self.subTest(limit=limit):

@@ -118,6 +118,11 @@ map motion '[1 N]' '[1 m/s, 2.5 m/s]' 'physical: [verge.residual]'
 expect 0 'p 1 physical' "$flankfilm" run motion.yaml -o motion
 verdict motion 1 2.5 physical
 
+# A line without a number says that the error is not known, and promises none.
+expect 0 '1: verge.answer_error, as not known with limit 0.1' "$flankfilm" run motion.yaml -o unknown \
+    --set verge.cells=1 --set 'study.stability.axes.verge.speed=[1 m/s]'
+grep -q '1 N,1 m/s,degraded,grid,verge.answer_error,,0.1,verge.answer,0.6,,' unknown/map.csv
+
 # A line that may warn for either reason is physics only where the condition says so.
 map calm '[1 N]' '[1 m/s, 2.5 m/s]' 'physical: {"verge.swing > 0": verge.residual}'
 expect 0 'd 1 degraded' "$flankfilm" run calm.yaml -o calm

@@ -71,12 +71,14 @@ static double third_of_bend(void)
 }
 
 static double worst;
+static int32_t judged;
 
 static void keep(void *ctx, const char *name, double value, double limit, int32_t verdict,
                  const char *text)
 {
-    (void)ctx, (void)name, (void)limit, (void)verdict, (void)text;
+    (void)ctx, (void)name, (void)limit, (void)text;
     worst = value;
+    judged = verdict;
 }
 
 /* Returns what the line of h_min's error by the cells says of a row with that film. */
@@ -98,8 +100,12 @@ static double stated_of_film(double h_min, double part)
 int main(void)
 {
     check_near("a film that is too thin", stated_of_film(1e-6, -1e-8), 0.01, 1e-10);
-    check_true("a film that is no number", stated_of_film(NAN, 1e-8) > 1);
-    check_true("nor its error", stated_of_film(1e-6, NAN) > 1);
+    check_true("and is good", judged == FF_GOOD);
+    check_true("a film that is no number", isnan(stated_of_film(NAN, 1e-8)));
+    check_true("is doubtful", judged == FF_DOUBTFUL);
+    judged = FF_GOOD;
+    check_true("nor its error", isnan(stated_of_film(1e-6, NAN)));
+    check_true("which is doubtful, too", judged == FF_DOUBTFUL);
     check_below("a straight line", stated(straight, EHL_BDF2), 1e-10);
     double bend = stated(bent, EHL_BDF2);
     check_near("a parabola", bend, third_of_bend(), 1e-10);

@@ -39,9 +39,10 @@ int model_is_finite(const film_model *m, const line *c)
     for (char *name = strtok(names, " "); name; name = strtok(NULL, " ")) {
         size_t n;
         const double *y = stage_get(c->film, name, &n);
+        int may_be_unknown = strcmp(name, "h_min_error") == 0;
         int length = name[0] == 'h' || strcmp(name, "film") == 0;
         for (size_t i = 0; i < n; i++)
-            if (!isfinite(y[i]) || (length && y[i] < 0))
+            if (!(isfinite(y[i]) || (may_be_unknown && y[i] > 0)) || (length && y[i] < 0))
                 return 0;
     }
     return 1;

@@ -22,7 +22,8 @@ extern const film_model film_models[FILM_MODELS];
 void model_open(const film_model *m, line *c);
 
 /* Every output that a contact without a roll angle has: all numbers are finite, those of lengths
-   not negative. The run must have asked for model_outputs. */
+   not negative. The error of h_min may be infinite: it is not known. The run must have asked for
+   model_outputs. */
 const char *model_outputs(const film_model *m);
 int model_is_finite(const film_model *m, const line *c);
 

@@ -32,6 +32,8 @@ static int is_honest(const film_model *m, const line *c)
         error = fmax(error, line_value(c, "h_min_error", i) / h[i]);
     }
     int thin = lowest < 1e-9, doubtful = stage_verdict(c->film) == FF_DOUBTFUL;
+    if (isinf(error) && !(doubtful && isnan(stage_quality(c->film, "h_min_space_error"))))
+        return 0; /* what is not known is said */
     if (thin && !(stage_quality(c->film, "continuum") < 1e-9))
         return 0;
     if (m->solves && !(balance_of_instants(c, 20) < 1e-6)) /* a tenth of the tolerance */

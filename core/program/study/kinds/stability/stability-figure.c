@@ -58,11 +58,12 @@ static json_t *side(const study_map *map, size_t axis, size_t points)
 
 static json_t *reason(const study_cell *cell)
 {
-    char text[600];
+    char text[600], value[32];
+    snprintf(value, sizeof value, isfinite(cell->value) ? "%.4g" : "not known", cell->value);
     int length = snprintf(text, sizeof text, "%s", study_class_names[cell->class]);
     if (cell->line)
         length += snprintf(text + length, sizeof text - (size_t)length,
-                           "; %.150s = %.4g, held to %.4g", cell->line, cell->value, cell->limit);
+                           "; %.150s = %s, held to %.4g", cell->line, value, cell->limit);
     if (cell->why)
         length += snprintf(text + length, sizeof text - (size_t)length, "; %.150s", cell->why);
     if (cell->note)

@@ -104,7 +104,7 @@ static void set_class(study_cell *cell, enum study_class class, const study_qual
 {
     cell->class = class;
     cell->line = line->name;
-    cell->value = number_or_zero(line->value);
+    cell->value = line->value;
     cell->limit = number_or_zero(line->limit);
     cell->why = *line->text ? line->text : NULL;
 }
@@ -188,7 +188,7 @@ static void judge_claim(study_cell *cell, const study_map *s, const study_claim 
     for (size_t i = 0; i < claim->estimate_count; i++) {
         const study_quality *line = line_of(answer, claim->estimates[i]);
         promised = promised || line;
-        estimate += line ? fabs(number_or_zero(line->value)) : 0;
+        estimate += !line ? 0 : isnan(line->value) ? (double)INFINITY : fabs(line->value);
     }
     estimate = promised ? estimate : s->tolerance / most_times;
     double difference = fabs(value - finer) / fmax(fabs(finer), 1e-300);

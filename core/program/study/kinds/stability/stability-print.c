@@ -73,6 +73,7 @@ static void print_causes(const study_map *map, enum study_class class)
     for (size_t i = 0; i < map->count && class != STUDY_CONVERGED; i++) {
         const study_cell *cell = &map->cells[i];
         size_t count = 0, before = 0;
+        char value[32];
         for (size_t k = 0; cell->class == class && k < map->count; k++) {
             bool same = map->cells[k].class == class &&
                         strcmp(cause_of(cell), cause_of(&map->cells[k])) == 0;
@@ -85,14 +86,15 @@ static void print_causes(const study_map *map, enum study_class class)
         if (shown == MOST_CAUSES)
             continue;
         shown++;
+        snprintf(value, sizeof value, isfinite(cell->value) ? "%.3g" : "not known", cell->value);
         study_line_add(&line, "      ");
         if (!cell->line)
             study_line_add(&line, "%s", cause_of(cell));
         else if (class == STUDY_SILENT)
             study_line_add(&line, "%zu: %s: %s", count, cell->line, cell->why);
         else
-            study_line_add(&line, "%zu: %s, as %.3g with limit %.3g", count, cell->line,
-                           cell->value, cell->limit);
+            study_line_add(&line, "%zu: %s, as %s with limit %.3g", count, cell->line, value,
+                           cell->limit);
         study_line_print(map->context, &line, 0);
     }
     if (left) {
