@@ -155,6 +155,9 @@ static curve curve_at(const stiffness_table *t, size_t phase)
         c.error[i] = t->file->columns[COLUMN_LOADED][at];
     }
     numerics_steffen_slopes(c.count, c.force, c.error, c.slope);
+    size_t last = c.count - 1; /* a slope of 0, which Steffen allows at ends, were a rigid mesh */
+    c.slope[0] = fmax(c.slope[0], 0.1 * rise(&c, 0));
+    c.slope[last] = fmax(c.slope[last], 0.1 * rise(&c, last - 1));
     for (size_t i = 0; i < c.count && k; i++) {
         double steepest = 3 * fmin(rise(&c, i ? i - 1 : 0), rise(&c, i + 1 < c.count ? i : i - 1));
         c.slope[i] = fmin(1 / k[i * t->count + phase], steepest); /* keeps the cubic monotone */

@@ -205,6 +205,17 @@ static void test_forces(void)
     check_true("a chord for a slope", stage_ready(chord) == FF_INVALID &&
                                           strstr(stage_why(chord), ":4:9: in every row this is"));
     stage_close(chord);
+    char closing[300];
+    snprintf(closing, sizeof closing,
+             "phase,force [N],loaded_transmission_error [um]\n0,0,1\n0.5,0,1\n"
+             "0,%.17g,11\n0.5,%.17g,11\n0,%.17g,12\n0.5,%.17g,12\n",
+             unity.line_force, unity.line_force, 2 * unity.line_force, 2 * unity.line_force);
+    stage *stiff = open_file(closing);
+    check_true("flanks that close at once", stage_run(stiff) == FF_OK);
+    const double *level = stage_get(stiff, "level_stiffness", NULL);
+    check_true("are not rigid above",
+               level && level[4] > 0 && level[4] < 11 * unity.line_force / 1e-6);
+    stage_close(stiff);
     static const double short_of[] = {0, 0.5};
     stage *s = open_file(force_table(0, short_of, 2));
     stage_set_text(s, "ends", "jump");
