@@ -206,7 +206,14 @@ static ff_status read_table(statistical *s)
             return ff_table_failf(s->host, t, i, PRESSURE,
                                   "asperities carry less the further apart the flanks are: the "
                                   "pressure must fall");
-    return made ? FF_OK : FF_NOMEM;
+    if (!made)
+        return FF_NOMEM;
+    for (size_t end = 0, row = 0; end < 2; end++, row = t->row_count - 1)
+        if (!(s->curve.slope[row] < 0))
+            return ff_table_failf(s->host, t, row, PRESSURE,
+                                  "towards this end ln p_a levels off so fast that it would stay "
+                                  "constant beyond: add a row that shows how it goes on");
+    return FF_OK;
 }
 
 static ff_status pressure(const void *self, size_t n, const double *h, double *p_a, double *dp_a_dh)

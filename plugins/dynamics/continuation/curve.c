@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "curve.h"
 
-#include "../oscillator/bracket.h"
+#include "../../numerics/bracket.h"
 #include "bordered.h"
 
 #include <math.h>
@@ -81,12 +81,12 @@ static int find_root_of_test(const dynamics_continuation_range *t, const stride 
                              double (*test)(const dynamics_orbit *), double at_start, double at_end,
                              dynamics_orbit *o)
 {
-    dynamics_bracket b = {0, at_start, arclength(t, w), at_end, 0};
+    numerics_bracket b = {0, at_start, arclength(t, w), at_end, 0};
     double whole = b.high;
     stride near = *w; /* its end follows the root */
     int found = 0;
     for (int i = 0; i < MAX_SECANTS && b.high - b.low > 1e-10 * whole; i++) {
-        double s = dynamics_bracket_secant(&b);
+        double s = numerics_bracket_secant(&b);
         if (!solve_in_stride(t, &near, s, o))
             return found;
         found = 1;
@@ -97,7 +97,7 @@ static int find_root_of_test(const dynamics_continuation_range *t, const stride 
         double f = test(o);
         if (fabs(f) < 1e-11 * (fabs(at_start) + fabs(at_end)))
             break;
-        dynamics_bracket_narrow(&b, s, f);
+        numerics_bracket_narrow(&b, s, f);
     }
     return found;
 }

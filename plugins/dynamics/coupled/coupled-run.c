@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "coupled-run.h"
 
+#include "../../numerics/bracket.h"
 #include "../../numerics/integrator.h"
 #include "../excitation/spring.h"
-#include "../oscillator/bracket.h"
 #include "coupled-variation.h"
 
 #include <float.h>
@@ -244,9 +244,9 @@ static double gate_after(dynamics_coupled_run *run, double h, event *e)
 enum { MAX_PROBES = 80, MAX_SECANTS = 40, MAX_CORRECTIONS = 4 };
 
 /* Narrows a bracket once. */
-static double next_probe(const dynamics_bracket *b, int n)
+static double next_probe(const numerics_bracket *b, int n)
 {
-    double middle = dynamics_bracket_secant(b);
+    double middle = numerics_bracket_secant(b);
     return middle > b->low && middle < b->high && n <= MAX_SECANTS
                ? middle
                : b->low + 0.5 * (b->high - b->low);
@@ -256,15 +256,15 @@ static double next_probe(const dynamics_bracket *b, int n)
    closed. The course of the step leads near, and attempts correct that by its slope; if they do not
    meet the instant, attempts narrow the bracket. */
 static void find_closing(dynamics_coupled_run *run, const dynamics_course *course,
-                         dynamics_bracket b, event *e)
+                         numerics_bracket b, event *e)
 {
     static const double near = 1e-9, apart = 1e-4; /* shares of the step */
-    dynamics_bracket wide = b;
+    numerics_bracket wide = b;
     double share = b.high, f = b.f_high;
     for (int n = 0; n < MAX_PROBES && b.high - b.low > near && fabs(f) > closed; n++) {
         share = next_probe(&b, n);
         f = gate_on_course(run, course, e->gate, share);
-        dynamics_bracket_narrow(&b, share, f);
+        numerics_bracket_narrow(&b, share, f);
     }
     double slope = (gate_on_course(run, course, e->gate, share + apart) -
                     gate_on_course(run, course, e->gate, share - apart)) /
@@ -280,7 +280,7 @@ static void find_closing(dynamics_coupled_run *run, const dynamics_course *cours
         f = gate_after(run, share * course->h, e);
         if (fabs(f) < closed)
             return;
-        dynamics_bracket_narrow(&wide, share, f);
+        numerics_bracket_narrow(&wide, share, f);
     }
     gate_after(run, wide.high * course->h, e);
 }
@@ -306,9 +306,9 @@ static int find_event(dynamics_coupled_run *run, double h, const double *y, even
         dynamics_field_gates(&run->field, run->t + 0.5 * h, middle, m);
     }
     for (int i = 0; i < DYNAMICS_GATES; i++) {
-        dynamics_bracket b = {0, a[i], 1, z[i], 0};
+        numerics_bracket b = {0, a[i], 1, z[i], 0};
         if (dips && i < DYNAMICS_COMES && z[i] >= 0 && m[i] < 0 && a[i] > 0)
-            b = (dynamics_bracket){0, a[i], 0.5, m[i], 0};
+            b = (numerics_bracket){0, a[i], 0.5, m[i], 0};
         if (b.f_high >= 0)
             continue;
         event e = {.at = 0, .gate = i};

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "oscillator.h"
 
+#include "../../numerics/bracket.h"
 #include "../../numerics/integrator.h"
 #include "../excitation/spring.h"
-#include "bracket.h"
 
 #include <float.h>
 #include <math.h>
@@ -342,16 +342,16 @@ enum { MAX_PROBES = 100, MAX_SECANTS = 50 };
 static double find_change(dynamics_oscillator *o, int i, int rate, double at_0, double h,
                           double at_h)
 {
-    dynamics_bracket b = {0, at_0, h, at_h, 0};
+    numerics_bracket b = {0, at_0, h, at_h, 0};
     double small = 4 * DBL_EPSILON * (fabs(at_0) + fabs(at_h));
     for (int n = 0; n < MAX_PROBES && b.high - b.low > 4 * DBL_EPSILON * h; n++) {
-        double middle = dynamics_bracket_secant(&b);
+        double middle = numerics_bracket_secant(&b);
         if (!(middle > b.low && middle < b.high) || n > MAX_SECANTS)
             middle = b.low + 0.5 * (b.high - b.low);
         double f = gate_after_step(o, i, rate, middle);
         if (fabs(f) <= small)
             return middle;
-        dynamics_bracket_narrow(&b, middle, f);
+        numerics_bracket_narrow(&b, middle, f);
     }
     return b.high;
 }

@@ -186,6 +186,12 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                        .doc = "film thickness at x = 0",                                           \
                        .dims = "t",                                                                \
                        .max = INFINITY},                                                           \
+    [k##_BULK_TEMPERATURE] = {.name = "bulk_temperature",                                          \
+                              .unit = "K",                                                         \
+                              .doc = "temperature of the teeth before they meet and of the oil "   \
+                                     "that enters; needs a stage of the oil",                      \
+                              .dims = "",                                                          \
+                              NUMERICS_BULK_QUANTITY},                                             \
     [k##_H_MIN_LOWEST] = {.name = "h_min_lowest",                                                  \
                           .unit = "m",                                                             \
                           .doc = "lowest h_min of all times",                                      \
@@ -424,12 +430,6 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                        .unit = "1",
                        .doc = "time steps that had to be cut",
                        .dims = ""},
-    [EHL_BULK_TEMPERATURE] = {.name = "bulk_temperature",
-                              .unit = "K",
-                              .doc = "temperature of the teeth before they meet and of the oil "
-                                     "that enters; needs a stage of the oil",
-                              .dims = "",
-                              NUMERICS_BULK_QUANTITY},
     [EHL_FILM_AT_LANDING] =
         {.name = "film_at_landing",
          .unit = "m",
@@ -558,7 +558,6 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
                                .unit = "Pa",
                                .doc = "Hertz pressure",
                                .dims = "t x"},
-
 };
 
 ff_status ehl_read_history(const ff_host *host, const ff_array *in, double light_load,

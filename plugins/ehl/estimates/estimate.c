@@ -218,7 +218,7 @@ static ff_status begin(ehl_estimate *e, uint64_t wanted, const ff_array *in)
     e->alpha_star = ehl_alpha_star(&e->laws);
     e->alpha = e->alpha_star.value;
     e->answered = EHL_LAW_GOOD;
-    e->worst_rise = 0;
+    e->worst_rise = e->outside = 0;
     status = read_asperities(e, in);
     if (status != FF_OK)
         return status;
@@ -304,6 +304,7 @@ static void set_friction(const results *r, ehl_estimate *e, size_t k, double h_c
     const ehl_local_friction f =
         m->load > 0 ? ehl_local_evaluate(&e->local, &c, h) : (ehl_local_friction){.oil = 0};
     ehl_law_note(&e->answered, f.laws);
+    e->outside += f.closure != FF_OK;
     e->worst_rise = fmax(e->worst_rise, f.rise);
     double traction = f.oil + f.asperities;
     double sliding = f.oil * m->at.sliding, rolling = rolling_loss(e, k);
@@ -375,6 +376,9 @@ static ff_status set_scalars(const results *r, const ehl_estimate *e)
     for (uint32_t k = EHL_ESTIMATE_H_MIN_LOWEST; k <= EHL_ESTIMATE_ENGAGEMENTS_JUDGED; k++)
         if (wants(r, k) && ff_put_scalar(r->host, k, value[k - EHL_ESTIMATE_H_MIN_LOWEST]) != FF_OK)
             return FF_NOMEM;
+    if (wants(r, EHL_ESTIMATE_BULK_TEMPERATURE) &&
+        ff_put_scalar(r->host, EHL_ESTIMATE_BULK_TEMPERATURE, e->laws.temperature) != FF_OK)
+        return FF_NOMEM;
     if (wants(r, EHL_ESTIMATE_ALPHA_STAR) &&
         ehl_put_alpha_star(r->host, EHL_ESTIMATE_ALPHA_STAR, e->alpha_star) != FF_OK)
         return FF_NOMEM;
@@ -402,6 +406,12 @@ static void report(const ehl_estimate *e, double lowest, double least_lambda)
         host->quality(host->ctx, "contact_heating", e->worst_rise, 0, FF_GOOD,
                       "largest rise of the oil in the contact over the teeth, K, by its friction; "
                       "0: no friction was asked for");
+    if (e->outside > 0)
+        host->quality(host->ctx, "asperity_range", e->outside, 0, FF_RANGE,
+                      e->share == EHL_MASJEDI_KHONSARI
+                          ? "instants with sigma/R above 5e-5, beyond the films of the share's fit"
+                          : "instants whose mean planes cross, or come closer than their table: "
+                            "what asperities carry is extrapolated");
     if (e->roughness > 0 && e->asperities)
         ehl_lambda_carried(host, least_lambda);
     else if (e->roughness > 0)
@@ -423,6 +433,10 @@ static ff_status evaluate(ehl_estimate *e, uint64_t wanted, const ff_array *in)
             wanted & FF_BIT(EHL_ESTIMATE_ROLL_ANGLE) ? "roll_angle" : "h_min_lowest_at",
             "this output needs a contact with a roll angle, such as contact/tooth-pair");
     ff_status status = begin(e, wanted, in);
+    if (status == FF_OK && wants(&r, EHL_ESTIMATE_BULK_TEMPERATURE) && !(e->laws.temperature > 0))
+        status = ff_failf(e->host, FF_UNSUPPORTED,
+                          ehl_estimate_outputs[EHL_ESTIMATE_BULK_TEMPERATURE].name,
+                          "this output needs a stage of the oil, which has a temperature");
     if (status == FF_OK)
         status = claim(&r, e);
     if (status == FF_OK)

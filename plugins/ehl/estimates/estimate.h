@@ -112,6 +112,7 @@ struct ehl_estimate {
     double conductivity; /* of the oil, W/(m K), with heat; else 0 */
     ehl_local local;
     double worst_rise; /* of the oil over the teeth, K */
+    double outside;    /* instants outside what the closure of the share is known for */
     ehl_grid grid;
     size_t count;
     ehl_moment *moment;

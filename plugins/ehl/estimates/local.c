@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "local.h"
 
+#include "../../numerics/bracket.h"
+
 #include <math.h>
 
 enum { N = EHL_LOCAL_POINTS, MOST_ROUNDS = 100 };
@@ -19,46 +21,54 @@ typedef struct scene {
 } scene;
 
 /* Returns the root of an increasing function between a and b, whose signs differ there, to
-   `within`: false position after Dowell & Jarratt 1971, "Illinois". */
+   `within`. */
 static double root_of(double (*f)(scene *, double), scene *s, double a, double b, double within)
 {
-    double at_a = f(s, a), at_b = f(s, b);
-    if (!(at_a < 0))
+    numerics_bracket r = {a, f(s, a), b, f(s, b), 0};
+    if (!(r.f_low < 0))
         return a;
-    for (int k = 0; k < MOST_ROUNDS && b - a > within && at_b > 0; k++) {
-        double x = (a * at_b - b * at_a) / (at_b - at_a);
-        x = fmin(fmax(x, a + within / 2), b - within / 2);
-        double at_x = f(s, x);
-        if (at_x < 0) {
-            a = x;
-            at_a = at_x;
-            at_b /= 2;
-        } else {
-            b = x;
-            at_b = at_x;
-            at_a /= 2;
-        }
+    for (int k = 0; k < MOST_ROUNDS && r.high - r.low > within && r.f_high > 0; k++) {
+        double x = numerics_bracket_secant(&r);
+        x = fmin(fmax(x, r.low + within / 2), r.high - within / 2);
+        numerics_bracket_narrow(&r, x, f(s, x));
     }
-    return b;
+    return r.high;
 }
 
-/* s p_m - p_a of the film that the oil makes of its share of the load: h (1 - s)^-0.13 (Johnson,
-   Greenwood & Poon 1972, with the exponent of the load in Dowson & Higginson's film). */
-static double unbalanced(scene *s, double share)
+/* Returns the share of the load on asperities whose mean planes are `apart`, which is below 0 where
+   they cross; 1: they would carry more. */
+static double carried_at(scene *s, double apart)
 {
     const ff_asperity *law = s->l->asperities;
-    double p_a = 0, h = s->c->h * pow(1 - share, -0.13), mean = s->c->load / (2 * s->c->a);
-    law->pressure(law->self, 1, &h, &p_a, NULL);
+    double p_a = 0, mean = s->c->load / (2 * s->c->a);
+    s->f.closure = law->pressure(law->self, 1, &apart, &p_a, NULL);
     p_a *= s->l->modulus / law->modulus;
     if (s->l->hardness > 0)
         p_a /= 1 + p_a / s->l->hardness;
-    return share * mean - p_a;
+    return fmin(p_a / mean, 1);
+}
+
+/*
+ * What the mean gap of mean planes at H sigma has of oil beyond the film that the oil makes of its
+ * share of the load, h (1 - s)^-0.13 (Johnson, Greenwood & Poon 1972, with the exponent of the load
+ * in Dowson & Higginson's film). The mean gap of Gaussian heights, cut off where they would cross,
+ * is sigma (H Phi(H) + phi(H)) (Patir & Cheng 1978), H sigma beyond 3 sigma: flanks without oil
+ * come as close as their asperities let them.
+ */
+static double unbalanced(scene *s, double H)
+{
+    const double sigma = s->l->asperities->sigma;
+    double below = 0.5 * erfc(-H / sqrt(2)), density = exp(-H * H / 2) / sqrt(2 * M_PI);
+    double gap = fmax(H * below + density, 0) * sigma;
+    return gap * pow(1 - carried_at(s, H * sigma), 0.13) - s->c->h;
 }
 
 /* Masjedi & Khonsari 2012, J. Tribol. 134, 011503, of line contacts. */
-static double masjedi_khonsari(const ehl_local *l, const ehl_local_contact *c)
+static double masjedi_khonsari(const ehl_local *l, const ehl_local_contact *c, ff_status *closure)
 {
+    const double roughest = 5e-5; /* sigma/R of their films */
     double size = l->modulus * c->radius, s = l->asperities->sigma / c->radius;
+    *closure = s > roughest ? FF_DOMAIN : FF_OK;
     double U = l->viscosity * c->entrainment / size, W = c->load / size, G = l->alpha * l->modulus;
     /* summits without a hardness: as hard as case-hardened steel, 7 of 230 GPa */
     double V = l->hardness > 0 ? l->hardness / l->modulus : 0.03;
@@ -68,16 +78,22 @@ static double masjedi_khonsari(const ehl_local *l, const ehl_local_contact *c)
     return fmin(fmax(percent / 100, 0), 1);
 }
 
-double ehl_local_share(const ehl_local *l, const ehl_local_contact *c)
+/* Returns the share of the load on asperities where the film is c->h. */
+static double share_of(const ehl_local *l, const ehl_local_contact *c, ff_status *closure)
 {
+    *closure = FF_OK;
     scene s = {.l = l, .c = c};
     if (!l->asperities || !(c->load > 0))
         return 0;
     if (l->share == EHL_MASJEDI_KHONSARI)
-        return masjedi_khonsari(l, c);
+        return masjedi_khonsari(l, c, closure);
     if (l->share == EHL_CLARKE) /* Clarke et al. 2015, Tribol. Int. 90 */
         return erfc(c->h / l->asperities->sigma);
-    return root_of(unbalanced, &s, 0, 1, 1e-9);
+    const double far = 8, sigma = l->asperities->sigma; /* sigma, of no asperities in contact */
+    double H = root_of(unbalanced, &s, -far, c->h / sigma + far, 1e-9);
+    double share = carried_at(&s, H * sigma);
+    *closure = s.f.closure;
+    return share;
 }
 
 /* Sets the friction at one temperature, NAN: that of the laws, from the oil's share of p. */
@@ -115,7 +131,7 @@ ehl_local_friction ehl_local_evaluate(const ehl_local *l, const ehl_local_contac
 {
     const double within = 1e-4; /* K */
     scene s = {.l = l, .c = c};
-    s.f.share = ehl_local_share(l, c);
+    s.f.share = share_of(l, c, &s.f.closure);
     s.f.asperities = copysign(l->boundary_friction * s.f.share * c->load, c->sliding);
     if (!(fabs(c->sliding) > 0))
         s.f.asperities = 0;

@@ -45,6 +45,7 @@ typedef struct ehl_local_friction {
     double share;           /* of the load, on asperities */
     double rise;            /* T_f - T_bulk, K */
     ff_status laws;
+    ff_status closure; /* of the share; FF_DOMAIN: outside what it is known for */
 } ehl_local_friction;
 
 enum { EHL_LOCAL_POINTS = 32 };
@@ -56,8 +57,5 @@ double ehl_local_place(int part);
 /* `h`: the film at these places; NULL: that of c everywhere. */
 ehl_local_friction ehl_local_evaluate(const ehl_local *l, const ehl_local_contact *c,
                                       const double *h);
-
-/* The share of the load on asperities where the film is c->h. */
-double ehl_local_share(const ehl_local *l, const ehl_local_contact *c);
 
 #endif

@@ -71,6 +71,15 @@ FF_SIMD_INLINE side side_of(const sweep *s, size_t i, int forward)
     return (side){1, 1, 0, T + step, T + step};
 }
 
+/* Returns the conductance of a column, W/(m2 K), k(p) over h. */
+FF_SIMD_INLINE double conductance_of(const sweep *s, size_t i)
+{
+    const ehl_energy *e = s->e;
+    double p = s->film->p[i] > 0 ? s->film->p[i] : 0;
+    return e->conductivity * (1 + e->conducts.rise * p / (1 + e->conducts.bend * p)) /
+           s->film->h[i];
+}
+
 /* Returns 1 over the mean slope of the shear rates by the stress; 0: none flows. */
 FF_SIMD_INLINE double per_mean_slope(const ehl_energy *e, size_t i, size_t n)
 {
@@ -87,8 +96,8 @@ FF_SIMD_INLINE void find_rest(const sweep *s, size_t i, size_t n, double *off)
     const ehl_column *c = &s->e->column[i];
     const side ahead = side_of(s, i, 1), behind = side_of(s, i, 0);
     const double *T = s->t->T + i * n;
-    double conducted = s->e->conductivity / s->film->h[i], bend[EHL_ACROSS_MOST],
-           damped[EHL_ACROSS_MOST], slope[EHL_ACROSS_MOST];
+    double conducted = conductance_of(s, i), bend[EHL_ACROSS_MOST], damped[EHL_ACROSS_MOST],
+           slope[EHL_ACROSS_MOST];
     ehl_across_apply(a->stiffness[0], EHL_ACROSS_MOST, n, T, bend);
     ehl_across_apply(a->damping[0], EHL_ACROSS_MOST, n, T, damped);
     ehl_across_apply(a->slope[0], EHL_ACROSS_MOST, n, T, slope);
@@ -156,7 +165,7 @@ FF_SIMD_INLINE int invert(size_t n, ehl_across_matrix a)
 FF_SIMD_INLINE void renew(const sweep *s, size_t i, size_t n)
 {
     const ehl_across *a = &s->e->across;
-    double conducted = s->e->conductivity / s->film->h[i];
+    double conducted = conductance_of(s, i);
     const ehl_energy *e = s->e;
     const ehl_column *c = &e->column[i];
     const double *tau = e->tau + i * n, *gamma = e->gamma + i * n, *slope = e->gamma_tau + i * n,
@@ -226,7 +235,7 @@ FF_SIMD_INLINE void prepare_column(const sweep *s, size_t i, size_t n)
            per_dx = 1 / film->dx, rate = film->rate, capacity = e->heat_capacity;
     int touches = ehl_energy_touches(film, i);
     double friction = film->friction ? film->friction[i] : 0, sheared = touches ? 0 : h;
-    double warmed = per_mean_slope(e, i, n) > 0 ? sheared : 0, conducted = e->conductivity / h;
+    double warmed = per_mean_slope(e, i, n) > 0 ? sheared : 0, conducted = conductance_of(s, i);
     transverse_transport(s, i, n, c);
     FF_SIMD_LOOP
     for (size_t k = 0; k < n; k++) {

@@ -6,10 +6,10 @@
  *   tau = tau_m + (z - h/2) dp/dx,  u = u_1 at z = 0 and u_2 at z = h
  *   du/dz = rate(tau_s) + (d rate/d tau)(tau_s) (tau - tau_s),  int rate(tau_s) dz = u_2 - u_1
  *
- * in zeta = z/h at the nodes of across.h, in weak form, so that the flux into the flanks is the
- * natural condition; along x by differences of second order from where the oil comes. w follows
- * from the balance of mass. The rates are taken at tau_s, as the mobility of the isothermal film
- * is: where all the film has one temperature the flow is the same. Oil that enters has the
+ * with k(p), in zeta = z/h at the nodes of across.h, in weak form, so that the flux into the flanks
+ * is the natural condition; along x by differences of second order from where the oil comes. w
+ * follows from the balance of mass. The rates are taken at tau_s, as the mobility of the isothermal
+ * film is: where all the film has one temperature the flow is the same. Oil that enters has the
  * temperature T_in, and so have flanks that have not been in the contact. Where there is no film
  * the oil carries on as it is, and no heat flows.
  *
@@ -22,6 +22,7 @@
 #define EHL_ENERGY_H
 
 #include "../contact/liquid.h"
+#include "../estimates/inlet-heat.h"
 #include "across.h"
 #include "half-space.h"
 
@@ -71,6 +72,7 @@ typedef struct ehl_energy {
     ehl_laws laws;
     const ff_rheology_2 *flow; /* NULL: Newtonian */
     double conductivity, heat_capacity, T_in;
+    ehl_conductivity_rise conducts; /* of the conductivity over p */
     ehl_half_space flank[2];
     double *memory;
     /* nodes x across */

@@ -88,6 +88,7 @@ void ehl_thermal_look_at_nodes(ehl_thermal *t, const ehl_energy_film *f,
         other.laws = e->laws;
         other.flow = e->flow;
         other.conductivity = e->conductivity;
+        other.conducts = e->conducts;
         other.heat_capacity = e->heat_capacity;
         other.T_in = e->T_in;
         other.reach = e->reach;

@@ -136,6 +136,7 @@ ff_status ehl_thermal_create(ehl_thermal *t, const ff_host *host, ehl_march *m,
     t->energy.laws = r->laws;
     t->energy.flow = data->flow;
     t->energy.conductivity = data->conductivity;
+    t->energy.conducts = data->conducts;
     t->energy.heat_capacity = data->heat_capacity;
     t->energy.T_in = data->bulk;
     status = allocate(t, m);

@@ -21,6 +21,7 @@ static const double EHL_LARGE_FACTOR = 0.3;
 typedef struct ehl_thermal_data {
     size_t across;                      /* nodes */
     double conductivity, heat_capacity; /* of the oil */
+    ehl_conductivity_rise conducts;     /* of the conductivity over p */
     double bulk;                        /* K, of the flanks and of the oil that enters */
     double flank_contact[2];            /* B = sqrt(k rho c), J/(m2 K s^0.5) */
     double flank_diffusivity[2];        /* k/(rho c), m2/s */

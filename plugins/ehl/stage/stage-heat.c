@@ -42,6 +42,7 @@ static ff_status thermal_create(const ehl_model *m, const ff_array *in, ehl_marc
     const ehl_thermal_data data = {
         .across = (size_t)m->thermal_nodes,
         .conductivity = conductivity,
+        .conducts = ehl_heat_conductivity_rise(m->liquid, T),
         .heat_capacity = heat_capacity,
         .bulk = ehl_stage_bulk(m, in),
         .flank_contact = {numerics_heat_contact(&flank[0]), numerics_heat_contact(&flank[1])},
@@ -68,12 +69,12 @@ ff_status ehl_stage_heat(const ehl_model *m, const ff_array *in, ehl_march *marc
                         "the discretisation of another stage knows no heat: use thermal: none, or "
                         "leave the wire discretisation out");
     ff_status status = ehl_heat_conductivity(m->host, m->liquid, &m->laws, &conductivity);
+    if (m->thermal == EHL_THERMAL_FULL)
+        return status == FF_OK ? thermal_create(m, in, march, conductivity, thermal) : status;
     if (status == FF_OK && ehl_heat_conductivity_rise(m->liquid, m->laws.temperature).rise > 0)
         m->host->quality(m->host->ctx, "constant_conductivity", 1, 0, FF_RANGE,
                          "the conductivity of the oil rises with pressure, which thermal: inlet "
-                         "and full do not know");
-    if (m->thermal == EHL_THERMAL_FULL)
-        return status == FF_OK ? thermal_create(m, in, march, conductivity, thermal) : status;
+                         "does not know");
     if (status == FF_OK)
         status = ehl_heat_create(heat, march->solver->grid->nodes, conductivity);
     march->heat = heat;

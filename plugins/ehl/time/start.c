@@ -113,12 +113,12 @@ static ff_status find_steady(ehl_march *m, const ehl_step *step, const ehl_insta
 
 /* Finds the steady film of statistical flanks in the trial, from that of smooth ones by
    continuation in what their asperities carry: its share grows by ratios, which shrink where a
-   solution fails. */
+   solution fails and grow where one is found: of nearly dry flanks the last of them are small. */
 static ff_status find_steady_of_asperities(ehl_march *m, const ehl_step *step,
                                            const ehl_instant *at)
 {
-    enum { MOST_SHARES = 40 };
-    const double first = 1e-3, least = 1.05;
+    enum { MOST_SHARES = 200 };
+    const double first = 1e-3, least = 1.0005, grown = 1.3;
     ehl_reynolds *r = m->solver->reynolds;
     ehl_statistical *flanks = &r->statistical;
     const size_t n = r->nodes;
@@ -137,6 +137,7 @@ static ff_status find_steady_of_asperities(ehl_march *m, const ehl_step *step,
         status = solve_from_trial(m, step, at);
         if (status == FF_OK) {
             reached = flanks->share;
+            ratio = pow(ratio, grown);
             ehl_copy_film(kept, film, n);
         } else if (status == FF_NOCONV && ratio > least) {
             ehl_copy_film(film, kept, n);

@@ -131,14 +131,14 @@ static void test_speeds(void)
 {
     const double hertz = sqrt(load * 230e9 / (2 * 3.14159265358979323846 * 0.01));
     double before = -1;
-    for (double u = 10 * mean_speed; u > 5e-3 * mean_speed; u /= 10) {
+    for (double u = 10 * mean_speed; u > 5e-4 * mean_speed; u /= 10) {
         scene s = open_scene(0.05e-6, 0.0375, 256);
         give(&s, u, u);
         check_true("found", run(&s));
         double share = value(&s, "asperity_load_share");
         check_true("falls with the speed", share >= before);
         if (u < 0.02 * mean_speed) {
-            check_true("nearly dry", share > 0.95);
+            check_true("nearly dry", share > (u < 2e-3 * mean_speed ? 0.99 : 0.95));
             check_near("Hertz", value(&s, "p_max"), hertz, 0.02);
         }
         before = share;

@@ -110,6 +110,17 @@ static void test_table(void)
     check_true("a pressure that does not fall",
                stage_ready(s) == FF_INVALID && strstr(stage_why(s), "must fall"));
     stage_close(s);
+    static const char *const level[] = {
+        "distance [1]; pressure [MPa]\n0; 1000\n1; 990\n2; 1\n",
+        "distance [1]; pressure [MPa]\n0; 1000\n1; 10\n2; 9.9\n",
+    };
+    for (int end = 0; end < 2; end++) {
+        s = open_table(level[end]);
+        check_true("a pressure that would stay constant",
+                   stage_ready(s) == FF_INVALID && strstr(stage_why(s), "levels off") &&
+                       strstr(stage_why(s), end ? ":4:" : ":2:"));
+        stage_close(s);
+    }
     unlink(table_path);
 }
 
