@@ -67,12 +67,18 @@ static void hold_temperature(const ff_host *host, const ehl_laws *laws)
 ff_status ehl_heat_conductivity(const ff_host *host, const ff_liquid *liquid, const ehl_laws *laws,
                                 double *conductivity)
 {
-    double T = laws->temperature;
+    double T = laws->temperature, ln_eta = NAN, slope = NAN;
     *conductivity = NAN;
     if (!liquid || !(T > 0))
         return ff_failf(host, FF_INVALID, "thermal",
                         "a heated film needs the oil over temperature: add a stage of "
                         "lubricant/grade or lubricant/measured, and wire it (oil)");
+    liquid->eval(liquid->self, FF_LIQUID_LN_ETA0, 1, &T, &ln_eta, &slope);
+    if (!isfinite(slope))
+        return ff_failf(host, FF_INVALID, "thermal",
+                        "the oil does not tell how its viscosity changes with temperature: a "
+                        "heated film needs it at two temperatures or more, in the stage of the "
+                        "oil, or thermal: none");
     ff_status status =
         liquid->eval(liquid->self, FF_LIQUID_CONDUCTIVITY, 1, &T, conductivity, NULL);
     if (status < 0 || !(*conductivity > 0 && isfinite(*conductivity)))

@@ -82,11 +82,12 @@ static ff_status look_for_steady(ehl_march *m, const ehl_step *step, const ehl_i
 static ff_status warm_up(ehl_march *m, const ehl_step *step, const ehl_instant *at)
 {
     enum { TRIES = 3 };
-    const double more = 4;
+    const double more = 4, usual = 1;
     size_t n = m->solver->grid->nodes;
     ehl_film *film = &m->trial.film, *cold = &m->state[0].film;
     ff_status status = FF_NOCONV;
     ehl_copy_film(cold, film, n);
+    m->thermal->energy.damping = usual;
     for (int k = 0; k < TRIES && status == FF_NOCONV; k++) {
         if (k > 0) {
             m->thermal->energy.damping *= more;

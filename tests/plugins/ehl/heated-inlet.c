@@ -99,6 +99,24 @@ static void test_time(void)
     line_close(&c);
 }
 
+/* An oil of which one measurement is known does not tell what heat makes of it. */
+static void open_one_temperature(line *c, const char *model, const char *thermal)
+{
+    open_hot(c, model, thermal);
+    stage_close(c->liquid);
+    c->liquid = stage_open("lubricant/measured");
+    stage_set(c->liquid, "eta0", 0.1);
+    stage_set(c->liquid, "at", 333.15);
+    stage_set(c->liquid, "density", 850);
+    stage_set(c->liquid, "alpha", 20e-9);
+    stage_set(c->liquid, "conductivity", 0.14);
+    stage_set(c->liquid, "heat_capacity", 2000);
+    stage_set(c->liquid, "temperature", 333.15);
+    check_true("the oil is one", stage_run(c->liquid) == FF_OK);
+    stage_link(c->oil, "oil", c->liquid);
+    stage_link(c->rho, "oil", c->liquid);
+}
+
 static void test_refusals(void)
 {
     line c;
@@ -107,6 +125,13 @@ static void test_refusals(void)
     check_true("no oil", line_run(&c, "h_min") == FF_INVALID);
     check_true("says so", strstr(stage_why(c.film), "needs the oil") != NULL);
     line_close(&c);
+    static const char *const thermal[] = {"inlet", "full", "local"};
+    for (int i = 0; i < 3; i++) {
+        open_one_temperature(&c, i < 2 ? "ehl/finite-volume" : "ehl/film-formula", thermal[i]);
+        check_true("an oil of one temperature", line_run(&c, "h_min") == FF_INVALID);
+        check_true("says so", strstr(stage_why(c.film), "two temperatures or more") != NULL);
+        line_close(&c);
+    }
 }
 
 int main(void)
