@@ -106,6 +106,8 @@ bool fe_elf_is_same(int folder, const char *path, const fe_object_file *checked)
 
 bool fe_is_written_over(const ff_loaded *loaded)
 {
+    if (!loaded->file) /* it is being loaded */
+        return false;
     const struct stat *then = &loaded->file->status;
     struct stat now;
     if (stat(loaded->path, &now) != 0 || !is_same_file(&now, then) || is_as_written(&now, then))
