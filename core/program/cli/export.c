@@ -117,24 +117,30 @@ static bool run(const cli_options *options, const char *name, const char *stem,
     return good;
 }
 
+/* Says which file was written, or why none was. */
+static int answer_target(const cli_options *options, results_target *target, bool good)
+{
+    int code = EXIT_SUCCESS;
+    if (!good) {
+        code = cli_refuse(target->report, options, "nothing was written");
+    } else if (options->json) {
+        json_t *answer = results_json_answer("ok", code, target->report);
+        json_object_set_new(answer, "path", results_json_text(target->path));
+        results_json_print(answer);
+    } else {
+        terminal_print_messages(target->report, stderr, false);
+        printf("%s\n", target->path);
+    }
+    results_target_close(target);
+    ff_report_free(target->report);
+    return code;
+}
+
 static int write_with(const cli_options *options, const char *to, const char *stem)
 {
     results_target target = {.report = ff_report_new()};
     bool good = run(options, to, stem, &target);
-    int code = EXIT_SUCCESS;
-    if (!good) {
-        code = cli_refuse(target.report, options, "nothing was written");
-    } else if (options->json) {
-        json_t *answer = results_json_answer("ok", code, target.report);
-        json_object_set_new(answer, "path", results_json_text(target.path));
-        results_json_print(answer);
-    } else {
-        terminal_print_messages(target.report, stderr, false);
-        printf("%s\n", target.path);
-    }
-    results_target_close(&target);
-    ff_report_free(target.report);
-    return code;
+    return answer_target(options, &target, good);
 }
 
 /* A page of figures alone, from a file that describes them: `report map.figure.json`. */
@@ -168,19 +174,8 @@ static int report_figures(const cli_options *options)
     target.path = options->directory
                       ? memory_print_text("%s", options->directory)
                       : memory_print_text("%.*s.html", (int)(strlen(from) - strlen(".json")), from);
-    int code = EXIT_SUCCESS;
-    if (!write_figures(from, &target)) {
-        code = cli_refuse(target.report, options, "nothing was written");
-    } else if (options->json) {
-        json_t *answer = results_json_answer("ok", code, target.report);
-        json_object_set_new(answer, "path", results_json_text(target.path));
-        results_json_print(answer);
-    } else {
-        printf("%s\n", target.path);
-    }
-    results_target_close(&target);
-    ff_report_free(target.report);
-    return code;
+    bool good = write_figures(from, &target);
+    return answer_target(options, &target, good);
 }
 
 int cli_export(const cli_options *options)
