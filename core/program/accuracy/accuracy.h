@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Answers with their numerical errors, measured, and as small as the file asks. */
+/* Runs a file that asks for numerical errors, measures them, and refines the settings until they
+   meet the file's goals. */
 #ifndef ACCURACY_ACCURACY_H
 #define ACCURACY_ACCURACY_H
 
 #include "measure.h"
 
 /*
- * Runs a file that asks for errors, which are measured. Where it says how large they may be, the
- * settings that it leaves open are chosen for that, and the answer comes from another run; what
- * that says goes to `report`. The record refers to run and engine. False after an error, and,
- * without one, where the observer's progress stopped it.
+ * Runs a file that asks for numerical errors and measures them. If the file states goals, the
+ * settings that it leaves open are chosen to meet them, and the answer is that of the last run; its
+ * messages go to `report`. The record refers to `run` and `engine`. Returns false after an error,
+ * or if the observer stopped the run.
  */
 bool accuracy_run(accuracy_record *record, ff_run *run, ff_engine *engine, const ff_observer *watch,
                   ff_report *report);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What a series is plotted against, and compared along. */
+/* Finds the axis along which a series is plotted and compared. */
 #include "axis.h"
 
 #include "compare.h"
@@ -16,7 +16,8 @@ static bool is_rising(const ff_result *series)
     return series->count > 1 && series->data[series->count - 1] > series->data[0];
 }
 
-/* A value that many points share, such as the number of the engagement, cannot tell them apart. */
+/* Rejects a series that repeats one value over many points, such as the number of the
+   engagement. */
 static bool has_plateaus(const ff_result *series)
 {
     for (size_t i = 2; i < series->count; i++)
@@ -25,7 +26,7 @@ static bool has_plateaus(const ff_result *series)
     return false;
 }
 
-/* Says how well a series serves as an axis; 0 means not at all. */
+/* Grades a series as an axis; 0 if it cannot be one. */
 static int fitness_of(const ff_result *series, bool own, const char *dim, const char *better)
 {
     const char *unit = series->row->unit;
@@ -100,7 +101,8 @@ const double *accuracy_numbers_like(const ff_pipeline *pipeline, const ff_stage 
     return numbers;
 }
 
-/* Whether an output could be an axis of one along the same dimension; before the run. */
+/* True if the output could be the axis of `of`: both have the same dimension. Works before the
+   run. */
 static bool may_be_axis(const ff_port *row, const ff_port *of)
 {
     return !row->service && row->dims && *row->dims && !strcmp(row->dims, of->dims) &&

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A model is judged by what it moves: the answer is computed with it, all else alike, and held
- * against the answer without it. What it moves is as uncertain as the first of these answers, whose
- * error counts with it, once.
+ * Each cheaper model is judged by how far it moves the answer: the answer with it, all else equal,
+ * is compared with the answer without it. The numerical error of the first answer limits what this
+ * comparison can tell, so it is added once.
  */
 #include "choice.h"
 
@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of a goal; the rest is for the numbers. */
+/* Share of a goal that the models may use; the rest is left for numerical errors. */
 static const double share_of_models = 0.5;
 
 typedef struct trial {
@@ -25,9 +25,10 @@ typedef struct trial {
     const accuracy_record *measured;
     const char *const *settings;
     size_t setting_count;
-    accuracy_twin taken;    /* the last run that was; no pipeline: none was */
-    const ff_pipeline *now; /* what the next one is held against */
-    double *moved;          /* of each error that was measured, by the models taken */
+    accuracy_twin taken;    /* the last run whose model was accepted; without a pipeline if there
+                               is none */
+    const ff_pipeline *now; /* the answer with which the next one is compared */
+    double *moved;          /* by how much the accepted models move each measured output */
 } trial;
 
 static size_t place_of(const trial *t, const accuracy_error *e)
@@ -35,7 +36,7 @@ static size_t place_of(const trial *t, const accuracy_error *e)
     return (size_t)(e->stage - t->base->stages);
 }
 
-/* How far the output moves, relative; NaN: it cannot be compared. */
+/* Relative difference of an output between two answers; NaN if they cannot be compared. */
 static double distance(trial *t, const accuracy_error *e, const ff_pipeline *next)
 {
     const ff_stage *stage = &t->now->stages[place_of(t, e)];
@@ -63,7 +64,7 @@ static const char *keep(trial *t, char *text)
     return kept;
 }
 
-/* What the model says against itself; NULL: nothing. */
+/* Name of the first quality line in which the model doubts itself; NULL if there is none. */
 static const char *doubt_of(const ff_stage *stage)
 {
     for (size_t i = 0; i < stage->quality_count; i++)
@@ -72,7 +73,8 @@ static const char *doubt_of(const ff_stage *stage)
     return NULL;
 }
 
-/* Fills what each output moves by. NULL: none by more than may be; else the reason against it. */
+/* Computes how far each output moves. Returns NULL if all stay within their share, else the reason
+   for rejecting the model. */
 static const char *object_to(trial *t, size_t stage, const accuracy_twin *next, double *moves)
 {
     const char *doubt = next->good ? doubt_of(&next->pipeline->stages[stage]) : NULL;
@@ -99,7 +101,7 @@ static const char *object_to(trial *t, size_t stage, const accuracy_twin *next, 
     return NULL;
 }
 
-/* Whether the setting is of a stage whose model is another one now. */
+/* True if the setting belongs to a stage whose model has been replaced. */
 static bool is_of_other(const trial *t, const char *set, size_t stage)
 {
     const accuracy_choice *choice = t->choice;
@@ -113,7 +115,8 @@ static bool is_of_other(const trial *t, const char *set, size_t stage)
     return false;
 }
 
-/* Runs with a model in the stage, and the settings of the stages that have their references. */
+/* Runs the file with the model in the stage and with the settings of all stages that keep their
+   reference model. */
 static void run(trial *t, size_t stage, const char *use, accuracy_twin *next)
 {
     const accuracy_choice *choice = t->choice;
@@ -136,7 +139,7 @@ static void run(trial *t, size_t stage, const char *use, accuracy_twin *next)
     free(sets);
 }
 
-/* Notes what the outputs move by, and goes on from there. */
+/* Accepts the model: adds its changes to the record and continues from its answer. */
 static void take(trial *t, size_t stage, const double *moves, const accuracy_twin *next)
 {
     accuracy_choice *choice = t->choice;
@@ -156,7 +159,7 @@ static void take(trial *t, size_t stage, const double *moves, const accuracy_twi
     choice->differs = true;
 }
 
-/* Returns whether the model was taken. */
+/* Returns true if the model was accepted. */
 static bool try_model(trial *t, size_t stage, const char *model, bool *stopped)
 {
     accuracy_choice *choice = t->choice;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How far one answer is from another: relative, at the points of the reference. */
+/* Relative difference of two answers at the points of the reference. */
 #include "compare.h"
 
 #include "../memory/memory.h"
@@ -16,8 +16,9 @@ double accuracy_largest_magnitude(const double *values, size_t count, double zer
     return most;
 }
 
-/* Where a series is small, errors are relative to a tenth of its largest value: an error at a zero,
-   as of a friction that changes its sign, cannot be relative to the zero. */
+/* Errors of a series are relative to its value, or to a tenth of its largest value where the value
+   is smaller: at a zero, such as that of a friction which changes its sign, a relative error has no
+   meaning. */
 double accuracy_error_scale(double value, double most, size_t rank)
 {
     return fmax(rank ? fmax(fabs(value), 0.1 * most) : fabs(value), 1e-300);
@@ -39,11 +40,12 @@ double accuracy_relative(const double *off, const accuracy_series *answer, doubl
     return typical;
 }
 
-/* Interpolates linearly between the points and is constant beyond the ends. Where two points have
-   the same place (a jump), `right` chooses the right one. */
+/* Interpolates linearly between the points; constant beyond the ends. Where two points have the
+   same place (a jump), `right` selects the value on the right. */
 double accuracy_interpolate(const accuracy_series *s, double x, bool right)
 {
-    size_t low = 0, high = s->count; /* the first point at x or, for the right value, after it */
+    size_t low = 0, high = s->count; /* `high`: the first point at x, or the first after x for
+                                        the value on the right */
     while (low < high) {
         size_t middle = (low + high) / 2;
         if (s->at[middle] < x || (right && s->at[middle] <= x))
@@ -61,7 +63,7 @@ double accuracy_interpolate(const accuracy_series *s, double x, bool right)
     return s->value[low - 1] + share * (s->value[low] - s->value[low - 1]);
 }
 
-/* Returns the weight of point i in a mean over the length. */
+/* Weight of point i in a mean over the length of the axis. */
 static double weight(const accuracy_series *s, size_t i)
 {
     size_t last = s->count - 1;
@@ -76,7 +78,7 @@ static bool same_form(const accuracy_series *a, const accuracy_series *b)
            ((a->at && b->at) || a->count == b->count);
 }
 
-/* Returns the value of one answer at point i of another. */
+/* Value of one answer at point i of another. */
 static double value_at(const accuracy_series *s, const accuracy_series *points, size_t i)
 {
     if (!s->at || !points->at)

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Counts and tolerances become finer apart, the larger part of an error by a level. Cells and
- * points of a level more have the answers before as their twins, and what is spent on all of them
- * is some twice what the last one costs. An output whose error grows, or falls too slowly to come
- * below what is asked for, is left out, so that it does not take the others with it.
+ * Counts and tolerances are refined separately: each attempt refines, by one level, the one that
+ * contributes more to the error. Earlier, coarser attempts serve as twins, so that all attempts
+ * together cost about twice the last one. An output whose error grows, or falls too slowly to meet
+ * its goal, no longer demands refinement.
  */
 #include "control.h"
 
@@ -22,30 +22,33 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the reference, over the goal, when models are held against it: they may move half of a goal
-   (choice.c), and its error counts with what they move. */
+/* Share of a goal allowed to the reference model's own error while cheaper models are compared with
+   it: they may use half of the goal (choice.c), and this error is added to what they change. */
 static const double reference_error = 0.25;
-/* The first, and one for each level that counts and tolerances become finer by, are 11. */
+/* One attempt, plus one for each level by which counts and tolerances can be refined. */
 enum { MOST_ATTEMPTS = 11 };
 
 typedef struct attempt {
     accuracy_twin run;
-    accuracy_record record; /* empty where it was not measured */
+    accuracy_record record; /* empty if the attempt was not measured */
     accuracy_levels at;
-    bool doubtful; /* coarser than the presets, and in doubt or without room for twins: no answer */
+    bool doubtful; /* coarser than the presets, and either in doubt or without room for twins: it
+                      cannot be the answer */
 } attempt;
 
 typedef struct control {
     accuracy_scene scene;
-    ff_pipeline *asked;          /* with the models that were chosen, when they are */
-    accuracy_choice *choice;     /* of models; NULL: not made yet, or the file names them all */
-    ff_run *chosen;              /* with these models, not started; NULL: those of the file */
+    ff_pipeline *asked;          /* with the accepted models, once there are any */
+    accuracy_choice *choice;     /* of models; NULL if it was not made yet or the file names all
+                                    models */
+    ff_run *chosen;              /* the run with the accepted models, not started; NULL while the
+                                    file's models are used */
     accuracy_open open;          /* at the levels of the next attempt */
-    attempt kept[MOST_ATTEMPTS]; /* with the models as they are */
+    attempt kept[MOST_ATTEMPTS]; /* attempts with the current models */
     size_t kept_count;
-    attempt *best; /* the last good one, the last one if none was; NULL: none was made */
+    attempt *best; /* the last good attempt, else the last one; NULL before the first */
     size_t attempts, twins;
-    double seconds; /* s: CPU time of all that was run */
+    double seconds; /* CPU time of all runs, s */
     const char *failure;
     memory_arena arena;
 } control;
@@ -58,7 +61,7 @@ static bool leaves_models_open(const ff_pipeline *pipeline)
     return false;
 }
 
-/* The models that were chosen, and the settings as they are; to be freed. */
+/* The accepted models and the current settings as assignments; to be freed. */
 static const char **list_sets(control *c, size_t *count)
 {
     size_t models = c->chosen ? c->choice->use_count : 0;
@@ -74,7 +77,7 @@ static bool is_coarser_than_presets(accuracy_levels at)
     return at.counts > 0 || at.tolerances > 0;
 }
 
-/* What was run before serves as twins. */
+/* Measures an attempt's errors; earlier attempts and their twins are reused. */
 static void measure(control *c, attempt *a)
 {
     const accuracy_twin *runs[MOST_ATTEMPTS * (1 + ACCURACY_OWN)];
@@ -92,7 +95,7 @@ static void measure(control *c, attempt *a)
     c->seconds += a->record.seconds;
 }
 
-/* Runs and measures the file with the settings as they are. */
+/* Runs and measures the file with the current settings. */
 static void try_settings(control *c, attempt *next)
 {
     size_t count;
@@ -119,12 +122,13 @@ static void try_settings(control *c, attempt *next)
 
 static void attempt_free(attempt *a)
 {
-    a->record.choice = NULL; /* all attempts share it */
+    a->record.choice = NULL; /* shared by all attempts */
     accuracy_free(&a->record);
     accuracy_twin_free(&a->run);
 }
 
-/* While models are to be chosen the answer that they are held against has to be more exact. */
+/* The goal of an error, tightened while models are to be chosen, since the answer is their
+   reference. */
 static double goal_of(const control *c, const accuracy_error *e)
 {
     bool choosing = !c->choice && leaves_models_open(c->asked);
@@ -136,8 +140,9 @@ static bool is_missed(const control *c, const accuracy_error *e)
     return !isnan(e->goal) && !(e->relative <= goal_of(c, e));
 }
 
-/* The order at which the part of the counts falls, below 0 where it grows: that of its twins. What
-   settings that the file gives make of it falls in twins, too, but in no attempt. */
+/* Order at which the counts' part of an error falls, from the twins; 0 if it grows. An error that
+   comes from settings fixed by the file falls in the twins but not in the attempts, so the last two
+   attempts limit the order. */
 static double order_of(const control *c, size_t error)
 {
     const accuracy_error *e = &c->best->record.errors[error];
@@ -148,8 +153,8 @@ static double order_of(const control *c, size_t error)
     return fmax(order, 0);
 }
 
-/* Whether the finest settings will do for an error that is too large. Two levels show no order:
-   then it is of second order at best, and three may tell an eighth of it (estimate.c). */
+/* True if the finest settings can meet the goal. Two levels show no order: the estimate then
+   assumes second order at best, and a third level may lower the error to an eighth (estimate.c). */
 static bool is_in_reach(const control *c, size_t error)
 {
     const accuracy_error *e = &c->best->record.errors[error];
@@ -162,9 +167,9 @@ static bool is_in_reach(const control *c, size_t error)
            goal_of(c, e);
 }
 
-/* What a missed error takes: a level of what makes more of it. Tolerances wait until the counts
-   will do, which not every output comes to. What is as fine as it gets leaves the rest to the
-   other. */
+/* Levels of the next attempt for an error above its goal: the larger part is refined by a level.
+   Tolerances wait until the counts suffice, which not every output reaches. A part already at its
+   finest leaves the refinement to the other. */
 static accuracy_levels finer_for(const control *c, const accuracy_error *e)
 {
     const double counts = e->relative - e->by_tolerances;
@@ -178,14 +183,14 @@ static accuracy_levels finer_for(const control *c, const accuracy_error *e)
     return next;
 }
 
-/* Chooses the settings of the next attempt; false: this one is the answer. Where no error is told,
-   as of outputs that turn out to be fields, that is one by the presets. */
+/* Sets the settings of the next attempt; false if the present one is the answer. If no output has a
+   measured error, as when all turn out to be fields, the answer is that of the presets. */
 static bool go_on(control *c)
 {
     const accuracy_record *record = &c->best->record;
     const double finer = fmax(c->open.at.counts, c->open.at.tolerances) - 1;
     accuracy_levels next = c->open.at;
-    if (!c->best->run.good && finer >= -1) /* where the presets fail something finer may do */
+    if (!c->best->run.good && finer >= -1) /* if the presets fail, a finer attempt may succeed */
         next = (accuracy_levels){fmin(next.counts, finer), fmin(next.tolerances, finer)};
     if (c->best->run.good && (c->best->doubtful || record->count == 0)) {
         next.counts -= c->open.at.counts > 0 ? 1 : 0;
@@ -214,7 +219,7 @@ static void drop_attempts(control *c)
     c->best = NULL;
 }
 
-/* The least of what is asked for. */
+/* The smallest goal. */
 static double least_goal(const control *c)
 {
     double least = INFINITY;
@@ -227,14 +232,14 @@ static double least_goal(const control *c)
     return least;
 }
 
-/* Begins anew with the models that were chosen. */
+/* Starts again with the accepted models. */
 static void begin_with(control *c, const accuracy_choice *choice)
 {
     const ff_place place = accuracy_place(c->scene.file);
     c->chosen = run_copy(c->scene.file);
     for (size_t i = 0; i < choice->use_count; i++)
         run_set(c->chosen, choice->uses[i], &place, &place);
-    c->asked = run_build(c->chosen, false); /* as a try was, so that it says nothing new */
+    c->asked = run_build(c->chosen, false); /* as for a try, so that it repeats no message */
     accuracy_hand_states(c->scene.start, c->asked);
     c->scene.start = c->asked;
     drop_attempts(c);
@@ -242,7 +247,7 @@ static void begin_with(control *c, const accuracy_choice *choice)
     accuracy_open_begin(&c->open, least_goal(c));
 }
 
-/* Measures a doubtful answer, when nothing better was had; false: the observer stopped it. */
+/* Measures a doubtful attempt if nothing better exists; false if the observer stopped it. */
 static bool measure_doubtful(control *c)
 {
     if (c->best->doubtful && c->best->record.count == 0 && !c->best->run.stopped)
@@ -250,12 +255,11 @@ static bool measure_doubtful(control *c)
     return !c->best->run.stopped;
 }
 
-/* Chooses the models that the file leaves open, by what they move the answer. Returns whether there
-   is more to do. */
+/* Chooses models where the file leaves them open. Returns true if there is more to do. */
 static bool choose_models(control *c)
 {
     size_t count;
-    accuracy_open_move(&c->open, c->best->at); /* not those of an attempt that failed */
+    accuracy_open_move(&c->open, c->best->at); /* not the levels of a failed attempt */
     if (!measure_doubtful(c))
         return false;
     const char **sets = list_sets(c, &count);
@@ -274,7 +278,7 @@ static bool choose_models(control *c)
     return true;
 }
 
-/* Makes an attempt; false where it was stopped, or failed where a coarser one did not. */
+/* Makes an attempt. False if it was stopped, or failed although a coarser one had succeeded. */
 static bool try_next(control *c)
 {
     attempt next = {.run = {.good = false}};
@@ -297,8 +301,9 @@ static size_t count_kept(const control *c, const attempt *a)
     return kept;
 }
 
-/* The attempt with most outputs within what is asked for, of these the last one, becomes the last
-   of all: finer settings for one output may show more of what makes another one uncertain. */
+/* Moves the best attempt to the end: the one that meets most goals, and the latest among equals.
+   Finer settings for one output can reveal a larger error in another, so the best is not always the
+   last. */
 static void choose_best(control *c)
 {
     attempt *best = c->best, *last = &c->kept[c->kept_count - 1];
@@ -311,7 +316,7 @@ static void choose_best(control *c)
     c->best = last;
 }
 
-/* Makes attempts until one is the answer; false where the observer stopped one. */
+/* Makes attempts until one is the answer; false if the observer stopped one. */
 static bool search(control *c)
 {
     accuracy_open_begin(&c->open, least_goal(c));
@@ -348,7 +353,7 @@ static void note_spent(const accuracy_twin *run, accuracy_record *record)
     record->spent_count++;
 }
 
-/* Lists the attempts, with the models as they are, and their twins. */
+/* Lists the attempts with the current models, and their twins. */
 static void list_spent(const control *c, accuracy_record *record)
 {
     size_t most = c->kept_count * (1 + ACCURACY_OWN);
@@ -371,7 +376,7 @@ static void adopt(control *c, accuracy_record *record)
     record->twin = memory_alloc(sizeof *record->twin);
     *record->twin = c->best->run;
     record->answer = c->best->run.pipeline ? c->best->run.pipeline : asked;
-    c->kept_count--; /* the last one is the best */
+    c->kept_count--; /* the best one is the last */
     drop_attempts(c);
     record->choice = c->choice;
     c->choice = NULL;

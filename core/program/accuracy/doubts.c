@@ -6,10 +6,11 @@
 #include <math.h>
 #include <string.h>
 
-/* A doubt that a level changes by less, over itself, is not of the settings. */
+/* A doubt whose value changes by less than this share in one refinement is not a discretisation
+   error. */
 static const double lasting = 0.1;
 
-/* Whether the coarser answer before had the same doubt: then it is not of the settings. */
+/* True if the coarser answer had the same doubt: refinement does not help. */
 static bool is_lasting(const ff_stage *before, const ff_quality *line)
 {
     for (size_t i = 0; i < before->quality_count; i++) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Grid refinement by three levels (Roache 1998, Verification and Validation in Computational
- * Science and Engineering, ch. 5; Celik et al. 2008, J. Fluids Eng. 130, 078001). Where an error
- * falls to 1/g from level to level, the finest of three answers is off by what lies between it and
- * the next one, over g - 1, and by what lies between the two coarser ones, over g (g - 1). The
- * larger of both counts: they differ where g is not what the levels show. The middle one of three
- * is off by g/(g - 1) of what lies between it and the finest.
+ * Error estimate from three levels of grid refinement (Roache 1998, Verification and Validation in
+ * Computational Science and Engineering, ch. 5; Celik et al. 2008, J. Fluids Eng. 130, 078001). If
+ * the error falls by a factor g per level, the error of the finest answer follows in two ways: from
+ * its difference to the middle one, over g - 1, and from the difference of the two coarser ones,
+ * over g (g - 1). The two disagree if the true g is not the one assumed; the larger counts. The
+ * error of the middle answer is g/(g - 1) of its difference to the finest.
  */
 #include "estimate.h"
 
@@ -16,30 +16,31 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Roache's factor of safety with three levels. */
+/* Roache's factor of safety for three levels. */
 static const double safety = 1.25;
-/* The growth is taken between that of order 1/2, where the factor on the difference of two levels
-   is Roache's for those, 3, and that of order 2. Below 0 the error changes its sign, and is taken
-   to fall by no more than order 1, and no less than order 1/2. Above order 4 the coarsest answer
-   has nothing to do with the others: that is no order. */
+/* The growth g is limited to that of order 1/2, where the factor on the difference equals Roache's
+   factor for two levels, 3, and that of order 2. A growth below 0 means an error that changes sign:
+   it is taken to fall with order 1/2 to 1. A growth above that of order 4 means that the coarsest
+   answer is unrelated to the others: no order can be seen. */
 static const double least_growth = 1.4142135623730951, most_growth = 4, unsettled_growth = 2;
-/* On coarse levels errors fall faster than they do from the finest on: what lies between those is
-   brought to the next level by up to order 4, and from there by order 2 at most. */
+/* Errors fall faster between coarse levels than from the finest on. The difference of the coarser
+   levels is brought to the next level by at most order 4, and from there by at most order 2. */
 static const double most_coarse_growth = 16;
-/* The error of a series passes through 0 where it changes its sign, and a difference between two
-   levels does so elsewhere: what counts is the largest within this share of the points. What is not
-   typical stays where it is: an instant that moves does not make its neighbours wrong. */
+/* The error of a series passes through 0 at one point and a difference between levels at another.
+   So each point takes the largest estimate within this share of the points. Estimates at untypical
+   points do not spread: an instant that moves does not make its neighbours wrong. */
 static const double reach = 0.02;
 
 /* Where a load jumps or contact is lost, a short stretch of a series is off by as much as it moves
-   and converges slowly: this share of its length tells how the rest does. */
+   and converges slowly. The typical error leaves this stretch out: it holds on this share of the
+   length. */
 static const double typical_share = 0.95;
 
 typedef struct weighed {
     double value, weight;
 } weighed;
 
-/* The part of a series that point i stands for. */
+/* Length of the axis that point i stands for. */
 static double weight_of(const double *at, size_t i, size_t count)
 {
     size_t last = count - 1;
@@ -64,13 +65,13 @@ double accuracy_typical(const double *values, const double *at, size_t count)
     return typical;
 }
 
-/* What number i of two answers differs by, relative. */
+/* Relative difference of two answers at number i. */
 static double apart(const accuracy_ladder *l, const double *a, const double *b, size_t i)
 {
     return fabs(a[i] - b[i]) / (l->scale ? l->scale[i] : 1);
 }
 
-/* Marks the numbers whose sizes are typical. */
+/* Marks the numbers with typical differences. */
 static void mark_typical(const accuracy_ladder *l, const double *sizes, bool *typical)
 {
     const double limit = accuracy_typical(sizes, l->at, l->count);
@@ -78,7 +79,8 @@ static void mark_typical(const accuracy_ladder *l, const double *sizes, bool *ty
         typical[i] = sizes[i] <= limit;
 }
 
-/* Root mean square of what lies between the marked numbers of two answers; NULL: all. */
+/* Root mean square of the differences of two answers at the marked numbers; at all if `marks` is
+   NULL. */
 static double between(const accuracy_ladder *l, const double *a, const double *b, const bool *marks)
 {
     double squares = 0, count = 0;
@@ -91,7 +93,7 @@ static double between(const accuracy_ladder *l, const double *a, const double *b
     return sqrt(squares / count);
 }
 
-/* The same of the numbers where it is typical. */
+/* The same over the numbers where the difference is typical. */
 static double typical_between(const accuracy_ladder *l, const double *a, const double *b)
 {
     double *sizes = memory_alloc(l->count * sizeof *sizes);
@@ -105,15 +107,15 @@ static double typical_between(const accuracy_ladder *l, const double *a, const d
     return root;
 }
 
-/* Growth from one difference to the next coarser one. */
+/* Growth of the differences from one pair of levels to the next coarser pair. */
 static double growth_of(double near, double far, double sign)
 {
     return near > 0 ? sign * far / near : far > 0 ? INFINITY : NAN;
 }
 
-/* Errors that fell faster than by order 2 come to what falls more slowly, by as much as they are
-   above it: along a series down to order 3/2, and to order 1 where a single number tells, which may
-   be near by chance. Above order 4 the bar of a series is 1.8 times that below. */
+/* Growth used for the estimate. Observed orders above 2 are not trusted: the higher the order, the
+   lower the one used instead, down to order 3/2 for a series and to order 1 for a single number,
+   which may agree by chance. Above order 4 the bar of a series is 1.8 times the bar just below. */
 static double growth_to_use(const accuracy_ladder *l, double observed)
 {
     const double settles = l->count > 1 ? unsettled_growth * least_growth : unsettled_growth;
@@ -128,10 +130,10 @@ static double growth_to_use(const accuracy_ladder *l, double observed)
     return fmax(observed, least_growth);
 }
 
-/* How the differences of a ladder grow: of typical points, and of all. */
+/* Growth of the differences, over the typical points and over all. */
 typedef struct convergence {
     double typical, all;
-    double coarse_limit; /* typical points of the coarser levels differ by at most this */
+    double coarse_limit; /* largest difference of the coarser levels at typical points */
 } convergence;
 
 static bool goes_down(const accuracy_ladder *l)
@@ -150,14 +152,15 @@ static convergence convergence_of(const accuracy_ladder *l, const bool *typical)
                  *c = goes_down(l) ? l->quarter : l->half, *d = goes_down(l) ? middle(l) : b;
     if (!a || !b || !c)
         return (convergence){NAN, NAN, INFINITY};
-    /* a single number may overshoot */
+    /* Only a single number can overshoot. */
     double sign = l->count == 1 && (c[0] - d[0]) * (b[0] - a[0]) < 0 ? -1 : 1;
     return (convergence){growth_of(between(l, b, a, typical), typical_between(l, c, d), sign),
                          growth_of(between(l, b, a, NULL), between(l, c, d, NULL), sign), INFINITY};
 }
 
-/* What the coarser levels of number i differ by: all settings at once, or one after the other, for
-   errors of two settings may cancel in the answers, and not in the next scene. */
+/* Difference of the coarser levels at number i: of all settings at once, or the sum over the
+   settings one by one, since the errors of two settings may cancel in this scene but not in the
+   next. */
 static double coarse_difference(const accuracy_ladder *l, size_t i)
 {
     double sum = 0;
@@ -176,7 +179,7 @@ static double coarse_limit(const accuracy_ladder *l)
     return limit;
 }
 
-/* What the tolerances make of number i. */
+/* Error from the tolerances at number i. */
 static double tolerance_error(const accuracy_ladder *l, size_t i)
 {
     const double growth = accuracy_tolerance_factor;
@@ -185,9 +188,9 @@ static double tolerance_error(const accuracy_ladder *l, size_t i)
     return safety * (l->is_finer ? growth : 1) / (growth - 1) * apart(l, l->tight, l->loose, i);
 }
 
-/* Marks the numbers where what lies between two levels of the counts and what the tolerances make
-   are typical together, the first as it is, since its order is not known yet: with 5 % for each of
-   them it would be a tenth of a series that is not. */
+/* Marks the numbers where the sum of two errors is typical: the difference of two levels of the
+   counts, taken as it is since its order is not known yet, and the error from the tolerances.
+   Marking each alone would leave out two times 5 % of a series. */
 static void mark_answer(const accuracy_ladder *l, bool *typical)
 {
     double *sizes = memory_alloc(l->count * sizeof *sizes);
@@ -198,15 +201,16 @@ static void mark_answer(const accuracy_ladder *l, bool *typical)
     free(sizes);
 }
 
-/* What the counts make of number i alone, relative. */
+/* Error from the counts alone at number i, relative. */
 static double count_error(const accuracy_ladder *l, size_t i, bool typical, const convergence *c)
 {
     double observed = typical ? c->typical : c->all, growth = growth_to_use(l, observed);
-    double coarse = fmax(growth, fmin(fabs(observed), most_coarse_growth)); /* these drop NaN */
+    double coarse = fmax(growth, fmin(fabs(observed), most_coarse_growth)); /* fmax and fmin drop
+                                                                               NaN */
     if (!goes_down(l))
         return safety * apart(l, l->answer, l->twice, i) * growth / (growth - 1);
     double near = apart(l, l->half, l->answer, i), far = coarse_difference(l, i);
-    if (typical) /* what only coarser levels move far is no part of the answer */
+    if (typical) /* a large move of coarser levels alone is no part of the answer's error */
         far = fmin(far, c->coarse_limit);
     return safety * fmax(near, far / coarse) / (growth - 1);
 }
@@ -223,8 +227,8 @@ static void find_shares(const accuracy_ladder *l, double *shares)
         shares[k] /= all;
 }
 
-/* Raises each relative error to the largest one near it, that of a typical point to those of
-   typical ones, and returns what is typical of it. */
+/* Raises each relative error to the largest one nearby, from typical points to typical points only.
+   Returns the typical error. */
 static double raise_to_largest(const accuracy_ladder *l, const double *all, const bool *typical,
                                double *largest)
 {

@@ -1,23 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The error of an answer from coarser answers to the same question. */
+/* Estimates the error of an answer from coarser answers to the same question. */
 #ifndef ACCURACY_ESTIMATE_H
 #define ACCURACY_ESTIMATE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Answers at the points of one of them. All settings are one level coarser in `half`, two in
-   `quarter`; in each of `refined` one setting is back at the level of `half`; in `twice` all are a
-   level finer. A level halves a count and quadruples a tolerance. All but the answer may be NULL:
-   there is none, and `twice` is not looked at where there are both coarser ones.
-   Where `loose` is given the levels above are those of the counts alone; `middle` is half with the
-   tolerances of quarter, which may be coarser than those of the answer. `loose` differs from
-   `tight`, which has the tolerances of the answer, by tolerances that are a level coarser, or a
-   level finer where `is_finer`. */
+/* Answers to one question at the points of one of them. In `half` all settings are one level
+   coarser than in the answer, in `quarter` two; in each of `refined` one setting is back at the
+   level of `half`; in `twice` all are one level finer. One level halves a count and quadruples a
+   tolerance. All but the answer may be NULL; `twice` is ignored if both coarser ones exist. If
+   `loose` is given, these levels concern the counts alone, and `middle` is `half` with the
+   tolerances of `quarter`, which may be coarser than those of the answer. `tight` has the answer's
+   tolerances; those of `loose` are one level coarser, or one level finer if `is_finer`. */
 typedef struct accuracy_ladder {
     size_t count;
-    const double *at;    /* where the numbers are, which never falls; NULL: the index */
-    const double *scale; /* what the error of each is relative to; NULL: 1 */
+    const double *at;    /* the axis, which never falls; NULL if it is the index */
+    const double *scale; /* scale of each number's relative error; NULL if it is 1 */
     const double *answer, *half, *quarter, *twice;
     const double *const *refined;
     size_t refined_count;
@@ -26,17 +25,17 @@ typedef struct accuracy_ladder {
 } accuracy_ladder;
 
 /*
- * Writes the estimated error of each number of the answer into error[count], of which the
- * tolerances make *by_tolerances, what is typical of that, relative, and into shares[refined_count]
- * what part of the rest each setting has; they are 0 where that is not known, else their sum is 1.
- * Returns the order observed, log2 of the growth of the differences from level to level; NaN where
- * nothing differs or there are two levels alone. There must be `half` or `twice`.
+ * Writes error[count], the estimated error of each number of the answer, *by_tolerances, the
+ * typical relative part that comes from the tolerances, and shares[refined_count], the part of the
+ * rest that each setting causes: their sum is 1, or they are all 0 if it is not known. Returns the
+ * observed order, log2 of the growth of the differences; NaN if nothing differs or there are only
+ * two levels. `half` or `twice` must be given.
  */
 double accuracy_estimate(const accuracy_ladder *ladder, double *error, double *shares,
                          double *by_tolerances);
 
-/* What the values stay below along 95 % of the length; of few or one, the largest. `at` rises and
-   says where they are; NULL: the index does. */
+/* Typical value: the level that 95 % of the axis' length stays below; for few values or one, the
+   largest. `at` is the rising axis; NULL if it is the index. */
 double accuracy_typical(const double *values, const double *at, size_t count);
 
 #endif

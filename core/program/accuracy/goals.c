@@ -45,7 +45,7 @@ ff_place accuracy_place(const ff_run *run)
     return node ? node->place : FF_NOWHERE;
 }
 
-/* Reads "2 %" to a share of 1; NaN for `measured`, and after an error. */
+/* Reads "2 %" as a share of 1; NaN for `measured`, and after an error. */
 static double read_goal(const ff_node *node, const char *name, ff_report *report)
 {
     ff_unit unit;
@@ -87,8 +87,8 @@ char *accuracy_print_goals(const ff_run *run)
     return text;
 }
 
-/* A scalar or a series, or what is one where its optional dimension is absent: of fields no error
-   is measured, nor of an estimate of one. */
+/* True for a scalar or a series, or an output that is one because its optional dimension is absent.
+   Fields and estimates of errors have no measured error. */
 static bool may_have_goal(const ff_stage *stage, const ff_result *result)
 {
     const char *dims = result->row->dims;
@@ -103,7 +103,7 @@ static void free_names(char **names, size_t count)
     free(names);
 }
 
-/* Outputs that may have a goal: their names, in an array for free_names. */
+/* Names of the outputs that may have a goal, in an array for free_names. */
 static char **list_names(const ff_pipeline *pipeline, size_t *count)
 {
     size_t most = 0;

@@ -6,13 +6,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A measured error above this is doubtful where the file names no accuracy. */
+/* A measured error above this is doubtful if the file states no goal. */
 static const double doubtful_above = 0.05;
 
-/* An error at few points that is so many times that of the others is told. */
+/* An error at few points is printed if it is this many times the typical one. */
 static const double much_larger = 2;
 
-/* Parts below this share of an error are not worth a reader's time. */
+/* Parts below this share of an error are not printed. */
 static const double least_part = 0.01;
 
 static const char ending[] = "_error";
@@ -23,8 +23,8 @@ static bool ends_in_error(const char *name)
     return length > tail && !strcmp(name + length - tail, ending);
 }
 
-/* "h_min_space_error" is of the output with the longest name that the line begins with; of fields
-   no error is measured. */
+/* "h_min_space_error" concerns the output with the longest name with which the line begins. Fields
+   have no measured error. */
 const ff_result *accuracy_estimated(const ff_stage *stage, const char *line)
 {
     size_t longest = 0;
@@ -42,7 +42,8 @@ const ff_result *accuracy_estimated(const ff_stage *stage, const char *line)
     return found && found->requested && found->rank > 1 ? NULL : found;
 }
 
-/* Whether a line is of the error of a result, or of one whose name its own begins with. */
+/* True if a line states the error of the result, or of an output whose name begins the result's
+   name. */
 static bool is_of(const ff_stage *stage, const ff_quality *line, const ff_result *result)
 {
     const char *name = result->row->name;
@@ -113,8 +114,8 @@ bool accuracy_is_estimate(const ff_stage *stage, const ff_result *result)
     return false;
 }
 
-/* Takes the estimates of the stages away that measured outputs come from: two numbers for one
-   error would contradict each other, and what comes of an error on the way is measured. */
+/* Removes the stages' own estimates for outputs with a measured error: two numbers for one error
+   would contradict each other. The measured error includes what comes from stages before. */
 static void drop_estimates(const accuracy_record *record, const ff_pipeline *answer)
 {
     bool *feeds = memory_alloc((answer->count + 1) * sizeof *feeds);
@@ -129,7 +130,8 @@ static void drop_estimates(const accuracy_record *record, const ff_pipeline *ans
                 feeds[stage->wires[k].stage] = true;
         for (size_t k = stage->quality_count; k-- > 0;)
             if (accuracy_estimated(stage, stage->quality[k].name) &&
-                !isinf(stage->quality[k].value)) /* no twin knows what is known from below alone */
+                !isinf(stage->quality[k].value)) /* an infinite estimate means a value known only
+                                                    from below, which no twin can tell */
                 ff_drop_quality(stage, k);
     }
     free(feeds);

@@ -14,7 +14,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A time, an angle, or what its dimension is named after: series are compared along it. */
+/* True for a time, an angle or a series with the name of its dimension: series are compared along
+   it. */
 static bool is_axis(const ff_result *result)
 {
     return result->rank == 1 &&
@@ -22,7 +23,7 @@ static bool is_axis(const ff_result *result)
             !strcmp(result->row->name, result->dims[0]));
 }
 
-/* Twins may agree by chance: an error is told to this share of what the file asks for. */
+/* Smallest error that is stated, as a share of the goal: twins may agree by chance. */
 static const double least_error = 0.1;
 
 static void *take(const accuracy_twins *t, size_t count, size_t size)
@@ -30,7 +31,7 @@ static void *take(const accuracy_twins *t, size_t count, size_t size)
     return memory_arena_alloc(&t->record->arena, count * size + 1);
 }
 
-/* Of an estimate of an error no error is measured. */
+/* True for outputs that are asked for and are no error estimates themselves. */
 static bool is_headline(const ff_stage *stage, const ff_result *result)
 {
     bool finite = result->data && result->requested && result->rank <= 1 && result->count > 0 &&
@@ -40,7 +41,8 @@ static bool is_headline(const ff_stage *stage, const ff_result *result)
     return finite && !is_axis(result);
 }
 
-/* What shares of an output are counted from: a temperature from that of the oil, by its row. */
+/* Value from which shares of an output are counted: for a temperature the oil's, as its row
+   says. */
 static double zero_of(const ff_pipeline *answer, const ff_stage *stage, const ff_result *result)
 {
     const char *origin = result->row->origin;
@@ -49,7 +51,7 @@ static double zero_of(const ff_pipeline *answer, const ff_stage *stage, const ff
     return from && from->data && from->rank == 0 ? from->data[0] : 0;
 }
 
-/* Lists what is to be measured, and says it as the outputs of the twins. */
+/* Lists the outputs to be measured and asks the twins for them. */
 static void list_outputs(accuracy_twins *t)
 {
     const ff_pipeline *answer = t->answer;
@@ -84,7 +86,7 @@ static void list_outputs(accuracy_twins *t)
     free(text);
 }
 
-/* Fills the error of an output over its value: typical of a series, and the largest. */
+/* Computes the relative error of an output: typical along a series, and largest. */
 static void find_relative(const double *at, accuracy_error *e)
 {
     const accuracy_series answer = {e->result->rank, e->result->count, at, e->result->data,
@@ -100,7 +102,7 @@ static const double *numbers_of_twin(const accuracy_twins *t, const accuracy_err
                               : NULL;
 }
 
-/* The largest part first. */
+/* Sorts the largest part first. */
 static int by_error(const void *a, const void *b)
 {
     const accuracy_part *one = a, *other = b;
@@ -121,7 +123,7 @@ static void add_parts(const accuracy_twins *t, const double *shares, accuracy_er
     qsort(e->parts, e->part_count, sizeof *e->parts, by_error);
 }
 
-/* Adds what the models that were chosen move. */
+/* Adds the changes by the accepted models. */
 static void add_changes(const accuracy_twins *t, accuracy_error *e)
 {
     const accuracy_choice *choice = t->record->choice;
@@ -132,7 +134,7 @@ static void add_changes(const accuracy_twins *t, accuracy_error *e)
         if (c->of != (size_t)(e->stage - t->answer->stages) ||
             strcmp(c->output, result->row->name) != 0)
             continue;
-        for (size_t k = 0; k < result->count; k++) /* NaN: it could not be compared */
+        for (size_t k = 0; k < result->count; k++) /* naN: the two could not be compared */
             e->bar[k] +=
                 c->error * accuracy_error_scale(result->data[k] - e->zero, most, result->rank);
         e->relative += c->error;
@@ -163,7 +165,7 @@ static accuracy_ladder ladder_of(const accuracy_twins *t, const accuracy_error *
                              .is_finer = t->is_finer};
 }
 
-/* What is typical of the stage's estimate in a twin, over the answer; NaN: it has none. */
+/* Typical relative size of the stage's estimate in a twin; NaN if it has none. */
 static double estimate_in(const accuracy_twins *t, const double *at, const ff_result *estimate,
                           const accuracy_error *e, const accuracy_twin *twin)
 {
@@ -176,8 +178,8 @@ static double estimate_in(const accuracy_twins *t, const double *at, const ff_re
     return numbers ? accuracy_relative(numbers, &answer, &largest) : NAN;
 }
 
-/* An error that the stage estimates is of the tolerances where a level of these makes half of it or
-   less, and less than a level of the counts does; else it falls with the counts as it did. */
+/* Attributes the stage's estimate to the tolerances if refining them by a level at least halves it,
+   and refining the counts reduces it less. Otherwise it falls with the counts, as it did. */
 static void attribute(const accuracy_twins *t, const double *at, const ff_result *estimate,
                       accuracy_error *e)
 {
@@ -186,14 +188,14 @@ static void attribute(const accuracy_twins *t, const double *at, const ff_result
            loose = estimate_in(t, at, estimate, e, t->loose),
            tolerances = t->is_finer ? tight / loose : loose / tight;
     e->by_stage = true;
-    if (tolerances >= 2 && tolerances > counts) /* not where one is NaN */
+    if (tolerances >= 2 && tolerances > counts) /* false if one is NaN */
         e->by_tolerances = e->relative;
     else if (counts > 0)
         e->order = log2(counts);
 }
 
-/* Twins may see less of an error than the stage, which knows where it comes from: no number is
-   better known than by what the stage estimates there. */
+/* Raises the bar of each number to the stage's estimate: a stage may know a source of error that
+   the twins do not see. */
 static void hold_to_estimate(const accuracy_twins *t, const double *at, accuracy_error *e)
 {
     const ff_result *estimate = accuracy_estimate_of(e->stage, e->result);
@@ -228,8 +230,8 @@ static void measure_output(const accuracy_twins *t, accuracy_error *e)
     add_changes(t, e);
 }
 
-/* Gives a number the bar that a series has there, of which the tolerances make as much as of the
-   series; the parts keep their shares. */
+/* Widens the bar of a number to the bar of the series from which it is picked. The part from the
+   tolerances is that of the series; the settings keep their shares. */
 static void widen(accuracy_error *number, const accuracy_error *series, double bar)
 {
     if (!(bar > number->bar[0] && isfinite(bar)) || number->result->data[0] == 0)
@@ -243,8 +245,8 @@ static void widen(accuracy_error *number, const accuracy_error *series, double b
         number->parts[i].error *= factor;
 }
 
-/* The largest bar of the series where it has the number, which is its largest or its least; 0: it
-   is neither. */
+/* Largest bar of the series at the points where it has this number as its largest or smallest
+   value; 0 if it is neither. */
 static double bar_at_extreme(const ff_result *number, const accuracy_error *series)
 {
     const double value = number->data[0], *data = series->result->data;
@@ -259,8 +261,8 @@ static double bar_at_extreme(const ff_result *number, const accuracy_error *seri
     return above > 0 && below > 0 ? 0 : bar;
 }
 
-/* A single number may be the same on two levels by chance. One that is the extreme of a series is
-   off by what that is off there, at least. */
+/* Gives the extreme of a series at least the bar of the series there: a single number may agree on
+   two levels by chance. */
 static void hold_to_series(const accuracy_twins *t, accuracy_error *number)
 {
     if (number->result->rank != 0 || !number->bar)
@@ -273,8 +275,8 @@ static void hold_to_series(const accuracy_twins *t, accuracy_error *number)
     }
 }
 
-/* Whether a stage estimates more than twice an error that was measured: no number is to be off by
-   more than two of its bars. Below a quarter of what is asked that does not matter. */
+/* True if the stage's estimate is more than twice the measured error, so that the truth may lie
+   outside two bars. Estimates below a quarter of the goal do not matter. */
 static bool is_contradicted(const accuracy_error *e)
 {
     const double twice_as_large = 2, matters = 0.25;

@@ -26,16 +26,16 @@ const char *accuracy_open_use(const ff_stage *stage)
     const ff_node *use = ff_node_get(stage->node, "use"), *was = use ? use->replaced : NULL;
     bool same = is_open_node(was) && was->place.source == use->place.source &&
                 was->place.line == use->place.line && was->place.column == use->place.column;
-    return same ? was->text : NULL; /* a model that the user names stands at a place of its own */
+    return same ? was->text : NULL; /* a model that the user names stands at another place */
 }
 
-/* Whether the id is of the kind that stands before the slash of `use`. */
+/* True if the id belongs to the kind before the slash of `use`. */
 static bool is_of_kind(const char *id, const char *use)
 {
     return !strncmp(id, use, strcspn(use, "/") + 1);
 }
 
-/* NULL: it is not here, or not to be used. */
+/* NULL if the model is missing or disabled. */
 static const ff_loaded *loaded_of(ff_engine *engine, const char *id)
 {
     ff_report *unused = ff_report_new();
@@ -55,8 +55,8 @@ static bool is_law(const ff_model *model)
     return model->output_count > 0 && ff_model_output(model, 0)->service;
 }
 
-/* The model of the kind that costs most; NULL: none says what it costs, or they are laws, of which
-   the costly one need not be the exact one. */
+/* The most expensive model of the kind. NULL if none states its cost, or if the kind is a law,
+   whose most expensive member need not be the exact one. */
 static const char *most_costly(ff_engine *engine, const char *use)
 {
     const char *found = NULL;
@@ -94,7 +94,7 @@ static bool refuse(const ff_node *use, const char *name, ff_report *report)
                     use->text);
 }
 
-/* Puts the reference in the place of KIND/auto. */
+/* Replaces KIND/auto by the reference. */
 static void name_reference(ff_run *run, const char *name, const ff_node *stage, ff_engine *engine)
 {
     ff_report *report = ff_run_report(run);
@@ -141,7 +141,7 @@ static size_t stage_count(const ff_run *run)
     return stages && stages->kind == FF_MAP ? stages->count : 0;
 }
 
-/* Whether the stage said KIND/auto, in this layer or an earlier one. */
+/* True if the stage said KIND/auto, in this layer or an earlier one. */
 static bool was_open(const ff_node *stage)
 {
     for (const ff_node *use = ff_node_get(stage, "use"); use; use = use->replaced)
@@ -150,7 +150,7 @@ static bool was_open(const ff_node *stage)
     return false;
 }
 
-/* The key is no parameter of a model. */
+/* Removes the key `reference`, which is no parameter of a model. */
 static void take_reference_away(ff_run *run, const char *name)
 {
     char *none = memory_print_text("pipeline.%s.reference=", name);
@@ -163,7 +163,8 @@ bool accuracy_name_references(ff_run *run, ff_engine *engine)
     const ff_report *report = ff_run_report(run);
     size_t errors = ff_report_errors(report), count = stage_count(run);
     for (size_t i = 0; i < count; i++) {
-        const ff_node *stages = ff_node_get(ff_run_root(run), "pipeline"); /* of now */
+        const ff_node *stages = ff_node_get(ff_run_root(run), "pipeline"); /* in the current
+                                                                              layer */
         const ff_node *stage = stages->items[i];
         const char *name = stages->keys[i];
         const ff_node *reference = ff_node_get(stage, "reference");

@@ -7,13 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The first attempt is coarser than the presets by so many levels. */
+/* Levels by which the first attempt is coarser than the presets. */
 static const double coarsest = 2;
-/* A stage costs little whose model says that it costs at most this share of the dearest one's, or
-   says nothing and is not asked for itself. */
+/* A stage is cheap if its model states at most this share of the most expensive one's cost, or
+   states none and is not asked for itself. */
 static const double little = 0.1;
-/* Its settings are finer than those of the dearest stage by so many levels, in every attempt and in
-   its twins, too: what all of them sample too coarsely none of them shows. */
+/* Levels by which the settings of cheap stages are finer than those of the most expensive stage, in
+   every attempt and twin. If all of them sampled too coarsely, no twin would show it. */
 static const double ahead = 1;
 
 static double largest_cost(const ff_pipeline *pipeline)
@@ -25,8 +25,8 @@ static double largest_cost(const ff_pipeline *pipeline)
     return most;
 }
 
-/* In a loop a stage costs what the others do. One that says nothing may be the dearest where its
-   own outputs are asked for. */
+/* Stages of a loop cost as much as its most expensive one. A stage that states no cost may be the
+   most expensive if its own outputs are asked for. */
 static bool costs_little(const ff_stage *stage, double most)
 {
     double cost = ff_model_cost(stage->loaded->model);
@@ -73,7 +73,7 @@ const char *accuracy_open_set(accuracy_open *open, size_t knob)
     return accuracy_setting_at(k->stage, k->setting.param, k->level, &open->arena);
 }
 
-/* Sets the level, or the next one towards the preset that the limits of the setting allow. */
+/* Sets the level, or the nearest one towards the preset that the setting's limits allow. */
 static void move(accuracy_open *open, size_t knob, double level)
 {
     accuracy_knob *k = &open->knobs[knob];
@@ -82,7 +82,7 @@ static void move(accuracy_open *open, size_t knob, double level)
         k->level = fabs(k->level) < 1 ? 0 : k->level - copysign(1, k->level);
 }
 
-/* Twins are coarser, in the counts by up to two levels. */
+/* Twins are coarser: by a level in the tolerances, and by up to two in the counts. */
 bool accuracy_open_has_twins(accuracy_open *open)
 {
     for (size_t i = 0; i < open->count; i++) {
@@ -95,7 +95,7 @@ bool accuracy_open_has_twins(accuracy_open *open)
     return true;
 }
 
-/* The level that was reached: limits may forbid coarser settings, and where none is open none can
+/* The level reached: limits may forbid coarser settings, and without an open setting none can
    become finer. */
 static double reached(const accuracy_open *open, bool tolerance, double level)
 {
@@ -135,8 +135,9 @@ bool accuracy_open_move(accuracy_open *open, accuracy_levels to)
     return moved;
 }
 
-/* A tolerance without a unit is an error itself: at first it is at the level next to what is asked,
-   since with fewer steps an extreme between two of them is in no answer and in no twin. */
+/* First level of the tolerances. A tolerance without a unit is an error itself, so the first level
+   is the one nearest to the goal: with larger steps an extreme between two of them would be missing
+   from the answer and from every twin. */
 static double first_tolerance(const accuracy_open *open, double asked)
 {
     double level = coarsest;

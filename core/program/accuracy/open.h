@@ -1,23 +1,23 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The settings that a file leaves open, and how coarse they are. */
+/* The settings that a file leaves open, and their levels. */
 #ifndef ACCURACY_OPEN_H
 #define ACCURACY_OPEN_H
 
 #include "settings.h"
 
-/* Eight times as many cells and steps as by preset: 64 times the work. */
+/* Finest level: eight times the cells and steps of the presets, 64 times the work. */
 static const double accuracy_finest = -3;
 
 /* A setting that the file leaves open. */
 typedef struct accuracy_knob {
-    const ff_stage *stage; /* of the pipeline that was asked for */
+    const ff_stage *stage; /* in the pipeline that was asked for */
     accuracy_setting setting;
-    bool cheap;   /* its stage costs little */
-    bool idle;    /* it changes nothing */
-    double level; /* coarser than the preset by so much */
+    bool cheap;   /* belongs to a cheap stage */
+    bool idle;    /* changes nothing */
+    double level; /* levels coarser than the preset */
 } accuracy_knob;
 
-/* Coarser than the presets by so many levels. */
+/* Levels by which settings are coarser than the presets. */
 typedef struct accuracy_levels {
     double counts, tolerances;
 } accuracy_levels;
@@ -26,23 +26,24 @@ typedef struct accuracy_levels {
 typedef struct accuracy_open {
     accuracy_knob *knobs;
     size_t count;
-    const char *given; /* "film.cells, film.steps": settings that the file gives itself; "": none */
+    const char *given; /* "film.cells, film.steps": settings fixed by the file; "" if there are
+                          none */
     accuracy_levels at;
     memory_arena arena;
 } accuracy_open;
 
-/* Lists the settings of the stages that are needed, as by preset. */
+/* Lists the open settings of the stages that are needed, at their presets. */
 void accuracy_open_list(accuracy_open *open, const ff_pipeline *asked);
-/* Leaves the settings at their levels that changed nothing in a run which set them at the place. */
+/* Freezes the settings that changed nothing in a run which set them at the place. */
 void accuracy_open_leave_idle(accuracy_open *open, const ff_report *said, ff_place place);
-/* Sets the levels of the first attempt for outputs that may be off by `asked`, relative. */
+/* Sets the levels of the first attempt; `asked` is the smallest goal, relative. */
 void accuracy_open_begin(accuracy_open *open, double asked);
-/* Sets the levels, or what is nearest to them within the limits of the settings. Returns whether a
-   setting changes. */
+/* Sets the levels, or the nearest ones within the settings' limits. Returns true if a setting
+   changes. */
 bool accuracy_open_move(accuracy_open *open, accuracy_levels to);
-/* The assignment of a setting: "film.cells=362". */
+/* The assignment of a setting, such as "film.cells=362". */
 const char *accuracy_open_set(accuracy_open *open, size_t knob);
-/* Whether the limits of the settings leave room for twins. */
+/* True if the settings' limits leave room for twins. */
 bool accuracy_open_has_twins(accuracy_open *open);
 void accuracy_open_free(accuracy_open *open);
 

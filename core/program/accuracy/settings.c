@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Whether the limits of the row, which hold when min < max, allow the value. */
+/* True if the row's limits, which apply if min < max, allow the value. */
 static bool is_allowed(const ff_param *row, double si)
 {
     return !(row->min < row->max) || (si >= row->min && si <= row->max);

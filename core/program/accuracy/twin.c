@@ -8,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Marks what the marked stages feed, too. */
+/* Marks all stages downstream of the marked ones. */
 static void spread(const ff_pipeline *pipeline, bool *marks)
 {
-    for (bool again = true; again;) { /* a loop comes round once more */
+    for (bool again = true; again;) { /* a loop needs another pass */
         again = false;
         for (size_t i = 0; i < pipeline->count; i++) {
             const ff_stage *stage = &pipeline->stages[i];
@@ -25,11 +25,11 @@ static void spread(const ff_pipeline *pipeline, bool *marks)
 typedef struct observation {
     const accuracy_scene *scene;
     accuracy_twin *twin;
-    const bool *affected; /* stages that are computed */
+    const bool *affected; /* stages that are computed anew */
 } observation;
 
-/* Number `i` of the stages that are evaluated together: of the loop, or the stage alone; SIZE_MAX:
-   there are no more. */
+/* Stage number `i` of the group evaluated together: a loop, or the stage alone. SIZE_MAX at the
+   end. */
 static size_t together(const ff_pipeline *pipeline, const ff_stage *stage, size_t i)
 {
     if (stage->loop)
@@ -53,7 +53,7 @@ static void copy_results(const ff_stage *from, ff_stage *to)
     to->seconds = from->seconds;
 }
 
-/* Another model behind it may want what the donor did not compute. */
+/* True if the donor computed everything needed; a replaced model may want more inputs. */
 static bool has_all(const ff_stage *from, const ff_stage *to)
 {
     bool all = from->ran;
@@ -136,7 +136,7 @@ void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const c
     twin->pipeline = run_build(twin->run, false);
     twin->report = ff_run_report(twin->run);
     if (twin->pipeline && !run_has_errors(twin->run)) {
-        spread(twin->pipeline, affected); /* another model may have other wires */
+        spread(twin->pipeline, affected); /* a replaced model may have other wires */
         accuracy_want_beside(twin->pipeline);
         accuracy_hand_states(like, twin->pipeline);
         if (!scene->outputs)
@@ -189,7 +189,7 @@ void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_o
         const ff_message *m = ff_report_at(run->report, i);
         ff_source source = m->place.source ? *m->place.source : (ff_source){0};
         ff_place place = m->place;
-        source.temporary = true; /* it is freed with the answer */
+        source.temporary = true; /* freed with the answer */
         place.source = place.source ? &source : NULL;
         if (is_known(report, m->text) || accuracy_is_about(m, chosen))
             continue;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * One ladder for the whole answer: in its first twin all settings of all stages are one level
- * coarser, in its second two; then, where no others are known, one after the other, each setting is
- * a level finer than in the second, which shows what comes of it. The twins of a setting are cheap,
- * since all else is coarse and what lies before its stage is known. Where attempts are made, the
- * levels are those of the counts, and other twins tell what the tolerances add. Where a coarser
- * twin fails, the answer is coarse itself, and a finer one tells.
+ * Twins of one answer, a ladder of levels. All settings of all stages are one level coarser in the
+ * first twin and two levels coarser in the second. Then, unless earlier runs are known, each
+ * setting in turn is one level finer than in the second, which shows its part of the error. These
+ * are cheap: all else is coarse, and stages upstream are known. When attempts are made, the levels
+ * concern the counts, and further twins show the effect of the tolerances. If a coarser twin fails
+ * because the answer itself is coarse, a finer one takes its place.
  */
 #include "twins.h"
 
@@ -13,7 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The settings of all stages that something measured depends on. */
+/* Lists the settings of all stages on which a measured output depends. */
 static void list_knobs(accuracy_twins *t)
 {
     accuracy_setting settings[ACCURACY_MOST_SETTINGS];
@@ -41,14 +41,14 @@ static void note_failure(accuracy_twins *t, const char *why)
         t->record->failure = memory_arena_text(&t->record->arena, why, strlen(why));
 }
 
-/* By how many levels the settings of a twin are coarser. */
+/* Levels by which a twin's settings are coarser. */
 typedef struct coarser {
     int counts, tolerances;
 } coarser;
 
 static const coarser half = {1, 1}, quarter = {2, 2}, twice = {-1, -1};
 
-/* NULL: its limits forbid it. */
+/* NULL if the setting's limits forbid it. */
 static const char *assignment_at(const accuracy_twins *t, const accuracy_knob *k, coarser at)
 {
     int levels = k->setting.tolerance ? at.tolerances : at.counts;
@@ -56,8 +56,8 @@ static const char *assignment_at(const accuracy_twins *t, const accuracy_knob *k
                                &t->record->arena);
 }
 
-/* Fills the assignments of a twin, and marks the stages that they change. False: the limits of a
-   setting forbid one. */
+/* Fills the assignments of a twin and marks the stages that they change. False if a setting's
+   limits forbid one. */
 static bool list_sets(accuracy_twins *t, coarser at, size_t finer, const char **sets, bool *changed)
 {
     for (size_t i = 0; i < t->count; i++) {
@@ -76,7 +76,7 @@ static bool list_sets(accuracy_twins *t, coarser at, size_t finer, const char **
     return true;
 }
 
-/* Runs a twin; one of its settings is at the level of half; SIZE_MAX: none. */
+/* Runs a twin. The setting `finer` is at the level of `half`; SIZE_MAX: none is. */
 static void run_twin(accuracy_twins *t, coarser at, size_t finer, accuracy_twin *twin)
 {
     const char **sets = memory_alloc((t->count + 1) * sizeof *sets);
@@ -94,7 +94,7 @@ static void run_twin(accuracy_twins *t, coarser at, size_t finer, accuracy_twin 
     free(sets);
 }
 
-/* Whether an answer has the settings of a twin. */
+/* True if an answer has the settings of the twin. */
 static bool is_twin(const accuracy_twins *t, coarser at, const ff_pipeline *answer)
 {
     bool same = answer->count == t->answer->count;
@@ -110,7 +110,7 @@ static bool is_twin(const accuracy_twins *t, coarser at, const ff_pipeline *answ
     return same;
 }
 
-/* A twin that was run before, good or not; NULL: none was. */
+/* A twin from earlier runs, good or not; NULL if there is none. */
 static const accuracy_twin *known_twin(const accuracy_twins *t, coarser at)
 {
     for (size_t i = 0; i < t->record->own_count; i++)
@@ -122,7 +122,7 @@ static const accuracy_twin *known_twin(const accuracy_twins *t, coarser at)
     return NULL;
 }
 
-/* Finds a twin, or runs it; NULL: it cannot be had. */
+/* Finds or runs a twin; NULL if there can be none. */
 static const accuracy_twin *find_twin(accuracy_twins *t, coarser at)
 {
     const accuracy_twin *known = known_twin(t, at);
@@ -152,9 +152,9 @@ static bool have_tolerances(const accuracy_twins *t)
     return any;
 }
 
-/* Whether a series has fewer points in the loose twin than in the tight one, but hardly: between
-   them an error of second order does not even double, and what the steps of both miss neither of
-   them shows. As many points are no steps. */
+/* True if a series has fewer points in the loose twin than in the tight one, but hardly. Between
+   them even an error of second order does not double, and an extreme missed by both sets of steps
+   shows in neither. Equal counts mean that the points are no steps. */
 static bool hardly_differ(const accuracy_twins *t)
 {
     const double hardly = sqrt(1 / 2.0);
@@ -170,8 +170,8 @@ static bool hardly_differ(const accuracy_twins *t)
     return false;
 }
 
-/* Two twins that were run before, as coarse in the counts; false: there are none, and `tight` and
-   `loose` are to be set. */
+/* Finds two earlier twins with the same counts for `tight` and `loose`; false if there are none and
+   the two must be run. */
 static bool know_tolerances(accuracy_twins *t, int counts)
 {
     t->tight = known_twin(t, (coarser){counts, 0});
@@ -179,8 +179,8 @@ static bool know_tolerances(accuracy_twins *t, int counts)
     return t->tight && t->tight->good && t->loose && t->loose->good;
 }
 
-/* Finds two twins of one level of the counts whose tolerances differ: those that were run before,
-   or the cheapest; a finer one where the coarser cannot be had, or hardly differs. */
+/* Finds two twins with equal counts and different tolerances: earlier ones, or the cheapest; a
+   finer one if the coarser fails or hardly differs. */
 static void find_loose(accuracy_twins *t)
 {
     int counts = know_tolerances(t, 1) ? 1 : 2;
@@ -197,8 +197,8 @@ static void find_loose(accuracy_twins *t)
     t->loose = finer ? finer : t->loose;
 }
 
-/* Where attempts are made: counts and tolerances become finer apart. Two levels do where the
-   coarser twin fails, since the next attempt is finer itself. */
+/* Ladder of an attempt, in which counts and tolerances are refined separately. Two levels suffice
+   if the coarser twin fails, since the next attempt is finer. */
 static void run_attempt_ladder(accuracy_twins *t)
 {
     t->half = find_twin(t, (coarser){1, 0});

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The twins of an answer, which tell its errors: those that were run before, and the rest. */
+/* The twins that tell the errors of an answer: earlier runs, and those still to be run. */
 #ifndef ACCURACY_TWINS_H
 #define ACCURACY_TWINS_H
 
@@ -7,9 +7,9 @@
 #include "settings.h"
 #include "twin.h"
 
-/* A setting with the stage that it belongs to. */
+/* A setting and its stage. */
 typedef struct accuracy_knob {
-    size_t stage; /* in the pipeline */
+    size_t stage; /* index in the pipeline */
     accuracy_setting setting;
 } accuracy_knob;
 
@@ -17,17 +17,20 @@ typedef struct accuracy_twins {
     accuracy_record *record;
     accuracy_scene scene;
     const ff_pipeline *answer;
-    const accuracy_known *known; /* NULL: no attempts are made */
-    accuracy_knob *knobs;        /* the settings of all stages that something measured depends on */
+    const accuracy_known *known; /* NULL if no attempts are made */
+    accuracy_knob *knobs;        /* the settings of all stages on which a measured output
+                                    depends */
     size_t count;
-    const accuracy_twin *half, *quarter, *twice; /* NULL: it cannot be had */
-    const accuracy_twin *middle, *tight, *loose; /* estimate.h; NULL: not told apart */
+    const accuracy_twin *half, *quarter, *twice; /* NULL if it cannot be had */
+    const accuracy_twin *middle, *tight, *loose; /* as in estimate.h; NULL if tolerances are not
+                                                    separated */
     bool is_finer;
-    accuracy_twin *refined; /* one for each knob; not good: errors are not split by it */
+    accuracy_twin *refined; /* one for each knob; not good if errors are not split by it */
     bool stopped;
 } accuracy_twins;
 
-/* Finds or runs them. The first four are given, and what is to be measured is in the record. */
+/* Finds or runs the twins. The first four members are given; the outputs to be measured are in the
+   record. */
 void accuracy_twins_find(accuracy_twins *twins);
 void accuracy_twins_free(accuracy_twins *twins);
 
