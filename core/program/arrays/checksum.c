@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Eight bytes at a time ("slicing by 8"): the remainders of eight bytes at eight places are summed.
- */
+/* Sums eight bytes at a time ("slicing by 8"), with one table of remainders for each of the eight
+   places. */
 #include "checksum.h"
 
-static const uint32_t polynomial =
-    0xEDB88320; /* with the bits in the order in which they are sent */
+static const uint32_t polynomial = 0xEDB88320; /* the bits in the order in which they are sent */
 
 void arrays_checksum_prepare(arrays_checksum *checksum)
 {

@@ -6,13 +6,13 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* The sums of each byte that is followed by up to seven zeros. */
+/* Sums of each byte value, followed by zero to seven zero bytes. */
 typedef struct arrays_checksum {
     uint32_t table[8][256];
 } arrays_checksum;
 
 void arrays_checksum_prepare(arrays_checksum *checksum);
-/* Goes on from the sum of what came before; that of nothing is 0. */
+/* Continues a sum; the sum of no bytes is 0. */
 uint32_t arrays_checksum_add(const arrays_checksum *checksum, uint32_t sum, const void *data,
                              size_t size);
 

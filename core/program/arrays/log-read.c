@@ -36,7 +36,8 @@ static int open_log(int directory, const char *name, off_t *size, char why[ARRAY
 {
     struct stat info;
     char title[ARRAYS_LOG_HEAD];
-    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* a pipe cannot hold it */
+    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* O_NONBLOCK: opening a
+                                                                            pipe does not wait */
     if (fd < 0 || fstat(fd, &info) != 0)
         snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
     else if (!S_ISREG(info.st_mode))
@@ -54,7 +55,7 @@ static int open_log(int directory, const char *name, off_t *size, char why[ARRAY
     return -1;
 }
 
-/* Returns the number of a log that is open; -1 with what is wrong. */
+/* Returns the index of a log, opened if necessary; -1 with what is wrong. */
 static int find_log(arrays_reader *reader, const char *name, char why[ARRAYS_WHY])
 {
     for (int i = 0; i < ARRAYS_MOST_OPEN; i++)
@@ -77,7 +78,7 @@ static int find_log(arrays_reader *reader, const char *name, char why[ARRAYS_WHY
     return (int)at;
 }
 
-/* Whether the record lies within the log, which may have grown. */
+/* True if the record lies within the log, whose length is read again since it may have grown. */
 static bool fits(arrays_reader *reader, int log, off_t offset, const arrays_head *head)
 {
     struct stat info;

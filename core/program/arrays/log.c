@@ -23,8 +23,8 @@ static bool write_at(int fd, const void *data, size_t size, off_t at)
     return true;
 }
 
-/* Forces the names in a directory to the disk. Where that cannot be asked for, names are kept
-   without being asked, or never. */
+/* Forces the names in a directory to the disk. File systems that do not support this keep names on
+   their own, or never. */
 static bool sync_names(int directory)
 {
     return fsync(directory) == 0 || errno == EINVAL;
@@ -38,7 +38,7 @@ bool arrays_force(int file)
     return state == 0 || errno == EINVAL || errno == ENOSYS || errno == EOPNOTSUPP;
 }
 
-/* A log that is new, or was broken off within its title, gets one. */
+/* Writes the title of a log that is new or was cut off within its title. */
 static bool write_title(arrays_log *log, int directory)
 {
     char title[ARRAYS_LOG_HEAD];
@@ -48,8 +48,8 @@ static bool write_title(arrays_log *log, int directory)
            arrays_force(log->fd) && sync_names(directory);
 }
 
-/* Cuts off what follows the end; false with what is wrong, which is "" when errno says it. A log
-   that has lost its end, by no fault of ours, goes on where it stops. */
+/* Cuts off what follows the end. False with what is wrong, which is "" if errno tells it. A log
+   that is shorter than `end`, through no fault of this program, is continued where it stops. */
 static bool enter_log(arrays_log *log, int directory, off_t end, char why[ARRAYS_WHY])
 {
     struct stat info;
@@ -97,7 +97,8 @@ bool arrays_log_append(arrays_log *log, const arrays_label *label, const double 
     const struct iovec parts[] = {
         {head.bytes, head.size}, {(double *)(uintptr_t)data, size}, {&sum, sizeof sum}};
     bool good = pwritev(log->fd, parts, 3, at) == (ssize_t)whole ||
-                (write_at(log->fd, head.bytes, head.size, at) && /* an error is met again */
+                /* a partial write sets no errno: a second attempt does */
+                (write_at(log->fd, head.bytes, head.size, at) &&
                  write_at(log->fd, data, size, at + (off_t)head.size) &&
                  write_at(log->fd, &sum, sizeof sum, at + (off_t)(head.size + size)));
     if (good)

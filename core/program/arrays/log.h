@@ -31,31 +31,31 @@ enum {
 
 typedef struct arrays_log {
     int fd;
-    off_t end; /* of the last record */
+    off_t end; /* end of the last record */
     arrays_checksum checksum;
 } arrays_log;
 
-/* Which array a record holds. */
+/* Identifies the array of a record. */
 typedef struct arrays_label {
     const char *key, *output;
     size_t shape[4];
     uint32_t rank;
 } arrays_label;
 
-/* Opens a log in a directory for appending, or makes it. `end`: where the last record ends that
-   anybody knows of; what follows is cut off. `fresh`: a log of this name must not exist. False with
-   what is wrong, and errno. */
+/* Opens a log in a directory for appending, or creates it. `end` is the end of the last known
+   record; what follows is cut off. `fresh`: a log of this name must not exist. False with what is
+   wrong, and errno. */
 bool arrays_log_open(arrays_log *log, int directory, const char *name, off_t end, bool fresh,
                      char why[ARRAYS_WHY]);
 /* Appends a record and sets `offset` to where it begins; false with errno. */
 bool arrays_log_append(arrays_log *log, const arrays_label *label, const double *data,
                        off_t *offset);
 void arrays_log_close(arrays_log *log);
-/* Forces what was written to the disk; false with errno. A file system that cannot be asked for it
-   lets it reach the disk without being asked, or never. */
+/* Forces written data to the disk; false with errno. File systems that do not support this write it
+   on their own, or never. */
 bool arrays_force(int file);
 
-/* log-read.c: logs of a directory that are being read. */
+/* log-read.c: reads the logs of a directory. */
 enum { ARRAYS_MOST_OPEN = 16 };
 
 typedef struct arrays_reader {
@@ -66,16 +66,16 @@ typedef struct arrays_reader {
         int fd;
         off_t size;
     } logs[ARRAYS_MOST_OPEN];
-    size_t next; /* to be closed when another one is opened */
+    size_t next; /* the one to close when another log is opened */
 } arrays_reader;
 
 void arrays_reader_open(arrays_reader *reader, int directory); /* the descriptor is borrowed */
 void arrays_reader_close(arrays_reader *reader);
-/* Whether a log is long enough to have the record at `offset`; false with what is wrong. Only then
-   may memory for its numbers be sought. */
+/* True if the log is long enough for the record at `offset`, else what is wrong. Memory for the
+   numbers may be allocated only after this check. */
 bool arrays_reader_has(arrays_reader *reader, const char *name, off_t offset,
                        const arrays_label *label, char why[ARRAYS_WHY]);
-/* Reads the numbers of such a record, with NaN for each that is not finite. */
+/* Reads the numbers of such a record; numbers that are not finite become NaN. */
 bool arrays_reader_read(arrays_reader *reader, const char *name, off_t offset,
                         const arrays_label *label, double *out, char why[ARRAYS_WHY]);
 

@@ -15,7 +15,7 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
 static const char magic[] = "\x93NUMPY";
 enum {
     MAGIC = sizeof magic - 1,
-    PREAMBLE = MAGIC + 4, /* with the version and the length of the header */
+    PREAMBLE = MAGIC + 4, /* includes the version and the length of the header */
     ALIGNMENT = 64,       /* of the first number in the file */
     LONGEST_HEADER = 1024
 };
@@ -41,7 +41,8 @@ size_t arrays_npy_header(const size_t *shape, uint32_t rank, char header[ARRAYS_
         (size_t)snprintf(text, room, "{'descr': '<f8', 'fortran_order': False, 'shape': ");
     length += print_shape(shape, rank, text + length, room - length);
     length += (size_t)snprintf(text + length, room - length, ", }");
-    size_t total = (PREAMBLE + length + ALIGNMENT) / ALIGNMENT * ALIGNMENT; /* with a line end */
+    size_t total = (PREAMBLE + length + ALIGNMENT) / ALIGNMENT * ALIGNMENT; /* includes a line
+                                                                               end */
     memset(text + length, ' ', total - PREAMBLE - length);
     header[total - 1] = '\n';
     memcpy(header, magic, MAGIC);
@@ -78,7 +79,7 @@ static bool read_fully(int fd, void *out, size_t size)
     return true;
 }
 
-/* Returns what stands behind 'key': in the header; "" when the key is not there. */
+/* Returns the text after 'key': in the header; "" if the key is missing. */
 static const char *value_of(const char *header, const char *key)
 {
     char quoted[32];
@@ -87,7 +88,7 @@ static const char *value_of(const char *header, const char *key)
     return at ? at + strlen(quoted) + strspn(at + strlen(quoted), " ") : "";
 }
 
-/* Whether the shape in the header is this one, whatever blanks it has. */
+/* True if the header's shape is this one; blanks do not matter. */
 static bool is_shape(const char *found, const char *expected)
 {
     while (*expected && *found) {
@@ -101,7 +102,7 @@ static bool is_shape(const char *found, const char *expected)
     return false;
 }
 
-/* Says in `why` what is wrong with a header, if anything. */
+/* Checks a header; false with what is wrong. */
 static bool check_header(const char *header, const char *shape, char why[ARRAYS_WHY])
 {
     const char *type = value_of(header, "descr"), *order = value_of(header, "fortran_order"),
@@ -123,7 +124,7 @@ static bool check_header(const char *header, const char *shape, char why[ARRAYS_
     return false;
 }
 
-/* Reads the header; false when the file is not such a one. */
+/* Reads the header; false if the file has none. */
 static bool read_header(int fd, char header[LONGEST_HEADER], size_t *length, char why[ARRAYS_WHY])
 {
     unsigned char start[PREAMBLE];
@@ -141,7 +142,7 @@ static bool read_header(int fd, char header[LONGEST_HEADER], size_t *length, cha
     return false;
 }
 
-/* Whether the file has as many bytes as its shape says. */
+/* True if the file's size fits its shape. */
 static bool check_size(const struct stat *info, size_t before, const size_t *shape, uint32_t rank,
                        char why[ARRAYS_WHY])
 {
@@ -173,7 +174,8 @@ static bool check_file(int fd, const size_t *shape, uint32_t rank, char why[ARRA
 int arrays_npy_open(int directory, const char *name, const size_t *shape, uint32_t rank,
                     char why[ARRAYS_WHY])
 {
-    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* no pipe can hold it */
+    int fd = openat(directory, name, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* O_NONBLOCK: opening a
+                                                                            pipe does not wait */
     if (fd < 0)
         snprintf(why, ARRAYS_WHY, "%s", strerror(errno));
     if (fd < 0 || check_file(fd, shape, rank, why))

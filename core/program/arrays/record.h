@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* How a record of a log is laid out, for those who write and read it. */
+/* Layout of a record of a log, for its writers and readers. */
 #ifndef ARRAYS_RECORD_H
 #define ARRAYS_RECORD_H
 
@@ -13,20 +13,20 @@ enum {
     ARRAYS_RECORD_HEAD = ARRAYS_OUTPUT_AT + ARRAYS_LONGEST_OUTPUT + 8 + ARRAYS_NPY_HEADER
 };
 
-/* What stands before the numbers of a record. */
+/* The bytes of a record before its numbers. */
 typedef struct arrays_head {
     char bytes[ARRAYS_RECORD_HEAD];
-    size_t size;   /* of these */
-    size_t count;  /* numbers */
-    double length; /* of the record, which may be too large for any file */
+    size_t size;   /* number of these bytes */
+    size_t count;  /* how many numbers follow */
+    double length; /* length of the record, which may exceed any file */
 } arrays_head;
 
-/* Makes what the label says; `output` and `key` are cut to what has room. */
+/* Fills the head from the label; `output` and `key` are cut to the room there is. */
 void arrays_head_make(arrays_head *head, const arrays_label *label);
 
 /* The text at the start of a log. */
 void arrays_log_title(char title[ARRAYS_LOG_HEAD]);
-/* Says what is wrong with the start of a log, if anything. */
+/* Checks the start of a log; false with what is wrong. */
 bool arrays_log_check_title(const char title[ARRAYS_LOG_HEAD], char why[ARRAYS_WHY]);
 
 bool arrays_read_at(int fd, void *out, size_t size, off_t at);

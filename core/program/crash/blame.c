@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unwind.h>
 
-enum { MOST_SERVICES = 16 /* that use services */ };
+enum { MOST_SERVICES = 16 /* services that themselves use services */ };
 
 static _Unwind_Reason_Code add_frame(struct _Unwind_Context *frame, void *argument)
 {
@@ -29,7 +29,8 @@ static const struct link_map *object_of(const void *address)
     return _dl_find_object((void *)(uintptr_t)address, &found) == 0 ? found.dlfo_link_map : NULL;
 }
 
-/* While an object is loaded, all that runs runs for it. */
+/* True if the code belongs to the plugin. While an object is being loaded, all code that runs
+   belongs to it. */
 static bool is_code_of(const ff_guard_mark *mark, const struct link_map *object)
 {
     return !mark->code || object_of(mark->code) == object;

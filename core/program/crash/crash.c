@@ -18,11 +18,11 @@ static const char crashed[] = " crashed during ", ended[] = " ended the program 
 enum { FAULTS = 5 };
 static const int fault_signals[FAULTS] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 
-/* Bound at program start: when the dynamic linker itself faults over a damaged file, a first call
-   that goes through it would fault again. */
+/* Bound at program start: if the dynamic linker itself faults over a damaged file, a first call
+   through it would fault again. */
 static ff_guard_mark (*volatile const guard_bound)(void) = ff_guard_current;
 
-/* The sentence, made by functions that a signal handler may call. */
+/* A sentence, built by functions that a signal handler may call. */
 typedef struct line {
     char text[CRASH_SENTENCE];
     size_t length;
@@ -47,7 +47,8 @@ static void add_mebibytes(line *l, unsigned long long bytes)
     add(l, " MiB");
 }
 
-/* "; the address space of the process is limited to 98 MiB", where it is. Returns whether. */
+/* Adds "; the address space of the process is limited to 98 MiB" if it is. Returns true if it
+   did. */
 static bool add_limit(line *l)
 {
     struct rlimit limit;
@@ -78,8 +79,8 @@ void crash_starve(unsigned long long bytes)
     crash_say(sentence.text, FF_FAULT_RUN);
 }
 
-/* "oil: the plugin oil.so crashed during evaluate of film: abort". `who` NULL: it may be any that
-   takes part. */
+/* Makes "oil: the plugin oil.so crashed during evaluate of film: abort". `who` is NULL if the
+   culprit may be any plugin that takes part. */
 static line make_sentence(const ff_guard_mark *running, const ff_guard_mark *who, const char *verb,
                           const char *detail)
 {
@@ -101,7 +102,7 @@ static line make_sentence(const ff_guard_mark *running, const ff_guard_mark *who
     return sentence;
 }
 
-/* Of several threads with a fault one reports it. */
+/* Lets one of several faulting threads report; the others wait. */
 static void be_first(void)
 {
     static atomic_flag dying = ATOMIC_FLAG_INIT;
@@ -118,7 +119,7 @@ static _Noreturn void die(const ff_guard_mark *running, const ff_guard_mark *who
     crash_say(sentence.text, FF_FAULT_PLUGIN);
 }
 
-/* A library of the plugin has called exit(): for want of memory, where that is limited. */
+/* Reports that a plugin's library called exit(), for want of memory if the memory is limited. */
 static _Noreturn void die_of_library(const ff_guard_mark *running, const crash_stack *stack,
                                      const char *library)
 {
@@ -131,7 +132,8 @@ static _Noreturn void die_of_library(const ff_guard_mark *running, const crash_s
     crash_say(sentence.text, limited ? FF_FAULT_RUN : FF_FAULT_PLUGIN);
 }
 
-/* The address of the instruction; after a call of nothing, that of the caller. */
+/* Address of the faulting instruction; after a call of a NULL function the address of its
+   caller. */
 static const void *place_of(const void *context)
 {
 #ifdef __x86_64__
@@ -144,15 +146,15 @@ static const void *place_of(const void *context)
 #endif
 }
 
-/* Who switched a trap on may have returned long before it strikes. */
+/* True for a trap: the code that enabled it may have returned long before it strikes. */
 static bool is_trap(int number, const siginfo_t *info)
 {
     return number == SIGFPE && info->si_code >= FPE_FLTDIV && info->si_code <= FPE_FLTSUB;
 }
 
-/* Whose code it was, as far as that can be known; NULL: any that takes part. The stack is looked at
-   where a function was called that ends the program; after a fault it may be overwritten. A fault
-   in the code of a stage may come of what one that serves it has written. */
+/* The plugin at fault, as far as it can be known; NULL if it may be any that takes part. The stack
+   is read only if a function that ends the program was called; after a fault it may be overwritten.
+   A fault in the code of a stage may be caused by what a plugin that serves it has written. */
 static const ff_guard_mark *culprit(const ff_guard_mark *running, int number, const void *context)
 {
     crash_stack stack;
@@ -162,8 +164,8 @@ static const ff_guard_mark *culprit(const ff_guard_mark *running, int number, co
     return crash_stack_blame(&stack, running);
 }
 
-/* Says what the process that waits cannot know, and leaves the rest to it. Where this handler
-   crashes itself, that process still knows who was running. */
+/* Writes the sentence that the leading process cannot know, and leaves the rest to that process. If
+   this handler crashes, the leading process still knows which plugin was running. */
 static void on_fault(int number, siginfo_t *info, void *context)
 {
     ff_guard_mark running = guard_bound();
@@ -176,7 +178,7 @@ static void on_fault(int number, siginfo_t *info, void *context)
         running.path && running.code ? culprit(&running, number, context) : NULL;
     if (who && who != &running)
         die(&running, who, crashed, crash_fault_name(number));
-    /* A faulting instruction faults again on return; a signal that was sent is sent again. */
+    /* a faulting instruction faults again on return; a signal that was sent is sent again */
     signal(number, SIG_DFL);
     if (info->si_code <= 0)
         raise(number);
@@ -208,7 +210,8 @@ static void on_fork(void)
         die(&running, who, broke, "it called fork()");
 }
 
-/* The main thread ends, and the program would wait for the others. */
+/* Ends the process when a plugin ends the main thread by pthread_exit(): the program would wait for
+   the other threads. */
 static void on_thread_end(void *nothing)
 {
     ff_guard_mark running = ff_guard_current();
@@ -219,7 +222,7 @@ static void on_thread_end(void *nothing)
 
 void crash_install(void)
 {
-    static char stack[65536]; /* a stack overflow leaves none of the thread's own */
+    static char stack[65536]; /* a stack overflow leaves no room on the thread's own stack */
     stack_t alternative = {.ss_sp = stack, .ss_size = sizeof stack};
     struct sigaction action = {.sa_sigaction = on_fault, .sa_flags = SA_ONSTACK | SA_SIGINFO};
     pthread_key_t key;

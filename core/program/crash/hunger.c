@@ -10,10 +10,11 @@
 #include <time.h>
 #include <ucontext.h>
 
-/* Of looks at the process: one that finds memory refused adds MORE, another takes one away. */
+/* A timer looks at the process every LOOK_MICROSECONDS. A look that finds memory refused adds MORE
+   to a count, any other takes one away; at MOST the process starves. */
 enum { LOOK_MICROSECONDS = 20000, MORE = 4, MOST = 200 };
 
-/* The size that mmap was just refused; 0: it was not. */
+/* Size that mmap has just refused; 0 if it has not. */
 static unsigned long long refused(const ucontext_t *context)
 {
 #ifdef __x86_64__
@@ -41,7 +42,7 @@ void crash_hunger_watch(void)
     const struct timespec pause = {.tv_nsec = 1000L * LOOK_MICROSECONDS};
     const struct itimerspec often = {pause, pause};
     struct sigevent event = {.sigev_notify = SIGEV_SIGNAL, .sigev_signo = SIGPROF};
-    timer_t timer; /* one of setitimer would go on in a program that takes the place of this one */
+    timer_t timer; /* POSIX timer: one of setitimer would survive an exec */
     struct sigaction action = {.sa_sigaction = look, .sa_flags = SA_SIGINFO | SA_RESTART};
     struct rlimit limit;
     sigemptyset(&action.sa_mask);

@@ -19,7 +19,7 @@
 #include <time.h>
 #include <unistd.h>
 
-/* What the two processes share. */
+/* Memory shared by the two processes. */
 typedef struct last_words {
     ff_guard_mirror running;
     pid_t child;
@@ -27,10 +27,10 @@ typedef struct last_words {
     crash_end end;
 } last_words;
 
-static last_words *words; /* NULL: nobody leads this process */
+static last_words *words; /* NULL if no process leads this one */
 static ff_guard_mirror own, *running = &own;
 
-/* Of the leading process. */
+/* Used in the leading process. */
 static volatile sig_atomic_t child, handed_on;
 
 void crash_mark(ff_guard_mirror *mirror)
@@ -113,14 +113,15 @@ static long long now_ns(void)
     return time.tv_sec * 1000000000LL + time.tv_nsec;
 }
 
-/* A signal to the group comes twice, at any distance on a busy machine, and who sends it to the
-   leading process, too, as timeout(1) does, makes it three. Threads may take them at once. */
+/* Counts copies of one signal. A signal sent to the group arrives twice, at any distance on a busy
+   machine, and three times if its sender addresses the leading process as well, as timeout(1) does.
+   Several threads may receive them at once. */
 bool crash_is_echo(const siginfo_t *info)
 {
     enum { SIGNALS = 65 };
     static const long long pair = 1000000000LL, burst = 50000000LL; /* ns */
     static atomic_llong counted[SIGNALS], seen[SIGNALS];
-    static atomic_int came_alone[SIGNALS]; /* those that came here, less those handed on */
+    static atomic_int came_alone[SIGNALS]; /* signals that arrived here, less those handed on */
     const int n = info->si_signo;
     if (info->si_code > 0 || n < 0 || n >= SIGNALS)
         return false;
@@ -138,8 +139,8 @@ bool crash_is_echo(const siginfo_t *info)
     return paired || !atomic_compare_exchange_strong(&counted[n], &last, now);
 }
 
-/* A terminal sends its signals to all of a group, and what the child sends to its group is not the
-   user's. */
+/* Hands a signal on to the child. A terminal signals the whole group by itself, and a signal that
+   the child sends to its group is not the user's. */
 static void hand_on(int number, siginfo_t *info, void *context)
 {
     int before = errno;
@@ -167,8 +168,8 @@ static void catch_signals(void)
             sigaction(handed[i], &action, NULL);
 }
 
-/* Whether a thread of the stopped child is in a call that sends SIGSTOP; true where the system does
-   not tell. */
+/* True if a thread of the stopped child is in a call that sends SIGSTOP, or if the system does not
+   tell. */
 static bool has_stopped_itself(void)
 {
     char path[300];
@@ -194,7 +195,8 @@ static bool has_stopped_itself(void)
     return itself || !known;
 }
 
-/* A batch system stops all processes of a job, and lets them go on one after the other. */
+/* True if the child remains stopped. A batch system stops all processes of a job and continues them
+   one after the other. */
 static bool stays_stopped(void)
 {
     siginfo_t info;
@@ -209,8 +211,9 @@ static bool stays_stopped(void)
     return true;
 }
 
-/* The status of the child; of one that a plugin has stopped, that. Where nobody can tell it any
-   more, the one that it has left, or that of a run that failed. */
+/* Waits for the child and returns its status. A child that a plugin has stopped is killed, and the
+   status of the stop returned. If the status is lost, returns the code that the child left in
+   shared memory, or that of a failed run. */
 static int wait_for_child(void)
 {
     assert(child > 0 && words);
@@ -230,7 +233,7 @@ static int wait_for_child(void)
     }
 }
 
-/* With the code and the sentence of a child that has ended with this status. */
+/* Fills code and sentence for a child that ended with this status. */
 static void judge(int status, crash_end *end)
 {
     int number = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
@@ -238,8 +241,9 @@ static void judge(int status, crash_end *end)
     end->sentence[sizeof end->sentence - 1] = '\0';
     if (end->sentence[0] && !words->over && !number && WEXITSTATUS(status) == end->code)
         return;
-    end->sentence[0] = '\0';                                 /* a plugin has written there */
-    end->code = number ? FF_FAULT_RUN : WEXITSTATUS(status); /* a sanitizer may have changed it */
+    end->sentence[0] = '\0';                                 /* a plugin has overwritten it */
+    end->code = number ? FF_FAULT_RUN : WEXITSTATUS(status); /* a sanitizer may have changed the
+                                                                code */
     if (words->over && !number)
         return;
     if (!(number && (number == handed_on || number == SIGXCPU)) &&
@@ -251,11 +255,11 @@ static void judge(int status, crash_end *end)
     }
 }
 
-/* Debuggers follow one process, and valgrind counts for each. Read without a stream: what is
-   allocated before the fork is copied after it. */
+/* True under a debugger, which follows one process, or valgrind, which counts each one. Read
+   without a stream: memory allocated before the fork is copied after it. */
 static bool is_watched(void)
 {
-    char status[1024] = ""; /* the line stands near the top */
+    char status[1024] = ""; /* long enough for the line, which is near the top */
     const char *preloaded = getenv("LD_PRELOAD");
     int fd = open("/proc/self/status", O_RDONLY | O_CLOEXEC);
     if (fd >= 0) {
@@ -268,15 +272,15 @@ static bool is_watched(void)
            (preloaded && strstr(preloaded, "vgpreload"));
 }
 
-/* A process that the child makes is led by nobody, and its plugins are its own. */
+/* Called in a process that the child makes: nobody leads it, and its plugins are its own. */
 static void step_down(void)
 {
     words = NULL;
     crash_mark(&own);
 }
 
-/* The child has the terminal with its group, where it may read from one; otherwise it has a group
-   of its own, so that what a plugin sends to the group ends nobody else. */
+/* Gives the child the terminal's foreground group if it may read from a terminal, else a group of
+   its own, so that a signal of a plugin to its group ends no other process. */
 static void follow(pid_t leader)
 {
     words->child = getpid();
@@ -301,8 +305,8 @@ bool crash_lead(crash_end *end)
     words = words == MAP_FAILED ? NULL : words;
     sigfillset(&all);
     sigprocmask(SIG_SETMASK, &all,
-                &before);     /* no signal comes before there is a child to have it */
-    signal(SIGCHLD, SIG_DFL); /* ignored, it would keep the status of the child from us */
+                &before);     /* no signal arrives before there is a child to receive it */
+    signal(SIGCHLD, SIG_DFL); /* if ignored, the child's status would be lost */
     if (words)
         made = fork();
     if (made == 0)

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Fits each law to the same data: which could not be fitted, which is the best, and the answer as
-   JSON. */
+/* Fits each law to the same data, finds the best one and prints the answer as JSON. */
 #include "search.h"
 
 #include "../results/json.h"
@@ -17,7 +16,7 @@ const fit_law *fit_best(const fit *f)
     return best;
 }
 
-/* A law that cannot be fitted is an error when it was named, or when no other is left. */
+/* A law that cannot be fitted is an error if the user named it, or if no law could be fitted. */
 static bool report_unfitted(const fit *f)
 {
     bool none = !fit_best(f), same = none && f->law_count > 1, good = true;

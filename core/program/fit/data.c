@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The measured points: their columns, where the user asks, and the rows that are fitted. */
+/* Reads the measured points: their columns, the conditions that the user asks for, and the rows to
+   be fitted. */
 #include "fit.h"
 
 #include "../memory/memory.h"
@@ -48,7 +49,7 @@ static const ff_param columns[FIT_COLUMNS] = {
                     .max = 1e12},
 };
 
-/* Writes the temperatures in degC, "40, 80, 100", each isotherm once. */
+/* Writes the temperature of each isotherm once, in degC: "40, 80, 100". */
 static void list_isotherms(const double *T, size_t n, char *out, size_t size)
 {
     size_t at = 0;
@@ -62,13 +63,13 @@ static void list_isotherms(const double *T, size_t n, char *out, size_t size)
     }
 }
 
-/* Copies the rows of the temperature that was asked for, or all rows. */
+/* Copies the rows at the temperature asked for; all rows if none was asked for. */
 static void copy_rows(const fit *f, fit_data *d)
 {
     const double *T = f->table->columns[FIT_TEMPERATURE];
     for (size_t i = 0; i < f->table->row_count; i++) {
         if (T && fabs(T[i] - f->at[FIT_TEMPERATURE]) > ISOTHERM)
-            continue; /* no row is left out where nothing was asked: NaN */
+            continue; /* false for NaN: without a temperature asked for no row is left out */
         d->row[d->n] = i;
         d->p[d->n] = f->table->columns[FIT_PRESSURE][i];
         d->ln_eta[d->n] = log(f->table->columns[FIT_VISCOSITY][i]);
@@ -107,7 +108,7 @@ static void find_temperature(fit_data *d)
     d->temperature = d->T && d->isothermal ? sum / (double)d->n : NAN;
 }
 
-/* Has the sign of the slope of ln(eta) over pressure. */
+/* Has the sign of the slope of ln(eta) against pressure. */
 static double covariance(const fit_data *d)
 {
     double p = 0, ln_eta = 0, sum = 0;
@@ -208,7 +209,7 @@ void fit_range(const fit *f, size_t column, double *low, double *high)
     }
 }
 
-/* --at: a value of the column that has its dimension; it must lie inside the data. */
+/* Reads a quantity of --at into the column with its dimension; it must lie inside the data. */
 static bool set_condition(fit *f, const char *text)
 {
     char why[300] = "";

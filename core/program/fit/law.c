@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* The laws that are fitted, and what the user says of their parameters. */
+/* The laws to be fitted, and the user's settings of their parameters. */
 #include "fit.h"
 
 #include "../memory/memory.h"
@@ -123,7 +123,7 @@ static const fit_law *find_law(const fit *f, const char *id)
     return NULL;
 }
 
-/* Of a group one member at most is held or found. */
+/* At most one member of a group may be held or free. */
 static bool check_groups(const fit *f, const fit_law *law)
 {
     for (size_t i = 0; i < law->param_count; i++) {
@@ -140,7 +140,7 @@ static bool check_groups(const fit *f, const fit_law *law)
     return true;
 }
 
-/* Applies what stands at the place of the stages: parameters, or laws with theirs. */
+/* Applies the settings under `pipeline`: parameters, or laws with their parameters. */
 static bool set_all(fit *f, const ff_node *map)
 {
     bool good = true;
@@ -175,7 +175,7 @@ bool fit_set(fit *f, ff_engine *engine, const char *const *sets, size_t count)
     return good;
 }
 
-/* Tells the law what has changed. False when it refuses a value. */
+/* Gives the law the values that changed. False if it refuses one. */
 static bool set_values(fit_law *law, const double *values)
 {
     bool good = true;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What was fitted, for people. */
+/* Prints the fit for people. */
 #include "fit.h"
 
 #include "../terminal/terminal.h"
@@ -80,7 +80,7 @@ static void print_param(const fit_param *param)
     putchar('\n');
 }
 
-/* The notes of a law, each on lines of its own. */
+/* Prints the remarks on a law, each on lines of its own. */
 static void print_notes(const char *note)
 {
     while (*note) {

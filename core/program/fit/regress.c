@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * From the data to parameters with their confidence. The residuals are those of ln(eta): relative
- * deviations, which is what a viscometer's error is.
+ * Finds parameters and their confidence intervals. The residuals are those of ln(eta), that is
+ * relative deviations, as the error of a viscometer is relative.
  */
 #include "search.h"
 
@@ -15,9 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* RANK: below this ratio of the least to the largest singular value of the scaled derivatives,
-   parameters cannot be told apart. SHARE: a parameter with at least this component in the direction
-   of the least one is among them. */
+/* RANK: parameters cannot be told apart if the smallest singular value of the scaled derivatives is
+   below this share of the largest. SHARE: a parameter is one of them if its component in the
+   direction of the smallest is at least this. */
 static const double RANK = 1e-6, SHARE = 0.05;
 
 static const fit_param *param_of(const fit_search *s, size_t param)
@@ -61,8 +61,8 @@ static bool same_group(const ff_param *a, const ff_param *b)
     return a->group && b->group && !strcmp(a->group, b->group);
 }
 
-/* A parameter without a preset is found, of a group of which one is required the first number,
-   unless the user has chosen. */
+/* True for parameters to be found: those without a preset, and the first number of a required
+   group, unless the user has chosen. */
 static bool is_free(const fit_law *law, size_t index)
 {
     const fit_param *param = &law->params[index];
@@ -80,8 +80,8 @@ static bool is_free(const fit_law *law, size_t index)
     return required;
 }
 
-/* Of data at several temperatures: what stands in for the oil, as the s0 of Roelands, is found,
- * too. */
+/* With data at several temperatures, parameters that describe the oil, such as Roelands' s0, are
+   found as well. */
 static bool is_thermal(const fit_data *d, const fit_param *param)
 {
     const ff_param *row = param->row;
@@ -89,7 +89,8 @@ static bool is_thermal(const fit_data *d, const fit_param *param)
            row->preset;
 }
 
-/* Their mean is where the constants of a law hold that asks for it: `at`. */
+/* True for the reference temperature `at` of a law; its value is the mean temperature of the
+   data. */
 static bool is_reference(const fit_data *d, const fit_param *param)
 {
     return !d->isothermal && param->asked == FIT_PRESET && param->row->type == FF_REAL &&
@@ -104,8 +105,8 @@ static double mean_temperature(const fit_data *d)
     return sum / (double)d->n;
 }
 
-/* Sets up the axes. The law has the values that the user holds; pressure_cap is held at the end
-   of the data, so that the law says by itself when it is used beyond. */
+/* Sets up the axes. The law has the values that the user holds. pressure_cap is held at the highest
+   pressure of the data, so that the law itself warns of use beyond it. */
 static bool choose_free(fit_search *s)
 {
     fit_law *law = s->law;
@@ -154,7 +155,7 @@ static bool has_enough_points(const fit_search *s)
                 s->count, s->count + 3, s->count + 1, s->data->n, points);
 }
 
-/* A law without temperature answers the same at both ends. */
+/* A law without temperature gives the same viscosity at both ends. */
 static bool depends_on_temperature(fit_search *s, const double *x)
 {
     const fit_data *d = s->data;
@@ -179,7 +180,7 @@ static void hold(fit_search *s, size_t axis, double value, fit_state found)
     s->count--;
 }
 
-/* Holds a parameter whose search has ended at a limit. False: none has. */
+/* Holds a parameter whose search ended at a limit. False if there is none. */
 static bool hold_limit(fit_search *s, const double *x)
 {
     char text[64];
@@ -232,8 +233,8 @@ static void decompose(fit_search *s, const double *x, decomposition *d)
     gsl_linalg_SV_decomp_jacobi(d->U, d->V, d->S);
 }
 
-/* Of parameters that the data cannot tell apart, holds the one with the narrowest calibrated range,
-   in its middle. False: all can be told apart. */
+/* Holds one of the parameters that the data cannot tell apart: the one with the narrowest
+   calibrated range, at its middle. False if all can be told apart. */
 static bool hold_undetermined(fit_search *s, const decomposition *d)
 {
     size_t last = s->count - 1, narrowest = 0;
@@ -302,8 +303,8 @@ static void estimate_intervals(const fit_search *s, const double *x, const decom
     }
 }
 
-/* Names parameters whose interval is wider than 1.5 times their value, and the one that each is
-   most correlated with. */
+/* Names the parameters with an interval wider than 1.5 times their value, and for each the
+   parameter with which it is most correlated. */
 static void note_loose(const fit_search *s)
 {
     for (size_t i = 0; i < s->count; i++) {
@@ -345,8 +346,8 @@ typedef struct point {
     double p, residual;
 } point;
 
-/* Counts runs of one sign along the pressure (Wald & Wolfowitz 1940): fewer than chance makes in 99
-   of 100 cases mean that the law has another form than the data. */
+/* Counts runs of one sign along the pressure (Wald & Wolfowitz 1940). Fewer runs than chance gives
+   in 99 of 100 cases mean that the law differs in form from the data. */
 static void note_pattern(const fit_data *d, fit_law *law)
 {
     point *points = memory_alloc(d->n * sizeof *points);
@@ -369,8 +370,8 @@ static void note_pattern(const fit_data *d, fit_law *law)
                  "intervals mean little.");
 }
 
-/* Sets the deviation of the data from the law, eta/eta_law - 1, and the corrected criterion of
-   Akaike, AICc, in which the variance counts as a parameter (Hurvich & Tsai 1989). */
+/* Computes the deviation of the data from the law, eta/eta_law - 1, and Akaike's corrected
+   criterion AICc, which counts the variance as a parameter (Hurvich & Tsai 1989). */
 static void measure(const fit_search *s, const double *weighted)
 {
     fit_law *law = s->law;
@@ -422,7 +423,7 @@ static bool take_result(fit_search *s, const double *x, const decomposition *d)
     return true;
 }
 
-/* Searches until no parameter is at a limit and all that are free can be told apart. */
+/* Searches until no parameter is at a limit and all free ones can be told apart. */
 static bool search(fit_search *s)
 {
     fit_law *law = s->law;

@@ -13,11 +13,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points at which the sum of squares is sampled, the best of them, from which a search starts, and
-   the most iterations of a search. */
+/* SAMPLES: points at which the sum of squares is sampled. STARTS: the best of them, from which
+   searches start. ITERATIONS: the most of one search. */
 enum { SAMPLES = 64, STARTS = 4, ITERATIONS = 200 };
 
-/* Residuals where a law refuses its parameters; slope of the penalty beyond a limit. */
+/* REFUSED: residual where a law refuses its parameters. PENALTY: slope of the penalty beyond a
+   limit. */
 static const double REFUSED = 1e3, PENALTY = 10;
 
 fit_axis fit_axis_of(const fit_param *param, size_t index)
@@ -33,7 +34,7 @@ fit_axis fit_axis_of(const fit_param *param, size_t index)
         from = axis.log ? 0 : -fabs(param->unit->factor);
         to = fabs(param->unit->factor);
     }
-    if (axis.log) { /* a range that begins at 0 is taken for three decades */
+    if (axis.log) { /* a range that begins at 0 is given three decades */
         from = from > 0 ? from : 1e-3 * to;
         min = min > 0 ? min : 1e-9 * from;
         if (row->flags & FF_MIN_OPEN)
@@ -89,7 +90,8 @@ void fit_search_jacobian(fit_search *s, const double *x, double *out)
         moved[j] = x[j] - h;
         bool below = fit_search_residuals(s, moved, down);
         moved[j] = x[j];
-        if (above + below + here < 2) /* two of the three serve: one-sided beside a refusal */
+        if (above + below + here < 2) /* beside a refusal the difference is one-sided: two of the
+                                         three points suffice */
             continue;
         up = above ? up : side;
         down = below ? down : side;
@@ -99,13 +101,13 @@ void fit_search_jacobian(fit_search *s, const double *x, double *out)
     free(side);
 }
 
-/* How far x is beyond its limits; 0 inside. */
+/* Distance of x beyond its limits; 0 inside. */
 static double excess(const fit_axis *axis, double x)
 {
     return x < axis->low ? x - axis->low : x > axis->high ? x - axis->high : 0;
 }
 
-/* The n residuals, then a penalty for each axis that drives it back into its limits. */
+/* The n residuals, then one penalty per axis that drives x back into its limits. */
 static int residuals_with_penalties(const gsl_vector *x, void *params, gsl_vector *f)
 {
     fit_search *s = params;
@@ -130,8 +132,8 @@ static int jacobian_with_penalties(const gsl_vector *x, void *params, gsl_matrix
     return GSL_SUCCESS;
 }
 
-/* Levenberg-Marquardt with a trust region, started at x, where it leaves the minimum. Returns the
-   sum of squares, or infinity. */
+/* Levenberg-Marquardt with a trust region, from x; writes the minimum to x. Returns the sum of
+   squares, or infinity. */
 static double minimise(fit_search *s, double *x)
 {
     gsl_multifit_nlinear_parameters how = gsl_multifit_nlinear_default_parameters();
@@ -148,7 +150,7 @@ static double minimise(fit_search *s, double *x)
     if (w && gsl_multifit_nlinear_init(&start.vector, &system, w) == GSL_SUCCESS) {
         int status = gsl_multifit_nlinear_driver(ITERATIONS, 1e-9, 1e-12, 0, NULL, NULL, &why, w);
         const gsl_vector *f = gsl_multifit_nlinear_residual(w);
-        /* GSL_ENOPROG: the steps are below what the differences resolve */
+        /* GSL_ENOPROG: the steps are below the resolution of the differences */
         if (status == GSL_SUCCESS || status == GSL_ENOPROG) {
             sum = 0;
             for (size_t i = 0; i < f->size; i++)
@@ -177,7 +179,7 @@ static void keep_best(start best[STARTS], const start *one)
         }
 }
 
-/* Keeps the best points of a Sobol sequence through the calibrated ranges. */
+/* Keeps the best points of a Sobol sequence over the calibrated ranges. */
 static void sample_starts(fit_search *s, start best[STARTS], double *residuals)
 {
     double point[FIT_MOST_FREE];

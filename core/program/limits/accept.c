@@ -15,14 +15,14 @@ static bool is_told(const ff_report *report, ff_place place)
     return false;
 }
 
-/* Whether a line is of the stage that a key names. */
+/* True if a line belongs to the stage that a key names. */
 static bool is_of_stage(const char *line, const char *key)
 {
     const size_t length = strcspn(key, ".");
     return !strncmp(line, key, length) && line[length] == '.';
 }
 
-/* Warns of a key among whose stage's lines it is not; of a stage without lines nothing is known. */
+/* Warns of a key that names no line of its stage; a stage without lines tells nothing. */
 static void check_key(const char *key, ff_place place, json_t *lines, ff_report *report)
 {
     const char *line, **names = memory_alloc((json_object_size(lines) + 1) * sizeof *names);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What a file accepts, `accept: {film.lambda: "run-in flanks, measured"}`, against the lines that
- * there are: a doubt that no line has may be a wrong name, which is warned of.
+ * Checks the keys of `accept: {film.lambda: "run-in flanks, measured"}` against the existing
+ * quality lines. A key that no line has may be misspelt and is warned of.
  */
 #ifndef LIMITS_ACCEPT_H
 #define LIMITS_ACCEPT_H
@@ -10,9 +10,9 @@
 
 #include <jansson.h>
 
-/* Of a run: stages that did not run are not looked at. */
+/* For a run: stages that did not run are left out. */
 void accept_check_pipeline(const ff_pipeline *pipeline, ff_report *report);
-/* Of the cases of a study, whose lines are {"STAGE.LINE": true}. */
+/* For the cases of a study; `lines` is {"STAGE.LINE": true}. */
 void accept_check_lines(const ff_node *accept, json_t *lines, ff_report *report);
 
 #endif

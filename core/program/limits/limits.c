@@ -10,8 +10,8 @@
 
 typedef struct asked {
     double bound; /* SI */
-    bool above;   /* numbers are to be above it */
-    bool equal;   /* or to be it */
+    bool above;   /* numbers have to be above the bound */
+    bool equal;   /* numbers equal to the bound keep it */
 } asked;
 
 static const ff_node *node_of(const ff_run *run)
@@ -31,7 +31,7 @@ static const ff_result *find_output(const ff_pipeline *pipeline, const char *pat
     return output < 0 || !(*stage)->results ? NULL : &(*stage)->results[output];
 }
 
-/* Says what stands under a limit's name. Returns false. */
+/* Reports an unreadable limit. Returns false. */
 static bool refuse(const ff_node *node, const char *path, ff_report *report)
 {
     return ff_error(report, FF_FAULT_INPUT, node->place, NULL,
@@ -72,7 +72,7 @@ static bool read_limit(const ff_node *node, const char *path, const ff_port *out
     return good;
 }
 
-/* Number i of the limits of an output, which are one or a list; NULL after the last. */
+/* Limit number i of an output, whose limits are one node or a list; NULL after the last. */
 static const ff_node *limit_at(const ff_node *of, size_t i)
 {
     if (of->kind != FF_SEQUENCE)
@@ -100,7 +100,7 @@ bool limits_check(ff_run *run)
 char *limits_print_key(const ff_run *run)
 {
     const ff_node *node = node_of(run), *item;
-    ff_report *unused = ff_report_new(); /* limits_check has said what cannot be read */
+    ff_report *unused = ff_report_new(); /* limits_check has reported unreadable limits already */
     char *text = NULL;
     size_t length = 0;
     FILE *out = memory_require(open_memstream(&text, &length));
@@ -121,7 +121,7 @@ char *limits_print_key(const ff_run *run)
     return text;
 }
 
-/* The error of number k of an output: measured, or as the stage estimates it; NaN: not told. */
+/* Error of number k of an output: measured, or estimated by the stage; NaN: not known. */
 static double bar_of(const ff_stage *stage, const ff_result *result, size_t k,
                      const accuracy_record *errors)
 {
@@ -133,13 +133,13 @@ static double bar_of(const ff_stage *stage, const ff_result *result, size_t k,
                     : accuracy_estimated_share(stage, result) * fabs(result->data[k]);
 }
 
-/* How much further than the limit a number is on the side that is asked for. */
+/* Distance of a number from the limit, positive on the side that is asked for. */
 static double margin_of(const asked *limit, double value)
 {
     return limit->above ? value - limit->bound : limit->bound - value;
 }
 
-/* A number that is known from below alone meets no limit from above for sure. */
+/* Standing of a number. A number known only from below never meets an upper limit for certain. */
 static limits_standing stand(const asked *limit, double value, double bar, bool at_least)
 {
     const double margin = margin_of(limit, value);
@@ -150,7 +150,7 @@ static limits_standing stand(const asked *limit, double value, double bar, bool 
     return margin <= bar && bar > 0 ? LIMITS_WITHIN : LIMITS_MET;
 }
 
-/* Judges all numbers of an output, and keeps the one that stands worst. */
+/* Judges all numbers of an output and keeps the one with the worst standing. */
 static void judge(limits_row *row, const asked *limit, const accuracy_record *errors)
 {
     const ff_result *result = &row->stage->results[row->output];

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What a file asks of its answers, `limits: {scuffing.safety: "> 1.5"}`, and how they stand to it.
- * The key asks for the output, too. A list holds several limits of one output. Each number of a
- * series has to keep the limit.
+ * The limits that a file sets for its outputs, `limits: {scuffing.safety: "> 1.5"}`, and whether
+ * they are met. A limit also asks for the output. A list holds several limits of one output. Every
+ * number of a series has to meet them.
  */
 #ifndef LIMITS_H
 #define LIMITS_H
@@ -11,7 +11,7 @@
 
 #include <jansson.h>
 
-/* The worst last. */
+/* From best to worst. */
 typedef enum {
     LIMITS_MET,
     LIMITS_WITHIN, /* met, but by less than the error bar */
@@ -25,9 +25,9 @@ typedef struct limits_row {
     char *name;  /* "scuffing.safety", owned */
     char *asked; /* "> 1.5", owned */
     limits_standing standing;
-    double value; /* the number that is nearest to the limit, or farthest beyond; NaN: not known */
-    double bar;   /* its error, in the same SI unit; NaN: nothing tells it; infinite: the value is
-                     known from below alone */
+    double value; /* the number nearest to the limit, or farthest beyond it; NaN: not known */
+    double bar;   /* its error, in the same SI unit; NaN: not known; infinite: the value is known
+                     only from below */
 } limits_row;
 
 typedef struct limits_verdict {
@@ -36,13 +36,12 @@ typedef struct limits_verdict {
     limits_standing worst;
 } limits_verdict;
 
-/* Reports what cannot be read in the limits of the file; false then. */
+/* Reports limits that cannot be read; false if there are any. */
 bool limits_check(ff_run *run);
-/* What is asked of the outputs, in SI: who asks the same gets the same text, which is to be freed.
- */
+/* Prints the limits in SI for the key of a case: equal limits give equal texts. To be freed. */
 char *limits_print_key(const ff_run *run);
-/* Judges what the pipeline has computed. An output without numbers misses its limit; a limit that
-   limits_check refuses, or whose output the pipeline does not know, has no row. */
+/* Judges the outputs that the pipeline has computed. An output without numbers misses its limit. A
+   limit that limits_check refuses, or whose output the pipeline does not know, has no row. */
 limits_verdict limits_judge(const ff_run *run, const ff_pipeline *pipeline,
                             const accuracy_record *errors);
 void limits_free(limits_verdict *verdict);
@@ -53,10 +52,10 @@ limits_standing limits_standing_of(const char *word);
 /* [{output, asked, standing, value, bar, at_least, unit}]; null for a number that is not known. */
 json_t *limits_json(const limits_verdict *verdict);
 limits_standing limits_worst(const json_t *list);
-/* The same in a word, and the names where it is not "met": "missed: scuffing.safety > 1.5"; to be
-   freed. "" without limits. */
+/* The overall standing in a word, and the limits that are not "met": "missed: scuffing.safety >
+   1.5"; "" without limits. To be freed. */
 char *limits_text(const json_t *list);
-/* "of 3 limits 1 missed, 2 met", to be freed; "" without limits. */
+/* "of 3 limits 1 missed, 2 met"; "" without limits. To be freed. */
 char *limits_sentence(const limits_verdict *verdict);
 
 #endif
