@@ -130,6 +130,20 @@ static contact_point point_at(const contact_tooth_path *p, const engagement *e, 
     return point;
 }
 
+/* What exchanged gears have, told of gear 1 and gear 2 as they are. */
+static contact_point of_gears(const contact_tooth_path *p, contact_point point)
+{
+    const contact_point as = point;
+    if (!p->exchange.back)
+        return point;
+    point.roll_angle = numerics_exchange_back(&p->exchange, as.roll_angle);
+    point.radius_1 = as.radius_2;
+    point.radius_2 = as.radius_1;
+    point.speed_1 = as.speed_2;
+    point.speed_2 = as.speed_1;
+    return point;
+}
+
 /* The history as it is written, and integrals of the load over the roll angle. */
 typedef struct load_record {
     contact_history history;
@@ -144,7 +158,7 @@ typedef struct load_record {
 static ff_status add_instant(load_record *r, const contact_tooth_path *p, const engagement *e,
                              double angle)
 {
-    contact_point point = point_at(p, e, angle);
+    const contact_point point = of_gears(p, point_at(p, e, angle));
     if (angle > p->angle[0])
         r->load_sum += (angle - r->angle) * (point.load_per_width + r->load) / 2 * p->face_width;
     r->angle = angle;
@@ -350,7 +364,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     status =
         pieces && curves && breaks ? make_history(s, &p, wanted, pieces, curves, breaks) : FF_NOMEM;
 out:
-    free(p.engagement);
+    contact_tooth_path_close(&p);
     free(pieces);
     free(curves);
     free(breaks);

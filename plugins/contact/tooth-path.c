@@ -161,7 +161,14 @@ ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in,
 {
     double teeth[2] = {1, 1};
     *p = (contact_tooth_path){.oil = &in[CONTACT_TOOTH_OIL]};
-    ff_status status = read_positive(host, in, CONTACT_TOOTH_FACE_WIDTH, 1, &p->face_width);
+    ff_status status =
+        numerics_exchange_open(contact_tooth_inputs, CONTACT_TOOTH_INPUTS, in, &p->exchange);
+    in = p->exchange.in;
+    if (status == FF_OK)
+        status = numerics_exchange_check(host, contact_tooth_inputs, &p->exchange,
+                                         CONTACT_TOOTH_TOOTH_FORCE);
+    if (status == FF_OK)
+        status = read_positive(host, in, CONTACT_TOOTH_FACE_WIDTH, 1, &p->face_width);
     if (status == FF_OK)
         status = read_positive(host, in, CONTACT_TOOTH_TEETH, 2, teeth);
     if (status == FF_OK)
@@ -173,4 +180,10 @@ ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in,
     p->ratio = teeth[0] / teeth[1];
     p->pitch = 2 * M_PI / teeth[0];
     return status == FF_OK ? read_stations(host, in, wanted, p) : status;
+}
+
+void contact_tooth_path_close(contact_tooth_path *p)
+{
+    free(p->engagement);
+    numerics_exchange_close(&p->exchange);
 }

@@ -3,6 +3,7 @@
 #ifndef CONTACT_TOOTH_PATH_H
 #define CONTACT_TOOTH_PATH_H
 
+#include "../numerics/exchange.h"
 #include "engagements.h"
 
 #include <flankfilm/plugin.h>
@@ -36,12 +37,14 @@ typedef struct contact_tooth_path {
     double pitch;              /* roll angle from one pair to the next, rad */
     double face_width, ratio;  /* omega2 / omega1 */
     double speed, reduced_modulus;
-    double line_force;   /* N; 0: not wired */
-    const ff_array *oil; /* two rows */
+    double line_force;          /* N; 0: not wired */
+    numerics_exchange exchange; /* the pair whose driving flanks bear */
+    const ff_array *oil;        /* two rows */
 } contact_tooth_path;
 
-/* Reads and checks; p->engagement is freed by the caller, also after a failure. */
+/* Reads and checks; to be closed in any case. */
 ff_status contact_tooth_path_read(const ff_host *host, const ff_array *in,
                                   contact_engagement_choice wanted, contact_tooth_path *p);
+void contact_tooth_path_close(contact_tooth_path *p);
 
 #endif

@@ -42,6 +42,8 @@ typedef struct relief_end {
 
 static const relief_end tip_end = {true, "tip_relief_start", "tip_relief_diameter",
                                    "tip_relief_length"};
+static const relief_end back_end = {true, "back_relief_start", "back_relief_diameter",
+                                    "back_relief_length"};
 static const relief_end root_end = {false, "root_relief_start", "root_relief_diameter",
                                     "root_relief_length"};
 
@@ -125,8 +127,8 @@ static ff_status set_reliefs(const ff_host *host, const gear_flank_spec *s, cons
     set_limits(p, lpstc, hpstc, f);
     for (int g = 0; g < 2; g++) {
         const double base = p->base_radius[g];
-        ff_status status =
-            set_start(host, f, &s->tip, &tip_end, g, base, hpstc[g], &f->tip_start[g]);
+        ff_status status = set_start(host, f, &s->tip, s->back ? &back_end : &tip_end, g, base,
+                                     hpstc[g], &f->tip_start[g]);
         if (status == FF_OK)
             status = set_start(host, f, &s->root, &root_end, g, base, lpstc[g], &f->root_start[g]);
         if (status != FF_OK)
@@ -257,6 +259,28 @@ static ff_status check_index(const ff_host *host, const gear_flank_spec *s,
                             "%zu index deviations for the %g teeth of gear %d", s->index[g].count,
                             ff_of_both(&gears->teeth, g), g + 1);
     return FF_OK;
+}
+
+bool gear_flanks_have_back(const gear_relief *back)
+{
+    return back->amount.count + back->start.count + back->diameter.count + back->length.count > 0 ||
+           back->shape >= 0;
+}
+
+gear_flank_spec gear_flanks_back(const gear_flank_spec *driving, const gear_relief *back)
+{
+    gear_flank_spec s = *driving;
+    s.back = true;
+    if (back->amount.count > 0)
+        s.tip.amount = back->amount;
+    if (back->shape >= 0)
+        s.tip.shape = back->shape;
+    if (back->start.count + back->diameter.count + back->length.count > 0) {
+        s.tip.start = back->start;
+        s.tip.diameter = back->diameter;
+        s.tip.length = back->length;
+    }
+    return s;
 }
 
 ff_status gear_flanks_make(const ff_host *host, const gear_flank_spec *spec,

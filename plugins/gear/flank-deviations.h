@@ -12,6 +12,8 @@
 
 #include <flankfilm/plugin.h>
 
+#include <stdbool.h>
+
 /* A relief of `amount`, m, at the end of the flank, one value or two. Where it starts is said in
    one way of three, or not at all: as a roll angle of the own gear, rad, as a diameter, or as a
    length along the line of action from the end of the flank. */
@@ -26,6 +28,7 @@ typedef struct gear_flank_spec {
     ff_reals slope;    /* f_H_alpha: rise from the lowest contact to the tip, m; one value or two */
     ff_reals index[2]; /* deviations of the first teeth, m; the others have none */
     const char *file;  /* may be NULL */
+    bool back;         /* of the back flanks, whose tip relief has names of its own */
 } gear_flank_spec;
 
 /* The flanks that follow from a specification; angles in rad, deviations in m. */
@@ -43,5 +46,10 @@ ff_status gear_flanks_make(const ff_host *host, const gear_flank_spec *spec,
                            const gear_spur_spec *gears, const gear_spur_pair *pair,
                            gear_flanks *flanks);
 void gear_flanks_free(gear_flanks *flanks);
+
+/* The back flanks: as the driving ones, but for what is given of their own tip relief. */
+gear_flank_spec gear_flanks_back(const gear_flank_spec *driving, const gear_relief *back);
+/* Whether anything is. */
+bool gear_flanks_have_back(const gear_relief *back);
 
 #endif

@@ -110,6 +110,17 @@ static const ff_param params[] = {
             "diagrams, instead"),
     FF_ONE_OF("linear|parabolic", "tip_relief_shape", spur, flank_spec.tip.shape, 0, "linear",
               "growth of the tip relief from its start to the tip"),
+    FF_LIST("back_relief", "um", spur, back_relief.amount, 0, NULL, NULL, 0, 1e4, 0, 0, 1, 2,
+            "tip relief of the back flanks, which bear where the torque is below 0; this and what "
+            "follows of it, left out: as on the driving flank"),
+    FF_LIST("back_relief_start", "deg", spur, back_relief.start, 0, NULL, "back_relief_start", 0,
+            1e4, 0, 0, 1, 2, "roll angle of the own gear from which its tip is relieved"),
+    FF_LIST("back_relief_diameter", "mm", spur, back_relief.diameter, 0, NULL, "back_relief_start",
+            1e-3, 1e9, 0, 0, 1, 2, "diameter from which it is relieved, instead"),
+    FF_LIST("back_relief_length", "mm", spur, back_relief.length, 0, NULL, "back_relief_start", 0,
+            1e5, 0, 0, 1, 2, "length of it from the tip along the line of action, instead"),
+    FF_ONE_OF("linear|parabolic", "back_relief_shape", spur, back_relief.shape, 0, NULL,
+              "its growth from its start to the tip"),
     FF_LIST("root_relief", "um", spur, flank_spec.root.amount, 0, "0 um", NULL, 0, 1e4, 0, 0, 1, 2,
             "metal taken off at the lowest point of contact, one value or two"),
     FF_LIST(
@@ -177,7 +188,9 @@ static ff_status set_discs(spur *s)
 /* What serves a few outputs alone: a stage that takes others leaves it unread. */
 static void tell_servings(const spur *s)
 {
-    static const char form[] = "profile_roll|profile_deviation",
+    static const char back[] = "back_profile_roll|back_profile_deviation",
+                      form[] = "profile_roll|profile_deviation|back_profile_roll|"
+                               "back_profile_deviation",
                       tolerances[] = "single_pitch_tolerance|total_pitch_tolerance|"
                                      "profile_form_tolerance|profile_slope_tolerance|"
                                      "profile_tolerance";
@@ -201,6 +214,11 @@ static void tell_servings(const spur *s)
         {!tip, "tip_relief_diameter", "", NULL, "tip_relief is 0"},
         {!tip, "tip_relief_length", "", NULL, "tip_relief is 0"},
         {!tip, "tip_relief_shape", "", NULL, "tip_relief is 0"},
+        {1, "back_relief", back, NULL, NULL},
+        {1, "back_relief_start", back, NULL, NULL},
+        {1, "back_relief_diameter", back, NULL, NULL},
+        {1, "back_relief_length", back, NULL, NULL},
+        {1, "back_relief_shape", back, NULL, NULL},
         {1, "root_relief", form, NULL, NULL},
         {1, "root_relief_start", form, NULL, NULL},
         {1, "root_relief_diameter", form, NULL, NULL},
@@ -258,8 +276,13 @@ static ff_status ready(void *self)
         status = gear_tolerances_of(s->host, i + 1, ff_of_both(&s->quality, i), s->spec.module,
                                     2 * s->pair.reference_radius[i], &s->tolerances[i]);
     gear_flanks_free(&s->flanks);
+    gear_flanks_free(&s->back);
     if (status == FF_OK)
         status = gear_flanks_make(s->host, &s->flank_spec, &s->spec, &s->pair, &s->flanks);
+    if (status == FF_OK && gear_flanks_have_back(&s->back_relief)) {
+        const gear_flank_spec back = gear_flanks_back(&s->flank_spec, &s->back_relief);
+        status = gear_flanks_make(s->host, &back, &s->spec, &s->pair, &s->back);
+    }
     return status;
 }
 
@@ -268,7 +291,7 @@ static void report_rounding(const spur *s)
 {
     const gear_spur_pair *p = &s->pair;
     char text[400];
-    gear_rounding_say(p, s->flanks.moved_start, text, sizeof text);
+    gear_rounding_say(p, fmax(s->flanks.moved_start, s->back.moved_start), text, sizeof text);
     if (!*text)
         return;
     s->host->log(s->host->ctx, FF_LOG_INFO, text);
@@ -311,6 +334,7 @@ static void destroy(void *self)
     if (!s)
         return;
     gear_flanks_free(&s->flanks);
+    gear_flanks_free(&s->back);
     free(s);
 }
 

@@ -164,9 +164,10 @@ static ff_status write_stations(const spur *s, uint64_t wanted)
 
 static ff_status write_flanks(const spur *s, uint64_t wanted)
 {
-    const size_t shape[2] = {2, s->flanks.points};
-    double *const *from[] = {s->flanks.roll, s->flanks.deviation};
-    for (uint32_t row = 0; row < 2; row++) {
+    const gear_flanks *back = s->back.points ? &s->back : &s->flanks;
+    double *const *from[] = {s->flanks.roll, s->flanks.deviation, back->roll, back->deviation};
+    for (uint32_t row = 0; row < 4; row++) {
+        const size_t shape[2] = {2, row < 2 ? s->flanks.points : back->points};
         if (!(wanted & FF_BIT(OUT_PROFILE_ROLL + row)))
             continue;
         double *to = s->host->output(s->host->ctx, OUT_PROFILE_ROLL + row, 2, shape);

@@ -115,6 +115,14 @@ const ff_port gear_spur_outputs[GEAR_SPUR_OUTPUTS] = {
      .doc = "deviation of the flank from its involute there, along the normal, positive: more "
             "metal; linear between",
      .dims = "gear profile"},
+    {.name = "back_profile_roll",
+     .unit = "rad",
+     .doc = "the same of the back flanks, which bear where the torque is below 0",
+     .dims = "gear profile"},
+    {.name = "back_profile_deviation",
+     .unit = "m",
+     .doc = "deviation of the back flank there",
+     .dims = "gear profile"},
     {.name = "pitch_deviation_1",
      .unit = "m",
      .doc =

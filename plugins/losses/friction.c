@@ -116,7 +116,7 @@ static void report_bound(const ff_host *host, const losses_mesh *m)
              "highest friction coefficient under more than 1 %% of the largest load, at roll angle "
              "%.3g rad; lubricated gears have less than 0.12, and above 0.2 the law of flow does "
              "not hold",
-             m->roll[at]);
+             m->shown[at]);
     host->quality(host->ctx, "friction_bound", highest, high_friction,
                   highest > most_friction   ? FF_BAD
                   : highest > high_friction ? FF_RANGE

@@ -163,7 +163,10 @@ static ff_status read_oil(const ff_host *host, const ff_liquid *oil, losses_mesh
 ff_status losses_read(const ff_host *host, const ff_array *in, const ff_liquid *oil, losses_mesh *m)
 {
     const double most = 1e18;
-    *m = (losses_mesh){0};
+    *m = (losses_mesh){.shown = in[IN_ROLL_ANGLE].data};
+    if (numerics_exchange_open(losses_inputs, LOSSES_INPUTS, in, &m->exchange) != FF_OK)
+        return FF_NOMEM;
+    in = m->exchange.in;
     m->n = in[IN_ROLL_ANGLE].rank == 1 ? in[IN_ROLL_ANGLE].shape[0] : 0;
     m->stations = in[IN_STATION].rank == 1 ? in[IN_STATION].shape[0] : 0;
     ff_status status = read_scalars(host, in, m);
@@ -192,4 +195,11 @@ ff_status losses_read(const ff_host *host, const ff_array *in, const ff_liquid *
     if (status == FF_OK)
         status = find_engagements(host, m);
     return status == FF_OK ? check_rising(host, IN_STATION, m->stations, m->station) : status;
+}
+
+void losses_close(losses_mesh *m)
+{
+    free(m->first);
+    free(m->loss);
+    numerics_exchange_close(&m->exchange);
 }

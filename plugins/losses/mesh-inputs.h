@@ -4,6 +4,7 @@
 #ifndef LOSSES_MESH_INPUTS_H
 #define LOSSES_MESH_INPUTS_H
 
+#include "../numerics/exchange.h"
 #include "mesh-sum.h"
 #include "rows.h"
 
@@ -14,6 +15,8 @@
 /* The inputs after their checks, in SI units, and series of n that follow from them. */
 typedef struct losses_mesh {
     size_t n, stations;
+    numerics_exchange exchange; /* the pair whose driving flanks bear: all that follows is of it */
+    const double *shown;        /* roll angles of gear 1 at the steps */
     const double *roll, *power, *traction, *friction;
     const double *part[PARTS], *engagement; /* NULL: the film does not give it */
     size_t count, *first; /* engagements, and where each begins; first[count] = n */
@@ -29,9 +32,10 @@ typedef struct losses_mesh {
     size_t hottest;
 } losses_mesh;
 
-/* Reads and checks; m->first is freed by the caller, also after a failure. `oil`: may be NULL. */
+/* Reads and checks; to be closed in any case. `oil`: may be NULL. */
 ff_status losses_read(const ff_host *host, const ff_array *in, const ff_liquid *oil,
                       losses_mesh *m);
+void losses_close(losses_mesh *m);
 
 /* Radii (m) and surface speeds (m/s) at a roll angle; the radii of involutes are linear in it. */
 void losses_motion_at(const losses_mesh *m, double roll, double radius[2], double speed[2]);

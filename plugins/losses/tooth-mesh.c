@@ -100,7 +100,7 @@ static ff_status set_series(const tooth_mesh *s, losses_mesh *m)
         if (!(fabs(m->load[i]) < 1e18))
             return ff_failf(s->host, FF_INVALID, "ehl.friction_coefficient",
                             "traction over friction coefficient is not a load at roll angle %g rad",
-                            m->roll[i]);
+                            m->shown[i]);
     }
     for (size_t i = 0; i < m->n; i++) {
         losses_motion_at(m, m->roll[i], radius, speed);
@@ -181,7 +181,7 @@ static ff_status write_cycle(const tooth_mesh *s, const losses_mesh *m, uint64_t
 static ff_status write_series(const tooth_mesh *s, const losses_mesh *m, uint64_t wanted,
                               double bulk)
 {
-    const double *from[LOSSES_OUTPUTS] = {[OUT_ROLL_ANGLE] = m->roll,
+    const double *from[LOSSES_OUTPUTS] = {[OUT_ROLL_ANGLE] = m->shown,
                                           [OUT_ENGAGEMENT] = m->engagement,
                                           [OUT_POWER_LOSS] = m->loss,
                                           [OUT_FLASH] = m->flash,
@@ -362,7 +362,7 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
         {OUT_FRICTION_AGREEMENT, f.coefficient > 0 ? f.film / f.coefficient : 0},
         {OUT_LOSS_FACTOR, f.loss_factor},
         {OUT_FLASH_MAX, hottest},
-        {OUT_FLASH_MAX_AT, m->roll[m->hottest]},
+        {OUT_FLASH_MAX_AT, m->shown[m->hottest]},
         {OUT_BULK_TEMPERATURE, bulk},
         {OUT_CONTACT_TEMPERATURE_MAX, bulk + hottest},
         {OUT_POWER_LOSS_SPREAD, of.deviation},
@@ -394,7 +394,7 @@ static ff_status write_outputs(const tooth_mesh *s, const losses_mesh *m, uint64
 
 /* Reads what the gears conduct heat by; one that does not tell is refused where a temperature of
    the flanks is wanted. */
-static ff_status read_heat(const tooth_mesh *s, uint64_t wanted, const ff_array *in, losses_mesh *m)
+static ff_status read_heat(const tooth_mesh *s, uint64_t wanted, losses_mesh *m)
 {
     const uint64_t hot = FF_BIT(OUT_FLASH) | FF_BIT(OUT_CONTACT_TEMPERATURE) |
                          FF_BIT(OUT_FLASH_MAX) | FF_BIT(OUT_FLASH_MAX_AT) |
@@ -402,11 +402,12 @@ static ff_status read_heat(const tooth_mesh *s, uint64_t wanted, const ff_array 
     ff_status status = FF_OK;
     m->heats = true;
     for (int g = 0; g < 2 && status == FF_OK; g++) {
-        const double said[] = {ff_of_both(&s->conductivity, g), ff_of_both(&s->density, g),
-                               ff_of_both(&s->specific_heat, g)};
-        m->heats = m->heats && numerics_heat_known(&in[IN_HEAT], said, g);
+        const int gear = m->exchange.back ? 1 - g : g;
+        const double said[] = {ff_of_both(&s->conductivity, gear), ff_of_both(&s->density, gear),
+                               ff_of_both(&s->specific_heat, gear)};
+        m->heats = m->heats && numerics_heat_known(&m->exchange.in[IN_HEAT], said, g);
         if (m->heats || wanted & hot)
-            status = numerics_heat_of(s->host, &in[IN_HEAT], said, g, &m->heat[g]);
+            status = numerics_heat_of(s->host, &m->exchange.in[IN_HEAT], said, g, &m->heat[g]);
     }
     return status;
 }
@@ -469,7 +470,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     losses_mesh m;
     ff_status status = losses_read(s->host, in, s->oil, &m);
     if (status == FF_OK)
-        status = read_heat(s, wanted, in, &m);
+        status = read_heat(s, wanted, &m);
     if (status == FF_OK && !(m.loss = calloc(4 * m.n, sizeof *m.loss)))
         status = FF_NOMEM;
     if (status != FF_OK)
@@ -481,8 +482,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (status == FF_OK)
         status = write_outputs(s, &m, wanted);
 out:
-    free(m.first);
-    free(m.loss);
+    losses_close(&m);
     return status;
 }
 

@@ -15,8 +15,10 @@ typedef struct steady {
 } steady;
 
 static const ff_param params[] = {
-    FF_QUANTITY("torque", "N m", steady, torque, FF_REQUIRED, NULL, NULL, 1e-9, 1e12, 0, 1e7,
-                "torque on gear 1, constant; of a power: that over the speed"),
+    FF_QUANTITY(
+        "torque", "N m", steady, torque, FF_REQUIRED, NULL, NULL, -1e12, 1e12, -1e7, 1e7,
+        "torque on gear 1, constant; of a power: that over the speed; below 0: gear 2 drives "
+        "and the back flanks bear"),
     FF_QUANTITY("speed", "rpm", steady, speed, FF_REQUIRED, NULL, "speed", 1e-3, 1e7, 0, 0,
                 "speed of gear 1"),
     FF_QUANTITY("mesh_frequency", "Hz", steady, mesh_frequency, FF_REQUIRED, NULL, "speed", 1e-4,
@@ -50,7 +52,8 @@ static const ff_port outputs[] = {
     {.name = "mesh_frequency", .unit = "Hz", .doc = "tooth meshes per second", .dims = ""},
     {.name = "line_force",
      .unit = "N",
-     .doc = "force along the line of action, torque over base radius; needs a gear",
+     .doc = "force along the line of action, torque over base radius, below 0 on the back flanks; "
+            "needs a gear",
      .dims = ""},
     {.name = "oil_temperature", .unit = "K", .doc = "temperature of the oil", .dims = ""},
 };
@@ -74,6 +77,10 @@ static ff_status ready(void *self)
         {1, "gear.base_radius", "line_force", no_gear},
         {1, "oil_temperature", "oil_temperature", no_temperature},
     };
+    if (!(fabs(s->torque) > 0))
+        return ff_failf(s->host, FF_INVALID, "torque",
+                        "without a torque the gears float between their flanks: give one, which "
+                        "may be below 0");
     ff_serve(s->host, rows, sizeof rows / sizeof rows[0]);
     ff_tell_needs(s->host, needs, sizeof needs / sizeof needs[0]);
     if ((s->speed > 0) == (s->mesh_frequency > 0))
@@ -107,6 +114,12 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
                       [OUT_OIL_TEMPERATURE] = s->oil_temperature};
     double gear = 1;
     ff_status status = FF_OK;
+    if (s->torque < 0)
+        s->host->quality(
+            s->host->ctx, "flank", -1, 0, FF_GOOD,
+            "the torque is below 0: gear 2 drives, and tooth forces, films, losses "
+            "and ratings are of the back flanks; roll angles stay those of gear 1, "
+            "and fall in time; relief as back_relief says, or as on the driving flank");
     int other = s->speed > 0 ? OUT_MESH_FREQUENCY : OUT_SPEED;
     if (wanted & FF_BIT(other)) {
         status = from_gear(s, &in[IN_TEETH], "gear.teeth", outputs[other].name, &gear);

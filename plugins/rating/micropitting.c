@@ -272,7 +272,7 @@ static ff_status rate(const micropitting *s, const rating_pair *p, point *points
                             "the film is no number: the inputs are not those of a gear");
         if (status == FF_OK && points[i].film / p->roughness < r->least) {
             r->least = points[i].film / p->roughness;
-            r->least_at = place / p->base[0];
+            r->least_at = rating_roll(p, place);
         }
     }
     return status;
@@ -287,7 +287,7 @@ static ff_status write_series(const micropitting *s, const rating_pair *p, const
         if (wanted & FF_BIT(row) && !to)
             return FF_NOMEM;
         for (size_t i = 0; to && i < count; i++)
-            to[i] = row == OUT_ROLL_ANGLE ? place_of(s, p, i) / p->base[0]
+            to[i] = row == OUT_ROLL_ANGLE ? rating_roll(p, place_of(s, p, i))
                     : row == OUT_LAMBDA   ? points[i].film / p->roughness
                     : row == OUT_FILM     ? points[i].film
                                           : points[i].contact;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "pair.h"
 
+#include "../numerics/exchange.h"
 #include "../numerics/pinion.h"
 
 #include <assert.h>
@@ -61,6 +62,12 @@ const ff_port rating_inputs[1 + RATING_INPUTS + 1] = {
     {.name = "gear.profile_deviation",
      .unit = "m",
      .doc = "deviation of the flanks, whose last points are the tip relief",
+     .dims = "gear profile",
+     .flags = FF_OPTIONAL,
+     .from = "gear"},
+    {.name = "gear.back_profile_deviation",
+     .unit = "m",
+     .doc = "likewise of the back flanks, which bear where the torque is below 0",
      .dims = "gear profile",
      .flags = FF_OPTIONAL,
      .from = "gear"},
@@ -170,7 +177,8 @@ static ff_status read_materials(const ff_host *host, const char *standard, const
     return status;
 }
 
-ff_status rating_pair_read(const ff_host *host, const char *standard, const ff_array *in,
+/* Of the pair in which gear 1 drives. */
+static ff_status read_pair(const ff_host *host, const char *standard, const ff_array *in,
                            const rating_heat *heat, const ff_liquid *oil, rating_pair *p)
 {
     double roughness[2];
@@ -231,6 +239,23 @@ ff_status rating_pair_read(const ff_host *host, const char *standard, const ff_a
         return ff_failf(host, FF_INVALID, "gear.tip_radius",
                         "these radii give no path of contact of at least one pitch");
     return FF_OK;
+}
+
+ff_status rating_pair_read(const ff_host *host, const char *standard, const ff_array *in,
+                           const rating_heat *heat, const ff_liquid *oil, rating_pair *p)
+{
+    numerics_exchange exchange;
+    ff_status status = numerics_exchange_open(&rating_inputs[1], RATING_INPUTS, in, &exchange);
+    if (status == FF_OK)
+        status = read_pair(host, standard, exchange.in, heat, oil, p);
+    p->back = exchange.back;
+    numerics_exchange_close(&exchange);
+    return status;
+}
+
+double rating_roll(const rating_pair *p, double place)
+{
+    return p->back ? (p->line - place) / p->base[1] : place / p->base[0];
 }
 
 double rating_radius(const rating_pair *p, double place)

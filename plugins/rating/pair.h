@@ -28,6 +28,7 @@ enum {
     RATING_IN_MODULUS,
     RATING_IN_ROUGHNESS,
     RATING_IN_PROFILE,
+    RATING_IN_BACK_PROFILE,
     RATING_IN_YIELD,
     RATING_IN_CLASS,
     RATING_IN_MODULI,
@@ -48,6 +49,7 @@ extern const ff_port rating_inputs[1 + RATING_INPUTS + 1];
 typedef struct rating_pair {
     double teeth[2], base[2], pitch[2], tip[2];
     double ratio; /* z2/z1 */
+    int back;     /* gear 2 drives: it is gear 0 here, and the flanks are the back flanks */
     int pinion;   /* 0 or 1; a standard gives it index 1 where it does not ask who drives */
     double centre_distance, working_angle, pressure_angle, width, modulus;
     double roughness;     /* Ra, mean of both flanks */
@@ -91,6 +93,8 @@ ff_status rating_pair_read(const ff_host *host, const char *standard, const ff_a
 /* The flank tolerance class that a rating goes by: the given one, or that of the gears, or 6. */
 double rating_grade(const rating_pair *p, const rating_load *load);
 
+/* Roll angle of gear 1 at a place on the path. */
+double rating_roll(const rating_pair *p, double place);
 /* Relative radius of curvature at a place on the path. */
 double rating_radius(const rating_pair *p, double place);
 /* Surface speed of flank `gear` there. */

@@ -246,7 +246,7 @@ static ff_status rate_by_flash(const scuffing *s, const rating_pair *p, double *
         r->flash_mean += at / ((double)s->points + 1);
         if (at > r->flash_max) {
             r->flash_max = at;
-            r->flash_max_at = place / p->base[0];
+            r->flash_max_at = rating_roll(p, place);
         }
     }
     const double oil = p->oil_temperature - celsius;
@@ -366,7 +366,7 @@ static ff_status write_series(const scuffing *s, const rating_pair *p, const dou
         if (wanted & FF_BIT(row) && !to)
             return FF_NOMEM;
         for (size_t i = 0; to && i < count; i++)
-            to[i] = row == OUT_ROLL_ANGLE ? place_of(s, p, i) / p->base[0]
+            to[i] = row == OUT_ROLL_ANGLE ? rating_roll(p, place_of(s, p, i))
                     : row == OUT_FLASH    ? flash[i]
                                           : flash[i] + r->bulk + celsius;
     }

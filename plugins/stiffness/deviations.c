@@ -27,8 +27,12 @@ static bool all_finite(size_t n, const double *x)
 
 static ff_status read_profiles(const ff_host *host, const ff_array *in, stiffness_deviations *d)
 {
-    const ff_array *roll = &in[STIFFNESS_IN_PROFILE_ROLL],
-                   *profile = &in[STIFFNESS_IN_PROFILE_DEVIATION];
+    const bool back = in[STIFFNESS_IN_FORCE].data[0] < 0 &&
+                      in[STIFFNESS_IN_BACK_PROFILE_ROLL].data &&
+                      in[STIFFNESS_IN_BACK_PROFILE_DEVIATION].data;
+    const ff_array *roll = &in[back ? STIFFNESS_IN_BACK_PROFILE_ROLL : STIFFNESS_IN_PROFILE_ROLL];
+    const ff_array *profile =
+        &in[back ? STIFFNESS_IN_BACK_PROFILE_DEVIATION : STIFFNESS_IN_PROFILE_DEVIATION];
     if (!roll->data || !profile->data)
         return FF_OK;
     if (roll->rank != 2 || profile->rank != 2 || roll->shape[0] != 2 || profile->shape[0] != 2 ||
@@ -70,6 +74,11 @@ ff_status stiffness_deviations_read(const ff_host *host, const ff_array *in,
         for (size_t i = 0; i < d->teeth[g]; i++)
             if (fabs(index->data[i]) > 0)
                 d->index[g] = index->data;
+        if (d->index[g] && in[STIFFNESS_IN_FORCE].data[0] < 0)
+            return ff_failf(host, FF_UNSUPPORTED, names[g],
+                            "index deviations are followed on the driving flanks alone, and the "
+                            "torque is below 0: write gear 2 of the file as gear 1, with a torque "
+                            "above 0, or leave pitch_error out");
     }
     return read_profiles(host, in, d);
 }

@@ -40,9 +40,8 @@ ff_status stiffness_path_read(const ff_host *host, const ff_array *in, stiffness
         return status;
     if (!(teeth >= 1))
         return ff_failf(host, FF_INVALID, "gear.teeth", "a gear of %g teeth does not mesh", teeth);
-    if (!(p->line_force >= 0))
-        return ff_failf(host, FF_INVALID, "operating.line_force",
-                        "the line force must not be negative; it is %g N", p->line_force);
+    /* back flanks meet where the roll angles of gear 1 are the same as driving ones do */
+    p->line_force = fabs(p->line_force);
     p->pitch = 2 * M_PI / teeth;
     p->contact_ratio = (tip - p->roll_sap) / p->pitch;
     if (!(p->contact_ratio >= 1 - STIFFNESS_PHASE_TOLERANCE &&

@@ -10,7 +10,7 @@ typedef struct stiffness_path {
     const double *roll;     /* roll angle of gear 1 at the stations, rad */
     double roll_sap, pitch; /* roll angle at SAP and of one mesh cycle, rad */
     double contact_ratio;   /* (tip - SAP)/pitch */
-    double line_force;      /* F, N */
+    double line_force;      /* F, N, on the flanks that bear */
 } stiffness_path;
 
 /* Reads and checks the input rows of the path of contact. */

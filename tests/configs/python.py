@@ -54,7 +54,7 @@ outputs: [film.h_min, film.h_min_lowest, film.roll_angle, motion.dte_rms, gears.
 """.format(source)
 study = case + """study:
   sweep:
-    duty.torque: [100 N m, -1 N m, 300 N m]
+    duty.torque: [100 N m, -2e12 N m, 300 N m]
     viscosity.use: [viscosity/barus, viscosity/roelands]
 """
 follow = case + """study:
@@ -154,7 +154,7 @@ def test_errors():
 def test_study():
     s = flankfilm.run("study.yaml", directory="study", jobs=2)
     check("its shape", s.shape == (3, 2) and s.dims == ["torque", "viscosity.use"])
-    check("what is varied", list(s.axes["torque"]) == [100, -1, 300] and s.axes["torque"].unit == "N m" and
+    check("what is varied", list(s.axes["torque"]) == [100, -2e12, 300] and s.axes["torque"].unit == "N m" and
           list(s.axes["viscosity.use"]) == ["viscosity/barus", "viscosity/roelands"])
     check("failed cases", list(s.status[1]) == ["invalid"] * 2 and "too small" in s.reason[1, 0])
     rms, film = s["motion.dte_rms"], s["film.h_min"]

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "inputs.h"
 
+#include "../../numerics/exchange.h"
 #include "spring.h"
 
 #include <flankfilm/author.h>
@@ -399,6 +400,26 @@ static ff_status build_excitation(const ff_host *host, const ff_array *in,
     if (built)
         report_representation(host, excitation);
     return built ? FF_OK : FF_NOMEM;
+}
+
+ff_status dynamics_evaluate(const ff_host *host, const ff_port *ports, size_t count, size_t force,
+                            const ff_array *in, dynamics_evaluation *evaluation, void *self,
+                            uint64_t wanted)
+{
+    numerics_exchange exchange;
+    ff_status status = numerics_exchange_open(ports, count, in, &exchange);
+    if (status == FF_OK)
+        status = numerics_exchange_check(host, ports, &exchange, force);
+    if (status == FF_OK)
+        status = evaluation(self, wanted, exchange.in, exchange.back);
+    numerics_exchange_close(&exchange);
+    return status;
+}
+
+void dynamics_put_stations(double *x, size_t stations, size_t total, int back)
+{
+    for (size_t row = 0; back && stations && row < total / stations; row++)
+        numerics_reverse(x + row * stations, stations, 1);
 }
 
 ff_status dynamics_inputs_read(const ff_host *host, const ff_array *in,

@@ -95,8 +95,19 @@ typedef struct dynamics_inputs {
     dynamics_force_levels levels;
     int shared; /* whether the motion follows these, and a pair's share the mesh force */
     double roll_sap, pitch; /* rad; pitch: roll angle of one mesh cycle */
+    int back;               /* gear 2 drives: all this is of the pair with exchanged gears */
     uint64_t wanted;        /* outputs that are asked for; set by the model */
 } dynamics_inputs;
+
+/* Evaluates a model that knows driving flanks, where gear 2 drives (`back`) with the inputs of the
+   pair with exchanged gears; `force`: the row of the tooth forces. */
+typedef ff_status dynamics_evaluation(void *self, uint64_t wanted, const ff_array *in, int back);
+ff_status dynamics_evaluate(const ff_host *host, const ff_port *ports, size_t count, size_t force,
+                            const ff_array *in, dynamics_evaluation *evaluation, void *self,
+                            uint64_t wanted);
+
+/* Turns rows over the stations of exchanged gears, `total` values, into the order of gear 1. */
+void dynamics_put_stations(double *x, size_t stations, size_t total, int back);
 
 /* Checks and reads all inputs. `excitation` has its zeta and damping set, and is freed by
    dynamics_excitation_free. */

@@ -108,6 +108,8 @@ static ff_status put_engagements(const dynamics_motion_view *view,
             force[i] = share * dmf * excitation->stiffness * excitation->length;
             gap[i] *= excitation->length;
         }
+    dynamics_put_stations(force, inputs->stations, view->cycles * inputs->stations, inputs->back);
+    dynamics_put_stations(gap, inputs->stations, view->cycles * inputs->stations, inputs->back);
     return FF_OK;
 }
 
@@ -212,7 +214,7 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
     static const uint64_t of_stations = FF_BIT(DYNAMICS_OUT_TOOTH_FORCE) |
                                         FF_BIT(DYNAMICS_OUT_GAP) |
                                         FF_BIT(DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH);
-    const double newton = excitation->stiffness * excitation->length;
+    const double newton = excitation->stiffness * excitation->length, side = inputs->back ? -1 : 1;
     double time = (double)view->cycles * view->T, quasi_static = largest_static(inputs);
     dynamics_between between = {0, 0};
     ff_status status = put_engagements(view, excitation, inputs, host);
@@ -230,7 +232,7 @@ ff_status dynamics_motion_view_put(const dynamics_motion_view *view, const dynam
         double value;
     } scalars[] = {
         {DYNAMICS_OUT_DTE_RMS, st->rms * excitation->length},
-        {DYNAMICS_OUT_DTE_MEAN, st->mean * excitation->length},
+        {DYNAMICS_OUT_DTE_MEAN, side * st->mean * excitation->length},
         {DYNAMICS_OUT_DTE_PEAK_TO_PEAK, (st->high - st->low) * excitation->length},
         {DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH, quasi_static > 0 ? tooth / quasi_static : 0},
         {DYNAMICS_OUT_DYNAMIC_FACTOR_MESH, excitation->load > 0 ? st->force / excitation->load : 0},

@@ -342,9 +342,10 @@ static void force_and_gap_at(const void *self, double phase, int left, double *f
     *gap = excitation->half_gap > 0 ? fmax(excitation->half_gap - delta, 0) : 0;
 }
 
-static ff_status put_cycle(const dynamics_motion *motion, const ff_host *host)
+static ff_status put_cycle(const dynamics_motion *motion, int back, const ff_host *host)
 {
     const dynamics_excitation *excitation = motion->excitation;
+    const double length = back ? -excitation->length : excitation->length;
     dynamics_motion_view view = view_of(motion);
     size_t count = dynamics_motion_view_count(&view);
     double *phase = ff_put_series(host, DYNAMICS_OUT_PHASE, count);
@@ -356,9 +357,9 @@ static ff_status put_cycle(const dynamics_motion *motion, const ff_host *host)
     for (size_t i = 0; i < count; i++) {
         const dynamics_sample *s = &motion->record.samples[i];
         phase[i] = s->phase;
-        dte[i] = s->s * excitation->length;
-        velocity[i] = s->s_rate * excitation->length * excitation->omega;
-        force[i] = s->force * excitation->length * excitation->stiffness;
+        dte[i] = s->s * length;
+        velocity[i] = s->s_rate * length * excitation->omega;
+        force[i] = s->force * length * excitation->stiffness;
     }
     return FF_OK;
 }
@@ -412,7 +413,7 @@ ff_status dynamics_motion_put(const dynamics_motion *motion, const dynamics_inpu
 {
     dynamics_motion_view view = view_of(motion);
     dynamics_statistics st = dynamics_motion_view_statistics(&view);
-    ff_status status = put_cycle(motion, host);
+    ff_status status = put_cycle(motion, inputs->back, host);
     if (status == FF_OK)
         status = put_multipliers(motion, host);
     if (status == FF_OK)

@@ -248,8 +248,14 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         .zeta = m->zeta, .damping = m->damping, .shared = m->force == 1};
     dynamics_coupled pair = {.excitation = &excitation};
     dynamics_inputs inputs;
+    if (in[DYNAMICS_IN_LINE_FORCE].data[0] < 0)
+        return ff_failf(m->host, FF_UNSUPPORTED, "operating.line_force",
+                        "the torque is below 0, and gears that move on their bearings are followed "
+                        "on driving flanks alone: write gear 2 of the file as gear 1, with a "
+                        "torque above 0, or take another model of the kind dynamics");
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
     inputs.wanted = wanted;
+    inputs.back = 0;
     if (status == FF_OK)
         status = check_gears(m, in);
     if (status == FF_OK)

@@ -269,7 +269,7 @@ static ff_status output_motion(model *m, const dynamics_excitation *excitation,
     return status;
 }
 
-static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *in, int back)
 {
     model *m = self;
     const uint64_t motion_outputs = FF_BIT(DYNAMICS_MOTION_OUTPUT_COUNT) - 1;
@@ -279,6 +279,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     m->to.harmonics = 0;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &inputs, &excitation);
     inputs.wanted = wanted;
+    inputs.back = back;
     if (status == FF_OK && (wanted & motion_outputs || !wanted))
         status = output_motion(m, &excitation, &inputs);
     if (status == FF_OK && wanted & FF_BIT(DYNAMICS_OUT_STABLE_MOTIONS))
@@ -287,6 +288,13 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     m->from.harmonics = 0;
     dynamics_excitation_free(&excitation);
     return status;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    return dynamics_evaluate(((const model *)self)->host, dynamics_input_ports,
+                             DYNAMICS_INPUT_COUNT, DYNAMICS_IN_TOOTH_FORCE, in, evaluate_driving,
+                             self, wanted);
 }
 
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)

@@ -196,7 +196,7 @@ static statistics statistics_of(size_t count, const double *phase, const double 
     return st;
 }
 
-static ff_status put_series(const ff_host *host, const ff_array *in, double *s)
+static ff_status put_series(const ff_host *host, const ff_array *in, const double *s, int back)
 {
     const ff_array *force = &in[I_TOOTH_FORCE];
     size_t count = in[I_PHASE].shape[0], stations = 1;
@@ -211,12 +211,13 @@ static ff_status put_series(const ff_host *host, const ff_array *in, double *s)
     for (size_t i = 0; i < count; i++) {
         phase[i] = in[I_PHASE].data[i];
         dte[i] = s[i];
-        excitation[i] = in[I_LINE_FORCE].data[0];
+        excitation[i] = back ? -in[I_LINE_FORCE].data[0] : in[I_LINE_FORCE].data[0];
     }
     for (size_t i = 0; i < stations; i++) {
         tooth[i] = force->data[i];
         gap[i] = 0;
     }
+    dynamics_put_stations(tooth, force->shape[force->rank - 1], stations, back);
     return FF_OK;
 }
 
@@ -259,7 +260,7 @@ static ff_status put_natural_frequency(const model *m, uint64_t wanted, const ff
     return FF_OK;
 }
 
-static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *in, int back)
 {
     const model *m = self;
     ff_status status = check(m->host, in);
@@ -271,9 +272,9 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     if (!s)
         return FF_NOMEM;
     for (size_t i = 0; i < count; i++)
-        s[i] = in[I_ERROR].data[i] + half_gap;
+        s[i] = (back ? -1 : 1) * (in[I_ERROR].data[i] + half_gap);
     statistics st = statistics_of(count, in[I_PHASE].data, s);
-    status = put_series(m->host, in, s);
+    status = put_series(m->host, in, s, back);
     if (status == FF_OK)
         status = put_scalars(m->host, &st,
                              in[I_TOOTH_FORCE].rank > 1 ? (double)in[I_TOOTH_FORCE].shape[0] : 1);
@@ -281,6 +282,12 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
         status = put_natural_frequency(m, wanted, in);
     free(s);
     return status;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    return dynamics_evaluate(((const model *)self)->host, inputs, sizeof inputs / sizeof inputs[0],
+                             I_TOOTH_FORCE, in, evaluate_driving, self, wanted);
 }
 
 /* An inertia makes the natural frequency alone. */

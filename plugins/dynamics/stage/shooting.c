@@ -412,7 +412,7 @@ static ff_status evaluate_job(job *j)
     return status;
 }
 
-static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *in, int back)
 {
     model *m = self;
     job j = {.m = m,
@@ -423,6 +423,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
                             .on_chord = m->oil.squeeze == DYNAMICS_SQUEEZE_SERIES}};
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
     j.inputs.wanted = wanted;
+    j.inputs.back = back;
     dynamics_film *film = NULL;
     if (status == FF_OK)
         status = dynamics_oil_read(m->host, in, &m->oil, &j.inputs, &j.excitation, &film);
@@ -442,6 +443,13 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     free(film);
     dynamics_excitation_free(&j.excitation);
     return status;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    return dynamics_evaluate(((const model *)self)->host, dynamics_oil_input_ports,
+                             DYNAMICS_OIL_INPUT_COUNT, DYNAMICS_IN_TOOTH_FORCE, in,
+                             evaluate_driving, self, wanted);
 }
 
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)

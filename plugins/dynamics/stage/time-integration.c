@@ -265,7 +265,7 @@ static ff_status evaluate_job(job *j, uint64_t wanted)
     return status == FF_NOCONV ? fail_too_many_steps(m->host, inputs) : status;
 }
 
-static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+static ff_status evaluate_driving(void *self, uint64_t wanted, const ff_array *in, int back)
 {
     model *m = self;
     job j = {.m = m,
@@ -276,6 +276,7 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     dynamics_film_powers powers;
     ff_status status = dynamics_inputs_read(m->host, in, &m->inertia, &j.inputs, &j.excitation);
     j.inputs.wanted = wanted;
+    j.inputs.back = back;
     if (status == FF_OK)
         status = dynamics_oil_read(m->host, in, &m->oil, &j.inputs, &j.excitation, &j.film);
     if (status == FF_OK)
@@ -291,6 +292,13 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     free(j.film);
     dynamics_excitation_free(&j.excitation);
     return status;
+}
+
+static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
+{
+    return dynamics_evaluate(((const model *)self)->host, dynamics_oil_input_ports,
+                             DYNAMICS_OIL_INPUT_COUNT, DYNAMICS_IN_TOOTH_FORCE, in,
+                             evaluate_driving, self, wanted);
 }
 
 static ff_status carry(void *self, const ff_state_bytes *from, ff_state_bytes *to)

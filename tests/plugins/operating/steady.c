@@ -93,8 +93,26 @@ static void check_refusals(void)
     stage_close(duty);
 }
 
+/* The back flanks bear a torque below 0. */
+static void check_back(void)
+{
+    stage *duty = open_duty("speed", "1500 rpm");
+    stage_set_text(duty, "torque", "-250 N m");
+    give_gear(duty);
+    check_true("below 0", stage_run(duty) == FF_OK);
+    check_near("line force, N", stage_scalar(duty, "line_force"), -3547.26, 0.005 / 3547);
+    check_near("mesh frequency", stage_scalar(duty, "mesh_frequency"), 1250, 1e-14);
+    check_near("torque", stage_scalar(duty, "torque"), -250, 0);
+    stage_close(duty);
+    duty = open_duty("speed", "1500 rpm");
+    stage_set_text(duty, "torque", "0 N m");
+    check_true("none", stage_ready(duty) == FF_INVALID && !strcmp(stage_why_item(duty), "torque"));
+    stage_close(duty);
+}
+
 int main(void)
 {
+    check_back();
     check_point("1250 Hz", 1250, 1500);
     check_point("2085 Hz", 2085, 2502);
     check_point("2375 Hz", 2375, 2850);
