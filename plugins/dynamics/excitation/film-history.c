@@ -8,8 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Shares of the highest pressure, of which the square is a share of the load, below which the film
-   is that of flanks which part and its thickness no deflection, and from which it counts in full.
+/* Square roots of the shares of the largest load below which the film is that of flanks which part
+   and its thickness no deflection, and from which it counts in full; they go as the pressure does.
    As flanks part, load and film decide each other at once, and a loop over h ~ W^-0.13 settles only
    where the film is stiffer than the teeth, W/(0.13 h) > k: from a thousandth of the load on, or
    0.03. As flanks land the oil takes its time, and films that the motion knows in flight count from
@@ -47,12 +47,12 @@ static double largest(size_t count, const double *x)
 }
 
 /* How far the thickness is that of loaded flanks, given over the whole history. */
-static void weigh(const dynamics_film_history *y, const double *h, const double *p, double *weight)
+static void weigh(const dynamics_film_history *y, const double *h, double *weight)
 {
-    double thickest = largest(y->count, h), highest = largest(y->count, p);
+    double thickest = largest(y->count, h), most = largest(y->count, y->load);
     int lands = 0;
     for (size_t i = 0; i < y->count; i++) {
-        double share = highest > 0 ? p[i] / highest : 0;
+        double share = most > 0 ? sqrt(fmax(y->load[i], 0) / most) : 0;
         if (share >= borne || y->engagement[i] != y->engagement[i > 0 ? i - 1 : i])
             lands = 0;
         if (share < borne && y->in_oil && h[i] < flight * thickest)
@@ -64,7 +64,7 @@ static void weigh(const dynamics_film_history *y, const double *h, const double 
 
 /* The thickness x where it is one of loaded flanks, and the straightest way where it is not: least
    sum w (x - h)^2 + bend (x_(i+1) - x_i)^2, a system of three diagonals. It changes smoothly with
-   the pressure, so that a loop can settle. */
+   the load, so that a loop can settle. */
 static void bridge(size_t count, const double *h, const double *weight, double *x, double *ratio)
 {
     static const double bend = 1e-4;
@@ -82,12 +82,12 @@ static void bridge(size_t count, const double *h, const double *weight, double *
         x[i] = 0;
 }
 
-static ff_status read_thickness(const double *h, const double *p, dynamics_film_history *y)
+static ff_status read_thickness(const double *h, dynamics_film_history *y)
 {
     double *weight = malloc(y->count * sizeof *weight), *ratio = malloc(y->count * sizeof *ratio);
     y->thickness = malloc(y->count * sizeof *y->thickness);
     if (weight && ratio && y->thickness) {
-        weigh(y, h, p, weight);
+        weigh(y, h, weight);
         for (size_t i = 0; i < y->engagements; i++) {
             size_t first = y->first[i];
             bridge(y->first[i + 1] - first, h + first, weight + first, y->thickness + first, ratio);
@@ -120,12 +120,18 @@ static double value_between(const between *b, const double *y)
     return y[b->i] + b->share * (y[b->i + 1] - y[b->i]);
 }
 
+/* Whether the shares of the pairs follow the mesh force. */
+static int follows_force(const dynamics_film_history *y)
+{
+    return y->inputs->shared && y->inputs->levels.tooth_force;
+}
+
 /* Share of a pair under the mean force, or of a shared force under that of the instant. */
 static double share_at(const dynamics_film_history *y, const between *station, double force)
 {
     const dynamics_inputs *inputs = y->inputs;
     const double *bears = inputs->line_force > 0 ? inputs->tooth_force : inputs->load_share;
-    if (!(y->bearing > 0))
+    if (!follows_force(y))
         return bears ? value_between(station, bears) : 1;
     double low = dynamics_share(inputs, station->i, force);
     return low + station->share * (dynamics_share(inputs, station->i + 1, force) - low);
@@ -151,7 +157,6 @@ static void add_engagement(const dynamics_film_history *y, size_t number, double
         between station = find_between(inputs->stations, inputs->roll_angle, roll, before);
         double friction = y->width * value_between(&step, y->traction + first);
         double rolling = y->width * value_between(&step, y->rolling + first);
-        double pressure = value_between(&step, y->pressure + first);
         double share = share_at(y, &station, force), arm[2];
         for (int g = 0; g < 2; g++)
             arm[g] = value_between(&station, radius[g]);
@@ -159,29 +164,29 @@ static void add_engagement(const dynamics_film_history *y, size_t number, double
         rolling /= arm[0] * y->speed[0] + arm[1] * y->speed[1];
         sum->against[0] += (friction + rolling) * arm[0];
         sum->against[1] += (rolling - friction) * arm[1];
-        sum->bearing += pressure * pressure * arm[0] * arm[1] / (arm[0] + arm[1]);
+        sum->force += y->width * value_between(&step, y->load + first);
         sum->share[pair] += share;
         sum->film[pair] += share * value_between(&step, y->thickness + first);
         sum->loss += y->width * value_between(&step, y->loss + first);
     }
 }
 
-/* The mean over the engagements. A film in Hertz's contact bears W = c p^2 r: so the mesh force of
-   the instant is that of the round before, up to what the film does to its highest pressure. */
+/* The mean over the engagements. The mesh force of the instant is what the films of the round
+   before bear together. */
 dynamics_film_sum dynamics_film_history_at(const dynamics_film_history *y, double phase, int before)
 {
     dynamics_film_sum sum = {.loss = 0};
     double share = 1 / (double)y->engagements, all = 0;
     for (size_t i = 0; i < y->engagements; i++) {
         dynamics_film_sum one = {.loss = 0};
-        if (y->bearing > 0)
+        if (follows_force(y))
             add_engagement(y, i, phase, before, y->inputs->line_force, &one);
-        add_engagement(y, i, phase, before, y->bearing * one.bearing, &sum);
+        add_engagement(y, i, phase, before, one.force, &sum);
     }
     sum.against[0] *= share;
     sum.against[1] *= share;
     sum.loss *= share;
-    sum.bearing *= share;
+    sum.force *= share;
     for (int pair = 0; pair < DYNAMICS_FILM_PAIRS; pair++)
         all += sum.share[pair];
     for (int pair = 0; pair < DYNAMICS_FILM_PAIRS && all > 0; pair++) {
@@ -192,23 +197,10 @@ dynamics_film_sum dynamics_film_history_at(const dynamics_film_history *y, doubl
     return sum;
 }
 
-/* Sets what makes a mesh force of p^2 r: that its mean over the mesh cycle is the load. */
-static void find_bearing(dynamics_film_history *y)
-{
-    enum { PHASES = 256 };
-    double mean = 0;
-    if (!y->inputs->shared || !y->inputs->levels.tooth_force)
-        return;
-    for (int i = 0; i < PHASES; i++)
-        mean += dynamics_film_history_at(y, (i + 0.5) / PHASES, 0).bearing / PHASES;
-    if (mean > 0)
-        y->bearing = y->inputs->line_force / mean;
-}
-
 ff_status dynamics_film_history_read(const ff_host *host, const ff_array *in,
                                      const dynamics_inputs *inputs, dynamics_film_history *y)
 {
-    const double *h = NULL, *p = NULL, *teeth = in[DYNAMICS_IN_TEETH].data;
+    const double *h = NULL, *teeth = in[DYNAMICS_IN_TEETH].data;
     y->count =
         in[DYNAMICS_IN_FILM_ROLL_ANGLE].rank == 1 ? in[DYNAMICS_IN_FILM_ROLL_ANGLE].shape[0] : 0;
     y->in = in;
@@ -228,7 +220,7 @@ ff_status dynamics_film_history_read(const ff_host *host, const ff_array *in,
                                                                   : DYNAMICS_IN_FILM_H_CENTRAL,
                              y->count, &h);
     if (status == FF_OK)
-        status = read_series(host, in, DYNAMICS_IN_FILM_P_MAX, y->count, &p);
+        status = read_series(host, in, DYNAMICS_IN_FILM_LOAD, y->count, &y->load);
     if (status != FF_OK)
         return status;
     if (y->count > 0 &&
@@ -246,11 +238,7 @@ ff_status dynamics_film_history_read(const ff_host *host, const ff_array *in,
     y->width = in[DYNAMICS_IN_FACE_WIDTH].data[0];
     y->speed[0] = inputs->mesh_frequency * inputs->pitch;
     y->speed[1] = y->speed[0] * teeth[0] / teeth[1];
-    y->pressure = p;
-    status = read_thickness(h, p, y);
-    if (status == FF_OK)
-        find_bearing(y);
-    return status;
+    return read_thickness(h, y);
 }
 
 void dynamics_film_history_free(dynamics_film_history *y)

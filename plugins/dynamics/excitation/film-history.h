@@ -14,10 +14,7 @@ enum { DYNAMICS_FILM_PAIRS = 8 };
 /* One film history: several engagements behind each other. */
 typedef struct dynamics_film_history {
     size_t count, engagements, *first; /* first: of each engagement, and the count behind them */
-    const double *roll, *engagement, *traction, *rolling, *loss;
-    const double *pressure;
-    double
-        bearing; /* mesh force over the sum of p^2 r of the pairs, where shares follow it; or 0 */
+    const double *roll, *engagement, *traction, *rolling, *loss, *load;
     double *thickness;
     double speed[2]; /* of the gears, rad/s */
     double width;
@@ -27,9 +24,9 @@ typedef struct dynamics_film_history {
 } dynamics_film_history;
 
 /* Torques of all pairs against the rotation of each gear, the film in series with the mesh, what
-   the films dissipate, the sum of p^2 r, and of each pair its film and its share of the load. */
+   the films dissipate, the force that they bear, and of each pair its film and its share of it. */
 typedef struct dynamics_film_sum {
-    double against[2], thickness, loss, bearing;
+    double against[2], thickness, loss, force;
     double film[DYNAMICS_FILM_PAIRS], share[DYNAMICS_FILM_PAIRS];
 } dynamics_film_sum;
 

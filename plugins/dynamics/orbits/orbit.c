@@ -177,8 +177,9 @@ void dynamics_orbit_reduce(const dynamics_flow *flow, dynamics_orbit *o)
         dynamics_orbit shorter = *o;
         shorter.period = q;
         if (dynamics_orbit_map(flow, &shorter) &&
-            dynamics_orbit_residual(flow->excitation, &shorter) < 1e-6 &&
-            dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &shorter)) {
+            dynamics_orbit_residual(flow->excitation, &shorter) < 1e-6) {
+            /* It stops short of a solution where a film begins to follow its flank at phase 0. */
+            dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &shorter);
             *o = shorter;
             return;
         }

@@ -186,6 +186,10 @@ const ff_port ehl_inputs[EHL_INPUTS] = {
                        .doc = "film thickness at x = 0",                                           \
                        .dims = "t",                                                                \
                        .max = INFINITY},                                                           \
+    [k##_LOAD_PER_WIDTH] = {.name = "load_per_width",                                              \
+                            .unit = "N/m",                                                         \
+                            .doc = "load that the film and its asperities carry",                  \
+                            .dims = "t"},                                                          \
     [k##_BULK_TEMPERATURE] = {.name = "bulk_temperature",                                          \
                               .unit = "K",                                                         \
                               .doc = "temperature of the teeth before they meet and of the oil "   \

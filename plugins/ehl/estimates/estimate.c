@@ -348,6 +348,7 @@ static void set_moment(results *r, ehl_estimate *e, size_t k)
     set_series(r, EHL_ESTIMATE_H_CENTRAL, k, film.h_central);
     set_series(r, EHL_ESTIMATE_H_MIN_ERROR, k, film.error);
     set_series(r, EHL_ESTIMATE_P_MAX, k, m->p_max);
+    set_series(r, EHL_ESTIMATE_LOAD_PER_WIDTH, k, m->load);
     ehl_lowest_add(&r->engagements, m->engagement, film.h_min);
     if (film.h_min < r->lowest) {
         r->lowest = film.h_min;

@@ -300,6 +300,7 @@ static void record_film(ehl_results *r, const ehl_march *m)
     r->row[EHL_H_CENTRAL] = h_central;
     r->row[EHL_P_MAX] = p_max;
     r->row[EHL_SEPARATION] = separation_of(m);
+    r->row[EHL_LOAD_PER_WIDTH] = ehl_film_load(&m->state[0].film, r->nodes, m->solver->grid->dx);
     ehl_lowest_add(&r->engagements, r->row[EHL_ENGAGEMENT], h_min);
     if (h_min < r->lowest) {
         r->lowest = h_min;

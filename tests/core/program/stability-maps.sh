@@ -12,10 +12,11 @@ points=$([ $# -eq 3 ] && echo 5 || echo 3) # three of five are every other one
 lab=$(mktemp -d)
 trap 'rm -rf "$lab"' EXIT
 
-# map NAME STUDY [OPTION...]: the study with so many points along each range, nothing halved
+# map NAME STUDY [OPTION...]: the study with so many points along each range, nothing halved. A cell has
+# the time that it takes, however busy the machine is.
 map() {
     name=$1
-    sed -e "s|\.\./|$root/configs/|g" -e 's/points: [0-9]*/points: '$points'/' -e '/^ *bisect:/d' \
+    sed -e "s|\.\./|$root/configs/|g" -e 's/points: [0-9]*/points: '$points'/' -e '/^ *bisect:/d' -e '/^ *time_limit:/d' \
         "$root/configs/studies/$2.yaml" >"$lab/$name.yaml"
     shift 2
     code=0

@@ -70,7 +70,7 @@ static void give_gears(stage *s, const gears *g)
 
 typedef struct film {
     double roll[STEPS], engagement[STEPS], traction[STEPS], rolling[STEPS], loss[STEPS],
-        thickness[STEPS], pressure[STEPS];
+        thickness[STEPS], load[STEPS];
 } film;
 
 static double cycles_of(int i)
@@ -86,7 +86,7 @@ static void give_film(stage *s, const film *f)
     stage_give_series(s, "film.rolling_loss", STEPS, f->rolling);
     stage_give_series(s, "film.power_loss", STEPS, f->loss);
     stage_give_series(s, "film.h_central", STEPS, f->thickness);
-    stage_give_series(s, "film.p_max", STEPS, f->pressure);
+    stage_give_series(s, "film.load_per_width", STEPS, f->load);
 }
 
 static film prescribed(void)
@@ -98,7 +98,7 @@ static film prescribed(void)
         f.traction[i] = traction_at(c);
         f.rolling[i] = rolling_at(c);
         f.thickness[i] = film_at(c);
-        f.pressure[i] = 1e9;
+        f.load[i] = 1e5;
     }
     return f;
 }
@@ -138,12 +138,11 @@ static double weight_at(const gears *g, double cycles)
     return g->shared ? tooth_force_at(cycles, borne_at(cycles)) : share_at(cycles);
 }
 
-/* The pressure of Hertz' contact under that force. */
-static void press(const gears *g, film *f)
+static void load(const pair *p, film *f)
 {
     for (int i = 0; i < STEPS; i++) {
-        double c = cycles_of(i), r1 = radius_at(g, 0, c), r2 = radius_at(g, 1, c);
-        f->pressure[i] = 1e8 * sqrt(tooth_force_at(c, borne_at(c)) * (r1 + r2) / (r1 * r2));
+        double c = cycles_of(i);
+        f->load[i] = p->line_force * tooth_force_at(c, borne_at(c)) / face;
     }
 }
 
@@ -311,7 +310,7 @@ static void check_twin(double frequency, const char *branch, double teeth_2, dou
     stage_set(one, "equivalent_mass", p.mass);
     stage_set(both, "equivalent_mass", p.mass);
     if (shared) {
-        press(&g, &f);
+        load(&p, &f);
         give_levels(one, &p);
         give_levels(both, &p);
     }
@@ -427,7 +426,7 @@ static double feed(stage *s, const pair *p, const loop *l, film *f)
         f->roll[i] = sap + c * 2 * M_PI / 50;
         f->thickness[i] = h;
         f->traction[i] = traction;
-        f->pressure[i] = 1e9 * sqrt(fmax(W, 0));
+        f->load[i] = p->line_force * fmax(W, 0) / face;
     }
     give_film(s, f);
     return fmax(moved, most);
@@ -547,7 +546,7 @@ static void check_order(void)
             double share = fmin((double)(i - second * each) / (each - 1), 1);
             f.engagement[i] = second;
             f.roll[i] = sap + path * share * 2 * M_PI / 50;
-            f.pressure[i] = 1e9 * (flies ? share < 0.8 : share);
+            f.load[i] = 2e5 * (flies ? share < 0.8 : share * share);
             f.thickness[i] = flies && share > 0.8 ? 0 : 4e-7 * (1 + share);
         }
         stage *s = open_motion("dynamics/shooting", &p, &g, "lower");

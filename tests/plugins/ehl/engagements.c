@@ -9,8 +9,9 @@
 
 enum { EACH = 40, MOST = 4000 };
 
-static const char wanted[] = "time h_min p_max traction engagement h_min_lowest h_min_lowest_mean "
-                             "h_min_lowest_spread engagements_judged";
+static const char wanted[] =
+    "time h_min p_max traction engagement load_per_width h_min_lowest h_min_lowest_mean "
+    "h_min_lowest_spread engagements_judged";
 static const double duration = 1e-4, largest = 177.4e3;
 
 /* A load that swells, or one that falls off and is gone for a while. */
@@ -31,6 +32,25 @@ static void take(const line *c, const char *output, double *to, size_t *n)
     const double *from = stage_get(c->film, output, n);
     *n = *n < MOST ? *n : MOST;
     memcpy(to, from, *n * sizeof *to);
+}
+
+/* Largest distance of the load that the film bears from that of the contact, over the largest;
+   above 2 % of it, where no film lands. */
+static double unborne(const line *c)
+{
+    size_t n, at = 0;
+    const double *time = stage_get(c->film, "time", &n);
+    const double *borne = stage_get(c->film, "load_per_width", NULL);
+    double off = 0;
+    for (size_t i = 0; i < n; i++) {
+        while (at + 2 < c->count && c->time[at + 1] < time[i])
+            at++;
+        double part = (time[i] - c->time[at]) / (c->time[at + 1] - c->time[at]);
+        double load = c->load[at] + part * (c->load[at + 1] - c->load[at]);
+        if (load > 0.02 * largest)
+            off = fmax(off, fabs(borne[i] - load));
+    }
+    return off / largest;
 }
 
 /* The engagements that `order` names, one after the other; told apart or not. */
@@ -66,6 +86,7 @@ static int run(const film_model *m, const char *order, const char *steps, int ap
         f->mean = line_value(&c, "h_min_lowest_mean", 0);
         f->spread = line_value(&c, "h_min_lowest_spread", 0);
         f->judged = line_value(&c, "engagements_judged", 0);
+        check_below("the load is borne", order[1] ? 0 : unborne(&c), 1e-6);
         f->heating = stage_quality(c.film, "inlet_heating");
     } else
         printf("%s: %s\n", m->id, stage_why(c.film));
