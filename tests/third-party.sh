@@ -51,7 +51,8 @@ cp -r "$source/tests/third-party/yasutomi" "$lab/labs/subprojects/viscosity"
 cp -r "$source/tests/third-party/kuang-yang" "$lab/labs/subprojects/stiffness"
 cp -r "$source/tests/third-party/penalty" "$lab/labs/subprojects/discretisation"
 works "$lab/labs"
-mkdir -p "$lab/more/subprojects" # further laws of the same kinds
+mkdir -p "$lab/more/subprojects" # further laws of the same kinds, and a loss
+cp -r "$source/tests/third-party/sliding" "$lab/more/subprojects/losses"
 cp -r "$source/tests/third-party/mcewen" "$lab/more/subprojects/viscosity"
 cp -r "$source/tests/third-party/murnaghan" "$lab/more/subprojects/density"
 works "$lab/more"

@@ -97,7 +97,7 @@ static bool run_what_feeds(ff_instance *i)
     return true;
 }
 
-/* One array for each input row; dimensions of one name have one length. */
+/* One array for each input row; dimensions of one name on one wire have one length. */
 static bool gather(ff_instance *i, ff_array *in)
 {
     const ff_loaded *loaded = i->stage.loaded;
@@ -119,7 +119,8 @@ static bool gather(ff_instance *i, ff_array *in)
         else if (!fe_rank_fits(dims, in[k].rank))
             good = fe_refuse(i, row->name, "\"%s\" is fed with %u dimensions; it takes \"%s\"",
                              row->name, in[k].rank, row->dims);
-        else if (!fe_enter_lengths(&all, row->name, dims, in[k].rank, in[k].shape, why, sizeof why))
+        else if (!fe_enter_lengths(&all, loaded->model, row, dims, in[k].rank, in[k].shape, why,
+                                   sizeof why))
             good = fe_refuse(i, row->name, "%s", why);
     }
     fe_free(all.seen);

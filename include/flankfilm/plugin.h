@@ -132,10 +132,10 @@ enum {
 };
 
 /*
- * A port. Data ports carry an array of doubles whose dimensions have names: "" is a scalar,
- * "station" a series, "t x" a field; "engagement? station" has a leading dimension that may be
- * absent. Equal names on one wire, and among the outputs of one stage, mean equal lengths: names of
- * dimensions belong to a wire, so that "t" of a film and "t" of a contact may differ. Positions "x"
+ * A port. Data ports carry an array of doubles along named dimensions: "" a scalar, "station" a
+ * series, "t x" a field; the first of "engagement? station" may be absent. Equal names on one wire,
+ * and among the outputs of a stage, mean equal lengths; "t" of two wires may differ. "gear.station"
+ * is that of the wire `gear`, for an input of another wire or an output (since 1.3). Positions "x"
  * of a field "t x" are an output along "x", or along "t x" where the grid moves. Service ports
  * carry a table of functions, named by its interface id.
  *

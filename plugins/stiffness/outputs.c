@@ -40,11 +40,11 @@ const ff_port stiffness_outputs[STIFFNESS_LEVEL_OUTPUTS] = {
     {.name = "tooth_force",
      .unit = "N",
      .doc = "quasi-static normal force W_s of one pair from SAP to tip",
-     .dims = "engagement? station"},
+     .dims = "engagement? gear.station"},
     {.name = "load_share",
      .unit = "1",
      .doc = "the pair's part of the line force, W_s/F",
-     .dims = "engagement? station",
+     .dims = "engagement? gear.station",
      .max = 1},
     {.name = "pairs_in_contact",
      .unit = "1",
@@ -113,7 +113,7 @@ const ff_port stiffness_outputs[STIFFNESS_LEVEL_OUTPUTS] = {
     {.name = "level_tooth_force",
      .unit = "N",
      .doc = "quasi-static normal force of one pair from SAP to tip there",
-     .dims = "level station"},
+     .dims = "level gear.station"},
 };
 
 /* A station given twice is the limit from below, then from above; the tip is left from below. */

@@ -44,7 +44,10 @@ static const ff_port outputs[] = {
                .doc = "mesh cycles, 0 to the period"},
     [DTE] = {.name = "dte", .unit = "m", .dims = "cycle", .doc = "transmission error s"},
     [DMF] = {.name = "mesh_force", .unit = "N", .dims = "cycle", .doc = "mesh force"},
-    [WD] = {.name = "tooth_force", .unit = "N", .dims = "station", .doc = "force on one pair"},
+    [WD] = {.name = "tooth_force",
+            .unit = "N",
+            .dims = "stiffness.station",
+            .doc = "force on one pair"},
     [RMS] = {.name = "dte_rms", .unit = "m", .dims = "", .doc = "rms of the alternating part of s"},
     [PERIOD] = {.name = "period", .unit = "1", .dims = "", .doc = "mesh cycles of the motion"},
 };

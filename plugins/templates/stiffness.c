@@ -48,10 +48,13 @@ static const ff_port outputs[] = {
                .doc = "pairs that carry load"},
     [MEAN] = {.name = "stiffness_mean", .unit = "N/m", .dims = "", .doc = "mean mesh stiffness"},
     [BREAKS] = {.name = "breakpoints", .unit = "1", .dims = "breakpoint", .doc = "phases of jumps"},
-    [LOAD] = {.name = "tooth_force", .unit = "N", .dims = "station", .doc = "force on one pair"},
+    [LOAD] = {.name = "tooth_force",
+              .unit = "N",
+              .dims = "gear.station",
+              .doc = "force on one pair"},
     [SHARE] = {.name = "load_share",
                .unit = "1",
-               .dims = "station",
+               .dims = "gear.station",
                .doc = "its part of the line force"},
 };
 

@@ -13,26 +13,33 @@ bool fe_rank_fits(const ff_dims *dims, uint32_t rank)
     return rank <= dims->rank && rank + dims->first_optional >= dims->rank;
 }
 
-bool fe_enter_lengths(fe_lengths *all, const char *row, const ff_dims *dims, uint32_t rank,
-                      const size_t *shape, char *why, size_t why_size)
+bool fe_enter_lengths(fe_lengths *all, const ff_model *model, const ff_port *row,
+                      const ff_dims *dims, uint32_t rank, const size_t *shape, char *why,
+                      size_t why_size)
 {
     assert(fe_rank_fits(dims, rank));
     for (uint32_t i = 0; i < rank; i++) {
-        const char *dim = dims->name[i + dims->rank - rank];
-        size_t k = 0;
-        while (k < all->count && strcmp(all->seen[k].dim, dim) != 0)
+        const uint32_t at = i + dims->rank - rank;
+        const char *dim = dims->name[at];
+        size_t k = 0, length;
+        const char *wire = fe_dim_wire(model, row, at, &length);
+        while (k < all->count &&
+               (strcmp(all->seen[k].dim, dim) != 0 || all->seen[k].wire_length != length ||
+                strncmp(all->seen[k].wire, wire, length) != 0))
             k++;
         if (k == all->count) {
             all->seen = fe_resize(all->seen, (k + 1) * sizeof *all->seen);
+            all->seen[k].wire = wire;
+            all->seen[k].wire_length = length;
             all->seen[k].dim = dim;
-            all->seen[k].row = row;
+            all->seen[k].row = row->name;
             all->seen[k].length = shape[i];
             all->count++;
         }
         if (all->seen[k].length == shape[i])
             continue;
         snprintf(why, why_size, "the dimension \"%s\" is %zu long in \"%s\", but %zu in \"%s\"",
-                 dim, all->seen[k].length, all->seen[k].row, shape[i], row);
+                 dim, all->seen[k].length, all->seen[k].row, shape[i], row->name);
         return false;
     }
     return true;
@@ -50,7 +57,8 @@ static bool check_input(const ff_pipeline *pipeline, const ff_stage *stage, size
                         "%s.%s: %s gives \"%s\" with %u dimensions, but %s takes it along \"%s\"",
                         stage->name, row->name, pipeline->stages[wire->stage].name,
                         given->row->name, given->rank, stage->use, row->dims);
-    return fe_enter_lengths(all, row->name, dims, given->rank, given->shape, why, sizeof why) ||
+    return fe_enter_lengths(all, stage->loaded->model, row, dims, given->rank, given->shape, why,
+                            sizeof why) ||
            ff_error(report, FF_FAULT_INPUT, wire->place,
                     "the stages that feed these wires must belong together", "%s.%s: %s",
                     stage->name, wire->name, why);
@@ -172,8 +180,9 @@ static bool is_faulty(const ff_stage *stage, size_t output, fe_lengths *all, cha
         snprintf(why, size, "did not give the output \"%s\"", name);
         return result->wanted;
     }
-    if (!fe_enter_lengths(all, name, &stage->loaded->output_dims[output], result->rank,
-                          result->shape, clash, sizeof clash)) {
+    if (!fe_enter_lengths(all, stage->loaded->model, result->row,
+                          &stage->loaded->output_dims[output], result->rank, result->shape, clash,
+                          sizeof clash)) {
         snprintf(why, size, "contradicts itself: %s", clash);
         return true;
     }
@@ -187,11 +196,23 @@ static bool is_faulty(const ff_stage *stage, size_t output, fe_lengths *all, cha
     return false;
 }
 
-bool fe_check_results(const ff_stage *stage, ff_report *report)
+/* The lengths of what the stage took, which an output "along gear.station" has, too. */
+static void enter_inputs(const ff_stage *stage, const ff_array *in, fe_lengths *all)
+{
+    const ff_model *model = stage->loaded->model;
+    char why[256];
+    for (size_t i = 0; in && model->abi_minor >= 3 && i < model->input_count; i++)
+        if (in[i].data)
+            fe_enter_lengths(all, model, ff_model_input(model, i), &stage->loaded->input_dims[i],
+                             in[i].rank, in[i].shape, why, sizeof why);
+}
+
+bool fe_check_results(const ff_stage *stage, const ff_array *in, ff_report *report)
 {
     fe_lengths all = {.count = 0};
     char why[320];
     bool good = true;
+    enter_inputs(stage, in, &all);
     for (size_t i = 0; i < stage->loaded->model->output_count && good; i++)
         if (is_faulty(stage, i, &all, why, sizeof why))
             good = fe_plugin_fault(stage, report, why);

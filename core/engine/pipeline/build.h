@@ -181,6 +181,9 @@ const char *fe_wire_misfit(fe_build *b, const ff_stage *stage, const char *wire,
                            const ff_loaded *from);
 /* Loads the stage and links it, and the stages behind it. */
 void fe_link_from(fe_build *b, ff_stage *stage);
+/* Reports each input of a needed stage that must be as long as an input of another wire, and is
+   fed along a dimension that is not its. */
+void fe_check_dims(fe_build *b);
 
 /* hint.c: what may be meant by a key that the model does not have, in words; NULL: nothing is near.
  */
@@ -204,12 +207,12 @@ void fe_close_instance(ff_stage *stage);
 /* The table behind a service of a live instance. NULL: it gives none, and the report says why. */
 const void *fe_fetch_service(ff_stage *stage, uint32_t output, ff_report *report);
 
-/* arrays.c: the length that each named dimension was first seen with. Starts zeroed; `seen` is to
-   be freed. */
+/* arrays.c: the length that each named dimension of each wire was first seen with. Starts zeroed;
+   `seen` is to be freed. */
 typedef struct fe_lengths {
     struct {
-        const char *dim, *row;
-        size_t length;
+        const char *wire, *dim, *row; /* fe_dim_wire */
+        size_t wire_length, length;
     } * seen;
     size_t count;
 } fe_lengths;
@@ -218,8 +221,9 @@ typedef struct fe_lengths {
 bool fe_rank_fits(const ff_dims *dims, uint32_t rank);
 /* Records the lengths of one array, whose rank fits; false, with a clause in why, when a dimension
    has two. */
-bool fe_enter_lengths(fe_lengths *all, const char *row, const ff_dims *dims, uint32_t rank,
-                      const size_t *shape, char *why, size_t why_size);
+bool fe_enter_lengths(fe_lengths *all, const ff_model *model, const ff_port *row,
+                      const ff_dims *dims, uint32_t rank, const size_t *shape, char *why,
+                      size_t why_size);
 
 size_t fe_count(const ff_array *array); /* of its numbers; no data: 0 */
 /* One number for each array of `in`, which changes with what the array holds. */
@@ -234,8 +238,9 @@ bool fe_gather_inputs(const ff_pipeline *pipeline, const ff_stage *stage, ff_arr
                       ff_report *report);
 /* Drops outputs that are not wanted and still hold the NaN that their memory was filled with. */
 void fe_drop_untouched(ff_stage *stage);
-/* False, with an error, when the stage's results cannot be used. */
-bool fe_check_results(const ff_stage *stage, ff_report *report);
+/* False, with an error, when the stage's results cannot be used. `in`: what it was evaluated with;
+   NULL: not known here. */
+bool fe_check_results(const ff_stage *stage, const ff_array *in, ff_report *report);
 
 /* quality.c: adds a line of quality, FF_BAD, for each result outside of the natural bounds of its
    row. */

@@ -103,7 +103,7 @@ bool fe_evaluate(const ff_pipeline *pipeline, ff_stage *stage, const ff_array *i
     good = fe_check_inputs(stage, in, sums, report) && good;
     fe_free(sums);
     fe_drop_untouched(stage);
-    good = good && fe_check_results(stage, report);
+    good = good && fe_check_results(stage, in, report);
     if (good)
         fe_judge_bounds(stage);
     return good;

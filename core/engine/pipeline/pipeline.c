@@ -43,6 +43,7 @@ ff_pipeline *fe_pipeline_build(const fe_tree *tree, ff_engine *engine, bool ever
     fe_read_accept(&b, ff_node_get(root, "accept"));
     fe_mark_needed(pipeline);
     fe_sort_stages(&b);
+    fe_check_dims(&b);
     for (size_t i = 0; i < pipeline->count; i++)
         if (pipeline->stages[i].loaded && (pipeline->stages[i].needed || everything))
             fe_bind_stage(&b, &pipeline->stages[i]);

@@ -274,7 +274,7 @@ static bool obtain(iteration *it, const ff_observer *watch)
     }
     for (size_t i = 0; i < it->count; i++) {
         it->members[i].stage->reused = it->members[i].stage->ran = true;
-        good = fe_check_results(it->members[i].stage, it->report) && good;
+        good = fe_check_results(it->members[i].stage, NULL, it->report) && good;
     }
     return good;
 }

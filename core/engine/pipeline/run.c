@@ -25,7 +25,7 @@ static bool obtain(const ff_pipeline *pipeline, ff_stage *stage, const ff_array 
         return (stage->ran = evaluate(pipeline, stage, in, report));
     if (watch && watch->recall && watch->recall(watch->ctx, pipeline, stage)) {
         stage->reused = true;
-        return fe_check_results(stage, report);
+        return fe_check_results(stage, NULL, report);
     }
     stage->ran = evaluate(pipeline, stage, in, report);
     if (watch && watch->keep)

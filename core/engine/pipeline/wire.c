@@ -237,3 +237,98 @@ void fe_link_from(fe_build *b, ff_stage *stage)
         if (stage->wires[i].stage >= 0)
             fe_link_from(b, &b->pipeline->stages[stage->wires[i].stage]);
 }
+
+/* Where the length of a dimension is made. */
+typedef struct fe_origin {
+    const ff_stage *stage;
+    bool known; /* a model that is older than 1.3 cannot tell */
+} fe_origin;
+
+static int find_dim(const ff_dims *dims, const char *name)
+{
+    for (uint32_t i = 0; i < dims->rank; i++)
+        if (!strcmp(dims->name[i], name))
+            return (int)i;
+    return -1;
+}
+
+/* An input that brings a dimension of that name over that wire in each round; -1: none does. */
+static int find_bringer(const ff_pipeline *pipeline, const ff_stage *stage, const char *wire,
+                        size_t length, const char *dim)
+{
+    const ff_loaded *loaded = stage->loaded;
+    for (size_t i = 0; i < loaded->model->input_count; i++) {
+        const char *name = ff_model_input(loaded->model, i)->name;
+        if (strcspn(name, ".") == length && !strncmp(name, wire, length) &&
+            find_dim(&loaded->input_dims[i], dim) >= 0 && !fe_is_fed_back(stage, i) &&
+            ff_feeding_result(pipeline, stage, i))
+            return (int)i;
+    }
+    return -1;
+}
+
+/* Of a dimension of what feeds an input. */
+static fe_origin origin_of(const ff_pipeline *pipeline, const ff_stage *stage, size_t input,
+                           const char *dim)
+{
+    for (size_t steps = 0; steps < pipeline->count; steps++) {
+        const ff_result *given = ff_feeding_result(pipeline, stage, input);
+        const ff_stage *from = &pipeline->stages[fe_input_wire(stage, input)->stage];
+        const int at = find_dim(&from->loaded->output_dims[given - from->results], dim);
+        size_t length;
+        if (at < 0) /* the optional first one, which is never given */
+            break;
+        const char *wire = fe_dim_wire(from->loaded->model, given->row, (uint32_t)at, &length);
+        if (length == 0)
+            return (fe_origin){.stage = from, .known = from->loaded->model->abi_minor >= 3};
+        const int next = find_bringer(pipeline, from, wire, length, dim);
+        if (next < 0)
+            break;
+        stage = from;
+        input = (size_t)next;
+    }
+    return (fe_origin){.known = false};
+}
+
+/* Whether input `i`, along a dimension of another wire, is fed along that. */
+static bool check_dim(fe_build *b, const ff_stage *stage, size_t i, uint32_t at)
+{
+    const ff_loaded *loaded = stage->loaded;
+    const ff_port *row = ff_model_input(loaded->model, i);
+    const char *dim = loaded->input_dims[i].name[at];
+    size_t length;
+    const char *wire = fe_dim_wire(loaded->model, row, at, &length);
+    const int k = find_bringer(b->pipeline, stage, wire, length, dim);
+    if (k < 0)
+        return true;
+    const fe_origin here = origin_of(b->pipeline, stage, i, dim),
+                    there = origin_of(b->pipeline, stage, (size_t)k, dim);
+    if (!here.known || !there.known || here.stage == there.stage)
+        return true;
+    return ff_error(
+        b->report, FF_FAULT_INPUT, fe_input_wire(stage, i)->place,
+        fe_pipeline_print(b->pipeline,
+                          "a model that gives it there writes \"WIRE.%s\" in its row, where "
+                          "WIRE is its wire to \"%s\"",
+                          dim, there.stage->name),
+        "%s.%s runs along \"%s\" of the stage \"%s\"; %s takes it along that of \"%s\"",
+        stage->name, row->name, dim, here.stage->name, stage->use, there.stage->name);
+}
+
+void fe_check_dims(fe_build *b)
+{
+    for (size_t s = 0; s < b->pipeline->count; s++) {
+        ff_stage *stage = &b->pipeline->stages[s];
+        const ff_loaded *loaded = stage->needed ? stage->loaded : NULL;
+        const ff_wire *told = NULL;
+        for (size_t i = 0; loaded && i < loaded->model->input_count; i++) {
+            bool good = true;
+            const bool fed = ff_feeding_result(b->pipeline, stage, i) && !fe_is_fed_back(stage, i);
+            const ff_wire *wire = fe_input_wire(stage, i);
+            for (uint32_t at = 0; fed && wire != told && at < loaded->input_dims[i].rank; at++)
+                good = good && check_dim(b, stage, i, at);
+            told = good ? told : wire;
+            stage->instance->broken = stage->instance->broken || !good;
+        }
+    }
+}

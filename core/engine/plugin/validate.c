@@ -23,7 +23,6 @@ enum {
     MOST_OUTPUTS = 1000,
     MOST_OUTPUTS_1_0 = 64,
     MOST_COLUMNS = 100,
-    LONGEST_NAME = 64
 };
 
 typedef struct checking {
@@ -59,19 +58,12 @@ static bool check_claims(const checking *c, const claim *claims, size_t count)
     return true;
 }
 
-static bool is_name(const char *text, size_t length)
-{
-    static const char rest[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
-    return length > 0 && length < LONGEST_NAME && !strchr("0123456789", text[0]) &&
-           strspn(text, rest) >= length;
-}
-
 /* Counts the names in a text such as "wire.output"; 0 when it is something else. */
 static int count_names(const char *text)
 {
-    for (int count = 1; text && strlen(text) < LONGEST_NAME; count++) {
+    for (int count = 1; text && strlen(text) < FE_LONGEST_NAME; count++) {
         size_t length = strcspn(text, ".");
-        if (!is_name(text, length))
+        if (!fe_is_name(text, length))
             return 0;
         if (!text[length])
             return count;
@@ -99,7 +91,7 @@ static bool is_line(const char *text)
 
 static bool is_kind(const char *text, size_t length)
 {
-    return length > 0 && length < LONGEST_NAME &&
+    return length > 0 && length < FE_LONGEST_NAME &&
            strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789-") >= length;
 }
 
@@ -194,12 +186,12 @@ static bool check_model(const checking *c, const char *id)
 
 static bool check_words(const checking *c, const ff_param *row)
 {
-    char word[LONGEST_NAME + 1];
+    char word[FE_LONGEST_NAME + 1];
     for (size_t i = 0; ff_word_at(row->choices, i, word, sizeof word); i++) {
         double number;
         const char *end;
         size_t length = strlen(word);
-        bool plain = length > 0 && length < LONGEST_NAME && fe_text_is_clean(word);
+        bool plain = length > 0 && length < FE_LONGEST_NAME && fe_text_is_clean(word);
         /* "16MnCr5" is a word where no number may stand beside it */
         bool numeric = ff_number_parse(word, &number, &end) && (row->type != FF_CHOICE || !*end);
         if (!plain || (row->type != FF_TEXT && (strpbrk(word, " \"'[]{},:#") || numeric)))
@@ -316,27 +308,6 @@ static bool check_param(checking *c, size_t index, ff_unit *unit)
            check_preset(c, row, unit);
 }
 
-/* Reads "", "station", "engagement? station"; NULL, or what is wrong. */
-static const char *read_dims(const char *text, ff_dims *dims)
-{
-    for (const char *at = text; *at;) {
-        size_t length = strcspn(at, " "), word = length;
-        if (dims->rank == FF_MAX_RANK)
-            return "names more than 4 dimensions";
-        if (word > 1 && at[word - 1] == '?') {
-            if (dims->rank > 0)
-                return "marks a dimension as optional that is not the first";
-            dims->first_optional = true;
-            word--;
-        }
-        if (!is_name(at, word) || word >= sizeof dims->name[0] || !strcmp(at + length, " "))
-            return "is not a list of names, separated by one blank each";
-        memcpy(dims->name[dims->rank++], at, word);
-        at += length + (at[length] == ' ');
-    }
-    return NULL;
-}
-
 static bool check_port(const checking *c, const ff_port *row, ff_dims *dims)
 {
     ff_unit unit;
@@ -357,7 +328,7 @@ static bool check_port(const checking *c, const ff_port *row, ff_dims *dims)
     if (!ff_unit_is_si(&unit))
         return fault(c, "has the unit \"%s\" for the %s \"%s\", which is not coherent SI",
                      row->unit, c->what, c->name);
-    const char *wrong = read_dims(row->dims, dims);
+    const char *wrong = fe_dims_read(c->model, row->dims, dims);
     return !wrong || fault(c, "has bad dimensions for the %s \"%s\": \"%.60s\" %s", c->what,
                            c->name, row->dims, wrong);
 }
@@ -454,8 +425,9 @@ static bool check_meaning(const checking *c, const ff_port *row)
     return check_claims(c, claims, sizeof claims / sizeof *claims);
 }
 
-static bool check_output(checking *c, size_t index, ff_dims *dims)
+static bool check_output(checking *c, ff_loaded *loaded, size_t index)
 {
+    ff_dims *dims = &loaded->output_dims[index];
     const ff_port *row = ff_model_output(c->model, index);
     c->what = "output";
     c->name = row->name ? row->name : "";
@@ -467,7 +439,11 @@ static bool check_output(checking *c, size_t index, ff_dims *dims)
     for (size_t i = 0; i < index; i++)
         if (!strcmp(c->name, ff_model_output(c->model, i)->name))
             return fault(c, "has the output \"%s\" twice", c->name);
-    return check_port(c, row, dims) && check_meaning(c, row);
+    if (!check_port(c, row, dims) || !check_meaning(c, row))
+        return false;
+    const char *shared = fe_dims_clash(loaded, index);
+    return !shared || fault(c, "gives outputs along \"%s\" of different stages, \"%s\" one of them",
+                            shared, row->name);
 }
 
 static bool check_column(checking *c, size_t index)
@@ -502,7 +478,7 @@ bool fe_model_check(ff_loaded *loaded, const char *id, char *why, size_t why_siz
     for (size_t i = 0; i < model->param_count && good; i++)
         good = check_instead(&c, i);
     for (size_t i = 0; i < model->output_count && good; i++)
-        good = check_output(&c, i, &loaded->output_dims[i]);
+        good = check_output(&c, loaded, i);
     for (size_t i = 0; i < ff_model_columns(model) && good; i++)
         good = check_column(&c, i);
     return good;

@@ -192,13 +192,25 @@ void verify_setup_give(verify_setup *setup, size_t input, const double *data, ui
     setup->inputs[input] = (ff_array){.data = copy, .shape = setup->shapes[input], .rank = rank};
 }
 
-/* Equal names, equal lengths. */
-static size_t length_of(const char *name, size_t seed)
+static size_t stir(size_t sum, const char *text, size_t length)
+{
+    for (size_t i = 0; i < length; i++)
+        sum = sum * 31 + (unsigned char)text[i];
+    return sum;
+}
+
+/* Equal names of one wire, equal lengths; before 1.3 of all wires. */
+static size_t length_of(const ff_model *model, const ff_port *row, uint32_t at, size_t seed)
 {
     static const size_t lengths[] = {1, 2, 3, 7, 0};
-    size_t sum = seed;
-    for (; *name; name++)
-        sum = sum * 31 + (unsigned char)*name;
+    const char *word = row->dims;
+    for (uint32_t i = 0; i < at; i++)
+        word += strcspn(word, " ") + 1;
+    const size_t wire = strcspn(word, " ."), own = strcspn(row->name, ".");
+    const char *name = word[wire] == '.' ? word + wire + 1 : word;
+    size_t sum = stir(seed, name, strcspn(name, " ?"));
+    if (model->abi_minor >= 3)
+        sum = word[wire] == '.' ? stir(sum, word, wire) : stir(sum, row->name, own);
     return lengths[sum % (sizeof lengths / sizeof *lengths)];
 }
 
@@ -225,7 +237,7 @@ void verify_setup_draw_inputs(verify_setup *setup, verify_random *random)
         if (row->service || absent)
             continue;
         for (uint32_t k = shorter; k < dims->rank; k++)
-            count *= shape[k - shorter] = length_of(dims->name[k], seed);
+            count *= shape[k - shorter] = length_of(model, row, k, seed);
         double *data = memory_alloc((count + 1) * sizeof *data);
         for (size_t k = 0; k < count; k++)
             data[k] = draw_any(random, style);

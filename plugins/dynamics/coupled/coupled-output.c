@@ -47,11 +47,11 @@ const ff_port dynamics_coupled_outputs[DYNAMICS_COUPLED_OUTPUT_COUNT] = {
          .unit = "N",
          .doc = "dynamic tooth force W_s DMF/F, not clipped at 0; one row per engagement "
                 "when the period is several mesh cycles",
-         .dims = "engagement? station"},
+         .dims = "engagement? gear.station"},
     [DYNAMICS_OUT_GAP] = {.name = "gap",
                           .unit = "m",
                           .doc = "separation of the driving flanks; 0 in contact",
-                          .dims = "engagement? station"},
+                          .dims = "engagement? gear.station"},
     [DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH] =
         {.name = "dynamic_factor_tooth",
          .unit = "1",

@@ -62,11 +62,11 @@
     [DYNAMICS_IN_TOOTH_FORCE] = {.name = "stiffness.tooth_force",                                  \
                                  .unit = "N",                                                      \
                                  .doc = "quasi-static tooth force W_s",                            \
-                                 .dims = "engagement? station"},                                   \
+                                 .dims = "engagement? gear.station"},                              \
     [DYNAMICS_IN_LOAD_SHARE] = {.name = "stiffness.load_share",                                    \
                                 .unit = "1",                                                       \
                                 .doc = "share of one tooth pair, used where the line force is 0",  \
-                                .dims = "engagement? station",                                     \
+                                .dims = "engagement? gear.station",                                \
                                 .flags = FF_OPTIONAL},                                             \
     [DYNAMICS_IN_FORCE_LEVEL] = {.name = "stiffness.force_level",                                  \
                                  .unit = "N",                                                      \
@@ -86,7 +86,7 @@
     [DYNAMICS_IN_LEVEL_TOOTH_FORCE] = {.name = "stiffness.level_tooth_force",                      \
                                        .unit = "N",                                                \
                                        .doc = "tooth force of one pair under each of them",        \
-                                       .dims = "level station",                                    \
+                                       .dims = "level gear.station",                               \
                                        .flags = FF_OPTIONAL}
 
 const ff_port dynamics_input_ports[DYNAMICS_COUPLED_INPUT_COUNT] = {

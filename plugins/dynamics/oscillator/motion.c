@@ -49,12 +49,12 @@ const ff_port dynamics_motion_outputs[DYNAMICS_POWER_OUTPUT_COUNT] = {
          .unit = "N",
          .doc = "dynamic tooth force W_s DMF/F, not clipped at 0; one row per "
                 "engagement when the period is several mesh cycles",
-         .dims = "engagement? station"},
+         .dims = "engagement? gear.station"},
     [DYNAMICS_OUT_GAP] = {.name = "gap",
                           .unit = "m",
                           .doc = "separation of the driving flanks; 0 in contact. With squeeze the "
                                  "film between them beyond handover_film, which bends the teeth",
-                          .dims = "engagement? station"},
+                          .dims = "engagement? gear.station"},
     [DYNAMICS_OUT_DYNAMIC_FACTOR_TOOTH] =
         {.name = "dynamic_factor_tooth",
          .unit = "1",

@@ -189,7 +189,7 @@ static void misfits(void)
                         "  b: {use: loop/linear, base: 0 m, before: a, rows: 2}\n");
     check_error("a field for a series", &a, 3, 55,
                 "a.back.series: b gives \"series\" with 2 dimensions, but loop/linear takes it "
-                "along \"t\"");
+                "along \"before.t\"");
     check_true("the loop has not run", !try_stage(&a, "a")->ran && !try_stage(&a, "b")->ran);
     try_close(&a);
     a = try_run("pipeline:\n"

@@ -2,6 +2,8 @@
 /* Wires, what is needed, and what is loaded. */
 #include "pipeline-try.h"
 
+#include <flankfilm/history.h>
+#include <math.h>
 #include <string.h>
 
 static int feeder(const attempt *a, const char *of, const char *wire)
@@ -126,6 +128,77 @@ static void mismatches(void)
     try_close(&a);
 }
 
+#define HISTORIES                                                                                  \
+    "pipeline:\n"                                                                                  \
+    "  a: {use: toy/histories, count: 5}\n"                                                        \
+    "  b: {use: toy/histories, count: 3, from: 1 s}\n"                                             \
+    "  c: {use: toy/along, one: a}\n"                                                              \
+    "  d: {use: toy/along, one: c}\n"
+
+/* Names of dimensions belong to a wire. */
+static void lengths(void)
+{
+    attempt a = try_run(HISTORIES "  s: {use: toy/apart, one: b, two: a}\noutputs: [s.series]\n");
+    check_good("two wires of different lengths", &a);
+    const ff_result *sampled = try_result(&a, "s", "series");
+    check_true("one at the instants of the other",
+               sampled->data && sampled->count == 3 && sampled->data[0] == 1 &&
+                   sampled->data[1] == 4 && sampled->data[2] == 9);
+    check_true("the result names its dimension without the wire",
+               sampled->data && !strcmp(sampled->dims[0], "t"));
+    try_close(&a);
+    a = try_build(HISTORIES "  s: {use: toy/together, one: a, two: b}\noutputs: [s.series]\n",
+                  false);
+    check_error("lengths that are made apart", &a, 7, 39,
+                "s.two.t runs along \"t\" of the stage \"b\"; toy/together takes it along that of "
+                "\"a\"");
+    try_close(&a);
+    a = try_run(HISTORIES "  s: {use: toy/together, one: a, two: d}\noutputs: [s.series]\n");
+    check_good("made in one stage, handed on by two", &a);
+    try_close(&a);
+    a = try_build(HISTORIES "  s: {use: toy/together, one: b, two: d}\noutputs: [s.series]\n",
+                  false);
+    check_error("made in another stage", &a, 7, 39, "along \"t\" of the stage \"a\"");
+    try_close(&a);
+    a = try_run(HISTORIES "  e: {use: toy/along, one: a, more: 2}\noutputs: [e.series]\n");
+    check_error("not as long as the row says", &a, 0, 0,
+                "the dimension \"t\" is 5 long in \"one.t\", but 7 in \"t\"");
+    try_close(&a);
+}
+
+/* The value at instant `i` of `at`, or NaN. */
+static double history_at(size_t n, const double *t, const double *y, size_t m, const double *at,
+                         size_t i)
+{
+    double out[8];
+    return ff_history_at(n, t, y, m, at, out) < 0 ? NAN : out[i];
+}
+
+static void histories(void)
+{
+    static const double t[] = {0, 0.1, 0.3, 0.3, 0.7}, y[] = {1, 1.0 / 3, 5, 7, 9},
+                        at[] = {0.1, 0.2, 0.3, 0.3, 0.5, 0.7}, once[] = {0.3}, far[] = {-1, 2},
+                        falls[] = {1, 0}, missing[] = {NAN};
+    double out[8];
+    check_true("within", ff_history_at(5, t, y, 6, at, out) == FF_OK);
+    check_true("shared instants to the last bit",
+               out[0] == y[1] && out[2] == 5 && out[3] == 7 && out[5] == 9);
+    check_true("linear between",
+               fabs(out[1] - 8.0 / 3) < 1e-15 * 8 && fabs(out[4] - 8) < 1e-15 * 8);
+    check_true("at its own instants it is itself",
+               ff_history_at(5, t, y, 5, t, out) == FF_OK && !memcmp(out, y, sizeof y));
+    check_true("one instant at a jump is after it", history_at(5, t, y, 1, once, 0) == 7);
+    check_true("outside: the end, and said so",
+               ff_history_at(5, t, y, 2, far, out) == FF_DOMAIN && out[0] == 1 && out[1] == 9);
+    check_true("nothing of nothing", ff_history_at(0, t, y, 0, at, out) == FF_OK);
+    check_true("something of nothing", ff_history_at(0, t, y, 1, at, out) == FF_INVALID);
+    check_true("instants that fall", ff_history_at(5, t, y, 2, falls, out) == FF_INVALID &&
+                                         ff_history_at(2, falls, y, 1, at, out) == FF_INVALID);
+    check_true("an instant that is none",
+               ff_history_at(5, t, y, 1, missing, out) == FF_INVALID &&
+                   ff_history_at(1, missing, y, 1, at, out) == FF_INVALID);
+}
+
 static void requests(void)
 {
     attempt a = try_build("pipeline:\n"
@@ -156,6 +229,8 @@ int main(void)
     lazy();
     cycles();
     mismatches();
+    lengths();
+    histories();
     requests();
     return check_done();
 }
