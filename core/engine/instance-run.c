@@ -256,7 +256,7 @@ static bool fetch(fe_request *q)
         return fe_refuse(i, q->name, "it does not offer the service %s", q->name);
     if (!fe_make_object(i))
         return false;
-    *q->fetched = fe_fetch_service(&i->stage, (uint32_t)row, i->report);
+    *q->fetched = fe_fetch_service(&i->stage, (uint32_t)row, false, i->report);
     return *q->fetched;
 }
 

@@ -286,7 +286,7 @@ static bool wire(ff_instance *i)
             continue;
         if (row->service && feed->from) {
             feed->version = feed->from->version;
-            table = fe_fetch_service(&feed->from->stage, (uint32_t)feed->output, i->report);
+            table = fe_fetch_service(&feed->from->stage, (uint32_t)feed->output, true, i->report);
             if (!table)
                 return false;
             *fe_end_of_services(&i->object.mark) = &feed->from->object.mark;

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Plugins compiled against the headers of interfaces 1.0 and 1.2 keep today's rules and run in today's
+# Plugins compiled against the headers of interfaces 1.0, 1.2 and 1.3 keep today's rules and run in today's
 # program; one that needs a newer interface is refused in one sentence;
 # docs/abi.md has a section for today's version and names every public header.
 # run.sh FLANKFILM SOURCE_ROOT
@@ -15,7 +15,7 @@ build() { # FILE FOLDER NAME INCLUDE [OPTION]
     ${CC:-cc} -std=c11 -O2 -Wall -Wextra -Werror -fPIC -shared -fvisibility=hidden -I "$include" "$@" \
         -DFROZEN_NAME="\"$name\"" "$source/tests/abi/$file.c" -o "$lab/$folder/$name.so" -lm
 }
-for minor in 0 2; do
+for minor in 0 2 3; do
     name=of-1-$minor
     build law viscosity $name "$source/tests/abi/1.$minor" -DFROZEN_MINOR=$minor
     build stage lab $name "$source/tests/abi/1.$minor" -DFROZEN_MINOR=$minor

@@ -31,8 +31,15 @@ static const ff_port inputs[] = {
     {.name = "viscosity", .unit = "", .doc = "oil", .dims = "", .service = FF_VISCOSITY_ID},
 };
 
+#if FROZEN_MINOR >= 3
+#define MEANING                                                                                    \
+    .dims = "contact.t", .min = -30, .max = 1e5, .label = "viscosity", .headline = FF_LARGEST
+#else
+#define MEANING .dims = "t"
+#endif
+
 static const ff_port outputs[] = {
-    {.name = "ln_eta", .unit = "1", .doc = "ln(eta/1 Pa s)", .dims = "t"},
+    {.name = "ln_eta", .unit = "1", .doc = "ln(eta/1 Pa s)", MEANING},
     {.name = "highest", .unit = "1", .doc = "largest of them", .dims = ""},
 };
 

@@ -328,6 +328,12 @@ for film in ["finite-volume, cells: 96", "control-volume, cells: 96", "film-form
         fails_film("status 99", film, 3, "it gave the status 99")
         fails_film("status 2", film, 1, "the law found no ln_eta")
 fails_film("slope 1e30", "finite-volume, cells: 96", 3, "ln_eta does not follow its slope, which is 1.5e+31 1/GPa at 0.3")
+# a table that is none is its maker's fault, before who calls it runs
+for table, says in {"null": 'gave a table without its function 1 for its service "viscosity"', "short": "gave a table that says to have 8 bytes",
+                    "wild": "crashed during service: segmentation fault"}.items():
+    done = run(f"law table {table}", "run", "case.yaml")
+    hold("table", done.returncode == 3 and says in done.stderr and "misdeed.so" in done.stderr and
+         "stage.so" not in done.stderr, f"{table} {done.stderr}")
 refuses_places()
 for role in PLACES:
     hold("verify of nothing", run("", "verify", FILES[role]).returncode == 0, "it fails")

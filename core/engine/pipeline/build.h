@@ -204,8 +204,9 @@ bool fe_wire_object(ff_stage *stage, size_t input, const void *service, ff_repor
 bool fe_ready_object(ff_stage *stage, ff_report *report);
 void fe_close_object(ff_stage *stage); /* another one may be opened, which finds its tables */
 void fe_close_instance(ff_stage *stage);
-/* The table behind a service of a live instance. NULL: it gives none, and the report says why. */
-const void *fe_fetch_service(ff_stage *stage, uint32_t output, ff_report *report);
+/* The table behind a service of a live instance, looked at where a wire carries it. NULL: it gives
+   none that can be used, and the report says why. */
+const void *fe_fetch_service(ff_stage *stage, uint32_t output, bool wired, ff_report *report);
 
 /* arrays.c: the length that each named dimension of each wire was first seen with. Starts zeroed;
    `seen` is to be freed. */

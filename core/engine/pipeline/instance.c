@@ -85,17 +85,40 @@ static bool set(ff_stage *stage, ff_report *report)
     return good;
 }
 
-const void *fe_fetch_service(ff_stage *stage, uint32_t output, ff_report *report)
+/* What is wrong with a table that a wire carries, to complete 'the plugin gave ...'; "": nothing. A
+   table of flankfilm's begins with its size and `self`; functions and positive numbers follow. */
+static void look_at_table(const void *table, const char *id, char *wrong, size_t wrong_size)
+{
+    enum { LARGEST = 4096 };
+    const size_t head = sizeof(size_t) + sizeof(void *);
+    size_t size = 0;
+    uintptr_t word;
+    wrong[0] = '\0';
+    if (strncmp(id, "flankfilm.", strlen("flankfilm.")) != 0)
+        return;
+    memcpy(&size, table, sizeof size);
+    if (size < head + sizeof word || size > LARGEST)
+        snprintf(wrong, wrong_size, "a table that says to have %zu bytes", size);
+    for (size_t at = head; !wrong[0] && at + sizeof word <= size; at += sizeof word) {
+        memcpy(&word, (const char *)table + at, sizeof word);
+        if (!word)
+            snprintf(wrong, wrong_size, "a table without its function %zu",
+                     (at - head) / sizeof word + 1);
+    }
+}
+
+const void *fe_fetch_service(ff_stage *stage, uint32_t output, bool wired, ff_report *report)
 {
     assert(output < stage->loaded->model->output_count);
-    const ff_model *model = stage->loaded->model;
-    char what[200];
+    const ff_port *row = ff_model_output(stage->loaded->model, output);
+    char what[200], wrong[80] = "no table";
     fe_call call = fe_call_begin(stage, "service");
-    const void *table = model->service(stage->instance->self, output);
-    if (!fe_call_end(&call, FF_OK, report) || table)
+    const void *table = stage->loaded->model->service(stage->instance->self, output);
+    if (table && wired) /* a wild pointer crashes here, where the call is that of its maker */
+        look_at_table(table, row->service, wrong, sizeof wrong);
+    if (!fe_call_end(&call, FF_OK, report) || (table && (!wired || !wrong[0])))
         return table;
-    snprintf(what, sizeof what, "gave no table for its service \"%s\"",
-             ff_model_output(model, output)->name);
+    snprintf(what, sizeof what, "gave %s for its service \"%s\"", wrong, row->name);
     fe_plugin_fault(stage, report, what);
     return NULL;
 }
@@ -103,7 +126,7 @@ const void *fe_fetch_service(ff_stage *stage, uint32_t output, ff_report *report
 static const void *service_of(ff_stage *from, const ff_port *input, ff_report *report)
 {
     uint32_t output = (uint32_t)fe_find_offer(from->loaded, input);
-    return from->instance->alive ? fe_fetch_service(from, output, report) : NULL;
+    return from->instance->alive ? fe_fetch_service(from, output, true, report) : NULL;
 }
 
 bool fe_wire_object(ff_stage *stage, size_t input, const void *service, ff_report *report)

@@ -2,6 +2,8 @@
 /* What of its process a model must leave alone, beside arithmetic and locale. */
 #include "private.h"
 
+#include "../study/store/hash.h"
+
 #include <dirent.h>
 #include <string.h>
 #include <sys/resource.h>
@@ -30,16 +32,12 @@ static bool has_timers(void)
     return any;
 }
 
-/* FNV-1a over "NAME=value" of all. */
+/* Over "NAME=value" of all. */
 static uint64_t hash_variables(void)
 {
-    uint64_t hash = 14695981039346656037u;
-    for (char *const *variable = environ; variable && *variable; variable++) {
-        const char *at = *variable;
-        do
-            hash = (hash ^ (unsigned char)*at) * 1099511628211u;
-        while (*at++);
-    }
+    uint64_t hash = STUDY_HASH_START;
+    for (char *const *variable = environ; variable && *variable; variable++)
+        hash = study_hash_text(hash, *variable);
     return hash;
 }
 

@@ -98,11 +98,19 @@ static ff_status ready(void *self)
     return FF_OK;
 }
 
+/* "law table null": tables that are none. */
 static const void *service(void *self, uint32_t output)
 {
+    const char *misdeed = getenv("FLANKFILM_MISDEED");
+    ff_viscosity *table = &((law *)self)->service;
     (void)output;
     misbehave("service");
-    return &((law *)self)->service;
+    if (misdeed && !strcmp(misdeed, "law table null"))
+        table->eval = NULL;
+    if (misdeed && !strcmp(misdeed, "law table short"))
+        table->size = 8;
+    return misdeed && !strcmp(misdeed, "law table wild") ? (const void *)(uintptr_t)0x123456789000u
+                                                         : table;
 }
 
 static void destroy(void *self)
