@@ -278,8 +278,9 @@ TEXT
     paper
     cat <<'TEXT'
 
-At I and II flanks do not part, and the oil between parted flanks has nothing to do. At III it takes little from a motion that
-is 950 Hz above the end of its branch; that end moves little, because k1/k is larger than in the mesh above: the excitation feeds more than the oil takes.
+At I and II flanks do not part, and the oil between parted flanks has nothing to do: what differs is the spring, since with
+`squeeze: series` the teeth bend on the chord of the mesh, not on its slope (4.3a). At III oil takes little from a motion that
+is 970 Hz above the end of its branch; that end moves little, because k1/k is larger than in the mesh above: the excitation feeds more than the oil takes.
 The run-up decides whether a machine runs at III or on the lower branch, which exists there, too; the oil between parted flanks does not.
 TEXT
 } > "$here/rattle.md.new"

@@ -192,6 +192,25 @@ static bool run_round(iteration *it, bool first)
     return true;
 }
 
+/* The first input whose series had another length in the last round than in the one before, for
+   which no residual can be small: says so behind `text`. */
+static char *print_uneven(const iteration *it, char *text)
+{
+    for (size_t k = 0; k < it->count; k++) {
+        const fe_loop_stage *m = &it->members[k];
+        for (size_t i = 0; i < m->stage->loaded->model->input_count; i++) {
+            const ff_result *now = given_back(it, m, i), *before = &m->fed[i];
+            if (now && now->data && before->data && !same_shape(now, before))
+                return fe_pipeline_print(it->pipeline,
+                                         "%s; %s has %zu values, after %zu in the round before: a "
+                                         "loop settles on as many in every round",
+                                         text, ff_model_input(m->stage->loaded->model, i)->name,
+                                         now->count, before->count);
+        }
+    }
+    return text;
+}
+
 /* "a, b: 1, 0.5, ..., 0.01": the stages, and the residuals of the first rounds and the last. */
 static char *print_history(const iteration *it)
 {
@@ -206,7 +225,7 @@ static char *print_history(const iteration *it)
                                      it->residuals[i]);
         else if (i == AT_FIRST)
             text = fe_pipeline_print(it->pipeline, "%s, ...", text);
-    return text;
+    return print_uneven(it, text);
 }
 
 /* Says that a stage failed in a later round than the first. */
