@@ -8,8 +8,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Square roots of the shares of the largest load below which the film is that of flanks which part
-   and its thickness no deflection, and from which it counts in full; they go as the pressure does.
+/* Shares of the highest pressure, of which the square is a share of the load, below which the film
+   is that of flanks which part and its thickness no deflection, and from which it counts in full.
    As flanks part, load and film decide each other at once, and a loop over h ~ W^-0.13 settles only
    where the film is stiffer than the teeth, W/(0.13 h) > k: from a thousandth of the load on, or
    0.03. As flanks land the oil takes its time, and films that the motion knows in flight count from
@@ -47,12 +47,12 @@ static double largest(size_t count, const double *x)
 }
 
 /* How far the thickness is that of loaded flanks, given over the whole history. */
-static void weigh(const dynamics_film_history *y, const double *h, double *weight)
+static void weigh(const dynamics_film_history *y, const double *h, const double *p, double *weight)
 {
-    double thickest = largest(y->count, h), most = largest(y->count, y->load);
+    double thickest = largest(y->count, h), highest = largest(y->count, p);
     int lands = 0;
     for (size_t i = 0; i < y->count; i++) {
-        double share = most > 0 ? sqrt(fmax(y->load[i], 0) / most) : 0;
+        double share = highest > 0 ? p[i] / highest : 0;
         if (share >= borne || y->engagement[i] != y->engagement[i > 0 ? i - 1 : i])
             lands = 0;
         if (share < borne && y->in_oil && h[i] < flight * thickest)
@@ -64,7 +64,7 @@ static void weigh(const dynamics_film_history *y, const double *h, double *weigh
 
 /* The thickness x where it is one of loaded flanks, and the straightest way where it is not: least
    sum w (x - h)^2 + bend (x_(i+1) - x_i)^2, a system of three diagonals. It changes smoothly with
-   the load, so that a loop can settle. */
+   the pressure, so that a loop can settle. */
 static void bridge(size_t count, const double *h, const double *weight, double *x, double *ratio)
 {
     static const double bend = 1e-4;
@@ -82,12 +82,12 @@ static void bridge(size_t count, const double *h, const double *weight, double *
         x[i] = 0;
 }
 
-static ff_status read_thickness(const double *h, dynamics_film_history *y)
+static ff_status read_thickness(const double *h, const double *p, dynamics_film_history *y)
 {
     double *weight = malloc(y->count * sizeof *weight), *ratio = malloc(y->count * sizeof *ratio);
     y->thickness = malloc(y->count * sizeof *y->thickness);
     if (weight && ratio && y->thickness) {
-        weigh(y, h, weight);
+        weigh(y, h, p, weight);
         for (size_t i = 0; i < y->engagements; i++) {
             size_t first = y->first[i];
             bridge(y->first[i + 1] - first, h + first, weight + first, y->thickness + first, ratio);
@@ -120,18 +120,12 @@ static double value_between(const between *b, const double *y)
     return y[b->i] + b->share * (y[b->i + 1] - y[b->i]);
 }
 
-/* Whether the shares of the pairs follow the mesh force. */
-static int follows_force(const dynamics_film_history *y)
-{
-    return y->inputs->shared && y->inputs->levels.tooth_force;
-}
-
 /* Share of a pair under the mean force, or of a shared force under that of the instant. */
 static double share_at(const dynamics_film_history *y, const between *station, double force)
 {
     const dynamics_inputs *inputs = y->inputs;
     const double *bears = inputs->line_force > 0 ? inputs->tooth_force : inputs->load_share;
-    if (!follows_force(y))
+    if (!y->load)
         return bears ? value_between(station, bears) : 1;
     double low = dynamics_share(inputs, station->i, force);
     return low + station->share * (dynamics_share(inputs, station->i + 1, force) - low);
@@ -164,7 +158,7 @@ static void add_engagement(const dynamics_film_history *y, size_t number, double
         rolling /= arm[0] * y->speed[0] + arm[1] * y->speed[1];
         sum->against[0] += (friction + rolling) * arm[0];
         sum->against[1] += (rolling - friction) * arm[1];
-        sum->force += y->width * value_between(&step, y->load + first);
+        sum->force += y->load ? y->width * value_between(&step, y->load + first) : 0;
         sum->share[pair] += share;
         sum->film[pair] += share * value_between(&step, y->thickness + first);
         sum->loss += y->width * value_between(&step, y->loss + first);
@@ -179,7 +173,7 @@ dynamics_film_sum dynamics_film_history_at(const dynamics_film_history *y, doubl
     double share = 1 / (double)y->engagements, all = 0;
     for (size_t i = 0; i < y->engagements; i++) {
         dynamics_film_sum one = {.loss = 0};
-        if (follows_force(y))
+        if (y->load)
             add_engagement(y, i, phase, before, y->inputs->line_force, &one);
         add_engagement(y, i, phase, before, one.force, &sum);
     }
@@ -200,7 +194,7 @@ dynamics_film_sum dynamics_film_history_at(const dynamics_film_history *y, doubl
 ff_status dynamics_film_history_read(const ff_host *host, const ff_array *in,
                                      const dynamics_inputs *inputs, dynamics_film_history *y)
 {
-    const double *h = NULL, *teeth = in[DYNAMICS_IN_TEETH].data;
+    const double *h = NULL, *p = NULL, *teeth = in[DYNAMICS_IN_TEETH].data;
     y->count =
         in[DYNAMICS_IN_FILM_ROLL_ANGLE].rank == 1 ? in[DYNAMICS_IN_FILM_ROLL_ANGLE].shape[0] : 0;
     y->in = in;
@@ -220,6 +214,8 @@ ff_status dynamics_film_history_read(const ff_host *host, const ff_array *in,
                                                                   : DYNAMICS_IN_FILM_H_CENTRAL,
                              y->count, &h);
     if (status == FF_OK)
+        status = read_series(host, in, DYNAMICS_IN_FILM_P_MAX, y->count, &p);
+    if (status == FF_OK && inputs->shared && inputs->levels.tooth_force)
         status = read_series(host, in, DYNAMICS_IN_FILM_LOAD, y->count, &y->load);
     if (status != FF_OK)
         return status;
@@ -238,7 +234,7 @@ ff_status dynamics_film_history_read(const ff_host *host, const ff_array *in,
     y->width = in[DYNAMICS_IN_FACE_WIDTH].data[0];
     y->speed[0] = inputs->mesh_frequency * inputs->pitch;
     y->speed[1] = y->speed[0] * teeth[0] / teeth[1];
-    return read_thickness(h, y);
+    return read_thickness(h, p, y);
 }
 
 void dynamics_film_history_free(dynamics_film_history *y)

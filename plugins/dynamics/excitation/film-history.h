@@ -14,7 +14,8 @@ enum { DYNAMICS_FILM_PAIRS = 8 };
 /* One film history: several engagements behind each other. */
 typedef struct dynamics_film_history {
     size_t count, engagements, *first; /* first: of each engagement, and the count behind them */
-    const double *roll, *engagement, *traction, *rolling, *loss, *load;
+    const double *roll, *engagement, *traction, *rolling, *loss;
+    const double *load; /* per width; NULL: the shares are those of the mean force */
     double *thickness;
     double speed[2]; /* of the gears, rad/s */
     double width;

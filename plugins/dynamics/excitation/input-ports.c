@@ -164,9 +164,17 @@ const ff_port dynamics_oil_input_ports[DYNAMICS_OIL_INPUT_COUNT] = {
                                     .dims = "t",
                                     .flags = FF_OPTIONAL | FF_FEEDBACK,
                                     .from = "ehl"},
+    [DYNAMICS_IN_FILM_P_MAX] = {.name = "film.p_max",
+                                .unit = "Pa",
+                                .doc = "highest pressure, which says where the film "
+                                       "bears load",
+                                .dims = "t",
+                                .flags = FF_OPTIONAL | FF_FEEDBACK,
+                                .from = "ehl"},
     [DYNAMICS_IN_FILM_LOAD] = {.name = "film.load_per_width",
                                .unit = "N/m",
-                               .doc = "load that the film carries",
+                               .doc = "load that the film carries, by which pairs share a "
+                                      "force: shared",
                                .dims = "t",
                                .flags = FF_OPTIONAL | FF_FEEDBACK,
                                .from = "ehl"},

@@ -70,7 +70,7 @@ static void give_gears(stage *s, const gears *g)
 
 typedef struct film {
     double roll[STEPS], engagement[STEPS], traction[STEPS], rolling[STEPS], loss[STEPS],
-        thickness[STEPS], load[STEPS];
+        thickness[STEPS], pressure[STEPS], load[STEPS];
 } film;
 
 static double cycles_of(int i)
@@ -86,6 +86,7 @@ static void give_film(stage *s, const film *f)
     stage_give_series(s, "film.rolling_loss", STEPS, f->rolling);
     stage_give_series(s, "film.power_loss", STEPS, f->loss);
     stage_give_series(s, "film.h_central", STEPS, f->thickness);
+    stage_give_series(s, "film.p_max", STEPS, f->pressure);
     stage_give_series(s, "film.load_per_width", STEPS, f->load);
 }
 
@@ -98,7 +99,7 @@ static film prescribed(void)
         f.traction[i] = traction_at(c);
         f.rolling[i] = rolling_at(c);
         f.thickness[i] = film_at(c);
-        f.load[i] = 1e5;
+        f.pressure[i] = 1e9;
     }
     return f;
 }
@@ -426,7 +427,7 @@ static double feed(stage *s, const pair *p, const loop *l, film *f)
         f->roll[i] = sap + c * 2 * M_PI / 50;
         f->thickness[i] = h;
         f->traction[i] = traction;
-        f->load[i] = p->line_force * fmax(W, 0) / face;
+        f->pressure[i] = 1e9 * sqrt(fmax(W, 0));
     }
     give_film(s, f);
     return fmax(moved, most);
@@ -546,7 +547,7 @@ static void check_order(void)
             double share = fmin((double)(i - second * each) / (each - 1), 1);
             f.engagement[i] = second;
             f.roll[i] = sap + path * share * 2 * M_PI / 50;
-            f.load[i] = 2e5 * (flies ? share < 0.8 : share * share);
+            f.pressure[i] = 1e9 * (flies ? share < 0.8 : share);
             f.thickness[i] = flies && share > 0.8 ? 0 : 4e-7 * (1 + share);
         }
         stage *s = open_motion("dynamics/shooting", &p, &g, "lower");
