@@ -19,6 +19,8 @@ typedef struct iteration {
     size_t count;
     double *residuals; /* of each round so far */
     size_t rounds;
+    const char *uneven; /* an input whose series changed its length, the last time; or NULL */
+    size_t lengths[2];
     ff_report *report;
 } iteration;
 
@@ -192,23 +194,22 @@ static bool run_round(iteration *it, bool first)
     return true;
 }
 
-/* The first input whose series had another length in the last round than in the one before, for
-   which no residual can be small: says so behind `text`. */
-static char *print_uneven(const iteration *it, char *text)
+/* Notes the first input whose series has another length than in the round before, for which no
+   residual can be small. */
+static void note_uneven(iteration *it)
 {
     for (size_t k = 0; k < it->count; k++) {
         const fe_loop_stage *m = &it->members[k];
         for (size_t i = 0; i < m->stage->loaded->model->input_count; i++) {
             const ff_result *now = given_back(it, m, i), *before = &m->fed[i];
-            if (now && now->data && before->data && !same_shape(now, before))
-                return fe_pipeline_print(it->pipeline,
-                                         "%s; %s has %zu values, after %zu in the round before: a "
-                                         "loop settles on as many in every round",
-                                         text, ff_model_input(m->stage->loaded->model, i)->name,
-                                         now->count, before->count);
+            if (!now || !now->data || !before->data || same_shape(now, before))
+                continue;
+            it->uneven = ff_model_input(m->stage->loaded->model, i)->name;
+            it->lengths[0] = before->count;
+            it->lengths[1] = now->count;
+            return;
         }
     }
-    return text;
 }
 
 /* "a, b: 1, 0.5, ..., 0.01": the stages, and the residuals of the first rounds and the last. */
@@ -225,7 +226,12 @@ static char *print_history(const iteration *it)
                                      it->residuals[i]);
         else if (i == AT_FIRST)
             text = fe_pipeline_print(it->pipeline, "%s, ...", text);
-    return print_uneven(it, text);
+    if (it->uneven && it->residuals[it->rounds - 1] > it->pipeline->feedback.tolerance)
+        text = fe_pipeline_print(it->pipeline,
+                                 "%s; %s had %zu values, and %zu a round later: a loop settles on "
+                                 "as many in every round",
+                                 text, it->uneven, it->lengths[0], it->lengths[1]);
+    return text;
 }
 
 /* Says that a stage failed in a later round than the first. */
@@ -261,6 +267,7 @@ static bool iterate(iteration *it)
         if (!run_round(it, it->rounds == 0))
             return report_round(it);
         it->residuals[it->rounds] = residual_of(it);
+        note_uneven(it);
         settled = it->residuals[it->rounds++] <= feedback->tolerance && is_complete(it);
     }
     for (size_t i = 0; i < it->count; i++) {
