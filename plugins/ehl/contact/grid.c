@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "grid.h"
 
+#include <flankfilm/simd.h>
+
 #include <assert.h>
 #include <math.h>
 
@@ -53,6 +55,49 @@ double ehl_row_film(const ehl_history *h, size_t row, const ehl_oil *oil)
         return h->film[row];
     ehl_instant at = ehl_history_row(h, row);
     return ehl_moes_film(&at, h->modulus, oil);
+}
+
+/*
+ * The pressure is low there, so that the gap is that of the Hertzian contact, held apart by h, and
+ * the oil as at ambient pressure:
+ *   p = 12 eta0 u int (gap - h)/gap^3 dx,   x = -end/t,   0 < t < 1
+ */
+FF_SIMD
+ehl_lost ehl_pressure_upstream(const ehl_oil *oil, const ehl_instant *at, double a, double h,
+                               double end)
+{
+    enum { POINTS = 12 };
+    const double push = 12 * oil->viscosity * fabs(at->entrainment),
+                 bend = a * a / (2 * at->radius);
+    double pressure[POINTS], load[POINTS];
+    ehl_lost sum = {0, 0};
+    for (int k = 0; k < POINTS; k++) {
+        double t = (k + 0.5) / POINTS, x = end / t, s = x / a, y = sqrt((s - 1) * (s + 1));
+        double opened = bend * (s * y - ff_log(s + y)), gap = h + opened; /* asinh y = ln(s + y) */
+        pressure[k] = push * opened / (gap * gap * gap) * x / t / POINTS;
+        load[k] = (x - end) * pressure[k];
+    }
+    for (int k = 0; k < POINTS; k++) {
+        sum.pressure += pressure[k];
+        sum.load += load[k];
+    }
+    return sum;
+}
+
+void ehl_inlet_ahead(const ehl_oil *oil, const ehl_instant *at, double modulus, double end,
+                     double *pressure, double *load)
+{
+    const double most = 0.25; /* of the load */
+    double h = ehl_moes_film(at, modulus, oil);
+    double a = ehl_hertz_half_width(at->load, at->radius, modulus);
+    *pressure = *load = 0;
+    if (!(h > 0 && end > a))
+        return;
+    ehl_lost l = ehl_pressure_upstream(oil, at, a, h, end);
+    double part = (l.load + l.pressure * end) / (most * at->load);
+    double share = 1 / (1 + part * part * part * part);
+    *pressure = share * l.pressure;
+    *load = share * l.load;
 }
 
 /*

@@ -12,6 +12,7 @@ typedef struct ehl_grid {
     double half_width;    /* m, largest Hertz half-width a */
     double pressure;      /* Pa, largest Hertz pressure */
     double inlet, outlet; /* m, distances of the ends from x = 0 */
+    int fed;              /* the oil in front of the inlet has the pressure of a longer one */
 } ehl_grid;
 
 /* Hertz line contact: a = sqrt(8 w R/(pi E')), p_H = E' a/(4 R) (Johnson 1985, ch. 4). */
@@ -30,6 +31,21 @@ double ehl_hertz_gap_distance(double a, double radius, double h);
 
 /* The same, but no more than sqrt(2 R h), as under light loads. */
 double ehl_inlet_buildup(double a, double radius, double h);
+
+/* Pressure that the oil of an infinite inlet would have at x = -end, Pa, and its integral upstream,
+   N/m. */
+typedef struct ehl_lost {
+    double pressure, load;
+} ehl_lost;
+
+/* Both in front of x = -end, in a steady film of h. */
+ehl_lost ehl_pressure_upstream(const ehl_oil *oil, const ehl_instant *at, double a, double h,
+                               double end);
+
+/* The pressure at x = -end, Pa, and the load that the oil in front of it carries, N/m, in a steady
+   film; 0 without load, and next to 0 where it would be more than a part of the load. */
+void ehl_inlet_ahead(const ehl_oil *oil, const ehl_instant *at, double modulus, double end,
+                     double *pressure, double *load);
 
 /* inlet, outlet: multiples of the largest half-width, or 0: long enough for every load and for
    flanks with the combined roughness rq, the inlet at least `supplied` (m, ehl_inlet_supplied). */

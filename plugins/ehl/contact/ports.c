@@ -294,6 +294,12 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
          .doc = "|integral of p - load| over the largest load; without load this is the "
                 "force of the film, up to 1 % while it lands",
          .dims = "t"},
+    [EHL_LOAD_AHEAD] =
+        {.name = "load_ahead",
+         .unit = "N/m",
+         .doc = "what the oil in front of the domain carries of the load, where a short inlet "
+                "begins with the pressure of a longer one",
+         .dims = "t"},
     [EHL_MASS_ERROR] = {.name = "mass_error",
                         .unit = "1",
                         .doc =

@@ -205,16 +205,28 @@ static void scale(size_t n, double factor, double *x)
         x[i] *= factor;
 }
 
+/* Sets what the oil in front of the domain does to the film. */
+static void feed(const ehl_solver *s, const ehl_step *step, ehl_film *film)
+{
+    double rise = step->feed - film->p[0];
+    film->ahead = step->ahead - step->feed * s->grid->dx / 2; /* half of the node is in front */
+    film->p[0] = step->feed;
+    for (size_t i = 0; fabs(rise) > 0 && i < s->grid->nodes; i++)
+        film->v[i] += rise * s->kernel[i];
+}
+
 int ehl_rescale_to_load(ehl_solver *s, const ehl_step *step, ehl_film *film)
 {
     size_t n = s->grid->nodes, centre = (size_t)(s->grid->inlet / s->grid->dx);
+    feed(s, step, film);
     double load = ehl_film_load(film, n, s->grid->dx);
-    double factor = step->loaded ? step->load / load : 1;
+    double factor = step->loaded ? (step->load - film->ahead) / (load - film->ahead) : 1;
     s->rescaling = fabs(factor - 1);
     if (!(s->rescaling < SMALL_LOAD_ERROR))
         return 0;
     film->h00 -= (factor - 1) * film->v[centre < n ? centre : n - 1];
     scale(n, factor, film->p);
     scale(n, factor, film->v);
+    feed(s, step, film);
     return 1;
 }

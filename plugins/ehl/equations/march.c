@@ -55,6 +55,7 @@ void ehl_copy_film(ehl_film *to, const ehl_film *from, size_t nodes)
     if (to->plastic && from->plastic)
         memcpy(to->plastic, from->plastic, nodes * sizeof *to->plastic);
     to->h00 = from->h00;
+    to->ahead = from->ahead;
 }
 
 int ehl_contact_is_lost(const ehl_march *m, const ehl_instant *at)
@@ -63,15 +64,24 @@ int ehl_contact_is_lost(const ehl_march *m, const ehl_instant *at)
            (m->contact_lost && at->load < EHL_LOST_FORCE * m->history->load_max);
 }
 
+void ehl_feed_step(const ehl_solver *s, const ehl_instant *at, ehl_step *step)
+{
+    if (s->grid->fed)
+        ehl_inlet_ahead(&s->reynolds->oil, at, s->modulus, s->grid->inlet, &step->feed,
+                        &step->ahead);
+}
+
 ehl_step ehl_instant_step(const ehl_march *m, const ehl_instant *at)
 {
-    return (ehl_step){
+    ehl_step step = {
         .entrainment = at->entrainment,
         .sliding = at->sliding,
         .radius = at->radius,
         .load = at->load,
         .loaded = !ehl_contact_is_lost(m, at),
     };
+    ehl_feed_step(m->solver, at, &step);
+    return step;
 }
 
 double ehl_thinnest(ehl_march *m, double radius, const ehl_film *film)
@@ -136,6 +146,7 @@ void ehl_remove_pressure(ehl_film *film, const double *mass, size_t nodes)
     memcpy(film->content, mass, nodes * sizeof *mass);
     memset(film->p, 0, nodes * sizeof *film->p);
     memset(film->v, 0, nodes * sizeof *film->v);
+    film->ahead = 0;
     memset(film->full, 0, nodes);
     memset(film->asperity, 0, nodes);
     film->yielding = 0;

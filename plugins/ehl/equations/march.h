@@ -65,6 +65,8 @@ ff_status ehl_march_create(ehl_march *m, const ehl_history *h, ehl_solver *s, in
 void ehl_march_destroy(ehl_march *m);
 
 ehl_step ehl_instant_step(const ehl_march *m, const ehl_instant *at);
+/* Adds what the oil in front of the domain does at that instant. */
+void ehl_feed_step(const ehl_solver *s, const ehl_instant *at, ehl_step *step);
 void ehl_copy_film(ehl_film *to, const ehl_film *from, size_t nodes);
 double ehl_thinnest(ehl_march *m, double radius, const ehl_film *film);
 

@@ -65,7 +65,7 @@ void ehl_reynolds_place(ehl_reynolds *r, double first)
 
 double ehl_film_load(const ehl_film *film, size_t nodes, double dx)
 {
-    return ehl_sum(nodes, film->p) * dx;
+    return ehl_sum(nodes, film->p) * dx + film->ahead;
 }
 
 /* h = h00 + x^2/2 curvature + v */

@@ -24,6 +24,8 @@ typedef struct ehl_step {
     double entrainment, sliding, radius;
     double load;        /* N/m; held only when `loaded` */
     int loaded;         /* 0: h00 is given and the load follows */
+    double feed, ahead; /* Pa, N/m: pressure where the domain begins, and what the oil in front of
+                           it carries of the load */
     double rate;        /* 1/s, 0: steady */
     const double *past; /* kg/(m2 s), nodes; NULL: steady */
     int follows;        /* the past was carried along with the oil, and there is no wedge */
@@ -33,6 +35,7 @@ typedef struct ehl_step {
 typedef struct ehl_film {
     double *p, *v;
     double h00;
+    double ahead;        /* N/m that the oil in front of the domain carries */
     unsigned char *full; /* 1: full, 0: cavitated */
     double *content;     /* theta rho h where cavitated, kg/m2; used when mass is conserved */
     double *plastic; /* of the gap, m, where p is the hardness; NULL: flanks that stay elastic */
@@ -147,7 +150,7 @@ static inline void ehl_upwind(const ehl_reynolds *r, const ehl_film *film, size_
    its mass, in multiples of `unit`. */
 void ehl_reynolds_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
-/* sum of p over the nodes times dx: load per width, N/m */
+/* Sum of p over the nodes times dx, and what is carried in front of them: load per width, N/m. */
 double ehl_film_load(const ehl_film *film, size_t nodes, double dx);
 
 /*

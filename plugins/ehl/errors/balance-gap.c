@@ -68,7 +68,7 @@ void ehl_balance_moment(ehl_balance *b, const ehl_march *m)
     const double *p = m->state[0].film.p;
     moments sum = moments_of(b->nodes, p, smooth_gaps(b, m), eq->first + eq->dx, eq->dx);
     double scale = eq->dx / m->step.radius;
-    b->load = (sum.load + p[0] + p[b->nodes - 1]) * eq->dx;
+    b->load = (sum.load + p[0] + p[b->nodes - 1]) * eq->dx + m->state[0].film.ahead;
     b->moment = sum.moment;
     b->arm = sum.arm;
     if (!(b->arm <= 0)) /* as well where it is no number */

@@ -322,7 +322,10 @@ static void check_energy(ehl_balance *b, const ehl_march *m)
     double off = ehl_dot(b->nodes - 2, b->volume + 1, b->left + 1),
            stored = ehl_dot(b->nodes - 2, b->volume + 1, b->change + 1) * eq->dx;
     work *= m->step.entrainment;
-    b->unbalanced = fabs(D - work + stored);
+    /* what p and the flow at the first node bring, when the oil there has a pressure */
+    double enters = eq->wedge == 2 ? (b->mass[0][0] + b->mass[0][1]) / 2 : b->mass[0][0];
+    double brought = b->volume[0] * (m->step.entrainment * enters - b->face[0]);
+    b->unbalanced = fabs(D - work + stored - brought);
     double scale = D + fabs(work) + fabs(stored);
     if (scale <= 0)
         return;

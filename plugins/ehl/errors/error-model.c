@@ -89,6 +89,21 @@ static double outlet_load(const ehl_march *m, double length)
     return sum * g->dx / m->step.load;
 }
 
+/* Share of it that is missing though the domain begins with the pressure of a longer one. */
+static double unfed(const ehl_march *m, double h_central)
+{
+    const ehl_state *now = &m->state[0], *before = &m->state[1];
+    const ehl_grid *g = m->solver->grid;
+    size_t centre = (size_t)(g->inlet / g->dx);
+    double dt = now->time - before->time, closing = 0, spreading = 0;
+    if (m->known > 1 && m->step.past && dt > 0) {
+        closing = (now->gap[centre] - before->gap[centre]) / dt;
+        spreading = (now->gap[0] - before->gap[0]) / dt - closing;
+    }
+    return ehl_unfed(&m->solver->reynolds->oil, &m->at, m->history->modulus, h_central, g->inlet,
+                     m->step.feed, closing, spreading);
+}
+
 /* How well the grid resolves the contact and its inlet. */
 static void record_resolution(ehl_results *r, const ehl_march *m, double h_central,
                               const contact *c)
@@ -100,8 +115,11 @@ static void record_resolution(ehl_results *r, const ehl_march *m, double h_centr
     double share = m->known > 1 ? fmin(1, way / (2 * fmax(c->a, c->opening))) : 1;
     r->outlet_load += share * (outlet_load(m, c->opening) - r->outlet_load);
     r->worst_outlet = fmax(r->worst_outlet, r->outlet_load);
-    double missing =
-        ehl_starvation(&m->solver->reynolds->oil, &m->at, m->history->modulus, h_central, g->inlet);
+    const ehl_oil *oil = &m->solver->reynolds->oil;
+    double missing = ehl_starvation(oil, &m->at, m->history->modulus, h_central, g->inlet);
+    r->fed = g->fed;
+    if (g->fed)
+        missing *= unfed(m, h_central);
     r->starvation += share * (missing - r->starvation);
     r->worst_starvation = fmax(r->worst_starvation, r->starvation);
 }

@@ -105,12 +105,13 @@ static ff_status find_twin(const ehl_solver *s, const ehl_instant_film *f, size_
     double *change = malloc((cells * times + 1) * sizeof *change);
     ff_status status = change ? ehl_grid_level_create(l, s, cells * times, s->modulus) : FF_NOMEM;
     if (status == FF_OK) {
-        const ehl_step step = {.entrainment = at->entrainment - f->frame,
-                               .sliding = at->sliding,
-                               .radius = at->radius,
-                               .load = at->load,
-                               .loaded = 1,
-                               .past = change};
+        ehl_step step = {.entrainment = at->entrainment - f->frame,
+                         .sliding = at->sliding,
+                         .radius = at->radius,
+                         .load = at->load,
+                         .loaded = 1,
+                         .past = change};
+        ehl_feed_step(s, at, &step);
         spread(f->change, f->cells, change, cells * times);
         status = ehl_grid_level_solve(l, before, &step, at, s->modulus, thinnest);
     }

@@ -47,6 +47,7 @@ typedef struct ehl_results {
     double worst_load, worst_mass, worst_complement, lost_force;
     double least_resolution, least_inlet;
     double starvation, worst_starvation; /* share of the film: mean over a passage, its largest */
+    int fed;                             /* the domain begins with the pressure of a longer one */
     double outlet_load, worst_outlet;    /* share of the load: mean over a passage, its largest */
     double worst_in_time[2];             /* errors of h_min and h_central by the steps, relative */
     double least_in_time;                /* m, the lowest that h_min may be with it */

@@ -242,39 +242,6 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
                   heated || lost <= most_lost ? FF_GOOD : FF_DOUBTFUL, text);
 }
 
-/* Pressure that the oil of an infinite inlet would have at x = -end, Pa, and its integral upstream,
-   N/m. */
-typedef struct lost {
-    double pressure, load;
-} lost;
-
-/*
- * The pressure is low there, so that the gap is that of the Hertzian contact, held apart by h, and
- * the oil as at ambient pressure:
- *   p = 12 eta0 u int (gap - h)/gap^3 dx,   x = -end/t,   0 < t < 1
- */
-FF_SIMD
-static lost pressure_upstream(const ehl_oil *oil, const ehl_instant *at, double a, double h,
-                              double end)
-{
-    enum { POINTS = 12 };
-    const double push = 12 * oil->viscosity * fabs(at->entrainment),
-                 bend = a * a / (2 * at->radius);
-    double pressure[POINTS], load[POINTS];
-    lost sum = {0, 0};
-    for (int k = 0; k < POINTS; k++) {
-        double t = (k + 0.5) / POINTS, x = end / t, s = x / a, y = sqrt((s - 1) * (s + 1));
-        double opened = bend * (s * y - ff_log(s + y)), gap = h + opened; /* asinh y = ln(s + y) */
-        pressure[k] = push * opened / (gap * gap * gap) * x / t / POINTS;
-        load[k] = (x - end) * pressure[k];
-    }
-    for (int k = 0; k < POINTS; k++) {
-        sum.pressure += pressure[k];
-        sum.load += load[k];
-    }
-    return sum;
-}
-
 /*
  * A film without load on the oil in front of it follows from what the reduced pressure q =
  * int eta0/eta dp reaches at the edge of the contact (inlet.h): q falls as about film^-1.7. All of
@@ -307,7 +274,7 @@ double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus,
     double a = ehl_hertz_half_width(at->load, at->radius, modulus), thickened;
     if (!(end > a) || !(h > 0))
         return 1;
-    lost l = pressure_upstream(oil, at, a, h, end);
+    ehl_lost l = ehl_pressure_upstream(oil, at, a, h, end);
     double p_hertz = ehl_hertz_pressure(at->load, at->radius, modulus);
     double length = ehl_hertz_gap_distance(a, at->radius, h);
     double pressed = share_by_pressure(oil, p_hertz, a, length, end - a, l.pressure, &thickened);
@@ -317,6 +284,20 @@ double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus,
     double elastic = pressed + (0.2 - 0.1 * thickened) * unloaded;
     double missing = share * unloaded + (1 - share) * elastic;
     return missing / (1 + missing); /* of the film without end; missing: of what is there */
+}
+
+/* Squeezed flanks drive int dh/dt dx through the inlet, beside the u (h - h_e) of a steady film;
+   what spreads with x^2 counts a third. */
+double ehl_unfed(const ehl_oil *oil, const ehl_instant *at, double modulus, double h, double end,
+                 double fed, double closing, double spreading)
+{
+    double a = ehl_hertz_half_width(at->load, at->radius, modulus);
+    if (!(end > a) || !(h > 0))
+        return 1;
+    ehl_lost l = ehl_pressure_upstream(oil, at, a, h, end);
+    double opened = (end * end - a * a) / (2 * at->radius);
+    double squeezed = (fabs(closing) + fabs(spreading) / 3) * end;
+    return fmin(1, fabs(1 - fed / l.pressure) + squeezed / (fabs(at->entrainment) * opened));
 }
 
 /* Returns the largest share of the film that a domain from x = -end on leaves out, mean over a
@@ -381,18 +362,16 @@ static double most_by_cells(const ehl_history *h, const ehl_oil *oil, size_t str
     return worst;
 }
 
-/* Returns the least length of an inlet, m: LENGTHS times S in front of every contact, where half of
-   the pressure of a rigid cylinder is. Loads that are too light to count are taken as the least
+/* Returns the least length of an inlet, m. Loads that are too light to count are taken as the least
    that counts. */
 static double shortest_inlet(const ehl_history *h, const ehl_oil *oil)
 {
-    enum { LENGTHS = 2 };
     double end = 0;
     for (size_t i = 0; i < h->count; i++) {
         ehl_instant at = ehl_history_row(h, i);
         at.load = fmax(at.load, EHL_LIGHT_LOAD * h->load_max);
         double s = sqrt(2 * at.radius * ehl_moes_film(&at, h->modulus, oil));
-        end = fmax(end, ehl_hertz_half_width(at.load, at.radius, h->modulus) + LENGTHS * s);
+        end = fmax(end, ehl_hertz_half_width(at.load, at.radius, h->modulus) + EHL_FED_LENGTHS * s);
     }
     return end;
 }

@@ -89,6 +89,15 @@ void ehl_inlet_heating_report(const ff_host *host, const ehl_inlet_heating *heat
 double ehl_starvation(const ehl_oil *oil, const ehl_instant *at, double modulus, double h,
                       double end);
 
+/* Share of what ehl_starvation tells that a domain which begins with the pressure `fed` still
+   leaves out. The gap changes by `closing` at x = 0 and by `spreading` more at x = -end, m/s. */
+double ehl_unfed(const ehl_oil *oil, const ehl_instant *at, double modulus, double h, double end,
+                 double fed, double closing, double spreading);
+
+/* The shortest inlet that is fed, in S in front of every contact: half of the pressure of a rigid
+   cylinder is there. */
+#define EHL_FED_LENGTHS 2
+
 /* Above this share of the film the line of starvation is doubtful. */
 #define EHL_STARVED_LIMIT 0.01
 

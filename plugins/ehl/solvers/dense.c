@@ -103,13 +103,11 @@ static void assemble(const ehl_solver *s, const ehl_step *step, const ehl_film *
     dense *d = s->self;
     const ehl_reynolds *r = s->reynolds;
     size_t n = r->nodes, size = d->size;
-    double sum = 0;
     memset(d->jacobian, 0, size * size * sizeof *d->jacobian);
     for (size_t i = 0; i < n; i++) {
-        sum += film->p[i];
         if (!film->full[i] && !ehl_is_cavitated(r, film, i)) {
             d->jacobian[i * size + i] = 1;
-            d->rhs[i] = -film->p[i];
+            d->rhs[i] = (i == 0 ? step->feed : 0) - film->p[i];
             continue;
         }
         double squeeze = r->dx * step->rate;
@@ -122,7 +120,7 @@ static void assemble(const ehl_solver *s, const ehl_step *step, const ehl_film *
         d->jacobian[k * size + n] = ehl_is_cavitated(r, film, k) ? 0 : r->dx;
     if (!step->loaded)
         d->jacobian[n * size + n] = 1;
-    d->rhs[n] = step->loaded ? step->load - sum * r->dx : 0;
+    d->rhs[n] = step->loaded ? step->load - ehl_film_load(film, n, r->dx) : 0;
 }
 
 /* Rows differ in unit: each is divided by its largest entry. */
@@ -158,6 +156,7 @@ static ff_status solve(ehl_solver *s, const ehl_step *step, ehl_film *film, int 
     size_t n = r->nodes;
     const int size = (int)d->size, sides = 1;
     ehl_cavitation_begin(&d->cavitation, n);
+    film->ahead = step->ahead - step->feed * r->dx / 2;
     for (int k = 0; k < limit; k++) {
         s->counters.newton++;
         ehl_reynolds_evaluate(r, step, film);

@@ -232,6 +232,7 @@ static void record_balance(ehl_results *r, const ehl_march *m)
     double carried = ehl_film_load(film, g->nodes, g->dx), most = m->history->load_max;
     double off = fabs(carried - (m->contact_lost ? m->at.load : m->step.load)) / most;
     r->row[EHL_LOAD_ERROR] = off;
+    r->row[EHL_LOAD_AHEAD] = film->ahead + film->p[0] * g->dx / 2; /* to the first node itself */
     if (m->contact_lost)
         r->lost_force = fmax(r->lost_force, off);
     else

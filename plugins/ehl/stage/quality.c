@@ -112,9 +112,10 @@ static void compare_loss_outputs(ehl_balance *b, const ehl_march *m, const doubl
     if (m->thermal)
         D = ehl_thermal_pressure_flow(m);
     double scale = eq->dx / m->step.radius;
+    double enters = p[0] * (eq->h[0] + eq->h[1]) / 2; /* of the moment by parts, where p begins */
     double tail = p[1] > 0 ? 24 * eq->oil.viscosity * u * m->step.radius / -eq->first : 0;
     double power = (f.fluid + f.asperities) * m->step.sliding + D + u * tail;
-    compare_output(b, row[EHL_ROLLING_LOSS], u * (tail - scale * b->moment),
+    compare_output(b, row[EHL_ROLLING_LOSS], u * (tail - scale * b->moment - enters),
                    u * (tail + scale * b->arm));
     compare_output(b, row[EHL_POWER_LOSS],
                    with_end(row[EHL_POWER_LOSS], power, f.end * m->step.sliding),
@@ -282,14 +283,20 @@ static void report_end_of_film(const ehl_results *r, const ehl_march *m)
 
 static void report_ends(const ehl_results *r)
 {
-    report_at_least(r, "inlet_length", r->least_inlet, 4,
-                    "least length of the domain in front of the contact over sqrt(2 R h); below 4 "
-                    "the film is starved by about 1 % or more: move the inlet out");
+    report_at_least(r, "inlet_length", r->least_inlet, r->fed ? EHL_FED_LENGTHS : 4,
+                    r->fed
+                        ? "least length of the domain in front of the contact over sqrt(2 R h); "
+                          "from 2 on the pressure with which it begins is that of a longer one"
+                        : "least length of the domain in front of the contact over sqrt(2 R h); "
+                          "below 4 the film is starved by about 1 % or more: move the inlet out");
     if (isfinite(r->least_inlet))
         report_at_most(
             r, "starvation", r->worst_starvation, EHL_STARVED_LIMIT, FF_DOUBTFUL,
-            "film that is missing because the domain ends, mean over a passage; its inlet end is "
-            "taken as flooded; move the inlet out");
+            r->fed ? "film that is missing because the domain ends, mean over a passage, though it "
+                     "begins with the pressure of a longer one: what that lacks by the film of the "
+                     "run, and by the squeeze in front"
+                   : "film that is missing because the domain ends, mean over a passage; its inlet "
+                     "end is taken as flooded; move the inlet out");
     report_at_most(
         r, "outlet_load", r->worst_outlet, 2.5e-3, FF_DOUBTFUL,
         "share of the load next to the outlet's end, within a quarter of sqrt(2 R h), where "

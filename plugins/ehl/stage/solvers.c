@@ -16,7 +16,7 @@ static const ff_param params[] = {
         "start of the domain in front of the contact, in largest Hertz half-widths of the history; "
         "auto: a + 10 sqrt(2 R h) of the largest loads, up to 57 where they are light, and farther "
         "where the line starvation asks for it; shorter where the cells would make the film more "
-        "than 2 % off: as much is lost to the end then as to the cells"),
+        "than 2 % off: the domain then begins with the pressure of a longer one"),
     FF_QUANTITY_OR("auto", "outlet", "1", ehl_model, outlet, FF_MIN_OPEN, "auto", NULL, 0, 1e6, 1.1,
                    1e6,
                    "end of the domain behind the contact, in largest Hertz half-widths; auto: a + "

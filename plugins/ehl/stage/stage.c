@@ -216,6 +216,9 @@ static ff_status check_hardness(const ehl_model *m, const run *r)
                     1e-9 * r->hardness, 1e-9 * mean);
 }
 
+/* An inlet that was shortened by more than rounding begins with the pressure of the longest. */
+static const double SHORT = 0.9;
+
 /* Fits the domain and its nodes to the contact, the oil and the roughness. */
 static void fit_domain(const ehl_model *m, run *r)
 {
@@ -223,12 +226,15 @@ static void fit_domain(const ehl_model *m, run *r)
     double supplied = ehl_inlet_supplied(&r->history, &r->oil);
     ehl_grid_fit(&r->grid, (size_t)m->cells, m->inlet, m->outlet, &r->history, &r->oil, rq,
                  supplied);
-    if (!(m->inlet > 0 || rq > 0 || r->history.turns))
+    if (!(m->inlet > 0 || rq > 0 || r->history.turns)) {
+        double longest = r->grid.inlet;
         ehl_grid_fit(&r->grid, (size_t)m->cells,
                      ehl_inlet_balanced(&r->history, &r->oil, (size_t)m->cells, r->grid.outlet,
                                         r->grid.inlet) /
                          r->grid.half_width,
                      m->outlet, &r->history, &r->oil, rq, supplied);
+        r->grid.fed = !m->outside && r->grid.inlet < SHORT * longest;
+    }
 }
 
 static ff_status fit_grid(const ehl_model *m, run *r)

@@ -49,7 +49,8 @@ double balance_carried(const line *c, size_t k)
 
 double balance_load(const line *c, size_t k)
 {
-    double carried = balance_carried(c, k), time = time_of(c, k), most = 0;
+    double carried = balance_carried(c, k) + line_value(c, "load_ahead", k);
+    double time = time_of(c, k), most = 0;
     double off = fabs(carried - at_time(c, c->load, time));
     for (size_t i = 0; i < c->count; i++) {
         most = fmax(most, c->load[i]);

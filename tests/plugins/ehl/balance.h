@@ -13,8 +13,8 @@
 /* int p dx, N/m */
 double balance_carried(const line *c, size_t k);
 
-/* That less the load of the history, straight between its rows, over the largest load; at a jump,
-   less the nearer of both. */
+/* That, with what the oil in front of the domain carries, less the load of the history, straight
+   between its rows, over the largest load; at a jump, less the nearer of both. */
 double balance_load(const line *c, size_t k);
 
 /* How far h - x^2/(2 R) - v(p) is from one number h00 for all nodes, over the least film. */

@@ -36,7 +36,7 @@ static void test_case(int law, double load, double speed, size_t cells)
     c.u1[0] *= 1.2 * speed;
     c.u2[0] *= 0.8 * speed;
     stage_set(c.film, "cells", (double)cells);
-    ff_status status = line_run(&c, "h_min film pressure x");
+    ff_status status = line_run(&c, "h_min film pressure x load_ahead");
     snprintf(text, sizeof text, "%s, load x %g, speed x %g: %s", name[law], load, speed,
              status == FF_OK ? "load and deflection" : stage_why(c.film));
     if (check_true(text, status == FF_OK && line_value(&c, "h_min", 0) > 0)) {

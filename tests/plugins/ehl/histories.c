@@ -76,7 +76,7 @@ static void films_of(const film_model *m, load what, size_t fold, double *h)
     vary(&c, what);
     stage_set(c.film, "steps", (double)(fold * TIMES));
     stage_set(c.film, "tolerance", 1e-9);
-    ff_status status = line_run(&c, "h_min film pressure x time");
+    ff_status status = line_run(&c, "h_min film pressure x time load_ahead");
     check_true(status == FF_OK ? m->name : stage_why(c.film), status == FF_OK);
     check_below("load and deflection", balance_of_instants(&c, TIMES), 1e-8);
     /* 0.8 of the squared distance of the nodes; a jump moves oil in no time */

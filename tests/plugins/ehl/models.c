@@ -21,11 +21,12 @@ void model_open(const film_model *m, line *c)
 static const char shared[] = "time h_min h_central p_max friction_coefficient traction power_loss "
                              "sliding_loss rolling_loss squeeze_loss asperity_loss "
                              "h_min_error x film pressure h_min_lowest p_max_highest";
-static const char solved[] = "time h_min h_central p_max friction_coefficient traction power_loss "
-                             "sliding_loss rolling_loss squeeze_loss asperity_loss "
-                             "h_min_error x film pressure h_min_lowest p_max_highest load_error "
-                             "mass_error one_way_gap_error film_fraction newton_steps "
-                             "convolutions steps_cut";
+static const char solved[] =
+    "time h_min h_central p_max friction_coefficient traction power_loss "
+    "sliding_loss rolling_loss squeeze_loss asperity_loss "
+    "h_min_error x film pressure h_min_lowest p_max_highest load_error load_ahead "
+    "mass_error one_way_gap_error film_fraction newton_steps "
+    "convolutions steps_cut";
 
 const char *model_outputs(const film_model *m)
 {

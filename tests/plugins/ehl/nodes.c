@@ -30,24 +30,29 @@ static void take_measured_laws(line *c)
     stage_link(c->flow, "oil", c->liquid);
 }
 
+static void open_hot(line *c, const hot *at, double nodes)
+{
+    line_open(c, "ehl/finite-volume");
+    line_grade(c, at->oil, at->entry);
+    if (at->stress > 0)
+        line_eyring(c, at->stress);
+    else
+        take_measured_laws(c);
+    stage_set_text(c->film, "thermal", "full");
+    stage_set(c->film, "cells", 80);
+    stage_set(c->film, "inlet", 5);
+    stage_set(c->film, "outlet", 2);
+    stage_set(c->film, "thermal_nodes", nodes);
+    c->u1[0] = at->speed * (1 + at->slip / 2);
+    c->u2[0] = at->speed * (1 - at->slip / 2);
+}
+
 static found film(const hot *at, double nodes)
 {
     line c;
     found f = {NAN, NAN, NAN};
     char what[96];
-    line_open(&c, "ehl/finite-volume");
-    line_grade(&c, at->oil, at->entry);
-    if (at->stress > 0)
-        line_eyring(&c, at->stress);
-    else
-        take_measured_laws(&c);
-    stage_set_text(c.film, "thermal", "full");
-    stage_set(c.film, "cells", 80);
-    stage_set(c.film, "inlet", 5);
-    stage_set(c.film, "outlet", 2);
-    stage_set(c.film, "thermal_nodes", nodes);
-    c.u1[0] = at->speed * (1 + at->slip / 2);
-    c.u2[0] = at->speed * (1 - at->slip / 2);
+    open_hot(&c, at, nodes);
     snprintf(what, sizeof what, "%g nodes, %g m/s, slide-roll ratio %g: found", nodes, at->speed,
              at->slip);
     if (check_true(what, line_run(&c, "h_central friction_coefficient") == FF_OK))
@@ -57,7 +62,8 @@ static found film(const hot *at, double nodes)
     return f;
 }
 
-/* Of no film, and of no friction, is the error by the nodes larger than it says. */
+/* Of no film, and of no friction, is the error by the nodes larger than it says; nor does it say
+   more than four times that of the film. */
 static void test_errors(void)
 {
     static const hot at[] = {
@@ -73,6 +79,7 @@ static void test_errors(void)
         snprintf(what, sizeof what, "%g m/s, %g: off by %.2g, over node_error", at[k].speed,
                  at[k].slip, few.h / twin.h - 1);
         check_below(what, fabs(few.h / twin.h - 1) / few.error, 1);
+        check_below("and node_error over it", few.error / fabs(few.h / twin.h - 1), 4);
         if (at[k].slip > 0) {
             snprintf(what, sizeof what, "%g m/s, %g: friction off by %.2g, over node_error",
                      at[k].speed, at[k].slip, few.friction / twin.friction - 1);
@@ -94,8 +101,34 @@ static void test_order(void)
     check_below("and small", off[2], 1e-4);
 }
 
+/* The second of three engagements starts so hot that a start takes damping across the film, at 22
+   m/s; where it is found, that of the third begins without damping again, as the first did, which
+   was the same. */
+static void test_hard_start(double speed)
+{
+    enum { EACH = 2, ENGAGEMENTS = 3 };
+    const double engagement[ENGAGEMENTS * EACH] = {0, 0, 1, 1, 2, 2};
+    size_t n;
+    line c;
+    open_hot(&c, &(hot){10, 0, "ISO VG 1000", 333.15, 0}, 8);
+    line_last(&c, ENGAGEMENTS * EACH, 5e-6);
+    c.u1[2] = c.u1[3] = c.u2[2] = c.u2[3] = speed;
+    stage_give_series(c.film, "contact.engagement", c.count, engagement);
+    stage_set(c.film, "steps", 5);
+    int runs = line_run(&c, "h_central time") == FF_OK;
+    printf("%g m/s: %s\n", speed, runs ? "found" : "not found");
+    if (runs) {
+        stage_get(c.film, "time", &n);
+        check_near("a start after a hard one", line_value(&c, "h_central", n - 1),
+                   line_value(&c, "h_central", 1), 1e-4);
+    }
+    line_close(&c);
+}
+
 int main(void)
 {
+    test_hard_start(16);
+    test_hard_start(22);
     test_errors();
     test_order();
     return check_done();

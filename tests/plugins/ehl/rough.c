@@ -87,7 +87,7 @@ static double test_run(const char *what, double rq, double speed, double slide)
     flank_random(&f, 1, rq, 30e-6, 400e-6);
     open_rough(&c, &f, speed, slide, 256, 60);
     ff_status status = line_run(&c, "time x pressure film asperity_pressure h_min h_central p_max "
-                                    "asperity_load_share");
+                                    "asperity_load_share load_ahead");
     snprintf(name, sizeof name, "%s runs %s", what, status == FF_OK ? "" : stage_why(c.film));
     if (check_true(name, status == FF_OK)) {
         share = mean(&c, "asperity_load_share");

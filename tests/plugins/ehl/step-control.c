@@ -85,7 +85,9 @@ static void test_accuracy(void)
         own_steps(&c, tolerance[k]);
         check_true(
             "runs",
-            line_run(&c, "time h_min h_min_error h_central h_central_error film pressure x") ==
+            line_run(
+                &c,
+                "time h_min h_min_error h_central h_central_error film pressure x load_ahead") ==
                 FF_OK);
         f[k] = compare(&c, &exact, "h_min", "h_min_error");
         snprintf(text, sizeof text, "tolerance %s: error %.2g, estimate %.2g, %zu steps",
@@ -138,7 +140,8 @@ static void test_jump(void)
         c.load[i] /= 1e2;
     stage_set(c.film, "cells", 256);
     own_steps(&c, "5e-3");
-    check_true("a hundredfold jump of the load", line_run(&c, "time film pressure x") == FF_OK);
+    check_true("a hundredfold jump of the load",
+               line_run(&c, "time film pressure x load_ahead") == FF_OK);
     size_t n, k = 0;
     const double *t = stage_get(c.film, "time", &n);
     check_below("load and deflection at every time", balance_of_instants(&c, n), rounding);

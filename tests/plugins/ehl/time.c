@@ -41,7 +41,7 @@ static void test_balances(void)
     line c;
     cycle(&c, 256, 80, "bdf2", 1e-10);
     check_true("runs",
-               line_run(&c, "mass_error h_min film pressure x time "
+               line_run(&c, "mass_error h_min film pressure x time load_ahead "
                             "h_min_lowest p_max_highest p_max traction sliding_loss") == FF_OK);
     check_below("load and deflection at every step", balance_of_instants(&c, 81), 1e-8);
     check_below("mass balance at every step", largest(&c, "mass_error"), 1e-8);
@@ -52,7 +52,7 @@ static void test_balances(void)
                line_value(&c, "traction", 7) * (c.u1[0] - c.u2[0]), 1e-12);
     line_close(&c);
     cycle(&c, 512, 1000, "bdf2", 1e-5);
-    line_run(&c, "convolutions film pressure x time");
+    line_run(&c, "convolutions film pressure x time load_ahead");
     check_below("load and deflection at a loose tolerance", balance_of_instants(&c, 50), 1e-7);
     check_below("convolutions per step", stage_scalar(c.film, "convolutions") / 1000, 6);
     line_close(&c);
@@ -66,7 +66,7 @@ static void test_flow(void)
     for (size_t k = 0; k < 2; k++) {
         line c;
         cycle(&c, (size_t)256 << k, (size_t)160 << k, "bdf2", 1e-8);
-        check_true("runs", line_run(&c, "film pressure x time") == FF_OK);
+        check_true("runs", line_run(&c, "film pressure x time load_ahead") == FF_OK);
         steady[k] = balance_flow(&c);
         through[k] = balance_history(&c);
         line_close(&c);

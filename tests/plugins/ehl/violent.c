@@ -87,7 +87,7 @@ static void test_case(uint64_t seed)
         stage_set_text(c.film, "steps", "auto");
     else
         stage_set(c.film, "steps", 200);
-    ff_status status = line_run(&c, "h_min_lowest time x film pressure");
+    ff_status status = line_run(&c, "h_min_lowest time x film pressure load_ahead");
     int open = status == FF_OK && stage_scalar(c.film, "h_min_lowest") > 0;
     snprintf(name, sizeof name, "seed %d%s%s: %s", (int)seed, own ? ", own steps" : "",
              conserving ? ", mass-conserving" : "",
