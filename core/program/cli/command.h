@@ -32,6 +32,8 @@ json_t *cli_json_savings(const study_reuse_counts *savings);
 /* Prints what came of a row of standard input; false when nobody reads it. */
 bool cli_answer_row(size_t index, const json_t *set, const json_t *record, bool known);
 
+/* Prints how many cases a study has, and what they vary. */
+void cli_print_cases(const study_definition *study);
 /* Runs the study of the session. */
 int cli_run_study(cli_session *session, const cli_options *options);
 /* Finds the part of the cases that Slurm's array and, unless array_only, its tasks give to this

@@ -282,6 +282,10 @@ static int explain(cli_session *session, const cli_options *options)
     json_t *compared = session->study ? describe_compared(session, options) : NULL;
     if (session->study) {
         json_object_set_new(answer, "compared", compared);
+        json_object_set_new(answer, "study",
+                            json_pack("{s:s, s:I, s:s}", "kind", study_kind_name(session->study),
+                                      "cases", (json_int_t)session->study->count, "further",
+                                      study_further(session->study)));
         char *directory = cli_study_directory(options);
         savings = study_savings(directory);
         free(directory);
@@ -293,6 +297,10 @@ static int explain(cli_session *session, const cli_options *options)
     }
     terminal_print_messages(session->report, stderr, terminal_colour(stderr));
     print_plan(pipeline, options->operand, stages);
+    if (session->study)
+        fputs("\nstudy (a case of it stands above): ", stdout);
+    if (session->study)
+        cli_print_cases(session->study);
     print_compared(compared);
     if (savings.computed + savings.reused)
         printf("\nthe cases of the study so far: ");

@@ -29,8 +29,7 @@ typedef struct form {
 static bool write_csv(const results_view *view, const results_target *target,
                       const cli_options *options)
 {
-    (void)options;
-    return results_export_csv(view, target->folder);
+    return results_export_csv(view, options->operand, target->folder);
 }
 
 static bool write_page(const results_view *view, const results_target *target,

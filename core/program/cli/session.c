@@ -19,21 +19,34 @@
 
 enum { MOST_ERRORS = 20 };
 
-/* Returns the first case of a study that can be built: idle rows of a spectrum may stand before. */
+/* Returns the case that a command shows: the first that can be built, since idle rows of a spectrum
+   may stand before, and a kind of study may look for what cannot be. `count` where there is none.
+ */
 static size_t first_case(const cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
-    size_t index = 0, most = study->count < CLI_MOST_ROWS ? study->count : CLI_MOST_ROWS;
-    for (bool refused = study->spectrum; refused && index < most;) {
+    size_t most = study->driver ? CLI_MOST_SPREAD : CLI_MOST_ROWS;
+    for (size_t index = 0; index < study->count && index < most; index++) {
         ff_run *run = cli_session_try(session, options, index, false);
-        refused = study_case_is_refused(study, ff_run_report(run));
-        index += refused;
+        bool passed =
+            study->driver ? run_has_errors(run) : study_case_is_refused(study, ff_run_report(run));
         ff_run_close(run);
+        if (!passed)
+            return index;
     }
-    return index < most ? index : 0;
+    return study->driver ? study->count : 0;
 }
 
-/* Applies the first case of a study to the tree: it shows what holds for all cases. */
+/* Lays the case that a study is shown by over the file; a file of which no case can be built stays
+   as it is. */
+static void lay_case(const cli_session *session, const cli_options *options, ff_run *run)
+{
+    if (session->first < session->study->count)
+        study_overlay(session->study, session->first, options->sets, options->set_count, run);
+    else
+        run_put(run, "outputs", session->study->request);
+}
+
 static bool open_study(cli_session *session, const cli_options *options)
 {
     const ff_node *node = ff_node_get(ff_run_root(session->run), "study");
@@ -46,11 +59,9 @@ static bool open_study(cli_session *session, const cli_options *options)
     setenv("OPENBLAS_NUM_THREADS", "1", 0); /* the workers use the cores */
     if (session->study->streams)            /* no case is known yet */
         return true;
-    if (!session->study->overlay_first) /* the first case may be the one that fails */
-        run_put(session->run, "outputs", session->study->request);
-    else
-        study_overlay(session->study, session->first = first_case(session, options), options->sets,
-                      options->set_count, session->run);
+    if (session->study->spectrum || session->study->driver)
+        session->first = first_case(session, options);
+    lay_case(session, options, session->run);
     return true;
 }
 
@@ -182,8 +193,14 @@ static void try_spread(cli_session *session, const cli_options *options)
 static void try_cases(cli_session *session, const cli_options *options)
 {
     const study_definition *study = session->study;
+    const study_run run = {.study = study,
+                           .file = options->operand,
+                           .sets = options->sets,
+                           .set_count = options->set_count,
+                           .engine = session->engine};
     if (study->driver) {
-        try_spread(session, options);
+        if (study_open_cases(&run, session->report))
+            try_spread(session, options);
     } else if (study->count > CLI_MOST_CASES || study->streams) {
         try_values(session, options);
     } else {
@@ -194,15 +211,14 @@ static void try_cases(cli_session *session, const cli_options *options)
     }
 }
 
-/* Of a study its first case. */
 static void check_oil(cli_session *session, const cli_options *options)
 {
     ff_run *run = run_read(session->engine, options->operand);
-    if (!session->study)
+    if (session->study && !session->study->streams)
+        lay_case(session, options, run);
+    else
         run_set_all(run, options->sets, options->set_count);
-    else if (session->study->overlay_first)
-        study_overlay(session->study, session->first, options->sets, options->set_count, run);
-    if (!session->study || session->study->overlay_first)
+    if (!session->study || !session->study->streams)
         cli_check_oil(session, run);
     copy_messages(session, run, FF_ERROR);
     ff_run_close(run);

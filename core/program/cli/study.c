@@ -206,6 +206,22 @@ static void tell_verdicts(const study_definition *study, const study_counters *c
     free(verdicts);
 }
 
+/* Tells what of that is gone: files of that name may have been written again. */
+static void print_removed(char *removed, const char *files)
+{
+    char *rest = NULL, *gone = memory_print_text("%s", "");
+    const char *name = removed ? strtok_r(removed, ", ", &rest) : NULL;
+    for (; name; name = strtok_r(NULL, ", ", &rest)) {
+        char *listed = memory_print_text("%s, ", name);
+        if (!strstr(files, listed))
+            memory_add_text(&gone, "%s%s", *gone ? ", " : "", name);
+        free(listed);
+    }
+    if (*gone)
+        printf("removed, since it showed earlier results: %s\n", gone);
+    free(gone);
+}
+
 static void tell_end(const teller *t, const study_counters *counters, bool good, ff_report *report)
 {
     const study_definition *study = t->session->study;
@@ -219,8 +235,7 @@ static void tell_end(const teller *t, const study_counters *counters, bool good,
     if (t->replaced)
         printf("the table of an earlier run is replaced (%s); its cases stay in the journal\n",
                t->replaced);
-    if (t->removed && *t->removed)
-        printf("removed, since it showed earlier results: %s\n", t->removed);
+    print_removed(t->removed, files);
     if (good && *files)
         printf("results in %s: %stable.csv\n", directory, files);
     else if (good)
@@ -394,16 +409,23 @@ static void print_varied(const study_definition *study)
     }
 }
 
-static void print_plan(const study_run *run, const study_plan *plan)
+void cli_print_cases(const study_definition *study)
 {
-    const study_definition *study = run->study;
-    const char *further = study_further(study);
+    const char *kind = study_kind_name(study), *further = study_further(study);
     if (study->streams) {
         puts("cases as rows of standard input list them");
         return;
     }
-    printf("%zu %s%s%s\n", study->count, study_cases(study), *further ? ", " : "", further);
+    printf("%s%s%zu %s%s%s\n", kind, *kind ? ": " : "", study->count, study_cases(study),
+           *further ? ", " : "", further);
     print_varied(study);
+}
+
+static void print_plan(const study_run *run, const study_plan *plan)
+{
+    cli_print_cases(run->study);
+    if (run->study->streams)
+        return;
     if (run->shards > 1)
         printf("of shard %zu/%zu: ", run->shard, run->shards);
     printf("%zu done, %zu failed, %zu to run", plan->done, plan->failed, plan->left);
@@ -444,7 +466,7 @@ int cli_plan_study(const cli_options *options)
     good = good && ff_report_errors(session.report) == 0 &&
            study_check_format(directory, session.report);
     if (good)
-        study_preview(&run, &plan);
+        study_plan_run(&run, &plan);
     if (!good) {
         code = cli_refuse(session.report, options, "nothing was run");
     } else if (options->json) {

@@ -129,8 +129,10 @@ static double bar_of(const ff_stage *stage, const ff_result *result, size_t k,
     const ff_result *estimate = accuracy_estimate_of(stage, result);
     if (measured && measured->bar)
         return measured->bar[k];
-    return estimate ? fabs(estimate->data[k])
-                    : accuracy_estimated_share(stage, result) * fabs(result->data[k]);
+    if (estimate)
+        return fabs(estimate->data[k]);
+    const double share = accuracy_estimated_share(stage, result);
+    return isinf(share) ? share : share * fabs(result->data[k]); /* of 0, too */
 }
 
 /* Distance of a number from the limit, positive on the side that is asked for. */

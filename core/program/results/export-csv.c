@@ -5,6 +5,7 @@
 
 #include "../memory/memory.h"
 
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -315,7 +316,24 @@ static bool write_origin(table *t)
     return true;
 }
 
-bool results_export_csv(const results_view *view, results_folder *folder)
+/* Copies the table that stands beside the figures of a study, if there is one. */
+static bool copy_table(table *t, const char *directory, const char *figures)
+{
+    char *stem = memory_print_text("%.*s", (int)strcspn(figures, "."), figures), block[4096];
+    char *path = memory_print_text("%s/%s.csv", directory, stem);
+    int fd = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* no pipe */
+    FILE *from = fd < 0 ? NULL : fdopen(fd, "r");
+    bool good = !from || begin_table(t, stem);
+    for (size_t length; good && from && (length = fread(block, 1, sizeof block, from)) > 0;)
+        fwrite(block, 1, length, t->out);
+    if (from)
+        fclose(from);
+    free(path);
+    free(stem);
+    return good;
+}
+
+bool results_export_csv(const results_view *view, const char *directory, results_folder *folder)
 {
     table t = {.view = view, .folder = folder};
     bool good = write_scalars(&t);
@@ -326,5 +344,7 @@ bool results_export_csv(const results_view *view, results_folder *folder)
         if (first)
             good = write_family(&t, v);
     }
+    for (size_t i = 0; i < view->figures_count && good; i++)
+        good = copy_table(&t, directory, view->figures[i]->name);
     return good && write_quality(&t) && write_origin(&t);
 }

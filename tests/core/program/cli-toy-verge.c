@@ -33,6 +33,7 @@ static const ff_port outputs[] = {
      .dims = "",
      .label = "state of <the> verge"},
     {.name = "answers", .unit = "m", .doc = "the same thrice", .dims = "t"},
+    {.name = "known_error", .unit = "1", .doc = "infinite with one cell", .dims = ""},
 };
 
 static ff_status create(const ff_host *host, void **self)
@@ -70,11 +71,14 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
     const int known = v->cells > 1;
     host->quality(host->ctx, "answer_error", known ? estimate : (double)NAN, 0.1,
                   known ? FF_GOOD : FF_DOUBTFUL, NULL);
+    if (!known)
+        host->quality(host->ctx, "swing_error", NAN, 0.1, FF_DOUBTFUL, NULL);
     host->quality(host->ctx, "law", v->speed, 0.2, v->speed < 0.2 ? FF_DOUBTFUL : FF_GOOD, NULL);
     if (v->load > 50)
         host->quality(host->ctx, "reach", v->load, 50, FF_RANGE, "it was made for less");
     if (ff_put_scalar(host, 0, 1 + (v->load > 5 ? 10 : 1) * estimate) != FF_OK ||
-        ff_put_scalar(host, 1, v->load > 0.5 && v->speed < 0.5) != FF_OK)
+        ff_put_scalar(host, 1, v->load > 0.5 && v->speed < 0.5) != FF_OK ||
+        ff_put_scalar(host, 3, known ? estimate : (double)INFINITY) != FF_OK)
         return FF_NOMEM;
     double *answers = wanted & FF_BIT(2) ? ff_put_series(host, 2, 3) : NULL;
     for (int i = 0; answers && i < 3; i++)

@@ -75,10 +75,12 @@ class Limits(lab.Lab):
         file = self.write("coarse", RUN % 'verge.answer: ["< 3 m", "< 1 m"], verge.swing: "< 1"')
         answer = self.answer(file, "--set", "verge.cells=1")
         self.assertEqual([(one["standing"], one["bar"]) for one in answer["limits"]],
-                         [("met within its bar", None), ("missed", None), ("met", None)])
+                         [("met within its bar", None), ("missed", None), ("met within its bar", None)])
         self.assertIsNone(answer["stages"][0]["quality"]["answer_error"]["value"])
         sweep = "study={sweep: {verge.cells: [1, 100]}}"
-        self.call("run", file, "--set", sweep, "-o", "coarse")
+        self.call("run", file, "--set", sweep, "--set", "outputs=[verge.swing, verge.known_error]", "-o", "coarse")
+        with open("coarse/table.csv", encoding="utf-8") as table:
+            self.assertEqual([row["verge.known_error [1]"] for row in csv.DictReader(table)], ["", "0.0001"])
         self.assertIn("+0.9999 +- not known: smaller than what is known", self.call("compare", "coarse:2", "coarse:1"))
 
     def test_strict(self):

@@ -88,6 +88,7 @@ awk -F'"' '
 expect 0 'cases done' "$flankfilm" run verges.yaml -o verges
 total=$(sed -n 's/ cases done.*//p' said)
 says "$total cases done, $total of them before"
+if grep removed said; then exit 1; fi # what is written again is not gone
 cp verges/map.csv before.csv
 head -n 5 verges/journal.jsonl >short
 mv short verges/journal.jsonl
@@ -154,7 +155,13 @@ expect 2 'is a list of names such as' "$flankfilm" check notes.yaml \
 
 # Programs, other ways to run it, and what is wrong with a file.
 expect 4 '"silent":[2,0]' "$flankfilm" run swing.yaml -o swing --json
-expect 0 '8 cells of the grid' "$flankfilm" plan verges.yaml -o verges
+# What came of it is planned, told, and exported as the run made it.
+expect 0 'stability: 8 cells of the grid' "$flankfilm" explain verges.yaml
+expect 0 ' failed, 4 to run' "$flankfilm" plan verges.yaml -o verges --set study.stability.bisect=7
+says '8 cells of the grid'
+[ "$(awk '/ done, /{print $1 + $3}' said)" -eq "$total" ]
+expect 0 'verges/results-csv' "$flankfilm" export verges --to csv
+cmp verges/map.csv verges/results-csv/map.csv
 expect 0 'these are cells of the grid' "$flankfilm" run motion.yaml -o shard --shard 1/2
 expect 2 'verge.answers is a series or a field' "$flankfilm" check verges.yaml \
     --set 'study.stability.outputs=[verge.answer, verge.answers]'

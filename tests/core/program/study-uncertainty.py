@@ -228,6 +228,11 @@ study:
             scale = of["mean"]["value"] / statistics.mean(float(row["wave.total [m]"]) for row in rows if row["wave.count"])
             self.assertAlmostEqual(one["mean"]["value"] / statistics.mean(short) / scale, 1, delta=1e-6)
 
+    def test_a_parameter_may_come_from_the_inputs_alone(self):
+        self.write("alone.yaml", (PIPELINE + TWO).replace(", amplitude: 2 mm}", "}", 1))
+        for verb in "check", "plan", "explain":
+            self.call(verb, "alone.yaml")
+
     def test_explain_says_which_models_are_compared(self):
         self.write("models.yaml", PIPELINE + TWO + "    models: {longer: {wave.count: 12}, none: {wave.counts: 12}}\n")
         said = self.call("explain", "models.yaml")

@@ -392,7 +392,6 @@ static void begin_axes(reading *r, size_t paths)
     study_definition *study = r->study;
     study->varied = memory_arena_alloc(&study->arena, (paths + 2) * sizeof *study->varied);
     study->points = memory_arena_alloc(&study->arena, (paths + 2) * sizeof *study->points);
-    study->overlay_first = true;
     study->followed = study->direction = SIZE_MAX;
 }
 

@@ -376,8 +376,9 @@ static void add_results(json_t *record, const ff_pipeline *pipeline)
             if (!result->requested || !result->data || study_is_array(result))
                 continue;
             snprintf(name, sizeof name, "%s.%s", stage->name, result->row->name);
-            json_object_set_new(outputs, name,
-                                json_pack("[s, f]", result->row->unit, result->data[0]));
+            json_object_set_new(
+                outputs, name,
+                json_pack("[s, o]", result->row->unit, study_json_real(result->data[0])));
         }
     }
     json_object_set_new(record, "outputs", outputs);
@@ -398,7 +399,8 @@ static void add_bars(json_t *record, const accuracy_record *errors)
         if (!e->bar || study_is_array(e->result))
             continue;
         char *name = memory_print_text("%s.%s" ACCURACY_BAR, e->stage->name, e->result->row->name);
-        json_object_set_new(outputs, name, json_pack("[s, f]", e->result->row->unit, e->bar[0]));
+        json_object_set_new(outputs, name,
+                            json_pack("[s, o]", e->result->row->unit, study_json_real(e->bar[0])));
         free(name);
     }
 }

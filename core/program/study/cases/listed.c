@@ -86,7 +86,6 @@ bool study_listed_read(study_definition *study, const ff_node *cases, ff_report 
     study->varied = memory_arena_alloc(&study->arena, (paths + 1) * sizeof *study->varied);
     study->points = memory_arena_alloc(&study->arena, sizeof *study->points);
     study->axis_count = study->followed = study->direction = 1;
-    study->overlay_first = true;
     ff_node rows = *cases; /* that last for a time */
     rows.items = memory_arena_alloc(&study->arena, cases->count * sizeof *rows.items);
     rows.count = 0;

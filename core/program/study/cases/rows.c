@@ -291,7 +291,6 @@ static bool read_table(study_definition *study, const ff_node *node, ff_report *
                                         : "study: cases: %.300s has no case",
                         path);
     ff_free(path);
-    study->overlay_first = good;
     return good;
 }
 

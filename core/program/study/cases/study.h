@@ -70,7 +70,6 @@ typedef struct study_definition {
     study_rows *rows;             /* the table that lists the cases, or NULL */
     bool streams; /* its rows come from standard input while the study runs; none is there yet */
     study_spectrum *spectrum; /* how long each row lasts; NULL: no row says it */
-    bool overlay_first;       /* the pipeline is checked with the first case laid over the file */
     memory_arena arena;
 } study_definition;
 

@@ -118,7 +118,7 @@ static void put_row(FILE *out, const study_definition *study, const char *const 
     {
         const json_t *pair = json_object_get(json_object_get(record, "outputs"), name);
         fputc(',', out);
-        if (pair)
+        if (json_is_number(json_array_get(pair, 1)))
             fprintf(out, "%.12g", json_number_value(json_array_get(pair, 1)));
     }
     if (found->limits)

@@ -76,7 +76,6 @@ static void lay_out_planned(study_context *context, study_definition *study)
     study->extras = context->list.extras = context->extras;
     study->extra_count = context->list.extra_count = context->extra_count;
     study->measure = context->list.measure = context->measure;
-    study->overlay_first = context->measured;
     study->varied = grid ? grid->varied : context->list.varied;
     study->varied_count = grid ? grid->varied_count : context->list.varied_count;
     study->count = context->planned;
@@ -298,12 +297,13 @@ void study_check(const study_definition *study, const ff_pipeline *pipeline, ff_
                 context->name);
 }
 
-/* Builds the first cases, so that errors show before anything runs. Only the first error at each
-   place is reported. */
-static bool open_cases(const study_context *context)
+bool study_open_cases(const study_run *run, ff_report *report)
 {
-    ff_place wrong = FF_NOWHERE;
+    study_context *context = &run->study->driver->context;
+    ff_place wrong = FF_NOWHERE; /* only the first error at each place is reported */
     bool good = true;
+    context->report = report;
+    context->run = run;
     for (size_t i = 0; i < context->opened; i++) {
         const ff_place place = context->cases[i].place;
         if (context->repeats[i] > 0 || (wrong.source && wrong.source == place.source &&
@@ -332,10 +332,8 @@ bool study_drive(const study_run *run, study_counters *counters, ff_report *repo
     *counters = (study_counters){.leads = true};
     if (context->measured)
         own.jobs = 1;
-    context->report = report;
-    context->run = &own;
     context->counters = counters;
-    bool good = open_cases(context) && driver->kind->cases(driver->study);
+    bool good = study_open_cases(&own, report) && driver->kind->cases(driver->study);
     if (good)
         give_answer(driver);
     good = good && study_write_submitted(context);
@@ -345,6 +343,29 @@ bool study_drive(const study_run *run, study_counters *counters, ff_report *repo
                              "the journal has all cases; the same command writes the file", report);
     context->run = NULL;
     return good && ff_report_errors(report) == 0;
+}
+
+/* A driver goes the way of a run as far as the cases on it are done; those that it knew beforehand
+   are left behind the first that is not. */
+void study_plan_run(const study_run *run, study_plan *plan)
+{
+    study_driver *driver = run->study->driver;
+    study_context *context = driver ? &driver->context : NULL;
+    ff_report *unheard = ff_report_new();
+    study_run own = *run;
+    *plan = (study_plan){.seconds = -1};
+    if (!driver || run->shards > 1) {
+        study_preview(run, plan);
+    } else {
+        context->report = unheard;
+        context->run = &own;
+        context->plan = plan;
+        if (!driver->kind->cases(driver->study) && context->counted < context->planned)
+            study_run_submitted(context, context->counted, context->planned);
+        context->plan = NULL;
+        context->run = NULL;
+    }
+    ff_report_free(unheard);
 }
 
 const char *study_compared(const study_definition *study, size_t i, size_t *index)
@@ -359,6 +380,11 @@ const char *study_compared(const study_definition *study, size_t i, size_t *inde
 const char *study_cases(const study_definition *study)
 {
     return study->driver && study->driver->context.grid ? "cells of the grid" : "cases";
+}
+
+const char *study_kind_name(const study_definition *study)
+{
+    return study->driver ? study->driver->kind->name : "";
 }
 
 const char *study_further(const study_definition *study)

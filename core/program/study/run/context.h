@@ -113,6 +113,8 @@ typedef struct study_context {
     size_t expanded_count;
 
     const study_run *run; /* NULL while nothing may run */
+    study_plan *plan;     /* cases are counted in place of run; NULL: they run */
+    size_t counted;       /* of those, up to which */
     study_counters *counters;
     study_records *records;
     json_t *facts; /* members for `run --json`, or NULL */
@@ -147,7 +149,8 @@ size_t study_submit(study_context *context, const study_setting *settings, size_
 /* Builds a case; reports its first error where that is asked for, and returns false when there is
    one. */
 bool study_submitted_opens(const study_context *context, size_t number, bool reported);
-/* Runs the cases with the numbers from `begin` to `end` - 1. False when the study cannot go on. */
+/* Runs the cases with the numbers from `begin` to `end` - 1, or counts them for a plan. False when
+   the study cannot go on. */
 bool study_run_submitted(study_context *context, size_t begin, size_t end);
 /* Writes the table of the cases that ran, and the description of the study. */
 bool study_write_submitted(study_context *context);

@@ -25,8 +25,6 @@ typedef struct survey {
     study_records *records;
     earlier_case *earlier; /* sorted; made when a case is found whose key has changed */
     size_t earlier_count;
-    double spent;
-    size_t timed;
 } survey;
 
 static uint64_t hash_set(const json_t *set)
@@ -86,8 +84,8 @@ static json_t *find_earlier(survey *s, size_t index)
 static void count_seconds(survey *s, const json_t *record)
 {
     const json_t *seconds = json_object_get(record, "seconds");
-    s->spent += json_number_value(seconds);
-    s->timed += seconds != NULL;
+    s->plan->spent += json_number_value(seconds);
+    s->plan->timed += seconds != NULL;
 }
 
 /* Counts a case that was done with the same assignments but has another key now; for the first of
@@ -126,7 +124,9 @@ static void count_case(survey *s, study_walk *walk)
     plan->left += !study_case_is_settled(c, s->records, s->run->rerun);
     if (state == STUDY_UNKNOWN)
         explain_change(s, c);
-    if (state == STUDY_UNKNOWN || s->timed >= TIMED)
+    if (s->run->keys)
+        memcpy(s->run->keys[c->index], c->key, sizeof c->key);
+    if (state == STUDY_UNKNOWN || plan->timed >= TIMED)
         return;
     json_t *record = study_records_get(s->records, c->key);
     count_seconds(s, record);
@@ -136,23 +136,25 @@ static void count_case(survey *s, study_walk *walk)
 void study_preview(const study_run *given, study_plan *plan)
 {
     study_run own = *given;
-    const study_definition *study = own.study;
     ff_run *base = study_case_base(own.engine, own.file);
     own.base = base;
     survey s = {.run = &own, .plan = plan, .records = study_records_open(own.directory, true)};
     study_walk walk = study_walk_begin(&own, s.records);
-    size_t first = own.shard - 1, all = study_chains(study);
-    size_t chains = first < all ? (all - first - 1) / own.shards + 1 : 0;
-    *plan = (study_plan){.seconds = -1};
+    walk.chain += own.begin;
+    walk.end = own.end ? own.end : walk.end;
+    size_t chains = walk.chain < walk.end ? (walk.end - walk.chain - 1) / own.shards + 1 : 0;
     if (study_records_count(s.records) == 0) /* all cases are left: none need be built */
-        plan->left = chains * study_chain_length(study);
+        plan->left += chains * study_chain_length(own.study);
     while (study_records_count(s.records) > 0 && study_walk_next(&walk))
         count_case(&s, &walk);
-    if (s.timed > 0)
-        plan->seconds = s.spent / (double)s.timed * (double)plan->left /
+    if (plan->timed > 0)
+        plan->seconds = plan->spent / (double)plan->timed * (double)plan->left /
                         fmax(1, fmin((double)own.jobs, (double)chains));
     study_walk_end(&walk);
-    study_records_close(s.records);
+    if (own.rows)
+        *own.rows = s.records;
+    else
+        study_records_close(s.records);
     free(s.earlier);
     ff_run_close(base);
 }

@@ -61,8 +61,11 @@ typedef struct study_plan {
     char changed[1000]; /* what differs: lines such as "duty.torque: 250 N m -> 300 N m" */
     double seconds;     /* s that the cases left will take, estimated from those done; negative when
                            unknown */
+    double spent;       /* s of so many cases done, which that rests on */
+    size_t timed;
 } study_plan;
 
+/* Adds what a run would do; a plan begins at {.seconds = -1}. */
 void study_preview(const study_run *run, study_plan *plan);
 
 #endif

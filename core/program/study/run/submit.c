@@ -89,6 +89,12 @@ bool study_run_submitted(study_context *context, size_t begin, size_t end)
     run.rows = &context->records;
     study_records_close(context->records);
     context->records = NULL;
+    if (context->plan) {
+        size_t left = context->plan->left;
+        study_preview(&run, context->plan);
+        context->counted = end;
+        return context->plan->left == left;
+    }
     bool good = study_execute(&run, &counters, context->report);
     add_counters(context->counters, &counters);
     return good;

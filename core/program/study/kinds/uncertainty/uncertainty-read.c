@@ -262,8 +262,9 @@ void *study_uncertainty_read(study_context *context, const study_key_value *valu
     find_path(paths, "accuracy");
     context->paths = paths->names;
     context->path_count = paths->count;
-    if (u->level_count > 1)
-        context->further = "then the samples that the pilot shows to be worth their cost";
+    context->further =
+        u->level_count > 1 ? "then the samples that the pilot shows to be worth their cost"
+                           : study_context_format(context, "then %zu samples", u->samples);
     submit_planned(u);
     context->opened = 1; /* a sample may be one that cannot be, but not the medians */
     context->first_compared = u->first_model;
