@@ -27,28 +27,30 @@ static bool has_plateaus(const ff_result *series)
 }
 
 /* Grades a series as an axis; 0 if it cannot be one. */
-static int fitness_of(const ff_result *series, bool own, const char *dim, const char *better)
+static int fitness_of(const ff_result *series, bool own, const char *dim, const char *named)
 {
-    const char *unit = series->row->unit;
+    const char *unit = series->row->unit, *name = series->row->name;
     if (!is_rising(series))
         return 0;
-    if (!strcmp(series->row->name, dim))
+    if (named)
+        return !strcmp(name, named);
+    if (!strcmp(name, dim))
         return 4;
-    if (!strcmp(unit, better))
+    if (!strcmp(unit, "rad"))
         return 3;
-    if (!strcmp(unit, "s") || !strcmp(unit, "rad"))
+    if (!strcmp(unit, "s"))
         return 2;
     return own && !has_plateaus(series) ? 1 : 0;
 }
 
 const ff_result *accuracy_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
-                               size_t count, const ff_result *self, const char *better)
+                               size_t count, const ff_result *self, const char *named)
 {
     const ff_loaded *loaded = stage->loaded;
-    size_t own = loaded->model->output_count;
+    size_t own = loaded->model->output_count, fed = pipeline ? loaded->model->input_count : 0;
     const ff_result *best = NULL;
     int best_merit = 0;
-    for (size_t i = 0; i < own + loaded->model->input_count; i++) {
+    for (size_t i = 0; i < own + fed; i++) {
         const ff_dims *dims = i < own ? &loaded->output_dims[i] : &loaded->input_dims[i - own];
         const ff_result *series =
             i < own ? &stage->results[i] : ff_feeding_result(pipeline, stage, i - own);
@@ -56,7 +58,7 @@ const ff_result *accuracy_axis(const ff_pipeline *pipeline, const ff_stage *stag
             series == self || series->rank != 1 || series->count != count ||
             strcmp(dims->name[dims->rank - 1], dim) != 0)
             continue;
-        int merit = fitness_of(series, i < own, dim, better);
+        int merit = fitness_of(series, i < own, dim, named);
         if (merit > best_merit) {
             best = series;
             best_merit = merit;
@@ -69,7 +71,7 @@ const ff_result *accuracy_axis_of(const ff_pipeline *pipeline, const ff_stage *s
                                   const ff_result *result)
 {
     return result->rank
-               ? accuracy_axis(pipeline, stage, result->dims[0], result->count, result, "rad")
+               ? accuracy_axis(pipeline, stage, result->dims[0], result->count, result, NULL)
                : NULL;
 }
 
@@ -101,12 +103,20 @@ const double *accuracy_numbers_like(const ff_pipeline *pipeline, const ff_stage 
     return numbers;
 }
 
-/* True if the output could be the axis of `of`: both have the same dimension. Works before the
-   run. */
-static bool may_be_axis(const ff_port *row, const ff_port *of)
+static bool suits(const ff_port *row, const char *dim)
+{
+    return !strcmp(row->unit, "s") || !strcmp(row->unit, "rad") || !strcmp(row->name, dim);
+}
+
+bool accuracy_is_axis(const ff_result *result)
+{
+    return result->rank == 1 && suits(result->row, result->dims[0]);
+}
+
+bool accuracy_may_be_axis(const ff_port *row, const ff_port *of)
 {
     return !row->service && row->dims && *row->dims && !strcmp(row->dims, of->dims) &&
-           (!strcmp(row->unit, "s") || !strcmp(row->unit, "rad") || !strcmp(row->name, of->dims));
+           suits(row, of->dims);
 }
 
 void accuracy_want_beside(const ff_pipeline *pipeline)
@@ -117,7 +127,7 @@ void accuracy_want_beside(const ff_pipeline *pipeline)
         for (size_t i = 0; i < count; i++)
             for (size_t k = 0; stage->results[i].requested && k < count; k++)
                 if (stage->results[i].row->dims &&
-                    (may_be_axis(stage->results[k].row, stage->results[i].row) ||
+                    (accuracy_may_be_axis(stage->results[k].row, stage->results[i].row) ||
                      accuracy_may_estimate(stage->results[k].row, stage->results[i].row)))
                     stage->results[k].wanted = true;
     }

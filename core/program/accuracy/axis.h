@@ -9,16 +9,23 @@
 
 /*
  * Finds the axis of dimension `dim` (length `count`) of a stage. Candidates are the stage's own
- * series, then its inputs: first the one named like the dimension, then the first rising one in the
- * unit `better`, in s or in rad, then the stage's first rising one. `self` is the series that asks,
- * or NULL. Returns NULL if there is none: the axis is the index.
+ * series, then with a pipeline its inputs: first the one named like the dimension, then the first
+ * rising one in rad, in s, then the stage's first rising one; with `named` that one alone. `self`
+ * is the series that asks, or NULL. Returns NULL if there is none: the axis is the index.
  */
 const ff_result *accuracy_axis(const ff_pipeline *pipeline, const ff_stage *stage, const char *dim,
-                               size_t count, const ff_result *self, const char *better);
+                               size_t count, const ff_result *self, const char *named);
 
 /* Returns the axis of a result; NULL if it is the index. */
 const ff_result *accuracy_axis_of(const ff_pipeline *pipeline, const ff_stage *stage,
                                   const ff_result *result);
+
+/* True for a time, an angle or a series with the name of its dimension: series are compared along
+   it. */
+bool accuracy_is_axis(const ff_result *result);
+/* True if the output could be the axis of `of`: both have the same dimension. Works before the
+   run. */
+bool accuracy_may_be_axis(const ff_port *row, const ff_port *of);
 
 /* Returns the same output of another pipeline with the same stages, interpolated to the points of
    this one. NULL if the two cannot be compared or a number is not finite. */

@@ -14,15 +14,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* True for a time, an angle or a series with the name of its dimension: series are compared along
-   it. */
-static bool is_axis(const ff_result *result)
-{
-    return result->rank == 1 &&
-           (!strcmp(result->row->unit, "s") || !strcmp(result->row->unit, "rad") ||
-            !strcmp(result->row->name, result->dims[0]));
-}
-
 /* Smallest error that is stated, as a share of the goal: twins may agree by chance. */
 static const double least_error = 0.1;
 
@@ -38,7 +29,7 @@ static bool is_headline(const ff_stage *stage, const ff_result *result)
                   !accuracy_is_estimate(stage, result);
     for (size_t i = 0; finite && i < result->count; i++)
         finite = isfinite(result->data[i]);
-    return finite && !is_axis(result);
+    return finite && !accuracy_is_axis(result);
 }
 
 /* Value from which shares of an output are counted: for a temperature the oil's, as its row

@@ -164,7 +164,9 @@ static bool is_known(const ff_report *report, const char *text)
     return false;
 }
 
-bool accuracy_is_about(const ff_message *m, ff_place place)
+/* True if the message is a warning about a setting at that place, which the file does not
+   contain. */
+static bool is_about(const ff_message *m, ff_place place)
 {
     return m->severity == FF_WARNING && m->place.source == place.source &&
            m->place.line == place.line && m->place.column == place.column;
@@ -176,7 +178,7 @@ bool accuracy_is_idle(const ff_report *report, ff_place place, const char *stage
     char *start = memory_print_text("%s.%s changes nothing", stage, setting);
     bool idle = false;
     for (size_t i = 0; i < ff_report_count(report) && !idle; i++)
-        idle = accuracy_is_about(ff_report_at(report, i), place) &&
+        idle = is_about(ff_report_at(report, i), place) &&
                !strncmp(ff_report_at(report, i)->text, start, strlen(start));
     free(start);
     return idle;
@@ -191,7 +193,7 @@ void accuracy_twin_hand_on(const accuracy_twin *run, ff_place chosen, const ff_o
         ff_place place = m->place;
         source.temporary = true; /* freed with the answer */
         place.source = place.source ? &source : NULL;
-        if (is_known(report, m->text) || accuracy_is_about(m, chosen))
+        if (is_known(report, m->text) || is_about(m, chosen))
             continue;
         if (m->severity == FF_ERROR)
             ff_error(report, m->fault, place, m->hint, "%s", m->text);

@@ -48,9 +48,6 @@ void accuracy_twin_run(accuracy_twin *twin, const accuracy_scene *scene, const c
 void accuracy_hand_states(const ff_pipeline *from, ff_pipeline *to);
 /* Why the twin is not good. */
 const char *accuracy_twin_reason(const accuracy_twin *twin);
-/* True if the message is a warning about a setting at that place, which the file does not
-   contain. */
-bool accuracy_is_about(const ff_message *message, ff_place place);
 /* True if a setting at that place changes nothing, such as a tolerance of steps that the file
    fixes. */
 bool accuracy_is_idle(const ff_report *report, ff_place place, const char *stage,

@@ -3,14 +3,10 @@
 #include "catalogue.h"
 
 #include "../results/json.h"
+#include "../study/store/journal.h"
 #include "../terminal/answer.h"
 
 #include <math.h>
-
-static json_t *json_number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
 
 /* A model that cannot be loaded is listed with the reason. */
 static json_t *list_entry(const catalogue_entry *entry)
@@ -28,7 +24,8 @@ static json_t *list_entry(const catalogue_entry *entry)
 
 static json_t *json_limits(double low, double high)
 {
-    return low < high ? json_pack("[o, o]", json_number(low), json_number(high)) : json_null();
+    return low < high ? json_pack("[o, o]", study_json_real(low), study_json_real(high))
+                      : json_null();
 }
 
 static json_t *json_param(const ff_param *row)

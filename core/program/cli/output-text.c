@@ -58,7 +58,7 @@ static void print_where(const ff_pipeline *pipeline, const ff_stage *stage, size
 {
     const ff_result *result = &stage->results[output];
     const char *dim = result->dims[0];
-    const ff_result *axis = accuracy_axis(pipeline, stage, dim, result->count, result, "rad");
+    const ff_result *axis = accuracy_axis(pipeline, stage, dim, result->count, result, NULL);
     if (!axis) {
         if (!briefly)
             snprintf(out, size, "min at %s %zu, max at %zu of %zu", dim, least + 1, greatest + 1,

@@ -3,6 +3,7 @@
 #include "search.h"
 
 #include "../results/json.h"
+#include "../study/store/journal.h"
 
 #include <math.h>
 #include <string.h>
@@ -43,21 +44,18 @@ bool fit_run(fit *f)
     return ff_report_errors(f->report) == 0 && report_unfitted(f);
 }
 
-static json_t *json_number(double value)
-{
-    return isfinite(value) ? json_real(value) : json_null();
-}
-
 static json_t *describe_param(const fit_param *param)
 {
     static const char *const names[] = {"preset", "held", "fitted", "at limit"};
     char text[64];
     ff_quantity_print(param->value, param->unit, param->row->unit, text, sizeof text);
-    json_t *entry = json_pack("{s:s, s:o, s:s, s:s}", "name", param->row->name, "value",
-                              json_number(param->value), "text", text, "how", names[param->found]);
+    json_t *entry =
+        json_pack("{s:s, s:o, s:s, s:s}", "name", param->row->name, "value",
+                  study_json_real(param->value), "text", text, "how", names[param->found]);
     if (param->found == FIT_FREE)
-        json_object_set_new(entry, "interval",
-                            json_pack("[o, o]", json_number(param->low), json_number(param->high)));
+        json_object_set_new(
+            entry, "interval",
+            json_pack("[o, o]", study_json_real(param->low), study_json_real(param->high)));
     return entry;
 }
 
@@ -70,7 +68,7 @@ static json_t *describe_correlation(const fit_law *law)
         for (size_t k = 0; k < count; k++)
             if (!isnan(law->correlation[i * count + k]))
                 json_object_set_new(row, law->params[k].row->name,
-                                    json_number(law->correlation[i * count + k]));
+                                    study_json_real(law->correlation[i * count + k]));
         if (json_object_size(row))
             json_object_set(all, law->params[i].row->name, row);
         json_decref(row);
@@ -88,12 +86,12 @@ static json_t *describe_law(const fit *f, const fit_law *law)
             json_array_append_new(params, describe_param(&law->params[i]));
     json_t *entry = json_pack("{s:s, s:o, s:I, s:o, s:o, s:I, s:o, s:o, s:o}", "law", law->id,
                               "parameters", params, "found", (json_int_t)law->free_count, "rms",
-                              json_number(law->rms), "largest", json_number(law->largest),
+                              study_json_real(law->rms), "largest", study_json_real(law->largest),
                               "largest_line", (json_int_t)f->table->lines[law->largest_row],
-                              "criterion", json_number(law->criterion), "correlation",
+                              "criterion", study_json_real(law->criterion), "correlation",
                               describe_correlation(law), "note", results_json_text(law->note));
     if (!isnan(law->asked))
-        json_object_set_new(entry, "asked", json_number(law->asked));
+        json_object_set_new(entry, "asked", study_json_real(law->asked));
     return entry;
 }
 
@@ -106,7 +104,7 @@ json_t *fit_facts(const fit *f)
             continue;
         fit_range(f, k, &low, &high);
         json_object_set_new(range, f->rows[k].name,
-                            json_pack("[o, o]", json_number(low), json_number(high)));
+                            json_pack("[o, o]", study_json_real(low), study_json_real(high)));
     }
     for (size_t i = 0; i < f->law_count; i++)
         json_array_append_new(laws, describe_law(f, &f->laws[i]));

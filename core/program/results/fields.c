@@ -50,7 +50,7 @@ const ff_result **results_axes(const ff_pipeline *pipeline)
             const ff_result *asked = &stage->results[i];
             for (uint32_t k = 0; asked->requested && asked->data && k < asked->rank; k++) {
                 const ff_result *axis =
-                    accuracy_axis(pipeline, stage, asked->dims[k], asked->shape[k], asked, "rad");
+                    accuracy_axis(pipeline, stage, asked->dims[k], asked->shape[k], asked, NULL);
                 axes = memory_resize(axes, (count + 2) * sizeof *axes);
                 axes[count] = axis;
                 count += axis != NULL;

@@ -21,7 +21,6 @@ static const char head[] = ".flankfilm.", part[] = ".part"; /* around a temporar
 
 typedef struct entry {
     char *name;
-    char *path; /* that results_folder_path gave to a writer, or NULL */
     bool fresh; /* written by this run */
 } entry;
 
@@ -38,15 +37,6 @@ struct results_folder {
     bool failed; /* the report says why */
     bool sync;
 };
-
-bool results_file_sync(const char *path)
-{
-    int fd = open(path, O_RDONLY | O_CLOEXEC);
-    bool good = fd >= 0 && fsync(fd) == 0;
-    if (fd >= 0)
-        close(fd);
-    return good;
-}
 
 static entry *find_entry(const results_folder *folder, const char *name)
 {
@@ -108,9 +98,6 @@ static void rename_part(results_folder *folder, const char *name)
 {
     char temporary[LONGEST_PART];
     snprintf(temporary, sizeof temporary, "%s%s%s", head, name, part);
-    const entry *at = find_entry(folder, name);
-    if (!folder->failed && at && at->path && !results_file_sync(at->path))
-        note_failure(folder, name);
     if (!folder->failed && renameat(folder->fd, temporary, folder->fd, name) != 0)
         note_failure(folder, name);
 }
@@ -230,7 +217,6 @@ void results_folder_free(results_folder *folder)
         close(folder->fd);
     for (size_t i = 0; i < folder->count; i++) {
         free(folder->entries[i].name);
-        free(folder->entries[i].path);
     }
     free(folder->entries);
     free(folder->path);
@@ -264,19 +250,6 @@ FILE *results_folder_begin(results_folder *folder, const char *stem, const char 
     return open_part(folder, made->name);
 }
 
-const char *results_folder_path(results_folder *folder, const char *name)
-{
-    size_t length = strlen(name);
-    if (length == 0 || length >= LONGEST_NAME - sizeof head - sizeof part || name[0] == '.' ||
-        strchr(name, '/'))
-        return NULL;
-    entry *made = add_entry(folder, name);
-    made->fresh = true;
-    if (!made->path)
-        made->path = memory_print_text("%s/%s%s%s", folder->path, head, name, part);
-    return made->path;
-}
-
 /* Removes the earlier files that this run has not written; false when there are none. */
 static bool remove_stale(results_folder *folder)
 {
@@ -288,7 +261,6 @@ static bool remove_stale(results_folder *folder)
         } else {
             unlinkat(folder->fd, at->name, 0);
             free(at->name);
-            free(at->path);
         }
     }
     folder->count = kept;

@@ -28,13 +28,6 @@ void results_folder_sync(results_folder *folder);
    ends the one before. NULL, with an error in the report, when that fails. */
 FILE *results_folder_begin(results_folder *folder, const char *stem, const char *suffix);
 
-/* Returns the path to which a writer is to write the file before the commit; NULL for a bad name.
- */
-const char *results_folder_path(results_folder *folder, const char *name);
-
-/* Forces a file to the disk. */
-bool results_file_sync(const char *path);
-
 /* Ends the last file. False, with an error in the report, when one could not be written. */
 bool results_folder_end(results_folder *folder);
 /* Removes the result files in a directory of ours, and the directory when nothing else is in it.

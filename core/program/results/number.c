@@ -93,7 +93,8 @@ results_readable results_readable_unit(const char *si_unit, double magnitude)
     return readable;
 }
 
-bool results_is_temperature(const char *name, const char *si_unit)
+/* Whether an output is a temperature, and no difference of two: an error, a rise, a spread. */
+static bool is_temperature(const char *name, const char *si_unit)
 {
     static const char *const differences[] = {"flash", "error", "spread", "margin", "deviation"};
     bool difference = false;
@@ -104,6 +105,6 @@ bool results_is_temperature(const char *name, const char *si_unit)
 
 results_readable results_readable_output(const char *name, const char *si_unit, double magnitude)
 {
-    return results_is_temperature(name, si_unit) ? (results_readable){1, -273.15, "degC"}
-                                                 : results_readable_unit(si_unit, magnitude);
+    return is_temperature(name, si_unit) ? (results_readable){1, -273.15, "degC"}
+                                         : results_readable_unit(si_unit, magnitude);
 }

@@ -25,8 +25,6 @@ typedef struct results_readable {
 } results_readable;
 
 results_readable results_readable_unit(const char *si_unit, double magnitude);
-/* Whether an output is a temperature, and no difference of two: an error, a rise, a spread. */
-bool results_is_temperature(const char *name, const char *si_unit);
 /* The unit of an output of that name: temperatures are in degC. */
 results_readable results_readable_output(const char *name, const char *si_unit, double magnitude);
 

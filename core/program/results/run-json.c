@@ -37,15 +37,6 @@ static json_t *describe_array(const ff_stage *stage, size_t output)
     return json_pack("{s:s, s:o, s:o}", "unit", result->row->unit, "dims", dims, "shape", shape);
 }
 
-/* A time, an angle, or what its dimension is named after: other series are plotted against it. */
-static bool is_axis(const ff_stage *stage, size_t output)
-{
-    const ff_port *row = stage->results[output].row;
-    return stage->results[output].rank == 1 &&
-           (!strcmp(row->unit, "s") || !strcmp(row->unit, "rad") ||
-            !strcmp(row->name, stage->results[output].dims[0]));
-}
-
 static const ff_stage *stage_of(const ff_pipeline *pipeline, const ff_result *result)
 {
     for (size_t i = 0; i < pipeline->count; i++) {
@@ -64,8 +55,8 @@ json_t *results_against(const ff_pipeline *pipeline, const ff_stage *stage, size
     json_t *list = json_array();
     for (uint32_t i = 0; i < result->rank; i++) {
         const ff_result *axis =
-            accuracy_axis(pipeline, stage, result->dims[i], result->shape[i], result, "rad");
-        const ff_stage *of = axis && !is_axis(stage, output) ? stage_of(pipeline, axis) : NULL;
+            accuracy_axis(pipeline, stage, result->dims[i], result->shape[i], result, NULL);
+        const ff_stage *of = axis && !accuracy_is_axis(result) ? stage_of(pipeline, axis) : NULL;
         char *name = memory_print_text("%s%s%s", of ? of->name : "", of ? "." : "",
                                        of ? axis->row->name : "");
         json_array_append_new(list, json_string(name));

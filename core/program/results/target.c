@@ -76,11 +76,21 @@ bool results_target_open(results_target *target, bool directory)
     return target->folder != NULL;
 }
 
+/* Forces a file to the disk. */
+static bool sync_file(const char *path)
+{
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    bool good = fd >= 0 && fsync(fd) == 0;
+    if (fd >= 0)
+        close(fd);
+    return good;
+}
+
 bool results_target_commit(results_target *target)
 {
     if (target->folder)
         return results_folder_commit(target->folder);
-    return (results_file_sync(target->part) && rename(target->part, target->path) == 0) ||
+    return (sync_file(target->part) && rename(target->part, target->path) == 0) ||
            ff_error(target->report, FF_FAULT_RUN, FF_NOWHERE, NULL, "\"%s\" cannot be written: %s",
                     target->path, strerror(errno));
 }

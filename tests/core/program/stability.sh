@@ -177,7 +177,7 @@ expect 2 '"bisect" names an axis that has' "$flankfilm" check verges.yaml \
 expect 2 'whole numbers from 0 to 40' "$flankfilm" check verges.yaml --set study.stability.bisect=-1
 expect 2 'conditions in SI' "$flankfilm" check verges.yaml \
     --set 'study.stability.physical=["verge.swing > much"]'
-expect 2 '"tolerance" is a share' "$flankfilm" check verges.yaml --set study.stability.tolerance=x
+expect 2 'stability.tolerance: "x" does not begin with a decimal number' "$flankfilm" check verges.yaml --set study.stability.tolerance=x
 expect 2 'is a map from outputs of this study' "$flankfilm" check verges.yaml \
     --set 'study.stability.estimates={verge.swing: [verge.law]}'
 expect 2 'doubl' "$flankfilm" check verges.yaml --set 'study.stability.refine={verge.cells: 0}'

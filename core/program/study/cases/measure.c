@@ -5,6 +5,7 @@
  */
 #include "case.h"
 
+#include "../../accuracy/axis.h"
 #include "../store/hash.h"
 #include "../store/journal.h"
 
@@ -42,16 +43,14 @@ static ff_result *find_result(const ff_pipeline *pipeline, const char *path, con
     return result && !result->row->service ? result : NULL;
 }
 
-/* Ranks how well a result serves as what `self` is plotted against; 0 means not at all. */
-static int rank_as_axis(const study_measure *m, const ff_result *result, const ff_result *self)
+/* Whether a row may be what `of` is plotted against: the one that the file names, if it names one.
+ */
+static bool may_be_axis(const study_measure *m, const ff_port *row, const ff_port *of)
 {
-    const char *dims = self->row->dims, *unit = result->row->unit, *name = result->row->name;
-    if (result == self || result->row->service || !result->row->dims || !dims ||
-        strcmp(result->row->dims, dims) != 0 || !*dims || strpbrk(dims, " "))
-        return 0;
-    if (m->along)
-        return !strcmp(name, m->along) ? 4 : 0;
-    return !strcmp(name, dims) ? 3 : !strcmp(unit, "rad") ? 2 : !strcmp(unit, "s") ? 1 : 0;
+    bool along = row != of && of->dims && !strpbrk(of->dims, " ");
+    return along &&
+           (m->along ? row->dims && !strcmp(row->dims, of->dims) && !strcmp(row->name, m->along)
+                     : accuracy_may_be_axis(row, of));
 }
 
 void study_measure_want(const study_definition *study, const ff_pipeline *pipeline)
@@ -61,7 +60,7 @@ void study_measure_want(const study_definition *study, const ff_pipeline *pipeli
     for (size_t i = 0; m && i < m->request->count; i++) {
         const ff_result *self = find_result(pipeline, m->request->items[i]->text, &stage);
         for (size_t k = 0; self && k < stage->loaded->model->output_count; k++)
-            if (rank_as_axis(m, &stage->results[k], self))
+            if (may_be_axis(m, stage->results[k].row, self->row))
                 stage->results[k].wanted = true;
     }
     for (size_t i = 0; i < study->extra_count; i++) {
@@ -88,29 +87,10 @@ bool *study_measure_fresh(const study_measure *m, const ff_pipeline *pipeline)
     return fresh;
 }
 
-static bool is_rising(const ff_result *result)
-{
-    for (size_t i = 1; i < result->count; i++)
-        if (!(result->data[i] >= result->data[i - 1]))
-            return false;
-    return result->count > 1 && result->data[result->count - 1] > result->data[0];
-}
-
 static ff_result *find_axis(const study_measure *m, const ff_stage *stage, const ff_result *self)
 {
-    ff_result *best = NULL;
-    int rank = 0;
-    for (size_t k = 0; k < stage->loaded->model->output_count; k++) {
-        ff_result *result = &stage->results[k];
-        int here = result->data && result->rank == 1 && result->count == self->count
-                       ? rank_as_axis(m, result, self)
-                       : 0;
-        if (here > rank && is_rising(result)) {
-            rank = here;
-            best = result;
-        }
-    }
-    return best;
+    const ff_result *axis = accuracy_axis(NULL, stage, self->dims[0], self->count, self, m->along);
+    return axis && may_be_axis(m, axis->row, self->row) ? (ff_result *)(size_t)axis : NULL;
 }
 
 /* Adds {output: name of the series of its stage that it is plotted against}, and has that series

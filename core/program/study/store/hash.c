@@ -54,7 +54,8 @@ static uint64_t hash_param(uint64_t hash, const ff_bound *bound)
     return study_hash_text(hash, value->text);
 }
 
-uint64_t study_hash_setup(const ff_stage *stage)
+/* Hashes the model and parameters of a stage, and which outputs it computes. */
+static uint64_t hash_setup(const ff_stage *stage)
 {
     const ff_model *model = stage->loaded->model;
     uint64_t hash = study_hash_text(STUDY_HASH_START, model->id);
@@ -104,7 +105,7 @@ static void mark_loop(const ff_pipeline *pipeline, const ff_loop *loop, uint64_t
     uint64_t node = hash_feedback(STUDY_HASH_START, &pipeline->feedback);
     for (size_t i = 0; i < loop->count; i++) {
         const ff_stage *stage = &pipeline->stages[members[i]];
-        node = hash_number(node, study_hash_setup(stage));
+        node = hash_number(node, hash_setup(stage));
         node = hash_wires(node, pipeline, stage, fingerprints);
     }
     for (size_t i = 0; i < loop->count; i++)
@@ -120,7 +121,7 @@ uint64_t study_fingerprint(const ff_pipeline *pipeline, uint64_t *fingerprints)
         if (!stage->needed)
             continue;
         if (!stage->loop)
-            fingerprints[at] = hash_wires(study_hash_setup(stage), pipeline, stage, fingerprints);
+            fingerprints[at] = hash_wires(hash_setup(stage), pipeline, stage, fingerprints);
         else if (i == stage->loop->first)
             mark_loop(pipeline, stage->loop, fingerprints);
     }
@@ -173,13 +174,13 @@ static uint64_t hash_inputs(uint64_t hash, const ff_pipeline *pipeline, const ff
 uint64_t study_hash_evaluation(const ff_pipeline *pipeline, const ff_stage *stage,
                                const uint64_t *fingerprints)
 {
-    uint64_t hash = study_hash_text(study_hash_setup(stage), "file format 2");
+    uint64_t hash = study_hash_text(hash_setup(stage), "file format 2");
     if (!stage->loop)
         return hash_inputs(hash, pipeline, stage, fingerprints);
     hash = hash_feedback(hash, &pipeline->feedback);
     for (size_t i = 0; i < stage->loop->count; i++) {
         const ff_stage *member = &pipeline->stages[pipeline->order[stage->loop->first + i]];
-        hash = hash_number(hash, study_hash_setup(member));
+        hash = hash_number(hash, hash_setup(member));
         hash = hash_inputs(hash, pipeline, member, fingerprints);
     }
     return hash;

@@ -10,8 +10,6 @@
 
 uint64_t study_hash(uint64_t hash, const void *data, size_t length);
 uint64_t study_hash_text(uint64_t hash, const char *text); /* NULL differs from "" */
-/* Hashes the model and parameters of a stage, and which outputs it computes. */
-uint64_t study_hash_setup(const ff_stage *stage);
 /* Hashes what the case depends on: models, parameters in SI, contents of files, what feeds what,
    and which outputs are requested. Sets in fingerprints the same for each needed stage. */
 uint64_t study_fingerprint(const ff_pipeline *pipeline, uint64_t *fingerprints);

@@ -24,19 +24,83 @@ void study_line_print(const study_context *context, study_line *line, int indent
     line->text[0] = '\0';
 }
 
-bool study_read_number(const char *text, double *number, const char **end)
+const ff_node *const *study_items(const ff_node *const *list, size_t *count)
 {
-    char *stop;
-    size_t sign = strspn(text, "+-");
-    *number = strtod(text, &stop);
-    *end = stop;
-    return stop != text && strspn(text + sign, "0123456789.") > 0;
+    bool word = (*list)->kind == FF_SCALAR;
+    *count = word ? 1 : (*list)->count;
+    return word ? list : (const ff_node *const *)(*list)->items;
+}
+
+const char **study_read_names(study_context *context, const ff_node *list, const char *key,
+                              size_t *count)
+{
+    const ff_node *const *items = study_items(&list, count);
+    const char **names = memory_arena_alloc(&context->arena, (*count + 1) * sizeof *names);
+    for (size_t i = 0; i < *count; i++) {
+        const char *word = study_word(items[i]), *dot = word ? strchr(word, '.') : NULL;
+        if (study_is_map(list) || !dot || dot == word || !dot[1] || strchr(word, '*')) {
+            study_context_refuse(
+                context, items[i], NULL,
+                study_context_format(context, "\"%s\" is a list of names such as film.h_min_lowest",
+                                     key));
+            return NULL;
+        }
+        names[i] = word;
+    }
+    return names;
+}
+
+bool study_read_outputs(study_context *context, const ff_node *list)
+{
+    if (!list || !study_read_names(context, list, "outputs", &context->output_count))
+        return false; /* a kind lets "outputs" be missing only by mistake */
+    if (context->output_count == 0)
+        return study_context_refuse(context, list, "write outputs: [film.h_min_lowest]",
+                                    "\"outputs\" names at least one");
+    const ff_node *const *items = study_items(&list, &context->output_count);
+    const ff_node **kept =
+        memory_arena_alloc(&context->arena, context->output_count * sizeof *kept);
+    memcpy(kept, items, context->output_count * sizeof *kept);
+    context->outputs = kept;
+    return true;
+}
+
+bool study_read_factors(study_context *context, const ff_node *node, const char ***names,
+                        double **factors, size_t *count)
+{
+    *count = node ? node->count : 0;
+    *names = memory_arena_alloc(&context->arena, (*count + 1) * sizeof **names);
+    *factors = memory_arena_alloc(&context->arena, (*count + 1) * sizeof **factors);
+    for (size_t i = 0; i < *count; i++) {
+        const char *text = study_word(node->items[i]), *end = "";
+        (*names)[i] = study_is_map(node) ? node->keys[i] : text;
+        (*factors)[i] = 2;
+        if (!text || !strchr((*names)[i], '.') ||
+            (study_is_map(node) &&
+             (!ff_number_parse(text, &(*factors)[i], &end) || *end || !((*factors)[i] > 0))))
+            return study_context_refuse(context, node->items[i],
+                                        "write refine: [film.cells] or {motion.tolerance: 0.01}",
+                                        "\"refine\" is a list of parameters to double, or a map "
+                                        "from parameters to factors");
+    }
+    return !node || *count > 0 ||
+           study_context_refuse(context, node, NULL, "\"refine\" names at least one parameter");
+}
+
+study_comparison study_read_comparison(study_context *context, const char *text)
+{
+    const char *sign = strpbrk(text, "<>"), *limit = sign ? sign + 1 : "";
+    size_t length = sign ? (size_t)(sign - text) : strlen(text);
+    while (length > 0 && text[length - 1] == ' ')
+        length--;
+    return (study_comparison){study_context_format(context, "%.*s", (int)length, text),
+                              sign ? *sign : 0, limit + strspn(limit, " ")};
 }
 
 bool study_read_share(const char *text, double *share)
 {
     const char *end = text;
-    bool good = text && study_read_number(text, share, &end);
+    bool good = text && ff_number_parse(text, share, &end);
     end += good ? strspn(end, " ") : 0;
     if (good && *end == '%')
         *share /= 100, end++;

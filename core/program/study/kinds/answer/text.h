@@ -16,9 +16,24 @@ void study_line_add(study_line *line, const char *format, ...)
 /* Prints the line as study_context_print_line does, and empties it. */
 void study_line_print(const study_context *context, study_line *line, int indent);
 
-/* Reads a plain number at the start of the text, and sets *end to what follows it. False when there
-   is none. */
-bool study_read_number(const char *text, double *number, const char **end);
+/* Returns the items of a list; a word counts as a list of one. */
+const ff_node *const *study_items(const ff_node *const *list, size_t *count);
+/* Reads such a list of "stage.name"; NULL after an error, which names the key. */
+const char **study_read_names(study_context *context, const ff_node *list, const char *key,
+                              size_t *count);
+/* Reads the outputs that cases are asked for, at least one. */
+bool study_read_outputs(study_context *context, const ff_node *list);
+/* Reads a list of parameters to double, or a map from parameters to factors. */
+bool study_read_factors(study_context *context, const ff_node *node, const char ***names,
+                        double **factors, size_t *count);
+
+/* "film.h_min < 0.1 um" */
+typedef struct study_comparison {
+    const char *name;  /* of what stands before the sign */
+    char sign;         /* '<' or '>'; 0 without one */
+    const char *limit; /* what follows; "" without a sign */
+} study_comparison;
+study_comparison study_read_comparison(study_context *context, const char *text);
 
 /* Reads a share such as "0.01" or "1 %"; false where the text, which may be NULL, is none. */
 bool study_read_share(const char *text, double *share);

@@ -29,7 +29,7 @@ static json_t *number_of(const char *text)
     double number;
     char rounded[32];
     const char *end;
-    if (!study_read_number(text, &number, &end))
+    if (!ff_number_parse(text, &number, &end))
         return json_string(text);
     snprintf(rounded, sizeof rounded, "%.4g", number);
     return json_real(strtod(rounded, NULL));
@@ -42,7 +42,7 @@ static json_t *side(const study_map *map, size_t axis, size_t points)
     json_t *at = json_array();
     char label[200] = "";
     if (axis < map->axis_count) {
-        bool known = study_read_number(study_map_value(map, axis, 0), &number, &end);
+        bool known = ff_number_parse(study_map_value(map, axis, 0), &number, &end);
         const char *unit = known ? end + strspn(end, " ") : "";
         const char *path = map->grid->varied[axis].path, *dot = strrchr(path, '.');
         snprintf(label, sizeof label, *unit ? "%.150s (%.40s)" : "%.150s", dot ? dot + 1 : path,
@@ -78,8 +78,8 @@ static double position(const study_map *map, size_t axis, const study_cell *cell
     size_t points = map->grid->points[axis];
     double first, last, at = cell->at[axis];
     const char *end;
-    study_read_number(study_map_value(map, axis, 0), &first, &end);
-    study_read_number(study_map_value(map, axis, points - 1), &last, &end);
+    ff_number_parse(study_map_value(map, axis, 0), &first, &end);
+    ff_number_parse(study_map_value(map, axis, points - 1), &last, &end);
     double share =
         map->log[axis] ? log10(at / first) / log10(last / first) : (at - first) / (last - first);
     return share * (double)(points - 1) + 0.5;

@@ -11,7 +11,7 @@ const char *study_map_short(const study_map *map, const char *text)
 {
     double number;
     const char *end;
-    return study_read_number(text, &number, &end)
+    return ff_number_parse(text, &number, &end)
                ? study_context_format(map->context, "%.4g%s", number, end)
                : text;
 }

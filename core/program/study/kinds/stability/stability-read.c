@@ -47,7 +47,7 @@ static bool read_halvings(study_map *map)
         const char *text = study_word(own), *end = "";
         double value = 0;
         map->log[a] = is_range(axes->items[a]) && spacing && !strcmp(spacing, "log");
-        if (own && (!text || !study_read_number(text, &value, &end) || *end || value < 0 ||
+        if (own && (!text || !ff_number_parse(text, &value, &end) || *end || value < 0 ||
                     value != floor(value) || value > MOST_HALVINGS))
             return refuse(map, own, "write bisect: 4, or bisect: {duty.torque: 4}",
                           "\"bisect\" wants whole numbers from 0 to 40");
@@ -62,47 +62,16 @@ static bool read_halvings(study_map *map)
     return true;
 }
 
-/* Returns the items of a list; a word counts as a list of one. */
-static const ff_node *const *items_of(const ff_node *const *list, size_t *count)
-{
-    bool word = (*list)->kind == FF_SCALAR;
-    *count = word ? 1 : (*list)->count;
-    return word ? list : (const ff_node *const *)(*list)->items;
-}
-
-/* Reads a list of "stage.name"; NULL after an error. */
-static const char **read_names(const study_map *map, const ff_node *list, const char *what,
-                               size_t *count)
-{
-    const ff_node *const *items = items_of(&list, count);
-    const char **names = allocate(map, *count, sizeof *names);
-    for (size_t i = 0; i < *count; i++) {
-        const char *word = study_word(items[i]), *text = word ? word : "";
-        const char *dot = strchr(text, '.');
-        if (study_is_map(list) || !dot || dot == text || !dot[1]) {
-            refuse(map, list, NULL,
-                   study_context_format(
-                       map->context, "\"%s\" is a list of names such as film.h_min_lowest", what));
-            return NULL;
-        }
-        names[i] = text;
-    }
-    return names;
-}
-
 static bool read_claims(study_map *map)
 {
-    const ff_node *outputs = map->values[MAP_OUTPUTS].node,
-                  *estimates = map->values[MAP_ESTIMATES].node;
-    if (!outputs || (!study_word(outputs) && outputs->count == 0))
-        return refuse(map, outputs, "write outputs: [film.h_min_lowest]",
-                      "\"outputs\" names the scalars that must be right");
-    const char **names = read_names(map, outputs, "outputs", &map->claim_count);
-    if (!names)
+    study_context *context = map->context;
+    const ff_node *estimates = map->values[MAP_ESTIMATES].node;
+    if (!study_read_outputs(context, map->values[MAP_OUTPUTS].node))
         return false;
+    map->claim_count = context->output_count;
     map->claims = allocate(map, map->claim_count, sizeof *map->claims);
     for (size_t i = 0; i < map->claim_count; i++)
-        map->claims[i].output = names[i];
+        map->claims[i].output = context->outputs[i]->text;
     for (size_t i = 0; estimates && i < estimates->count; i++) {
         size_t k = 0;
         while (study_is_map(estimates) && k < map->claim_count &&
@@ -112,52 +81,34 @@ static bool read_claims(study_map *map)
             return refuse(map, estimates,
                           "write estimates: {film.h_min_lowest: [film.h_min_space_error]}",
                           "\"estimates\" is a map from outputs of this study to names");
-        map->claims[k].estimates =
-            read_names(map, estimates->items[i], "estimates", &map->claims[k].estimate_count);
+        map->claims[k].estimates = study_read_names(map->context, estimates->items[i], "estimates",
+                                                    &map->claims[k].estimate_count);
         if (!map->claims[k].estimates)
             return false;
     }
     return true;
 }
 
-/* Reads a list of knobs to double, or a map from knobs to factors. */
 static bool read_knobs(study_map *map)
 {
-    const ff_node *refine = map->values[MAP_REFINE].node;
-    size_t count = refine ? refine->count : 0;
-    map->knobs = allocate(map, count, sizeof *map->knobs);
-    map->factors = allocate(map, count, sizeof *map->factors);
-    for (size_t i = 0; i < count; i++) {
-        const ff_node *item = refine->items[i];
-        const char *text = study_word(item), *end;
-        const char *path = study_is_map(refine) ? refine->keys[i] : text;
-        double factor = 2;
-        if (!text || !strchr(path, '.') ||
-            (path != text && (!study_read_number(text, &factor, &end) || *end || !(factor > 0))))
-            return refuse(map, item, "write refine: [film.cells] or {motion.tolerance: 0.01}",
-                          "\"refine\" is a list of parameters to double, or a map from parameters "
-                          "to factors");
-        map->factors[map->knob_count] = factor;
-        map->knobs[map->knob_count++] = !strncmp(path, "pipeline.", 9) ? path + 9 : path;
-    }
-    return !refine || count > 0 ||
-           refuse(map, refine, NULL, "\"refine\" names at least one parameter");
+    static const char top[] = "pipeline.";
+    if (!study_read_factors(map->context, map->values[MAP_REFINE].node, &map->knobs, &map->factors,
+                            &map->knob_count))
+        return false;
+    for (size_t k = 0; k < map->knob_count; k++)
+        if (!strncmp(map->knobs[k], top, sizeof top - 1))
+            map->knobs[k] += sizeof top - 1;
+    return true;
 }
 
 static bool read_condition(const study_map *map, const char *text, study_condition *c)
 {
+    const study_comparison read = study_read_comparison(map->context, text);
     const char *end = "";
-    size_t length = strcspn(text, " <>");
-    const char *at = text + length + strspn(text + length, " ");
-    c->name = study_context_format(map->context, "%.*s", (int)length, text);
-    c->than = *at;
-    bool good = strchr(c->name, '.') != NULL;
-    if (good && *at) {
-        at += 1 + strspn(at + 1, " ");
-        good =
-            (c->than == '<' || c->than == '>') && study_read_number(at, &c->value, &end) && !*end;
-    }
-    return good;
+    c->name = read.name;
+    c->than = read.sign;
+    return strchr(c->name, '.') && !strchr(c->name, ' ') &&
+           (!read.sign || (ff_number_parse(read.limit, &c->value, &end) && !*end));
 }
 
 /* Reads a list of conditions, or a map from conditions to the lines that warn because of them. */
@@ -165,7 +116,7 @@ static bool read_physical(study_map *map)
 {
     const ff_node *physical = map->values[MAP_PHYSICAL].node;
     size_t count = 0;
-    const ff_node *const *items = physical ? items_of(&physical, &count) : NULL;
+    const ff_node *const *items = physical ? study_items(&physical, &count) : NULL;
     map->physical = allocate(map, count, sizeof *map->physical);
     for (size_t i = 0; i < count; i++) {
         bool by_name = study_is_map(physical);
@@ -177,7 +128,8 @@ static bool read_physical(study_map *map)
                 "\"physical\" is a list of lines of quality, such as motion.stability, "
                 "and of conditions in SI, such as \"motion.stable_motions < 1\", or a map "
                 "from them to lists of lines");
-        if (by_name && !(c->lines = read_names(map, items[i], "physical", &c->line_count)))
+        if (by_name &&
+            !(c->lines = study_read_names(map->context, items[i], "physical", &c->line_count)))
             return false;
     }
     return true;
@@ -204,17 +156,9 @@ static bool read_notes(study_map *map)
 static bool read_kinds(study_map *map)
 {
     const ff_node *range = map->values[MAP_RANGE].node;
-    return (!range || (map->range = read_names(map, range, "range", &map->range_count))) &&
+    return (!range ||
+            (map->range = study_read_names(map->context, range, "range", &map->range_count))) &&
            read_physical(map) && read_notes(map);
-}
-
-static bool read_tolerance(study_map *map)
-{
-    const ff_node *tolerance = map->values[MAP_TOLERANCE].node;
-    map->tolerance = 0.01;
-    return !tolerance ||
-           (study_read_share(study_word(tolerance), &map->tolerance) && map->tolerance > 0) ||
-           refuse(map, tolerance, NULL, "\"tolerance\" is a share such as 1 %");
 }
 
 /* Results that judge beside the outputs, where a model has them, and names whose stages must exist.
@@ -252,7 +196,6 @@ static void request_outputs(const study_map *map)
     add_conditions(map->notes, map->note_count, &w);
     for (size_t i = 0; i < map->range_count; i++)
         w.names[w.name_count++] = map->range[i];
-    context->outputs = items_of(&map->outputs, &context->output_count);
     context->extras = w.extras;
     context->extra_count = w.extra_count;
     context->names = w.names;
@@ -283,9 +226,9 @@ void *study_map_read(study_context *context, const study_key_value *values)
     study_map *map = memory_arena_alloc(&context->arena, sizeof *map);
     map->context = context;
     map->values = values;
-    map->outputs = values[MAP_OUTPUTS].node;
+    map->tolerance = values[MAP_TOLERANCE].value.real;
     if (!read_axes(map) || !read_halvings(map) || !read_claims(map) || !read_knobs(map) ||
-        !read_kinds(map) || !read_tolerance(map))
+        !read_kinds(map))
         return NULL;
     map->values = NULL;
     context->grid = map->grid;

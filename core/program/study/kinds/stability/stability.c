@@ -33,8 +33,12 @@ static const ff_param keys[STUDY_MAP_KEYS] = {
     [MAP_RANGE] = {.name = "range",
                    .doc = "list of lines of quality that say where a model applies"},
     [MAP_TOLERANCE] = {.name = "tolerance",
+                       .type = FF_REAL,
+                       .unit = "1",
+                       .flags = FF_MIN_OPEN,
+                       .max = HUGE_VAL,
                        .preset = "1 %",
-                       .doc = "for an output without an estimate"},
+                       .doc = "share of an output without an estimate"},
 };
 
 static size_t point_of(const study_map *map, size_t axis, size_t cell)
@@ -68,7 +72,7 @@ static void add_grid(study_map *map)
         const char *end;
         cell->number = (int64_t)i;
         for (size_t a = 0; a < map->axis_count; a++)
-            if (!study_read_number(settings[a].name, &cell->at[a], &end))
+            if (!ff_number_parse(settings[a].name, &cell->at[a], &end))
                 cell->at[a] = (double)point_of(map, a, i);
     }
 }
@@ -88,11 +92,11 @@ static void add_between(study_map *map, size_t axis, size_t low, size_t high)
     cell->halved = axis;
     double middle =
         map->log[axis] ? sqrt(a->at[axis] * b->at[axis]) : (a->at[axis] + b->at[axis]) / 2;
-    study_read_number(a->settings[axis].name, &number, &unit);
+    ff_number_parse(a->settings[axis].name, &number, &unit);
     settings[axis].assignment = study_context_format(context, "%s=%.12g%s", path, middle, unit);
     settings[axis].name = settings[axis].assignment + strlen(path) + 1;
-    study_read_number(settings[axis].name, &cell->at[axis],
-                      &unit); /* the number as rounded by printing */
+    ff_number_parse(settings[axis].name, &cell->at[axis],
+                    &unit); /* the number as rounded by printing */
 }
 
 /* Submits the case of a cell. `finer` has values of the knobs, with NULL for one that stays; a knob

@@ -86,7 +86,6 @@ enum {
 typedef struct study_map {
     study_context *context;
     const study_key_value *values; /* only while they are read */
-    const ff_node *outputs;
     const study_definition *grid;
     size_t axis_count;
     size_t *halvings; /* along each axis */

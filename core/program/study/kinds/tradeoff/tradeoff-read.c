@@ -92,84 +92,66 @@ static bool add_block(study_tradeoff *t, const ff_node *map)
     return good;
 }
 
-/* Finds by which factor a knob grows from level to level: 2, or what a map says; 1 without
-   refinement. */
-static bool find_factor(const study_tradeoff *t, const ff_node *refine, const char *path,
-                        double *factor)
-{
-    const char *end;
-    *factor = 1;
-    for (size_t i = 0; refine && i < refine->count; i++) {
-        const ff_node *item = refine->items[i];
-        bool map = refine->kind == FF_MAP;
-        const char *text = study_word(item), *name = map ? refine->keys[i] : text;
-        if (!text)
-            return refuse(
-                t, item, NULL,
-                "\"refine\" is a list of knobs to double, or a map from knobs to factors");
-        if (strcmp(name, path) != 0)
-            continue;
-        *factor = 2;
-        if (map && (!study_read_number(text, factor, &end) || *end || !(*factor > 0)))
-            return refuse(t, item, NULL, "a factor of \"refine\" is a positive number");
-    }
-    return true;
-}
+/* Parameters that grow from level to level, and by which factor. */
+typedef struct growth {
+    const char **names;
+    double *factors;
+    size_t count;
+} growth;
 
 /* Makes a level finer than what the file says; level 0 stays. */
-static bool refine_level(study_tradeoff *t, const ff_node *map, const ff_node *refine, size_t level)
+static bool refine_level(study_tradeoff *t, const ff_node *map, const growth *g, size_t level)
 {
-    for (size_t i = 0; i < map->count; i++) {
-        const char *path = map->keys[i], *end;
-        double factor, number;
-        if (!is_knob(path))
-            continue;
-        if (!find_factor(t, refine, path, &factor))
-            return false;
-        if (factor == 1 || level == 0)
-            continue;
-        const char *text = study_word(map->items[i]);
-        if (!text || !study_read_number(text, &number, &end))
-            return refuse(t, map->items[i], NULL, "what is refined must be a number");
-        const char *value =
-            study_context_format(t->context, "%.12g%s", number * pow(factor, (double)level), end);
-        if (!assign_knob(t, &t->points[t->count - 1], path,
-                         study_context_format(t->context, "%s=%s", path, value), value))
+    for (size_t i = 0; level > 0 && i < g->count; i++) {
+        const ff_node *item = ff_node_get(map, g->names[i]);
+        const char *text = study_word(item), *end;
+        double number;
+        if (!text || !ff_number_parse(text, &number, &end))
+            return refuse(t, item, NULL, "what is refined must be a number");
+        const char *value = study_context_format(t->context, "%.12g%s",
+                                                 number * pow(g->factors[i], (double)level), end);
+        if (!assign_knob(t, &t->points[t->count - 1], g->names[i],
+                         study_context_format(t->context, "%s=%s", g->names[i], value), value))
             return false;
     }
     return true;
 }
 
-static bool check_refine(const study_tradeoff *t, const ff_node *map, const ff_node *refine)
+static bool read_growth(const study_tradeoff *t, const ff_node *map, growth *g)
 {
-    for (size_t i = 0; refine && i < refine->count; i++) {
-        const char *name = refine->kind == FF_MAP ? refine->keys[i] : study_word(refine->items[i]);
-        if (!ff_node_get(map, name ? name : ""))
+    const ff_node *refine = ff_node_get(map, "refine");
+    *g = (growth){.count = 0};
+    if (refine && refine->count == 0)
+        return true;
+    if (!study_read_factors(t->context, refine, &g->names, &g->factors, &g->count))
+        return false;
+    for (size_t i = 0; i < g->count; i++)
+        if (!ff_node_get(map, g->names[i]))
             return refuse(t, refine->items[i], NULL,
                           study_context_format(
                               t->context, "the reference gives no \"%.80s\" that could be refined",
-                              name ? name : ""));
-    }
+                              g->names[i]));
     return true;
 }
 
 static bool read_reference(study_tradeoff *t, const ff_node *map)
 {
-    const ff_node *refine = ff_node_get(map, "refine"), *times = ff_node_get(map, "refinements");
+    const ff_node *times = ff_node_get(map, "refinements");
     const char *text = study_word(times), *end = "";
     double refinements = 3;
     if (!study_is_map(map))
         return refuse(t, map, "write reference: {film.cells: 2048, refine: [film.cells]}",
                       "\"reference\" is a map from paths to the values of the finest answer");
     if (times &&
-        (!text || !study_read_number(text, &refinements, &end) || *end ||
+        (!text || !ff_number_parse(text, &refinements, &end) || *end ||
          refinements != floor(refinements) || refinements < 0 || refinements > MOST_REFINEMENTS))
         return refuse(t, times, NULL, "\"refinements\" wants a whole number from 0 to 20");
-    if (!check_refine(t, map, refine))
+    growth g;
+    if (!read_growth(t, map, &g))
         return false;
-    t->levels = refine && refine->count ? (size_t)refinements + 1 : 1;
+    t->levels = g.count ? (size_t)refinements + 1 : 1;
     for (size_t level = 0; level < t->levels; level++)
-        if (!add_block(t, map) || !refine_level(t, map, refine, level))
+        if (!add_block(t, map) || !refine_level(t, map, &g, level))
             return false;
         else if (t->count != level + 1)
             return refuse(t, map, NULL, "the reference is one answer: give one value each");
@@ -193,45 +175,30 @@ static bool read_candidates(study_tradeoff *t, const ff_node *list)
     return true;
 }
 
-/* Reads a list of texts, ended by NULL; a missing list counts as empty. NULL after an error. */
-static const char **read_texts(const study_tradeoff *t, const ff_node *list, const char *what,
-                               size_t *count)
+/* Reads the names under a key; none where it is missing. NULL after an error. */
+static const char **names_of(const study_tradeoff *t, const ff_node *list, const char *key,
+                             size_t *count)
 {
-    size_t length = list ? list->count : 0;
-    const char **texts = memory_arena_alloc(&t->context->arena, (length + 1) * sizeof *texts);
-    bool good = !list || list->kind == FF_SEQUENCE;
-    for (size_t i = 0; good && i < length; i++) {
-        texts[i] = study_word(list->items[i]);
-        good = texts[i] && *texts[i];
-    }
-    *count = length;
-    if (!good)
-        refuse(t, list, NULL, what);
-    return good ? texts : NULL;
+    static const char *none[1];
+    *count = 0;
+    return list ? study_read_names(t->context, list, key, count) : none;
 }
 
 static bool read_measure(study_tradeoff *t, const study_key_value *values)
 {
     study_context *context = t->context;
-    const ff_node *outputs = values[TRADEOFF_OUTPUTS].node;
-    size_t count;
-    if (!outputs || outputs->kind != FF_SEQUENCE || outputs->count == 0)
-        return refuse(t, outputs, NULL,
-                      "\"outputs\" is a list of the outputs that matter, such as [film.h_min]");
-    if (!read_texts(t, outputs, "\"outputs\" is a list of STAGE.OUTPUT", &count))
-        return false;
-    for (size_t i = 0; i < outputs->count; i++)
-        if (strchr(outputs->items[i]->text, '*'))
-            return refuse(t, outputs->items[i], NULL, "name each output that matters");
-    context->outputs = (const ff_node *const *)outputs->items;
-    context->output_count = outputs->count;
-    t->counts = read_texts(t, values[TRADEOFF_COUNTS].node, "\"counts\" is a list of STAGE.NAME",
-                           &t->count_count);
-    context->stages = read_texts(t, values[TRADEOFF_STAGES].node, "\"stages\" is a list of stages",
-                                 &context->stage_count);
+    t->counts = names_of(t, values[TRADEOFF_COUNTS].node, "counts", &t->count_count);
     context->extras = t->counts;
     context->extra_count = t->count_count;
-    return t->counts && context->stages;
+    const ff_node *list = values[TRADEOFF_STAGES].node;
+    const ff_node *const *items = list ? study_items(&list, &context->stage_count) : NULL;
+    const char **stages =
+        memory_arena_alloc(&context->arena, (context->stage_count + 1) * sizeof *stages);
+    for (size_t i = 0; i < context->stage_count; i++)
+        if (!(stages[i] = study_word(items[i])))
+            return refuse(t, list, NULL, "\"stages\" is a list of stages");
+    context->stages = stages;
+    return t->counts && study_read_outputs(context, values[TRADEOFF_OUTPUTS].node);
 }
 
 /* Reads the keys that have a type. */

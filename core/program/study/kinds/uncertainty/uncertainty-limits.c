@@ -18,8 +18,9 @@ study_readable study_uncertainty_unit(const study_context *context, const char *
                                   isfinite(mean) ? fabs(mean) : 1);
 }
 
-void study_uncertainty_number(const study_context *context, const char *name, const json_t *output,
-                              double si, char text[UNCERTAINTY_TEXT])
+/* "126.1 nm" */
+static void print_number(const study_context *context, const char *name, const json_t *output,
+                         double si, char text[UNCERTAINTY_TEXT])
 {
     study_readable unit = study_uncertainty_unit(context, name, output);
     snprintf(text, UNCERTAINTY_TEXT, "%.4g%s%s", si * unit.factor + unit.offset,
@@ -150,7 +151,7 @@ json_t *study_uncertainty_limits(const study_uncertainty *u, size_t output, cons
     study_line line = {0};
     const bool point = !strcmp(study_uncertainty_unit(u->context, name, of).unit, "degC");
     const double kelvin = point ? nominal : (double)NAN;
-    study_uncertainty_number(u->context, name, of, nominal, number);
+    print_number(u->context, name, of, nominal, number);
     study_line_add(&line, "%s %s: ", name, isfinite(nominal) ? number : "not known at the medians");
     add_part(&line, numerical, kelvin, "numerical, ", "numerical error not known, ");
     add_part(&line, by_model, kelvin, "model", "no other model compared");

@@ -38,18 +38,12 @@ static size_t find_path(path_list *paths, const char *name)
 static bool read_outputs(study_uncertainty *u, const ff_node *list)
 {
     study_context *context = u->context;
-    bool good = list && list->kind == FF_SEQUENCE && list->count > 0;
-    for (size_t i = 0; good && i < list->count; i++)
-        good = study_word(list->items[i]) && !strchr(list->items[i]->text, '*');
-    if (!good)
-        return refuse(u, list, "write outputs: [film.h_min_lowest]",
-                      "\"outputs\" is a list of scalars; the first one decides how many samples "
-                      "each level gets");
-    const char **bars = memory_arena_alloc(&context->arena, list->count * sizeof *bars);
-    for (size_t i = 0; i < list->count; i++)
-        bars[i] = study_context_format(context, "%s_error_bar", list->items[i]->text);
-    context->outputs = (const ff_node *const *)list->items;
-    context->output_count = context->extra_count = list->count;
+    if (!study_read_outputs(context, list))
+        return false;
+    const char **bars = memory_arena_alloc(&context->arena, context->output_count * sizeof *bars);
+    for (size_t i = 0; i < context->output_count; i++)
+        bars[i] = study_context_format(context, "%s_error_bar", context->outputs[i]->text);
+    context->extra_count = context->output_count;
     context->extras = bars;
     return true;
 }
@@ -74,18 +68,14 @@ static bool read_percentiles(study_uncertainty *u, const ff_node *list)
 static bool read_condition(study_uncertainty *u, const ff_node *node, uncertainty_condition *c)
 {
     const study_context *context = u->context;
-    const char *text = study_word(node), *sign = text ? strpbrk(text, "<>") : NULL;
-    size_t length = sign ? (size_t)(sign - text) : 0;
-    while (length > 0 && text[length - 1] == ' ')
-        length--;
-    *c = (uncertainty_condition){.text = text, .place = node, .above = sign && *sign == '>'};
-    for (c->output = 0; sign && c->output < context->output_count; c->output++) {
-        const char *name = context->outputs[c->output]->text;
-        if (strlen(name) != length || strncmp(name, text, length) != 0)
-            continue;
-        c->limit = sign + 1 + strspn(sign + 1, " ");
-        return true;
-    }
+    const char *text = study_word(node);
+    const study_comparison read = study_read_comparison(u->context, text ? text : "");
+    const char sign = read.sign;
+    *c = (uncertainty_condition){
+        .text = text, .place = node, .above = sign == '>', .limit = read.limit};
+    for (; sign && c->output < context->output_count; c->output++)
+        if (!strcmp(context->outputs[c->output]->text, read.name))
+            return true;
     return refuse(u, node, "write conditions: [\"film.h_min_lowest < 0.1 um\"]",
                   sign ? "a condition is about one of the outputs of this study"
                        : "a condition is an output, < or >, and a limit with its unit");
@@ -262,8 +252,8 @@ void *study_uncertainty_read(study_context *context, const study_key_value *valu
     find_path(paths, "accuracy");
     context->paths = paths->names;
     context->path_count = paths->count;
-    context->further =
-        u->level_count > 1 ? "then the samples that the pilot shows to be worth their cost"
+    context->further = u->level_count > 1
+                           ? "then the samples that the pilot shows to be worth their cost"
                            : study_context_format(context, "then %zu samples", u->samples);
     submit_planned(u);
     context->opened = 1; /* a sample may be one that cannot be, but not the medians */

@@ -109,9 +109,6 @@ study_readable study_uncertainty_unit(const study_context *context, const char *
 
 /* uncertainty-table.c: what a study found. */
 void study_uncertainty_reduce(void *study, study_answer *answer);
-/* "126.1 nm" */
-void study_uncertainty_number(const study_context *context, const char *name, const json_t *output,
-                              double si, char text[UNCERTAINTY_TEXT]);
 
 /* uncertainty-figure.c */
 /* Draws an output: its histogram, which is returned, and the share of each input. */

@@ -334,7 +334,7 @@ static bool read_correlations(variates *v, study_context *context, const ff_node
                                three ? study_word(one->items[1]) : NULL};
         const char *text = three ? study_word(one->items[2]) : NULL, *end;
         double r;
-        if (!name[0] || !name[1] || !text || !study_read_number(text, &r, &end) || *end ||
+        if (!name[0] || !name[1] || !text || !ff_number_parse(text, &r, &end) || *end ||
             !(fabs(r) < 1))
             return refuse(context, one, "correlations", "write [[duty.torque, duty.speed, 0.5]]",
                           "expected two inputs and a number between -1 and 1");
