@@ -2,6 +2,7 @@
 #include "limits.h"
 
 #include "../accuracy/lines.h"
+#include "../run/run.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -18,17 +19,6 @@ static const ff_node *node_of(const ff_run *run)
 {
     const ff_node *node = ff_node_get(ff_run_root(run), "limits");
     return node && node->kind == FF_MAP ? node : NULL;
-}
-
-/* Finds the output that a limit names; NULL where the pipeline does not have it. */
-static const ff_result *find_output(const ff_pipeline *pipeline, const char *path,
-                                    const ff_stage **stage)
-{
-    const char *name;
-    *stage = ff_stage_of(pipeline, path, &name);
-    int output =
-        *stage && (*stage)->loaded ? ff_model_find_output((*stage)->loaded->model, name) : -1;
-    return output < 0 || !(*stage)->results ? NULL : &(*stage)->results[output];
 }
 
 /* Reports an unreadable limit. Returns false. */
@@ -87,7 +77,7 @@ bool limits_check(ff_run *run)
     size_t errors = ff_report_errors(report);
     for (size_t i = 0; node && i < node->count; i++) {
         const ff_stage *stage;
-        const ff_result *result = find_output(ff_run_pipeline(run), node->keys[i], &stage);
+        const ff_result *result = run_output(ff_run_pipeline(run), node->keys[i], &stage);
         asked unused;
         if (result && !limit_at(node->items[i], 0))
             refuse(node->items[i], node->keys[i], report);
@@ -107,7 +97,7 @@ char *limits_print_key(const ff_run *run)
     for (size_t i = 0; node && i < node->count; i++) {
         const ff_stage *stage;
         const ff_pipeline *pipeline = ff_run_pipeline(run);
-        const ff_result *result = pipeline ? find_output(pipeline, node->keys[i], &stage) : NULL;
+        const ff_result *result = pipeline ? run_output(pipeline, node->keys[i], &stage) : NULL;
         asked limit;
         for (size_t k = 0; (item = limit_at(node->items[i], k)); k++)
             if (result && read_limit(item, node->keys[i], result->row, &limit, unused))
@@ -181,7 +171,7 @@ limits_verdict limits_judge(const ff_run *run, const ff_pipeline *pipeline,
     ff_report *unused = ff_report_new();
     for (size_t i = 0; node && i < node->count; i++) {
         const ff_stage *stage;
-        const ff_result *result = find_output(pipeline, node->keys[i], &stage);
+        const ff_result *result = run_output(pipeline, node->keys[i], &stage);
         asked limit;
         for (size_t k = 0; result && (item = limit_at(node->items[i], k)); k++) {
             if (!read_limit(item, node->keys[i], result->row, &limit, unused))

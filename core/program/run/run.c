@@ -59,3 +59,12 @@ bool run_start(ff_run *run, const ff_observer *watch)
     require(run);
     return good;
 }
+
+ff_result *run_output(const ff_pipeline *pipeline, const char *path, const ff_stage **stage)
+{
+    const char *name;
+    *stage = ff_stage_of(pipeline, path, &name);
+    bool known = *stage && (*stage)->loaded && (*stage)->results;
+    int output = known ? ff_model_find_output((*stage)->loaded->model, name) : -1;
+    return output < 0 ? NULL : &(*stage)->results[output];
+}

@@ -18,6 +18,10 @@ void run_put(ff_run *run, const char *key, const ff_node *node);
 ff_pipeline *run_build(ff_run *run, bool everything);
 bool run_has_errors(ff_run *run);
 
+/* Returns what "stage.output" names, and its stage, which may be there without the output; NULL
+   where there is none, or its model is not loaded. */
+ff_result *run_output(const ff_pipeline *pipeline, const char *path, const ff_stage **stage);
+
 /* False after an error, which the report says, and where the observer stopped the run. */
 bool run_start(ff_run *run, const ff_observer *watch);
 

@@ -5,6 +5,7 @@
 
 #include "study.h"
 
+#include "../../accuracy/measure.h"
 #include "../../arrays/log.h"
 #include "../store/records.h"
 #include "../store/reuse.h"
@@ -72,6 +73,10 @@ ff_run *study_case_base(ff_engine *engine, const char *file);
 /* `kept` may be NULL. */
 void study_case_open(study_case *c, const study_run *run, size_t index, study_kept *kept);
 void study_case_close(study_case *c);
+/* Runs the case; NULL, with an error in c->report, when its arrays could not be kept. */
+json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_memory *memory);
+
+/* case-record.c */
 json_t *study_case_set(const study_definition *study, size_t index); /* {path: value} */
 bool study_case_is_good(const study_case *c);                        /* whether it can be run */
 /* Whether a row of a spectrum cannot be computed, since its numbers are beyond limits, and nothing
@@ -80,11 +85,22 @@ bool study_case_is_refused(const study_definition *study, const ff_report *repor
 /* Returns a record without outputs and judgement; reason may be NULL. */
 json_t *study_case_record(const study_run *run, size_t index, const char *key, const char *status,
                           const char *reason);
-/* Runs the case; NULL, with an error in c->report, when its arrays could not be kept. */
-json_t *study_case_run(study_case *c, const study_run *run, size_t index, study_memory *memory);
+/* Returns the record of a case that has run, whose errors were measured; NULL, with an error in
+   c->report, when its arrays could not be kept. */
+json_t *study_case_record_run(study_case *c, const study_run *run, size_t index, json_t *warnings,
+                              const accuracy_record *errors, study_memory *memory);
+json_t *study_json_seconds(double seconds); /* to the microsecond, as exact as any clock here is */
 /* Returns the text of the first error, to be freed; with its place when that is in a table, which
    the text does not name. */
 char *study_first_error(const ff_report *report);
+
+/* overlay.c */
+/* Returns assignment i of a case: its files, then `sets`, then its values. NULL after the last; ""
+   where there is nothing to assign. */
+const char *study_case_assignment(const study_definition *study, size_t index,
+                                  const char *const *sets, size_t set_count, size_t i);
+/* Whether an assignment includes a file. */
+bool study_names_file(const char *assignment);
 
 /* setup.c */
 /* {stage: {parameter: value}} of all stages, when one of them has a model that `seen` does not hold

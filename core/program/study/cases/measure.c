@@ -6,6 +6,7 @@
 #include "case.h"
 
 #include "../../accuracy/axis.h"
+#include "../../run/run.h"
 #include "../store/hash.h"
 #include "../store/journal.h"
 
@@ -35,12 +36,8 @@ void study_measure_pin(void)
    service. */
 static ff_result *find_result(const ff_pipeline *pipeline, const char *path, const ff_stage **stage)
 {
-    const char *name;
-    *stage = ff_stage_of(pipeline, path, &name);
-    bool runs = *stage && (*stage)->needed;
-    int output = runs ? ff_model_find_output((*stage)->loaded->model, name) : -1;
-    ff_result *result = output < 0 ? NULL : &(*stage)->results[output];
-    return result && !result->row->service ? result : NULL;
+    ff_result *result = run_output(pipeline, path, stage);
+    return result && (*stage)->needed && !result->row->service ? result : NULL;
 }
 
 /* Whether a row may be what `of` is plotted against: the one that the file names, if it names one.

@@ -3,6 +3,7 @@
 
 #include "case.h"
 
+#include "../../run/run.h"
 #include "../store/array-read.h"
 #include "../store/journal.h"
 
@@ -116,13 +117,10 @@ bool study_spectrum_finish(study_definition *study, const ff_node *cases, const 
 /* Finds the unit of an output that the cases are asked for; NULL when they are not. */
 static const char *find_unit(const ff_pipeline *pipeline, const char *path)
 {
-    const char *name;
-    const ff_stage *stage = ff_stage_of(pipeline, path, &name);
-    const ff_model *model = stage && stage->results ? stage->loaded->model : NULL;
-    int output = model ? ff_model_find_output(model, name) : -1;
-    bool scalar = output >= 0 && stage->results[output].wanted &&
-                  (!stage->results[output].row->dims || !*stage->results[output].row->dims);
-    return scalar ? stage->results[output].row->unit : NULL;
+    const ff_stage *stage;
+    const ff_result *result = run_output(pipeline, path, &stage);
+    bool scalar = result && result->wanted && (!result->row->dims || !*result->row->dims);
+    return scalar ? result->row->unit : NULL;
 }
 
 void study_spectrum_check(const study_definition *study, const ff_pipeline *pipeline,

@@ -3,6 +3,7 @@
    and the cases that are known beforehand, and runs it. */
 #include "kinds.h"
 
+#include "../../run/run.h"
 #include "../cases/spectrum.h"
 
 #include <stdlib.h>
@@ -261,12 +262,9 @@ static bool is_too_much(const study_context *context, const char *dims)
 static void check_output(const study_context *context, const ff_pipeline *pipeline,
                          const ff_node *asked, ff_report *report)
 {
-    const char *name;
-    const ff_stage *stage = ff_stage_of(pipeline, asked->text, &name);
-    const ff_model *model = stage && stage->results ? stage->loaded->model : NULL;
-    int output = model ? ff_model_find_output(model, name) : -1;
-    const ff_port *row = output >= 0 ? stage->results[output].row : NULL;
-    if (row && row->dims && is_too_much(context, row->dims))
+    const ff_stage *stage;
+    const ff_result *result = run_output(pipeline, asked->text, &stage);
+    if (result && result->row->dims && is_too_much(context, result->row->dims))
         ff_error(report, FF_FAULT_INPUT, asked->place,
                  context->measured ? NULL : "name a scalar, such as a mean or an extreme value",
                  context->measured ? "%s: %s is a field; name scalars and series"

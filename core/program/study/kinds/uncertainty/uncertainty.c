@@ -2,6 +2,7 @@
 #include "uncertainty.h"
 
 #include "../../../memory/memory.h"
+#include "../../../run/run.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -186,23 +187,15 @@ static bool run_cases(void *study)
     return study_run_submitted(context, u->first_main, context->list.count);
 }
 
-/* The unit of an output of the pipeline; NULL when it is not known. */
-static const char *unit_of(const ff_pipeline *pipeline, const char *path)
-{
-    const char *name;
-    const ff_stage *stage = ff_stage_of(pipeline, path, &name);
-    const ff_model *model = stage && stage->results ? stage->loaded->model : NULL;
-    int output = model ? ff_model_find_output(model, name) : -1;
-    return output >= 0 ? stage->results[output].row->unit : NULL;
-}
-
 /* Checks that limits have the units of their outputs. */
 static void check(const void *study, const ff_pipeline *pipeline, ff_report *report)
 {
     const study_uncertainty *u = study;
     for (size_t i = 0; i < u->condition_count; i++) {
         const uncertainty_condition *c = &u->conditions[i];
-        const char *unit = unit_of(pipeline, u->context->outputs[c->output]->text);
+        const ff_stage *stage;
+        const ff_result *of = run_output(pipeline, u->context->outputs[c->output]->text, &stage);
+        const char *unit = of ? of->row->unit : NULL;
         ff_unit parsed;
         char why[300];
         double value;
