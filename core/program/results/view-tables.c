@@ -89,8 +89,8 @@ void results_view_judge(results_reader *reader, results_view_case *c, size_t num
     char *reasons = study_judgement_text(&judgement, STUDY_REASONS),
          *range = study_judgement_text(&judgement, STUDY_RANGE);
     c->verdict = study_verdict_name(judgement.verdict);
-    c->reasons = memory_arena_text(&reader->arena, reasons, strlen(reasons));
-    c->range = memory_arena_text(&reader->arena, range, strlen(range));
+    c->reasons = results_view_shared_text(reader, reasons);
+    c->range = results_view_shared_text(reader, range);
     free(range);
     free(reasons);
     const char *key = json_string_value(json_object_get(record, "key"));
