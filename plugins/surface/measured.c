@@ -171,7 +171,8 @@ static ff_status make_flank(const measured *s, size_t g, double spacing, flank *
     if (status == FF_OK && s->cutoff_long > 0)
         status = surface_remove_longer(f->n, s->cutoff_long / spacing, f->height);
     if (status == FF_OK && s->cutoff_short > 0)
-        status = surface_remove_shorter(f->n, s->cutoff_short / spacing, f->height);
+        status =
+            surface_remove_shorter(f->n, s->cutoff_short / spacing, SURFACE_MIRRORED, f->height);
     if (status != FF_OK)
         return status;
     if (is_reversed(s, g))

@@ -39,57 +39,49 @@ ff_status surface_detrend(size_t n, int order, double *height)
     return FF_OK;
 }
 
-/* Weights of the Gaussian filter (ISO 16610-21), exp(-pi (x/(alpha cutoff))^2), alpha = sqrt(ln
-   2/pi), out to x = cutoff, where 1e-6 of the largest is left; their sum is 1, and they wrap around
-   m points. */
-static void set_weights(double cutoff, size_t reach, size_t m, double complex *weight)
+/* Share of a wave of `length` that the Gaussian filter passes, exp(-pi (alpha cutoff/length)^2)
+   with alpha = sqrt(ln 2/pi) (ISO 16610-21): half of a wave as long as the cut-off. */
+static double passed(double cutoff, double length)
 {
-    double sum = 0;
-    for (size_t i = 0; i < m; i++)
-        weight[i] = 0;
-    for (size_t i = 0; i <= reach; i++) {
-        double x = (double)i / cutoff, w = exp(-M_PI * M_PI / M_LN2 * x * x);
-        weight[i] = w;
-        weight[(m - i) % m] = w;
-        sum += i ? 2 * w : w;
-    }
-    for (size_t i = 0; i < m; i++)
-        weight[i] /= sum;
+    return exp2(-cutoff * cutoff / (length * length));
 }
 
-static ff_status low_pass(size_t n, double cutoff, const double *height, double *smooth)
+/* The place in a record of n points of a place beyond its ends. */
+static size_t within(double place, size_t n, surface_end end)
 {
-    const size_t reach = (size_t)fmin(ceil(cutoff), (double)n);
-    const size_t m = surface_power_of_two((double)(n + 2 * reach));
-    double complex *z = calloc(m, sizeof *z), *weight = malloc(m * sizeof *weight);
-    ff_status status = z && weight ? FF_OK : FF_NOMEM;
-    if (status == FF_OK) {
-        for (size_t i = 0; i < n; i++)
-            z[reach + i] = height[i];
-        for (size_t i = 0; i < reach; i++) {
-            z[reach - 1 - i] = height[i];
-            z[reach + n + i] = height[n - 1 - i];
-        }
-        set_weights(cutoff, reach, m, weight);
-        status = surface_fourier(m, z, -1);
-    }
-    if (status == FF_OK)
-        status = surface_fourier(m, weight, -1);
-    for (size_t i = 0; i < m && status == FF_OK; i++)
-        z[i] *= weight[i] / (double)m;
+    double turn = floor(place / (double)n);
+    size_t i = (size_t)(place - turn * (double)n);
+    return end == SURFACE_MIRRORED && fmod(turn, 2) != 0 ? n - 1 - i : i;
+}
+
+/* The weighting function of the filter is below 1e-6 of its peak from the cut-off on, 1e-24 from
+   twice the cut-off on. */
+static ff_status low_pass(size_t n, double cutoff, surface_end end, const double *height,
+                          double *smooth)
+{
+    const bool whole = end == SURFACE_REPEATED && surface_power_of_two((double)n) == n;
+    const double beyond = whole ? 0 : ceil(2 * cutoff);
+    const size_t m = surface_power_of_two((double)n + 2 * beyond), first = (size_t)beyond;
+    double complex *z = malloc(m * sizeof *z);
+    if (!z)
+        return FF_NOMEM;
+    for (size_t i = 0; i < m; i++)
+        z[i] = height[within((double)i - beyond, n, end)];
+    ff_status status = surface_fourier(m, z, -1);
+    for (size_t k = 0; k < m && status == FF_OK; k++)
+        z[k] *= passed(cutoff, (double)m / (double)(k < m - k ? k : m - k)) / (double)m;
     if (status == FF_OK)
         status = surface_fourier(m, z, 1);
     for (size_t i = 0; i < n && status == FF_OK; i++)
-        smooth[i] = creal(z[reach + i]);
+        smooth[i] = creal(z[first + i]);
     free(z);
-    free(weight);
     return status;
 }
 
-static ff_status filter(size_t n, double cutoff, double *height, bool subtract)
+static ff_status filter(size_t n, double cutoff, surface_end end, double *height, bool subtract)
 {
     double *smooth = malloc(n * sizeof *smooth);
-    ff_status status = smooth ? low_pass(n, cutoff, height, smooth) : FF_NOMEM;
+    ff_status status = smooth ? low_pass(n, cutoff, end, height, smooth) : FF_NOMEM;
     for (size_t i = 0; i < n && status == FF_OK; i++)
         height[i] = subtract ? height[i] - smooth[i] : smooth[i];
     free(smooth);
@@ -98,10 +90,10 @@ static ff_status filter(size_t n, double cutoff, double *height, bool subtract)
 
 ff_status surface_remove_longer(size_t n, double cutoff, double *height)
 {
-    return filter(n, cutoff, height, true);
+    return filter(n, cutoff, SURFACE_MIRRORED, height, true);
 }
 
-ff_status surface_remove_shorter(size_t n, double cutoff, double *height)
+ff_status surface_remove_shorter(size_t n, double cutoff, surface_end end, double *height)
 {
-    return filter(n, cutoff, height, false);
+    return filter(n, cutoff, end, height, false);
 }

@@ -8,7 +8,7 @@
  *   build/tests/bench/bench-mixed [NAME=VALUE ...]
  *
  * Names: cells, steps, surfaces, shortest (um), least and most (rpm), ventilated (0 or 1), hardness
- * (GPa; 0: elastic flanks).
+ * (GPa; 0: elastic flanks), cutoff (um of the surface; 0: none, -1: 16 cells).
  */
 #include "check.h"
 #include "tooth.h"
@@ -26,12 +26,18 @@ static const char *const shares[SHARES] = {
     "friction_coefficient", "yield_share",   "plastic_depth_max"};
 
 typedef struct setup {
-    double cells, steps, surfaces, shortest, least, most, ventilated, hardness;
+    double cells, steps, surfaces, shortest, least, most, ventilated, hardness, cutoff;
 } setup;
 
-static void run_name(const setup *u, double share, const char *surface)
+/* `left_out`: root mean square height of the waves that are taken off, over all, %. */
+static void run_name(const setup *u, double share, const char *surface, double left_out)
 {
-    printf("%6g | %3g um | %5g | %6g | %3s ", 1500 * share, u->shortest, u->cells, u->steps,
+    char cut[48] = "", at[24] = "16 cells";
+    if (u->cutoff > 0)
+        snprintf(at, sizeof at, "%g um", u->cutoff);
+    if (left_out > 0)
+        snprintf(cut, sizeof cut, ", cut at %s: %.1f %% off", at, left_out);
+    printf("%6g | %3g um%s | %5g | %6g | %3s ", 1500 * share, u->shortest, cut, u->cells, u->steps,
            surface);
 }
 
@@ -62,7 +68,7 @@ static void tell(const setup *u, const stage *s, double share, int seed, const d
 {
     char surface[16];
     snprintf(surface, sizeof surface, "%d", seed);
-    run_name(u, share, surface);
+    run_name(u, share, surface, 100 * stage_scalar(s, "rq_left_out") / (sqrt(2) * 0.5e-6));
     printf("| %.4f | %.4f | %.4f | %.3f | %.4f | %.4f | %.2f | %.2f | %.2f | %g | %.2f | %.1f\n",
            y[0], y[1], y[2], y[3], y[4], y[5], y[DEPTH], 1e9 * stage_scalar(s, "h_min_lowest"),
            1e-9 * stage_scalar(s, "p_max_highest"), stage_scalar(s, "steps_cut"),
@@ -79,12 +85,14 @@ static void run(const setup *u, const oil *o, double share, int seed, double *y)
     stage *s = film_open("ehl/finite-volume", &c, o, (size_t)u->cells, (size_t)u->steps);
     stage_set_text(s, "valleys", u->ventilated > 0 ? "ventilated" : "sealed");
     stage_set(s, "asperity_hardness", 1e9 * u->hardness);
+    if (!(u->cutoff < 0))
+        stage_set(s, "roughness_cutoff", 1e-6 * u->cutoff);
     stage_link(s, "surface", surface);
     clock_t begin = clock();
     ff_status status = stage_run_wanted(s, "asperity_load_share contact_ratio trapped_share "
                                            "lambda_ratio friction_coefficient yield_share "
                                            "plastic_depth_max load_error "
-                                           "h_min_lowest p_max_highest steps_cut");
+                                           "h_min_lowest p_max_highest steps_cut rq_left_out");
     double seconds = (double)(clock() - begin) / CLOCKS_PER_SEC, off = 0;
     if (check_true(status == FF_OK ? "runs to the end" : stage_why(s), status == FF_OK)) {
         size_t n;
@@ -113,7 +121,7 @@ static void all_surfaces(const setup *u, const oil *o, double share)
     }
     if (!(n > 1))
         return;
-    run_name(u, share, "all");
+    run_name(u, share, "all", 0);
     for (int k = 0; k < SHARES; k++) {
         double average = sum[k] / n, spread = square[k] / n - average * average;
         printf("| %.4f +- %.4f ", average, sqrt(fmax(0, spread * n / (n - 1))));
@@ -124,10 +132,10 @@ static void all_surfaces(const setup *u, const oil *o, double share)
 
 static int read_setup(setup *u, int count, char **word)
 {
-    const char *const names[] = {"cells", "steps", "surfaces",   "shortest",
-                                 "least", "most",  "ventilated", "hardness"};
-    double *const values[] = {&u->cells, &u->steps, &u->surfaces,   &u->shortest,
-                              &u->least, &u->most,  &u->ventilated, &u->hardness};
+    const char *const names[] = {"cells", "steps",      "surfaces", "shortest", "least",
+                                 "most",  "ventilated", "hardness", "cutoff"};
+    double *const values[] = {&u->cells, &u->steps,      &u->surfaces, &u->shortest, &u->least,
+                              &u->most,  &u->ventilated, &u->hardness, &u->cutoff};
     for (int i = 1; i < count; i++) {
         size_t length = strcspn(word[i], "="), k = 0;
         while (k < sizeof names / sizeof names[0] &&

@@ -428,6 +428,12 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
                          .unit = "K",
                          .doc = "temperature, mean across the film; needs thermal: full",
                          .dims = "t x"},
+    [EHL_RQ_LEFT_OUT] = {.name = "rq_left_out",
+                         .unit = "m",
+                         .doc = "root mean square height, of both flanks together, of the waves "
+                                "that roughness_cutoff takes off",
+                         .dims = "",
+                         .max = INFINITY},
     [EHL_NEWTON_STEPS] = {.name = "newton_steps",
                           .unit = "1",
                           .doc = "Newton steps in all",

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "surface.h"
 
+#include "../../surface/roughness.h"
+
 #include <flankfilm/author.h>
 
 #include <math.h>
@@ -85,7 +87,72 @@ ff_status ehl_roughness_create(ehl_roughness *r, const double *position, const e
 void ehl_roughness_destroy(ehl_roughness *r)
 {
     free(r->memory);
-    r->memory = NULL;
+    free(r->smooth);
+    r->memory = r->smooth = NULL;
+}
+
+/* Root mean square about the mean. */
+static double rms(size_t n, const double *z)
+{
+    double mean = 0, square = 0;
+    for (size_t i = 0; i < n; i++)
+        mean += z[i] / (double)n;
+    for (size_t i = 0; i < n; i++)
+        square += (z[i] - mean) * (z[i] - mean) / (double)n;
+    return sqrt(square);
+}
+
+/* Makes room for `beyond` points of height 0 on either side of a record with flat ends, into which
+   the filter spreads what is near them, and copies both flanks there. */
+static ff_status make_smooth(ehl_roughness *r, size_t beyond)
+{
+    size_t n = r->count + 2 * beyond, each = n + 1;
+    r->smooth = calloc(4 * each, sizeof *r->smooth);
+    if (!r->smooth)
+        return FF_NOMEM;
+    for (size_t g = 0; g < 2; g++) {
+        double *z = r->smooth + g * n;
+        memcpy(z + beyond, r->height[g], r->count * sizeof *z);
+        r->height[g] = z;
+        r->sum[g] = r->smooth + 2 * n + g * each;
+    }
+    r->count = n;
+    r->origin += (double)beyond * r->spacing;
+    return FF_OK;
+}
+
+ff_status ehl_roughness_cut(ehl_roughness *r, double cutoff, const ff_host *host)
+{
+    const double most = 1 << 21; /* more points than any record has */
+    const double reach = cutoff / r->spacing, beyond = r->period > 0 ? 0 : ceil(reach) + 1;
+    double square = 0, whole = 0;
+    if (beyond > most)
+        return ff_failf(host, FF_INVALID, "surface.position",
+                        "the points of the surface are %.3g um apart, too close for waves of %.3g "
+                        "um to be taken off: roughness_cutoff must be at most %.3g um, or the "
+                        "spacing of the surface larger",
+                        1e6 * r->spacing, 1e6 * cutoff, 1e6 * most * r->spacing);
+    for (size_t g = 0; g < 2; g++)
+        whole += pow(rms(r->count, r->height[g]), 2);
+    const double *was[2] = {r->height[0], r->height[1]};
+    const size_t count = r->count, first = (size_t)beyond;
+    ff_status status = make_smooth(r, first);
+    for (size_t g = 0; g < 2 && status == FF_OK; g++) {
+        double *z = r->smooth + g * r->count;
+        status = surface_remove_shorter(r->count, reach, SURFACE_REPEATED, z);
+        for (size_t i = 0; i < r->count && status == FF_OK; i++) {
+            double off = z[i] - (i >= first && i - first < count ? was[g][i - first] : 0);
+            square += off * off / (double)count;
+        }
+    }
+    if (status != FF_OK)
+        return status;
+    r->cutoff = cutoff;
+    r->given = sqrt(whole);
+    r->left_out = sqrt(square);
+    integrate(r);
+    r->curvature = curvature(r);
+    return FF_OK;
 }
 
 double ehl_roughness_wavelength(const ehl_roughness *r)
@@ -129,16 +196,24 @@ double ehl_roughness_longer(const ehl_roughness *r, double length)
     const double last = fmin(ceil(whole / length) - 1, most);
     double all = 0, longer = 0;
     for (int g = 0; g < 2; g++) {
-        double mean = 0, square = 0;
-        for (size_t i = 0; i < r->count; i++) {
-            mean += r->height[g][i] / (double)r->count;
-            square += r->height[g][i] * r->height[g][i] / (double)r->count;
-        }
-        all += square - mean * mean;
+        all += pow(rms(r->count, r->height[g]), 2);
         for (size_t k = 1; (double)k <= last && 2 * k < r->count; k++)
             longer += harmonic(r->height[g], r->count, k);
     }
     return all > 0 ? longer / all : 0;
+}
+
+double ehl_roughness_beyond(const ehl_roughness *r)
+{
+    const double end = (double)(r->count - 1) * r->spacing;
+    double all = 0, beyond = 0;
+    for (size_t g = 0; g < 2 && r->period <= 0; g++) {
+        double way = r->rq[g] > 0 ? r->travel[g][r->history->count - 1] : 0;
+        double low = r->origin - fmax(way, 0), high = r->origin - fmin(way, 0);
+        all += high - low;
+        beyond += high - low - fmax(0, fmin(high, end) - fmax(low, 0));
+    }
+    return all > 0 ? beyond / all : 0;
 }
 
 double ehl_roughness_rq(const ehl_roughness *r)
@@ -164,24 +239,41 @@ double ehl_roughness_travel(const ehl_roughness *r, double time)
            (time < r->history->time[0] ? -1 : 1);
 }
 
-/* Integral of the height from 0 to s; the height is linear between the samples. */
-static double integral(const ehl_roughness *r, int g, double s)
+/* Integral of the height from 0 to `place`, in spacings, of the record alone; the height is linear
+   between the samples. */
+static inline double integral(const ehl_roughness *r, int g, double place)
 {
     const double *z = r->height[g], *sum = r->sum[g];
-    double whole = 0, place = s / r->spacing, end = (double)(r->count - 1);
-    if (r->period > 0) {
-        double turns = floor(s / r->period);
-        whole = turns * sum[r->count];
-        place = fmax(0, (s - turns * r->period) / r->spacing);
-        end += 1;
-    }
+    const size_t last = r->period > 0 ? r->count : r->count - 1;
     if (!(place > 0))
-        return whole;
-    if (place >= end)
-        return whole + sum[(size_t)end];
+        return 0;
+    if (!(place < (double)last))
+        return sum[last];
     size_t i = (size_t)place;
     double part = place - (double)i, next = z[i + 1 < r->count ? i + 1 : 0];
-    return whole + sum[i] + r->spacing * part * (z[i] + part * (next - z[i]) / 2);
+    return sum[i] + r->spacing * part * (z[i] + part * (next - z[i]) / 2);
+}
+
+/* Adds the mean heights of a flank over cells that follow one another from the arc coordinate s on;
+   cells of a width below 0 follow towards smaller ones. */
+static void add_flank(const ehl_roughness *r, int g, double s, double width, size_t nodes,
+                      double *sum)
+{
+    const int repeats = r->period > 0;
+    const double cycle = (double)r->count, all = r->sum[g][r->count], step = width / r->spacing;
+    const double per_width = 1 / width;
+    double start = s / r->spacing, gone = 0;
+    if (repeats)
+        start -= cycle * floor(start / cycle);
+    double before = integral(r, g, start);
+    for (size_t i = 0; i < nodes; i++) {
+        double place = start + (double)(i + 1) * step, rest = place - gone * cycle;
+        if (repeats && !(rest >= 0 && rest <= cycle))
+            gone = floor(place / cycle);
+        double behind = gone * all + integral(r, g, place - gone * cycle);
+        sum[i] += (behind - before) * per_width;
+        before = behind;
+    }
 }
 
 /* Share of the height that has run in `beyond` the front: 1 to 0 with level ends. */
@@ -197,13 +289,7 @@ void ehl_roughness_heights(const ehl_roughness *r, const ehl_grid *g, double tim
     memset(sum, 0, g->nodes * sizeof *sum);
     for (int flank = 0; flank < 2; flank++) {
         double start = r->origin - travelled(r, flank, time), width = sign * g->dx;
-        double before = integral(r, flank, start + sign * g->first - width / 2);
-        for (size_t i = 0; i < g->nodes; i++) {
-            double x = sign * (g->first + (double)i * g->dx);
-            double behind = integral(r, flank, start + x + width / 2);
-            sum[i] += (behind - before) / width;
-            before = behind;
-        }
+        add_flank(r, flank, start + sign * g->first - width / 2, width, g->nodes, sum);
     }
     double front = r->front + ehl_roughness_travel(r, time);
     for (size_t i = 0; r->ramp > 0 && i < g->nodes; i++)

@@ -12,14 +12,20 @@
 
 #include <flankfilm/plugin.h>
 
+/* Cells over the shortest waves of flanks, which keep half of their amplitude. */
+#define EHL_CELLS_PER_WAVE 16.
+
 typedef struct ehl_roughness {
     size_t count; /* of samples; 0: smooth */
     double spacing, period, origin, rq[2];
     const double *height[2];
-    double *sum[2];    /* integral of the height up to each sample */
-    double *travel[2]; /* integral of u_i up to each row of the history */
-    double curvature;  /* root mean square of the gap between the flanks, 1/m */
-    double *memory;
+    double cutoff;           /* m, shorter waves are taken off; 0: none */
+    double given, left_out;  /* m, root mean square heights of both flanks: all, and what was taken
+                                off */
+    double *sum[2];          /* integral of the height up to each sample */
+    double *travel[2];       /* integral of u_i up to each row of the history */
+    double curvature;        /* root mean square of the gap between the flanks, 1/m */
+    double *memory, *smooth; /* `smooth`: the heights without what was taken off */
     const ehl_history *history;
     /* m: at the first row of the history the flanks are rough up to x = `front`, `ramp` further on
        they are smooth, and the oil carries that on; with ramp 0 they are rough all over */
@@ -30,6 +36,10 @@ typedef struct ehl_roughness {
 ff_status ehl_roughness_create(ehl_roughness *r, const double *position, const ehl_history *h,
                                const ff_host *host);
 void ehl_roughness_destroy(ehl_roughness *r);
+
+/* Takes waves shorter than `cutoff` (m, above 0) off both flanks, by the Gaussian filter of ISO
+   16610-21. FF_NOMEM; FF_INVALID: flat ends with points too close for it. */
+ff_status ehl_roughness_cut(ehl_roughness *r, double cutoff, const ff_host *host);
 
 /* R1 + R2 at the nodes of the grid. */
 void ehl_roughness_heights(const ehl_roughness *r, const ehl_grid *g, double time, double *sum);
@@ -46,6 +56,10 @@ double ehl_roughness_inlet(const ehl_roughness *r, double film);
 /* Share of the variance of both flanks in waves longer than that, by the harmonics of the record.
  */
 double ehl_roughness_longer(const ehl_roughness *r, double length);
+
+/* Share of the way of the flanks in which what passes x = 0 lies beyond a record that does not
+   repeat; 0 for flanks without Rq, such as a dent's. */
+double ehl_roughness_beyond(const ehl_roughness *r);
 
 /* sqrt(Rq1^2 + Rq2^2) */
 double ehl_roughness_rq(const ehl_roughness *r);

@@ -19,8 +19,9 @@ size_t ehl_upstream_node(const ehl_march *m, const ehl_state *s, size_t i);
 /* Returns the masses of the last two films, moved with the oil to the instant that is placed. */
 void ehl_advect_mass(ehl_march *m, const double **one, const double **two);
 
-/* Rough flanks: returns the cells by which the oil may move in a step: one, or half the inlet of an
-   asperity where asperities are in contact or nearly so. */
+/* Rough flanks: returns the cells by which the oil may move in a step: one, or more of cells that
+   are finer than the shortest waves ask for, and half the inlet of an asperity where asperities
+   carry load. */
 double ehl_largest_advection(const ehl_march *m);
 
 #endif

@@ -1,6 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 #include "asperities.h"
 
+#include "../contact/lanes.h"
+
+#include <flankfilm/simd.h>
+
 #include <math.h>
 #include <string.h>
 
@@ -12,9 +16,31 @@ static double carried(const ehl_reynolds *r, const ehl_step *step, const ehl_fil
     return r->liquid.rho[i] * (u * near + r->dx * step->rate);
 }
 
+/* The same as in ehl_contact_choose where the nodes move with the oil, which carries nothing then:
+   `by_h` is dx times the rate. */
+FF_SIMD
+static int64_t choose_moving(size_t n, double contact, double by_h, const double *restrict h,
+                             const double *restrict rho, const double *restrict residual,
+                             unsigned char *restrict full, unsigned char *restrict asperity)
+{
+    int64_t changed = 0;
+    for (size_t i = 1; i + 1 < n; i++) {
+        double open = h[i] - contact, least = full[i] ? -residual[i] : 0;
+        double weight = full[i] ? rho[i] * by_h : 1;
+        unsigned char now = weight * open < least;
+        changed |= now ^ asperity[i];
+        asperity[i] = now;
+        full[i] |= now;
+    }
+    return changed;
+}
+
 int ehl_contact_choose(const ehl_reynolds *r, const ehl_step *step, ehl_film *film)
 {
     int changed = 0;
+    if (step->follows)
+        return choose_moving(r->nodes, r->contact, r->dx * step->rate, r->h, r->liquid.rho,
+                             r->residual, film->full, film->asperity) != 0;
     for (size_t i = 1; i + 1 < r->nodes; i++) {
         double open = r->h[i] - r->contact;
         int asperity =
@@ -96,7 +122,10 @@ void ehl_yield_step(const ehl_reynolds *r, ehl_film *film, double share, const d
 double ehl_yield_turn(const ehl_reynolds *r, ehl_film *film, double *change)
 {
     double cut = 0, below = nextafter(r->hardness, 0);
-    for (size_t i = 1; film->plastic && i < r->last; i++) {
+    if (!film->plastic ||
+        (film->yielding == 0 && !(ehl_greatest(r->last, film->p, 0) > r->hardness)))
+        return 0;
+    for (size_t i = 1; i < r->last; i++) {
         double over = film->p[i] - r->hardness;
         if (over > 0) {
             change[i] -= over;

@@ -304,9 +304,22 @@ static void balance(size_t n, double dx, double rate, const double *restrict flu
         residual[i] = flux[i] - flux[i - 1] - dx * (rate * mass[i] + past[i]);
 }
 
+/* What nodes 1 to n - 2 lose, from the masses and the mobilities of the faces. */
+static void balances(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
+{
+    const size_t n = r->nodes;
+    const double *p = ehl_fluid(r, film);
+    fluxes(r, step, film);
+    if (step->past)
+        balance(n, r->dx, step->rate, r->flux, r->mass, step->past, r->residual);
+    for (size_t i = 1; !step->past && i + 1 < n; i++)
+        r->residual[i] = r->flux[i] - r->flux[i - 1];
+    for (size_t i = 1; r->leak > 0 && i + 1 < n; i++)
+        r->residual[i] -= r->dx * r->leak * r->f[i] * p[i];
+}
+
 void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
 {
-    size_t n = r->nodes;
     ehl_reynolds_gap(r, step->radius, film);
     r->last = last_node(r, film);
     size_t count = r->last + 1;
@@ -327,17 +340,22 @@ void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film
         rough_face_mobilities(r);
     else
         face_mobilities(r);
-    if (r->asymmetric) {
+    if (r->asymmetric)
         ehl_asymmetric_balance(r, step, film);
+    else
+        balances(r, step, film);
+}
+
+void ehl_reynolds_turned(ehl_reynolds *r, const ehl_step *step, const ehl_film *film)
+{
+    if (!r->conserving || r->asymmetric) { /* the nodes that pressure reaches may have changed */
+        ehl_reynolds_evaluate(r, step, film);
         return;
     }
-    fluxes(r, step, film);
-    if (step->past)
-        balance(n, r->dx, step->rate, r->flux, r->mass, step->past, r->residual);
-    for (size_t i = 1; !step->past && i + 1 < n; i++)
-        r->residual[i] = r->flux[i] - r->flux[i - 1];
-    for (size_t i = 1; r->leak > 0 && i + 1 < n; i++)
-        r->residual[i] -= r->dx * r->leak * r->f[i] * p[i];
+    masses(r, film, r->last + 1);
+    if (r->carry)
+        multiply(r->nodes, r->mass, r->carry, r->carried);
+    balances(r, step, film);
 }
 
 /* The stencil of the wedge and of the change in time, in rho h. */
@@ -459,7 +477,7 @@ static size_t end_of_alike(const ehl_reynolds *r, const ehl_film *film, size_t f
     size_t to = from + 1;
     if (from < OWN)
         return to;
-    if (!r->conserving)
+    if (!r->conserving || r->wedge == 1) /* ehl_upwind asks no node then */
         return r->last;
     int here = ehl_is_cavitated(r, film, from - 1), before = ehl_is_cavitated(r, film, from - 2);
     while (to < r->last && ehl_is_cavitated(r, film, to - 1) == here &&
@@ -479,7 +497,8 @@ void ehl_reynolds_slopes(ehl_reynolds *r, const ehl_step *step, const ehl_film *
     if (r->rough)
         add_pinched_flow(r, film);
     for (size_t i = 1; r->conserving && i < r->last; i++)
-        if (memchr(film->full + (i > 1 ? i - 2 : 0), 0, EHL_STENCIL))
+        if (!(film->full[i > 1 ? i - 2 : 0] & film->full[i - 1] & film->full[i] &
+              film->full[i + 1]))
             cavitated_columns(r, step, film, i);
     if (r->carry)
         add_carried(r, step, film);

@@ -99,6 +99,9 @@ void ehl_reynolds_mass(ehl_reynolds *r, const ehl_film *film);
 /* h, liquid, flux and residual. */
 void ehl_reynolds_evaluate(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
 
+/* The same where nothing but film->full and film->asperity has changed since. */
+void ehl_reynolds_turned(ehl_reynolds *r, const ehl_step *step, const ehl_film *film);
+
 /* The pressure of the oil, of which what statistical flanks carry is at the gap that was computed
    last. */
 static inline const double *ehl_fluid(const ehl_reynolds *r, const ehl_film *film)

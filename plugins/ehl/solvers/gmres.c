@@ -124,14 +124,21 @@ static void shift(const double *restrict x, double by, double *restrict y, size_
         y[i] = x[i] + by;
 }
 
+FF_SIMD
+static void keep_full(size_t n, const unsigned char *restrict full, const double *restrict v,
+                      double *restrict part)
+{
+    for (size_t i = 0; i < n; i++)
+        part[i] = full[i] ? v[i] : 0;
+}
+
 const double *ehl_pressure_part(const ehl_solver *s, const ehl_film *film, const double *v)
 {
     ehl_linear *w = s->self;
     const ehl_reynolds *r = s->reynolds;
     if (!r->conserving)
         return v;
-    for (size_t i = 0; i < r->nodes; i++)
-        w->masked[i] = film->full[i] ? v[i] : 0;
+    keep_full(r->nodes, film->full, v, w->masked);
     for (size_t i = 0; film->yielding > 0 && i < r->nodes; i++)
         w->masked[i] = ehl_yields(r, film, i) ? 0 : w->masked[i];
     return w->masked;

@@ -115,7 +115,7 @@ static ff_status newton_step(ehl_solver *s, const ehl_step *step, ehl_film *film
     if (r->rough)
         moved |= ehl_contact_choose(r, step, film);
     if (moved)
-        ehl_reynolds_evaluate(r, step, film);
+        ehl_reynolds_turned(r, step, film);
     ehl_reynolds_slopes(r, step, film);
     if (r->rough) {
         ehl_contact_rows(r, step, film);

@@ -434,6 +434,7 @@ ff_status ehl_results_finish(const ehl_results *r, const ehl_march *m)
         {EHL_CONVOLUTIONS, counters->convolutions},
         {EHL_STEPS_CUT, m->steps_cut},
         {EHL_LAMBDA_RATIO_LOWEST, r->least_lambda},
+        {EHL_RQ_LEFT_OUT, m->rough ? m->rough->left_out : 0},
     };
     for (size_t k = 0; k < sizeof scalar / sizeof scalar[0]; k++)
         if (wants(r, scalar[k].output) &&

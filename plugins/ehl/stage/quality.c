@@ -456,6 +456,31 @@ static void report_long_waves(const ehl_results *r, const ehl_march *m)
                      "(surface/statistical)");
 }
 
+/* A record that does not repeat is shorter than the way of its flank. */
+static void report_record(const ehl_results *r, const ehl_march *m)
+{
+    double beyond = ehl_roughness_beyond(m->rough);
+    if (beyond > 0)
+        report_at_most(r, "surface_record", beyond, 0.01, FF_RANGE,
+                       "share of the way of the flanks that passes after the end of their record, "
+                       "where they are flat: take a longer record, or let it repeat (extend)");
+}
+
+/* What the film does not know of the flanks. */
+static void report_left_out(const ehl_results *r, const ehl_march *m)
+{
+    const ehl_roughness *f = m->rough;
+    const double most = 0.05;
+    char text[256];
+    if (!(f->given > 0))
+        return;
+    snprintf(text, sizeof text,
+             "rq_left_out over the Rq of the flanks, %.3g of %.3g um: waves below %.4g um, %.3g "
+             "cells, are taken off (roughness_cutoff); more cells leave less out",
+             1e6 * f->left_out, 1e6 * f->given, 1e6 * f->cutoff, f->cutoff / m->solver->grid->dx);
+    report_at_most(r, "roughness_left_out", f->left_out / f->given, most, FF_RANGE, text);
+}
+
 static void report_asperities(const ehl_results *r, const ehl_march *m)
 {
     double count = fmax(1, (double)r->loaded);
@@ -465,6 +490,8 @@ static void report_asperities(const ehl_results *r, const ehl_march *m)
              "in sealed valleys carries %.3g of the load",
              r->ratio_sum / count, r->trapped_sum / count);
     r->host->quality(r->host->ctx, "asperity_load", r->share_sum / count, 1, FF_GOOD, text);
+    report_left_out(r, m);
+    report_record(r, m);
     asperity_cells(r, m, r->share_sum / count);
     report_long_waves(r, m);
     report_yield(r, m, count);

@@ -26,7 +26,7 @@ static const ff_param params[] = {
                 "equal time steps from the first to the last time of the contact, or auto: as many "
                 "as time_tolerance asks for, which land on the kinks of the history; a history of "
                 "one time is solved as steady. With rough flanks a step is divided so that the oil "
-                "moves a cell at most, less where they touch"),
+                "moves a sixteenth of roughness_cutoff or a cell at most, less where they touch"),
     FF_QUANTITY("time_tolerance", "1", ehl_model, time_tolerance, FF_TUNABLE, "7e-3", NULL, 1e-6, 1,
                 0, 0,
                 "steps: auto: error of the film, over itself, that the time steps of one passage "
@@ -44,7 +44,7 @@ static const ff_param params[] = {
         "auto", "tolerance", "1", ehl_model, tolerance, FF_TUNABLE, "auto", NULL, 1e-12, 1e-2, 0, 0,
         "the film is as accurate as if its equations were solved exactly, to about this; "
         "auto: to a twentieth of what its cells, and time_tolerance with steps: auto, "
-        "make of it; 1e-5 with rough flanks, and with other models than ehl/finite-volume"),
+        "make of it; 1e-4 with rough flanks, 1e-5 with other models than ehl/finite-volume"),
     FF_QUANTITY_OR("none", "light_load", "N/m", ehl_model, light_load, FF_MIN_OPEN, "none", NULL, 0,
                    1e9, 0, 0,
                    "none: without load the film is carried on without a load balance; or a load "
@@ -76,6 +76,11 @@ static const ff_param params[] = {
         "rough flanks: highest pressure, of asperities and of the film, at which the metal yields, "
         "where no gear tells its hardness, of which the softer flank's counts: 7 GPa "
         "case-hardened (700 HV); 0: elastic at every pressure"),
+    FF_QUANTITY_OR("auto", "roughness_cutoff", "um", ehl_model, roughness_cutoff, 0, "auto", NULL,
+                   0, 1e4, 0, 0,
+                   "rough flanks: cut-off of the Gaussian filter (ISO 16610-21) that takes off "
+                   "waves too short for the cells: half of a wave of this length is left; auto: 16 "
+                   "cells; 0: the flanks stay as they are"),
     FF_ONE_OF("sealed|ventilated", "valleys", ehl_model, valleys, 0, "sealed",
               "rough flanks: sealed: oil between asperities in contact has no way out but through "
               "their gaps, as between ridges along the tooth; ventilated: it leaks sideways, over "

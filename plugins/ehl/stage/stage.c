@@ -72,6 +72,7 @@ ff_status ehl_ready(void *self)
         {flat, "contact_film", "", NULL, why},
         {bare, "boundary_friction", "", NULL, why},
         {bare, "asperity_hardness", "", NULL, why},
+        {flat, "roughness_cutoff", "", NULL, why},
         {flat, "valleys", "", NULL, why},
         {flat || m->valleys != EHL_VENTILATED, "valley_length", "", NULL,
          flat ? why : "valleys is sealed"},
@@ -128,13 +129,21 @@ typedef struct run {
     ehl_results results;
 } run;
 
-/* tolerance: auto. The first film, rough flanks, whose error by the cells is not known, and the
-   solvers that finite-volume is compared with. */
+/* tolerance: auto. The first film, and the solvers that finite-volume is compared with. */
 static const double FIRST_TOLERANCE = 1e-5;
+
+/* The same between rough flanks, whose error by the cells is not known: what it changes of the
+   share of the asperities is a fifth of what the steps do. */
+static const double ROUGH_TOLERANCE = 1e-4;
 
 /* It is this share of the error by the cells and the steps, from one bound to the other: beyond
    them Newton's method gains or loses no step. */
 static const double TOLERANCE_SHARE = 1. / 20, LEAST_TOLERANCE = 2e-5, MOST_TOLERANCE = 2e-4;
+
+static double first_tolerance(const ehl_model *m, const run *r)
+{
+    return m->tolerance > 0 ? m->tolerance : r->rough.count > 0 ? ROUGH_TOLERANCE : FIRST_TOLERANCE;
+}
 
 /* Records the newest film, and lets the tolerance follow its error. */
 static ff_status record(const ehl_model *m, run *r, int last)
@@ -190,6 +199,15 @@ static ff_status read_surface(const ehl_model *m, const ff_array *in, run *r)
     return status != FF_OK
                ? status
                : ehl_roughness_create(&r->rough, in[EHL_IN_POSITION].data, &r->history, m->host);
+}
+
+/* Takes off the waves of rough flanks that the cells do not resolve: one cut-off for all
+   engagements, since they share a grid. */
+static ff_status cut_surface(const ehl_model *m, run *r)
+{
+    double cutoff =
+        m->roughness_cutoff >= 0 ? m->roughness_cutoff : EHL_CELLS_PER_WAVE * r->grid.dx;
+    return r->rough.count > 0 && cutoff > 0 ? ehl_roughness_cut(&r->rough, cutoff, m->host) : FF_OK;
 }
 
 /* The hardness of rough flanks, that of the softer gear or the parameter where no gear tells. */
@@ -293,7 +311,7 @@ static ff_status solver_create(const ehl_model *m, run *r)
         .reynolds = &r->reynolds,
         .kernel = r->kernel,
         .modulus = r->history.modulus,
-        .tolerance = m->tolerance > 0 ? m->tolerance : FIRST_TOLERANCE,
+        .tolerance = first_tolerance(m, r),
         .outside = m->outside,
         .maker = m->outside ? ehl_outside : m->maker,
     };
@@ -318,6 +336,8 @@ static ff_status run_create(const ehl_model *m, const ff_array *in, run *r)
         status = read_hardness(m, in, r);
     if (status == FF_OK)
         status = fit_grid(m, r);
+    if (status == FF_OK)
+        status = cut_surface(m, r);
     if (status == FF_OK)
         status = equations_create(m, r);
     if (status == FF_OK)
@@ -418,7 +438,7 @@ static ff_status march_own_steps(const ehl_model *m, run *r)
 static ff_status march_engagement(const ehl_model *m, run *r)
 {
     const ehl_history *h = &r->history;
-    r->solver.tolerance = m->tolerance > 0 ? m->tolerance : FIRST_TOLERANCE;
+    r->solver.tolerance = first_tolerance(m, r);
     ff_status status = ehl_march_start(&r->march);
     if (status != FF_OK)
         return explain(m, r, status, h->time[0]);
@@ -445,6 +465,7 @@ static ff_status march(const ehl_model *m, const ff_array *in, run *r)
         if (r->rough.count > 0 && r->history.count < r->whole.count) {
             ehl_roughness_destroy(&r->rough);
             status = read_surface(m, in, r);
+            status = status == FF_OK ? cut_surface(m, r) : status;
         }
         if (status == FF_OK)
             status = march_engagement(m, r);

@@ -30,7 +30,7 @@ typedef struct ehl_model {
     int32_t time_scheme, wedge, cavitation, valleys, roughness, thermal;
     int64_t thermal_nodes;
     double flank_conductivity, flank_density, flank_heat_capacity, bulk_temperature;
-    double contact_film, boundary_friction, asperity_hardness, valley_length;
+    double contact_film, boundary_friction, asperity_hardness, valley_length, roughness_cutoff;
     ehl_inlet_heating heating;
     ehl_laws laws;
     ehl_isothermal isothermal;

@@ -58,6 +58,7 @@ void flank_sine(flank *f, double amplitude, double length)
 
 void flank_give(const flank *f, stage *film)
 {
+    stage_set(film, "roughness_cutoff", 0);
     stage_give_series(film, "surface.position", FLANK_POINTS, f->position);
     stage_give_series(film, "surface.height_1", FLANK_POINTS, f->height[0]);
     stage_give_series(film, "surface.height_2", FLANK_POINTS, f->height[1]);

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Heights of the flanks in the cells: no metal is lost at any shift, and they move with the flank.
- */
+/* Heights of the flanks in the cells: no metal is lost at any shift, they move with the flank, and
+   waves that the cells do not resolve are taken off. */
 #include "check.h"
 
 #include "../../../plugins/ehl/contact/traces.h"
+
+#include <flankfilm/plugin.h>
 
 #include <math.h>
 #include <string.h>
@@ -56,6 +58,92 @@ static void test_mirrored(const double *time, const double *u1, const double *u2
     ehl_roughness_destroy(&s);
 }
 
+/* What is left of two waves on either flank, and of their variance: 2^-(cutoff/length)^2 of each
+   amplitude. The record has no power of 2 points, so that the filter runs beyond its ends. */
+static void test_cut_of_waves(const ehl_history *h)
+{
+    enum { COUNT = 60 };
+    const double spacing = 0.5e-6, cutoff = 7e-6;
+    static double position[COUNT], height[2][COUNT];
+    double left = exp2(-pow(7. / 6, 2)), long_left = exp2(-pow(7. / 15, 2)), worst = 0;
+    for (size_t i = 0; i < COUNT; i++) {
+        double turn = 2 * pi * (double)i / COUNT;
+        position[i] = (double)i * spacing;
+        height[0][i] = 1e-6 * (0.2 + sin(5 * turn)); /* 6 um */
+        height[1][i] = 2e-6 * cos(2 * turn);         /* 15 um */
+    }
+    ehl_roughness r = {
+        .count = COUNT, .height = {height[0], height[1]}, .period = COUNT * spacing, .history = h};
+    check_true("a record to be cut", ehl_roughness_create(&r, position, h, NULL) == FF_OK &&
+                                         ehl_roughness_cut(&r, cutoff, NULL) == FF_OK);
+    for (size_t i = 0; i < COUNT; i++) {
+        double turn = 2 * pi * (double)i / COUNT;
+        worst = fmax(worst, fabs(r.height[0][i] - 1e-6 * (0.2 + left * sin(5 * turn))));
+        worst = fmax(worst, fabs(r.height[1][i] - 2e-6 * long_left * cos(2 * turn)));
+    }
+    check_below("waves by the closed form", worst, 1e-18);
+    check_near("what is left out", r.left_out,
+               1e-6 * sqrt((pow(1 - left, 2) + pow(2 * (1 - long_left), 2)) / 2), 1e-9);
+    check_near("what was given", r.given, 1e-6 * sqrt(2.5), 1e-9);
+    check_below("curvature of what is left",
+                fabs(r.curvature /
+                         hypot(left * pow(2 * pi / 6e-6, 2) * 1e-6,
+                               long_left * pow(2 * pi / 15e-6, 2) * 2e-6) *
+                         sqrt(2) -
+                     1),
+                0.03); /* by second differences, without those at the ends */
+    ehl_roughness_destroy(&r);
+}
+
+/* A Gaussian bump between flat ends becomes a wider one of the same area, part of it beyond the
+   record: both widths add up in squares, that of the weighting function being
+   cutoff sqrt(ln 2/2)/pi. */
+static void test_cut_of_bump(const ehl_history *h)
+{
+    enum { COUNT = 41 };
+    const double spacing = 0.25e-6, cutoff = 8e-6, own = 1e-6;
+    const double wide = hypot(own, cutoff * sqrt(log(2) / 2) / pi);
+    static double position[COUNT], height[2][COUNT], cells[NODES];
+    for (size_t i = 0; i < COUNT; i++) {
+        double x = ((double)i - 20) * spacing;
+        position[i] = (double)i * spacing;
+        height[0][i] = 1e-6 * exp(-x * x / (2 * own * own));
+    }
+    ehl_roughness r = {
+        .count = COUNT, .height = {height[0], height[1]}, .origin = 20 * spacing, .history = h};
+    check_true("a bump to be cut", ehl_roughness_create(&r, position, h, NULL) == FF_OK &&
+                                       ehl_roughness_cut(&r, cutoff, NULL) == FF_OK);
+    ehl_grid g = {.nodes = NODES, .dx = 0.5e-6, .first = -12e-6};
+    double worst = 0;
+    ehl_roughness_heights(&r, &g, 0, cells);
+    for (size_t i = 0; i < NODES; i++) {
+        double x = g.first + (double)i * g.dx, half = g.dx / 2, in = sqrt(2) * wide;
+        double mean = sqrt(pi / 2) * wide / g.dx * (erf((x + half) / in) - erf((x - half) / in));
+        worst = fmax(worst, fabs(cells[i] - 1e-6 * own / wide * mean));
+    }
+    check_below("a wider bump, straight lines between its points", worst, 2e-3 * 1e-6);
+    check_true("beyond the record", cells[12] > 1e-9);
+    ehl_roughness_destroy(&r);
+}
+
+static ff_status keep(void *ctx, ff_status status, const char *item, const char *text)
+{
+    *(int *)ctx = !strcmp(item, "surface.position") && strstr(text, "roughness_cutoff") != NULL;
+    return status;
+}
+
+static void test_refused_cut(const ehl_history *h)
+{
+    const double position[] = {0, 1e-12, 2e-12}, flat[3] = {0};
+    int told = 0;
+    const ff_host host = {.ctx = &told, .fail = keep};
+    ehl_roughness r = {.count = 3, .height = {flat, flat}, .history = h};
+    check_true("points too close for the filter",
+               ehl_roughness_create(&r, position, h, NULL) == FF_OK &&
+                   ehl_roughness_cut(&r, 1e-3, &host) == FF_INVALID && told);
+    ehl_roughness_destroy(&r);
+}
+
 int main(void)
 {
     /* flank 1 stands, then gains speed evenly: 0.5 m/s2 makes 1 mm in 63.2 ms; flank 2 is flat */
@@ -86,6 +174,9 @@ int main(void)
     ehl_roughness_heights(&r, &g, time[1], after);
     check_true("flanks that stand still", off_traces(&r, &g, 0, after) > 1e-7);
     test_mirrored(time, u1, u2, position, (const double(*)[POINTS])height, &g);
+    test_cut_of_waves(&h);
+    test_cut_of_bump(&h);
+    test_refused_cut(&h);
     r.period = 0;
     ehl_roughness_heights(&r, &g, 1e-4, before);
     check_below("a trace that ends", off_traces(&r, &g, 1e-4, before), 1e-14);

@@ -142,6 +142,50 @@ static void test_refusals(void)
     refused("a period that is not the record's", "surface.period", &f);
 }
 
+/* The waves that the film has are those that 16 of its cells resolve, or as the parameter says. */
+static void test_cutoff(void)
+{
+    const double amplitude = 1e-7, length = 100e-6, cutoffs[] = {0, 150e-6, NAN};
+    static flank f;
+    flank_sine(&f, amplitude, length);
+    for (size_t k = 0; k < 3; k++) {
+        size_t n;
+        line c;
+        open_rough(&c, &f, 1, 0, 64, 1);
+        line_last(&c, 2, 1e-6);
+        if (isnan(cutoffs[k]))
+            stage_set_text(c.film, "roughness_cutoff", "auto");
+        else
+            stage_set(c.film, "roughness_cutoff", cutoffs[k]);
+        if (check_true("a cut-off", line_run(&c, "x h_min rq_left_out") == FF_OK)) {
+            const double *x = stage_get(c.film, "x", &n);
+            double cutoff = isnan(cutoffs[k]) ? 16 * (x[1] - x[0]) : cutoffs[k];
+            double off = amplitude / sqrt(2) * (1 - exp2(-pow(cutoff / length, 2)));
+            check_near("Rq left out", stage_scalar(c.film, "rq_left_out"), off, 1e-6);
+            if (cutoff > 0)
+                check_near("its share", stage_quality(c.film, "roughness_left_out"), off / f.rq[0],
+                           1e-6);
+        }
+        line_close(&c);
+    }
+}
+
+/* Flank 1 goes 4.6 um in 1 us, and its record ends after a quarter of that. */
+static void test_short_record(void)
+{
+    static flank f;
+    line c;
+    flank_sine(&f, 1e-7, 1e-4);
+    f.period = 0;
+    open_rough(&c, &f, 1, 0.3, 64, 1);
+    line_last(&c, 2, 1e-6);
+    f.origin = 0.25e-6 * c.u1[0];
+    flank_give(&f, c.film);
+    if (check_true("a record that ends", line_run(&c, "h_min") == FF_OK))
+        check_near("told", stage_quality(c.film, "surface_record"), 0.75, 1e-6);
+    line_close(&c);
+}
+
 /* Asperities that would reach the other flank at the ends of the domain move them out. */
 static void test_domain(void)
 {
@@ -195,6 +239,8 @@ static void test_first_instant(void)
 int main(void)
 {
     test_domain();
+    test_cutoff();
+    test_short_record();
     test_first_instant();
     test_flat();
     test_refusals();
