@@ -359,17 +359,17 @@ static void solve_column(sweep *s, size_t i, int returns)
         solve_across(s, i, s->e->across.count, returns);
 }
 
-/* Where there is no film. */
+/* Where there is no film the oil keeps its temperature on its way. */
 static void carry_column(sweep *s, size_t i)
 {
     const ehl_energy *e = s->e;
+    const ehl_energy_film *film = s->film;
     size_t n = e->across.count;
-    double *T = s->t->T + i * n;
-    if (s->film->frame > 0)
-        for (size_t k = 0; k < n; k++)
-            T[k] = fmin(fmax(-s->film->past[i * n + k] / s->film->rate, e->lowest), e->highest);
-    else
-        memcpy(T, T - n, n * sizeof *T);
+    double *T = s->t->T + i * n, on = fmax(film->speed[0] + film->speed[1], 0) / (2 * film->dx);
+    for (size_t k = 0; k < n; k++) {
+        double before = film->past ? film->past[i * n + k] : 0, come = on > 0 ? on * T[k - n] : 0;
+        T[k] = fmin(fmax((come - before) / (film->rate + on), e->lowest), e->highest);
+    }
     for (size_t g = 0; g < 2; g++) {
         flank_at(s, g, i);
         s->e->flux[g][i] = 0;

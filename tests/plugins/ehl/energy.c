@@ -370,9 +370,34 @@ static void test_balance(void)
     check_true("falls with the cells", coarse > 3 * fine);
 }
 
+/* Oil in a void comes from the film at the mean speed of the flanks: within a step far shorter than
+   its way from node to node its temperature stays, and in a long one it is that of the film. */
+static void test_void(void)
+{
+    static bench b;
+    static double past[NODES * 8];
+    const double cold = 330;
+    for (double rate = 1e14; rate > 1e-8; rate *= 1e-21) {
+        open_bench(&b, NODES, 8, 1e4, 10, 6, 1e-6);
+        b.film.count = NODES - 1;
+        b.film.dx = 1e-6;
+        b.film.rate = rate;
+        b.film.past = past;
+        b.full[NODES - 1] = 0;
+        for (size_t j = 0; j < NODES * 8; j++)
+            past[j] = -rate * (j < (NODES - 1) * 8 ? T0 : cold);
+        ehl_energy_flow(&b.e, &b.film, b.T);
+        ehl_energy_sweep(&b.e, &b.film, &b.t);
+        double want = rate > 1 ? cold : b.T[8 + 3];
+        check_near("oil in a void", b.T[2 * 8 + 3], want, 1e-4);
+        ehl_energy_destroy(&b.e);
+    }
+}
+
 int main(void)
 {
     test_couette();
+    test_void();
     test_compression_in_time();
     test_nahme();
     test_eyring();
