@@ -57,13 +57,13 @@ static void say(void *ctx, int indent, const char *line)
 
 /* Writes the text to PATH with that ending, in place of one that the program has written. */
 static bool write_file(const char *path, const char *ending, const char *begins, const char *text,
-                       const char *title, ff_report *report)
+                       const report_template *with, ff_report *report)
 {
     results_target target = {
         .path = memory_print_text("%s%s", path, ending), .begins = begins, .report = report};
     FILE *out = results_target_open(&target, false) ? fopen(target.part, "we") : NULL;
-    if (out && title)
-        report_write_figures(out, title, text);
+    if (out && with)
+        report_write_figures(out, with, "Designs compared", text);
     else if (out)
         fputs(text, out);
     const bool good = results_target_end(&target, out);
@@ -72,16 +72,19 @@ static bool write_file(const char *path, const char *ending, const char *begins,
 }
 
 /* Writes the page and the table. */
-static bool write_files(const study_context *context, const char *path, ff_report *report)
+static bool write_files(const study_context *context, const cli_options *options, ff_report *report)
 {
-    bool good = true;
+    const char *path = options->directory;
+    report_template *with = report_template_open(cli_option(options, "template"), report);
+    bool good = with;
     for (size_t i = 0; i < context->file_count && good; i++) {
         const study_result_file *file = &context->files[i];
         if (strstr(file->name, ".csv"))
             good = write_file(path, ".csv", "output of ", file->text, NULL, report);
         else if (strstr(file->name, ".figure.json"))
-            good = write_file(path, ".html", REPORT_BEGINS, file->text, "Designs compared", report);
+            good = write_file(path, ".html", REPORT_BEGINS, file->text, with, report);
     }
+    report_template_close(with);
     return good;
 }
 
@@ -93,7 +96,7 @@ static bool compare(const cli_options *options, const report_design *designs, si
     study_answer answer = {.context = &context, .file = "compare"};
     bool good = report_compare(&answer, designs, count);
     study_answer_close(&answer);
-    good = good && (!options->directory || write_files(&context, options->directory, report));
+    good = good && (!options->directory || write_files(&context, options, report));
     if (good && options->json) {
         json_t *told = results_json_answer("ok", EXIT_SUCCESS, report);
         json_object_update(told, context.facts);

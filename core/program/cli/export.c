@@ -36,7 +36,9 @@ static bool write_page(const results_view *view, const results_target *target,
                        const cli_options *options)
 {
     report_template *with = report_template_open(cli_option(options, "template"), target->report);
-    const bool good = with && report_write(view, with, target->part, target->report);
+    const cli_words best = cli_option_words(options, "best");
+    const bool good =
+        with && report_write(view, with, best.words, best.count, target->part, target->report);
     report_template_close(with);
     return good;
 }
@@ -149,21 +151,24 @@ static bool names_figures(const char *operand)
     return length > 5 && !strcmp(operand + length - 5, ".json");
 }
 
-static bool write_figures(const char *from, results_target *target)
+static bool write_figures(const char *from, const cli_options *options, results_target *target)
 {
+    report_template *with = report_template_open(cli_option(options, "template"), target->report);
     json_error_t error;
     json_t *figures = study_read_json(AT_FDCWD, from, &error);
     bool good = json_is_array(figures) || ff_error(target->report, FF_FAULT_INPUT, FF_NOWHERE, NULL,
                                                    "\"%s\" does not describe figures: %s", from,
                                                    figures ? "it is no list" : error.text);
-    FILE *out = good && results_target_open(target, false) ? fopen(target->part, "we") : NULL;
+    FILE *out =
+        good && with && results_target_open(target, false) ? fopen(target->part, "we") : NULL;
     if (out) {
         char *text = json_dumps(figures, JSON_COMPACT);
-        report_write_figures(out, from, text);
+        report_write_figures(out, with, from, text);
         free(text);
     }
     json_decref(figures);
-    return good && results_target_end(target, out);
+    report_template_close(with);
+    return good && with && results_target_end(target, out);
 }
 
 static int report_figures(const cli_options *options)
@@ -173,7 +178,7 @@ static int report_figures(const cli_options *options)
     target.path = options->directory
                       ? memory_print_text("%s", options->directory)
                       : memory_print_text("%.*s.html", (int)(strlen(from) - strlen(".json")), from);
-    bool good = write_figures(from, &target);
+    bool good = write_figures(from, options, &target);
     return answer_target(options, &target, good);
 }
 

@@ -42,7 +42,9 @@ static void write_page(const fit *f, FILE *out)
 {
     json_t *figure = fit_figure(f);
     char *text = json_dumps(figure, JSON_COMPACT | JSON_REAL_PRECISION(6));
-    report_write_figures(out, "Viscosity laws against data", text);
+    report_template *with = report_template_open(NULL, NULL);
+    report_write_figures(out, with, "Viscosity laws against data", text);
+    report_template_close(with);
     free(text);
     json_decref(figure);
 }

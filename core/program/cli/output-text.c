@@ -132,7 +132,8 @@ cli_output_text cli_output_text_of(const accuracy_record *errors, const ff_pipel
     size_t least = 0, greatest = 0;
     bool pair = print_pair(result, text.value, sizeof text.value);
     if (result->count > 0 && !pair) {
-        const bool known = find_extremes(result, &least, &greatest);
+        const bool loaded = accuracy_extremes(pipeline, stage, result, &least, &greatest);
+        const bool known = loaded || find_extremes(result, &least, &greatest);
         size_t at = accuracy_is_least(stage, result) ? strlen(strcpy(text.value, ">= ")) : 0;
         if (known)
             print_range(result, result->data[least], result->data[greatest], text.value + at,

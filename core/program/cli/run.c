@@ -7,6 +7,7 @@
 #include "swap.h"
 
 #include "../accuracy/accuracy.h"
+#include "../accuracy/axis.h"
 #include "../accuracy/goals.h"
 #include "../accuracy/models.h"
 #include "../limits/accept.h"
@@ -100,6 +101,7 @@ static int run_session(cli_session *session, const cli_options *options, const r
     cli_progress progress;
     cli_progress_begin(&progress, session->report);
     accuracy_record errors = {.answer = session->pipeline};
+    accuracy_want_points(session->pipeline);
     bool good =
         accuracy_is_asked(session->run)
             ? accuracy_run(&errors, session->run, session->engine, &progress.watch, session->report)

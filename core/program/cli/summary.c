@@ -434,7 +434,7 @@ void cli_print_summary(const results_outcome *outcome, bool all)
     page.heading = "Doubts that the file accepts";
     for (size_t i = 0; i < pipeline->count; i++)
         print_accepted(&page, &pipeline->stages[pipeline->order[i]]);
-    page.heading = "Numbers in doubt";
+    page.heading = "Numbers in doubt (the page and the guide say what each means)";
     for (size_t i = 0; i < pipeline->count; i++)
         print_quality(&page, &pipeline->stages[pipeline->order[i]], false);
     page.heading = "Models outside of their range";

@@ -69,8 +69,10 @@ static int find(const results_view *view, const char *name)
     return -1;
 }
 
-static size_t rank_of(const ff_array *array, part what)
+static size_t rank_of(const results_view_variable *of, const ff_array *array, part what)
 {
+    if (*of->whole && what >= LEAST)
+        return of->extremes[what == LARGEST];
     size_t at = what == SECOND ? 1 : 0;
     for (size_t i = 1; what >= LEAST && i < report_array_size(array); i++) {
         const double value = array->data[i], best = array->data[at];
@@ -87,7 +89,7 @@ static bool read_number(const report_design *design, const char *name, part what
     const int variable = find(design->view, name);
     *out = (number){NAN, NAN};
     ff_array array = report_load(&page, variable, design->index);
-    const size_t at = array.data ? rank_of(&array, what) : 0;
+    const size_t at = array.data ? rank_of(design->view->variables[variable], &array, what) : 0;
     if (array.data && at < report_array_size(&array)) {
         out->value = array.data[at];
         out->bar = bar_of(&page, (size_t)variable, design->index, at, out->value);

@@ -209,6 +209,11 @@ void report_plot_write(report_page *page, const report_plot *plot)
         report_put_json_text(out, plot->x_names[i]);
     }
     fputs(plot->x_names ? "]," : "", out);
+    if (plot->limit_name) {
+        fprintf(out, "\"limit\":{\"at\":%.6g,\"name\":", plot->limit);
+        report_put_json_text(out, plot->limit_name);
+        fputs("},", out);
+    }
     fprintf(out, "%s\"marks\":[", dots ? "\"room\":1," : "");
     for (size_t i = 0; i < plot->mark_count; i++) {
         fprintf(out, "%s[%.6g,", i ? "," : "", plot->marks[i]);
@@ -252,7 +257,17 @@ void report_map_write(report_page *page, const report_map *map)
     fprintf(out, ",\"log\":%d,\"low\":%.6g,\"high\":%.6g},", log, map->low, map->high);
     if (isfinite(map->mark))
         fprintf(out, "\"mark\":%.6g,", map->mark);
-    fputs("\"values\":[", out);
+    if (map->best >= 0)
+        fprintf(out, "\"best\":[%zu,%zu],", (size_t)map->best % map->columns / step_x,
+                (size_t)map->best / map->columns / step_y);
+    fputs("\"standing\":[", out);
+    for (size_t r = 0; r < map->rows; r += step_y) {
+        fputs(r ? ",\"" : "\"", out);
+        for (size_t c = 0; c < map->columns; c += step_x)
+            fprintf(out, "%d", (int)map->standing[r * map->columns + c]);
+        fputc('"', out);
+    }
+    fputs("],\"values\":[", out);
     for (size_t r = 0; r < map->rows; r += step_y) {
         fputs(r ? ",\n[" : "[", out);
         for (size_t c = 0; c < map->columns; c += step_x)
@@ -261,15 +276,4 @@ void report_map_write(report_page *page, const report_map *map)
     }
     fputs("]}", out);
     report_figure_end(page);
-}
-
-void report_put_figures(FILE *out, const char *json)
-{
-    fputs("<div class=\"figures drawn\"><script type=\"application/json\">", out);
-    for (; *json; json++) /* within strings alone */
-        if (*json == '<')
-            fputs("\\u003c", out);
-        else
-            fputc(*json, out);
-    fputs("</script></div>\n", out);
 }

@@ -91,6 +91,11 @@ var figures = (function () {
     figure.curves.forEach(function (curve, k) { inside = inside.concat(drawn(curve, k, figure.curves.length > 1)); });
     inside.unshift({type: 'rule', from: {data: 'marks'}, encode: {update: {x: at('x'), y: {value: 0}, y2: {signal: 'height'},
       stroke: {value: 'var(--soft)'}, strokeDash: {value: [1.5, 3]}}}});
+    if (figure.limit) {
+      var bound = {stroke: {value: '#d4351c'}, strokeWidth: {value: 1.5}, strokeDash: {value: [6, 3]}, x: {value: 0}, x2: {signal: 'width'}, y: {scale: 'y', value: figure.limit.at}};
+      inside.push({type: 'rule', encode: {update: bound}}, {type: 'text', encode: {update: {x: {value: 4}, y: bound.y, dy: {value: -5},
+        text: {value: figure.limit.name}, fontSize: {value: 11}, fill: {value: '#d4351c'}}}});
+    }
     var names = {type: 'text', from: {data: 'marks'}, encode: {update: {x: at('x'), y: {signal: '-5 - 12 * datum.row'},
       text: {field: 'name'}, fontSize: {value: 11}, align: {signal: "datum.x >= xd[1] ? 'right' : datum.x <= xd[0] ? 'left' : 'center'"},
       fill: {value: 'var(--soft)'}, opacity: {signal: 'datum.x >= xd[0] - 1e-9 && datum.x <= xd[1] + 1e-9 ? 1 : 0'}}}};
@@ -235,6 +240,20 @@ var figures = (function () {
       strokeWidth: {field: 'wide'}}, edge)}},
       {type: 'text', from: {data: 'edges'}, encode: {update: Object.assign({stroke: {value: '#000'}, strokeWidth: {value: 3}, opacity: {value: 0.6}}, name)}},
       {type: 'text', from: {data: 'edges'}, encode: {update: Object.assign({fill: {value: '#fff'}}, name)}});
+    function middle(c, r) { return {x: {scale: 'x', value: c + 0.5}, y: {scale: 'y', value: r + 0.5}}; }
+    /* Cells that miss a limit are crossed out, those that meet it within their bar alone are framed. */
+    (figure.standing || []).forEach(function (row, r) {
+      row.split('').forEach(function (kind, c) {
+        var half = kind === '2' ? 0.5 : 0.42, cell = {stroke: {value: kind === '2' ? '#e2330f' : '#ffb000'}, strokeWidth: {value: 1.6},
+          x: {scale: 'x', value: c + 0.5 - half}, x2: {scale: 'x', value: c + 0.5 + half}, y: {scale: 'y', value: r + 0.5 - half}, y2: {scale: 'y', value: r + 0.5 + half}};
+        if (kind !== '0') marks.push({type: kind === '2' ? 'rule' : 'rect', encode: {update: cell}});
+      });
+    });
+    if (figure.best)
+      marks.push({type: 'symbol', encode: {update: Object.assign({shape: {value: 'circle'}, size: {value: 170}, fill: {value: '#fff'}, stroke: {value: '#000'},
+        strokeWidth: {value: 1.5}}, middle(figure.best[0], figure.best[1]))}},
+      {type: 'text', encode: {update: Object.assign({text: {value: '\u2605'}, fill: {value: '#000'}, fontSize: {value: 12}, align: {value: 'center'},
+        baseline: {value: 'middle'}}, middle(figure.best[0], figure.best[1]))}});
     function ranks(count, most) {
       var list = [], step = Math.ceil(count / most);
       for (var i = 0; i < count; i += step) list.push(i + 0.5);

@@ -2,6 +2,8 @@
 /* Finds what a figure needs among the results. */
 #include "page.h"
 
+#include "../memory/memory.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -140,4 +142,15 @@ report_marks report_find_marks(report_page *page, size_t index)
     if (!isfinite(marks.roll[1]) && !isfinite(marks.roll[3]))
         find_jumps(page, index, &marks);
     return marks;
+}
+
+double *report_load_values(report_page *page, size_t variable)
+{
+    double *values = memory_alloc(page->view->case_count * sizeof *values);
+    for (size_t c = 0; c < page->view->case_count; c++) {
+        ff_array array = report_load(page, (int)variable, c);
+        values[c] = array.data ? array.data[0] : (double)NAN;
+        report_release(page, &array);
+    }
+    return values;
 }

@@ -9,8 +9,16 @@
 #include <stdbool.h>
 #include <stdio.h>
 
+/* An output of which the reader asks the best: -1 the least, 1 the largest. */
+typedef struct report_sought {
+    size_t variable;
+    int sense;
+} report_sought;
+
 typedef struct report_page {
     const results_view *view;
+    const report_sought *goals;
+    size_t goal_count;
     FILE *out;
     bool failed;    /* the results could not be read; the view has reported why */
     size_t figures; /* number of figures so far */
@@ -45,6 +53,8 @@ void report_number_text(double value, char out[REPORT_TEXT_SIZE]);
 /* Prints an SI value as "22.3 deg". */
 void report_quantity_text(const char *name, const char *si_unit, double si,
                           char out[REPORT_TEXT_SIZE]);
+/* Writes it as a cell of a table, which scripts sort by its SI value; NaN is empty. */
+void report_put_value(FILE *out, const char *name, const char *si_unit, double si);
 /* Prints the error bar of an SI value with the two digits that are known of it. */
 void report_bar_text(const char *si_unit, double bar, char out[REPORT_TEXT_SIZE]);
 /* Returns what an output is called in a figure, by its doc: "least film thickness" for h_min. */
@@ -58,6 +68,13 @@ const char *report_axis_word(const results_view_axis *axis, size_t point,
    none). */
 void report_name_case(const results_view *view, size_t index, size_t a, int b,
                       char out[REPORT_TEXT_SIZE]);
+/* Names a case by what varies along some dimensions alone. */
+void report_name_point(const results_view *view, size_t index, const bool *dims,
+                       char out[REPORT_TEXT_SIZE]);
+/* Returns the case of combination k of some dimensions, at the first point of the others; and that
+   of all dimensions but a and b, which may be -1. */
+size_t report_case_of(const results_view *view, const bool *dims, size_t k);
+size_t report_first_case(const results_view *view, size_t k, size_t a, int b);
 void report_label(const char *words, const results_readable *unit, char out[REPORT_TEXT_SIZE]);
 
 /* find.c: finds parts of the results; -1 when they are missing. */
@@ -75,6 +92,8 @@ double report_find_scalar(report_page *page, const char *output, size_t index);
 ff_array report_load(report_page *page, int variable, size_t index);
 void report_release(report_page *page, ff_array *array);
 size_t report_array_size(const ff_array *array);
+/* Loads a scalar over the cases, in SI; to be freed. */
+double *report_load_values(report_page *page, size_t variable);
 
 /* Points along the path of contact: SAP, LPSTC, pitch, HPSTC, tip. */
 enum { REPORT_MARKS = 5 };
@@ -106,6 +125,8 @@ typedef struct report_plot {
     size_t mark_count;
     const char (*x_names)[REPORT_TEXT_SIZE]; /* what stands at x = 0, 1, ...; NULL: numbers */
     double x0, x1, y0, y1;                   /* ranges of the axes, where x0 < x1, y0 < y1 */
+    const char *limit_name; /* of a limit, drawn at y = limit; NULL: there is none */
+    double limit;
     bool from_zero;
     bool decades, y_decades; /* along x and y, whose values are above 0 */
     const char *class;       /* of the figure, or NULL */
@@ -125,7 +146,7 @@ void report_plot_free(report_plot *plot);
 void report_figure_begin(report_page *page, const char *title, const char *class);
 void report_put_json_text(FILE *out, const char *text);
 void report_figure_end(report_page *page);
-/* Writes a list of descriptions, from which script.js makes the figures. */
+/* described.c writes a list of descriptions: drawings with their sentences and tables. */
 void report_put_figures(FILE *out, const char *json);
 
 /* Values over two axes as colours. */
@@ -133,10 +154,12 @@ typedef struct report_map {
     char title[REPORT_TEXT_SIZE], value_label[REPORT_TEXT_SIZE];
     char x_label[REPORT_TEXT_SIZE], y_label[REPORT_TEXT_SIZE];
     size_t columns, rows;
-    const double *x, *y;  /* in the units of the figure, as all numbers here */
-    const double *values; /* rows of columns; NaN: none */
-    double low, high;     /* the range of the colours */
-    double mark;          /* a line is drawn between cells below and above it; NaN: none */
+    const double *x, *y;     /* in the units of the figure, as all numbers here */
+    const double *values;    /* rows of columns; NaN: none */
+    double low, high;        /* the range of the colours */
+    double mark;             /* a line is drawn between cells below and above it; NaN: none */
+    const int32_t *standing; /* of each cell to the limits of the file */
+    int best;                /* the cell that is best; -1: none */
 } report_map;
 void report_map_write(report_page *page, const report_map *map);
 
@@ -149,6 +172,8 @@ typedef struct report_check {
 /* Returns "good", "doubtful", "bad", or "range" of a line that says that a model is outside of it.
  */
 const char *report_verdict_word(const results_view_quality *line);
+/* Writes the name of a line; of one that is not good, it leads to what that means. */
+void report_put_line_name(FILE *out, const results_view_quality *line);
 /* Returns each line of any case once, in the order of the first case that has it; to be freed. */
 report_check *report_find_checks(const results_view *view, size_t *count);
 
@@ -164,6 +189,25 @@ bool report_is_sample(const results_view *view);
 double *report_sort(const double *values, size_t count, size_t *kept);
 double report_percentile(const double *list, size_t count, double percent);
 void report_write_sample(report_page *page, const report_scalar *scalar);
+
+/* section-best.c: whether the cases are a sweep of several axes. */
+bool report_is_sweep(const results_view *view);
+/* Reads "OUTPUT=least" and "OUTPUT=largest"; false with an error in the report. */
+bool report_read_sought(const results_view *view, const char *const *best, size_t count,
+                        report_sought *out, ff_report *report);
+/* Writes which of the values that are chosen are best for each condition; false: it had nothing. */
+bool report_write_best(report_page *page);
+/* Writes a scalar as small tables; false where they would be large. */
+bool report_write_grids(report_page *page, size_t variable, const report_scalar *scalar);
+/* The number that a limit of an output names, in SI; NaN: none does. */
+double report_limit_bound(const results_view *view, size_t variable);
+/* The limit itself, "> 0.2 um"; NULL: there is none. */
+const char *report_limit_asked(const results_view *view, size_t variable);
+/* How a case stands to the limits, the worst of them. */
+int32_t report_standing(const results_view *view, size_t index);
+/* The cell that is best of a map over dimensions x and y, whose first case is given; -1: none. */
+ptrdiff_t report_best_of(const report_page *page, size_t variable, const double *values,
+                         size_t first, size_t x, size_t y);
 
 /* These write the sections of the page. */
 /* Writes how the answers stand to the limits of the file: of a study, in how many cases. */

@@ -200,16 +200,15 @@ static void write_layout(const report_template *with, FILE *out, const char *tit
     fputs(from, out);
 }
 
-void report_write_figures(FILE *out, const char *title, const char *json)
+void report_write_figures(FILE *out, const report_template *with, const char *title,
+                          const char *json)
 {
-    report_template *with = report_template_open(NULL, NULL);
     text page;
     FILE *stream = memory_require(open_memstream(&page.text, &page.length));
     report_put_figures(stream, json);
     fclose(stream);
     write_layout(with, out, title, &page);
     free(page.text);
-    report_template_close(with);
 }
 
 static void write_sections(report_page *page)
@@ -227,13 +226,21 @@ static void write_sections(report_page *page)
               page->out);
 }
 
-bool report_write(const results_view *view, const report_template *with, const char *path,
-                  ff_report *report)
+bool report_write(const results_view *view, const report_template *with, const char *const *best,
+                  size_t best_count, const char *path, ff_report *report)
 {
     text sections;
+    report_sought *goals = memory_alloc((best_count + 1) * sizeof *goals);
+    if (!report_read_sought(view, best, best_count, goals, report)) {
+        free(goals);
+        return false;
+    }
     report_page page = {.view = view,
+                        .goals = goals,
+                        .goal_count = best_count,
                         .out = memory_require(open_memstream(&sections.text, &sections.length))};
     write_sections(&page);
+    free(goals);
     fclose(page.out);
     FILE *out = fopen(path, "we");
     bool lost = !out;

@@ -18,11 +18,14 @@ typedef struct report_template report_template;
 report_template *report_template_open(const char *folder, ff_report *report);
 void report_template_close(report_template *of); /* NULL is allowed */
 
-/* Writes the page to a file. False with an error in the report, which is the view's as well. */
-bool report_write(const results_view *view, const report_template *with, const char *path,
-                  ff_report *report);
+/* Writes the page to a file. `best` are texts "OUTPUT=least" or "OUTPUT=largest": outputs of a
+   sweep of which the page names the best. False with an error in the report, which is the view's as
+   well. */
+bool report_write(const results_view *view, const report_template *with, const char *const *best,
+                  size_t best_count, const char *path, ff_report *report);
 
 /* Writes a page of nothing but figures, whose descriptions are a list in JSON. */
-void report_write_figures(FILE *out, const char *title, const char *json);
+void report_write_figures(FILE *out, const report_template *with, const char *title,
+                          const char *json);
 
 #endif

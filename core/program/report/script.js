@@ -9,14 +9,112 @@
     if (words !== undefined) node.textContent = words;
     return node;
   }
+  function download(blob, name) {
+    var link = document.createElement('a');
+    link.href = URL.createObjectURL(blob);
+    link.download = name;
+    link.click();
+    setTimeout(function () { URL.revokeObjectURL(link.href); }, 1000);
+  }
   function save(figure, name) {
+    figures.standalone(figure).then(function (svg) { download(new Blob([svg], {type: 'image/svg+xml'}), name + '.svg'); });
+  }
+  /* Twice the size of the drawing, on paper that is not transparent. */
+  function picture(figure, name) {
     figures.standalone(figure).then(function (svg) {
-      var link = document.createElement('a');
-      link.href = URL.createObjectURL(new Blob([svg], {type: 'image/svg+xml'}));
-      link.download = name + '.svg';
-      link.click();
-      setTimeout(function () { URL.revokeObjectURL(link.href); }, 1000);
+      var image = new Image(), canvas = document.createElement('canvas'), pen = canvas.getContext('2d');
+      image.onload = function () {
+        canvas.width = 2 * image.width;
+        canvas.height = 2 * image.height;
+        pen.fillStyle = '#fff';
+        pen.fillRect(0, 0, canvas.width, canvas.height);
+        pen.drawImage(image, 0, 0, canvas.width, canvas.height);
+        canvas.toBlob(function (blob) { download(blob, name + '.png'); });
+      };
+      image.src = 'data:image/svg+xml,' + encodeURIComponent(svg);
     });
+  }
+  function write(rows, name) { /* as RFC 4180 has it */
+    download(new Blob([rows.map(function (row) {
+      return row.map(function (cell) {
+        var words = cell === null || cell === undefined ? '' : String(cell);
+        return /[",\n]/.test(words) ? '"' + words.replace(/"/g, '""') + '"' : words;
+      }).join(',');
+    }).join('\n') + '\n'], {type: 'text/csv'}), name + '.csv');
+  }
+  /* The numbers of a figure, a line for each. */
+  function numbers(figure) {
+    var rows = [];
+    if (figure.sort === 'curves') {
+      var bars = figure.curves.some(function (c) { return c.bar; });
+      figure.curves.forEach(function (curve) {
+        curve.x.forEach(function (x, i) {
+          rows.push([curve.names ? curve.names[i] : curve.name || '', figure.names ? figure.names[i] : x, curve.y[i]].concat(bars ? [curve.bar ? curve.bar[i] : null] : []));
+        });
+      });
+      return [['', figure.x.label, figure.y.label].concat(bars ? ['error'] : [])].concat(rows);
+    }
+    figure.y.at.forEach(function (y, r) {
+      figure.x.at.forEach(function (x, c) {
+        var k = r * figure.x.at.length + c;
+        rows.push(figure.values ? [y, x, figure.values[r][c]] : [y, x, figure.classes[figure.cells[k]].name, figure.reasons[k]]);
+      });
+    });
+    return [[figure.y.label, figure.x.label, figure.value ? figure.value.label : 'class']].concat(rows);
+  }
+
+  /* Tables: a click on a head sorts, a second one backwards; numbers by what they are in SI. */
+  function keyOf(cell) {
+    var words = cell.textContent.replace(/[\u202f\u2009\u00a0]/g, '').trim();
+    var number = cell.dataset.v === undefined ? parseFloat(words.replace(/^\u2265/, '')) : Number(cell.dataset.v);
+    return isNaN(number) ? words : number;
+  }
+  function order(a, b) { /* numbers before words, empty cells last */
+    if (typeof a === typeof b) return typeof a === 'number' ? a - b : (a === '') - (b === '') || a.localeCompare(b);
+    return typeof a === 'number' ? -1 : 1;
+  }
+  function sorting(table, number) {
+    var body = table.tBodies[0], heads = Array.prototype.slice.call(table.tHead.rows[0].cells);
+    heads.forEach(function (head, k) {
+      if (!head.textContent) return;
+      head.tabIndex = 0;
+      function sort() {
+        var back = head.getAttribute('aria-sort') === 'ascending' ? -1 : 1;
+        heads.forEach(function (one) { one.removeAttribute('aria-sort'); });
+        head.setAttribute('aria-sort', back < 0 ? 'descending' : 'ascending');
+        Array.prototype.map.call(body.rows, function (row, i) { return {row: row, key: row.cells[k] ? keyOf(row.cells[k]) : '', at: i}; })
+          .sort(function (a, b) { return back * order(a.key, b.key) || a.at - b.at; })
+          .forEach(function (one) { body.appendChild(one.row); });
+      }
+      head.addEventListener('click', sort);
+      head.addEventListener('keydown', function (e) { if (e.key === 'Enter') sort(); });
+    });
+    var tools = make('div', 'tools');
+    button('csv', tools, function () {
+      write([table.tHead.rows[0]].concat(Array.prototype.slice.call(body.rows)).map(function (row) {
+        return Array.prototype.map.call(row.cells, function (cell, k) {
+          var unit = heads[k] && heads[k].dataset.unit, words = cell.textContent.replace(/[\u202f\u2009]/g, '').trim();
+          if (unit === undefined) return words;
+          return cell.tagName === 'TH' ? words + (unit === '1' ? '' : ' [' + unit + ']') : cell.dataset.v === undefined ? '' : cell.dataset.v;
+        });
+      }), 'table-' + (number + 1));
+    });
+    table.parentNode.parentNode.insertBefore(tools, table.parentNode);
+  }
+  /* Shows the rows alone that have all of the words. */
+  function filtering(table) {
+    var box = make('input'), body = table.tBodies[0];
+    box.type = 'search';
+    box.placeholder = 'show rows with \u2026';
+    box.setAttribute('aria-label', box.placeholder);
+    box.addEventListener('input', function () {
+      var words = box.value.toLowerCase().split(/\s+/);
+      Array.prototype.forEach.call(body.rows, function (row) {
+        var own = row.textContent.toLowerCase();
+        row.hidden = !words.every(function (word) { return own.indexOf(word) >= 0; });
+      });
+    });
+    table.parentNode.previousSibling.appendChild(box);
   }
 
   /* The figures of the page. */
@@ -170,10 +268,13 @@
         draw(f);
       });
     button('save', buttons, function () { save(figure, 'figure-' + (number + 1)); });
+    button('png', buttons, function () { picture(figure, 'figure-' + (number + 1)); });
+    button('csv', buttons, function () { write(numbers(figure), 'figure-' + (number + 1)); });
     if (figure.sort === 'curves') keys(f);
     if (figure.sort === 'classes') classList(f);
     if (figure.sort === 'map') node.appendChild(make('small', '', 'Lines join equal values' +
-      (figure.mark === undefined ? '.' : '; the thick one is ' + figure.mark + '.')));
+      (figure.mark === undefined ? '.' : '; the thick one is the limit of ' + figures.text(figure.mark) + '.') + (figure.best ? ' \u2605 the best.' : '') +
+      (/[12]/.test((figure.standing || []).join('')) ? ' Crossed out: a limit is missed; framed: met within its bar alone.' : '')));
     if (figure.sort === 'classes' && figure.edges.length) node.insertBefore(make('small', '',
       'Black lines: where halving the distance between two cells found the boundary.'), node.querySelector('details'));
     f.box.addEventListener('mousemove', function (event) { show(f, event); });
@@ -195,45 +296,10 @@
     wide.appendChild(table);
     return wide;
   }
-  /* Makes the figures of a list of descriptions, with their tables. */
-  function expand(box) {
-    JSON.parse(box.querySelector('script').textContent).forEach(function (figure) {
-      var drawn = figure.sort !== 'tables', node = make(drawn ? 'figure' : 'div'), caption = make('figcaption'), script = make('script');
-      script.type = 'application/json';
-      script.textContent = JSON.stringify(figure);
-      caption.appendChild(make('span', '', figure.title));
-      if (drawn) node.appendChild(caption);
-      if (drawn) node.appendChild(script);
-      box.appendChild(node);
-      (figure.words || []).forEach(function (words) { node.appendChild(make('p', '', words)); });
-      (figure.tables || []).forEach(function (table) {
-        var details = make('details');
-        if (!table.rows.length) return;
-        details.open = !table.folded;
-        details.appendChild(make('summary', '', table.summary));
-        details.appendChild(tableOf(table.head, table.rows));
-        node.appendChild(details);
-      });
-    });
-  }
-
   /* Without the library, the numbers of a figure as a table of at most so many rows. */
   function tabulate(node) {
-    var figure = JSON.parse(node.querySelector('script').textContent), rows = [], most = 40;
-    if (figure.sort === 'curves')
-      figure.curves.forEach(function (curve) {
-        curve.x.forEach(function (x, i) { rows.push([curve.names ? curve.names[i] : curve.name || '', x, curve.y[i]]); });
-      });
-    else
-      figure.y.at.forEach(function (y, r) {
-        figure.x.at.forEach(function (x, c) {
-          rows.push([y, x, figure.values ? figure.values[r][c] : figure.reasons[r * figure.x.at.length + c]]);
-        });
-      });
-    var step = Math.ceil(rows.length / most);
-    node.appendChild(tableOf(figure.sort === 'curves' ? ['', figure.x.label, figure.y.label] :
-      [figure.y.label, figure.x.label, figure.value ? figure.value.label : ''],
-    rows.filter(function (_, i) { return i % step === 0; })));
+    var rows = numbers(JSON.parse(node.querySelector('script').textContent)), step = Math.ceil(rows.length / 40);
+    node.appendChild(tableOf(rows[0], rows.slice(1).filter(function (_, i) { return i % step === 0; })));
   }
 
   /* Snapshots: the slider names an instant of the first stage; others show their nearest one. */
@@ -323,7 +389,6 @@
     });
   }
   window.addEventListener('load', function () {
-    all('.drawn').forEach(expand);
     var nodes = all('figure');
     if (window.vega) {
       nodes.forEach(begin);
@@ -332,6 +397,10 @@
       nodes.forEach(tabulate);
       all('.without').forEach(function (note) { note.hidden = false; });
     }
+    all('.wide > table:not(.fixed)').filter(function (t) { return t.tHead && t.tBodies[0] && t.tBodies[0].rows.length > 1; }).forEach(function (t, i) {
+      sorting(t, i);
+      if (t.tBodies[0].rows.length > 12) filtering(t);
+    });
     all('details').forEach(function (d) {
       d.addEventListener('toggle', function () {
         shown.forEach(function (f) { if (d.contains(f.node) && !f.node.closest('details:not([open])')) draw(f); });

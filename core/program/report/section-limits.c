@@ -29,15 +29,6 @@ static void write_limit(report_page *page, const results_view_limit *limit)
                  badge_of(limit->standing), limits_word((limits_standing)limit->standing));
 }
 
-/* The worst standing of a case. */
-static int32_t worst_of(const results_view_case *c)
-{
-    int32_t worst = LIMITS_MET;
-    for (size_t i = 0; i < c->limit_count; i++)
-        worst = c->limits[i]->standing > worst ? c->limits[i]->standing : worst;
-    return worst;
-}
-
 void report_put_standing(report_page *page, size_t index)
 {
     const results_view_case *c = page->view->cases[index];
@@ -45,7 +36,7 @@ void report_put_standing(report_page *page, size_t index)
         fputs("<td></td>", page->out);
     else
         report_print(page->out, "<td><span class=\"badge %s\">%s</span></td>",
-                     badge_of(worst_of(c)), c->limits_text);
+                     badge_of(report_standing(page->view, index)), c->limits_text);
 }
 
 void report_write_limits(report_page *page)
@@ -54,7 +45,7 @@ void report_write_limits(report_page *page)
     size_t counts[LIMITS_STANDINGS] = {0}, cases = 0;
     for (size_t c = 0; c < view->case_count; c++) {
         cases += view->cases[c]->limit_count > 0;
-        counts[worst_of(view->cases[c])] += view->cases[c]->limit_count > 0;
+        counts[report_standing(view, c)] += view->cases[c]->limit_count > 0;
     }
     if (cases == 0)
         return;

@@ -52,8 +52,9 @@ void report_write_origin(report_page *page)
     fputs("<section><h2>Origin</h2>\n", out);
     write_facts(page);
     fprintf(out,
-            "<details><summary>Models and parameters%s</summary>\n<div class=\"wide\"><table>"
-            "<thead><tr><th>parameter</th><th>value</th><th>from</th></tr></thead><tbody>\n",
+            "<details><summary>Models and parameters%s</summary>\n<div class=\"wide\"><table "
+            "class=\"fixed\"><thead><tr><th>parameter</th><th>value</th><th>from</th></tr></"
+            "thead><tbody>\n",
             view->study ? " of the first case" : "");
     for (size_t i = 0; i < view->stage_count; i++)
         write_stage(page, view->stages[i]);

@@ -9,6 +9,72 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The guide's table of what a doubt means; names that begin with "_" are endings. */
+static const struct {
+    const char *name, *text;
+} doubts[] = {
+#include "doubts.inc"
+    {NULL, NULL}};
+
+/* The sentences on a line of quality; NULL: the guide has none. */
+static const char *meaning_of(const char *name)
+{
+    const size_t length = strlen(name);
+    for (size_t i = 0; doubts[i].name; i++) {
+        const size_t own = strlen(doubts[i].name);
+        if (*doubts[i].name == '_' ? length > own && !strcmp(name + length - own, doubts[i].name)
+                                   : !strcmp(name, doubts[i].name))
+            return doubts[i].text;
+    }
+    return NULL;
+}
+
+void report_put_line_name(FILE *out, const results_view_quality *line)
+{
+    if (line->verdict != FF_GOOD && meaning_of(line->name))
+        report_print(out, "<a href=\"#means-%s\">%s</a>", line->name, line->name);
+    else
+        report_put_text(out, line->name);
+}
+
+/* Names the lines that a text is of, each once. */
+static void put_names(FILE *out, const report_check *checks, size_t count, const char *text)
+{
+    for (size_t k = 0; k < count; k++) {
+        const results_view_quality *line = checks[k].line;
+        bool told = line->verdict == FF_GOOD || meaning_of(line->name) != text;
+        for (size_t i = 0; i < k && !told; i++)
+            told = checks[i].line->verdict != FF_GOOD && !strcmp(checks[i].line->name, line->name);
+        if (!told)
+            report_print(out, "%s<span id=\"means-%s\">%s</span>", k ? ", " : "", line->name,
+                         line->name);
+    }
+}
+
+/* Writes what lines that are not good mean, each sentence once. */
+static void write_meanings(report_page *page, const report_check *checks, size_t count)
+{
+    const char **told = memory_alloc((count + 1) * sizeof *told);
+    size_t said = 0;
+    for (size_t i = 0; i < count; i++) {
+        const char *text =
+            checks[i].line->verdict == FF_GOOD ? NULL : meaning_of(checks[i].line->name);
+        size_t known = 0;
+        while (text && known < said && told[known] != text)
+            known++;
+        if (!text || known < said)
+            continue;
+        fputs(said == 0 ? "<h3>What these doubts mean for you</h3>\n<dl class=\"meanings\">\n" : "",
+              page->out);
+        told[said++] = text;
+        fputs("<dt>", page->out);
+        put_names(page->out, checks + i, count - i, text);
+        report_print(page->out, "</dt><dd>%s</dd>\n", text);
+    }
+    fputs(said > 0 ? "</dl>\n" : "", page->out);
+    free(told);
+}
+
 static void put_number(FILE *out, double value)
 {
     char text[REPORT_TEXT_SIZE];
@@ -68,7 +134,9 @@ static void write_line(report_page *page, const report_check *w)
     FILE *out = page->out;
     fputs("<tr>", out);
     report_put_cell(out, page->view->stages[w->line->stage]->name);
-    report_put_cell(out, w->line->name);
+    fputs("<td>", out);
+    report_put_line_name(out, w->line);
+    fputs("</td>", out);
     put_number(out, w->line->value);
     put_number(out, w->line->limit);
     fputs("<td>", out);
@@ -87,7 +155,9 @@ void report_write_quality(report_page *page)
 {
     size_t count;
     report_check *checks = report_find_checks(page->view, &count);
-    fputs("<section id=\"quality\"><h2>Quality of the numbers</h2>\n<details><summary>What each "
+    fputs("<section id=\"quality\"><h2>Quality of the numbers</h2>\n", page->out);
+    write_meanings(page, checks, count);
+    fputs("<details><summary>What each "
           "stage checked</summary>\n<div class=\"wide\"><table><thead><tr><th>stage</th><th>check"
           "</th><th>value</th><th>limit</th><th>verdict</th><th>in words</th></tr></thead>"
           "<tbody>\n",

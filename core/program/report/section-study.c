@@ -26,13 +26,10 @@ static bool load_scalar(report_page *page, size_t variable, case_scalar *f)
     bool any = false;
     *f = (case_scalar){.page = page,
                        .variable = variable,
-                       .values = memory_alloc(view->case_count * sizeof *f->values),
+                       .values = report_load_values(page, variable),
                        .low = INFINITY,
                        .high = -INFINITY};
     for (size_t c = 0; c < view->case_count; c++) {
-        ff_array array = report_load(page, (int)variable, c);
-        f->values[c] = array.data ? array.data[0] : (double)NAN;
-        report_release(page, &array);
         any = any || isfinite(f->values[c]);
         f->low = fmin(f->low, f->values[c]);
         f->high = fmax(f->high, f->values[c]);
@@ -65,19 +62,6 @@ static size_t stride_of(const results_view *view, size_t dimension)
     for (size_t d = dimension + 1; d < view->dimension_count; d++)
         stride *= view->lengths[d];
     return stride;
-}
-
-/* Returns the first case of combination k of the dimensions other than a and b; b may be -1. */
-static size_t first_case_of(const results_view *view, size_t k, size_t a, int b)
-{
-    size_t index = 0;
-    for (size_t d = view->dimension_count; d-- > 0;) {
-        if (d == a || (int)d == b)
-            continue;
-        index += k % view->lengths[d] * stride_of(view, d);
-        k /= view->lengths[d];
-    }
-    return index;
 }
 
 /* Writes the label of an axis and returns its unit. */
@@ -147,8 +131,10 @@ static void draw_lines(const case_scalar *f, const results_view_axis *axis, size
     results_readable unit = show_axis(view, axis, plot.x_label);
     write_title(f, plot.title);
     write_label(f, plot.y_label);
+    plot.limit_name = report_limit_asked(view, f->variable);
+    plot.limit = report_convert(&f->unit, report_limit_bound(view, f->variable));
     for (size_t k = 0; k < combinations && k < MOST_LINES; k++) {
-        size_t first = first_case_of(view, k, axis->dimension, -1);
+        size_t first = report_first_case(view, k, axis->dimension, -1);
         bool any = false;
         for (size_t i = 0; i < points; i++) {
             y[i] = f->values[first + i * stride];
@@ -186,6 +172,7 @@ static void draw_map(const case_scalar *f, const results_view_axis *x, const res
     report_map map = {.columns = view->lengths[x->dimension], .rows = view->lengths[y->dimension]};
     double *xs = memory_alloc(map.columns * sizeof *xs), *ys = memory_alloc(map.rows * sizeof *ys);
     double *values = memory_alloc(map.columns * map.rows * sizeof *values);
+    int32_t *standing = memory_alloc(map.columns * map.rows * sizeof *standing);
     results_readable x_unit = show_axis(view, x, map.x_label),
                      y_unit = show_axis(view, y, map.y_label);
     write_title(f, title);
@@ -196,22 +183,27 @@ static void draw_map(const case_scalar *f, const results_view_axis *x, const res
         xs[i] = report_convert(&x_unit, x->values[i]);
     for (size_t k = 0; k < map.rows; k++) {
         ys[k] = report_convert(&y_unit, y->values[k]);
-        for (size_t i = 0; i < map.columns; i++)
-            values[k * map.columns + i] =
-                report_convert(&f->unit, f->values[first + i * stride_of(view, x->dimension) +
-                                                   k * stride_of(view, y->dimension)]);
+        for (size_t i = 0; i < map.columns; i++) {
+            const size_t c =
+                first + i * stride_of(view, x->dimension) + k * stride_of(view, y->dimension);
+            values[k * map.columns + i] = report_convert(&f->unit, f->values[c]);
+            standing[k * map.columns + i] = report_standing(view, c);
+        }
     }
     map.x = xs;
     map.y = ys;
     map.values = values;
     map.low = report_convert(&f->unit, f->low);
     map.high = report_convert(&f->unit, f->high);
-    map.mark =
-        !strcmp(view->variables[f->variable]->output, "lambda_ratio_lowest") ? 1 : (double)NAN;
+    map.mark = report_convert(&f->unit, report_limit_bound(view, f->variable));
+    map.best =
+        (int)report_best_of(f->page, f->variable, f->values, first, x->dimension, y->dimension);
+    map.standing = standing;
     report_map_write(f->page, &map);
     free(xs);
     free(ys);
     free(values);
+    free(standing);
 }
 
 static void draw_maps(const case_scalar *f, const results_view_axis *x, const results_view_axis *y)
@@ -219,7 +211,7 @@ static void draw_maps(const case_scalar *f, const results_view_axis *x, const re
     const results_view *view = f->page->view;
     size_t count = view->case_count / view->lengths[x->dimension] / view->lengths[y->dimension];
     for (size_t k = 0; k < count && k < MOST_MAPS; k++)
-        draw_map(f, x, y, first_case_of(view, k, x->dimension, (int)y->dimension));
+        draw_map(f, x, y, report_first_case(view, k, x->dimension, (int)y->dimension));
     if (count > MOST_MAPS)
         fprintf(f->page->out, "<p class=\"note\">The first %d of %zu combinations.</p>\n",
                 MOST_MAPS, count);
@@ -245,6 +237,15 @@ static void draw_dots(const case_scalar *f)
     free(x);
 }
 
+/* Small tables of all cases. */
+static bool write_grids(const case_scalar *f)
+{
+    report_scalar scalar = {
+        .values = f->values, .count = f->page->view->case_count, .unit = f->unit};
+    write_label(f, scalar.label);
+    return report_write_grids(f->page, f->variable, &scalar);
+}
+
 static void draw_scalar(const case_scalar *f)
 {
     const results_view *view = f->page->view;
@@ -264,8 +265,15 @@ static void draw_scalar(const case_scalar *f)
     size_t combinations = view->case_count / view->lengths[axis->dimension];
     int y = main_axis(view, (int)axis->dimension);
     bool map = y >= 0 && view->lengths[view->axes[y]->dimension] >= 4;
-    if (map && (combinations > MOST_LINES || combinations == 1 ||
-                view->lengths[view->axes[y]->dimension] > MOST_LINES / 2))
+    map = map && (combinations > MOST_LINES || combinations == 1 ||
+                  view->lengths[view->axes[y]->dimension] > MOST_LINES / 2);
+    const bool fits = map ? view->case_count / view->lengths[axis->dimension] /
+                                    view->lengths[view->axes[y]->dimension] <=
+                                MOST_MAPS
+                          : combinations <= MOST_LINES;
+    if (!fits && report_is_sweep(view) && write_grids(f))
+        return;
+    if (map)
         draw_maps(f, axis, view->axes[y]);
     else
         draw_lines(f, axis, combinations);
@@ -367,14 +375,9 @@ static void write_table_row(report_page *page, size_t index, const columns *has)
         if (view->variables[v]->rank != 0)
             continue;
         ff_array array = report_load(page, (int)v, index);
-        text[0] = '\0';
-        if (array.data)
-            report_quantity_text(view->variables[v]->output, view->variables[v]->unit,
-                                 array.data[0], text);
+        report_put_value(page->out, view->variables[v]->output, view->variables[v]->unit,
+                         array.data ? array.data[0] : (double)NAN);
         report_release(page, &array);
-        fputs("<td class=\"number\">", page->out);
-        report_put_text(page->out, text);
-        fputs("</td>", page->out);
     }
     fputs("</tr>\n", page->out);
 }
@@ -397,11 +400,9 @@ static void write_table(report_page *page)
     fprintf(page->out, "<th>status</th><th>verdict</th><th>because of</th>%s%s",
             has.range ? "<th>outside of its range</th>" : "", has.limits ? "<th>limits</th>" : "");
     for (size_t v = 0; v < view->variable_count; v++)
-        if (view->variables[v]->rank == 0) {
-            fputs("<th>", page->out);
-            report_put_text(page->out, view->variables[v]->name);
-            fputs("</th>", page->out);
-        }
+        if (view->variables[v]->rank == 0)
+            report_print(page->out, "<th data-unit=\"%s\">%s</th>", view->variables[v]->unit,
+                         view->variables[v]->name);
     fputs("</tr></thead><tbody>\n", page->out);
     for (size_t c = 0; c < view->case_count && c < MOST_ROWS; c++)
         write_table_row(page, c, &has);

@@ -86,7 +86,10 @@ static void write_values(report_page *page, size_t variable, const ff_array *y)
     ff_array x = report_load(page, axis, 0);
     size_t count = report_array_size(y);
     bool pair = count == 2 && axis < 0;
-    extremes at = pair ? (extremes){0, 1} : find_extremes(y);
+    const bool share = *of->whole && of->extremes[0] < count && of->extremes[1] < count;
+    extremes at = pair    ? (extremes){0, 1}
+                  : share ? (extremes){of->extremes[0], of->extremes[1]}
+                          : find_extremes(y);
     double least = y->data[at.least], greatest = y->data[at.greatest];
     bool varies = pair || greatest > least;
     fputs(of->flags & RESULTS_VIEW_AT_LEAST ? "&#8805; " : "", page->out);
@@ -101,6 +104,11 @@ static void write_values(report_page *page, size_t variable, const ff_array *y)
         write_place(page, axis, x.data[at.least]);
         fputs("; largest at ", page->out);
         write_place(page, axis, x.data[at.greatest]);
+    }
+    if (share) {
+        char words[REPORT_TEXT_SIZE];
+        report_print(page->out, "; where %s is above 1 % of its largest",
+                     report_plain_name(of->whole, words));
     }
     report_release(page, &x);
 }
@@ -185,7 +193,7 @@ static void write_reason(report_page *page, const results_view_quality *line)
     report_number_text(line->value, value);
     report_number_text(line->limit, limit);
     fputs(" <small>(", page->out);
-    report_put_text(page->out, line->name);
+    report_put_line_name(page->out, line);
     report_print(page->out, " = %s, held to %s)</small>", value, limit);
 }
 
@@ -296,18 +304,6 @@ static void write_run(report_page *page)
     fputs("</details>\n", page->out);
 }
 
-/* Loads a scalar over the cases, in SI. */
-static double *load_values(report_page *page, size_t variable)
-{
-    double *values = memory_alloc(page->view->case_count * sizeof *values);
-    for (size_t c = 0; c < page->view->case_count; c++) {
-        ff_array array = report_load(page, (int)variable, c);
-        values[c] = array.data ? array.data[0] : (double)NAN;
-        report_release(page, &array);
-    }
-    return values;
-}
-
 static void begin_span(report_page *page, const results_view_variable *of)
 {
     char words[REPORT_TEXT_SIZE];
@@ -315,15 +311,6 @@ static void begin_span(report_page *page, const results_view_variable *of)
     report_put_text(page->out, report_output_words(of, words));
     fputs("</th>", page->out);
     report_put_cell(page->out, page->view->stages[of->stage]->name);
-}
-
-static void put_value(report_page *page, const results_view_variable *of, double value)
-{
-    char text[REPORT_TEXT_SIZE];
-    report_quantity_text(of->output, of->unit, value, text);
-    fputs("<td class=\"number\">", page->out);
-    report_put_text(page->out, text);
-    fputs("</td>", page->out);
 }
 
 /* Writes the least and the largest value of a scalar over the cases, and where they are. */
@@ -343,7 +330,7 @@ static void write_span(report_page *page, const results_view_variable *of, const
         return;
     begin_span(page, of);
     for (int side = 0; side < 2; side++) {
-        put_value(page, of, values[at[side]]);
+        report_put_value(page->out, of->output, of->unit, values[at[side]]);
         report_name_case(view, at[side], SIZE_MAX, -1, words);
         report_put_cell(page->out, words);
     }
@@ -361,7 +348,8 @@ static void write_distribution(report_page *page, const results_view_variable *o
     if (kept > 0) {
         begin_span(page, of);
         for (size_t i = 0; i < sizeof percents / sizeof *percents; i++)
-            put_value(page, of, report_percentile(list, kept, percents[i]));
+            report_put_value(page->out, of->output, of->unit,
+                             report_percentile(list, kept, percents[i]));
         while (below < kept && list[below] < 1)
             below++;
         fputs("<td>", page->out);
@@ -388,7 +376,7 @@ static void write_spans(report_page *page)
     for (size_t v = 0; v < view->variable_count; v++) {
         if (view->variables[v]->rank != 0)
             continue;
-        double *values = load_values(page, v);
+        double *values = report_load_values(page, v);
         (sample ? write_distribution : write_span)(page, view->variables[v], values);
         free(values);
     }
@@ -461,9 +449,12 @@ static void write_study(report_page *page)
     for (size_t v = 0; v < page->view->variable_count; v++)
         scalars = scalars || page->view->variables[v]->rank == 0;
     write_counts(page);
+    const bool best = report_write_best(page);
     write_reasons(page);
+    fputs(best ? "<details><summary>Least and largest of all cases</summary>\n" : "", page->out);
     if (scalars)
         write_spans(page);
+    fputs(best ? "</details>\n" : "", page->out);
 }
 
 void report_write_verdict(report_page *page)

@@ -5,7 +5,10 @@
 #include "../results/label.h"
 #include "page.h"
 
+#include "../memory/memory.h"
+
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 enum { ROOM = 44 }; /* of a figure's title */
@@ -52,6 +55,17 @@ void report_quantity_text(const char *name, const char *si_unit, double si,
         size_t length = strlen(out);
         snprintf(out + length, REPORT_TEXT_SIZE - length, " %s", unit.unit);
     }
+}
+
+void report_put_value(FILE *out, const char *name, const char *si_unit, double si)
+{
+    char text[REPORT_TEXT_SIZE] = "";
+    fputs("<td class=\"number\"", out);
+    if (isfinite(si)) {
+        report_quantity_text(name, si_unit, si, text);
+        fprintf(out, " data-v=\"%.9g\"", si);
+    }
+    report_print(out, ">%s</td>", text);
 }
 
 const char *report_plain_name(const char *path, char out[REPORT_TEXT_SIZE])
@@ -110,8 +124,8 @@ static const char *name_of_number(const results_view_axis *axis, const char *val
     return out;
 }
 
-void report_name_case(const results_view *view, size_t index, size_t a, int b,
-                      char out[REPORT_TEXT_SIZE])
+void report_name_point(const results_view *view, size_t index, const bool *dims,
+                       char out[REPORT_TEXT_SIZE])
 {
     size_t length = 0;
     char word[REPORT_TEXT_SIZE], name[REPORT_TEXT_SIZE];
@@ -123,9 +137,46 @@ void report_name_case(const results_view *view, size_t index, size_t a, int b,
         const results_view_axis *axis = view->axes[k];
         size_t d = axis->dimension;
         const char *value = report_axis_word(axis, results_view_point(view, index, d), word);
-        if (d != a && (int)d != b && view->lengths[d] > 1 && *value)
+        if (dims[d] && view->lengths[d] > 1 && *value)
             length += (size_t)snprintf(out + length, REPORT_TEXT_SIZE - length, "%s%s%.80s",
                                        length ? ", " : "",
                                        name_of_number(axis, value, varied > 1, name), value);
     }
+}
+
+/* Marks all dimensions but a and b; to be freed. */
+static bool *dims_without(const results_view *view, size_t a, int b)
+{
+    bool *dims = memory_alloc((view->dimension_count + 1) * sizeof *dims);
+    for (size_t d = 0; d < view->dimension_count; d++)
+        dims[d] = d != a && (int)d != b;
+    return dims;
+}
+
+void report_name_case(const results_view *view, size_t index, size_t a, int b,
+                      char out[REPORT_TEXT_SIZE])
+{
+    bool *dims = dims_without(view, a, b);
+    report_name_point(view, index, dims, out);
+    free(dims);
+}
+
+size_t report_case_of(const results_view *view, const bool *dims, size_t k)
+{
+    size_t index = 0, stride = 1;
+    for (size_t d = view->dimension_count; d-- > 0; stride *= view->lengths[d]) {
+        if (!dims[d])
+            continue;
+        index += k % view->lengths[d] * stride;
+        k /= view->lengths[d];
+    }
+    return index;
+}
+
+size_t report_first_case(const results_view *view, size_t k, size_t a, int b)
+{
+    bool *dims = dims_without(view, a, b);
+    const size_t index = report_case_of(view, dims, k);
+    free(dims);
+    return index;
 }

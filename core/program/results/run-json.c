@@ -122,6 +122,11 @@ static json_t *describe_output(const results_outcome *outcome, const ff_stage *s
         json_object_set_new(entry, "label", results_json_text(result->row->label));
     if (result->rank)
         json_object_set_new(entry, "against", results_against(pipeline, stage, output));
+    size_t least, greatest;
+    if (result->rank == 1 && accuracy_extremes(pipeline, stage, result, &least, &greatest))
+        json_object_set_new(
+            entry, "extremes",
+            json_pack("[I, I, s]", (json_int_t)least, (json_int_t)greatest, result->row->origin));
     if (result->rank && is_elsewhere(result, arrays)) {
         json_object_set_new(entry, "file", name_file(stage, result, "", arrays));
     } else if (result->rank) {

@@ -16,7 +16,7 @@ static void add_bar(results_reader *reader, const char *name, const results_entr
 {
     results_entry told = *of;
     char *bar = memory_print_text("%s" ACCURACY_BAR, name);
-    told.doc = NULL;
+    told.doc = told.extremes = NULL;
     results_output *made = results_view_add_output(reader, bar, &told, 0);
     if (made)
         made->entry = error;
@@ -36,6 +36,7 @@ static json_t *add_outputs(results_reader *reader, json_t *outputs, uint32_t fla
                                     .dims = json_object_get(entry, "dims"),
                                     .shape = json_object_get(entry, "shape"),
                                     .against = json_object_get(entry, "against"),
+                                    .extremes = json_object_get(entry, "extremes"),
                                     .doc = label ? label : json_object_get(entry, "doc")};
         const uint32_t least =
             json_is_true(json_object_get(entry, "at_least")) ? RESULTS_VIEW_AT_LEAST : 0;

@@ -242,6 +242,9 @@ static json_int_t add_variable(results_reader *reader, const char *name, const r
             .unit = results_view_text(reader, entry->unit),
             .doc = results_view_text(reader, entry->doc),
             .flags = flags,
+            .extremes = {(size_t)json_integer_value(json_array_get(entry->extremes, 0)),
+                         (size_t)json_integer_value(json_array_get(entry->extremes, 1))},
+            .whole = results_view_text(reader, json_array_get(entry->extremes, 2)),
         };
     }
     row->rank = (uint32_t)rank;

@@ -61,7 +61,7 @@ void results_view_add_head(results_reader *reader, const json_t *root); /* title
 void results_view_add_citation(results_reader *reader, const char *model, const json_t *entry);
 /* What is said of an output; parts that are missing are NULL. */
 typedef struct results_entry {
-    const json_t *unit, *dims, *shape, *against, *doc;
+    const json_t *unit, *dims, *shape, *against, *doc, *extremes;
 } results_entry;
 
 /* Adds the variable; one that is known already only changes when this entry has more dimensions.

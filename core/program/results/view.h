@@ -63,6 +63,9 @@ typedef struct results_view_variable {
     const char *const *against; /* the series that each dimension is plotted against, of this stage
                                    or of one that feeds it: "gears.roll_angle"; "" where unknown */
     uint32_t flags;
+    size_t extremes[2]; /* of a run, where a series is a share of another: ranks of the least and
+                           the greatest number where that is not next to nothing */
+    const char *whole;  /* that other: "contact.load_per_width"; "": all numbers count */
 } results_view_variable;
 
 typedef struct results_view_quality {

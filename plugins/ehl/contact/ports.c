@@ -255,7 +255,8 @@ const ff_port ehl_outputs[EHL_OUTPUTS] = {
          .unit = "1",
          .doc = "traction over load, sign of u1 - u2; 0 without load; rolling "
                 "is not in it",
-         .dims = "t"},
+         .dims = "t",
+         .origin = "contact.load_per_width"},
     [EHL_TRACTION] = {.name = "traction",
                       .unit = "N/m",
                       .doc = "shear stress at mid-film over the pressurised film, and boundary "
@@ -511,7 +512,8 @@ const ff_port ehl_estimate_outputs[EHL_ESTIMATE_OUTPUTS] = {
         {.name = "friction_coefficient",
          .unit = "1",
          .doc = "traction over load, sign of u1 - u2; 0 without load",
-         .dims = "t"},
+         .dims = "t",
+         .origin = "contact.load_per_width"},
     [EHL_ESTIMATE_TRACTION] =
         {.name = "traction",
          .unit = "N/m",

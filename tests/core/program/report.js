@@ -28,15 +28,45 @@
     (kind === 'pointerup' ? window : plot).dispatchEvent(new MouseEvent(kind, {clientX: box.left + x * box.width,
       clientY: box.top + y * box.height, button: 0, bubbles: true}));
   }
-  async function saved(button) {
+  // What a click on a button would store.
+  async function stored(button) {
     const link = HTMLAnchorElement.prototype.click, store = URL.createObjectURL;
     const blob = new Promise(done => { URL.createObjectURL = done; });
     HTMLAnchorElement.prototype.click = () => {};
     button.click();
-    const svg = await (await blob).text();
+    const file = await blob;
     Object.assign(URL, {createObjectURL: store});
     HTMLAnchorElement.prototype.click = link;
-    return !/var\(/.test(svg) && !new DOMParser().parseFromString(svg, 'image/svg+xml').querySelector('parsererror');
+    return file;
+  }
+  async function tryStored(name, called) {
+    const svg = await (await stored(called(/save/))).text();
+    if (/var\(/.test(svg) || new DOMParser().parseFromString(svg, 'image/svg+xml').querySelector('parsererror')) faults.push(`${name}: what is saved is broken`);
+    const png = await createImageBitmap(await stored(called(/png/)));
+    if (png.width < 500) faults.push(`${name}: the picture is ${png.width} wide`);
+    const csv = (await (await stored(called(/csv/))).text()).trim().split('\n');
+    if (csv.length < 2 || csv[1].split(',').length < 3) faults.push(`${name}: no numbers in ${csv[0]}`);
+  }
+  // Sorts by each column, up and down, filters, and stores the rows.
+  async function tryTable(table) {
+    const body = table.tBodies[0], count = body.rows.length, tools = table.parentNode.previousSibling;
+    [...table.tHead.rows[0].cells].forEach((head, k) => {
+      for (const way of head.tabIndex === 0 ? ['ascending', 'descending'] : []) {
+        head.click();
+        const list = [...body.rows].map(row => row.cells[k] && row.cells[k].dataset.v).filter(v => v !== undefined).map(Number);
+        if (head.getAttribute('aria-sort') !== way) faults.push(`${head.textContent} is not ${way}`);
+        if (list.some((v, i) => i && (way === 'ascending' ? v < list[i - 1] : v > list[i - 1]))) faults.push(`${head.textContent} is not sorted ${way}`);
+      }
+    });
+    const csv = (await (await stored(tools.querySelector('button'))).text()).trim();
+    if (body.rows.length !== count || csv.split('\n').length < count + 1) faults.push('a table loses rows');
+    const filter = tools.querySelector('input');
+    for (const words of filter ? [body.rows[0].cells[0].textContent, 'no such words', ''] : []) {
+      filter.value = words;
+      filter.dispatchEvent(new Event('input'));
+      const seen = [...body.rows].filter(row => !row.hidden).length;
+      if (words ? (seen > 0) !== (words !== 'no such words') : seen !== count) faults.push(`the filter "${words}" leaves ${seen} rows`);
+    }
   }
   async function tryFigure(figure) {
     const plot = figure.querySelector('.plot'), name = figure.querySelector('figcaption span').textContent;
@@ -49,7 +79,7 @@
     if (drawing(plot) !== first) faults.push(`${name}: not the whole`);
     for (let twice = 0; twice < 2 && key; twice++) await changes(`${name}: a toggle`, plot, () => key.click());
     for (let twice = 0; twice < 2 && called(/^(log|linear)$/); twice++) await changes(`${name}: log`, plot, () => called(/^(log|linear)$/).click());
-    if (!await saved(called(/save/))) faults.push(`${name}: what is saved is broken`);
+    await tryStored(name, called);
   }
   async function trySlider(section) {
     const slider = section.querySelector('input'), play = section.querySelector('.play'), plots = all('.plot', section);
@@ -70,5 +100,6 @@
   for (const section of all('.snapshots')) await trySlider(section);
   all('.plot').forEach(plot => look(plot.parentNode.querySelector('figcaption span').textContent, plot));
   for (const figure of all('figure').filter(one => one.querySelector('.plot')).slice(0, 5)) await tryFigure(figure); // of a page they have the same script
+  for (const tools of all('.tools').slice(0, 5)) await tryTable(tools.nextSibling.querySelector('table'));
   return faults;
 })()

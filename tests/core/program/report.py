@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Chromium opens pages of every sort: each tries itself, zooms, toggles, moves its slider, and complains of nothing."""
 import base64
+import csv
 import hashlib
 import json
 import os
@@ -139,6 +140,29 @@ class Report(lab.Lab):
             with open(table, encoding="utf-8") as file:
                 self.assertEqual(file.read().count(words), 2)
 
+    def test_share(self):
+        """A friction coefficient has its extremes where there is load; without load it may be anything."""
+        self.write("fade.csv", "time [s],radius [mm],speed_1 [m/s],speed_2 [m/s],load_per_width [N/mm]\n"
+                               "0,12.8,9,1,0.1\n50e-6,12.8,1,9,0.1\n100e-6,12.8,3,2.9,150\n200e-6,12.8,2.9,3,150\n250e-6,12.8,3,3,0.1\n")
+        self.write("fade.yaml", "format: 2\npipeline:\n  spot: {use: contact/table, file: fade.csv}\n"
+                                "  viscosity: {use: viscosity/barus, eta0: 10 mPa s, alpha: 6 1/GPa}\n"
+                                "  density: {use: density/dowson-higginson, rho0: 870 kg/m3}\n"
+                                "  film: {use: ehl/film-formula}\noutputs: [film.time, film.friction_coefficient]\n")
+        said = self.call("run", "fade.yaml", "-o", "fade")
+        with open("fade/film.friction_coefficient.npy", "rb") as file:
+            friction = struct.unpack("<5d", file.read()[-40:])
+        self.assertGreater(max(abs(f) for f in friction[:2]), max(abs(f) for f in friction[2:4]))
+        shown = f"{friction[3]:.4g} to {friction[2]:.4g}"
+        self.assertIn(shown, said)
+        self.call("report", "fade")
+        self.call("compare", "fade", "fade", "-o", "faded")
+        page = self.read_page("fade/report.html")
+        self.assertIn(shown, page)
+        self.assertIn("; where load per width is above 1 % of its largest", page)
+        with open("faded.csv", encoding="utf-8") as table:
+            self.assertEqual([float(row["fade"]) for row in csv.DictReader(table) if "friction" in row["output of flankfilm"]],
+                             [float(f"{friction[k]:.9g}") for k in (3, 2)])
+
     def test_rough_flanks(self):
         """The flanks move with the slider, asperities have their pressure, and nothing is out of the figure."""
         self.call("run", CONFIGS + "mixed-film.yaml", "-o", "rough", "--set", "film.cells=128", "--set", "film.steps=60",
@@ -147,6 +171,20 @@ class Report(lab.Lab):
         self.look("rough/report.html")
         self.assertEqual(self.browser.value("document.querySelectorAll('.snapshots .plot').length"), 3)
         self.assertIn("of asperities", self.read_page("rough/report.html"))
+
+    def test_points(self):
+        """Points of the path that the file does not ask for are marked, of a run and of designs that are compared."""
+        for name, torque in ("light", "100 N m"), ("heavy", "250 N m"):
+            self.call("run", CONFIGS + "li-kahraman-2011.yaml", "-o", name, "--set", "mesh.use=stiffness/iso-6336", "--set",
+                      "outputs=[static.roll_angle, static.load_per_width]", "--set", "duty.torque=" + torque)
+        self.call("report", "light")
+        self.call("compare", "light", "heavy", "-o", "side")
+        for page in "light/report.html", "side.html":
+            text = self.read_page(page)
+            self.assertEqual([mark for mark in ("SAP", "LPSTC", "pitch", "HPSTC", "tip") if f'"{mark}"]' not in text], [])
+        self.assertIn("<th>difference</th>", text)  # without scripts, too
+        _, figures = self.look("side.html")
+        self.assertEqual(figures, 1)
 
     def test_atlas(self):
         self.call("run", CONFIGS + "li-kahraman-2011.yaml", "-o", "atlas", "--set", "mesh.use=stiffness/iso-6336", "--set",
@@ -205,7 +243,7 @@ study:
         # levels that were not needed are no cases
         self.assertIn('<p class="judgement"><span class="badge good">good</span> Of 6 cases 6 are good, ', page)
         for words in ("error against cost", "the front", "all candidates", "reference 1, n 200<"):
-            self.assertIn(words, dom)
+            self.assertIn(words, page)  # without scripts, too
         self.assertNotRegex(page, ", ,|, <")
         self.assertNotIn('"label":"case"', page)  # no figure over the numbers of cases
         with open("tradeoff/table.csv", encoding="utf-8") as file:
@@ -233,7 +271,11 @@ study:
     def test_one_instant(self):
         self.call("run", CONFIGS + "line-contact.yaml", "-o", "steady", "--set", "film.cells=64")
         self.call("report", "steady")
-        self.assertIn("Steady line contact", self.read_page("steady/report.html"))
+        page = self.read_page("steady/report.html")
+        self.assertIn("Steady line contact", page)
+        for name in set(re.findall(r'href="#means-(\w+)"', page)):  # a doubt leads to what the guide says of it
+            self.assertRegex(page, f'<span id="means-{name}">')
+        self.assertRegex(page, r'href="#means-\w+_error"')
 
     def test_study(self):
         self.call("report", "study", "-o", "study.html")
@@ -248,11 +290,15 @@ study:
 
     def test_map(self):
         """A map says its scale, and what its lines are."""
-        self.call("run", "run.yaml", "-o", "map", "--set", "outputs=sum.sum", "--set",
+        self.call("run", "run.yaml", "-o", "map", "--set", "outputs=sum.sum", "--set", 'limits={sum.sum: "> 10 mm"}', "--set",
                   "study={sweep: {wave.amplitude: {from: 1 mm, to: 5 mm, points: 5}, wave.count: {from: 8, to: 38, points: 11}}}")
         self.call("report", "map")
         dom, _ = self.look("map/report.html")
-        self.assertIn("Lines join equal values", dom)
+        self.assertIn("the thick one is the limit of 10. \u2605 the best. Crossed out: a limit is missed", dom)
+        with open("map/table.csv", encoding="utf-8") as table:
+            cases = list(csv.DictReader(table))
+        standing = json.loads(re.search(r'"standing":(\[[^]]*])', dom).group(1))
+        self.assertEqual(sum(row.count("2") for row in standing), sum("missed" in case["limits"] for case in cases))
         self.assertIn("linear scale", dom)
 
     def test_decades(self):
@@ -270,8 +316,10 @@ study:
                 "z": {"label": "z", "low": 0, "high": 9, "step": 3}, "curves": [
                 {"name": "a", "colour": "#0072b2", "dash": [6, 3], "style": "line", "x": [1, 10, 100], "y": [2, null, 3]},
                 {"name": "b", "colour": 1, "dash": 0, "axis": "z", "style": "line", "x": [1, 100], "y": [0, 9]}]}]''')
-        self.assertEqual(self.call("report", "own.json"), "own.html\n")
-        self.read_page("own.html")
+        os.makedirs("lab", exist_ok=True)
+        self.write("lab/page.css", "h1{color:teal}\n")
+        self.assertEqual(self.call("report", "own.json", "--template", "lab"), "own.html\n")
+        self.assertIn("h1{color:teal}", self.read_page("own.html"))
         _, figures = self.look("own.html")
         self.assertEqual(figures, 1)
         with open("own.json", "w", encoding="utf-8") as file:
@@ -298,6 +346,35 @@ study:
         dom, _ = self.look("hostile/report.html")
         self.assertIn("&lt;/title&gt;&lt;script&gt;", dom)
         self.assertIn("&lt;/title&gt;", self.browser.value("document.head.innerHTML"))
+
+    def test_sweep(self):
+        """Of a sweep of several axes the best of each condition stands first; what no figure can hold is small tables. Both need no script."""
+        page, _, _ = self.study("sweep", """
+pipeline: {wave: {use: toy/wave, amplitude: 2 mm}, second: {use: toy/wave, amplitude: 1 mm, count: 8}}
+outputs: [second.total, wave.total]
+limits: {second.total: "> 5 mm"}
+study:
+  sweep: {second.amplitude: [1 mm, 3 mm, 2 mm], wave.amplitude: [1 mm, 2 mm, 3 mm, 4 mm, 5 mm], wave.count: [4, 7, 11]}
+""")
+        with open("sweep/table.csv", encoding="utf-8") as table:
+            cases = list(csv.DictReader(table))
+        best = page.split('<table class="best">')[1].split("</table>")[0]
+        for case in cases:  # the first wave is a condition, and does not change what is best of the second
+            row = best.split(f"amplitude {case['wave.amplitude [mm]']} mm, count {case['wave.count']}</th>")[1].split("</tr>")[0]
+            shown, unit = re.search('data-head="wave.total"><div>\u25bc <b>([0-9.]+) (\\S+)</b> at', row).groups()
+            self.assertAlmostEqual(float(shown) * {"mm": 1e-3, "\u00b5m": 1e-6}[unit] / float(case["wave.total [m]"]), 1, places=3)
+            self.assertIn("<b>10.85 mm</b> at amplitude 3 mm<", row)
+        self.assertEqual(page.count('class="missed'), 30)  # 1 mm, under all conditions, of both outputs
+        self.assertEqual(page.count("\u2605\u202f10.85<"), 3)
+        self.assertNotIn("10.85 mm</b>", self.sought("wave.total=least"))
+        self.assertIn("<b>7.233 mm</b> at amplitude 2 mm<", self.sought("wave.total=largest", "second.total=least"))  # 1 mm misses the limit
+        for words, said in (("wave.totl=least", 'did you mean "wave.total"'), ("wave.total", "OUTPUT=least or OUTPUT=largest")):
+            self.assertIn(said, self.call("report", "sweep", "--best", words, code=2))
+        self.assertIn("not of a sweep", self.call("report", "run", "--best", "sum.sum=least", code=2))
+
+    def sought(self, *best):
+        self.call("report", "sweep", "-o", "sought.html", *[word for one in best for word in ("--best", one)])
+        return self.read_page("sought.html").split('<table class="best">')[1].split("</table>")[0]
 
     def test_failed_run(self):
         self.call("run", "run.yaml", "-o", "failed", "--set", "wave.end=fail", code=1)
