@@ -558,7 +558,7 @@ void ehl_results_quality(const ehl_results *r, const ehl_march *m)
     } else if (r->roughness > 0) {
         ehl_lambda_report(r->host, r->least_lambda);
     }
-    if (r->lowest < 0.999e-9)
+    if (r->lowest < (m->rough ? 0.99e-9 : 0.999e-9)) /* asperities hold 1 nm to the tolerance */
         r->host->quality(r->host->ctx, "continuum", r->lowest, 1e-9, FF_RANGE,
                          "outside continuum: the film is thinner than 1 nm, a few molecules");
     ehl_law_report(r->host, r->laws);
