@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Each worker appends the arrays of its cases to a log of its own. The record of a case says in the
- * journal which log it is, where that ends after the case, and for each array [unit, dims, shape,
- * offset of its record, what it is plotted against].
+ * Each worker appends the arrays of its cases to a log of its own. In the journal, the record of a
+ * case names this log and its end after the case. For each array it gives [unit, dims, shape,
+ * offset of its record, axis].
  */
 #include "case.h"
 
@@ -14,7 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
-static const char log_head[] = "\"log\":[\""; /* as it stands in a line of the journal */
+static const char log_head[] = "\"log\":[\""; /* as in a line of the journal */
 
 /* A series of one number counts as a scalar. */
 bool study_is_array(const ff_result *result)
@@ -22,8 +22,8 @@ bool study_is_array(const ff_result *result)
     return result->rank > 1 || (result->rank == 1 && result->count != 1);
 }
 
-/* Finds where the last record ends that the journal names. The lines are but searched: a line that
-   does not count can only make less be cut off. */
+/* Finds the end of the last record in a log that the journal names. The lines are searched, not
+   parsed: a line that does not count can only raise the end, so that less is cut off. */
 static off_t find_end(int directory, const study_run *run, const char *name)
 {
     char journal[STUDY_NAME_SIZE], *line = NULL;
@@ -46,9 +46,9 @@ static off_t find_end(int directory, const study_run *run, const char *name)
     return end;
 }
 
-/* A log that no other process writes to: whoever holds the lock on the journal has its workers
-   number theirs. Under an executor, of whose processes none knows of the others, each makes a new
-   one; workers of an earlier run may not have ended everywhere. */
+/* Opens a log that no other process writes to. The holder of the journal's lock numbers the logs of
+   its workers. Under an executor, whose processes do not know each other, each process creates a
+   new one: workers of an earlier run may still be running elsewhere. */
 static bool open_log_in(int directory, study_arrays *arrays, char why[ARRAYS_WHY])
 {
     const study_run *run = arrays->run;

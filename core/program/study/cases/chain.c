@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A chain has the cases that differ along the followed axis alone. Each starts from the states that
- * the stages of its neighbour left, which the journal has in the record of the neighbour.
+ * A chain holds the cases that differ along the followed axis alone. Each starts from the final
+ * states of its neighbour's stages, which the journal keeps in the neighbour's record.
  */
 #include "chain.h"
 
@@ -33,7 +33,7 @@ static bool runs_backwards(const study_definition *study, size_t index)
     return down != study->backwards;
 }
 
-/* How far the indices of two neighbours in a chain are apart. */
+/* Difference of the indices of two neighbours in a chain. */
 static size_t stride_of(const study_definition *study)
 {
     size_t stride = 1;
@@ -80,8 +80,8 @@ static int digit_of(char c)
     return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
 }
 
-/* Reads two hexadecimal digits for each byte. A text with other characters, which this program does
-   not write, gives an empty state. */
+/* Reads two hexadecimal digits for each byte. A text with other characters, which this program
+   never writes, gives an empty state. */
 static void read_state(ff_stage *stage, const char *text)
 {
     size_t size = strlen(text) / 2;

@@ -15,14 +15,14 @@
 
 const char study_time_name[] = "time";
 
-enum { MOST_VALUES = 1000 }; /* rows whose numbers stand beside the sums */
+enum { MOST_VALUES = 1000 }; /* most rows whose numbers are listed beside the sums */
 
-/* Shares whose sum is further off than that lack a class, however few digits they have. */
+/* Shares whose sum is off by more than this lack a class, even if they have few digits. */
 static const double most_rounding = 1e-2;
 
 static const char expected[] = "expected a share such as 12 %, or a time such as 300 h, 0 or above";
 
-/* Returns half a unit of the last digit of a share. */
+/* Half a unit of the last digit of a share. */
 static double rounding_of(const char *text, double share)
 {
     const char *end, *point = strpbrk(text, ".eE");
@@ -36,7 +36,7 @@ static double rounding_of(const char *text, double share)
     return 0.5 * pow(10, exponent - digits) * share / number;
 }
 
-/* Reads a text in a unit; false when it is none of that dimension. */
+/* Reads a quantity in a unit; false if it has another dimension. */
 static bool read_in(const char *text, const char *unit, double *value, char *why, size_t size)
 {
     ff_unit row;
@@ -114,7 +114,7 @@ bool study_spectrum_finish(study_definition *study, const ff_node *cases, const 
     return !below || read_below(study, below, report);
 }
 
-/* Finds the unit of an output that the cases are asked for; NULL when they are not. */
+/* Unit of an output that the cases are asked for; NULL if they are not asked for it. */
 static const char *find_unit(const ff_pipeline *pipeline, const char *path)
 {
     const ff_stage *stage;
@@ -141,7 +141,7 @@ void study_spectrum_check(const study_definition *study, const ff_pipeline *pipe
     }
 }
 
-/* Sums of one output. */
+/* Sums over the rows for one output. */
 typedef struct sum {
     double time, integral, low, high;
     size_t low_row, high_row;
@@ -164,17 +164,17 @@ static void add_value(sum *of, double value, double time, size_t row)
     }
 }
 
-/* The numbers of all rows: one place for each name. */
+/* The numbers of all rows, with one slot for each output. */
 typedef struct reading {
     const study_definition *study;
     json_t *names; /* {output: [index, unit]} */
     sum *sums;
     size_t count;
     json_t *stages;
-    json_t *values; /* {output: [value of each row]}; NULL: they are too many */
+    json_t *values; /* {output: [value of each row]}; NULL if there are too many rows */
     double missing, refused;
     size_t refused_rows, first_refused;
-    char *reason; /* of the first one */
+    char *reason; /* reason of the first refused row */
     double *limits, *shares;
     size_t *rows;
 } reading;

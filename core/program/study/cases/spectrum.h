@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * A load spectrum: the rows of a study last for a time each, and what they give is summed over it.
- * The column "time" of a table, or the key of a listed row, has shares such as 12 %, whose sum is
- * 100 % but for their rounding, or times such as 300 h. A class of no time is no row.
+ * A load spectrum: each row of a study lasts for a time, over which its results are summed. The
+ * column "time" of a table, or the key of a listed row, holds shares such as 12 %, which sum to 100
+ * % within rounding, or times such as 300 h. A class of no time is left out.
  */
 #ifndef STUDY_SPECTRUM_H
 #define STUDY_SPECTRUM_H
@@ -13,7 +13,7 @@
 
 extern const char study_time_name[]; /* "time" */
 
-/* What `below` asks: for how long a scalar is below a limit. */
+/* A limit of `below`: asks for how long a scalar is below it. */
 typedef struct study_limit {
     const char *output, *text;
     ff_place place, at; /* of the name and of the limit */
@@ -21,22 +21,23 @@ typedef struct study_limit {
 
 struct study_spectrum {
     double *times;           /* of each row: shares of 1, or s */
-    size_t empty;            /* classes of no time, which are no rows */
-    double rounding, stated; /* of the shares: what their digits leave open, and their sum */
+    size_t empty;            /* number of classes of no time */
+    double rounding, stated; /* of the shares: rounding left open by their digits, and their sum */
     size_t count, room;
     bool shares;
     study_limit *below;
     size_t below_count;
 };
 
-/* Takes how long the next row lasts, unless that is 0: *empty. False after an error, whose place is
-   that of the text. */
+/* Takes the duration of the next row. A duration of 0 sets *empty. False after an error at the
+   place of the text. */
 bool study_spectrum_add(study_definition *study, const char *text, ff_place place, bool *empty,
                         ff_report *report);
-/* Reads `below`, and checks the sum of the shares and makes it 1 when all rows are there. */
+/* Reads `below`. Once all rows are there, checks that the shares sum to 1 within rounding and
+   scales them to 1. */
 bool study_spectrum_finish(study_definition *study, const ff_node *cases, const ff_node *below,
                            ff_report *report);
-/* Checks that the pipeline gives what `below` names, in its unit. */
+/* Checks that the pipeline gives the outputs of `below` in their units. */
 void study_spectrum_check(const study_definition *study, const ff_pipeline *pipeline,
                           ff_report *report);
 

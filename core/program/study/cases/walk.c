@@ -55,7 +55,7 @@ static void open_case(study_walk *walk, study_kept *kept)
     walk->open = true;
 }
 
-/* Moves on from a case; one that failed hands on the states that it was given. */
+/* Moves on from a case. A failed case hands on the states that it started from. */
 static void pass(study_walk *walk, const char *key, const json_t *record)
 {
     json_t *states = json_object_get(record, "state");
@@ -76,7 +76,7 @@ void study_walk_leave(study_walk *walk, const json_t *record)
     walk->open = false;
 }
 
-/* Leaves the open case, if there is one, with what the records have of it. */
+/* Leaves the open case, if there is one, and passes on its record from an earlier run. */
 static void leave_known(study_walk *walk)
 {
     if (!walk->open)

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Walks over the cases of a study: each is built in its turn, with its key and the states that it
- * starts from, and is not run. So whoever asks what is known, what is to run, or what a case is
- * called goes the same way.
+ * Walks over the cases of a study: builds each case with its key and initial states, and does not
+ * run it. One order serves the search for finished cases, the plan, and the run.
  */
 #ifndef STUDY_WALK_H
 #define STUDY_WALK_H
@@ -13,30 +12,30 @@
 
 typedef struct study_walk {
     const study_run *run;
-    study_records *records;       /* of earlier runs, and of this one where cases form chains */
-    char (*keys)[STUDY_KEY_SIZE]; /* cases with a key there are passed by; NULL: none are */
+    study_records *records;       /* of earlier runs, and of this run if cases form chains */
+    char (*keys)[STUDY_KEY_SIZE]; /* cases with a key here are skipped; NULL: none are */
     size_t end, step;             /* of the chains */
 
     size_t chain;
-    size_t position;             /* in that, of the case that is next */
-    char before[STUDY_KEY_SIZE]; /* key of the case before it in its chain; "" for the first */
-    json_t *states;              /* {stage: bytes as text} that it starts from */
+    size_t position;             /* position of the next case in its chain */
+    char before[STUDY_KEY_SIZE]; /* key of the previous case in the chain; "" for the first */
+    json_t *states;              /* {stage: bytes as text} from which it starts */
     study_case c;
     bool open;
-    study_kept kept, made; /* for the keys alone, and with the objects of the models */
+    study_kept kept, made; /* builds for the keys alone, and builds with model objects */
 } study_walk;
 
-/* Walks over the chains of the run's shard, for the keys of their cases alone; the caller may
-   change what stands before `position`, and `kept.keys`. */
+/* Begins a walk over the chains of the run's shard that finds keys alone. The caller may change the
+   members before `position`, and `kept.keys`. */
 study_walk study_walk_begin(const study_run *run, study_records *records);
-/* Leaves the case before, and returns the next one, open until then; NULL after the last. */
+/* Leaves the open case and opens the next one; NULL after the last. */
 study_case *study_walk_next(study_walk *walk);
-/* Goes to a case, which is the next one then; those before it in its chain hand on their states. */
+/* Moves to a case, which becomes the next one. Earlier cases of its chain hand on their states. */
 void study_walk_to(study_walk *walk, size_t index);
-/* Leaves the open case, which gave that record; NULL: none. */
+/* Leaves the open case with the record that it gave; NULL if it gave none. */
 void study_walk_leave(study_walk *walk, const json_t *record);
-/* Builds the open case again with its objects. A case that a model refused as it was made has its
-   key from its assignments, which shows then. */
+/* Builds the open case again with its model objects. If a model refuses the case, its key comes
+   from the assignments. */
 void study_walk_make(study_walk *walk);
 void study_walk_end(study_walk *walk);
 

@@ -19,9 +19,9 @@ const char *const study_class_texts[STUDY_CLASSES] = {
 const char study_class_letters[STUDY_CLASSES + 1] = ".op?d!Fx";
 const char study_note_text[] = "as good as its letter says, and good to know";
 
-/* A difference may be this many times as large as its estimate. */
+/* A difference counts as too large beyond this multiple of its estimate. */
 static const double most_times = 3;
-/* A relative difference by rounding, which estimates do not cover. */
+/* A relative difference by rounding, which the estimates do not cover. */
 static const double rounding = 1e-9;
 
 /* Returns the line of quality of that name, or NULL. */
@@ -67,7 +67,7 @@ static bool is_among(const char *name, const char *const *names, size_t count)
     return false;
 }
 
-/* Whether a condition holds, and its value; false when the answer lacks the line or output. */
+/* Evaluates a condition; false if it does not hold, or if the answer lacks its line or output. */
 static bool condition_holds(const study_map *s, const study_condition *c,
                             const study_outcome *answer, double *value)
 {
@@ -79,7 +79,7 @@ static bool condition_holds(const study_map *s, const study_condition *c,
            (c->than == '<' ? *value < c->value : *value > c->value);
 }
 
-/* Whether the line warns because the machine is unstable. */
+/* True if the line warns because the machine is unstable. */
 static bool is_physical(const char *name, const study_map *s, const study_outcome *answer)
 {
     double value;
@@ -109,7 +109,7 @@ static void set_class(study_cell *cell, enum study_class class, const study_qual
     cell->why = *line->text ? line->text : NULL;
 }
 
-/* Returns how far a line is beyond its limit, to compare two that warn alike. */
+/* Distance of a line beyond its limit, to compare two lines that warn alike. */
 static double beyond_limit(const study_quality *line)
 {
     double value = fabs(line->value), limit = fabs(line->limit);
@@ -169,8 +169,8 @@ static void judge_notes(study_cell *cell, const study_map *s, const study_outcom
     }
 }
 
-/* Whether the refined case is compared. The difference shows how bad a degraded cell is. Where the
-   model itself warns that there is no single answer, the refined case need not agree. */
+/* True if the refined case is to be compared. The difference shows how bad a degraded cell is. If
+   the model itself warns that there are several answers, the refined case need not agree. */
 static bool is_compared(const study_cell *cell, const study_map *s, const study_outcome *answer)
 {
     return cell->class <= STUDY_DEGRADED &&
@@ -226,8 +226,7 @@ static void judge_refined(study_cell *cell, const study_map *s, const study_outc
                              100 * cell->difference, 100 * cell->estimate);
 }
 
-/* Where the refined case disagrees or failed, a line that is only a note counts as a warning after
-   all. */
+/* If the refined case disagrees or failed, a line that is only a note counts as a warning. */
 static void judge_warned(study_cell *cell, const study_map *s, const study_outcome *answer)
 {
     study_cell warned = *cell;

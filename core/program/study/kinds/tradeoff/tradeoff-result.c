@@ -18,8 +18,8 @@ static accuracy_series series_of(const study_output *output)
     return (accuracy_series){output->rank, output->count, output->at, output->values, 0};
 }
 
-/* Whether an output is judged by its rms: where the reference passes through 0, the largest error
-   tells how far that place has moved, over a number that means nothing. */
+/* True if an output is judged by its rms error: if the reference passes through 0, the largest
+   relative error only tells how far the zero has moved. */
 static bool by_rms(const study_tradeoff *t, size_t output)
 {
     const study_output *reference = &study_tradeoff_outcome(t, 0)->outputs[output];
@@ -88,8 +88,7 @@ static json_t *cost_of(const study_tradeoff *t, size_t point, double *median)
                  : json_null();
 }
 
-/* Returns how far the last two levels of the reference are apart: smaller errors cannot be told
-   apart. */
+/* Difference of the last two levels of the reference: smaller errors cannot be told apart. */
 static double floor_of(const study_tradeoff *t, size_t levels, size_t output)
 {
     accuracy_difference d;
@@ -130,8 +129,8 @@ static json_t *describe_reference(const study_tradeoff *t, size_t levels)
     return json_pack("{s:b, s:o}", "reached", (int)reached, "levels", list);
 }
 
-/* Describes the front, and what each step along it costs and gains; says of each error whether it
-   is on the front. */
+/* Describes the front and what each step along it costs and gains; marks each error that is on the
+   front. */
 static json_t *describe_front(const study_tradeoff *t, const double *cost, const double *error,
                               json_t *const *errors)
 {
@@ -158,7 +157,7 @@ static json_t *describe_front(const study_tradeoff *t, const double *cost, const
     return list;
 }
 
-/* A count of work, which is a result or a line of quality. NaN: the case has none. */
+/* A count of work, from a result or a quality line; NaN if the case has none. */
 static double count_of(const study_tradeoff *t, const study_outcome *answer, size_t count)
 {
     const study_output *result = &answer->outputs[t->context->output_count + count];
@@ -213,7 +212,7 @@ static json_t *describe_output(const study_tradeoff *t, size_t levels, size_t ou
     for (size_t c = 0; c < t->candidates; c++) {
         errors[c] = error_of(t, t->levels + c, levels - 1, output, &error[c]);
         json_object_set_new(json_object_get(json_array_get(list, c), "errors"), name, errors[c]);
-        if (isfinite(error[c])) /* no candidate is known to be better than that */
+        if (isfinite(error[c])) /* no candidate is known to be better than this */
             error[c] = fmax(error[c], fmax(floor, 1e-15));
     }
     json_t *front = describe_front(t, cost, error, errors);

@@ -54,7 +54,7 @@ static const ff_param keys[STUDY_TRADEOFF_KEYS] = {
                 "the rms of what changes its sign, else the largest"},
 };
 
-/* Whether every output differs from the level before by at most a tenth of the smallest error
+/* True if every output differs from the previous level by at most a tenth of the smallest error
    sought. */
 static bool level_has_settled(const study_tradeoff *t, size_t level)
 {

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* What limits an answer: the error of its grids and steps, the choice of its models, or its inputs.
- */
+/* Finds what limits an answer: the error of its grids and steps, the choice of its models, or its
+   inputs. */
 #include "uncertainty.h"
 
 #include <math.h>
 #include <string.h>
 
-/* Where the error of the grid is a third of another, they add up to 5 % more than that one. */
+/* An error of a third of another adds only 5 % to it. */
 static const double counts_for_nothing = 1 / 3.;
 
 study_readable study_uncertainty_unit(const study_context *context, const char *name,
@@ -27,8 +27,8 @@ static void print_number(const study_context *context, const char *name, const j
              *unit.unit ? " " : "", unit.unit);
 }
 
-/* Adds the models that were compared, each with how far its answer is off, and those that could not
-   be; returns the largest, and sets the name of that one. */
+/* Adds the compared models with the difference of their answers, and those that could not be
+   compared. Returns the largest difference and sets its model's name. */
 static double add_models(const study_uncertainty *u, size_t output, double nominal, json_t *into,
                          const char **name)
 {
@@ -54,7 +54,7 @@ static double add_models(const study_uncertainty *u, size_t output, double nomin
     return largest;
 }
 
-/* The input without which most of the spread would be missing. */
+/* The input that contributes most of the spread. */
 static const char *largest_share(const json_t *of, double *share)
 {
     json_t *shares = json_object_get(of, "shares"), *one;
@@ -71,7 +71,7 @@ static const char *largest_share(const json_t *of, double *share)
     return found;
 }
 
-/* `kelvin`: the value of a temperature, which no share is said of; NaN: no temperature. */
+/* `kelvin` is the part of a temperature, which has no relative share; NaN for other outputs. */
 static void add_part(study_line *line, double part, double kelvin, const char *what,
                      const char *missing)
 {
@@ -83,7 +83,7 @@ static void add_part(study_line *line, double part, double kelvin, const char *w
         study_line_add(line, "%s", missing);
 }
 
-/* The relative spread by the inputs, with its 95 % interval; NaN where an end is not bounded. */
+/* Relative spread by the inputs with its 95 % interval; NaN if an end is not bounded. */
 typedef struct input_bar {
     double value, low, high;
 } input_bar;
@@ -97,13 +97,13 @@ static input_bar input_bar_of(const json_t *of)
                        study_number_of(deviation, "high") / mean};
 }
 
-/* Whether the samples leave open which is larger, the spread by the inputs or another bar. */
+/* True if the samples leave open whether the spread by the inputs or another bar is larger. */
 static bool is_open(const input_bar *input, double bar)
 {
     return input->value > 0 && isfinite(bar) && !(bar < input->low) && !(bar > input->high);
 }
 
-/* Names the inputs beside the larger of the two other bars, and the smaller one where it counts. */
+/* Names the inputs beside the larger of the two other bars, and the smaller one if it counts. */
 static const char *open_advice(double numerical, double model, const input_bar *input)
 {
     double least = counts_for_nothing * fmax(numerical, model);
@@ -118,7 +118,7 @@ static const char *open_advice(double numerical, double model, const input_bar *
                               : "the inputs and the choice of the model may matter alike";
 }
 
-/* Says what to do about the largest of the three. */
+/* Advises about the largest of the three bars. */
 static const char *advice(double numerical, double model, const input_bar *input)
 {
     double other = fmax(model, input->value); /* of those that are known */

@@ -60,7 +60,7 @@ static json_t *histogram_of(const estimate_samples *s)
                      "shares", list);
 }
 
-/* The inputs of a group: "torque + speed". */
+/* Name of a group of inputs: "torque + speed". */
 static const char *name_of_group(const study_uncertainty *u, size_t group)
 {
     const char *text = NULL;
@@ -72,10 +72,10 @@ static const char *name_of_group(const study_uncertainty *u, size_t group)
 }
 
 /*
- * The shares of the inputs, of the last level. Where r is its correlation with the file's model,
- * that model is a multiple of it and a rest, and the parts of a variance that inputs make obey the
- * triangle inequality in their roots: a share of the file's model lies between (r sqrt(S) - e)^2
- * and (r sqrt(S) + e)^2 with e = sqrt(1 - r^2).
+ * Shares of the inputs, from the last level. If r is the last level's correlation with the file's
+ * model, this model is a multiple of it plus a rest. The roots of the inputs' parts of a variance
+ * obey the triangle inequality, so a share of the file's model lies between (r sqrt(S) - e)^2 and
+ * (r sqrt(S) + e)^2 with e = sqrt(1 - r^2).
  */
 static json_t *shares_of(const study_uncertainty *u, size_t output)
 {
@@ -119,7 +119,7 @@ static json_t *correlations_of(const study_uncertainty *u, size_t output)
     return all;
 }
 
-/* The unit of an output, from the first record that has it. */
+/* Unit of an output, from the first record that has it. */
 static const char *unit_of(const study_uncertainty *u, size_t output)
 {
     const study_context *context = u->context;
@@ -225,8 +225,9 @@ static json_t *levels_of(const study_uncertainty *u)
     return all;
 }
 
-/* How many times cheaper the ladder was than plain samples of the same standard error, as the
-   correlations and costs of the pilot promised and as it was; both with the pilot. */
+/* Gain of the ladder: how many times cheaper it was than plain samples of the same standard error,
+   as promised by the pilot's correlations and costs, and as achieved; the cost of the pilot is
+   included in both. */
 static json_t *gain_of(const study_uncertainty *u, const json_t *outputs)
 {
     const json_t *of = json_object_get(outputs, u->context->outputs[0]->text);

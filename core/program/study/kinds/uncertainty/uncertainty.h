@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * What uncertain inputs make of the outputs, beside what the grid and the choice of models do: the
- * answer at the medians, with its error bar and by other models; the first samples, a pilot, on all
- * levels of a ladder of cheaper models; then as many more of each level as those show to be worth
- * their cost; and samples of the cheapest level for the share of each input.
+ * Effect of uncertain inputs on the outputs, beside that of the grid and the choice of models.
+ * First the answer at the medians, with its error bar and by other models; then a pilot of samples
+ * on all levels of a ladder of cheaper models; then as many more samples of each level as the pilot
+ * shows to be worth their cost; and samples of the cheapest level for the share of each input.
  */
 #ifndef STUDY_UNCERTAINTY_H
 #define STUDY_UNCERTAINTY_H
@@ -32,12 +32,13 @@ enum {
     STUDY_UNCERTAINTY_KEYS
 };
 
-/* Other models or settings than the file's: level 0 assigns nothing. */
+/* A level or a model to compare: its differences from the file; level 0 assigns nothing. */
 typedef struct uncertainty_patch {
     const char *name;
     const ff_node *place;     /* NULL for the file as it stands */
-    const char **assignments; /* for each path of the study; NULL where the file's value stays */
-    double cost;              /* of a case over one of the file's; NaN: the pilot measures it */
+    const char **assignments; /* for each path of the study; NULL if the file's value stays */
+    double cost;              /* cost of a case over one of the file's; NaN: the pilot measures
+                                 it */
 } uncertainty_patch;
 
 /* "film.h_min_lowest < 0.1 um" */
@@ -53,7 +54,7 @@ typedef struct study_uncertainty {
     study_context *context;
     variates inputs;
     size_t samples, sensitivity;
-    size_t pilot; /* 0 without a ladder */
+    size_t pilot; /* number of pilot samples; 0 without a ladder */
     uint64_t seed;
     estimate_aim aim;
     double shares[UNCERTAINTY_MOST_SHARES]; /* of the percentiles */
@@ -62,15 +63,16 @@ typedef struct study_uncertainty {
     size_t condition_count;
     uncertainty_patch levels[ESTIMATE_MOST_LEVELS], models[UNCERTAINTY_MOST_MODELS];
     size_t level_count, model_count;
-    size_t first_patch; /* paths before it are those of the inputs */
+    size_t first_patch; /* the paths before it are those of the inputs */
 
-    /* numbers of the first cases: nominal, with its error bar, by each model; of pilot sample i on
-       level k, the further samples of the plan, and those of the cheapest level */
+    /* Numbers of the first cases: nominal, with its error bar, by each model; pilot sample i on
+       level k; the further samples of the plan; those of the cheapest level. */
     size_t nominal, measured, first_model, first_pilot, first_sensitivity, first_main;
     estimate_plan plan;
-    double *numbers;                      /* that the samples are made from */
-    double cost[ESTIMATE_MOST_LEVELS];    /* over a case of level 0 */
-    double seconds[ESTIMATE_MOST_LEVELS]; /* s of processor time of a case in the pilot, or NaN */
+    double *numbers;                      /* standard normal numbers from which the samples are
+                                             made */
+    double cost[ESTIMATE_MOST_LEVELS];    /* relative to a case of level 0 */
+    double seconds[ESTIMATE_MOST_LEVELS]; /* CPU time of a case in the pilot, s, or NaN */
 } study_uncertainty;
 
 /* uncertainty-read.c: reads the keys and submits the cases that are known; NULL after an error. */
@@ -84,23 +86,23 @@ size_t study_uncertainty_submit(const study_uncertainty *u, const char *label,
 /* Numbers of cases; `slot` is a level of the plan. */
 size_t study_uncertainty_pilot_case(const study_uncertainty *u, size_t level, size_t sample);
 size_t study_uncertainty_sample_case(const study_uncertainty *u, size_t slot, size_t sample);
-/* Returns what a case gave of an output; NaN where it failed. */
+/* Value of an output in a case; NaN if the case failed. */
 double study_uncertainty_value(const study_uncertainty *u, size_t number, size_t output);
 
 /* uncertainty-result.c: returns the whole result. */
 json_t *study_uncertainty_result(const study_uncertainty *u);
 
-/* uncertainty-words.c: lists the words of an input; returns 0 where it has more than these. */
+/* uncertainty-words.c: lists the words of an input; 0 if it has more than this number. */
 enum { UNCERTAINTY_MOST_WORDS = 8 };
 size_t study_uncertainty_words(const variate *v, const char *words[UNCERTAINTY_MOST_WORDS]);
-/* Sets *own to the samples in which the input is that word, of level 0 alone where the counts of
-   levels leave too few. Returns how many of the file's model stay, 0 where they are too few for a
-   mean with its spread. */
+/* Sets *own to the samples in which the input is that word; of level 0 alone if the counts of the
+   levels leave too few. Returns the number of samples of the file's model, or 0 if they are too few
+   for a mean with its spread. */
 size_t study_uncertainty_of_word(const study_uncertainty *u, const estimate_samples *all,
                                  size_t input, const char *word, estimate_samples *own);
 
 /* uncertainty-limits.c: returns what limits an output: {value, numerical, models, input, sentence};
-   `of` is its result, which has the shares of the inputs where they are known. */
+   `of` is its result, with the shares of the inputs if they are known. */
 json_t *study_uncertainty_limits(const study_uncertainty *u, size_t output, const json_t *of);
 
 /* The unit in which an output of that name is shown, by the size of its mean. */

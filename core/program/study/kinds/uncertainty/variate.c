@@ -30,7 +30,8 @@ static bool refuse(study_context *context, const ff_node *at, const char *name, 
                     "%s: %.80s: %s", context->name, name, what);
 }
 
-/* A spread in percent is that of the number before it; another one is in a unit of its own. */
+/* Reads a spread. In percent it is relative to the number before it; otherwise it has a unit of its
+   own. */
 static bool read_spread(study_context *context, const ff_node *node, variate *v,
                         const ff_unit *unit)
 {
@@ -65,7 +66,8 @@ static bool read_pair(study_context *context, const ff_node *list, variate *v)
             return false;
         if (v->kind == VARIATE_LOGNORMAL && !(v->a > 0))
             return refuse(context, list, v->name, NULL, "lognormal wants a positive median");
-        if (v->kind == VARIATE_LOGNORMAL) /* of the variance exp(s^2) - 1 over the squared mean */
+        if (v->kind == VARIATE_LOGNORMAL) /* from the variance of a lognormal variate over its
+                                             squared mean, exp(s^2) - 1 */
             v->b = sqrt(log1p(v->b / v->a * (v->b / v->a)));
         return true;
     }
@@ -90,7 +92,7 @@ static int by_number(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Sorts samples that are all numbers of one unit, so that correlations mean what they say. */
+/* Sorts samples if all are numbers of one unit, so that correlations have a meaning. */
 static void sort_samples(variate *v)
 {
     sample *all = memory_alloc((v->sample_count + 1) * sizeof *all);
@@ -118,7 +120,7 @@ static void add_sample(study_context *context, variate *v, const char *text, con
         study_context_format(context, "%s%s%s", text, *unit ? " " : "", unit);
 }
 
-/* Takes the column of that name from the rows. Returns why it cannot, or NULL. */
+/* Takes the column of that name from the rows. Returns NULL, or the reason if it cannot. */
 static const char *take_column(study_context *context, study_csv *table, variate *v)
 {
     size_t column = 0;
@@ -176,7 +178,7 @@ static bool read_samples(study_context *context, const ff_node *node, variate *v
     return true;
 }
 
-/* The paths that get the value: the name itself, or those of `sets`. */
+/* Paths that receive the value: the name itself, or those of `sets`. */
 static bool read_paths(study_context *context, const ff_node *sets, const ff_node *at, variate *v)
 {
     size_t count = sets ? sets->count : 1;
@@ -198,7 +200,7 @@ static bool read_paths(study_context *context, const ff_node *sets, const ff_nod
     return true;
 }
 
-/* As likely everywhere between the ends. */
+/* Equal probability everywhere between the ends. */
 static void spread_evenly(study_context *context, const ff_tolerance *t, const char *text,
                           variate *v)
 {
@@ -301,7 +303,7 @@ static bool factorise(double *m, size_t n)
     return true;
 }
 
-/* Numbers the groups that no correlation joins. */
+/* Numbers the groups of inputs that no correlation joins. */
 static void number_groups(variates *v)
 {
     for (size_t i = 0; i < v->count; i++)
@@ -312,7 +314,7 @@ static void number_groups(variates *v)
             for (size_t k = 0; v->root[i * VARIATE_MOST + j] != 0 && k < v->count; k++)
                 v->all[k].group = v->all[k].group == from ? to : v->all[k].group;
         }
-    for (size_t g = 0; g < v->count; g++) { /* without gaps */
+    for (size_t g = 0; g < v->count; g++) { /* numbers without gaps */
         bool used = false;
         for (size_t k = 0; k < v->count; k++)
             if (v->all[k].group == g) {
@@ -391,8 +393,8 @@ double *variates_draw(const variates *v, uint64_t seed, int stream, size_t count
 {
     double *numbers = memory_alloc((count * v->count + 1) * sizeof *numbers);
     gsl_rng *rng = memory_require(gsl_rng_alloc(gsl_rng_mt19937));
-    /* a generator takes 32 bits; its first numbers resemble those of a neighbouring seed's little
-       enough, for it spreads a seed over all its state */
+    /* The generator takes a seed of 32 bits. Neighbouring seeds give sufficiently different first
+       numbers, since a seed is spread over the whole state. */
     gsl_rng_set(rng, (unsigned long)((8 * seed + (uint64_t)stream + 1) & 0xffffffff));
     for (size_t i = 0; i < count * v->count; i++) {
         double u = gsl_rng_uniform_pos(rng);

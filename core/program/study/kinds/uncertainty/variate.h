@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Uncertain inputs: what each is distributed like, and draws of all of them. Inputs depend on each
- * other by the correlations of the normal variates that they are made from (Gaussian copula).
+ * Uncertain inputs: their distributions, and draws of all of them. Inputs depend on each other
+ * through the correlations of the normal variates from which they are made (Gaussian copula).
  */
 #ifndef STUDY_VARIATE_H
 #define STUDY_VARIATE_H
@@ -14,14 +14,15 @@ typedef enum { VARIATE_NORMAL, VARIATE_LOGNORMAL, VARIATE_UNIFORM, VARIATE_SAMPL
 
 typedef struct variate {
     const char *name;
-    const char **paths; /* all get the same value */
+    const char **paths; /* all receive the same value */
     size_t path_count;
     const char *text; /* "normal: [250 N m, 10 %]" */
     variate_kind kind;
-    double a, b;          /* mean and deviation; median and that of the logarithm; both ends */
+    double a, b;          /* mean and deviation; or median and deviation of the logarithm; or
+                             both ends */
     const char *unit;     /* of these, or "" */
-    const char **samples; /* sorted where all are numbers */
-    bool words;           /* they are not numbers of one unit */
+    const char **samples; /* sorted if all are numbers */
+    bool words;           /* the samples are words, or numbers of different units */
     size_t sample_count;
     size_t group; /* inputs of different groups are independent */
 } variate;
@@ -33,19 +34,19 @@ typedef struct variates {
     double root[VARIATE_MOST * VARIATE_MOST]; /* Cholesky factor of the correlations, by rows */
 } variates;
 
-/* Reads `inputs` and `correlations`, which may be NULL: the values of the pipeline that have a
-   tolerance are the inputs then. False after an error. */
+/* Reads `inputs` and `correlations`, which may be NULL: the inputs are then the values of the
+   pipeline that have a tolerance. False after an error. */
 bool variates_read(variates *v, study_context *context, const ff_node *inputs,
                    const ff_node *correlations);
 
 /* Streams of draws that are independent of each other. */
 enum { VARIATES_MAIN = 1, VARIATES_FIRST, VARIATES_SECOND };
 
-/* Returns `count` times one standard normal number for each input, independent of each other; the
-   first ones of a longer list are the same. To be freed. */
+/* Draws `count` sets of one standard normal number for each input, independent of each other. A
+   longer list begins with the same numbers. To be freed. */
 double *variates_draw(const variates *v, uint64_t seed, int stream, size_t count);
 
-/* Returns the value of input k, as a file would say it, from such numbers; NULL for the medians. */
+/* Value of input k in a file's notation, from such numbers; NULL stands for the medians. */
 const char *variates_value(const variates *v, study_context *context, size_t k,
                            const double *numbers);
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * The inputs as control variates: z and z^2 - 1 of standard normal numbers have the mean 0, so that
- * a regression on them takes what they explain out of the spread of a mean, at no cost. What a
- * value is corrected by comes from the other values alone, beta_(-i) = beta - A^-1 x_i e_i / (1 -
- * h_i) (Sherman & Morrison 1950), so that the mean stays unbiased.
+ * The inputs as control variates: z and z^2 - 1 of standard normal numbers have mean 0, so a
+ * regression on them removes the spread that they explain at no cost. The correction of a value
+ * uses the other values alone, beta_(-i) = beta - A^-1 x_i e_i / (1 - h_i) (Sherman & Morrison
+ * 1950), so that the mean stays unbiased.
  */
 #include "estimate.h"
 
@@ -14,10 +14,12 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* Samples for each coefficient, so that they are worth what their own errors cost. */
+/* Samples needed for each coefficient: with fewer, the coefficients' own errors outweigh their
+   gain. */
 enum { SAMPLES_EACH = 3 };
 
-/* The columns beside the constant one: none, the numbers, or also their squares. */
+/* Number of columns beside the constant one: none, the numbers, or the numbers and their
+   squares. */
 static size_t columns_for(size_t count, size_t inputs)
 {
     return count >= SAMPLES_EACH * (2 * inputs + 1) ? 2 * inputs

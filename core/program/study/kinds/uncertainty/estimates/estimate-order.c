@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Probabilities and percentiles. What a cheap level gives is first put on the scale of level 0 by
- * the line that the samples on both show; then
- *   P(y <= t) = P(z <= t) + P(y <= t < z) - P(z <= t < y):
- * the first from the many samples of the cheap level, the others from the few that have both. The
- * interval is that of a sum of proportions: Wilson's of each, joined as Newcombe 1998 does
- * (Stat. Med. 17, 873; MOVER). A percentile is bounded where the interval of its probability meets
- * its share (Woodruff 1952).
+ * Probabilities and percentiles. The values of a cheap level are first put on the scale of level 0,
+ * by the line through the samples on both. Then P(y <= t) = P(z <= t) + P(y <= t < z) - P(z <= t <
+ * y): the first term comes from the many samples of the cheap level, the others from the few
+ * samples on both. The interval is that of a sum of proportions: Wilson's for each, joined as in
+ * Newcombe 1998 (Stat. Med. 17, 873; MOVER). A percentile is bounded by the points where the
+ * interval of its probability meets its share (Woodruff 1952).
  */
 #include "estimate.h"
 
@@ -26,9 +25,9 @@ typedef struct pairs {
     double apart; /* how often y and z lie on different sides of the median, by their correlation */
 } pairs;
 
-/* Of the levels, the one with which a probability near 1/2 has the smallest variance: that two
-   normal variates of correlation r lie on different sides of it is acos(r) / pi. 0: none is
-   better than level 0 alone. */
+/* The level for which the estimate of a probability near 1/2 has the smallest variance: two normal
+   variates of correlation r lie on different sides of their median with probability acos(r) / pi. 0
+   if no level is better than level 0 alone. */
 static size_t companion(const estimate_samples *s, double *scale, double *shift, double *most)
 {
     double least = 0.25 / (double)s->count[0];
@@ -43,7 +42,8 @@ static size_t companion(const estimate_samples *s, double *scale, double *shift,
             least = variance;
             *most = apart;
             best = k;
-            /* that of the spreads, not of the regression, which would be narrower than level 0 */
+            /* ratio of the spreads; the slope of the regression would make z narrower than level
+               0 */
             *scale = copysign(sqrt(m.aa / m.bb), m.ab);
             *shift = m.mean_a - *scale * m.mean_b;
         }
@@ -89,9 +89,10 @@ static void wilson(double hits, double n, double *low, double *high)
     *high = fmin(1, middle + half);
 }
 
-/* How far a probability reaches down and up, from the number of cheap values that are at most t and
-   of pairs that lie apart. A few pairs tell little of how many do: PRIOR pairs that lie apart as
-   often as normal variates of that correlation are counted with them. */
+/* Lengths by which the interval of a probability reaches down and up, from the number of cheap
+   values of at most t and the number of pairs on different sides of t. A few pairs tell little
+   about this number, so PRIOR pairs are added that lie apart as often as normal variates of that
+   correlation. */
 static void interval_of(const pairs *p, double below, size_t apart, double value, double *down,
                         double *up)
 {
@@ -139,10 +140,10 @@ size_t estimate_values(const estimate_samples *s, double *values)
     return count;
 }
 
-/* A value that t passes on its way up. */
+/* A value that t passes as it rises. */
 typedef struct event {
     double at;
-    size_t pair; /* SIZE_MAX: a cheap value without one */
+    size_t pair; /* SIZE_MAX for a cheap value without a pair */
     bool is_y;
 } event;
 
@@ -166,9 +167,9 @@ static event *events_of(const pairs *p, size_t *count)
     return events;
 }
 
-/* Where the probability crosses a share: half-way between where it first reaches it and where it
-   last fails to exceed it. It may fall a little where t passes a cheap value whose own lies above.
- */
+/* The place where the probability crosses a share: half-way between its first value at or above the
+   share and its last value below. The probability may fall a little where t passes a cheap value
+   whose partner lies above. */
 typedef struct crossing {
     double share, first, last;
     size_t only_y, only_z; /* of the pairs there */
@@ -229,7 +230,7 @@ estimate estimate_percentile(const estimate_samples *s, double share)
     walk(&p, events, count, ends, 2);
     if (p.both > 0)
         e = (estimate){place_of(&middle), place_of(&ends[0]), place_of(&ends[1]), (double)NAN};
-    /* beyond the outermost value lies a share that n values do not bound */
+    /* n values do not bound the share beyond the outermost value */
     double outside = z95 * z95 / (n + z95 * z95);
     if (share < outside || ends[0].share <= 0)
         e.low = -INFINITY;

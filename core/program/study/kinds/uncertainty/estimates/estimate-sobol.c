@@ -11,14 +11,14 @@
 
 enum { RESAMPLES = 200 };
 
-/* The first index of the rows by Janon et al. 2014 (ESAIM Probab. Stat. 18, 342, eq. 6), whose
-   pairs share the inputs of the group alone; the total one by Jansen 1999 (Comput. Phys. Commun.
-   117, 35), whose pairs share all others. */
+/* First index by Janon et al. 2014 (ESAIM Probab. Stat. 18, 342, eq. 6), from pairs that share the
+   inputs of the group alone; total index by Jansen 1999 (Comput. Phys. Commun. 117, 35), from pairs
+   that share all other inputs. */
 static void indices(const double *a, const double *b, const double *c, const size_t *rows,
                     size_t count, double *first, double *total)
 {
     double mean = 0, square = 0, both = 0, apart = 0, mean_t = 0, square_t = 0, n = (double)count;
-    double about = count ? a[rows[0]] : 0; /* against cancellation */
+    double about = count ? a[rows[0]] : 0; /* shifts the values against cancellation */
     for (size_t i = 0; i < count; i++) {
         double x = a[rows[i]] - about, y = b[rows[i]] - about, z = c[rows[i]] - about;
         mean += (y + z) / 2;
@@ -32,7 +32,7 @@ static void indices(const double *a, const double *b, const double *c, const siz
     *total = apart / n / (square_t / n - mean_t * mean_t / (n * n));
 }
 
-/* The middle 95 % of what resampled rows give (Efron 1979). */
+/* The middle 95 % of the values from resampled rows (Efron 1979). */
 static void bound(estimate *e, double *values)
 {
     memory_sort(values, RESAMPLES, sizeof *values);

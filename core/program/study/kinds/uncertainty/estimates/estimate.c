@@ -9,10 +9,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* m_i = N sqrt(d_i / w_i) sum sqrt(d_j w_j) gives the variance sum d_i / m_i = 1 / N at the least
-   cost sum w_i m_i (Peherstorfer et al. 2016, theorem 3.4). Where level 0 needs more for its
-   variance to be known, or the pilot has more, the others are allotted what variance that leaves.
-   False: too many. */
+/* Numbers of samples m_i = N sqrt(d_i / w_i) sum sqrt(d_j w_j), which give the variance sum d_i /
+   m_i = 1 / N at the least cost sum w_i m_i (Peherstorfer et al. 2016, theorem 3.4). If level 0
+   needs more samples for its variance to be known, or if the pilot has more, the other levels are
+   allotted the variance that remains. False if there would be too many. */
 static bool count_samples(const double *d, const double *cost, size_t levels, double plain,
                           double least, double *count)
 {
@@ -38,10 +38,10 @@ static double cost_of(const double *count, const double *cost, size_t levels)
     return sum;
 }
 
-/* The shares of the variance that samples of each level leave: for a mean by falling correlation,
-   d_i = rho_i^2 - rho_(i+1)^2, of the last level what the inputs do not explain; for a probability
-   near 1/2 with one cheap level, how often that lies on the other side, acos(rho) / pi of normal
-   variates, over p (1 - p) = 1/4. */
+/* Shares of the variance by level. For a mean, by falling correlation, d_i = rho_i^2 - rho_(i+1)^2;
+   the last level has what the inputs do not explain. For a probability near 1/2 with one cheap
+   level: how often that level lies on the other side, acos(rho) / pi for normal variates, over p (1
+   - p) = 1/4. */
 static void share_variance(const double *rho2, size_t levels, double unexplained, estimate_aim aim,
                            double *d)
 {
@@ -124,18 +124,19 @@ static size_t begin_of(const estimate_samples *s, size_t block)
     return block ? s->count[block - 1] : 0;
 }
 
-/* What the samples contribute of a mean. */
+/* Parts of which the estimate of a mean is made. */
 typedef struct parts {
-    double weight[ESTIMATE_MOST_LEVELS]; /* of all but the first samples */
-    double *own;                         /* those of the first ones, level by level */
-    double *value, *explained;           /* g of the last level; what the inputs explain of it */
+    double weight[ESTIMATE_MOST_LEVELS]; /* of all samples but the first */
+    double *own;                         /* weights of the first samples, level by level */
+    double *value, *explained;           /* g of the last level, and the part that the inputs
+                                            explain */
 } parts;
 
 /*
- * The weights of the control variates, cov(g_0, g_k) / var(g_k) over the samples that all levels
- * have. Each of these takes that of the others, the rest their mean: no sample meets a weight that
- * it made, and the weights of each level add up to nothing, so that the estimate is unbiased for
- * counts that are given.
+ * Weights of the control variates, cov(g_0, g_k) / var(g_k), from the samples on all levels. Each
+ * of these samples takes the weight that the others give, and the rest take the mean weight: no
+ * sample meets a weight that it influenced. The weights of each level sum to zero, so the estimate
+ * is unbiased for given counts.
  */
 static void find_weights(const estimate_samples *s, double (*g)(double, double), double about,
                          parts *p)
@@ -174,16 +175,16 @@ static parts find_parts(const estimate_samples *s, double (*g)(double, double), 
     return p;
 }
 
-/* How well samples tell their own variance: the degrees of freedom 2 sigma^4 / var(s^2) of n values
-   with a kurtosis, var(s^2) = sigma^4 (2 / (n - 1) + excess / n). */
+/* Degrees of freedom with which n samples tell their variance: 2 sigma^4 / var(s^2), with var(s^2)
+   = sigma^4 (2 / (n - 1) + excess / n) for their kurtosis. */
 static double freedom_of(double n, double squares, double fourths)
 {
     double excess = squares > 0 ? n * fourths / (squares * squares) - 3 : 0;
     return 1 / (1 / (n - 1) + fmax(excess, 0) / (2 * n));
 }
 
-/* The sum of a block's contributions, which are NaN for samples that failed: its mean, the variance
-   of that, and the degrees of freedom that this is known with. */
+/* Mean of a block's contributions, NaN for failed samples, with its variance and the degrees of
+   freedom of this variance. */
 static double block_sum(const double *of, size_t count, double *variance, double *freedom)
 {
     estimate_moments m = estimate_pairs(of, of, count, NULL, 0);
@@ -195,7 +196,7 @@ static double block_sum(const double *of, size_t count, double *variance, double
     return m.count * m.mean_a;
 }
 
-/* Overwrites the values of the last level by what each sample contributes. */
+/* Overwrites the values of the last level by each sample's contribution. */
 static void contribute(const estimate_samples *s, double (*g)(double, double), double about,
                        parts *p, const double *m)
 {
@@ -233,7 +234,7 @@ static estimate mean_of(const estimate_samples *s, double (*g)(double, double), 
         double own, freedom;
         sum += block_sum(p.value + begin, s->count[block] - begin, &own, &freedom);
         if (!isfinite(own))
-            continue; /* of a single sample, whose spread is not known */
+            continue; /* a single sample tells no spread */
         variance += own;
         fourth += own * own / freedom;
     }
@@ -264,10 +265,11 @@ estimate estimate_mean(const estimate_samples *s)
 
 static const double rounding = 1e-12;
 
-/* var = E (y - c)^2 - (mean - c)^2 for any c; c is near the mean, so that the second term is as
-   small as its correction by the variance of the mean. The interval is that of the logarithm; with
-   the inputs as control variates it held in 87 of 100 repeats of 60 samples, too few. Squares that
-   are all equal, as of two samples, tell nothing of their spread. */
+/* var = E (y - c)^2 - (mean - c)^2 for any c. With c near the mean the second term is as small as
+   its correction by the variance of the mean. The interval is that of the logarithm. With the
+   inputs as control variates it held in 87 of 100 repeats of 60 samples, which is too few, so they
+   are not used. Squares that are all equal, as those of two samples, tell nothing about their
+   spread. */
 estimate estimate_deviation(const estimate_samples *s)
 {
     estimate_samples alone = *s;
@@ -276,7 +278,8 @@ estimate estimate_deviation(const estimate_samples *s)
     double variance = squares.value + mean.error * mean.error;
     if (!(variance > 0))
         return (estimate){variance >= 0 ? 0 : (double)NAN, 0, INFINITY, (double)NAN};
-    double half = (squares.high - squares.low) / 2 / variance / 2; /* of ln(sd) */
+    double half = (squares.high - squares.low) / 2 / variance / 2; /* half width of the interval
+                                                                      of ln(sd) */
     if (!(squares.error > rounding * variance))
         half = INFINITY;
     double deviation = sqrt(variance);
