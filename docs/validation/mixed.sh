@@ -1,6 +1,6 @@
 #!/bin/sh
 # Writes mixed.md: shares of the load between oil and asperities over speed, cells, steps and surfaces.
-#   sh docs/validation/mixed.sh build        (five minutes of one core)
+#   sh docs/validation/mixed.sh build        (eight minutes of one core)
 set -eu
 
 build=$(realpath "${1:-build}")
@@ -52,7 +52,7 @@ sh docs/validation/mixed.sh build
 
 which writes the page from `tests/bench/bench-mixed.c`: one tooth pair of Li & Kahraman 2011 over its
 path of contact, Rq 0.5 um on both flanks with waves of 40 to 800 um, as a profile filtered at 40 um
-has them; means over the path. The last row of each group is the mean over the surfaces and the
+has them, and nothing taken off (`roughness_cutoff: 0`) unless a row says so; means over the path. The last row of each group is the mean over the surfaces and the
 standard deviation of its samples, of the shares of the load, lambda, the friction coefficient,
 the share of the load on metal that yields and the highest plastic part of the gap in turn. Cells per inlet are those over sqrt(2 h/k), the length over which an asperity draws in its film,
 for the contact film of 1 nm and the rms curvature k of the flanks: `asperity_resolution` in the
@@ -72,9 +72,10 @@ above 0.01.
 
 ## Steps
 
-A step is divided so that the oil moves a cell at most, and half of an asperity's inlet where flanks
-touch, but not less than a quarter: 1000 steps are some 7000 then on 256 cells. Here the steps are as
-many as the column says.
+A step is divided so that the oil moves a cell at most, a sixteenth of \`roughness_cutoff\` where that is
+more, and half of an asperity's inlet where flanks touch, but not less than a quarter of a cell; where
+asperities carry less than 0.01 of the load, further as the square root of 0.01 over their share. Here
+the steps are as many as the column says.
 
 TEXT
     head
@@ -116,6 +117,31 @@ TEXT
     cat <<TEXT
 
 From 256 to 512 cells the share changes by $1 %; the runs say that it is not resolved.
+
+## Waves that the cells do not resolve
+
+The preset takes off what 16 cells of the grid do not resolve. With that cut-off of 512 cells kept, the
+share is one of the flanks and the oil:
+
+TEXT
+    rm -f "$work/all"
+    head
+    rows shortest=20 cutoff=29 cells=512 least=15 most=15
+    rows shortest=20 cutoff=29 cells=1024 least=15 most=15
+    rows shortest=20 cutoff=29 cells=2048 least=15 most=15
+    set -- $(change 512 4 1024)
+    set -- "$1" $(change 1024 4 2048)
+    cat <<TEXT
+
+From 512 to 1024 cells it changes by $1 %, from there to 2048 by $2 %. With the preset it moves with what is
+left out, which \`roughness_left_out\` tells; above 5 % of Rq that is outside of the model's range:
+
+TEXT
+    head
+    rows shortest=20 cutoff=-1 cells=256 least=15 most=150
+    rows shortest=20 cutoff=-1 cells=512 least=15 most=150
+    rows shortest=20 cutoff=-1 cells=1024 least=15 most=150
+    cat <<TEXT
 
 ## Hardness
 
