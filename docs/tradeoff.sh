@@ -131,7 +131,7 @@ Cost is the processor time of the stages that the candidates change, the median 
 *spread* is from the least to the most. *Error* is the largest relative difference from the reference
 along the mesh cycle, **bold** on the front: nothing cheaper is as good; the front of what crosses
 zero, as friction does at the pitch point, is that of the rms error. How to measure a trade-off of your
-own stands in the [guide](guide.md#speed-against-accuracy).
+own stands in the [guide](guide/accuracy.md#speed-against-accuracy).
 
 ## Film: models, cells and steps
 

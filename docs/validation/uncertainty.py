@@ -60,7 +60,7 @@ GEARS = (
 FEW = 10  # samples by each other model
 INTRODUCTION = """# What limits me, against brute force
 
-The sentence that ends a study of [uncertain inputs](../guide.md#what-limits-me), on three gear pairs, each bar against what it stands for:
+The sentence that ends a study of [uncertain inputs](../guide/studies.md#what-limits-me), on three gear pairs, each bar against what it stands for:
 
 - *numerical*: all cells, steps, stations and points of the case doubled, and doubled twice (elements of teeth four times as many, once);
 - *model*: the change by each model with the film's cells doubled, and over the first 10 of the plain samples;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /*
- * Values with their sources, which docs/guide.md repeats:
+ * Values with their sources, which docs/guide/your-gear.md repeats:
  * - steel: the modulus, ratio and density that gear standards calculate with; heat of case-hardened
  *   steel as ISO/TR 13989-2, clause 5.3, is quoted (50 W/(m K) and 3.8 MJ/(m3 K), so that B_M is
  * the 13.780 that gfsReboucas/Drivetrain, stage_03.rtf, prints); its hardness 700 HV. Both serve

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a run and a study do to files, by strace: the calls that docs/guide.md lists and no others, and
+"""What a run and a study do to files, by strace: the calls that docs/guide/studies.md lists and no others, and
 in the order that a kill at any moment needs.
 
 durable.py FLANKFILM PLUGIN_DIRECTORY GUIDE MODULE...
