@@ -69,11 +69,12 @@ static inline void numerics_reverse(double *x, size_t n, size_t width)
         }
 }
 
-/* Whether the last of the dimensions is this one. */
+/* True if the last of the dimensions is this one, be it that of another wire ("gear.station"). */
 static inline int numerics_exchange_ends(const char *dims, const char *last)
 {
     const size_t n = strlen(dims), m = strlen(last);
-    return n >= m && !strcmp(dims + n - m, last) && (n == m || dims[n - m - 1] == ' ');
+    return n >= m && !strcmp(dims + n - m, last) &&
+           (n == m || dims[n - m - 1] == ' ' || dims[n - m - 1] == '.');
 }
 
 /* Where the path of contact and its whole mesh cycles end on gear 2. The radii of curvature tell
@@ -136,7 +137,7 @@ static inline void numerics_exchange_array(const numerics_exchange *x, const ff_
     const size_t n = numerics_exchange_length(a), last = a->rank ? a->shape[a->rank - 1] : 1;
     for (size_t i = 0; i < n; i++)
         to[i] = numerics_exchange_value(x, item, a->data[i]);
-    if (!strncmp(port->dims, "gear", 4) && a->rank && a->shape[0] == 2)
+    if (!strncmp(port->dims, "gear", 4) && port->dims[4] != '.' && a->rank && a->shape[0] == 2)
         numerics_reverse(to, 2, n / 2);
     if (numerics_exchange_ends(port->dims, "station") ||
         numerics_exchange_ends(port->dims, "phase"))

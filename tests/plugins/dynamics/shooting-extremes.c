@@ -308,7 +308,7 @@ static void refuse(const char *item, const pair *p)
 static void test_refused(void)
 {
     pair good = pair_trapezoid(2000), p = good;
-    set_force(&p, -1);
+    set_force(&p, NAN);
     refuse("operating.line_force", &p);
     p = good;
     p.mesh_frequency = NAN;

@@ -299,9 +299,6 @@ static void test_refusals(void)
     p.line_force = NAN;
     expect_refusal("no force", open_pair(&p), "operating.line_force", "finite");
     p = good;
-    p.line_force = -1;
-    expect_refusal("negative force", open_pair(&p), "operating.line_force", "negative");
-    p = good;
     p.modulus[1] = 0;
     expect_refusal("no elasticity", open_pair(&p), "gear.elastic_modulus", "gear 2");
     p = good;

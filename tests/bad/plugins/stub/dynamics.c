@@ -73,19 +73,20 @@ static ff_status evaluate(void *self, uint64_t wanted, const ff_array *in)
                 .inertia = mass * w * w};
     if (m.inertia * fabs(m.amplitude) > load && !is("no-backlash"))
         return ff_failf(s->host, FF_UNSUPPORTED, NULL, "the flanks would part");
+    const double excess = is("heavy") ? 0.05 * m.inertia * m.amplitude : 0;
     for (int i = 0; i < POINTS; i++) {
         double phase = (double)i / (POINTS - 1), angle = 2 * pi * phase - m.lag;
         series[PHASE][i] = phase;
         series[DTE][i] = m.mean + m.amplitude * cos(angle) * (is("drift") ? 1 + 0.02 * phase : 1);
         series[VELOCITY][i] = -w * m.amplitude * sin(angle - (is("lag") ? 0.1 : 0));
-        series[FORCE][i] = force_at(&m, phase) + m.inertia * m.amplitude * (is("heavy") ? 0.05 : 0);
+        series[FORCE][i] = force_at(&m, phase) + excess;
     }
     for (uint32_t row = 0; row <= FORCE; row++)
         put(s, row, POINTS, series[row]);
     double *tooth = ff_put_series(s->host, TOOTH, stations);
     for (size_t i = 0; tooth && i < stations; i++) {
         double cycles = (in[ROLL].data[i] - in[ROLL].data[0]) * in[TEETH].data[0] / (2 * pi);
-        tooth[i] = in[SHARE].data[i] * force_at(&m, cycles) * off("forces", 1.1);
+        tooth[i] = in[SHARE].data[i] * (force_at(&m, cycles) + excess) * off("forces", 1.1);
     }
     ff_put_scalar(s->host, RMS,
                   fabs(m.amplitude) * off("rms", 0.5) / sqrt(2) * off("rms", sqrt(2)));
