@@ -1,5 +1,5 @@
 #!/bin/sh
-# What README.md and docs/*.md print works: each shell block is run, in order and with the installed
+# What README.md, docs/*.md and the guide print works: each shell block is run, in order and with the installed
 # program alone; each YAML block is a file that `check` accepts; each C block compiles.
 # docs.sh BUILD_DIRECTORY SOURCE_ROOT PREFIX
 set -eu
@@ -38,12 +38,16 @@ cut_blocks() { # PAGE DIRECTORY
 }
 
 lines=0 blocks=0
-for page in "$source/README.md" "$source"/docs/*.md; do
+# the guide is one job, chapter after chapter
+chapters=$(sed -n "s#^- \\[.*\\](\\(guide/[a-z-]*\\.md\\)).*#$source/docs/\\1#p" "$source/docs/guide.md")
+for page in "$source/README.md" "$source"/docs/*.md $chapters; do
     name=$(basename "$page" .md)
+    case $page in */guide/*) name=guide ;; esac
     place=$lab/$name
     mkdir -p "$place/build" "$place/docs"
+    rm -rf "$place/configs" "$place/all.sh"
     cp -r "$source/configs" "$place/"
-    ln -s "$lab/root$prefix/bin/flankfilm" "$place/build/flankfilm"
+    ln -sf "$lab/root$prefix/bin/flankfilm" "$place/build/flankfilm"
     cut_blocks "$page" "$place"
     cd "$place"
     for file in configs/block-*.yaml; do
@@ -62,6 +66,7 @@ for page in "$source/README.md" "$source"/docs/*.md; do
     sed -i -e 's/^sh configs\/demo\.sh.*/flankfilm run configs\/li-kahraman-2011.yaml/' -e '/^sh [a-z/-]*\.sh/d' all.sh
     # what wants a cluster has tests with one
     sed -i -e '/^sbatch /d' -e '/^PARTS=/d' -e '/^mpirun /d' all.sh
+    grep -q . all.sh || continue
     sh -eux all.sh >said 2>&1 || { cat said && echo "$page: a command failed" && exit 1; }
     echo "$name: $(grep -c . all.sh) lines of shell, $(ls configs/block-* 2>/dev/null | wc -l) blocks"
     lines=$((lines + $(grep -c . all.sh)))

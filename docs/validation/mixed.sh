@@ -52,7 +52,7 @@ sh docs/validation/mixed.sh build
 
 which writes the page from `tests/bench/bench-mixed.c`: one tooth pair of Li & Kahraman 2011 over its
 path of contact, Rq 0.5 um on both flanks with waves of 40 to 800 um, as a profile filtered at 40 um
-has them, and nothing taken off (`roughness_cutoff: 0`) unless a row says so; means over the path. The last row of each group is the mean over the surfaces and the
+has them, and nothing taken off (`roughness_cutoff: 0 um`) unless a row says so; means over the path. The last row of each group is the mean over the surfaces and the
 standard deviation of its samples, of the shares of the load, lambda, the friction coefficient,
 the share of the load on metal that yields and the highest plastic part of the gap in turn. Cells per inlet are those over sqrt(2 h/k), the length over which an asperity draws in its film,
 for the contact film of 1 nm and the rms curvature k of the flanks: `asperity_resolution` in the
