@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* The parts of one evaluation: the contact's history, flanks, oil, grid, equations and solver. */
+#ifndef EHL_STAGE_RUN_H
+#define EHL_STAGE_RUN_H
+
+#include "outputs.h"
+#include "stage.h"
+
+#include "../contact/surface.h"
+#include "../heat/heat.h"
+#include "../heat/thermal.h"
+#include "../time/step-control.h"
+
+/* In the order in which they are made. Starts zeroed. */
+typedef struct ehl_run {
+    ehl_history whole, history; /* of all engagements, and of the current one */
+    ehl_roughness rough;
+    double hardness; /* of rough flanks, Pa; 0: they stay elastic */
+    int gears_tell;  /* it is that of the softer gear */
+    ehl_oil oil;
+    ehl_grid grid;
+    ehl_reynolds reynolds;
+    double *kernel;
+    ehl_solver solver;
+    ehl_march march;
+    ehl_heat heat;
+    ehl_thermal thermal;
+    ehl_step_control control;
+    ehl_results results;
+} ehl_run;
+
+/* True if the film feels asperities that are known by their statistics. */
+int ehl_is_statistical(const ehl_model *m);
+
+/* Tolerance of Newton's method for the first film. */
+double ehl_first_tolerance(const ehl_model *m, const ehl_run *r);
+
+/* Makes all parts but heat, step control and results from r->history, which has been read. To be
+   destroyed in any case. */
+ff_status ehl_run_create(const ehl_model *m, const ff_array *in, ehl_run *r);
+/* Makes the rough flanks anew, for the engagement that r->history has now. */
+ff_status ehl_run_surface(const ehl_model *m, const ff_array *in, ehl_run *r);
+void ehl_run_destroy(ehl_run *r);
+
+#endif
