@@ -400,12 +400,11 @@ static void mark(const report_page *page, panel *p, const bool *dims, size_t cou
     p->low = p->least == SIZE_MAX ? 0 : values[p->least];
     p->high = p->largest == SIZE_MAX ? 0 : values[p->largest];
     p->best = SIZE_MAX;
-    if (sense != 0 || !(p->high > p->low)) {
-        p->best = !(p->high > p->low)
-                      ? SIZE_MAX
-                      : find_extreme(page->view, values, dims, count, p->first, sense, true, &same);
+    const bool level = !(p->high > p->low);
+    if (!level && sense != 0)
+        p->best = find_extreme(page->view, values, dims, count, p->first, sense, true, &same);
+    if (level || sense != 0)
         p->least = p->largest = SIZE_MAX;
-    }
 }
 
 static void write_panel(report_page *page, const panel *p, const char *name)

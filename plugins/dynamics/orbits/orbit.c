@@ -178,9 +178,9 @@ void dynamics_orbit_reduce(const dynamics_flow *flow, dynamics_orbit *o)
         shorter.period = q;
         if (dynamics_orbit_map(flow, &shorter) &&
             dynamics_orbit_residual(flow->excitation, &shorter) < 1e-6) {
-            /* It stops short of a solution where a film begins to follow its flank at phase 0. */
-            dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &shorter);
-            *o = shorter;
+            /* Newton's method stops short where a film begins to follow its flank at phase 0. */
+            dynamics_orbit exact = shorter;
+            *o = dynamics_orbit_solve(flow, dynamics_orbit_accuracy, &exact) ? exact : shorter;
             return;
         }
     }
