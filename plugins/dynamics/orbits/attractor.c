@@ -6,18 +6,20 @@
 #include <math.h>
 #include <string.h>
 
-/* In the state's unit: Newton's method is tried once a state comes back as near as near_return, and
-   the motion that it finds counts once the state is as near to it as close_enough. */
+/* Both are in units of dynamics_state_unit. Newton's method is tried if a state returns within
+ * near_return of an earlier one. The orbit that it finds is accepted if the state lies within
+ * close_enough of it. */
 static const double near_return = 0.05, close_enough = 2e-2;
 
-/* The least damping ratio at which a motion is left to settle; below, it is followed down from
- * there. */
+/* A motion is left to settle at this damping ratio or above. A smaller damping is then reached by
+ * continuation from here. */
 static const double least_damping = 2e-3;
 
-/* Mesh cycles: between tries of Newton's method at first, remembered, and to measure growth. */
+/* Counts of mesh cycles: between the first attempts of Newton's method, kept in memory, and
+ * integrated to measure the growth. */
 enum { BATCH = 16, HISTORY = DYNAMICS_PERIOD_MAX + 1, GROWTH_CYCLES = 400 };
 
-/* Finds a periodic motion near the last states; history[i] is the state i cycles ago. */
+/* Looks for a periodic motion near the last states; history[i] is the state i cycles ago. */
 static int find_orbit(const dynamics_flow *flow, const dynamics_search *search,
                       double history[HISTORY][2], dynamics_attractor *a)
 {
@@ -42,8 +44,8 @@ static int find_orbit(const dynamics_flow *flow, const dynamics_search *search,
     return 0;
 }
 
-/* The largest Lyapunov exponent: the mean of the logarithm of the growth of a small disturbance,
-   which is set back to 1 after each cycle (Benettin et al. 1980, Meccanica 15, 9-20). */
+/* Measures the largest Lyapunov exponent: the mean logarithm of the growth of a small disturbance,
+ * which is rescaled to 1 after each cycle (Benettin et al. 1980, Meccanica 15, 9-20). */
 static void measure_growth(const dynamics_flow *flow, double T, dynamics_attractor *a)
 {
     double x[2] = {a->x[0], a->x[1]}, v[2] = {1, 0}, sum = 0;
@@ -94,7 +96,7 @@ int dynamics_attract(const dynamics_flow *flow, const dynamics_search *search,
     return 1;
 }
 
-/* The sweep of settle.c with the exact steps of flow.h. */
+/* Does the sweep of settle.c with the exact steps of flow.h. */
 static ff_status sweep(const dynamics_flow *flow, double from, double to, size_t start,
                        const ff_host *host, double x[2])
 {
@@ -116,7 +118,7 @@ static ff_status sweep(const dynamics_flow *flow, double from, double to, size_t
     return FF_OK;
 }
 
-/* Finds the stable motion in which the flanks never part; FF_NOCONV: there is none. */
+/* Finds the stable motion whose flanks never part. FF_NOCONV: there is none. */
 static ff_status find_full_contact(const dynamics_flow *flow, double lambda, dynamics_attractor *a)
 {
     double T = dynamics_cycle_duration(lambda);
@@ -132,8 +134,8 @@ static ff_status find_full_contact(const dynamics_flow *flow, double lambda, dyn
     return FF_OK;
 }
 
-/* Follows a periodic motion from the damping of `excitation` to `zeta` by Newton's method; 0: it is
- * lost. */
+/* Continues a periodic motion from the damping of `excitation` down to `zeta` by Newton's method.
+ * 0: the motion is lost. */
 static int lower_damping(dynamics_flow *flow, dynamics_excitation *excitation, double zeta,
                          dynamics_orbit *orbit)
 {
@@ -156,16 +158,16 @@ static int lower_damping(dynamics_flow *flow, dynamics_excitation *excitation, d
     return 1;
 }
 
-/* How far one orbit lies from another, relative to its size. */
+/* Returns the distance between two orbits at phase 0, relative to their size. */
 static double distance_of(const dynamics_excitation *excitation, const dynamics_orbit *a,
                           const dynamics_orbit *b)
 {
     return hypot(b->x[0] - a->x[0], b->x[1] - a->x[1]) / dynamics_state_unit(excitation, a->x);
 }
 
-/* Follows a stable motion to another speed by Newton's method. 0: it ends on the way or loses its
-   stability, and `orbit` is the last stable motion, or one that is nearer to it than `share` of the
-   way that is left. */
+/* Continues a stable motion to the speed `lambda` by Newton's method. 0: the branch ends or loses
+ * its stability on the way; `orbit` is then the last stable motion, found to within `share` of the
+ * remaining way. */
 static int follow_speed(const dynamics_flow *flow, double lambda, double share,
                         dynamics_orbit *orbit)
 {
@@ -194,9 +196,9 @@ static void take_orbit(const dynamics_flow *flow, dynamics_orbit *orbit, dynamic
     memcpy(a->x, orbit->x, sizeof a->x);
 }
 
-/* How long a motion may take to come near a periodic one while the speed still changes: Newton's
-   method needs no more, and a motion that never repeats itself would take the whole of the search
-   at each speed on the way. */
+/* Returns how many cycles a motion may take to come near a periodic one while the speed still
+ * changes. Newton's method needs no more, and an aperiodic motion would use up the whole search at
+ * each intermediate speed. */
 static size_t cycles_on_the_way(const dynamics_flow *flow, const dynamics_search *search,
                                 double lambda)
 {
@@ -204,17 +206,17 @@ static size_t cycles_on_the_way(const dynamics_flow *flow, const dynamics_search
     return enough < search->cycles ? enough : search->cycles;
 }
 
-/* Changes the speed slowly from that of `from` to that of the search. A periodic motion is followed
-   to the end of its branch; from there the speed is swept a little, until the motion has settled
-   anew. With oil between the flanks the speed is swept all the way, since Newton's method on such a
-   motion takes longer than hundreds of its cycles. */
+/* Changes the speed slowly from `from` to that of the search. A periodic motion is continued to the
+ * end of its branch. There the speed is swept by a short stretch and the motion settles again. With
+ * oil between the flanks the speed is swept all the way: one Newton solution of such a motion costs
+ * more than hundreds of its cycles. */
 static ff_status change_speed(const dynamics_flow *flow, double from, const dynamics_search *search,
                               const ff_host *host, dynamics_attractor *a)
 {
     int follows = !flow->excitation->film;
-    double stretch = follows ? 0.03 : INFINITY; /* of a sweep, in lambda */
-    /* On the way to a slow speed there are dozens of ends. The first is found as it is; later ones,
-       which the sweep passes where they are, nearly. */
+    double stretch = follows ? 0.03 : INFINITY; /* length of one sweep, in lambda */
+    /* A slow speed is reached past dozens of branch ends. The first end is located exactly, since
+     * it is reported. Later ones are located roughly. */
     static const double nearly = 0.01;
     dynamics_search here = *search;
     here.growth = 0;
@@ -251,14 +253,14 @@ static ff_status change_speed(const dynamics_flow *flow, double from, const dyna
     }
 }
 
-/* How the speed changes: from where, and what is known there. */
+/* Start of a change of speed, and what is known there. */
 typedef struct way {
     double from;       /* lambda */
-    int seeks_contact; /* whether the motion without separation will do where it is stable */
-    int settles;       /* whether the motion may settle at `from` first */
+    int seeks_contact; /* 1: a stable motion without contact loss is the answer */
+    int settles;       /* 1: the motion settles at `from` first */
 } way;
 
-/* Finds, from a->x, the motion at the speed of the search. */
+/* Finds the motion at the speed of the search, starting from a->x. */
 static ff_status lead(const dynamics_flow *flow, const way *w, const dynamics_search *search,
                       const ff_host *host, dynamics_attractor *a)
 {

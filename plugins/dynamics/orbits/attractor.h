@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
-/* Finds where a motion goes when it is left alone: to a periodic motion, to one that never repeats
-   itself, or beyond all bounds. */
+/* Finds the long-term motion from a start: periodic, aperiodic, or unbounded. */
 #ifndef DYNAMICS_ATTRACTOR_H
 #define DYNAMICS_ATTRACTOR_H
 
@@ -14,20 +13,20 @@ typedef struct dynamics_attractor {
     dynamics_orbit orbit; /* of a periodic motion */
     double x[2];          /* last state */
     double growth;        /* of an aperiodic motion: the Lyapunov exponent per mesh cycle */
-    size_t cycles;        /* that were followed */
-    int ends;             /* how many branches ended while the speed changed */
-    double ended;         /* lambda at which the first of them did */
+    size_t cycles;        /* integrated so far */
+    int ends;             /* number of branches that ended while the speed changed */
+    double ended;         /* lambda of the first of these ends */
 } dynamics_attractor;
 
 typedef struct dynamics_search {
     double lambda;
     int max_period;
-    size_t cycles; /* that the motion may take to settle */
-    int growth;    /* whether to measure the growth of a motion that does not settle */
+    size_t cycles; /* most mesh cycles for settling */
+    int growth;    /* 1: measure the growth of a motion that does not settle */
 } dynamics_search;
 
-/* Follows the motion from a->x until Newton's method finds the periodic motion that it is close to.
-   0: too many steps. */
+/* Follows the motion from a->x until Newton's method finds the periodic motion nearby. 0: the flow
+ * needs too many steps. */
 int dynamics_attract(const dynamics_flow *flow, const dynamics_search *search,
                      dynamics_attractor *a);
 

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* The longest step in oil, rad; the shortest that is tried. */
+/* Longest and shortest step in oil, in radians of the natural frequency. */
 static const double longest = 0.5, shortest = 1e-14;
 
 static double sign_of(int flank)
@@ -18,8 +18,9 @@ static double overlap(const dynamics_run *r, int flank)
     return sign_of(flank) * r->y->delta - r->excitation->half_gap;
 }
 
-/* A film that does not carry follows the flanks: the one at hand-over, where a flank is held, or
-   the gap. At a start the motion must agree with that, whatever films are given. */
+/* Sets each film that carries no load from the position of the flanks: 0, the thickness at
+ * hand-over, on a flank that is held, and the whole gap on the other. At a start this overrides the
+ * films that were given. */
 void dynamics_run_follow_flanks(dynamics_run *r)
 {
     dynamics_film_state *oil = &r->y->oil;
@@ -44,7 +45,7 @@ static int is_filled(const dynamics_run *r, int flank)
     return film->hand_over - overlap(r, flank) < film->supply;
 }
 
-/* The film of a flank that comes into play starts beside the motion. */
+/* Starts the film of a flank that begins to carry at its quasi-static thickness. */
 static void open_film(dynamics_run *r, int flank)
 {
     const dynamics_film *film = r->excitation->film;
@@ -84,8 +85,8 @@ void dynamics_run_find_films(dynamics_run *r)
     dynamics_run_follow_flanks(r);
 }
 
-/* The derivatives where the force on the gears jumps by `force` at an event that comes later by
-   -share times a change of delta: a saltation matrix, as in flow.c. */
+/* Multiplies the derivatives by a saltation matrix, as in flow.c, for a force on the gears that
+ * jumps by `force`. A change of delta by d moves the event by -share d. */
 static void salt(dynamics_run *r, double force, double share)
 {
     dynamics_state *y = r->y;
@@ -96,8 +97,8 @@ static void salt(dynamics_run *r, double force, double share)
     y->change[1] += force * share * y->change[0];
 }
 
-/* The film behind the flank that lets go, at the load that it can hold, is not looked at before:
-   its force comes at once. */
+/* Applies the force of the film on the back of the flank that lets go as a step. That film is not
+ * integrated until then. */
 static void jump_in(dynamics_run *r, int flank)
 {
     double s = -sign_of(flank), k = dynamics_run_stiffness(r),
@@ -150,8 +151,9 @@ void dynamics_run_carry_films(dynamics_run *r, const double v[2], const double w
     dynamics_run_follow_flanks(r);
 }
 
-/* A gate of a step in oil: the values at the nodes of what must not become negative, and what
-   happens when it does. */
+/* What happens when the value of a gate becomes negative: the film falls to the hand-over
+ * thickness, the film stops carrying, the flank begins to approach, or the gap passes the supply of
+ * oil. */
 enum { HELD, FREE, CLOSING, FILLED };
 
 typedef struct oil_gate {
@@ -195,7 +197,8 @@ static int list_gates(const dynamics_run *r, oil_gate g[8])
     return count;
 }
 
-/* The film behind a flank that lands is not looked at any longer. */
+/* Drops the film on the other flank when this flank lands, since it is not integrated any longer.
+ */
 static void jump_out(dynamics_run *r, int flank)
 {
     const dynamics_film *film = r->excitation->film;
@@ -242,7 +245,7 @@ static void pass_gate(dynamics_run *r, oil_gate g)
     dynamics_run_follow_flanks(r);
 }
 
-/* Solves a step from the present state to the phase `end`. 0: no solution. */
+/* Solves a step from the present state to the phase `end`. 0: there is no solution. */
 static int solve_step(const dynamics_run *r, double end, dynamics_landing *step)
 {
     *step = (dynamics_landing){.excitation = r->excitation,
@@ -261,7 +264,7 @@ static int solve_step(const dynamics_run *r, double end, dynamics_landing *step)
     return dynamics_landing_solve(r->flow->radau, step);
 }
 
-/* Solves a step that is as long as its accuracy allows, up to the next node. 0: none was found. */
+/* Solves the longest step that keeps the accuracy, at most to the next node. 0: none was found. */
 static int find_step(dynamics_run *r, dynamics_landing *step)
 {
     double node = dynamics_film_node(r->excitation->film),
@@ -282,7 +285,7 @@ static int find_step(dynamics_run *r, dynamics_landing *step)
         double used = (to - r->at) * r->T;
         double change = 0.8 * pow(fmax(step->doubt, 1e-6), -1. / DYNAMICS_STAGES);
         if (step->doubt > 1 && used > shortest) {
-            h = fmin(2 * used * fmax(change, 0.1), 1.9 * used); /* halved by the loop */
+            h = fmin(2 * used * fmax(change, 0.1), 1.9 * used); /* the loop halves it */
             continue;
         }
         if (r->idle <= DYNAMICS_MAX_IDLE)
@@ -291,7 +294,8 @@ static int find_step(dynamics_run *r, dynamics_landing *step)
     }
 }
 
-/* The first gate that the step passes, and the share of the step at which it does; -1: none. */
+/* Finds the first gate that the step passes. Returns the share of the step at which it closes; -1:
+ * none. */
 static double first_gate(const dynamics_run *r, const dynamics_landing *step, oil_gate *which)
 {
     double first = -1, tiny = 8 * DBL_EPSILON * (1 + r->excitation->half_gap);
@@ -310,8 +314,8 @@ static double first_gate(const dynamics_run *r, const dynamics_landing *step, oi
     return first;
 }
 
-/* Shortens the step until it ends where the gate is passed: the polynomial of a step is less
-   accurate between its ends than there. */
+/* Shortens the step until it ends where the gate closes. The polynomial of a step is less accurate
+ * inside the step than at its end. */
 static void end_at_gate(const dynamics_run *r, oil_gate g, double x, dynamics_landing *step)
 {
     double value[DYNAMICS_NODES], power[DYNAMICS_NODES], at = x * (step->end - step->at);
@@ -361,7 +365,8 @@ static void vary_state(dynamics_run *r, const dynamics_landing *step)
     y->oil.change[1] = column[4][3];
 }
 
-/* delta as a series: the integral of its rate, which the nodes have to a higher order. */
+/* Passes delta to the observer as the integral of its rate, whose values at the nodes have a higher
+ * order. */
 static void notify(const dynamics_run *r, const dynamics_landing *step)
 {
     dynamics_taylor_series s = {.order = DYNAMICS_NODES, .h = (step->end - step->at) * r->T};

@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The relative size below which a kink of e is round-off. */
+/* A relative kink of e below this is round-off. */
 static const double round_off = 1e-12;
 
-/* Steps in a mesh cycle beyond which the motion is given up. */
+/* The motion is given up after this many steps in one mesh cycle. */
 static const size_t step_limit = 20000000;
 
 dynamics_state dynamics_state_at(double delta, double rate)
@@ -87,15 +87,15 @@ static int damper_acts(const dynamics_run *r)
            r->pressed;
 }
 
-/* Sets the band of the spring that belongs to the state. */
+/* Selects the band of the spring from the state. */
 static void find_band(dynamics_run *r)
 {
     double bend = r->y->delta - r->side * r->excitation->half_gap;
     r->band = r->side ? dynamics_spring_band(r->piece, r->at - r->piece->start, bend) : 0;
 }
 
-/* Sets the contact that belongs to the state. At the edge of the gap the direction of motion
-   decides, and at rest there the load, which presses the driving flanks. */
+/* Selects the contact from the state. At the edge of the gap the sign of the rate decides. At rest
+ * there the load decides, which presses the driving flanks. */
 static void find_contact(dynamics_run *r)
 {
     double b = r->excitation->half_gap, delta = r->y->delta, rate = r->y->rate;
@@ -109,8 +109,8 @@ static void find_contact(dynamics_run *r)
     r->pressed = r->side != 0;
 }
 
-/* s and s' are continuous at a node, so that delta = s - e jumps against e. Where e jumps the
-   damper gives an impulse of 2 zeta times the jump. */
+/* Passes a node. s and s' are continuous there, so that delta = s - e jumps by the negative jump of
+ * e. The damper turns a jump of e into an impulse of 2 zeta times that jump. */
 static void enter_piece(dynamics_run *r, const dynamics_piece *before, const dynamics_piece *piece)
 {
     double e = dynamics_piece_value(before->e, before->degree, before->length);
@@ -128,13 +128,14 @@ static void enter_piece(dynamics_run *r, const dynamics_piece *before, const dyn
     find_band(r);
 }
 
-/* The gate of a clipped contact: its force as a polynomial, which parts the flanks when it would
- * pull. */
+/* Sets the gate of a clipped contact: the contact force as a polynomial. The flanks part where it
+ * would become negative. */
 static void contact_force_gate(const dynamics_run *r, const dynamics_taylor_series *s, double sign,
                                dynamics_gate *g)
 {
     double k[DYNAMICS_DEGREE + 1] = {0}, offset[DYNAMICS_DEGREE + 1] = {0};
-    double c = r->excitation->film ? 0 : 2 * r->excitation->zeta; /* films bear the teeth's force */
+    double c =
+        r->excitation->film ? 0 : 2 * r->excitation->zeta; /* films carry the teeth's force */
     int degree = r->piece->degree;
     double since = r->at - r->piece->start, unit = s->h / r->T;
     dynamics_piece_shift(dynamics_spring_slope(r->piece, r->band), degree, since, unit, k);
@@ -153,10 +154,10 @@ static void contact_force_gate(const dynamics_run *r, const dynamics_taylor_seri
     }
 }
 
-/* The gate at the knee of the spring on one flank from which a line takes over: how far the
-   deflection exceeds it, times the change of the slope there, as a polynomial; or how far it falls
-   short (`sign` -1). 0: it is not reached, since the sum of the coefficients of a product is at
-   most the product of the sums. */
+/* Sets the gate at the knee of the spring on one flank, from which a line takes over: the excess of
+ * the deflection over the knee, or its lack (`sign` -1), times the change of slope there. 0: the
+ * knee is out of reach, because the sum of the coefficients of a product is at most the product of
+ * the sums. */
 static int knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, int flank, int line,
                      double sign, dynamics_gate *g)
 {
@@ -195,7 +196,8 @@ static int knee_gate(const dynamics_run *r, const dynamics_taylor_series *s, int
     return 1;
 }
 
-/* Adds the gates at the knees that the present contact can reach; returns the number of all. */
+/* Adds the gates at the knees that the present contact can reach. Returns the number of all gates.
+ */
 static int add_knees(const dynamics_run *r, const dynamics_taylor_series *s, int count,
                      dynamics_gate *g)
 {
@@ -210,7 +212,7 @@ static int add_knees(const dynamics_run *r, const dynamics_taylor_series *s, int
     return count;
 }
 
-/* The gate at an edge of the gap: sign z + offset. */
+/* Sets the gate at an edge of the gap: sign z + offset. */
 static void gap_edge_gate(const dynamics_taylor_series *s, double sign, double offset,
                           dynamics_gate *g)
 {
@@ -219,7 +221,7 @@ static void gap_edge_gate(const dynamics_taylor_series *s, double sign, double o
     g->p[0] += offset;
 }
 
-/* Finds the gates of the present contact and returns their number. */
+/* Lists the gates of the present contact. Returns their number. */
 static int find_gates(const dynamics_run *r, const dynamics_taylor_series *s,
                       dynamics_gate g[DYNAMICS_RUN_GATES])
 {
@@ -257,8 +259,8 @@ static int find_gates(const dynamics_run *r, const dynamics_taylor_series *s,
     return 2;
 }
 
-/* Whether the step is too short to reach the edge of the gap: the sum of all terms that may lead
- * there bounds the motion. */
+/* Returns whether the step is too short to reach the edge of the gap. The sum of all terms towards
+ * the edge bounds the motion. */
 static int cannot_reach_edge(const dynamics_run *r, const dynamics_taylor_series *s, double tiny)
 {
     double z = s->c[0][DYNAMICS_Z], first = s->c[1][DYNAMICS_Z];
@@ -271,7 +273,7 @@ static int cannot_reach_edge(const dynamics_run *r, const dynamics_taylor_series
     return room > reach && (r->excitation->damping != DYNAMICS_DAMPING_CLIPPED || r->side == 0);
 }
 
-/* The first change of contact within the step: its x and gate; -1: there is none. */
+/* Finds the first change of contact within the step: its x and its gate. -1: there is none. */
 static double find_event(const dynamics_run *r, const dynamics_taylor_series *s,
                          dynamics_gate g[DYNAMICS_RUN_GATES], const dynamics_gate **which)
 {
@@ -315,9 +317,9 @@ static void move_state(dynamics_run *r, const dynamics_taylor_series *s, double 
     y->det *= v[DYNAMICS_PHI_1] * w[DYNAMICS_PHI_2] - v[DYNAMICS_PHI_2] * w[DYNAMICS_PHI_1];
 }
 
-/* Where the damper begins or ends to act the force jumps by `jump` times the rate, and the
-   derivatives are multiplied by the saltation matrix [1 0; -jump 1] (Leine & Nijmeijer 2004,
-   Dynamics and Bifurcations of Non-Smooth Mechanical Systems). */
+/* Multiplies the derivatives by the saltation matrix [1 0; -jump 1] where the damper begins or
+ * ceases to act, so that the force jumps by `jump` times the rate (Leine & Nijmeijer 2004, Dynamics
+ * and Bifurcations of Non-Smooth Mechanical Systems). */
 static void change_contact(dynamics_run *r, const dynamics_gate *g)
 {
     if (g->knee) {
@@ -344,7 +346,7 @@ static void change_contact(dynamics_run *r, const dynamics_gate *g)
     r->y->change[1] -= jump * r->y->change[0];
 }
 
-/* Above its knee the spring lacks the offset, as if a drag of its size pulled the gears. */
+/* Adds the offset of the spring's line above its knee, as a drag of that size. */
 static void add_offset(const dynamics_run *r, double since, dynamics_piece_equation *q)
 {
     double offset[DYNAMICS_DEGREE + 1];
@@ -355,8 +357,8 @@ static void add_offset(const dynamics_run *r, double since, dynamics_piece_equat
     q->drags = 1;
 }
 
-/* Plans the next step: its equation and its end, at most at the node that ends the smooth stretch.
- */
+/* Plans the next step: its equation and its end. The end is at most the node at which the smooth
+ * stretch ends. */
 static double plan_step(const dynamics_run *r, dynamics_piece_equation *q)
 {
     double end = dynamics_piece_end(r->excitation, r->piece);
@@ -404,8 +406,8 @@ static void notify_observer(const dynamics_run *r, const dynamics_taylor_series 
     r->observer->observe(r->observer->ctx, &stride);
 }
 
-/* Expands the motion up to `end`, or to an earlier time up to which the series converges. Returns
-   that time. */
+/* Expands the motion up to `end`, or to an earlier time at which the series converges. Returns that
+ * time. */
 static double expand(const dynamics_run *r, const dynamics_piece_equation *q, double end,
                      dynamics_taylor_series *s)
 {

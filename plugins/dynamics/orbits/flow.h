@@ -16,20 +16,20 @@
 
 typedef struct dynamics_flow {
     const dynamics_excitation *excitation;
-    double *free_until;    /* of each piece: the phase up to which e goes on straight */
-    dynamics_radau *radau; /* NULL: there is no oil between the flanks */
+    double *free_until;    /* for each piece, the phase up to which e stays straight */
+    dynamics_radau *radau; /* NULL: no oil between the flanks */
 } dynamics_flow;
 
-/* The films in front of the flanks, with their derivatives. */
+/* The films on both flanks, with their derivatives. */
 typedef struct dynamics_film_state {
-    int known; /* 0: at a start, to be set beside the motion */
+    int known; /* 0: at a start, to be set from the motion */
     double film[2];
     double by[4];     /* derivative of (delta, rate) by the start values of the films, by rows */
     double m[2][4];   /* derivative of the films by the start values of (delta, rate, films) */
     double change[2]; /* derivative of the films by T */
 } dynamics_film_state;
 
-/* At the start or end of a mesh cycle, before the node that may lie there. */
+/* The state at the start or the end of a mesh cycle, before a node there. */
 typedef struct dynamics_state {
     double delta, rate;
     double m[4];      /* derivative of (delta, rate) by their start values, by rows */
@@ -38,7 +38,8 @@ typedef struct dynamics_state {
     dynamics_film_state oil;
 } dynamics_state;
 
-/* A step as an observer gets it: from phase `at` over x h of the series, in z = delta - side b. */
+/* A step as an observer sees it: from the phase `at` over x h of the series, in z = delta - side b.
+ */
 typedef struct dynamics_step {
     const dynamics_excitation *excitation;
     const dynamics_piece *piece;
@@ -48,7 +49,8 @@ typedef struct dynamics_step {
     int side, pressed; /* as in oscillator.c */
     int band;          /* of the spring (spring.h) */
     double damper;
-    const dynamics_landing *landing; /* while no flank is held in oil; NULL: a step of the series */
+    const dynamics_landing
+        *landing; /* a step in oil with no flank held; NULL: a step of the series */
 } dynamics_step;
 
 typedef struct dynamics_observer {
@@ -60,23 +62,23 @@ int dynamics_flow_init(dynamics_flow *flow,
                        const dynamics_excitation *excitation); /* 0: out of memory */
 void dynamics_flow_free(dynamics_flow *flow);
 
-/* The films with which a motion starts: with `known` those given, as far as they agree with delta
-   and rate, else those beside the motion. */
+/* Gives the films at the start of a motion: if `known`, those given, where they agree with delta
+ * and rate; else the quasi-static ones. */
 void dynamics_flow_films(const dynamics_flow *flow, double T, const double x[2], int known,
                          double film[2]);
 
-/* Follows the motion over one mesh cycle of duration T, without or with the derivatives; `observer`
-   may be NULL. 0: too many steps. */
+/* Follows the motion over one mesh cycle of duration T, without or with the derivatives. `observer`
+ * may be NULL. 0: too many steps. */
 int dynamics_flow_motion(const dynamics_flow *flow, double T, dynamics_state *state,
                          const dynamics_observer *observer);
 int dynamics_flow_variation(const dynamics_flow *flow, double T, dynamics_state *state,
                             const dynamics_observer *observer);
 
-/* The start state of a motion, at which M = 1; and one with known films. */
+/* Gives the start state of a motion, at which M = 1, without and with known films. */
 dynamics_state dynamics_state_at(double delta, double rate);
 dynamics_state dynamics_state_in_oil(double delta, double rate, const double film[2]);
 
-/* Starts the derivatives anew at the state that a motion has reached. */
+/* Resets the derivatives at the state that a motion has reached. */
 void dynamics_state_restart(dynamics_state *state);
 
 #endif

@@ -28,8 +28,8 @@ void dynamics_films_monodromy(const dynamics_state *y, double m[4][4])
     }
 }
 
-/* With M in blocks of (delta, rate) and films: the films obey (1 - M_yy) dy = r_y + M_yx dx + slope
-   dlambda. */
+/* Eliminates the films from M, in blocks of (delta, rate) and films: (1 - M_yy) dy = r_y + M_yx dx
+ * + slope dlambda. */
 void dynamics_films_eliminate(const dynamics_state *y, double T, dynamics_orbit *o)
 {
     dynamics_films *films = &o->films;

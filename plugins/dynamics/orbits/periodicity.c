@@ -7,8 +7,8 @@
 
 const double dynamics_chaotic_growth = 1e-3;
 
-/* The largest error of the state that round-off makes: each step may err by one rounding, and the
-   fixed point moves by (M - 1)^-1 times the error of the return. */
+/* Returns a bound on the error of the state by round-off: each step errs by at most one rounding,
+ * and the fixed point moves by (M - 1)^-1 times the error of the return. */
 static double state_error(const dynamics_orbit *o)
 {
     double steps = o->period * (dynamics_cycle_duration(o->lambda) + 10);
@@ -51,11 +51,9 @@ static void report_aperiodic(const dynamics_attractor *a, double zeta, int max_p
     host->quality(host->ctx, "periodicity", 1, 0, FF_DOUBTFUL, text);
 }
 
-/*
- * The error of det M by rounding alone. A mesh cycle takes at most as many steps as it has pieces
- * and twice its length in radians. Each step errs by some DBL_EPSILON in its determinant, and by
- * half of one in the time t that it is added to, which exp(-2 zeta t) magnifies by 2 zeta t.
- */
+/* Returns the error of det M by rounding alone. A mesh cycle takes at most as many steps as it has
+ * pieces plus twice its length in radians. Each step errs by about DBL_EPSILON in its determinant.
+ * It also errs by half of that in the time t, which exp(-2 zeta t) magnifies by 2 zeta t. */
 static double round_off_of_determinant(const dynamics_motion *motion)
 {
     const double each = 16;

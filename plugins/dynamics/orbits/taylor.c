@@ -7,7 +7,7 @@
 
 const double dynamics_taylor_longest_step = 1.5;
 
-/* Size of the step, squared, above which terms x^n/n! of order n exceed 2e-17. */
+/* Square of the step size above which the terms x^n/n! of order n exceed 2e-17. */
 static const double reach[] = {2e-17,    6.325e-9, 4.932e-6, 1.480e-4, 1.191e-3, 4.932e-3, 1.391e-2,
                                3.078e-2, 5.785e-2, 9.685e-2, 0.1489,   0.2147,   0.2944,   0.3879,
                                0.4949,   0.6150,   0.7476,   0.8921,   1.048,    1.214};
@@ -29,8 +29,8 @@ static int likely_order(double size)
     return n + 1 < 4 ? 4 : n + 1;
 }
 
-/* Whether the last two coefficients of the first `columns` are below round-off; the response to the
-   start rate is compared with h. */
+/* Returns whether the last two coefficients of the first `columns` are below round-off. The
+ * response to the start rate is compared with h. */
 static int has_converged(const dynamics_taylor_series *s, int n, int columns, double unit)
 {
     static const double round_off = 5e-17;
@@ -49,7 +49,8 @@ static const double share[] = {0,       1.,      1. / 2,  1. / 3,  1. / 4,  1. /
                                1. / 21, 1. / 22, 1. / 23, 1. / 24, 1. / 25, 1. / 26, 1. / 27,
                                1. / 28, 1. / 29, 1. / 30};
 
-/* sum += factor x, in one vector, which gcc makes of a loop that it does not unroll first. */
+/* Adds factor x to sum. One vector expression, because gcc would unroll a loop here before it
+ * vectorises it. */
 FF_SIMD_INLINE void add_product(double factor, const double *restrict x, int columns,
                                 double *restrict sum)
 {
@@ -58,11 +59,9 @@ FF_SIMD_INLINE void add_product(double factor, const double *restrict x, int col
         sum[j] += factor * x[j];
 }
 
-/* The recurrence of the coefficients of t/h, from the equation in taylor.h with straight k and e:
-
-     n (n - 1) c_n = -damper h (n - 1) c_(n-1) - k_0 h^2 c_(n-2) - k_1 h^3 c_(n-3).
-
-   The derivative by T at a fixed phase obeys the same, with (2 z'' + damper z')/T added. */
+/* Computes the coefficients of t/h by the recurrence of the equation in taylor.h, for straight k
+ * and e: n (n - 1) c_n = -damper h (n - 1) c_(n-1) - k_0 h^2 c_(n-2) - k_1 h^3 c_(n-3). The
+ * derivative by T at a fixed phase obeys the same with (2 z'' + damper z')/T added. */
 FF_SIMD_INLINE void recur_straight(const dynamics_piece_equation *q, double T, int columns,
                                    dynamics_taylor_series *s)
 {
@@ -88,8 +87,8 @@ FF_SIMD_INLINE void recur_straight(const dynamics_piece_equation *q, double T, i
     }
 }
 
-/* The same with curved k and e and with a drag, where the derivative by T gets (2 (z'' + e'') +
- * damper z')/T. */
+/* Does the same for curved k and e and with a drag. Here (2 (z'' + e'') + damper z')/T is added to
+ * the derivative by T. */
 FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int columns,
                                  dynamics_taylor_series *s)
 {
@@ -103,13 +102,13 @@ FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int
         e[i] = q->e[i] * power;
         drag[i] = q->drag[i] * power * h * h;
     }
-    int degree = q->degree; /* in a short step the high powers of k are below round-off */
+    int degree = q->degree; /* high powers of k are below round-off in a short step */
     while (degree > 0 && fabs(k[degree]) < 1e-18)
         degree--;
     for (int n = 2; n <= DYNAMICS_ORDER_MAX; n++) {
         double fa = -a * share[n], f = -share[n] * share[n - 1], sum[DYNAMICS_COLUMNS] = {0};
         int last = degree < n - 2 ? degree : n - 2;
-        if (last == DYNAMICS_DEGREE) /* most often: a loop of known length */
+        if (last == DYNAMICS_DEGREE) /* the common case: a loop of known length */
             for (int i = 0; i <= DYNAMICS_DEGREE; i++)
                 add_product(k[i], c[n - 2 - i], columns, sum);
         for (int i = 0; last < DYNAMICS_DEGREE && i <= last; i++)
@@ -125,7 +124,7 @@ FF_SIMD_INLINE void recur_curved(const dynamics_piece_equation *q, double T, int
             c[n][0] += f * drag[n - 2];
         double bend = n <= q->degree ? e[n] : 0;
         if (columns == DYNAMICS_COLUMNS)
-            c[n][3] += (2 * c[n][0] - fa * c[n - 1][0]) / T; /* c_n has no -e_n yet */
+            c[n][3] += (2 * c[n][0] - fa * c[n - 1][0]) / T; /* c_n does not contain -e_n yet */
         c[n][0] -= bend;
         s->order = n;
         s->converged = n >= likely && n > q->degree + 2 && has_converged(s, n, columns, unit);
@@ -212,8 +211,8 @@ static double value_at(const polynomial *q, double x, double *slope)
     return value;
 }
 
-/* The root of a falling stretch: Newton's method, and halving where it leaves the bracket. A step
-   of d leaves an error of at most d^2 bend/(2 slope). */
+/* Finds the root on a falling stretch by Newton's method, with bisection where it leaves the
+ * bracket. A step of d leaves an error of at most d^2 bend/(2 slope). */
 static double falling_root(const polynomial *q, double low, double high)
 {
     double x = 0.5 * (low + high), slope;
@@ -235,10 +234,12 @@ static double falling_root(const polynomial *q, double low, double high)
     return x;
 }
 
-/* The first change of sign in [a, z], where the value at a is not negative; -1: none. */
+/* Finds the first change of sign in [a, z], given a value at a that is not negative. -1: there is
+ * none. */
 static double first_change(const polynomial *q, double a, double z)
 {
-    static const double shortest = 1e-9; /* the value at a minimum is then known to its square */
+    static const double shortest =
+        1e-9; /* the value at a minimum is then known to the square of this */
     double middle = 0.5 * (a + z), d = 0.5 * (z - a), slope, end_slope;
     double value = value_at(q, middle, &slope), turn = q->bend * d;
     if (value + q->tiny > (fabs(slope) + 0.5 * turn) * d || d < shortest || slope > turn)
@@ -259,7 +260,7 @@ double dynamics_taylor_first_exit(const double *p, int order, double tiny)
     polynomial q = {p, order, 0, tiny};
     if (p[0] < -tiny)
         return 0;
-    /* at the bound p(0) = 0, and the sign of p(x) is that of p(x)/x */
+    /* p(0) = 0 at the bound, and p(x) has the sign of p(x)/x */
     for (int i = 0; q.order > 0 && (i == 0 ? fabs(q.p[0]) <= tiny : q.p[0] == 0) && i < 3; i++) {
         q.p++;
         q.order--;
